@@ -1,0 +1,125 @@
+//! One rigid bar.
+
+/// One rigid bar, as the paper describes it: `l_i`, `m_i`, `r_i` and the principal central moments
+/// of inertia.
+///
+/// The moments are data of the mechanism (paper, section II); no equilibrium depends on them.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Bar {
+    length_m: f64,
+    mass_kg: f64,
+    centre_m: f64,
+    inertia_kg_m2: [f64; 3],
+}
+
+/// Why a bar cannot be built.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum BarError {
+    /// Occurs when the length is zero, negative, infinite or not a number.
+    #[error("the length of a bar must be positive and finite, got {length_m} m")]
+    Length {
+        /// The length as given.
+        length_m: f64,
+    },
+    /// Occurs when the mass is negative, infinite or not a number; zero is a massless link.
+    #[error("the mass of a bar must be zero or positive, and finite, got {mass_kg} kg")]
+    Mass {
+        /// The mass as given.
+        mass_kg: f64,
+    },
+    /// Occurs when the centre of weight does not lie on the bar.
+    #[error(
+        "the centre of weight must lie on the bar, between 0 and its length {length_m} m, got {centre_m} m"
+    )]
+    Centre {
+        /// The distance from the first joint as given.
+        centre_m: f64,
+        /// The length of the bar.
+        length_m: f64,
+    },
+    /// Occurs when a principal moment of inertia is negative, infinite or not a number.
+    #[error("a moment of inertia must be zero or positive, and finite, got {moment_kg_m2} kg m^2")]
+    Inertia {
+        /// The first bad moment.
+        moment_kg_m2: f64,
+    },
+}
+
+impl Bar {
+    /// A bar with its centre of weight at `centre_m` from the first joint and the principal central
+    /// moments of inertia `J_x, J_y, J_z` (x along the bar).
+    ///
+    /// # Errors
+    ///
+    /// [`BarError`] when a number is out of range; nothing is repaired.
+    pub fn new(
+        length_m: f64,
+        mass_kg: f64,
+        centre_m: f64,
+        inertia_kg_m2: [f64; 3],
+    ) -> Result<Self, BarError> {
+        if !(length_m.is_finite() && length_m > 0.0) {
+            return Err(BarError::Length { length_m });
+        }
+        if !(mass_kg.is_finite() && mass_kg >= 0.0) {
+            return Err(BarError::Mass { mass_kg });
+        }
+        if !(0.0..=length_m).contains(&centre_m) {
+            return Err(BarError::Centre { centre_m, length_m });
+        }
+        for moment_kg_m2 in inertia_kg_m2 {
+            if !(moment_kg_m2.is_finite() && moment_kg_m2 >= 0.0) {
+                return Err(BarError::Inertia { moment_kg_m2 });
+            }
+        }
+        Ok(Self { length_m, mass_kg, centre_m, inertia_kg_m2 })
+    }
+
+    /// A homogeneous slender bar: centre in the middle, moments `[0, m l²/12, m l²/12]`.
+    ///
+    /// # Errors
+    ///
+    /// [`BarError`] when the length or the mass is out of range.
+    ///
+    /// ```
+    /// let bar = model::Bar::homogeneous(2.0, 3.0)?;
+    /// assert_eq!(bar.centre_m(), 1.0);
+    /// assert_eq!(bar.inertia_kg_m2(), [0.0, 1.0, 1.0]);
+    /// # Ok::<(), model::BarError>(())
+    /// ```
+    pub fn homogeneous(length_m: f64, mass_kg: f64) -> Result<Self, BarError> {
+        Self::new(length_m, mass_kg, 0.5 * length_m, Self::slender_inertia(length_m, mass_kg))
+    }
+
+    /// Principal central moments `[0, m l²/12, m l²/12]` of a homogeneous slender bar, kg m².
+    #[must_use]
+    pub fn slender_inertia(length_m: f64, mass_kg: f64) -> [f64; 3] {
+        let moment = mass_kg * length_m * length_m / 12.0;
+        [0.0, moment, moment]
+    }
+
+    /// Length `l_i` between the joints, m.
+    #[must_use]
+    pub fn length_m(&self) -> f64 {
+        self.length_m
+    }
+
+    /// Mass `m_i`, kg.
+    #[must_use]
+    pub fn mass_kg(&self) -> f64 {
+        self.mass_kg
+    }
+
+    /// Distance `r_i` of the centre of weight from the first joint of the bar, m.
+    #[must_use]
+    pub fn centre_m(&self) -> f64 {
+        self.centre_m
+    }
+
+    /// Principal central moments `J_x, J_y, J_z`, kg m²; x along the bar.
+    #[must_use]
+    pub fn inertia_kg_m2(&self) -> [f64; 3] {
+        self.inertia_kg_m2
+    }
+}

@@ -1,0 +1,182 @@
+//! Bars in a row between two anchors.
+
+use serde::{Deserialize, Serialize};
+
+use crate::{Bar, Vector, sum};
+
+/// Standard acceleration of gravity, m/s² (exact by definition: 3rd CGPM, 1901).
+pub const STANDARD_GRAVITY_M_S2: f64 = 9.806_65;
+
+/// The two fixed points, world frame, m.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Anchors {
+    /// Joint 0, the paper's *O*.
+    pub start_m: Vector,
+    /// Joint *n*, the paper's *A₃* (*D* in the example).
+    pub end_m: Vector,
+}
+
+impl Anchors {
+    /// Vector from the start to the end anchor, m.
+    #[must_use]
+    pub fn difference_m(&self) -> Vector {
+        std::array::from_fn(|k| self.end_m[k] - self.start_m[k])
+    }
+
+    /// Distance of the anchors, m; free of overflow and underflow in between.
+    ///
+    /// ```
+    /// let anchors = model::Anchors { start_m: [0.0; 3], end_m: [3e200, 0.0, 4e200] };
+    /// assert!((anchors.span_m() / 5e200 - 1.0).abs() <= f64::EPSILON);
+    /// ```
+    #[must_use]
+    pub fn span_m(&self) -> f64 {
+        let [x, y, z] = self.difference_m();
+        x.hypot(y).hypot(z)
+    }
+}
+
+/// A chain of n ≥ 1 rigid bars: bar *i* from joint *i*−1 to joint *i*, spherical joints without
+/// friction, ends at the anchors, gravity along −Z.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Chain {
+    name: String,
+    gravity_m_s2: f64,
+    anchors: Anchors,
+    bars: Vec<Bar>,
+}
+
+/// Why a chain cannot be built.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ChainError {
+    /// Occurs when the list of bars is empty.
+    #[error("a chain needs at least one bar")]
+    NoBars,
+    /// Occurs when gravity is zero, negative, infinite or not a number.
+    #[error("gravity must be positive and finite (it acts along -Z), got {gravity_m_s2} m/s^2")]
+    Gravity {
+        /// Gravity as given.
+        gravity_m_s2: f64,
+    },
+    /// Occurs when a coordinate of an anchor is infinite or not a number.
+    #[error("the coordinates of an anchor must be finite, got {coordinate_m} m")]
+    Anchor {
+        /// The first bad coordinate.
+        coordinate_m: f64,
+    },
+    /// Occurs when every number is finite and a total is not: the sum of lengths, the weight, the
+    /// span, or the weight times the length.
+    #[error("the {quantity} of this chain is larger than a double can hold")]
+    Overflow {
+        /// Which total.
+        quantity: &'static str,
+    },
+}
+
+impl Chain {
+    /// A chain of the given bars, from the start anchor to the end anchor.
+    ///
+    /// Whether it can hang at all is the question of [`Problem::new`](crate::Problem::new).
+    ///
+    /// # Errors
+    ///
+    /// [`ChainError`] when there is no bar, a number is out of range, or a total overflows.
+    pub fn new(
+        name: impl Into<String>,
+        gravity_m_s2: f64,
+        anchors: Anchors,
+        bars: Vec<Bar>,
+    ) -> Result<Self, ChainError> {
+        if bars.is_empty() {
+            return Err(ChainError::NoBars);
+        }
+        if !(gravity_m_s2.is_finite() && gravity_m_s2 > 0.0) {
+            return Err(ChainError::Gravity { gravity_m_s2 });
+        }
+        for coordinate_m in anchors.start_m.into_iter().chain(anchors.end_m) {
+            if !coordinate_m.is_finite() {
+                return Err(ChainError::Anchor { coordinate_m });
+            }
+        }
+        let chain = Self { name: name.into(), gravity_m_s2, anchors, bars };
+        let weight_n = chain.total_mass_kg() * gravity_m_s2;
+        for (quantity, total) in [
+            ("span", anchors.span_m()),
+            ("total length", chain.total_length_m()),
+            ("total weight", weight_n),
+            ("total weight times total length", weight_n * chain.total_length_m()),
+        ] {
+            if !total.is_finite() {
+                return Err(ChainError::Overflow { quantity });
+            }
+        }
+        Ok(chain)
+    }
+
+    /// The name, for people.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// Gravity `g` along −Z, m/s².
+    #[must_use]
+    pub fn gravity_m_s2(&self) -> f64 {
+        self.gravity_m_s2
+    }
+
+    /// The anchors.
+    #[must_use]
+    pub fn anchors(&self) -> &Anchors {
+        &self.anchors
+    }
+
+    /// The bars, from the start anchor to the end anchor.
+    #[must_use]
+    pub fn bars(&self) -> &[Bar] {
+        &self.bars
+    }
+
+    /// Sum of the lengths, m.
+    #[must_use]
+    pub fn total_length_m(&self) -> f64 {
+        sum(self.bars.iter().map(Bar::length_m))
+    }
+
+    /// Sum of the masses, kg.
+    #[must_use]
+    pub fn total_mass_kg(&self) -> f64 {
+        sum(self.bars.iter().map(Bar::mass_kg))
+    }
+
+    /// The few numbers that name the system in an answer.
+    #[must_use]
+    pub fn summary(&self) -> SystemSummary {
+        SystemSummary {
+            name: self.name.clone(),
+            bars: self.bars.len(),
+            span_m: self.anchors.span_m(),
+            total_length_m: self.total_length_m(),
+            total_mass_kg: self.total_mass_kg(),
+            gravity_m_s2: self.gravity_m_s2,
+        }
+    }
+}
+
+/// What an answer says about the system it belongs to (`"system"` of the JSON).
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct SystemSummary {
+    /// Name of the system.
+    pub name: String,
+    /// Number of bars.
+    pub bars: usize,
+    /// Distance of the anchors, m.
+    pub span_m: f64,
+    /// Sum of the lengths, m.
+    pub total_length_m: f64,
+    /// Sum of the masses, kg.
+    pub total_mass_kg: f64,
+    /// Gravity along −Z, m/s².
+    pub gravity_m_s2: f64,
+}

@@ -1,0 +1,33 @@
+//! The problem and the answer as data.
+//!
+//! A [`Chain`] is what hangs: rigid [`Bar`]s in a row between two [`Anchors`]. A [`Problem`] is a
+//! chain that has an answer; [`Refusal`] says why another has none. An [`Equilibrium`] is an answer
+//! of one solver with its [`Evidence`].
+//!
+//! No mechanics lives here. The two solvers, which must know nothing of each other, both depend on
+//! this crate; a formula of statics in it would be a formula they share. Sums of lengths and masses
+//! and the distance of two anchors are all it computes.
+//!
+//! # Conventions
+//!
+//! World frame *OXYZ* of the paper, *Z* up, gravity along −*Z*. SI units, named in every field.
+//! Joint 0 is the start anchor *O*, joint *n* the end anchor; bar *i* = 1..n runs from joint *i*−1
+//! to joint *i*. Vectors are `[x, y, z]` in the world frame.
+
+mod bar;
+pub mod cases;
+mod chain;
+mod equilibrium;
+mod evidence;
+mod problem;
+mod sum;
+
+pub use bar::{Bar, BarError};
+pub use chain::{Anchors, Chain, ChainError, STANDARD_GRAVITY_M_S2, SystemSummary};
+pub use equilibrium::{Equilibrium, InPlane, InSpace, Reactions, SolverName, Stability};
+pub use evidence::{Evidence, Rung, Statement};
+pub use problem::{Problem, Refusal, STRAIGHT_TOLERANCE};
+pub use sum::sum;
+
+/// A point or a vector in the world frame: `[x, y, z]`, unit as said where it is used.
+pub type Vector = [f64; 3];
