@@ -1,30 +1,104 @@
-//! The registry of named cases.
+//! The registry of named cases: every solver runs over every case.
+//!
+//! The system files stand in `validation/cases/`, each with a comment that says what it exercises.
 
-use crate::{Anchors, Bar, BarError, Chain, ChainError, Problem, Refusal, STANDARD_GRAVITY_M_S2};
+use crate::Problem;
+use crate::system_file::parse_problem;
+
+/// A named case.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Case {
+    /// Its name, the stem of its file.
+    pub name: &'static str,
+    /// What it is, in a line.
+    pub about: &'static str,
+    /// Its system file.
+    pub text: &'static str,
+}
+
+impl Case {
+    /// The problem of this case.
+    ///
+    /// # Panics
+    ///
+    /// Never: a test reads every case of the registry.
+    #[must_use]
+    pub fn problem(&self) -> Problem {
+        match parse_problem(self.text, self.name) {
+            Ok(problem) => problem,
+            Err(error) => panic!("case of the registry: {error}"),
+        }
+    }
+}
+
+macro_rules! registry {
+    ($($name:literal: $about:literal,)*) => {
+        &[$(Case {
+            name: $name,
+            about: $about,
+            text: include_str!(concat!("../../../validation/cases/", $name, ".toml")),
+        },)*]
+    };
+}
+
+const REGISTRY: &[Case] = registry! {
+    "three-equal-bars": "the example of the paper",
+    "three-equal-bars-on-the-moon": "the same in other units",
+    "three-equal-bars-oblique": "its bars between anchors not on one vertical",
+    "two-bars": "a triangle: closed form",
+    "three-bars-off-centre": "different bars, weights off centre",
+    "propped": "one bar in compression props the chain up",
+    "five-in-space": "anchors in general position",
+    "ten-equal-bars": "the chain of the benches, small",
+    "level-odd": "the middle bar hangs level",
+    "thirty-bars": "lengths, masses and centres at random",
+    "hundred-bars": "little sag",
+    "slack": "both anchors in one place",
+    "nearly-taut": "span 0.999999 of the length",
+    "massless-links": "weights on strings",
+    "six-orders": "lengths and masses over six orders of magnitude",
+    "nanometres": "lengths of 1e-9 m",
+    "gigametres": "lengths of 1e9 m",
+    "far-from-the-origin": "anchors 1e6 m from the origin",
+};
+
+/// All cases.
+#[must_use]
+pub fn all() -> &'static [Case] {
+    REGISTRY
+}
+
+/// The case of this name.
+///
+/// ```
+/// let case = model::cases::get("two-bars").unwrap();
+/// assert_eq!(case.problem().chain().bars().len(), 2);
+/// assert!(model::cases::get("two bars").is_none());
+/// ```
+#[must_use]
+pub fn get(name: &str) -> Option<&'static Case> {
+    REGISTRY.iter().find(|case| case.name == name)
+}
 
 /// The paper's example (section VIII): three homogeneous bars of length 1 m and mass 1 kg, the
 /// anchors 2 m apart on one vertical.
-///
-/// # Panics
-///
-/// Never: the example is a valid problem, and a test builds it.
 #[must_use]
 pub fn paper() -> Problem {
-    build().expect("the paper's example is a valid problem")
+    REGISTRY[0].problem()
 }
 
-fn build() -> Result<Problem, Error> {
-    let anchors = Anchors { start_m: [0.0; 3], end_m: [0.0, 0.0, -2.0] };
-    let bars = vec![Bar::homogeneous(1.0, 1.0)?; 3];
-    Ok(Problem::new(Chain::new("three equal bars", STANDARD_GRAVITY_M_S2, anchors, bars)?)?)
-}
+#[cfg(test)]
+mod tests {
+    use super::*;
 
-#[derive(Debug, thiserror::Error)]
-enum Error {
-    #[error(transparent)]
-    Bar(#[from] BarError),
-    #[error(transparent)]
-    Chain(#[from] ChainError),
-    #[error(transparent)]
-    Refusal(#[from] Refusal),
+    #[test]
+    fn every_case_is_a_problem_with_a_name_of_its_own() {
+        for (k, case) in all().iter().enumerate() {
+            let _ = case.problem();
+            assert!(case.name.chars().all(|c| c.is_ascii_lowercase() || c == '-'), "{}", case.name);
+            assert!(all()[..k].iter().all(|other| other.name != case.name), "{}", case.name);
+            assert!(case.text.starts_with("# "), "{} does not say what it exercises", case.name);
+        }
+        assert_eq!(paper().chain().name(), "three equal bars");
+    }
 }

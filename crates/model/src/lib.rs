@@ -21,6 +21,7 @@ mod equilibrium;
 mod evidence;
 mod problem;
 mod sum;
+pub mod system_file;
 
 pub use bar::{Bar, BarError};
 pub use chain::{Anchors, Chain, ChainError, STANDARD_GRAVITY_M_S2, SystemSummary};

@@ -1,0 +1,54 @@
+//! Writing: the text that reads back to the same chain, bit for bit.
+
+use std::fmt::Write as _;
+
+use crate::{Bar, Chain, Vector};
+
+/// The system file of a chain. Equal bars in a row become one table with `count`; the centre and the
+/// moments of inertia are left out where they are the defaults.
+///
+/// ```
+/// let chain = model::cases::paper().into_chain();
+/// let text = model::system_file::write_system(&chain);
+/// assert_eq!(model::system_file::parse_system(&text, "paper.toml")?, chain);
+/// # Ok::<(), model::system_file::SystemFileError>(())
+/// ```
+#[must_use]
+pub fn write_system(chain: &Chain) -> String {
+    let anchors = chain.anchors();
+    let mut text = format!(
+        "name = {}\ngravity_m_s2 = {:?}\n\n[anchors]\nstart_m = {}\nend_m = {}\n",
+        toml::Value::from(chain.name()),
+        chain.gravity_m_s2(),
+        vector(anchors.start_m),
+        vector(anchors.end_m),
+    );
+    for run in chain.bars().chunk_by(|a, b| a == b) {
+        write_run(&mut text, &run[0], run.len());
+    }
+    text
+}
+
+fn write_run(text: &mut String, bar: &Bar, count: usize) {
+    let (length, mass) = (bar.length_m(), bar.mass_kg());
+    // Writing to a String cannot fail.
+    let _ = write!(text, "\n[[bars]]\nlength_m = {length:?}\nmass_kg = {mass:?}\n");
+    if differ(&[bar.centre_m()], &[0.5 * length]) {
+        let _ = writeln!(text, "centre_m = {:?}", bar.centre_m());
+    }
+    if differ(&bar.inertia_kg_m2(), &Bar::slender_inertia(length, mass)) {
+        let _ = writeln!(text, "inertia_kg_m2 = {}", vector(bar.inertia_kg_m2()));
+    }
+    if count > 1 {
+        let _ = writeln!(text, "count = {count}");
+    }
+}
+
+/// Whether two rows of numbers differ in any bit.
+fn differ(a: &[f64], b: &[f64]) -> bool {
+    a.iter().zip(b).any(|(x, y)| x.to_bits() != y.to_bits())
+}
+
+fn vector(v: Vector) -> String {
+    format!("[{:?}, {:?}, {:?}]", v[0], v[1], v[2])
+}
