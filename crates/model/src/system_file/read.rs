@@ -66,7 +66,7 @@ pub fn parse_problem(text: &str, file: &str) -> Result<Problem, SystemFileError>
                 ("anchors.end_m".to_owned(), places.end.clone())
             }
             Refusal::BarTooLong { bar, .. } | Refusal::Folded { bar, .. } => {
-                let table = places.bars.partition_point(|(first, _)| *first < bar).max(1);
+                let table = places.bars.partition_point(|(first, _)| *first <= bar);
                 (format!("bars[{table}].length_m"), places.bars[table - 1].1.clone())
             }
         };
