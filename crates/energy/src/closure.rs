@@ -1,0 +1,252 @@
+//! The closure `sum l_i u_i = D`: how far directions are from it, and the way back.
+
+use model::Vector;
+
+use crate::Motion;
+use crate::links::Links;
+use crate::symmetric::{Column, Symmetric};
+use crate::vector::{Sum, VectorSum, along, cross, dot, norm, scaled, tangent};
+
+/// Directions of the bars with what one pass over them gives.
+#[derive(Debug, Clone)]
+pub(crate) struct Shape {
+    /// Unit directions `u_i`.
+    pub(crate) u: Vec<Vector>,
+    pub(crate) moments: Moments,
+}
+
+/// Sums over the bars.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Moments {
+    /// `sum l_i u_i - D`.
+    pub(crate) gap: Vector,
+    /// `sum l_i (I - u_i u_iᵀ)`: how far the last joint moves for a pull on it.
+    pub(crate) spread: Symmetric,
+    /// `sum l_i h_i (I - u_i u_iᵀ) up`: the tangent part of the weight.
+    pub(crate) weight: Vector,
+    /// The energy `sum l_i h_i up . u_i`.
+    pub(crate) value: f64,
+}
+
+/// A gap below this is rounding; corrections stop there.
+const CLOSED: f64 = 4.0 * f64::EPSILON;
+
+/// Least part of the predicted fall of the squared gap that counts as success.
+const FAIR_PART: f64 = 0.1;
+
+/// A predicted fall below this part of the squared gap is none: the bars are parallel to the gap.
+const NO_FALL: f64 = 1e-8;
+
+/// First damping after a correction that failed, over the gap: it holds the turn of a bar below the
+/// square root of the gap, the size at which the curvature of the spheres undoes the correction.
+const FIRST_DAMPING: f64 = 0.1;
+
+/// Factor of the damping after a failure, and its inverse after a success.
+const DAMPING_FACTOR: f64 = 10.0;
+
+/// Eigenvalues of `spread` below this part of the largest are zero: no pull moves the last joint
+/// that way. Sums of squares of angles in a frame along the line of the bars keep their digits, so
+/// only the rounding of the directions themselves is cut.
+pub(crate) const LOST_SPREAD: f64 = f64::EPSILON;
+
+/// Angle by which bars on one straight line are turned off it, alternately, rad.
+const NUDGE: f64 = 0.05;
+
+/// How often a straight chain is nudged.
+const NUDGES: usize = 3;
+
+impl Links {
+    /// Sums over the bars for unit directions.
+    pub(crate) fn measure(&self, u: &[Vector]) -> Moments {
+        let mut pass = Pass::new();
+        for (i, u) in u.iter().enumerate() {
+            pass.add(self, i, *u);
+        }
+        pass.moments(self)
+    }
+
+    /// Move every bar by the tangent vector `step(i, u_i)`, back on its sphere, and measure.
+    pub(crate) fn moved(
+        &self,
+        from: &[Vector],
+        mut step: impl FnMut(usize, Vector) -> Vector,
+    ) -> Shape {
+        let mut pass = Pass::new();
+        let u = from
+            .iter()
+            .enumerate()
+            .map(|(i, &u)| {
+                let v = along(u, 1.0, step(i, u));
+                // 1 <= |v|² = 1 + |step|²: no division by zero.
+                let v = scaled(1.0 / norm(v), v);
+                pass.add(self, i, v);
+                v
+            })
+            .collect();
+        Shape { u, moments: pass.moments(self) }
+    }
+
+    /// Close the chain: Gauss-Newton with damping on half the squared gap, over the directions, each
+    /// correction the least one in the metric `sum l_i |du_i|²`.
+    ///
+    /// The only directions at which the squared gap is stationary and not zero are those on one
+    /// straight line along the gap. None of them is a local minimum for a chain that can close:
+    /// a second derivative without negative directions would need (all but one of) the bars to
+    /// point against the gap, and then the anchors were out of reach. So from almost every seed the
+    /// descent ends closed; a straight seed is nudged off its line first.
+    ///
+    /// `Err` carries the gap that is left and the corrections made.
+    pub(crate) fn close(
+        &self,
+        mut shape: Shape,
+        corrections: usize,
+    ) -> Result<Shape, (f64, usize)> {
+        let mut damping = 0.0;
+        let mut nudges = 0;
+        let mut gap = norm(shape.moments.gap);
+        for _ in 0..corrections {
+            if gap <= CLOSED {
+                return Ok(shape);
+            }
+            let Moments { gap: r, spread, .. } = shape.moments;
+            let pull = scaled(-1.0, answer(&spread, damping, r));
+            let predicted = predicted_fall(&spread, damping, r, pull);
+            if predicted <= NO_FALL * gap * gap && gap > SMALL_GAP {
+                if nudges == NUDGES {
+                    break;
+                }
+                nudges += 1;
+                damping = 0.0;
+                shape = self.nudged(&shape.u);
+                gap = norm(shape.moments.gap);
+                continue;
+            }
+            let trial = self.moved(&shape.u, |_, u| tangent(u, pull));
+            let left = norm(trial.moments.gap);
+            if !left.is_finite() {
+                return Err((gap, corrections));
+            }
+            if gap * gap - left * left >= FAIR_PART * predicted {
+                (shape, gap) = (trial, left);
+                damping =
+                    if damping > gap * FIRST_DAMPING { damping / DAMPING_FACTOR } else { 0.0 };
+            } else if gap <= SMALL_GAP {
+                // Rounding: no correction makes it better.
+                return Ok(if left < gap { trial } else { shape });
+            } else {
+                damping = (damping * DAMPING_FACTOR).max(FIRST_DAMPING * gap);
+            }
+        }
+        if gap <= SMALL_GAP { Ok(shape) } else { Err((gap, corrections)) }
+    }
+
+    /// Turn the bars off their common line, every other one to the other side, each one around the
+    /// line (in space) by a golden angle more than the one before.
+    fn nudged(&self, u: &[Vector]) -> Shape {
+        self.moved(u, |i, u| {
+            // In the plane of the second axis; its normal if that is where the bar points.
+            let mut side = cross([0.0, 1.0, 0.0], u);
+            if norm(side) < 0.5 {
+                side = [1.0, 0.0, 0.0];
+            }
+            let size = if i % 2 == 0 { NUDGE } else { -NUDGE };
+            let turned = match self.motion {
+                Motion::Plane => scaled(size, side),
+                Motion::Space => {
+                    let (s, c) = (GOLDEN_ANGLE * i as f64).sin_cos();
+                    along(scaled(size * c, side), size * s, cross(u, side))
+                }
+            };
+            tangent(u, turned)
+        })
+    }
+}
+
+/// The pull that answers `rhs` in `spread`, plus damping; pseudo-inverse where the chain is
+/// straight.
+pub(crate) fn answer(spread: &Symmetric, damping: f64, rhs: Vector) -> Vector {
+    let mut matrix = *spread;
+    for k in 0..3 {
+        matrix.entry[k][k] += damping;
+    }
+    let rhs: Column = [rhs[0], rhs[1], rhs[2], 0.0];
+    let x = matrix.solve(rhs).unwrap_or_else(|| matrix.eigen().solve(rhs, LOST_SPREAD));
+    [x[0], x[1], x[2]]
+}
+
+/// Fall of the squared gap if the gap were linear in the correction.
+fn predicted_fall(spread: &Symmetric, damping: f64, gap: Vector, pull: Vector) -> f64 {
+    if damping > 0.0 {
+        // The equation of the pull leaves `-damping pull` of the gap.
+        return dot(gap, gap) - damping * damping * dot(pull, pull);
+    }
+    let row = |k: usize| (0..3).map(|j| spread.entry[k][j] * pull[j]).sum::<f64>();
+    let left: Vector = std::array::from_fn(|k| gap[k] + row(k));
+    dot(gap, gap) - dot(left, left)
+}
+
+/// A gap of rounding: a sum of many directions, each rounded, may not get below [`CLOSED`].
+const SMALL_GAP: f64 = 1e-14;
+
+/// Pi (3 - sqrt 5), rad: no multiple comes near a full turn.
+const GOLDEN_ANGLE: f64 = 2.399_963_229_728_653;
+
+/// The sums while they run.
+struct Pass {
+    closure: VectorSum,
+    weight: VectorSum,
+    value: Sum,
+    spread: [f64; 6],
+}
+
+impl Pass {
+    fn new() -> Self {
+        Self {
+            closure: VectorSum::default(),
+            weight: VectorSum::default(),
+            value: Sum::default(),
+            spread: [0.0; 6],
+        }
+    }
+
+    #[inline]
+    fn add(&mut self, links: &Links, i: usize, u: Vector) {
+        let (l, h) = (links.length[i], links.hang[i]);
+        self.closure.add(scaled(l, u));
+        self.weight.add(scaled(l * h, tangent(u, links.up)));
+        self.value.add(l * h * dot(links.up, u));
+        add_projector(&mut self.spread, l, u);
+    }
+
+    fn moments(&self, links: &Links) -> Moments {
+        Moments {
+            gap: along(self.closure.value(), -1.0, links.span),
+            spread: unpacked(&self.spread),
+            weight: self.weight.value(),
+            value: self.value.value(),
+        }
+    }
+}
+
+/// Add `w (I - u uᵀ)` to a packed sum `[xx, yy, zz, xy, xz, yz]`. The diagonal is written as sums of
+/// squares: `1 - x²` would lose what a nearly straight chain needs.
+#[inline]
+pub(crate) fn add_projector(packed: &mut [f64; 6], w: f64, [x, y, z]: Vector) {
+    let (xx, yy, zz) = (x * x, y * y, z * z);
+    packed[0] += w * (yy + zz);
+    packed[1] += w * (xx + zz);
+    packed[2] += w * (xx + yy);
+    packed[3] -= w * x * y;
+    packed[4] -= w * x * z;
+    packed[5] -= w * y * z;
+}
+
+/// The matrix of a packed sum.
+pub(crate) fn unpacked(packed: &[f64; 6]) -> Symmetric {
+    let [xx, yy, zz, xy, xz, yz] = *packed;
+    let mut matrix = Symmetric::zero(3);
+    matrix.entry[0] = [xx, xy, xz, 0.0];
+    matrix.entry[1] = [xy, yy, yz, 0.0];
+    matrix.entry[2] = [xz, yz, zz, 0.0];
+    matrix
+}

@@ -1,0 +1,93 @@
+//! Why there is no answer.
+
+/// Why a minimisation gave no answer. `Ok` means converged to a local minimum, nothing less.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// Occurs when a setting is out of its range.
+    #[error("the setting {field} must lie between {low:e} and {high:e}, got {value:e}")]
+    Setting {
+        /// Name of the field.
+        field: &'static str,
+        /// Its value.
+        value: f64,
+        /// Smallest allowed value.
+        low: f64,
+        /// Largest allowed value.
+        high: f64,
+    },
+    /// Occurs when a seed has not one direction (or angle) per bar.
+    #[error("a seed needs one direction for each of the {bars} bars, got {given}")]
+    SeedSize {
+        /// Bars of the chain.
+        bars: usize,
+        /// Directions of the seed.
+        given: usize,
+    },
+    /// Occurs when a direction of a seed is zero, infinite or not a number, or has no part in the
+    /// plane of the motion.
+    #[error("direction {bar} of the seed, [{}, {}, {}], points nowhere", direction[0], direction[1], direction[2])]
+    SeedDirection {
+        /// Number of the bar, from 1.
+        bar: usize,
+        /// The direction as given.
+        direction: model::Vector,
+    },
+    /// Occurs when an angle of the paper's example is infinite or not a number.
+    #[error("the angles of a seed must be finite, got {angle_rad} rad")]
+    SeedAngle {
+        /// The bad angle.
+        angle_rad: f64,
+    },
+    /// Occurs when the chain could not be closed on its anchors from the seed.
+    #[error(
+        "the seed could not be closed on the anchors: {gap:e} of the total length is left after \
+         {iterations} corrections"
+    )]
+    NotClosed {
+        /// Distance left, in units of the total length.
+        gap: f64,
+        /// Corrections made.
+        iterations: usize,
+    },
+    /// Occurs when the iterations are used up.
+    #[error("not converged after {iterations} iterations: projected gradient {gradient:e}")]
+    IterationLimit {
+        /// Iterations made.
+        iterations: u64,
+        /// Projected gradient reached, in the unit of its tolerance.
+        gradient: f64,
+    },
+    /// Occurs when no step lowers the energy and the gradient is still above its tolerance.
+    #[error(
+        "no step lowers the energy any further after {iterations} iterations: projected gradient \
+         {gradient:e}"
+    )]
+    Stalled {
+        /// Iterations made.
+        iterations: u64,
+        /// Projected gradient reached, in the unit of its tolerance.
+        gradient: f64,
+    },
+    /// Occurs when a number of the computation is infinite or not a number.
+    #[error("the {quantity} is not a finite number")]
+    NotFinite {
+        /// Which number.
+        quantity: &'static str,
+    },
+    /// Occurs when argmin ends a run for a reason that this crate never gives it: an interrupt, a
+    /// timeout, a target cost, or an error of its own.
+    #[error("argmin ended the run: {reason}")]
+    Ended {
+        /// The reason, in argmin's words.
+        reason: String,
+    },
+    /// Occurs when a displaced anchor, needed for a difference quotient, makes an impossible chain.
+    #[error("the chain with its end anchor displaced by {step_m:e} m is no problem: {reason}")]
+    Displaced {
+        /// Length of the displacement.
+        step_m: f64,
+        /// What the model says.
+        reason: String,
+    },
+}

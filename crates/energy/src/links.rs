@@ -1,0 +1,101 @@
+//! The chain in its own units: what the minimiser sees.
+
+use model::{Problem, Vector};
+
+use crate::Motion;
+use crate::frame::{Frame, WORLD_UP, on_one_vertical};
+use crate::vector::{Sum, along, dot};
+
+/// A chain with total length 1 and total weight 1, in its own frame.
+///
+/// The energy is linear in the directions `u_i` of the bars. Bar *i* lifts all bars after it and a
+/// part `r_i / l_i` of itself, so that
+///
+/// $$V = \sum_i c_i\\, \hat z \cdot u_i, \qquad c_i = g \Bigl(l_i \sum_{j>i} m_j + m_i r_i\Bigr).$$
+///
+/// With the closure $\sum l_i u_i = D$ the same multiple of $l_i$ may be taken off every $c_i$;
+/// half the weight is taken, so that `h_i = c_i / l_i - 1/2` lies between -1/2 and 1/2, keeps its
+/// digits and turns into its negative when the chain is read from its other end.
+#[derive(Debug, Clone)]
+pub(crate) struct Links {
+    /// Lengths `l_i`; their sum is 1.
+    pub(crate) length: Vec<f64>,
+    /// Weight hanging on each bar less one half, `h_i`; never increasing along the chain.
+    pub(crate) hang: Vec<f64>,
+    /// The end anchor seen from the start anchor, `D`; no component along the second axis.
+    pub(crate) span: Vector,
+    /// World up; no component along the second axis.
+    pub(crate) up: Vector,
+    /// Whether the anchors lie on one vertical.
+    pub(crate) vertical: bool,
+    /// The motions considered.
+    pub(crate) motion: Motion,
+}
+
+/// The units and the frame that lead back to the world.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Units {
+    /// Unit of length: the total length, m.
+    pub(crate) length_m: f64,
+    /// Unit of force: the total weight, N.
+    pub(crate) weight_n: f64,
+    pub(crate) frame: Frame,
+}
+
+impl Links {
+    pub(crate) fn new(problem: &Problem, motion: Motion) -> (Self, Units) {
+        let chain = problem.chain();
+        let length_m = chain.total_length_m();
+        let mass_kg = chain.total_mass_kg();
+        let weight_n = mass_kg * chain.gravity_m_s2();
+        let difference_m = chain.anchors().difference_m();
+        let bars = chain.bars();
+        let span_m = chain.anchors().span_m();
+        let longest_m = bars.iter().fold(0.0_f64, |m, bar| m.max(bar.length_m()));
+        let spare_m = (length_m - span_m).min(length_m + span_m - 2.0 * longest_m);
+        let frame = Frame::new(chain.anchors(), length_m, spare_m);
+        let length = bars.iter().map(|bar| bar.length_m() / length_m).collect();
+        // Twice h_i: what hangs after bar i less what hangs before it.
+        let mut hang = vec![0.0; bars.len()];
+        let mut before = Sum::default();
+        for (h, bar) in hang.iter_mut().zip(bars) {
+            let (m, lever) = (bar.mass_kg() / mass_kg, bar.centre_m() / bar.length_m());
+            *h -= before.value() + m * (1.0 - lever);
+            before.add(m);
+        }
+        let mut after = Sum::default();
+        for (h, bar) in hang.iter_mut().zip(bars).rev() {
+            let (m, lever) = (bar.mass_kg() / mass_kg, bar.centre_m() / bar.length_m());
+            *h = 0.5 * (*h + (after.value() + m * lever));
+            after.add(m);
+        }
+        let mut span = frame.into_frame(difference_m).map(|x| x / length_m);
+        let mut up = frame.into_frame(WORLD_UP);
+        // Zero by the choice of the frame; rounding must not push a plane chain out of its plane.
+        span[1] = 0.0;
+        up[1] = 0.0;
+        let vertical = on_one_vertical(difference_m, length_m);
+        (Self { length, hang, span, up, vertical, motion }, Units { length_m, weight_n, frame })
+    }
+
+    /// Number of bars.
+    pub(crate) fn bars(&self) -> usize {
+        self.length.len()
+    }
+
+    /// Whether the turn of the whole chain about its anchors is a motion that costs nothing.
+    pub(crate) fn turns(&self) -> bool {
+        self.vertical && self.motion == Motion::Space
+    }
+
+    /// Gradient of the Lagrangian by the direction of bar `i`, over its length: `h_i up + mu`.
+    pub(crate) fn load(&self, i: usize, multiplier: Vector) -> Vector {
+        along(multiplier, self.hang[i], self.up)
+    }
+
+    /// What to add to the energy `sum l_i h_i up . u_i` of a closed chain to measure it from the
+    /// height of joint 0 rather than from half way between the anchors.
+    pub(crate) fn datum(&self) -> f64 {
+        0.5 * dot(self.up, self.span)
+    }
+}

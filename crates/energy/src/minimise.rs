@@ -1,0 +1,175 @@
+//! The minimisation: from no guess, or from a seed.
+
+use std::sync::Arc;
+use std::time::Instant;
+
+use argmin::core::{Executor, State, TerminationReason, TerminationStatus};
+use model::{Problem, Vector};
+
+use crate::closure::Shape;
+use crate::curvature::Curvature;
+use crate::hanging::Hanging;
+use crate::links::Links;
+use crate::slope::Slope;
+use crate::solver::{FeasibleNewton, Iterate};
+use crate::{Error, Seed, Settings, Solution};
+
+/// Corrections of the closure from a seed, which may be anywhere.
+const SEED_CORRECTIONS: usize = 300;
+
+/// Coarse chains only make the first guess for finer ones: their gradient need not be smaller than
+/// the error of a group of bars being straight.
+const COARSE_TOLERANCE: f64 = 1e-4;
+
+/// Find the shape of least energy from no guess.
+///
+/// A long chain is first minimised with neighbouring bars held parallel, eight by eight, and so on
+/// down to a few bars that start from a circular arc: the number of iterations does not grow with
+/// the number of bars.
+///
+/// # Errors
+///
+/// [`Error`]; `Ok` means a local minimum with a projected gradient and a closure below their
+/// tolerances and no falling direction. In space that is the global minimum.
+///
+/// ```
+/// let solution = energy::minimise(&model::cases::paper(), &energy::Settings::default())?;
+/// let mgl = model::STANDARD_GRAVITY_M_S2; // m = 1 kg, l = 1 m
+/// // The paper's V counts from the level 6 mgl below ... (FACTS: 2.33546865199930500930868666574)
+/// let v = solution.equilibrium.energy_j / mgl + 6.0;
+/// assert!((v - 2.335_468_651_999_305).abs() < 1e-14);
+/// # Ok::<(), energy::Error>(())
+/// ```
+pub fn minimise(problem: &Problem, settings: &Settings) -> Result<Solution, Error> {
+    settings.validate()?;
+    let clock = Instant::now();
+    let (links, units) = Links::new(problem, settings.motion);
+    let start = first_guess(&links, settings)?;
+    let minimum = descend(links, start, settings)?;
+    Ok(Solution::new(problem, &units, minimum, clock))
+}
+
+/// Find the local minimum below a seed.
+///
+/// The seed is first closed on the anchors (it is moved as little as possible), then the energy
+/// falls monotonically. A saddle or a maximum is left along its lowest mode.
+///
+/// # Errors
+///
+/// [`Error`]; `Ok` means what it means for [`minimise`].
+pub fn minimise_from(
+    problem: &Problem,
+    seed: &Seed,
+    settings: &Settings,
+) -> Result<Solution, Error> {
+    settings.validate()?;
+    let clock = Instant::now();
+    let (links, units) = Links::new(problem, settings.motion);
+    let start = seed.in_frame(&links, &units)?;
+    let minimum = descend(links, start, settings)?;
+    Ok(Solution::new(problem, &units, minimum, clock))
+}
+
+/// What a run of the minimiser ends with.
+#[derive(Debug)]
+pub(crate) struct Minimum {
+    pub(crate) links: Arc<Links>,
+    pub(crate) shape: Arc<Shape>,
+    pub(crate) slope: Arc<Slope>,
+    pub(crate) iterations: u64,
+    /// Calls of energy, gradient and Hessian, as argmin counts them.
+    pub(crate) evaluations: u64,
+}
+
+impl Minimum {
+    /// The second derivative at the minimum.
+    pub(crate) fn curvature(&self) -> Curvature {
+        Curvature {
+            links: Arc::clone(&self.links),
+            shape: Arc::clone(&self.shape),
+            slope: Arc::clone(&self.slope),
+        }
+    }
+}
+
+/// Directions to start from: the minimum of the coarser chain, or the arc.
+fn first_guess(links: &Links, settings: &Settings) -> Result<Vec<Vector>, Error> {
+    let Some(grouped) = links.grouped() else { return Ok(links.arc()) };
+    let start = first_guess(&grouped.links, settings)?;
+    let coarse = Settings {
+        gradient_tolerance: settings.gradient_tolerance.max(COARSE_TOLERANCE),
+        ..*settings
+    };
+    // A coarse chain without an answer is no reason to give up: the arc remains.
+    match descend(grouped.links.clone(), start, &coarse) {
+        Ok(minimum) => Ok(grouped.spread(&minimum.shape.u)),
+        Err(_) => Ok(links.arc()),
+    }
+}
+
+/// Close the start and let argmin run the solver.
+pub(crate) fn descend(
+    links: Links,
+    start: Vec<Vector>,
+    settings: &Settings,
+) -> Result<Minimum, Error> {
+    let links = Arc::new(links);
+    let start = links.unfolded(start);
+    let moments = links.measure(&start);
+    let closed = links
+        .close(Shape { u: start, moments }, SEED_CORRECTIONS)
+        .map_err(|(gap, iterations)| Error::NotClosed { gap, iterations })?;
+    let state =
+        Executor::new(Hanging { links: Arc::clone(&links) }, FeasibleNewton::new(*settings))
+            .configure(|state: Iterate| {
+                state.param(Arc::new(closed)).max_iters(settings.max_iterations)
+            })
+            .ctrlc(false)
+            .timer(false)
+            .run()
+            .map_err(ended)?;
+    let evaluations = state.problem.counts.values().sum();
+    let mut state = state.state;
+    outcome(&state)?;
+    match (state.take_param(), state.take_gradient()) {
+        (Some(shape), Some(slope)) => {
+            Ok(Minimum { links, shape, slope, iterations: state.get_iter(), evaluations })
+        }
+        _ => Err(Error::NotFinite { quantity: "last iterate" }),
+    }
+}
+
+/// An error that argmin passes on: ours if it was ours.
+pub(crate) fn ended(error: argmin::core::Error) -> Error {
+    error.downcast::<Error>().unwrap_or_else(|other| Error::Ended { reason: other.to_string() })
+}
+
+/// argmin's reasons, all of them: only one of them is a success, whatever `Ok` it came in.
+fn outcome(state: &Iterate) -> Result<(), Error> {
+    let iterations = state.get_iter();
+    let gradient = state.get_gradient().map_or(f64::NAN, |slope| slope.residual());
+    verdict(state.get_termination_status(), iterations, gradient)
+}
+
+/// The match behind [`outcome`], for every state of this crate.
+pub(crate) fn verdict(
+    status: &TerminationStatus,
+    iterations: u64,
+    gradient: f64,
+) -> Result<(), Error> {
+    match status {
+        TerminationStatus::Terminated(reason) => match reason {
+            TerminationReason::SolverConverged => Ok(()),
+            TerminationReason::MaxItersReached => {
+                Err(Error::IterationLimit { iterations, gradient })
+            }
+            TerminationReason::TargetCostReached
+            | TerminationReason::Interrupt
+            | TerminationReason::Timeout => Err(Error::Ended { reason: reason.text().to_owned() }),
+            TerminationReason::SolverExit(text) => Err(Error::Ended { reason: text.clone() }),
+        },
+        TerminationStatus::NotTerminated => {
+            Err(Error::Ended { reason: "not terminated".to_owned() })
+        }
+    }
+}

@@ -1,0 +1,129 @@
+//! The vertical plane in which a chain hangs.
+
+use model::Vector;
+
+use crate::Motion;
+use crate::links::Links;
+use crate::vector::{dot, unit};
+
+/// Anchors with less than this part of the chain's length between their verticals lie almost on one
+/// vertical: the turn is soft, and steps along straight lines distort the chain more than they win.
+const NEARLY_VERTICAL: f64 = 0.01;
+
+/// A step by the angle `phi` along straight lines distorts the chain by `phi²`, against a gradient of
+/// the distance of the verticals times `phi`: up to this part of the distance Newton's method turns
+/// well.
+const WITHIN_REACH: f64 = 0.1;
+
+/// The turn about the vertical that takes an equilibrium into the first and third axis of the frame.
+///
+/// Every equilibrium lies in a vertical plane: each bar is parallel to `h_i up + mu`. The plane is
+/// that of the anchors, which is where the frame has its first and third axis, unless the anchors lie
+/// on one vertical: then every plane through it will do, and only the shape knows which.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Turn {
+    up: Vector,
+    /// Level axis of the frame in its plane.
+    level: Vector,
+    cosine: f64,
+    sine: f64,
+}
+
+impl Turn {
+    pub(crate) fn into_plane(links: &Links, u: &[Vector]) -> Self {
+        let up = links.up;
+        // The second axis is level, and its vector product with up is the level axis in the plane.
+        let level = [up[2], 0.0, -up[0]];
+        let (mut cosine, mut sine) = (1.0, 0.0);
+        if links.vertical {
+            let flattest = u.iter().fold([0.0_f64; 2], |best, &u| {
+                let flat = [dot(level, u), u[1]];
+                if flat[0].hypot(flat[1]) > best[0].hypot(best[1]) { flat } else { best }
+            });
+            if let Some([c, s, _]) = unit([flattest[0], flattest[1], 0.0]) {
+                (cosine, sine) = (c, s);
+            }
+        }
+        Self { up, level, cosine, sine }
+    }
+
+    /// When the anchors lie almost on one vertical: the turn that takes the horizontal part of `mu` to
+    /// where the end anchor lies, with the fall of the energy that comes with it.
+    ///
+    /// A turn `R` takes the last joint from `D` to `R D`, and closing the chain again costs
+    /// `-R mu . (D - R D)`, `-mu` being the derivative of the energy by the place of the last joint.
+    ///
+    /// `None` if the plane of the chain is near enough for Newton's method.
+    pub(crate) fn towards_anchor(links: &Links, multiplier: Vector) -> Option<(Self, f64)> {
+        let up = links.up;
+        let level = [up[2], 0.0, -up[0]];
+        let offset = dot(level, links.span);
+        if links.motion == Motion::Plane || links.vertical || offset.abs() > NEARLY_VERTICAL {
+            return None;
+        }
+        let pull = [dot(level, multiplier) * offset.signum(), multiplier[1] * offset.signum()];
+        let size = pull[0].hypot(pull[1]);
+        let (cosine, sine) = (pull[0] / size, pull[1] / size);
+        // NaN for no pull at all is no reason to turn.
+        let far = cosine < 0.0 || sine.abs() > WITHIN_REACH * offset.abs();
+        let fall = size * offset.abs() * (1.0 - cosine);
+        far.then_some((Self { up, level, cosine, sine }, fall))
+    }
+
+    /// The directions after the turn.
+    pub(crate) fn of(&self, u: &[Vector]) -> Vec<Vector> {
+        u.iter().map(|&u| self.turned(u, self.sine)).collect()
+    }
+
+    fn turned(&self, v: Vector, sine: f64) -> Vector {
+        let (h, n) = (dot(self.level, v), v[1]);
+        let vertical = dot(self.up, v);
+        let (h, n) = (self.cosine * h + sine * n, self.cosine * n - sine * h);
+        [h * self.level[0] + vertical * self.up[0], n, h * self.level[2] + vertical * self.up[2]]
+    }
+
+    /// The directions in the plane, their rounded rest across it taken off.
+    pub(crate) fn flattened(&self, u: &[Vector]) -> Vec<Vector> {
+        u.iter()
+            .map(|&u| {
+                let [x, _, z] = self.turned(u, self.sine);
+                unit([x, 0.0, z]).unwrap_or(u)
+            })
+            .collect()
+    }
+
+    /// From the plane back to where the equilibrium was.
+    pub(crate) fn back(&self, v: Vector) -> Vector {
+        self.turned(v, -self.sine)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_turned_chain_comes_into_the_plane_and_goes_back() {
+        for up in [[0.0, 0.0, 1.0], [-1.0, 0.0, 0.0]] {
+            let links = Links {
+                length: vec![0.5, 0.5],
+                hang: vec![0.25, -0.25],
+                span: up,
+                up,
+                vertical: true,
+                motion: Motion::Space,
+            };
+            let level = [up[2], 0.0, -up[0]];
+            let (s, c) = 0.7_f64.sin_cos();
+            // 0.6 up and 0.8 outwards, in a plane turned by 0.7 rad.
+            let u: Vector =
+                std::array::from_fn(|k| 0.6 * up[k] + 0.8 * (c * level[k] + s * f64::from(k == 1)));
+            let turn = Turn::into_plane(&links, &[u]);
+            let flat = turn.flattened(&[u])[0];
+            assert!((dot(flat, up) - 0.6).abs() < 1e-15);
+            assert!((dot(flat, level) - 0.8).abs() < 1e-15);
+            let back = turn.back(flat);
+            assert!((0..3).all(|k| (back[k] - u[k]).abs() < 1e-15));
+        }
+    }
+}

@@ -1,0 +1,39 @@
+//! The potential energy in the directions of the bars.
+
+use model::Problem;
+
+use crate::Seed;
+use crate::vector::Sum;
+
+/// Potential energy of a chain with the given directions, measured from the height of joint 0, J.
+///
+/// The centre of bar *i* is at $\sum_{k<i} l_k u_k + r_i u_i$, so
+///
+/// $$V = g \sum_i m_i Z_{C_i} = \sum_i c_i\\, u_{i,z}, \qquad
+///   c_i = g \Bigl(l_i \sum_{j>i} m_j + m_i r_i\Bigr).$$
+///
+/// The directions need not close on the end anchor; what the minimiser makes of them does.
+///
+/// # References
+///
+/// Equation (v) of the paper, for n bars in space; the paper adds `6 mgl`.
+///
+/// ```
+/// let problem = model::cases::paper();
+/// // All bars down: V = -(2.5 + 1.5 + 0.5) mgl.
+/// let down = energy::Seed::angles(&problem, &[0.0; 3])?;
+/// let mgl = model::STANDARD_GRAVITY_M_S2;
+/// assert!((energy::potential_j(&problem, &down) / mgl + 4.5).abs() < 1e-15);
+/// # Ok::<(), energy::Error>(())
+/// ```
+#[must_use]
+pub fn potential_j(problem: &Problem, directions: &Seed) -> f64 {
+    let chain = problem.chain();
+    let (mut after_kg, mut sum) = (Sum::default(), Sum::default());
+    for (bar, u) in chain.bars().iter().zip(directions.as_slice()).rev() {
+        let moment_kg_m = bar.length_m() * after_kg.value() + bar.mass_kg() * bar.centre_m();
+        sum.add(moment_kg_m * u[2]);
+        after_kg.add(bar.mass_kg());
+    }
+    chain.gravity_m_s2() * sum.value()
+}

@@ -1,0 +1,151 @@
+//! Forces from the energy alone.
+
+use model::{Problem, Reactions, Vector};
+
+use crate::frame::WORLD_UP;
+use crate::links::{Links, Units};
+use crate::minimise::descend;
+use crate::plane::Turn;
+use crate::slope::Slope;
+use crate::vector::{Sum, along, norm, scaled};
+use crate::{Error, Motion, Settings, Solution};
+
+/// The force at every joint, world frame, N, in the order of the paper's multipliers.
+///
+/// Virtual work. Cut the chain at joint *k* and hold the part before it there: its least energy as a
+/// function of the place of the cut has the derivative `F_k`, the force that the rest of the chain
+/// exerts on it. The energy of the part is that of the whole with the weight `W_k` of the bars after
+/// the cut taken off every bar, so its multiplier is that of the whole plus `W_k up`, and
+///
+/// $$F_k = \frac{\partial V_k^\*}{\partial P_k} = -\mu - W_k\\, \hat z .$$
+///
+/// At *k* = *n* this is the reaction `dV*/dD` of the end anchor; entry 0 is the force of the ground
+/// on the first bar, which carries what the end does not.
+pub(crate) fn joint_forces(problem: &Problem, units: &Units, slope: &Slope) -> Vec<Vector> {
+    let chain = problem.chain();
+    let bars = chain.bars();
+    let mass_kg = chain.total_mass_kg();
+    // The multiplier of the shifted energy (see `Links`) is mu + up / 2, in units of the weight:
+    // half the weight before the cut, less half the weight after it, is what remains to be added.
+    let mu = units.frame.into_world(slope.multiplier);
+    let mut lift = vec![0.0; bars.len() + 1];
+    let mut before = Sum::default();
+    for (k, bar) in bars.iter().enumerate() {
+        before.add(bar.mass_kg() / mass_kg);
+        lift[k + 1] += 0.5 * before.value();
+    }
+    let mut after = Sum::default();
+    for (k, bar) in bars.iter().enumerate().rev() {
+        lift[k + 1] -= 0.5 * after.value();
+        after.add(bar.mass_kg() / mass_kg);
+    }
+    let mut forces: Vec<Vector> = lift
+        .iter()
+        .map(|&w| scaled(units.weight_n, along(scaled(-1.0, mu), w, WORLD_UP)))
+        .collect();
+    forces[0] = scaled(units.weight_n, along(mu, 0.5, WORLD_UP));
+    forces
+}
+
+/// The axial forces, N.
+pub(crate) fn axial_forces(units: &Units, slope: &Slope) -> Vec<f64> {
+    slope.axial.iter().map(|n| n * units.weight_n).collect()
+}
+
+/// The reactions among the joint forces.
+pub(crate) fn reactions(forces: &[Vector]) -> Reactions {
+    let none = [0.0; 3];
+    Reactions {
+        start: forces.first().copied().unwrap_or(none),
+        end: forces.last().copied().unwrap_or(none),
+    }
+}
+
+/// Largest displacement of the end anchor over the length that the chain has to spare: the least
+/// energy varies over that length.
+const STEP: f64 = 1.0 / 64.0;
+
+/// Central differences, each with half the step of the one before. Three of them remove the errors
+/// of order two and four.
+const LEVELS: usize = 3;
+
+/// The force of the ground on the chain at its end anchor, world frame, N, without any multiplier:
+/// the chain is minimised again with the anchor displaced a little to either side, along three
+/// axes, and the least energies are differenced and extrapolated (Richardson).
+///
+/// $$R_D = + \frac{\partial V^\*}{\partial D}$$
+///
+/// since the work of the force of the ground is what the chain gains; the force of the chain on the
+/// ground is `-dV*/dD`. The branch of the given equilibrium is followed: displacements in its own
+/// vertical plane are minimised in that plane. (About anchors on one vertical the least energy *in
+/// space* has a ridge: with the anchor displaced to the wrong side the chain turns round to the lower
+/// one.) Across the plane the chain is minimised in space.
+///
+/// # Errors
+///
+/// The error of a minimisation.
+///
+/// ```
+/// let settings = energy::Settings::default();
+/// let problem = model::cases::paper();
+/// let solution = energy::minimise(&problem, &settings)?;
+/// let numeric = energy::reaction_by_differences(&problem, &solution, &settings)?;
+/// let mg = model::STANDARD_GRAVITY_M_S2; // m = 1 kg
+/// // lambda_12 of the paper (40 digits by root finding: 0.687055707758162401513537)
+/// assert!((numeric[2] / mg - 0.687_055_707_758_162_4).abs() < 1e-10);
+/// # Ok::<(), energy::Error>(())
+/// ```
+pub fn reaction_by_differences(
+    problem: &Problem,
+    solution: &Solution,
+    settings: &Settings,
+) -> Result<Vector, Error> {
+    settings.validate()?;
+    let (links, units) = Links::new(problem, Motion::Plane);
+    let in_frame: Vec<Vector> =
+        solution.directions.iter().map(|&u| units.frame.into_frame(u)).collect();
+    let turn = Turn::into_plane(&links, &in_frame);
+    let start = turn.flattened(&in_frame);
+    let spare = spare_length(&links);
+    let mut reaction = [0.0; 3];
+    for (axis, component) in reaction.iter_mut().enumerate() {
+        let motion = if axis == 1 { Motion::Space } else { Motion::Plane };
+        let least_energy = |h: f64| -> Result<f64, Error> {
+            let mut displaced = Links { motion, vertical: false, ..links.clone() };
+            displaced.span[axis] += h;
+            let datum = displaced.datum();
+            let settings = Settings { motion, ..*settings };
+            let minimum = descend(displaced, start.clone(), &settings)?;
+            Ok(minimum.shape.moments.value + datum)
+        };
+        *component = extrapolated(STEP * spare, least_energy)?;
+    }
+    let reaction = units.frame.into_world(turn.back(reaction));
+    Ok(scaled(units.weight_n, reaction))
+}
+
+/// Richardson's extrapolation of central differences.
+fn extrapolated(step: f64, value: impl Fn(f64) -> Result<f64, Error>) -> Result<f64, Error> {
+    let mut table = [0.0; LEVELS];
+    let mut h = step;
+    for entry in &mut table {
+        *entry = (value(h)? - value(-h)?) / (2.0 * h);
+        h *= 0.5;
+    }
+    let mut factor = 1.0;
+    for order in 1..LEVELS {
+        factor *= 4.0;
+        for k in (order..LEVELS).rev() {
+            table[k] += (table[k] - table[k - 1]) / (factor - 1.0);
+        }
+    }
+    Ok(table[LEVELS - 1])
+}
+
+/// How far the anchor can move, at least, before the chain cannot close any more: what is left of the
+/// total length over the span, or of the other bars and the span over the longest bar.
+fn spare_length(links: &Links) -> f64 {
+    let span = norm(links.span);
+    let longest = links.length.iter().fold(0.0_f64, |m, l| m.max(*l));
+    (1.0 - span).min(1.0 + span - 2.0 * longest)
+}

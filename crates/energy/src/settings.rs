@@ -1,0 +1,68 @@
+//! What the caller may choose.
+
+use crate::Error;
+
+/// The motions among which the energy is minimised.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum Motion {
+    /// All motions. Every local minimum of a chain in space is its global one.
+    #[default]
+    Space,
+    /// Motions in the vertical plane of the anchors (with anchors on one vertical: in the plane
+    /// *OYZ*, the paper's choice). Here a chain may have several local minima.
+    Plane,
+}
+
+/// How to minimise. Valid settings come from [`Default`] and pass [`Settings::validate`].
+///
+/// ```
+/// let settings = energy::Settings { max_iterations: 50, ..Default::default() };
+/// assert!(settings.validate().is_ok());
+/// assert!(energy::Settings { max_iterations: 0, ..settings }.validate().is_err());
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Settings {
+    /// Largest force across a bar that counts as none: the largest over the bars of
+    /// `|(I - u uᵀ) a_i|`, `a_i` being the gradient of the Lagrangian by the direction of bar *i*
+    /// over its length, in units of the total weight or, where the chain pulls harder than it
+    /// weighs, of the largest `|a_i|`. Default 1e-12; from 1e-15 to 1e-3.
+    pub gradient_tolerance: f64,
+    /// Largest distance of the last joint from the end anchor, in units of the total length.
+    /// Default 1e-13; from 1e-15 to 1e-6.
+    pub closure_tolerance: f64,
+    /// Iterations of one run of the minimiser. Default 500; at least 1.
+    pub max_iterations: u64,
+    /// The motions to minimise over. Default: in space.
+    pub motion: Motion,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self {
+            gradient_tolerance: 1e-12,
+            closure_tolerance: 1e-13,
+            max_iterations: 500,
+            motion: Motion::Space,
+        }
+    }
+}
+
+impl Settings {
+    /// Check every range once.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Setting`] with the first field that is out of range.
+    pub fn validate(&self) -> Result<(), Error> {
+        let check = |field, value: f64, low: f64, high: f64| {
+            if (low..=high).contains(&value) {
+                Ok(())
+            } else {
+                Err(Error::Setting { field, value, low, high })
+            }
+        };
+        check("gradient_tolerance", self.gradient_tolerance, 1e-15, 1e-3)?;
+        check("closure_tolerance", self.closure_tolerance, 1e-15, 1e-6)?;
+        check("max_iterations", self.max_iterations as f64, 1.0, u64::MAX as f64)
+    }
+}

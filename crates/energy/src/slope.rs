@@ -1,0 +1,88 @@
+//! First derivative of the energy along the closed chains.
+
+use model::Vector;
+
+use crate::closure::{Shape, answer};
+use crate::links::Links;
+use crate::straight::{line, opening_multiplier};
+use crate::vector::{dot, norm, scaled, tangent};
+
+/// The projected gradient and what comes with it.
+///
+/// On the closed chains, with the metric `sum l_i |du_i|²`, the gradient of the energy has the parts
+/// `t_i = (I - u_i u_iᵀ)(h_i up + mu)`: the force across bar *i* in units of the total weight. The
+/// multiplier `mu` of the closure is the one that makes the gradient smallest (least squares); at an
+/// equilibrium it is the Lagrange multiplier, and `-mu` the derivative of the least energy by the
+/// position of the end anchor.
+#[derive(Debug, Clone)]
+pub(crate) struct Slope {
+    /// Multiplier `mu` of the closure.
+    pub(crate) multiplier: Vector,
+    /// `N_i = -(h_i up + mu) . u_i`: the force along each bar, tension positive, and at the same time
+    /// the second derivative of the Lagrangian by a turn of the bar.
+    pub(crate) axial: Vec<f64>,
+    /// Largest `|t_i|`.
+    pub(crate) across: f64,
+    /// Root of `sum l_i |t_i|²`.
+    pub(crate) mean: f64,
+    /// Smallest `N_i`.
+    pub(crate) lowest: f64,
+    /// Largest `|N_i|`.
+    pub(crate) highest: f64,
+    /// Largest `|h_i up + mu|`, at least one: the size of the forces that `t_i` is a difference of.
+    pub(crate) pull: f64,
+    /// The direction of the bars if all are on one straight line: the closure then leaves this part
+    /// of the multiplier free, and the row of the closure along it is none.
+    pub(crate) line: Option<Vector>,
+}
+
+impl Slope {
+    pub(crate) fn new(links: &Links, shape: &Shape) -> Self {
+        let moments = &shape.moments;
+        let multiplier = scaled(-1.0, answer(&moments.spread, 0.0, moments.weight));
+        let line = line(shape);
+        let opening = line.and_then(|e| opening_multiplier(links, shape, multiplier, e));
+        let slope = Self::with_multiplier(links, &shape.u, opening.unwrap_or(multiplier));
+        Self { line, ..slope }
+    }
+
+    fn with_multiplier(links: &Links, u: &[Vector], multiplier: Vector) -> Self {
+        let mut axial = Vec::with_capacity(u.len());
+        let (mut across, mut sum, mut pull) = (0.0_f64, 0.0, 1.0_f64);
+        let (mut lowest, mut highest) = (f64::INFINITY, 0.0_f64);
+        for (i, &u) in u.iter().enumerate() {
+            let a = links.load(i, multiplier);
+            let t = tangent(u, a);
+            let square = dot(t, t);
+            let n = -dot(a, u);
+            sum += links.length[i] * square;
+            across = across.max(square);
+            pull = pull.max(dot(a, a));
+            lowest = lowest.min(n);
+            highest = highest.max(n.abs());
+            axial.push(n);
+        }
+        Self {
+            multiplier,
+            axial,
+            // `max` passes over NaN; the sum does not.
+            across: if sum.is_finite() { across.sqrt() } else { f64::NAN },
+            mean: f64::sqrt(sum),
+            lowest,
+            highest,
+            pull: pull.sqrt(),
+            line: None,
+        }
+    }
+
+    /// What the gradient tolerance is compared with: the largest force across a bar over the largest
+    /// force (or the weight, if that is more).
+    pub(crate) fn residual(&self) -> f64 {
+        self.across / self.pull
+    }
+
+    /// Size of the multiplier: what an error of the closure costs.
+    pub(crate) fn multiplier_size(&self) -> f64 {
+        norm(self.multiplier)
+    }
+}

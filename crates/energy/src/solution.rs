@@ -1,0 +1,83 @@
+//! The answer of a minimisation.
+
+use std::time::Instant;
+
+use model::{Equilibrium, Evidence, Problem, SolverName, Vector};
+
+use crate::links::Units;
+use crate::minimise::Minimum;
+use crate::reaction::{axial_forces, joint_forces, reactions};
+use crate::stability::SecondOrder;
+use crate::vector::{VectorSum, scaled};
+
+/// A local minimum of the energy: the equilibrium with its evidence, and what the search cost.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Solution {
+    /// The observables.
+    pub equilibrium: Equilibrium,
+    /// Unit directions of the bars, world frame.
+    pub directions: Vec<Vector>,
+    /// What the search cost.
+    pub work: Work,
+}
+
+/// What a search cost, and how exactly it ended.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Work {
+    /// Iterations of the solver on the chain itself (coarser chains not counted).
+    pub iterations: u64,
+    /// Calls of energy, gradient and Hessian on the chain itself, as argmin counts them.
+    pub evaluations: u64,
+    /// Projected gradient, in the unit of its tolerance.
+    pub gradient: f64,
+    /// Distance of the last joint from the end anchor, over the total length.
+    pub gap: f64,
+}
+
+/// What `Evidence::residual` means here.
+const RESIDUAL_OF: &str =
+    "projected gradient: largest force across a bar, over the largest force of the chain";
+
+impl Solution {
+    pub(crate) fn new(problem: &Problem, units: &Units, minimum: Minimum, clock: Instant) -> Self {
+        let second = SecondOrder::of(&minimum);
+        let Minimum { links, shape, slope, iterations, evaluations } = minimum;
+        let directions: Vec<Vector> = shape.u.iter().map(|&u| units.frame.into_world(u)).collect();
+        let multipliers_n = joint_forces(problem, units, &slope);
+        let energy = shape.moments.value + links.datum();
+
+        let residual = slope.residual();
+        let iterations_usize = usize::try_from(iterations).unwrap_or(usize::MAX);
+        let mut evidence = Evidence::converged(residual, RESIDUAL_OF, iterations_usize);
+        evidence.nullity = second.nullity;
+        evidence.condition = second.condition;
+        let equilibrium = Equilibrium {
+            solver: SolverName::Energy,
+            energy_j: energy * units.weight_n * units.length_m,
+            joints_m: joints(problem, &directions),
+            reactions_n: reactions(&multipliers_n),
+            multipliers_n,
+            axial_n: axial_forces(units, &slope),
+            stability: second.stability,
+            evidence,
+        };
+        let work = Work { iterations, evaluations, gradient: residual, gap: second.gap };
+        let mut solution = Self { equilibrium, directions, work };
+        solution.equilibrium.evidence.solve_s = clock.elapsed().as_secs_f64();
+        solution
+    }
+}
+
+/// Positions of the joints, world frame, m, summed from the start anchor.
+fn joints(problem: &Problem, directions: &[Vector]) -> Vec<Vector> {
+    let chain = problem.chain();
+    let mut sum = VectorSum::default();
+    sum.add(chain.anchors().start_m);
+    let mut joints = Vec::with_capacity(directions.len() + 1);
+    joints.push(chain.anchors().start_m);
+    for (bar, &u) in chain.bars().iter().zip(directions) {
+        sum.add(scaled(bar.length_m(), u));
+        joints.push(sum.value());
+    }
+    joints
+}

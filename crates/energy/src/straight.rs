@@ -1,0 +1,110 @@
+//! Chains folded on one straight line, where the closure leaves one force undetermined.
+
+use model::Vector;
+
+use crate::closure::{LOST_SPREAD, Shape};
+use crate::links::Links;
+use crate::vector::{along, dot};
+
+/// Only below this ratio of diagonal entries is a look at the eigenvalues worth while: the frame has
+/// an axis along the line.
+const NEARLY_STRAIGHT: f64 = 1e-6;
+
+/// Bisections of the interval of multipliers: all digits of a double.
+const BISECTIONS: usize = 64;
+
+/// The common line of the bars, if they are on one to rounding: the direction in which no motion
+/// moves the last joint.
+pub(crate) fn line(shape: &Shape) -> Option<Vector> {
+    let spread = &shape.moments.spread;
+    let diagonal = [spread.entry[0][0], spread.entry[1][1], spread.entry[2][2]];
+    let largest = diagonal.into_iter().fold(0.0, f64::max);
+    let smallest = diagonal.into_iter().fold(f64::INFINITY, f64::min);
+    if smallest > NEARLY_STRAIGHT * largest {
+        return None;
+    }
+    let eigen = spread.eigen();
+    let k = (0..3).min_by(|&a, &b| eigen.value[a].total_cmp(&eigen.value[b]))?;
+    if eigen.value[k] > LOST_SPREAD * eigen.largest() {
+        return None;
+    }
+    Some([eigen.vector[k][0], eigen.vector[k][1], eigen.vector[k][2]])
+}
+
+/// The multiplier of a chain that hangs straight down and up again, its fold exactly at a joint.
+///
+/// With anchors on one vertical (or at one point) such a chain is the one of least energy, but its
+/// two strands may share the weight in any way that leaves no bar pushed: `mu + tau e`, `e` along
+/// the line, for an interval of `tau`. What is returned is the limit of the forces when the anchors
+/// are moved apart sideways: the horizontal pull *H* turns bar *i* off the line by `H / N_i`, both
+/// strands must lose the same length by it, and so
+///
+/// $$\sum_i s_i\\, l_i / N_i(\tau)^2 = 0, \qquad s_i = \mathrm{sign}(e \cdot u_i).$$
+///
+/// `None` if every `tau` leaves a bar pushed.
+pub(crate) fn opening_multiplier(
+    links: &Links,
+    shape: &Shape,
+    multiplier: Vector,
+    e: Vector,
+) -> Option<Vector> {
+    let tension = |i: usize, u: Vector| -dot(links.load(i, multiplier), u);
+
+    // N_i(tau) = N_i - tau e.u_i must not be negative.
+    let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
+    for (i, &u) in shape.u.iter().enumerate() {
+        if dot(e, u) > 0.0 {
+            high = high.min(tension(i, u));
+        } else {
+            low = low.max(-tension(i, u));
+        }
+    }
+    if !(low < high && low.is_finite() && high.is_finite()) {
+        return None;
+    }
+    for _ in 0..BISECTIONS {
+        let tau = 0.5 * (low + high);
+        let mut balance = 0.0;
+        for (i, &u) in shape.u.iter().enumerate() {
+            let s = dot(e, u);
+            let n = tension(i, u) - tau * s;
+            balance += s * links.length[i] / (n * n);
+        }
+        // A larger tau slackens the bars along e, and they lose more length.
+        if balance < 0.0 {
+            low = tau;
+        } else {
+            high = tau;
+        }
+    }
+    Some(along(multiplier, 0.5 * (low + high), e))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Motion;
+
+    /// Four equal bars with both anchors at one point: by symmetry the strands share alike.
+    #[test]
+    fn two_equal_strands_share_the_weight() {
+        let (down, up) = ([0.0, 0.0, -1.0], [0.0, 0.0, 1.0]);
+        let links = Links {
+            length: vec![0.25; 4],
+            hang: vec![0.375, 0.125, -0.125, -0.375],
+            span: [0.0; 3],
+            up,
+            vertical: true,
+            motion: Motion::Space,
+        };
+        let u = vec![down, down, up, up];
+        let moments = links.measure(&u);
+        let shape = Shape { u, moments };
+        // Whatever multiplier it starts from.
+        for start in [0.0, 0.1, -0.05] {
+            let e = line(&shape).unwrap();
+            let mu = opening_multiplier(&links, &shape, [0.0, 0.0, start], e).unwrap();
+            assert!(mu.iter().all(|x| x.abs() < 1e-15));
+        }
+    }
+}
