@@ -1,0 +1,312 @@
+//! The certificate of global minimality, O(n): no configuration of the chain has less energy.
+//!
+//! # The bound
+//!
+//! With $c_i = g\,(l_i \sum_{j>i} m_j + m_i r_i)$ the energy of the chain is linear in the directions
+//! of its bars, $V = \sum_i c_i\, u_{i,z}$, and closure says $\sum_i l_i u_i = D$. So for any vector
+//! $P$ and any numbers $\nu_i \ne 0$, with $G_i = l_i P - c_i e_z$ and $\hat u_i = G_i/\nu_i$, every
+//! configuration has
+//!
+//! $$ V = P\cdot D - \sum_i \Big(\frac{|G_i|^2}{2\nu_i} + \frac{\nu_i}{2}\Big)
+//!        + \frac12 \sum_i \nu_i\,|u_i - \hat u_i|^2 . $$
+//!
+//! If all $\nu_i$ are positive the last sum can be dropped, and what remains is a lower bound; with
+//! $\nu_i = |G_i|$ it is the energy of the chain as cables. If just one is negative, $\nu_k$, the last
+//! sum is still bounded below, because closure ties $u_k$ to the others: with the force densities
+//! $\tau_i = \nu_i / l_i^2$ it is at least $-|\tau_k|\,(|s||e| + |e|^2/2)$ as soon as
+//! $|\tau_k| \sum_{i\ne k} 1/\tau_i \le 1$, where $e = D - \sum_i l_i \hat u_i$ is the closure error of
+//! the directions $\hat u_i$ (nothing but rounding at an equilibrium) and
+//! $|s| \le |e| + l_k (1 + |\hat u_k|)$.
+//!
+//! That condition is the positive semidefiniteness of the stress matrix, the tridiagonal
+//! $\Omega = \mathrm{tridiag}(-\tau_k,\ \tau_k + \tau_{k+1},\ -\tau_{k+1})$: its LDLᵀ pivots are
+//! $\delta_k = \tau_{k+1}\,\gamma_{k+1}/\gamma_k$ with the compliances $\gamma_k = \sum_{i\le k} 1/\tau_i$,
+//! so its inertia is read from the signs of the $\tau_i$ and of the running sums, without a
+//! factorisation that could lose them. Connelly's super stability for a chain.
+//!
+//! Here $P$ is the reaction at the end anchor. Whatever its value, the bound holds; the better the
+//! value, the smaller the gap to the energy found. All rounding errors are bounded and included.
+//!
+//! # The singular turn
+//!
+//! With both anchors on one vertical the whole chain turns freely about it, the stress matrix is
+//! exactly singular, and no floating-point number can show that $\sum 1/\tau_i$ is not positive. The
+//! compressed bar's $|\nu_k|$ is then reduced until it does, by about the rounding error of the sum;
+//! this costs energy of the same size, which the gap contains.
+//!
+//! # References
+//!
+//! R. Connelly, Invent. Math. 66 (1982) 11-33, doi:10.1007/BF01404753 (stress matrices and global
+//! minima); S. M. Rump, Acta Numerica 19 (2010) 287-449, doi:10.1017/S096249291000005X (rounding error
+//! bounds).
+
+use model::{Bar, Equilibrium, Problem, Vector, sum};
+
+/// Unit roundoff of doubles.
+const U: f64 = 0.5 * f64::EPSILON;
+
+/// Relative error, in units of `U`, allowed to each term of a sum below.
+///
+/// The longest chain of operations in a term is that of `l²/|G|`: the suffix mass (compensated, 2), its product
+/// with gravity and the sum with the bar's own part (6), the norm (8), square, division and the
+/// summation itself (6). 32 leaves room for second-order terms and for the roundings of the error
+/// bound itself.
+const TERM_ULPS: f64 = 32.0;
+
+/// Largest gap, in units of total weight × total length, that still counts as "no configuration has
+/// less energy". Measured: 3e-15 for the paper's chain, below 1e-12 for all cases of the registry
+/// (test below).
+pub const GAP_TOLERANCE: f64 = 1e-10;
+
+/// Proof that no configuration of the chain has less energy than `lower_bound_j`.
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
+pub struct Certificate {
+    /// No configuration has less energy than this, J (from the height of joint 0).
+    pub lower_bound_j: f64,
+    /// Energy found minus the lower bound, J.
+    pub gap_j: f64,
+    /// The same in units of total weight × total length.
+    pub gap: f64,
+    /// Number of the bar in compression, from 1, if there is one.
+    pub compressed_bar: Option<usize>,
+    /// Whether the stress matrix is singular as far as doubles can tell: the turn about the vertical
+    /// through both anchors.
+    pub singular: bool,
+}
+
+/// Why there is no certificate.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Doubt {
+    /// Occurs when two or more bars are in compression: the stress matrix has a negative eigenvalue,
+    /// and the equilibrium is unstable in space.
+    #[error(
+        "{bars} bars are in compression: the stress matrix is indefinite, there is less energy elsewhere"
+    )]
+    SeveralCompressed {
+        /// How many.
+        bars: usize,
+    },
+    /// Occurs when one bar is in compression and its force is too large for the others to hold it up
+    /// in space: `Σ 1/τ_i > 0`, proven.
+    #[error(
+        "bar {bar} is pressed too hard: the sum of the inverse force densities is {excess:e} of its terms, \
+         the stress matrix is indefinite, there is less energy elsewhere"
+    )]
+    Indefinite {
+        /// The compressed bar, from 1.
+        bar: usize,
+        /// `Σ 1/τ_i` over `Σ |1/τ_i|`.
+        excess: f64,
+    },
+    /// Occurs when the bound holds but stays further below the energy than [`GAP_TOLERANCE`].
+    #[error("the lower bound stays {gap:.1e} of weight times length below the energy")]
+    Gap {
+        /// The gap in units of total weight × total length.
+        gap: f64,
+    },
+    /// Occurs when a number of the answer is not finite, or the arrays do not fit the chain.
+    #[error("the answer is incomplete or not finite")]
+    Unusable,
+}
+
+/// Certify that no configuration has less energy than the equilibrium found.
+///
+/// Only its end reaction, the signs of its axial forces and its energy are used.
+///
+/// # Errors
+///
+/// [`Doubt`] when the bound proves nothing, with the reason.
+pub fn certify(problem: &Problem, found: &Equilibrium) -> Result<Certificate, Doubt> {
+    let chain = problem.chain();
+    let bars = chain.bars();
+    let pull = found.reactions_n.end;
+    if found.axial_n.len() != bars.len()
+        || !pull.iter().chain(&found.axial_n).chain([&found.energy_j]).all(|x| x.is_finite())
+    {
+        return Err(Doubt::Unusable);
+    }
+    let compressed = the_compressed_bar(&found.axial_n)?;
+    let weight_n = chain.total_mass_kg() * chain.gravity_m_s2();
+    let length_m = chain.total_length_m();
+    let force_n = norm(pull) + weight_n;
+
+    let forces = bar_forces(bars, chain.gravity_m_s2(), pull);
+    let (mut nu_k, mut singular) = (0.0, false);
+    if let Some(k) = compressed {
+        (nu_k, singular) = reduced_compression(bars, &forces, force_n, k)?;
+    }
+
+    // P.D - sum (|G|^2 / 2 nu + nu / 2), where nu = |G| makes the bracket |G|.
+    let difference = chain.anchors().difference_m();
+    let cables = sum(forces.iter().enumerate().map(|(i, force)| {
+        let g = bars[i].length_m() * norm(*force);
+        if Some(i) == compressed { 0.5 * (g * (g / nu_k) + nu_k) } else { g }
+    }));
+    let work = sum((0..3).map(|c| pull[c] * difference[c]));
+    let slack_j =
+        compressed.map_or(0.0, |k| closure_slack(bars, &forces, force_n, difference, k, nu_k));
+    let rounding_j = TERM_ULPS * U * force_n * (length_m + norm(difference));
+    let lower_bound_j = work - cables - slack_j - 2.0 * rounding_j;
+    let gap_j = found.energy_j - lower_bound_j;
+    let gap = gap_j / (weight_n * length_m);
+    // An energy below a proven bound is as wrong as one far above it; NaN fails both.
+    if !(0.0..=GAP_TOLERANCE).contains(&gap) {
+        return Err(Doubt::Gap { gap });
+    }
+    let compressed_bar = compressed.map(|k| k + 1);
+    Ok(Certificate { lower_bound_j, gap_j, gap, compressed_bar, singular })
+}
+
+/// Index of the only bar in compression, if any.
+fn the_compressed_bar(axial_n: &[f64]) -> Result<Option<usize>, Doubt> {
+    let mut compressed = axial_n.iter().enumerate().filter(|(_, a)| **a < 0.0).map(|(i, _)| i);
+    let first = compressed.next();
+    match compressed.count() {
+        0 => Ok(first),
+        more => Err(Doubt::SeveralCompressed { bars: more + 1 }),
+    }
+}
+
+/// The force `G_i / l_i` along each bar: the end reaction less the weight beyond the bar, N.
+fn bar_forces(bars: &[Bar], gravity: f64, pull: Vector) -> Vec<Vector> {
+    let mut forces = vec![pull; bars.len()];
+    let (mut beyond, mut lost) = (0.0_f64, 0.0_f64);
+    for (bar, force) in bars.iter().zip(&mut forces).rev() {
+        let lever = bar.mass_kg() * (bar.centre_m() / bar.length_m());
+        force[2] -= gravity * (beyond + lost + lever);
+        // Two-sum: the suffix mass stays good to the last place for any number of bars.
+        let next = beyond + bar.mass_kg();
+        let part = next - beyond;
+        lost += (beyond - (next - part)) + (bar.mass_kg() - part);
+        beyond = next;
+    }
+    forces
+}
+
+/// `ν_k < 0` of the compressed bar, at most `|G_k|` in size and small enough that
+/// `|τ_k| Σ 1/τ_i ≤ 1` is proven; and whether it had to be reduced only because of rounding.
+fn reduced_compression(
+    bars: &[Bar],
+    forces: &[Vector],
+    force_n: f64,
+    k: usize,
+) -> Result<(f64, bool), Doubt> {
+    let compliance = |i: usize| bars[i].length_m() / norm(forces[i]);
+    let others = || (0..bars.len()).filter(|i| *i != k);
+    let rest = sum(others().map(compliance));
+    // A force that is a small difference of large ones carries their rounding error.
+    let error =
+        TERM_ULPS * U * sum(others().map(|i| compliance(i) * (1.0 + force_n / norm(forces[i]))));
+    let own = compliance(k);
+    let own_error = TERM_ULPS * U * own * (1.0 + force_n / norm(forces[k]));
+    let excess = rest - own;
+    if !(rest + error).is_finite() || excess > error + own_error {
+        // A bar without force beside a compressed one makes the sum infinite.
+        let excess = if rest.is_finite() { excess / (rest + own) } else { 1.0 };
+        return Err(Doubt::Indefinite { bar: k + 1, excess });
+    }
+    let singular = excess.abs() <= error + own_error;
+    let needed = own.max((rest + error) * (1.0 + TERM_ULPS * U));
+    let length_m = bars[k].length_m();
+    Ok((-length_m * length_m / needed, singular))
+}
+
+/// Bound on `−½ Σ ν_i |u_i − û_i|²` with one negative `ν_k`, J.
+fn closure_slack(
+    bars: &[Bar],
+    forces: &[Vector],
+    force_n: f64,
+    difference: Vector,
+    k: usize,
+    nu_k: f64,
+) -> f64 {
+    let length_k = bars[k].length_m();
+    // û_k = G_k / ν_k; the others are unit vectors.
+    let stretch_k = length_k / nu_k * norm(forces[k]);
+    let closure: Vector = std::array::from_fn(|c| {
+        difference[c]
+            - sum(forces.iter().enumerate().map(|(i, force)| {
+                let scale = if i == k { stretch_k } else { 1.0 };
+                bars[i].length_m() * scale * (force[c] / norm(*force))
+            }))
+    });
+    let rounding = TERM_ULPS
+        * U
+        * sum(forces.iter().zip(bars).map(|(f, bar)| bar.length_m() * (1.0 + force_n / norm(*f))));
+    let e = norm(closure) + rounding;
+    let s = e + length_k * (1.0 + stretch_k.abs());
+    let tau_k = nu_k.abs() / (length_k * length_k);
+    tau_k * (s * e + 0.5 * e * e) * (1.0 + TERM_ULPS * U)
+}
+
+/// Euclidean norm.
+fn norm([x, y, z]: Vector) -> f64 {
+    x.hypot(y).hypot(z)
+}
+
+#[cfg(test)]
+mod tests {
+    use model::{Anchors, Chain, Evidence, InPlane, InSpace, Reactions, SolverName, Stability};
+
+    use super::*;
+
+    /// The paper's chain in units of l, m, g.
+    fn paper() -> Problem {
+        let anchors = Anchors { start_m: [0.0; 3], end_m: [0.0, 0.0, -2.0] };
+        let bar = Bar::homogeneous(1.0, 1.0).unwrap();
+        Problem::new(Chain::new("paper", 1.0, anchors, vec![bar; 3]).unwrap()).unwrap()
+    }
+
+    /// An answer with the numbers the certificate reads; FACTS.md, external.
+    fn answer(end: Vector, axial_n: [f64; 3], energy_j: f64) -> Equilibrium {
+        Equilibrium {
+            solver: SolverName::Lagrange,
+            energy_j,
+            joints_m: Vec::new(),
+            multipliers_n: Vec::new(),
+            reactions_n: Reactions { start: [0.0; 3], end },
+            axial_n: axial_n.to_vec(),
+            stability: Stability {
+                in_plane: InPlane::Minimum,
+                index_in_plane: 0,
+                in_space: InSpace::Stable,
+                index_in_space: 0,
+            },
+            evidence: Evidence::converged(0.0, "given", 0),
+        }
+    }
+
+    const E1_END: Vector = [0.0, 0.648_944_835_933_933_7, 0.687_055_707_758_162_4];
+    const E1_ENERGY: f64 = 2.335_468_651_999_305 - 6.0;
+    const E1_SIGNS: [f64; 3] = [1.0, 1.0, -1.0];
+
+    #[test]
+    fn e1_of_the_paper_is_proved_to_be_the_global_minimum() {
+        let certificate = certify(&paper(), &answer(E1_END, E1_SIGNS, E1_ENERGY)).unwrap();
+        assert!(certificate.gap < 1e-13, "{certificate:?}");
+        assert!(certificate.singular, "both anchors lie on one vertical: the chain turns freely");
+        assert_eq!(certificate.compressed_bar, Some(3));
+    }
+
+    #[test]
+    fn what_is_no_minimum_gets_no_certificate() {
+        // E2 is E1 upside down: two bars pressed (bars 1 and 2 of E2 are 3 and 2 of E1 reversed).
+        let end = [0.0, 0.648_944_835_933_933_7, 3.0 - 0.687_055_707_758_162_4];
+        let e2 = answer(end, [1.0, -1.0, -1.0], -E1_ENERGY - 6.0);
+        assert_eq!(certify(&paper(), &e2), Err(Doubt::SeveralCompressed { bars: 2 }));
+        // More energy than the minimum, less than the minimum, NaN.
+        for energy in [E1_ENERGY + 1e-6, E1_ENERGY - 1e-6, f64::NAN] {
+            assert!(certify(&paper(), &answer(E1_END, E1_SIGNS, energy)).is_err());
+        }
+        // A wrong force: the bound still holds, but says less.
+        for k in 1..3 {
+            let mut end = E1_END;
+            end[k] += 1e-3;
+            assert!(certify(&paper(), &answer(end, E1_SIGNS, E1_ENERGY)).is_err(), "{k}");
+        }
+        // A wrong sign: as if bar 3 were pulled.
+        let wrong = answer(E1_END, [1.0; 3], E1_ENERGY);
+        assert!(matches!(certify(&paper(), &wrong), Err(Doubt::Gap { .. })));
+    }
+}

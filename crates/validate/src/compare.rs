@@ -1,0 +1,231 @@
+//! Two answers held against each other, and each against Newton's laws.
+
+use model::{Bar, Chain, Equilibrium, Problem, Rung, Vector};
+use serde::Serialize;
+
+use crate::certificate::certify;
+use crate::statics::{Statics, judge};
+use crate::tolerances::Tolerances;
+
+/// How far two answers agree: the object `agreement` of the JSON.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Agreement {
+    /// Largest distance of a joint in one answer from the same joint in the other, m.
+    pub joints_m: f64,
+    /// Largest difference of a joint force, N.
+    pub forces_n: f64,
+    /// Difference of the energies, J.
+    pub energy_j: f64,
+    /// With both anchors on one vertical every turn about it is an equilibrium too: the angle by
+    /// which the second answer was turned onto the first before the comparison, rad.
+    pub turned_rad: Option<f64>,
+    /// Violations of Newton's laws by each answer.
+    pub statics: [Statics; 2],
+    /// Whether all of these are within their budgets.
+    pub verdict: Verdict,
+    /// What exceeds its budget.
+    pub reasons: Vec<String>,
+}
+
+/// Whether two answers are one.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Verdict {
+    /// All differences are within their budgets, and both answers in balance.
+    Agreed,
+    /// Something is not.
+    Disagreed,
+}
+
+impl std::fmt::Display for Verdict {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(if *self == Self::Agreed { "agreed" } else { "disagreed" })
+    }
+}
+
+impl Agreement {
+    /// Whether the two answers are one.
+    #[must_use]
+    pub fn agrees(&self) -> bool {
+        self.verdict == Verdict::Agreed
+    }
+}
+
+/// Units in which differences are judged.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Units {
+    /// Total length, m.
+    pub length_m: f64,
+    /// The larger of the total weight and the largest joint force, N.
+    pub force_n: f64,
+    /// Total weight × total length, J.
+    pub energy_j: f64,
+    /// Rounding of a joint's coordinates: they are stored in the world frame, however far from its
+    /// origin the anchors are, m.
+    pub rounding_m: f64,
+}
+
+/// A coordinate is rounded when it is stored, and two of them are subtracted: a few units in the
+/// last place of the largest.
+const STORED_ULPS: f64 = 8.0;
+
+impl Units {
+    /// The units of a chain whose largest joint force is known.
+    #[must_use]
+    pub fn new(chain: &Chain, multipliers_n: &[Vector]) -> Self {
+        let length_m = chain.total_length_m();
+        let weight_n = chain.total_mass_kg() * chain.gravity_m_s2();
+        let anchors = chain.anchors();
+        let farthest =
+            anchors.start_m.iter().chain(&anchors.end_m).fold(length_m, |a, x| a.max(x.abs()));
+        Self {
+            length_m,
+            force_n: multipliers_n.iter().map(|f| norm(*f)).fold(weight_n, f64::max),
+            energy_j: weight_n * length_m,
+            rounding_m: STORED_ULPS * f64::EPSILON * farthest,
+        }
+    }
+}
+
+/// Hold two answers against each other and each against Newton's laws, and write what that proves into
+/// their evidence: `agreed`, and `optimal` where a certificate exists.
+#[must_use]
+pub fn compare(
+    problem: &Problem,
+    answers: &mut [Equilibrium; 2],
+    tolerances: &Tolerances,
+) -> Agreement {
+    let chain = problem.chain();
+    let agreement = differences(chain, answers, tolerances);
+    for answer in answers.iter_mut() {
+        if agreement.agrees() {
+            answer.evidence.reach(
+                Rung::Agreed,
+                format!(
+                    "lagrange and energy differ by {:.1e} m, {:.1e} N, {:.1e} J; the statics judge finds \
+                     every bar in balance to {:.1e}",
+                    agreement.joints_m,
+                    agreement.forces_n,
+                    agreement.energy_j,
+                    worst(agreement.statics.iter().map(Statics::largest)),
+                ),
+            );
+        } else {
+            answer.evidence.miss(Rung::Agreed, agreement.reasons.join("; "));
+        }
+        certify_rung(problem, answer);
+    }
+    agreement
+}
+
+/// Judge one answer that has no second to compare with.
+pub fn judge_alone(problem: &Problem, answer: &mut Equilibrium) -> Statics {
+    answer.evidence.miss(Rung::Agreed, "only one solver was asked");
+    certify_rung(problem, answer);
+    judge(problem.chain(), &answer.joints_m, &answer.multipliers_n)
+}
+
+/// The rungs above `agreed`.
+fn certify_rung(problem: &Problem, answer: &mut Equilibrium) {
+    for rung in [Rung::Verified, Rung::Complete] {
+        answer.evidence.miss(rung, "no interval proof was tried");
+    }
+    match certify(problem, answer) {
+        Ok(proof) => answer.evidence.reach(
+            Rung::Optimal,
+            format!(
+                "the stress matrix is positive semidefinite{}: no configuration has less energy than \
+                 {:.1e} of weight times length below this one",
+                if proof.singular { " (singular: the free turn about the vertical)" } else { "" },
+                proof.gap,
+            ),
+        ),
+        Err(doubt) => answer.evidence.miss(Rung::Optimal, doubt.to_string()),
+    }
+}
+
+fn differences(chain: &Chain, answers: &[Equilibrium; 2], tolerances: &Tolerances) -> Agreement {
+    let [first, second] = answers;
+    let units = Units::new(chain, &first.multipliers_n);
+    let turned_rad = free_turn(chain).then(|| turn_onto(chain, first, second));
+    let (sin, cos) = turned_rad.unwrap_or(0.0).sin_cos();
+    let origin = chain.anchors().start_m;
+    let turned = |[x, y, z]: Vector| [cos * x - sin * y, sin * x + cos * y, z];
+    let place = |joint: &Vector| std::array::from_fn(|k| joint[k] - origin[k]);
+
+    let joints_m =
+        largest(&first.joints_m, &second.joints_m, |a, b| distance(place(a), turned(place(b))));
+    let forces_n =
+        largest(&first.multipliers_n, &second.multipliers_n, |a, b| distance(*a, turned(*b)));
+    let energy_j = (first.energy_j - second.energy_j).abs();
+    let statics = answers.each_ref().map(|a| judge(chain, &a.joints_m, &a.multipliers_n));
+
+    // Rounded coordinates turn short bars a little; nobody's fault, and no answer in doubles is without it.
+    let shortest_m = chain.bars().iter().map(Bar::length_m).fold(f64::INFINITY, f64::min);
+    let stored = units.rounding_m / shortest_m;
+    let mut reasons = Vec::new();
+    let mut budget = |what: &str, value: f64, limit: f64| {
+        // Written so that NaN is over every budget.
+        if !(value <= limit) {
+            reasons.push(format!("{what}: {value:.2e} is over its budget of {limit:.2e}"));
+        }
+    };
+    budget("joints / m", joints_m, tolerances.joints.value * units.length_m + units.rounding_m);
+    budget("forces / N", forces_n, tolerances.forces.value * units.force_n);
+    budget("energy / J", energy_j, tolerances.energy.value * units.energy_j);
+    for (answer, statics) in answers.iter().zip(&statics) {
+        budget(
+            &format!("statics of {}, at bar {}", answer.solver, statics.worst_bar),
+            statics.largest(),
+            tolerances.statics.value + stored,
+        );
+    }
+    if first.stability != second.stability {
+        reasons.push(format!(
+            "stability: {:?} by {}, {:?} by {}",
+            first.stability, first.solver, second.stability, second.solver
+        ));
+    }
+    let verdict = if reasons.is_empty() { Verdict::Agreed } else { Verdict::Disagreed };
+    Agreement { joints_m, forces_n, energy_j, turned_rad, statics, verdict, reasons }
+}
+
+/// Whether the chain turns freely about the vertical through both anchors.
+#[must_use]
+pub fn free_turn(chain: &Chain) -> bool {
+    let [x, y, _] = chain.anchors().difference_m();
+    x.hypot(y) <= model::STRAIGHT_TOLERANCE * chain.total_length_m()
+}
+
+/// The turn about the vertical that brings the joints of `second` closest to those of `first`.
+fn turn_onto(chain: &Chain, first: &Equilibrium, second: &Equilibrium) -> f64 {
+    let [ox, oy, _] = chain.anchors().start_m;
+    let (mut along, mut across) = (0.0, 0.0);
+    for (a, b) in first.joints_m.iter().zip(&second.joints_m) {
+        let (ax, ay, bx, by) = (a[0] - ox, a[1] - oy, b[0] - ox, b[1] - oy);
+        along += ax * bx + ay * by;
+        across += bx * ay - by * ax;
+    }
+    f64::atan2(across, along)
+}
+
+/// Largest difference of two arrays, by the given measure; NaN if they differ in length.
+fn largest(a: &[Vector], b: &[Vector], measure: impl Fn(&Vector, &Vector) -> f64) -> f64 {
+    if a.len() != b.len() {
+        return f64::NAN;
+    }
+    worst(a.iter().zip(b).map(|(a, b)| measure(a, b)))
+}
+
+/// The largest value, NaN if there is one (`f64::max` would forget it).
+fn worst(values: impl Iterator<Item = f64>) -> f64 {
+    values.fold(0.0, |a: f64, b| if a.is_nan() || b.is_nan() { f64::NAN } else { a.max(b) })
+}
+
+fn distance(a: Vector, b: Vector) -> f64 {
+    norm(std::array::from_fn(|k| a[k] - b[k]))
+}
+
+fn norm([x, y, z]: Vector) -> f64 {
+    x.hypot(y).hypot(z)
+}

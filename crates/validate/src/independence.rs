@@ -1,0 +1,188 @@
+//! The independence of the two solvers, read from the dependency graph.
+//!
+//! The graph is what cargo resolves with all features on, development and build dependencies
+//! included, together with what the manifests declare. A violation is told with the path that makes
+//! it one.
+
+use std::collections::{BTreeMap, BTreeSet, VecDeque};
+use std::process::Command;
+
+use serde_json::Value;
+
+/// Packages that would let mechanics live in `model`.
+const LINEAR_ALGEBRA: &[&str] = &[
+    "nalgebra",
+    "argmin",
+    "argmin-math",
+    "clarabel",
+    "faer",
+    "ndarray",
+    "num-dual",
+    "dense-lapack",
+];
+
+/// Packages of the workspace that may reach both solvers: the judge, what shows its verdicts, and what measures or
+/// sweeps both side by side.
+const MEETING_PLACES: &[&str] = &["validate", "cli", "benches", "report", "sweep"];
+
+/// Why the graph could not be read.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum GraphError {
+    /// Occurs when cargo or rustc cannot be run or fails.
+    #[error("cargo or rustc failed: {0}")]
+    Cargo(String),
+    /// Occurs when its output is not what its format promises.
+    #[error("the output of cargo metadata lacks {0}")]
+    Format(&'static str),
+}
+
+/// Who depends on whom, by package name.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Graph {
+    edges: BTreeMap<String, BTreeSet<String>>,
+    workspace: BTreeSet<String>,
+}
+
+impl Graph {
+    /// The graph of the workspace that holds this crate.
+    ///
+    /// # Errors
+    ///
+    /// [`GraphError`] when cargo cannot be run, or says something else than promised.
+    pub fn of_this_workspace() -> Result<Self, GraphError> {
+        let rustc = run("rustc", &["-vV"])?;
+        let rustc = String::from_utf8_lossy(&rustc).into_owned();
+        let host = rustc.lines().find_map(|line| line.strip_prefix("host: "));
+        let host = host.ok_or(GraphError::Format("the host of rustc -vV"))?;
+        let cargo = std::env::var("CARGO").unwrap_or_else(|_| "cargo".to_owned());
+        // Packages of other platforms are of no use to a build here, and may never have been fetched.
+        let arguments = [
+            "metadata",
+            "--format-version",
+            "1",
+            "--all-features",
+            "--locked",
+            "--filter-platform",
+            host,
+        ];
+        let offline: Vec<_> = arguments.into_iter().chain(["--offline"]).collect();
+        let output = run(&cargo, &offline).or_else(|_| run(&cargo, &arguments))?;
+        let metadata: Value = serde_json::from_slice(&output)
+            .map_err(|error| GraphError::Cargo(error.to_string()))?;
+        Self::from_metadata(&metadata)
+    }
+
+    /// The graph of the object that `cargo metadata` prints.
+    ///
+    /// # Errors
+    ///
+    /// [`GraphError::Format`] when a promised key is missing.
+    pub fn from_metadata(metadata: &Value) -> Result<Self, GraphError> {
+        let array = |value: &Value, what| value.as_array().cloned().ok_or(GraphError::Format(what));
+        let text =
+            |value: &Value, what| value.as_str().map(str::to_owned).ok_or(GraphError::Format(what));
+        let mut names = BTreeMap::new();
+        let mut graph = Self::default();
+        for package in array(&metadata["packages"], "packages")? {
+            let name = text(&package["name"], "a package's name")?;
+            names.insert(text(&package["id"], "a package's id")?, name.clone());
+            // What a manifest declares counts even where the resolver has no use for it.
+            for dependency in array(&package["dependencies"], "a package's dependencies")? {
+                graph.insert(&name, &text(&dependency["name"], "a dependency's name")?);
+            }
+        }
+        for member in array(&metadata["workspace_members"], "workspace_members")? {
+            let id = text(&member, "a member's id")?;
+            graph.workspace.extend(names.get(&id).cloned());
+        }
+        for node in array(&metadata["resolve"]["nodes"], "resolve.nodes")? {
+            let id = text(&node["id"], "a node's id")?;
+            let from = names.get(&id).ok_or(GraphError::Format("the package of a node"))?.clone();
+            for dependency in array(&node["deps"], "a node's deps")? {
+                let id = text(&dependency["pkg"], "a dependency's pkg")?;
+                let to = names.get(&id).ok_or(GraphError::Format("the package of a dependency"))?;
+                graph.insert(&from, to);
+            }
+        }
+        Ok(graph)
+    }
+
+    /// Add an edge.
+    pub fn insert(&mut self, from: &str, to: &str) {
+        self.edges.entry(from.to_owned()).or_default().insert(to.to_owned());
+    }
+
+    /// Whether there is this very edge.
+    #[must_use]
+    pub fn has(&self, from: &str, to: &str) -> bool {
+        self.edges.get(from).is_some_and(|targets| targets.contains(to))
+    }
+
+    /// A shortest path from one package to another, if there is one.
+    #[must_use]
+    pub fn path(&self, from: &str, to: &str) -> Option<Vec<String>> {
+        let mut before: BTreeMap<&str, &str> = BTreeMap::new();
+        let mut queue = VecDeque::from([from]);
+        while let Some(here) = queue.pop_front() {
+            for next in self.edges.get(here).into_iter().flatten() {
+                if next == from || before.contains_key(next.as_str()) {
+                    continue;
+                }
+                before.insert(next, here);
+                if next == to {
+                    let mut path = vec![to.to_owned()];
+                    let mut at = to;
+                    while let Some(previous) = before.get(at) {
+                        path.push((*previous).to_owned());
+                        at = previous;
+                    }
+                    path.reverse();
+                    return Some(path);
+                }
+                queue.push_back(next);
+            }
+        }
+        None
+    }
+
+    /// Every breach of the rules of independence, with the path that shows it.
+    #[must_use]
+    pub fn violations(&self) -> Vec<String> {
+        let mut found = Vec::new();
+        let mut forbid = |from: &str, to: &str, rule: &str| {
+            if let Some(path) = self.path(from, to) {
+                found.push(format!("{rule}: {}", path.join(" -> ")));
+            }
+        };
+        forbid("lagrange", "energy", "the solvers must not know each other");
+        forbid("energy", "lagrange", "the solvers must not know each other");
+        for package in LINEAR_ALGEBRA {
+            forbid("model", package, "model is data, no mechanics");
+        }
+        for package in &self.workspace {
+            forbid(package, "cli", "nothing uses the program");
+            if !MEETING_PLACES.contains(&package.as_str())
+                && package != "lagrange"
+                && self.path(package, "lagrange").is_some()
+            {
+                forbid(package, "energy", "the solvers meet in validate and nowhere below it");
+            }
+        }
+        found
+    }
+}
+
+/// Standard output of a command in the folder of this crate.
+fn run(program: &str, arguments: &[&str]) -> Result<Vec<u8>, GraphError> {
+    let output = Command::new(program)
+        .args(arguments)
+        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .output()
+        .map_err(|error| GraphError::Cargo(format!("{program}: {error}")))?;
+    if output.status.success() {
+        Ok(output.stdout)
+    } else {
+        Err(GraphError::Cargo(String::from_utf8_lossy(&output.stderr).into_owned()))
+    }
+}

@@ -1,0 +1,102 @@
+//! Both solvers on every case of the registry, against the budgets; and the comparison can fail.
+
+#![expect(clippy::unwrap_used, reason = "helpers of tests")]
+
+use model::{Equilibrium, Problem, Rung, cases};
+use validate::table::{both, csv, table};
+use validate::{Tolerances, compare};
+
+#[test]
+fn both_solvers_agree_on_every_case_of_the_registry() {
+    let tolerances = Tolerances::project();
+    let results = table(cases::all(), &tolerances);
+    // The disagreement is stored before it is judged.
+    let path = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("comparison.csv");
+    std::fs::write(path, csv(&results)).unwrap();
+    let rows = results.iter().flat_map(|result| &result.rows);
+    let worst = rows.max_by(|a, b| a.difference.total_cmp(&b.difference)).unwrap();
+    println!("largest difference: {worst:?}");
+    let mut measured = [0.0_f64; 4];
+    for result in &results {
+        println!("{:32} {:?} {:?}", result.case, result.scaled, result.rung);
+        for (most, value) in measured.iter_mut().zip(result.scaled.unwrap_or([f64::NAN; 4])) {
+            *most = most.max(value);
+        }
+    }
+    println!("measured: joints, forces, energy, statics: {measured:?}");
+    for result in &results {
+        assert!(result.agrees(), "{}: {:?} {:?}", result.case, result.failure, result.agreement);
+        // Every hanging chain is certified, not just found twice.
+        assert_eq!(result.rung, Some(Rung::Optimal), "{}", result.case);
+    }
+}
+
+fn answers() -> (Problem, [Equilibrium; 2]) {
+    let problem = cases::get("three-equal-bars-oblique").unwrap().problem();
+    let (answers, agreement) = both(&problem, &Tolerances::project()).unwrap();
+    assert!(agreement.agrees());
+    (problem, answers)
+}
+
+/// Changes that the comparison must see.
+const CHANGES: [fn(&mut Equilibrium); 7] = [
+    |e| e.joints_m[1][0] += 1e-6,
+    |e| e.multipliers_n[2][2] += 1e-6,
+    |e| e.multipliers_n[1] = e.multipliers_n[1].map(|x| -x),
+    |e| e.energy_j += 1e-6,
+    |e| e.energy_j = f64::NAN,
+    |e| e.stability.index_in_space = 1,
+    |e| e.joints_m.truncate(1),
+];
+
+#[test]
+fn a_changed_answer_is_not_agreed_with() {
+    let (problem, good) = answers();
+    for (k, change) in CHANGES.into_iter().enumerate() {
+        for which in 0..2 {
+            let mut bad = good.clone();
+            change(&mut bad[which]);
+            let agreement = compare(&problem, &mut bad, &Tolerances::project());
+            assert!(!agreement.agrees(), "change {k} of answer {which} went unseen");
+            assert!(!agreement.reasons.is_empty());
+            for answer in &bad {
+                let agreed =
+                    answer.evidence.ladder().iter().find(|s| s.rung == Rung::Agreed).unwrap();
+                assert!(!agreed.reached, "change {k}");
+            }
+        }
+    }
+}
+
+#[test]
+fn two_answers_wrong_in_the_same_way_do_not_pass_the_statics_judge() {
+    let (problem, good) = answers();
+    for change in [CHANGES[0], CHANGES[1], CHANGES[2]] {
+        let mut bad = good.clone();
+        bad.iter_mut().for_each(change);
+        assert!(!compare(&problem, &mut bad, &Tolerances::project()).agrees());
+    }
+}
+
+/// Anchors on one vertical: the whole circle of equilibria is one answer, and nothing else is.
+#[test]
+fn a_turn_about_the_vertical_is_no_disagreement_where_the_chain_turns_freely() {
+    let turn = |e: &mut Equilibrium, angle: f64| {
+        let (sin, cos) = angle.sin_cos();
+        let turned = |[x, y, z]: [f64; 3]| [cos * x - sin * y, sin * x + cos * y, z];
+        e.joints_m = e.joints_m.iter().copied().map(turned).collect();
+        e.multipliers_n = e.multipliers_n.iter().copied().map(turned).collect();
+        e.reactions_n.start = turned(e.reactions_n.start);
+        e.reactions_n.end = turned(e.reactions_n.end);
+    };
+    let (free, mut answers_free) = {
+        let problem = cases::paper();
+        let (answers, _) = both(&problem, &Tolerances::project()).unwrap();
+        (problem, answers)
+    };
+    turn(&mut answers_free[1], 0.7);
+    assert!(compare(&free, &mut answers_free, &Tolerances::project()).agrees());
+    let (fixed, mut answers_fixed) = answers();
+    turn(&mut answers_fixed[1], 0.7);
+    assert!(!compare(&fixed, &mut answers_fixed, &Tolerances::project()).agrees());
+}
