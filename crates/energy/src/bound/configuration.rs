@@ -1,0 +1,57 @@
+//! What a bound's programme says about the chain that attains it.
+
+use model::{Problem, Vector};
+
+use super::data::{Data, Plane, Sense};
+use crate::vector::{Sum, VectorSum, norm, scaled};
+
+/// A chain found by a cone programme, without any starting guess.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Configuration {
+    /// Positions of the joints 0..=n, world frame, m. Where the anchors are on one vertical, the
+    /// chain may be turned about it; it is given in the plane OYZ.
+    pub joints_m: Vec<Vector>,
+    /// Axial force of each bar, weights lumped to the joints, N; tension positive.
+    pub axial_n: Vec<f64>,
+    /// Force of the ground on the chain at the last anchor, world frame, N.
+    pub pull_n: Vector,
+    /// Energy from the height of joint 0, J, in floating point.
+    pub energy_j: f64,
+    /// By how much the bars, put one after the other, miss the last anchor, m.
+    pub open_m: f64,
+}
+
+impl Configuration {
+    /// From the bar vectors in the plane of the anchors, the axial forces and the pull, all without
+    /// units and with gravity reversed for an upper bound.
+    pub(super) fn new(
+        problem: &Problem,
+        sense: Sense,
+        data: &Data,
+        plane: &Plane,
+        bars: &[[f64; 2]],
+        axial: &[f64],
+        pull: [f64; 2],
+    ) -> Self {
+        let anchors = problem.chain().anchors();
+        let mut sum = VectorSum::default();
+        sum.add(anchors.start_m);
+        let mut energy = Sum::default();
+        let mut joints_m = Vec::with_capacity(bars.len() + 1);
+        joints_m.push(anchors.start_m);
+        for (bar, tail) in bars.iter().zip(&data.tail_weight) {
+            sum.add(scaled(data.scale.length, plane.lift(*bar)));
+            energy.add(tail.middle() * bar[1]);
+            joints_m.push(sum.value());
+        }
+        sum.add(scaled(-1.0, anchors.end_m));
+        let newtons = |x: f64| sense.sign() * data.scale.weight * x;
+        Self {
+            joints_m,
+            axial_n: axial.iter().map(|f| newtons(*f)).collect(),
+            pull_n: plane.lift(pull).map(newtons),
+            energy_j: sense.energy(data.scale, energy.value()),
+            open_m: norm(sum.value()),
+        }
+    }
+}
