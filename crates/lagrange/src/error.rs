@@ -1,0 +1,70 @@
+//! What can go wrong in a solve.
+
+use crate::SettingsError;
+
+/// Why no equilibrium was returned. `Ok` always means converged.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum SolveError {
+    /// Occurs when a setting is out of range.
+    #[error(transparent)]
+    Settings(#[from] SettingsError),
+    /// Occurs when the seed has not three angles for each bar.
+    #[error("the seed holds the angles of {got} bars, the chain has {expected}")]
+    SeedLength {
+        /// Bars of the chain.
+        expected: usize,
+        /// Bars of the seed.
+        got: usize,
+    },
+    /// Occurs when an angle of the seed is infinite or not a number.
+    #[error("the seed of bar {bar} has an angle of {angle_rad} rad")]
+    SeedNotFinite {
+        /// Number of the bar, from 1.
+        bar: usize,
+        /// The angle as given.
+        angle_rad: f64,
+    },
+    /// Occurs when every run of Newton's method stopped at a local minimum of the residual that is
+    /// no root, or ran out of steps.
+    #[error(
+        "no equilibrium from this seed: residual {residual:.3e} (relative) after {iterations} steps \
+         and {relaxations} relaxations"
+    )]
+    Stagnated {
+        /// Norm of the residual at the end, in units of the total weight and length.
+        residual: f64,
+        /// Steps of all kinds.
+        iterations: usize,
+        /// Relaxations among the runs.
+        relaxations: usize,
+    },
+    /// Occurs when all equations of the paper hold and a bar is not in balance: a false root at
+    /// cos θ = cos φ = 0, where the equations lose a moment balance. Only when
+    /// [`Settings::lock_margin`](crate::Settings::lock_margin) is zero; otherwise the bar is seated
+    /// anew and the solve goes on.
+    #[error(
+        "false root: the equations hold, and a moment of {moment:.3e} (in units of the largest force \
+         times the mean length) acts on bar {bar}"
+    )]
+    FalseRoot {
+        /// Number of the bar, from 1.
+        bar: usize,
+        /// The moment that the equations do not see.
+        moment: f64,
+    },
+    /// Occurs when every equilibrium that was found is unstable, though a stable one was asked for.
+    #[error("only unstable equilibria found: {found} of them, the last of index {index}")]
+    Unstable {
+        /// How many.
+        found: usize,
+        /// Morse index of the last.
+        index: usize,
+    },
+    /// Occurs when the singular value decomposition of the Jacobian does not converge.
+    #[error("the singular values of the Jacobian (size {size}) did not converge")]
+    Spectrum {
+        /// Rows of the Jacobian.
+        size: usize,
+    },
+}

@@ -1,0 +1,105 @@
+//! Newton's method made global and safe at singular solutions: Levenberg and Marquardt's.
+
+use crate::Settings;
+
+/// A system of equations at a point, with a damped step to the next.
+pub(crate) trait Model {
+    /// How far the chain is from straight, relative to its length: the scale of the smallest
+    /// singular values that are not zero.
+    fn slack(&self) -> f64;
+    /// Norm of the residual at the point.
+    fn norm(&self) -> f64;
+    /// Largest equation, in the units of [`Settings::tolerance`].
+    fn largest(&self) -> f64;
+    /// Compute the step $d = -(J^T J + s^2)^{-1} J^T r$ for the damping s; norm of $r + J d$.
+    fn step(&mut self, damping: f64) -> f64;
+    /// Norm of the residual at the end of the step.
+    fn attempt(&mut self) -> f64;
+    /// Go there.
+    fn accept(&mut self);
+}
+
+/// How a run ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Finish {
+    /// The largest equation is below the tolerance.
+    Converged,
+    /// The residual no longer falls, or the steps ran out.
+    Stagnated,
+}
+
+/// Damping in the first step, in units of the residual; the gain ratio corrects it at once.
+const FIRST_DAMPING: f64 = 1.0;
+/// A step that earns less than this part of the promised decrease is not taken.
+const ACCEPT: f64 = 1e-4;
+/// Below this part of the promised decrease the damping grows, ...
+const POOR: f64 = 0.25;
+/// ... above this part it shrinks, ...
+const GOOD: f64 = 0.75;
+/// ... by this factor: Fan and Yuan's rule.
+const FACTOR: f64 = 4.0;
+/// Least damping in units of the residual: keeps quadratic convergence and bounds the way back up.
+const LEAST_FACTOR: f64 = 1e-3;
+/// Least damping of all, in units of [`Model::slack`]: the square of its ratio to the smallest non-zero
+/// singular values (1e-4 of the slack) is at the rounding error, and beside the zero ones, known to
+/// 1e-16, it is large: the solution does not drift along them.
+const LEAST_DAMPING: f64 = 1e-9;
+/// A run has stagnated when the residual has lost less than `PROGRESS` in `PATIENCE` steps.
+const PATIENCE: usize = 15;
+const PROGRESS: f64 = 0.02;
+/// Steps after convergence, each of which must halve the residual: they reach the rounding error.
+const POLISH: usize = 3;
+
+/// One run from the model's point. Appends the norm of the residual at each step to `history`.
+pub(crate) fn newton(
+    model: &mut impl Model,
+    settings: &Settings,
+    history: &mut Vec<f64>,
+) -> Finish {
+    let start = history.len();
+    let mut factor = FIRST_DAMPING;
+    let least = LEAST_DAMPING * model.slack();
+    let mut norm = model.norm();
+    for iteration in 0..settings.max_iterations {
+        if model.largest() <= settings.tolerance {
+            polish(model, factor, least, history);
+            return Finish::Converged;
+        }
+        history.push(norm);
+        if iteration >= PATIENCE && norm > (1.0 - PROGRESS) * history[start + iteration - PATIENCE]
+        {
+            return Finish::Stagnated;
+        }
+        // Damping of the order of the residual: quadratic convergence without a regular Jacobian.
+        let predicted = model.step((factor * norm).max(least));
+        let trial = model.attempt();
+        let gain = (norm * norm - trial * trial) / (norm * norm - predicted * predicted);
+        if gain > ACCEPT {
+            model.accept();
+            norm = model.norm();
+        }
+        if gain > GOOD {
+            factor = (factor / FACTOR).max(LEAST_FACTOR);
+        } else if gain > POOR {
+            // The model is fair: keep.
+        } else {
+            // Also when the gain is not a number.
+            factor *= FACTOR;
+        }
+    }
+    if model.largest() <= settings.tolerance { Finish::Converged } else { Finish::Stagnated }
+}
+
+/// Steps on while each halves the residual.
+fn polish(model: &mut impl Model, factor: f64, least: f64, history: &mut Vec<f64>) {
+    for _ in 0..POLISH {
+        let norm = model.norm();
+        model.step((factor * norm).max(least));
+        let trial = model.attempt();
+        if trial.is_nan() || trial > 0.5 * norm {
+            return;
+        }
+        history.push(norm);
+        model.accept();
+    }
+}

@@ -1,0 +1,161 @@
+//! The reduced system in motion: where we are, the step, and where it leads.
+
+use nalgebra::{Complex, Vector3};
+
+use crate::mechanism::Mechanism;
+use crate::multipliers::estimate_pull;
+use crate::newton::Model;
+use crate::point::Point;
+use crate::spin::seat;
+use crate::step::Matrix;
+
+/// All memory of a solve; nothing is allocated while it runs.
+#[derive(Debug, Clone)]
+pub(crate) struct Reduced {
+    /// The chain in units of its total length and weight.
+    pub mechanism: Mechanism,
+    /// Weights between joint 0 and the bars.
+    pub carried: Vec<f64>,
+    /// Where we are.
+    pub here: Point,
+    /// Where the step leads.
+    pub there: Point,
+    /// The matrix and the step.
+    pub matrix: Matrix,
+    /// Unit of force in units of the total weight, at least one: the largest force where the run
+    /// began. In a nearly taut chain it is large, and equations in units of the weight would be far out
+    /// of proportion.
+    pub unit: f64,
+    /// Bars whose spin axis is shorter are seated.
+    pub lock_margin: f64,
+    /// How many times a bar was seated.
+    pub seatings: usize,
+    /// Whether the matrix is that of the point.
+    assembled: bool,
+}
+
+impl Reduced {
+    pub fn new(mechanism: Mechanism, lock_margin: f64) -> Self {
+        Self {
+            carried: mechanism.carried_weights(),
+            here: Point::new(mechanism.bars()),
+            there: Point::new(mechanism.bars()),
+            matrix: Matrix::new(&mechanism),
+            mechanism,
+            unit: 1.0,
+            lock_margin,
+            seatings: 0,
+            assembled: false,
+        }
+    }
+
+    /// Go to the given angles and estimate the multipliers there.
+    pub fn start(&mut self, angles: &[[f64; 3]]) {
+        self.here.angles.copy_from_slice(angles);
+        self.here.turn(&self.mechanism);
+        self.estimate();
+        self.seat(self.lock_margin);
+    }
+
+    /// Choose the unit of force for the run that begins here.
+    pub fn choose_unit(&mut self) {
+        self.unit = self.here.largest_force(&self.carried).max(1.0);
+        self.assembled = false;
+    }
+
+    /// Go to the given angles and pull.
+    pub fn resume(&mut self, angles: impl Iterator<Item = [f64; 3]>, pull: Vector3<f64>) {
+        for (to, from) in self.here.angles.iter_mut().zip(angles) {
+            *to = from;
+        }
+        self.here.pull = pull;
+        self.here.turn(&self.mechanism);
+        self.here.load(&self.carried);
+        self.assembled = false;
+    }
+
+    /// Estimate the multipliers for the angles at the point.
+    pub fn estimate(&mut self) {
+        self.here.pull = estimate_pull(&self.mechanism, &self.carried, &self.here);
+        self.here.load(&self.carried);
+        self.assembled = false;
+    }
+
+    /// Take the fraction `part` of the step on trial.
+    pub fn advance(&mut self, part: f64) {
+        let angles = self.there.angles.iter_mut().zip(&self.here.angles);
+        for ((to, from), turn) in angles.zip(self.matrix.turns()) {
+            *to = [from[0] + part * turn[0], from[1] + part * turn[1], from[2] + part * turn[2]];
+        }
+        self.there.pull = self.here.pull + self.matrix.pull_step * part;
+        self.there.turn(&self.mechanism);
+        self.there.load(&self.carried);
+    }
+
+    /// Stay where the last advance led.
+    pub fn stay(&mut self) {
+        std::mem::swap(&mut self.here, &mut self.there);
+        self.assembled = false;
+    }
+
+    /// Seat every bar whose spin axis is shorter than `margin`.
+    pub fn seat(&mut self, margin: f64) {
+        let mut seated = 0;
+        for (bar, angles) in self.here.bars.iter().zip(&mut self.here.angles) {
+            if bar.frame.spin().norm_squared() < margin * margin {
+                *angles = seat(&bar.u);
+                seated += 1;
+            }
+        }
+        if seated > 0 {
+            self.here.turn(&self.mechanism);
+            self.here.load(&self.carried);
+            self.assembled = false;
+            self.seatings += seated;
+        }
+    }
+
+    /// The bar on which the largest moment acts, from 0, and that moment in units of the largest
+    /// force times the mean length. [`Model::largest`] sees only what the paper's equations see.
+    pub fn largest_moment(&self) -> (usize, f64) {
+        let unit = self.here.largest_force(&self.carried) / self.carried.len() as f64;
+        let bars = self.here.bars.iter().zip(&self.mechanism.lengths);
+        let moments = bars.map(|(bar, length)| bar.u.cross(&bar.force).norm() * length / unit);
+        // A NaN is kept.
+        moments.enumerate().fold((0, 0.0), |best, next| if next.1 <= best.1 { best } else { next })
+    }
+}
+
+impl Model for Reduced {
+    fn slack(&self) -> f64 {
+        self.mechanism.slack()
+    }
+
+    fn norm(&self) -> f64 {
+        self.here.norm(&self.mechanism, self.unit)
+    }
+
+    fn largest(&self) -> f64 {
+        self.here.largest(&self.mechanism, &self.carried)
+    }
+
+    fn step(&mut self, damping: f64) -> f64 {
+        if !self.assembled {
+            self.matrix.assemble(&self.here, self.unit);
+            self.assembled = true;
+        }
+        let shift = Complex::new(0.0, damping);
+        self.matrix.solve_shifted(shift, shift);
+        self.matrix.predicted_norm()
+    }
+
+    fn attempt(&mut self) -> f64 {
+        self.advance(1.0);
+        self.there.norm(&self.mechanism, self.unit)
+    }
+
+    fn accept(&mut self) {
+        self.stay();
+        self.seat(self.lock_margin);
+    }
+}

@@ -1,0 +1,112 @@
+//! Settings of the solve.
+
+/// How a step is computed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+#[non_exhaustive]
+pub enum StepMethod {
+    /// From the reduced system, 3n + 3 unknowns: O(n) per step and no allocation.
+    #[default]
+    Reduced,
+    /// From the full system of the paper, 6n + 3(n+1) unknowns, by its singular value
+    /// decomposition: the readable form and the twin of the other in tests. Cubic in n.
+    Dense,
+}
+
+/// Settings of [`solve_from`](crate::solve_from), [`solve`](crate::solve()) and
+/// [`survey`](crate::survey()).
+///
+/// ```
+/// let settings = lagrange::Settings { max_iterations: 50, ..Default::default() };
+/// assert!(settings.validate().is_ok());
+/// let settings = lagrange::Settings { tolerance: f64::NAN, ..Default::default() };
+/// assert!(settings.validate().is_err());
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Settings {
+    /// A state has converged when its largest equation is at most this: moment rows relative to the
+    /// largest force times the mean length, constraint rows relative to the total length; the rows of
+    /// the centres are solved exactly.
+    ///
+    /// Default 1e-13, some hundred rounding errors. Range 1e-15 to 1e-3.
+    pub tolerance: f64,
+    /// Steps of one run of Newton's method.
+    ///
+    /// Default 200; from good seeds it takes 5, from random ones of three bars about 15. At least 1.
+    pub max_iterations: usize,
+    /// How many times the chain is let sink from the seed towards a rest, when Newton's method has
+    /// stopped at a local minimum of the residual that is no root; each time another run of Newton's
+    /// method follows. With 0 the seed has the only say.
+    ///
+    /// Default 8. Range 0 to 1000.
+    pub relaxations: usize,
+    /// Steps of one such sinking.
+    ///
+    /// Default 500. At least 1.
+    pub max_relaxation_steps: usize,
+    /// A bar is described anew ([`seat`](crate::seat)) when the length of its
+    /// [`spin`](crate::spin()) falls below this. With 0 the paper's angles are kept whatever happens,
+    /// and its false roots are met: they end in
+    /// [`SolveError::FalseRoot`](crate::SolveError::FalseRoot).
+    ///
+    /// Default 0.1. Range 0 to 0.9.
+    pub lock_margin: f64,
+    /// Up to this number of bars nullity and condition of a [`Solution`](crate::Solution) are those of
+    /// the full Jacobian; above, of the reduced one, which has the same nullity and is smaller. Both
+    /// come from a dense decomposition, cubic in n.
+    ///
+    /// Default 30.
+    pub full_spectrum_bars: usize,
+    /// How a step is computed. Default [`StepMethod::Reduced`].
+    pub method: StepMethod,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self {
+            tolerance: 1e-13,
+            max_iterations: 200,
+            relaxations: 8,
+            max_relaxation_steps: 500,
+            lock_margin: 0.1,
+            full_spectrum_bars: 30,
+            method: StepMethod::Reduced,
+        }
+    }
+}
+
+/// Why settings cannot be used.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[error("setting {name} = {value} is outside its range, {low} to {high}")]
+pub struct SettingsError {
+    /// The field.
+    pub name: &'static str,
+    /// Its value.
+    pub value: f64,
+    /// Smallest value allowed.
+    pub low: f64,
+    /// Largest value allowed.
+    pub high: f64,
+}
+
+impl Settings {
+    /// Check every range.
+    ///
+    /// # Errors
+    ///
+    /// [`SettingsError`] with the first field that is out of range; NaN is out of every range.
+    pub fn validate(&self) -> Result<(), SettingsError> {
+        const STEPS: f64 = 1e9;
+        for (name, value, low, high) in [
+            ("tolerance", self.tolerance, 1e-15, 1e-3),
+            ("max_iterations", self.max_iterations as f64, 1.0, STEPS),
+            ("relaxations", self.relaxations as f64, 0.0, 1000.0),
+            ("max_relaxation_steps", self.max_relaxation_steps as f64, 1.0, STEPS),
+            ("lock_margin", self.lock_margin, 0.0, 0.9),
+        ] {
+            if !(low..=high).contains(&value) {
+                return Err(SettingsError { name, value, low, high });
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,122 @@
+//! The answer: an equilibrium in observables, and in the paper's own unknowns.
+
+use model::{Equilibrium, Evidence, Reactions, SolverName, Vector};
+use nalgebra::{DVector, Vector3};
+
+use crate::dense::coordinates;
+use crate::mechanism::{Mechanism, Units};
+use crate::multipliers::all_multipliers;
+use crate::reduced::Reduced;
+use crate::solve::Effort;
+use crate::spectrum::{Spectrum, spectrum};
+use crate::stability::stability;
+use crate::{Settings, SolveError, relative_residual};
+
+/// An equilibrium of the full system. That it exists means converged.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Solution {
+    /// The equilibrium as everyone reads it.
+    pub equilibrium: Equilibrium,
+    /// Angles ψ, θ, φ of each bar, rad.
+    pub angles_rad: Vec<[f64; 3]>,
+    /// The coordinates of eq. (21): centre of weight (m, world frame) and angles (rad) of each bar.
+    pub q: DVector<f64>,
+    /// The multipliers in the paper's order, N: see
+    /// [`multipliers_n`](Equilibrium::multipliers_n).
+    pub lambda: DVector<f64>,
+    /// What it took.
+    pub effort: Effort,
+    /// Norm of the residual at each step of Newton's method, in the solver's units; a relaxation
+    /// shows as a jump.
+    pub residual_history: Vec<f64>,
+    /// Dimension of the null space of the Jacobian.
+    pub nullity: usize,
+    /// Largest singular value of the Jacobian divided by the smallest that is not zero.
+    pub condition: f64,
+}
+
+impl Solution {
+    /// Everything that follows from a root of the reduced system.
+    pub(crate) fn new(
+        problem: &model::Problem,
+        settings: &Settings,
+        reduced: &Reduced,
+        effort: Effort,
+        residual_history: Vec<f64>,
+    ) -> Result<Self, SolveError> {
+        let chain = problem.chain();
+        let units = Units::total(chain);
+        let (mechanism, point) = (Mechanism::si(chain), &reduced.here);
+        let q = coordinates(&mechanism, &point.angles);
+        let lambda = all_multipliers(&mechanism, &(point.pull * units.weight));
+        let residual = relative_residual(chain, &q, &lambda);
+        let spectrum = if chain.bars().len() <= settings.full_spectrum_bars {
+            spectrum(chain, &q, &lambda)?
+        } else {
+            Spectrum::reduced(&reduced.mechanism, point)?
+        };
+        let mut evidence = Evidence::converged(
+            residual,
+            "largest of the 6n + 3(n+1) equations, in mg, mgl and l",
+            effort.iterations,
+        );
+        evidence.nullity = spectrum.nullity;
+        evidence.condition = spectrum.condition;
+        evidence.solve_s = effort.solve_s;
+        let multipliers_n: Vec<Vector> =
+            lambda.as_slice().chunks_exact(3).map(|at| [at[0], at[1], at[2]]).collect();
+        let equilibrium = Equilibrium {
+            solver: SolverName::Lagrange,
+            energy_j: energy(reduced) * units.weight * units.length,
+            joints_m: joints(&mechanism, reduced),
+            reactions_n: Reactions {
+                start: multipliers_n[0],
+                end: multipliers_n[multipliers_n.len() - 1],
+            },
+            axial_n: point.bars.iter().map(|b| b.force.dot(&b.u) * units.weight).collect(),
+            stability: stability(&reduced.mechanism, point),
+            multipliers_n,
+            evidence,
+        };
+        Ok(Self {
+            equilibrium,
+            angles_rad: point.angles.clone(),
+            q,
+            lambda,
+            effort,
+            residual_history,
+            nullity: spectrum.nullity,
+            condition: spectrum.condition,
+        })
+    }
+}
+
+/// Potential energy from joint 0, $V = \sum m_i g\\,Z_{C_i}$, in units of the total weight and length.
+pub(crate) fn energy(reduced: &Reduced) -> f64 {
+    let mechanism = &reduced.mechanism;
+    let mut height = 0.0;
+    let bars = reduced.here.bars.iter().enumerate().map(|(i, bar)| {
+        let centre = height + mechanism.centres[i] * bar.u.z;
+        height += mechanism.lengths[i] * bar.u.z;
+        mechanism.weights[i] * centre
+    });
+    model::sum(bars)
+}
+
+/// Joints 0..=n, m, from the first anchor along the bars.
+fn joints(mechanism: &Mechanism, reduced: &Reduced) -> Vec<Vector> {
+    let mut joint = mechanism.start;
+    let bars = reduced.here.bars.iter().zip(&mechanism.lengths);
+    let ends = bars.map(|(bar, length)| {
+        joint += bar.u * *length;
+        joint.into()
+    });
+    std::iter::once(Vector::from(mechanism.start)).chain(ends).collect()
+}
+
+/// Horizontal position of joint 1 beside joint 0, in units of the total length: tells an equilibrium
+/// from its mirror image.
+pub(crate) fn first_offset(reduced: &Reduced) -> Vector3<f64> {
+    let first = reduced.here.bars[0].u * reduced.mechanism.lengths[0];
+    Vector3::new(first.x, first.y, 0.0)
+}

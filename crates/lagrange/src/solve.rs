@@ -1,0 +1,308 @@
+//! The solve, from a seed or from nothing.
+
+use std::time::Instant;
+
+use model::{InSpace, Problem, Stability};
+
+use crate::dense::Dense;
+use crate::mechanism::{Mechanism, Units};
+use crate::newton::{Finish, Model, newton};
+use crate::reduced::Reduced;
+use crate::relax::relax;
+use crate::seed::jolt;
+use crate::solution::{energy, first_offset};
+use crate::stability::stability;
+use crate::{Seed, Settings, Solution, SolveError, StepMethod};
+
+/// A moment this large, in units of the largest force times the mean length, on a state that solves
+/// the paper's equations is no rounding error: it is one that the equations do not see.
+const UNSEEN_MOMENT: f64 = 1e-9;
+/// False roots left in one run; each seats one bar, and a seated bar has no false root near by.
+const ESCAPES: usize = 16;
+/// The first relaxation hands over to Newton's method at this norm of the residual, ...
+const FIRST_HANDOVER: f64 = 1e-2;
+/// ... and each further one at a smaller, by this factor, ...
+const LATER_HANDOVER: f64 = 0.1;
+/// ... down to this.
+const LAST_HANDOVER: f64 = 1e-6;
+
+/// What a solve took.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Effort {
+    /// Steps of all kinds.
+    pub iterations: usize,
+    /// Steps of relaxation among them.
+    pub relaxation_steps: usize,
+    /// Relaxations: 0 when Newton's method got there from the seed.
+    pub relaxations: usize,
+    /// How many times a bar was described by other angles, away from the lock; see
+    /// [`seat`](crate::seat).
+    pub seatings: usize,
+    /// False roots of the paper's equations that were met and left.
+    pub false_roots: usize,
+    /// Wall-clock time, s.
+    pub solve_s: f64,
+}
+
+/// A solver with its memory, for many seeds of one problem: nothing is allocated from seed to seed
+/// (with [`StepMethod::Reduced`]).
+///
+/// ```
+/// use lagrange::{Seed, Settings, Solver};
+/// let problem = model::cases::paper();
+/// let mut solver = Solver::new(&problem, &Settings::default())?;
+/// let found = solver.solve(&Seed::planar(&[0.3, 0.7, -1.3]))?;
+/// // V of the paper counts from 6 mgl lower; here mgl = 9.80665 J.
+/// assert!((found.energy_j() / 9.80665 + 6.0 - 2.335_468_651_999_305).abs() < 1e-12);
+/// assert!(found.effort().iterations < 10);
+/// # Ok::<(), lagrange::SolveError>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct Solver<'p> {
+    problem: &'p Problem,
+    settings: Settings,
+    units: Units,
+    reduced: Reduced,
+    jolted: Vec<[f64; 3]>,
+    history: Vec<f64>,
+    effort: Effort,
+}
+
+/// A converged state in the memory of its solver.
+#[derive(Debug, Clone, Copy)]
+pub struct Outcome<'s> {
+    solver: &'s Solver<'s>,
+}
+
+impl<'p> Solver<'p> {
+    /// A solver for one problem.
+    ///
+    /// # Errors
+    ///
+    /// [`SolveError::Settings`] when a setting is out of range.
+    pub fn new(problem: &'p Problem, settings: &Settings) -> Result<Self, SolveError> {
+        settings.validate()?;
+        let chain = problem.chain();
+        let units = Units::total(chain);
+        Ok(Self {
+            problem,
+            settings: *settings,
+            units,
+            reduced: Reduced::new(Mechanism::scaled(chain, units), settings.lock_margin),
+            jolted: vec![[0.0; 3]; chain.bars().len()],
+            history: Vec::with_capacity(2 * settings.max_iterations.min(1000)),
+            effort: Effort::default(),
+        })
+    }
+
+    /// The equilibrium that the seed leads to, whatever its stability: Newton's method from the seed,
+    /// and if that stops at a local minimum of the residual, from where the chain has sunk to.
+    ///
+    /// # Errors
+    ///
+    /// [`SolveError`]: a seed that does not fit, or no convergence.
+    pub fn solve(&mut self, seed: &Seed) -> Result<Outcome<'_>, SolveError> {
+        let clock = Instant::now();
+        seed.check(self.reduced.carried.len())?;
+        self.reset();
+        self.reduced.start(seed.angles());
+        let mut finish = self.newton()?;
+        while finish == Finish::Stagnated && self.effort.relaxations < self.settings.relaxations {
+            self.sink(seed);
+            finish = self.newton()?;
+        }
+        self.effort.solve_s = clock.elapsed().as_secs_f64();
+        match finish {
+            Finish::Converged => Ok(Outcome { solver: self }),
+            Finish::Stagnated => Err(self.stagnated()),
+        }
+    }
+
+    /// The stable equilibrium, from no guess: an arc between the anchors is let sink and then solved,
+    /// again with a jolt while the result is unstable.
+    ///
+    /// For a chain, stable in space means that no configuration has less energy: the stress matrix of
+    /// a stable equilibrium is positive semidefinite.
+    ///
+    /// # Errors
+    ///
+    /// [`SolveError::Unstable`] or [`SolveError::Stagnated`] when nothing stable is found.
+    pub fn hang(&mut self) -> Result<Outcome<'_>, SolveError> {
+        let clock = Instant::now();
+        let seed = Seed::arc(self.problem);
+        self.reset();
+        let (mut found, mut last) = (0, None);
+        loop {
+            self.sink(&seed);
+            let finish = self.newton()?;
+            self.effort.solve_s = clock.elapsed().as_secs_f64();
+            if finish == Finish::Converged {
+                let stability = stability(&self.reduced.mechanism, &self.reduced.here);
+                if stability.in_space == InSpace::Stable {
+                    return Ok(Outcome { solver: self });
+                }
+                found += 1;
+                last = Some(stability.index_in_space);
+            }
+            if self.effort.relaxations > self.settings.relaxations {
+                let unstable = last.map(|index| SolveError::Unstable { found, index });
+                return Err(unstable.unwrap_or_else(|| self.stagnated()));
+            }
+        }
+    }
+
+    fn reset(&mut self) {
+        self.history.clear();
+        self.effort = Effort::default();
+        self.reduced.seatings = 0;
+    }
+
+    /// One run of Newton's method, past false roots.
+    fn newton(&mut self) -> Result<Finish, SolveError> {
+        for _ in 0..ESCAPES {
+            let before = self.history.len();
+            self.reduced.choose_unit();
+            let finish = match self.settings.method {
+                StepMethod::Reduced => newton(&mut self.reduced, &self.settings, &mut self.history),
+                StepMethod::Dense => self.newton_dense(),
+            };
+            self.effort.iterations += self.history.len() - before;
+            self.effort.seatings = self.reduced.seatings;
+            if finish == Finish::Stagnated {
+                return Ok(finish);
+            }
+            // The equations hold. Do the moments?
+            let (bar, moment) = self.reduced.largest_moment();
+            if moment <= UNSEEN_MOMENT {
+                return Ok(finish);
+            }
+            if self.settings.lock_margin <= 0.0 {
+                return Err(SolveError::FalseRoot { bar: bar + 1, moment });
+            }
+            self.effort.false_roots += 1;
+            self.reduced.seat(SEAT_ALL);
+        }
+        Ok(Finish::Stagnated)
+    }
+
+    /// One run on the full system, from the reduced one's point and back to it.
+    fn newton_dense(&mut self) -> Finish {
+        let mechanism = self.reduced.mechanism.clone();
+        let mut dense = Dense::new(&mechanism, &self.reduced.here);
+        let finish = newton(&mut dense, &self.settings, &mut self.history);
+        let pull = dense.pull();
+        self.reduced.resume(dense.angles().into_iter(), pull);
+        finish
+    }
+
+    /// Let the chain sink from the seed, jolted when this is not the first time.
+    fn sink(&mut self, seed: &Seed) {
+        let round = self.effort.relaxations;
+        self.jolted.copy_from_slice(seed.angles());
+        if round > 0 {
+            jolt(&mut self.jolted, round);
+        }
+        self.reduced.start(&self.jolted);
+        let power = i32::try_from(round).unwrap_or(i32::MAX);
+        let handover = (FIRST_HANDOVER * LATER_HANDOVER.powi(power)).max(LAST_HANDOVER);
+        let steps = relax(&mut self.reduced, handover, self.settings.max_relaxation_steps);
+        self.effort.relaxations += 1;
+        self.effort.relaxation_steps += steps;
+        self.effort.iterations += steps;
+    }
+
+    fn stagnated(&self) -> SolveError {
+        SolveError::Stagnated {
+            residual: self.reduced.norm(),
+            iterations: self.effort.iterations,
+            relaxations: self.effort.relaxations,
+        }
+    }
+}
+
+/// A margin that every bar off its best angles falls below.
+const SEAT_ALL: f64 = 1.0;
+
+impl Outcome<'_> {
+    /// Potential energy from the height of joint 0, J.
+    #[must_use]
+    pub fn energy_j(&self) -> f64 {
+        energy(&self.solver.reduced) * self.solver.units.weight * self.solver.units.length
+    }
+
+    /// The largest equation, in the units of [`Settings::tolerance`].
+    #[must_use]
+    pub fn residual(&self) -> f64 {
+        self.solver.reduced.largest()
+    }
+
+    /// What it took.
+    #[must_use]
+    pub fn effort(&self) -> Effort {
+        self.solver.effort
+    }
+
+    /// Second-order behaviour.
+    #[must_use]
+    pub fn stability(&self) -> Stability {
+        stability(&self.solver.reduced.mechanism, &self.solver.reduced.here)
+    }
+
+    /// Horizontal vector from joint 0 to joint 1, m, which tells an equilibrium from its mirror image.
+    #[must_use]
+    pub fn first_offset_m(&self) -> [f64; 2] {
+        let offset = first_offset(&self.solver.reduced) * self.solver.units.length;
+        [offset.x, offset.y]
+    }
+
+    /// The whole answer. The singular values behind its nullity and condition cost far more than the
+    /// solve.
+    ///
+    /// # Errors
+    ///
+    /// [`SolveError::Spectrum`] when their iteration does not converge.
+    pub fn solution(&self) -> Result<Solution, SolveError> {
+        let Solver { problem, settings, reduced, effort, history, .. } = self.solver;
+        Solution::new(problem, settings, reduced, *effort, history.clone())
+    }
+}
+
+/// The equilibrium that a seed leads to, stable or not.
+///
+/// # Errors
+///
+/// [`SolveError`]; `Ok` means converged.
+///
+/// ```
+/// use lagrange::{Seed, Settings, solve_from};
+/// let problem = model::cases::paper();
+/// // Upside down: the maximum in the plane, which no minimiser finds.
+/// let found = solve_from(&problem, &Seed::planar(&[1.3, -0.7, -0.3]), &Settings::default())?;
+/// assert_eq!(found.equilibrium.stability.in_plane, model::InPlane::Maximum);
+/// assert!((found.angles_rad[0][0] + found.angles_rad[0][2]).to_degrees() - 73.92058879223134 < 1e-9);
+/// # Ok::<(), lagrange::SolveError>(())
+/// ```
+pub fn solve_from(
+    problem: &Problem,
+    seed: &Seed,
+    settings: &Settings,
+) -> Result<Solution, SolveError> {
+    Solver::new(problem, settings)?.solve(seed)?.solution()
+}
+
+/// The stable equilibrium, from no guess.
+///
+/// # Errors
+///
+/// [`SolveError`]; `Ok` means converged and stable.
+///
+/// ```
+/// let found = lagrange::solve(&model::cases::paper(), &lagrange::Settings::default())?;
+/// // The two anchors carry the three bars, eq. (40).
+/// let reactions = found.equilibrium.reactions_n;
+/// assert!((reactions.start[2] + reactions.end[2] - 3.0 * 9.80665).abs() < 1e-12);
+/// # Ok::<(), lagrange::SolveError>(())
+/// ```
+pub fn solve(problem: &Problem, settings: &Settings) -> Result<Solution, SolveError> {
+    Solver::new(problem, settings)?.hang()?.solution()
+}

@@ -1,0 +1,90 @@
+//! Second-order behaviour of an equilibrium, from the signs of its axial forces and two small sums.
+//!
+//! Turn bar i by a small angle in any direction: its vector $l_i u_i$ moves across itself, and the
+//! second derivative of the Lagrangian is $l_i T_i$ with the axial force $T_i = F_i \cdot u_i$,
+//! whichever the direction. In its vertical plane (every equilibrium of a hanging chain has one, see
+//! below) the motions split into those in the plane, $\sum l_i a_i t_i = 0$ with $t_i \perp u_i$ in
+//! the plane, and those out of it, $\sum l_i b_i = 0$. On each, the quadratic form
+//! $\sum l_i T_i a_i^2$ is diagonal under m linear conditions (m = 2 and 1), and Haynsworth's inertia
+//! additivity for its bordered matrix gives the index:
+//!
+//! $$ \mathrm{index} = \\#\\{T_i < 0\\} + \\#\\{\text{positive eigenvalues of } S\\} - m, \qquad
+//!    S_\text{in} = \sum \frac{l_i}{T_i} t_i t_i^T, \quad S_\text{out} = \sum \frac{l_i}{T_i}. $$
+//!
+//! Since $u_i = F_i/T_i$ and all $F_i$ have the horizontal part H of the pull,
+//! $S_\text{out} = D_h / H$ with the horizontal span $D_h$: no sum, no cancellation. It is positive when
+//! the pull on the first anchor points towards the other, and with vertical anchors it is zero, the
+//! neutral turn about them.
+//!
+//! The plane: bar i is parallel to $F_i = p_0 + c_i e_z$, so all bars lie in the plane of $p_0$ and
+//! $e_z$.
+//!
+//! # References
+//!
+//! E. V. Haynsworth, Linear Algebra Appl. 1 (1968) 73-81, doi:10.1016/0024-3795(68)90050-5
+
+use model::{InPlane, InSpace, Stability};
+use nalgebra::{Matrix2, Vector2, Vector3};
+
+use crate::mechanism::Mechanism;
+use crate::point::Point;
+
+/// An eigenvalue of $S_\text{in}$ this small beside $\sum l_i/|T_i|$ is zero: the state is known to
+/// about 1e-13, divided by the smallest axial forces met (1e-3 of the largest).
+const ZERO: f64 = 1e-9;
+/// Anchors this near to one vertical, relative to the total length, are on it.
+const ON_ONE_VERTICAL: f64 = 1e-12;
+
+/// Stability of the equilibrium at `point`, a root of the reduced system.
+pub(crate) fn stability(mechanism: &Mechanism, point: &Point) -> Stability {
+    let span = Vector2::new(mechanism.end.x, mechanism.end.y);
+    let pull = Vector2::new(point.pull.x, point.pull.y);
+    let normal = plane_normal(&span, &pull);
+    let bars = || point.bars.iter().zip(&mechanism.lengths);
+    let tension = |bar: &crate::point::BarAt| bar.force.dot(&bar.u);
+
+    let compressed = bars().filter(|(bar, _)| tension(bar) < 0.0).count();
+    let mut sum = Matrix2::zeros();
+    let mut size = 0.0;
+    for (bar, length) in bars() {
+        // A bar without force counts as barely stretched: with barely compressed the index is the
+        // same, since one more negative term meets one less positive eigenvalue.
+        let force = tension(bar);
+        let force = if force.abs() > f64::EPSILON { force } else { f64::EPSILON };
+        let across = normal.cross(&bar.u);
+        let level = Vector3::new(-normal.y, normal.x, 0.0);
+        let across = Vector2::new(across.dot(&level), across.z);
+        sum += across * across.transpose() * (length / force);
+        size += (length / force).abs();
+    }
+    let eigenvalues = sum.symmetric_eigenvalues();
+    let degenerate = eigenvalues.iter().any(|value| value.abs() <= ZERO * size);
+    let positive = eigenvalues.iter().filter(|value| **value > ZERO * size).count();
+    let index_in_plane = (compressed + positive).saturating_sub(2);
+
+    let towards = span.norm() > ON_ONE_VERTICAL && span.dot(&pull) > 0.0;
+    let index_out_of_plane = (compressed + usize::from(towards)).saturating_sub(1);
+
+    let index_in_space = index_in_plane + index_out_of_plane;
+    let freedoms = mechanism.bars().saturating_sub(2);
+    Stability {
+        in_plane: match index_in_plane {
+            _ if degenerate => InPlane::Degenerate,
+            0 => InPlane::Minimum,
+            index if index == freedoms => InPlane::Maximum,
+            _ => InPlane::Saddle,
+        },
+        index_in_plane,
+        in_space: if index_in_space == 0 { InSpace::Stable } else { InSpace::Unstable },
+        index_in_space,
+    }
+}
+
+/// Unit normal of the vertical plane, horizontal.
+fn plane_normal(span: &Vector2<f64>, pull: &Vector2<f64>) -> Vector3<f64> {
+    // The pull lies in the plane too, and serves when the anchors are on one vertical. With neither,
+    // all bars are vertical, and any plane is as good as another: the paper's, OYZ.
+    let level = if span.norm() > ON_ONE_VERTICAL { span } else { pull };
+    let level = level.try_normalize(f64::EPSILON).unwrap_or_else(Vector2::y);
+    Vector3::new(level.y, -level.x, 0.0)
+}
