@@ -1,0 +1,125 @@
+//! Random seeds: how many converge, to what, and the two forms of the method against each other.
+
+mod common;
+
+use common::{MG, distance, planar_seed, problem, spatial_seed, stream};
+use lagrange::{Seed, Settings, SolveError, Solver, StepMethod, solve_from, survey};
+use model::cases;
+
+const SEEDS: usize = 2000;
+/// Rounding of two methods at one root, relative to the length. Worst measured: 9e-16.
+const SAME: f64 = 1e-14;
+
+/// The bar is 95 %; the method is held to all of them.
+#[test]
+fn every_seed_of_the_example_converges_to_one_of_the_four() {
+    for planar in [false, true] {
+        let seeds = (0..SEEDS).map(|index| {
+            let mut random = stream(51, index);
+            if planar { planar_seed(&mut random, 3) } else { spatial_seed(&mut random, 3) }
+        });
+        let survey = survey(&cases::paper(), seeds, &Settings::default()).unwrap();
+        assert_eq!((survey.seeds, survey.converged), (SEEDS, SEEDS), "lost {:?}", survey.lost);
+        assert_eq!(survey.iterations.iter().sum::<usize>(), SEEDS);
+        // E1 and E2, each with its mirror image, and nothing else.
+        let energies: Vec<f64> = survey.groups.iter().map(|g| g.energy_j / MG + 6.0).collect();
+        assert_eq!(energies.len(), 2, "{energies:?}");
+        assert!((energies[0] - 2.335_468_651_999_305).abs() < 1e-12);
+        assert!((energies[1] - 3.664_531_348_000_695).abs() < 1e-12);
+        for group in &survey.groups {
+            let side = group.towards_y as f64 / group.count as f64;
+            assert!((side - 0.5).abs() < 0.05, "mirror images at {side}");
+        }
+        // Frozen work, a band because sines differ by a unit in the last place between machines.
+        let median = survey.iterations_quantile(0.5);
+        assert!((11..=16).contains(&median), "median {median}");
+        assert!(survey.iterations_quantile(1.0) < 150);
+        let direct = survey.direct as f64 / SEEDS as f64;
+        let expected = if planar { 0.80 } else { 0.92 };
+        assert!((direct - expected).abs() < 0.04, "{direct} without relaxation");
+    }
+}
+
+#[test]
+fn every_seed_of_random_chains_converges() {
+    for bars in 2..=10 {
+        for index in 0..10 {
+            let mut random = stream(52, 100 * bars + index);
+            let problem = problem(&mut random, bars, index % 4 == 0);
+            let seeds: Vec<Seed> = (0..20).map(|_| spatial_seed(&mut random, bars)).collect();
+            let survey = survey(&problem, seeds, &Settings::default()).unwrap();
+            assert_eq!(survey.converged, 20, "n = {bars}, chain {index}, {:?}", survey.lost);
+        }
+    }
+}
+
+/// The same seed does not lead both forms to the same equilibrium always (their steps differ far from a
+/// solution), but both know the same equilibria, and started at one's answer the other stays.
+#[test]
+fn dense_and_reduced_know_the_same_equilibria() {
+    let dense = Settings { method: StepMethod::Dense, ..Default::default() };
+    for index in 0..40 {
+        let mut random = stream(53, index);
+        let bars = 2 + index % 4;
+        let problem = problem(&mut random, bars, index % 3 == 0);
+        let seed = spatial_seed(&mut random, bars);
+        let from_dense = solve_from(&problem, &seed, &dense).unwrap();
+        let again = Seed::spatial(from_dense.angles_rad.clone());
+        let from_reduced = solve_from(&problem, &again, &Settings::default()).unwrap();
+        assert!(from_reduced.effort.iterations <= 3, "{:?}", from_reduced.effort);
+        let (a, b) = (&from_dense.equilibrium, &from_reduced.equilibrium);
+        let length = problem.chain().total_length_m();
+        // About one vertical the chain may turn: compare heights and distances from it.
+        let level = |joint: &[f64; 3]| [joint[0].hypot(joint[1]), 0.0, joint[2]];
+        let (levels_a, levels_b): (Vec<_>, Vec<_>) =
+            (a.joints_m.iter().map(level).collect(), b.joints_m.iter().map(level).collect());
+        assert!(distance(&levels_a, &levels_b) < SAME * length);
+        if index % 3 > 0 {
+            assert!(distance(&a.joints_m, &b.joints_m) < SAME * length);
+        }
+        assert_eq!(a.stability, b.stability);
+        assert_eq!(from_dense.nullity, from_reduced.nullity);
+    }
+}
+
+#[test]
+fn the_same_seed_gives_the_same_bits() {
+    let problem = cases::paper();
+    let mut solver = Solver::new(&problem, &Settings::default()).unwrap();
+    let seeds: Vec<Seed> = (0..50).map(|index| spatial_seed(&mut stream(54, index), 3)).collect();
+    let run = |solver: &mut Solver<'_>, seed: &Seed| {
+        let found = solver.solve(seed).unwrap().solution().unwrap();
+        (found.equilibrium.joints_m, found.lambda, found.effort.iterations)
+    };
+    let first: Vec<_> = seeds.iter().map(|seed| run(&mut solver, seed)).collect();
+    // Backwards: what was solved before leaves no trace.
+    for (seed, expected) in seeds.iter().zip(&first).rev() {
+        assert!(run(&mut solver, seed) == *expected);
+    }
+}
+
+#[test]
+fn seeds_that_do_not_fit_are_refused() {
+    let problem = cases::paper();
+    let solve = |seed: &Seed| solve_from(&problem, seed, &Settings::default()).unwrap_err();
+    assert_eq!(solve(&Seed::planar(&[0.0; 4])), SolveError::SeedLength { expected: 3, got: 4 });
+    let bad = solve(&Seed::planar(&[0.0, f64::INFINITY, 0.0]));
+    assert_eq!(bad, SolveError::SeedNotFinite { bar: 2, angle_rad: f64::INFINITY });
+    let bad = Settings { tolerance: 0.0, ..Default::default() };
+    assert!(matches!(
+        solve_from(&problem, &Seed::planar(&[0.0; 3]), &bad),
+        Err(SolveError::Settings(_))
+    ));
+    let out = survey(&problem, [Seed::planar(&[0.0])], &Settings::default()).unwrap();
+    assert_eq!((out.converged, out.rejected, out.lost), (0, 1, vec![0]));
+}
+
+/// A straight chain is the hardest seed: to first order no turn changes the distance of its ends.
+#[test]
+fn straight_seeds_converge() {
+    for phi in [[0.0; 3], [std::f64::consts::PI; 3], [0.0, 0.0, std::f64::consts::PI]] {
+        let found = solve_from(&cases::paper(), &Seed::planar(&phi), &Settings::default()).unwrap();
+        assert!(found.effort.relaxations > 0, "{:?}", found.effort);
+        assert_eq!(found.nullity, 4);
+    }
+}
