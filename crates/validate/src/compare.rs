@@ -165,8 +165,8 @@ fn differences(chain: &Chain, answers: &[Equilibrium; 2], tolerances: &Tolerance
     let stored = units.rounding_m / shortest_m;
     let mut reasons = Vec::new();
     let mut budget = |what: &str, value: f64, limit: f64| {
-        // Written so that NaN is over every budget.
-        if !(value <= limit) {
+        // NaN is over every budget.
+        if value.is_nan() || value > limit {
             reasons.push(format!("{what}: {value:.2e} is over its budget of {limit:.2e}"));
         }
     };
