@@ -82,12 +82,22 @@ pub enum Error {
         /// The reason, in argmin's words.
         reason: String,
     },
-    /// Occurs when a displaced anchor, needed for a difference quotient, makes an impossible chain.
-    #[error("the chain with its end anchor displaced by {step_m:e} m is no problem: {reason}")]
-    Displaced {
-        /// Length of the displacement.
-        step_m: f64,
-        /// What the model says.
-        reason: String,
-    },
+}
+
+impl Error {
+    /// The kind of the error in a few words, for counting.
+    #[must_use]
+    pub fn reason(&self) -> &'static str {
+        match self {
+            Self::Setting { .. } => "setting out of range",
+            Self::SeedSize { .. } | Self::SeedDirection { .. } | Self::SeedAngle { .. } => {
+                "bad seed"
+            }
+            Self::NotClosed { .. } => "not closed",
+            Self::IterationLimit { .. } => "iteration limit",
+            Self::Stalled { .. } => "stalled",
+            Self::NotFinite { .. } => "not finite",
+            Self::Ended { .. } => "ended by argmin",
+        }
+    }
 }

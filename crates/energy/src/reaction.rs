@@ -63,7 +63,7 @@ pub(crate) fn reactions(forces: &[Vector]) -> Reactions {
 
 /// Largest displacement of the end anchor over the length that the chain has to spare: the least
 /// energy varies over that length.
-const STEP: f64 = 1.0 / 64.0;
+const STEP: f64 = 1.0 / 256.0;
 
 /// Central differences, each with half the step of the one before. Three of them remove the errors
 /// of order two and four.

@@ -1,0 +1,6 @@
+//! Tests of the crate from outside.
+
+mod chains;
+mod paper;
+mod physics;
+mod support;
