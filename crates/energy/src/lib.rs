@@ -28,7 +28,7 @@
 //! by bar, projected on the three rows of the closure. One pass over the bars eliminates them; what
 //! remains has size three (four about vertical anchors, where the turn of the whole chain is taken
 //! out). So an iteration costs O(n), and so do the inertia, the Morse index, and the way out of a
-//! saddle. Iterates are closed chains, the energy never rises, and the stop is on the projected gradient
+//! saddle. Iterates are closed chains, the energy never rises beyond its rounding, and the stop is on the projected gradient
 //! and the closure alone. `Ok` means converged to a local minimum; in space that is the global one.
 //!
 //! From no guess a long chain is first solved with its bars held parallel in groups of eight, and so on

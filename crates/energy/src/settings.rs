@@ -9,7 +9,8 @@ pub enum Motion {
     #[default]
     Space,
     /// Motions in the vertical plane of the anchors (with anchors on one vertical: in the plane
-    /// *OYZ*, the paper's choice). Here a chain may have several local minima.
+    /// *OYZ*, the paper's choice). Here a chain may have several local minima,
+    /// and one that can also close on a straight line may get stuck there, which is an error.
     Plane,
 }
 
@@ -25,7 +26,9 @@ pub struct Settings {
     /// Largest force across a bar that counts as none: the largest over the bars of
     /// `|(I - u uᵀ) a_i|`, `a_i` being the gradient of the Lagrangian by the direction of bar *i*
     /// over its length, in units of the total weight or, where the chain pulls harder than it
-    /// weighs, of the largest `|a_i|`. Default 1e-12; from 1e-15 to 1e-3.
+    /// weighs, of the largest `|a_i|`. Where rounding leaves more, the run ends at the rounding and
+    /// says so in the residual: bars at an angle `a` to one common line hold the closure no better
+    /// than a rounding over `a`. Default 1e-12; from 1e-15 to 1e-3.
     pub gradient_tolerance: f64,
     /// Largest distance of the last joint from the end anchor, in units of the total length.
     /// Default 1e-13; from 1e-15 to 1e-6.

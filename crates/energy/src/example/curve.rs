@@ -56,9 +56,9 @@ pub fn beta(theta_rad: f64, alpha_rad: f64) -> f64 {
 ///
 /// ```
 /// use energy::example::{Branch, slope};
-/// // What the paper prints as its second equilibrium lies on a slope of sin(60 deg).
-/// let at_x = slope(0.001, Branch::FourthQuadrant);
-/// assert!((at_x - 0.866).abs() < 1e-3);
+/// // What the paper prints as its second equilibrium, theta = 0.001 rad, lies on a slope ...
+/// assert!((slope(0.001, Branch::FourthQuadrant) - 0.867_521_5).abs() < 1e-7);
+/// // ... that is sin(60 deg) where the scan begins, and goes on beyond.
 /// assert!((slope(0.0, Branch::FourthQuadrant) - 0.75_f64.sqrt()).abs() < 1e-14);
 /// ```
 #[must_use]

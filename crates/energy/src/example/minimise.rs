@@ -35,7 +35,7 @@ pub struct ExampleMinimum {
 
 /// Minimise (vi) over theta and alpha on the closure curve, from any seed.
 ///
-/// The curve is closed and has two minima, E1 and its mirror image (FACTS: both global), and two maxima
+/// The curve is closed and has two minima, E1 and its mirror image, both global, and two maxima
 /// between them; a seed goes to the minimum on its side. `gradient_tolerance` of the settings is in
 /// `mgl` here; `motion` means nothing.
 ///
@@ -311,7 +311,7 @@ impl Solver<Example, Iterate> for CurveNewton {
 mod tests {
     use super::*;
 
-    /// E1 and its mirror image, deg and mgl: 40-digit root finding (FACTS).
+    /// E1 and its mirror image, deg and mgl: 40-digit root finding (external).
     const E1_DEG: [f64; 3] = [19.694_867_976_133_02, 38.599_136_184_451_89, -73.920_588_792_231_34];
     const E1_MGL: f64 = 2.335_468_651_999_305;
 
@@ -339,7 +339,7 @@ mod tests {
 
     #[test]
     fn a_maximum_is_left() {
-        // E2, the other planar equilibrium (FACTS).
+        // E2, the other planar equilibrium: 40-digit root finding (external).
         let e2 = [73.920_588_792_231_34_f64, -38.599_136_184_451_89].map(f64::to_radians);
         assert!(Along::at(e2).gradient.abs() < 1e-14 && Along::at(e2).curvature < 0.0);
         let found = minimise(e2[0], e2[1], &Settings::default()).unwrap();

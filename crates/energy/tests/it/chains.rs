@@ -16,7 +16,7 @@ fn check(name: &str, problem: &Problem) -> energy::Solution {
     assert!(solution.work.gradient <= 1e-12 && solution.work.gap <= 1e-13, "{name}");
     assert_eq!(found.stability.in_space, InSpace::Stable, "{name}");
     assert_eq!(found.stability.index_in_space, 0, "{name}");
-    // FACTS: at most one bar of a stable chain is pushed.
+    // Two pushed bars could turn about each other and lower the chain: at most one in a stable one.
     let weight = problem.chain().total_mass_kg() * problem.chain().gravity_m_s2();
     assert!(found.axial_n.iter().filter(|n| **n < -1e-12 * weight).count() <= 1, "{name}");
     let finite = found.evidence.condition.is_finite() && found.energy_j.is_finite();
@@ -174,7 +174,7 @@ fn the_reaction_is_the_derivative_of_the_least_energy_for_any_chain() {
 
 #[test]
 fn long_chains_take_no_more_iterations_than_short_ones() {
-    for n in [10, 100, 1_000, 10_000] {
+    for n in [10, 100, 1_000, 10_000, 100_000] {
         let span = f64::hypot(1.0, 0.2);
         let problem = problem(&equal(n, 1.5 * span), [1.0, 0.0, -0.2], 9.81);
         let solution = check(&format!("{n} bars"), &problem);

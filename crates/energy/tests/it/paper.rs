@@ -1,4 +1,4 @@
-//! The paper's example by the spatial minimiser, against the reference values of FACTS.md (40-digit
+//! The paper's example by the spatial minimiser, against reference values (40-digit
 //! root finding, kind "external").
 
 use crate::support::{difference, random_seed, rng, unbalanced};
