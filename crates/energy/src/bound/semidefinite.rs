@@ -50,6 +50,9 @@ impl SemidefiniteBound {
 /// find the configuration that attains the bound. See the [module](super) for the programme and why
 /// it is tight.
 ///
+/// The work grows with the number of bars, and so does the solver's loss of digits: up to a thousand
+/// bars or so it knows the signs of the forces, which is all that the rest needs.
+///
 /// The solver's judgement of itself is not what the answer rests on. If it ends without a solution
 /// (almost solved is not solved) there is an answer all the same when its last iterate leads to a
 /// configuration whose energy is that of the rigorous bound; `evidence.status` tells.
@@ -84,10 +87,10 @@ pub fn semidefinite(
     let raw = stress.pull(&data);
     let mut proof = certificate(&data, &plane, &signed, raw, Some(&stress.axial));
     let mut optimiser: Option<([f64; 2], f64)> = None;
-    // The programme knows the square of the horizontal pull, and not well when it is small; no bar
-    // carries less than the horizontal pull.
+    // The programme knows the square of the horizontal pull, and not well when it is small. No bar
+    // carries less than that, and a chain may hang straight down.
     let least = stress.axial.iter().fold(f64::INFINITY, |least, f| f.abs().min(least));
-    for across in [raw[0], -raw[0], least, -least] {
+    for across in [raw[0], -raw[0], least, -least, 0.0] {
         let pull = signed.close([across, raw[1]]);
         let attempt = certificate(&data, &plane, &signed, pull.q, None);
         if better(attempt, proof) {
