@@ -130,3 +130,27 @@ pub(crate) fn constraint_matrix_of<T: RealField + Copy>(
     }
     B
 }
+
+/// Generalised forces of the constraints, $\mathbf{B}^T\\{\lambda\\}$, bar by bar and without forming
+/// the matrix, which is almost empty.
+pub(crate) fn constraint_forces_of<T: RealField + Copy>(
+    mechanism: &Mechanism,
+    q: &DVector<T>,
+    lambda: &DVector<T>,
+) -> DVector<T> {
+    assert_eq!(q.len(), mechanism.coordinates(), "q holds six coordinates of each bar");
+    let mut forces = DVector::zeros(mechanism.coordinates());
+    for bar in 0..mechanism.bars() {
+        let (_, [psi, theta, phi]) = bar_coordinates(q, bar);
+        let (mut force, mut lever) = (Vector3::zeros(), Vector3::zeros());
+        for entry in entries(mechanism, bar) {
+            let at_joint = lambda.fixed_rows::<3>(3 * entry.joint);
+            force += at_joint * convert::<f64, T>(entry.of_centre);
+            lever += at_joint * convert::<f64, T>(entry.of_direction);
+        }
+        let moment = direction_gradient(psi, theta, phi).tr_mul(&lever);
+        forces.fixed_rows_mut::<3>(PER_BAR * bar).copy_from(&force);
+        forces.fixed_rows_mut::<3>(PER_BAR * bar + 3).copy_from(&moment);
+    }
+    forces
+}

@@ -48,10 +48,6 @@ impl<'a> Dense<'a> {
 }
 
 impl Model for Dense<'_> {
-    fn slack(&self) -> f64 {
-        self.mechanism.slack()
-    }
-
     fn norm(&self) -> f64 {
         self.residual.norm()
     }

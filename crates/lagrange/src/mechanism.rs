@@ -1,7 +1,7 @@
 //! The numbers of a chain that the equations need, in SI units or in the chain's own.
 
 use model::Chain;
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 
 /// Lengths, centres, weights and anchors of a chain in some system of units.
 #[derive(Debug, Clone)]
@@ -70,10 +70,20 @@ impl Mechanism {
         scaled
     }
 
-    /// How far the chain is from straight: the part of its length that the span does not need.
-    pub fn slack(&self) -> f64 {
-        let length: f64 = self.lengths.iter().sum();
-        (1.0 - (self.end - self.start).norm() / length).max(f64::EPSILON)
+    /// The metric in which the gap at the last anchor and the pull are measured: along the chord
+    /// $1/\sqrt{s}$ times as finely as across, with s the part of the length that the span does not
+    /// need.
+    ///
+    /// A nearly straight chain has slopes of order $\sqrt s$ and a pull of order $1/\sqrt s$, and only a
+    /// gap of order s can be closed along the chord, one of order $\sqrt s$ across. In this metric its
+    /// equations are as well conditioned as those of a slack one.
+    pub fn chord_metric(&self) -> Matrix3<f64> {
+        let chord = self.end - self.start;
+        let slack = 1.0 - chord.norm() / self.lengths.iter().sum::<f64>();
+        let fine = 1.0 / slack.clamp(f64::EPSILON, 1.0).sqrt();
+        chord.try_normalize(0.0).map_or(Matrix3::identity(), |chord| {
+            Matrix3::identity() + chord * chord.transpose() * (fine - 1.0)
+        })
     }
 
     /// Number of bars n.

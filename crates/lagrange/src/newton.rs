@@ -4,9 +4,6 @@ use crate::Settings;
 
 /// A system of equations at a point, with a damped step to the next.
 pub(crate) trait Model {
-    /// How far the chain is from straight, relative to its length: the scale of the smallest
-    /// singular values that are not zero.
-    fn slack(&self) -> f64;
     /// Norm of the residual at the point.
     fn norm(&self) -> f64;
     /// Largest equation, in the units of [`Settings::tolerance`].
@@ -40,9 +37,9 @@ const GOOD: f64 = 0.75;
 const FACTOR: f64 = 4.0;
 /// Least damping in units of the residual: keeps quadratic convergence and bounds the way back up.
 const LEAST_FACTOR: f64 = 1e-3;
-/// Least damping of all, in units of [`Model::slack`]: the square of its ratio to the smallest non-zero
-/// singular values (1e-4 of the slack) is at the rounding error, and beside the zero ones, known to
-/// 1e-16, it is large: the solution does not drift along them.
+/// Least damping of all: the square of its ratio to the smallest non-zero singular values (1e-3 and
+/// more) is at the rounding error, and beside the zero ones, known to 1e-16, it is large, so that the
+/// solution does not drift along them.
 const LEAST_DAMPING: f64 = 1e-9;
 /// A run has stagnated when the residual has lost less than `PROGRESS` in `PATIENCE` steps.
 const PATIENCE: usize = 15;
@@ -58,11 +55,10 @@ pub(crate) fn newton(
 ) -> Finish {
     let start = history.len();
     let mut factor = FIRST_DAMPING;
-    let least = LEAST_DAMPING * model.slack();
     let mut norm = model.norm();
     for iteration in 0..settings.max_iterations {
         if model.largest() <= settings.tolerance {
-            polish(model, factor, least, history);
+            polish(model, factor, history);
             return Finish::Converged;
         }
         history.push(norm);
@@ -71,7 +67,7 @@ pub(crate) fn newton(
             return Finish::Stagnated;
         }
         // Damping of the order of the residual: quadratic convergence without a regular Jacobian.
-        let predicted = model.step((factor * norm).max(least));
+        let predicted = model.step((factor * norm).max(LEAST_DAMPING));
         let trial = model.attempt();
         let gain = (norm * norm - trial * trial) / (norm * norm - predicted * predicted);
         if gain > ACCEPT {
@@ -91,10 +87,10 @@ pub(crate) fn newton(
 }
 
 /// Steps on while each halves the residual.
-fn polish(model: &mut impl Model, factor: f64, least: f64, history: &mut Vec<f64>) {
+fn polish(model: &mut impl Model, factor: f64, history: &mut Vec<f64>) {
     for _ in 0..POLISH {
         let norm = model.norm();
-        model.step((factor * norm).max(least));
+        model.step((factor * norm).max(LEAST_DAMPING));
         let trial = model.attempt();
         if trial.is_nan() || trial > 0.5 * norm {
             return;

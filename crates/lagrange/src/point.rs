@@ -14,6 +14,23 @@ use nalgebra::{Matrix3, Vector3};
 use crate::mechanism::Mechanism;
 use crate::rotation::Frame;
 
+/// In which units the residual and the step of the reduced system are measured, besides the total
+/// length.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Metric {
+    /// Unit of force, in units of the total weight.
+    pub force: f64,
+    /// Metric of the gap at the last anchor, and of the pull; symmetric.
+    pub gap: Matrix3<f64>,
+}
+
+impl Metric {
+    /// Total weight and total length, in all directions.
+    pub fn plain() -> Self {
+        Self { force: 1.0, gap: Matrix3::identity() }
+    }
+}
+
 /// One bar at a point.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct BarAt {
@@ -79,12 +96,14 @@ impl Point {
         }
     }
 
-    /// Norm of the residual: $\sum l_i |g_i/l_i|^2 + |h|^2$ in units of the total length and of the
-    /// given force, a measure that does not depend on how finely a chain is divided.
-    pub fn norm(&self, mechanism: &Mechanism, unit: f64) -> f64 {
+    /// Norm of the residual: $\sum l_i |g_i/l_i|^2 + |M h|^2$ in units of the total length and of the
+    /// given force, with the metric M of the gap; a measure that does not depend on how finely a chain
+    /// is divided.
+    pub fn norm(&self, mechanism: &Mechanism, metric: &Metric) -> f64 {
         let bars = self.bars.iter().zip(&mechanism.lengths);
         let moments: f64 = bars.map(|(bar, length)| length * bar.moment.norm_squared()).sum();
-        (moments / (unit * unit) + self.closure.norm_squared()).sqrt()
+        let gap = metric.gap * self.closure;
+        (moments / (metric.force * metric.force) + gap.norm_squared()).sqrt()
     }
 
     /// The largest force in the chain, at least the mean weight of a bar.

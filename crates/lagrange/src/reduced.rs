@@ -5,7 +5,7 @@ use nalgebra::{Complex, Vector3};
 use crate::mechanism::Mechanism;
 use crate::multipliers::estimate_pull;
 use crate::newton::Model;
-use crate::point::Point;
+use crate::point::{Metric, Point};
 use crate::spin::seat;
 use crate::step::Matrix;
 
@@ -22,10 +22,8 @@ pub(crate) struct Reduced {
     pub there: Point,
     /// The matrix and the step.
     pub matrix: Matrix,
-    /// Unit of force in units of the total weight, at least one: the largest force where the run
-    /// began. In a nearly taut chain it is large, and equations in units of the weight would be far out
-    /// of proportion.
-    pub unit: f64,
+    /// How the residual is measured.
+    metric: Metric,
     /// Bars whose spin axis is shorter are seated.
     pub lock_margin: f64,
     /// How many times a bar was seated.
@@ -41,8 +39,8 @@ impl Reduced {
             here: Point::new(mechanism.bars()),
             there: Point::new(mechanism.bars()),
             matrix: Matrix::new(&mechanism),
+            metric: Metric { force: 1.0, gap: mechanism.chord_metric() },
             mechanism,
-            unit: 1.0,
             lock_margin,
             seatings: 0,
             assembled: false,
@@ -57,9 +55,11 @@ impl Reduced {
         self.seat(self.lock_margin);
     }
 
-    /// Choose the unit of force for the run that begins here.
+    /// Choose the unit of force for the run that begins here: the largest force, at least the weight.
+    /// In a nearly taut chain it is large, and moments in units of the weight would be out of
+    /// proportion.
     pub fn choose_unit(&mut self) {
-        self.unit = self.here.largest_force(&self.carried).max(1.0);
+        self.metric.force = self.here.largest_force(&self.carried).max(1.0);
         self.assembled = false;
     }
 
@@ -127,12 +127,8 @@ impl Reduced {
 }
 
 impl Model for Reduced {
-    fn slack(&self) -> f64 {
-        self.mechanism.slack()
-    }
-
     fn norm(&self) -> f64 {
-        self.here.norm(&self.mechanism, self.unit)
+        self.here.norm(&self.mechanism, &self.metric)
     }
 
     fn largest(&self) -> f64 {
@@ -141,7 +137,7 @@ impl Model for Reduced {
 
     fn step(&mut self, damping: f64) -> f64 {
         if !self.assembled {
-            self.matrix.assemble(&self.here, self.unit);
+            self.matrix.assemble(&self.here, &self.metric);
             self.assembled = true;
         }
         let shift = Complex::new(0.0, damping);
@@ -151,7 +147,7 @@ impl Model for Reduced {
 
     fn attempt(&mut self) -> f64 {
         self.advance(1.0);
-        self.there.norm(&self.mechanism, self.unit)
+        self.there.norm(&self.mechanism, &self.metric)
     }
 
     fn accept(&mut self) {

@@ -2,8 +2,9 @@
 //! residual.
 //!
 //! Such minima exist (all bars on one straight line, for one: to first order no turn changes the
-//! distance of the ends), and no damping helps there. A chain does not mind them. With the inertia in the
-//! equation of motion (33) replaced by friction,
+//! distance of the ends), and no damping helps there. On the paper's chain 4 % of random planar seeds
+//! end so, nine in ten of them with all bars vertical, and 2 % of spatial ones. A chain does not mind
+//! them. With the inertia in the equation of motion (33) replaced by friction,
 //!
 //! $$ \dot\alpha = \mathbf{B}^T\lambda + \mathbf{T}, \qquad f = 0, $$
 //!
@@ -74,7 +75,7 @@ pub(crate) fn relax(chain: &mut Reduced, handover: f64, limit: usize) -> usize {
 fn viscous_step(chain: &mut Reduced, tau: f64, gap: f64) {
     let bars = chain.here.bars.iter().zip(&chain.mechanism.lengths);
     let stretch: f64 = bars.map(|(bar, length)| length * bar.force.dot(&bar.u).max(0.0)).sum();
-    chain.matrix.assemble_stretched(&chain.here, 1.0);
+    chain.matrix.assemble_stretched(&chain.here);
     chain.matrix.solve_shifted(
         Complex::new(-1.0 / tau, 0.0),
         Complex::new(gap / (1.0 / tau + stretch), 0.0),

@@ -51,8 +51,9 @@ pub struct Settings {
     /// Default 0.1. Range 0 to 0.9.
     pub lock_margin: f64,
     /// Up to this number of bars nullity and condition of a [`Solution`](crate::Solution) are those of
-    /// the full Jacobian; above, of the reduced one, which has the same nullity and is smaller. Both
-    /// come from a dense decomposition, cubic in n.
+    /// the full Jacobian, above of the reduced one, which has the same nullity and is smaller; both by
+    /// a decomposition, cubic in n. Above 300 bars neither is decomposed: the nullity is counted from
+    /// the geometry and the condition estimated.
     ///
     /// Default 30.
     pub full_spectrum_bars: usize,

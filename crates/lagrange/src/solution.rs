@@ -8,7 +8,7 @@ use crate::mechanism::{Mechanism, Units};
 use crate::multipliers::all_multipliers;
 use crate::reduced::Reduced;
 use crate::solve::Effort;
-use crate::spectrum::{Spectrum, spectrum};
+use crate::spectrum::{LARGEST_DECOMPOSED, Spectrum, spectrum};
 use crate::stability::stability;
 use crate::{Settings, SolveError, relative_residual};
 
@@ -50,10 +50,10 @@ impl Solution {
         let q = coordinates(&mechanism, &point.angles);
         let lambda = all_multipliers(&mechanism, &(point.pull * units.weight));
         let residual = relative_residual(chain, &q, &lambda);
-        let spectrum = if chain.bars().len() <= settings.full_spectrum_bars {
-            spectrum(chain, &q, &lambda)?
-        } else {
-            Spectrum::reduced(&reduced.mechanism, point)?
+        let spectrum = match chain.bars().len() {
+            bars if bars <= settings.full_spectrum_bars => spectrum(chain, &q, &lambda)?,
+            bars if bars <= LARGEST_DECOMPOSED => Spectrum::reduced(&reduced.mechanism, point)?,
+            _ => Spectrum::estimated(&reduced.mechanism, point),
         };
         let mut evidence = Evidence::converged(
             residual,

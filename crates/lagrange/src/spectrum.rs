@@ -6,7 +6,9 @@ use nalgebra::{DMatrix, DVector};
 use crate::SolveError;
 use crate::constraints::PER_BAR;
 use crate::mechanism::{Mechanism, Units};
-use crate::point::Point;
+use crate::point::{Metric, Point};
+use crate::stability::neutral_motions;
+use crate::step::Matrix;
 use crate::system::jacobian_of;
 
 /// Singular values below this part of the largest are zero. At a state converged to 1e-13 the zero
@@ -14,6 +16,12 @@ use crate::system::jacobian_of;
 const ZERO: f64 = 1e-10;
 /// Steps of the iteration behind a singular value decomposition, per row; a few are usual.
 const SVD_STEPS: usize = 100;
+
+/// Up to this number of bars the reduced Jacobian is decomposed (half a second), above it is not.
+pub(crate) const LARGEST_DECOMPOSED: usize = 300;
+/// Damping of the estimate: what is smaller stays hidden, above all the zero ones, which come out at
+/// 1e-16 divided by its square.
+const ESTIMATE_DAMPING: f64 = 1e-7;
 
 /// Singular values of a Jacobian.
 #[derive(Debug, Clone, PartialEq)]
@@ -88,5 +96,49 @@ impl Spectrum {
             jacobian.fixed_view_mut::<3, 3>(at, angles).copy_from(&columns.transpose());
         }
         Self::of(jacobian)
+    }
+
+    /// Nullity by geometry and condition by estimate, without any singular value: for chains so long
+    /// that a decomposition is out of reach.
+    pub(crate) fn estimated(mechanism: &Mechanism, point: &Point) -> Self {
+        let mut matrix = Matrix::new(mechanism);
+        matrix.assemble(point, &Metric::plain());
+        Self {
+            singular_values: Vec::new(),
+            nullity: mechanism.bars() + neutral_motions(mechanism, point),
+            condition: matrix.condition(ESTIMATE_DAMPING),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::reduced::Reduced;
+    use crate::{Seed, Settings, solve_from};
+
+    /// The estimate against the decomposition, at an equilibrium of each kind of anchors.
+    #[test]
+    fn estimate_is_that_of_the_decomposition() {
+        for end_m in [[0.0, 0.0, -2.0], [1.0, 0.5, -1.0]] {
+            let bars = vec![model::Bar::homogeneous(0.6, 1.0).unwrap(); 5];
+            let anchors = model::Anchors { start_m: [0.0; 3], end_m };
+            let chain = Chain::new("five", 9.81, anchors, bars).unwrap();
+            let problem = model::Problem::new(chain).unwrap();
+            let units = Units::total(problem.chain());
+            let seed = Seed::planar(&[0.1, 0.4, -0.3, 0.9, -1.0]);
+            let found = solve_from(&problem, &seed, &Settings::default()).unwrap();
+            let mut reduced = Reduced::new(Mechanism::scaled(problem.chain(), units), 0.0);
+            let pull = -found.lambda.fixed_rows::<3>(0) / units.weight;
+            reduced.resume(found.angles_rad.iter().copied(), pull);
+            let exact = Spectrum::reduced(&reduced.mechanism, &reduced.here).unwrap();
+            let estimate = Spectrum::estimated(&reduced.mechanism, &reduced.here);
+            assert_eq!(exact.nullity, estimate.nullity);
+            assert_eq!(exact.nullity, found.nullity);
+            // A bound on the largest and, from 50 steps, nearly the smallest singular value; without
+            // the spins the latter may be a little larger.
+            let ratio = estimate.condition / exact.condition;
+            assert!((0.5..4.0).contains(&ratio), "{ratio}");
+        }
     }
 }

@@ -15,7 +15,8 @@
 //! way and the third does not turn it at all: the paper's equations lose one of the two moment
 //! balances of that bar and admit **false roots**, states that satisfy all 6n + 3(n+1) equations and
 //! are no equilibria. They are isolated, and Newton's method converges to them like to any other
-//! root. The cure is to [`seat`] the bar: the same direction, another spin.
+//! root: on the paper's chain from 4 % of random spatial seeds. The cure is to [`seat`] the bar: the
+//! same direction, another spin.
 
 use nalgebra::Vector3;
 

@@ -32,6 +32,8 @@ use crate::point::Point;
 /// An eigenvalue of $S_\text{in}$ this small beside $\sum l_i/|T_i|$ is zero: the state is known to
 /// about 1e-13, divided by the smallest axial forces met (1e-3 of the largest).
 const ZERO: f64 = 1e-9;
+/// An axial force this small beside the largest is none: forces are known to about 1e-13.
+const NO_FORCE: f64 = 1e-12;
 /// Anchors this near to one vertical, relative to the total length, are on it.
 const ON_ONE_VERTICAL: f64 = 1e-12;
 
@@ -40,26 +42,41 @@ pub(crate) fn stability(mechanism: &Mechanism, point: &Point) -> Stability {
     let span = Vector2::new(mechanism.end.x, mechanism.end.y);
     let pull = Vector2::new(point.pull.x, point.pull.y);
     let normal = plane_normal(&span, &pull);
-    let bars = || point.bars.iter().zip(&mechanism.lengths);
-    let tension = |bar: &crate::point::BarAt| bar.force.dot(&bar.u);
+    let level = Vector3::new(-normal.y, normal.x, 0.0);
+    let none = NO_FORCE * point.largest_force(&mechanism.carried_weights());
 
-    let compressed = bars().filter(|(bar, _)| tension(bar) < 0.0).count();
-    let mut sum = Matrix2::zeros();
-    let mut size = 0.0;
-    for (bar, length) in bars() {
-        // A bar without force counts as barely stretched: with barely compressed the index is the
-        // same, since one more negative term meets one less positive eigenvalue.
-        let force = tension(bar);
-        let force = if force.abs() > f64::EPSILON { force } else { f64::EPSILON };
+    let mut compressed = 0;
+    let (mut sum, mut size) = (Matrix2::zeros(), 0.0);
+    let (mut idle, mut idle_sum) = (0, Matrix2::zeros());
+    for (bar, length) in point.bars.iter().zip(&mechanism.lengths) {
         let across = normal.cross(&bar.u);
-        let level = Vector3::new(-normal.y, normal.x, 0.0);
         let across = Vector2::new(across.dot(&level), across.z);
-        sum += across * across.transpose() * (length / force);
+        let outer = across * across.transpose();
+        let mut force = bar.force.dot(&bar.u);
+        if force.abs() <= none {
+            // Counts as barely stretched: with barely compressed the index is the same, since one
+            // more negative term meets one less positive eigenvalue.
+            force = none;
+            idle += 1;
+            idle_sum += outer;
+        }
+        compressed += usize::from(force < 0.0);
+        sum += outer * (length / force);
         size += (length / force).abs();
     }
-    let eigenvalues = sum.symmetric_eigenvalues();
-    let degenerate = eigenvalues.iter().any(|value| value.abs() <= ZERO * size);
-    let positive = eigenvalues.iter().filter(|value| **value > ZERO * size).count();
+    let count = |matrix: &Matrix2<f64>, above: f64| {
+        matrix.symmetric_eigenvalues().iter().filter(|value| **value > above).count()
+    };
+    // Without compression S is a sum of squares with positive weights, and bars that close a slack
+    // chain are not all parallel: no threshold is needed, however taut the chain.
+    let (positive, zero) = if compressed == 0 {
+        (2, 0)
+    } else {
+        let positive = count(&sum, ZERO * size);
+        (positive, 2 - positive - count(&-sum, ZERO * size))
+    };
+    // Idle bars that can move with the others at rest do so at no cost.
+    let degenerate = zero > 0 || idle > count(&idle_sum, ZERO);
     let index_in_plane = (compressed + positive).saturating_sub(2);
 
     let towards = span.norm() > ON_ONE_VERTICAL && span.dot(&pull) > 0.0;
@@ -87,4 +104,12 @@ fn plane_normal(span: &Vector2<f64>, pull: &Vector2<f64>) -> Vector3<f64> {
     let level = if span.norm() > ON_ONE_VERTICAL { span } else { pull };
     let level = level.try_normalize(f64::EPSILON).unwrap_or_else(Vector2::y);
     Vector3::new(level.y, -level.x, 0.0)
+}
+
+/// Dimension of the motions that cost nothing to second order, spins apart: the turn about vertical
+/// anchors, and one in the plane when the equilibrium is degenerate there.
+pub(crate) fn neutral_motions(mechanism: &Mechanism, point: &Point) -> usize {
+    let vertical = mechanism.end.x.hypot(mechanism.end.y) <= ON_ONE_VERTICAL;
+    let degenerate = stability(mechanism, point).in_plane == InPlane::Degenerate;
+    usize::from(vertical) + usize::from(degenerate)
 }

@@ -31,8 +31,11 @@
 use nalgebra::{Complex, Matrix3, Vector3};
 
 use crate::mechanism::Mechanism;
-use crate::point::Point;
+use crate::point::{Metric, Point};
 use crate::spin::across;
+
+/// Steps of the power method for the smallest singular value; a few digits are enough.
+const POWERS: usize = 50;
 
 /// A bar's share of the matrix, in the variables $\sqrt{l_i}\\,\times$ (angles across the spin).
 #[derive(Debug, Clone, Copy)]
@@ -58,10 +61,11 @@ struct Block {
 pub(crate) struct Matrix {
     blocks: Vec<Block>,
     closure: Vector3<f64>,
-    /// Unit of force: moment rows, H and the pull are measured in it.
-    unit: f64,
+    metric: Metric,
     /// The step of the pull.
     pub pull_step: Vector3<f64>,
+    /// The same, in the metric.
+    scaled_pull_step: Vector3<f64>,
 }
 
 impl Matrix {
@@ -78,33 +82,36 @@ impl Matrix {
         Self {
             blocks: mechanism.lengths.iter().map(block).collect(),
             closure: Vector3::zeros(),
-            unit: 1.0,
+            metric: Metric::plain(),
             pull_step: Vector3::zeros(),
+            scaled_pull_step: Vector3::zeros(),
         }
     }
 
-    /// Assemble J and r at a point, forces measured in `unit`.
-    pub fn assemble(&mut self, point: &Point, unit: f64) {
-        self.closure = point.closure;
-        self.unit = unit;
+    /// Assemble J and r at a point.
+    pub fn assemble(&mut self, point: &Point, metric: &Metric) {
+        self.metric = *metric;
+        self.closure = metric.gap * point.closure;
         for (block, bar) in self.blocks.iter_mut().zip(&point.bars) {
             let [a, b] = across(&bar.frame.spin());
-            let curvature = bar.frame.hessian(&bar.u, &bar.gradient, &(bar.force / unit));
+            let force = bar.force / metric.force;
+            let curvature = bar.frame.hessian(&bar.u, &bar.gradient, &force);
             let (h_a, h_b) = (curvature * a, curvature * b);
             block.across = [a, b];
-            block.columns = [bar.gradient * a * block.root, bar.gradient * b * block.root];
             block.curvature = [a.dot(&h_a), a.dot(&h_b), b.dot(&h_b)];
-            let scale = block.root / unit;
+            let gradient = metric.gap * bar.gradient;
+            block.columns = [gradient * a * block.root, gradient * b * block.root];
+            let scale = block.root / metric.force;
             block.moment = [a.dot(&bar.moment) * scale, b.dot(&bar.moment) * scale];
         }
     }
 
-    /// Assemble with the curvature of the stretched bars alone, which is never positive: what a motion
-    /// that only sinks may use.
-    pub fn assemble_stretched(&mut self, point: &Point, unit: f64) {
-        self.assemble(point, unit);
+    /// Assemble in the plain metric with the curvature of the stretched bars alone, which is never
+    /// positive: what a motion that only sinks may use.
+    pub fn assemble_stretched(&mut self, point: &Point) {
+        self.assemble(point, &Metric::plain());
         for (block, bar) in self.blocks.iter_mut().zip(&point.bars) {
-            let stretch = bar.force.dot(&bar.u).max(0.0) / (unit * block.root * block.root);
+            let stretch = bar.force.dot(&bar.u).max(0.0) / (block.root * block.root);
             let [a, b] = block.columns;
             block.curvature = [-stretch * a.dot(&a), -stretch * a.dot(&b), -stretch * b.dot(&b)];
         }
@@ -132,7 +139,8 @@ impl Matrix {
             }
         }
         let pull = solve_three(schur, right);
-        self.pull_step = pull.map(|p| p.re * self.unit);
+        self.scaled_pull_step = pull.map(|p| p.re);
+        self.pull_step = self.metric.gap * self.scaled_pull_step * self.metric.force;
         for block in &mut self.blocks {
             let [k11, k12, k22] = block.inverse;
             let along = |column: &Vector3<f64>| {
@@ -148,17 +156,44 @@ impl Matrix {
     pub fn predicted_norm(&self) -> f64 {
         let mut closure = self.closure;
         let mut moments = 0.0;
-        let pull_step = self.pull_step / self.unit;
         for block in &self.blocks {
             let [h11, h12, h22] = block.curvature;
             let [y, z] = block.step;
             let [a, b] = block.columns;
             closure += a * y + b * z;
-            let g = block.moment[0] + h11 * y + h12 * z + a.dot(&pull_step);
-            let h = block.moment[1] + h12 * y + h22 * z + b.dot(&pull_step);
+            let g = block.moment[0] + h11 * y + h12 * z + a.dot(&self.scaled_pull_step);
+            let h = block.moment[1] + h12 * y + h22 * z + b.dot(&self.scaled_pull_step);
             moments += g * g + h * h;
         }
         (moments + closure.norm_squared()).sqrt()
+    }
+
+    /// Largest singular value of J across the spins, divided by the smallest that is not zero: an
+    /// estimate in O(n). The first is bounded by the norms of the blocks, the second found by the
+    /// power method on the damped inverse. Leaves no step behind.
+    pub fn condition(&mut self, damping: f64) -> f64 {
+        let mut closure = 0.0;
+        let mut largest: f64 = 0.0;
+        for (index, block) in self.blocks.iter_mut().enumerate() {
+            let [h11, h12, h22] = block.curvature;
+            largest = largest.max((h11 * h11 + 2.0 * h12 * h12 + h22 * h22).sqrt());
+            closure += block.columns.iter().map(Vector3::norm_squared).sum::<f64>();
+            // A start with something of everything.
+            block.step = [1.0, (index as f64).cos()];
+        }
+        self.scaled_pull_step = Vector3::new(1.0, -1.0, 1.0);
+        let mut growth = 1.0;
+        for _ in 0..POWERS {
+            let steps = self.blocks.iter().map(|block| block.step[0].hypot(block.step[1]));
+            let norm = steps.fold(self.scaled_pull_step.norm(), f64::hypot);
+            for block in &mut self.blocks {
+                block.moment = block.step.map(|part| part / norm);
+            }
+            self.closure = self.scaled_pull_step / norm;
+            self.solve_shifted(Complex::new(0.0, damping), Complex::new(0.0, damping));
+            growth = norm;
+        }
+        growth * (largest + closure.sqrt())
     }
 
     /// Step of the angles of each bar, rad.
@@ -168,7 +203,7 @@ impl Matrix {
         })
     }
 
-    /// Step of the vector $l_i u_i$ of each bar, to first order.
+    /// Step of the vector $l_i u_i$ of each bar, to first order; in the plain metric.
     pub fn moves(&self) -> impl Iterator<Item = Vector3<f64>> {
         self.blocks
             .iter()
@@ -240,7 +275,7 @@ mod tests {
         point.turn(&mechanism);
         point.load(&mechanism.carried_weights());
         let mut matrix = Matrix::new(&mechanism);
-        matrix.assemble(&point, 1.0);
+        matrix.assemble(&point, &Metric::plain());
         (mechanism, point, matrix)
     }
 

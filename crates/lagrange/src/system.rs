@@ -6,7 +6,8 @@ use model::Chain;
 use nalgebra::{DMatrix, DVector, RealField, Vector3, convert};
 
 use crate::constraints::{
-    PER_BAR, bar_coordinates, constraint_functions_of, constraint_matrix_of, entries,
+    PER_BAR, bar_coordinates, constraint_forces_of, constraint_functions_of, constraint_matrix_of,
+    entries,
 };
 use crate::load::load_vector_of;
 use crate::mechanism::{Mechanism, Units};
@@ -42,10 +43,11 @@ pub(crate) fn residual_of<T: RealField + Copy>(
 ) -> DVector<T> {
     let (rows, multipliers) = (mechanism.coordinates(), mechanism.constraints());
     assert_eq!(lambda.len(), multipliers, "three multipliers at each joint");
-    let B = constraint_matrix_of(mechanism, q);
-    let T = load_vector_of(mechanism).map(convert::<f64, T>);
+    // In the paper's letters -Bᵀλ - T, and below f.
+    let forces = constraint_forces_of(mechanism, q, lambda);
+    let load = load_vector_of(mechanism).map(convert::<f64, T>);
     let mut residual = DVector::zeros(rows + multipliers);
-    residual.rows_mut(0, rows).copy_from(&(-(B.transpose() * lambda) - T));
+    residual.rows_mut(0, rows).copy_from(&(-forces - load));
     residual.rows_mut(rows, multipliers).copy_from(&constraint_functions_of(mechanism, q));
     residual
 }

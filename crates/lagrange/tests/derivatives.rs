@@ -5,7 +5,7 @@ mod common;
 use common::{any_chain, stream, vector};
 use lagrange::{
     constraint_functions, constraint_matrix, direction, direction_gradient, direction_hessian,
-    jacobian, residual, rotation, spin,
+    jacobian, load_vector, residual, rotation, spin,
 };
 use model::Chain;
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
@@ -91,6 +91,21 @@ fn jacobian_is_the_derivative_of_the_residual() {
             residual(&chain, &x.rows(0, size).into_owned(), &x.rows(size, rest).into_owned())
         };
         assert_near(&analytic, &differences(split, &x), DIFFERENCES);
+    }
+}
+
+/// Equation (40) to the letter: the residual is −Bᵀλ − T above and f below.
+#[test]
+fn residual_is_equation_40_and_the_constraint_functions() {
+    for (chain, q, lambda) in states() {
+        let above = -constraint_matrix(&chain, &q).transpose() * &lambda - load_vector(&chain);
+        let below = constraint_functions(&chain, &q);
+        let residual = residual(&chain, &q, &lambda);
+        let expected = above.iter().chain(below.iter());
+        assert_eq!(residual.len(), above.len() + below.len());
+        for (got, expected) in residual.iter().zip(expected) {
+            assert!((got - expected).abs() < ROUNDING);
+        }
     }
 }
 

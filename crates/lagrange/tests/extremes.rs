@@ -6,7 +6,7 @@ mod common;
 
 use common::{problem, stream};
 use lagrange::{Settings, Solution, SolveError, constraint_matrix, jacobian, solve};
-use model::{Anchors, Bar, Chain, InSpace, Problem};
+use model::{Anchors, Bar, Chain, InPlane, InSpace, Problem};
 use nalgebra::DVector;
 
 fn hang(end_m: [f64; 3], bars: Vec<Bar>) -> Result<Solution, SolveError> {
@@ -69,16 +69,60 @@ fn very_different_bars() {
 
 #[test]
 fn nearly_taut_chains_pull_hard() {
-    for slack in [1e-2, 1e-4, 1e-6, 1e-8] {
-        let found = hang([4.0 * (1.0 - slack), 0.0, 0.0], vec![bar(1.0, 1.0); 4]).unwrap();
+    for slack in [1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 1e-14] {
+        let span = 4.0 * (1.0 - slack);
+        let found = hang([span, 0.0, 0.0], vec![bar(1.0, 1.0); 4]).unwrap();
         assert_good(&found);
         // Outer bars at the slope a, inner at b: H tan a = 3/2 mg, H tan b = 1/2 mg, and they shorten
-        // the span by a² + b² = 4 slack, up to higher order.
+        // the span by a² + b² = 4 slack, up to higher order; the span itself is known to a rounding
+        // error, and so is the slack.
         let b = (0.4 * slack).sqrt();
         let pull = 0.5 * 9.81 / b;
         let got = found.equilibrium.multipliers_n[2][0];
-        assert!((got / pull - 1.0).abs() < 4.0 * slack, "{got} instead of {pull}");
+        let bound = 4.0 * slack + 2.0 * f64::EPSILON / slack;
+        assert!((got / pull - 1.0).abs() < bound, "{got} instead of {pull}, slack {slack}");
+        // In any direction.
+        assert_good(&hang([0.6 * span, 0.0, 0.8 * span], vec![bar(1.0, 1.0); 4]).unwrap());
+        assert_good(&hang([0.0, 0.0, -span], vec![bar(1.0, 1.0); 4]).unwrap());
+        assert_good(&hang([0.0, 0.0, span], vec![bar(1.0, 1.0); 4]).unwrap());
     }
+}
+
+/// Massless bars beyond the last weight carry nothing and lie where they like.
+#[test]
+fn idle_bars() {
+    for bars in [3, 4] {
+        let mut chain = vec![bar(1.0, 0.0); bars];
+        chain[0] = bar(1.0, 1.0);
+        for end_m in [[0.0, 0.0, -2.0], [0.3, 0.0, -2.0], [1.0, 0.0, 0.0]] {
+            let found = hang(end_m, chain.clone()).unwrap();
+            assert_good(&found);
+            let axial = &found.equilibrium.axial_n;
+            assert!(
+                (axial[0] - 0.5 * 9.81).abs() < 1e-12,
+                "half of the weight at joint 1: {axial:?}"
+            );
+            assert!(axial[1..].iter().all(|force| force.abs() < 1e-12), "{axial:?}");
+            let degenerate = found.equilibrium.stability.in_plane == InPlane::Degenerate;
+            assert_eq!(degenerate, bars == 4, "three idle bars can move, two cannot");
+        }
+    }
+}
+
+/// A chain that can fold flat between its anchors: at one span the forces are indeterminate, close to it
+/// they are large.
+#[test]
+fn folding_chains() {
+    for span in [1.0, 0.999_999, 1.000_000_1] {
+        assert_good(&hang([0.0, 0.0, -span], vec![bar(1.0, 1.0); 3]).unwrap());
+    }
+}
+
+#[test]
+fn many_bars() {
+    let found = hang([0.5, 0.0, 0.2], vec![bar(5e-4, 1e-3); 2000]).unwrap();
+    assert_good(&found);
+    assert_eq!(found.nullity, 2000);
 }
 
 #[test]

@@ -32,11 +32,11 @@ fn every_seed_of_the_example_converges_to_one_of_the_four() {
         }
         // Frozen work, a band because sines differ by a unit in the last place between machines.
         let median = survey.iterations_quantile(0.5);
-        assert!((11..=16).contains(&median), "median {median}");
+        assert!((9..=12).contains(&median), "median {median}");
         assert!(survey.iterations_quantile(1.0) < 150);
         let direct = survey.direct as f64 / SEEDS as f64;
-        let expected = if planar { 0.80 } else { 0.92 };
-        assert!((direct - expected).abs() < 0.04, "{direct} without relaxation");
+        let expected = if planar { 0.965 } else { 0.984 };
+        assert!((direct - expected).abs() < 0.01, "{direct} without relaxation");
     }
 }
 
