@@ -1,0 +1,75 @@
+//! How long a census takes: the paper's chain and random ones.
+//!
+//! `cargo run --release -p census --example census_speed -- [MAX_BARS] [CHAINS]`
+//!
+//! Random chains with generic lengths: lengths from 0.3 to 1, masses from 0.1 to 1, centres from 0.2 to
+//! 0.8 of the length, span from 0.1 to 0.8 of the total length in any direction; seeds are fixed.
+
+use std::process::ExitCode;
+
+use census::{Census, Settings};
+use model::{Anchors, Bar, Chain, Problem};
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+
+fn random_problem(bars: usize, seed: u64) -> Problem {
+    let mut rng = ChaCha8Rng::seed_from_u64(seed);
+    rng.set_stream(bars as u64);
+    loop {
+        let bars: Vec<Bar> = (0..bars)
+            .filter_map(|_| {
+                let length = rng.random_range(0.3..1.0);
+                let mass = rng.random_range(0.1..1.0);
+                let centre = length * rng.random_range(0.2..0.8);
+                Bar::new(length, mass, centre, [0.0; 3]).ok()
+            })
+            .collect();
+        let total: f64 = bars.iter().map(Bar::length_m).sum();
+        let span = total * rng.random_range(0.1..0.8);
+        let angle: f64 = rng.random_range(0.0..std::f64::consts::TAU);
+        let end_m = [span * angle.cos(), 0.0, span * angle.sin()];
+        let anchors = Anchors { start_m: [0.0; 3], end_m };
+        let problem = Chain::new("random", 9.81, anchors, bars).map(Problem::new);
+        if let Ok(Ok(problem)) = problem {
+            return problem;
+        }
+    }
+}
+
+fn main() -> ExitCode {
+    let mut arguments = std::env::args().skip(1);
+    let mut argument =
+        |default| arguments.next().and_then(|text| text.parse().ok()).unwrap_or(default);
+    let (max_bars, chains) = (argument(10), argument(20));
+    let settings = Settings { max_bars: Settings::MAX_BARS, ..Settings::default() };
+    let take = |problem: &Problem| match Census::take(problem, &settings) {
+        Ok(census) => census,
+        Err(error) => panic!("{error}"),
+    };
+    let paper = model::cases::paper();
+    let mut seconds: Vec<f64> = (0..100).map(|_| take(&paper).statistics.seconds).collect();
+    seconds.sort_by(f64::total_cmp);
+    println!("paper: {:.3} ms median, {:.3} ms worst of 100", 1e3 * seconds[50], 1e3 * seconds[99]);
+
+    println!("bars chains complete equilibria(max) cells(max) median_s worst_s widest");
+    let mut all_complete = true;
+    for bars in 2..=max_bars {
+        let mut results: Vec<Census> =
+            (0..chains).map(|seed| take(&random_problem(bars, seed as u64))).collect();
+        results.sort_by(|a, b| a.statistics.seconds.total_cmp(&b.statistics.seconds));
+        let complete = results.iter().filter(|census| census.complete).count();
+        all_complete &= complete == chains;
+        println!(
+            "{bars:4} {chains:6} {complete:8} {:15} {:10} {:8.4} {:7.4} {:.0e}",
+            results.iter().map(Census::count_in_plane).max().unwrap_or(0),
+            results.iter().map(|census| census.statistics.cells).max().unwrap_or(0),
+            results[chains / 2].statistics.seconds,
+            results[chains - 1].statistics.seconds,
+            results
+                .iter()
+                .flat_map(|census| census.equilibria.iter().map(census::ProvenEquilibrium::width))
+                .fold(0.0, f64::max),
+        );
+    }
+    ExitCode::from(u8::from(!all_complete))
+}

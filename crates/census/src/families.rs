@@ -1,0 +1,134 @@
+//! Equilibria in which bars carry no force at all.
+//!
+//! Two or more bars in a row whose common joints carry no weight (massless bars, say) can hang
+//! slack: the pull is then vertical and cancels what hangs before them, every other bar is vertical, and
+//! the slack bars bridge the gap that is left in any way they can. That needs no coincidence of
+//! lengths. In the plane, k slack bars do so in a space of dimension k − 2 (two bars: two points), the
+//! polygons with their lengths and the gap as sides; on it the energy is constant and across it the
+//! second derivative is the one of the other bars, `h_j = s_j l_j |F_j|`.
+
+use serde::{Deserialize, Serialize};
+
+use crate::Interval;
+use crate::closure::signed;
+use crate::system::System;
+use crate::topology::Topology;
+
+/// A set of equilibria of one energy, in which some bars carry nothing.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct SlackFamily {
+    /// +1 for each bar in tension, −1 in compression, 0 for the slack bars.
+    pub signs: Vec<i8>,
+    /// The pull of the chain on the first anchor along the horizontal direction and along Z, N; the
+    /// first is zero.
+    pub pull_n: [Interval; 2],
+    /// Distance that the slack bars bridge, m.
+    pub gap_m: Interval,
+    /// Potential energy, measured from the height of joint 0.
+    pub energy_j: Interval,
+    /// Axial force of each bar, N.
+    pub axial_n: Vec<Interval>,
+    /// Directions in the plane, across the family, in which the energy falls.
+    pub index_in_plane: usize,
+    /// The family in the plane; its dimension is the number of slack bars less two.
+    pub topology: Topology,
+}
+
+impl SlackFamily {
+    /// Directions in space, across the family, in which the energy falls: each compressed bar can fall
+    /// in the plane and out of it.
+    #[must_use]
+    pub fn index_in_space(&self) -> usize {
+        2 * self.index_in_plane
+    }
+
+    /// Dimension of the family in the plane.
+    #[must_use]
+    pub fn dimension_in_plane(&self) -> usize {
+        self.topology.betti.len().saturating_sub(1)
+    }
+}
+
+/// All families, sorted by group and pattern, and the signs of those that may or may not exist.
+pub(crate) fn families(system: &System) -> (Vec<SlackFamily>, Vec<Vec<i8>>) {
+    let mut found = vec![];
+    let mut unclear = vec![];
+    for group in system.groups.iter().filter(|group| group.len() > 1) {
+        let at = system.weight[group.start];
+        let others: Vec<usize> = (0..system.bars()).filter(|i| !group.contains(i)).collect();
+        for bits in 0..1_u32 << others.len() {
+            let mut signs = vec![0_i8; system.bars()];
+            for (k, i) in others.iter().enumerate() {
+                signs[*i] = if bits >> (others.len() - 1 - k) & 1 == 0 { 1 } else { -1 };
+            }
+            match family(system, &signs, at) {
+                Existence::Proved(family) => found.push(*family),
+                Existence::Refuted => {}
+                Existence::Unclear => unclear.push(signs),
+            }
+        }
+    }
+    (found, unclear)
+}
+
+enum Existence {
+    Proved(Box<SlackFamily>),
+    Refuted,
+    Unclear,
+}
+
+fn family(system: &System, signs: &[i8], at: Interval) -> Existence {
+    let mut gap = system.span;
+    let mut hanging = Interval::ZERO;
+    let mut forces = vec![];
+    let mut slack = vec![];
+    for (i, sign) in signs.iter().enumerate() {
+        let (length, weight) = (system.length[i], system.weight[i]);
+        if *sign == 0 {
+            slack.push(length);
+            forces.push(Interval::ZERO);
+            continue;
+        }
+        // F = (0, c_i − c): its direction is up or down.
+        let force = weight - at;
+        let Some(up) = force.sign() else { return Existence::Unclear };
+        let rise = signed(sign * up, length);
+        gap[1] = gap[1] - rise;
+        hanging = hanging + weight * rise;
+        forces.push(signed(*sign, force.abs()));
+    }
+    let distance = match gap[0].sign() {
+        Some(0) => gap[1].abs(),
+        _ => (gap[0].square() + gap[1].square()).sqrt(),
+    };
+    let mut sides = slack;
+    sides.push(distance);
+    let total: Interval = sides.iter().copied().sum();
+    // The polygon closes if and only if no side is longer than the others together.
+    let mut strict = distance.lo() > 0.0;
+    for side in &sides {
+        let rest_less_side = total - *side - *side;
+        if rest_less_side.hi() < 0.0 {
+            return Existence::Refuted;
+        }
+        strict &= rest_less_side.lo() > 0.0;
+    }
+    if !strict {
+        return Existence::Unclear;
+    }
+    let Ok(topology) = Topology::polygons(&sides) else { return Existence::Unclear };
+    let newton = system.force_unit_n();
+    let mass: Interval = system.mass.iter().copied().sum();
+    let offset = Interval::point(system.offset);
+    // The slack bars rise by what the others leave, at the weight of their group.
+    let energy = (mass - offset) * system.span[1] - hanging - at * gap[1];
+    Existence::Proved(Box::new(SlackFamily {
+        signs: signs.to_vec(),
+        pull_n: [Interval::ZERO, (-at - offset) * newton],
+        gap_m: distance.scale(system.length_unit_m),
+        energy_j: energy * newton * Interval::point(system.length_unit_m),
+        axial_n: forces.into_iter().map(|force| force * newton).collect(),
+        index_in_plane: signs.iter().filter(|sign| **sign < 0).count(),
+        topology,
+    }))
+}

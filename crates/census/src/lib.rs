@@ -1,0 +1,81 @@
+//! Every equilibrium of a hanging chain of bars, with proof.
+//!
+//! [`Census::take`] finds all equilibria of a chain, stable or not, encloses each of them in intervals to
+//! full double precision, proves its Morse index, and proves that there is no other. What it cannot
+//! decide it lists ([`Undecided`]) and does not call complete.
+//!
+//! # The problem
+//!
+//! At rest the force along the chain is the pull $p$ on the first anchor plus the weights in between.
+//! The moment balance of bar i says that it is parallel to $F_i = p + c_i e_z$, where $c_i$ is the
+//! weight carried before and at joint i−1, that of bar i shared by the lever rule. So
+//! $u_i = s_i F_i/|F_i|$ with $s_i = +1$ in tension and −1 in compression, and an equilibrium is a pattern
+//! of signs and a pull that close the chain:
+//!
+//! $$ \Phi_s(p) = \sum_i s_i l_i \frac{F_i}{|F_i|} - D = 0. $$
+//!
+//! All $F_i$ lie in the vertical plane of $p$, and so does D: two equations in the two unknowns (H, V),
+//! for each of 2ⁿ patterns. With the anchors on one vertical every such plane will do, and each
+//! solution stands for a circle of equilibria. If H = 0, bars whose force vanishes may point anywhere
+//! (modules `slack`, `families`).
+//!
+//! | meaning | code | shape | unit | equation |
+//! |---|---|---|---|---|
+//! | $l_i$ | `length` | n | chain's total = 1/2..1 | section II |
+//! | $c_i$ | `weight` | n | centred, spread 1..2 | (40), summed and levered |
+//! | $s_i$ | `signs`, `Pattern` | n | ±1 | |
+//! | $p = (H, V)/w$ | `Cell` | 2 | projective | −(λ₁, λ₂, λ₃) |
+//! | $F_i$ | `force` | 2 per bar | that of $c_i$ | |
+//! | $l_i f_i = l_i F_i/\|F_i\|$ | `BarTerm` | 2 per bar | that of $l_i$ | |
+//! | $\Phi_s$, $\Phi_s'$ | `Closure` | 2, 2 × 2 | that of $l_i$ | (iii), (iv), for n bars |
+//! | $D$ | `span` | 2 | that of $l_i$ | |
+//! | $\tau_i = s_i \|F_i\|/l_i$ | `density` | n | | |
+//!
+//! # The method
+//!
+//! Pulls of any size, infinite ones included, are the points of half a cube (module `cell`), which is
+//! cut into cells (module `search`). On each cell all patterns that are left are excluded together where
+//! possible (module `family`); where the derivative hardly varies, Krawczyk's test proves a zero (module
+//! `krawczyk`). All arithmetic that a proof rests on is rounded outward ([`Interval`]). The indices follow
+//! from signs of small determinants (module `inertia`).
+//!
+//! # What is independent of the search
+//!
+//! [`Topology`] knows from the lengths alone which numbers of equilibria of each index are possible;
+//! [`Census::check`] proves every claim of a census anew; [`sextic`] counts the equilibria of the paper's
+//! example by exact algebra.
+
+mod angle;
+mod bar;
+mod cell;
+mod census;
+mod check;
+mod closure;
+mod equilibrium;
+mod error;
+mod families;
+mod family;
+mod inertia;
+mod interval;
+mod krawczyk;
+mod merge;
+mod morse;
+mod search;
+mod settings;
+pub mod sextic;
+mod slack;
+mod stress;
+mod system;
+mod topology;
+mod undecided;
+
+pub use census::{Census, Progress, Statistics};
+pub use check::CheckError;
+pub use equilibrium::{Neighbourhood, ProvenEquilibrium};
+pub use error::CensusError;
+pub use families::SlackFamily;
+pub use interval::Interval;
+pub use morse::MorseError;
+pub use settings::Settings;
+pub use topology::{Topology, TopologyError};
+pub use undecided::{Reason, Undecided};

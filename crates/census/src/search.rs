@@ -1,0 +1,154 @@
+//! Branch and bound over the pull, for all patterns of tension and compression at once.
+//!
+//! Level by level: every cell of a level is worked on by itself, in parallel, and the results are
+//! taken in order. So neither the answer nor the point where the search gives up depends on the number
+//! of threads.
+
+use rayon::prelude::*;
+
+use crate::Settings;
+use crate::cell::Cell;
+use crate::closure::Pattern;
+use crate::family::Family;
+use crate::krawczyk::{Finding, Zero, examine};
+use crate::slack;
+use crate::system::System;
+
+/// Below so many tests in a level, threads cost more than they save: waking one takes microseconds,
+/// a test a tenth of one.
+const WORTH_THREADS: usize = 2_000;
+
+/// A contracted cell smaller than this part of the old one is looked at again before it is cut.
+const GOOD_CONTRACTION: f64 = 0.5;
+
+/// A cell, and the patterns that may have a zero in it.
+#[derive(Debug, Clone)]
+pub(crate) struct Task {
+    pub(crate) cell: Cell,
+    pub(crate) patterns: Vec<Pattern>,
+}
+
+/// All that the search found.
+#[derive(Debug, Default)]
+pub(crate) struct Search {
+    /// Zeros, proved; the same one several times where cells meet.
+    pub(crate) zeros: Vec<(Pattern, Zero)>,
+    /// Cells that could not be decided.
+    pub(crate) undecided: Vec<Task>,
+    /// Cells worked on.
+    pub(crate) cells: u64,
+    /// Tests of one cell for one pattern.
+    pub(crate) tests: u64,
+    /// Proofs tried.
+    pub(crate) proofs: u64,
+    /// Levels of the search.
+    pub(crate) levels: u32,
+    /// Whether the budget of tests ended the search.
+    pub(crate) exhausted: bool,
+}
+
+#[derive(Debug, Default)]
+struct Outcome {
+    zeros: Vec<(Pattern, Zero)>,
+    next: Vec<Task>,
+    undecided: Option<Task>,
+    proofs: u64,
+}
+
+/// Search the whole half cube. `watch` hears the number of cells done and waiting after each level.
+pub(crate) fn search(system: &System, settings: &Settings, watch: &dyn Fn(u64, u64)) -> Search {
+    let patterns: Vec<Pattern> = (0..1_u32 << system.bars()).map(Pattern).collect();
+    let budget = settings.max_tests_per_pattern.saturating_mul(patterns.len() as u64);
+    let mut level: Vec<Task> = Cell::roots(system)
+        .into_iter()
+        .map(|cell| Task { cell, patterns: patterns.clone() })
+        .collect();
+    let mut search = Search::default();
+    while !level.is_empty() {
+        if search.tests >= budget {
+            search.exhausted = true;
+            search.undecided.append(&mut level);
+            break;
+        }
+        let work = |task: &Task| examine_cell(system, settings, task);
+        let tests: usize = level.iter().map(|task| task.patterns.len()).sum();
+        let outcomes: Vec<Outcome> = if tests < WORTH_THREADS {
+            level.iter().map(work).collect()
+        } else {
+            level.par_iter().map(work).collect()
+        };
+        search.cells += level.len() as u64;
+        search.tests += tests as u64;
+        search.levels += 1;
+        level.clear();
+        for outcome in outcomes {
+            search.zeros.extend(outcome.zeros);
+            search.undecided.extend(outcome.undecided);
+            search.proofs += outcome.proofs;
+            level.extend(outcome.next);
+        }
+        watch(search.cells, level.len() as u64);
+    }
+    search
+}
+
+/// Exclude, contract, prove, cut.
+fn examine_cell(system: &System, settings: &Settings, task: &Task) -> Outcome {
+    let cell = task.cell;
+    let mut outcome = Outcome::default();
+    let mut noisy = [true; 2];
+    let (patterns, left, across) = match Family::over(system, &cell) {
+        None => {
+            noisy = [false; 2];
+            (slack::open(system, &cell, &task.patterns), cell, wider(&cell))
+        }
+        Some(family) => {
+            let mut patterns = vec![];
+            let mut left: Option<Cell> = None;
+            for open in family.open(&task.patterns) {
+                if open.promising {
+                    outcome.proofs += 1;
+                    let signs: Vec<i8> = open.pattern.signs(system.bars()).collect();
+                    match examine(system, &signs, &cell) {
+                        Finding::One(zero) => {
+                            outcome.zeros.push((open.pattern, zero));
+                            continue;
+                        }
+                        Finding::None => continue,
+                        Finding::Unknown => {}
+                    }
+                }
+                noisy = std::array::from_fn(|k| noisy[k] && open.noisy[k]);
+                patterns.push(open.pattern);
+                let part = Cell { face: cell.face, at: open.left };
+                left = Some(left.map_or(part, |all| Cell {
+                    face: cell.face,
+                    at: std::array::from_fn(|k| all.at[k].hull(part.at[k])),
+                }));
+            }
+            (patterns, left.unwrap_or(cell), family.widest(system, &cell))
+        }
+    };
+    if patterns.is_empty() {
+        return outcome;
+    }
+    // Cutting is of use across coordinates that are wide and not lost in rounding errors.
+    let useful = |k: usize| !noisy[k] && left.at[k].width() >= settings.min_width;
+    let across = if useful(across) { across } else { 1 - across };
+    if !useful(across) {
+        outcome.undecided = Some(Task { cell: left, patterns });
+        return outcome;
+    }
+    let area = |cell: &Cell| cell.at[0].width() * cell.at[1].width();
+    if area(&left) < GOOD_CONTRACTION * area(&cell) {
+        outcome.next.push(Task { cell: left, patterns });
+    } else {
+        let halves = left.cut(across);
+        outcome.next.extend(halves.map(|cell| Task { cell, patterns: patterns.clone() }));
+    }
+    outcome
+}
+
+fn wider(cell: &Cell) -> usize {
+    usize::from(cell.at[1].width() > cell.at[0].width())
+}
