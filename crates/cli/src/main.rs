@@ -1,2 +1,38 @@
-//! The program.
-fn main() {}
+//! `funicular`: where does a chain of rigid bars come to rest, and how sure can we be?
+//!
+//! The program is thin: it reads, asks the solvers, has `validate` judge, and prints. Results go to
+//! standard output, everything meant for people's patience (progress, errors) to standard error.
+
+mod args;
+mod cases;
+mod diagnostics;
+mod exit;
+mod output;
+mod progress;
+mod report;
+mod reproduce;
+mod solve;
+mod tables;
+
+use clap::{CommandFactory, Parser};
+
+use crate::args::{Cli, Command};
+use crate::exit::Exit;
+
+fn main() -> std::process::ExitCode {
+    diagnostics::install();
+    let exit = match Cli::parse().command {
+        Command::Reproduce(arguments) => reproduce::run(&arguments),
+        Command::Solve(arguments) => solve::run(&arguments),
+        Command::Cases(arguments) => cases::run(&arguments),
+        Command::Completions { shell } => {
+            let mut script = Vec::new();
+            clap_complete::generate(shell, &mut Cli::command(), "funicular", &mut script);
+            output::print(&String::from_utf8_lossy(&script)).map(|()| Exit::Done)
+        }
+    };
+    match exit {
+        Ok(exit) => exit.into(),
+        Err(failure) => failure.report().into(),
+    }
+}

@@ -1,0 +1,50 @@
+//! How the program ends.
+
+/// A way to end, with its exit code (DESIGN: 0 agreed, 1 a check failed, 2 bad input, 3 undecided).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Exit {
+    /// Done, and every check agreed.
+    Done,
+    /// A check failed: the solvers disagree, a claim came out otherwise than expected.
+    CheckFailed,
+    /// Bad input or usage.
+    BadInput,
+    /// Not converged, or not decided.
+    Undecided,
+}
+
+impl From<Exit> for std::process::ExitCode {
+    fn from(exit: Exit) -> Self {
+        Self::from(match exit {
+            Exit::Done => 0,
+            Exit::CheckFailed => 1,
+            Exit::BadInput => 2,
+            Exit::Undecided => 3,
+        })
+    }
+}
+
+/// What stopped a command, and the way to end for it.
+#[derive(Debug)]
+pub struct Failure {
+    report: miette::Report,
+    exit: Exit,
+}
+
+impl Failure {
+    /// The user's input cannot be used.
+    pub fn bad_input(report: impl Into<miette::Report>) -> Self {
+        Self { report: report.into(), exit: Exit::BadInput }
+    }
+
+    /// A solver gave up.
+    pub fn undecided(report: impl Into<miette::Report>) -> Self {
+        Self { report: report.into(), exit: Exit::Undecided }
+    }
+
+    /// Print the report to standard error and say how to end.
+    pub fn report(self) -> Exit {
+        eprintln!("{:?}", self.report);
+        self.exit
+    }
+}

@@ -1,0 +1,39 @@
+//! Writing: standard output that may be a closed pipe, and files that are whole or not there.
+
+use std::fs;
+use std::io::{self, ErrorKind, Write};
+use std::path::Path;
+
+use miette::miette;
+
+use crate::exit::Failure;
+
+/// Print to standard output. A reader that has gone away (`| head`) is no error.
+pub fn print(text: &str) -> Result<(), Failure> {
+    let mut out = io::stdout().lock();
+    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => {
+            Err(Failure::bad_input(miette!("cannot write to standard output: {error}")))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Write a file by way of a temporary neighbour, so that an interruption leaves the old file or the
+/// new one and never half of either.
+pub fn write_whole(path: &Path, text: &str) -> Result<(), Failure> {
+    let name = path.file_name().map_or_else(String::new, |n| n.to_string_lossy().into_owned());
+    let part = path.with_file_name(format!(".{name}.{}.part", std::process::id()));
+    fs::write(&part, text).and_then(|()| fs::rename(&part, path)).map_err(|error| {
+        // Best effort: the error to tell is the first one.
+        let _ = fs::remove_file(&part);
+        Failure::bad_input(miette!("cannot write {}: {error}", path.display()))
+    })
+}
+
+/// Make a folder with its parents.
+pub fn make_folder(path: &Path) -> Result<(), Failure> {
+    fs::create_dir_all(path).map_err(|error| {
+        Failure::bad_input(miette!("cannot make the folder {}: {error}", path.display()))
+    })
+}
