@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use validate::Reproduction;
 use validate::equations::{EquationAudit, Verdict};
 
-use crate::tables::{claim_number, claim_value, seeds_reached, word};
+use crate::tables::{claim_number, claim_printed, claim_value, seeds_reached, word};
 
 /// The report in Markdown. The same numbers as in the terminal, and the equations one by one.
 pub fn markdown(r: &Reproduction) -> String {
@@ -159,13 +159,6 @@ fn write_report(text: &mut String, r: &Reproduction) -> std::fmt::Result {
         )?;
     }
     Ok(())
-}
-
-fn claim_printed(p: &validate::paper::Printed) -> String {
-    match &p.unit {
-        Some(unit) if p.digits.is_some() => format!("{} {unit}", p.printed),
-        _ => p.printed.clone(),
-    }
 }
 
 fn residual(verdict: Verdict, value: Option<f64>) -> String {

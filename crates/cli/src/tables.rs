@@ -2,10 +2,11 @@
 
 use std::fmt::Write as _;
 
-use comfy_table::{CellAlignment, ContentArrangement, Table, presets};
+use comfy_table::{CellAlignment, ContentArrangement, LineStyle, Table, presets};
 use model::cases::Case;
 use model::{Equilibrium, SystemSummary, Vector};
 use validate::claims::Claim;
+use validate::paper::{Printed, Verdict};
 use validate::seeds::Survey;
 use validate::{Agreement, Reproduction};
 
@@ -13,13 +14,19 @@ use validate::{Agreement, Reproduction};
 /// `--json` have all).
 const PRINTED_BARS: usize = 40;
 
+/// Width of tables where no terminal says its own.
+const WIDTH: u16 = 120;
+
 /// A table in the house style: thin rules, as wide as its content or the terminal.
 pub fn table<const N: usize>(head: [&str; N]) -> Table {
     let mut table = Table::new();
     table
-        .load_style(presets::UTF8_HORIZONTAL_ONLY)
+        .load_style(presets::UTF8_HORIZONTAL_ONLY.row_separator(LineStyle::none()))
         .set_content_arrangement(ContentArrangement::Dynamic)
         .set_header(head);
+    if table.width().is_none() {
+        table.set_width(WIDTH);
+    }
     table
 }
 
@@ -153,21 +160,29 @@ fn agreement(agreement: &Agreement) -> String {
 
 /// The reproduction, for people: what the paper claims, what two solvers find, where it is wrong.
 pub fn reproduction(r: &Reproduction) -> String {
-    let mut text = format!("{}\n\n", r.paper);
-    let mut claims = table(["claim", "printed", "lagrange", "energy", "verdict", "because"]);
+    let mut text = format!("{}\n\nThe claims of the paper:\n", r.paper);
+    let mut claims = table(["claim", "printed", "lagrange", "energy", "verdict"]);
     for claim in &r.claims {
-        let verdict = format!("{}{}", claim.verdict, if claim.as_expected { "" } else { " (!)" });
         claims.add_row([
-            format!("{} [{}]", claim.printed.says, claim.printed.place),
-            claim.printed.printed.clone(),
+            claim.printed.says.clone(),
+            claim_printed(&claim.printed),
             claim_value(claim, claim.lagrange),
             claim_value(claim, claim.energy),
-            verdict,
-            claim_number(claim),
+            format!("{}{}", claim.verdict, if claim.as_expected { "" } else { " (!)" }),
+        ]);
+    }
+    text += &format!("{claims}\n\nWhere the paper is wrong, and the number that shows it:\n");
+    let mut wrong = table(["claim", "verdict", "number", "which is"]);
+    for claim in r.claims.iter().filter(|c| c.verdict != Verdict::Confirmed) {
+        wrong.add_row([
+            format!("{} [{}]", claim.printed.says, claim.printed.place),
+            claim.verdict.to_string(),
+            claim.number.map_or_else(|| "-".to_owned(), |n| significant(n, 4)),
+            claim.number_is.clone(),
         ]);
     }
     text += &format!(
-        "{claims}\n\nEquilibria of the example, degrees from the descending vertical and mgl:\n"
+        "{wrong}\n\nEquilibria of the example, degrees from the descending vertical and mgl:\n"
     );
     let mut equilibria =
         table(["", "theta", "alpha", "beta", "V, lagrange", "V, energy", "in plane", "in space"]);
@@ -243,6 +258,14 @@ pub fn claim_value(claim: &Claim, value: Option<f64>) -> String {
         (None, _) => "-".to_owned(),
         (Some(value), Some(digits)) => format!("{value:.*}", digits + 3),
         (Some(value), None) => short(value),
+    }
+}
+
+/// What is printed, with its unit where it is a number.
+pub fn claim_printed(printed: &Printed) -> String {
+    match &printed.unit {
+        Some(unit) if printed.digits.is_some() => format!("{} {unit}", printed.printed),
+        _ => printed.printed.clone(),
     }
 }
 
