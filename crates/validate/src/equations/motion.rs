@@ -33,7 +33,7 @@ impl ClosedMotion {
     /// A motion that stays clear of the stretched chain and of the gimbal lock, where the coordinates of bars
     /// 2 and 3 are no smooth functions of time.
     fn random(rng: &mut ChaCha8Rng) -> Self {
-        // Tries until clear; about one in ten is. The bound only keeps a broken generator from hanging.
+        // Tries until clear. The bound only keeps a broken generator from hanging.
         let mut motion = Self::any(rng);
         for _ in 0..1000 {
             if motion.is_clear() {
