@@ -7,14 +7,19 @@
 //! two is worth something.
 
 pub mod certificate;
-//pub mod claims;
+pub mod claims;
 pub mod compare;
-//pub mod equations;
+pub mod equations;
+pub mod example;
 pub mod independence;
-//pub mod reproduction;
+pub mod paper;
+pub mod reproduction;
+pub mod seeds;
+pub mod sextic;
 pub mod statics;
 pub mod table;
 pub mod tolerances;
 
 pub use compare::{Agreement, Verdict, compare};
+pub use reproduction::{Reproduction, reproduce};
 pub use tolerances::Tolerances;

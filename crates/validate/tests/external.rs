@@ -2,6 +2,8 @@
 //!
 //! Both solvers must meet each of them.
 
+#![expect(clippy::unwrap_used, reason = "helpers of tests")]
+
 use model::{Anchors, Bar, Chain, Equilibrium, Problem};
 use serde::Deserialize;
 
