@@ -1,0 +1,218 @@
+//! The program as its users meet it: exit codes, JSON keys, errors, files.
+
+#![expect(clippy::unwrap_used, reason = "helpers of tests")]
+
+use std::path::PathBuf;
+use std::process::Output;
+
+use assert_cmd::Command;
+use serde_json::Value;
+
+fn funicular(arguments: &[&str]) -> Output {
+    Command::cargo_bin("funicular").unwrap().env("NO_COLOR", "1").args(arguments).output().unwrap()
+}
+
+fn stdout(output: &Output) -> String {
+    String::from_utf8(output.stdout.clone()).unwrap()
+}
+
+fn stderr(output: &Output) -> String {
+    String::from_utf8(output.stderr.clone()).unwrap()
+}
+
+/// A folder of this test alone.
+fn folder(name: &str) -> PathBuf {
+    let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(name);
+    let _ = std::fs::remove_dir_all(&path);
+    std::fs::create_dir_all(&path).unwrap();
+    path
+}
+
+fn file(folder: &str, text: &str) -> String {
+    let path = self::folder(folder).join("chain.toml");
+    std::fs::write(&path, text).unwrap();
+    path.to_str().unwrap().to_owned()
+}
+
+/// No number of a JSON value is missing: NaN and infinity would come out as null.
+fn assert_no_null(value: &Value, allowed: &[&str]) {
+    match value {
+        Value::Array(items) => items.iter().for_each(|item| assert_no_null(item, allowed)),
+        Value::Object(map) => {
+            for (key, item) in map {
+                assert!(!item.is_null() || allowed.contains(&key.as_str()), "{key} is null");
+                assert_no_null(item, allowed);
+            }
+        }
+        _ => {}
+    }
+}
+
+#[test]
+fn reproduce_finds_what_is_expected_and_writes_it() {
+    let out = folder("reproduce").join("deep").join("report");
+    let output = funicular(&["reproduce", "--out", out.to_str().unwrap()]);
+    assert_eq!(output.status.code(), Some(0), "{}", stdout(&output));
+    let text = stdout(&output);
+    for wanted in ["refuted", "E2'", "Every verdict is the expected one", "100.00 %"] {
+        assert!(text.contains(wanted), "{wanted} is not in\n{text}");
+    }
+    let json: Value =
+        serde_json::from_str(&std::fs::read_to_string(out.join("results.json")).unwrap()).unwrap();
+    assert_eq!(json["schema_version"], 1);
+    assert_eq!(json["all_as_expected"], true);
+    assert!(json["figures"]["closure_curve"].as_array().unwrap().len() > 100);
+    let report = std::fs::read_to_string(out.join("report.md")).unwrap();
+    // Every table has as many cells in each row as in its head.
+    for block in report.split("\n\n").filter(|block| block.starts_with('|')) {
+        let cells = |line: &str| line.replace("\\|", "").matches('|').count();
+        let head = cells(block.lines().next().unwrap());
+        assert!(block.lines().all(|line| cells(line) == head), "{block}");
+    }
+    assert!(std::fs::read_to_string(out.join("comparison.csv")).unwrap().lines().count() > 100);
+}
+
+#[test]
+fn reproduce_as_json_keeps_standard_output_clean() {
+    let output = funicular(&["reproduce", "--json"]);
+    assert_eq!(output.status.code(), Some(0));
+    let json: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert!(json["claims"].as_array().unwrap().iter().all(|claim| claim["as_expected"] == true));
+}
+
+#[test]
+fn solve_prints_the_keys_that_others_rely_on() {
+    let output = funicular(&["solve", "--case", "three-equal-bars", "--json"]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let json: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_no_null(&json, &["turned_rad"]);
+    assert_eq!(json["schema_version"], 1);
+    for key in ["name", "bars", "span_m", "total_length_m", "total_mass_kg", "gravity_m_s2"] {
+        assert!(!json["system"][key].is_null(), "system.{key}");
+    }
+    let equilibria = json["equilibria"].as_array().unwrap();
+    assert_eq!(equilibria.len(), 2);
+    for (equilibrium, solver) in equilibria.iter().zip(["lagrange", "energy"]) {
+        assert_eq!(equilibrium["solver"], solver);
+        assert_eq!(equilibrium["joints_m"].as_array().unwrap().len(), 4);
+        assert_eq!(equilibrium["multipliers_n"].as_array().unwrap().len(), 4);
+        assert_eq!(equilibrium["axial_n"].as_array().unwrap().len(), 3);
+        assert_eq!(equilibrium["stability"]["in_plane"], "minimum");
+        assert_eq!(equilibrium["evidence"]["rung"], "optimal");
+    }
+    assert_eq!(json["agreement"]["verdict"], "agreed");
+    for key in ["joints_m", "forces_n", "energy_j"] {
+        assert!(json["agreement"][key].as_f64().unwrap() < 1e-9, "agreement.{key}");
+    }
+    // E1's energy from the height of joint O, by the reference digits: 2.33546865199930500... - 6 mgl.
+    let energy = equilibria[0]["energy_j"].as_f64().unwrap() / 9.806_65;
+    assert!((energy - (2.335_468_651_999_305 - 6.0)).abs() < 1e-12);
+}
+
+#[test]
+fn summary_and_a_single_solver() {
+    let output = funicular(&[
+        "solve",
+        "--case",
+        "hundred-bars",
+        "--json",
+        "--summary",
+        "--solver",
+        "energy",
+    ]);
+    assert_eq!(output.status.code(), Some(0));
+    let json: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let equilibrium = &json["equilibria"][0];
+    assert!(equilibrium["joints_m"].is_null() && equilibrium["reactions_n"].is_object());
+    assert!(json["agreement"].is_null());
+    let ladder = equilibrium["evidence"]["ladder"].as_array().unwrap();
+    assert_eq!(ladder[1]["reached"], false);
+}
+
+#[test]
+fn a_case_solves_alike_as_a_file_and_by_name() {
+    let text = stdout(&funicular(&["cases", "two-bars"]));
+    let path = file("as-file", &text);
+    let number = |arguments: &[&str]| -> f64 {
+        let json: Value = serde_json::from_slice(&funicular(arguments).stdout).unwrap();
+        json["equilibria"][0]["energy_j"].as_f64().unwrap()
+    };
+    let by_file = number(&["solve", &path, "--json"]);
+    let by_name = number(&["solve", "--case", "two-bars", "--json"]);
+    assert_eq!(by_file.to_bits(), by_name.to_bits());
+}
+
+#[test]
+fn joints_and_forces_as_csv() {
+    let path = folder("csv").join("joints.csv");
+    let output = funicular(&["solve", "--case", "ten-equal-bars", "--csv", path.to_str().unwrap()]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let text = std::fs::read_to_string(&path).unwrap();
+    assert_eq!(text.lines().count(), 1 + 2 * 11);
+    assert!(text.lines().all(|line| line.matches(',').count() == 8), "{text}");
+    let files = std::fs::read_dir(path.parent().unwrap()).unwrap().count();
+    assert_eq!(files, 1, "a temporary file is left behind");
+}
+
+#[test]
+fn bad_input_ends_with_code_2_and_shows_the_line() {
+    let path = file(
+        "misspelt",
+        "[anchors]\nstart_m = [0, 0, 0]\nend_m = [0, 0, -2]\n[[bars]]\nlenght_m = 1\nmass_kg = 1\n",
+    );
+    let output = funicular(&["solve", &path]);
+    assert_eq!(output.status.code(), Some(2));
+    let text = stderr(&output);
+    assert!(
+        text.contains("lenght_m = 1")
+            && text.contains("did you mean `length_m`?")
+            && text.contains("5:1"),
+        "{text}"
+    );
+
+    let path = file(
+        "out-of-reach",
+        "[anchors]\nstart_m = [0, 0, 0]\nend_m = [0, 0, -9]\n[[bars]]\nlength_m = 1\nmass_kg = 1\ncount = 3\n",
+    );
+    let output = funicular(&["solve", &path]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("6 m are missing"), "{}", stderr(&output));
+
+    let directory = folder("a-directory");
+    for arguments in [
+        vec!["solve", directory.to_str().unwrap()],
+        vec!["solve", "no-such-file.toml"],
+        vec!["solve", "--case", "no-such-case"],
+        vec!["solve"],
+        vec!["solve", "a.toml", "--case", "two-bars"],
+        vec!["cases", "no-such-case"],
+        vec!["walk"],
+        vec![],
+    ] {
+        let output = funicular(&arguments);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+        assert!(!stderr(&output).trim().is_empty(), "{arguments:?}");
+        assert!(stdout(&output).is_empty(), "{arguments:?}");
+    }
+    // A folder that cannot be made is bad input too, said before the work.
+    let path = file("not-a-folder", "");
+    let output = funicular(&["reproduce", "--out", &path]);
+    assert_eq!(output.status.code(), Some(2));
+}
+
+#[test]
+fn help_version_and_completions() {
+    let output = funicular(&["--help"]);
+    assert_eq!(output.status.code(), Some(0));
+    let text = stdout(&output);
+    for wanted in ["reproduce", "solve", "cases", "completions", "Exit codes:", "Examples:"] {
+        assert!(text.contains(wanted), "{wanted} is not in\n{text}");
+    }
+    let version = format!("funicular {}\n", env!("CARGO_PKG_VERSION"));
+    assert_eq!(stdout(&funicular(&["--version"])), version);
+    for shell in ["bash", "zsh", "fish", "powershell", "elvish"] {
+        assert!(stdout(&funicular(&["completions", shell])).contains("reproduce"), "{shell}");
+    }
+    let cases = stdout(&funicular(&["cases"]));
+    assert!(model::cases::all().iter().all(|case| cases.contains(case.name)));
+}
