@@ -64,6 +64,15 @@ fn write_report(text: &mut String, r: &Reproduction) -> std::fmt::Result {
         )?;
     }
 
+    let b = &r.bounds;
+    writeln!(
+        text,
+        "\nNo configuration has less energy than {:.12} mgl nor more than {:.12} mgl: semidefinite programmes without any \
+         guess, rounded to proofs. E1 lies {:.0e} mgl above the first, E2 {:.0e} mgl below the second. (With bars as cables \
+         the lower bound is only {:.6} mgl: bar 3 is in compression.)",
+        b.lower_mgl, b.upper_mgl, b.gap_to_e1_mgl, b.gap_to_e2_mgl, b.cables_mgl,
+    )?;
+
     writeln!(
         text,
         "\n## The claims\n\n| claim | where | printed | lagrange | energy | verdict | the number behind it |\n|---|---|---|---|---|---|---|"

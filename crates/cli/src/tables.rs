@@ -217,9 +217,14 @@ pub fn reproduction(r: &Reproduction) -> String {
             ),
         ]);
     }
+    text += &format!(
+        "{seeds}\n\nNo configuration has less energy than {:.12} mgl nor more than {:.12} mgl (semidefinite \
+         programmes, rounded to proofs):\nE1 is the global minimum to {:.0e} mgl, E2 the global maximum to {:.0e} mgl.\n",
+        r.bounds.lower_mgl, r.bounds.upper_mgl, r.bounds.gap_to_e1_mgl, r.bounds.gap_to_e2_mgl,
+    );
     let s = &r.summary;
     text += &format!(
-        "{seeds}\n\n{} claims: {} confirmed, {} explained, {} corrected, {} refuted. {} rows of equations: {} hold \
+        "\n{} claims: {} confirmed, {} explained, {} corrected, {} refuted. {} rows of equations: {} hold \
          only as corrected, {} not at all (--out DIR lists them).\n",
         s.claims,
         s.confirmed,

@@ -10,7 +10,7 @@ const NEAR_E1: [f64; 3] = [0.3, 0.7, -1.3];
 const NEAR_E2: [f64; 3] = [1.3, -0.7, -0.3];
 
 /// Why the example could not be solved.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ExampleError {
     /// Occurs when `lagrange` finds no equilibrium from a seed near one.
@@ -24,6 +24,9 @@ pub enum ExampleError {
     /// Occurs when `energy` finds no minimum.
     #[error("energy: {0}")]
     Energy(#[from] energy::Error),
+    /// Occurs when a convex programme is not solved.
+    #[error("bounds: {0}")]
+    Bounds(#[from] energy::bound::BoundError),
     /// Occurs when the scan has no point.
     #[error("the scan of the paper has no point")]
     Scan,

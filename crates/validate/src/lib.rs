@@ -6,6 +6,8 @@
 //! ([`claims`], [`equations`]). [`independence`] proves from the dependency graph that the agreement of the
 //! two is worth something.
 
+pub mod books;
+pub mod bounds;
 pub mod certificate;
 pub mod claims;
 pub mod compare;

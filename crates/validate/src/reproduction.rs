@@ -5,6 +5,7 @@ use std::time::Instant;
 use model::{Stability, cases};
 use serde::Serialize;
 
+use crate::bounds::Bounds;
 use crate::claims::{Claim, Verdict, claims};
 use crate::equations::{self, E1State, EquationAudit, audit};
 use crate::example::{Example, ExampleError};
@@ -25,6 +26,8 @@ pub struct Reproduction {
     pub paper: &'static str,
     /// The equilibria of its example.
     pub equilibria: Vec<Position>,
+    /// The energy of all its configurations, bounded without a guess.
+    pub bounds: Bounds,
     /// Its claims, in its order.
     pub claims: Vec<Claim>,
     /// Its equations, in its order, as printed and as corrected.
@@ -121,6 +124,8 @@ pub fn reproduce_with(
     let paper = Paper::project();
     progress("the paper's example by both solvers");
     let example = Example::solve()?;
+    progress("bounds on the energy of all configurations");
+    let bounds = Bounds::compute(&example)?;
     progress(&format!("{seeds} random seeds of each kind, by each solver"));
     let seeds = surveys(&example, seeds);
     progress("the claims");
@@ -134,7 +139,8 @@ pub fn reproduce_with(
         schema_version: SCHEMA_VERSION,
         paper: "Equilibrium of a System of Bars Using a Multibody Type Method",
         equilibria: positions(&example),
-        all_as_expected: summary.as_expected(),
+        all_as_expected: summary.as_expected() && bounds.are_tight(),
+        bounds,
         claims,
         equations,
         cases,
