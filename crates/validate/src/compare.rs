@@ -1,10 +1,11 @@
 //! Two answers held against each other, and each against Newton's laws.
 
-use model::{Bar, Chain, Equilibrium, Problem, Rung, Vector};
+use model::{Chain, Equilibrium, Problem, Rung, Vector};
 use serde::Serialize;
 
+use crate::books::{Books, books};
 use crate::certificate::certify;
-use crate::statics::{Statics, judge};
+use crate::statics::{Statics, judge, stored_rounding_m};
 use crate::tolerances::Tolerances;
 
 /// How far two answers agree: the object `agreement` of the JSON.
@@ -21,6 +22,8 @@ pub struct Agreement {
     pub turned_rad: Option<f64>,
     /// Violations of Newton's laws by each answer.
     pub statics: [Statics; 2],
+    /// Whether the other numbers of each answer follow from its joints and forces.
+    pub books: [Books; 2],
     /// Whether all of these are within their budgets.
     pub verdict: Verdict,
     /// What exceeds its budget.
@@ -65,24 +68,17 @@ pub struct Units {
     pub rounding_m: f64,
 }
 
-/// A coordinate is rounded when it is stored, and two of them are subtracted: a few units in the
-/// last place of the largest.
-const STORED_ULPS: f64 = 8.0;
-
 impl Units {
     /// The units of a chain whose largest joint force is known.
     #[must_use]
     pub fn new(chain: &Chain, multipliers_n: &[Vector]) -> Self {
         let length_m = chain.total_length_m();
         let weight_n = chain.total_mass_kg() * chain.gravity_m_s2();
-        let anchors = chain.anchors();
-        let farthest =
-            anchors.start_m.iter().chain(&anchors.end_m).fold(length_m, |a, x| a.max(x.abs()));
         Self {
             length_m,
             force_n: multipliers_n.iter().map(|f| norm(*f)).fold(weight_n, f64::max),
             energy_j: weight_n * length_m,
-            rounding_m: STORED_ULPS * f64::EPSILON * farthest,
+            rounding_m: stored_rounding_m(chain),
         }
     }
 }
@@ -159,10 +155,8 @@ fn differences(chain: &Chain, answers: &[Equilibrium; 2], tolerances: &Tolerance
         largest(&first.multipliers_n, &second.multipliers_n, |a, b| distance(*a, turned(*b)));
     let energy_j = (first.energy_j - second.energy_j).abs();
     let statics = answers.each_ref().map(|a| judge(chain, &a.joints_m, &a.multipliers_n));
+    let books = answers.each_ref().map(|a| books(chain, a));
 
-    // Rounded coordinates turn short bars a little; nobody's fault, and no answer in doubles is without it.
-    let shortest_m = chain.bars().iter().map(Bar::length_m).fold(f64::INFINITY, f64::min);
-    let stored = units.rounding_m / shortest_m;
     let mut reasons = Vec::new();
     let mut budget = |what: &str, value: f64, limit: f64| {
         // NaN is over every budget.
@@ -177,7 +171,19 @@ fn differences(chain: &Chain, answers: &[Equilibrium; 2], tolerances: &Tolerance
         budget(
             &format!("statics of {}, at bar {}", answer.solver, statics.worst_bar),
             statics.largest(),
-            tolerances.statics.value + stored,
+            tolerances.statics.value,
+        );
+    }
+    for (answer, books) in answers.iter().zip(&books) {
+        budget(
+            &format!("energy of {} less that of its joints", answer.solver),
+            books.energy,
+            tolerances.energy.value,
+        );
+        budget(
+            &format!("axial forces and reactions of {} less its joint forces", answer.solver),
+            books.forces(),
+            tolerances.statics.value,
         );
     }
     if first.stability != second.stability {
@@ -187,7 +193,7 @@ fn differences(chain: &Chain, answers: &[Equilibrium; 2], tolerances: &Tolerance
         ));
     }
     let verdict = if reasons.is_empty() { Verdict::Agreed } else { Verdict::Disagreed };
-    Agreement { joints_m, forces_n, energy_j, turned_rad, statics, verdict, reasons }
+    Agreement { joints_m, forces_n, energy_j, turned_rad, statics, books, verdict, reasons }
 }
 
 /// Whether the chain turns freely about the vertical through both anchors.

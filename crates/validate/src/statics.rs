@@ -15,6 +15,8 @@ use serde::Serialize;
 ///
 /// Forces are measured in units of the larger of the total weight and the largest joint force: a
 /// nearly taut chain carries many times its weight, and its forces are differences of large ones.
+/// Of lengths and moments counts what the rounding of the stored coordinates ([`stored_rounding_m`])
+/// leaves unexplained: it turns a short bar, far from the origin, by more than any solver could help.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Statics {
     /// Largest distance of an end joint from its anchor, in units of the total length.
@@ -28,15 +30,33 @@ pub struct Statics {
     pub moment: f64,
     /// Force left over on the whole chain: both ground reactions and the total weight.
     pub balance: f64,
-    /// The bar (from 1) with the largest of all these.
+    /// Moment about joint 0 left over on the whole chain: the ground reaction at joint n and all
+    /// weights, in units of force × the total length. Errors too small to show on any one of a
+    /// million bars add up here.
+    pub turn: f64,
+    /// The bar (from 1) with the largest violation of its own.
     pub worst_bar: usize,
+}
+
+/// A coordinate is rounded when it is stored, and two of them are subtracted: a few units in the
+/// last place of the largest.
+const STORED_ULPS: f64 = 8.0;
+
+/// Rounding of the joints' coordinates, m: they are stored in the world frame, however far from its
+/// origin the anchors are.
+#[must_use]
+pub fn stored_rounding_m(chain: &Chain) -> f64 {
+    let anchors = chain.anchors();
+    let coordinates = anchors.start_m.iter().chain(&anchors.end_m);
+    let farthest = coordinates.fold(chain.total_length_m(), |most, x| most.max(x.abs()));
+    STORED_ULPS * f64::EPSILON * farthest
 }
 
 impl Statics {
     /// The largest violation; NaN if any number of the answer is not finite or missing.
     #[must_use]
     pub fn largest(&self) -> f64 {
-        [self.closure, self.length, self.force, self.moment, self.balance]
+        [self.closure, self.length, self.force, self.moment, self.balance, self.turn]
             .into_iter()
             .fold(0.0, worse)
     }
@@ -63,14 +83,16 @@ pub fn judge(chain: &Chain, joints_m: &[Vector], multipliers_n: &[Vector]) -> St
     let weight_n = chain.total_mass_kg() * chain.gravity_m_s2();
     let unit_n = multipliers_n.iter().map(|f| norm(*f)).fold(weight_n, worse);
     let anchors = chain.anchors();
+    let rounding_m = stored_rounding_m(chain);
 
+    let off = worse(norm(minus(*first, anchors.start_m)), norm(minus(*last, anchors.end_m)));
     let mut found = Statics {
-        closure: worse(norm(minus(*first, anchors.start_m)), norm(minus(*last, anchors.end_m)))
-            / length_m,
+        closure: beyond(off, rounding_m) / length_m,
         length: 0.0,
         force: 0.0,
         moment: 0.0,
         balance: whole_chain(multipliers_n, weight_n) / unit_n,
+        turn: beyond(whole_turn(chain, joints_m, multipliers_n) / unit_n, rounding_m) / length_m,
         worst_bar: 1,
     };
     let mut worst = 0.0;
@@ -86,9 +108,11 @@ pub fn judge(chain: &Chain, joints_m: &[Vector], multipliers_n: &[Vector]) -> St
             cross(along.map(|x| x * (1.0 - part)), after),
             cross(along.map(|x| x * part), before),
         );
-        let bar_length = (norm(along) - bar.length_m()).abs() / length_m;
+        let stretch = (norm(along) - bar.length_m()).abs();
+        let bar_length = beyond(stretch, rounding_m) / length_m;
         let force = norm(left) / unit_n;
-        let moment = norm(turn) / (unit_n * bar.length_m());
+        // A displaced end of the bar turns it: force times displacement.
+        let moment = beyond(norm(turn) / unit_n, rounding_m) / bar.length_m();
         found.length = worse(found.length, bar_length);
         found.force = worse(found.force, force);
         found.moment = worse(found.moment, moment);
@@ -106,9 +130,43 @@ fn whole_chain(multipliers_n: &[Vector], weight_n: f64) -> f64 {
     norm([start[0] + end[0], start[1] + end[1], sum([start[2], end[2], -weight_n])])
 }
 
+/// Moment about joint 0 left over on the chain as a whole, by compensated sums.
+fn whole_turn(chain: &Chain, joints_m: &[Vector], multipliers_n: &[Vector]) -> f64 {
+    let last = joints_m.len() - 1;
+    let origin = joints_m[0];
+    let end = cross(minus(joints_m[last], origin), multipliers_n[last]);
+    let weights = |axis: usize| {
+        chain.bars().iter().enumerate().map(move |(i, bar)| {
+            let part = bar.centre_m() / bar.length_m();
+            let from = joints_m[i][axis] - origin[axis];
+            let along = joints_m[i + 1][axis] - joints_m[i][axis];
+            bar.mass_kg() * chain.gravity_m_s2() * (from + part * along)
+        })
+    };
+    // (x, y, z) x (0, 0, -w) = (-y w, x w, 0)
+    norm([
+        sum(weights(1).map(|moment| -moment).chain([end[0]])),
+        sum(weights(0).chain([end[1]])),
+        end[2],
+    ])
+}
+
 fn unusable() -> Statics {
     let nan = f64::NAN;
-    Statics { closure: nan, length: nan, force: nan, moment: nan, balance: nan, worst_bar: 0 }
+    Statics {
+        closure: nan,
+        length: nan,
+        force: nan,
+        moment: nan,
+        balance: nan,
+        turn: nan,
+        worst_bar: 0,
+    }
+}
+
+/// What of a violation is beyond the rounding; NaN stays NaN (`f64::max` would forget it).
+fn beyond(violation: f64, rounding: f64) -> f64 {
+    if violation <= rounding { 0.0 } else { violation - rounding }
 }
 
 /// The larger of two violations; NaN is the worst of all (`f64::max` would forget it).

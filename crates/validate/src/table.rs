@@ -40,7 +40,8 @@ pub struct CaseResult {
     pub bars: usize,
     /// Differences and verdict; nothing if a solver gave no answer.
     pub agreement: Option<Agreement>,
-    /// The largest differences in the units of their budgets: joints, forces, energy, statics.
+    /// The largest differences in the units of their budgets: joints (beyond the rounding of their
+    /// coordinates), forces, energy, statics.
     pub scaled: Option<[f64; 4]>,
     /// Highest rung of the answer.
     pub rung: Option<Rung>,
@@ -103,7 +104,8 @@ fn run(case: &Case, tolerances: &Tolerances) -> CaseResult {
             let units = Units::new(problem.chain(), &answers[0].multipliers_n);
             let statics = agreement.statics.iter().map(crate::statics::Statics::largest);
             result.scaled = Some([
-                agreement.joints_m / units.length_m,
+                // What the rounding of the coordinates does not explain; NaN stays NaN.
+                (agreement.joints_m - units.rounding_m.min(agreement.joints_m)) / units.length_m,
                 agreement.forces_n / units.force_n,
                 agreement.energy_j / units.energy_j,
                 statics.fold(0.0, f64::max),

@@ -1,6 +1,9 @@
 //! The statics judge passes what is right and catches what is not.
 
-use model::{Problem, Vector};
+#![expect(clippy::unwrap_used, reason = "helpers of tests")]
+
+use model::{Anchors, Bar, Chain, Problem, Vector};
+use validate::Tolerances;
 use validate::statics::judge;
 
 /// Rounding of reference digits and of the judge's own arithmetic.
@@ -124,4 +127,58 @@ fn arrays_of_the_wrong_length_pass_nothing() {
     {
         assert!(!judge(problem.chain(), joints, forces).passes(f64::INFINITY));
     }
+}
+
+/// A million bars, exact by construction: with the pull of the first anchor given, every bar lies along
+/// the force in it, turned by `lean` rad.
+fn long(lean: f64) -> (Chain, Vec<Vector>, Vec<Vector>) {
+    const BARS: usize = 1_000_000;
+    let bars = vec![Bar::homogeneous(1e-6, 1e-6).unwrap(); BARS];
+    let weight = 1e-6;
+    let (mut joints, mut forces) = (vec![[0.0; 3]], vec![[-0.4, 0.0, 0.55]]);
+    // Sums of integers times the weight, and compensated sums of directions: no drift.
+    let (mut place, mut lost) = ([0.0_f64; 3], [0.0_f64; 3]);
+    for i in 0..BARS {
+        let lump = 0.55 - weight * (i as f64 + 0.5);
+        let along = f64::atan2(-lump, 0.4) + lean;
+        for (k, part) in [(0, along.cos()), (2, along.sin())] {
+            let step = 1e-6 * part - lost[k];
+            let next = place[k] + step;
+            lost[k] = (next - place[k]) - step;
+            place[k] = next;
+        }
+        joints.push(place);
+        forces.push([0.4, 0.0, weight * (i as f64 + 1.0) - 0.55]);
+    }
+    let anchors = Anchors { start_m: [0.0; 3], end_m: place };
+    (Chain::new("long", 1.0, anchors, bars).unwrap(), joints, forces)
+}
+
+/// The budget of the project.
+fn budget() -> f64 {
+    Tolerances::project().statics.value
+}
+
+#[test]
+fn a_million_bars_in_balance_pass_and_one_wrong_bar_does_not() {
+    let (chain, joints, forces) = long(0.0);
+    let statics = judge(&chain, &joints, &forces);
+    println!("{statics:?}");
+    assert!(statics.passes(budget()), "{statics:?}");
+    let mut moved = joints.clone();
+    moved[500_000][2] += 1e-11;
+    let found = judge(&chain, &moved, &forces);
+    assert!(!found.passes(budget()), "{found:?}");
+    assert!([500_000, 500_001].contains(&found.worst_bar), "{found:?}");
+}
+
+/// Every bar of a million leans by less than the rounding of its ends explains; together they do not
+/// escape.
+#[test]
+fn errors_too_small_to_see_on_a_bar_are_seen_on_the_chain() {
+    let (chain, joints, forces) = long(1e-9);
+    let statics = judge(&chain, &joints, &forces);
+    println!("{statics:?}");
+    assert!(statics.moment <= budget() && statics.length <= budget(), "{statics:?}");
+    assert!(statics.turn > budget() && !statics.passes(budget()), "{statics:?}");
 }
