@@ -1,0 +1,119 @@
+//! The bottom of the chain: is every bar in tension, or is one in the way?
+//!
+//! Let both strands hang straight down, bars before bar k from the start anchor and bars after it
+//! from the end anchor. Bar k would have to fill the gap
+//!
+//! $$ G_k = D + \Bigl(\sum_{i<k} l_i - \sum_{i>k} l_i\Bigr) e_z. $$
+//!
+//! Its height grows by $l_k + l_{k+1}$ from one bar to the next, so there is one bar with
+//! $|e_z \cdot G_k| \le l_k$: the bottom bar. If $|G_k| > l_k$ the strands are pulled together, and
+//! the convex function $\Phi(q) = \sum l_i |q + b_i e_z| - q \cdot D$ has its minimum where no force
+//! vanishes: all bars are in tension. If $|G_k| \le l_k$ the minimum is the kink $q = 0$ (there
+//! $D - \sum_{i \ne k} l_i u_i = G_k$ must not be longer than $l_k$): as a cable the bar would be
+//! slack, as a bar it pushes the strands apart. No iteration is needed to know.
+//!
+//! Bars that share the force q with bar k, because no joint between them carries weight, belong to
+//! the bottom too.
+
+use std::ops::Range;
+
+use super::read::Read;
+use super::sums::{BLOCK, Twofold};
+
+/// Loads smaller than this beside the largest are no loads: their squares would underflow.
+const NO_LOAD: f64 = 1e-100;
+/// Roundings, in units of the last place of the total length, within which two lengths agree.
+const ROUNDINGS: f64 = 4.0 * f64::EPSILON;
+
+/// Nearer than this to a straight bottom bar, in total lengths, the gap is summed with all care: it has
+/// to be known whether strands of equal bars just meet.
+const DOUBTFUL: f64 = 1e-10;
+
+/// The bars at the bottom.
+#[derive(Debug, Clone)]
+pub(super) struct Bottom {
+    /// All bars with the same force.
+    pub group: Range<usize>,
+    /// Their length.
+    pub length: f64,
+    /// The longest of them.
+    pub longest: usize,
+    /// Length of the longest minus that of the rest of the group: nearer than this its ends cannot
+    /// come. For one bar its length; negative when the group folds to a point.
+    pub shortest_reach: f64,
+    /// Height of the gap between the straight strands.
+    pub gap: f64,
+}
+
+/// What holds the bottom.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Hold {
+    /// The strands are pulled together: all bars in tension.
+    Tension,
+    /// The longest bar of the group pushes the strands apart.
+    Compression,
+    /// The group hangs between the strands without force.
+    Loose,
+    /// Anchors on one vertical, two strands that just meet: how they share the weight of the joint
+    /// at the bottom is indeterminate.
+    Meeting,
+}
+
+impl Bottom {
+    /// The first bar whose second end lies at or above the lowest point that strands of equal depth
+    /// reach: where `rise + 2 (l_1 + ... + l_k) >= total`.
+    pub fn bar(lengths: &[f64], before: &[f64], total: f64, rise: f64) -> usize {
+        let beyond = |length: f64| 2.0 * length + (rise - total) >= 0.0;
+        // The first block has nothing before it, so there is always one to look in.
+        let block = before.partition_point(|length| !beyond(*length)).saturating_sub(1);
+        let first = block * BLOCK;
+        let mut length = before[block];
+        for (k, l) in lengths[first..].iter().enumerate() {
+            length += l;
+            if beyond(length) {
+                return first + k;
+            }
+        }
+        lengths.len() - 1
+    }
+
+    /// Everything about the bottom, once loads are counted from it.
+    pub fn new(bar: usize, read: &Read, rise: f64) -> Self {
+        let loads = &read.loads;
+        let largest = loads[0].abs().max(loads[loads.len() - 1].abs());
+        let none = |load: &f64| load.abs() <= NO_LOAD * largest;
+        let first = bar - loads[..bar].iter().rev().take_while(|load| none(load)).count();
+        let end = bar + 1 + loads[bar + 1..].iter().take_while(|load| none(load)).count();
+        let group = first..end;
+        let lengths = &read.lengths[group.clone()];
+        let length = model::sum(lengths.iter().copied());
+        let longest = (group.clone())
+            .fold(bar, |best, k| if read.lengths[k] > read.lengths[best] { k } else { best });
+        let block = first / BLOCK;
+        let strand = read.before[block] + read.lengths[block * BLOCK..first].iter().sum::<f64>();
+        let other = (read.total_length - strand) - length;
+        let mut gap = (strand - other) + rise;
+        if (gap.abs() - length).abs() <= DOUBTFUL * read.total_length {
+            let [strand, other] = [&read.lengths[..first], &read.lengths[end..]]
+                .map(|lengths| Twofold::total(lengths.iter().copied()));
+            gap = strand.add(other.negate()).plus(rise).value();
+        }
+        let shortest_reach = 2.0 * read.lengths[longest] - length;
+        Self { group, length, longest, shortest_reach, gap }
+    }
+
+    /// What holds the bottom when the anchors are `across` apart horizontally.
+    pub fn hold(&self, across: f64, total_length: f64) -> Hold {
+        let gap = across.hypot(self.gap);
+        let rounding = ROUNDINGS * total_length;
+        if across <= rounding && (gap - self.length).abs() <= rounding {
+            Hold::Meeting
+        } else if gap > self.length + rounding {
+            Hold::Tension
+        } else if gap < self.shortest_reach - rounding {
+            Hold::Compression
+        } else {
+            Hold::Loose
+        }
+    }
+}

@@ -1,0 +1,39 @@
+//! What can go wrong in a condensed solve.
+
+use crate::SettingsError;
+
+/// Why no equilibrium was returned. `Ok` always means converged.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum CondensedError {
+    /// Occurs when a setting is out of range.
+    #[error(transparent)]
+    Settings(#[from] SettingsError),
+    /// Occurs when the passes over the bars ran out, or the iteration stopped at rounding errors
+    /// larger than the settings allow.
+    #[error("the chain does not close: off by {closure:.3e} of its length after {passes} passes")]
+    NotClosed {
+        /// Distance of the last joint from its anchor, relative to the total length; NaN when no
+        /// closed shape was near.
+        closure: f64,
+        /// Passes over the bars.
+        passes: usize,
+    },
+    /// Occurs when a force or the energy is larger than a double can hold.
+    #[error("a force of this chain is larger than a double can hold")]
+    Overflow,
+    /// Occurs when the list of signs has not one entry for each bar.
+    #[error("there are signs for {got} bars, the chain has {expected}")]
+    SignsLength {
+        /// Bars of the chain.
+        expected: usize,
+        /// Signs given.
+        got: usize,
+    },
+    /// Occurs when a component of the pull to start from is infinite or not a number.
+    #[error("the pull to start from has a component of {component_n} N")]
+    PullNotFinite {
+        /// The component.
+        component_n: f64,
+    },
+}

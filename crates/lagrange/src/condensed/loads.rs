@@ -1,0 +1,135 @@
+//! From the weights of the joints to the loads between the bottom bar and every other.
+
+use super::sums::{BLOCK, Twofold, running};
+
+/// Chains of fewer bars are solved without a coarse chain first: of fewer than sixteen blocks it
+/// says little more than the catenary does.
+const COARSE_FROM: usize = 16 * BLOCK;
+
+/// Lengths and loads of some bars.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Arrays {
+    pub lengths: Vec<f64>,
+    pub loads: Vec<f64>,
+}
+
+/// Replace the weights of the joints (entry i: the joint before bar i) by the loads $b_i$ counted
+/// from bar `bottom`, and take their moments while they are in the cache.
+///
+/// Blocks count outwards from the bottom, each from zero, and are then shifted by a twofold offset:
+/// no rounding grows with n, and next to the bottom there is no offset at all.
+pub(super) fn count_from(bottom: usize, lengths: &[f64], loads: &mut [f64], moments: &mut Moments) {
+    let (before, after) = loads.split_at_mut(bottom + 1);
+    let (lengths_before, lengths_after) = lengths.split_at(bottom + 1);
+
+    let mut offset = Twofold::default();
+    for (lengths, loads) in lengths_after.chunks(BLOCK).zip(after.chunks_mut(BLOCK)) {
+        let here = running(loads, 0.0);
+        shift(loads, offset.value());
+        offset = offset.plus(here);
+        moments.take(lengths, loads);
+    }
+
+    // The weight before bar i+1 is the first that bar i does not share with it: move all by one.
+    before.copy_within(1.., 0);
+    if let Some(last) = before.last_mut() {
+        *last = 0.0;
+    }
+    let mut offset = Twofold::default();
+    for (lengths, loads) in lengths_before.rchunks(BLOCK).zip(before.rchunks_mut(BLOCK)) {
+        loads.reverse();
+        let here = running(loads, 0.0);
+        loads.reverse();
+        for load in loads.iter_mut() {
+            *load = -*load;
+        }
+        shift(loads, -offset.value());
+        offset = offset.plus(here);
+        moments.take(lengths, loads);
+    }
+}
+
+fn shift(loads: &mut [f64], offset: f64) {
+    for load in loads {
+        *load += offset;
+    }
+}
+
+/// Moments of the loads, weighted with the lengths.
+pub(super) struct Moments {
+    first: f64,
+    second: f64,
+    wanted: bool,
+    pub coarse: Arrays,
+}
+
+impl Moments {
+    pub fn new(bars: usize) -> Self {
+        let wanted = bars >= COARSE_FROM;
+        // Two for each block, and the bottom may split one block in two.
+        let points = if wanted { 2 * (bars / BLOCK + 2) } else { 0 };
+        let coarse =
+            Arrays { lengths: Vec::with_capacity(points), loads: Vec::with_capacity(points) };
+        Self { first: 0.0, second: 0.0, wanted, coarse }
+    }
+
+    /// Take a block in. The coarse chain gets two bars for it, of half its length each and one
+    /// standard deviation to both sides of its mean: a quadrature of third order.
+    fn take(&mut self, lengths: &[f64], loads: &[f64]) {
+        let Some(&origin) = loads.first() else { return };
+        let (mut length, mut first, mut second) = (0.0, 0.0, 0.0);
+        for (l, b) in lengths.iter().zip(loads) {
+            let from = b - origin;
+            length += l;
+            first += l * from;
+            second += l * from * from;
+        }
+        let mean = first / length;
+        let variance = (second / length - mean * mean).max(0.0);
+        let centre = origin + mean;
+        self.first += length * centre;
+        self.second += length * (variance + centre * centre);
+        if self.wanted {
+            let deviation = variance.sqrt();
+            self.coarse.lengths.extend([0.5 * length; 2]);
+            self.coarse.loads.extend([centre - deviation, centre + deviation]);
+        }
+    }
+
+    /// Mean and standard deviation of all loads.
+    pub fn total(&self, length: f64) -> (f64, f64) {
+        let mean = self.first / length;
+        (mean, (self.second / length - mean * mean).max(0.0).sqrt())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn loads_count_from_the_bottom_both_ways() {
+        for (n, bottom) in [(1, 0), (7, 0), (7, 6), (7, 3), (1000, 0), (1000, 999), (1000, 301)] {
+            let lengths = vec![1.0; n];
+            // Integers: every sum is exact.
+            let weights: Vec<f64> =
+                (0..n).map(|i| f64::from(u32::try_from(i % 5).unwrap())).collect();
+            let mut loads = weights.clone();
+            let mut moments = Moments::new(n);
+            count_from(bottom, &lengths, &mut loads, &mut moments);
+            for i in 0..n {
+                let expected: f64 = if i >= bottom {
+                    weights[bottom + 1..=i].iter().sum()
+                } else {
+                    -weights[i + 1..=bottom].iter().sum::<f64>()
+                };
+                assert!((loads[i] - expected).abs() < 0.5, "{n} {bottom} {i}");
+            }
+            let mean = loads.iter().sum::<f64>() / n as f64;
+            let variance = loads.iter().map(|b| (b - mean).powi(2)).sum::<f64>() / n as f64;
+            let (got_mean, got_deviation) = moments.total(n as f64);
+            assert!((got_mean - mean).abs() <= 1e-9 * (1.0 + mean.abs()));
+            assert!((got_deviation - variance.sqrt()).abs() <= 1e-6 * (1.0 + variance.sqrt()));
+        }
+    }
+}

@@ -1,0 +1,178 @@
+//! Newton's method on the condensed equations of a chain in tension: the minimum of a convex function.
+
+use super::system::{Closure, System};
+
+/// A step is good when the slope along it has fallen to this part.
+const GOOD_SLOPE: f64 = 0.9;
+/// A step that was much too short is stretched by this factor.
+const STRETCH: f64 = 4.0;
+/// Secants stay away from the ends of their interval by this part of it.
+const MARGIN: f64 = 0.1;
+/// Conditions up to this let the residual after a step be predicted; beyond, a tiny residual may still
+/// ask for a long step.
+const WELL_CONDITIONED: f64 = 1e4;
+/// A step is small when it changes the horizontal force, and the vertical one beside the whole, by less
+/// than this part.
+const SMALL_STEP: f64 = 1e-3;
+/// How much the prediction of the next residual may be wrong.
+const CAUTION: f64 = 10.0;
+/// Passes that Newton's method may take before a nested search takes over.
+pub(super) const NEWTON_PASSES: usize = 60;
+/// Steps of Newton's method in other axes that only remove rounding errors.
+const POLISH_STEPS: usize = 6;
+
+/// A force that solves the condensed equations.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Root {
+    /// Force in the bottom bar, in the axes of the system.
+    pub force: [f64; 2],
+    /// The last closure computed, at this force or one quadratically small step before it.
+    pub closure: Closure,
+    /// Largest quotient of a residual and the square of the one before, in roundings, among full steps.
+    pub contraction: f64,
+}
+
+/// Counts passes over the bars, against the limit of the settings.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Passes {
+    pub spent: usize,
+    pub limit: usize,
+}
+
+impl Passes {
+    pub fn new(limit: usize) -> Self {
+        Self { spent: 0, limit }
+    }
+
+    /// Spend one; false when none is left.
+    pub fn spend(&mut self) -> bool {
+        self.spent += 1;
+        self.spent <= self.limit
+    }
+}
+
+/// Let a method try with few passes, and count them.
+pub(super) fn first_few<T>(passes: &mut Passes, solve: impl FnOnce(&mut Passes) -> T) -> T {
+    let limit = passes.limit.min(passes.spent + NEWTON_PASSES);
+    let mut few = Passes { limit, ..*passes };
+    let answer = solve(&mut few);
+    passes.spent = few.spent;
+    answer
+}
+
+/// Newton's method from a root found in other axes, as long as it gets closer.
+pub(super) fn polish(system: &System<'_>, force: [f64; 2], passes: &mut Passes) -> Root {
+    let mut root = Root { force, closure: system.closure(force), contraction: 0.0 };
+    passes.spend();
+    for _ in 0..POLISH_STEPS {
+        let Some([x, y]) = root.closure.step() else { break };
+        let force = [root.force[0] + x, root.force[1] + y];
+        let closure = system.closure(force);
+        // A NaN is not closer.
+        if !passes.spend() || closure.size().total_cmp(&root.closure.size()).is_ge() {
+            break;
+        }
+        root = Root { force, closure, contraction: 0.0 };
+    }
+    root
+}
+
+/// Minimise $\Phi$ from `force` on.
+///
+/// `contraction` of the same chain made coarser lets the last pass be saved: the residual after the
+/// next step is then predicted, not computed. `None` when the passes ran out or rounding errors are
+/// larger than [`Closure::floor`] says and prevent a closure of `enough` total lengths, too.
+pub(super) fn minimise(
+    system: &System<'_>,
+    force: [f64; 2],
+    contraction: Option<f64>,
+    enough: f64,
+    passes: &mut Passes,
+) -> Option<Root> {
+    let mut root = Root { force, closure: system.closure(force), contraction: 0.0 };
+    passes.spend();
+    loop {
+        let size = root.closure.size();
+        if size <= 1.0 {
+            return Some(root);
+        }
+        let Some(step) = root.closure.step() else {
+            return system.settled(&root.closure, enough).then_some(root);
+        };
+        if let Some(contraction) = contraction
+            && CAUTION * contraction * size * size <= 1.0
+            && small(step, root.force)
+            && root.closure.condition() <= WELL_CONDITIONED
+        {
+            root.force = [root.force[0] + step[0], root.force[1] + step[1]];
+            return Some(root);
+        }
+        match along(system, &root, step, passes) {
+            Some((part, closure)) => {
+                root.force = advance(root.force, step, part);
+                root.closure = closure;
+                if (part - 1.0).abs() <= f64::EPSILON {
+                    root.contraction = root.contraction.max(closure.size() / (size * size));
+                }
+            }
+            None => return system.settled(&root.closure, enough).then_some(root),
+        }
+    }
+}
+
+/// Whether a step leaves the derivative nearly as it is.
+fn small(step: [f64; 2], force: [f64; 2]) -> bool {
+    let size = force[0].hypot(force[1]);
+    step[0].abs() <= SMALL_STEP * force[0].abs() && step[1].abs() <= SMALL_STEP * size
+}
+
+fn advance(from: [f64; 2], step: [f64; 2], part: f64) -> [f64; 2] {
+    [from[0] + part * step[0], from[1] + part * step[1]]
+}
+
+/// Go along the step until the slope of $\Phi$, which rises from negative on, is near zero: no values
+/// of $\Phi$ are compared, so no digits are lost next to the minimum.
+fn along(
+    system: &System<'_>,
+    root: &Root,
+    step: [f64; 2],
+    passes: &mut Passes,
+) -> Option<(f64, Closure)> {
+    let slope = |closure: &Closure| closure.residual[0] * step[0] + closure.residual[1] * step[1];
+    let first = slope(&root.closure);
+    if first >= 0.0 || first.is_nan() {
+        return None;
+    }
+    let size = root.closure.size();
+    let (mut low, mut slope_low) = (0.0, first);
+    let mut high: Option<(f64, f64)> = None;
+    let mut part = 1.0;
+    loop {
+        if !passes.spend() {
+            return None;
+        }
+        let closure = system.closure(advance(root.force, step, part));
+        let here = slope(&closure);
+        if here.abs() <= GOOD_SLOPE * first.abs() || closure.size() <= GOOD_SLOPE * size {
+            return Some((part, closure));
+        }
+        // A NaN counts as too far.
+        if here < 0.0 {
+            (low, slope_low) = (part, here);
+        } else {
+            high = Some((part, here));
+        }
+        let next = match high {
+            None => part * STRETCH,
+            Some((high, slope_high)) => {
+                let secant = slope_low / (slope_low - slope_high);
+                let secant = if secant.is_finite() { secant } else { 0.5 };
+                low + (high - low) * secant.clamp(MARGIN, 1.0 - MARGIN)
+            }
+        };
+        if (next - part).abs() <= f64::EPSILON * part || !next.is_finite() {
+            return None;
+        }
+        part = next;
+    }
+}

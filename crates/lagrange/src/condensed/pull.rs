@@ -1,0 +1,261 @@
+//! The pull on the first anchor: three numbers that determine the whole equilibrium.
+
+use std::f64::consts::FRAC_PI_2;
+use std::ops::Range;
+
+use model::Vector;
+
+use super::axis::{Axis, Fold};
+use super::bottom::{Bottom, Hold};
+use super::bracket::Bracket;
+use super::chain::Condensed;
+use super::compression::Push;
+use super::error::CondensedError;
+use super::kernel::Bars;
+use super::loads::Arrays;
+use super::newton::{NEWTON_PASSES, Passes, Root, first_few, minimise, polish};
+use super::settings::Settings;
+use super::span::Span;
+use super::start::Rope;
+use super::system::{Frame, System};
+use super::tension::nested;
+
+/// A deviation smaller than this beside the largest load comes from cancellation.
+const LEAST_DEVIATION: f64 = 1e-8;
+const NO_BARS: Bars<'static> = Bars { lengths: &[], loads: &[] };
+
+/// Which bars are compressed.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Signs {
+    /// None.
+    Tension,
+    /// This one.
+    One(usize),
+    /// None, and these carry no force at all: they have just to fill the gap between the strands.
+    Loose(Range<usize>),
+    /// Those marked.
+    Listed(Vec<bool>),
+}
+
+/// An equilibrium, as briefly as it can be said: the force in the bottom bar and the signs.
+///
+/// Every force in the chain is this one plus weights, every bar is parallel to its force.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Pull {
+    /// Horizontal unit vector of the plane.
+    pub(super) level: [f64; 2],
+    /// Force in the bottom bar, horizontal and vertical, in units of the chain.
+    pub(super) force: [f64; 2],
+    pub(super) signs: Signs,
+    /// Derivative of the closure by the force: largest pivot, and what elimination leaves of the other.
+    pub(super) pivots: [f64; 2],
+    /// Size of the terms of which that remainder is the difference.
+    pub(super) remainder_of: f64,
+    /// Force of the ground on bar 1 at joint 0, N.
+    ground_n: Vector,
+    passes: usize,
+}
+
+impl Pull {
+    pub(super) fn new(
+        chain: &Condensed,
+        level: [f64; 2],
+        force: [f64; 2],
+        signs: Signs,
+        [a, b, c]: [f64; 3],
+        passes: usize,
+    ) -> Self {
+        let (first, second) = if a.abs() >= c.abs() { (a, c) } else { (c, a) };
+        let taken = if b.abs() > 0.0 { b / first * b } else { 0.0 };
+        let unit = chain.units.force();
+        let vertical = (chain.at_start - chain.loads[0]) - force[1];
+        Self {
+            level,
+            force,
+            signs,
+            pivots: [first, second - taken],
+            remainder_of: second.abs() + taken.abs(),
+            ground_n: [-force[0] * level[0] * unit, -force[0] * level[1] * unit, vertical * unit],
+            passes,
+        }
+    }
+
+    /// Force of the ground on bar 1 at joint 0, world frame, N: the paper's λ₁, λ₂, λ₃. The chain
+    /// pulls the anchor with the opposite of it.
+    #[must_use]
+    pub fn ground_n(&self) -> Vector {
+        self.ground_n
+    }
+
+    /// The compressed bars, numbered from 0.
+    #[must_use]
+    pub fn compressed(&self) -> Vec<usize> {
+        match &self.signs {
+            Signs::Tension | Signs::Loose(_) => Vec::new(),
+            Signs::One(bar) => vec![*bar],
+            Signs::Listed(signs) => (0..signs.len()).filter(|k| signs[*k]).collect(),
+        }
+    }
+
+    /// Passes over all bars that it took.
+    #[must_use]
+    pub fn passes(&self) -> usize {
+        self.passes
+    }
+}
+
+impl Condensed {
+    /// The pull of the hanging equilibrium: the global minimum of the energy.
+    ///
+    /// No guess is needed. Whether a bar is compressed, and which, follows from the lengths; with all
+    /// bars in tension the pull is the minimum of a convex function, with one compressed the only
+    /// root of its kind. With the anchors on one vertical every vertical plane is as good as any
+    /// other; the answer lies in OYZ and the bars in tension lean towards +Y.
+    ///
+    /// # Errors
+    ///
+    /// [`CondensedError::Settings`] for settings out of range, [`CondensedError::NotClosed`] when
+    /// the passes over the bars run out.
+    pub fn pull(&self, settings: &Settings) -> Result<Pull, CondensedError> {
+        settings.validate()?;
+        let mut passes = Passes::new(settings.max_passes);
+        let enough = settings.closure;
+        let found = match self.bottom.hold(self.span.across, self.total_length) {
+            Hold::Tension => self.in_tension(enough, &mut passes),
+            Hold::Compression => self.in_compression(enough, &mut passes),
+            Hold::Loose => Some(self.loose()),
+            Hold::Meeting => Some(self.meeting()),
+        };
+        let pull =
+            found.ok_or(CondensedError::NotClosed { closure: f64::NAN, passes: passes.spent })?;
+        let finite = pull.ground_n.iter().all(|component| component.is_finite());
+        if finite { Ok(pull) } else { Err(CondensedError::Overflow) }
+    }
+
+    fn in_tension(&self, enough: f64, passes: &mut Passes) -> Option<Pull> {
+        let upright = self.upright(self.all(), 0.0);
+        let Some(axis) = Axis::taut(self, false) else {
+            let start = self.rope(self.total_length - self.span.distance).force();
+            let (near, contraction) = self.over_the_coarse(start);
+            let root = first_few(passes, |few| minimise(&upright, near, contraction, enough, few))
+                .or_else(|| nested(&upright, start, enough, passes))?;
+            return Some(self.found(root.force, Signs::Tension, &root, passes));
+        };
+        let aligned = System { frame: axis.frame, ..upright };
+        let start = self.rope(axis.slack).force();
+        let begin = axis.enter(start);
+        let root = first_few(passes, |few| minimise(&aligned, begin, None, enough, few)).or_else(
+            || {
+                let root = nested(&upright, start, enough, passes)?;
+                Some(polish(&aligned, axis.enter(root.force), passes))
+            },
+        )?;
+        Some(self.found(axis.leave(root.force), Signs::Tension, &root, passes))
+    }
+
+    fn in_compression(&self, enough: f64, passes: &mut Passes) -> Option<Pull> {
+        let Bottom { group, longest, shortest_reach, gap, .. } = &self.bottom;
+        let Span { across, rise, .. } = self.span;
+        let beside = [group.start.checked_sub(1), Some(group.end)];
+        let beside = beside.into_iter().flatten().filter_map(|k| self.loads.get(k));
+        let upright = Push {
+            system: self.upright(self.around_the_bottom(), *shortest_reach),
+            fold: None,
+            side: 1.0,
+            level: [1.0, 0.0],
+            between: Bracket { low: -FRAC_PI_2, high: FRAC_PI_2 },
+            // With the strands straight the bar's slope follows from the height of the gap.
+            angle: (gap / shortest_reach).clamp(-1.0, 1.0).asin(),
+            line: rise.atan2(across),
+            load: beside.fold(f64::INFINITY, |least, load| least.min(load.abs())),
+            largest_load: self.largest_load(),
+        };
+        let signs = Signs::One(*longest);
+        let line = Axis::taut(self, true).or_else(|| Axis::folded(self));
+        let fold = Fold::of(self);
+        let root = if let Some(axis) = line {
+            let root = upright.along(&axis).solve(enough, passes)?;
+            Root { force: axis.leave(root.force), ..root }
+        } else if fold.is_some() {
+            Push { fold, ..upright }.solve(enough, passes)?
+        } else if let Some(axis) = Axis::hanging(self) {
+            let root = upright.along(&axis).solve(enough, passes)?;
+            Root { force: axis.leave(root.force), ..root }
+        } else {
+            upright.solve(enough, passes)?
+        };
+        Some(self.found(root.force, signs, &root, passes))
+    }
+
+    /// No force at the bottom: every other bar carries the weights below it, straight up.
+    fn loose(&self) -> Pull {
+        let signs = Signs::Loose(self.bottom.group.clone());
+        Pull::new(self, self.span.level, [0.0; 2], signs, [0.0; 3], 0)
+    }
+
+    /// Two strands that just meet share the weight of the joint where they do in any way they like;
+    /// they share it evenly.
+    fn meeting(&self) -> Pull {
+        let Bottom { group, gap, .. } = &self.bottom;
+        let load = if *gap < 0.0 {
+            self.loads.get(group.end).copied()
+        } else {
+            group.start.checked_sub(1).map(|k| self.loads[k])
+        };
+        let force = [0.0, -0.5 * load.unwrap_or(0.0)];
+        let jacobian = self.upright(self.all(), 0.0).closure(force).jacobian;
+        Pull::new(self, self.span.level, force, Signs::Tension, jacobian, 1)
+    }
+
+    fn found(&self, force: [f64; 2], signs: Signs, root: &Root, passes: &Passes) -> Pull {
+        Pull::new(self, self.span.level, force, signs, root.closure.jacobian, passes.spent)
+    }
+
+    /// The minimum for the coarse chain, and how fast it was reached.
+    fn over_the_coarse(&self, start: [f64; 2]) -> ([f64; 2], Option<f64>) {
+        let Arrays { lengths, loads } = &self.coarse;
+        if lengths.is_empty() {
+            return (start, None);
+        }
+        let bars = Bars { lengths, loads };
+        let system = self.upright([bars, NO_BARS], 0.0);
+        let mut passes = Passes::new(NEWTON_PASSES);
+        let root = minimise(&system, start, None, f64::INFINITY, &mut passes);
+        root.map_or((start, None), |root| (root.force, Some(root.contraction)))
+    }
+
+    fn rope(&self, slack: f64) -> Rope {
+        let Span { across, rise, distance, .. } = self.span;
+        let length = self.total_length;
+        Rope {
+            across,
+            rise,
+            length,
+            slack_squared: slack * (length + distance),
+            mean: self.mean,
+            deviation: self.deviation.max(LEAST_DEVIATION * self.largest_load()),
+        }
+    }
+
+    fn largest_load(&self) -> f64 {
+        self.loads[0].abs().max(self.loads[self.loads.len() - 1].abs())
+    }
+
+    fn all(&self) -> [Bars<'_>; 2] {
+        [Bars { lengths: &self.lengths, loads: &self.loads }, NO_BARS]
+    }
+
+    fn around_the_bottom(&self) -> [Bars<'_>; 2] {
+        let group = &self.bottom.group;
+        let part = |range: Range<usize>| Bars {
+            lengths: &self.lengths[range.clone()],
+            loads: &self.loads[range],
+        };
+        [part(0..group.start), part(group.end..self.bars())]
+    }
+
+    fn upright<'a>(&self, parts: [Bars<'a>; 2], push: f64) -> System<'a> {
+        let frame = Frame::Upright { across: self.span.across, rise: self.span.rise };
+        System { parts, push, frame, total_length: self.total_length }
+    }
+}

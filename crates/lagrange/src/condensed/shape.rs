@@ -1,0 +1,143 @@
+//! Joints and forces as arrays, for programs that go on computing with a million bars.
+
+use model::{Reactions, Vector};
+
+use super::chain::Condensed;
+use super::pull::Pull;
+use super::trace::trace;
+
+/// A shape in its vertical plane, one array per quantity; SI units.
+///
+/// Joint k is at `start_m` + `along_m[k]` × level + `height_m[k]` × up; the horizontal part of every
+/// multiplier but the first is `horizontal_n` × level.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Shape {
+    /// Joint 0, m.
+    pub start_m: Vector,
+    /// Horizontal unit vector of the plane, X and Y.
+    pub level: [f64; 2],
+    /// Horizontal position of each joint 0..=n from joint 0, m.
+    pub along_m: Vec<f64>,
+    /// Height of each joint above joint 0, m.
+    pub height_m: Vec<f64>,
+    /// Axial force of each bar with its weight lumped to its joints, tension positive, N.
+    pub axial_n: Vec<f64>,
+    /// Vertical part of the multipliers: entry 0 of the force of the ground on bar 1, the others of
+    /// the force of bar k+1 (at the end: of the ground) on bar k at joint k, N.
+    pub vertical_n: Vec<f64>,
+    /// Horizontal part of the multipliers but the first, which has the opposite, N.
+    pub horizontal_n: f64,
+    /// Potential energy from the height of joint 0, J.
+    pub energy_j: f64,
+    /// Distance of the last joint from its anchor, relative to the total length.
+    pub closure: f64,
+}
+
+impl Shape {
+    /// Position of a joint, world frame, m; `None` beyond the last.
+    #[must_use]
+    pub fn joint_m(&self, k: usize) -> Option<Vector> {
+        let (s, z) = (*self.along_m.get(k)?, *self.height_m.get(k)?);
+        let [x0, y0, z0] = self.start_m;
+        Some([x0 + self.level[0] * s, y0 + self.level[1] * s, z0 + z])
+    }
+
+    /// A multiplier, world frame, N, in the meaning of
+    /// [`multipliers_n`](model::Equilibrium::multipliers_n); `None` beyond the last.
+    #[must_use]
+    pub fn multiplier_n(&self, k: usize) -> Option<Vector> {
+        let h = if k == 0 { -self.horizontal_n } else { self.horizontal_n };
+        Some([h * self.level[0], h * self.level[1], *self.vertical_n.get(k)?])
+    }
+}
+
+impl Condensed {
+    /// All joints and forces that belong to a pull of this chain, as arrays.
+    #[must_use]
+    pub fn reconstruct(&self, pull: &Pull) -> Shape {
+        let n = self.bars();
+        let (length, force) = (self.units.length, self.units.force());
+        let (mut along_m, mut height_m) = (vec![0.0; n + 1], vec![0.0; n + 1]);
+        let (mut axial_n, mut vertical_n) = (vec![0.0; n], vec![0.0; n + 1]);
+        let ends = trace(self, pull, |stretch| {
+            let bars = stretch.first..stretch.first + stretch.axial.len();
+            let joints = bars.start + 1..=bars.end;
+            scale(&mut along_m[joints.clone()], stretch.along, length);
+            scale(&mut height_m[joints.clone()], stretch.height, length);
+            scale(&mut axial_n[bars], stretch.axial, force);
+            scale(&mut vertical_n[joints], stretch.vertical, force);
+        });
+        vertical_n[0] = pull.ground_n()[2];
+        Shape {
+            start_m: self.start_m,
+            level: pull.level,
+            along_m,
+            height_m,
+            axial_n,
+            vertical_n,
+            horizontal_n: pull.force[0] * force,
+            energy_j: ends.energy * length * force,
+            closure: self.closure_of(pull, ends.last),
+        }
+    }
+
+    /// All joints and forces that belong to a pull of this chain, as vectors in the world frame.
+    pub(super) fn vectors(&self, pull: &Pull) -> Vectors {
+        let n = self.bars();
+        let (length, force) = (self.units.length, self.units.force());
+        let ([x0, y0, z0], [ex, ey]) = (self.start_m, pull.level);
+        let h = pull.force[0] * force;
+        let (hx, hy) = (h * ex, h * ey);
+        let mut joints_m = vec![[0.0; 3]; n + 1];
+        let mut multipliers_n = vec![[0.0; 3]; n + 1];
+        let mut axial_n = vec![0.0; n];
+        let ends = trace(self, pull, |stretch| {
+            let bars = stretch.first..stretch.first + stretch.axial.len();
+            let joints = bars.start + 1..=bars.end;
+            let positions = stretch.along.iter().zip(stretch.height);
+            for (joint, (s, z)) in joints_m[joints.clone()].iter_mut().zip(positions) {
+                let s = s * length;
+                *joint = [x0 + ex * s, y0 + ey * s, z0 + z * length];
+            }
+            for (lambda, v) in multipliers_n[joints].iter_mut().zip(stretch.vertical) {
+                *lambda = [hx, hy, v * force];
+            }
+            scale(&mut axial_n[bars], stretch.axial, force);
+        });
+        joints_m[0] = self.start_m;
+        multipliers_n[0] = pull.ground_n();
+        Vectors {
+            reactions_n: Reactions { start: pull.ground_n(), end: multipliers_n[n] },
+            joints_m,
+            multipliers_n,
+            axial_n,
+            energy_j: ends.energy * length * force,
+            closure: self.closure_of(pull, ends.last),
+        }
+    }
+
+    /// Distance of the last joint from its anchor, relative to the total length.
+    fn closure_of(&self, pull: &Pull, [along, height]: [f64; 2]) -> f64 {
+        // The plane of a pull that was given need not be that of the anchors.
+        let [ex, ey] = self.span.level.map(|e| e * self.span.across);
+        let [x, y] = pull.level.map(|e| e * along);
+        let off = (x - ex).hypot(y - ey).hypot(height - self.span.rise);
+        off / self.total_length
+    }
+}
+
+/// What [`Condensed::vectors`] makes.
+pub(super) struct Vectors {
+    pub joints_m: Vec<Vector>,
+    pub multipliers_n: Vec<Vector>,
+    pub axial_n: Vec<f64>,
+    pub reactions_n: Reactions,
+    pub energy_j: f64,
+    pub closure: f64,
+}
+
+fn scale(to: &mut [f64], from: &[f64], by: f64) {
+    for (to, from) in to.iter_mut().zip(from) {
+        *to = from * by;
+    }
+}

@@ -1,0 +1,50 @@
+//! The vertical plane of the anchors.
+
+use model::Anchors;
+
+use super::sums::Twofold;
+
+/// Horizontal direction of the plane when the anchors are on one vertical and any will do: the
+/// paper's plane OYZ, and of its two mirror images the one of the paper's Fig. 3, whose stretched
+/// bars lean towards +Y. (A compressed bar has them lean against this direction.)
+const ANY_LEVEL: [f64; 2] = [0.0, -1.0];
+
+/// The way from anchor to anchor, in the plane, in units of the chain.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Span {
+    /// Horizontal unit vector of the plane, from the start towards the end anchor.
+    pub level: [f64; 2],
+    /// Horizontal distance of the anchors.
+    pub across: f64,
+    /// Height of the end anchor above the start.
+    pub rise: f64,
+    /// Distance of the anchors.
+    pub distance: f64,
+    /// Its square, to twice the digits.
+    pub distance_squared: Twofold,
+}
+
+impl Span {
+    /// With lengths multiplied by `scale`, a power of two.
+    pub fn new(anchors: &Anchors, scale: f64) -> Self {
+        let difference: [Twofold; 3] = std::array::from_fn(|k| {
+            Twofold::sum(anchors.end_m[k] * scale, -anchors.start_m[k] * scale)
+        });
+        let [x, y, rise] = difference.map(Twofold::value);
+        let across = x.hypot(y);
+        Self {
+            level: if across > 0.0 { [x / across, y / across] } else { ANY_LEVEL },
+            across,
+            rise,
+            distance: across.hypot(rise),
+            distance_squared: difference
+                .into_iter()
+                .fold(Twofold::default(), |sum, part| sum.add(part.square())),
+        }
+    }
+
+    /// Unit vector from the start towards the end anchor, horizontal and vertical; they must be apart.
+    pub fn direction(&self) -> [f64; 2] {
+        [self.across / self.distance, self.rise / self.distance]
+    }
+}

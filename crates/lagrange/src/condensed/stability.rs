@@ -1,0 +1,92 @@
+//! Second-order behaviour from the signs and the derivative of the closure.
+//!
+//! Turning bar i a little costs $l_i s_i|F_i|$ in every direction across it, so on the motions in
+//! the plane and on those out of it the second derivative of the Lagrangian is diagonal, under two
+//! linear conditions and one. Haynsworth's formula for such a bordered matrix gives the indices:
+//!
+//! $$ \mathrm{index} = \\#\\{s_i = -1\\} + \\#\\{\text{positive eigenvalues of } S\\} - m, $$
+//!
+//! in the plane with $m = 2$ and S the derivative of the closure by the pull, which Newton's method has
+//! at hand; out of it with $m = 1$ and $S = \sum s_i l_i/|F_i| = D_h/H$, the horizontal closure divided
+//! by the horizontal pull. It is the inertia of the whole stress matrix for the price of three pivots.
+//!
+//! # References
+//!
+//! E. V. Haynsworth, Linear Algebra Appl. 1 (1968) 73-81, doi:10.1016/0024-3795(68)90050-5
+
+use model::{InPlane, InSpace, Stability};
+
+use super::chain::Condensed;
+use super::pull::{Pull, Signs};
+
+/// A pivot this small beside the terms of which it is the difference is zero.
+const ZERO: f64 = 1e-12;
+
+/// Stability, dimension of the null space of the closure's derivative in space, and its condition.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct SecondOrder {
+    pub stability: Stability,
+    pub nullity: usize,
+    pub condition: f64,
+}
+
+/// Second order of an equilibrium.
+pub(super) fn second_order(chain: &Condensed, pull: &Pull) -> SecondOrder {
+    if let Signs::Loose(_) = pull.signs {
+        return loose();
+    }
+    let compressed = match &pull.signs {
+        Signs::Tension | Signs::Loose(_) => 0,
+        Signs::One(_) => 1,
+        Signs::Listed(signs) => signs.iter().filter(|compressed| **compressed).count(),
+    };
+    let [first, second] = pull.pivots;
+    let degenerate = second.abs() <= ZERO * pull.remainder_of || first.abs() <= f64::MIN_POSITIVE;
+    let positive = [first, second].iter().filter(|pivot| **pivot > 0.0).count();
+    let positive = if degenerate { usize::from(first > 0.0) } else { positive };
+    let horizontal = chain.across_in(pull.level) / pull.force[0];
+    let vertical = chain.on_one_vertical();
+    // With H = 0 all bars hang straight down in tension, and the sum is positive.
+    let towards = pull.force[0].abs() <= 0.0 || (!vertical && horizontal > 0.0);
+
+    let index_in_plane = (compressed + positive).saturating_sub(2);
+    let index_out_of_plane = (compressed + usize::from(towards)).saturating_sub(1);
+    let index_in_space = index_in_plane + index_out_of_plane;
+    let freedoms = chain.bars() - 2;
+    let stability = Stability {
+        in_plane: match index_in_plane {
+            _ if degenerate => InPlane::Degenerate,
+            0 => InPlane::Minimum,
+            index if index == freedoms => InPlane::Maximum,
+            _ => InPlane::Saddle,
+        },
+        index_in_plane,
+        in_space: if index_in_space == 0 { InSpace::Stable } else { InSpace::Unstable },
+        index_in_space,
+    };
+    let out_of_plane = if vertical { 0.0 } else { horizontal };
+    let values = [first, if degenerate { 0.0 } else { second }, out_of_plane].map(f64::abs);
+    let regular = || values.into_iter().filter(|value| *value > 0.0 && value.is_finite());
+    let (least, largest) =
+        regular().fold((f64::INFINITY, 0.0_f64), |(a, b), x| (a.min(x), b.max(x)));
+    SecondOrder {
+        stability,
+        nullity: 3 - regular().count(),
+        condition: if largest > 0.0 { (largest / least).min(f64::MAX) } else { 1.0 },
+    }
+}
+
+/// Bars without force can be moved at no cost: the least energy, and not only here.
+fn loose() -> SecondOrder {
+    SecondOrder {
+        stability: Stability {
+            in_plane: InPlane::Degenerate,
+            index_in_plane: 0,
+            in_space: InSpace::Stable,
+            index_in_space: 0,
+        },
+        // The force at the bottom is fixed; nothing is solved.
+        nullity: 0,
+        condition: 1.0,
+    }
+}

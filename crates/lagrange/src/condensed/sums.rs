@@ -1,0 +1,105 @@
+//! Sums that do not drift with the number of bars, and differences that keep their digits.
+
+/// Bars summed plainly in one go. A plain sum of 256 terms errs by at most 256 roundings of a block
+/// that is 1/(n/256) of the whole: beside the total that is one rounding, whatever n is.
+pub(super) const BLOCK: usize = 256;
+
+/// A number as the unevaluated sum of two doubles, some 32 digits.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(super) struct Twofold {
+    /// The nearest double.
+    pub high: f64,
+    /// What it leaves.
+    pub low: f64,
+}
+
+impl Twofold {
+    pub fn sum(a: f64, b: f64) -> Self {
+        let high = a + b;
+        let shadow = high - a;
+        Self { high, low: (a - (high - shadow)) + (b - shadow) }
+    }
+
+    pub fn product(a: f64, b: f64) -> Self {
+        let high = a * b;
+        Self { high, low: a.mul_add(b, -high) }
+    }
+
+    #[must_use]
+    pub fn plus(self, b: f64) -> Self {
+        let sum = Self::sum(self.high, b);
+        Self::sum(sum.high, sum.low + self.low)
+    }
+
+    #[must_use]
+    pub fn add(self, other: Self) -> Self {
+        self.plus(other.high).plus(other.low)
+    }
+
+    #[must_use]
+    pub fn negate(self) -> Self {
+        Self { high: -self.high, low: -self.low }
+    }
+
+    #[must_use]
+    pub fn square(self) -> Self {
+        Self::product(self.high, self.high).plus(2.0 * self.high * self.low)
+    }
+
+    pub fn value(self) -> f64 {
+        self.high + self.low
+    }
+
+    /// Sum of many terms.
+    pub fn total(terms: impl Iterator<Item = f64>) -> Self {
+        terms.fold(Self::default(), Self::plus)
+    }
+}
+
+/// Running sums of `terms`, in place, from `carry` on; returns the last.
+///
+/// Four at a time, so that the chain of dependent additions is a quarter as long.
+#[inline]
+pub(super) fn running(terms: &mut [f64], mut carry: f64) -> f64 {
+    let (fours, rest) = terms.as_chunks_mut::<4>();
+    for four in fours {
+        let second = four[0] + four[1];
+        let third = second + four[2];
+        let fourth = second + (four[2] + four[3]);
+        *four = [carry + four[0], carry + second, carry + third, carry + fourth];
+        carry += fourth;
+    }
+    for term in rest {
+        carry += *term;
+        *term = carry;
+    }
+    carry
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn twofold_keeps_what_a_double_loses() {
+        let tiny = f64::EPSILON / 8.0;
+        let sum = Twofold::total([1.0, tiny, -1.0].into_iter());
+        assert!((sum.value() - tiny).abs() <= f64::EPSILON * tiny);
+        // (1 + e)^2 - 1 - 2e = e^2.
+        let square = Twofold::sum(1.0, tiny).square().plus(-1.0).plus(-2.0 * tiny);
+        assert!(square.value().abs() <= 2.0 * tiny * tiny);
+        assert!((Twofold::product(0.1, 0.1).value() - 0.1 * 0.1).abs() <= f64::EPSILON * 0.01);
+    }
+
+    #[test]
+    fn running_sums_of_integers_are_exact() {
+        for n in 0..20 {
+            let mut terms: Vec<f64> = (1..=n).map(f64::from).collect();
+            let last = running(&mut terms, 100.0);
+            for (k, term) in (1..=n).zip(&terms) {
+                assert!((term - f64::from(100 + k * (k + 1) / 2)).abs() < 0.5);
+            }
+            assert!((last - f64::from(100 + n * (n + 1) / 2)).abs() < 0.5);
+        }
+    }
+}

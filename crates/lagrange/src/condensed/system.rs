@@ -1,0 +1,166 @@
+//! The condensed equations in the plane: two closure equations for the force in the bottom bar.
+//!
+//! $$ r(q) = \sum_i s_i\\,l_i\\,\frac{q + b_i e_z}{|q + b_i e_z|} - D = 0. $$
+//!
+//! Signs are +1 except for one effective bar: the bottom group, whose longest bar is compressed, is
+//! a bar of length `push` with the sign -1. The derivative of r is symmetric,
+//! $\sum (s_i l_i/|F_i|)(1 - u_i u_i^T)$; without a compressed bar r is the gradient of the convex
+//! $\Phi$ (module `bottom`).
+
+use super::kernel::{Bars, aligned, upright, versine_of};
+
+/// Roundings of the closure, in units of the last place of the terms that were added.
+const ROUNDINGS: f64 = 4.0 * f64::EPSILON;
+
+/// Axes in which the closure is written.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Frame {
+    /// Horizontal and vertical.
+    Upright {
+        /// Horizontal distance of the anchors.
+        across: f64,
+        /// Height of the end anchor above the start.
+        rise: f64,
+    },
+    /// Along and across an axis to which most bars are nearly parallel: the closure along it is a
+    /// balance of small terms, $\sum s_i l_i (1 - |\cos\alpha_i|) = $ slack.
+    Aligned {
+        /// Components of the upward vertical.
+        up: [f64; 2],
+        /// What straight bars reach along the axis too far.
+        slack: f64,
+        /// Way that the bars have to go across the axis.
+        aside: f64,
+        /// Whether the forces of each part point along the axis (+1) or against it (-1).
+        sides: [f64; 2],
+        /// The same for the compressed bar.
+        push_side: f64,
+    },
+}
+
+/// Bars in tension, at most one effective bar in compression, and where they must lead.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct System<'a> {
+    /// Bars in tension.
+    pub parts: [Bars<'a>; 2],
+    /// Length of the compressed bar, whose load is 0; without one, 0.
+    pub push: f64,
+    pub frame: Frame,
+    /// Total length: the scale of the closure.
+    pub total_length: f64,
+}
+
+/// The closure for some force.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Closure {
+    /// `r`
+    pub residual: [f64; 2],
+    /// Its symmetric derivative: 11, 12, 22.
+    pub jacobian: [f64; 3],
+    /// Rounding errors to be expected in the residual.
+    pub floor: [f64; 2],
+}
+
+/// A balance of small terms may stop at this many of its rounding errors, some 1e-8 of the slack.
+const STALLED: f64 = 1e7;
+
+impl System<'_> {
+    /// Whether an iteration that gets no further may stop here: the chain closes to `enough`, in units
+    /// of its total length, and a slack is met to many of its digits.
+    pub fn settled(&self, closure: &Closure, enough: f64) -> bool {
+        let [r, s] = closure.residual;
+        let met = match self.frame {
+            Frame::Upright { .. } => true,
+            Frame::Aligned { .. } => closure.size() <= STALLED,
+        };
+        met && r.hypot(s) <= enough * self.total_length
+    }
+
+    /// One pass over the bars.
+    pub fn closure(&self, q: [f64; 2]) -> Closure {
+        match self.frame {
+            Frame::Upright { across, rise } => {
+                let sums = upright(&self.parts, q[0], q[1]);
+                let (push, stiff) = self.pushed(q);
+                let residual = [q[0] * sums.inverse + push[0] - across, sums.rise + push[1] - rise];
+                let jacobian = [
+                    sums.cube_zz + stiff[0],
+                    stiff[1] - q[0] * sums.cube_z,
+                    q[0] * q[0] * sums.cube + stiff[2],
+                ];
+                // Where the pull is small, so are the horizontal terms.
+                let width = (q[0] * sums.inverse).abs() + push[0].abs() + across;
+                let floor = [ROUNDINGS * width, ROUNDINGS * self.total_length];
+                Closure { residual, jacobian, floor }
+            }
+            Frame::Aligned { up, slack, aside, sides, push_side } => {
+                let [a, b] = [0, 1].map(|k| aligned(self.parts[k], q, up, sides[k]));
+                let (push, stiff) = self.pushed(q);
+                let versine = if self.push > 0.0 {
+                    // The bar points against its force.
+                    let (cosine, sine) = (-push[0] / self.push, -push[1] / self.push);
+                    push_side * self.push * versine_of(push_side * cosine, sine)
+                } else {
+                    0.0
+                };
+                let bent = a.versine + b.versine + versine.abs();
+                let along = slack - sides[0] * a.versine - sides[1] * b.versine + versine;
+                Closure {
+                    residual: [along, a.sine + b.sine + push[1] - aside],
+                    jacobian: [
+                        a.pp + b.pp + stiff[0],
+                        a.pq + b.pq + stiff[1],
+                        a.qq + b.qq + stiff[2],
+                    ],
+                    floor: [
+                        ROUNDINGS * (slack.abs() + bent),
+                        // By Cauchy's inequality a bound of the sines.
+                        ROUNDINGS * ((2.0 * bent * self.total_length).sqrt() + aside.abs()),
+                    ],
+                }
+            }
+        }
+    }
+
+    /// Vector of the compressed bar, and its part of the derivative.
+    fn pushed(&self, q: [f64; 2]) -> ([f64; 2], [f64; 3]) {
+        if self.push <= 0.0 {
+            return ([0.0; 2], [0.0; 3]);
+        }
+        let size = q[0].hypot(q[1]);
+        let (x, z) = (q[0] / size, q[1] / size);
+        let stiff = -self.push / size;
+        ([-self.push * x, -self.push * z], [stiff * z * z, -stiff * x * z, stiff * x * x])
+    }
+}
+
+impl Closure {
+    /// The residual in units of its rounding error.
+    pub fn size(&self) -> f64 {
+        let [a, b] = [0, 1].map(|k| (self.residual[k] / self.floor[k]).abs());
+        // A NaN stays one: f64::max would drop it.
+        if a >= b || a.is_nan() { a } else { b }
+    }
+
+    /// Condition of the derivative of a chain in tension, by its trace and determinant, within a factor 2.
+    pub fn condition(&self) -> f64 {
+        let [a, b, c] = self.jacobian;
+        (a + c) * (a + c) / (a * c - b * b)
+    }
+
+    /// Newton's step; `None` when the derivative is singular to working precision.
+    pub fn step(&self) -> Option<[f64; 2]> {
+        let [a, b, c] = self.jacobian;
+        // Elimination with the larger diagonal entry as pivot keeps the digits of a stretched
+        // matrix, which the determinant would lose.
+        let [r, s] = self.residual;
+        let step = if a.abs() >= c.abs() {
+            let y = (b / a * r - s) / (c - b / a * b);
+            [-(r + b * y) / a, y]
+        } else {
+            let x = (b / c * s - r) / (a - b / c * b);
+            [x, -(s + b * x) / c]
+        };
+        step.iter().all(|x| x.is_finite()).then_some(step)
+    }
+}

@@ -1,0 +1,385 @@
+//! The condensed solver against closed forms, the reference values of the paper's example, brute force
+//! and the catenary.
+
+#![expect(
+    clippy::unwrap_used,
+    reason = "a test fails by panicking; helpers outside #[test] functions are part of it"
+)]
+#![expect(clippy::excessive_precision, reason = "reference digits stand as they were published")]
+
+mod condensed_judge;
+
+use condensed_judge::judge;
+use lagrange::condensed::{Condensed, CondensedError, Settings, Solution, solve};
+use model::{Anchors, Bar, Chain, InPlane, InSpace, Problem, STANDARD_GRAVITY_M_S2, Vector};
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+
+fn hang(bars: Vec<Bar>, gravity: f64, end_m: Vector) -> Solution {
+    let problem = problem(bars, gravity, end_m);
+    let solution = solve(&problem, &Settings::default()).unwrap();
+    let found = judge(&problem, &solution.equilibrium);
+    assert!(found.within(1e-13) && found.lowest, "{found:?}");
+    solution
+}
+
+fn problem(bars: Vec<Bar>, gravity: f64, end_m: Vector) -> Problem {
+    let anchors = Anchors { start_m: [0.0; 3], end_m };
+    Problem::new(Chain::new("test", gravity, anchors, bars).unwrap()).unwrap()
+}
+
+fn near(got: Vector, expected: Vector, tolerance: f64) {
+    let off = (0..3).map(|k| (got[k] - expected[k]).abs()).fold(0.0, f64::max);
+    assert!(off <= tolerance, "{got:?} instead of {expected:?}: {off:e}");
+}
+
+fn equal(n: usize, total: f64) -> Vec<Bar> {
+    vec![Bar::homogeneous(total / n as f64, 1.0 / n as f64).unwrap(); n]
+}
+
+/// Reference digits: FACTS, 40-digit root finding (kind "external").
+#[test]
+fn the_papers_chain_hangs_in_e1() {
+    let solution = solve(&model::cases::paper(), &Settings::default()).unwrap();
+    let found = &solution.equilibrium;
+    let chain = model::cases::paper().into_chain();
+    let weight = chain.bars()[0].mass_kg() * chain.gravity_m_s2();
+    let length = chain.bars()[0].length_m();
+    let h = 0.648_944_835_933_933_633_8;
+    let v = [
+        2.312_944_292_241_837_598_5,
+        -1.312_944_292_241_837_598_5,
+        -0.312_944_292_241_837_598_5,
+        0.687_055_707_758_162_401_5,
+    ];
+    for (k, lambda) in found.multipliers_n.iter().enumerate() {
+        let horizontal = if k == 0 { -h } else { h };
+        near(lambda.map(|x| x / weight), [0.0, horizontal, v[k]], 1e-14);
+    }
+    for (k, degrees) in [
+        19.694_867_976_133_019_888_6_f64,
+        38.599_136_184_451_890_107,
+        -73.920_588_792_231_340_814_4,
+    ]
+    .into_iter()
+    .enumerate()
+    {
+        let (a, b) = (found.joints_m[k], found.joints_m[k + 1]);
+        let angle = (b[1] - a[1]).atan2(a[2] - b[2]);
+        assert!((angle - degrees.to_radians()).abs() < 1e-14, "bar {k}");
+    }
+    let energy = found.energy_j / (weight * length) + 6.0;
+    assert!((energy - 2.335_468_651_999_305_009_3).abs() < 1e-14);
+    assert_eq!(solution.pull.compressed(), [2]);
+    assert_eq!(found.stability.in_plane, InPlane::Minimum);
+    assert_eq!(found.stability.in_space, InSpace::Stable);
+    // The turn about the vertical through both anchors.
+    assert_eq!(found.evidence.nullity, 1);
+}
+
+/// Two bars: the triangle and the lever rule give everything in closed form.
+#[test]
+fn two_bars_are_a_triangle() {
+    let mut rng = ChaCha8Rng::seed_from_u64(2);
+    for _ in 0..1000 {
+        let (a, b): (f64, f64) = (rng.random_range(0.1..2.0), rng.random_range(0.1..2.0));
+        let (first, second) = (rng.random_range(0.0..2.0), rng.random_range(0.1..2.0));
+        let (r, s) = (rng.random_range(0.0..1.0), rng.random_range(0.0..0.9));
+        let slope: f64 = rng.random_range(-1.5..1.5);
+        let span = rng.random_range((a - b).abs() + 0.01..a + b - 0.01);
+        let bars = vec![
+            Bar::new(a, first, a * r, [0.0; 3]).unwrap(),
+            Bar::new(b, second, b * s, [0.0; 3]).unwrap(),
+        ];
+        let (across, rise) = (span * slope.cos(), span * slope.sin());
+        let solution = hang(bars, 10.0, [across, 0.0, rise]);
+        // The apex below the line of the anchors.
+        let cosine = (a * a + span * span - b * b) / (2.0 * a * span);
+        let angle = slope - cosine.acos();
+        let apex = [a * angle.cos(), 0.0, a * angle.sin()];
+        near(solution.equilibrium.joints_m[1], apex, 1e-13 * (a + b) / (1.0 - cosine * cosine));
+        // The apex carries its parts of both weights; the pulls along the bars have the same horizontal
+        // part H, and their slopes at the apex differ by the load over H.
+        let load = 10.0 * (first * r + second * (1.0 - s));
+        let (left, right) = (-apex[2] / -apex[0], (rise - apex[2]) / (across - apex[0]));
+        let horizontal = load / (right - left);
+        let got = -solution.equilibrium.multipliers_n[0][0];
+        assert!((got / horizontal - 1.0).abs() < 1e-10, "{got} {horizontal}");
+    }
+}
+
+/// The rope of the same length: closed form. Halving the bars must quarter the differences.
+#[test]
+fn many_equal_bars_approach_the_catenary_with_order_two() {
+    let (across, rise, length) = (1.0_f64, -0.2_f64, 1.5_f64);
+    // sinh x / x = sqrt(L^2 - rise^2)/across by bisection, independent of the solver's start.
+    let ratio = (length * length - rise * rise).sqrt() / across;
+    let (mut low, mut high) = (1e-3_f64, 10.0_f64);
+    for _ in 0..200 {
+        let middle = 0.5 * (low + high);
+        if middle.sinh() / middle < ratio { low = middle } else { high = middle }
+    }
+    let c = across / (2.0 * low);
+    let middle = (rise / length).atanh();
+    let (from, to) = (middle - low, middle + low);
+    // Weight 1 in all: H = c/L, vertical pulls at the ends H sinh.
+    let h = c / length;
+    let start = [-h, 0.0, -h * from.sinh()];
+    let end = [h, 0.0, h * to.sinh()];
+    // V = -(integral of the depth): z = c cosh(x/c + from) - c cosh(from), ds = c cosh dt.
+    let integral = |t: f64| 0.5 * c * c * (t + t.sinh() * t.cosh());
+    let energy = (integral(to) - integral(from)) / length - c * from.cosh();
+    let mut last: Option<[f64; 3]> = None;
+    for n in [20, 40, 80, 160, 320, 640, 1280] {
+        let solution = hang(equal(n, length), 1.0, [across, 0.0, rise]);
+        let found = &solution.equilibrium;
+        let difference = |a: Vector, b: Vector| (a[0] - b[0]).hypot(a[2] - b[2]);
+        let off = [
+            difference(found.reactions_n.start, start),
+            difference(found.reactions_n.end, end),
+            (found.energy_j - energy).abs(),
+        ];
+        if let Some(last) = last {
+            for (coarse, fine) in last.into_iter().zip(off) {
+                let order = (coarse / fine).log2();
+                assert!((order - 2.0).abs() < 0.02, "n = {n}: order {order}, off by {fine:e}");
+            }
+        }
+        last = Some(off);
+    }
+}
+
+/// For few bars: from many pulls with every pattern of signs, no equilibrium lies lower, and what is
+/// stable in space lies no higher.
+#[test]
+fn brute_force_finds_nothing_lower() {
+    const STARTS: usize = 12;
+    let mut rng = ChaCha8Rng::seed_from_u64(3);
+    let mut seen = [0; 2];
+    for round in 0..60 {
+        let n = 2 + round % 5;
+        let bars: Vec<Bar> = (0..n)
+            .map(|_| {
+                let length = rng.random_range(0.3..1.5);
+                let (mass, centre) = (rng.random_range(0.0..1.0), rng.random_range(0.0..length));
+                Bar::new(length, mass, centre, [0.0; 3]).unwrap()
+            })
+            .collect();
+        let total: f64 = bars.iter().map(Bar::length_m).sum();
+        let longest = bars.iter().map(Bar::length_m).fold(0.0, f64::max);
+        let least = (2.0 * longest - total).max(0.0);
+        let distance = rng.random_range(least..0.95 * total);
+        let slope: f64 = if round % 3 == 0 { 1.4 } else { rng.random_range(-1.2..1.2) };
+        let end = [distance * slope.cos(), 0.0, distance * slope.sin()];
+        let Ok(chain) = Chain::new("", 1.0, Anchors { start_m: [0.0; 3], end_m: end }, bars) else {
+            continue;
+        };
+        let Ok(problem) = Problem::new(chain) else { continue };
+        let best = solve(&problem, &Settings::default()).unwrap();
+        seen[best.pull.compressed().len()] += 1;
+        let condensed = Condensed::new(&problem);
+        let weight = problem.chain().total_mass_kg();
+        for pattern in 0..1_u32 << n {
+            let compressed: Vec<bool> = (0..n).map(|k| pattern >> k & 1 == 1).collect();
+            for _ in 0..STARTS {
+                let start = std::array::from_fn(|_| weight * rng.random_range(-1.5..1.5));
+                let Ok(pull) = condensed.pull_from(start, &compressed, &Settings::default()) else {
+                    continue;
+                };
+                let Ok(other) = condensed.equilibrium(&pull, &Settings::default()) else {
+                    continue;
+                };
+                let found = judge(&problem, &other);
+                assert!(found.within(1e-11), "{found:?}");
+                let scale = weight * total;
+                let above = (other.energy_j - best.equilibrium.energy_j) / scale;
+                assert!(above > -1e-12, "lower by {above:e}");
+                let stable = other.stability.in_space == InSpace::Stable;
+                assert_eq!(stable, above < 1e-11, "{:?} at {above:e}", other.stability);
+                assert_eq!(stable, found.lowest, "{found:?}");
+            }
+        }
+    }
+    assert!(seen[0] > 10 && seen[1] > 10, "both kinds must occur: {seen:?}");
+}
+
+/// The pull of a given equilibrium, however it is turned about vertical anchors, is found again.
+#[test]
+fn the_papers_second_equilibrium_is_found_from_its_signs() {
+    let problem = model::cases::paper();
+    let chain = problem.chain();
+    let unit = chain.bars()[0].mass_kg() * chain.gravity_m_s2();
+    let condensed = Condensed::new(&problem);
+    // E2 is E1 upside down: the first bar is the propped one, the others are compressed.
+    let compressed = [false, true, true];
+    let pull = condensed
+        .pull_from([0.4 * unit, 0.5 * unit, -0.7 * unit], &compressed, &Settings::default())
+        .unwrap();
+    let found = condensed.equilibrium(&pull, &Settings::default()).unwrap();
+    let energy = found.energy_j / (unit * chain.bars()[0].length_m()) + 6.0;
+    assert!((energy - 3.664_531_348_000_694_990_7).abs() < 1e-12, "{energy}");
+    assert_eq!(found.stability.in_plane, InPlane::Maximum);
+    assert_eq!((found.stability.index_in_plane, found.stability.index_in_space), (1, 2));
+}
+
+/// Twin of the analytic derivative by central differences.
+#[test]
+fn derivative_of_the_miss_has_a_twin() {
+    let mut rng = ChaCha8Rng::seed_from_u64(4);
+    for n in 2..8 {
+        let bars: Vec<Bar> = (0..n)
+            .map(|_| {
+                Bar::homogeneous(rng.random_range(0.5..1.0), rng.random_range(0.5..1.0)).unwrap()
+            })
+            .collect();
+        let chain = Condensed::new(&problem(bars, 3.0, [0.4, 0.3, 0.2]));
+        let compressed: Vec<bool> = (0..n).map(|_| rng.random_range(0..2) == 0).collect();
+        let pull: Vector = std::array::from_fn(|_| rng.random_range(1.0..5.0));
+        let here = chain.miss(pull, &compressed).unwrap();
+        let step = 1e-5;
+        for k in 0..3 {
+            let at = |sign: f64| {
+                let mut there = pull;
+                there[k] += sign * step;
+                chain.miss(there, &compressed).unwrap().miss_m
+            };
+            let difference = (at(1.0) - at(-1.0)) / (2.0 * step);
+            let off = (here.derivative_m_n.column(k) - difference).norm();
+            assert!(off < 1e-9 * here.derivative_m_n.norm(), "{off}");
+        }
+    }
+}
+
+/// Shapes where forces vanish, are indeterminate, or follow no iteration at all.
+#[test]
+fn special_shapes() {
+    // Even number of equal bars at one point: two strands; they share the lowest joint evenly.
+    let found = hang(equal(4, 4.0), 1.0, [0.0; 3]);
+    near(found.equilibrium.joints_m[2], [0.0, 0.0, -2.0], 1e-15);
+    assert_eq!(found.equilibrium.stability.in_plane, InPlane::Degenerate);
+    near(found.equilibrium.reactions_n.start, [0.0, 0.0, 0.5], 1e-15);
+    near(found.equilibrium.reactions_n.end, [0.0, 0.0, 0.5], 1e-15);
+    // Three: an equilateral triangle, hanging from a corner, its lower side compressed.
+    let found = hang(equal(3, 3.0), 1.0, [0.0; 3]);
+    assert_eq!(found.pull.compressed(), [1]);
+    near(found.equilibrium.joints_m[1], [0.0, 0.5, -0.75_f64.sqrt()], 1e-15);
+    // Massless bars at the bottom: loose between straight strands.
+    let mut bars = equal(6, 6.0);
+    for bar in &mut bars[2..4] {
+        *bar = Bar::homogeneous(1.0, 0.0).unwrap();
+    }
+    let found = hang(bars, 1.0, [1.0, 0.0, 0.0]);
+    assert!(found.equilibrium.axial_n[2..4].iter().all(|force| force.abs() < 1e-15));
+    near(found.equilibrium.joints_m[2], [0.0, 0.0, -2.0], 1e-15);
+    near(found.equilibrium.joints_m[4], [1.0, 0.0, -2.0], 1e-15);
+    // All weight at the anchors: nothing hangs, any shape that closes will do.
+    let bars = vec![
+        Bar::new(1.0, 1.0, 0.0, [0.0; 3]).unwrap(),
+        Bar::new(1.0, 0.0, 0.5, [0.0; 3]).unwrap(),
+        Bar::new(1.0, 1.0, 1.0, [0.0; 3]).unwrap(),
+    ];
+    let found = hang(bars, 1.0, [0.5, 1.0, 1.0]);
+    near(found.equilibrium.reactions_n.start, [0.0, 0.0, 1.0], 1e-15);
+}
+
+/// Nearly straight chains: the pull follows $\sqrt{\mathrm{var}\,b/(2\,\mathrm{slack})}$ with all its digits.
+#[test]
+fn nearly_taut_chains_keep_their_digits() {
+    for exponent in [1, 3, 6, 9, 12, 13] {
+        // The doubles of this span, not the decimal, define the slack.
+        let span = 1.0 - 10.0_f64.powi(-exponent);
+        let slack = 1.0 - span;
+        let found = hang(vec![Bar::homogeneous(0.25, 0.25).unwrap(); 4], 1.0, [span, 0.0, 0.0]);
+        let pull = -found.equilibrium.multipliers_n[0][0];
+        // b = -3/8, -1/8, 1/8, 3/8; the next term is of the order of the slack.
+        let expected = (5.0 / 64.0 / (2.0 * slack)).sqrt();
+        assert!(
+            (pull / expected - 1.0).abs() < 1.5 * slack + 1e-14,
+            "{exponent}: {pull} {expected}"
+        );
+        assert!(found.pull.passes() < 12, "{} passes", found.pull.passes());
+    }
+}
+
+/// Lengths, masses and gravity of any size only change units.
+#[test]
+fn units_change_nothing_but_units() {
+    let shape = |length: f64, mass: f64, gravity: f64| {
+        let bars =
+            [1.0, 0.3, 2.0, 0.7, 1.1].map(|l| Bar::homogeneous(l * length, l * mass).unwrap());
+        hang(bars.to_vec(), gravity, [2.0 * length, length, -0.5 * length]).equilibrium
+    };
+    let one = shape(1.0, 1.0, 1.0);
+    for (length, mass, gravity) in [
+        (1e-9, 1e6, STANDARD_GRAVITY_M_S2),
+        (1e9, 1e-6, 1e-12),
+        (1e-100, 1e100, 1e9),
+        (1e90, 1e-150, 1e-9),
+    ] {
+        let other = shape(length, mass, gravity);
+        for (a, b) in one.joints_m.iter().zip(&other.joints_m) {
+            near(b.map(|x| x / length), *a, 1e-14);
+        }
+        for (a, b) in one.multipliers_n.iter().zip(&other.multipliers_n) {
+            near(b.map(|x| x / (mass * gravity)), *a, 1e-13);
+        }
+    }
+}
+
+/// At a million bars nothing has drifted.
+#[test]
+fn a_million_bars_close_and_balance() {
+    let mut rng = ChaCha8Rng::seed_from_u64(5);
+    for random in [false, true] {
+        let bars: Vec<Bar> = (0..1_000_000)
+            .map(|_| {
+                let x = if random { rng.random_range(0.2..1.8) } else { 1.0 };
+                Bar::homogeneous(1.5e-6 * x, x).unwrap()
+            })
+            .collect();
+        let problem = problem(bars, STANDARD_GRAVITY_M_S2, [1.0, 0.0, -0.2]);
+        let solution = solve(&problem, &Settings::default()).unwrap();
+        let found = judge(&problem, &solution.equilibrium);
+        assert!(found.within(1e-12) && found.lowest, "{found:?}");
+        // Forces of the ground carry the whole weight.
+        let reactions = &solution.equilibrium.reactions_n;
+        let weight = problem.chain().total_mass_kg() * STANDARD_GRAVITY_M_S2;
+        let sum = reactions.start[2] + reactions.end[2];
+        assert!((sum / weight - 1.0).abs() < 1e-15, "{sum} {weight}");
+    }
+}
+
+#[test]
+fn arrays_and_vectors_say_the_same() {
+    let problem = problem(equal(1000, 1.5), 2.0, [0.6, 0.8, -0.2]);
+    let chain = Condensed::new(&problem);
+    let pull = chain.pull(&Settings::default()).unwrap();
+    let shape = chain.reconstruct(&pull);
+    let whole = chain.equilibrium(&pull, &Settings::default()).unwrap();
+    for k in 0..=1000 {
+        near(shape.joint_m(k).unwrap(), whole.joints_m[k], 1e-16);
+        near(shape.multiplier_n(k).unwrap(), whole.multipliers_n[k], 1e-15);
+    }
+    assert!(shape.joint_m(1001).is_none() && shape.multiplier_n(1001).is_none());
+    assert!((shape.energy_j - whole.energy_j).abs() < 1e-15);
+    assert!(shape.closure < 1e-15);
+}
+
+#[test]
+fn failures_are_typed() {
+    let problem = model::cases::paper();
+    let few = Settings { max_passes: 1, ..Settings::default() };
+    assert!(matches!(solve(&problem, &few), Err(CondensedError::NotClosed { .. })));
+    let bad = Settings { closure: f64::NAN, ..Settings::default() };
+    assert!(matches!(solve(&problem, &bad), Err(CondensedError::Settings(_))));
+    let chain = Condensed::new(&problem);
+    let ask = |pull: Vector, signs: &[bool]| chain.pull_from(pull, signs, &Settings::default());
+    assert!(matches!(
+        ask([1.0; 3], &[true]),
+        Err(CondensedError::SignsLength { expected: 3, got: 1 })
+    ));
+    assert!(matches!(
+        ask([1.0, f64::NAN, 0.0], &[true; 3]),
+        Err(CondensedError::PullNotFinite { .. })
+    ));
+}
