@@ -3,6 +3,7 @@
 //! The program is thin: it reads, asks the solvers, has `validate` judge, and prints. Results go to
 //! standard output, everything meant for people's patience (progress, errors) to standard error.
 
+mod answer;
 mod args;
 mod cases;
 mod diagnostics;
@@ -13,6 +14,7 @@ mod report;
 mod reproduce;
 mod solve;
 mod tables;
+mod verdicts;
 
 use clap::{CommandFactory, Parser};
 

@@ -1,11 +1,12 @@
 //! `report.md`: the reproduction as a document.
 
-use std::fmt::Write as _;
+use std::fmt::{self, Write as _};
 
 use validate::Reproduction;
 use validate::equations::{EquationAudit, Verdict};
 
-use crate::tables::{claim_number, claim_printed, claim_value, seeds_reached, word};
+use crate::tables::word;
+use crate::verdicts::{claim_number, claim_printed, claim_value, seeds_reached};
 
 /// The report in Markdown. The same numbers as in the terminal, and the equations one by one.
 pub fn markdown(r: &Reproduction) -> String {
@@ -15,7 +16,16 @@ pub fn markdown(r: &Reproduction) -> String {
     text
 }
 
-fn write_report(text: &mut String, r: &Reproduction) -> std::fmt::Result {
+fn write_report(text: &mut String, r: &Reproduction) -> fmt::Result {
+    head(text, r)?;
+    equilibria(text, r)?;
+    claims(text, r)?;
+    equations(text, r)?;
+    seeds(text, r)?;
+    cases(text, r)
+}
+
+fn head(text: &mut String, r: &Reproduction) -> fmt::Result {
     let s = &r.summary;
     writeln!(text, "# Reproduction of \"{}\"\n", r.paper)?;
     writeln!(
@@ -38,7 +48,10 @@ fn write_report(text: &mut String, r: &Reproduction) -> std::fmt::Result {
             " **Not every verdict is the expected one.**"
         },
     )?;
+    Ok(())
+}
 
+fn equilibria(text: &mut String, r: &Reproduction) -> fmt::Result {
     writeln!(text, "## The equilibria of the example\n")?;
     writeln!(
         text,
@@ -72,7 +85,10 @@ fn write_report(text: &mut String, r: &Reproduction) -> std::fmt::Result {
          the lower bound is only {:.6} mgl: bar 3 is in compression.)",
         b.lower_mgl, b.upper_mgl, b.gap_to_e1_mgl, b.gap_to_e2_mgl, b.cables_mgl,
     )?;
+    Ok(())
+}
 
+fn claims(text: &mut String, r: &Reproduction) -> fmt::Result {
     writeln!(
         text,
         "\n## The claims\n\n| claim | where | printed | lagrange | energy | verdict | the number behind it |\n|---|---|---|---|---|---|---|"
@@ -92,7 +108,10 @@ fn write_report(text: &mut String, r: &Reproduction) -> std::fmt::Result {
             cell(&claim_number(claim)),
         )?;
     }
+    Ok(())
+}
 
+fn equations(text: &mut String, r: &Reproduction) -> fmt::Result {
     writeln!(
         text,
         "\n## The equations\n\nEvaluated at run time as printed and as corrected; definitions have nothing to measure.\n"
@@ -113,7 +132,10 @@ fn write_report(text: &mut String, r: &Reproduction) -> std::fmt::Result {
             verdict_word(row.verdict),
         )?;
     }
+    Ok(())
+}
 
+fn seeds(text: &mut String, r: &Reproduction) -> fmt::Result {
     writeln!(
         text,
         "\n## Random seeds\n\n| solver | seeds | converged | where to | without help | steps: median, 95 %, most |\n|---|---|---|---|---|---|"
@@ -134,7 +156,10 @@ fn write_report(text: &mut String, r: &Reproduction) -> std::fmt::Result {
             survey.most_iterations,
         )?;
     }
+    Ok(())
+}
 
+fn cases(text: &mut String, r: &Reproduction) -> fmt::Result {
     writeln!(text, "\n## Both solvers on the registry of cases\n")?;
     writeln!(
         text,
@@ -160,7 +185,7 @@ fn write_report(text: &mut String, r: &Reproduction) -> std::fmt::Result {
             .to_owned()),
         )?;
     }
-    if let Some(row) = &s.largest_difference {
+    if let Some(row) = &r.summary.largest_difference {
         writeln!(
             text,
             "\nThe largest difference of all: {} of {}, {:.1e} of its unit.",

@@ -11,7 +11,7 @@ use crate::exit::{Exit, Failure};
 use crate::output;
 use crate::progress::Progress;
 use crate::report;
-use crate::tables;
+use crate::verdicts;
 
 /// Points of the closure curve in `results.json`: half a degree of arc or less between neighbours.
 const CURVE_POINTS: usize = 721;
@@ -59,7 +59,7 @@ pub fn run(arguments: &Reproduce) -> Result<Exit, Failure> {
     if arguments.json {
         output::print(&json()?)?;
     } else {
-        output::print(&tables::reproduction(&reproduction))?;
+        output::print(&verdicts::reproduction(&reproduction))?;
         if let Some(folder) = &arguments.out {
             output::print(&format!(
                 "Written to {}: report.md, results.json, comparison.csv\n",

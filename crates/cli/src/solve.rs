@@ -7,13 +7,13 @@ use model::{Equilibrium, Problem, SystemSummary, system_file};
 use serde::Serialize;
 use validate::{Agreement, Tolerances, compare, compare::judge_alone};
 
+use crate::answer;
 use crate::args::{Solve, Which};
 use crate::cases;
 use crate::diagnostics::SystemFileReport;
 use crate::exit::{Exit, Failure};
 use crate::output;
 use crate::progress::Progress;
-use crate::tables;
 
 /// Version of the JSON object; raised when a key that others rely on changes its meaning.
 pub const SCHEMA_VERSION: u32 = 1;
@@ -54,19 +54,19 @@ pub fn run(arguments: &Solve) -> Result<Exit, Failure> {
         Some(agreement) if !agreement.agrees() => Exit::CheckFailed,
         _ => Exit::Done,
     };
-    let answer = Answer {
+    let found = Answer {
         schema_version: SCHEMA_VERSION,
         system: problem.chain().summary(),
         equilibria,
         agreement,
     };
     if arguments.json {
-        output::print(&json(&answer, arguments.summary)?)?;
+        output::print(&json(&found, arguments.summary)?)?;
     } else {
-        output::print(&tables::answer(
-            &answer.system,
-            &answer.equilibria,
-            answer.agreement.as_ref(),
+        output::print(&answer::answer(
+            &found.system,
+            &found.equilibria,
+            found.agreement.as_ref(),
             arguments.summary,
         ))?;
     }

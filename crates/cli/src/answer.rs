@@ -1,0 +1,133 @@
+//! The answer of `solve`, for people.
+
+use std::fmt::Write as _;
+
+use model::{Equilibrium, SystemSummary};
+use validate::Agreement;
+
+use crate::tables::{duration, long, numbers_from, short, table, vector, word};
+
+/// Chains up to this many bars are printed joint by joint; longer ones by their ends (`--csv` and
+/// `--json` have all).
+const PRINTED_BARS: usize = 40;
+
+/// The whole answer.
+pub fn answer(
+    system: &SystemSummary,
+    equilibria: &[Equilibrium],
+    agreement: Option<&Agreement>,
+    summary: bool,
+) -> String {
+    let mut text = format!(
+        "{}: {} bars, {} m long, {} kg, anchors {} m apart, g = {} m/s^2\n\n",
+        system.name,
+        system.bars,
+        short(system.total_length_m),
+        short(system.total_mass_kg),
+        short(system.span_m),
+        short(system.gravity_m_s2),
+    );
+    text += &overview(equilibria);
+    if !summary && let Some(first) = equilibria.first() {
+        text += &shape(first, system.bars);
+    }
+    text += &ladder(equilibria);
+    if let Some(agreement) = agreement {
+        text += &self::agreement(agreement);
+    }
+    text
+}
+
+fn overview(equilibria: &[Equilibrium]) -> String {
+    let mut table = table([
+        "solver",
+        "energy / J",
+        "force at start / N",
+        "force at end / N",
+        "in plane",
+        "in space",
+        "residual",
+        "steps",
+        "time",
+    ]);
+    for e in equilibria {
+        table.add_row([
+            e.solver.to_string(),
+            long(e.energy_j),
+            vector(e.reactions_n.start),
+            vector(e.reactions_n.end),
+            format!("{} ({})", word(&e.stability.in_plane), e.stability.index_in_plane),
+            format!("{} ({})", word(&e.stability.in_space), e.stability.index_in_space),
+            format!("{:.1e}", e.evidence.residual),
+            e.evidence.iterations.to_string(),
+            duration(e.evidence.solve_s),
+        ]);
+    }
+    numbers_from(&mut table, 1);
+    format!("{table}\n(in brackets: the number of directions in which the energy falls)\n\n")
+}
+
+/// Joints and forces of one equilibrium; the other solver's agree with it or the verdict says so.
+fn shape(e: &Equilibrium, bars: usize) -> String {
+    if bars > PRINTED_BARS {
+        return format!("{bars} bars are not printed: --csv FILE or --json have them all.\n\n");
+    }
+    let mut table = table([
+        "joint",
+        "x / m",
+        "y / m",
+        "z / m",
+        "force x / N",
+        "force y / N",
+        "force z / N",
+        "bar to the next",
+        "axial / N",
+    ]);
+    for (k, (joint, force)) in e.joints_m.iter().zip(&e.multipliers_n).enumerate() {
+        let axial = e.axial_n.get(k);
+        table.add_row([
+            k.to_string(),
+            short(joint[0]),
+            short(joint[1]),
+            short(joint[2]),
+            short(force[0]),
+            short(force[1]),
+            short(force[2]),
+            axial.map_or_else(String::new, |a| {
+                if *a < 0.0 { "compression" } else { "tension" }.to_owned()
+            }),
+            axial.map_or_else(String::new, |a| short(*a)),
+        ]);
+    }
+    numbers_from(&mut table, 1);
+    format!(
+        "Joints, and the forces at them (on the bar before the joint; at joint 0 on bar 1), by {}:\n{table}\n\n",
+        e.solver
+    )
+}
+
+/// How far each equilibrium is proved, rung by rung.
+fn ladder(equilibria: &[Equilibrium]) -> String {
+    let mut text = String::new();
+    for e in equilibria {
+        // Writing to a String cannot fail.
+        let _ = writeln!(text, "Evidence for the answer of {}: {}", e.solver, e.evidence.rung());
+        for s in e.evidence.ladder() {
+            let _ = writeln!(
+                text,
+                "  {} {:<10} {}",
+                if s.reached { "+" } else { "-" },
+                s.rung.to_string(),
+                s.how
+            );
+        }
+    }
+    text + "\n"
+}
+
+fn agreement(agreement: &Agreement) -> String {
+    format!(
+        "Agreement: {} (joints {:.1e} m, forces {:.1e} N, energy {:.1e} J)\n",
+        agreement.verdict, agreement.joints_m, agreement.forces_n, agreement.energy_j
+    )
+}

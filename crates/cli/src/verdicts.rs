@@ -1,0 +1,170 @@
+//! The reproduction for people: what the paper claims, what two solvers find, where it is wrong.
+
+use validate::Reproduction;
+use validate::claims::Claim;
+use validate::paper::{Printed, Verdict};
+use validate::seeds::Survey;
+
+use crate::tables::{numbers_from, short, significant, table, word};
+
+/// The whole text, section by section.
+pub fn reproduction(r: &Reproduction) -> String {
+    [
+        format!("{}\n\nThe claims of the paper:\n{}", r.paper, claims(r)),
+        format!("Where the paper is wrong, and the number that shows it:\n{}", wrong(r)),
+        format!(
+            "Equilibria of the example, degrees from the descending vertical and mgl:\n{}",
+            equilibria(r)
+        ),
+        format!("Random seeds:\n{}", seeds(r)),
+        bounds(r),
+        summary(r),
+    ]
+    .join("\n\n")
+        + "\n"
+}
+
+fn claims(r: &Reproduction) -> String {
+    let mut table = table(["claim", "printed", "lagrange", "energy", "verdict"]);
+    for claim in &r.claims {
+        table.add_row([
+            claim.printed.says.clone(),
+            claim_printed(&claim.printed),
+            claim_value(claim, claim.lagrange),
+            claim_value(claim, claim.energy),
+            format!("{}{}", claim.verdict, if claim.as_expected { "" } else { " (!)" }),
+        ]);
+    }
+    table.to_string()
+}
+
+fn wrong(r: &Reproduction) -> String {
+    let mut table = table(["claim", "verdict", "number", "which is"]);
+    for claim in r.claims.iter().filter(|c| c.verdict != Verdict::Confirmed) {
+        table.add_row([
+            format!("{} [{}]", claim.printed.says, claim.printed.place),
+            claim.verdict.to_string(),
+            claim.number.map_or_else(|| "-".to_owned(), |n| significant(n, 4)),
+            claim.number_is.clone(),
+        ]);
+    }
+    table.to_string()
+}
+
+fn equilibria(r: &Reproduction) -> String {
+    let mut table =
+        table(["", "theta", "alpha", "beta", "V, lagrange", "V, energy", "in plane", "in space"]);
+    for p in &r.equilibria {
+        let [theta, alpha, beta] = p.lagrange_deg.map(|a| format!("{a:.8}"));
+        table.add_row([
+            p.name.to_owned(),
+            theta,
+            alpha,
+            beta,
+            format!("{:.10}", p.lagrange_mgl),
+            p.energy_mgl.map_or_else(|| "no minimum".to_owned(), |v| format!("{v:.10}")),
+            format!("{} ({})", word(&p.stability.in_plane), p.stability.index_in_plane),
+            format!("{} ({})", word(&p.stability.in_space), p.stability.index_in_space),
+        ]);
+    }
+    numbers_from(&mut table, 1);
+    format!("{table}\n(in brackets: the number of directions in which the energy falls)")
+}
+
+fn seeds(r: &Reproduction) -> String {
+    let mut table =
+        table(["solver", "seeds", "converged", "where to", "steps: median, 95 %, most"]);
+    for s in &r.seeds {
+        table.add_row([
+            s.solver.to_string(),
+            format!("{} {}", s.seeds, word(&s.kind)),
+            format!("{:.2} %", 100.0 * s.rate()),
+            seeds_reached(s),
+            format!(
+                "{}, {}, {}",
+                s.median_iterations, s.most_iterations_of_95_percent, s.most_iterations
+            ),
+        ]);
+    }
+    table.to_string()
+}
+
+fn bounds(r: &Reproduction) -> String {
+    let b = &r.bounds;
+    format!(
+        "No configuration has less energy than {:.12} mgl nor more than {:.12} mgl (semidefinite programmes, rounded \
+         to proofs):\nE1 is the global minimum to {:.0e} mgl, E2 the global maximum to {:.0e} mgl.",
+        b.lower_mgl, b.upper_mgl, b.gap_to_e1_mgl, b.gap_to_e2_mgl,
+    )
+}
+
+fn summary(r: &Reproduction) -> String {
+    let s = &r.summary;
+    let mut lines = vec![
+        format!(
+            "{} claims: {} confirmed, {} explained, {} corrected, {} refuted.",
+            s.claims, s.confirmed, s.explained, s.corrected, s.refuted
+        ),
+        format!(
+            "{} rows of equations: {} hold only as corrected, {} not at all (--out DIR lists them).",
+            s.equations, s.equations_corrected, s.equations_refuted
+        ),
+        format!(
+            "Both solvers agree on {} of {} cases, and the third judge finds every bar in balance.",
+            s.cases_agreed, s.cases
+        ),
+    ];
+    if !s.unexpected_claims.is_empty() {
+        lines.push(format!("NOT AS EXPECTED: {}", s.unexpected_claims.join(", ")));
+    }
+    if !s.equations_as_expected {
+        lines.push("NOT AS EXPECTED: the list of equations that do not hold".to_owned());
+    }
+    let verdict = if r.all_as_expected {
+        "Every verdict is the expected one,"
+    } else {
+        "The reproduction failed,"
+    };
+    lines.push(format!("{verdict} in {:.1} s.", r.seconds));
+    lines.join("\n")
+}
+
+/// A value in the unit of its claim, with the printed number of decimals and three more.
+pub fn claim_value(claim: &Claim, value: Option<f64>) -> String {
+    match (value, claim.printed.digits) {
+        (None, _) => "-".to_owned(),
+        (Some(value), Some(digits)) => format!("{value:.*}", digits + 3),
+        (Some(value), None) => short(value),
+    }
+}
+
+/// What is printed, with its unit where it is a number.
+pub fn claim_printed(printed: &Printed) -> String {
+    match &printed.unit {
+        Some(unit) if printed.digits.is_some() => format!("{} {unit}", printed.printed),
+        _ => printed.printed.clone(),
+    }
+}
+
+/// The number behind the verdict and what it is.
+pub fn claim_number(claim: &Claim) -> String {
+    claim.number.map_or_else(
+        || claim.number_is.clone(),
+        |n| format!("{}: {}", claim.number_is, significant(n, 4)),
+    )
+}
+
+/// Where the seeds of a survey led.
+pub fn seeds_reached(s: &Survey) -> String {
+    let mut parts: Vec<_> = s
+        .reached
+        .iter()
+        .filter(|r| r.seeds > 0)
+        .map(|r| format!("{} {}", r.seeds, r.equilibrium))
+        .collect();
+    if s.elsewhere > 0 {
+        parts.push(format!("{} elsewhere", s.elsewhere));
+    }
+    parts.extend(s.lost.iter().map(|l| format!("{} lost: {}", l.seeds, l.why)));
+    parts.join(", ")
+}
