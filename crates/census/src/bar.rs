@@ -29,7 +29,7 @@ impl BarTerm {
         let by_v = [by_h[1], f[0].square() * scale];
         let by_w = || by_v.map(|part| part * weight);
         let (x, y) = match cell.face {
-            Face::Near => (by_h, by_v),
+            Face::Near | Face::Around(_) => (by_h, by_v),
             Face::Left | Face::Right => (by_v, by_w()),
             Face::Below | Face::Above => (by_h, by_w()),
         };

@@ -4,13 +4,25 @@
 //! (H, V, w) matters, so the faces of half a cube hold every pull: the face w = 1 those of the order of
 //! the weights, the faces H = ±1 and V = ±1 the large ones, and their edge w = 0 the infinite ones.
 //! No bound on the zeros is needed: they cannot leave the cube.
+//!
+//! V is counted from an origin that centres the weights. Around the pull at which the force of a bar
+//! vanishes its direction turns with the small difference of two numbers of order one, and rounding
+//! would hide a zero close by; so cells near it move to a chart whose origin is that very point.
+
+use serde::{Deserialize, Serialize};
 
 use crate::Interval;
 use crate::system::System;
 
-/// A face of the half cube; the named coordinate is the constant.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub(crate) enum Face {
+/// A chart of pulls: a face of the half cube (H, V, w), the named coordinate being constant, or a shifted
+/// copy of the nearest face. The pull is (H, V)/w in units of the census, V counted from the middle of
+/// the weights.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Face {
+    /// w = 1, coordinates (H, V − V_g) with V_g the V at which the force of the bars of this group
+    /// vanishes; bars in a row whose joints carry no weight are a group, any other bar is one alone.
+    Around(u8),
     /// w = 1, coordinates (H, V).
     Near,
     /// H = −1, coordinates (V, w).
@@ -54,7 +66,7 @@ impl Cell {
     pub(crate) fn homogeneous(&self) -> [Interval; 3] {
         let [x, y] = self.at;
         match self.face {
-            Face::Near => [x, y, Interval::ONE],
+            Face::Near | Face::Around(_) => [x, y, Interval::ONE],
             Face::Left => [MINUS_ONE, x, y],
             Face::Right => [Interval::ONE, x, y],
             Face::Below => [x, MINUS_ONE, y],
@@ -62,65 +74,89 @@ impl Cell {
         }
     }
 
-    /// `(H, V + c w)` of a bar. A rectangle exactly, because no two of the varying coordinates
-    /// meet in one component and vary in the other.
+    /// `(H, V + c w)` of a bar, its weight c counted from the origin of the chart. A rectangle exactly,
+    /// because no two of the varying coordinates meet in one component and vary in the other.
     pub(crate) fn force(&self, weight: Interval) -> [Interval; 2] {
         let [h, v, w] = self.homogeneous();
-        [h, if self.face == Face::Near { v + weight } else { v + weight * w }]
+        [
+            h,
+            if weight == Interval::ZERO {
+                v
+            } else {
+                v + if self.flat() { weight } else { weight * w }
+            },
+        ]
     }
 
-    /// The pull (H, V)/w in the plane, in the system's units, weights centred.
-    pub(crate) fn pull(&self) -> [Interval; 2] {
+    /// Whether w = 1 on this face.
+    fn flat(&self) -> bool {
+        matches!(self.face, Face::Near | Face::Around(_))
+    }
+
+    /// The pull in the plane, in the system's units.
+    pub(crate) fn pull(&self, system: &System) -> [Interval; 2] {
         let [h, v, w] = self.homogeneous();
-        if self.face == Face::Near { [h, v] } else { [h / w, v / w] }
-    }
-
-    /// The same set of pulls, or a little more, as a rectangle on the face through its middle.
-    pub(crate) fn of_pull(pull: [Interval; 2]) -> Self {
-        let [h, v] = pull;
-        let (x, y) = (h.mid(), v.mid());
-        if x.abs() <= 1.0 && y.abs() <= 1.0 {
-            Self { face: Face::Near, at: [h, v] }
-        } else if x.abs() >= y.abs() {
-            let face = if x < 0.0 { Face::Left } else { Face::Right };
-            Self { face, at: [v / h.abs(), Interval::ONE / h.abs()] }
-        } else {
-            let face = if y < 0.0 { Face::Below } else { Face::Above };
-            Self { face, at: [h / v.abs(), Interval::ONE / v.abs()] }
-        }
+        let origin = system.origin(self.face);
+        if self.flat() { [h, v - origin] } else { [h / w, v / w - origin] }
     }
 
     /// The same pulls, or a few more, as a rectangle on another face; `None` if the pulls cannot
     /// all be written on it.
-    pub(crate) fn on(&self, face: Face) -> Option<Self> {
+    pub(crate) fn on(&self, face: Face, system: &System) -> Option<Self> {
         if self.face == face {
             return Some(*self);
         }
-        let [h, v, w] = self.homogeneous();
+        let [h, v, w] = self.seen_from(face, system);
         let [x, y] = match face {
-            Face::Near => [h, v],
+            Face::Near | Face::Around(_) => [h, v],
             Face::Left | Face::Right => [v, w],
             Face::Below | Face::Above => [h, w],
         };
-        let divisor = self.towards(face);
+        let divisor = towards(face, [h, v, w]);
+        if divisor == Interval::ONE {
+            return Some(Self { face, at: [x, y] });
+        }
         (divisor.lo() > 0.0).then(|| Self { face, at: [x / divisor, y / divisor] })
     }
 
-    /// Whether none of these pulls can be written on a face.
-    pub(crate) fn behind(&self, face: Face) -> bool {
-        self.towards(face).hi() <= 0.0
+    /// The same cell in the chart of the nearest pull without force, if it is that near.
+    pub(crate) fn recentred(&self, system: &System) -> Self {
+        /// So near that five bits of precision would be lost.
+        const NEAR: f64 = f64::from_bits((1023 - 5) << 52);
+        if !self.flat() {
+            return *self;
+        }
+        let weights = system.weights(self.face);
+        let distance = |group: usize| {
+            let force = self.force(weights[system.groups[group].start]);
+            force[0].mag().max(force[1].mag())
+        };
+        let here = match self.face {
+            Face::Around(group) => NEAR * distance(usize::from(group)),
+            _ => NEAR,
+        };
+        (0..system.groups.len())
+            .filter(|group| distance(*group) < here)
+            .min_by(|a, b| distance(*a).total_cmp(&distance(*b)))
+            .and_then(|group| self.on(Face::Around(u8::try_from(group).ok()?), system))
+            .unwrap_or(*self)
     }
 
-    /// The coordinate that is constant on a face, with the sign of the face.
-    fn towards(&self, face: Face) -> Interval {
+    /// (H, V, w), V counted from the origin of another face.
+    fn seen_from(&self, face: Face, system: &System) -> [Interval; 3] {
         let [h, v, w] = self.homogeneous();
-        match face {
-            Face::Near => w,
-            Face::Left => -h,
-            Face::Right => h,
-            Face::Below => -v,
-            Face::Above => v,
-        }
+        let v = match (self.face, face) {
+            (Face::Around(from), Face::Around(to)) => v + system.group_distance(from, to),
+            (Face::Around(from), _) => v - system.group_weight(from),
+            (_, Face::Around(to)) => v + system.group_weight(to) * w,
+            _ => v,
+        };
+        [h, v, w]
+    }
+
+    /// Whether none of these pulls can be written on a face.
+    pub(crate) fn behind(&self, face: Face, system: &System) -> bool {
+        towards(face, self.seen_from(face, system)).hi() <= 0.0
     }
 
     /// The mirror image: H changes its sign.
@@ -129,7 +165,33 @@ impl Cell {
         match self.face {
             Face::Left => Self { face: Face::Right, ..*self },
             Face::Right => Self { face: Face::Left, ..*self },
-            Face::Near | Face::Below | Face::Above => Self { at: [-x, y], ..*self },
+            Face::Near | Face::Around(_) | Face::Below | Face::Above => {
+                Self { at: [-x, y], ..*self }
+            }
+        }
+    }
+
+    /// Whether it holds the pull at which the force of the bars of its chart vanishes.
+    pub(crate) fn is_at_unloaded_bar(&self) -> bool {
+        matches!(self.face, Face::Around(_)) && self.at.iter().all(|part| part.contains(0.0))
+    }
+
+    /// The size against which a width is small: around a pull without force the distance from it, and
+    /// so near that not even the data are known any width at all.
+    pub(crate) fn unit(&self) -> f64 {
+        let size = self.at[0].mag().max(self.at[1].mag());
+        match self.face {
+            Face::Around(_) if size < f64::EPSILON => f64::INFINITY,
+            Face::Around(_) => size,
+            _ => 1.0,
+        }
+    }
+
+    /// The size against which a point of a face is known to the last place.
+    pub(crate) fn size(face: Face, at: [f64; 2]) -> f64 {
+        match face {
+            Face::Around(_) => at[0].abs().max(at[1].abs()),
+            _ => 1.0,
         }
     }
 
@@ -168,5 +230,16 @@ impl Cell {
         self.face == other.face
             && self.at[0].encloses(other.at[0])
             && self.at[1].encloses(other.at[1])
+    }
+}
+
+/// The coordinate that is constant on a face, with the sign of the face.
+fn towards(face: Face, [h, v, w]: [Interval; 3]) -> Interval {
+    match face {
+        Face::Near | Face::Around(_) => w,
+        Face::Left => -h,
+        Face::Right => h,
+        Face::Below => -v,
+        Face::Above => v,
     }
 }

@@ -9,6 +9,7 @@ use crate::equilibrium::ProvenEquilibrium;
 use crate::families::{SlackFamily, families};
 use crate::merge::merge;
 use crate::morse::{self, MorseError};
+use crate::polish::{PreciseSystem, polish};
 use crate::search::search;
 use crate::system::System;
 use crate::topology::{Topology, TopologyError};
@@ -102,17 +103,25 @@ impl Census {
         let search = search(&system, settings, &|done, waiting| watch(Progress { done, waiting }));
 
         let mut undecided: Vec<Undecided> = vec![];
-        let reason = if search.exhausted { Reason::Budget } else { Reason::Degenerate };
         for task in gather(search.undecided) {
+            let reason = if search.exhausted {
+                Reason::Budget
+            } else if task.cell.is_at_unloaded_bar() {
+                Reason::Unloaded
+            } else {
+                Reason::Degenerate
+            };
             undecided.push(Undecided::new(&system, reason, &task.cell, &task.patterns));
         }
-        let (zeros, unclear) = merge(search.zeros);
+        let (zeros, unclear) = merge(&system, search.zeros);
         for (pattern, zero) in unclear {
             undecided.push(Undecided::new(&system, Reason::Unclear, &zero.tight, &[pattern]));
         }
         let mut equilibria = vec![];
+        let precise = PreciseSystem::new(problem, &system);
         for (pattern, zero) in zeros {
             let signs: Vec<i8> = pattern.signs(system.bars()).collect();
+            let zero = polish(&system, &precise, &signs, &zero);
             if let Some(equilibrium) = ProvenEquilibrium::new(&system, &signs, &zero) {
                 equilibria.push(equilibrium);
             } else {

@@ -9,8 +9,9 @@ use model::Problem;
 use crate::cell::{Cell, Face};
 use crate::census::by_energy_and_angles;
 use crate::equilibrium::ProvenEquilibrium;
-use crate::krawczyk::{Zero, inside, krawczyk};
+use crate::krawczyk::{Zero, inside, krawczyk, narrow};
 use crate::morse::MorseError;
+use crate::polish::{PreciseSystem, polish};
 use crate::system::System;
 use crate::{Census, CensusError, Interval};
 
@@ -88,9 +89,12 @@ impl Census {
     ///
     /// The first thing that is wrong, as [`CheckError`].
     pub fn check(&self, problem: &Problem) -> Result<(), CheckError> {
+        if problem.chain().bars().len() != self.statistics.bars {
+            return Err(CheckError::Claim { quantity: "the number of bars" });
+        }
         let system = System::new(problem)?;
         for (k, equilibrium) in self.equilibria.iter().enumerate() {
-            check_one(&system, k + 1, equilibrium)?;
+            check_one(problem, &system, k + 1, equilibrium)?;
             let in_order = k == 0 || {
                 let before = &self.equilibria[k - 1];
                 by_energy_and_angles(before, equilibrium).is_lt()
@@ -108,7 +112,6 @@ impl Census {
             ("the list of slack families", self.families == crate::families::families(&system).0),
             ("the topology", self.topology == crate::Topology::of_system(&system)),
             ("whether there are circles", self.circles == system.vertical),
-            ("the number of bars", self.statistics.bars == system.bars()),
             (
                 "completeness",
                 !self.complete || (self.undecided.is_empty() && self.topology.is_ok()),
@@ -124,36 +127,30 @@ impl Census {
     }
 }
 
-fn check_one(system: &System, number: usize, stated: &ProvenEquilibrium) -> Result<(), CheckError> {
+fn check_one(
+    problem: &Problem,
+    system: &System,
+    number: usize,
+    stated: &ProvenEquilibrium,
+) -> Result<(), CheckError> {
     let signs = &stated.signs;
     let malformed = CheckError::Malformed { number };
     if signs.len() != system.bars() || signs.iter().any(|sign| sign.abs() != 1) {
         return Err(malformed);
     }
-    let around = chart(stated.alone_in.homogeneous).ok_or(malformed)?;
+    let around = Cell { face: stated.alone_in.chart, at: stated.alone_in.at };
+    if matches!(around.face, Face::Around(group) if usize::from(group) >= system.groups.len()) {
+        return Err(malformed);
+    }
     let not_one = CheckError::NotOne { number };
     let image = krawczyk(system, signs, &around, around.middle()).ok_or(not_one.clone())?;
     if !inside(&image, &around) {
         return Err(not_one);
     }
-    // The stated pull, a little wider, must hold the zero too.
-    let newton = system.force_unit_n();
+    let precise = PreciseSystem::new(problem, system);
+    let tight = narrow(system, signs, &image);
+    let tight = polish(system, &precise, signs, &Zero { tight, alone_in: around }).tight;
     let wrong = |quantity| CheckError::Wrong { number, quantity };
-    let [h, v] = stated.pull_n.map(|part| part / newton);
-    let pull = Cell::of_pull([h, v + Interval::point(system.offset)]);
-    let near = pull.on(around.face).ok_or(wrong("the pull"))?;
-    let wider = Cell {
-        face: near.face,
-        at: near.at.map(|part| {
-            let room = 2.0 * part.width() + 4.0 * f64::EPSILON * part.mag().max(1.0);
-            Interval::new(part.lo() - room, part.hi() + room)
-        }),
-    };
-    let tight = krawczyk(system, signs, &wider, wider.middle()).ok_or(wrong("the pull"))?;
-    if !inside(&tight, &wider) || !around.encloses(&wider) {
-        // A pull that was stated too wide has no such proof either.
-        return Err(wrong("the pull"));
-    }
     // `new` shows a circle by its other point if bar 1 leans the other way.
     let flip = |cell: Cell| if system.vertical && signs[0] < 0 { cell.mirrored() } else { cell };
     let zero = Zero { tight: flip(tight), alone_in: flip(around) };
@@ -184,23 +181,4 @@ fn check_one(system: &System, number: usize, stated: &ProvenEquilibrium) -> Resu
         }
     }
     Ok(())
-}
-
-/// The rectangle with these homogeneous coordinates, one of which is ±1.
-fn chart([h, v, w]: [Interval; 3]) -> Option<Cell> {
-    let minus = -Interval::ONE;
-    let (face, at) = if w == Interval::ONE {
-        (Face::Near, [h, v])
-    } else if h == minus {
-        (Face::Left, [v, w])
-    } else if h == Interval::ONE {
-        (Face::Right, [v, w])
-    } else if v == minus {
-        (Face::Below, [h, w])
-    } else if v == Interval::ONE {
-        (Face::Above, [h, w])
-    } else {
-        return None;
-    };
-    Some(Cell { face, at })
 }

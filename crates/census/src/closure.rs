@@ -44,7 +44,9 @@ impl Closure {
     pub(crate) fn over(system: &System, signs: &[i8], cell: &Cell) -> Option<Self> {
         let mut gap = system.span.map(|part| -part);
         let mut slope = [[Interval::ZERO; 2]; 2];
-        for ((sign, length), weight) in signs.iter().zip(&system.length).zip(&system.weight) {
+        for ((sign, length), weight) in
+            signs.iter().zip(&system.length).zip(system.weights(cell.face))
+        {
             let term = BarTerm::over(cell, *length, *weight)?;
             for k in 0..2 {
                 gap[k] = gap[k] + signed(*sign, term.value[k]);
@@ -59,7 +61,9 @@ impl Closure {
     /// Φ alone.
     pub(crate) fn gap_over(system: &System, signs: &[i8], cell: &Cell) -> [Interval; 2] {
         let mut gap = system.span.map(|part| -part);
-        for ((sign, length), weight) in signs.iter().zip(&system.length).zip(&system.weight) {
+        for ((sign, length), weight) in
+            signs.iter().zip(&system.length).zip(system.weights(cell.face))
+        {
             let value = BarTerm::value_over(cell, *length, *weight);
             for k in 0..2 {
                 gap[k] = gap[k] + signed(*sign, value[k]);

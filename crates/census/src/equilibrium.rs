@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use crate::Interval;
 use crate::angle;
 use crate::bar::unit;
-use crate::cell::Cell;
+use crate::cell::{Cell, Face};
 use crate::closure::signed;
 use crate::inertia::{self, Indices};
 use crate::krawczyk::Zero;
@@ -25,8 +25,7 @@ pub struct ProvenEquilibrium {
     /// The pull of the chain on the first anchor, −λ₁..₃, N: its part along the horizontal direction from
     /// the first to the last anchor, and its part along Z.
     pub pull_n: [Interval; 2],
-    /// A neighbourhood of the pull that holds no other equilibrium with the same signs: a rectangle
-    /// of (x, y) in one of five charts of all pulls, see [`Neighbourhood`].
+    /// A neighbourhood of the pull that holds no other equilibrium with the same signs.
     pub alone_in: Neighbourhood,
     /// Angle of each bar from the descending vertical towards the last anchor, (−π, π].
     pub angles_rad: Vec<Interval>,
@@ -44,21 +43,22 @@ pub struct ProvenEquilibrium {
     /// Morse index among the motions out of the plane. Their second derivative is proved to be regular
     /// too, but for the turn about vertical anchors.
     pub index_out_of_plane: usize,
+    /// Condition of the derivative of the closure by the pull, as a plain number: how much the pull
+    /// magnifies errors of the closure.
+    pub condition: f64,
     /// Whether no configuration in space has less energy, by the stress matrix.
     pub optimal: bool,
     /// Whether it stands for a circle of equilibria.
     pub circle: bool,
 }
 
-/// A rectangle in a chart of all pulls (H, V), in the units of the census.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+/// A rectangle in a chart of pulls.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Neighbourhood {
-    /// Homogeneous coordinates (H, V, w): the pull is (H, V)/w times the unit, less the offset along V.
-    pub homogeneous: [Interval; 3],
-    /// Unit of the pull, N.
-    pub unit_n: Interval,
-    /// Offset of V, in the unit.
-    pub offset: f64,
+    /// The chart.
+    pub chart: Face,
+    /// The rectangle in the coordinates of the chart.
+    pub at: [Interval; 2],
 }
 
 impl ProvenEquilibrium {
@@ -91,7 +91,7 @@ impl ProvenEquilibrium {
             return None;
         }
         let observed = Observed::at(system, signs, &cell);
-        let Indices { in_plane, out_of_plane } =
+        let Indices { in_plane, out_of_plane, condition } =
             inertia::indices(signs, &system.length, &observed.forces, system.vertical)?;
         let optimal =
             stress::proves_optimal(signs, &system.length, &observed.sizes, system.vertical);
@@ -99,11 +99,7 @@ impl ProvenEquilibrium {
         Some(Self {
             signs: signs.to_vec(),
             pull_n: [observed.pull[0] * newton, observed.pull[1] * newton],
-            alone_in: Neighbourhood {
-                homogeneous: alone_in.homogeneous(),
-                unit_n: newton,
-                offset: -system.offset,
-            },
+            alone_in: Neighbourhood { chart: alone_in.face, at: alone_in.at },
             angles_rad: observed.angles(),
             energy_j: observed.energy(system) * newton * Interval::point(system.length_unit_m),
             joints_m: observed.joints(system),
@@ -115,6 +111,7 @@ impl ProvenEquilibrium {
                 .collect(),
             index_in_plane: in_plane,
             index_out_of_plane: out_of_plane,
+            condition,
             optimal,
             circle: system.vertical,
         })
@@ -132,11 +129,10 @@ struct Observed {
 
 impl Observed {
     fn at(system: &System, signs: &[i8], cell: &Cell) -> Self {
-        let [h, v] = cell.pull();
         let w = cell.homogeneous()[2];
         // Directions from the homogeneous coordinates, which are narrower than their quotients.
         let homogeneous: Vec<[Interval; 2]> =
-            system.weight.iter().map(|weight| cell.force(*weight)).collect();
+            system.weights(cell.face).iter().map(|weight| cell.force(*weight)).collect();
         let sizes = homogeneous
             .iter()
             .map(|force| (force[0].square() + force[1].square()).sqrt() / w)
@@ -146,8 +142,7 @@ impl Observed {
             .zip(&homogeneous)
             .map(|(sign, force)| unit(*force).map(|part| signed(*sign, part)))
             .collect();
-        let pull = [h, v - Interval::point(system.offset)];
-        Self { pull, forces: homogeneous, sizes, directions }
+        Self { pull: cell.pull(system), forces: homogeneous, sizes, directions }
     }
 
     /// From the descending vertical: (−u_z, u_x).

@@ -95,7 +95,7 @@ impl Family {
                 family.start[part] = add(&mut family, part, -system.span[k]);
             }
         }
-        for (length, weight) in system.length.iter().zip(&system.weight) {
+        for (length, weight) in system.length.iter().zip(system.weights(cell.face)) {
             let term = BarTerm::over(cell, *length, *weight)?;
             let centre = BarTerm::value_over(&point, *length, *weight);
             let terms = [
@@ -127,7 +127,7 @@ impl Family {
     /// The coordinate of the cell to cut: the one whose width blurs the closure more.
     pub(crate) fn widest(&self, system: &System, cell: &Cell) -> usize {
         let mut blur = [0.0_f64; 2];
-        for (length, weight) in system.length.iter().zip(&system.weight) {
+        for (length, weight) in system.length.iter().zip(system.weights(cell.face)) {
             if let Some(term) = BarTerm::over(cell, *length, *weight) {
                 for (k, blur) in blur.iter_mut().enumerate() {
                     *blur += self.half[k] * (term.slope[0][k].mag() + term.slope[1][k].mag());

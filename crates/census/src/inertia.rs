@@ -35,10 +35,12 @@ fn positive_eigenvalues([a, b, d]: [Interval; 3]) -> Option<usize> {
 }
 
 /// Indices of an equilibrium, of the signs and the forces `F_i` (any common positive unit) of its bars.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Indices {
     pub(crate) in_plane: usize,
     pub(crate) out_of_plane: usize,
+    /// Ratio of the singular values of S, as a plain number.
+    pub(crate) condition: f64,
 }
 
 /// The indices, if they can be proved.
@@ -66,7 +68,15 @@ pub(crate) fn indices(
     Some(Indices {
         in_plane: (compressed + positive).checked_sub(2)?,
         out_of_plane: (compressed + steeper).checked_sub(1)?,
+        condition: condition(schur.map(Interval::mid)),
     })
+}
+
+/// Ratio of the absolute eigenvalues of a symmetric matrix.
+fn condition([a, b, d]: [f64; 3]) -> f64 {
+    let half_trace = 0.5 * (a + d);
+    let larger = half_trace.abs() + (0.5 * (a - d)).hypot(b);
+    larger * larger / (a * d - b * b).abs()
 }
 
 #[cfg(test)]
@@ -91,8 +101,11 @@ mod tests {
         let lengths = [Interval::ONE; 2];
         let forces = |h: f64, v: f64| [[h, -v], [h, v]].map(|force| force.map(Interval::point));
         let hanging = indices(&[1, 1], &lengths, &forces(1.0, 1.0), false);
-        assert_eq!(hanging, Some(Indices { in_plane: 0, out_of_plane: 0 }));
+        let pair = |indices: Option<Indices>| indices.map(|i| (i.in_plane, i.out_of_plane));
+        assert_eq!(pair(hanging), Some((0, 0)));
         let standing = indices(&[-1, -1], &lengths, &forces(-1.0, 1.0), false);
-        assert_eq!(standing, Some(Indices { in_plane: 0, out_of_plane: 1 }));
+        assert_eq!(pair(standing), Some((0, 1)));
+        // S = √2/2 [[1, 0], [0, 1]] for both.
+        assert!(hanging.is_some_and(|i| (i.condition - 1.0).abs() < 1e-15));
     }
 }

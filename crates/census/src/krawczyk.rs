@@ -84,9 +84,19 @@ pub(crate) fn examine(system: &System, signs: &[i8], cell: &Cell) -> Finding {
 /// The image K(X) with the given point of X; `None` where Φ has no derivative or it is singular.
 pub(crate) fn krawczyk(system: &System, signs: &[i8], cell: &Cell, x: [f64; 2]) -> Option<Cell> {
     let slope = Closure::over(system, signs, cell)?.slope;
+    let gap = Closure::gap_over(system, signs, &Cell::point(cell.face, x));
+    image(cell, x, slope, gap)
+}
+
+/// The image K(X) from the derivative over X and the value at a point of X.
+pub(crate) fn image(
+    cell: &Cell,
+    x: [f64; 2],
+    slope: [[Interval; 2]; 2],
+    gap: [Interval; 2],
+) -> Option<Cell> {
     let inverse =
         inverse(slope.map(|row| row.map(Interval::mid)))?.map(|row| row.map(Interval::point));
-    let gap = Closure::gap_over(system, signs, &Cell::point(cell.face, x));
     let offset: [Interval; 2] = std::array::from_fn(|k| cell.at[k] - Interval::point(x[k]));
     let at = std::array::from_fn(|k| {
         let newton = inverse[k][0] * gap[0] + inverse[k][1] * gap[1];
@@ -100,6 +110,26 @@ pub(crate) fn krawczyk(system: &System, signs: &[i8], cell: &Cell, x: [f64; 2]) 
         Interval::point(x[k]) - newton + rest
     });
     Some(Cell { face: cell.face, at })
+}
+
+/// The zero of a cell that is known to hold exactly one, as narrow as the test gets it.
+pub(crate) fn narrow(system: &System, signs: &[i8], cell: &Cell) -> Cell {
+    /// Quadratic convergence needs six; slower gain is not worth more.
+    const ROUNDS: usize = 20;
+    let mut best = *cell;
+    for _ in 0..ROUNDS {
+        let Some(next) =
+            krawczyk(system, signs, &best, best.middle()).and_then(|image| common(&best, &image))
+        else {
+            break;
+        };
+        let gain = (0..2).any(|k| next.at[k].width() < 0.75 * best.at[k].width());
+        best = next;
+        if !gain {
+            break;
+        }
+    }
+    best
 }
 
 /// Whether one cell lies in the interior of another on the same face.
@@ -124,19 +154,20 @@ fn newton(
         let step: [f64; 2] =
             std::array::from_fn(|k| inverse[k][0] * gap[0] + inverse[k][1] * gap[1]);
         let next: [f64; 2] = std::array::from_fn(|k| x[k] - step[k]);
-        if !(0..2).all(|k| (next[k] - middle[k]).abs() <= REACH * half[k] + f64::EPSILON) {
+        let last_place = f64::EPSILON * Cell::size(cell.face, next);
+        if !(0..2).all(|k| (next[k] - middle[k]).abs() <= REACH * half[k] + last_place) {
             return None;
         }
         x = next;
         let size = step.map(f64::abs);
-        if size[0] <= 2.0 * f64::EPSILON && size[1] <= 2.0 * f64::EPSILON
-            || size[0].max(size[1]) >= last[0].max(last[1])
-        {
-            return Some((x, size.map(|part| part + f64::EPSILON)));
+        let done = size[0].max(size[1]) <= 2.0 * last_place;
+        if done || size[0].max(size[1]) >= last[0].max(last[1]) {
+            return Some((x, size.map(|part| part + last_place)));
         }
         last = size;
     }
-    Some((x, last.map(|part| part + f64::EPSILON)))
+    let last_place = f64::EPSILON * Cell::size(cell.face, x);
+    Some((x, last.map(|part| part + last_place)))
 }
 
 /// The smallest enclosure that double precision gives: Krawczyk's test on ever smaller cells around
@@ -167,20 +198,7 @@ fn tighten(
         }
         radius = radius.map(|part| 8.0 * part);
     }
-    // Once more about the middle of what is left, while that still gains.
-    for _ in 0..4 {
-        let Some(next) =
-            krawczyk(system, signs, &best, best.middle()).and_then(|image| common(&best, &image))
-        else {
-            break;
-        };
-        let gain = (0..2).any(|k| next.at[k].width() < 0.75 * best.at[k].width());
-        best = next;
-        if !gain {
-            break;
-        }
-    }
-    best
+    narrow(system, signs, &best)
 }
 
 fn common(a: &Cell, b: &Cell) -> Option<Cell> {
@@ -188,7 +206,7 @@ fn common(a: &Cell, b: &Cell) -> Option<Cell> {
 }
 
 /// The inverse of a 2 × 2 matrix, approximately.
-fn inverse([[a, b], [c, d]]: [[f64; 2]; 2]) -> Option<[[f64; 2]; 2]> {
+pub(crate) fn inverse([[a, b], [c, d]]: [[f64; 2]; 2]) -> Option<[[f64; 2]; 2]> {
     let determinant = a * d - b * c;
     let inverse = [[d, -b], [-c, a]].map(|row| row.map(|entry| entry / determinant));
     inverse.iter().flatten().all(|entry| entry.is_finite()).then_some(inverse)

@@ -94,7 +94,7 @@ pub(crate) fn search(system: &System, settings: &Settings, watch: &dyn Fn(u64, u
 
 /// Exclude, contract, prove, cut.
 fn examine_cell(system: &System, settings: &Settings, task: &Task) -> Outcome {
-    let cell = task.cell;
+    let cell = task.cell.recentred(system);
     let mut outcome = Outcome::default();
     let mut noisy = [true; 2];
     let (patterns, left, across) = match Family::over(system, &cell) {
@@ -133,7 +133,8 @@ fn examine_cell(system: &System, settings: &Settings, task: &Task) -> Outcome {
         return outcome;
     }
     // Cutting is of use across coordinates that are wide and not lost in rounding errors.
-    let useful = |k: usize| !noisy[k] && left.at[k].width() >= settings.min_width;
+    let unit = left.unit();
+    let useful = |k: usize| !noisy[k] && left.at[k].width() >= settings.min_width * unit;
     let across = if useful(across) { across } else { 1 - across };
     if !useful(across) {
         outcome.undecided = Some(Task { cell: left, patterns });

@@ -5,13 +5,13 @@ use crate::CensusError;
 /// How far a census goes before it calls a cell undecided or a chain too long.
 ///
 /// ```
-/// let settings = census::Settings { max_bars: 12, ..Default::default() };
+/// let settings = census::Settings { max_bars: 14, ..Default::default() };
 /// assert!(settings.validate().is_ok());
 /// assert!(census::Settings { max_bars: 0, ..settings }.validate().is_err());
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Settings {
-    /// Chains with more bars are refused with an estimate of the cost. Default 10, from 1 to
+    /// Chains with more bars are refused with an estimate of the cost. Default 12 (seconds), from 1 to
     /// [`Settings::MAX_BARS`].
     pub max_bars: usize,
     /// A cell narrower than this, on a face of the half cube of pulls (whose edges have length 2), is
@@ -66,7 +66,7 @@ impl Settings {
 impl Default for Settings {
     fn default() -> Self {
         Self {
-            max_bars: 10,
+            max_bars: 12,
             min_width: f64::from_bits((1023 - 40) << 52),
             max_tests_per_pattern: 20_000,
         }

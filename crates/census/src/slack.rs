@@ -24,16 +24,14 @@ pub(crate) fn open(system: &System, cell: &Cell, patterns: &[Pattern]) -> Vec<Pa
     let bars = system.bars();
     let mut free = vec![];
     let mut held = vec![];
+    let weights = system.weights(cell.face);
     for group in &system.groups {
-        let force = cell.force(system.weight[group.start]);
+        let force = cell.force(weights[group.start]);
         if force[0].contains(0.0) && force[1].contains(0.0) {
             free.push(group.clone());
         } else {
             held.extend(group.clone().map(|i| {
-                (
-                    Pattern::bit(bars, i),
-                    BarTerm::value_over(cell, system.length[i], system.weight[i]),
-                )
+                (Pattern::bit(bars, i), BarTerm::value_over(cell, system.length[i], weights[i]))
             }));
         }
     }

@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use model::{Problem, Vector};
 
+use crate::cell::Face;
 use crate::{CensusError, Interval};
 
 /// A chain in units in which the total length and the spread of the weights are of order one. Units
@@ -15,6 +16,9 @@ pub(crate) struct System {
     /// `c_i` less [`offset`](Self::offset), in [`mass_unit_kg`](Self::mass_unit_kg) × g: between −1
     /// and 1, not falling.
     pub(crate) weight: Vec<Interval>,
+    /// For each group, the weights of all bars less the one of the group: accurate where the
+    /// difference is small.
+    local: Vec<Vec<Interval>>,
     /// Runs of bars whose common joints carry no weight: their `F_i` are one and the same.
     pub(crate) groups: Vec<Range<usize>>,
     /// Horizontal and vertical part of D, in the unit of length.
@@ -59,8 +63,13 @@ const PAPER_PLANE: [Interval; 2] = [Interval::ZERO, Interval::ONE];
 impl System {
     /// The chain of a problem in handy units, if some weight hangs between the anchors.
     pub(crate) fn new(problem: &Problem) -> Result<Self, CensusError> {
-        let system = Self::shape(problem);
-        if system.groups.len() == 1 { Err(CensusError::WeightOnAnchors) } else { Ok(system) }
+        let mut system = Self::shape(problem);
+        if system.groups.len() == 1 {
+            return Err(CensusError::WeightOnAnchors);
+        }
+        system.local =
+            system.groups.iter().map(|group| system.weights_from(problem, group)).collect();
+        Ok(system)
     }
 
     /// The chain of a problem in handy units; the weights make sense only after [`new`](Self::new).
@@ -97,11 +106,8 @@ impl System {
         let anchors = chain.anchors();
         let difference: [Interval; 3] = std::array::from_fn(|k| {
             let (a, b) = (anchors.start_m[k], anchors.end_m[k]);
-            if a.total_cmp(&b).is_eq() {
-                Interval::ZERO
-            } else {
-                Interval::point(b) - Interval::point(a)
-            }
+            // Equal as numbers: 0 and −0 too.
+            if a <= b && b <= a { Interval::ZERO } else { Interval::point(b) - Interval::point(a) }
         });
         // Divided by the larger part: squares neither overflow nor vanish.
         let unit = power_of_two_above(difference[0].mag().max(difference[1].mag()));
@@ -121,6 +127,7 @@ impl System {
         Self {
             length: bars.iter().map(|bar| shorten(Interval::point(bar.length_m()))).collect(),
             weight,
+            local: vec![],
             groups,
             span: [shorten(horizontal.scale(unit)), shorten(difference[2])],
             vertical,
@@ -141,6 +148,60 @@ impl System {
     /// Number of bars.
     pub(crate) fn bars(&self) -> usize {
         self.length.len()
+    }
+
+    /// The weights c_i counted from the origin of a chart.
+    pub(crate) fn weights(&self, face: Face) -> &[Interval] {
+        match face {
+            Face::Around(group) => &self.local[usize::from(group)],
+            _ => &self.weight,
+        }
+    }
+
+    /// The origin of a chart: what its V is more than the vertical pull.
+    pub(crate) fn origin(&self, face: Face) -> Interval {
+        match face {
+            Face::Around(group) => self.group_weight(group) + Interval::point(self.offset),
+            _ => Interval::point(self.offset),
+        }
+    }
+
+    /// The centred weight of a group.
+    pub(crate) fn group_weight(&self, group: u8) -> Interval {
+        self.weight[self.groups[usize::from(group)].start]
+    }
+
+    /// The weight of one group less that of another.
+    pub(crate) fn group_distance(&self, from: u8, to: u8) -> Interval {
+        self.local[usize::from(from)][self.groups[usize::from(to)].start]
+    }
+
+    /// The weights of all bars less that of the bars of a group, from the masses in between.
+    fn weights_from(&self, problem: &Problem, group: &Range<usize>) -> Vec<Interval> {
+        let bars = problem.chain().bars();
+        // What a bar leaves at its first and at its second joint.
+        let first = |i: usize| {
+            let length = Interval::point(bars[i].length_m());
+            self.mass[i] * ((length - Interval::point(bars[i].centre_m())) / length)
+        };
+        let second = |i: usize| {
+            self.mass[i]
+                * (Interval::point(bars[i].centre_m()) / Interval::point(bars[i].length_m()))
+        };
+        let between = |from: usize, to: usize| {
+            second(from) + self.mass[from + 1..to].iter().copied().sum() + first(to)
+        };
+        (0..bars.len())
+            .map(|i| {
+                if i < group.start {
+                    -between(i, group.start)
+                } else if i >= group.end {
+                    between(group.end - 1, i)
+                } else {
+                    Interval::ZERO
+                }
+            })
+            .collect()
     }
 
     /// Unit of force, N.

@@ -18,9 +18,10 @@ pub struct Undecided {
     pub reason: Reason,
     /// The patterns of tension (+1), compression (−1) and slack (0) in question.
     pub signs: Vec<Vec<i8>>,
-    /// Homogeneous coordinates (H, V, w) of the pulls, in the units of the census, weights centred;
-    /// w = 0 means infinite pulls.
-    pub homogeneous: [Interval; 3],
+    /// The chart of its cell.
+    pub chart: Face,
+    /// Its cell in the coordinates of the chart.
+    pub at: [Interval; 2],
     /// The pulls along the horizontal direction and along Z, N, where they are finite.
     pub pull_n: Option<[Interval; 2]>,
 }
@@ -33,6 +34,9 @@ pub enum Reason {
     /// The cell is as small as cells get, or rounding errors hide what is in it: a degenerate
     /// equilibrium, a straight position, or nearly so.
     Degenerate,
+    /// The force of a bar vanishes in the cell, and the bar, pointing anywhere, may just bridge the gap
+    /// that the others leave.
+    Unloaded,
     /// The budget of tests was spent.
     Budget,
     /// Two enclosures overlap that cannot be proved to hold the same equilibrium.
@@ -98,24 +102,18 @@ impl Undecided {
     pub(crate) fn new(system: &System, reason: Reason, cell: &Cell, patterns: &[Pattern]) -> Self {
         let signs = patterns.iter().map(|pattern| pattern.signs(system.bars()).collect()).collect();
         let newton = system.force_unit_n();
-        let homogeneous = cell.homogeneous();
-        let pull_n = (homogeneous[2].lo() > 0.0).then(|| {
-            let [h, v] = cell.pull();
-            [h * newton, (v - Interval::point(system.offset)) * newton]
-        });
-        Self { reason, signs, homogeneous, pull_n }
+        let finite = cell.homogeneous()[2].lo() > 0.0;
+        let pull_n = finite.then(|| cell.pull(system).map(|part| part * newton));
+        Self { reason, signs, chart: cell.face, at: cell.at, pull_n }
     }
 
     /// A slack family that may or may not exist.
     pub(crate) fn slack(system: &System, signs: Vec<i8>) -> Self {
         let slack = signs.iter().position(|sign| *sign == 0).unwrap_or(0);
-        let at = -system.weight[slack];
-        let newton = system.force_unit_n();
-        Self {
-            reason: Reason::Slack,
-            signs: vec![signs],
-            homogeneous: [Interval::ZERO, at, Interval::ONE],
-            pull_n: Some([Interval::ZERO, (at - Interval::point(system.offset)) * newton]),
-        }
+        let group = system.groups.iter().position(|group| group.contains(&slack)).unwrap_or(0);
+        let face = Face::Around(u8::try_from(group).unwrap_or(u8::MAX));
+        let cell = Cell { face, at: [Interval::ZERO; 2] };
+        let pull_n = Some(cell.pull(system).map(|part| part * system.force_unit_n()));
+        Self { reason: Reason::Slack, signs: vec![signs], chart: face, at: cell.at, pull_n }
     }
 }

@@ -40,6 +40,8 @@ pub enum SolverName {
     Lagrange,
     /// Crate `energy`: energy first.
     Energy,
+    /// Crate `census`: every equilibrium, by interval branch and bound.
+    Census,
 }
 
 impl std::fmt::Display for SolverName {
@@ -47,6 +49,7 @@ impl std::fmt::Display for SolverName {
         f.write_str(match self {
             Self::Lagrange => "lagrange",
             Self::Energy => "energy",
+            Self::Census => "census",
         })
     }
 }

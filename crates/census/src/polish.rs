@@ -1,0 +1,107 @@
+//! Enclosures as narrow as doubles allow, however ill-conditioned the pull.
+
+use model::Problem;
+
+use crate::Interval;
+use crate::cell::{Cell, Face};
+use crate::closure::Closure;
+use crate::krawczyk::{Zero, image, inside, inverse};
+use crate::precise::Precise;
+use crate::system::System;
+
+/// Newton steps with the precise closure: the first one brings the last place of a double.
+const STEPS: usize = 3;
+
+/// Room around the point for the proof: so many units in the last place and so many last steps.
+const ROOM: f64 = 4.0;
+
+/// The data of the closure to twice the usual precision.
+#[derive(Debug)]
+pub(crate) struct PreciseSystem {
+    length: Vec<Precise>,
+    /// `c_i`, not centred.
+    weight: Vec<Precise>,
+    span: [Precise; 2],
+    offset: f64,
+}
+
+impl PreciseSystem {
+    pub(crate) fn new(problem: &Problem, system: &System) -> Self {
+        let bars = problem.chain().bars();
+        let mut carried = Precise::ZERO;
+        let mut weight = Vec::with_capacity(bars.len());
+        for bar in bars {
+            let mass = Precise::point(bar.mass_kg()).scale(system.mass_unit_kg.recip());
+            let length = Precise::point(bar.length_m());
+            weight.push(carried + mass * ((length - Precise::point(bar.centre_m())) / length));
+            carried = carried + mass;
+        }
+        for group in &system.groups {
+            let first = weight[group.start];
+            weight[group.clone()].fill(first);
+        }
+        let shorten = |x: Precise| x.scale(system.length_unit_m.recip());
+        let anchors = problem.chain().anchors();
+        let [x, y, z] = std::array::from_fn(|k| {
+            shorten(Precise::point(anchors.end_m[k]) - Precise::point(anchors.start_m[k]))
+        });
+        let horizontal =
+            if system.vertical { Precise::ZERO } else { (x.square() + y.square()).sqrt() };
+        Self {
+            length: bars.iter().map(|bar| shorten(Precise::point(bar.length_m()))).collect(),
+            weight,
+            span: [horizontal, z],
+            offset: system.offset,
+        }
+    }
+
+    /// Φ at a point of a chart.
+    fn gap(&self, system: &System, signs: &[i8], face: Face, at: [f64; 2]) -> [Interval; 2] {
+        let [h, v, w] = Cell::point(face, at).homogeneous().map(|x| Precise::point(x.mid()));
+        let origin = match face {
+            Face::Around(group) => self.weight[system.groups[usize::from(group)].start],
+            _ => Precise::point(self.offset),
+        };
+        let mut gap = self.span.map(|part| -part);
+        for ((sign, length), weight) in signs.iter().zip(&self.length).zip(&self.weight) {
+            let force = [h, v + (*weight - origin) * w];
+            let size = (force[0].square() + force[1].square()).sqrt();
+            for k in 0..2 {
+                let term = *length * (force[k] / size);
+                gap[k] = gap[k] + if *sign < 0 { -term } else { term };
+            }
+        }
+        gap.map(Precise::interval)
+    }
+}
+
+/// The same zero in a narrower cell, if double precision was not reached yet.
+pub(crate) fn polish(system: &System, precise: &PreciseSystem, signs: &[i8], zero: &Zero) -> Zero {
+    refined(system, precise, signs, zero).unwrap_or(*zero)
+}
+
+fn refined(system: &System, precise: &PreciseSystem, signs: &[i8], zero: &Zero) -> Option<Zero> {
+    let face = zero.tight.face;
+    let mut x = zero.tight.middle();
+    let mut step = [0.0; 2];
+    for _ in 0..STEPS {
+        let slope = Closure::over(system, signs, &Cell::point(face, x))?.slope;
+        let inverse = inverse(slope.map(|row| row.map(Interval::mid)))?;
+        let gap = precise.gap(system, signs, face, x).map(Interval::mid);
+        step = std::array::from_fn(|k| inverse[k][0] * gap[0] + inverse[k][1] * gap[1]);
+        x = std::array::from_fn(|k| x[k] - step[k]);
+    }
+    let last_place = f64::EPSILON * Cell::size(face, x);
+    let small = Cell {
+        face,
+        at: std::array::from_fn(|k| Interval::around(x[k], ROOM * (last_place + step[k].abs()))),
+    };
+    let slope = Closure::over(system, signs, &small)?.slope;
+    let image = image(&small, x, slope, precise.gap(system, signs, face, x))?;
+    // The zero in the small cell is the one that was proved only if that holds no other there.
+    if !inside(&image, &small) || !zero.alone_in.encloses(&small) {
+        return None;
+    }
+    let at = [zero.tight.at[0].intersect(image.at[0])?, zero.tight.at[1].intersect(image.at[1])?];
+    Some(Zero { tight: Cell { face, at }, ..*zero })
+}
