@@ -33,7 +33,7 @@ fn force_densities(problem: &Problem, equilibrium: &Equilibrium) -> Vec<f64> {
     equilibrium.axial_n.iter().zip(bars).map(|(force, bar)| force / bar.length_m()).collect()
 }
 
-/// FACTS.md gives V(E1) = 2.33546865199930500930868666574 - 6 and its angles to 25 digits. The bound
+/// The reference digits give V(E1) = 2.33546865199930500930868666574 - 6 and its angles to 25 digits. The bound
 /// is below the exact value, and by no more than rounding.
 #[test]
 fn paper_to_the_last_digit() {
@@ -125,7 +125,7 @@ fn the_pull_proves_the_minimum_when_all_bars_are_in_tension() {
     assert!(tense > 10);
 }
 
-/// E2 is an equilibrium (FACTS.md), and not the minimum: its stress matrix certifies nothing. It is
+/// E2 is an equilibrium (reference digits), and not the minimum: its stress matrix certifies nothing. It is
 /// the maximum, and certified as that.
 #[test]
 fn an_equilibrium_that_is_not_optimal_is_not_certified() {
@@ -141,7 +141,7 @@ fn an_equilibrium_that_is_not_optimal_is_not_certified() {
     let tau: Vec<f64> = degrees.map(|a| 0.648_944_835_933_933_6 / a.to_radians().sin()).to_vec();
     assert!(stress_bound(&problem, Sense::Lower, &joints, &tau).is_none());
     let bound = stress_bound(&problem, Sense::Upper, &joints, &tau).unwrap();
-    // FACTS.md: 3.66453134800069499069131333426 - 6.
+    // Reference digits: 3.66453134800069499069131333426 - 6.
     let exact = -2.335_468_651_999_305;
     assert!((bound.rigorous_j - exact).abs() < SINGULAR);
     assert!(bound.rigorous_j >= exact);

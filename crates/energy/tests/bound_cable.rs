@@ -13,7 +13,7 @@ use model::{Anchors, Bar, Chain, Problem};
 const ROUNDING: f64 = 1e-13;
 
 /// Two cables straight down to the last anchor, the third slack: V = -4 mgl, 2.0 in the paper's terms
-/// (FACTS.md: the relaxation without the multiplied closure).
+/// (the relaxation without the multiplied closure).
 #[test]
 fn paper() {
     let problem = model::cases::paper();

@@ -28,7 +28,7 @@ fn bound(problem: &Problem, sense: Sense) -> energy::bound::SemidefiniteBound {
     semidefinite(problem, sense, &BoundSettings::default()).unwrap()
 }
 
-/// FACTS.md: V(E1) and V(E2) to thirty digits, E1's angles and the multipliers 10 to 12. In units of
+/// Reference digits: V(E1) and V(E2) to thirty digits, E1's angles and the multipliers 10 to 12. In units of
 /// mass, length and gravity 1 all data are exact.
 #[test]
 fn paper() {
@@ -71,7 +71,7 @@ fn paper() {
     assert!(maximum.axial_n[0] > 0.0 && maximum.axial_n[1] < 0.0 && maximum.axial_n[2] < 0.0);
 }
 
-/// The relaxation as FACTS.md puts it: all products of all coordinates of all bars in one matrix.
+/// The relaxation as it is usually put: all products of all coordinates of all bars in one matrix.
 ///
 /// Independent of the programme under test in every step but the solver: other variables (bars, not
 /// joints), primal and not dual, one dense cone, `k` coordinates, no Gram matrix.
@@ -142,7 +142,7 @@ fn lifted(problem: &Problem, coordinates: &[usize], multiplied: bool) -> f64 {
     solution.obj_val
 }
 
-/// 2.33546865 with the multiplied closure, in the plane and in space; 2.0 without (FACTS.md).
+/// 2.33546865 with the multiplied closure, in the plane and in space; 2.0 without (reference digits).
 #[test]
 fn the_literal_lifting_of_the_paper() {
     let problem = model::cases::paper();

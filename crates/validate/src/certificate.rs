@@ -258,7 +258,7 @@ mod tests {
         Problem::new(Chain::new("paper", 1.0, anchors, vec![bar; 3]).unwrap()).unwrap()
     }
 
-    /// An answer with the numbers the certificate reads; FACTS.md, external.
+    /// An answer with the numbers the certificate reads; reference digits, external.
     fn answer(end: Vector, axial_n: [f64; 3], energy_j: f64) -> Equilibrium {
         Equilibrium {
             solver: SolverName::Lagrange,

@@ -1,7 +1,7 @@
 //! The only place where the two solvers meet.
 //!
 //! `lagrange` and `energy` answer the same question and know nothing of each other. Here their answers
-//! are held against each other ([`compare`]), against a third judge written from Newton's laws
+//! are held against each other ([`compare`](mod@compare)), against a third judge written from Newton's laws
 //! ([`statics`]), against a proof of global minimality ([`certificate`]), and against what the paper prints
 //! ([`claims`], [`equations`]). [`independence`] proves from the dependency graph that the agreement of the
 //! two is worth something.

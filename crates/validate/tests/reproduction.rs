@@ -152,7 +152,7 @@ fn the_second_equilibrium_is_e2_which_no_minimiser_finds() {
     assert_eq!(r.equilibria.iter().map(|p| p.nullity).collect::<Vec<_>>(), [4; 4]);
 }
 
-/// FACTS: the equations that do not hold as printed. Each has a row that fails and holds corrected.
+/// The equations that do not hold as printed. Each has a row that fails and holds corrected.
 #[test]
 fn every_equation_that_is_printed_wrong_is_shown_to_be() {
     const LISTED: [&str; 18] = [
