@@ -29,11 +29,11 @@ impl Axis {
         let bottom = &chain.bottom;
         let (push, reach) = if compressed {
             let push = bottom.shortest_reach;
-            (push, chain.total_length - bottom.length + push)
+            (push, chain.read.total_length - bottom.length + push)
         } else {
-            (0.0, chain.total_length)
+            (0.0, chain.read.total_length)
         };
-        let nearly = reach - chain.span.distance < NEARLY_STRAIGHT * chain.total_length;
+        let nearly = reach - chain.span.distance < NEARLY_STRAIGHT * chain.read.total_length;
         nearly.then(|| Self::through_the_anchors(chain, push, 1.0))
     }
 
@@ -82,7 +82,7 @@ impl Axis {
         let up = [direction[1], direction[0]];
         let frame = Frame::Aligned { up, slack, aside: 0.0, sides: [1.0; 2], push_side: -side };
         // The angle of all bars if all bent alike.
-        let tilt = (2.0 * slack.max(0.0) / chain.total_length).sqrt();
+        let tilt = (2.0 * slack.max(0.0) / chain.read.total_length).sqrt();
         Self { direction, side, frame, slack, tilt }
     }
 
@@ -127,8 +127,9 @@ pub(super) struct Fold {
 impl Fold {
     pub fn of(chain: &Condensed) -> Option<Self> {
         let (span, bottom) = (&chain.span, &chain.bottom);
-        let roughly = chain.total_length - bottom.length - bottom.shortest_reach + span.distance;
-        (roughly < NEARLY_STRAIGHT * chain.total_length).then(|| {
+        let roughly =
+            chain.read.total_length - bottom.length - bottom.shortest_reach + span.distance;
+        (roughly < NEARLY_STRAIGHT * chain.read.total_length).then(|| {
             let excess = chain.stretched(true).plus(-bottom.shortest_reach);
             let slack = excess.plus(span.distance).value();
             Self { slack, excess, across: span.across, rise: span.rise }
@@ -155,14 +156,14 @@ impl Condensed {
             let [before, after] = self.strands();
             before.add(after)
         } else {
-            Twofold::total(self.lengths.iter().copied())
+            Twofold::total(self.read.lengths.iter().copied())
         }
     }
 
     /// Lengths of the bars before and after the bottom, to twice the digits.
     fn strands(&self) -> [Twofold; 2] {
         let group = &self.bottom.group;
-        [&self.lengths[..group.start], &self.lengths[group.end..]]
+        [&self.read.lengths[..group.start], &self.read.lengths[group.end..]]
             .map(|lengths| Twofold::total(lengths.iter().copied()))
     }
 }

@@ -5,7 +5,7 @@ use std::ops::Range;
 use model::{Chain, Problem, Vector};
 
 use super::bottom::Bottom;
-use super::loads::{Arrays, Moments, count_from};
+use super::loads::{Moments, count_from};
 use super::read::Read;
 use super::span::Span;
 
@@ -26,23 +26,13 @@ const COMFORTABLE: Range<f64> = 1e-60..1e60;
 /// forces at the bottom.
 #[derive(Debug, Clone)]
 pub struct Condensed {
-    /// `l_i`.
-    pub(super) lengths: Vec<f64>,
-    /// `b_i`: weight of the joints between the bottom bar and bar i, negative before it.
-    pub(super) loads: Vec<f64>,
-    /// Part of the weight of bar i that its second joint carries.
-    pub(super) beyond: Vec<f64>,
-    /// Part of the weight of bar 1 that joint 0 carries.
-    pub(super) at_start: f64,
-    pub(super) total_length: f64,
-    pub(super) total_mass: f64,
+    /// Lengths, loads and totals, in units of the chain. The loads are counted from the bottom bar:
+    /// `b_i`, negative before it.
+    pub(super) read: Read,
+    /// Moments of the loads.
+    pub(super) moments: Moments,
     pub(super) span: Span,
     pub(super) bottom: Bottom,
-    /// Length-weighted mean and standard deviation of the loads.
-    pub(super) mean: f64,
-    pub(super) deviation: f64,
-    /// A shorter chain with the same moments of the loads, block by block; empty for few bars.
-    pub(super) coarse: Arrays,
     pub(super) units: Units,
     pub(super) start_m: Vector,
 }
@@ -69,26 +59,38 @@ impl Condensed {
     /// Prepare a chain: one pass over its bars.
     #[must_use]
     pub fn new(problem: &Problem) -> Self {
+        Self::prepare(problem, Read::default(), Moments::default())
+    }
+
+    /// Prepare another chain in the memory of this one: for a million bars, fresh memory costs more than
+    /// all computing.
+    #[must_use]
+    pub fn again(self, problem: &Problem) -> Self {
+        Self::prepare(problem, self.read, self.moments)
+    }
+
+    fn prepare(problem: &Problem, mut read: Read, moments: Moments) -> Self {
         let chain = problem.chain();
         let si = Units { length: 1.0, mass: 1.0, gravity: chain.gravity_m_s2() };
-        let condensed = Self::with_units(chain, si);
-        let (length, mass) = (condensed.total_length, condensed.total_mass);
+        read.read(chain, si);
+        let (length, mass) = (read.total_length, read.total_mass);
         if COMFORTABLE.contains(&length) && COMFORTABLE.contains(&mass) {
-            return condensed;
+            return Self::with_units(chain, si, read, moments);
         }
         let units = Units { length: power_of_two(length), mass: power_of_two(mass), ..si };
-        Self::with_units(chain, units)
+        read.read(chain, units);
+        Self::with_units(chain, units, read, moments)
     }
 
     /// Number of bars.
     #[must_use]
     pub fn bars(&self) -> usize {
-        self.lengths.len()
+        self.read.lengths.len()
     }
 
     /// Whether the anchors lie on one vertical: their horizontal distance is a rounding error.
     pub(super) fn on_one_vertical(&self) -> bool {
-        self.span.across <= f64::EPSILON * self.total_length
+        self.span.across <= f64::EPSILON * self.read.total_length
     }
 
     /// Horizontal distance of the anchors, seen along the plane of an equilibrium.
@@ -96,28 +98,13 @@ impl Condensed {
         self.span.across * (self.span.level[0] * level[0] + self.span.level[1] * level[1])
     }
 
-    fn with_units(chain: &Chain, units: Units) -> Self {
+    fn with_units(chain: &Chain, units: Units, mut read: Read, mut moments: Moments) -> Self {
         let span = Span::new(chain.anchors(), 1.0 / units.length);
-        let mut read = Read::new(chain, units);
         let bottom = Bottom::bar(&read.lengths, &read.before, read.total_length, span.rise);
-        let mut moments = Moments::new(chain.bars().len());
+        moments.clear(chain.bars().len());
         count_from(bottom, &read.lengths, &mut read.loads, &mut moments);
-        let (mean, deviation) = moments.total(read.total_length);
-        Self {
-            bottom: Bottom::new(bottom, &read, span.rise),
-            lengths: read.lengths,
-            loads: read.loads,
-            beyond: read.beyond,
-            at_start: read.at_start,
-            total_length: read.total_length,
-            total_mass: read.total_mass,
-            span,
-            mean,
-            deviation,
-            coarse: moments.coarse,
-            units,
-            start_m: chain.anchors().start_m,
-        }
+        let bottom = Bottom::new(bottom, &read, span.rise);
+        Self { read, moments, span, bottom, units, start_m: chain.anchors().start_m }
     }
 }
 

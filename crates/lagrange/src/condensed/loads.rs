@@ -56,6 +56,7 @@ fn shift(loads: &mut [f64], offset: f64) {
 }
 
 /// Moments of the loads, weighted with the lengths.
+#[derive(Debug, Clone, Default)]
 pub(super) struct Moments {
     first: f64,
     second: f64,
@@ -64,13 +65,16 @@ pub(super) struct Moments {
 }
 
 impl Moments {
-    pub fn new(bars: usize) -> Self {
-        let wanted = bars >= COARSE_FROM;
+    /// Begin anew for a chain of so many bars, in the same memory.
+    pub fn clear(&mut self, bars: usize) {
+        self.wanted = bars >= COARSE_FROM;
         // Two for each block, and the bottom may split one block in two.
-        let points = if wanted { 2 * (bars / BLOCK + 2) } else { 0 };
-        let coarse =
-            Arrays { lengths: Vec::with_capacity(points), loads: Vec::with_capacity(points) };
-        Self { first: 0.0, second: 0.0, wanted, coarse }
+        let points = if self.wanted { 2 * (bars / BLOCK + 2) } else { 0 };
+        for array in [&mut self.coarse.lengths, &mut self.coarse.loads] {
+            array.clear();
+            array.reserve(points);
+        }
+        (self.first, self.second) = (0.0, 0.0);
     }
 
     /// Take a block in. The coarse chain gets two bars for it, of half its length each and one
@@ -115,7 +119,8 @@ mod tests {
             let weights: Vec<f64> =
                 (0..n).map(|i| f64::from(u32::try_from(i % 5).unwrap())).collect();
             let mut loads = weights.clone();
-            let mut moments = Moments::new(n);
+            let mut moments = Moments::default();
+            moments.clear(n);
             count_from(bottom, &lengths, &mut loads, &mut moments);
             for i in 0..n {
                 let expected: f64 = if i >= bottom {

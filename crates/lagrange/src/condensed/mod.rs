@@ -79,4 +79,4 @@ pub use pull::Pull;
 pub use settings::Settings;
 pub use shape::Shape;
 pub use signs::Miss;
-pub use solve::{Solution, solve};
+pub use solve::{Solution, Solver, solve};

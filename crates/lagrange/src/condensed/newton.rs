@@ -14,6 +14,8 @@ const WELL_CONDITIONED: f64 = 1e4;
 /// A step is small when it changes the horizontal force, and the vertical one beside the whole, by less
 /// than this part.
 const SMALL_STEP: f64 = 1e-3;
+/// From residuals below this, in roundings, nothing can be learnt.
+const NOISE: f64 = 1e3;
 /// How much the prediction of the next residual may be wrong.
 const CAUTION: f64 = 10.0;
 /// Passes that Newton's method may take before a nested search takes over.
@@ -111,7 +113,7 @@ pub(super) fn minimise(
             Some((part, closure)) => {
                 root.force = advance(root.force, step, part);
                 root.closure = closure;
-                if (part - 1.0).abs() <= f64::EPSILON {
+                if (part - 1.0).abs() <= f64::EPSILON && size > NOISE {
                     root.contraction = root.contraction.max(closure.size() / (size * size));
                 }
             }

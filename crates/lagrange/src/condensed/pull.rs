@@ -68,7 +68,7 @@ impl Pull {
         let (first, second) = if a.abs() >= c.abs() { (a, c) } else { (c, a) };
         let taken = if b.abs() > 0.0 { b / first * b } else { 0.0 };
         let unit = chain.units.force();
-        let vertical = (chain.at_start - chain.loads[0]) - force[1];
+        let vertical = (chain.read.at_start - chain.read.loads[0]) - force[1];
         Self {
             level,
             force,
@@ -120,7 +120,7 @@ impl Condensed {
         settings.validate()?;
         let mut passes = Passes::new(settings.max_passes);
         let enough = settings.closure;
-        let found = match self.bottom.hold(self.span.across, self.total_length) {
+        let found = match self.bottom.hold(self.span.across, self.read.total_length) {
             Hold::Tension => self.in_tension(enough, &mut passes),
             Hold::Compression => self.in_compression(enough, &mut passes),
             Hold::Loose => Some(self.loose()),
@@ -135,7 +135,7 @@ impl Condensed {
     fn in_tension(&self, enough: f64, passes: &mut Passes) -> Option<Pull> {
         let upright = self.upright(self.all(), 0.0);
         let Some(axis) = Axis::taut(self, false) else {
-            let start = self.rope(self.total_length - self.span.distance).force();
+            let start = self.rope(self.read.total_length - self.span.distance).force();
             let (near, contraction) = self.over_the_coarse(start);
             let root = first_few(passes, |few| minimise(&upright, near, contraction, enough, few))
                 .or_else(|| nested(&upright, start, enough, passes))?;
@@ -157,7 +157,7 @@ impl Condensed {
         let Bottom { group, longest, shortest_reach, gap, .. } = &self.bottom;
         let Span { across, rise, .. } = self.span;
         let beside = [group.start.checked_sub(1), Some(group.end)];
-        let beside = beside.into_iter().flatten().filter_map(|k| self.loads.get(k));
+        let beside = beside.into_iter().flatten().filter_map(|k| self.read.loads.get(k));
         let upright = Push {
             system: self.upright(self.around_the_bottom(), *shortest_reach),
             fold: None,
@@ -198,9 +198,9 @@ impl Condensed {
     fn meeting(&self) -> Pull {
         let Bottom { group, gap, .. } = &self.bottom;
         let load = if *gap < 0.0 {
-            self.loads.get(group.end).copied()
+            self.read.loads.get(group.end).copied()
         } else {
-            group.start.checked_sub(1).map(|k| self.loads[k])
+            group.start.checked_sub(1).map(|k| self.read.loads[k])
         };
         let force = [0.0, -0.5 * load.unwrap_or(0.0)];
         let jacobian = self.upright(self.all(), 0.0).closure(force).jacobian;
@@ -213,7 +213,7 @@ impl Condensed {
 
     /// The minimum for the coarse chain, and how fast it was reached.
     fn over_the_coarse(&self, start: [f64; 2]) -> ([f64; 2], Option<f64>) {
-        let Arrays { lengths, loads } = &self.coarse;
+        let Arrays { lengths, loads } = &self.moments.coarse;
         if lengths.is_empty() {
             return (start, None);
         }
@@ -226,36 +226,37 @@ impl Condensed {
 
     fn rope(&self, slack: f64) -> Rope {
         let Span { across, rise, distance, .. } = self.span;
-        let length = self.total_length;
+        let length = self.read.total_length;
+        let (mean, deviation) = self.moments.total(length);
         Rope {
             across,
             rise,
             length,
             slack_squared: slack * (length + distance),
-            mean: self.mean,
-            deviation: self.deviation.max(LEAST_DEVIATION * self.largest_load()),
+            mean,
+            deviation: deviation.max(LEAST_DEVIATION * self.largest_load()),
         }
     }
 
     fn largest_load(&self) -> f64 {
-        self.loads[0].abs().max(self.loads[self.loads.len() - 1].abs())
+        self.read.loads[0].abs().max(self.read.loads[self.read.loads.len() - 1].abs())
     }
 
     fn all(&self) -> [Bars<'_>; 2] {
-        [Bars { lengths: &self.lengths, loads: &self.loads }, NO_BARS]
+        [Bars { lengths: &self.read.lengths, loads: &self.read.loads }, NO_BARS]
     }
 
     fn around_the_bottom(&self) -> [Bars<'_>; 2] {
         let group = &self.bottom.group;
         let part = |range: Range<usize>| Bars {
-            lengths: &self.lengths[range.clone()],
-            loads: &self.loads[range],
+            lengths: &self.read.lengths[range.clone()],
+            loads: &self.read.loads[range],
         };
         [part(0..group.start), part(group.end..self.bars())]
     }
 
     fn upright<'a>(&self, parts: [Bars<'a>; 2], push: f64) -> System<'a> {
         let frame = Frame::Upright { across: self.span.across, rise: self.span.rise };
-        System { parts, push, frame, total_length: self.total_length }
+        System { parts, push, frame, total_length: self.read.total_length }
     }
 }

@@ -6,6 +6,7 @@ use super::chain::Units;
 use super::sums::{BLOCK, Twofold};
 
 /// The bars as they are read.
+#[derive(Debug, Clone, Default)]
 pub(super) struct Read {
     /// `l_i`.
     pub lengths: Vec<f64>,
@@ -22,16 +23,20 @@ pub(super) struct Read {
 }
 
 impl Read {
-    pub fn new(chain: &Chain, units: Units) -> Self {
+    /// Read a chain, into the same memory as the last one.
+    pub fn read(&mut self, chain: &Chain, units: Units) {
         let bars = chain.bars();
         let n = bars.len();
         let (per_length, per_mass) = (1.0 / units.length, 1.0 / units.mass);
-        let (mut lengths, mut loads, mut beyond) = (vec![0.0; n], vec![0.0; n], vec![0.0; n]);
-        let mut before = Vec::with_capacity(n.div_ceil(BLOCK));
+        for array in [&mut self.lengths, &mut self.loads, &mut self.beyond] {
+            fit(array, n);
+        }
+        self.before.clear();
+        self.before.reserve(n.div_ceil(BLOCK));
         let (mut total_length, mut total_mass) = (Twofold::default(), Twofold::default());
         let mut carried = 0.0;
-        let arrays = lengths.chunks_mut(BLOCK).zip(loads.chunks_mut(BLOCK));
-        let arrays = arrays.zip(beyond.chunks_mut(BLOCK));
+        let arrays = self.lengths.chunks_mut(BLOCK).zip(self.loads.chunks_mut(BLOCK));
+        let arrays = arrays.zip(self.beyond.chunks_mut(BLOCK));
         for (block, ((lengths, loads), beyond)) in bars.chunks(BLOCK).zip(arrays) {
             let (mut length_here, mut mass_here) = (0.0, 0.0);
             let out = lengths.iter_mut().zip(loads).zip(beyond);
@@ -44,19 +49,22 @@ impl Read {
                 length_here += *length;
                 mass_here += mass;
             }
-            before.push(total_length.value());
+            self.before.push(total_length.value());
             total_length = total_length.plus(length_here);
             total_mass = total_mass.plus(mass_here);
         }
-        let at_start = std::mem::take(&mut loads[0]);
-        Self {
-            lengths,
-            loads,
-            beyond,
-            at_start,
-            before,
-            total_length: total_length.value(),
-            total_mass: total_mass.value(),
-        }
+        self.at_start = std::mem::take(&mut self.loads[0]);
+        self.total_length = total_length.value();
+        self.total_mass = total_mass.value();
+    }
+}
+
+/// Give an array another length. What it holds is written over, so fresh memory is asked for zeroed,
+/// which costs nothing before it is touched.
+pub(super) fn fit<T: Clone + Default>(array: &mut Vec<T>, n: usize) {
+    if array.capacity() < n {
+        *array = vec![T::default(); n];
+    } else {
+        array.resize(n, T::default());
     }
 }

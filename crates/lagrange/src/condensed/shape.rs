@@ -4,6 +4,7 @@ use model::{Reactions, Vector};
 
 use super::chain::Condensed;
 use super::pull::Pull;
+use super::read::fit;
 use super::trace::trace;
 
 /// A shape in its vertical plane, one array per quantity; SI units.
@@ -55,10 +56,34 @@ impl Condensed {
     /// All joints and forces that belong to a pull of this chain, as arrays.
     #[must_use]
     pub fn reconstruct(&self, pull: &Pull) -> Shape {
+        let mut shape = Shape {
+            start_m: self.start_m,
+            level: pull.level,
+            along_m: Vec::new(),
+            height_m: Vec::new(),
+            axial_n: Vec::new(),
+            vertical_n: Vec::new(),
+            horizontal_n: 0.0,
+            energy_j: 0.0,
+            closure: 0.0,
+        };
+        self.reconstruct_into(pull, &mut shape);
+        shape
+    }
+
+    /// The same in the memory of another shape.
+    pub fn reconstruct_into(&self, pull: &Pull, shape: &mut Shape) {
         let n = self.bars();
         let (length, force) = (self.units.length, self.units.force());
-        let (mut along_m, mut height_m) = (vec![0.0; n + 1], vec![0.0; n + 1]);
-        let (mut axial_n, mut vertical_n) = (vec![0.0; n], vec![0.0; n + 1]);
+        let Shape { along_m, height_m, axial_n, vertical_n, .. } = shape;
+        for (array, count) in [
+            (&mut *along_m, n + 1),
+            (&mut *height_m, n + 1),
+            (&mut *axial_n, n),
+            (&mut *vertical_n, n + 1),
+        ] {
+            fit(array, count);
+        }
         let ends = trace(self, pull, |stretch| {
             let bars = stretch.first..stretch.first + stretch.axial.len();
             let joints = bars.start + 1..=bars.end;
@@ -67,30 +92,26 @@ impl Condensed {
             scale(&mut axial_n[bars], stretch.axial, force);
             scale(&mut vertical_n[joints], stretch.vertical, force);
         });
+        (along_m[0], height_m[0]) = (0.0, 0.0);
         vertical_n[0] = pull.ground_n()[2];
-        Shape {
-            start_m: self.start_m,
-            level: pull.level,
-            along_m,
-            height_m,
-            axial_n,
-            vertical_n,
-            horizontal_n: pull.force[0] * force,
-            energy_j: ends.energy * length * force,
-            closure: self.closure_of(pull, ends.last),
-        }
+        shape.start_m = self.start_m;
+        shape.level = pull.level;
+        shape.horizontal_n = pull.force[0] * force;
+        shape.energy_j = ends.energy * length * force;
+        shape.closure = self.closure_of(pull, ends.last);
     }
 
     /// All joints and forces that belong to a pull of this chain, as vectors in the world frame.
-    pub(super) fn vectors(&self, pull: &Pull) -> Vectors {
+    pub(super) fn vectors(&self, pull: &Pull, to: &mut Vectors) -> Totals {
         let n = self.bars();
         let (length, force) = (self.units.length, self.units.force());
         let ([x0, y0, z0], [ex, ey]) = (self.start_m, pull.level);
         let h = pull.force[0] * force;
         let (hx, hy) = (h * ex, h * ey);
-        let mut joints_m = vec![[0.0; 3]; n + 1];
-        let mut multipliers_n = vec![[0.0; 3]; n + 1];
-        let mut axial_n = vec![0.0; n];
+        let Vectors { joints_m, multipliers_n, axial_n } = to;
+        fit(joints_m, n + 1);
+        fit(multipliers_n, n + 1);
+        fit(axial_n, n);
         let ends = trace(self, pull, |stretch| {
             let bars = stretch.first..stretch.first + stretch.axial.len();
             let joints = bars.start + 1..=bars.end;
@@ -106,11 +127,8 @@ impl Condensed {
         });
         joints_m[0] = self.start_m;
         multipliers_n[0] = pull.ground_n();
-        Vectors {
+        Totals {
             reactions_n: Reactions { start: pull.ground_n(), end: multipliers_n[n] },
-            joints_m,
-            multipliers_n,
-            axial_n,
             energy_j: ends.energy * length * force,
             closure: self.closure_of(pull, ends.last),
         }
@@ -122,17 +140,23 @@ impl Condensed {
         let [ex, ey] = self.span.level.map(|e| e * self.span.across);
         let [x, y] = pull.level.map(|e| e * along);
         let off = (x - ex).hypot(y - ey).hypot(height - self.span.rise);
-        off / self.total_length
+        off / self.read.total_length
     }
 }
 
-/// What [`Condensed::vectors`] makes.
+/// Memory for the answer.
+#[derive(Debug, Clone, Default)]
 pub(super) struct Vectors {
     pub joints_m: Vec<Vector>,
     pub multipliers_n: Vec<Vector>,
     pub axial_n: Vec<f64>,
+}
+
+/// What belongs to all bars together.
+pub(super) struct Totals {
     pub reactions_n: Reactions,
     pub energy_j: f64,
+    /// Distance of the last joint from its anchor, relative to the total length.
     pub closure: f64,
 }
 

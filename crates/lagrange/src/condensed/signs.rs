@@ -69,9 +69,9 @@ impl Condensed {
         let (mut miss, mut derivative) = self.miss_at(q, compressed);
         let mut damping = DAMPING;
         let mut passes = 1;
-        let enough = f64::EPSILON * self.total_length;
+        let enough = f64::EPSILON * self.read.total_length;
         while miss.norm() > enough && passes < settings.max_passes {
-            let relative = damping * miss.norm() / self.total_length;
+            let relative = damping * miss.norm() / self.read.total_length;
             let scale = derivative.norm();
             let normal = derivative * derivative + Matrix3::identity() * (relative * scale * scale);
             let step = normal.cholesky().map(|factors| factors.solve(&(derivative * miss)));
@@ -89,7 +89,7 @@ impl Condensed {
                 }
             }
         }
-        let closure = miss.norm() / self.total_length;
+        let closure = miss.norm() / self.read.total_length;
         if closure.is_nan() || closure > settings.closure {
             return Err(CondensedError::NotClosed { closure, passes });
         }
@@ -109,7 +109,7 @@ impl Condensed {
         if let Some(&component_n) = pull_n.iter().find(|component| !component.is_finite()) {
             return Err(CondensedError::PullNotFinite { component_n });
         }
-        let before = self.at_start - self.loads[0];
+        let before = self.read.at_start - self.read.loads[0];
         let p = Vector3::from(pull_n) / self.units.force();
         Ok(Vector3::new(p.x, p.y, p.z + before))
     }
@@ -117,7 +117,7 @@ impl Condensed {
     fn miss_at(&self, q: Vector3<f64>, compressed: &[bool]) -> (Vector3<f64>, Matrix3<f64>) {
         let mut sum = [Twofold::default(); 3];
         let mut derivative = Matrix3::zeros();
-        let arrays = self.lengths.chunks(BLOCK).zip(self.loads.chunks(BLOCK));
+        let arrays = self.read.lengths.chunks(BLOCK).zip(self.read.loads.chunks(BLOCK));
         for ((lengths, loads), compressed) in arrays.zip(compressed.chunks(BLOCK)) {
             let mut here = Vector3::zeros();
             for ((length, load), compressed) in lengths.iter().zip(loads).zip(compressed) {

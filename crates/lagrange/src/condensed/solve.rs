@@ -8,7 +8,7 @@ use super::chain::Condensed;
 use super::error::CondensedError;
 use super::pull::Pull;
 use super::settings::Settings;
-use super::shape::Vectors;
+use super::shape::{Totals, Vectors};
 use super::stability::second_order;
 
 /// An equilibrium from the condensed equations. That it exists means converged.
@@ -39,12 +39,59 @@ pub struct Solution {
 /// # Ok::<(), lagrange::condensed::CondensedError>(())
 /// ```
 pub fn solve(problem: &Problem, settings: &Settings) -> Result<Solution, CondensedError> {
-    let begun = Instant::now();
-    let chain = Condensed::new(problem);
-    let pull = chain.pull(settings)?;
-    let mut equilibrium = chain.equilibrium(&pull, settings)?;
-    equilibrium.evidence.solve_s = begun.elapsed().as_secs_f64();
-    Ok(Solution { equilibrium, pull })
+    Solver::default().solve(problem, settings)
+}
+
+/// Memory for one chain after another.
+///
+/// Fresh memory is the largest part of the time that a million bars take: the system hands it out page
+/// by page. A solver keeps that of its last chain, and of the solutions that are given back.
+///
+/// ```
+/// use lagrange::condensed::{Settings, Solver};
+/// let mut solver = Solver::default();
+/// let first = solver.solve(&model::cases::paper(), &Settings::default())?;
+/// let energy_j = first.equilibrium.energy_j;
+/// solver.take_back(first);
+/// let second = solver.solve(&model::cases::paper(), &Settings::default())?;
+/// assert_eq!(second.equilibrium.energy_j, energy_j);
+/// # Ok::<(), lagrange::condensed::CondensedError>(())
+/// ```
+#[derive(Debug, Clone, Default)]
+pub struct Solver {
+    chain: Option<Condensed>,
+    spare: Vectors,
+}
+
+impl Solver {
+    /// Find the hanging equilibrium, like [`solve`](solve()).
+    ///
+    /// # Errors
+    ///
+    /// Those of [`solve`](solve()).
+    pub fn solve(
+        &mut self,
+        problem: &Problem,
+        settings: &Settings,
+    ) -> Result<Solution, CondensedError> {
+        let begun = Instant::now();
+        let chain = match self.chain.take() {
+            Some(chain) => chain.again(problem),
+            None => Condensed::new(problem),
+        };
+        let chain = self.chain.insert(chain);
+        let pull = chain.pull(settings)?;
+        let memory = std::mem::take(&mut self.spare);
+        let mut equilibrium = chain.equilibrium_in(memory, &pull, settings)?;
+        equilibrium.evidence.solve_s = begun.elapsed().as_secs_f64();
+        Ok(Solution { equilibrium, pull })
+    }
+
+    /// Use the memory of a solution that is not needed any more for the next one.
+    pub fn take_back(&mut self, solution: Solution) {
+        let Equilibrium { joints_m, multipliers_n, axial_n, .. } = solution.equilibrium;
+        self.spare = Vectors { joints_m, multipliers_n, axial_n };
+    }
 }
 
 impl Condensed {
@@ -59,8 +106,16 @@ impl Condensed {
         pull: &Pull,
         settings: &Settings,
     ) -> Result<Equilibrium, CondensedError> {
-        let Vectors { joints_m, multipliers_n, axial_n, reactions_n, energy_j, closure } =
-            self.vectors(pull);
+        self.equilibrium_in(Vectors::default(), pull, settings)
+    }
+
+    fn equilibrium_in(
+        &self,
+        mut memory: Vectors,
+        pull: &Pull,
+        settings: &Settings,
+    ) -> Result<Equilibrium, CondensedError> {
+        let Totals { reactions_n, energy_j, closure } = self.vectors(pull, &mut memory);
         let passes = pull.passes();
         if closure.is_nan() || closure > settings.closure {
             return Err(CondensedError::NotClosed { closure, passes });
@@ -77,6 +132,7 @@ impl Condensed {
         );
         evidence.nullity = second.nullity;
         evidence.condition = second.condition;
+        let Vectors { joints_m, multipliers_n, axial_n } = memory;
         Ok(Equilibrium {
             solver: SolverName::Lagrange,
             energy_j,

@@ -35,8 +35,8 @@ pub(super) fn trace(chain: &Condensed, pull: &Pull, mut show: impl FnMut(Stretch
     let mut moment = Twofold::default();
     let special = Special::new(chain, pull);
     let mut space = Space::new();
-    let arrays = chain.lengths.chunks(BLOCK).zip(chain.loads.chunks(BLOCK));
-    let arrays = arrays.zip(chain.beyond.chunks(BLOCK)).enumerate();
+    let arrays = chain.read.lengths.chunks(BLOCK).zip(chain.read.loads.chunks(BLOCK));
+    let arrays = arrays.zip(chain.read.beyond.chunks(BLOCK)).enumerate();
     for (block, ((lengths, loads), beyond)) in arrays {
         let first = block * BLOCK;
         let Space { along, height, axial, vertical } = &mut space;
@@ -65,8 +65,8 @@ pub(super) fn trace(chain: &Condensed, pull: &Pull, mut show: impl FnMut(Stretch
         show(Stretch { first, along, height, axial, vertical });
     }
     let last = [x.value(), z.value()];
-    let before = chain.at_start - chain.loads[0];
-    let energy = (chain.total_mass - before) * last[1] - moment.value();
+    let before = chain.read.at_start - chain.read.loads[0];
+    let energy = (chain.read.total_mass - before) * last[1] - moment.value();
     Ends { last, energy }
 }
 
@@ -109,7 +109,7 @@ impl<'a> Special<'a> {
             Signs::Listed(signs) => Self::Listed(signs),
             Signs::Loose(range) => {
                 let gap = [chain.span.across, chain.bottom.gap];
-                Self::Loose(range.start, fold(&chain.lengths[range.clone()], gap))
+                Self::Loose(range.start, fold(&chain.read.lengths[range.clone()], gap))
             }
         }
     }
