@@ -1,0 +1,136 @@
+//! The condensed equations give what the full system of the paper gives: the same hanging equilibria,
+//! and from the signs and a rough pull of any equilibrium of the full system that same equilibrium.
+
+#![expect(
+    clippy::unwrap_used,
+    reason = "a test fails by panicking; helpers outside #[test] functions are part of it"
+)]
+
+use std::f64::consts::{FRAC_PI_2, PI};
+
+use lagrange::condensed::{self, Condensed};
+use lagrange::{Seed, Settings, solve, solve_from};
+use model::{Anchors, Bar, Chain, Equilibrium, Problem, Vector};
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+
+/// Agreement of joints, in total lengths, and of forces, in units of the largest. The full system is
+/// solved to 1e-13. Measured: 2e-14.
+const AGREED: f64 = 1e-12;
+/// Bars of the largest chain.
+const LARGEST: usize = 30;
+
+fn random_problem(rng: &mut ChaCha8Rng, n: usize, vertical: bool) -> Problem {
+    loop {
+        let bars: Vec<Bar> = (0..n)
+            .map(|_| {
+                let length = rng.random_range(0.5..1.5);
+                let (mass, centre) = (rng.random_range(0.1..2.0), rng.random_range(0.0..length));
+                Bar::new(length, mass, centre, [0.0; 3]).unwrap()
+            })
+            .collect();
+        let total: f64 = bars.iter().map(Bar::length_m).sum();
+        let start_m: Vector = std::array::from_fn(|_| rng.random_range(-1.0..1.0));
+        let distance = total * rng.random_range(0.2..0.9);
+        let (slope, azimuth): (f64, f64) = (rng.random_range(-1.4..1.4), rng.random_range(-PI..PI));
+        let slope = if vertical { FRAC_PI_2.copysign(slope) } else { slope };
+        let level = if vertical { 0.0 } else { distance * slope.cos() };
+        let end_m = [
+            start_m[0] + level * azimuth.cos(),
+            start_m[1] + level * azimuth.sin(),
+            start_m[2] + distance * slope.sin(),
+        ];
+        let chain = Chain::new("random", 9.81, Anchors { start_m, end_m }, bars).unwrap();
+        if let Ok(problem) = Problem::new(chain) {
+            return problem;
+        }
+    }
+}
+
+/// Largest difference of joints and of forces, relative.
+fn difference(problem: &Problem, a: &Equilibrium, b: &Equilibrium) -> f64 {
+    let apart = |a: &[Vector], b: &[Vector]| {
+        let parts = a.iter().flatten().zip(b.iter().flatten());
+        parts.map(|(x, y)| (x - y).abs()).fold(0.0, f64::max)
+    };
+    let largest = a.multipliers_n.iter().flatten().fold(0.0_f64, |most, x| most.max(x.abs()));
+    let axial = a.axial_n.iter().zip(&b.axial_n).map(|(x, y)| (x - y).abs()).fold(0.0, f64::max);
+    (apart(&a.joints_m, &b.joints_m) / problem.chain().total_length_m())
+        .max(apart(&a.multipliers_n, &b.multipliers_n) / largest)
+        .max(axial / largest)
+}
+
+/// Turn an equilibrium about the vertical through joint 0, so that joint 1 gets the azimuth of another.
+fn turned(from: &Equilibrium, like: &Equilibrium) -> Equilibrium {
+    let azimuth = |e: &Equilibrium| {
+        let h: Vector = std::array::from_fn(|k| e.joints_m[1][k] - e.joints_m[0][k]);
+        h[1].atan2(h[0])
+    };
+    let (sin, cos) = (azimuth(like) - azimuth(from)).sin_cos();
+    let turn = |v: Vector| [cos * v[0] - sin * v[1], sin * v[0] + cos * v[1], v[2]];
+    let origin = from.joints_m[0];
+    let mut to = from.clone();
+    for joint in &mut to.joints_m {
+        let arm = turn(std::array::from_fn(|k| joint[k] - origin[k]));
+        *joint = std::array::from_fn(|k| origin[k] + arm[k]);
+    }
+    for force in &mut to.multipliers_n {
+        *force = turn(*force);
+    }
+    to
+}
+
+#[test]
+fn both_find_the_same_hanging_equilibria() {
+    let mut rng = ChaCha8Rng::seed_from_u64(30);
+    for n in 2..=LARGEST {
+        for vertical in [false, true] {
+            let problem = random_problem(&mut rng, n, vertical);
+            let full = solve(&problem, &Settings::default()).unwrap().equilibrium;
+            let short = condensed::solve(&problem, &condensed::Settings::default()).unwrap();
+            let short =
+                if vertical { turned(&short.equilibrium, &full) } else { short.equilibrium };
+            let off = difference(&problem, &full, &short);
+            assert!(off <= AGREED, "n = {n}, vertical {vertical}: {off:e}");
+            assert_eq!(full.stability, short.stability, "n = {n}, vertical {vertical}");
+        }
+    }
+}
+
+#[test]
+fn every_equilibrium_of_the_full_system_is_one_of_the_condensed_equations() {
+    let mut rng = ChaCha8Rng::seed_from_u64(31);
+    let mut compared = 0;
+    let mut unstable = 0;
+    for n in 2..=LARGEST {
+        let problem = random_problem(&mut rng, n, false);
+        let chain = Condensed::new(&problem);
+        for planar in [false, false, true, true] {
+            let mut any = || rng.random_range(-PI..PI);
+            let seed = if planar {
+                let span = problem.chain().anchors().difference_m();
+                let phi: Vec<f64> = (0..n).map(|_| any()).collect();
+                Seed::planar_towards(span[1].atan2(span[0]), &phi)
+            } else {
+                Seed::spatial((0..n).map(|_| [any(), any(), any()]).collect())
+            };
+            // Not every seed leads somewhere; that is the survey's business.
+            let Ok(full) = solve_from(&problem, &seed, &Settings::default()) else { continue };
+            let full = full.equilibrium;
+            let compressed: Vec<bool> = full.axial_n.iter().map(|force| *force < 0.0).collect();
+            // A rough pull: a millionth off, in every direction.
+            let size = full.multipliers_n[0].iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+            let pull =
+                full.multipliers_n[0].map(|x| -x + 1e-6 * size * rng.random_range(-1.0..1.0));
+            let settings = condensed::Settings::default();
+            let found = chain.pull_from(pull, &compressed, &settings).unwrap();
+            let short = chain.equilibrium(&found, &settings).unwrap();
+            let off = difference(&problem, &full, &short);
+            assert!(off <= AGREED, "n = {n}, planar {planar}: {off:e} {:?}", full.stability);
+            assert_eq!(full.stability, short.stability, "n = {n}, planar {planar}");
+            compared += 1;
+            unstable += usize::from(full.stability.index_in_space > 0);
+        }
+    }
+    assert!(compared >= 60 && unstable >= 20, "{compared} compared, {unstable} of them unstable");
+}
