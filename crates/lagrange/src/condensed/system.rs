@@ -153,7 +153,10 @@ impl Closure {
         let [a, b, c] = self.jacobian;
         // Elimination with the larger diagonal entry as pivot keeps the digits of a stretched
         // matrix, which the determinant would lose.
-        let [r, s] = self.residual;
+        // A residual that is but rounding would move a force that hardly acts far astray.
+        let [r, s] = [0, 1].map(|k| {
+            if self.residual[k].abs() <= self.floor[k] { 0.0 } else { self.residual[k] }
+        });
         let step = if a.abs() >= c.abs() {
             let y = (b / a * r - s) / (c - b / a * b);
             [-(r + b * y) / a, y]
