@@ -10,6 +10,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::Interval;
+use crate::cell::Face;
 use crate::closure::signed;
 use crate::system::System;
 use crate::topology::Topology;
@@ -53,15 +54,15 @@ impl SlackFamily {
 pub(crate) fn families(system: &System) -> (Vec<SlackFamily>, Vec<Vec<i8>>) {
     let mut found = vec![];
     let mut unclear = vec![];
-    for group in system.groups.iter().filter(|group| group.len() > 1) {
-        let at = system.weight[group.start];
+    for (number, group) in system.groups.iter().enumerate().filter(|(_, group)| group.len() > 1) {
+        let Ok(number) = u8::try_from(number) else { continue };
         let others: Vec<usize> = (0..system.bars()).filter(|i| !group.contains(i)).collect();
         for bits in 0..1_u32 << others.len() {
             let mut signs = vec![0_i8; system.bars()];
             for (k, i) in others.iter().enumerate() {
                 signs[*i] = if bits >> (others.len() - 1 - k) & 1 == 0 { 1 } else { -1 };
             }
-            match family(system, &signs, at) {
+            match family(system, &signs, number) {
                 Existence::Proved(family) => found.push(*family),
                 Existence::Refuted => {}
                 Existence::Unclear => unclear.push(signs),
@@ -77,7 +78,8 @@ enum Existence {
     Unclear,
 }
 
-fn family(system: &System, signs: &[i8], at: Interval) -> Existence {
+fn family(system: &System, signs: &[i8], group: u8) -> Existence {
+    let at = system.group_weight(group);
     let mut gap = system.span;
     let mut hanging = Interval::ZERO;
     let mut forces = vec![];
@@ -90,7 +92,7 @@ fn family(system: &System, signs: &[i8], at: Interval) -> Existence {
             continue;
         }
         // F = (0, c_i − c): its direction is up or down.
-        let force = weight - at;
+        let force = system.weights(Face::Around(group))[i];
         let Some(up) = force.sign() else { return Existence::Unclear };
         let rise = signed(sign * up, length);
         gap[1] = gap[1] - rise;

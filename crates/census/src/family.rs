@@ -226,3 +226,78 @@ impl Family {
         Some(Open { pattern, left, promising, noisy })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use rand::{RngExt, SeedableRng};
+    use rand_chacha::ChaCha8Rng;
+
+    use super::*;
+    use crate::cell::Face;
+    use crate::closure::Closure;
+    use crate::slack;
+
+    /// The chain of the test with the span that this pattern closes at this pull exactly.
+    fn closed(system: &System, pattern: Pattern, at: &Cell) -> System {
+        let signs: Vec<i8> = pattern.signs(system.bars()).collect();
+        let mut closed = system.clone();
+        closed.span = [Interval::ZERO; 2];
+        closed.span = Closure::gap_over(&closed, &signs, at);
+        closed
+    }
+
+    /// No test may ever exclude a cell that holds a zero, nor contract the zero away.
+    #[test]
+    fn a_zero_is_never_excluded() {
+        let mut rng = ChaCha8Rng::seed_from_u64(7);
+        let problem = model::cases::get("six-orders").unwrap().problem();
+        let others = ["three-bars-off-centre", "massless-links", "five-in-space"]
+            .map(|name| model::cases::get(name).unwrap().problem());
+        let mut contracted = 0;
+        for round in 0..20_000 {
+            let problem = if round % 4 == 0 { &problem } else { &others[round % 4 - 1] };
+            let system = System::new(problem).unwrap();
+            let faces =
+                [Face::Near, Face::Left, Face::Right, Face::Below, Face::Above, Face::Around(1)];
+            let face = faces[round % faces.len()];
+            let shrink: f64 = 10f64.powf(rng.random_range(-12.0..0.0));
+            let near = if face == Face::Around(1) {
+                10f64.powf(rng.random_range(-12.0..0.0))
+            } else {
+                1.0
+            };
+            let at = [near * rng.random_range(-1.0..1.0), near * rng.random_range(0.0..1.0)];
+            let pattern = Pattern(rng.random_range(0..1 << system.bars()));
+            let system = closed(&system, pattern, &Cell::point(face, at));
+            let cell = Cell {
+                face,
+                at: at.map(|x| {
+                    Interval::new(
+                        x - near * shrink * rng.random_range(0.0..1.0),
+                        x + near * shrink * rng.random_range(0.0..1.0),
+                    )
+                }),
+            };
+            let all: Vec<Pattern> = (0..1 << system.bars()).map(Pattern).collect();
+            let open = |cell: &Cell| match Family::over(&system, cell) {
+                Some(family) => family.open(&all),
+                None => slack::open(&system, cell, &all)
+                    .into_iter()
+                    .map(|pattern| Open {
+                        pattern,
+                        left: cell.at,
+                        promising: false,
+                        noisy: [false; 2],
+                    })
+                    .collect(),
+            };
+            let open = open(&cell);
+            let kept = open.iter().find(|open| open.pattern == pattern);
+            let kept = kept.unwrap_or_else(|| panic!("round {round}: excluded from {cell:?}"));
+            assert!(kept.left[0].contains(at[0]) && kept.left[1].contains(at[1]), "round {round}");
+            contracted += usize::from(kept.left[0].width() < 0.5 * cell.at[0].width());
+        }
+        // The tests are worth something: many cells are contracted.
+        assert!(contracted > 1000, "{contracted}");
+    }
+}

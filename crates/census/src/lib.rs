@@ -56,6 +56,7 @@ mod equilibrium;
 mod error;
 mod families;
 mod family;
+mod figure;
 mod inertia;
 mod interval;
 mod krawczyk;

@@ -8,10 +8,12 @@
 //! For each number of bars the median and the least of many runs of each part: reading the bars into
 //! arrays, the pull alone, joints and forces as arrays, and as vectors; then `solve`, which does all but
 //! the arrays. "Fresh" asks the system for memory in each run, "again" uses that of the run before: for
-//! a million bars most of the time of a fresh run goes into the first touch of 80 MB. Medians are
+//! a million bars most of the time of a fresh run goes into the first touch of 80 MB. "On two" is
+//! "solve again" on two processors. Medians are
 //! disturbed by whatever else the machine does; the least are what it can do.
 
 use std::hint::black_box;
+use std::num::NonZeroUsize;
 use std::time::Instant;
 
 use lagrange::condensed::{Condensed, Settings, Solver, solve};
@@ -26,6 +28,7 @@ const SHORTEST_S: f64 = 20e-6;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let settings = Settings::default();
+    let two = NonZeroUsize::MIN.saturating_add(1);
     println!("   bars  part                   median        least   per bar (least)");
     for n in [3, 10, 100, 1000, 10_000, 100_000, 1_000_000] {
         let problem = equal_bars(n)?;
@@ -43,6 +46,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         measure(n, "arrays again", || chain.reconstruct_into(&pull, &mut shape));
         let mut solver = Solver::default();
         measure(n, "solve again", || {
+            solver.solve(&problem, &settings).map(|solution| solver.take_back(solution))
+        });
+        let mut solver = Solver::with_processors(two);
+        measure(n, "  on two", || {
             solver.solve(&problem, &settings).map(|solution| solver.take_back(solution))
         });
         println!("         passes over all bars: {}", pull.passes());

@@ -80,7 +80,7 @@ impl Bar {
     ///
     /// # Errors
     ///
-    /// [`BarError`] when the length or the mass is out of range.
+    /// [`BarError`] when the length or the mass is out of range, or so large that `m l²` is infinite.
     ///
     /// ```
     /// let bar = model::Bar::homogeneous(2.0, 3.0)?;
@@ -92,7 +92,11 @@ impl Bar {
         Self::new(length_m, mass_kg, 0.5 * length_m, Self::slender_inertia(length_m, mass_kg))
     }
 
-    /// Principal central moments `[0, m l²/12, m l²/12]` of a homogeneous slender bar, kg m².
+    /// Principal central moments `[0, m l²/12, m l²/12]` of a homogeneous slender bar, kg m²: mass on a
+    /// line has none about that line, and `∫ (s − l/2)² m/l ds` over `0 ≤ s ≤ l` about the others.
+    ///
+    /// This is also what a system file means that gives no moments, wherever it puts the centre of
+    /// weight: a stand-in, since no equilibrium depends on them.
     #[must_use]
     pub fn slender_inertia(length_m: f64, mass_kg: f64) -> [f64; 3] {
         let moment = mass_kg * length_m * length_m / 12.0;

@@ -25,6 +25,11 @@ impl Anchors {
 
     /// Distance of the anchors, m; free of overflow and underflow in between.
     ///
+    /// It is the distance of the coordinates as the doubles they are, to about one unit in its last
+    /// place: the difference of two doubles close to each other is exact. What decimal coordinates far
+    /// from the origin lost when they became doubles is not in it; see
+    /// [`Refusal::Unresolved`](crate::Refusal::Unresolved).
+    ///
     /// ```
     /// let anchors = model::Anchors { start_m: [0.0; 3], end_m: [3e200, 0.0, 4e200] };
     /// assert!((anchors.span_m() / 5e200 - 1.0).abs() <= f64::EPSILON);
@@ -72,7 +77,25 @@ pub enum ChainError {
         /// Which total.
         quantity: &'static str,
     },
+    /// Occurs when a total is so small ([`SMALLEST_TOTAL`]) that what differs from it by a rounding
+    /// error is no longer a normal number.
+    #[error(
+        "the {quantity} of this chain, {total:e} in SI units, is too small for double precision (least: {:e})",
+        SMALLEST_TOTAL
+    )]
+    Underflow {
+        /// Which total.
+        quantity: &'static str,
+        /// Its value in SI units.
+        total: f64,
+    },
 }
+
+/// Least total length (m), weight (N), and weight times length (J) of a chain.
+///
+/// Results carry relative errors of about one [`f64::EPSILON`]; below this total such an error would be
+/// less than the smallest normal number, digits would be lost without notice, and products would vanish.
+pub const SMALLEST_TOTAL: f64 = f64::MIN_POSITIVE / f64::EPSILON;
 
 impl Chain {
     /// A chain of the given bars, from the start anchor to the end anchor.
@@ -81,7 +104,7 @@ impl Chain {
     ///
     /// # Errors
     ///
-    /// [`ChainError`] when there is no bar, a number is out of range, or a total overflows.
+    /// [`ChainError`] when there is no bar, a number is out of range, or a total overflows or vanishes.
     pub fn new(
         name: impl Into<String>,
         gravity_m_s2: f64,
@@ -100,15 +123,21 @@ impl Chain {
             }
         }
         let chain = Self { name: name.into(), gravity_m_s2, anchors, bars };
-        let weight_n = chain.total_mass_kg() * gravity_m_s2;
-        for (quantity, total) in [
-            ("span", anchors.span_m()),
-            ("total length", chain.total_length_m()),
-            ("total weight", weight_n),
-            ("total weight times total length", weight_n * chain.total_length_m()),
+        let (length_m, mass_kg) = (chain.total_length_m(), chain.total_mass_kg());
+        let weight_n = mass_kg * gravity_m_s2;
+        let weighs = mass_kg > 0.0;
+        for (quantity, total, may_vanish) in [
+            // Anchors may be in one place, and a chain without mass is refused as a problem.
+            ("span", anchors.span_m(), true),
+            ("total length", length_m, false),
+            ("total weight", weight_n, !weighs),
+            ("total weight times total length", weight_n * length_m, !weighs),
         ] {
             if !total.is_finite() {
                 return Err(ChainError::Overflow { quantity });
+            }
+            if total < SMALLEST_TOTAL && !may_vanish {
+                return Err(ChainError::Underflow { quantity, total });
             }
         }
         Ok(chain)

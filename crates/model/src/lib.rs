@@ -5,8 +5,9 @@
 //! of one solver with its [`Evidence`].
 //!
 //! No mechanics lives here. The two solvers, which must know nothing of each other, both depend on
-//! this crate; a formula of statics in it would be a formula they share. Sums of lengths and masses
-//! and the distance of two anchors are all it computes.
+//! this crate; a formula of statics in it would be a formula they share. Sums of lengths and masses,
+//! the distance of two anchors, and the moments of a slender bar (which no equilibrium depends on) are
+//! all it computes.
 //!
 //! # Conventions
 //!
@@ -24,7 +25,7 @@ mod sum;
 pub mod system_file;
 
 pub use bar::{Bar, BarError};
-pub use chain::{Anchors, Chain, ChainError, STANDARD_GRAVITY_M_S2, SystemSummary};
+pub use chain::{Anchors, Chain, ChainError, SMALLEST_TOTAL, STANDARD_GRAVITY_M_S2, SystemSummary};
 pub use equilibrium::{Equilibrium, InPlane, InSpace, Reactions, SolverName, Stability};
 pub use evidence::{Evidence, Rung, Statement};
 pub use problem::{Problem, Refusal, STRAIGHT_TOLERANCE};

@@ -1,6 +1,6 @@
 //! Chains that have an answer, and the refusal of those that have none.
 
-use crate::{Bar, Chain};
+use crate::{Anchors, Bar, Chain};
 
 /// How near to straight is straight, relative to the total length.
 ///
@@ -8,6 +8,10 @@ use crate::{Bar, Chain};
 /// the last place of the total; sixteen units leave room for them and for the roundings in the
 /// decimal numbers of a file. A chain this straight cannot be told from a taut one.
 pub const STRAIGHT_TOLERANCE: f64 = 16.0 * f64::EPSILON;
+
+/// What the rounding of the anchors' coordinates can change the span by, relative to the largest of them:
+/// six coordinates, half a unit in the last place each.
+const ANCHOR_ROUNDING: f64 = 3.0 * f64::EPSILON;
 
 /// A chain for which the question "where does it come to rest, with which forces?" has an answer.
 ///
@@ -28,8 +32,8 @@ pub struct Problem(Chain);
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Refusal {
-    /// Occurs when the chain has one bar: it cannot move, and the anchors share the force along it
-    /// in any way they like.
+    /// Occurs when the chain is one bar that fits between the anchors: it cannot move, and the anchors
+    /// share the force along it in any way they like.
     #[error(
         "a single bar between two fixed points cannot move, and the force along it is indeterminate \
          (length {length_m} m, span {span_m} m)"
@@ -54,8 +58,8 @@ pub enum Refusal {
     /// Occurs when the chain is straight and taut: it cannot move, and the force along it is
     /// indeterminate.
     #[error(
-        "the bars reach exactly from anchor to anchor (total length {total_length_m} m, span {span_m} m): \
-         the chain is straight and taut, and the force along it is indeterminate"
+        "the bars reach from anchor to anchor and no further (total length {total_length_m} m, span \
+         {span_m} m): the chain is straight and taut, and the force along it is indeterminate"
     )]
     Taut {
         /// Distance of the anchors.
@@ -95,6 +99,21 @@ pub enum Refusal {
         /// Distance of the anchors.
         span_m: f64,
     },
+    /// Occurs when the anchors are so far from the origin that the rounding of their coordinates
+    /// decides whether the chain can hang, or cannot close, or is straight.
+    #[error(
+        "the coordinates of the anchors reach {coordinate_m} m, where doubles place the anchors only to \
+         {rounding_m:e} m, and the bars are only {margin_m:e} m away from being straight"
+    )]
+    Unresolved {
+        /// The largest coordinate.
+        coordinate_m: f64,
+        /// What its rounding can change the span by.
+        rounding_m: f64,
+        /// What is left when the bars are stretched out or folded on one line; negative if they do not
+        /// reach.
+        margin_m: f64,
+    },
     /// Occurs when no bar has mass: nothing hangs.
     #[error("no bar has mass: without weight every position is an equilibrium")]
     NoMass,
@@ -106,39 +125,31 @@ impl Problem {
     /// # Errors
     ///
     /// [`Refusal`], with the numbers it rests on.
-    ///
-    /// # Panics
-    ///
-    /// Never: a [`Chain`] has at least one bar.
     pub fn new(chain: Chain) -> Result<Self, Refusal> {
-        let span_m = chain.anchors().span_m();
-        let total_length_m = chain.total_length_m();
-        let tolerance_m = STRAIGHT_TOLERANCE * total_length_m;
-        if let [bar] = chain.bars() {
-            return Err(Refusal::SingleBar { length_m: bar.length_m(), span_m });
-        }
-        if chain.bars().iter().all(|bar| bar.mass_kg() <= 0.0) {
+        if chain.bars().len() > 1 && chain.bars().iter().all(|bar| bar.mass_kg() <= 0.0) {
             return Err(Refusal::NoMass);
         }
-        let slack_m = total_length_m - span_m;
-        if slack_m < -tolerance_m {
-            return Err(Refusal::OutOfReach { span_m, total_length_m });
-        }
-        if slack_m <= tolerance_m {
-            return Err(Refusal::Taut { span_m, total_length_m });
+        let span_m = chain.anchors().span_m();
+        let total_length_m = chain.total_length_m();
+        match margin(&chain, total_length_m, total_length_m - span_m)? {
+            Margin::Negative => return Err(Refusal::OutOfReach { span_m, total_length_m }),
+            Margin::Zero => {
+                return Err(match chain.bars() {
+                    [bar] => Refusal::SingleBar { length_m: bar.length_m(), span_m },
+                    _ => Refusal::Taut { span_m, total_length_m },
+                });
+            }
+            Margin::Positive => {}
         }
         let (index, length_m) = longest(chain.bars());
         let bar = index + 1;
         let others = chain.bars().iter().enumerate().filter(|(k, _)| *k != index);
         let rest_m = crate::sum(others.map(|(_, other)| other.length_m()));
-        let margin_m = rest_m + span_m - length_m;
-        if margin_m < -tolerance_m {
-            return Err(Refusal::BarTooLong { bar, length_m, rest_m, span_m });
+        match margin(&chain, total_length_m, span_m - length_m + rest_m)? {
+            Margin::Negative => Err(Refusal::BarTooLong { bar, length_m, rest_m, span_m }),
+            Margin::Zero => Err(Refusal::Folded { bar, length_m, rest_m, span_m }),
+            Margin::Positive => Ok(Self(chain)),
         }
-        if margin_m <= tolerance_m {
-            return Err(Refusal::Folded { bar, length_m, rest_m, span_m });
-        }
-        Ok(Self(chain))
     }
 
     /// The chain.
@@ -151,6 +162,30 @@ impl Problem {
     #[must_use]
     pub fn into_chain(self) -> Chain {
         self.0
+    }
+}
+
+/// Whether there is room between the bars and a straight line.
+enum Margin {
+    Negative,
+    /// As near to zero as the numbers can tell.
+    Zero,
+    Positive,
+}
+
+/// The sign of a sum or difference of the total length, the span and lengths of bars.
+fn margin(chain: &Chain, total_length_m: f64, margin_m: f64) -> Result<Margin, Refusal> {
+    let Anchors { start_m, end_m } = chain.anchors();
+    let coordinate_m = start_m.iter().chain(end_m).fold(0.0_f64, |a, x| a.max(x.abs()));
+    let rounding_m = ANCHOR_ROUNDING * coordinate_m;
+    if margin_m.abs() <= STRAIGHT_TOLERANCE * total_length_m {
+        Ok(Margin::Zero)
+    } else if margin_m.abs() <= rounding_m {
+        Err(Refusal::Unresolved { coordinate_m, rounding_m, margin_m })
+    } else if margin_m < 0.0 {
+        Ok(Margin::Negative)
+    } else {
+        Ok(Margin::Positive)
     }
 }
 

@@ -62,12 +62,13 @@ pub(super) enum Hold {
 impl Bottom {
     /// The first bar whose second end lies at or above the lowest point that strands of equal depth
     /// reach: where `rise + 2 (l_1 + ... + l_k) >= total`.
-    pub fn bar(lengths: &[f64], before: &[f64], total: f64, rise: f64) -> usize {
+    pub fn bar(read: &Read, rise: f64) -> usize {
+        let Read { lengths, blocks, total_length: total, .. } = read;
         let beyond = |length: f64| 2.0 * length + (rise - total) >= 0.0;
         // The first block has nothing before it, so there is always one to look in.
-        let block = before.partition_point(|length| !beyond(*length)).saturating_sub(1);
+        let block = blocks.partition_point(|block| !beyond(block.length)).saturating_sub(1);
         let first = block * BLOCK;
-        let mut length = before[block];
+        let mut length = blocks[block].length;
         for (k, l) in lengths[first..].iter().enumerate() {
             length += l;
             if beyond(length) {
@@ -90,7 +91,8 @@ impl Bottom {
         let longest = (group.clone())
             .fold(bar, |best, k| if read.lengths[k] > read.lengths[best] { k } else { best });
         let block = first / BLOCK;
-        let strand = read.before[block] + read.lengths[block * BLOCK..first].iter().sum::<f64>();
+        let strand =
+            read.blocks[block].length + read.lengths[block * BLOCK..first].iter().sum::<f64>();
         let other = (read.total_length - strand) - length;
         let mut gap = (strand - other) + rise;
         if (gap.abs() - length).abs() <= DOUBTFUL * read.total_length {

@@ -1,5 +1,6 @@
 //! The chain as arrays, prepared once: what every pass over the bars reads.
 
+use std::num::NonZeroUsize;
 use std::ops::Range;
 
 use model::{Chain, Problem, Vector};
@@ -8,6 +9,7 @@ use super::bottom::Bottom;
 use super::loads::{Moments, count_from};
 use super::read::Read;
 use super::span::Span;
+use super::team::Team;
 
 /// Totals between these bounds leave room for cubes and their inverses in a double; others are
 /// brought to about 1 by powers of two, which costs no digit.
@@ -35,6 +37,7 @@ pub struct Condensed {
     pub(super) bottom: Bottom,
     pub(super) units: Units,
     pub(super) start_m: Vector,
+    processors: NonZeroUsize,
 }
 
 /// What one is, in SI units.
@@ -59,33 +62,57 @@ impl Condensed {
     /// Prepare a chain: one pass over its bars.
     #[must_use]
     pub fn new(problem: &Problem) -> Self {
-        Self::prepare(problem, Read::default(), Moments::default())
+        Self::with_processors(problem, NonZeroUsize::MIN)
+    }
+
+    /// Prepare a chain, and let so many processors share this and all other work on it. Each wants some
+    /// 65,000 bars, or it is not asked.
+    ///
+    /// ```
+    /// use lagrange::condensed::Condensed;
+    /// let two = std::num::NonZeroUsize::MIN.saturating_add(1);
+    /// assert_eq!(Condensed::with_processors(&model::cases::paper(), two).bars(), 3);
+    /// ```
+    #[must_use]
+    pub fn with_processors(problem: &Problem, processors: NonZeroUsize) -> Self {
+        Self::prepare(problem, processors, Read::default(), Moments::default())
     }
 
     /// Prepare another chain in the memory of this one: for a million bars, fresh memory costs more than
     /// all computing.
     #[must_use]
     pub fn again(self, problem: &Problem) -> Self {
-        Self::prepare(problem, self.read, self.moments)
+        Self::prepare(problem, self.processors, self.read, self.moments)
     }
 
-    fn prepare(problem: &Problem, mut read: Read, moments: Moments) -> Self {
+    fn prepare(
+        problem: &Problem,
+        processors: NonZeroUsize,
+        mut read: Read,
+        moments: Moments,
+    ) -> Self {
         let chain = problem.chain();
+        let team = Team::new(processors, chain.bars().len());
         let si = Units { length: 1.0, mass: 1.0, gravity: chain.gravity_m_s2() };
-        read.read(chain, si);
+        read.read(chain, si, team);
         let (length, mass) = (read.total_length, read.total_mass);
         if COMFORTABLE.contains(&length) && COMFORTABLE.contains(&mass) {
-            return Self::with_units(chain, si, read, moments);
+            return Self::with_units(chain, si, processors, read, moments);
         }
         let units = Units { length: power_of_two(length), mass: power_of_two(mass), ..si };
-        read.read(chain, units);
-        Self::with_units(chain, units, read, moments)
+        read.read(chain, units, team);
+        Self::with_units(chain, units, processors, read, moments)
     }
 
     /// Number of bars.
     #[must_use]
     pub fn bars(&self) -> usize {
         self.read.lengths.len()
+    }
+
+    /// The processors that this chain keeps busy.
+    pub(super) fn team(&self) -> Team {
+        Team::new(self.processors, self.bars())
     }
 
     /// Whether the anchors lie on one vertical: their horizontal distance is a rounding error.
@@ -98,13 +125,21 @@ impl Condensed {
         self.span.across * (self.span.level[0] * level[0] + self.span.level[1] * level[1])
     }
 
-    fn with_units(chain: &Chain, units: Units, mut read: Read, mut moments: Moments) -> Self {
+    fn with_units(
+        chain: &Chain,
+        units: Units,
+        processors: NonZeroUsize,
+        mut read: Read,
+        mut moments: Moments,
+    ) -> Self {
+        let team = Team::new(processors, chain.bars().len());
         let span = Span::new(chain.anchors(), 1.0 / units.length);
-        let bottom = Bottom::bar(&read.lengths, &read.before, read.total_length, span.rise);
+        let bottom = Bottom::bar(&read, span.rise);
         moments.clear(chain.bars().len());
-        count_from(bottom, &read.lengths, &mut read.loads, &mut moments);
+        count_from(bottom, &read.lengths, &mut read.loads, &mut moments, team);
         let bottom = Bottom::new(bottom, &read, span.rise);
-        Self { read, moments, span, bottom, units, start_m: chain.anchors().start_m }
+        let start_m = chain.anchors().start_m;
+        Self { read, moments, span, bottom, units, start_m, processors }
     }
 }
 

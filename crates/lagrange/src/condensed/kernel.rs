@@ -3,7 +3,10 @@
 //! All loops run over fixed-size lanes, which the compiler turns into vector instructions; blocks of
 //! lanes are summed plainly and blocks among each other with compensation.
 
+use std::ops::Range;
+
 use super::sums::Twofold;
+use super::team::{Team, together};
 
 /// Numbers treated alike in one step of the loop.
 const LANES: usize = 4;
@@ -17,6 +20,12 @@ pub(super) struct Bars<'a> {
     pub lengths: &'a [f64],
     /// `b_i`
     pub loads: &'a [f64],
+}
+
+impl Bars<'_> {
+    fn share(self, share: Range<usize>) -> Self {
+        Self { lengths: &self.lengths[share.clone()], loads: &self.loads[share] }
+    }
 }
 
 /// Sums over bars in tension with the force $F_i = (h, v + b_i)$, horizontal and vertical.
@@ -35,20 +44,54 @@ pub(super) struct Upright {
 }
 
 /// Add up what [`Upright`] holds.
-pub(super) fn upright(parts: &[Bars<'_>], h: f64, v: f64) -> Upright {
-    let (mut inverse, mut rise) = (Twofold::default(), Twofold::default());
-    let mut sums = Upright::default();
+pub(super) fn upright(parts: &[Bars<'_>], h: f64, v: f64, team: Team) -> Upright {
+    let mut sum = UprightSum::default();
     for part in parts {
-        for (lengths, loads) in part.lengths.chunks(SPAN).zip(part.loads.chunks(SPAN)) {
-            let block = upright_block(lengths, loads, h * h, v);
-            inverse = inverse.plus(block.inverse);
-            rise = rise.plus(block.rise);
-            sums.cube += block.cube;
-            sums.cube_z += block.cube_z;
-            sums.cube_zz += block.cube_zz;
+        if team.size() == 1 {
+            sum.take(*part, h, v);
+        } else {
+            let shares = together(team.shares(part.lengths.len()), |share| {
+                let mut sum = UprightSum::default();
+                sum.take(part.share(share), h, v);
+                sum
+            });
+            for share in &shares {
+                sum.merge(share);
+            }
         }
     }
-    Upright { inverse: inverse.value(), rise: rise.value(), ..sums }
+    Upright { inverse: sum.inverse.value(), rise: sum.rise.value(), ..sum.rest }
+}
+
+/// [`Upright`] while it is added up.
+#[derive(Debug, Clone, Copy, Default)]
+struct UprightSum {
+    inverse: Twofold,
+    rise: Twofold,
+    rest: Upright,
+}
+
+impl UprightSum {
+    fn take(&mut self, bars: Bars<'_>, h: f64, v: f64) {
+        for (lengths, loads) in bars.lengths.chunks(SPAN).zip(bars.loads.chunks(SPAN)) {
+            let block = upright_block(lengths, loads, h * h, v);
+            self.inverse = self.inverse.plus(block.inverse);
+            self.rise = self.rise.plus(block.rise);
+            self.add_rest(&block);
+        }
+    }
+
+    fn merge(&mut self, other: &Self) {
+        self.inverse = self.inverse.add(other.inverse);
+        self.rise = self.rise.add(other.rise);
+        self.add_rest(&other.rest);
+    }
+
+    fn add_rest(&mut self, other: &Upright) {
+        self.rest.cube += other.cube;
+        self.rest.cube_z += other.cube_z;
+        self.rest.cube_zz += other.cube_zz;
+    }
 }
 
 #[inline]

@@ -1,6 +1,7 @@
 //! From the weights of the joints to the loads between the bottom bar and every other.
 
 use super::sums::{BLOCK, Twofold, running};
+use super::team::Team;
 
 /// Chains of fewer bars are solved without a coarse chain first: of fewer than sixteen blocks it
 /// says little more than the catenary does.
@@ -18,40 +19,60 @@ pub(super) struct Arrays {
 ///
 /// Blocks count outwards from the bottom, each from zero, and are then shifted by a twofold offset:
 /// no rounding grows with n, and next to the bottom there is no offset at all.
-pub(super) fn count_from(bottom: usize, lengths: &[f64], loads: &mut [f64], moments: &mut Moments) {
+pub(super) fn count_from(
+    bottom: usize,
+    lengths: &[f64],
+    loads: &mut [f64],
+    moments: &mut Moments,
+    team: Team,
+) {
     let (before, after) = loads.split_at_mut(bottom + 1);
     let (lengths_before, lengths_after) = lengths.split_at(bottom + 1);
-
-    let mut offset = Twofold::default();
-    for (lengths, loads) in lengths_after.chunks(BLOCK).zip(after.chunks_mut(BLOCK)) {
-        let here = running(loads, 0.0);
-        shift(loads, offset.value());
-        offset = offset.plus(here);
-        moments.take(lengths, loads);
+    if team.size() == 1 {
+        count_down(lengths_before, before, moments);
+        count_up(lengths_after, after, moments);
+    } else {
+        let mut other = Moments { wanted: moments.wanted, ..Moments::default() };
+        std::thread::scope(|scope| {
+            scope.spawn(|| count_up(lengths_after, after, &mut other));
+            count_down(lengths_before, before, moments);
+        });
+        moments.merge(&other);
     }
+}
 
-    // The weight before bar i+1 is the first that bar i does not share with it: move all by one.
-    before.copy_within(1.., 0);
-    if let Some(last) = before.last_mut() {
-        *last = 0.0;
-    }
+/// Bars after the bottom: the load grows by the joint before each.
+fn count_up(lengths: &[f64], loads: &mut [f64], moments: &mut Moments) {
     let mut offset = Twofold::default();
-    for (lengths, loads) in lengths_before.rchunks(BLOCK).zip(before.rchunks_mut(BLOCK)) {
-        loads.reverse();
+    for (lengths, loads) in lengths.chunks(BLOCK).zip(loads.chunks_mut(BLOCK)) {
         let here = running(loads, 0.0);
-        loads.reverse();
         for load in loads.iter_mut() {
-            *load = -*load;
+            *load += offset.value();
         }
-        shift(loads, -offset.value());
         offset = offset.plus(here);
         moments.take(lengths, loads);
     }
 }
 
-fn shift(loads: &mut [f64], offset: f64) {
-    for load in loads {
-        *load += offset;
+/// The bottom, last, and the bars before it: the load falls by the joint after each, whose weight stands
+/// with the next bar.
+fn count_down(lengths: &[f64], loads: &mut [f64], moments: &mut Moments) {
+    let mut offset = Twofold::default();
+    let mut after = 0.0;
+    let mut space = [0.0; BLOCK];
+    for (lengths, loads) in lengths.rchunks(BLOCK).zip(loads.rchunks_mut(BLOCK)) {
+        let space = &mut space[..loads.len()];
+        space[0] = after;
+        after = loads[0];
+        for (to, load) in space[1..].iter_mut().zip(loads.iter().rev()) {
+            *to = *load;
+        }
+        let here = running(space, 0.0);
+        for (load, sum) in loads.iter_mut().zip(space.iter().rev()) {
+            *load = -(sum + offset.value());
+        }
+        offset = offset.plus(here);
+        moments.take(lengths, loads);
     }
 }
 
@@ -75,6 +96,14 @@ impl Moments {
             array.reserve(points);
         }
         (self.first, self.second) = (0.0, 0.0);
+    }
+
+    /// Take in what another took.
+    fn merge(&mut self, other: &Self) {
+        self.first += other.first;
+        self.second += other.second;
+        self.coarse.lengths.extend(&other.coarse.lengths);
+        self.coarse.loads.extend(&other.coarse.loads);
     }
 
     /// Take a block in. The coarse chain gets two bars for it, of half its length each and one
@@ -121,7 +150,8 @@ mod tests {
             let mut loads = weights.clone();
             let mut moments = Moments::default();
             moments.clear(n);
-            count_from(bottom, &lengths, &mut loads, &mut moments);
+            let team = Team::new(std::num::NonZeroUsize::MIN, n);
+            count_from(bottom, &lengths, &mut loads, &mut moments, team);
             for i in 0..n {
                 let expected: f64 = if i >= bottom {
                     weights[bottom + 1..=i].iter().sum()

@@ -70,6 +70,7 @@ mod stability;
 mod start;
 mod sums;
 mod system;
+mod team;
 mod tension;
 mod trace;
 

@@ -1,6 +1,7 @@
 //! The pull on the first anchor: three numbers that determine the whole equilibrium.
 
 use std::f64::consts::FRAC_PI_2;
+use std::num::NonZeroUsize;
 use std::ops::Range;
 
 use model::Vector;
@@ -18,6 +19,7 @@ use super::settings::Settings;
 use super::span::Span;
 use super::start::Rope;
 use super::system::{Frame, System};
+use super::team::Team;
 use super::tension::nested;
 
 /// A deviation smaller than this beside the largest load comes from cancellation.
@@ -218,7 +220,8 @@ impl Condensed {
             return (start, None);
         }
         let bars = Bars { lengths, loads };
-        let system = self.upright([bars, NO_BARS], 0.0);
+        let alone = Team::new(NonZeroUsize::MIN, lengths.len());
+        let system = System { team: alone, ..self.upright([bars, NO_BARS], 0.0) };
         let mut passes = Passes::new(NEWTON_PASSES);
         let root = minimise(&system, start, None, f64::INFINITY, &mut passes);
         root.map_or((start, None), |root| (root.force, Some(root.contraction)))
@@ -257,6 +260,6 @@ impl Condensed {
 
     fn upright<'a>(&self, parts: [Bars<'a>; 2], push: f64) -> System<'a> {
         let frame = Frame::Upright { across: self.span.across, rise: self.span.rise };
-        System { parts, push, frame, total_length: self.read.total_length }
+        System { parts, push, frame, total_length: self.read.total_length, team: self.team() }
     }
 }

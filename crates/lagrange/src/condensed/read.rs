@@ -1,9 +1,12 @@
 //! One pass over the bars of the model.
 
-use model::Chain;
+use std::ops::Range;
+
+use model::{Bar, Chain};
 
 use super::chain::Units;
 use super::sums::{BLOCK, Twofold};
+use super::team::{Team, split, together};
 
 /// The bars as they are read.
 #[derive(Debug, Clone, Default)]
@@ -16,46 +19,108 @@ pub(super) struct Read {
     pub beyond: Vec<f64>,
     /// Part of the weight of bar 1 that joint 0 carries.
     pub at_start: f64,
-    /// Length of the bars before each block.
-    pub before: Vec<f64>,
+    /// What is known of each block of bars.
+    pub blocks: Vec<Block>,
     pub total_length: f64,
     pub total_mass: f64,
 }
 
+/// Totals of a block of bars.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Block {
+    /// Length of the bars before it; while they are read, of its own.
+    pub length: f64,
+    /// Its mass.
+    mass: f64,
+}
+
 impl Read {
     /// Read a chain, into the same memory as the last one.
-    pub fn read(&mut self, chain: &Chain, units: Units) {
+    pub fn read(&mut self, chain: &Chain, units: Units, team: Team) {
         let bars = chain.bars();
-        let n = bars.len();
-        let (per_length, per_mass) = (1.0 / units.length, 1.0 / units.mass);
         for array in [&mut self.lengths, &mut self.loads, &mut self.beyond] {
-            fit(array, n);
+            fit(array, bars.len());
         }
-        self.before.clear();
-        self.before.reserve(n.div_ceil(BLOCK));
-        let (mut total_length, mut total_mass) = (Twofold::default(), Twofold::default());
+        let (lengths, loads, beyond) =
+            (&mut self.lengths[..], &mut self.loads[..], &mut self.beyond[..]);
+        let all = Share { bars, lengths, loads, beyond };
+        if team.size() == 1 {
+            self.blocks.clear();
+            self.blocks.reserve(bars.len().div_ceil(BLOCK));
+            all.read(units, &mut self.blocks);
+        } else {
+            let shares = all.split(&team.shares(bars.len()));
+            let blocks = together(shares, |share| {
+                let mut blocks = Vec::with_capacity(share.bars.len().div_ceil(BLOCK));
+                share.read(units, &mut blocks);
+                blocks
+            });
+            self.blocks = blocks.concat();
+            // What the last bar of one share puts on the first joint of the next.
+            for share in team.shares(bars.len()).into_iter().skip(1) {
+                self.loads[share.start] += self.beyond[share.start - 1];
+            }
+        }
+        self.at_start = std::mem::take(&mut self.loads[0]);
+        self.add_up();
+    }
+
+    /// Replace the length of each block by that of all before it; and the totals.
+    fn add_up(&mut self) {
+        let (mut length, mut mass) = (Twofold::default(), Twofold::default());
+        for block in &mut self.blocks {
+            let here = block.length;
+            block.length = length.value();
+            length = length.plus(here);
+            mass = mass.plus(block.mass);
+        }
+        self.total_length = length.value();
+        self.total_mass = mass.value();
+    }
+}
+
+/// Some bars, and where they are read to.
+struct Share<'a> {
+    bars: &'a [Bar],
+    lengths: &'a mut [f64],
+    loads: &'a mut [f64],
+    beyond: &'a mut [f64],
+}
+
+impl Share<'_> {
+    fn split(self, shares: &[Range<usize>]) -> Vec<Self> {
+        let Self { bars, lengths, loads, beyond } = self;
+        let arrays = split([lengths, loads, beyond], shares);
+        let parts = shares.iter().zip(arrays);
+        parts
+            .map(|(share, [lengths, loads, beyond])| Share {
+                bars: &bars[share.clone()],
+                lengths,
+                loads,
+                beyond,
+            })
+            .collect()
+    }
+
+    fn read(self, units: Units, blocks: &mut Vec<Block>) {
+        let (per_length, per_mass) = (1.0 / units.length, 1.0 / units.mass);
         let mut carried = 0.0;
         let arrays = self.lengths.chunks_mut(BLOCK).zip(self.loads.chunks_mut(BLOCK));
         let arrays = arrays.zip(self.beyond.chunks_mut(BLOCK));
-        for (block, ((lengths, loads), beyond)) in bars.chunks(BLOCK).zip(arrays) {
-            let (mut length_here, mut mass_here) = (0.0, 0.0);
+        for (bars, ((lengths, loads), beyond)) in self.bars.chunks(BLOCK).zip(arrays) {
+            let mut block = Block::default();
             let out = lengths.iter_mut().zip(loads).zip(beyond);
-            for (bar, ((length, load), beyond)) in block.iter().zip(out) {
+            for (bar, ((length, load), beyond)) in bars.iter().zip(out) {
                 let mass = bar.mass_kg() * per_mass;
                 *length = bar.length_m() * per_length;
                 *beyond = mass * (bar.centre_m() / bar.length_m());
                 *load = carried + (mass - *beyond);
                 carried = *beyond;
-                length_here += *length;
-                mass_here += mass;
+                block.length += *length;
+                block.mass += mass;
             }
-            self.before.push(total_length.value());
-            total_length = total_length.plus(length_here);
-            total_mass = total_mass.plus(mass_here);
+            blocks.push(block);
         }
-        self.at_start = std::mem::take(&mut self.loads[0]);
-        self.total_length = total_length.value();
-        self.total_mass = total_mass.value();
     }
 }
 

@@ -1,10 +1,13 @@
 //! Joints and forces as arrays, for programs that go on computing with a million bars.
 
+use std::ops::Range;
+
 use model::{Reactions, Vector};
 
 use super::chain::Condensed;
 use super::pull::Pull;
 use super::read::fit;
+use super::team::split;
 use super::trace::trace;
 
 /// A shape in its vertical plane, one array per quantity; SI units.
@@ -84,13 +87,14 @@ impl Condensed {
         ] {
             fit(array, count);
         }
-        let ends = trace(self, pull, |stretch| {
+        let sink = [&mut along_m[1..], &mut height_m[1..], &mut axial_n[..], &mut vertical_n[1..]];
+        let ends = trace(self, pull, sink, split, |sink, stretch| {
+            let [along_m, height_m, axial_n, vertical_n] = sink;
             let bars = stretch.first..stretch.first + stretch.axial.len();
-            let joints = bars.start + 1..=bars.end;
-            scale(&mut along_m[joints.clone()], stretch.along, length);
-            scale(&mut height_m[joints.clone()], stretch.height, length);
-            scale(&mut axial_n[bars], stretch.axial, force);
-            scale(&mut vertical_n[joints], stretch.vertical, force);
+            scale(&mut along_m[bars.clone()], stretch.along, length);
+            scale(&mut height_m[bars.clone()], stretch.height, length);
+            scale(&mut axial_n[bars.clone()], stretch.axial, force);
+            scale(&mut vertical_n[bars], stretch.vertical, force);
         });
         (along_m[0], height_m[0]) = (0.0, 0.0);
         vertical_n[0] = pull.ground_n()[2];
@@ -112,15 +116,19 @@ impl Condensed {
         fit(joints_m, n + 1);
         fit(multipliers_n, n + 1);
         fit(axial_n, n);
-        let ends = trace(self, pull, |stretch| {
+        let sink = ([&mut joints_m[1..], &mut multipliers_n[1..]], [&mut axial_n[..]]);
+        let split = |(vectors, numbers), shares: &[Range<usize>]| {
+            split(vectors, shares).into_iter().zip(split(numbers, shares)).collect()
+        };
+        let ends = trace(self, pull, sink, split, |sink, stretch| {
+            let ([joints_m, multipliers_n], [axial_n]) = sink;
             let bars = stretch.first..stretch.first + stretch.axial.len();
-            let joints = bars.start + 1..=bars.end;
             let positions = stretch.along.iter().zip(stretch.height);
-            for (joint, (s, z)) in joints_m[joints.clone()].iter_mut().zip(positions) {
+            for (joint, (s, z)) in joints_m[bars.clone()].iter_mut().zip(positions) {
                 let s = s * length;
                 *joint = [x0 + ex * s, y0 + ey * s, z0 + z * length];
             }
-            for (lambda, v) in multipliers_n[joints].iter_mut().zip(stretch.vertical) {
+            for (lambda, v) in multipliers_n[bars.clone()].iter_mut().zip(stretch.vertical) {
                 *lambda = [hx, hy, v * force];
             }
             scale(&mut axial_n[bars], stretch.axial, force);

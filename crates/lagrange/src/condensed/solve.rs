@@ -1,5 +1,6 @@
 //! The hanging equilibrium of a chain, with everything that belongs to it.
 
+use std::num::NonZeroUsize;
 use std::time::Instant;
 
 use model::{Equilibrium, Evidence, Problem, SolverName};
@@ -57,13 +58,26 @@ pub fn solve(problem: &Problem, settings: &Settings) -> Result<Solution, Condens
 /// assert_eq!(second.equilibrium.energy_j, energy_j);
 /// # Ok::<(), lagrange::condensed::CondensedError>(())
 /// ```
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone)]
 pub struct Solver {
+    processors: NonZeroUsize,
     chain: Option<Condensed>,
     spare: Vectors,
 }
 
+impl Default for Solver {
+    fn default() -> Self {
+        Self::with_processors(NonZeroUsize::MIN)
+    }
+}
+
 impl Solver {
+    /// A solver that shares large chains among so many processors; by default there is one.
+    #[must_use]
+    pub fn with_processors(processors: NonZeroUsize) -> Self {
+        Self { processors, chain: None, spare: Vectors::default() }
+    }
+
     /// Find the hanging equilibrium, like [`solve`](solve()).
     ///
     /// # Errors
@@ -77,7 +91,7 @@ impl Solver {
         let begun = Instant::now();
         let chain = match self.chain.take() {
             Some(chain) => chain.again(problem),
-            None => Condensed::new(problem),
+            None => Condensed::with_processors(problem, self.processors),
         };
         let chain = self.chain.insert(chain);
         let pull = chain.pull(settings)?;

@@ -8,6 +8,7 @@
 //! $\Phi$ (module `bottom`).
 
 use super::kernel::{Bars, aligned, upright, versine_of};
+use super::team::Team;
 
 /// Roundings of the closure, in units of the last place of the terms that were added.
 const ROUNDINGS: f64 = 4.0 * f64::EPSILON;
@@ -48,6 +49,8 @@ pub(super) struct System<'a> {
     pub frame: Frame,
     /// Total length: the scale of the closure.
     pub total_length: f64,
+    /// Who adds up.
+    pub team: Team,
 }
 
 /// The closure for some force.
@@ -80,7 +83,7 @@ impl System<'_> {
     pub fn closure(&self, q: [f64; 2]) -> Closure {
         match self.frame {
             Frame::Upright { across, rise } => {
-                let sums = upright(&self.parts, q[0], q[1]);
+                let sums = upright(&self.parts, q[0], q[1], self.team);
                 let (push, stiff) = self.pushed(q);
                 let residual = [q[0] * sums.inverse + push[0] - across, sums.rise + push[1] - rise];
                 let jacobian = [
@@ -154,9 +157,8 @@ impl Closure {
         // Elimination with the larger diagonal entry as pivot keeps the digits of a stretched
         // matrix, which the determinant would lose.
         // A residual that is but rounding would move a force that hardly acts far astray.
-        let [r, s] = [0, 1].map(|k| {
-            if self.residual[k].abs() <= self.floor[k] { 0.0 } else { self.residual[k] }
-        });
+        let [r, s] = [0, 1]
+            .map(|k| if self.residual[k].abs() <= self.floor[k] { 0.0 } else { self.residual[k] });
         let step = if a.abs() >= c.abs() {
             let y = (b / a * r - s) / (c - b / a * b);
             [-(r + b * y) / a, y]

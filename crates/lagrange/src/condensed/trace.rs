@@ -1,13 +1,20 @@
 //! From the pull to every joint and every force: one pass over the bars.
 
+use std::ops::Range;
+
 use super::chain::Condensed;
 use super::fold::fold;
 use super::pull::{Pull, Signs};
-use super::sums::{BLOCK, Twofold, running};
+use super::read::Read;
+use super::sums::{Twofold, running};
+use super::team::together;
+
+/// Bars that are followed in one go.
+const STRETCH: usize = 64;
 
 /// Some consecutive bars of an equilibrium, in units of the chain.
 pub(super) struct Stretch<'a> {
-    /// Index of the first bar.
+    /// Place of the first bar among those that go to one sink.
     pub first: usize,
     /// Horizontal position of the second joint of each bar, from joint 0, in the plane.
     pub along: &'a [f64],
@@ -28,64 +35,109 @@ pub(super) struct Ends {
     pub energy: f64,
 }
 
-/// Follow the chain from joint 0 to joint n and show every stretch of it.
-pub(super) fn trace(chain: &Condensed, pull: &Pull, mut show: impl FnMut(Stretch<'_>)) -> Ends {
-    let (mut x, mut z) = (Twofold::default(), Twofold::default());
-    // V = (W - W_before) D_z - sum b_i l_i u_iz, with the weight W_before between joint 0 and the bottom.
-    let mut moment = Twofold::default();
+/// Follow the chain from joint 0 to joint n and show every stretch of it, with the sink of its bars. With
+/// several processors there are several sinks, made by `split`, for shares of the bars in order.
+pub(super) fn trace<S: Send>(
+    chain: &Condensed,
+    pull: &Pull,
+    mut sink: S,
+    split: impl FnOnce(S, &[Range<usize>]) -> Vec<S>,
+    show: impl Fn(&mut S, &Stretch<'_>) + Sync,
+) -> Ends {
     let special = Special::new(chain, pull);
-    let mut space = Space::new();
-    let arrays = chain.read.lengths.chunks(BLOCK).zip(chain.read.loads.chunks(BLOCK));
-    let arrays = arrays.zip(chain.read.beyond.chunks(BLOCK)).enumerate();
-    for (block, ((lengths, loads), beyond)) in arrays {
-        let first = block * BLOCK;
-        let Space { along, height, axial, vertical } = &mut space;
-        let count = lengths.len();
-        let (along, height) = (&mut along[..count], &mut height[..count]);
-        let (axial, vertical) = (&mut axial[..count], &mut vertical[..count]);
-        let [h, v] = pull.force;
-        for k in 0..count {
-            let up = loads[k] + v;
-            let size = (h * h + up * up).sqrt();
-            let scale = lengths[k] / size;
-            along[k] = scale * h;
-            height[k] = scale * up;
-            axial[k] = size;
-            vertical[k] = up + beyond[k];
+    let (team, bars) = (chain.team(), chain.bars());
+    let path = Path { chain, force: pull.force, special: &special };
+    let end = if team.size() == 1 {
+        path.follow(0..bars, Walk::default(), |stretch| show(&mut sink, stretch))
+    } else {
+        let shares = team.shares(bars);
+        // Where each share begins follows from the lengths of those before it, not yet from their joints.
+        let steps = together(shares[..shares.len() - 1].to_vec(), |share| {
+            path.follow(share, Walk::default(), |_| {})
+        });
+        let mut from = vec![Walk::default()];
+        for step in &steps {
+            from.push(from[from.len() - 1].then(step));
         }
-        special.correct(first, along, height, axial);
-        moment = moment.plus(product(loads, height));
-        let (dx, dz) = (running(along, 0.0), running(height, 0.0));
-        let (from_x, from_z) = (x.value(), z.value());
-        for (x, z) in along.iter_mut().zip(height.iter_mut()) {
-            *x += from_x;
-            *z += from_z;
-        }
-        (x, z) = (x.plus(dx), z.plus(dz));
-        show(Stretch { first, along, height, axial, vertical });
-    }
-    let last = [x.value(), z.value()];
+        let jobs = shares.iter().cloned().zip(from).zip(split(sink, &shares));
+        let ends = together(jobs, |((share, from), mut sink)| {
+            path.follow(share, from, |stretch| show(&mut sink, stretch))
+        });
+        // The moments count from zero in each share.
+        let moment = ends.iter().fold(Twofold::default(), |sum, end| sum.add(end.moment));
+        ends.last().map_or_else(Walk::default, |last| Walk { moment, ..*last })
+    };
+    let last = [end.along.value(), end.height.value()];
+    // V = (W - W_before) D_z - sum b_i l_i u_iz, with the weight W_before between joint 0 and the bottom.
     let before = chain.read.at_start - chain.read.loads[0];
-    let energy = (chain.read.total_mass - before) * last[1] - moment.value();
+    let energy = (chain.read.total_mass - before) * last[1] - end.moment.value();
     Ends { last, energy }
 }
 
-/// Room for one block of bars.
-struct Space {
-    along: [f64; BLOCK],
-    height: [f64; BLOCK],
-    axial: [f64; BLOCK],
-    vertical: [f64; BLOCK],
+/// What adds up along the way.
+#[derive(Debug, Clone, Copy, Default)]
+struct Walk {
+    along: Twofold,
+    height: Twofold,
+    /// $\sum b_i l_i u_{iz}$
+    moment: Twofold,
 }
 
-impl Space {
-    fn new() -> Self {
-        Self {
-            along: [0.0; BLOCK],
-            height: [0.0; BLOCK],
-            axial: [0.0; BLOCK],
-            vertical: [0.0; BLOCK],
+impl Walk {
+    /// Where one gets by another walk after this one.
+    fn then(&self, other: &Self) -> Self {
+        let (along, height) = (self.along.add(other.along), self.height.add(other.height));
+        Self { along, height, moment: Twofold::default() }
+    }
+}
+
+/// The chain and the force that shapes it.
+struct Path<'a> {
+    chain: &'a Condensed,
+    force: [f64; 2],
+    special: &'a Special<'a>,
+}
+
+impl Path<'_> {
+    fn follow(
+        &self,
+        bars: Range<usize>,
+        mut walk: Walk,
+        mut show: impl FnMut(&Stretch<'_>),
+    ) -> Walk {
+        let Read { lengths, loads, beyond, .. } = &self.chain.read;
+        let [h, v] = self.force;
+        let mut space = [[0.0; STRETCH]; 4];
+        let arrays = lengths[bars.clone()].chunks(STRETCH).zip(loads[bars.clone()].chunks(STRETCH));
+        let arrays = arrays.zip(beyond[bars.clone()].chunks(STRETCH));
+        for (stretch, ((lengths, loads), beyond)) in arrays.enumerate() {
+            let first = stretch * STRETCH;
+            let [along, height, axial, vertical] = &mut space;
+            let count = lengths.len();
+            let (along, height) = (&mut along[..count], &mut height[..count]);
+            let (axial, vertical) = (&mut axial[..count], &mut vertical[..count]);
+            for k in 0..count {
+                let up = loads[k] + v;
+                let size = (h * h + up * up).sqrt();
+                let scale = lengths[k] / size;
+                along[k] = scale * h;
+                height[k] = scale * up;
+                axial[k] = size;
+                vertical[k] = up + beyond[k];
+            }
+            self.special.correct(bars.start + first, along, height, axial);
+            walk.moment = walk.moment.plus(product(loads, height));
+            let (dx, dz) = (running(along, 0.0), running(height, 0.0));
+            let (from_x, from_z) = (walk.along.value(), walk.height.value());
+            for (x, z) in along.iter_mut().zip(height.iter_mut()) {
+                *x += from_x;
+                *z += from_z;
+            }
+            walk.along = walk.along.plus(dx);
+            walk.height = walk.height.plus(dz);
+            show(&Stretch { first, along, height, axial, vertical });
         }
+        walk
     }
 }
 

@@ -1,11 +1,28 @@
-//! What can be wrong with a system file, and where.
+//! An error in a system file, with its place.
 
 use std::fmt;
 use std::ops::Range;
 
-use crate::{BarError, ChainError, Refusal};
+use super::kind::SystemFileErrorKind;
+use super::location::Position;
 
 /// An error in a system file: which file, which line, which key, what is wrong, what is allowed.
+///
+/// Shown as `file:line:column: key: what is wrong`. With [`text`](Self::text), [`span`](Self::span)
+/// and [`help`](Self::help) a program can show the line and mark the place.
+///
+/// ```
+/// use model::system_file::parse_system;
+/// let text = "[anchors]\nstart_m = [0, 0, 0]\nend_m = [0, 0]\n";
+/// let error = parse_system(text, "chain.toml").unwrap_err();
+/// assert_eq!(
+///     error.to_string(),
+///     "chain.toml:3:9: anchors.end_m: expected three numbers, found 2"
+/// );
+/// assert_eq!(error.line(), Some("end_m = [0, 0]"));
+/// assert_eq!(&error.text()[error.span().unwrap()], "[0, 0]");
+/// assert_eq!(error.help().unwrap(), "a vector is written [x, y, z]");
+/// ```
 #[derive(Debug)]
 pub struct SystemFileError(Box<Details>);
 
@@ -19,99 +36,6 @@ struct Details {
     kind: SystemFileErrorKind,
 }
 
-/// What is wrong.
-#[derive(Debug, thiserror::Error)]
-#[non_exhaustive]
-pub enum SystemFileErrorKind {
-    /// Occurs when the file cannot be read: it is not there, is a folder, or access is denied.
-    #[error("cannot read the file: {0}")]
-    Unreadable(std::io::Error),
-    /// Occurs when the file is longer than any system file needs to be.
-    #[error("the file is {bytes} bytes long, more than the limit of {limit} bytes")]
-    TooLong {
-        /// Its length.
-        bytes: u64,
-        /// The limit.
-        limit: u64,
-    },
-    /// Occurs when the file holds nothing but white space and comments.
-    #[error("the file describes no system: it is empty")]
-    Empty,
-    /// Occurs when the file is not UTF-8.
-    #[error("the file is not UTF-8 text (first bad byte at offset {offset})")]
-    NotText {
-        /// Offset of the first byte that is not UTF-8.
-        offset: usize,
-    },
-    /// Occurs when the text is no TOML, a duplicate key included.
-    #[error("not valid TOML: {0}")]
-    Syntax(String),
-    /// Occurs when a key is not one of those allowed in its table.
-    #[error("unknown key `{key}`")]
-    UnknownKey {
-        /// The key.
-        key: String,
-        /// The keys allowed here.
-        allowed: &'static [&'static str],
-        /// The allowed key that looks most like it.
-        suggestion: Option<&'static str>,
-    },
-    /// Occurs when a required key is missing.
-    #[error("the key `{key}` is missing")]
-    MissingKey {
-        /// The key.
-        key: &'static str,
-        /// What it must hold.
-        wanted: &'static str,
-    },
-    /// Occurs when a value has the wrong type.
-    #[error("expected {wanted}, found {found}")]
-    WrongType {
-        /// What is allowed.
-        wanted: &'static str,
-        /// What stands there.
-        found: String,
-    },
-    /// Occurs when a vector does not have three components.
-    #[error("expected three numbers, found {found}")]
-    WrongCount {
-        /// How many stand there.
-        found: usize,
-    },
-    /// Occurs when an integer does not fit where it stands.
-    #[error("the number {found} is out of range")]
-    OutOfRange {
-        /// As written.
-        found: String,
-        /// What is allowed.
-        wanted: &'static str,
-    },
-    /// Occurs when the counts add up to more bars than fit.
-    #[error("the counts add up to more than {limit} bars")]
-    TooManyBars {
-        /// The limit.
-        limit: usize,
-    },
-    /// Occurs when a bar cannot be built.
-    #[error(transparent)]
-    Bar(BarError),
-    /// Occurs when the chain cannot be built.
-    #[error(transparent)]
-    Chain(ChainError),
-    /// Occurs when the chain is no equilibrium problem.
-    #[error(transparent)]
-    Refused(Refusal),
-}
-
-/// A place in a text, for people: both from 1, columns in characters.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Position {
-    /// Line.
-    pub line: usize,
-    /// Column.
-    pub column: usize,
-}
-
 impl SystemFileError {
     pub(super) fn new(
         file: &str,
@@ -123,13 +47,14 @@ impl SystemFileError {
         Self(Box::new(Details { file: file.to_owned(), text: text.to_owned(), span, key, kind }))
     }
 
-    /// The file as it was named.
+    /// The file as it was named; the bars file if the error stands there.
     #[must_use]
     pub fn file(&self) -> &str {
         &self.0.file
     }
 
-    /// The text of the file as far as it could be read.
+    /// The text of the file as far as it could be read, without a byte order mark; bytes that are not
+    /// UTF-8 are replaced by U+FFFD.
     #[must_use]
     pub fn text(&self) -> &str {
         &self.0.text
@@ -141,8 +66,9 @@ impl SystemFileError {
         self.0.span.clone()
     }
 
-    /// The key the error is about, as a path such as `bars[2].length_m` (tables of `[[bars]]` counted
-    /// from 1).
+    /// The key the error is about, as a path such as `bars[2].length_m` or `anchors.end_m[3]`: tables
+    /// of `[[bars]]` and components of vectors are counted from 1, as the lines are. In a bars file,
+    /// the column.
     #[must_use]
     pub fn key(&self) -> Option<&str> {
         self.0.key.as_deref()
@@ -157,13 +83,7 @@ impl SystemFileError {
     /// Line and column of the start of the span.
     #[must_use]
     pub fn position(&self) -> Option<Position> {
-        let start = self.0.span.as_ref()?.start.min(self.0.text.len());
-        let before = self.0.text.get(..start)?;
-        let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
-        Some(Position {
-            line: before.matches('\n').count() + 1,
-            column: before[line_start..].chars().count() + 1,
-        })
+        Position::of(&self.0.text, self.0.span.as_ref()?.start)
     }
 
     /// The line the error is about, without its line break.
@@ -172,43 +92,10 @@ impl SystemFileError {
         self.0.text.lines().nth(self.position()?.line - 1)
     }
 
-    /// What is allowed here.
+    /// What is allowed here, or what to do about it.
     #[must_use]
     pub fn help(&self) -> Option<String> {
-        use SystemFileErrorKind as K;
-        Some(match &self.0.kind {
-            K::UnknownKey { allowed, suggestion, .. } => {
-                let list = format!("allowed here: {}", allowed.join(", "));
-                match suggestion {
-                    Some(near) => format!("did you mean `{near}`? {list}"),
-                    None => list,
-                }
-            }
-            K::MissingKey { key, wanted } => format!("{key} must be {wanted}"),
-            K::WrongCount { .. } => "a vector is written [x, y, z]".to_owned(),
-            K::OutOfRange { wanted, .. } => format!("allowed: {wanted}"),
-            K::Empty => "a system needs [anchors] with start_m and end_m, and one or more [[bars]]"
-                .to_owned(),
-            K::Unreadable(error) if error.kind() == std::io::ErrorKind::IsADirectory => {
-                "this is a folder; name a file in it".to_owned()
-            }
-            K::NotText { .. } => "save the file as UTF-8".to_owned(),
-            K::TooLong { .. } | K::TooManyBars { .. } => {
-                "equal bars in a row are written once, with `count`".to_owned()
-            }
-            K::Refused(refusal) => match refusal {
-                Refusal::SingleBar { .. } => "use at least two bars",
-                Refusal::OutOfReach { .. } | Refusal::Taut { .. } => {
-                    "move the anchors together or lengthen the bars"
-                }
-                Refusal::BarTooLong { .. } | Refusal::Folded { .. } => {
-                    "shorten this bar, lengthen another, or move the anchors apart"
-                }
-                Refusal::NoMass => "give at least one bar a mass",
-            }
-            .to_owned(),
-            _ => return None,
-        })
+        self.0.kind.help()
     }
 }
 
@@ -229,7 +116,8 @@ impl fmt::Display for SystemFileError {
 impl std::error::Error for SystemFileError {
     fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
         match &self.0.kind {
-            SystemFileErrorKind::Unreadable(error) => Some(error),
+            SystemFileErrorKind::Unreadable(error)
+            | SystemFileErrorKind::UnreadableBars { error, .. } => Some(error),
             _ => None,
         }
     }

@@ -23,7 +23,7 @@ pub fn write_system(chain: &Chain) -> String {
         vector(anchors.start_m),
         vector(anchors.end_m),
     );
-    for run in chain.bars().chunk_by(|a, b| a == b) {
+    for run in chain.bars().chunk_by(same) {
         write_run(&mut text, &run[0], run.len());
     }
     text
@@ -42,6 +42,12 @@ fn write_run(text: &mut String, bar: &Bar, count: usize) {
     if count > 1 {
         let _ = writeln!(text, "count = {count}");
     }
+}
+
+/// Whether two bars are the same in every bit; `==` takes -0 for 0.
+fn same(a: &Bar, b: &Bar) -> bool {
+    let numbers = |bar: &Bar| [bar.length_m(), bar.mass_kg(), bar.centre_m()];
+    !differ(&numbers(a), &numbers(b)) && !differ(&a.inertia_kg_m2(), &b.inertia_kg_m2())
 }
 
 /// Whether two rows of numbers differ in any bit.

@@ -1,0 +1,202 @@
+//! The walk over the spanned TOML tree: from keys and values to a chain.
+
+use std::ops::Range;
+use std::path::Path;
+
+use toml::Spanned;
+use toml::de::{DeArray, DeTable};
+
+use super::columns::Sheet;
+use super::duplicate;
+use super::error::SystemFileError;
+use super::kind::SystemFileErrorKind as Kind;
+use super::limits::{MAX_BARS, MAX_BARS_FILE_BYTES};
+use super::load::{Loaded, load};
+use super::table::{Table, Value};
+use crate::{Anchors, Bar, BarError, Chain, ChainError, Problem, Refusal, STANDARD_GRAVITY_M_S2};
+
+const ROOT_KEYS: &[&str] = &["name", "gravity_m_s2", "anchors", "bars", "bars_file"];
+const ANCHOR_KEYS: &[&str] = &["start_m", "end_m"];
+const BAR_KEYS: &[&str] = &["length_m", "mass_kg", "centre_m", "inertia_kg_m2", "count"];
+
+const WANTED_BARS: &str = "one or more tables [[bars]] with length_m and mass_kg";
+
+/// A text with its name, and the folder it comes from if it comes from one.
+pub(super) struct Source<'a> {
+    pub(super) file: &'a str,
+    pub(super) text: &'a str,
+    pub(super) folder: Option<&'a Path>,
+}
+
+/// Where things stand, for the refusals that come after reading.
+struct Places {
+    end: Range<usize>,
+    bars: Origin,
+}
+
+/// Where the bars come from.
+enum Origin {
+    /// For every `[[bars]]` table: the number of its first bar, from 1, and the span of its length.
+    Tables(Vec<(usize, Range<usize>)>),
+    /// The value of `bars_file`, and the file.
+    File(Range<usize>, Loaded),
+}
+
+impl Source<'_> {
+    pub(super) fn error(
+        &self,
+        kind: Kind,
+        key: Option<String>,
+        span: Option<Range<usize>>,
+    ) -> SystemFileError {
+        SystemFileError::new(self.file, self.text, span, key, kind)
+    }
+
+    pub(super) fn chain(&self) -> Result<Chain, SystemFileError> {
+        self.read().map(|(chain, _)| chain)
+    }
+
+    pub(super) fn problem(&self) -> Result<Problem, SystemFileError> {
+        let (chain, places) = self.read()?;
+        Problem::new(chain).map_err(|refusal| self.refusal(refusal, &places))
+    }
+
+    /// Put a refusal where the number stands that it rests on.
+    fn refusal(&self, refusal: Refusal, places: &Places) -> SystemFileError {
+        let bar = match refusal {
+            Refusal::OutOfReach { .. } | Refusal::Taut { .. } | Refusal::Unresolved { .. } => {
+                let (key, span) = ("anchors.end_m".to_owned(), places.end.clone());
+                return self.error(Kind::Refused(refusal), Some(key), Some(span));
+            }
+            Refusal::BarTooLong { bar, .. } | Refusal::Folded { bar, .. } => Some(bar),
+            Refusal::SingleBar { .. } | Refusal::NoMass => None,
+        };
+        let (key, span) = match (&places.bars, bar) {
+            (Origin::Tables(tables), Some(bar)) => {
+                let table = tables.partition_point(|(first, _)| *first <= bar);
+                (format!("bars[{table}].length_m"), tables[table - 1].1.clone())
+            }
+            (Origin::Tables(tables), None) => ("bars".to_owned(), tables[0].1.clone()),
+            (Origin::File(_, loaded), Some(bar)) => {
+                return Sheet::of(loaded).length_error(Kind::Refused(refusal), bar);
+            }
+            (Origin::File(value, _), None) => ("bars_file".to_owned(), value.clone()),
+        };
+        self.error(Kind::Refused(refusal), Some(key), Some(span))
+    }
+
+    fn read(&self) -> Result<(Chain, Places), SystemFileError> {
+        let tree = DeTable::parse(self.text).map_err(|error| self.syntax(&error))?;
+        if tree.get_ref().is_empty() {
+            return Err(self.error(Kind::Empty, None, None));
+        }
+        let root = Table::root(self, tree.get_ref());
+        root.only(ROOT_KEYS)?;
+        let name = root.text("name")?.unwrap_or("unnamed");
+        let gravity = root.number("gravity_m_s2")?.unwrap_or(STANDARD_GRAVITY_M_S2);
+        let table =
+            root.table("anchors", root.require("anchors", "a table with start_m and end_m")?)?;
+        let anchors = anchors(&table)?;
+        let (bars, origin) = self.bars(&root)?;
+        let end = table.get("end_m").map_or(0..0, Spanned::span);
+
+        let chain = Chain::new(name, gravity, anchors, bars).map_err(|error| {
+            let kind = Kind::Chain(error);
+            match error {
+                ChainError::Gravity { .. } => root.error(kind, "gravity_m_s2"),
+                ChainError::Anchor { .. } => {
+                    let start_is_good = anchors.start_m.iter().all(|x| x.is_finite());
+                    let key = if start_is_good { "end_m" } else { "start_m" };
+                    table.component_error(kind, key, f64::is_finite)
+                }
+                ChainError::Overflow { quantity: "span" } => table.error(kind, "end_m"),
+                _ => match &origin {
+                    Origin::Tables(_) => root.error(kind, "bars"),
+                    Origin::File(..) => root.error(kind, "bars_file"),
+                },
+            }
+        })?;
+        Ok((chain, Places { end, bars: origin }))
+    }
+
+    fn syntax(&self, error: &toml::de::Error) -> SystemFileError {
+        match error.span() {
+            Some(span) if error.message() == "duplicate key" => {
+                let found = duplicate::find(self.text, span.clone());
+                let (path, first_line) = found.first.unzip();
+                let key = path.unwrap_or_else(|| found.name.clone());
+                let kind = Kind::DuplicateKey { key: found.name, first_line };
+                self.error(kind, Some(key), Some(span))
+            }
+            span => self.error(Kind::Syntax(error.message().to_owned()), None, span),
+        }
+    }
+
+    fn bars(&self, root: &Table<'_>) -> Result<(Vec<Bar>, Origin), SystemFileError> {
+        let Some(file) = root.text("bars_file")? else {
+            let value = root.require("bars", WANTED_BARS)?;
+            let tables = value.get_ref().as_array();
+            let tables = tables.ok_or_else(|| root.wrong_type("bars", value, WANTED_BARS))?;
+            return bars(root, tables);
+        };
+        let fail = |kind| Err(root.error(kind, "bars_file"));
+        if root.get("bars").is_some() {
+            return fail(Kind::Conflict { key: "bars_file", other: "bars" });
+        }
+        let Some(folder) = self.folder else { return fail(Kind::NoFolder) };
+        let path = folder.join(file);
+        let loaded = match load(&path, MAX_BARS_FILE_BYTES) {
+            Ok(loaded) => loaded?,
+            Err(error) => return fail(Kind::UnreadableBars { path, error }),
+        };
+        let bars = Sheet::of(&loaded).bars()?;
+        let value = root.get("bars_file").map_or(0..0, Spanned::span);
+        Ok((bars, Origin::File(value, loaded)))
+    }
+}
+
+fn anchors(table: &Table<'_>) -> Result<Anchors, SystemFileError> {
+    const WANTED: &str = "three coordinates in metres, [x, y, z]";
+    table.only(ANCHOR_KEYS)?;
+    let vector = |key| table.vector(key, table.require(key, WANTED)?);
+    Ok(Anchors { start_m: vector("start_m")?, end_m: vector("end_m")? })
+}
+
+fn bars(root: &Table<'_>, tables: &DeArray<'_>) -> Result<(Vec<Bar>, Origin), SystemFileError> {
+    let (mut bars, mut places) = (Vec::new(), Vec::new());
+    for (k, value) in tables.iter().enumerate() {
+        let table = root.table(&format!("bars[{}]", k + 1), value)?;
+        table.only(BAR_KEYS)?;
+        let length = table.require("length_m", "a length in metres")?;
+        let bar = bar(&table, length)?;
+        let count = table.count("count")?;
+        if count > MAX_BARS - bars.len() {
+            return Err(table.error(Kind::TooManyBars { limit: MAX_BARS }, "count"));
+        }
+        places.push((bars.len() + 1, length.span()));
+        bars.resize(bars.len() + count, bar);
+    }
+    Ok((bars, Origin::Tables(places)))
+}
+
+fn bar(table: &Table<'_>, length: &Value<'_>) -> Result<Bar, SystemFileError> {
+    let length_m = table.number_of("length_m", length)?;
+    let mass = table.require("mass_kg", "a mass in kilograms")?;
+    let mass_kg = table.number_of("mass_kg", mass)?;
+    let centre_m = table.number("centre_m")?.unwrap_or(0.5 * length_m);
+    let inertia = match table.get("inertia_kg_m2") {
+        Some(value) => table.vector("inertia_kg_m2", value)?,
+        None => Bar::slender_inertia(length_m, mass_kg),
+    };
+    Bar::new(length_m, mass_kg, centre_m, inertia).map_err(|error| {
+        let kind = Kind::Bar(error);
+        match error {
+            BarError::Length { .. } => table.error(kind, "length_m"),
+            BarError::Mass { .. } => table.error(kind, "mass_kg"),
+            BarError::Centre { .. } => table.error(kind, "centre_m"),
+            BarError::Inertia { .. } => {
+                table.component_error(kind, "inertia_kg_m2", |j| j.is_finite() && j >= 0.0)
+            }
+        }
+    })
+}

@@ -1,0 +1,221 @@
+//! What can be wrong with a system file.
+
+use std::path::PathBuf;
+
+use crate::{BarError, ChainError, Refusal};
+
+/// What is wrong.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum SystemFileErrorKind {
+    /// Occurs when the file cannot be read: it is not there, is a folder, or access is denied.
+    #[error("cannot read the file: {0}")]
+    Unreadable(std::io::Error),
+    /// Occurs when the file named by `bars_file` cannot be read.
+    #[error("cannot read the bars from {}: {error}", path.display())]
+    UnreadableBars {
+        /// Where it was looked for.
+        path: PathBuf,
+        /// Why it cannot be read.
+        error: std::io::Error,
+    },
+    /// Occurs when `bars_file` stands in a text that was not read from a file.
+    #[error("`bars_file` is relative to the system file, and this text was not read from a file")]
+    NoFolder,
+    /// Occurs when the file is longer than any such file needs to be.
+    #[error("the file is longer than the limit of {limit} bytes")]
+    TooLong {
+        /// The limit.
+        limit: u64,
+    },
+    /// Occurs when the file holds nothing but white space and comments.
+    #[error("the file describes no system: it is empty")]
+    Empty,
+    /// Occurs when the file is not UTF-8.
+    #[error("the file is not UTF-8 text (first bad byte at offset {offset})")]
+    NotText {
+        /// Offset of the first byte that is not UTF-8, in the file.
+        offset: usize,
+    },
+    /// Occurs when the text is no TOML.
+    #[error("not valid TOML: {0}")]
+    Syntax(String),
+    /// Occurs when a key or a column is given twice.
+    #[error("duplicate key `{key}`{}", first_line.map_or_else(String::new, |line| format!(", first given in line {line}")))]
+    DuplicateKey {
+        /// The key.
+        key: String,
+        /// The line of its first appearance, where that is certain.
+        first_line: Option<usize>,
+    },
+    /// Occurs when a key or a column is not one of those allowed in its place.
+    #[error("unknown key `{key}`")]
+    UnknownKey {
+        /// The key.
+        key: String,
+        /// The keys allowed here.
+        allowed: &'static [&'static str],
+        /// The allowed key that looks most like it.
+        suggestion: Option<&'static str>,
+    },
+    /// Occurs when a required key or column is missing.
+    #[error("the key `{key}` is missing")]
+    MissingKey {
+        /// The key.
+        key: &'static str,
+        /// What it must hold.
+        wanted: &'static str,
+    },
+    /// Occurs when two keys say the same thing in two ways.
+    #[error("`{key}` and `{other}` cannot stand together")]
+    Conflict {
+        /// The key found.
+        key: &'static str,
+        /// The key it contradicts.
+        other: &'static str,
+    },
+    /// Occurs when a value has the wrong type.
+    #[error("expected {wanted}, found {found}")]
+    WrongType {
+        /// What is allowed.
+        wanted: &'static str,
+        /// What stands there.
+        found: &'static str,
+    },
+    /// Occurs when a vector does not have three components.
+    #[error("expected three numbers, found {found}")]
+    WrongCount {
+        /// How many stand there.
+        found: usize,
+    },
+    /// Occurs when an integer does not fit where it stands.
+    #[error("the number {found} is out of range")]
+    OutOfRange {
+        /// As written.
+        found: String,
+        /// What is allowed.
+        wanted: &'static str,
+    },
+    /// Occurs when there are more bars than fit.
+    #[error("the system has more than {limit} bars")]
+    TooManyBars {
+        /// The limit.
+        limit: usize,
+    },
+    /// Occurs when the columns of a bars file are not separated by commas.
+    #[error("columns are separated by commas, found {found:?}")]
+    Separator {
+        /// What stands between them.
+        found: char,
+    },
+    /// Occurs when a row has more or fewer cells than the header.
+    #[error("expected {wanted} cells, found {found}")]
+    WrongCells {
+        /// Cells of the header.
+        wanted: usize,
+        /// Cells of the row.
+        found: usize,
+    },
+    /// Occurs when a cell is quoted.
+    #[error("cells are numbers, written without quotes")]
+    Quoted,
+    /// Occurs when a cell is no number.
+    #[error("expected a number, found {found:?}")]
+    NotANumber {
+        /// What stands there.
+        found: String,
+    },
+    /// Occurs when a bar cannot be built.
+    #[error(transparent)]
+    Bar(BarError),
+    /// Occurs when the chain cannot be built.
+    #[error(transparent)]
+    Chain(ChainError),
+    /// Occurs when the chain is no equilibrium problem.
+    #[error(transparent)]
+    Refused(Refusal),
+}
+
+impl SystemFileErrorKind {
+    /// What is allowed here, or what to do about it.
+    #[must_use]
+    pub fn help(&self) -> Option<String> {
+        let help = match self {
+            Self::UnknownKey { allowed, suggestion, .. } => {
+                let list = format!("allowed here: {}", allowed.join(", "));
+                return Some(match suggestion {
+                    Some(near) => format!("did you mean `{near}`? {list}"),
+                    None => list,
+                });
+            }
+            Self::MissingKey { key, wanted } => return Some(format!("{key} must be {wanted}")),
+            Self::OutOfRange { wanted, .. } => return Some(format!("allowed: {wanted}")),
+            Self::Conflict { key, other } => {
+                return Some(format!("keep `{key}` or `{other}`, and remove the other"));
+            }
+            Self::Unreadable(error) | Self::UnreadableBars { error, .. } => match error.kind() {
+                std::io::ErrorKind::IsADirectory => "this is a folder; name a file in it",
+                _ => return None,
+            },
+            Self::NoFolder => "write the bars as [[bars]], or read the system from its file",
+            Self::TooLong { .. } => {
+                "equal bars in a row are written once, with `count`; many different ones as columns, \
+                 with `bars_file`"
+            }
+            Self::Empty => {
+                "a system needs [anchors] with start_m and end_m, and one or more [[bars]]"
+            }
+            Self::NotText { .. } => "save the file as UTF-8",
+            Self::Syntax(_) => {
+                "a line is `key = value`, `[anchors]`, `[[bars]]` or `# a comment`; text stands in \
+                 double quotes, numbers take a decimal point and no unit"
+            }
+            Self::DuplicateKey { .. } => "a key is given once; every bar starts with [[bars]]",
+            Self::WrongType { found: "a string", wanted } if wanted.contains("number") => {
+                "numbers are written without quotes"
+            }
+            Self::WrongCount { .. } => "a vector is written [x, y, z]",
+            Self::TooManyBars { .. } => {
+                "an answer over more bars than this does not fit into 24 GB of memory"
+            }
+            Self::Separator { .. } | Self::Quoted | Self::NotANumber { .. } => {
+                "a row is numbers with a decimal point, separated by commas, such as 0.25,1e-3"
+            }
+            Self::WrongCells { .. } => {
+                "a row has one cell for each column of the header; numbers take a decimal point, not a \
+                 comma"
+            }
+            Self::Bar(BarError::Inertia { .. }) => {
+                "without inertia_kg_m2 a bar has the moments [0, m l^2/12, m l^2/12] of a slender one"
+            }
+            Self::Chain(error) => return chain_help(error).map(str::to_owned),
+            Self::Refused(refusal) => refusal_help(refusal),
+            Self::WrongType { .. } | Self::Bar(_) => return None,
+        };
+        Some(help.to_owned())
+    }
+}
+
+fn chain_help(error: &ChainError) -> Option<&'static str> {
+    match error {
+        ChainError::NoBars => Some("describe every bar under a line [[bars]]"),
+        ChainError::Overflow { .. } | ChainError::Underflow { .. } => {
+            Some("check the units: lengths are in metres, masses in kilograms")
+        }
+        ChainError::Gravity { .. } | ChainError::Anchor { .. } => None,
+    }
+}
+
+fn refusal_help(refusal: &Refusal) -> &'static str {
+    match refusal {
+        Refusal::SingleBar { .. } => "use at least two bars",
+        Refusal::OutOfReach { .. } | Refusal::Taut { .. } => {
+            "move the anchors together or lengthen the bars"
+        }
+        Refusal::BarTooLong { .. } | Refusal::Folded { .. } => {
+            "shorten this bar, lengthen another, or move the anchors apart"
+        }
+        Refusal::Unresolved { .. } => "put the origin near the chain",
+        Refusal::NoMass => "give at least one bar a mass",
+    }
+}

@@ -1,0 +1,194 @@
+//! One table of a system file: its keys, with their types checked and their places known.
+
+use std::ops::Range;
+
+use toml::Spanned;
+use toml::de::{DeInteger, DeTable, DeValue};
+
+use super::document::Source;
+use super::error::SystemFileError;
+use super::kind::SystemFileErrorKind as Kind;
+use super::suggest::nearest;
+use crate::Vector;
+
+/// A value with its place.
+pub(super) type Value<'a> = Spanned<DeValue<'a>>;
+
+/// One table, with its path in front of its keys.
+pub(super) struct Table<'a> {
+    source: &'a Source<'a>,
+    path: String,
+    entries: &'a DeTable<'a>,
+    span: Range<usize>,
+}
+
+impl<'a> Table<'a> {
+    /// The table of the whole file.
+    pub(super) fn root(source: &'a Source<'a>, entries: &'a DeTable<'a>) -> Self {
+        // What is missing from the whole file is missing at its start.
+        Self { source, path: String::new(), entries, span: 0..0 }
+    }
+
+    /// The path of a key of this table.
+    pub(super) fn key(&self, key: &str) -> String {
+        if self.path.is_empty() { key.to_owned() } else { format!("{}.{key}", self.path) }
+    }
+
+    /// An error about a key; its place is that of the key's value, or of the table if it has none.
+    pub(super) fn error(&self, kind: Kind, key: &str) -> SystemFileError {
+        let span = self.get(key).map_or(self.span.clone(), Spanned::span);
+        self.error_at(kind, key, span)
+    }
+
+    pub(super) fn error_at(&self, kind: Kind, key: &str, span: Range<usize>) -> SystemFileError {
+        self.source.error(kind, Some(self.key(key)), Some(span))
+    }
+
+    /// An error about the first component of a vector that is not as it should be, or about the vector.
+    pub(super) fn component_error(
+        &self,
+        kind: Kind,
+        key: &str,
+        good: impl Fn(f64) -> bool,
+    ) -> SystemFileError {
+        let items = self.get(key).and_then(|value| value.get_ref().as_array());
+        let bad = items.and_then(|items| {
+            items.iter().enumerate().find(|(_, item)| !number(item).is_some_and(&good))
+        });
+        match bad {
+            Some((k, item)) => self.error_at(kind, &component(key, k), item.span()),
+            None => self.error(kind, key),
+        }
+    }
+
+    pub(super) fn get(&self, key: &str) -> Option<&'a Value<'a>> {
+        self.entries.get(key)
+    }
+
+    /// Refuse keys that are not allowed here: the first in the order of the file.
+    pub(super) fn only(&self, allowed: &'static [&'static str]) -> Result<(), SystemFileError> {
+        let unknown = self.entries.keys().filter(|key| !allowed.contains(&key.get_ref().as_ref()));
+        match unknown.min_by_key(|key| key.span().start) {
+            None => Ok(()),
+            Some(key) => {
+                let name = key.get_ref().to_string();
+                let suggestion = nearest(&name, allowed);
+                let kind = Kind::UnknownKey { key: name.clone(), allowed, suggestion };
+                Err(self.error_at(kind, &name, key.span()))
+            }
+        }
+    }
+
+    pub(super) fn require(
+        &self,
+        key: &'static str,
+        wanted: &'static str,
+    ) -> Result<&'a Value<'a>, SystemFileError> {
+        self.get(key).ok_or_else(|| self.error(Kind::MissingKey { key, wanted }, key))
+    }
+
+    pub(super) fn wrong_type(
+        &self,
+        key: &str,
+        value: &Value<'_>,
+        wanted: &'static str,
+    ) -> SystemFileError {
+        let found = match value.get_ref() {
+            DeValue::String(_) => "a string",
+            DeValue::Integer(_) => "an integer",
+            DeValue::Float(_) => "a number with a fraction",
+            DeValue::Boolean(_) => "a boolean",
+            DeValue::Datetime(_) => "a date or time",
+            DeValue::Array(_) => "an array",
+            DeValue::Table(_) => "a table",
+        };
+        self.error_at(Kind::WrongType { wanted, found }, key, value.span())
+    }
+
+    /// The table under a key of this one; `key` may be one of an array of tables, as `bars[2]`.
+    pub(super) fn table(
+        &self,
+        key: &str,
+        value: &'a Value<'a>,
+    ) -> Result<Table<'a>, SystemFileError> {
+        match value.get_ref().as_table() {
+            Some(entries) => {
+                Ok(Table { source: self.source, path: self.key(key), entries, span: value.span() })
+            }
+            None => Err(self.wrong_type(key, value, "a table")),
+        }
+    }
+
+    pub(super) fn text(&self, key: &str) -> Result<Option<&'a str>, SystemFileError> {
+        let Some(value) = self.get(key) else { return Ok(None) };
+        match value.get_ref().as_str() {
+            Some(text) => Ok(Some(text)),
+            None => Err(self.wrong_type(key, value, "a string")),
+        }
+    }
+
+    pub(super) fn number(&self, key: &str) -> Result<Option<f64>, SystemFileError> {
+        self.get(key).map(|value| self.number_of(key, value)).transpose()
+    }
+
+    /// A number; integers count as numbers. Whether it is finite is for the constructors to say.
+    pub(super) fn number_of(&self, key: &str, value: &Value<'_>) -> Result<f64, SystemFileError> {
+        number(value).ok_or_else(|| self.wrong_type(key, value, "a number"))
+    }
+
+    pub(super) fn vector(
+        &self,
+        key: &str,
+        value: &'a Value<'a>,
+    ) -> Result<Vector, SystemFileError> {
+        let Some(items) = value.get_ref().as_array() else {
+            return Err(self.wrong_type(key, value, "three numbers [x, y, z]"));
+        };
+        if items.len() != 3 {
+            return Err(self.error(Kind::WrongCount { found: items.len() }, key));
+        }
+        let mut vector = [0.0; 3];
+        for (k, (slot, item)) in vector.iter_mut().zip(items.iter()).enumerate() {
+            *slot = self.number_of(&component(key, k), item)?;
+        }
+        Ok(vector)
+    }
+
+    /// A whole number of at least 1; 1 if the key is not there.
+    pub(super) fn count(&self, key: &str) -> Result<usize, SystemFileError> {
+        const WANTED: &str = "a whole number of bars, 1 or more";
+        let Some(value) = self.get(key) else { return Ok(1) };
+        let Some(integer) = value.get_ref().as_integer() else {
+            return Err(self.wrong_type(key, value, WANTED));
+        };
+        match usize::from_str_radix(integer.as_str(), integer.radix()) {
+            Ok(count) if count > 0 => Ok(count),
+            _ => {
+                let found = integer.to_string();
+                Err(self.error(Kind::OutOfRange { found, wanted: WANTED }, key))
+            }
+        }
+    }
+}
+
+/// Component `k` of a vector, counted from 1 like lines and tables.
+fn component(key: &str, k: usize) -> String {
+    format!("{key}[{}]", k + 1)
+}
+
+/// The double nearest to a number as it is written.
+fn number(value: &Value<'_>) -> Option<f64> {
+    match value.get_ref() {
+        DeValue::Float(float) => float.as_str().parse().ok(),
+        DeValue::Integer(integer) => whole(integer),
+        _ => None,
+    }
+}
+
+fn whole(integer: &DeInteger<'_>) -> Option<f64> {
+    match integer.radix() {
+        // As a decimal fraction it may have any number of digits.
+        10 => integer.as_str().parse().ok(),
+        radix => u128::from_str_radix(integer.as_str(), radix).ok().map(|whole| whole as f64),
+    }
+}

@@ -1,0 +1,251 @@
+//! What bars, chains and problems refuse, with the numbers of the refusal.
+
+use model::{
+    Anchors, Bar, BarError, Chain, ChainError, Problem, Refusal, SMALLEST_TOTAL, STRAIGHT_TOLERANCE,
+};
+
+const HERE: Anchors = Anchors { start_m: [0.0; 3], end_m: [0.0; 3] };
+
+fn apart(span_m: f64) -> Anchors {
+    Anchors { start_m: [0.0; 3], end_m: [0.0, span_m, 0.0] }
+}
+
+fn bar(length_m: f64) -> Bar {
+    Bar::homogeneous(length_m, 1.0).unwrap()
+}
+
+fn chain(anchors: Anchors, lengths_m: &[f64]) -> Chain {
+    Chain::new("", 9.81, anchors, lengths_m.iter().map(|&l| bar(l)).collect()).unwrap()
+}
+
+fn refusal(anchors: Anchors, lengths_m: &[f64]) -> Refusal {
+    Problem::new(chain(anchors, lengths_m)).unwrap_err()
+}
+
+fn accepted(anchors: Anchors, lengths_m: &[f64]) -> bool {
+    Problem::new(chain(anchors, lengths_m)).is_ok()
+}
+
+#[test]
+fn bars_refuse_numbers_out_of_range() {
+    for length_m in [0.0, -0.0, -1.0, f64::INFINITY, f64::NEG_INFINITY] {
+        assert_eq!(Bar::homogeneous(length_m, 1.0), Err(BarError::Length { length_m }));
+    }
+    for mass_kg in [-1.0, -f64::MIN_POSITIVE, f64::INFINITY] {
+        assert_eq!(Bar::homogeneous(1.0, mass_kg), Err(BarError::Mass { mass_kg }));
+    }
+    for centre_m in [-f64::MIN_POSITIVE, 2.0_f64.next_up(), f64::INFINITY] {
+        let error = BarError::Centre { centre_m, length_m: 2.0 };
+        assert_eq!(Bar::new(2.0, 1.0, centre_m, [0.0; 3]), Err(error));
+    }
+    for moment_kg_m2 in [-1.0, f64::INFINITY] {
+        for k in 0..3 {
+            let mut inertia = [1.0; 3];
+            inertia[k] = moment_kg_m2;
+            assert_eq!(Bar::new(1.0, 1.0, 0.5, inertia), Err(BarError::Inertia { moment_kg_m2 }));
+        }
+    }
+    let nan = f64::NAN;
+    assert!(
+        matches!(Bar::homogeneous(nan, 1.0), Err(BarError::Length { length_m }) if length_m.is_nan())
+    );
+    assert!(matches!(Bar::homogeneous(1.0, nan), Err(BarError::Mass { .. })));
+    assert!(matches!(Bar::new(1.0, 1.0, nan, [0.0; 3]), Err(BarError::Centre { .. })));
+    assert!(matches!(Bar::new(1.0, 1.0, 0.5, [0.0, 0.0, nan]), Err(BarError::Inertia { .. })));
+}
+
+#[test]
+fn bars_accept_the_ends_of_their_ranges() {
+    assert!(Bar::new(2.0, 0.0, 0.0, [0.0; 3]).is_ok());
+    assert!(Bar::new(2.0, 0.0, 2.0, [0.0; 3]).is_ok());
+    // Subnormal numbers are numbers.
+    let tiny = Bar::homogeneous(1e-320, 1e-320).unwrap();
+    assert!(tiny.centre_m() >= 0.0 && tiny.centre_m() <= tiny.length_m());
+    assert!(Bar::new(f64::MAX, f64::MAX, 0.0, [f64::MAX; 3]).is_ok());
+    assert_eq!(
+        Bar::homogeneous(1e160, 1.0),
+        Err(BarError::Inertia { moment_kg_m2: f64::INFINITY })
+    );
+}
+
+#[test]
+fn chains_refuse_numbers_out_of_range() {
+    let build = |gravity, anchors, bars| Chain::new("", gravity, anchors, bars);
+    assert_eq!(build(9.81, HERE, vec![]), Err(ChainError::NoBars));
+    for gravity_m_s2 in [0.0, -9.81, f64::INFINITY] {
+        assert_eq!(
+            build(gravity_m_s2, HERE, vec![bar(1.0)]),
+            Err(ChainError::Gravity { gravity_m_s2 })
+        );
+    }
+    assert!(matches!(build(f64::NAN, HERE, vec![bar(1.0)]), Err(ChainError::Gravity { .. })));
+    for k in 0..3 {
+        let mut anchors = HERE;
+        anchors.end_m[k] = f64::NEG_INFINITY;
+        assert_eq!(
+            build(9.81, anchors, vec![bar(1.0)]),
+            Err(ChainError::Anchor { coordinate_m: f64::NEG_INFINITY })
+        );
+    }
+}
+
+#[test]
+fn chains_refuse_totals_that_overflow_or_vanish() {
+    let long = Bar::new(f64::MAX, 0.0, 0.0, [0.0; 3]).unwrap();
+    let heavy = Bar::new(1.0, f64::MAX, 0.0, [0.0; 3]).unwrap();
+    let far = Anchors { start_m: [-f64::MAX, 0.0, 0.0], end_m: [f64::MAX, 0.0, 0.0] };
+    let overflow = |quantity| Err(ChainError::Overflow { quantity });
+    let build = |anchors, bars: &[Bar]| Chain::new("", 1.0, anchors, bars.to_vec());
+    assert_eq!(build(far, &[bar(1.0)]), overflow("span"));
+    assert_eq!(build(HERE, &[long, long]), overflow("total length"));
+    assert_eq!(build(HERE, &[heavy, heavy]), overflow("total weight"));
+    assert_eq!(build(HERE, &[heavy, bar(1.0)]), overflow("total weight times total length"));
+    assert!(build(HERE, &[long]).is_ok(), "long and massless");
+
+    let underflow = |quantity, total| Err(ChainError::Underflow { quantity, total });
+    let least = SMALLEST_TOTAL;
+    let with = |length, mass| Bar::new(length, mass, 0.0, [0.0; 3]).unwrap();
+    assert!(build(HERE, &[with(least, 1.0)]).is_ok());
+    let shorter = least.next_down();
+    assert_eq!(build(HERE, &[with(shorter, 1.0)]), underflow("total length", shorter));
+    assert!(build(HERE, &[with(1.0, least)]).is_ok());
+    assert_eq!(build(HERE, &[with(1.0, shorter)]), underflow("total weight", shorter));
+    let product = "total weight times total length";
+    assert_eq!(build(HERE, &[with(1e-160, 1e-160)]), underflow(product, 1e-160 * 1e-160));
+    // A chain without mass has no weight to lose.
+    assert!(build(HERE, &[with(least, 0.0)]).is_ok());
+}
+
+#[test]
+fn taut_is_equal_up_to_rounding_and_no_more() {
+    let taut = Refusal::Taut { span_m: 3.0, total_length_m: 3.0 };
+    assert_eq!(refusal(apart(3.0), &[1.0, 1.5, 0.5]), taut);
+    // 0.1 + 0.2 is not 0.3 in doubles; the decimals mean a taut chain.
+    assert!(matches!(refusal(apart(0.3), &[0.1, 0.2]), Refusal::Taut { .. }));
+    assert!(matches!(refusal(apart(0.7), &[0.1; 7]), Refusal::Taut { .. }));
+    // On both sides of the tolerance, which is 16 units of the rounding.
+    let step = 3.0 * STRAIGHT_TOLERANCE;
+    assert!(matches!(refusal(apart(3.0 - 0.9 * step), &[1.0; 3]), Refusal::Taut { .. }));
+    assert!(matches!(refusal(apart(3.0 + 0.9 * step), &[1.0; 3]), Refusal::Taut { .. }));
+    assert!(accepted(apart(3.0 - 1.5 * step), &[1.0; 3]));
+    let span_m = 3.0 + 1.5 * step;
+    let out = Refusal::OutOfReach { span_m, total_length_m: 3.0 };
+    assert_eq!(refusal(apart(span_m), &[1.0; 3]), out);
+}
+
+#[test]
+fn folded_is_equal_up_to_rounding_and_no_more() {
+    let folded = Refusal::Folded { bar: 2, length_m: 3.0, rest_m: 1.0, span_m: 2.0 };
+    assert_eq!(refusal(apart(2.0), &[0.5, 3.0, 0.5]), folded);
+    let too_long = Refusal::BarTooLong { bar: 3, length_m: 3.5, rest_m: 1.0, span_m: 2.0 };
+    assert_eq!(refusal(apart(2.0), &[0.5, 0.5, 3.5]), too_long);
+    let step = 4.0 * STRAIGHT_TOLERANCE;
+    assert!(matches!(refusal(apart(2.0), &[0.5, 3.0 - 0.9 * step, 0.5]), Refusal::Folded { .. }));
+    assert!(matches!(refusal(apart(2.0), &[0.5, 3.0 + 0.9 * step, 0.5]), Refusal::Folded { .. }));
+    assert!(accepted(apart(2.0), &[0.5, 3.0 - 1.5 * step, 0.5]));
+    assert!(matches!(
+        refusal(apart(2.0), &[0.5, 3.0 + 1.5 * step, 0.5]),
+        Refusal::BarTooLong { bar: 2, .. }
+    ));
+    // Two equal bars from one point back to it can only fold; the first of them is named.
+    let back = Refusal::Folded { bar: 1, length_m: 1.0, rest_m: 1.0, span_m: 0.0 };
+    assert_eq!(refusal(HERE, &[1.0, 1.0]), back);
+    let uneven = Refusal::BarTooLong { bar: 2, length_m: 1.5, rest_m: 1.0, span_m: 0.0 };
+    assert_eq!(refusal(HERE, &[1.0, 1.5]), uneven);
+    assert!(accepted(HERE, &[1.0, 1.0, 1.0]));
+    let triangle = Refusal::Folded { bar: 2, length_m: 2.0, rest_m: 2.0, span_m: 0.0 };
+    assert_eq!(refusal(HERE, &[1.0, 2.0, 1.0]), triangle);
+}
+
+#[test]
+fn single_bars_are_refused_for_what_they_are() {
+    assert_eq!(refusal(apart(2.0), &[2.0]), Refusal::SingleBar { length_m: 2.0, span_m: 2.0 });
+    assert_eq!(
+        refusal(apart(2.0), &[1.0]),
+        Refusal::OutOfReach { span_m: 2.0, total_length_m: 1.0 }
+    );
+    let too_long = Refusal::BarTooLong { bar: 1, length_m: 3.0, rest_m: 0.0, span_m: 2.0 };
+    assert_eq!(refusal(apart(2.0), &[3.0]), too_long);
+    let massless = Bar::homogeneous(2.0, 0.0).unwrap();
+    let single = Chain::new("", 1.0, apart(2.0), vec![massless]).unwrap();
+    assert!(matches!(Problem::new(single), Err(Refusal::SingleBar { .. })));
+}
+
+#[test]
+fn chains_without_mass_are_refused_before_their_shape() {
+    let massless = vec![Bar::homogeneous(1.0, 0.0).unwrap(); 3];
+    let far = Chain::new("", 1.0, apart(9.0), massless.clone()).unwrap();
+    assert_eq!(Problem::new(far), Err(Refusal::NoMass));
+    let mut one = massless;
+    one[1] = bar(1.0);
+    assert!(Problem::new(Chain::new("", 1.0, apart(2.0), one).unwrap()).is_ok());
+}
+
+#[test]
+fn refusals_do_not_depend_on_the_unit_of_length() {
+    for scale in [1e-100, 1e-9, 1.0, 1e9, 1e100] {
+        let lengths = [scale, scale, scale];
+        assert!(accepted(apart(2.0 * scale), &lengths));
+        assert!(accepted(HERE, &lengths));
+        assert!(matches!(refusal(apart(3.0 * scale), &lengths), Refusal::Taut { .. }));
+        assert!(matches!(refusal(apart(4.0 * scale), &lengths), Refusal::OutOfReach { .. }));
+        let long = [scale, 5.0 * scale, scale];
+        assert!(matches!(refusal(apart(2.0 * scale), &long), Refusal::BarTooLong { bar: 2, .. }));
+    }
+}
+
+#[test]
+fn far_anchors_leave_the_span_uncertain() {
+    let at = |x: f64, span: f64| Anchors { start_m: [x, 0.0, 0.0], end_m: [x + span, 0.0, 0.0] };
+    // 1e12 m away doubles are 1.2e-4 m apart.
+    assert!(accepted(at(1e12, 2.0), &[1.0; 3]));
+    assert!(accepted(at(1e12, 2.0), &[1.0, 1.001]));
+    let unresolved = refusal(at(1e12, 2.0), &[1.0, 1.0001]);
+    let Refusal::Unresolved { coordinate_m, rounding_m, margin_m } = unresolved else {
+        panic!("{unresolved:?}")
+    };
+    assert!((coordinate_m - (1e12 + 2.0)).abs() < 0.5);
+    // Six coordinates, each half a unit in the last place off: at most 3 times 2^-52 of the largest.
+    assert!((rounding_m / (3.0 * f64::EPSILON * coordinate_m) - 1.0).abs() < 1e-15);
+    assert!((margin_m - 1e-4).abs() < 1e-12);
+    assert!(
+        matches!(refusal(at(1e12, 2.0), &[1.0, 0.9999]), Refusal::Unresolved { margin_m, .. } if margin_m < 0.0)
+    );
+    assert!(matches!(refusal(at(1e12, 2.0), &[1.0, 0.99]), Refusal::OutOfReach { .. }));
+    assert!(matches!(refusal(at(1e12, 2.0), &[3.0001, 1.0]), Refusal::Unresolved { .. }));
+    assert!(matches!(refusal(at(1e12, 2.0), &[3.01, 1.0]), Refusal::BarTooLong { .. }));
+    // So far away that the anchors coincide.
+    assert!(matches!(refusal(at(1e20, 2.0), &[1.0; 3]), Refusal::Unresolved { .. }));
+}
+
+#[test]
+fn spans_are_right_at_every_scale() {
+    let span = |x: f64, y: f64, z: f64| Anchors { start_m: [0.0; 3], end_m: [x, y, z] }.span_m();
+    // 2² + 3² + 6² = 7².
+    for scale in [1e-300, 1e-160, 1.0, 1e160, 1e300] {
+        let ratio = span(2.0 * scale, -3.0 * scale, 6.0 * scale) / (7.0 * scale);
+        assert!((ratio - 1.0).abs() <= 2.0 * f64::EPSILON, "{scale:e}: {ratio}");
+    }
+    // Far from the origin the difference of the coordinates is exact.
+    let far = Anchors { start_m: [1e15, -1e15, 0.0], end_m: [1e15 + 3.0, 4.0 - 1e15, 0.0] };
+    assert_eq!(far.span_m().to_bits(), 5.0_f64.to_bits());
+}
+
+#[test]
+fn totals_do_not_drift_over_a_million_bars() {
+    let bar = Bar::homogeneous(0.1, 0.3).unwrap();
+    let anchors = Anchors { start_m: [0.0; 3], end_m: [1.0, 0.0, 0.0] };
+    let chain = Chain::new("long", 9.81, anchors, vec![bar; 1_000_000]).unwrap();
+    // 0.1 and 0.3 are not exact in binary; a million times their doubles is what the sum must be.
+    assert!((chain.total_length_m() - 1e6 * 0.1).abs() <= 1e5 * f64::EPSILON);
+    assert!((chain.total_mass_kg() - 1e6 * 0.3).abs() <= 3e5 * f64::EPSILON);
+}
+
+#[test]
+fn totals_keep_what_is_small_beside_the_large() {
+    // Added one by one, each of the million would be lost: doubles near 1e9 are 1.2e-7 apart.
+    let mut bars = vec![bar(1e-9); 1_000_001];
+    bars[0] = bar(1e9);
+    let chain = Chain::new("uneven", 9.81, HERE, bars).unwrap();
+    assert!((chain.total_length_m() - (1e9 + 1e-3)).abs() <= 1e9 * f64::EPSILON);
+}

@@ -1,0 +1,13 @@
+//! The tests of the data types and the files, in one program.
+
+#![expect(clippy::unwrap_used, reason = "helpers of tests")]
+
+mod columns;
+mod constructors;
+mod files;
+mod json;
+mod mutations;
+mod refused;
+mod round_trip;
+mod support;
+mod texts;

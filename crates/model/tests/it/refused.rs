@@ -1,0 +1,95 @@
+//! Chains that can be described and have no equilibrium, each with its exact refusal and its place.
+
+use model::system_file::parse_system;
+
+use crate::support::{anchored, check};
+
+#[test]
+fn chains_that_are_no_equilibrium_problem() {
+    let two = |a: &str, b: &str| {
+        format!("[[bars]]\nlength_m = {a}\nmass_kg = 1\n[[bars]]\nlength_m = {b}\nmass_kg = 1\n")
+    };
+    check(
+        &anchored(&two("0.5", "1")),
+        "f:3:9: anchors.end_m: the anchors are 2 m apart and the bars reach only 1.5 m: 0.5 m are missing",
+        "[0, 0, -2]",
+    );
+    check(
+        &anchored(&two("1", "1")),
+        "f:3:9: anchors.end_m: the bars reach from anchor to anchor and no further (total length 2 m, span 2 m): \
+         the chain is straight and taut, and the force along it is indeterminate",
+        "[0, 0, -2]",
+    );
+    check(
+        &anchored(&two("0.5", "3")),
+        "f:8:12: bars[2].length_m: bar 2 is 3 m long, longer than the other bars (0.5 m) and the span (2 m) \
+         together: the chain cannot close",
+        "3",
+    );
+    check(
+        &anchored(&two("2.5", "0.5")),
+        "f:5:12: bars[1].length_m: bar 1 is 2.5 m long, exactly as long as the other bars (0.5 m) and the span \
+         (2 m) together: the chain closes only folded on one line, and the force along it is indeterminate",
+        "2.5",
+    );
+    check(
+        "[anchors]\nstart_m = [1, 1, 1]\nend_m = [1, 1, 1]\n[[bars]]\nlength_m = 1\nmass_kg = 1\ncount = 2\n",
+        "f:5:12: bars[1].length_m: bar 1 is 1 m long, exactly as long as the other bars (1 m) and the span (0 m) \
+         together: the chain closes only folded on one line, and the force along it is indeterminate",
+        "1",
+    );
+    check(
+        &anchored("[[bars]]\nlength_m = 1\nmass_kg = 0\ncount = 3\n"),
+        "f:5:12: bars: no bar has mass: without weight every position is an equilibrium",
+        "1",
+    );
+    check(
+        &anchored("[[bars]]\nlength_m = 2\nmass_kg = 1\n"),
+        "f:5:12: bars: a single bar between two fixed points cannot move, and the force along it is \
+         indeterminate (length 2 m, span 2 m)",
+        "2",
+    );
+    // The bar that is too long in the third table is the fifth of the chain.
+    check(
+        &anchored(
+            "[[bars]]\nlength_m = 0.1\nmass_kg = 1\ncount = 3\n[[bars]]\nlength_m = 0.2\nmass_kg = 1\n[[bars]]\nlength_m = 9\nmass_kg = 1\n",
+        ),
+        "f:12:12: bars[3].length_m: bar 5 is 9 m long, longer than the other bars (0.5 m) and the span (2 m) \
+         together: the chain cannot close",
+        "9",
+    );
+}
+
+#[test]
+fn what_is_refused_as_a_problem_is_still_a_system() {
+    let text = anchored("[[bars]]\nlength_m = 2\nmass_kg = 1\n");
+    assert_eq!(parse_system(&text, "f").unwrap().bars().len(), 1);
+}
+
+#[test]
+fn a_single_bar_is_refused_for_what_is_wrong_with_it() {
+    let one = |length: &str| anchored(&format!("[[bars]]\nlength_m = {length}\nmass_kg = 1\n"));
+    check(
+        &one("1.5"),
+        "f:3:9: anchors.end_m: the anchors are 2 m apart and the bars reach only 1.5 m: 0.5 m are missing",
+        "[0, 0, -2]",
+    );
+    check(
+        &one("2.5"),
+        "f:5:12: bars[1].length_m: bar 1 is 2.5 m long, longer than the other bars (0 m) and the span (2 m) \
+         together: the chain cannot close",
+        "2.5",
+    );
+}
+
+#[test]
+fn anchors_too_far_away_to_tell() {
+    check(
+        "[anchors]\nstart_m = [1e15, 0, 0]\nend_m = [1000000000000002, 0, 0]\n\
+         [[bars]]\nlength_m = 1.1\nmass_kg = 1\ncount = 2\n",
+        "f:3:9: anchors.end_m: the coordinates of the anchors reach 1000000000000002 m, where doubles place the \
+         anchors only to 6.661338147750953e-1 m, and the bars are only 2.0000000000000018e-1 m away from being \
+         straight",
+        "[1000000000000002, 0, 0]",
+    );
+}

@@ -1,0 +1,1 @@
+//! What people read: the reproduction report and its figures.
