@@ -73,6 +73,9 @@ pub struct Solve {
     /// Which solver; one alone gets no comparison
     #[arg(long, value_enum, default_value_t = Which::Both)]
     pub solver: Which,
+    /// Which equations lagrange solves
+    #[arg(long, value_enum, default_value_t = System::Auto)]
+    pub system: System,
     /// Print one JSON object (schema_version 1) instead of tables
     #[arg(long)]
     pub json: bool,
@@ -93,6 +96,17 @@ pub enum Which {
     Energy,
     /// Both, and the comparison
     Both,
+}
+
+/// Which of the systems of equations `lagrange` solves.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum System {
+    /// The full one up to 30 bars, the condensed one beyond
+    Auto,
+    /// The paper's: all coordinates and all multipliers at once
+    Full,
+    /// Three equations for the pull on the first anchor, whatever the number of bars
+    Condensed,
 }
 
 /// `funicular cases`.

@@ -8,6 +8,7 @@ mod args;
 mod cases;
 mod diagnostics;
 mod exit;
+mod input;
 mod output;
 mod progress;
 mod report;

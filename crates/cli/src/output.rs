@@ -1,7 +1,7 @@
 //! Writing: standard output that may be a closed pipe, and files that are whole or not there.
 
-use std::fs;
-use std::io::{self, ErrorKind, Write};
+use std::fs::{self, File};
+use std::io::{self, BufWriter, ErrorKind, StdoutLock, Write};
 use std::path::Path;
 
 use miette::miette;
@@ -10,8 +10,15 @@ use crate::exit::Failure;
 
 /// Print to standard output. A reader that has gone away (`| head`) is no error.
 pub fn print(text: &str) -> Result<(), Failure> {
-    let mut out = io::stdout().lock();
-    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+    print_stream(|out| out.write_all(text.as_bytes()))
+}
+
+/// The same for what is too long to be held as one text.
+pub fn print_stream(
+    content: impl FnOnce(&mut BufWriter<StdoutLock<'_>>) -> io::Result<()>,
+) -> Result<(), Failure> {
+    let mut out = BufWriter::new(io::stdout().lock());
+    match content(&mut out).and_then(|()| out.flush()) {
         Err(error) if error.kind() != ErrorKind::BrokenPipe => {
             Err(Failure::bad_input(miette!("cannot write to standard output: {error}")))
         }
@@ -22,9 +29,22 @@ pub fn print(text: &str) -> Result<(), Failure> {
 /// Write a file by way of a temporary neighbour, so that an interruption leaves the old file or the
 /// new one and never half of either.
 pub fn write_whole(path: &Path, text: &str) -> Result<(), Failure> {
+    write_stream(path, |file| file.write_all(text.as_bytes()))
+}
+
+/// The same for what is too long to be held as one text.
+pub fn write_stream(
+    path: &Path,
+    content: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
+) -> Result<(), Failure> {
     let name = path.file_name().map_or_else(String::new, |n| n.to_string_lossy().into_owned());
     let part = path.with_file_name(format!(".{name}.{}.part", std::process::id()));
-    fs::write(&part, text).and_then(|()| fs::rename(&part, path)).map_err(|error| {
+    let written = File::create(&part).map(BufWriter::new).and_then(|mut file| {
+        content(&mut file)?;
+        file.flush()?;
+        fs::rename(&part, path)
+    });
+    written.map_err(|error| {
         // Best effort: the error to tell is the first one.
         let _ = fs::remove_file(&part);
         Failure::bad_input(miette!("cannot write {}: {error}", path.display()))

@@ -1,22 +1,27 @@
 //! `funicular solve`: one system, both solvers, one verdict.
 
-use std::fmt::Write as _;
+use std::io::{self, Write};
 
 use miette::miette;
-use model::{Equilibrium, Problem, SystemSummary, system_file};
+use model::{Equilibrium, Problem, SystemSummary};
 use serde::Serialize;
 use validate::{Agreement, Tolerances, compare, compare::judge_alone};
 
 use crate::answer;
-use crate::args::{Solve, Which};
+use crate::args::{Solve, System, Which};
 use crate::cases;
-use crate::diagnostics::SystemFileReport;
 use crate::exit::{Exit, Failure};
+use crate::input;
 use crate::output;
 use crate::progress::Progress;
 
 /// Version of the JSON object; raised when a key that others rely on changes its meaning.
 pub const SCHEMA_VERSION: u32 = 1;
+
+/// Chains up to this many bars go through the paper's full system of 9n + 3 equations; longer ones
+/// through the condensed system of three, which gives the same (and costs nothing that grows faster
+/// than the number of bars).
+const FULL_SYSTEM_BARS: usize = 30;
 
 /// What `solve --json` prints.
 #[derive(Debug, Serialize)]
@@ -29,27 +34,28 @@ struct Answer {
 
 /// Run the command.
 pub fn run(arguments: &Solve) -> Result<Exit, Failure> {
-    let problem = read(arguments)?;
     let progress = Progress::start();
+    progress.say("reading");
+    let problem = read(arguments)?;
+    let bars = problem.chain().bars().len();
     let mut equilibria = Vec::new();
     if arguments.solver != Which::Energy {
-        progress.say("lagrange: constraints and multipliers");
-        let found = lagrange::solve(&problem, &lagrange::Settings::default());
-        equilibria
-            .push(found.map_err(|e| Failure::undecided(miette!("lagrange: {e}")))?.equilibrium);
+        progress.say(&format!("lagrange: constraints and multipliers of {bars} bars"));
+        equilibria.push(lagrange_answer(&problem, arguments.system)?);
     }
     if arguments.solver != Which::Lagrange {
-        progress.say("energy: minimisation");
+        progress.say(&format!("energy: minimisation over the directions of {bars} bars"));
         let found = energy::minimise(&problem, &energy::Settings::default());
         equilibria.push(found.map_err(|e| Failure::undecided(miette!("energy: {e}")))?.equilibrium);
     }
     progress.say("the judges");
     let (equilibria, agreement) = judge(&problem, equilibria);
-    drop(progress);
 
     if let Some(path) = &arguments.csv {
-        output::write_whole(path, &joints_csv(&equilibria))?;
+        progress.say(&format!("writing {}", path.display()));
+        output::write_stream(path, |file| write_joints(file, &equilibria))?;
     }
+    drop(progress);
     let exit = match &agreement {
         Some(agreement) if !agreement.agrees() => Exit::CheckFailed,
         _ => Exit::Done,
@@ -60,8 +66,13 @@ pub fn run(arguments: &Solve) -> Result<Exit, Failure> {
         equilibria,
         agreement,
     };
-    if arguments.json {
-        output::print(&json(&found, arguments.summary)?)?;
+    if arguments.json && arguments.summary {
+        output::print(&summary(found)?)?;
+    } else if arguments.json {
+        output::print_stream(|out| {
+            serde_json::to_writer_pretty(&mut *out, &found)?;
+            out.write_all(b"\n")
+        })?;
     } else {
         output::print(&answer::answer(
             &found.system,
@@ -73,11 +84,29 @@ pub fn run(arguments: &Solve) -> Result<Exit, Failure> {
     Ok(exit)
 }
 
+/// The hanging equilibrium by `lagrange`, from the system of equations that was asked for.
+fn lagrange_answer(problem: &Problem, system: System) -> Result<Equilibrium, Failure> {
+    let full = match system {
+        System::Full => true,
+        System::Condensed => false,
+        System::Auto => problem.chain().bars().len() <= FULL_SYSTEM_BARS,
+    };
+    let found = if full {
+        lagrange::solve(problem, &lagrange::Settings::default())
+            .map(|solution| solution.equilibrium)
+            .map_err(|error| miette!("lagrange: {error}"))
+    } else {
+        lagrange::condensed::solve(problem, &lagrange::condensed::Settings::default())
+            .map(|solution| solution.equilibrium)
+            .map_err(|error| miette!("lagrange: {error}"))
+    };
+    found.map_err(Failure::undecided)
+}
+
 /// The problem of the file or of the named case.
 fn read(arguments: &Solve) -> Result<Problem, Failure> {
     match (&arguments.file, &arguments.case) {
-        (Some(file), _) => system_file::read_problem(file)
-            .map_err(|error| Failure::bad_input(SystemFileReport::from(error))),
+        (Some(file), _) => input::problem(file),
         (None, Some(name)) => cases::find(name).map(model::cases::Case::problem),
         // clap asks for one of them.
         (None, None) => Err(Failure::bad_input(miette!("name a system file or a case"))),
@@ -85,14 +114,14 @@ fn read(arguments: &Solve) -> Result<Problem, Failure> {
 }
 
 /// Two answers are compared; a single one is only judged by Newton's laws.
-fn judge(
-    problem: &Problem,
-    mut equilibria: Vec<Equilibrium>,
-) -> (Vec<Equilibrium>, Option<Agreement>) {
-    if let Ok(mut both) = <[Equilibrium; 2]>::try_from(equilibria.clone()) {
-        let agreement = compare(problem, &mut both, &Tolerances::project());
-        return (both.into(), Some(agreement));
-    }
+fn judge(problem: &Problem, equilibria: Vec<Equilibrium>) -> (Vec<Equilibrium>, Option<Agreement>) {
+    let mut equilibria = match <[Equilibrium; 2]>::try_from(equilibria) {
+        Ok(mut both) => {
+            let agreement = compare(problem, &mut both, &Tolerances::project());
+            return (both.into(), Some(agreement));
+        }
+        Err(other) => other,
+    };
     for answer in &mut equilibria {
         let statics = judge_alone(problem, answer);
         let why = format!(
@@ -104,12 +133,18 @@ fn judge(
     (equilibria, None)
 }
 
-/// The answer as JSON, with or without the arrays over joints and bars.
-fn json(answer: &Answer, summary: bool) -> Result<String, Failure> {
+/// The answer as JSON without the arrays over joints and bars.
+fn summary(mut answer: Answer) -> Result<String, Failure> {
     let broken =
         |error| Failure::undecided(miette!("the answer cannot be written as JSON: {error}"));
+    for equilibrium in &mut answer.equilibria {
+        // Before they are copied: a million entries each.
+        equilibrium.joints_m.clear();
+        equilibrium.multipliers_n.clear();
+        equilibrium.axial_n.clear();
+    }
     let mut value = serde_json::to_value(answer).map_err(broken)?;
-    if summary && let Some(equilibria) = value["equilibria"].as_array_mut() {
+    if let Some(equilibria) = value["equilibria"].as_array_mut() {
         for equilibrium in equilibria.iter_mut().filter_map(serde_json::Value::as_object_mut) {
             for key in ["joints_m", "multipliers_n", "axial_n"] {
                 equilibrium.remove(key);
@@ -121,17 +156,16 @@ fn json(answer: &Answer, summary: bool) -> Result<String, Failure> {
 
 /// A line per solver and joint: position, force of bar k+1 on bar k (at joint 0 of the ground on bar 1, at
 /// joint n of the ground on bar n), and the axial force of the bar that ends there.
-fn joints_csv(equilibria: &[Equilibrium]) -> String {
-    let mut text = "solver,joint,x_m,y_m,z_m,force_x_n,force_y_n,force_z_n,axial_n\n".to_owned();
+fn write_joints(to: &mut impl Write, equilibria: &[Equilibrium]) -> io::Result<()> {
+    writeln!(to, "solver,joint,x_m,y_m,z_m,force_x_n,force_y_n,force_z_n,axial_n")?;
     for e in equilibria {
         for (k, ([x, y, z], [fx, fy, fz])) in e.joints_m.iter().zip(&e.multipliers_n).enumerate() {
-            // Writing to a String cannot fail.
-            let _ = write!(text, "{},{k},{x:?},{y:?},{z:?},{fx:?},{fy:?},{fz:?},", e.solver);
-            let _ = match k.checked_sub(1).and_then(|bar| e.axial_n.get(bar)) {
-                Some(axial) => writeln!(text, "{axial:?}"),
-                None => writeln!(text),
-            };
+            write!(to, "{},{k},{x:?},{y:?},{z:?},{fx:?},{fy:?},{fz:?},", e.solver)?;
+            match k.checked_sub(1).and_then(|bar| e.axial_n.get(bar)) {
+                Some(axial) => writeln!(to, "{axial:?}")?,
+                None => writeln!(to)?,
+            }
         }
     }
-    text
+    Ok(())
 }

@@ -1,5 +1,6 @@
 //! The walk over the spanned TOML tree: from keys and values to a chain.
 
+use std::error::Error;
 use std::ops::Range;
 use std::path::Path;
 
@@ -21,11 +22,17 @@ const BAR_KEYS: &[&str] = &["length_m", "mass_kg", "centre_m", "inertia_kg_m2", 
 
 const WANTED_BARS: &str = "one or more tables [[bars]] with length_m and mass_kg";
 
+/// Reads bars from a file of another kind than [`columns`](super::columns), for
+/// [`read_problem_with`](super::read_problem_with): `None` if it does not know this kind.
+pub type BarsReader<'a> =
+    &'a dyn Fn(&Path) -> Option<Result<Vec<Bar>, Box<dyn Error + Send + Sync>>>;
+
 /// A text with its name, and the folder it comes from if it comes from one.
 pub(super) struct Source<'a> {
     pub(super) file: &'a str,
     pub(super) text: &'a str,
     pub(super) folder: Option<&'a Path>,
+    pub(super) reader: Option<BarsReader<'a>>,
 }
 
 /// Where things stand, for the refusals that come after reading.
@@ -40,6 +47,8 @@ enum Origin {
     Tables(Vec<(usize, Range<usize>)>),
     /// The value of `bars_file`, and the file.
     File(Range<usize>, Loaded),
+    /// The value of `bars_file`, the file being no text.
+    Foreign(Range<usize>),
 }
 
 impl Source<'_> {
@@ -80,7 +89,10 @@ impl Source<'_> {
             (Origin::File(_, loaded), Some(bar)) => {
                 return Sheet::of(loaded).length_error(Kind::Refused(refusal), bar);
             }
-            (Origin::File(value, _), None) => ("bars_file".to_owned(), value.clone()),
+            // The message says which bar.
+            (Origin::File(value, _), None) | (Origin::Foreign(value), _) => {
+                ("bars_file".to_owned(), value.clone())
+            }
         };
         self.error(Kind::Refused(refusal), Some(key), Some(span))
     }
@@ -112,7 +124,7 @@ impl Source<'_> {
                 ChainError::Overflow { quantity: "span" } => table.error(kind, "end_m"),
                 _ => match &origin {
                     Origin::Tables(_) => root.error(kind, "bars"),
-                    Origin::File(..) => root.error(kind, "bars_file"),
+                    Origin::File(..) | Origin::Foreign(_) => root.error(kind, "bars_file"),
                 },
             }
         })?;
@@ -139,18 +151,22 @@ impl Source<'_> {
             let tables = tables.ok_or_else(|| root.wrong_type("bars", value, WANTED_BARS))?;
             return bars(root, tables);
         };
-        let fail = |kind| Err(root.error(kind, "bars_file"));
+        let error = |kind| root.error(kind, "bars_file");
         if root.get("bars").is_some() {
-            return fail(Kind::Conflict { key: "bars_file", other: "bars" });
+            return Err(error(Kind::Conflict { key: "bars_file", other: "bars" }));
         }
-        let Some(folder) = self.folder else { return fail(Kind::NoFolder) };
+        let Some(folder) = self.folder else { return Err(error(Kind::NoFolder)) };
         let path = folder.join(file);
+        let value = root.get("bars_file").map_or(0..0, Spanned::span);
+        if let Some(bars) = self.reader.and_then(|reader| reader(&path)) {
+            let bars = bars.map_err(|cause| error(Kind::ForeignBars(cause)))?;
+            return Ok((bars, Origin::Foreign(value)));
+        }
         let loaded = match load(&path, MAX_BARS_FILE_BYTES) {
             Ok(loaded) => loaded?,
-            Err(error) => return fail(Kind::UnreadableBars { path, error }),
+            Err(cause) => return Err(error(Kind::UnreadableBars { path, error: cause })),
         };
         let bars = Sheet::of(&loaded).bars()?;
-        let value = root.get("bars_file").map_or(0..0, Spanned::span);
         Ok((bars, Origin::File(value, loaded)))
     }
 }

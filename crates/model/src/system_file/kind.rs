@@ -19,6 +19,9 @@ pub enum SystemFileErrorKind {
         /// Why it cannot be read.
         error: std::io::Error,
     },
+    /// Occurs when the reader of another kind of bars file fails.
+    #[error("{0}")]
+    ForeignBars(Box<dyn std::error::Error + Send + Sync>),
     /// Occurs when `bars_file` stands in a text that was not read from a file.
     #[error("`bars_file` is relative to the system file, and this text was not read from a file")]
     NoFolder,
@@ -190,7 +193,7 @@ impl SystemFileErrorKind {
             }
             Self::Chain(error) => return chain_help(error).map(str::to_owned),
             Self::Refused(refusal) => refusal_help(refusal),
-            Self::WrongType { .. } | Self::Bar(_) => return None,
+            Self::WrongType { .. } | Self::Bar(_) | Self::ForeignBars(_) => return None,
         };
         Some(help.to_owned())
     }

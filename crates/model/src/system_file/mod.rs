@@ -49,7 +49,8 @@
 //!
 //! `bars_file = "bars.csv"` takes the bars from a file of [`columns`]; its path is relative to the folder
 //! of the system file. A million rows are read in a fraction of a second, as `[[bars]]` in seconds. Only
-//! [`read_system`] and [`read_problem`] follow it: parsing a text opens no file.
+//! [`read_system`] and [`read_problem`] follow it: parsing a text opens no file. A program may bring
+//! readers of its own for other kinds of files ([`read_problem_with`]).
 //!
 //! # Refusals
 //!
@@ -85,9 +86,10 @@ mod suggest;
 mod table;
 mod write;
 
+pub use document::BarsReader;
 pub use error::SystemFileError;
 pub use kind::SystemFileErrorKind;
 pub use limits::{MAX_BARS, MAX_BARS_FILE_BYTES, MAX_FILE_BYTES};
 pub use location::Position;
-pub use read::{parse_problem, parse_system, read_problem, read_system};
+pub use read::{parse_problem, parse_system, read_problem, read_problem_with, read_system};
 pub use write::write_system;

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::document::Source;
+use super::document::{BarsReader, Source};
 use super::error::SystemFileError;
 use super::kind::SystemFileErrorKind as Kind;
 use super::limits::MAX_FILE_BYTES;
@@ -17,7 +17,8 @@ use crate::{Chain, Problem};
 pub fn read_system(path: impl AsRef<Path>) -> Result<Chain, SystemFileError> {
     let path = path.as_ref();
     let Loaded { file, text } = open(path)?;
-    Source { file: &file, text: without_mark(&text), folder: path.parent() }.chain()
+    let text = without_mark(&text);
+    Source { file: &file, text, folder: path.parent(), reader: None }.chain()
 }
 
 /// Read a system file that describes an equilibrium problem.
@@ -27,9 +28,23 @@ pub fn read_system(path: impl AsRef<Path>) -> Result<Chain, SystemFileError> {
 /// [`SystemFileError`] with the place and the reason; a [`Refusal`](crate::Refusal) points at the
 /// number it rests on.
 pub fn read_problem(path: impl AsRef<Path>) -> Result<Problem, SystemFileError> {
+    read_problem_with(path, &|_| None)
+}
+
+/// [`read_problem`] for a program that reads bars from more kinds of files than this crate does:
+/// `reader` is asked first for what `bars_file` names.
+///
+/// # Errors
+///
+/// Those of [`read_problem`]; an error of the reader is placed at `bars_file`.
+pub fn read_problem_with(
+    path: impl AsRef<Path>,
+    reader: BarsReader<'_>,
+) -> Result<Problem, SystemFileError> {
     let path = path.as_ref();
     let Loaded { file, text } = open(path)?;
-    Source { file: &file, text: without_mark(&text), folder: path.parent() }.problem()
+    let text = without_mark(&text);
+    Source { file: &file, text, folder: path.parent(), reader: Some(reader) }.problem()
 }
 
 /// Parse the text of a system file; `file` is its name in errors. The bars must stand in the text: no
@@ -49,7 +64,7 @@ pub fn read_problem(path: impl AsRef<Path>) -> Result<Problem, SystemFileError> 
 /// # Ok::<(), model::system_file::SystemFileError>(())
 /// ```
 pub fn parse_system(text: &str, file: &str) -> Result<Chain, SystemFileError> {
-    Source { file, text: without_mark(text), folder: None }.chain()
+    Source { file, text: without_mark(text), folder: None, reader: None }.chain()
 }
 
 /// Parse the text of a system file that describes an equilibrium problem; see [`parse_system`].
@@ -59,7 +74,7 @@ pub fn parse_system(text: &str, file: &str) -> Result<Chain, SystemFileError> {
 /// [`SystemFileError`] with the place and the reason; a [`Refusal`](crate::Refusal) points at the
 /// number it rests on.
 pub fn parse_problem(text: &str, file: &str) -> Result<Problem, SystemFileError> {
-    Source { file, text: without_mark(text), folder: None }.problem()
+    Source { file, text: without_mark(text), folder: None, reader: None }.problem()
 }
 
 fn open(path: &Path) -> Result<Loaded, SystemFileError> {

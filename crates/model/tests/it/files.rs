@@ -3,7 +3,10 @@
 use std::fs;
 use std::path::PathBuf;
 
-use model::system_file::{MAX_FILE_BYTES, SystemFileErrorKind as Kind, read_problem, read_system};
+use model::Bar;
+use model::system_file::{
+    MAX_FILE_BYTES, SystemFileErrorKind as Kind, read_problem, read_problem_with, read_system,
+};
 
 use crate::support::{anchored, barred};
 
@@ -175,5 +178,33 @@ fn errors_about_bars_in_a_file_stand_where_they_belong() {
     );
     let conflict = folder.file("both.toml", barred(WITH_FILE));
     assert!(matches!(read_problem(conflict).unwrap_err().kind(), Kind::Conflict { .. }));
+    folder.done();
+}
+
+#[test]
+fn a_reader_of_another_kind_is_asked_first() {
+    let folder = Folder::new("foreign");
+    let text = "bars_file = \"bars.table\"\n[anchors]\nstart_m = [0, 0, 0]\nend_m = [0, 0, -2]\n";
+    let system = folder.file("system.toml", text);
+    let shown = system.display().to_string();
+    let bar = |length| Bar::homogeneous(length, 1.0).unwrap();
+
+    let read = read_problem_with(&system, &|path| {
+        assert_eq!(path, folder.0.join("bars.table"));
+        Some(Ok(vec![bar(1.0), bar(2.0)]))
+    });
+    assert_eq!(read.unwrap().chain().bars(), [bar(1.0), bar(2.0)]);
+
+    let error = read_problem_with(&system, &|_| Some(Err("row 7 is bad".into()))).unwrap_err();
+    assert_eq!(error.to_string(), format!("{shown}:1:13: bars_file: row 7 is bad"));
+
+    let error = read_problem_with(&system, &|_| Some(Ok(vec![bar(9.0), bar(1.0)]))).unwrap_err();
+    assert!(matches!(error.kind(), Kind::Refused(_)), "{error}");
+    assert_eq!(error.line(), Some("bars_file = \"bars.table\""));
+
+    // A file that it does not know is read as columns.
+    folder.file("bars.table", "length_m,mass_kg\n1,1\n2,1\n");
+    let read = read_problem_with(&system, &|_| None).unwrap();
+    assert_eq!(read.chain().bars(), [bar(1.0), bar(2.0)]);
     folder.done();
 }
