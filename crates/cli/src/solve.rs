@@ -1,6 +1,7 @@
 //! `funicular solve`: one system, both solvers, one verdict.
 
 use std::io::{self, Write};
+use std::num::NonZeroUsize;
 
 use miette::miette;
 use model::{Equilibrium, Problem, SystemSummary};
@@ -96,7 +97,10 @@ fn lagrange_answer(problem: &Problem, system: System) -> Result<Equilibrium, Fai
             .map(|solution| solution.equilibrium)
             .map_err(|error| miette!("lagrange: {error}"))
     } else {
-        lagrange::condensed::solve(problem, &lagrange::condensed::Settings::default())
+        // The bits of the answer do not depend on how many share the work.
+        let processors = std::thread::available_parallelism().unwrap_or(NonZeroUsize::MIN);
+        lagrange::condensed::Solver::with_processors(processors)
+            .solve(problem, &lagrange::condensed::Settings::default())
             .map(|solution| solution.equilibrium)
             .map_err(|error| miette!("lagrange: {error}"))
     };

@@ -66,7 +66,7 @@ impl Condensed {
     }
 
     /// Prepare a chain, and let so many processors share this and all other work on it. Each wants some
-    /// 65,000 bars, or it is not asked.
+    /// 65,000 bars, or it is not asked. The bits of all results are the same for any number of them.
     ///
     /// ```
     /// use lagrange::condensed::Condensed;

@@ -6,7 +6,7 @@
 use std::ops::Range;
 
 use super::sums::Twofold;
-use super::team::{Team, together};
+use super::team::{SHARE, Team};
 
 /// Numbers treated alike in one step of the loop.
 const LANES: usize = 4;
@@ -47,17 +47,14 @@ pub(super) struct Upright {
 pub(super) fn upright(parts: &[Bars<'_>], h: f64, v: f64, team: Team) -> Upright {
     let mut sum = UprightSum::default();
     for part in parts {
-        if team.size() == 1 {
-            sum.take(*part, h, v);
-        } else {
-            let shares = together(team.shares(part.lengths.len()), |share| {
-                let mut sum = UprightSum::default();
-                sum.take(part.share(share), h, v);
-                sum
-            });
-            for share in &shares {
-                sum.merge(share);
-            }
+        if part.lengths.len() <= SHARE {
+            // Nothing to share, and no memory to ask for: short chains take less time than that.
+            sum.merge(&UprightSum::of(*part, h, v));
+            continue;
+        }
+        for share in team.over(part.lengths.len(), |share| UprightSum::of(part.share(share), h, v))
+        {
+            sum.merge(&share);
         }
     }
     Upright { inverse: sum.inverse.value(), rise: sum.rise.value(), ..sum.rest }
@@ -72,13 +69,15 @@ struct UprightSum {
 }
 
 impl UprightSum {
-    fn take(&mut self, bars: Bars<'_>, h: f64, v: f64) {
+    fn of(bars: Bars<'_>, h: f64, v: f64) -> Self {
+        let mut sum = Self::default();
         for (lengths, loads) in bars.lengths.chunks(SPAN).zip(bars.loads.chunks(SPAN)) {
             let block = upright_block(lengths, loads, h * h, v);
-            self.inverse = self.inverse.plus(block.inverse);
-            self.rise = self.rise.plus(block.rise);
-            self.add_rest(&block);
+            sum.inverse = sum.inverse.plus(block.inverse);
+            sum.rise = sum.rise.plus(block.rise);
+            sum.add_rest(&block);
         }
+        sum
     }
 
     fn merge(&mut self, other: &Self) {

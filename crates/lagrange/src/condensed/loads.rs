@@ -28,17 +28,17 @@ pub(super) fn count_from(
 ) {
     let (before, after) = loads.split_at_mut(bottom + 1);
     let (lengths_before, lengths_after) = lengths.split_at(bottom + 1);
+    let mut other = Moments { wanted: moments.wanted, ..Moments::default() };
     if team.size() == 1 {
         count_down(lengths_before, before, moments);
-        count_up(lengths_after, after, moments);
+        count_up(lengths_after, after, &mut other);
     } else {
-        let mut other = Moments { wanted: moments.wanted, ..Moments::default() };
         std::thread::scope(|scope| {
             scope.spawn(|| count_up(lengths_after, after, &mut other));
             count_down(lengths_before, before, moments);
         });
-        moments.merge(&other);
     }
+    moments.merge(&other);
 }
 
 /// Bars after the bottom: the load grows by the joint before each.

@@ -6,7 +6,7 @@ use model::{Bar, Chain};
 
 use super::chain::Units;
 use super::sums::{BLOCK, Twofold};
-use super::team::{Team, split, together};
+use super::team::{Team, run, split, together};
 
 /// The bars as they are read.
 #[derive(Debug, Clone, Default)]
@@ -49,16 +49,18 @@ impl Read {
             self.blocks.reserve(bars.len().div_ceil(BLOCK));
             all.read(units, &mut self.blocks);
         } else {
-            let shares = all.split(&team.shares(bars.len()));
-            let blocks = together(shares, |share| {
+            // For each processor one run of bars: nothing is added up over more than a block here.
+            let runs: Vec<Range<usize>> =
+                team.shares(bars.len()).iter().filter_map(|shares| run(shares)).collect();
+            let blocks = together(all.split(&runs), |share| {
                 let mut blocks = Vec::with_capacity(share.bars.len().div_ceil(BLOCK));
                 share.read(units, &mut blocks);
                 blocks
             });
             self.blocks = blocks.concat();
-            // What the last bar of one share puts on the first joint of the next.
-            for share in team.shares(bars.len()).into_iter().skip(1) {
-                self.loads[share.start] += self.beyond[share.start - 1];
+            // What the last bar of one run puts on the first joint of the next.
+            for run in runs.into_iter().skip(1) {
+                self.loads[run.start] += self.beyond[run.start - 1];
             }
         }
         self.at_start = std::mem::take(&mut self.loads[0]);

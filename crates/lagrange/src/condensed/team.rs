@@ -3,10 +3,10 @@
 use std::num::NonZeroUsize;
 use std::ops::Range;
 
-use super::sums::BLOCK;
-
-/// Bars for which one more processor pays: below, starting it takes as long as what it saves.
-const WORTHWHILE: usize = 64 * 1024;
+/// Bars of one share. Whatever adds up is added up share by share from zero, and the shares in order,
+/// so that the bits of an answer do not depend on how many processors there are. Whole blocks; and about
+/// the fewest bars for which one more processor pays: below, starting it takes as long as what it saves.
+pub(super) const SHARE: usize = 64 * 1024;
 
 /// How many processors work together.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -15,7 +15,7 @@ pub(super) struct Team(NonZeroUsize);
 impl Team {
     /// So many, but no more than a chain of so many bars keeps busy.
     pub fn new(processors: NonZeroUsize, bars: usize) -> Self {
-        let busy = NonZeroUsize::new(bars / WORTHWHILE).unwrap_or(NonZeroUsize::MIN);
+        let busy = NonZeroUsize::new(bars / SHARE).unwrap_or(NonZeroUsize::MIN);
         Self(processors.min(busy))
     }
 
@@ -24,11 +24,29 @@ impl Team {
         self.0.get()
     }
 
-    /// Bars for each, in order, in whole blocks.
-    pub fn shares(self, bars: usize) -> Vec<Range<usize>> {
-        let share = bars.div_ceil(BLOCK).div_ceil(self.size()) * BLOCK;
-        (0..bars).step_by(share).map(|first| first..bars.min(first + share)).collect()
+    /// Shares of the bars in order, for each of the team some consecutive ones.
+    pub fn shares(self, bars: usize) -> Vec<Vec<Range<usize>>> {
+        let shares: Vec<Range<usize>> =
+            (0..bars).step_by(SHARE).map(|first| first..bars.min(first + SHARE)).collect();
+        let each = shares.len().div_ceil(self.size()).max(1);
+        shares.chunks(each).map(<[_]>::to_vec).collect()
     }
+
+    /// Work on all shares, and collect what comes out in their order.
+    pub fn over<R: Send>(
+        self,
+        bars: usize,
+        work: impl Fn(Range<usize>) -> R + Sync,
+    ) -> impl Iterator<Item = R> {
+        let done =
+            together(self.shares(bars), |shares| shares.into_iter().map(&work).collect::<Vec<R>>());
+        done.into_iter().flatten()
+    }
+}
+
+/// Consecutive shares as one.
+pub(super) fn run(shares: &[Range<usize>]) -> Option<Range<usize>> {
+    Some(shares.first()?.start..shares.last()?.end)
 }
 
 /// Do all jobs at the same time, the last on this processor, and collect what they return.
@@ -68,20 +86,23 @@ pub(super) fn split<'a, T, const N: usize>(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::condensed::sums::BLOCK;
 
     #[test]
     fn shares_cover_all_bars_in_order() {
-        for bars in [1, 255, 256, 257, 100_000, 1_000_001] {
+        for bars in [0, 1, 255, 256, 257, 100_000, 1_000_001] {
             for processors in 1..5 {
                 let team = Team(NonZeroUsize::new(processors).unwrap());
-                let shares = team.shares(bars);
-                assert!(shares.len() <= processors);
+                let groups = team.shares(bars);
+                assert!(groups.len() <= processors && groups.iter().all(|g| !g.is_empty()));
                 let mut next = 0;
-                for share in shares {
+                for share in groups.concat() {
                     assert!(share.start == next && share.start % BLOCK == 0 && !share.is_empty());
                     next = share.end;
                 }
                 assert_eq!(next, bars);
+                let firsts: Vec<usize> = team.over(bars, |share| share.start).collect();
+                assert!(firsts.is_sorted());
             }
         }
         assert_eq!(Team::new(NonZeroUsize::new(8).unwrap(), 1000).size(), 1);

@@ -7,7 +7,7 @@ use super::fold::fold;
 use super::pull::{Pull, Signs};
 use super::read::Read;
 use super::sums::{Twofold, running};
-use super::team::together;
+use super::team::{run, together};
 
 /// Bars that are followed in one go.
 const STRETCH: usize = 64;
@@ -47,25 +47,32 @@ pub(super) fn trace<S: Send>(
     let special = Special::new(chain, pull);
     let (team, bars) = (chain.team(), chain.bars());
     let path = Path { chain, force: pull.force, special: &special };
-    let end = if team.size() == 1 {
-        path.follow(0..bars, Walk::default(), |stretch| show(&mut sink, stretch))
+    let groups = team.shares(bars);
+    let end = if groups.len() <= 1 {
+        let shares = groups.into_iter().flatten();
+        shares.fold(Walk::default(), |from, share| {
+            path.follow(share, 0, &from, |stretch| show(&mut sink, stretch))
+        })
     } else {
-        let shares = team.shares(bars);
-        // Where each share begins follows from the lengths of those before it, not yet from their joints.
-        let steps = together(shares[..shares.len() - 1].to_vec(), |share| {
-            path.follow(share, Walk::default(), |_| {})
+        let runs: Vec<Range<usize>> = groups.iter().filter_map(|shares| run(shares)).collect();
+        // Where each begins follows from the steps of those before it, not yet from their joints.
+        let steps = together(groups[..groups.len() - 1].to_vec(), |shares| {
+            let steps =
+                shares.into_iter().map(|share| path.follow(share, 0, &Walk::default(), |_| {}));
+            steps.collect::<Vec<Walk>>()
         });
         let mut from = vec![Walk::default()];
         for step in &steps {
-            from.push(from[from.len() - 1].then(step));
+            from.push(step.iter().fold(from[from.len() - 1], |from, step| from.then(step)));
         }
-        let jobs = shares.iter().cloned().zip(from).zip(split(sink, &shares));
-        let ends = together(jobs, |((share, from), mut sink)| {
-            path.follow(share, from, |stretch| show(&mut sink, stretch))
+        let jobs = groups.into_iter().zip(from).zip(split(sink, &runs));
+        let ends = together(jobs, |((shares, from), mut sink)| {
+            let start = shares.first().map_or(0, |share| share.start);
+            shares.into_iter().fold(from, |from, share| {
+                path.follow(share, start, &from, |stretch| show(&mut sink, stretch))
+            })
         });
-        // The moments count from zero in each share.
-        let moment = ends.iter().fold(Twofold::default(), |sum, end| sum.add(end.moment));
-        ends.last().map_or_else(Walk::default, |last| Walk { moment, ..*last })
+        ends.last().copied().unwrap_or_default()
     };
     let last = [end.along.value(), end.height.value()];
     // V = (W - W_before) D_z - sum b_i l_i u_iz, with the weight W_before between joint 0 and the bottom.
@@ -86,8 +93,11 @@ struct Walk {
 impl Walk {
     /// Where one gets by another walk after this one.
     fn then(&self, other: &Self) -> Self {
-        let (along, height) = (self.along.add(other.along), self.height.add(other.height));
-        Self { along, height, moment: Twofold::default() }
+        Self {
+            along: self.along.add(other.along),
+            height: self.height.add(other.height),
+            moment: self.moment.add(other.moment),
+        }
     }
 }
 
@@ -99,19 +109,24 @@ struct Path<'a> {
 }
 
 impl Path<'_> {
+    /// Follow a share of the bars, and show them: `place` is that of its first bar in the sink.
+    /// Returns where it ends.
     fn follow(
         &self,
-        bars: Range<usize>,
-        mut walk: Walk,
+        share: Range<usize>,
+        place: usize,
+        from: &Walk,
         mut show: impl FnMut(&Stretch<'_>),
     ) -> Walk {
+        let mut walk = Walk::default();
         let Read { lengths, loads, beyond, .. } = &self.chain.read;
         let [h, v] = self.force;
         let mut space = [[0.0; STRETCH]; 4];
-        let arrays = lengths[bars.clone()].chunks(STRETCH).zip(loads[bars.clone()].chunks(STRETCH));
-        let arrays = arrays.zip(beyond[bars.clone()].chunks(STRETCH));
+        let arrays =
+            lengths[share.clone()].chunks(STRETCH).zip(loads[share.clone()].chunks(STRETCH));
+        let arrays = arrays.zip(beyond[share.clone()].chunks(STRETCH));
         for (stretch, ((lengths, loads), beyond)) in arrays.enumerate() {
-            let first = stretch * STRETCH;
+            let first = share.start + stretch * STRETCH;
             let [along, height, axial, vertical] = &mut space;
             let count = lengths.len();
             let (along, height) = (&mut along[..count], &mut height[..count]);
@@ -125,19 +140,20 @@ impl Path<'_> {
                 axial[k] = size;
                 vertical[k] = up + beyond[k];
             }
-            self.special.correct(bars.start + first, along, height, axial);
+            self.special.correct(first, along, height, axial);
             walk.moment = walk.moment.plus(product(loads, height));
             let (dx, dz) = (running(along, 0.0), running(height, 0.0));
-            let (from_x, from_z) = (walk.along.value(), walk.height.value());
+            let (from_x, from_z) =
+                (from.along.add(walk.along).value(), from.height.add(walk.height).value());
             for (x, z) in along.iter_mut().zip(height.iter_mut()) {
                 *x += from_x;
                 *z += from_z;
             }
             walk.along = walk.along.plus(dx);
             walk.height = walk.height.plus(dz);
-            show(&Stretch { first, along, height, axial, vertical });
+            show(&Stretch { first: first - place, along, height, axial, vertical });
         }
-        walk
+        from.then(&walk)
     }
 }
 
