@@ -1,0 +1,135 @@
+//! What can go wrong with columns on disk.
+
+use std::path::{Path, PathBuf};
+
+use model::BarError;
+
+/// Why columns cannot be read or written. Rows are counted from 1, as bars are.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum ColumnsError {
+    /// Occurs when the file cannot be opened, read or written.
+    #[error("{}: {error}", path.display())]
+    File {
+        /// The file.
+        path: PathBuf,
+        /// Why not.
+        error: std::io::Error,
+    },
+    /// Occurs when a folder stands where a file is wanted.
+    #[error("{} is a folder, not a file", path.display())]
+    Folder {
+        /// The folder.
+        path: PathBuf,
+    },
+    /// Occurs when the file holds not a single byte.
+    #[error("{} is empty", path.display())]
+    Empty {
+        /// The file.
+        path: PathBuf,
+    },
+    /// Occurs when the file is no Parquet file, or its end is missing.
+    #[error("{} is not a Parquet file, or not a whole one: {reason}", path.display())]
+    NotParquet {
+        /// The file.
+        path: PathBuf,
+        /// What the reader found.
+        reason: String,
+    },
+    /// Occurs when the file begins and ends as a Parquet file, yet its columns cannot be decoded.
+    #[error("{} is damaged: {reason}", path.display())]
+    Damaged {
+        /// The file.
+        path: PathBuf,
+        /// What the reader found.
+        reason: String,
+    },
+    /// Occurs when a column is in the file that means nothing here.
+    #[error("{}: unknown column `{column}`; allowed are {allowed}", path.display())]
+    UnknownColumn {
+        /// The file.
+        path: PathBuf,
+        /// The column.
+        column: String,
+        /// What may be there.
+        allowed: String,
+    },
+    /// Occurs when a column that must be there is not.
+    #[error("{}: there is no column `{column}`, {meaning}", path.display())]
+    MissingColumn {
+        /// The file.
+        path: PathBuf,
+        /// The column.
+        column: &'static str,
+        /// What it would hold.
+        meaning: &'static str,
+    },
+    /// Occurs when two columns have one name.
+    #[error("{}: there are two columns `{column}`", path.display())]
+    DuplicateColumn {
+        /// The file.
+        path: PathBuf,
+        /// The column.
+        column: String,
+    },
+    /// Occurs when a column holds something else than numbers.
+    #[error("{}: column `{column}` must hold {wanted}, and holds {found}", path.display())]
+    WrongType {
+        /// The file.
+        path: PathBuf,
+        /// The column.
+        column: String,
+        /// The types it may hold.
+        wanted: &'static str,
+        /// The type it holds.
+        found: String,
+    },
+    /// Occurs when a cell that must be there is missing.
+    #[error("{}: row {row}, column `{column}`: there is no number", path.display())]
+    Missing {
+        /// The file.
+        path: PathBuf,
+        /// The row, from 1.
+        row: u64,
+        /// The column.
+        column: &'static str,
+    },
+    /// Occurs when a number cannot be that of a bar.
+    #[error("{}: row {row}, column `{column}`: {error}", path.display())]
+    Bar {
+        /// The file.
+        path: PathBuf,
+        /// The row, from 1.
+        row: u64,
+        /// The column.
+        column: &'static str,
+        /// What is wrong with it.
+        error: BarError,
+    },
+    /// Occurs when there are more rows than a system may have bars.
+    #[error("{}: {rows} bars are more than the {limit} that a system may have", path.display())]
+    TooManyBars {
+        /// The file.
+        path: PathBuf,
+        /// Rows of the file.
+        rows: u64,
+        /// What is allowed.
+        limit: usize,
+    },
+    /// Occurs when there is no row.
+    #[error("{}: there are columns but no bars", path.display())]
+    NoBars {
+        /// The file.
+        path: PathBuf,
+    },
+}
+
+impl ColumnsError {
+    pub(crate) fn file(path: &Path, error: std::io::Error) -> Self {
+        Self::File { path: path.to_owned(), error }
+    }
+
+    pub(crate) fn damaged(path: &Path, reason: &(impl ToString + ?Sized)) -> Self {
+        Self::Damaged { path: path.to_owned(), reason: reason.to_string() }
+    }
+}

@@ -1,0 +1,255 @@
+//! Bars from Parquet files, good and bad. The files are written by the `parquet` crate's own writer.
+
+#![expect(clippy::unwrap_used, reason = "helpers of tests")]
+
+use std::fs::{self, File};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use arrow_array::{
+    ArrayRef, Float32Array, Float64Array, Int16Array, Int64Array, RecordBatch, StringArray,
+    UInt32Array,
+};
+use columns::{ColumnsError, read_bars};
+use model::{Bar, BarError};
+use parquet::arrow::ArrowWriter;
+use parquet::basic::Compression;
+use parquet::file::properties::WriterProperties;
+
+struct Folder(tempfile::TempDir);
+
+impl Folder {
+    fn new() -> Self {
+        Self(tempfile::tempdir().unwrap())
+    }
+
+    fn path(&self) -> PathBuf {
+        self.0.path().join("bars.parquet")
+    }
+
+    fn write(&self, columns: &[(&str, ArrayRef)]) -> PathBuf {
+        self.compressed(columns, Compression::UNCOMPRESSED)
+    }
+
+    fn compressed(&self, columns: &[(&str, ArrayRef)], compression: Compression) -> PathBuf {
+        let batch = RecordBatch::try_from_iter_with_nullable(
+            columns.iter().map(|(n, a)| (*n, a.clone(), true)),
+        )
+        .unwrap();
+        self.batch(&batch, compression)
+    }
+
+    fn batch(&self, batch: &RecordBatch, compression: Compression) -> PathBuf {
+        let properties = WriterProperties::builder().set_compression(compression).build();
+        let file = File::create(self.path()).unwrap();
+        let mut writer = ArrowWriter::try_new(file, batch.schema(), Some(properties)).unwrap();
+        writer.write(batch).unwrap();
+        writer.close().unwrap();
+        self.path()
+    }
+}
+
+fn doubles<const N: usize>(values: [f64; N]) -> ArrayRef {
+    Arc::new(Float64Array::from(values.to_vec()))
+}
+
+fn error(path: impl AsRef<Path>) -> ColumnsError {
+    read_bars(path).unwrap_err()
+}
+
+#[test]
+fn the_columns_come_in_any_order_and_with_gaps_in_the_centres() {
+    let folder = Folder::new();
+    let centres: ArrayRef = Arc::new(Float64Array::from(vec![Some(0.25), None]));
+    let path = folder.write(&[
+        ("centre_m", centres),
+        ("mass_kg", doubles([2.0, 0.0])),
+        ("length_m", doubles([1.0, 0.5])),
+    ]);
+    let inertia = Bar::slender_inertia(1.0, 2.0);
+    let wanted = [Bar::new(1.0, 2.0, 0.25, inertia).unwrap(), Bar::homogeneous(0.5, 0.0).unwrap()];
+    assert_eq!(read_bars(path).unwrap(), wanted);
+}
+
+#[test]
+fn the_numbers_are_of_any_width_and_any_compression() {
+    let columns: [(&str, ArrayRef); 3] = [
+        ("length_m", Arc::new(Int64Array::from(vec![3, 4]))),
+        ("mass_kg", Arc::new(UInt32Array::from(vec![1, 2]))),
+        ("centre_m", Arc::new(Float32Array::from(vec![0.5, 0.75]))),
+    ];
+    for compression in [
+        Compression::UNCOMPRESSED,
+        Compression::SNAPPY,
+        Compression::LZ4,
+        Compression::LZ4_RAW,
+        Compression::ZSTD(parquet::basic::ZstdLevel::default()),
+    ] {
+        let bars = read_bars(Folder::new().compressed(&columns, compression)).unwrap();
+        let found: Vec<_> =
+            bars.iter().map(|b| (b.length_m(), b.mass_kg(), b.centre_m())).collect();
+        assert_eq!(found, [(3.0, 1.0, 0.5), (4.0, 2.0, 0.75)], "{compression:?}");
+    }
+    let narrow: [(&str, ArrayRef); 2] =
+        [("length_m", Arc::new(Int16Array::from(vec![3]))), ("mass_kg", doubles([1.0]))];
+    assert_eq!(read_bars(Folder::new().write(&narrow)).unwrap().len(), 1);
+}
+
+#[test]
+fn bad_cells_are_named_by_row_and_column() {
+    let folder = Folder::new();
+    let cases: [(&str, [f64; 3], &str); 6] = [
+        (
+            "length_m",
+            [1.0, 2.0, f64::NAN],
+            "length of a bar must be positive and finite, got NaN m",
+        ),
+        ("length_m", [1.0, 2.0, 0.0], "must be positive and finite, got 0 m"),
+        ("length_m", [1.0, 2.0, 1e200], "a moment of inertia"),
+        ("mass_kg", [1.0, 2.0, -1.0], "must be zero or positive, and finite, got -1 kg"),
+        ("mass_kg", [1.0, 2.0, f64::INFINITY], "got inf kg"),
+        (
+            "centre_m",
+            [0.1, 0.1, 1.5],
+            "must lie on the bar, between 0 and its length 1 m, got 1.5 m",
+        ),
+    ];
+    for (bad, values, wanted) in cases {
+        let columns = ["length_m", "mass_kg", "centre_m"]
+            .map(|name| (name, if name == bad { doubles(values) } else { doubles([1.0; 3]) }));
+        let error = error(folder.write(&columns));
+        let text = error.to_string();
+        assert!(
+            matches!(&error, ColumnsError::Bar { row: 3, column, .. } if *column == bad),
+            "{error:?}"
+        );
+        assert!(
+            text.contains(&format!("row 3, column `{bad}`: ")) && text.contains(wanted),
+            "{text}"
+        );
+    }
+}
+
+#[test]
+fn a_gap_is_allowed_in_the_centres_alone() {
+    let folder = Folder::new();
+    for bad in ["length_m", "mass_kg"] {
+        let columns = ["length_m", "mass_kg"].map(|name| {
+            let gap = if name == bad { None } else { Some(1.0) };
+            (name, Arc::new(Float64Array::from(vec![Some(1.0), gap])) as ArrayRef)
+        });
+        let error = error(folder.write(&columns));
+        assert!(
+            matches!(&error, ColumnsError::Missing { row: 2, column, .. } if *column == bad),
+            "{error:?}"
+        );
+    }
+}
+
+#[test]
+fn rows_are_counted_across_batches() {
+    let mut lengths = vec![1.0; 100_000];
+    lengths[65_432] = -1.0;
+    let masses: ArrayRef = Arc::new(Float64Array::from(vec![1.0; lengths.len()]));
+    let lengths: ArrayRef = Arc::new(Float64Array::from(lengths));
+    let path = Folder::new();
+    let error = error(path.write(&[("length_m", lengths), ("mass_kg", masses)]));
+    assert!(matches!(error, ColumnsError::Bar { row: 65_433, error: BarError::Length { .. }, .. }));
+}
+
+#[test]
+fn columns_that_do_not_belong_are_refused() {
+    let folder = Folder::new();
+    let one = || doubles([1.0]);
+    let unknown = error(folder.write(&[("length_m", one()), ("mass_kg", one()), ("mass", one())]));
+    assert!(matches!(&unknown, ColumnsError::UnknownColumn { column, .. } if column == "mass"));
+    assert!(unknown.to_string().contains("allowed are length_m, mass_kg, centre_m"));
+
+    let missing = error(folder.write(&[("length_m", one())]));
+    assert!(matches!(missing, ColumnsError::MissingColumn { column: "mass_kg", .. }));
+
+    let text: ArrayRef = Arc::new(StringArray::from(vec!["1.0"]));
+    let wrong = error(folder.write(&[("length_m", one()), ("mass_kg", text)]));
+    assert!(matches!(&wrong, ColumnsError::WrongType { column, found, .. }
+        if column == "mass_kg" && found == "Utf8"));
+
+    let schema = arrow_schema::Schema::new(
+        ["length_m", "mass_kg", "mass_kg"]
+            .map(|n| arrow_schema::Field::new(n, arrow_schema::DataType::Float64, false))
+            .to_vec(),
+    );
+    let batch = RecordBatch::try_new(Arc::new(schema), vec![one(), one(), one()]).unwrap();
+    let twice = error(folder.batch(&batch, Compression::UNCOMPRESSED));
+    assert!(matches!(&twice, ColumnsError::DuplicateColumn { column, .. } if column == "mass_kg"));
+
+    let none = error(folder.write(&[("length_m", doubles([])), ("mass_kg", doubles([]))]));
+    assert!(matches!(none, ColumnsError::NoBars { .. }));
+}
+
+#[test]
+fn what_is_no_parquet_file_is_refused() {
+    let folder = Folder::new();
+    let path = folder.path();
+    assert!(matches!(error(&path), ColumnsError::File { .. }));
+    assert!(matches!(error(folder.0.path()), ColumnsError::Folder { .. }));
+    fs::write(&path, "").unwrap();
+    assert!(matches!(error(&path), ColumnsError::Empty { .. }));
+    for text in ["PAR1", "PAR1PAR1", "length_m,mass_kg\n1,1\n", "PAR1\0\0\0\0\x7f\x7f\x7f\x7fPAR1"]
+    {
+        fs::write(&path, text).unwrap();
+        assert!(matches!(error(&path), ColumnsError::NotParquet { .. }), "{text:?}");
+    }
+}
+
+/// Wherever a file is cut and whatever byte of it is turned, there is an answer or an error.
+#[test]
+fn damage_is_an_error_and_never_a_panic() {
+    let folder = Folder::new();
+    let values: Vec<f64> = (1..=300).map(|k| f64::from(k).sqrt()).collect();
+    let column = || Arc::new(Float64Array::from(values.clone())) as ArrayRef;
+    let level = parquet::basic::ZstdLevel::default();
+    let columns = [("length_m", column()), ("mass_kg", column())];
+    let path = folder.compressed(&columns, Compression::ZSTD(level));
+    let whole = fs::read(&path).unwrap();
+    let good = read_bars(&path).unwrap();
+    for end in (0..whole.len()).step_by(7) {
+        fs::write(&path, &whole[..end]).unwrap();
+        assert!(read_bars(&path).is_err(), "cut at {end}");
+    }
+    let mut refused = 0;
+    for at in 0..whole.len() {
+        for turn in [0x01, 0x80, 0xff] {
+            let mut turned = whole.clone();
+            turned[at] ^= turn;
+            fs::write(&path, &turned).unwrap();
+            refused += usize::from(read_bars(&path).is_err());
+        }
+    }
+    // Without checksums in the file a turned bit of a number is another number; the rest is noticed.
+    assert!(refused > whole.len() / 10, "{refused} of {}", 3 * whole.len());
+    fs::write(&path, &whole).unwrap();
+    assert_eq!(read_bars(&path).unwrap(), good);
+}
+
+/// A million bars, within what a slow machine needs for an unoptimised build: seconds would mean that
+/// something is done per row that should be done per batch.
+#[test]
+fn a_million_rows_are_read() {
+    let values: Vec<f64> = (0..1_000_000).map(|k| 1.0 + f64::from(k) * 1e-6).collect();
+    let column = || Arc::new(Float64Array::from(values.clone())) as ArrayRef;
+    let folder = Folder::new();
+    let path = folder.write(&[
+        ("length_m", column()),
+        ("mass_kg", column()),
+        ("centre_m", doubles_half(&values)),
+    ]);
+    let start = std::time::Instant::now();
+    let bars = read_bars(path).unwrap();
+    println!("{} bars in {:?}", bars.len(), start.elapsed());
+    assert_eq!(bars.len(), 1_000_000);
+    assert_eq!(bars[999_999], Bar::homogeneous(values[999_999], values[999_999]).unwrap());
+}
+
+fn doubles_half(values: &[f64]) -> ArrayRef {
+    Arc::new(Float64Array::from_iter_values(values.iter().map(|x| 0.5 * x)))
+}
