@@ -3,6 +3,11 @@
 use std::fs::File;
 use std::path::Path;
 
+use ::parquet::arrow::arrow_reader::{
+    ArrowReaderMetadata, ArrowReaderOptions, ParquetRecordBatchReaderBuilder,
+};
+use ::parquet::file::FOOTER_SIZE;
+use ::parquet::file::metadata::ParquetMetaDataReader;
 use arrow_array::types::{
     ArrowPrimitiveType, Float32Type, Float64Type, Int8Type, Int16Type, Int32Type, Int64Type,
     UInt8Type, UInt16Type, UInt32Type, UInt64Type,
@@ -11,11 +16,6 @@ use arrow_array::{Array, ArrayRef, RecordBatch, cast::AsArray};
 use arrow_schema::DataType;
 use model::system_file::MAX_BARS;
 use model::{Bar, BarError};
-use parquet::arrow::arrow_reader::{
-    ArrowReaderMetadata, ArrowReaderOptions, ParquetRecordBatchReaderBuilder,
-};
-use parquet::file::FOOTER_SIZE;
-use parquet::file::metadata::ParquetMetaDataReader;
 
 use crate::error::ColumnsError;
 use crate::guard::guarded;
@@ -27,7 +27,7 @@ const COLUMNS: [&str; 3] = [LENGTH, MASS, CENTRE];
 const WANTED: &str = "numbers (floating point of 32 or 64 bits, or integers)";
 
 /// Rows decoded at a time: three columns of them stay in the second-level cache.
-const BATCH_ROWS: usize = 1 << 14;
+pub const BATCH_ROWS: usize = 1 << 14;
 
 /// Read the bars of a Parquet file: the columns `length_m` and `mass_kg`, and if need be `centre_m`, in
 /// any order; a row is a bar, from the start anchor to the end anchor.
@@ -77,7 +77,7 @@ fn decode(path: &Path, file: File) -> Result<Vec<Bar>, ColumnsError> {
 }
 
 /// Open a regular file with something in it.
-fn open(path: &Path) -> Result<File, ColumnsError> {
+pub fn open(path: &Path) -> Result<File, ColumnsError> {
     let io = |error| ColumnsError::file(path, error);
     let file = File::open(path).map_err(io)?;
     let about = file.metadata().map_err(io)?;
@@ -92,7 +92,7 @@ fn open(path: &Path) -> Result<File, ColumnsError> {
 
 /// The description at the end of the file. What a writer says about its own types (`ARROW:schema`) is
 /// left aside: the types of the format itself are enough for numbers.
-fn footer(path: &Path, file: &File) -> Result<ArrowReaderMetadata, ColumnsError> {
+pub fn footer(path: &Path, file: &File) -> Result<ArrowReaderMetadata, ColumnsError> {
     let not = |reason: String| ColumnsError::NotParquet { path: path.to_owned(), reason };
     let length = file.metadata().map_err(|error| ColumnsError::file(path, error))?.len();
     if length < FOOTER_SIZE as u64 {

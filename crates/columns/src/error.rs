@@ -4,6 +4,8 @@ use std::path::{Path, PathBuf};
 
 use model::BarError;
 
+use crate::table::{Mismatch, Schema};
+
 /// Why columns cannot be read or written. Rows are counted from 1, as bars are.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
@@ -84,6 +86,24 @@ pub enum ColumnsError {
         /// The type it holds.
         found: String,
     },
+    /// Occurs when a table to be read back has other columns than it was written with.
+    #[error("{}: the columns are {}, and should be {}", path.display(), found.join(", "), wanted.join(", "))]
+    OtherColumns {
+        /// The file.
+        path: PathBuf,
+        /// The columns it should have.
+        wanted: Vec<String>,
+        /// The columns it has.
+        found: Vec<String>,
+    },
+    /// Occurs when rows to be written are not those of the table.
+    #[error("{}: {error}", path.display())]
+    Mismatch {
+        /// The file.
+        path: PathBuf,
+        /// How they do not fit.
+        error: Mismatch,
+    },
     /// Occurs when a cell that must be there is missing.
     #[error("{}: row {row}, column `{column}`: there is no number", path.display())]
     Missing {
@@ -127,6 +147,11 @@ pub enum ColumnsError {
 impl ColumnsError {
     pub(crate) fn file(path: &Path, error: std::io::Error) -> Self {
         Self::File { path: path.to_owned(), error }
+    }
+
+    pub(crate) fn other_columns(path: &Path, schema: &Schema, found: Vec<String>) -> Self {
+        let wanted = schema.columns.iter().map(|column| column.name.clone()).collect();
+        Self::OtherColumns { path: path.to_owned(), wanted, found }
     }
 
     pub(crate) fn damaged(path: &Path, reason: &(impl ToString + ?Sized)) -> Self {
