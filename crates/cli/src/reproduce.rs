@@ -1,9 +1,6 @@
 //! `funicular reproduce`: the paper, judged.
 
-use energy::example::{Branch, CurvePoint, PAPER_STEP_RAD, ScanMinimum, curve, scan};
 use miette::miette;
-use serde::Serialize;
-use validate::Reproduction;
 use validate::table::csv;
 
 use crate::args::Reproduce;
@@ -12,28 +9,6 @@ use crate::output;
 use crate::progress::Progress;
 use crate::report;
 use crate::verdicts;
-
-/// Points of the closure curve in `results.json`: half a degree of arc or less between neighbours.
-const CURVE_POINTS: usize = 721;
-
-/// What `reproduce --json` prints and `results.json` holds.
-#[derive(Debug, Serialize)]
-struct Results<'a> {
-    #[serde(flatten)]
-    reproduction: &'a Reproduction,
-    figures: Figures,
-}
-
-/// What there is to draw: angles in degrees from the descending vertical, energies in mgl.
-#[derive(Debug, Serialize)]
-struct Figures {
-    /// Closed chains: theta, alpha, beta, V.
-    closure_curve: Vec<[f64; 4]>,
-    /// The points of the paper's scan on each of its two branches: theta, V.
-    scan_points: [Vec<[f64; 2]>; 2],
-    /// The results of the scan, (ix) and (x): theta, alpha, beta, V.
-    scan_results: Vec<[f64; 4]>,
-}
 
 /// Run the command.
 pub fn run(arguments: &Reproduce) -> Result<Exit, Failure> {
@@ -46,8 +21,7 @@ pub fn run(arguments: &Reproduce) -> Result<Exit, Failure> {
         .map_err(|error| Failure::undecided(miette!("{error}")))?;
     drop(progress);
     let json = || {
-        let results = Results { reproduction: &reproduction, figures: figures() };
-        serde_json::to_string_pretty(&results)
+        serde_json::to_string_pretty(&reproduction)
             .map(|text| text + "\n")
             .map_err(|error| Failure::undecided(miette!("the results cannot be written: {error}")))
     };
@@ -68,28 +42,4 @@ pub fn run(arguments: &Reproduce) -> Result<Exit, Failure> {
         }
     }
     Ok(if reproduction.all_as_expected { Exit::Done } else { Exit::CheckFailed })
-}
-
-fn figures() -> Figures {
-    let point = |theta: f64, alpha: f64, beta: f64, energy: f64| {
-        [theta.to_degrees(), alpha.to_degrees(), beta.to_degrees(), energy]
-    };
-    let on_curve = |p: &CurvePoint| point(p.theta_rad, p.alpha_rad, p.beta_rad, p.energy_mgl);
-    let result = |m: &ScanMinimum| point(m.theta_rad, m.alpha_rad, m.beta_rad, m.energy_mgl);
-    let found = scan(PAPER_STEP_RAD);
-    let points = found.as_ref().map_or(0, |found| found.first.points);
-    let scanned = |branch: Branch| {
-        (1..=points)
-            .filter_map(|k| {
-                let theta = k as f64 * PAPER_STEP_RAD;
-                let alpha = energy::example::alpha(theta, branch)?;
-                Some([theta.to_degrees(), energy::example::potential(theta, alpha)])
-            })
-            .collect()
-    };
-    Figures {
-        closure_curve: curve(CURVE_POINTS).iter().map(on_curve).collect(),
-        scan_points: Branch::BOTH.map(scanned),
-        scan_results: found.iter().flat_map(|f| [result(&f.first), result(&f.second)]).collect(),
-    }
 }

@@ -1,6 +1,6 @@
 //! Two answers held against each other, and each against Newton's laws.
 
-use model::{Chain, Equilibrium, Problem, Rung, Vector};
+use model::{Bar, Chain, Equilibrium, Problem, Rung, Vector};
 use serde::Serialize;
 
 use crate::books::{Books, books};
@@ -20,6 +20,9 @@ pub struct Agreement {
     /// With both anchors on one vertical every turn about it is an equilibrium too: the angle by
     /// which the second answer was turned onto the first before the comparison, rad.
     pub turned_rad: Option<f64>,
+    /// Joints without load between bars without force, in both answers: they may be anywhere that
+    /// the lengths of the bars allow, so their places are judged by Newton's laws alone.
+    pub free_joints: usize,
     /// Violations of Newton's laws by each answer.
     pub statics: [Statics; 2],
     /// Whether the other numbers of each answer follow from its joints and forces.
@@ -149,8 +152,15 @@ fn differences(chain: &Chain, answers: &[Equilibrium; 2], tolerances: &Tolerance
     let turned = |[x, y, z]: Vector| [cos * x - sin * y, sin * x + cos * y, z];
     let place = |joint: &Vector| std::array::from_fn(|k| joint[k] - origin[k]);
 
-    let joints_m =
-        largest(&first.joints_m, &second.joints_m, |a, b| distance(place(a), turned(place(b))));
+    let free = free_joints(chain, answers, tolerances.forces.value * units.force_n);
+    let held = |joints_m: &[Vector], k: usize| if free[k] { origin } else { joints_m[k] };
+    let joints_m = if answers.iter().all(|answer| answer.joints_m.len() == free.len()) {
+        let pairs = (0..free.len()).map(|k| [held(&first.joints_m, k), held(&second.joints_m, k)]);
+        worst(pairs.map(|[a, b]| distance(place(&a), turned(place(&b)))))
+    } else {
+        f64::NAN
+    };
+    let free_joints = free.iter().filter(|free| **free).count();
     let forces_n =
         largest(&first.multipliers_n, &second.multipliers_n, |a, b| distance(*a, turned(*b)));
     let energy_j = (first.energy_j - second.energy_j).abs();
@@ -193,7 +203,40 @@ fn differences(chain: &Chain, answers: &[Equilibrium; 2], tolerances: &Tolerance
         ));
     }
     let verdict = if reasons.is_empty() { Verdict::Agreed } else { Verdict::Disagreed };
-    Agreement { joints_m, forces_n, energy_j, turned_rad, statics, books, verdict, reasons }
+    Agreement {
+        joints_m,
+        forces_n,
+        energy_j,
+        turned_rad,
+        free_joints,
+        statics,
+        books,
+        verdict,
+        reasons,
+    }
+}
+
+/// A joint with less than this part of the total weight carries no load: a rounding of the weight.
+const NO_LOAD: f64 = f64::EPSILON;
+
+/// Which joints 0..=n carry no load and lie between bars that carry no force in either answer: an
+/// equilibrium does not say where such a joint is. Where a joint without load lies between bars with
+/// force, the two are parallel, and it is held.
+fn free_joints(chain: &Chain, answers: &[Equilibrium; 2], no_force_n: f64) -> Vec<bool> {
+    let bars = chain.bars();
+    let mut free = vec![false; bars.len() + 1];
+    let no_load_kg = NO_LOAD * chain.total_mass_kg();
+    // What of a bar's mass its second end carries.
+    let beyond = |bar: &Bar| bar.mass_kg() * (bar.centre_m() / bar.length_m());
+    for k in 1..bars.len() {
+        let load_kg = beyond(&bars[k - 1]) + (bars[k].mass_kg() - beyond(&bars[k]));
+        // Arrays that do not fit, and NaN, free nothing.
+        let limp = |bar: usize| {
+            answers.iter().all(|a| a.axial_n.get(bar).is_some_and(|n| n.abs() <= no_force_n))
+        };
+        free[k] = load_kg <= no_load_kg && limp(k - 1) && limp(k);
+    }
+    free
 }
 
 /// Whether the chain turns freely about the vertical through both anchors.

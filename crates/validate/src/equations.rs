@@ -75,7 +75,10 @@ pub struct EquationAudit {
     pub what: &'static str,
     /// What the two residuals measure, with the unit.
     pub measure: &'static str,
-    /// Residual of the equation as printed; 0 for a definition.
+    /// Whether the residuals count something; otherwise 0 means rounding.
+    pub counts: bool,
+    /// Residual of the equation as printed; for a definition what [`measure`](Self::measure) says of
+    /// what it defines.
     pub as_printed: f64,
     /// Residual of the corrected equation.
     pub as_corrected: Option<f64>,
@@ -86,13 +89,14 @@ pub struct EquationAudit {
 }
 
 impl EquationAudit {
-    /// A row that claims nothing yet: a definition.
+    /// A row that says nothing yet.
     fn new(number: &'static str, section: &'static str, what: &'static str) -> Self {
         Self {
             number,
             section,
             what,
-            measure: "a definition: nothing to measure",
+            measure: "nothing measured",
+            counts: false,
             as_printed: 0.0,
             as_corrected: None,
             corrected: "",
@@ -106,6 +110,19 @@ impl EquationAudit {
         self.as_printed = as_printed;
         self.verdict =
             if as_printed.abs() <= tolerance { Verdict::Holds } else { Verdict::Refuted };
+        self
+    }
+
+    /// A count that has to be 0, as [`measured`](Self::measured) without rounding.
+    fn counted(self, measure: &'static str, as_printed: f64) -> Self {
+        Self { counts: true, ..self.measured(measure, as_printed, ROUNDING) }
+    }
+
+    /// A definition that the program uses as it is printed, to the number just measured.
+    fn definition(mut self) -> Self {
+        if self.verdict == Verdict::Holds {
+            self.verdict = Verdict::Definition;
+        }
         self
     }
 

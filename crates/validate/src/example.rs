@@ -1,5 +1,6 @@
 //! The paper's example (section VIII) solved by everyone: what the claims are judged by.
 
+use census::Census;
 use energy::example::{ExampleMinimum, PAPER_STEP_RAD, Scan, scan};
 use lagrange::Seed;
 use model::{Equilibrium, Problem, Vector};
@@ -27,6 +28,9 @@ pub enum ExampleError {
     /// Occurs when a convex programme is not solved.
     #[error("bounds: {0}")]
     Bounds(#[from] energy::bound::BoundError),
+    /// Occurs when the census refuses the example.
+    #[error("census: {0}")]
+    Census(#[from] census::CensusError),
     /// Occurs when the scan has no point.
     #[error("the scan of the paper has no point")]
     Scan,
@@ -149,6 +153,8 @@ pub struct Example {
     pub lagrange: ByLagrange,
     /// What `energy` has to say.
     pub energy: ByEnergy,
+    /// All equilibria, with proof.
+    pub census: Census,
 }
 
 impl Example {
@@ -172,7 +178,8 @@ impl Example {
             e2_mirrored: find("E2'", NEAR_E2.map(|x| -x))?,
         };
         let energy = Self::by_energy(&problem, units, &lagrange)?;
-        Ok(Self { problem, units, lagrange, energy })
+        let census = Census::take(&problem, &census::Settings::default())?;
+        Ok(Self { problem, units, lagrange, energy, census })
     }
 
     fn by_energy(

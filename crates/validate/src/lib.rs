@@ -8,11 +8,15 @@
 
 pub mod books;
 pub mod bounds;
+pub mod census_checks;
 pub mod certificate;
 pub mod claims;
 pub mod compare;
+pub mod completeness;
+mod completeness_slope;
 pub mod equations;
 pub mod example;
+pub mod figures;
 pub mod independence;
 pub mod paper;
 pub mod reproduction;

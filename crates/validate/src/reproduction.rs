@@ -2,13 +2,15 @@
 
 use std::time::Instant;
 
-use model::{Stability, cases};
+use model::{Equilibrium, Rung, Stability, Statement, cases};
 use serde::Serialize;
 
 use crate::bounds::Bounds;
 use crate::claims::{Claim, Verdict, claims};
+use crate::compare::{compare, judge_alone};
 use crate::equations::{self, E1State, EquationAudit, audit};
 use crate::example::{Example, ExampleError};
+use crate::figures::Figures;
 use crate::paper::Paper;
 use crate::seeds::{SEEDS, Survey, surveys};
 use crate::table::{CaseResult, Row, table};
@@ -36,6 +38,8 @@ pub struct Reproduction {
     pub cases: Vec<CaseResult>,
     /// Both solvers from many random seeds.
     pub seeds: Vec<Survey>,
+    /// What there is to draw.
+    pub figures: Figures,
     /// The same in a few numbers.
     pub summary: Summary,
     /// Whether every verdict is the expected one and every case agrees.
@@ -60,10 +64,14 @@ pub struct Position {
     pub energy_mgl: Option<f64>,
     /// Reactions and joint forces at O, A, B, D, mg: horizontal and vertical.
     pub forces_mg: [[f64; 2]; 4],
+    /// Axial forces of OA, AB, BD, mg, tension positive.
+    pub axial_mg: [f64; 3],
     /// Second-order behaviour.
     pub stability: Stability,
     /// Nullity of the Jacobian of the 30 equations.
     pub nullity: usize,
+    /// How far it is proved: one statement for each rung of the ladder.
+    pub ladder: Vec<Statement>,
 }
 
 /// The reproduction in a few numbers.
@@ -145,6 +153,7 @@ pub fn reproduce_with(
         equations,
         cases,
         seeds,
+        figures: Figures::compute(&example.problem, &example.energy.scan),
         summary,
         seconds: clock.elapsed().as_secs_f64(),
     })
@@ -158,9 +167,10 @@ fn e1_state(example: &Example) -> E1State {
 }
 
 fn positions(example: &Example) -> Vec<Position> {
+    let by_energy = &example.energy;
     let energy = [
-        Some(example.by_energy_e1()),
-        Some(example.by_energy_in_plane(&example.energy.e1_mirrored)),
+        Some((example.by_energy_e1(), &by_energy.e1)),
+        Some((example.by_energy_in_plane(&by_energy.e1_mirrored), &by_energy.e1_mirrored)),
         None,
         None,
     ];
@@ -169,6 +179,7 @@ fn positions(example: &Example) -> Vec<Position> {
         .zip(example.lagrange.all())
         .zip(energy)
         .map(|((name, found), energy)| {
+            let (energy, answer) = energy.unzip();
             let lagrange = example.by_lagrange(found);
             Position {
                 name,
@@ -177,11 +188,40 @@ fn positions(example: &Example) -> Vec<Position> {
                 lagrange_mgl: lagrange.v_mgl,
                 energy_mgl: energy.map(|found| found.v_mgl),
                 forces_mg: lagrange.forces_mg.map(|[_, y, z]| [y, z]),
+                axial_mg: std::array::from_fn(|bar| {
+                    found.equilibrium.axial_n[bar] / example.units.mg_n
+                }),
                 stability: found.equilibrium.stability,
                 nullity: found.nullity,
+                ladder: ladder(example, &found.equilibrium, answer),
             }
         })
         .collect()
+}
+
+/// How far an equilibrium is proved by both solvers, the statics judge and the certificate; by the
+/// statics judge and the certificate alone where `energy`, which looks for minima, has no answer.
+fn ladder(
+    example: &Example,
+    found: &Equilibrium,
+    answer: Option<&energy::Solution>,
+) -> Vec<Statement> {
+    let mut found = found.clone();
+    if let Some(answer) = answer {
+        let mut both = [found, answer.equilibrium.clone()];
+        let _ = compare(&example.problem, &mut both, &Tolerances::project());
+        let [judged, _] = both;
+        return judged.evidence.ladder().to_vec();
+    }
+    let balance = judge_alone(&example.problem, &mut found).largest();
+    found.evidence.miss(
+        Rung::Agreed,
+        format!(
+            "energy looks for minima and has no answer here; the statics judge finds every bar in \
+             balance to {balance:.1e}"
+        ),
+    );
+    found.evidence.ladder().to_vec()
 }
 
 impl Summary {

@@ -134,7 +134,15 @@ pub(super) fn rows() -> Vec<EquationAudit> {
                 ROUNDING,
             ),
     );
-    rows.push(EquationAudit::new("(21)", "IV", "the vector of 18 coordinates"));
+    let coordinates = lagrange::load_vector(model::cases::paper().chain()).len();
+    rows.push(
+        EquationAudit::new("(21)", "IV", "the vector of 18 coordinates")
+            .counted(
+                "entries of lagrange's load vector, one per coordinate, less 18",
+                coordinates as f64 - 18.0,
+            )
+            .definition(),
+    );
     rows.push(
         EquationAudit::new("(22)", "IV", "the matrix of constraints is the derivative of (7)-(20), with (18)-(20) corrected")
             .measured(

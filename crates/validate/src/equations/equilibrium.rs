@@ -67,7 +67,7 @@ pub(super) fn counted() -> Vec<EquationAudit> {
             "abstract",
             "a system of 18 non-linear equations gives equilibria and reactions",
         )
-        .measured("equations less unknowns of the whole system", 18.0 - size, ROUNDING)
+        .counted("equations less unknowns of the whole system", 18.0 - size)
         .corrected(
             "30 equations, as section VII says: 18 of (40) and 12 constraint functions",
             30.0 - size,
@@ -98,7 +98,7 @@ pub(super) fn rows(e1: &E1State) -> Vec<EquationAudit> {
             "VII",
             "21 unknowns of (40); with the constraints 30 equations for 30 unknowns",
         )
-        .measured("differences of the counts", largest([unknowns, all]), ROUNDING),
+        .counted("differences of the counts", largest([unknowns, all])),
     ]
 }
 
@@ -112,14 +112,14 @@ pub(super) fn citations(last_number: u32) -> [EquationAudit; 2] {
             "VII",
             "cites the moving equation as (45), which does not exist",
         )
-        .measured(measure, beyond(45), ROUNDING)
+        .counted(measure, beyond(45))
         .corrected("(33)", beyond(33), ROUNDING),
         EquationAudit::new(
             "after (41)",
             "VII",
             "cites the system of equations as (52), which does not exist",
         )
-        .measured(measure, beyond(52), ROUNDING)
+        .counted(measure, beyond(52))
         .corrected("(40)", beyond(40), ROUNDING),
     ]
 }
@@ -130,6 +130,6 @@ pub(super) fn coordinates(e1: &E1State) -> EquationAudit {
     // In the plane OXZ, theta alone tells the direction: u = (cos(theta), 0, -sin(theta)).
     let in_oxz = e1.angles().map(|angle| [0.0, FRAC_PI_2 - angle, 0.0]);
     EquationAudit::new("before (xi)", "VIII", "psi_i = 0, theta_i = pi/2 in the plane OYZ is gimbal lock: psi_i and phi_i turn about one axis")
-        .measured("singular matrices [Q_i] at E1, and with them a singular matrix of (33)", singular(in_oyz), ROUNDING)
+        .counted("singular matrices [Q_i] at E1, and with them a singular matrix of (33)", singular(in_oyz))
         .corrected("the plane OXZ: psi_i = phi_i = 0, theta_i the angle from the level", singular(in_oxz), ROUNDING)
 }

@@ -224,15 +224,37 @@ fn velocities() -> Vec<EquationAudit> {
     ]
 }
 
+/// First moment of a homogeneous bar about its centre of weight, and the differences of its second
+/// moments from `model`'s, over ml and ml²: the worst of the example's bars.
+fn moments() -> (f64, f64) {
+    // Two points of Gauss are exact for squares.
+    let at = 1.0 / 12.0_f64.sqrt();
+    let paper = model::cases::paper();
+    let of = paper.chain().bars().iter().map(|bar| {
+        let (l, m) = (bar.length_m(), bar.mass_kg());
+        let x = [0.5 - at, 0.5 + at].map(|share| share - bar.centre_m() / l);
+        let second = f64::midpoint(x[0] * x[0], x[1] * x[1]);
+        let [j_x, j_y, j_z] = bar.inertia_kg_m2().map(|j| j / (m * l * l));
+        (f64::midpoint(x[0], x[1]), largest([j_x, j_y - second, j_z - second]))
+    });
+    let (first, second): (Vec<_>, Vec<_>) = of.unzip();
+    (largest(first), largest(second))
+}
+
 /// What follows from axes through the centre of weight: (26)-(30).
 fn static_moments() -> Vec<EquationAudit> {
+    let (of_first, of_second) = moments();
     let moment_error = worst(|rng| {
         let (centre, v) = (signed(rng), signed(rng));
         (static_moment(1.0, &centre) * v - centre.cross(&v)).largest_entry()
     });
     vec![
-        EquationAudit::new("(26)", "V", "the principal moments of inertia"),
-        EquationAudit::new("(27)", "V", "the bar's axes start at its centre of weight"),
+        EquationAudit::new("(26)", "V", "the principal moments of inertia")
+            .measured("largest difference of model's moments of the example's bars from integrals over their length, ml^2", of_second, ROUNDING)
+            .definition(),
+        EquationAudit::new("(27)", "V", "the bar's axes start at its centre of weight")
+            .measured("first moment of the example's bars about model's centres, an integral over their length, ml", of_first, ROUNDING)
+            .definition(),
         EquationAudit::new(
             "(28)",
             "V",

@@ -154,7 +154,7 @@ fn relations(e1: &E1State) -> Vec<EquationAudit> {
             ),
         EquationAudit::new("(vii)", "VIII", "(iii) and (iv) solved for beta").measured(configurations, squared, ROUNDING),
         EquationAudit::new("(vii)", "VIII", "is printed with the number (viii), which the next equation has too")
-            .measured("equations numbered (viii) less one", repeated(&["(viii)", "(viii)"]), ROUNDING)
+            .counted("equations numbered (viii) less one", repeated(&["(viii)", "(viii)"]))
             .corrected("(vii)", repeated(&["(vii)", "(viii)"]), ROUNDING),
         EquationAudit::new("(viii)", "VIII", "(vii) squared and summed, squared once more to be rid of sin(alpha)")
             .measured(

@@ -165,6 +165,10 @@ fn columns_too_many(bracket: bool) -> f64 {
 pub(super) fn rows() -> Vec<EquationAudit> {
     let paper = model::cases::paper();
     let load = lagrange::load_vector(paper.chain());
+    let at_rest = worst(|rng| {
+        let (q, j) = (angles(rng), Vector3::from(positive(rng)));
+        bracketed(q, &Vector3::zeros(), &j, false).largest_entry()
+    });
     let weights = paper.chain().bars().iter().enumerate().map(|(bar, of)| {
         let weight = of.mass_kg() * paper.chain().gravity_m_s2();
         (load.fixed_rows::<3>(6 * bar) / weight - Vector3::new(0.0, 0.0, -1.0)).largest_entry()
@@ -181,19 +185,23 @@ pub(super) fn rows() -> Vec<EquationAudit> {
             )
             .corrected("-[dB/dt]{q'}", lower_rows(false), NUMERIC),
         EquationAudit::new("(33)", "VI", "the matrix on the left lacks its lower rows [B] [0]")
-            .measured("unknowns less equations", missing_rows(false), ROUNDING)
+            .counted("unknowns less equations", missing_rows(false))
             .corrected("[[M], -[B]^T; [B], [0]], 30 rows for 30 unknowns", missing_rows(true), ROUNDING),
-        EquationAudit::new("(34)", "VI", "the generalised force: force, then moment"),
+        EquationAudit::new("(34)", "VI", "the generalised force: force, then moment")
+            .counted("entries of lagrange's load vector less 3 + 3 for each bar", load.len() as f64 - 6.0 * paper.chain().bars().len() as f64)
+            .definition(),
         EquationAudit::new("(35)", "VI", "the weight acts along -Z")
             .measured("largest difference from lagrange's load vector, mg", weight_error, ROUNDING),
         EquationAudit::new("(36)", "VI", "a weight at the centre has no moment about it")
             .measured("largest entry of lagrange's load vector, N m", couples, ROUNDING),
-        EquationAudit::new("(37)", "VI", "the generalised force of inertia: force, then moment"),
+        EquationAudit::new("(37)", "VI", "the generalised force of inertia: force, then moment")
+            .measured("largest entry at rest, where section VII leaves it out: (39) corrected without rates, 1000 random states", at_rest, ROUNDING)
+            .definition(),
         EquationAudit::new("(38)", "VI", "no bracket before the column of angle rates: a matrix is added to a column (the value 0 is right)")
-            .measured(columns, columns_too_many(false), ROUNDING)
+            .counted(columns, columns_too_many(false))
             .corrected("-([A][S]^T[Q'] + [A'][S]^T[Q]){psi' theta' phi'}", columns_too_many(true), ROUNDING),
         EquationAudit::new("(39)", "VI", "no bracket before the column of angle rates: a matrix is added to a column")
-            .measured(columns, columns_too_many(false), ROUNDING)
+            .counted(columns, columns_too_many(false))
             .corrected("-([Q]^T[J][Q'] + [Q]^T[omega][J][Q]){psi' theta' phi'}", columns_too_many(true), ROUNDING),
         EquationAudit::new("(39)", "VI", "[Q']^T for [Q]^T in front of [omega], even with the bracket: 1/s^3 added to 1/s^2")
             .measured(GYROSCOPIC, gyroscopic_error(true), NUMERIC)

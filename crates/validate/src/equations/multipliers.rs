@@ -203,7 +203,7 @@ fn reduced(e1: &E1State) -> Vec<EquationAudit> {
             .measured("residual at E1, mg", at_d, SOLVED)
             .corrected(whole, at_b + at_d, SOLVED),
         EquationAudit::new("(xxiv)-(xxvi)", "VIII", "the split makes it one equation more than unknowns")
-            .measured("equations less unknowns", others + 2.0 - unknowns, ROUNDING)
+            .counted("equations less unknowns", others + 2.0 - unknowns)
             .corrected("11 equations in 8 multipliers and 3 angles", others + 1.0 - unknowns, ROUNDING),
     ]
 }
