@@ -45,9 +45,11 @@ const FIRST_DAMPING: f64 = 0.1;
 const DAMPING_FACTOR: f64 = 10.0;
 
 /// Eigenvalues of `spread` below this part of the largest are zero: no pull moves the last joint
-/// that way. Sums of squares of angles in a frame along the line of the bars keep their digits, so
-/// only the rounding of the directions themselves is cut.
-pub(crate) const LOST_SPREAD: f64 = f64::EPSILON;
+/// that way. Sums of squares of angles in a frame along the line of the bars keep their digits; what
+/// is cut is what the rounding of the lengths can bend a straight chain by. Angles `a_i` take
+/// `sum l_i a_i²/2` off its length, so this must be at most twice the slack of the tautest chain that
+/// is a problem.
+pub(crate) const LOST_SPREAD: f64 = model::STRAIGHT_TOLERANCE;
 
 /// Angle by which bars on one straight line are turned off it, alternately, rad.
 const NUDGE: f64 = 0.05;

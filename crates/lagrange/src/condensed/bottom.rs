@@ -104,6 +104,12 @@ impl Bottom {
         Self { group, length, longest, shortest_reach, gap }
     }
 
+    /// How far the group is from straight when its ends are `gap` apart: from stretched out, or from
+    /// folded on its longest bar. Negative when it cannot be.
+    pub fn room(&self, gap: f64) -> f64 {
+        (self.length - gap).min(gap - self.shortest_reach)
+    }
+
     /// What holds the bottom when the anchors are `across` apart horizontally.
     pub fn hold(&self, across: f64, total_length: f64) -> Hold {
         let gap = across.hypot(self.gap);

@@ -126,7 +126,7 @@ impl Condensed {
             Hold::Tension => self.in_tension(enough, &mut passes),
             Hold::Compression => self.in_compression(enough, &mut passes),
             Hold::Loose => Some(self.loose()),
-            Hold::Meeting => Some(self.meeting()),
+            Hold::Meeting => self.meeting(&mut passes),
         };
         let pull =
             found.ok_or(CondensedError::NotClosed { closure: f64::NAN, passes: passes.spent })?;
@@ -195,18 +195,42 @@ impl Condensed {
         Pull::new(self, self.span.level, [0.0; 2], signs, [0.0; 3], 0)
     }
 
-    /// Two strands that just meet share the weight of the joint where they do in any way they like;
-    /// they share it evenly.
-    fn meeting(&self) -> Pull {
+    /// Two strands that just meet share the weight of the joint where they do in any way they like.
+    /// The answer is the limit of anchors that are moved apart a little: a horizontal pull H turns
+    /// bar i off the vertical by $H/|F_i|$, which takes $l_i H^2/(2 F_i^2)$ off its height, and both
+    /// strands must lose the same,
+    ///
+    /// $$ \sum_i l_i\, \mathrm{sign}(F_i)/F_i^2 = 0, $$
+    ///
+    /// a monotone function of the force at the bottom, with a pole at either end of its range.
+    fn meeting(&self, passes: &mut Passes) -> Option<Pull> {
         let Bottom { group, gap, .. } = &self.bottom;
         let load = if *gap < 0.0 {
             self.read.loads.get(group.end).copied()
         } else {
             group.start.checked_sub(1).map(|k| self.read.loads[k])
         };
-        let force = [0.0, -0.5 * load.unwrap_or(0.0)];
+        let end = -load.unwrap_or(0.0);
+        let range = Bracket { low: end.min(0.0), high: end.max(0.0) };
+        let read = &self.read;
+        let vertical = range.root(0.5 * end, end.abs(), 0.0, |vertical| {
+            if !passes.spend() {
+                return None;
+            }
+            // In units of the range: a square of a small force would underflow.
+            let terms = || {
+                read.lengths.iter().zip(&read.loads).map(|(length, load)| {
+                    let force = (vertical + load) / end.abs();
+                    (length / force.abs(), force)
+                })
+            };
+            let lost = model::sum(terms().map(|(turn, force)| turn / force));
+            let slope = 2.0 * terms().map(|(turn, force)| turn / (force * force)).sum::<f64>();
+            Some((-lost, slope / end.abs()))
+        });
+        let force = [0.0, vertical?];
         let jacobian = self.upright(self.all(), 0.0).closure(force).jacobian;
-        Pull::new(self, self.span.level, force, Signs::Tension, jacobian, 1)
+        Some(Pull::new(self, self.span.level, force, Signs::Tension, jacobian, passes.spent))
     }
 
     fn found(&self, force: [f64; 2], signs: Signs, root: &Root, passes: &Passes) -> Pull {

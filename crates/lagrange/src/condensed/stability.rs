@@ -22,6 +22,10 @@ use super::pull::{Pull, Signs};
 /// A pivot this small beside the terms of which it is the difference is zero.
 const ZERO: f64 = 1e-12;
 
+/// Loose bars with less room than this, in total lengths, between them and a straight line are straight:
+/// their directions, like the square root of it, are within 1e-6 of one line.
+const STRAIGHT: f64 = 1e-12;
+
 /// Stability, dimension of the null space of the closure's derivative in space, and its condition.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct SecondOrder {
@@ -32,8 +36,8 @@ pub(super) struct SecondOrder {
 
 /// Second order of an equilibrium.
 pub(super) fn second_order(chain: &Condensed, pull: &Pull) -> SecondOrder {
-    if let Signs::Loose(_) = pull.signs {
-        return loose();
+    if let Signs::Loose(bars) = &pull.signs {
+        return loose(chain, bars.len());
     }
     let compressed = match &pull.signs {
         Signs::Tension | Signs::Loose(_) => 0,
@@ -41,7 +45,12 @@ pub(super) fn second_order(chain: &Condensed, pull: &Pull) -> SecondOrder {
         Signs::Listed(signs) => signs.iter().filter(|compressed| **compressed).count(),
     };
     let [first, second] = pull.pivots;
-    let degenerate = second.abs() <= ZERO * pull.remainder_of || first.abs() <= f64::MIN_POSITIVE;
+    let freedoms = chain.bars() - 2;
+    // With every bar in tension the diagonal is positive, however singular the closure; and what
+    // cannot move has nothing that could vanish.
+    let degenerate = compressed > 0
+        && freedoms > 0
+        && (second.abs() <= ZERO * pull.remainder_of || first.abs() <= f64::MIN_POSITIVE);
     let positive = [first, second].iter().filter(|pivot| **pivot > 0.0).count();
     let positive = if degenerate { usize::from(first > 0.0) } else { positive };
     let horizontal = chain.across_in(pull.level) / pull.force[0];
@@ -52,7 +61,6 @@ pub(super) fn second_order(chain: &Condensed, pull: &Pull) -> SecondOrder {
     let index_in_plane = (compressed + positive).saturating_sub(2);
     let index_out_of_plane = (compressed + usize::from(towards)).saturating_sub(1);
     let index_in_space = index_in_plane + index_out_of_plane;
-    let freedoms = chain.bars() - 2;
     let stability = Stability {
         in_plane: match index_in_plane {
             _ if degenerate => InPlane::Degenerate,
@@ -76,17 +84,24 @@ pub(super) fn second_order(chain: &Condensed, pull: &Pull) -> SecondOrder {
     }
 }
 
-/// Bars without force can be moved at no cost: the least energy, and not only here.
-fn loose() -> SecondOrder {
+/// Bars without force, all others in tension: the least energy, and not only here. What moves at no
+/// cost moves the loose bars alone, as far as they keep their ends where they are: two conditions in
+/// the plane (one where they are straight) and one out of it.
+fn loose(chain: &Condensed, bars: usize) -> SecondOrder {
+    let gap = chain.span.across.hypot(chain.bottom.gap);
+    let room = chain.bottom.room(gap);
+    let straight = room <= STRAIGHT * chain.read.total_length;
+    let in_plane = bars.saturating_sub(if straight { 1 } else { 2 });
+    let across = bars - 1;
     SecondOrder {
         stability: Stability {
-            in_plane: InPlane::Degenerate,
+            in_plane: if in_plane > 0 { InPlane::Degenerate } else { InPlane::Minimum },
             index_in_plane: 0,
             in_space: InSpace::Stable,
             index_in_space: 0,
         },
-        // The force at the bottom is fixed; nothing is solved.
-        nullity: 0,
+        // The force at the bottom is fixed, nothing is solved; these are the free motions.
+        nullity: in_plane + across,
         condition: 1.0,
     }
 }

@@ -1,0 +1,184 @@
+//! A thousand random chains of all hard shapes: both solvers hang each from no guess, and agree.
+//!
+//! `CHAINS=100000 cargo test -p validate --test chains -- --nocapture` asks for more; the chains that come
+//! after the first thousand are no part of the checks.
+
+#![expect(
+    clippy::unwrap_used,
+    reason = "a test fails by panicking; helpers outside #[test] functions are part of it"
+)]
+
+mod chains_shapes;
+
+use std::collections::BTreeMap;
+
+use chains_shapes::{Shape, random_chain};
+use lagrange::condensed;
+use model::{Anchors, Bar, Chain, Equilibrium, Problem, Rung, Statement};
+use rayon::prelude::*;
+use validate::{Agreement, Tolerances, compare};
+
+/// Chains of the test.
+const CHAINS: u64 = 1000;
+
+/// Both hanging equilibria, or why there is none.
+fn hang(problem: &Problem) -> Result<[Equilibrium; 2], String> {
+    let lagrange = condensed::solve(problem, &condensed::Settings::default());
+    let energy = energy::minimise(problem, &energy::Settings::default());
+    match (lagrange, energy) {
+        (Ok(lagrange), Ok(energy)) => Ok([lagrange.equilibrium, energy.equilibrium]),
+        (lagrange, energy) => {
+            let why = [lagrange.err().map(|e| e.to_string()), energy.err().map(|e| e.to_string())];
+            Err(format!("lagrange: {:?}, energy: {:?}", why[0], why[1]))
+        }
+    }
+}
+
+/// What became of one chain.
+struct Outcome {
+    shape: Shape,
+    bars: usize,
+    compressed: bool,
+    optimal: bool,
+    iterations: [usize; 2],
+    compared: Result<Agreement, String>,
+}
+
+fn outcome(seed: u64, tolerances: &Tolerances) -> Outcome {
+    let (shape, problem) = random_chain(seed);
+    let bars = problem.chain().bars().len();
+    let mut outcome = Outcome {
+        shape,
+        bars,
+        compressed: false,
+        optimal: false,
+        iterations: [0; 2],
+        compared: Err(String::new()),
+    };
+    outcome.compared = hang(&problem).map(|mut answers| {
+        let agreement = compare(&problem, &mut answers, tolerances);
+        let proved = |s: &Statement| s.rung == Rung::Optimal && s.reached;
+        outcome.optimal = answers.iter().all(|a| a.evidence.ladder().iter().any(proved));
+        outcome.compressed = answers[0].axial_n.iter().any(|force| *force < 0.0);
+        outcome.iterations = answers.each_ref().map(|a| a.evidence.iterations);
+        agreement
+    });
+    outcome
+}
+
+/// What became of the chains of one shape.
+#[derive(Default)]
+struct Row {
+    chains: usize,
+    agreed: usize,
+    optimal: usize,
+    compressed: usize,
+    free: usize,
+    iterations: [usize; 2],
+}
+
+/// Measured: all agree. Largest differences over the thousand, by the budgets of the project.
+#[test]
+fn both_solvers_agree_on_a_thousand_random_chains() {
+    let count = std::env::var("CHAINS").map_or(CHAINS, |count| count.parse().unwrap());
+    let tolerances = Tolerances::project();
+    let outcomes: Vec<_> =
+        (0..count).into_par_iter().map(|seed| outcome(seed, &tolerances)).collect();
+    let mut table: BTreeMap<Shape, Row> = BTreeMap::new();
+    let mut wrong = Vec::new();
+    for (seed, outcome) in outcomes.iter().enumerate() {
+        let row = table.entry(outcome.shape).or_default();
+        row.chains += 1;
+        row.optimal += usize::from(outcome.optimal);
+        row.compressed += usize::from(outcome.compressed);
+        for (most, here) in row.iterations.iter_mut().zip(outcome.iterations) {
+            *most = here.max(*most);
+        }
+        let what = format!("{seed}: {:?}, {} bars", outcome.shape, outcome.bars);
+        match &outcome.compared {
+            Ok(agreement) => {
+                row.agreed += usize::from(agreement.agrees());
+                row.free += usize::from(agreement.free_joints > 0);
+                if !agreement.agrees() {
+                    wrong.push(format!("{what}: {:?}", agreement.reasons));
+                }
+            }
+            Err(why) => wrong.push(format!("{what}: {why}")),
+        }
+    }
+    println!("shape            chains agreed optimal compressed  free  most iterations");
+    for (shape, row) in &table {
+        let Row { chains, agreed, optimal, compressed, free, iterations } = row;
+        let shape = format!("{shape:?}");
+        println!(
+            "{shape:15} {chains:7} {agreed:6} {optimal:7} {compressed:10} {free:5}  {iterations:?}"
+        );
+    }
+    assert!(wrong.is_empty(), "{} of {count}:\n{}", wrong.len(), wrong.join("\n"));
+    assert!(table.len() == Shape::ALL.len() || count < Shape::ALL.len() as u64);
+    // No configuration has less energy than any of these, proved.
+    let optimal: usize = table.values().map(|row| row.optimal).sum();
+    assert!(optimal as u64 == count || count > CHAINS, "{optimal} of {count} proved optimal");
+    // The shapes are what they are called, and the test is no walk through easy chains.
+    assert!(table.get(&Shape::OneCompressed).is_none_or(|row| 2 * row.compressed > row.chains));
+}
+
+fn problem(bars: Vec<Bar>, end_m: [f64; 3]) -> Problem {
+    let anchors = Anchors { start_m: [0.0; 3], end_m };
+    Problem::new(Chain::new("shape", 1.0, anchors, bars).unwrap()).unwrap()
+}
+
+/// Heavy bars hang straight down from both anchors, massless ones between them: an equilibrium says
+/// nothing about the joints between the massless ones, and everything about the others.
+#[test]
+fn loose_bars_are_compared_by_what_is_determined() {
+    let tolerances = Tolerances::project();
+    for (massless, free) in [(1, 0), (2, 1), (3, 2), (7, 6)] {
+        let bar = |mass| Bar::homogeneous(1.0, mass).unwrap();
+        let bars: Vec<Bar> = [1.0, 1.0]
+            .iter()
+            .chain(&vec![0.0; massless])
+            .chain(&[1.0, 1.0])
+            .map(|m| bar(*m))
+            .collect();
+        // One bar alone has to fill the gap.
+        let span = if massless == 1 { 1.0 } else { 0.75 };
+        let problem = problem(bars, [span, 0.0, 0.0]);
+        let mut answers = hang(&problem).unwrap();
+        let agreement = compare(&problem, &mut answers, &tolerances);
+        assert!(agreement.agrees(), "{massless}: {:?}", agreement.reasons);
+        assert_eq!(agreement.free_joints, free, "{massless}");
+        for answer in &answers {
+            assert!((answer.joints_m[2][2] + 2.0).abs() < 1e-9, "{massless}");
+            assert!((answer.reactions_n.start[2] - 2.0).abs() < 1e-9, "{massless}");
+        }
+        if free > 0 {
+            // A joint that is held is compared all the same, and the lengths of loose bars are judged.
+            for k in [2, 3] {
+                let mut moved = answers.clone();
+                moved[1].joints_m[k][0] += 1e-6;
+                assert!(!compare(&problem, &mut moved, &tolerances).agrees(), "{massless}");
+            }
+        }
+    }
+}
+
+/// Two strands that hang straight down and just meet share the weight of the lowest joint in any way they
+/// like. Both solvers answer with the limit of anchors that are moved apart, each by a method of its own;
+/// here the anchors are moved apart.
+#[test]
+fn strands_that_meet_share_the_weight_as_they_do_a_little_apart() {
+    let bars: Vec<Bar> =
+        [3.0, 8.0, 2.0, 0.5, 0.1, 0.1].iter().map(|m| Bar::homogeneous(1.0, *m).unwrap()).collect();
+    let [meeting, apart] =
+        [0.0, 1e-4].map(|span| hang(&problem(bars.clone(), [span, 0.0, 0.0])).unwrap());
+    for (meeting, apart) in meeting.iter().zip(&apart) {
+        for (a, b) in meeting.axial_n.iter().zip(&apart.axial_n) {
+            // Of second order in the angles, some 1e-4. Measured: 1.5e-7.
+            assert!(*a > 0.0 && (a - b).abs() < 1e-6, "{} {a} {b}", meeting.solver);
+        }
+    }
+    // Not simply halves: 2.5 at the lowest joint, of which the strand with the slacker bars takes less.
+    let share = meeting[0].reactions_n.start[2] - 12.0;
+    assert!((share - 0.5 * 1.25).abs() > 0.01, "{share}");
+}
