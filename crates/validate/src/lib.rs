@@ -8,6 +8,7 @@
 
 pub mod books;
 pub mod bounds;
+pub mod cables;
 pub mod census_checks;
 pub mod certificate;
 pub mod claims;
