@@ -1,0 +1,232 @@
+//! Morse indices and the certificate, both O(n), against eigenvalues of dense matrices.
+//!
+//! Nothing of a solver is used by the judge here: the second derivative of the Lagrangian in joint
+//! coordinates is the stress matrix of the axial forces, once for each of X, Y and Z, the bars are the
+//! constraints, and the index is counted on their null space.
+
+#![expect(
+    clippy::unwrap_used,
+    reason = "a test fails by panicking; helpers outside #[test] functions are part of it"
+)]
+
+use std::f64::consts::{FRAC_PI_2, PI};
+
+use lagrange::condensed::{self, Condensed};
+use lagrange::{Seed, Settings, solve_from};
+use model::{Anchors, Bar, Chain, Equilibrium, InPlane, InSpace, Problem, Vector};
+use nalgebra::{DMatrix, DVector, SymmetricEigen};
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use validate::certificate::{Doubt, certify};
+
+/// Bars of the largest chain.
+const LARGEST: usize = 12;
+/// Seeds for each chain, half of them in the plane of the anchors.
+const SEEDS: usize = 12;
+/// Eigenvalues below this, in units of the largest force density, are zero: the turn about vertical anchors gives 1e-15, and
+/// an equilibrium with one between this and `CLEAR` would be too close to call.
+const ZERO: f64 = 1e-11;
+const CLEAR: f64 = 1e-8;
+
+fn random_problem(rng: &mut ChaCha8Rng, n: usize, vertical: bool) -> Problem {
+    loop {
+        let bars: Vec<Bar> = (0..n)
+            .map(|_| {
+                let length = rng.random_range(0.5..1.5);
+                let (mass, centre) = (rng.random_range(0.1..2.0), rng.random_range(0.0..length));
+                Bar::new(length, mass, centre, [0.0; 3]).unwrap()
+            })
+            .collect();
+        let total: f64 = bars.iter().map(Bar::length_m).sum();
+        let distance = total * rng.random_range(0.1..0.9);
+        let (slope, azimuth): (f64, f64) = (rng.random_range(-1.4..1.4), rng.random_range(-PI..PI));
+        let slope = if vertical { FRAC_PI_2.copysign(slope) } else { slope };
+        let level = if vertical { 0.0 } else { distance * slope.cos() };
+        let end_m = [level * azimuth.cos(), level * azimuth.sin(), distance * slope.sin()];
+        let anchors = Anchors { start_m: [0.0; 3], end_m };
+        if let Ok(problem) = Problem::new(Chain::new("random", 9.81, anchors, bars).unwrap()) {
+            return problem;
+        }
+    }
+}
+
+/// Negative and zero eigenvalues of the second derivative on the motions that keep the bars whole, the joints
+/// given by `coordinates` numbers each; `None` when an eigenvalue is too close to zero to call.
+fn inertia(joints: &[Vec<f64>], density: &[f64], coordinates: usize) -> Option<[usize; 2]> {
+    let (n, size) = (density.len(), (density.len() - 1) * coordinates);
+    let mut hessian = DMatrix::zeros(size, size);
+    let mut rows = DMatrix::zeros(n, size);
+    // Joint k of 1..n has the columns from here on; the anchors have none.
+    let column = |k: usize| (k >= 1 && k < n).then(|| (k - 1) * coordinates);
+    for i in 0..n {
+        let ends = [(column(i), -1.0), (column(i + 1), 1.0)];
+        for (a, sign_a) in ends {
+            let Some(a) = a else { continue };
+            for c in 0..coordinates {
+                rows[(i, a + c)] = sign_a * (joints[i + 1][c] - joints[i][c]);
+            }
+            for (b, sign_b) in ends {
+                let Some(b) = b else { continue };
+                for c in 0..coordinates {
+                    hessian[(a + c, b + c)] += density[i] * sign_a * sign_b;
+                }
+            }
+        }
+    }
+    // The null space of the rows: eigenvectors of rowsᵀ rows with eigenvalue 0.
+    let eigen = SymmetricEigen::new(rows.transpose() * &rows);
+    let free: Vec<DVector<f64>> = (0..size)
+        .filter(|k| eigen.eigenvalues[*k] < ZERO)
+        .map(|k| eigen.eigenvectors.column(k).into_owned())
+        .collect();
+    assert_eq!(free.len(), size.saturating_sub(n), "the bars are on one line");
+    if free.is_empty() {
+        return Some([0, 0]);
+    }
+    let free = DMatrix::from_columns(&free);
+    let largest = density.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+    let values = (free.transpose() * hessian * &free).symmetric_eigenvalues();
+    let sizes = || values.iter().map(|value| value / largest);
+    if sizes().any(|value| (ZERO..CLEAR).contains(&value.abs())) {
+        return None;
+    }
+    Some([sizes().filter(|v| *v < -ZERO).count(), sizes().filter(|v| v.abs() <= ZERO).count()])
+}
+
+/// The index in the plane of the equilibrium and in space by dense matrices, and the zero eigenvalues.
+fn dense(problem: &Problem, found: &Equilibrium) -> Option<[[usize; 2]; 2]> {
+    let bars = problem.chain().bars();
+    let density: Vec<f64> =
+        found.axial_n.iter().zip(bars).map(|(n, bar)| n / bar.length_m()).collect();
+    // The plane: along the largest horizontal extent of any joint, and up.
+    let far = found.joints_m.iter().fold([0.0, 0.0], |far: [f64; 2], [x, y, _]| {
+        if x.hypot(*y) > far[0].hypot(far[1]) { [*x, *y] } else { far }
+    });
+    let level = far[0].hypot(far[1]);
+    let space: Vec<Vec<f64>> = found.joints_m.iter().map(|joint| joint.to_vec()).collect();
+    let plane: Vec<Vec<f64>> = found
+        .joints_m
+        .iter()
+        .map(|[x, y, z]| vec![(x * far[0] + y * far[1]) / level, *z])
+        .collect();
+    Some([inertia(&plane, &density, 2)?, inertia(&space, &density, 3)?])
+}
+
+fn directions(problem: &Problem, found: &Equilibrium) -> energy::Seed {
+    let pairs = found.joints_m.windows(2);
+    let directions: Vec<Vector> =
+        pairs.map(|pair| std::array::from_fn(|k| pair[1][k] - pair[0][k])).collect();
+    energy::Seed::directions(problem, &directions).unwrap()
+}
+
+/// The full system, the condensed one and the energy, each by its own O(n) or dense means, count the index of
+/// equilibria of all kinds as the eigenvalues do; and the certificate proves exactly those that are stable
+/// in space.
+#[test]
+fn indices_are_those_of_dense_matrices() {
+    let mut rng = ChaCha8Rng::seed_from_u64(5);
+    let mut by_index = [0; 2 * LARGEST];
+    let (mut certified, mut close) = (0, 0);
+    for n in 2..=LARGEST {
+        for k in 0..2 * SEEDS {
+            let vertical = k % 4 == 3;
+            let problem = random_problem(&mut rng, n, vertical);
+            let mut any = || rng.random_range(-PI..PI);
+            let seed = if k % 2 == 0 {
+                let span = problem.chain().anchors().difference_m();
+                let phi: Vec<f64> = (0..n).map(|_| any()).collect();
+                Seed::planar_towards(span[1].atan2(span[0]), &phi)
+            } else {
+                Seed::spatial((0..n).map(|_| [any(), any(), any()]).collect())
+            };
+            // Not every seed leads somewhere.
+            let Ok(full) = solve_from(&problem, &seed, &Settings::default()) else { continue };
+            let full = full.equilibrium;
+            let Some([[in_plane, flat], [in_space, turns]]) = dense(&problem, &full) else {
+                close += 1;
+                continue;
+            };
+            let what = format!("n = {n}, seed {k}");
+            assert_eq!(flat, 0, "{what}");
+            assert_eq!(turns, usize::from(vertical), "{what}");
+
+            let compressed: Vec<bool> = full.axial_n.iter().map(|force| *force < 0.0).collect();
+            let chain = Condensed::new(&problem);
+            let settings = condensed::Settings::default();
+            let pull = chain.pull_from(full.multipliers_n[0].map(|x| -x), &compressed, &settings);
+            let short = chain.equilibrium(&pull.unwrap(), &settings).unwrap();
+            let second = energy::second_order(&problem, &directions(&problem, &full)).unwrap();
+            for (who, stability) in [
+                ("full", full.stability),
+                ("condensed", short.stability),
+                ("energy", second.stability),
+            ] {
+                assert_eq!(stability.index_in_plane, in_plane, "{what}, {who}");
+                assert_eq!(stability.index_in_space, in_space, "{what}, {who}");
+                let stable = if in_space == 0 { InSpace::Stable } else { InSpace::Unstable };
+                assert_eq!(stability.in_space, stable, "{what}, {who}");
+                let character = match in_plane {
+                    0 => InPlane::Minimum,
+                    index if index == n - 2 => InPlane::Maximum,
+                    _ => InPlane::Saddle,
+                };
+                assert_eq!(stability.in_plane, character, "{what}, {who}");
+            }
+            match certify(&problem, &short) {
+                Ok(proof) => {
+                    assert_eq!(in_space, 0, "{what}: {proof:?}");
+                    certified += 1;
+                }
+                Err(Doubt::SeveralCompressed { .. } | Doubt::Indefinite { .. }) => {
+                    assert!(in_space > 0, "{what}");
+                }
+                Err(doubt) => panic!("{what}: {doubt}"),
+            }
+            by_index[in_space] += 1;
+        }
+    }
+    println!("by index in space: {by_index:?}, {certified} certified, {close} too close to call");
+    // All kinds occur, or nothing was tested.
+    assert!(by_index.iter().filter(|count| **count > 0).count() >= 10, "{by_index:?}");
+    assert_eq!(certified, by_index[0]);
+    assert!(close <= 2, "{close}");
+}
+
+/// The hanging chain turned upside down is the maximum: every bar in compression, no direction that does not
+/// lower the energy, n - 2 in the plane and n - 1 across it.
+#[test]
+fn the_highest_equilibrium_of_a_hundred_thousand_bars() {
+    let mut rng = ChaCha8Rng::seed_from_u64(8);
+    for n in [10, 1000, 100_000] {
+        let bars: Vec<Bar> = (0..n)
+            .map(|_| {
+                let length = rng.random_range(0.5..1.5) / n as f64;
+                Bar::homogeneous(length, rng.random_range(0.1..2.0)).unwrap()
+            })
+            .collect();
+        let [problem, mirrored] = [0.2, -0.2].map(|rise| {
+            let anchors = Anchors { start_m: [0.0; 3], end_m: [0.5, 0.3, rise] };
+            Problem::new(Chain::new("arch", 9.81, anchors, bars.clone()).unwrap()).unwrap()
+        });
+        let settings = condensed::Settings::default();
+        let hanging = condensed::solve(&mirrored, &settings).unwrap().equilibrium;
+        // Upside down each bar is pressed as hard as it was pulled: the push of the ground is inwards where the
+        // pull was outwards, and carries the same weight.
+        let [x, y, z] = hanging.multipliers_n[0];
+        let chain = Condensed::new(&problem);
+        let pull = chain.pull_from([x, y, -z], &vec![true; n], &settings).unwrap();
+        let arch = chain.equilibrium(&pull, &settings).unwrap();
+        for (up, down) in arch.joints_m.iter().zip(&hanging.joints_m) {
+            assert!((up[2] + down[2]).abs() < 1e-12);
+        }
+        let second = energy::second_order(&problem, &directions(&problem, &arch)).unwrap();
+        assert!(second.residual < 1e-9, "{}", second.residual);
+        for stability in [arch.stability, second.stability] {
+            assert_eq!(stability.in_plane, InPlane::Maximum);
+            assert_eq!(stability.index_in_plane, n - 2);
+            assert_eq!(stability.index_in_space, 2 * n - 3);
+        }
+        let doubt = certify(&problem, &arch).unwrap_err();
+        assert_eq!(doubt, Doubt::SeveralCompressed { bars: n });
+    }
+}
