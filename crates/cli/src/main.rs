@@ -11,7 +11,6 @@ mod exit;
 mod input;
 mod output;
 mod progress;
-mod report;
 mod reproduce;
 mod solve;
 mod tables;

@@ -1,13 +1,13 @@
 //! `funicular reproduce`: the paper, judged.
 
 use miette::miette;
+use report::{Environment, Report};
 use validate::table::csv;
 
 use crate::args::Reproduce;
 use crate::exit::{Exit, Failure};
 use crate::output;
 use crate::progress::Progress;
-use crate::report;
 use crate::verdicts;
 
 /// Run the command.
@@ -20,23 +20,23 @@ pub fn run(arguments: &Reproduce) -> Result<Exit, Failure> {
     let reproduction = validate::reproduce(|what| progress.say(what))
         .map_err(|error| Failure::undecided(miette!("{error}")))?;
     drop(progress);
-    let json = || {
-        serde_json::to_string_pretty(&reproduction)
-            .map(|text| text + "\n")
-            .map_err(|error| Failure::undecided(miette!("the results cannot be written: {error}")))
-    };
+    let report = Report::new(reproduction, Environment::here(std::env::args()))
+        .map_err(|error| Failure::undecided(miette!("{error}")))?;
+    let reproduction = report.reproduction();
+    let json = || report.json().map_err(|error| Failure::undecided(miette!("{error}")));
     if let Some(folder) = &arguments.out {
         output::write_whole(&folder.join("results.json"), &json()?)?;
-        output::write_whole(&folder.join("report.md"), &report::markdown(&reproduction))?;
+        output::write_whole(&folder.join("report.html"), &report.html())?;
+        output::write_whole(&folder.join("report.md"), &report.markdown())?;
         output::write_whole(&folder.join("comparison.csv"), &csv(&reproduction.cases))?;
     }
     if arguments.json {
         output::print(&json()?)?;
     } else {
-        output::print(&verdicts::reproduction(&reproduction))?;
+        output::print(&verdicts::reproduction(reproduction))?;
         if let Some(folder) = &arguments.out {
             output::print(&format!(
-                "Written to {}: report.md, results.json, comparison.csv\n",
+                "Written to {}: report.html, report.md, results.json, comparison.csv\n",
                 folder.display()
             ))?;
         }

@@ -130,7 +130,7 @@ fn summary(r: &Reproduction) -> String {
 }
 
 /// A value in the unit of its claim, with the printed number of decimals and three more.
-pub fn claim_value(claim: &Claim, value: Option<f64>) -> String {
+fn claim_value(claim: &Claim, value: Option<f64>) -> String {
     match (value, claim.printed.digits) {
         (None, _) => "-".to_owned(),
         (Some(value), Some(digits)) => format!("{value:.*}", digits + 3),
@@ -139,23 +139,15 @@ pub fn claim_value(claim: &Claim, value: Option<f64>) -> String {
 }
 
 /// What is printed, with its unit where it is a number.
-pub fn claim_printed(printed: &Printed) -> String {
+fn claim_printed(printed: &Printed) -> String {
     match &printed.unit {
         Some(unit) if printed.digits.is_some() => format!("{} {unit}", printed.printed),
         _ => printed.printed.clone(),
     }
 }
 
-/// The number behind the verdict and what it is.
-pub fn claim_number(claim: &Claim) -> String {
-    claim.number.map_or_else(
-        || claim.number_is.clone(),
-        |n| format!("{}: {}", claim.number_is, significant(n, 4)),
-    )
-}
-
 /// Where the seeds of a survey led.
-pub fn seeds_reached(s: &Survey) -> String {
+fn seeds_reached(s: &Survey) -> String {
     let mut parts: Vec<_> = s
         .reached
         .iter()

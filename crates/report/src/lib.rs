@@ -1,1 +1,31 @@
 //! What people read: the reproduction report and its figures.
+//!
+//! A [`Report`] is made from one [`Reproduction`](validate::Reproduction) and written as a page
+//! ([`Report::html`]: one file that needs nothing else), as Markdown ([`Report::markdown`]) and as JSON
+//! ([`Report::json`]). The first two are made of the same [`block`]s, so they say the same.
+//!
+//! | module | what it does |
+//! |---|---|
+//! | [`document`] | what the report says, chapter by chapter |
+//! | [`equations`] | the equations in LaTeX, as printed and as corrected |
+//! | [`figures`], [`svg`] | the pictures |
+//! | [`math`] | LaTeX to MathML |
+//! | [`numbers`] | numbers as text, the same on every machine |
+//! | [`html`], [`markdown`] | the blocks as text |
+//! | [`environment`] | where and with what |
+
+pub mod bibliography;
+pub mod block;
+mod chapters;
+pub mod document;
+pub mod environment;
+pub mod equations;
+pub mod figures;
+pub mod html;
+pub mod markdown;
+pub mod math;
+pub mod numbers;
+pub mod svg;
+
+pub use document::Report;
+pub use environment::Environment;

@@ -1,0 +1,130 @@
+//! The equilibria: angles, energies, forces, and how far each is proved.
+
+use census::Census;
+use model::{Equilibrium, Rung, Statement};
+use validate::Reproduction;
+use validate::reproduction::Position;
+
+use super::run::word;
+use crate::block::{Block, Table, heading, text};
+use crate::figures;
+use crate::numbers::{fixed, in_words, measured, stable};
+
+pub(crate) fn blocks<'a>(r: &'a Reproduction, census: &Census) -> Vec<Block<'a>> {
+    let b = &r.bounds;
+    vec![
+        heading(2, "positions", "The equilibria of the example"),
+        Block::Figure(figures::equilibria(r)),
+        Block::Table(angles(r)),
+        Block::Table(forces(r)),
+        text(format!(
+            "Bounds without any guess: no configuration has less energy than {} mgl nor more than {} mgl (semidefinite \
+             programmes, rounded to proofs). E1 lies {} mgl above the first, E2 {} mgl below the second. With bars \
+             as cables the lower bound is only {} mgl, since bar BD is in compression.",
+            fixed(b.lower_mgl, 11),
+            fixed(b.upper_mgl, 11),
+            in_words(b.gap_to_e1_mgl, 2),
+            in_words(b.gap_to_e2_mgl, 2),
+            fixed(b.cables_mgl, 6),
+        )),
+        heading(3, "census", "All of them"),
+        Block::Figure(figures::census(&model::cases::paper(), census)),
+        heading(3, "evidence", "How far each is proved"),
+        text(
+            "Five rungs: a solver has converged; both solvers agree and Newton's laws hold for every bar; interval \
+             arithmetic proves that exactly one equilibrium is there; a census proves that there is no other; a \
+             certificate proves that no configuration has less energy. A rung that was not reached is said so.",
+        ),
+        Block::Table(ladder(r, census)),
+    ]
+}
+
+fn angles(r: &Reproduction) -> Table {
+    let rows = r.equilibria.iter().map(|p| {
+        let difference = p.energy_deg.map(|energy| {
+            let of = energy.iter().zip(p.lagrange_deg).map(|(e, l)| (e - l).abs());
+            of.fold(0.0, |most: f64, d| if d <= most { most } else { d })
+        });
+        let [theta, alpha, beta] = p.lagrange_deg.map(|angle| fixed(angle, 9));
+        let minima_only = || "finds minima only".to_owned();
+        vec![
+            p.name.replace('\'', "′"),
+            theta,
+            alpha,
+            beta,
+            difference.map_or_else(minima_only, |d| measured(d, 2)),
+            fixed(p.lagrange_mgl, 11),
+            p.energy_mgl.map_or_else(minima_only, |v| measured((v - p.lagrange_mgl).abs(), 2)),
+            format!("{} ({})", word(&p.stability.in_plane), p.stability.index_in_plane),
+            format!("{} ({})", word(&p.stability.in_space), p.stability.index_in_space),
+            p.nullity.to_string(),
+        ]
+    });
+    Table {
+        caption: "Angles in degrees from the descending vertical and energies in mgl with the paper's zero, by `lagrange`, and how \
+                  far `energy` is from them. In brackets: the number of directions in which the energy falls. Nullity: of \
+                  the Jacobian of all 30 equations (three spins of the bars and the turn about OD)."
+            .to_owned(),
+        head: vec![
+            "", "θ", "α", "β", "energy differs by, deg", "V", "energy differs by, mgl", "in the plane", "in space", "nullity",
+        ],
+        rows: rows.collect(),
+        verdicts: None,
+    }
+}
+
+fn forces(r: &Reproduction) -> Table {
+    let rows = r.equilibria.iter().map(|p| {
+        let joint = |[across, up]: [f64; 2]| format!("{}, {}", fixed(across, 8), fixed(up, 8));
+        [p.name.replace('\'', "′")]
+            .into_iter()
+            .chain(p.forces_mg.map(joint))
+            .chain([p.axial_mg.map(|f| fixed(f, 6)).join(", ")])
+            .collect()
+    });
+    Table {
+        caption: "The multipliers as forces in mg, across and up: of the ground on the chain at O and D, of the next bar on the \
+                  one before at A and B. Axial forces of OA, AB, BD: compression is negative."
+            .to_owned(),
+        head: vec!["", "at O (λ₂, λ₃)", "at A (λ₅, λ₆)", "at B (λ₈, λ₉)", "at D (λ₁₁, λ₁₂)", "axial"],
+        rows: rows.collect(),
+        verdicts: None,
+    }
+}
+
+/// One row for each rung of each equilibrium; the mirror images stand on the same rungs.
+fn ladder(r: &Reproduction, census: &Census) -> Table {
+    let proven = census.to_model();
+    let rows = r.equilibria.iter().filter(|p| !p.name.ends_with('\'')).flat_map(|p| {
+        let of_census = proven.iter().find(|e| is(p, e));
+        p.ladder.iter().map(move |statement| {
+            let statement = best(statement, of_census);
+            vec![
+                p.name.to_owned(),
+                statement.rung.to_string(),
+                if statement.reached { "reached" } else { "not reached" }.to_owned(),
+                stable(&statement.how),
+            ]
+        })
+    });
+    Table {
+        caption: "The rungs of each equilibrium, lowest first.".to_owned(),
+        head: vec!["", "rung", "", "how, or why not"],
+        rows: rows.collect(),
+        verdicts: Some(2),
+    }
+}
+
+/// Whether the census means this position: the same stability.
+fn is(p: &Position, proven: &Equilibrium) -> bool {
+    p.stability.index_in_space == proven.stability.index_in_space
+}
+
+/// What the census says of the rungs that need a proof, and the solvers of the rest.
+fn best<'a>(statement: &'a Statement, of_census: Option<&'a Equilibrium>) -> &'a Statement {
+    let by_census = matches!(statement.rung, Rung::Verified | Rung::Complete);
+    of_census
+        .filter(|_| by_census)
+        .and_then(|e| e.evidence.ladder().iter().find(|other| other.rung == statement.rung))
+        .unwrap_or(statement)
+}

@@ -1,0 +1,105 @@
+//! The report, chapter by chapter.
+
+use census::{Census, CensusError};
+use serde::Serialize;
+use validate::Reproduction;
+
+use crate::block::Block;
+use crate::chapters::{cases, citing, claims, equations, method, overview, positions, run, scan};
+use crate::environment::Environment;
+use crate::{html, markdown};
+
+/// Why there is no report.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum ReportError {
+    /// Occurs when the census of the paper's example fails.
+    #[error("the census of the example: {0}")]
+    Census(#[from] CensusError),
+    /// Occurs when the results hold a number that JSON has no word for.
+    #[error("the results cannot be written: {0}")]
+    Json(#[from] serde_json::Error),
+}
+
+/// The reproduction of the paper, ready to be read.
+#[derive(Debug, Clone)]
+pub struct Report {
+    reproduction: Reproduction,
+    census: Census,
+    environment: Environment,
+}
+
+/// What `results.json` holds.
+#[derive(Debug, Serialize)]
+struct Results<'a> {
+    #[serde(flatten)]
+    reproduction: &'a Reproduction,
+    environment: &'a Environment,
+}
+
+impl Report {
+    /// A report of this reproduction, made here.
+    ///
+    /// # Errors
+    ///
+    /// [`ReportError::Census`] when the equilibria of the example cannot be listed.
+    pub fn new(reproduction: Reproduction, environment: Environment) -> Result<Self, ReportError> {
+        let census = Census::take(&model::cases::paper(), &census::Settings::default())?;
+        Ok(Self { reproduction, census, environment })
+    }
+
+    /// What it was made from.
+    #[must_use]
+    pub fn reproduction(&self) -> &Reproduction {
+        &self.reproduction
+    }
+
+    /// `report.html`: one page that needs nothing else.
+    #[must_use]
+    pub fn html(&self) -> String {
+        html::page(self.reproduction.paper, &self.chapters(), &self.run())
+    }
+
+    /// `report.md`.
+    #[must_use]
+    pub fn markdown(&self) -> String {
+        self.golden() + "\n" + &markdown::markdown(&self.run())
+    }
+
+    /// `report.md` without what differs from run to run and from machine to machine: `validation/REPORT.md`.
+    #[must_use]
+    pub fn golden(&self) -> String {
+        markdown::markdown(&self.chapters())
+    }
+
+    /// `results.json`.
+    ///
+    /// # Errors
+    ///
+    /// [`ReportError::Json`], which a finished reproduction does not cause.
+    pub fn json(&self) -> Result<String, ReportError> {
+        let results = Results { reproduction: &self.reproduction, environment: &self.environment };
+        Ok(serde_json::to_string_pretty(&results)? + "\n")
+    }
+
+    /// All chapters that are the same in every run.
+    fn chapters(&self) -> Vec<Block<'_>> {
+        let r = &self.reproduction;
+        [
+            overview::blocks(r),
+            positions::blocks(r, &self.census),
+            scan::blocks(r),
+            claims::blocks(r),
+            equations::blocks(r),
+            method::blocks(r),
+            cases::blocks(r),
+            citing::blocks(),
+        ]
+        .concat()
+    }
+
+    /// What differs.
+    fn run(&self) -> Vec<Block<'_>> {
+        run::blocks(&self.reproduction, &self.environment)
+    }
+}

@@ -1,0 +1,139 @@
+//! The numbered equations of the paper, typeset: as printed, as corrected, and what they say.
+//!
+//! Two macros mark the difference: `\wrong{...}` around what is printed wrong, `\fixed{...}` around what
+//! belongs there. The verdict and the numbers behind it are no part of this table: they come from
+//! [`validate::equations`], evaluated at run time.
+//!
+//! | module | section of the paper | equations |
+//! |---|---|---|
+//! | `rotations` | III | (1)-(5) |
+//! | `constraints` | III, IV | (6)-(22) |
+//! | `inertia` | V | (23)-(32) |
+//! | `motion` | VI, VII | (33)-(41) |
+//! | `minimum` | VIII, solution 1 | (i)-(x) |
+//! | `multipliers` | VIII, solution 2 | (xi)-(xxvi) |
+
+mod constraints;
+mod inertia;
+mod minimum;
+mod motion;
+mod multipliers;
+mod rotations;
+
+use validate::equations::{EquationAudit, Verdict};
+
+/// One numbered equation.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Equation {
+    /// Its number in the paper, `(5)` or `(xxiv)`.
+    pub number: &'static str,
+    /// LaTeX of what is printed.
+    pub printed: &'static str,
+    /// LaTeX of the correction, or of what is true instead.
+    pub corrected: Option<&'static str>,
+    /// What it says, in a line or two.
+    pub says: &'static str,
+}
+
+/// All numbered equations, in the order of the paper: (1)-(41), (i)-(xxvi).
+pub fn all() -> impl Iterator<Item = &'static Equation> {
+    [
+        rotations::EQUATIONS,
+        constraints::EQUATIONS,
+        inertia::EQUATIONS,
+        motion::EQUATIONS,
+        minimum::EQUATIONS,
+        multipliers::EQUATIONS,
+    ]
+    .into_iter()
+    .flatten()
+}
+
+/// An equation with the rows of the audit that judge it.
+#[derive(Debug, Clone)]
+pub struct Judged<'a> {
+    /// The equation.
+    pub equation: &'static Equation,
+    /// Section of the paper.
+    pub section: &'a str,
+    /// The rows of the audit, at least one.
+    pub rows: Vec<&'a EquationAudit>,
+    /// The severest of their verdicts.
+    pub verdict: Verdict,
+}
+
+/// All equations with their rows, in the order of the paper.
+#[must_use]
+pub fn judged(audit: &[EquationAudit]) -> Vec<Judged<'_>> {
+    all()
+        .map(|equation| {
+            let rows: Vec<_> = audit.iter().filter(|row| row.number == equation.number).collect();
+            Judged {
+                equation,
+                section: rows.first().map_or("", |row| row.section),
+                verdict: severest(&rows),
+                rows,
+            }
+        })
+        .collect()
+}
+
+/// The rows of the audit that judge no numbered equation but a statement of the text between them.
+pub fn statements(audit: &[EquationAudit]) -> impl Iterator<Item = &EquationAudit> {
+    audit.iter().filter(|row| all().all(|equation| equation.number != row.number))
+}
+
+/// Refuted before corrected before holding; a definition only if nothing else is said.
+fn severest(rows: &[&EquationAudit]) -> Verdict {
+    let any = |verdict| rows.iter().any(|row| row.verdict == verdict);
+    [Verdict::Refuted, Verdict::Corrected, Verdict::Holds]
+        .into_iter()
+        .find(|&verdict| any(verdict))
+        .unwrap_or(Verdict::Definition)
+}
+
+/// A verdict in words.
+#[must_use]
+pub fn verdict_word(verdict: Verdict) -> &'static str {
+    match verdict {
+        Verdict::Holds => "holds",
+        Verdict::Corrected => "holds after correction",
+        Verdict::Refuted => "refuted",
+        Verdict::Definition => "definition",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_numbered_equation_is_there_in_order() {
+        const ROMAN: [&str; 26] = [
+            "i", "ii", "iii", "iv", "v", "vi", "vii", "viii", "ix", "x", "xi", "xii", "xiii",
+            "xiv", "xv", "xvi", "xvii", "xviii", "xix", "xx", "xxi", "xxii", "xxiii", "xxiv",
+            "xxv", "xxvi",
+        ];
+        let expected: Vec<String> = (1..=41)
+            .map(|k| format!("({k})"))
+            .chain(ROMAN.iter().map(|roman| format!("({roman})")))
+            .collect();
+        let found: Vec<&str> = all().map(|equation| equation.number).collect();
+        assert_eq!(found, expected);
+    }
+
+    #[test]
+    fn what_is_marked_wrong_is_corrected_and_nothing_else() {
+        for equation in all() {
+            let marked = equation.printed.contains(r"\wrong{");
+            let mended = equation.corrected.is_some_and(|latex| latex.contains(r"\fixed{"));
+            assert_eq!(marked, mended, "{}", equation.number);
+            assert_eq!(marked, equation.corrected.is_some(), "{}", equation.number);
+            assert!(
+                equation.says.len() > 5 && equation.says.ends_with(['.', ')']),
+                "{}",
+                equation.number
+            );
+        }
+    }
+}

@@ -1,0 +1,281 @@
+//! The report as one page that needs nothing else.
+
+use std::fmt::Write as _;
+
+use validate::equations::Verdict;
+
+use crate::block::{Block, Table, audit_cells};
+use crate::equations::{Judged, verdict_word};
+use crate::figures::Figure;
+use crate::markdown::instead;
+use crate::math::mathml;
+use crate::svg::escape;
+
+/// The style of the page.
+const STYLE: &str = include_str!("style.css");
+
+/// The page: a head, a table of contents, the blocks, and a foot.
+#[must_use]
+pub fn page(title: &str, blocks: &[Block], run: &[Block]) -> String {
+    let mut body = String::new();
+    let mut open = false;
+    for block in blocks {
+        // Each chapter is a region of its own.
+        if let Block::Heading(2, id, _) = block {
+            if open {
+                body.push_str("</section>\n");
+            }
+            let _ = writeln!(body, "<section aria-labelledby=\"{id}\">");
+            open = true;
+        }
+        body.push_str(&html(block));
+    }
+    if open {
+        body.push_str("</section>\n");
+    }
+    let run: String = run.iter().map(html).collect();
+    format!(
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
+         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
+         <meta name=\"color-scheme\" content=\"light dark\">\n\
+         <title>{}</title>\n<link rel=\"icon\" href=\"data:,\">\n<style>\n{STYLE}</style>\n</head>\n<body>\n\
+         <a class=\"skip\" href=\"#content\">Skip to the content</a>\n\
+         {}<main id=\"content\">\n{body}</main>\n\
+         <footer class=\"run\" aria-label=\"This run\">\n{run}</footer>\n</body>\n</html>\n",
+        escape(title),
+        contents(blocks),
+    )
+}
+
+/// The chapters, to jump to.
+fn contents(blocks: &[Block]) -> String {
+    let mut items = String::new();
+    for block in blocks {
+        if let Block::Heading(2, id, text) = block {
+            let _ = writeln!(items, "<li><a href=\"#{id}\">{}</a></li>", inline(text));
+        }
+    }
+    items.push_str("<li><a href=\"#this-run\">This run</a></li>\n");
+    format!("<nav aria-label=\"Contents\">\n<ol>\n{items}</ol>\n</nav>\n")
+}
+
+fn html(block: &Block) -> String {
+    match block {
+        Block::Heading(level, id, text) => {
+            format!("<h{level} id=\"{id}\">{}</h{level}>\n", inline(text))
+        }
+        Block::Text(text) => format!("<p>{}</p>\n", inline(text)),
+        Block::List(items) => {
+            let items: String =
+                items.iter().map(|item| format!("<li>{}</li>\n", inline(item))).collect();
+            format!("<ul>\n{items}</ul>\n")
+        }
+        Block::Table(table) => rows(table),
+        Block::Equation(judged) => equation(judged),
+        Block::Statements(audit) => rows(&Table {
+            caption: "Statements of the text between the equations".to_owned(),
+            head: vec![
+                "where",
+                "what it says, or what is wrong",
+                "measured",
+                "as printed",
+                "as corrected",
+                "verdict",
+            ],
+            rows: audit
+                .iter()
+                .map(|row| [row.number.to_owned()].into_iter().chain(audit_cells(row)).collect())
+                .collect(),
+            verdicts: Some(5),
+        }),
+        Block::Figure(figure) => drawn(figure),
+        Block::Slot { html, .. } => html.clone(),
+        Block::Code(_, text) => {
+            format!("<pre tabindex=\"0\"><code>{}</code></pre>\n", escape(text.trim_end()))
+        }
+    }
+}
+
+fn drawn(figure: &Figure) -> String {
+    format!(
+        "<figure id=\"{}\">\n<div class=\"panels\">\n{}</div>\n<figcaption>{}</figcaption>\n</figure>\n",
+        figure.id,
+        figure.panels.concat(),
+        inline(&figure.caption)
+    )
+}
+
+/// A table in a box that scrolls on its own, so that the page does not.
+fn rows(table: &Table) -> String {
+    let mut text = String::new();
+    let label =
+        if table.caption.is_empty() { table.head.join(", ") } else { table.caption.clone() };
+    // Writing to a String cannot fail.
+    let _ = write!(
+        text,
+        "<div class=\"scroll\" role=\"region\" tabindex=\"0\" aria-label=\"{}\">\n<table>\n",
+        escape(&label)
+    );
+    if !table.caption.is_empty() {
+        let _ = writeln!(text, "<caption>{}</caption>", inline(&table.caption));
+    }
+    text.push_str("<thead><tr>");
+    for cell in &table.head {
+        let _ = write!(text, "<th scope=\"col\">{}</th>", inline(cell));
+    }
+    text.push_str("</tr></thead>\n<tbody>\n");
+    for row in &table.rows {
+        text.push_str("<tr>");
+        for (k, cell) in row.iter().enumerate() {
+            let content = if table.verdicts == Some(k) { verdict(cell) } else { inline(cell) };
+            let class = if is_number(cell) { " class=\"number\"" } else { "" };
+            if k == 0 {
+                let _ = write!(text, "<th scope=\"row\">{content}</th>");
+            } else {
+                let _ = write!(text, "<td{class}>{content}</td>");
+            }
+        }
+        text.push_str("</tr>\n");
+    }
+    text.push_str("</tbody>\n</table>\n</div>\n");
+    text
+}
+
+/// Whether a cell is right-aligned.
+fn is_number(cell: &str) -> bool {
+    let first = cell.split(' ').next().unwrap_or_default();
+    cell == "-" || cell.starts_with("<\u{a0}10") || first.parse::<f64>().is_ok()
+}
+
+/// A verdict with a sign for those who see no colour.
+fn verdict(word: &str) -> String {
+    let (class, sign) = match word.split(' ').next().unwrap_or_default() {
+        "confirmed" | "holds" if !word.contains("correction") => ("good", "✓"),
+        "agreed" | "reached" => ("good", "✓"),
+        "explained" | "corrected" | "holds" => ("mended", "✎"),
+        "definition" => ("neutral", "≔"),
+        "not" => ("neutral", "–"),
+        _ => ("bad", "✗"),
+    };
+    format!(
+        "<span class=\"verdict {class}\"><span aria-hidden=\"true\">{sign}</span> {}</span>",
+        inline(word)
+    )
+}
+
+fn equation(judged: &Judged) -> String {
+    let Judged { equation, section, rows: audit, verdict: whole } = judged;
+    let name = equation.number.trim_matches(['(', ')']);
+    let mut text = format!(
+        "<article class=\"equation\" aria-labelledby=\"eq-{name}\">\n<h3 id=\"eq-{name}\">{} {}</h3>\n\
+         <p>{} <span class=\"where\">Section {section}.</span></p>\n",
+        equation.number,
+        verdict(verdict_word(*whole)),
+        inline(equation.says)
+    );
+    let formula = |label: &str, latex: &str| {
+        format!(
+            "<div class=\"formula\"><p class=\"which\">{label}</p><div class=\"scroll\" role=\"region\" tabindex=\"0\" \
+             aria-label=\"Equation {} {}\">{}</div></div>\n",
+            equation.number,
+            label.to_lowercase(),
+            mathml(latex)
+        )
+    };
+    text.push_str(&formula("As printed", equation.printed));
+    if let Some(corrected) = equation.corrected {
+        text.push_str(&formula(instead(*whole), corrected));
+    }
+    text.push_str("<ul class=\"numbers\">\n");
+    for row in audit {
+        let [what, measure, printed, corrected, word] = audit_cells(row);
+        let part = if audit.len() > 1 || row.verdict != Verdict::Holds {
+            format!("{what}. ")
+        } else {
+            String::new()
+        };
+        let _ = write!(
+            text,
+            "<li>{}<span class=\"measure\">{}:</span> <strong>{}</strong>",
+            inline(&part),
+            inline(&capital(&measure)),
+            inline(&printed)
+        );
+        if row.as_corrected.is_some() {
+            let _ = write!(
+                text,
+                " as printed, <strong>{}</strong> {}",
+                inline(corrected.split(": ").next().unwrap_or_default()),
+                instead(*whole).to_lowercase()
+            );
+        }
+        if audit.len() > 1 {
+            let _ = write!(text, " {}", verdict(&word));
+        }
+        text.push_str("</li>\n");
+    }
+    text.push_str("</ul>\n</article>\n");
+    text
+}
+
+fn capital(text: &str) -> String {
+    let mut chars = text.chars();
+    chars.next().map_or_else(String::new, |first| first.to_uppercase().chain(chars).collect())
+}
+
+/// A text with its few marks: `code`, **strong**, [text](#anchor).
+fn inline(text: &str) -> String {
+    let text = escape(text);
+    let strong = pairs(&text, "**", "strong");
+    let code = pairs(&strong, "`", "code");
+    links(&code)
+}
+
+/// What stands between two marks becomes an element; an odd mark stays.
+fn pairs(text: &str, mark: &str, element: &str) -> String {
+    let pieces: Vec<&str> = text.split(mark).collect();
+    let mut out = String::new();
+    for (k, piece) in pieces.iter().enumerate() {
+        match (k % 2, k + 1 == pieces.len()) {
+            (0, _) => out.push_str(piece),
+            (_, true) => {
+                out.push_str(mark);
+                out.push_str(piece);
+            }
+            _ => {
+                let _ = write!(out, "<{element}>{piece}</{element}>");
+            }
+        }
+    }
+    out
+}
+
+fn links(text: &str) -> String {
+    let mut out = String::new();
+    let mut rest = text;
+    while let Some((before, after)) = rest.split_once("](#") {
+        let (Some((ahead, label)), Some((anchor, tail))) =
+            (before.rsplit_once('['), after.split_once(')'))
+        else {
+            break;
+        };
+        let _ = write!(out, "{ahead}<a href=\"#{anchor}\">{label}</a>");
+        rest = tail;
+    }
+    out + rest
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn marks_become_elements_and_markup_does_not() {
+        assert_eq!(inline("a < `b` and **c**"), "a &lt; <code>b</code> and <strong>c</strong>");
+        assert_eq!(
+            inline("see [there](#x) and ` alone"),
+            "see <a href=\"#x\">there</a> and ` alone"
+        );
+        assert_eq!(inline("b_{1,5} [B]^T"), "b_{1,5} [B]^T");
+    }
+}

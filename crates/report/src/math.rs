@@ -1,0 +1,85 @@
+//! LaTeX to MathML, which browsers typeset and screen readers read.
+
+use pulldown_latex::config::{DisplayMode, RenderConfig};
+use pulldown_latex::{Parser, Storage, push_mathml};
+
+/// Colours that stand for the two marks on their way through the converter: LaTeX knows colours, MathML
+/// has classes, and nothing else in the equations has a colour.
+const MARKS: [Mark; 2] = [
+    Mark {
+        command: r"\wrong{",
+        through: r"\textcolor{#010101}{",
+        style: "color: rgb(1 1 1)",
+        class: "wrong",
+    },
+    Mark {
+        command: r"\fixed{",
+        through: r"\textcolor{#020202}{",
+        style: "color: rgb(2 2 2)",
+        class: "fixed",
+    },
+];
+
+/// A mark in LaTeX, in the converter and in the page.
+struct Mark {
+    command: &'static str,
+    through: &'static str,
+    style: &'static str,
+    class: &'static str,
+}
+
+/// MathML of a displayed formula. What is marked `\wrong` or `\fixed` has that class.
+///
+/// The text of an unreadable formula stands in an `merror` element.
+///
+/// ```
+/// let mathml = report::math::mathml(r"l \cos\theta = \wrong{l}");
+/// assert!(mathml.starts_with("<math") && mathml.contains("class=\"wrong\""));
+/// assert!(!mathml.contains("merror"));
+/// ```
+#[must_use]
+pub fn mathml(latex: &str) -> String {
+    let source = MARKS.iter().fold(latex.to_owned(), |s, m| s.replace(m.command, m.through));
+    let storage = Storage::new();
+    let config = RenderConfig { display_mode: DisplayMode::Block, ..RenderConfig::default() };
+    let mut text = String::new();
+    if push_mathml(&mut text, Parser::new(&source, &storage), config).is_err() {
+        // Writing to a String cannot fail; were it to, the page shows so.
+        "<merror></merror>".clone_into(&mut text);
+    }
+    MARKS.iter().fold(text, |text, mark| {
+        text.replace(&format!("style=\"{}\"", mark.style), &format!("class=\"{}\"", mark.class))
+    })
+}
+
+/// LaTeX that needs no macro of ours: marks become an underline.
+///
+/// ```
+/// assert_eq!(report::math::plain_latex(r"a = \wrong{b}"), r"a = \underline{b}");
+/// ```
+#[must_use]
+pub fn plain_latex(latex: &str) -> String {
+    MARKS.iter().fold(latex.to_owned(), |text, mark| text.replace(mark.command, r"\underline{"))
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::equations;
+
+    #[test]
+    fn every_equation_is_typeset() {
+        for equation in equations::all() {
+            for latex in [Some(equation.printed), equation.corrected].into_iter().flatten() {
+                let mathml = super::mathml(latex);
+                assert!(!mathml.contains("merror"), "{}: {mathml}", equation.number);
+                assert!(!mathml.contains("rgb("), "{}: {mathml}", equation.number);
+                assert_eq!(
+                    mathml.contains("class=\"wrong\"") || mathml.contains("class=\"fixed\""),
+                    equation.corrected.is_some(),
+                    "{}",
+                    equation.number
+                );
+            }
+        }
+    }
+}
