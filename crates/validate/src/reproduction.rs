@@ -8,6 +8,7 @@ use serde::Serialize;
 use crate::bounds::Bounds;
 use crate::claims::{Claim, Verdict, claims};
 use crate::compare::{compare, judge_alone};
+use crate::completeness::{Completeness, certify_by_census};
 use crate::equations::{self, E1State, EquationAudit, audit};
 use crate::example::{Example, ExampleError};
 use crate::figures::Figures;
@@ -28,6 +29,8 @@ pub struct Reproduction {
     pub paper: &'static str,
     /// The equilibria of its example.
     pub equilibria: Vec<Position>,
+    /// That there are no others, and that (x) is none of them.
+    pub completeness: Completeness,
     /// The energy of all its configurations, bounded without a guess.
     pub bounds: Bounds,
     /// Its claims, in its order.
@@ -132,6 +135,8 @@ pub fn reproduce_with(
     let paper = Paper::project();
     progress("the paper's example by both solvers");
     let example = Example::solve()?;
+    progress("all its equilibria, by the census");
+    let completeness = Completeness::new(&paper, &example);
     progress("bounds on the energy of all configurations");
     let bounds = Bounds::compute(&example)?;
     progress(&format!("{seeds} random seeds of each kind, by each solver"));
@@ -147,7 +152,8 @@ pub fn reproduce_with(
         schema_version: SCHEMA_VERSION,
         paper: "Equilibrium of a System of Bars Using a Multibody Type Method",
         equilibria: positions(&example),
-        all_as_expected: summary.as_expected() && bounds.are_tight(),
+        all_as_expected: summary.as_expected() && bounds.are_tight() && completeness.is_closed(),
+        completeness,
         bounds,
         claims,
         equations,
@@ -199,8 +205,8 @@ fn positions(example: &Example) -> Vec<Position> {
         .collect()
 }
 
-/// How far an equilibrium is proved by both solvers, the statics judge and the certificate; by the
-/// statics judge and the certificate alone where `energy`, which looks for minima, has no answer.
+/// How far an equilibrium is proved by both solvers, the statics judge, the census and the certificate; without
+/// `energy` where that, looking for minima, has no answer.
 fn ladder(
     example: &Example,
     found: &Equilibrium,
@@ -210,7 +216,8 @@ fn ladder(
     if let Some(answer) = answer {
         let mut both = [found, answer.equilibrium.clone()];
         let _ = compare(&example.problem, &mut both, &Tolerances::project());
-        let [judged, _] = both;
+        let [mut judged, _] = both;
+        certify_by_census(&example.problem, &example.census, &mut judged);
         return judged.evidence.ladder().to_vec();
     }
     let balance = judge_alone(&example.problem, &mut found).largest();
@@ -221,6 +228,7 @@ fn ladder(
              balance to {balance:.1e}"
         ),
     );
+    certify_by_census(&example.problem, &example.census, &mut found);
     found.evidence.ladder().to_vec()
 }
 

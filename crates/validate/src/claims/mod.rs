@@ -20,6 +20,7 @@ mod space;
 
 use serde::Serialize;
 
+use crate::completeness::Completeness;
 use crate::example::Example;
 pub use crate::paper::Verdict;
 use crate::paper::{Paper, Printed};
@@ -84,12 +85,14 @@ struct Facts<'a> {
     paper: &'a Paper,
     example: &'a Example,
     surveys: &'a [Survey],
+    completeness: Completeness,
 }
 
 /// Judge every claim of the paper.
 #[must_use]
 pub fn claims(paper: &Paper, example: &Example, surveys: &[Survey]) -> Vec<Claim> {
-    let facts = Facts { paper, example, surveys };
+    let completeness = Completeness::new(paper, example);
+    let facts = Facts { paper, example, surveys, completeness };
     paper
         .claims
         .iter()

@@ -48,7 +48,8 @@ fn symmetric(facts: &Facts) -> Finding {
         .energy(energy)
 }
 
-/// Four planar equilibria: roots of the sextic counted, and all that random seeds lead to.
+/// Four planar equilibria: listed and proved complete by the census, counted by the roots of the sextic, and
+/// all that random seeds lead to.
 fn four(facts: &Facts, printed: &Printed) -> Finding {
     let roots = crate::sextic::roots().unwrap_or_default();
     let exact = 2.0 * roots.len() as f64;
@@ -59,12 +60,20 @@ fn four(facts: &Facts, printed: &Printed) -> Finding {
         .map(|found| facts.example.by_lagrange(found).angles_rad[0].cos());
     let met = roots.len() == 2
         && largest((0..2).map(|k| roots[k] - cosines[k])) <= ANGLE_RAD
-        && (found - exact).abs() < 0.5;
+        && (found - exact).abs() < 0.5
+        && facts.completeness.is_closed();
     let verdict =
         if (exact - printed.value()).abs() < 0.5 { Verdict::Confirmed } else { Verdict::Corrected };
-    let what = "equilibria by the two roots of the sextic in cos(theta), each with its mirror image \
-                (they are not those of (x))";
-    Finding::new(verdict.if_shown(met), exact, what).lagrange(found)
+    let proof = &facts.completeness;
+    let what = format!(
+        "equilibria, proved: the census encloses {} and excludes all others (indices {}, Euler characteristic {}), and \
+         the sextic in cos(theta) has {} roots, each with its mirror image (they are not those of (x))",
+        proof.planar,
+        proof.indices(),
+        proof.alternating_sum,
+        roots.len(),
+    );
+    Finding::new(verdict.if_shown(met), proof.planar as f64, what).lagrange(found)
 }
 
 /// At theta = pi/2 psi and phi turn about the same axis: psi is arbitrary only if phi gives way.

@@ -20,6 +20,7 @@ pub(super) fn judge(facts: &Facts, printed: &Printed) -> Option<Finding> {
         "x-energy" => Some(energy(facts, printed)),
         "x-slope" => Some(slope_at_x(facts)),
         "x-multipliers" => Some(multipliers(facts)),
+        "x-listed" => Some(listed(facts)),
         "x-first-point" => Some(first_point(facts, printed)),
         "second" => Some(second(facts, printed)),
         "symmetric-x" => Some(symmetric(facts)),
@@ -111,6 +112,22 @@ fn multipliers(facts: &Facts) -> Finding {
         found.largest
     );
     Finding::new(verdict.if_shown(met && control), found.norm, what).lagrange(found.norm)
+}
+
+/// Third refutation, and a proof: (x) is not on the complete list, and the energy has a slope all over the
+/// box of positions whose angles round to the printed ones.
+fn listed(facts: &Facts) -> Finding {
+    let proof = &facts.completeness;
+    let x = &proof.second;
+    let shown = proof.is_closed() && proof.first.nearest_deg < PAPER_STEP_RAD.to_degrees();
+    let what = format!(
+        "mgl/rad: the slope of V is at least that wherever the angles round to the printed ones, rounded \
+         outward; the nearest of all {} equilibria, proved complete by the census, is {:.2} deg away \
+         ((ix): {:.4} deg)",
+        proof.planar, x.nearest_deg, proof.first.nearest_deg,
+    );
+    let verdict = if x.is_refuted() { Verdict::Refuted } else { Verdict::Confirmed };
+    Finding::new(verdict.if_shown(shown), x.least_slope_mgl(), what)
 }
 
 /// Where (x) comes from: the first point of the scan.

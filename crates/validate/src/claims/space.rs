@@ -85,9 +85,17 @@ fn infinity(facts: &Facts) -> Finding {
     let nullity = (e1.nullity as f64 - facts.paper.reference("nullity")).abs() < 0.5;
     let energy = [example.energy.e1.equilibrium.evidence.nullity, example.energy.at_e2.nullity];
     let single = largest(dimensions.iter().map(|d| d - 1.0)) < 0.5 && energy == [1, 1];
-    let what = "dimension of the family through E1 (and through E2): nullity less one spin per bar. Two \
-                circles: the infinity is double in number, not in dimension";
-    Finding::new(Verdict::Explained.if_shown(nullity && single), dimensions[0], what)
+    let proof = &facts.completeness;
+    // The census: so many circles, and each of them a single curve.
+    let double = proof.is_closed() && proof.circles == 2;
+    let what = format!(
+        "dimension of the family through E1 (and through E2): nullity less one spin per bar. The census proves \
+         that there are {} circles of equilibria and nothing else: the infinity is double in number, not in \
+         dimension",
+        proof.circles
+    );
+    let shown = nullity && single && double;
+    Finding::new(Verdict::Explained.if_shown(shown), dimensions[0], what)
         .lagrange(dimensions[0])
         .energy(energy[0] as f64)
 }

@@ -1,0 +1,176 @@
+//! A census held against everything else that knows something about equilibria.
+//!
+//! The census proves its list by intervals, from the balance of moments alone. Here others judge it who share
+//! no formula with it: `lagrange` started at every listed equilibrium has to stay there, the
+//! statics judge has to find every bar in balance, whatever random seeds of either solver find
+//! has to be listed, and no energy may lie outside the bounds by semidefinite programming, between which
+//! the first and the last of the list have to fit exactly.
+
+use census::{Census, Interval};
+use energy::bound::{BoundError, BoundSettings, Sense, semidefinite};
+use lagrange::{Seed, Settings, SolveError, Solver};
+use model::{Chain, Problem, Vector};
+
+use crate::compare::free_turn;
+use crate::statics::{judge, stored_rounding_m};
+
+/// Where a position stands in a census.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Nearest {
+    /// Number of the equilibrium in the list, from 1.
+    pub number: usize,
+    /// How far outside of its boxes the worst coordinate of a joint lies, in units of the total length;
+    /// 0 inside.
+    pub beyond: f64,
+}
+
+/// The listed equilibrium whose boxes are nearest to a position; with the anchors on one vertical the
+/// position is turned about it first. `None` if nothing is listed, or the joints do not fit the chain.
+#[must_use]
+pub fn nearest(chain: &Chain, census: &Census, joints_m: &[Vector]) -> Option<Nearest> {
+    let length_m = chain.total_length_m();
+    let beyond = |boxes: &[[Interval; 3]]| -> f64 {
+        if boxes.len() != joints_m.len() {
+            return f64::NAN;
+        }
+        let turned = if free_turn(chain) {
+            turned_onto(chain.anchors().start_m, boxes, joints_m)
+        } else {
+            joints_m.to_vec()
+        };
+        let coordinates = boxes.iter().flatten().zip(turned.iter().flatten());
+        coordinates.map(|(part, x)| outside(*part, *x)).fold(0.0, worse) / length_m
+    };
+    let all = census
+        .equilibria
+        .iter()
+        .enumerate()
+        .map(|(k, equilibrium)| Nearest { number: k + 1, beyond: beyond(&equilibrium.joints_m) });
+    all.filter(|place| place.beyond.is_finite()).min_by(|a, b| a.beyond.total_cmp(&b.beyond))
+}
+
+/// How far a number lies outside of an interval.
+fn outside(part: Interval, x: f64) -> f64 {
+    if part.contains(x) { 0.0 } else { worse(part.lo() - x, x - part.hi()) }
+}
+
+/// The larger; NaN is the worst of all (`f64::max` would forget it).
+fn worse(a: f64, b: f64) -> f64 {
+    if a.is_nan() || b.is_nan() { f64::NAN } else { a.max(b) }
+}
+
+/// The joints turned about the vertical through `origin` so that they come closest to the middles of
+/// the boxes.
+fn turned_onto(origin: Vector, boxes: &[[Interval; 3]], joints_m: &[Vector]) -> Vec<Vector> {
+    let (mut along, mut across) = (0.0, 0.0);
+    for (target, joint) in boxes.iter().zip(joints_m) {
+        let [x, y, _]: Vector = std::array::from_fn(|k| target[k].mid() - origin[k]);
+        let [a, b, _]: Vector = std::array::from_fn(|k| joint[k] - origin[k]);
+        along += x * a + y * b;
+        across += y * a - x * b;
+    }
+    let size = along.hypot(across);
+    let (sin, cos) = if size > 0.0 { (across / size, along / size) } else { (0.0, 1.0) };
+    let turn = |joint: &Vector| {
+        let [a, b, c]: Vector = std::array::from_fn(|k| joint[k] - origin[k]);
+        [origin[0] + cos * a - sin * b, origin[1] + sin * a + cos * b, origin[2] + c]
+    };
+    joints_m.iter().map(turn).collect()
+}
+
+/// What became of `lagrange`, started at a listed equilibrium.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Visit {
+    /// Number of the equilibrium where it started, from 1.
+    pub number: usize,
+    /// Where it ended.
+    pub ended: Nearest,
+    /// The 30 equations of the paper, for n bars, have the same index there, in the plane and in space.
+    pub same_stability: bool,
+}
+
+/// Start `lagrange` in the middle of the boxes of every listed equilibrium.
+///
+/// # Errors
+///
+/// [`SolveError`] of the first start that does not converge.
+///
+/// # Panics
+///
+/// Never: a converged solution has the joints of its chain, and the census from which it was started has
+/// an entry.
+///
+/// ```
+/// use census::{Census, Settings};
+/// let problem = model::cases::paper();
+/// let census = Census::take(&problem, &Settings::default())?;
+/// for visit in validate::census_checks::visits(&problem, &census).unwrap() {
+///     assert!(visit.ended.number == visit.number && visit.ended.beyond < 1e-12);
+/// }
+/// # Ok::<(), census::CensusError>(())
+/// ```
+pub fn visits(problem: &Problem, census: &Census) -> Result<Vec<Visit>, SolveError> {
+    let chain = problem.chain();
+    let mut solver = Solver::new(problem, &Settings::default())?;
+    let listed = census.equilibria.iter().enumerate();
+    listed
+        .map(|(k, equilibrium)| {
+            let joints: Vec<Vector> =
+                equilibrium.joints_m.iter().map(|joint| joint.map(Interval::mid)).collect();
+            let bars: Vec<Vector> = joints
+                .windows(2)
+                .map(|ends| std::array::from_fn(|axis| ends[1][axis] - ends[0][axis]))
+                .collect();
+            let found = solver.solve(&Seed::directions(&bars))?.solution()?.equilibrium;
+            Ok(Visit {
+                number: k + 1,
+                ended: nearest(chain, census, &found.joints_m)
+                    .expect("the census has at least the equilibrium of this start"),
+                same_stability: found.stability.index_in_plane == equilibrium.index_in_plane
+                    && found.stability.index_in_space == equilibrium.index_in_space(),
+            })
+        })
+        .collect()
+}
+
+/// The largest violation of Newton's laws by the middles of the boxes, over all equilibria: joints and
+/// multipliers, judged bar by bar.
+#[must_use]
+pub fn statics(problem: &Problem, census: &Census) -> f64 {
+    let answers = census.to_model();
+    let judged = answers
+        .iter()
+        .map(|answer| judge(problem.chain(), &answer.joints_m, &answer.multipliers_n).largest());
+    judged.fold(0.0, worse)
+}
+
+/// The energies of the first and the last of the list less the semidefinite bounds of all
+/// configurations, from within: in units of total weight times total length. Roundings apart neither is
+/// negative, and both vanish if nothing lower and nothing higher exists.
+///
+/// # Errors
+///
+/// [`BoundError`] when a programme is not solved.
+pub fn gaps(problem: &Problem, census: &Census) -> Result<[f64; 2], BoundError> {
+    let chain = problem.chain();
+    let unit_j = chain.total_mass_kg() * chain.gravity_m_s2() * chain.total_length_m();
+    let settings = BoundSettings::default();
+    let lower = semidefinite(problem, Sense::Lower, &settings)?.rigorous_j;
+    let upper = semidefinite(problem, Sense::Upper, &settings)?.rigorous_j;
+    let single = census.equilibria.iter().map(|equilibrium| equilibrium.energy_j);
+    let families = census.families.iter().map(|family| family.energy_j);
+    let (low, high) = single
+        .chain(families)
+        .map(Interval::mid)
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), e| (low.min(e), high.max(e)));
+    Ok([(low - lower) / unit_j, (upper - high) / unit_j])
+}
+
+/// The accuracy to which a solver may place a joint, in units of the total length: what coordinates can
+/// hold besides 1e-12.
+#[must_use]
+pub fn placed(chain: &Chain) -> f64 {
+    /// Measured on random chains: 2e-14 in general.
+    const SOLVER: f64 = 1e-12;
+    SOLVER + stored_rounding_m(chain) / chain.total_length_m()
+}

@@ -1,0 +1,395 @@
+//! The census held against all that does not need it: both solvers, Newton's laws, exact algebra, topology and
+//! convex programming.
+
+#![expect(clippy::unwrap_used, reason = "helpers of tests")]
+
+use std::f64::consts::TAU;
+use std::time::Instant;
+
+use census::sextic::{SEXTIC, count_roots};
+use census::{Census, Settings};
+use model::{Anchors, Bar, Chain, Problem, Rung, Vector};
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use rayon::prelude::*;
+use validate::Tolerances;
+use validate::census_checks::{gaps, nearest, placed, statics, visits};
+use validate::completeness::{Completeness, certify_by_census};
+use validate::example::Example;
+use validate::paper::Paper;
+
+/// A random chain in general position; every fifth one hangs between anchors on one vertical.
+fn random_problem(bars: usize, seed: u64) -> Problem {
+    let mut rng = ChaCha8Rng::seed_from_u64(seed);
+    rng.set_stream(bars as u64);
+    loop {
+        let bars: Vec<Bar> = (0..bars)
+            .map(|_| {
+                let length = rng.random_range(0.3..1.0);
+                let centre = length * rng.random_range(0.1..0.9);
+                Bar::new(length, rng.random_range(0.05..1.0), centre, [0.0; 3]).unwrap()
+            })
+            .collect();
+        let span = rng.random_range(0.05..0.9) * bars.iter().map(Bar::length_m).sum::<f64>();
+        let angle: f64 = rng.random_range(0.0..TAU);
+        let turn: f64 = rng.random_range(0.0..TAU);
+        let (level, rise) = if seed.is_multiple_of(5) {
+            (0.0, span.copysign(angle.sin()))
+        } else {
+            (span * angle.cos(), span * angle.sin())
+        };
+        let end_m = [level * turn.cos(), level * turn.sin(), rise];
+        let anchors = Anchors { start_m: [0.0; 3], end_m };
+        let problem = Chain::new("random", 9.81, anchors, bars).map(Problem::new);
+        if let Ok(Ok(problem)) = problem {
+            return problem;
+        }
+    }
+}
+
+fn census(problem: &Problem) -> Census {
+    let census = Census::take(problem, &Settings::default()).unwrap();
+    assert!(census.complete, "{:?}", census.undecided);
+    census
+}
+
+/// Random chains of `bars` bars, those with vertical anchors included.
+fn chains(bars: std::ops::RangeInclusive<usize>, seeds: u64) -> Vec<(usize, u64)> {
+    bars.flat_map(|bars| (0..seeds).map(move |seed| (bars, seed))).collect()
+}
+
+/// Uniform directions in the plane of the anchors (OYZ for anchors on one vertical) or in space.
+fn random_directions(problem: &Problem, rng: &mut ChaCha8Rng, in_space: bool) -> Vec<Vector> {
+    let [x, y, _] = problem.chain().anchors().difference_m();
+    let heading = if x.hypot(y) > 0.0 { y.atan2(x) } else { TAU / 4.0 };
+    let bars = problem.chain().bars().iter();
+    bars.map(|_| {
+        let angle: f64 = rng.random_range(0.0..TAU);
+        let aside: f64 = if in_space { rng.random_range(-1.0..1.0) } else { 0.0 };
+        let (along, up) = (angle.sin(), -angle.cos());
+        let (sin, cos) = heading.sin_cos();
+        [along * cos - aside * sin, along * sin + aside * cos, up]
+    })
+    .collect()
+}
+
+/// What the seeds of one solver found: how often each listed equilibrium, and how many ended in no
+/// equilibrium.
+#[derive(Debug)]
+struct Found {
+    hits: Vec<usize>,
+    lost: usize,
+}
+
+/// Solve from many seeds by one solver. Panics if one ends in an equilibrium that is not listed.
+///
+/// Seeds share no state, whatever the number of threads.
+fn seeds(
+    problem: &Problem,
+    census: &Census,
+    seeds: usize,
+    solve: impl Fn(&[Vector]) -> Option<Vec<Vector>> + Sync,
+) -> Found {
+    /// What a solver's tolerance leaves where the equilibrium is ill-conditioned, in total lengths; far
+    /// below the distance of any two of the list.
+    const SEEDED: f64 = 1e-7;
+    let ends: Vec<Option<usize>> = (0..seeds)
+        .into_par_iter()
+        .map(|k| {
+            let mut rng = ChaCha8Rng::seed_from_u64(7);
+            rng.set_stream(k as u64);
+            let joints = solve(&random_directions(problem, &mut rng, k % 2 == 1))?;
+            let place = nearest(problem.chain(), census, &joints).unwrap();
+            assert!(place.beyond < SEEDED, "{place:?}: not in the census: {joints:?}");
+            Some(place.number)
+        })
+        .collect();
+    let mut found = Found { hits: vec![0; census.equilibria.len()], lost: 0 };
+    for end in ends {
+        match end {
+            Some(number) => found.hits[number - 1] += 1,
+            None => found.lost += 1,
+        }
+    }
+    found
+}
+
+fn by_lagrange(problem: &Problem) -> impl Fn(&[Vector]) -> Option<Vec<Vector>> + Sync {
+    let settings = lagrange::Settings::default();
+    move |directions| {
+        let mut solver = lagrange::Solver::new(problem, &settings).unwrap();
+        let outcome = solver.solve(&lagrange::Seed::directions(directions)).ok()?;
+        Some(outcome.solution().ok()?.equilibrium.joints_m)
+    }
+}
+
+fn by_energy(problem: &Problem) -> impl Fn(&[Vector]) -> Option<Vec<Vector>> + Sync {
+    let plane = energy::Settings { motion: energy::Motion::Plane, ..energy::Settings::default() };
+    move |directions| {
+        let seed = energy::Seed::directions(problem, directions).ok()?;
+        // In the plane it stops at saddles of space as well, so more is found.
+        let found = energy::minimise_from(problem, &seed, &plane).ok()?;
+        Some(found.equilibrium.joints_m)
+    }
+}
+
+/// [`seeds`] for `lagrange` on the paper's chain in a third of the time: an end is known by its energy and
+/// by the distance of joint 1 from the vertical of the anchors, without the spectrum at the solution.
+fn circles_by_lagrange(problem: &Problem, census: &Census, seeds: usize) -> Found {
+    /// As in [`seeds`], in m and in mgl; the two circles are 1.3 mgl apart.
+    const SEEDED: f64 = 1e-7;
+    let settings = lagrange::Settings::default();
+    let known: Vec<[f64; 2]> = census
+        .equilibria
+        .iter()
+        .map(|e| [e.energy_j.mid(), e.joints_m[1][0].mid().hypot(e.joints_m[1][1].mid())])
+        .collect();
+    let ends: Vec<Option<usize>> = (0..seeds)
+        .into_par_iter()
+        .map_init(
+            || lagrange::Solver::new(problem, &settings).unwrap(),
+            |solver, k| {
+                let mut rng = ChaCha8Rng::seed_from_u64(7);
+                rng.set_stream(k as u64);
+                let directions = random_directions(problem, &mut rng, k % 2 == 1);
+                let end = solver.solve(&lagrange::Seed::directions(&directions)).ok()?;
+                let [x, y] = end.first_offset_m();
+                let found = [end.energy_j(), x.hypot(y)];
+                let same = |place: &[f64; 2]| (0..2).all(|k| (place[k] - found[k]).abs() < SEEDED);
+                let number = known.iter().position(same);
+                assert!(number.is_some(), "{found:?}: not in the census");
+                number
+            },
+        )
+        .collect();
+    let mut found = Found { hits: vec![0; known.len()], lost: 0 };
+    for end in ends {
+        match end {
+            Some(number) => found.hits[number] += 1,
+            None => found.lost += 1,
+        }
+    }
+    found
+}
+
+/// Every equilibrium that 100,000 seeds of either solver find is in the list.
+#[test]
+fn no_seed_finds_what_is_not_listed() {
+    const SEEDS: usize = 100_000;
+    let problem = model::cases::paper();
+    let census = census(&problem);
+    let clock = Instant::now();
+    let lagrange = circles_by_lagrange(&problem, &census, SEEDS);
+    println!("lagrange {lagrange:?} {:.1} s", clock.elapsed().as_secs_f64());
+    let clock = Instant::now();
+    let energy = seeds(&problem, &census, SEEDS, by_energy(&problem));
+    println!("energy {energy:?} {:.1} s", clock.elapsed().as_secs_f64());
+    // The search is worth something: nearly all seeds end, and both circles are found.
+    assert!(lagrange.lost < SEEDS / 20 && lagrange.hits.iter().all(|hits| *hits > SEEDS / 10));
+    assert!(energy.lost < SEEDS / 20 && energy.hits[0] > SEEDS / 2);
+}
+
+#[test]
+fn no_seed_on_random_chains_finds_what_is_not_listed() {
+    let (mut hit, mut listed) = (0, 0);
+    for (bars, seed) in chains(3..=5, 4) {
+        let problem = random_problem(bars, seed);
+        let census = census(&problem);
+        let lagrange = seeds(&problem, &census, 300, by_lagrange(&problem));
+        let energy = seeds(&problem, &census, 300, by_energy(&problem));
+        println!("{bars} bars, seed {seed}: {lagrange:?} {energy:?}");
+        assert!(energy.hits[0] > 0, "the global minimum");
+        hit += lagrange.hits.iter().filter(|hits| **hits > 0).count();
+        listed += census.equilibria.len();
+    }
+    println!("{hit} of {listed}");
+    assert!(2 * hit > listed, "{hit} of {listed}");
+}
+
+/// Take one equilibrium off the list, and the seeds find that it is missing.
+#[test]
+#[should_panic(expected = "not in the census")]
+fn a_seed_finds_what_was_deleted() {
+    let problem = model::cases::paper();
+    let mut census = census(&problem);
+    census.equilibria.remove(1);
+    circles_by_lagrange(&problem, &census, 100);
+}
+
+/// `lagrange` stays where it is started in the list, with the same stability, and Newton's laws hold.
+#[test]
+fn every_listed_equilibrium_is_one_for_lagrange_and_for_the_statics_judge() {
+    let tolerance = Tolerances::project().statics.value;
+    let judged: Vec<(f64, f64)> = chains(3..=6, 10)
+        .into_par_iter()
+        .map(|(bars, seed)| {
+            let problem = random_problem(bars, seed);
+            let census = census(&problem);
+            let visits = visits(&problem, &census).unwrap();
+            assert_eq!(visits.len(), census.equilibria.len());
+            for visit in &visits {
+                assert!(
+                    visit.ended.number == visit.number && visit.same_stability,
+                    "{bars} bars, seed {seed}: {visit:?}"
+                );
+            }
+            let off = visits.iter().map(|visit| visit.ended.beyond).fold(0.0, f64::max);
+            let allowed = placed(problem.chain());
+            assert!(off <= allowed, "{bars} bars, seed {seed}: {off:e}");
+            (off, statics(&problem, &census))
+        })
+        .collect();
+    let (off, statics) = judged.iter().fold((0.0_f64, 0.0_f64), |(a, b), (c, d)| {
+        assert!(*d <= tolerance, "{d:e}");
+        (a.max(*c), b.max(*d))
+    });
+    println!("lagrange beyond its box {off:.1e}, statics {statics:.1e}");
+}
+
+/// No configuration has less energy than the first of the list, none more than the last.
+#[test]
+fn the_list_reaches_from_bound_to_bound() {
+    /// Gaps at rounding level, in units of weight times length. Measured: see the output.
+    const ROUNDING: f64 = 1e-12;
+    let mut all = vec![(model::cases::paper(), 0, 0)];
+    all.extend(chains(3..=7, 6).into_iter().map(|(bars, k)| (random_problem(bars, k), bars, k)));
+    let worst: Vec<[f64; 2]> = all
+        .into_par_iter()
+        .map(|(problem, bars, seed)| {
+            let census = census(&problem);
+            let gaps = gaps(&problem, &census).unwrap();
+            for gap in gaps {
+                assert!(gap.abs() < ROUNDING, "{bars} bars, seed {seed}: {gaps:?}");
+            }
+            // The first is proved optimal by its stress matrix as well.
+            assert!(census.equilibria[0].optimal, "{bars} bars, seed {seed}");
+            gaps
+        })
+        .collect();
+    let most = worst.concat().into_iter().map(f64::abs).fold(0.0, f64::max);
+    println!("largest gap {most:.1e}");
+}
+
+/// Without its first or its last equilibrium a list does not reach from bound to bound.
+#[test]
+fn a_list_cut_short_leaves_a_gap() {
+    let problem = random_problem(5, 3);
+    let whole = census(&problem);
+    let without = |k: usize| {
+        let mut census = whole.clone();
+        census.equilibria.remove(k);
+        gaps(&problem, &census).unwrap()
+    };
+    assert!(without(0)[0] > 1e-4 && without(whole.equilibria.len() - 1)[1] > 1e-4);
+}
+
+/// Exact algebra and topology: the paper's chain.
+#[test]
+fn the_sextic_and_the_topology_count_the_same() {
+    let census = census(&model::cases::paper());
+    assert_eq!(count_roots(&SEXTIC, -1, 1), Some(census.equilibria.len()));
+    // The boxes of the cosines hold the roots that other arithmetic finds.
+    let roots = validate::sextic::roots().unwrap();
+    for (equilibrium, root) in census.equilibria.iter().rev().zip(&roots) {
+        let theta = equilibrium.angles_rad[0];
+        // cos falls here; a rounding on either side.
+        let [low, high] = [theta.hi().cos() - 1e-15, theta.lo().cos() + 1e-15];
+        assert!((low..=high).contains(root), "{low} {root} {high}");
+    }
+    let topology = census.topology.as_ref().unwrap();
+    assert_eq!((census.alternating_sum(), topology.euler), (0, 0));
+    assert_eq!(census.morse(), Ok(()));
+}
+
+/// Section VIII, closed: four in the plane, two circles, (x) not among them, (ix) not exactly one.
+#[test]
+fn section_viii_is_closed() {
+    let (paper, example) = (Paper::project(), Example::solve().unwrap());
+    let proof = Completeness::new(&paper, &example);
+    println!("{proof:?}");
+    assert!(proof.is_closed());
+    assert_eq!((proof.planar, proof.circles), (4, 2));
+    assert_eq!((proof.euler, proof.sextic_roots), (Some(0), Some(2)));
+    assert_eq!(proof.by_index, [2, 2]);
+    // At theta = 0 the slope is sqrt(3)/2 exactly; (x) is the first point of the scan.
+    let [low, high] = proof.second.slope_mgl;
+    assert!(low > 0.86 && high < 0.87 && high - low < 1e-5, "{low} {high}");
+    // The nearest is E1', by alpha: -38.59914 against 299.94274 - 360.
+    assert!((proof.second.nearest_deg - 21.458_12).abs() < 1e-4);
+    // (ix) is within a step of the scan, 0.001 rad, of E1, but not at it.
+    assert!(proof.first.is_refuted() && proof.first.nearest_deg > 0.01);
+    assert!(proof.first.nearest_deg < 0.001_f64.to_degrees());
+}
+
+#[test]
+fn a_tampered_census_does_not_close_section_viii() {
+    let (paper, example) = (Paper::project(), Example::solve().unwrap());
+    let closed = |change: &dyn Fn(&mut Example)| {
+        let mut example = example.clone();
+        change(&mut example);
+        Completeness::new(&paper, &example).is_closed()
+    };
+    assert!(closed(&|_| ()));
+    assert!(!closed(&|e| e.census.complete = false));
+    assert!(!closed(&|e| drop(e.census.equilibria.pop())));
+    assert!(!closed(&|e| e.census.equilibria.clear()));
+    assert!(!closed(&|e| e.census.equilibria[0].index_in_plane = 1));
+    assert!(!closed(&|e| e.census.equilibria[1].multipliers_n[2][2] = census::Interval::ONE));
+    assert!(!closed(&|e| e.census.equilibria[1].joints_m[2][2] = census::Interval::LINE));
+    // If the paper printed E2, (x) would be one of the equilibria.
+    let mut other = paper.clone();
+    for (id, text) in [("x-theta", "73.92059"), ("x-alpha", "321.40086"), ("x-beta", "340.30513")] {
+        text.clone_into(&mut other.claims.iter_mut().find(|c| c.id == id).unwrap().printed);
+    }
+    let proof = Completeness::new(&other, &example);
+    assert!(!proof.second.is_refuted() && proof.second.nearest_deg <= 0.0 && !proof.is_closed());
+}
+
+/// The claims that rest on the census fall with it, and no others.
+#[test]
+fn the_claims_rest_on_the_census() {
+    let (paper, example) = (Paper::project(), Example::solve().unwrap());
+    let surveys = validate::seeds::surveys(&example, 300);
+    let unexpected = |change: &dyn Fn(&mut Example)| -> Vec<String> {
+        let mut example = example.clone();
+        change(&mut example);
+        let judged = validate::claims::claims(&paper, &example, &surveys);
+        judged.into_iter().filter(|claim| !claim.as_expected).map(|c| c.printed.id).collect()
+    };
+    assert_eq!(unexpected(&|_| ()), Vec::<String>::new());
+    let fallen = ["x-listed", "four", "infinity"];
+    assert_eq!(unexpected(&|e| drop(e.census.equilibria.pop())), fallen);
+    assert_eq!(unexpected(&|e| e.census.equilibria[1].index_in_plane = 0), fallen);
+    assert_eq!(unexpected(&|e| e.census.complete = false), fallen);
+}
+
+/// The rungs of the ladder: `optimal` for E1 alone, `complete` for E2, and neither for what is not listed.
+#[test]
+fn the_ladder_is_honest() {
+    let example = Example::solve().unwrap();
+    let mut e2 = example.lagrange.e2.equilibrium.clone();
+    certify_by_census(&example.problem, &example.census, &mut e2);
+    assert_eq!(e2.evidence.rung(), Rung::Complete);
+    let reached = |answer: &model::Equilibrium, rung| {
+        answer.evidence.ladder().iter().find(|s| s.rung == rung).unwrap().reached
+    };
+    // Turned about the vertical anchors it is on the same circle.
+    let mut turned = example.lagrange.e2.equilibrium.clone();
+    let (sin, cos) = 0.7_f64.sin_cos();
+    for joint in &mut turned.joints_m {
+        let [x, y, z] = *joint;
+        *joint = [cos * x - sin * y, sin * x + cos * y, z];
+    }
+    certify_by_census(&example.problem, &example.census, &mut turned);
+    assert!(reached(&turned, Rung::Complete));
+    // Moved by 1e-9 of a bar it is no longer in the box.
+    let mut moved = example.lagrange.e2.equilibrium.clone();
+    moved.joints_m[1][2] += 1e-9;
+    certify_by_census(&example.problem, &example.census, &mut moved);
+    assert!(!reached(&moved, Rung::Verified) && !reached(&moved, Rung::Complete));
+    // A census that is not complete says so.
+    let mut open = example.census.clone();
+    open.complete = false;
+    certify_by_census(&example.problem, &open, &mut e2);
+    assert!(reached(&e2, Rung::Verified) && !reached(&e2, Rung::Complete));
+}
