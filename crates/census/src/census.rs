@@ -60,6 +60,10 @@ pub struct Progress {
     pub done: u64,
     /// Cells waiting; grows at first, and is 0 at the end.
     pub waiting: u64,
+    /// Zeros of the closure proved so far, those that neighbouring cells share several times.
+    pub proved: u64,
+    /// Cells given up so far, neighbours not yet joined.
+    pub undecided: u64,
 }
 
 impl Census {
@@ -100,7 +104,7 @@ impl Census {
         settings.validate()?;
         refuse_long(problem, settings)?;
         let system = System::new(problem)?;
-        let search = search(&system, settings, &|done, waiting| watch(Progress { done, waiting }));
+        let search = search(&system, settings, watch);
 
         let mut undecided: Vec<Undecided> = vec![];
         for task in gather(search.undecided) {

@@ -160,6 +160,10 @@ fn check_one(
     {
         return Err(CheckError::Index { number });
     }
+    // Else both mirror images of every circle could be listed, and no count would tell.
+    if system.vertical && stated.angles_rad.first().is_none_or(|angle| angle.lo() <= 0.0) {
+        return Err(wrong("the side of the circle that is shown"));
+    }
     let flat = |vectors: &[[Interval; 3]]| vectors.concat();
     for (quantity, stated, anew) in [
         ("the pull", stated.pull_n.to_vec(), anew.pull_n.to_vec()),

@@ -4,7 +4,7 @@ use model::{
     Equilibrium, Evidence, InPlane, InSpace, Reactions, Rung, SolverName, Stability, Vector,
 };
 
-use crate::{Census, Interval, ProvenEquilibrium};
+use crate::{Census, Interval, Position, ProvenEquilibrium};
 
 impl Census {
     /// The isolated equilibria as answers of a solver, in the order of the census: middles of the
@@ -22,6 +22,12 @@ impl Census {
     #[must_use]
     pub fn to_model(&self) -> Vec<Equilibrium> {
         self.equilibria.iter().map(|equilibrium| self.one_to_model(equilibrium)).collect()
+    }
+
+    /// One position as the answer of a solver, as in [`to_model`](Self::to_model).
+    #[must_use]
+    pub fn position_to_model(&self, position: &Position) -> Equilibrium {
+        self.one_to_model(&position.equilibrium)
     }
 
     fn one_to_model(&self, proven: &ProvenEquilibrium) -> Equilibrium {

@@ -1,117 +1,165 @@
 //! All shapes side by side, as SVG.
+//!
+//! Colours are two of M. Okabe and K. Ito's palette, which people of every colour vision tell apart
+//! (<https://jfly.uni-koeln.de/color/>). Tension and compression differ by their form as well: a solid
+//! line like a taut string, a hollow one like a tube; so they do in grey and on bad paper.
 
 use std::fmt::Write;
 
-use crate::{Census, Interval, ProvenEquilibrium};
+use crate::{Census, Interval, Position};
 
-/// Side of the square in which a shape is drawn, px; room around it, and for its caption.
-const SIDE: f64 = 150.0;
-const MARGIN: f64 = 16.0;
-const CAPTION: f64 = 34.0;
-const PANEL: [f64; 2] = [SIDE + 2.0 * MARGIN, SIDE + 2.0 * MARGIN + CAPTION];
+/// The longer side of the common frame of all shapes, px, and the least room for the caption.
+const SIDE: f64 = 170.0;
+const LEAST_WIDTH: f64 = 150.0;
 
-/// Room for the title, and for the key below.
-const HEAD: f64 = 30.0;
-const FOOT: f64 = 30.0;
+/// Room around a shape, for the marks of joints and anchors, and below it for three lines of caption.
+const MARGIN: f64 = 18.0;
+const CAPTION: f64 = 52.0;
 
-/// At most so many panels in a row: the figure then fits a page or a screen.
-const COLUMNS: usize = 6;
+/// Room for title and subtitle, and for the key below.
+const HEAD: f64 = 56.0;
+const FOOT: f64 = 44.0;
 
-/// Tension: a dark blue, solid; compression: an orange, dashed. In grey they differ in lightness and in
-/// the dashes.
-const TENSION: &str = "stroke=\"#12436d\" stroke-width=\"3\"";
-const COMPRESSION: &str = "stroke=\"#e07b00\" stroke-width=\"4\" stroke-dasharray=\"7 4\"";
+/// Width of a row: the figure fits a page or a screen.
+const ROW: f64 = 1_150.0;
+
+/// Least width of the whole figure: the key must fit.
+const LEAST_FIGURE: f64 = 560.0;
+
+/// Distance of the lines of a caption.
+const LINE: f64 = 15.0;
+
+/// Tension: blue, solid. Compression: vermilion with a white core, hollow.
+const TENSION: &str = "stroke=\"#0072B2\" stroke-width=\"3.5\"";
+const COMPRESSION: &str = "stroke=\"#D55E00\" stroke-width=\"6.5\"";
+const CORE: &str = "stroke=\"white\" stroke-width=\"2.5\"";
+const DARK: &str = "#222";
 
 impl Census {
-    /// The shapes of the first `limit` equilibria in their vertical plane, each with its energy, its
-    /// index and its stability: an SVG file that needs no font and no script. All panels have the same
-    /// scale.
+    /// The shapes of the first `limit` positions in their vertical plane, each with its energy, its
+    /// stability and its indices: an SVG file that needs no font and no script. All panels have the same
+    /// scale, which a bar of round length below them shows.
+    ///
+    /// Slack families are not drawn, and neither is what is undecided; the subtitle says so.
     ///
     /// ```
     /// use census::{Census, Settings};
     /// let census = Census::take(&model::cases::paper(), &Settings::default())?;
     /// let svg = census.figure("three equal bars", 60);
     /// assert!(svg.starts_with("<svg ") && svg.ends_with("</svg>\n"));
-    /// assert_eq!(svg.matches("class=\"bar\"").count(), 6);
+    /// assert_eq!(svg.matches("class=\"shape\"").count(), 4);
     /// # Ok::<(), census::CensusError>(())
     /// ```
     #[must_use]
     pub fn figure(&self, name: &str, limit: usize) -> String {
-        let shown = &self.equilibria[..limit.min(self.equilibria.len())];
+        let shown: Vec<Position> = self.positions().take(limit).collect();
         let shapes: Vec<Vec<[f64; 2]>> = shown.iter().map(shape).collect();
         let frame = Frame::around(&shapes);
-        let columns = shown.len().clamp(1, COLUMNS);
-        let rows = shown.len().div_ceil(columns);
-        let width = columns as f64 * PANEL[0];
-        let height = HEAD + rows as f64 * PANEL[1] + FOOT;
+        let panel_width = frame.size.max(LEAST_WIDTH) + 2.0 * MARGIN;
+        let columns = columns(shown.len(), panel_width);
+        let rows: Vec<Row> =
+            shapes.chunks(columns).map(|shapes| Row::around(&frame, shapes)).collect();
+        let grid = columns as f64 * panel_width;
+        let width = grid.max(LEAST_FIGURE);
+        let height = HEAD + rows.iter().map(Row::height).sum::<f64>() + FOOT;
+        let [title, subtitle] = [escaped(name), self.subtitle(shown.len())];
         let mut svg = String::new();
-        let title = self.title(name, shown.len());
         // Writing to a string cannot fail.
         let _ = write!(
             svg,
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" \
-             width=\"{width}\" height=\"{height}\" font-family=\"sans-serif\" font-size=\"11\" \
-             role=\"img\">\n<title>{title}</title>\n\
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width:.1} {height:.1}\" \
+             width=\"{width:.1}\" height=\"{height:.1}\" font-family=\"Helvetica, Arial, sans-serif\" \
+             font-size=\"12\" fill=\"{DARK}\" role=\"img\" aria-labelledby=\"title description\">\n\
+             <title id=\"title\">Equilibria of {title}</title>\n\
+             <desc id=\"description\">{subtitle} Each panel shows one shape in its vertical plane, with \
+             its energy, its stability and its indices; bars in tension are solid, bars in compression \
+             hollow.</desc>\n\
              <rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n\
-             <text x=\"{MARGIN}\" y=\"20\" font-size=\"13\">{title}</text>\n"
+             <text x=\"{MARGIN}\" y=\"24\" font-size=\"16\" font-weight=\"bold\">{title}</text>\n\
+             <text x=\"{MARGIN}\" y=\"43\">{subtitle}</text>\n"
         );
-        for (k, (equilibrium, shape)) in shown.iter().zip(&shapes).enumerate() {
-            let [column, row] = [k % columns, k / columns];
-            let x = column as f64 * PANEL[0];
-            let y = HEAD + row as f64 * PANEL[1];
-            let _ = writeln!(svg, "<g transform=\"translate({x} {y})\">");
-            panel(&mut svg, &frame, k + 1, equilibrium, shape);
-            svg.push_str("</g>\n");
+        let left = 0.5 * (width - grid);
+        let mut y = HEAD;
+        let panels = shown.chunks(columns).zip(shapes.chunks(columns));
+        for (row, (positions, shapes)) in rows.iter().zip(panels) {
+            for (k, (position, shape)) in positions.iter().zip(shapes).enumerate() {
+                let x = left + k as f64 * panel_width;
+                let _ = writeln!(
+                    svg,
+                    "<g class=\"shape\" role=\"img\" transform=\"translate({x:.1} {y:.1})\">"
+                );
+                let points: Vec<[f64; 2]> =
+                    shape.iter().map(|point| row.place(&frame, panel_width, *point)).collect();
+                panel(&mut svg, position, &points, [panel_width, row.size]);
+                svg.push_str("</g>\n");
+            }
+            y += row.height();
         }
-        let y = height - 12.0;
-        let _ = write!(
-            svg,
-            "<g><line x1=\"{MARGIN}\" y1=\"{0}\" x2=\"46\" y2=\"{0}\" {TENSION}/>\
-             <text x=\"52\" y=\"{y}\">tension</text>\
-             <line x1=\"106\" y1=\"{0}\" x2=\"136\" y2=\"{0}\" {COMPRESSION}/>\
-             <text x=\"142\" y=\"{y}\">compression</text></g>\n</svg>\n",
-            y - 4.0
-        );
+        key(&mut svg, &frame, height - 0.5 * FOOT);
+        svg.push_str("</svg>\n");
         svg
     }
 
-    fn title(&self, name: &str, shown: usize) -> String {
-        let all = self.equilibria.len();
-        let what = match (self.circles, all) {
-            (true, 1) => "circle of equilibria",
-            (true, _) => "circles of equilibria",
-            (false, 1) => "equilibrium",
-            (false, _) => "equilibria",
+    /// What is shown, and what is not.
+    fn subtitle(&self, shown: usize) -> String {
+        let all = self.count_in_plane();
+        let circles = self.equilibria.len();
+        let mut text = if shown < all {
+            format!("The {shown} lowest of {all} equilibria in the plane")
+        } else {
+            format!("{all} {} in the plane", if all == 1 { "equilibrium" } else { "equilibria" })
         };
-        let part = if shown < all { format!("the lowest {shown} of ") } else { String::new() };
-        let rest = if self.complete { "complete" } else { "not proved complete" };
-        format!("{}: {part}{all} {what}, {rest}", escaped(name))
+        if self.circles {
+            let noun = if circles == 1 { "circle" } else { "circles" };
+            let _ = write!(text, " ({circles} {noun} in space)");
+        }
+        text += if self.complete { ", proved to be all." } else { ", not proved to be all." };
+        for (number, one, many) in [
+            (self.families.len(), "slack family is", "slack families are"),
+            (self.undecided.len(), "undecided box is", "undecided boxes are"),
+        ] {
+            if number > 0 {
+                let _ =
+                    write!(text, " {number} {} not drawn.", if number == 1 { one } else { many });
+            }
+        }
+        text
     }
+}
+
+/// As many panels in a row as fit, evenly spread over the rows.
+fn columns(panels: usize, width: f64) -> usize {
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most 7")]
+    let most = ((ROW / width) as usize).max(1);
+    let rows = panels.div_ceil(most).max(1);
+    panels.div_ceil(rows).max(1)
 }
 
 /// A name between tags.
 fn escaped(text: &str) -> String {
-    text.chars()
-        .map(|c| match c {
-            '&' => "&amp;".to_owned(),
-            '<' => "&lt;".to_owned(),
-            '>' => "&gt;".to_owned(),
-            // Control characters have no place in XML.
-            c if c.is_control() => " ".to_owned(),
-            c => c.to_string(),
-        })
-        .collect()
+    let mut safe = String::new();
+    for c in text.chars() {
+        match c {
+            '&' => safe += "&amp;",
+            '<' => safe += "&lt;",
+            '>' => safe += "&gt;",
+            // Neither control characters nor the two non-characters have a place in XML.
+            c if c.is_control() || matches!(c, '\u{fffe}' | '\u{ffff}') => safe.push(' '),
+            c => safe.push(c),
+        }
+    }
+    safe
 }
 
 /// The joints in the plane: along the horizontal from the first to the last anchor (for anchors on one
 /// vertical, along Y) and up, from joint 0.
-fn shape(equilibrium: &ProvenEquilibrium) -> Vec<[f64; 2]> {
+fn shape(position: &Position) -> Vec<[f64; 2]> {
     let joints: Vec<[f64; 3]> =
-        equilibrium.joints_m.iter().map(|joint| joint.map(Interval::mid)).collect();
+        position.equilibrium.joints_m.iter().map(|joint| joint.map(Interval::mid)).collect();
     let (Some(start), Some(end)) = (joints.first(), joints.last()) else { return vec![] };
     let [x, y] = [end[0] - start[0], end[1] - start[1]];
     let distance = x.hypot(y);
-    let along = if equilibrium.circle || distance <= 0.0 {
+    let along = if position.equilibrium.circle || distance <= 0.0 {
         [0.0, 1.0]
     } else {
         [x / distance, y / distance]
@@ -126,8 +174,13 @@ fn shape(equilibrium: &ProvenEquilibrium) -> Vec<[f64; 2]> {
 }
 
 /// The common scale of all panels.
+#[derive(Debug)]
 struct Frame {
-    middle: [f64; 2],
+    /// Of the level coordinate, m.
+    middle: f64,
+    /// Pixels from the leftmost to the rightmost joint.
+    size: f64,
+    /// Pixels per metre.
     scale: f64,
 }
 
@@ -141,77 +194,185 @@ impl Frame {
                 high[k] = high[k].max(point[k]);
             }
         }
-        let size = (high[0] - low[0]).max(high[1] - low[1]);
-        if !(size.is_finite() && size > 0.0) {
-            return Self { middle: [0.0; 2], scale: 1.0 };
+        let size = [high[0] - low[0], high[1] - low[1]];
+        let longest = size[0].max(size[1]);
+        if !(longest.is_finite() && longest > 0.0) {
+            return Self { middle: 0.0, size: SIDE, scale: 0.0 };
         }
-        Self { middle: std::array::from_fn(|k| 0.5 * low[k] + 0.5 * high[k]), scale: SIDE / size }
+        let scale = SIDE / longest;
+        Self { middle: 0.5 * low[0] + 0.5 * high[0], size: size[0] * scale, scale }
+    }
+}
+
+/// The heights of the shapes of one row: rows of flat shapes are low.
+#[derive(Debug)]
+struct Row {
+    /// Of the highest joint, m.
+    top: f64,
+    /// Pixels from the highest to the lowest joint.
+    size: f64,
+}
+
+impl Row {
+    fn around(frame: &Frame, shapes: &[Vec<[f64; 2]>]) -> Self {
+        let heights = || shapes.iter().flatten().map(|point| point[1]);
+        let top = heights().fold(f64::NEG_INFINITY, f64::max);
+        let bottom = heights().fold(f64::INFINITY, f64::min);
+        Self { top, size: frame.scale * (top - bottom) }
     }
 
-    fn place(&self, point: [f64; 2]) -> [f64; 2] {
-        let centre = MARGIN + 0.5 * SIDE;
+    /// Pixels with margins and caption.
+    fn height(&self) -> f64 {
+        self.size + 2.0 * MARGIN + CAPTION
+    }
+
+    /// A point of the plane in a panel of this width.
+    fn place(&self, frame: &Frame, width: f64, point: [f64; 2]) -> [f64; 2] {
         [
-            centre + self.scale * (point[0] - self.middle[0]),
-            centre - self.scale * (point[1] - self.middle[1]),
+            0.5 * width + frame.scale * (point[0] - frame.middle),
+            MARGIN + frame.scale * (self.top - point[1]),
         ]
     }
 }
 
-fn panel(
-    svg: &mut String,
-    frame: &Frame,
-    number: usize,
-    equilibrium: &ProvenEquilibrium,
-    shape: &[[f64; 2]],
-) {
-    let points: Vec<[f64; 2]> = shape.iter().map(|point| frame.place(*point)).collect();
-    for (ends, sign) in points.windows(2).zip(&equilibrium.signs) {
-        let style = if *sign < 0 { COMPRESSION } else { TENSION };
-        let _ = writeln!(
-            svg,
-            "<line class=\"bar\" x1=\"{:.2}\" y1=\"{:.2}\" x2=\"{:.2}\" y2=\"{:.2}\" {style}/>",
-            ends[0][0], ends[0][1], ends[1][0], ends[1][1]
-        );
+fn line(svg: &mut String, class: &str, ends: [[f64; 2]; 2], style: &str) {
+    let [[x, y], [p, q]] = ends;
+    let _ = writeln!(
+        svg,
+        "<line class=\"{class}\" x1=\"{x:.2}\" y1=\"{y:.2}\" x2=\"{p:.2}\" y2=\"{q:.2}\" {style}/>"
+    );
+}
+
+/// A bar between two points.
+fn bar(svg: &mut String, ends: [[f64; 2]; 2], sign: i8) {
+    if sign < 0 {
+        line(svg, "bar", ends, COMPRESSION);
+        line(svg, "core", ends, CORE);
+    } else {
+        line(svg, "bar", ends, TENSION);
     }
-    let last = points.len().saturating_sub(1);
-    for (k, [x, y]) in points.iter().enumerate() {
-        let _ = if k == 0 || k == last {
-            // Anchors: a square.
-            writeln!(
-                svg,
-                "<rect x=\"{:.2}\" y=\"{:.2}\" width=\"8\" height=\"8\" fill=\"#333\"/>",
-                x - 4.0,
-                y - 4.0
-            )
-        } else {
-            writeln!(
-                svg,
-                "<circle cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"2.6\" fill=\"white\" stroke=\"#333\"/>"
-            )
-        };
+}
+
+fn joint(svg: &mut String, [x, y]: [f64; 2]) {
+    let _ = writeln!(
+        svg,
+        "<circle cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"3.2\" fill=\"white\" stroke=\"{DARK}\" \
+         stroke-width=\"1.4\"/>"
+    );
+}
+
+fn anchor(svg: &mut String, [x, y]: [f64; 2]) {
+    let _ = writeln!(
+        svg,
+        "<rect x=\"{:.2}\" y=\"{:.2}\" width=\"9\" height=\"9\" fill=\"{DARK}\"/>",
+        x - 4.5,
+        y - 4.5
+    );
+}
+
+fn panel(svg: &mut String, position: &Position, points: &[[f64; 2]], [width, size]: [f64; 2]) {
+    let equilibrium = &position.equilibrium;
+    let energy = format!("{} J", short(equilibrium.energy_j.mid()).replace('-', "\u{2212}"));
+    let [stability, indices] = words(position);
+    let label = position.label();
+    let _ = writeln!(svg, "<title>{label}: {energy}, {stability}, {indices}</title>");
+    let (Some(first), Some(last)) = (points.first(), points.last()) else { return };
+    line(
+        svg,
+        "span",
+        [*first, *last],
+        "stroke=\"#999\" stroke-width=\"1\" stroke-dasharray=\"2 4\"",
+    );
+    // Hollow bars first: where bars cross, the thin solid ones stay visible.
+    for compressed in [true, false] {
+        for (ends, sign) in points.windows(2).zip(&equilibrium.signs) {
+            if (*sign < 0) == compressed {
+                bar(svg, [ends[0], ends[1]], *sign);
+            }
+        }
     }
+    for point in points.get(1..points.len() - 1).unwrap_or_default() {
+        joint(svg, *point);
+    }
+    anchor(svg, *first);
+    anchor(svg, *last);
+    let top = size + 2.0 * MARGIN + 12.0;
+    let middle = 0.5 * width;
+    let _ = write!(
+        svg,
+        "<text x=\"{middle:.1}\" y=\"{top:.1}\" text-anchor=\"middle\"><tspan font-weight=\"bold\">\
+         {label}</tspan>  {energy}</text>\n\
+         <text x=\"{middle:.1}\" y=\"{:.1}\" text-anchor=\"middle\">{stability}</text>\n\
+         <text x=\"{middle:.1}\" y=\"{:.1}\" text-anchor=\"middle\" fill=\"#555\">{indices}</text>\n",
+        top + LINE,
+        top + 2.0 * LINE,
+    );
+}
+
+/// Stability and indices of a position.
+fn words(position: &Position) -> [String; 2] {
+    let equilibrium = &position.equilibrium;
     let stability = match (equilibrium.optimal, equilibrium.index_in_space()) {
         (true, _) => "lowest of all".to_owned(),
         (false, 0) => "stable".to_owned(),
-        (false, index) => format!("unstable, index {index}"),
+        (false, _) if equilibrium.index_in_plane == 0 => "stable in the plane only".to_owned(),
+        (false, _) => "unstable".to_owned(),
     };
-    let y = SIDE + 2.0 * MARGIN + 10.0;
-    let _ = writeln!(
-        svg,
-        "<text x=\"{MARGIN}\" y=\"{y}\">{number}: {} J</text>\n\
-         <text x=\"{MARGIN}\" y=\"{}\">{stability} (in plane {})</text>",
-        short(equilibrium.energy_j.mid()),
-        y + 14.0,
-        equilibrium.index_in_plane
+    let indices = format!(
+        "index {} in plane, {} in space",
+        equilibrium.index_in_plane,
+        equilibrium.index_in_space()
     );
+    [stability, indices]
+}
+
+/// The key, and the scale.
+fn key(svg: &mut String, frame: &Frame, y: f64) {
+    let text = |svg: &mut String, x: f64, text: &str| {
+        let _ = writeln!(svg, "<text x=\"{x:.1}\" y=\"{:.1}\">{text}</text>", y + 4.0);
+    };
+    svg.push_str("<g class=\"key\">\n");
+    let swatch = |x: f64| [[x, y], [x + 36.0, y]];
+    bar(svg, swatch(MARGIN), 1);
+    text(svg, MARGIN + 44.0, "tension");
+    bar(svg, swatch(MARGIN + 104.0), -1);
+    text(svg, MARGIN + 148.0, "compression");
+    anchor(svg, [MARGIN + 244.0, y]);
+    text(svg, MARGIN + 256.0, "anchor");
+    joint(svg, [MARGIN + 316.0, y]);
+    text(svg, MARGIN + 326.0, "joint");
+    if frame.scale > 0.0 {
+        let length = round_below(0.5 * SIDE / frame.scale);
+        let [x, end] = [MARGIN + 376.0, MARGIN + 376.0 + length * frame.scale];
+        let style = format!("stroke=\"{DARK}\" stroke-width=\"1.5\"");
+        line(svg, "scale", [[x, y], [end, y]], &style);
+        for x in [x, end] {
+            line(svg, "scale", [[x, y - 4.0], [x, y + 4.0]], &style);
+        }
+        let plain = (1e-3..1e5).contains(&length);
+        let words = if plain { format!("{length} m") } else { format!("{length:e} m") };
+        text(svg, end + 8.0, &words);
+    }
+    svg.push_str("</g>\n");
+}
+
+/// The largest of 1, 2, 5 times a power of ten that is not above a positive number.
+fn round_below(x: f64) -> f64 {
+    let power = 10_f64.powf(x.log10().floor());
+    let leading = [5.0, 2.0].into_iter().find(|leading| leading * power <= x).unwrap_or(1.0);
+    // Through its decimal digits, so that no rounding error shows.
+    format!("{:.0e}", leading * power).parse().unwrap_or(x)
 }
 
 /// Six digits, without an exponent where that is short.
 fn short(x: f64) -> String {
+    if x.abs() < f64::MIN_POSITIVE {
+        return "0".to_owned();
+    }
     if x.abs() < 1e-3 || x.abs() >= 1e6 {
         return format!("{x:.5e}");
     }
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between 0 and 5")]
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between 0 and 8")]
     let decimals = (5.0 - x.abs().log10().floor()).clamp(0.0, 8.0) as usize;
     format!("{x:.decimals$}")
 }
@@ -230,41 +391,78 @@ mod tests {
         let problem = model::cases::get("three-bars-off-centre").unwrap().problem();
         let census = take(&problem);
         let svg = census.figure("a < b & c", 60);
-        assert!(svg.contains("a &lt; b &amp; c: 4 equilibria, complete"));
+        assert!(
+            svg.contains("a &lt; b &amp; c") && svg.contains("4 equilibria in the plane, proved")
+        );
         assert!(!svg.contains("NaN") && !svg.contains("inf"));
         let compressed: usize = census
             .equilibria
             .iter()
             .map(|e| e.signs.iter().filter(|sign| **sign < 0).count())
             .sum();
-        // One more dashed line in the key.
-        assert_eq!(svg.matches("stroke-dasharray").count(), compressed + 1);
+        // One more hollow line in the key.
+        assert_eq!(svg.matches("class=\"core\"").count(), compressed + 1);
         assert_eq!(svg.matches("<g").count(), svg.matches("</g>").count());
-        // Lengths of the drawn bars are in the ratio of the lengths, whatever the equilibrium.
+        // Lengths of the drawn bars are those of the chain in some order, whatever the equilibrium.
         let number = |line: &str, key: &str| -> f64 {
             let rest = line.split(&format!(" {key}=\"")).nth(1).unwrap();
             rest.split('"').next().unwrap().parse().unwrap()
         };
-        let bars = problem.chain().bars();
-        let mut scales = vec![];
-        for (k, line) in svg.lines().filter(|line| line.contains("class=\"bar\"")).enumerate() {
+        let drawn = |line: &str| {
             let dx = number(line, "x2") - number(line, "x1");
-            let dy = number(line, "y2") - number(line, "y1");
-            scales.push(dx.hypot(dy) / bars[k % bars.len()].length_m());
+            dx.hypot(number(line, "y2") - number(line, "y1"))
+        };
+        let mut lengths: Vec<f64> =
+            problem.chain().bars().iter().map(model::Bar::length_m).collect();
+        lengths.sort_by(f64::total_cmp);
+        let mut scales = vec![];
+        for panel in svg.split("class=\"shape\"").skip(1) {
+            let panel = panel.split("</g>").next().unwrap();
+            let bars = panel.lines().filter(|line| line.contains("class=\"bar\""));
+            let mut drawn: Vec<f64> = bars.map(drawn).collect();
+            drawn.sort_by(f64::total_cmp);
+            assert_eq!(drawn.len(), lengths.len());
+            scales.extend(drawn.iter().zip(&lengths).map(|(pixels, metres)| pixels / metres));
         }
         assert_eq!(scales.len(), 12);
         // Coordinates are written to a hundredth of a pixel.
         assert!(scales.iter().all(|scale| (scale - scales[0]).abs() < 0.1), "{scales:?}");
+        // The scale is that of the shapes: its length in pixels over the metres that it says.
+        let scale = svg.lines().find(|line| line.contains("class=\"scale\"")).unwrap();
+        let metres = svg.lines().rev().find_map(|line| line.strip_suffix(" m</text>")).unwrap();
+        let metres: f64 = metres.split('>').next_back().unwrap().parse().unwrap();
+        assert!((drawn(scale) / metres - scales[0]).abs() < 0.1);
+    }
+
+    #[test]
+    fn both_images_of_a_circle_are_drawn() {
+        let svg = take(&model::cases::paper()).figure("three equal bars", 60);
+        assert!(svg.contains("4 equilibria in the plane (2 circles in space), proved to be all."));
+        let labels = ["1", "1'", "2", "2'"];
+        assert!(labels.iter().all(|label| svg.contains(&format!("<title>{label}: "))));
+        // E1 has one bar in compression, E2 two; each twice, and once in the key.
+        assert_eq!(svg.matches("class=\"core\"").count(), 2 * (1 + 2) + 1);
     }
 
     #[test]
     fn long_lists_are_cut_and_say_so() {
         let census = take(&model::cases::get("five-in-space").unwrap().problem());
         let svg = census.figure("five", 3);
-        assert!(svg.contains(&format!("the lowest 3 of {}", census.equilibria.len())));
-        assert_eq!(svg.matches("class=\"bar\"").count(), 15);
+        assert!(svg.contains(&format!("The 3 lowest of {}", census.equilibria.len())));
+        assert_eq!(svg.matches("class=\"shape\"").count(), 3);
+        let none = census.figure("five", 0);
+        assert!(!none.contains("NaN") && !none.contains("inf"));
+    }
+
+    #[test]
+    fn numbers_are_short() {
         assert_eq!(short(-12.345_678_9), "-12.3457");
-        assert_eq!(short(0.0), "0.00000e0");
+        assert_eq!(short(0.0), "0");
         assert_eq!(short(123_456.7), "123457");
+        assert_eq!(short(1.5e-9), "1.50000e-9");
+        for (x, below) in [(0.99, 0.5), (1.0, 1.0), (4.9, 2.0), (7e8, 5e8), (3e-9, 2e-9)] {
+            assert!((round_below(x) / below - 1.0).abs() < 1e-15, "{x}");
+        }
+        assert_eq!((columns(4, 186.0), columns(7, 186.0), columns(1, 5e3)), (4, 4, 1));
     }
 }

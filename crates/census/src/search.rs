@@ -8,6 +8,7 @@ use rayon::prelude::*;
 
 use crate::Settings;
 use crate::cell::Cell;
+use crate::census::Progress;
 use crate::closure::Pattern;
 use crate::family::Family;
 use crate::krawczyk::{Finding, Zero, examine};
@@ -55,8 +56,8 @@ struct Outcome {
     proofs: u64,
 }
 
-/// Search the whole half cube. `watch` hears the number of cells done and waiting after each level.
-pub(crate) fn search(system: &System, settings: &Settings, watch: &dyn Fn(u64, u64)) -> Search {
+/// Search the whole half cube. `watch` hears of the progress after each level.
+pub(crate) fn search(system: &System, settings: &Settings, watch: &dyn Fn(Progress)) -> Search {
     let patterns: Vec<Pattern> = (0..1_u32 << system.bars()).map(Pattern).collect();
     let budget = settings.max_tests_per_pattern.saturating_mul(patterns.len() as u64);
     let mut level: Vec<Task> = Cell::roots(system)
@@ -87,7 +88,12 @@ pub(crate) fn search(system: &System, settings: &Settings, watch: &dyn Fn(u64, u
             search.proofs += outcome.proofs;
             level.extend(outcome.next);
         }
-        watch(search.cells, level.len() as u64);
+        watch(Progress {
+            done: search.cells,
+            waiting: level.len() as u64,
+            proved: search.zeros.len() as u64,
+            undecided: search.undecided.len() as u64,
+        });
     }
     search
 }

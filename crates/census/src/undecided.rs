@@ -47,6 +47,25 @@ pub enum Reason {
     Slack,
 }
 
+impl std::fmt::Display for Reason {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            Self::Degenerate => {
+                "as small as cells get: a degenerate equilibrium, a straight position, or nearly so"
+            }
+            Self::Unloaded => {
+                "the force of a bar vanishes here, and the bar may just bridge the gap that the others leave"
+            }
+            Self::Budget => "the budget of tests was spent",
+            Self::Unclear => "two enclosures overlap that may or may not hold the same equilibrium",
+            Self::Index => "one equilibrium lies here, but its index or its finite pull is not proved",
+            Self::Slack => {
+                "bars without force may or may not bridge the gap that the others leave"
+            }
+        })
+    }
+}
+
 /// More cells than this are first gathered on a grid: merging them takes the square of their number.
 const DIRECT: usize = 2_048;
 

@@ -41,6 +41,9 @@ pub enum Command {
     /// Find the hanging equilibrium of a system file by both solvers, and compare them
     #[command(after_help = EXIT_CODES)]
     Solve(Solve),
+    /// Find every equilibrium of a chain, stable or not, and prove that there is no other
+    #[command(after_help = EXIT_CODES)]
+    Census(crate::census::Census),
     /// List the named cases, or print the system file of one (a start for a file of your own)
     Cases(Cases),
     /// Print a completion script for a shell

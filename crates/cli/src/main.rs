@@ -6,6 +6,7 @@
 mod answer;
 mod args;
 mod cases;
+mod census;
 mod diagnostics;
 mod exit;
 mod input;
@@ -26,6 +27,7 @@ fn main() -> std::process::ExitCode {
     let exit = match Cli::parse().command {
         Command::Reproduce(arguments) => reproduce::run(&arguments),
         Command::Solve(arguments) => solve::run(&arguments),
+        Command::Census(arguments) => census::run(&arguments),
         Command::Cases(arguments) => cases::run(&arguments),
         Command::Completions { shell } => {
             let mut script = Vec::new();

@@ -1,0 +1,150 @@
+//! `funicular census`: every equilibrium of a chain, with proof.
+
+mod answer;
+mod csv;
+mod table;
+
+use std::path::{Path, PathBuf};
+
+use census::{CensusError, Settings};
+use clap::Args;
+use miette::miette;
+use model::Problem;
+
+use crate::cases;
+use crate::exit::{Exit, Failure};
+use crate::input;
+use crate::output;
+use crate::progress::Progress;
+use crate::tables::duration;
+
+/// At most so many shapes in the figure: ten rows of seven fit a screen or a page.
+const SHAPES: usize = 70;
+
+/// More threads than this are a mistake.
+const MOST_THREADS: i64 = 1024;
+
+/// `funicular census`.
+#[derive(Debug, Args)]
+pub struct Census {
+    /// The system file (TOML); see `funicular cases three-equal-bars` for one
+    #[arg(value_name = "FILE", required_unless_present = "case")]
+    pub file: Option<PathBuf>,
+    /// Take the census of a named case instead of a file
+    #[arg(long, value_name = "NAME", conflicts_with = "file")]
+    pub case: Option<String>,
+    /// Print one JSON object (schema_version 1) instead of tables
+    #[arg(long)]
+    pub json: bool,
+    /// Refuse longer chains, with an estimate of what they would cost (at most 24)
+    #[arg(long, value_name = "N", default_value_t = Settings::default().max_bars)]
+    pub max_bars: usize,
+    /// Draw all shapes side by side into this SVG file
+    #[arg(long, value_name = "FILE")]
+    pub svg: Option<PathBuf>,
+    /// Write joints and forces, a line per equilibrium and joint, to this CSV file
+    #[arg(long, value_name = "FILE")]
+    pub csv: Option<PathBuf>,
+    /// How many threads share the work; the answer does not depend on it [default: all processors]
+    #[arg(long, value_name = "T", value_parser = clap::value_parser!(u64).range(1..=MOST_THREADS.cast_unsigned()))]
+    pub threads: Option<u64>,
+}
+
+/// Run the command.
+pub fn run(arguments: &Census) -> Result<Exit, Failure> {
+    // Before the work, not after it.
+    for path in [&arguments.svg, &arguments.csv].into_iter().flatten() {
+        check_folder(path)?;
+    }
+    let settings = Settings { max_bars: arguments.max_bars, ..Settings::default() };
+    settings.validate().map_err(|error| Failure::bad_input(miette!("{error}")))?;
+    if let Some(threads) = arguments.threads {
+        rayon::ThreadPoolBuilder::new()
+            .num_threads(usize::try_from(threads).unwrap_or(1))
+            .build_global()
+            .map_err(|error| Failure::bad_input(miette!("no {threads} threads: {error}")))?;
+    }
+    let progress = Progress::start();
+    progress.say("reading");
+    let problem = read(arguments)?;
+    let census = census::Census::take_watched(&problem, &settings, &|now| {
+        progress.say(&format!(
+            "{} cells done, {} waiting, {} undecided, {} zeros proved",
+            now.done, now.waiting, now.undecided, now.proved
+        ));
+    })
+    .map_err(|error| refuse(&error))?;
+    progress.say("the check of the census");
+    let verdict = census.check(&problem).map_err(|error| error.to_string());
+    let name = problem.chain().name();
+    let answer = answer::Answer::new(&problem, &census, verdict);
+
+    // All the text first: an interruption meets no file half written.
+    if let Some(path) = &arguments.svg {
+        output::write_whole(path, &census.figure(name, SHAPES))?;
+    }
+    if let Some(path) = &arguments.csv {
+        output::write_whole(path, &csv::joints(&answer))?;
+    }
+    drop(progress);
+    if arguments.json {
+        let json = serde_json::to_string_pretty(&answer).map_err(|error| {
+            Failure::undecided(miette!("the answer cannot be written as JSON: {error}"))
+        })?;
+        output::print(&(json + "\n"))?;
+    } else {
+        output::print(&table::text(&problem, &answer))?;
+    }
+    Ok(match (&answer.census.check, census.complete) {
+        (answer::Check { passed: false, .. }, _) => Exit::CheckFailed,
+        (_, true) => Exit::Done,
+        (_, false) => Exit::Undecided,
+    })
+}
+
+/// The problem of the file or of the named case.
+fn read(arguments: &Census) -> Result<Problem, Failure> {
+    match (&arguments.file, &arguments.case) {
+        (Some(file), _) => input::problem(file),
+        (None, Some(name)) => cases::find(name).map(model::cases::Case::problem),
+        // clap asks for one of them.
+        (None, None) => Err(Failure::bad_input(miette!("name a system file or a case"))),
+    }
+}
+
+/// A file can be written only into a folder that is there.
+fn check_folder(path: &Path) -> Result<(), Failure> {
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
+    match folder {
+        Some(folder) if !folder.is_dir() => Err(Failure::bad_input(miette!(
+            "cannot write {}: there is no folder {}",
+            path.display(),
+            folder.display()
+        ))),
+        _ if path.is_dir() => {
+            Err(Failure::bad_input(miette!("cannot write {}: it is a folder", path.display())))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Why there is no census, and how to go on.
+fn refuse(error: &CensusError) -> Failure {
+    let CensusError::TooManyBars { bars, estimate_s, .. } = error else {
+        return Failure::bad_input(miette!("{error}"));
+    };
+    let help = if *bars <= Settings::MAX_BARS {
+        format!(
+            "--max-bars {bars} takes it all the same, in about {} (good to a factor of ten; the time \
+             doubles with each bar, as the number of equilibria does)",
+            duration(*estimate_s)
+        )
+    } else {
+        format!(
+            "no census goes beyond {} bars, --max-bars or not: it doubles with each bar. `funicular solve` \
+             finds the hanging equilibrium of a chain of any length",
+            Settings::MAX_BARS
+        )
+    };
+    Failure::bad_input(miette!(help = help, "{error}"))
+}

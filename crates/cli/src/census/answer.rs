@@ -1,0 +1,289 @@
+//! What `census --json` prints. Tables and CSV are written from the same.
+
+use census::{Interval, Position, ProvenEquilibrium, SlackFamily, Statistics, Undecided};
+use model::{Equilibrium, Problem, Rung, SystemSummary};
+use serde::Serialize;
+use validate::statics::judge;
+
+use crate::solve::SCHEMA_VERSION;
+
+/// Both ends of an enclosure.
+type Ends = [f64; 2];
+
+/// The object.
+#[derive(Debug, Serialize)]
+pub struct Answer {
+    pub schema_version: u32,
+    pub system: SystemSummary,
+    /// The equilibria in one vertical plane, by energy; circles by both their mirror images.
+    pub equilibria: Vec<Found>,
+    pub census: Summary,
+}
+
+/// One equilibrium: the same keys as those of `solve`, and what only a census knows.
+#[derive(Debug, Serialize)]
+pub struct Found {
+    #[serde(flatten)]
+    pub equilibrium: Equilibrium,
+    /// `1`, or `1'` for the mirror image of 1 on the same circle.
+    pub label: String,
+    /// The number of the circle, from 1.
+    pub circle: Option<usize>,
+    pub mirrored: bool,
+    /// Angle of each bar from the descending vertical, [0, 360) and (-180, 180].
+    pub angles_deg: Vec<f64>,
+    pub angles_signed_deg: Vec<f64>,
+    /// +1 for each bar in tension, -1 in compression.
+    pub signs: Vec<i8>,
+    /// The energy in units of `census.energy_unit_j`.
+    pub energy_scaled: f64,
+    /// Largest relative width of the enclosures.
+    pub box_width: f64,
+    pub enclosures: Enclosures,
+}
+
+/// Intervals that hold the exact values.
+#[derive(Debug, Serialize)]
+pub struct Enclosures {
+    pub pull_n: [Ends; 2],
+    pub energy_j: Ends,
+    pub angles_rad: Vec<Ends>,
+    pub joints_m: Vec<[Ends; 3]>,
+    pub multipliers_n: Vec<[Ends; 3]>,
+    pub axial_n: Vec<Ends>,
+}
+
+/// The census as a whole.
+#[derive(Debug, Serialize)]
+pub struct Summary {
+    /// Whether every equilibrium is in `equilibria` or `slack_families`.
+    pub complete: bool,
+    /// Number of isolated equilibria in one vertical plane: the length of `equilibria`.
+    pub count: usize,
+    /// Whether the anchors are on one vertical, so that equilibria come in circles.
+    pub circles: bool,
+    /// Number of circles, or `None` if equilibria do not come in circles.
+    pub circle_count: Option<usize>,
+    /// By index in the plane, slack families with their Betti numbers.
+    pub count_by_index: Vec<i64>,
+    /// Σ (-1)^index over them.
+    pub alternating_sum: i64,
+    /// Of the planar configuration space, from the lengths alone; `None` if it is no manifold.
+    pub euler_characteristic: Option<i64>,
+    pub betti: Option<Vec<u64>>,
+    /// Why `euler_characteristic` is not known.
+    pub topology_unknown: Option<String>,
+    pub undecided_boxes: usize,
+    pub undecided: Vec<Open>,
+    pub slack_families: Vec<Slack>,
+    /// What `energy_scaled` is a multiple of, and what it is.
+    pub energy_unit_j: f64,
+    pub energy_unit: &'static str,
+    pub energy_symbol: &'static str,
+    pub check: Check,
+    pub statistics: Statistics,
+}
+
+/// What could not be decided.
+#[derive(Debug, Serialize)]
+pub struct Open {
+    pub reason: String,
+    pub why: String,
+    /// How many patterns of tension and compression are in question, and the first of them.
+    pub pattern_count: usize,
+    pub patterns: Vec<Vec<i8>>,
+    pub chart: serde_json::Value,
+    pub at: [Ends; 2],
+    pub pull_n: Option<[Ends; 2]>,
+}
+
+/// A set of equilibria with bars that carry nothing.
+#[derive(Debug, Serialize)]
+pub struct Slack {
+    pub signs: Vec<i8>,
+    pub energy_j: Ends,
+    pub gap_m: Ends,
+    pub pull_n: [Ends; 2],
+    pub index_in_plane: usize,
+    pub index_in_space: usize,
+    pub dimension_in_plane: usize,
+}
+
+/// The census judged again, without the search.
+#[derive(Debug, Serialize)]
+pub struct Check {
+    pub passed: bool,
+    pub failure: Option<String>,
+}
+
+/// At most so many patterns of an undecided box are listed: there can be 2^n.
+const PATTERNS: usize = 64;
+
+impl Answer {
+    /// Put together.
+    pub fn new(problem: &Problem, census: &census::Census, verdict: Result<(), String>) -> Self {
+        let (energy_unit_j, energy_symbol, energy_unit) = energy_unit(problem);
+        let equilibria: Vec<Found> = census
+            .positions()
+            .map(|position| found(problem, census, &position, energy_unit_j))
+            .collect();
+        let topology = census.topology.as_ref();
+        Self {
+            schema_version: SCHEMA_VERSION,
+            system: problem.chain().summary(),
+            census: Summary {
+                complete: census.complete,
+                count: equilibria.len(),
+                circles: census.circles,
+                circle_count: census.circles.then_some(census.equilibria.len()),
+                count_by_index: census.count_by_index(),
+                alternating_sum: census.alternating_sum(),
+                euler_characteristic: topology.ok().map(|topology| topology.euler),
+                betti: topology.ok().map(|topology| topology.betti.clone()),
+                topology_unknown: topology.err().map(ToString::to_string),
+                undecided_boxes: census.undecided.len(),
+                undecided: census.undecided.iter().map(open).collect(),
+                slack_families: census.families.iter().map(slack).collect(),
+                energy_unit_j,
+                energy_unit,
+                energy_symbol,
+                check: Check { passed: verdict.is_ok(), failure: verdict.err() },
+                statistics: census.statistics,
+            },
+            equilibria,
+        }
+    }
+}
+
+/// mgl of one bar where all bars are equal, as in the paper; else weight times length of the whole chain.
+fn energy_unit(problem: &Problem) -> (f64, &'static str, &'static str) {
+    let chain = problem.chain();
+    let bars = chain.bars();
+    let equal = bars.windows(2).all(|pair| pair[0] == pair[1]);
+    match bars.first() {
+        Some(bar) if equal => (
+            bar.mass_kg() * chain.gravity_m_s2() * bar.length_m(),
+            "mgl",
+            "weight times length of one bar",
+        ),
+        _ => (
+            chain.total_mass_kg() * chain.gravity_m_s2() * chain.total_length_m(),
+            "MgL",
+            "weight times length of the whole chain",
+        ),
+    }
+}
+
+fn found(problem: &Problem, census: &census::Census, position: &Position, unit_j: f64) -> Found {
+    let proven = &position.equilibrium;
+    let mut equilibrium = census.position_to_model(position);
+    let statics = judge(problem.chain(), &equilibrium.joints_m, &equilibrium.multipliers_n);
+    equilibrium.evidence.miss(
+        Rung::Agreed,
+        format!(
+            "only the census was asked; the statics judge finds every bar in balance to {:.1e}",
+            statics.largest()
+        ),
+    );
+    let signed: Vec<f64> =
+        proven.angles_rad.iter().map(|angle| signed_deg(angle.mid().to_degrees())).collect();
+    Found {
+        energy_scaled: equilibrium.energy_j / unit_j,
+        equilibrium,
+        label: position.label(),
+        circle: proven.circle.then_some(position.number),
+        mirrored: position.mirrored,
+        angles_deg: signed.iter().copied().map(full_turn_deg).collect(),
+        angles_signed_deg: signed,
+        signs: proven.signs.clone(),
+        box_width: proven.width(),
+        enclosures: Enclosures::of(proven),
+    }
+}
+
+/// In (-180, 180].
+fn signed_deg(angle: f64) -> f64 {
+    if angle > 180.0 {
+        angle - 360.0
+    } else if angle <= -180.0 {
+        angle + 360.0
+    } else {
+        angle
+    }
+}
+
+/// In [0, 360).
+fn full_turn_deg(signed: f64) -> f64 {
+    let turned = if signed < 0.0 { signed + 360.0 } else { signed };
+    // A tiny negative angle rounds to the full turn, which is none.
+    if turned >= 360.0 { 0.0 } else { turned }
+}
+
+fn ends(interval: Interval) -> Ends {
+    [interval.lo(), interval.hi()]
+}
+
+/// Both ends of both parts, if they are numbers that JSON has.
+fn finite(parts: [Interval; 2]) -> Option<[Ends; 2]> {
+    let parts = parts.map(ends);
+    parts.iter().flatten().all(|end| end.is_finite()).then_some(parts)
+}
+
+impl Enclosures {
+    fn of(proven: &ProvenEquilibrium) -> Self {
+        let list = |intervals: &[Interval]| intervals.iter().copied().map(ends).collect();
+        let vectors =
+            |vectors: &[[Interval; 3]]| vectors.iter().map(|vector| vector.map(ends)).collect();
+        Self {
+            pull_n: proven.pull_n.map(ends),
+            energy_j: ends(proven.energy_j),
+            angles_rad: list(&proven.angles_rad),
+            joints_m: vectors(&proven.joints_m),
+            multipliers_n: vectors(&proven.multipliers_n),
+            axial_n: list(&proven.axial_n),
+        }
+    }
+}
+
+fn open(undecided: &Undecided) -> Open {
+    Open {
+        reason: crate::tables::word(&undecided.reason),
+        why: undecided.reason.to_string(),
+        pattern_count: undecided.signs.len(),
+        patterns: undecided.signs.iter().take(PATTERNS).cloned().collect(),
+        chart: serde_json::to_value(undecided.chart).unwrap_or_default(),
+        at: undecided.at.map(ends),
+        pull_n: undecided.pull_n.and_then(finite),
+    }
+}
+
+fn slack(family: &SlackFamily) -> Slack {
+    Slack {
+        signs: family.signs.clone(),
+        energy_j: ends(family.energy_j),
+        gap_m: ends(family.gap_m),
+        pull_n: family.pull_n.map(ends),
+        index_in_plane: family.index_in_plane,
+        index_in_space: family.index_in_space(),
+        dimension_in_plane: family.dimension_in_plane(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn angles_are_in_their_ranges() {
+        for (angle, signed, full) in [
+            (19.5, 19.5, 19.5),
+            (-73.9, -73.9, 286.1),
+            (190.0, -170.0, 190.0),
+            (-180.0, 180.0, 180.0),
+        ] {
+            assert!((signed_deg(angle) - signed).abs() < 1e-12);
+            assert!((full_turn_deg(signed_deg(angle)) - full).abs() < 1e-12);
+        }
+        assert!(full_turn_deg(-1e-20) < 360.0);
+    }
+}

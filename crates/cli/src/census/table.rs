@@ -1,0 +1,300 @@
+//! The census, for people.
+
+use std::fmt::Write as _;
+
+use model::{Problem, Rung};
+
+use super::answer::{Answer, Found, Summary};
+use crate::tables::{duration, long, numbers_from, short, table, vector, word};
+
+/// So many equilibria are printed; `--json` and `--csv` have all.
+const PRINTED: usize = 40;
+
+/// So many lines of bars are printed.
+const PRINTED_BARS: usize = 80;
+
+/// So many undecided boxes and slack families are printed.
+const PRINTED_OPEN: usize = 12;
+
+/// The whole answer.
+pub fn text(problem: &Problem, answer: &Answer) -> String {
+    let system = &answer.system;
+    let mut text = format!(
+        "{}: {} bars, {} m long, {} kg, anchors {} m apart, g = {} m/s^2\n\n",
+        system.name,
+        system.bars,
+        short(system.total_length_m),
+        short(system.total_mass_kg),
+        short(system.span_m),
+        short(system.gravity_m_s2),
+    );
+    text += &headline(&answer.census);
+    if !answer.equilibria.is_empty() {
+        text += &overview(problem, answer);
+        text += &reactions(answer);
+        text += &bars(answer);
+        text += &evidence(answer);
+    }
+    text += &families(&answer.census);
+    text += &undecided(&answer.census);
+    text += &sums(&answer.census);
+    text
+}
+
+fn plural<'a>(number: usize, one: &'a str, many: &'a str) -> &'a str {
+    if number == 1 { one } else { many }
+}
+
+/// What was found, in a sentence.
+fn headline(census: &Summary) -> String {
+    let mut text = format!(
+        "{} {} in a vertical plane",
+        census.count,
+        plural(census.count, "equilibrium", "equilibria")
+    );
+    if let Some(circles) = census.circle_count {
+        // Both images of a circle are listed.
+        let _ = write!(
+            text,
+            ", {circles} {} in space (any turn about the anchors' vertical is one more)",
+            plural(circles, "circle", "circles")
+        );
+    }
+    let slack = census.slack_families.len();
+    if slack > 0 {
+        let _ = write!(text, ", {slack} {} of slack bars", plural(slack, "family", "families"));
+    }
+    text + if census.complete { ": proved to be all.\n\n" } else { ": NOT proved to be all.\n\n" }
+}
+
+fn overview(problem: &Problem, answer: &Answer) -> String {
+    let mut head = vec!["#", "energy / J"];
+    // The paper counts the energy of its example from the last anchor, 2 l below the first.
+    let [start, end] = [problem.chain().anchors().start_m[2], problem.chain().anchors().end_m[2]];
+    let shift_j = answer.system.total_mass_kg * answer.system.gravity_m_s2 * (start - end);
+    let shift = shift_j / answer.census.energy_unit_j;
+    let unit = answer.census.energy_symbol;
+    let scaled = format!("V / {unit}");
+    let from_end = format!("V / {unit} from end");
+    head.push(&scaled);
+    let other_zero = shift.abs() > 0.0;
+    if other_zero {
+        head.push(&from_end);
+    }
+    head.extend(["bars", "in plane", "in space", "box", "rung"]);
+    let mut rows = table([""; 0]);
+    rows.set_header(head);
+    for found in answer.equilibria.iter().take(PRINTED) {
+        let e = &found.equilibrium;
+        let mut row = vec![found.label.clone(), long(e.energy_j), long(found.energy_scaled)];
+        if other_zero {
+            row.push(long(found.energy_scaled + shift));
+        }
+        row.extend([
+            pattern(&found.signs),
+            format!("{} ({})", word(&e.stability.in_plane), e.stability.index_in_plane),
+            format!("{} ({})", word(&e.stability.in_space), e.stability.index_in_space),
+            format!("{:.0e}", found.box_width),
+            e.evidence.rung().to_string(),
+        ]);
+        rows.add_row(row);
+    }
+    numbers_from(&mut rows, 1);
+    let mut text = format!("{rows}\n");
+    left_out(&mut text, answer.equilibria.len(), PRINTED, "equilibria");
+    let _ = writeln!(
+        text,
+        "Energy V from the height of joint 0{}; {unit}: {}.\nBars from the start, T in tension, C in \
+         compression. In brackets: the number of directions in which the energy falls.\nBox: the largest relative \
+         width of the enclosures that prove the equilibrium.{}\n",
+        if other_zero { " (from end: of the last anchor)" } else { "" },
+        answer.census.energy_unit,
+        if answer.census.circles {
+            "\n1' is the mirror image of 1, on the same circle."
+        } else {
+            ""
+        },
+    );
+    text
+}
+
+/// `TTC`; slack bars are dots.
+fn pattern(signs: &[i8]) -> String {
+    signs
+        .iter()
+        .map(|sign| match sign {
+            1 => 'T',
+            -1 => 'C',
+            _ => '.',
+        })
+        .collect()
+}
+
+fn left_out(text: &mut String, all: usize, printed: usize, what: &str) {
+    if all > printed {
+        let _ = writeln!(
+            text,
+            "... and {} {what} more: --json or --csv FILE have them all.",
+            all - printed
+        );
+    }
+}
+
+/// The forces of the ground.
+fn reactions(answer: &Answer) -> String {
+    let mut rows = table(["#", "force at start / N", "force at end / N"]);
+    for found in answer.equilibria.iter().take(PRINTED) {
+        let reactions = &found.equilibrium.reactions_n;
+        rows.add_row([found.label.clone(), vector(reactions.start), vector(reactions.end)]);
+    }
+    numbers_from(&mut rows, 1);
+    format!("Forces of the ground on the chain:\n{rows}\n\n")
+}
+
+/// Angles and forces, bar by bar.
+fn bars(answer: &Answer) -> String {
+    let lines = answer.equilibria.len() * answer.system.bars;
+    if lines > PRINTED_BARS {
+        return format!(
+            "The angles and forces of {lines} bars are not printed: --json or --csv FILE have them all.\n\n"
+        );
+    }
+    let mut rows = table(["#", "bar", "angle / deg", "signed / deg", "known to", "axial / N", ""]);
+    for found in &answer.equilibria {
+        for (k, angle) in found.angles_deg.iter().enumerate() {
+            let axial = found.equilibrium.axial_n.get(k).copied().unwrap_or_default();
+            let width = found.enclosures.angles_rad.get(k).map_or(0.0, |[low, high]| high - low);
+            rows.add_row([
+                if k == 0 { found.label.clone() } else { String::new() },
+                (k + 1).to_string(),
+                long(*angle),
+                found.angles_signed_deg.get(k).copied().map_or_else(String::new, long),
+                format!("{:.0e}", width.to_degrees()),
+                short(axial),
+                if axial < 0.0 { "compression" } else { "tension" }.to_owned(),
+            ]);
+        }
+    }
+    numbers_from(&mut rows, 1);
+    format!(
+        "Angles from the descending vertical, towards the last anchor (on one vertical: towards +Y):\n{rows}\n\n"
+    )
+}
+
+/// How far the equilibria are proved, rung by rung: every reason once, with the equilibria it holds for.
+fn evidence(answer: &Answer) -> String {
+    let all = answer.equilibria.len();
+    let mut text = "Evidence:\n".to_owned();
+    for rung in Rung::ALL.into_iter().filter(|rung| *rung != Rung::Converged) {
+        let reached = |found: &&Found| {
+            found.equilibrium.evidence.ladder().iter().any(|s| s.rung == rung && s.reached)
+        };
+        let there: Vec<&Found> = answer.equilibria.iter().filter(reached).collect();
+        let how = |found: Option<&Found>| {
+            found
+                .and_then(|f| f.equilibrium.evidence.ladder().iter().find(|s| s.rung == rung))
+                .map_or_else(String::new, |s| s.how.clone())
+        };
+        let missed = answer.equilibria.iter().find(|found| !reached(found));
+        let mark = if there.is_empty() { '-' } else { '+' };
+        let _ = write!(text, "  {mark} {:<9} {} of {all}", rung.to_string(), there.len());
+        // Of many, the one with the widest box speaks for all.
+        if let Some(widest) = there.iter().max_by(|a, b| a.box_width.total_cmp(&b.box_width)) {
+            let _ = write!(text, ": {}", how(Some(widest)));
+        }
+        if let Some(missed) = missed {
+            let _ = write!(text, "; not {}: {}", missed.label, how(Some(missed)));
+        }
+        text.push('\n');
+    }
+    text + "\n"
+}
+
+fn families(census: &Summary) -> String {
+    if census.slack_families.is_empty() {
+        return String::new();
+    }
+    let mut rows =
+        table(["bars", "energy / J", "gap / m", "dimension", "index in plane", "index in space"]);
+    let middle = |[low, high]: [f64; 2]| 0.5 * low + 0.5 * high;
+    for family in census.slack_families.iter().take(PRINTED_OPEN) {
+        rows.add_row([
+            pattern(&family.signs),
+            long(middle(family.energy_j)),
+            short(middle(family.gap_m)),
+            family.dimension_in_plane.to_string(),
+            family.index_in_plane.to_string(),
+            family.index_in_space.to_string(),
+        ]);
+    }
+    numbers_from(&mut rows, 1);
+    let mut text = format!(
+        "Families of equilibria in which the bars with a dot are slack (they carry nothing and bridge the gap in any \
+         way they can;\nthe dimension is that in the plane, where two slack bars have two ways):\n{rows}\n"
+    );
+    left_out(&mut text, census.slack_families.len(), PRINTED_OPEN, "families");
+    text + "\n"
+}
+
+fn undecided(census: &Summary) -> String {
+    if census.undecided.is_empty() {
+        return String::new();
+    }
+    let mut rows = table(["pull, level / N", "pull, upright / N", "patterns", "first", "why"]);
+    for open in census.undecided.iter().take(PRINTED_OPEN) {
+        let [level, upright] = open.pull_n.map_or_else(
+            || ["infinite".to_owned(), "infinite".to_owned()],
+            |parts| parts.map(|[low, high]| format!("{} .. {}", short(low), short(high))),
+        );
+        rows.add_row([
+            level,
+            upright,
+            open.pattern_count.to_string(),
+            open.patterns.first().map_or_else(String::new, |signs| pattern(signs)),
+            open.why.clone(),
+        ]);
+    }
+    let mut text = format!(
+        "Undecided: {} {} of pulls on the first anchor may hold more equilibria, or none:\n{rows}\n",
+        census.undecided.len(),
+        plural(census.undecided.len(), "box", "boxes"),
+    );
+    left_out(&mut text, census.undecided.len(), PRINTED_OPEN, "boxes");
+    text + "\n"
+}
+
+/// The cross-checks, and what it took.
+fn sums(census: &Summary) -> String {
+    let mut text = String::new();
+    match (&census.euler_characteristic, &census.betti) {
+        (Some(euler), Some(betti)) => {
+            let _ = writeln!(
+                text,
+                "By index in the plane: {:?}. Sum of (-1)^index: {}. Euler characteristic of the configuration space, from \
+                 the lengths alone:\n{euler} (Betti numbers {betti:?}).",
+                census.count_by_index, census.alternating_sum,
+            );
+        }
+        _ => {
+            let _ = writeln!(
+                text,
+                "By index in the plane: {:?}. No Euler characteristic to compare with: {}.",
+                census.count_by_index,
+                census.topology_unknown.as_deref().unwrap_or("not known"),
+            );
+        }
+    }
+    let _ = match &census.check.failure {
+        None => writeln!(text, "Check: every claim proved anew without the search."),
+        Some(failure) => writeln!(text, "Check FAILED: {failure}."),
+    };
+    let s = &census.statistics;
+    let _ = writeln!(
+        text,
+        "{} cells of pulls, {} proofs of existence, {}.",
+        s.cells,
+        s.proofs,
+        duration(s.seconds)
+    );
+    text
+}
