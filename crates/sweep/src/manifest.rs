@@ -1,0 +1,152 @@
+//! What a folder of a sweep says about itself.
+
+use std::ops::Range;
+
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+use sha2::{Digest, Sha256};
+
+use crate::identify::Member;
+use crate::shard::{Shard, part_seeds};
+use crate::summary::Summary;
+
+/// Version of the folder's form; raised when a key or a column changes its meaning.
+pub const SCHEMA_VERSION: u32 = 1;
+
+/// Everything that the rows of a sweep depend on, and which of them are here: `manifest.json`.
+///
+/// Two sweeps with the same manifest have the same rows to the last bit, on one kind of machine (the
+/// sines of the starting angles come from the system's library).
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Manifest {
+    /// [`SCHEMA_VERSION`].
+    pub schema_version: u32,
+    /// The program and its version: another version may take other steps.
+    pub program: String,
+    /// The system.
+    pub system: SystemText,
+    /// How many seeds the whole sweep has.
+    pub seeds: u64,
+    /// The number that all of them come from.
+    pub seed_number: u64,
+    /// How they are spread: `uniform`, `sobol` or `grid`.
+    pub source: String,
+    /// Who was asked: `lagrange`, `energy`, or both in this order.
+    pub solvers: Vec<String>,
+    /// Names of the columns of starting values, if they are written.
+    pub angles: Vec<String>,
+    /// The equilibria that outcomes 0, 1, 2, ... stand for.
+    pub equilibria: Vec<Member>,
+    /// Whether the census has proved that there are no others.
+    pub equilibria_complete: bool,
+    /// `parquet` or `csv`.
+    pub format: String,
+    /// Seeds of a part file; the last one may have fewer.
+    pub part_seeds: u64,
+    /// Which shard is here.
+    pub shard: Shard,
+    /// The seeds of this shard.
+    pub range: Range<u64>,
+}
+
+/// A system as text.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct SystemText {
+    /// Its name.
+    pub name: String,
+    /// Its system file, as the program writes it: comments and order of the user's file do not matter.
+    pub text: String,
+    /// SHA-256 of the text.
+    pub sha256: String,
+}
+
+impl SystemText {
+    /// The text of a chain.
+    #[must_use]
+    pub fn of(chain: &model::Chain) -> Self {
+        let text = model::system_file::write_system(chain);
+        Self { name: chain.name().to_owned(), sha256: digest(text.as_bytes()), text }
+    }
+}
+
+/// SHA-256 in hexadecimal digits, as `sha256sum` prints it.
+pub(crate) fn digest(bytes: &[u8]) -> String {
+    hexadecimal(&Sha256::digest(bytes))
+}
+
+pub(crate) fn hexadecimal(bytes: &[u8]) -> String {
+    let digit = |nibble: u8| char::from_digit(nibble.into(), 16).unwrap_or('0');
+    bytes.iter().flat_map(|byte| [digit(byte >> 4), digit(byte & 15)]).collect()
+}
+
+impl Manifest {
+    /// How many parts the whole sweep has.
+    #[must_use]
+    pub fn parts(&self) -> u64 {
+        self.seeds.div_ceil(self.part_seeds.max(1))
+    }
+
+    /// The seeds of a part.
+    #[must_use]
+    pub fn seeds_of(&self, part: u64) -> Range<u64> {
+        let at = |part: u64| part.saturating_mul(self.part_seeds).min(self.seeds);
+        at(part)..at(part + 1)
+    }
+
+    /// The name of the file of a part.
+    #[must_use]
+    pub fn file_of(&self, part: u64) -> String {
+        format!("part-{part:06}.{}", self.format)
+    }
+
+    /// The same sweep, another shard of it.
+    #[must_use]
+    pub fn with_shard(mut self, shard: Shard) -> Self {
+        self.part_seeds = part_seeds(self.seeds);
+        let parts = shard.parts(self.parts());
+        self.range = self.seeds_of(parts.start).start..self.seeds_of(parts.end).start;
+        self.shard = shard;
+        self
+    }
+
+    /// Nothing counted yet.
+    pub(crate) fn summary(&self) -> Summary {
+        Summary::new(&self.equilibria)
+    }
+
+    /// As it stands in the file.
+    pub(crate) fn json(&self) -> String {
+        // Strings for keys, and no number that JSON does not have: it cannot fail.
+        serde_json::to_string_pretty(self).unwrap_or_default() + "\n"
+    }
+
+    /// The first thing in which another manifest differs: its key, what stands here, and what there.
+    pub(crate) fn difference(&self, other: &Self) -> Option<(String, String, String)> {
+        // Both through the same reader of numbers.
+        let value = |m: &Self| serde_json::from_str::<Value>(&m.json()).unwrap_or_default();
+        difference("", &value(self), &value(other))
+    }
+}
+
+fn difference(key: &str, a: &Value, b: &Value) -> Option<(String, String, String)> {
+    if let (Value::Object(a), Value::Object(b)) = (a, b) {
+        let keys: std::collections::BTreeSet<_> = a.keys().chain(b.keys()).collect();
+        return keys.into_iter().find_map(|name| {
+            let path = if key.is_empty() { name.clone() } else { format!("{key}.{name}") };
+            let of = |map: &serde_json::Map<_, _>| map.get(name).cloned().unwrap_or_default();
+            difference(&path, &of(a), &of(b))
+        });
+    }
+    (a != b).then(|| (key.to_owned(), short(a), short(b)))
+}
+
+/// Longest value shown in an error, characters.
+const SHOWN: usize = 80;
+
+fn short(value: &Value) -> String {
+    let text = value.as_str().map_or_else(|| value.to_string(), str::to_owned);
+    match text.char_indices().nth(SHOWN) {
+        Some((at, _)) => format!("{}...", &text[..at]),
+        None => text,
+    }
+}

@@ -1,0 +1,184 @@
+//! Shards joined, with the proof that nothing is missing and nothing double.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::Mutex;
+use std::sync::atomic::AtomicBool;
+
+use crate::manifest::Manifest;
+use crate::shard::Shard;
+use crate::store::{Lock, MANIFEST, SUMMARY, StoreSummary, for_each_part, read_json, write_json};
+use crate::store_error::{NAMED, StoreError};
+use crate::store_part;
+
+/// A folder to be joined.
+struct Input {
+    folder: PathBuf,
+    manifest: Manifest,
+    summary: StoreSummary,
+}
+
+/// Join the shards of one sweep into a folder that is, byte for byte, the one that a single run would have
+/// written.
+///
+/// Proved before a part is copied: the manifests differ in nothing but the shard; every shard is there
+/// once, and has the seeds that it should have; the digest of every part is the one that its shard's
+/// summary says; every part, decoded, holds its seeds each once and in order, and the outcomes that the
+/// summary counts. An interrupted merge is completed by the same merge again.
+///
+/// # Errors
+///
+/// [`StoreError`] with the folder or file that is not as it should be.
+pub fn merge(
+    folders: &[PathBuf],
+    out: &Path,
+    threads: usize,
+    stop: &AtomicBool,
+    done: &(dyn Fn(u64) + Sync),
+) -> Result<Option<StoreSummary>, StoreError> {
+    let inputs = complete(folders.iter().map(|folder| Input::read(folder)))?;
+    let Some(first) = inputs.values().next() else { return Err(StoreError::Nothing) };
+    let whole = first.manifest.clone().with_shard(Shard::WHOLE);
+    for input in inputs.values() {
+        if is_same(&input.folder, out) {
+            return Err(StoreError::SameFolder { path: out.to_owned() });
+        }
+    }
+    let lock = Lock::take(out, &whole, out.join(MANIFEST).exists())?;
+    let proved = Mutex::new(BTreeMap::new());
+    for_each_part(0..whole.parts(), threads, stop, &|part| {
+        let Some(input) = inputs.values().find(|input| input.parts().contains(&part)) else {
+            // Every part is in a shard, and every shard is there.
+            return Ok(());
+        };
+        let result = input.prove(part)?;
+        let (from, to) = (&input.folder, whole.file_of(part));
+        copy(&from.join(&to), &out.join(&to))?;
+        let seeds = whole.seeds_of(part);
+        done(seeds.end - seeds.start);
+        if let Ok(mut proved) = proved.lock() {
+            proved.insert(part, result);
+        }
+        Ok(())
+    })?;
+    let proved = proved.into_inner().unwrap_or_default();
+    if proved.len() as u64 != whole.parts() {
+        return Ok(None);
+    }
+    for input in inputs.values() {
+        let parts = proved.range(input.parts()).map(|(_, result)| result.clone());
+        if StoreSummary::of(&whole, parts) != input.summary {
+            let reason = "the outcomes counted are not those of the parts".to_owned();
+            return Err(StoreError::Description { path: input.folder.join(SUMMARY), reason });
+        }
+    }
+    let summary = StoreSummary::of(&whole, proved.into_values());
+    write_json(&out.join(SUMMARY), &summary)?;
+    lock.release();
+    Ok(Some(summary))
+}
+
+/// Every shard, by its number.
+fn complete(
+    inputs: impl Iterator<Item = Result<Input, StoreError>>,
+) -> Result<BTreeMap<u64, Input>, StoreError> {
+    let mut all: BTreeMap<u64, Input> = BTreeMap::new();
+    for input in inputs {
+        let input = input?;
+        if let Some(first) = all.values().next() {
+            input.belongs_to(first)?;
+        }
+        let shard = input.manifest.shard;
+        let folder = input.folder.clone();
+        if let Some(other) = all.insert(shard.number, input) {
+            return Err(StoreError::Double { shard, first: other.folder, second: folder });
+        }
+    }
+    if let Some(first) = all.values().next() {
+        let of = first.manifest.shard.of;
+        let missing = (1..=of).filter(|number| !all.contains_key(number));
+        // A manifest may say anything: one more than is shown is enough.
+        let missing: Vec<_> = missing.take(NAMED + 1).collect();
+        if !missing.is_empty() {
+            return Err(StoreError::Missing { missing, of });
+        }
+    }
+    Ok(all)
+}
+
+impl Input {
+    fn read(folder: &Path) -> Result<Self, StoreError> {
+        let path = || folder.to_owned();
+        if !folder.join(MANIFEST).exists() {
+            return Err(StoreError::NoSweep { path: path(), missing: MANIFEST });
+        }
+        let manifest: Manifest = read_json(&folder.join(MANIFEST))?;
+        let as_it_should = manifest.clone().with_shard(manifest.shard);
+        if let Some((key, wanted, found)) = as_it_should.difference(&manifest) {
+            return Err(StoreError::Differs { path: path(), key, wanted, found });
+        }
+        if !folder.join(SUMMARY).exists() {
+            return Err(StoreError::Unfinished { path: path() });
+        }
+        let summary = read_json(&folder.join(SUMMARY))?;
+        Ok(Self { folder: path(), manifest, summary })
+    }
+
+    /// Whether it is a shard of the same sweep.
+    fn belongs_to(&self, first: &Self) -> Result<(), StoreError> {
+        let (shard, of) = (self.manifest.shard, first.manifest.shard.of);
+        let ours = self.manifest.clone().with_shard(Shard::WHOLE);
+        let theirs = first.manifest.clone().with_shard(Shard::WHOLE);
+        let path = self.folder.clone();
+        if let Some((key, wanted, found)) = theirs.difference(&ours) {
+            return Err(StoreError::Differs { path, key, wanted, found });
+        }
+        if shard.of != of {
+            return Err(StoreError::OtherCut { path, found: shard, wanted: of });
+        }
+        Ok(())
+    }
+
+    fn parts(&self) -> std::ops::Range<u64> {
+        self.manifest.shard.parts(self.manifest.parts())
+    }
+
+    /// Read a part, and see that it is the one that the summary speaks of.
+    fn prove(
+        &self,
+        part: u64,
+    ) -> Result<(store_part::PartRecord, crate::summary::Summary), StoreError> {
+        let path = self.folder.join(self.manifest.file_of(part));
+        if !path.exists() {
+            return Err(StoreError::part(&path, "it is not there"));
+        }
+        let result = store_part::read(&self.folder, &self.manifest, part)?;
+        let index = usize::try_from(part - self.parts().start).unwrap_or(usize::MAX);
+        match self.summary.parts.get(index) {
+            Some(said) if *said == result.0 => Ok(result),
+            Some(said) => {
+                let (said, found) = (&said.sha256, &result.0.sha256);
+                let reason = format!("its SHA-256 is {found}, and the summary says {said}");
+                Err(StoreError::part(&path, reason))
+            }
+            None => Err(StoreError::part(&path, "the summary does not know it")),
+        }
+    }
+}
+
+/// Whether two names lead to one folder.
+fn is_same(a: &Path, b: &Path) -> bool {
+    match (fs::canonicalize(a), fs::canonicalize(b)) {
+        (Ok(a), Ok(b)) => a == b,
+        _ => false,
+    }
+}
+
+fn copy(from: &Path, to: &Path) -> Result<(), StoreError> {
+    let mut reader = fs::File::open(from).map_err(|error| StoreError::file(from, error))?;
+    let io = |error| StoreError::file(to, error);
+    let mut writer = columns::AtomicFile::create(to).map_err(io)?;
+    std::io::copy(&mut reader, &mut writer).map_err(io)?;
+    writer.commit().map_err(io)
+}

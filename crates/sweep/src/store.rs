@@ -1,0 +1,318 @@
+//! A sweep on disk: computed part after part, in bounded memory, whole at every moment.
+//!
+//! A folder holds
+//!
+//! | file | what |
+//! |---|---|
+//! | `manifest.json` | [`Manifest`]: everything the rows depend on; written first |
+//! | `part-000000.parquet`, ... | the rows, [`part_seeds`](crate::part_seeds) of them in each |
+//! | `summary.json` | [`StoreSummary`]: counts of the outcomes, and the digest of every part; written last |
+//!
+//! and the columns of a part are
+//!
+//! | column | type | unit | what |
+//! |---|---|---|---|
+//! | `seed` | u64 | 1 | number of the start |
+//! | `theta_1_rad`, ... | f64 | rad | the start, if asked for |
+//! | `lagrange_outcome` | i16 | 1 | number of the equilibrium in the manifest's list, or a [`Failure`](crate::Failure) |
+//! | `lagrange_iterations` | u16 | 1 | iterations spent |
+//! | `lagrange_residual` | f64 | 1 | the solver's own residual where it stopped |
+//! | `lagrange_energy_j` | f64 | J | energy where it stopped, above joint 0 |
+//! | `energy_outcome`, ..., `energy_energy_j` | | | the same of `energy` |
+//!
+//! with unit and description in the metadata of each Parquet column.
+//!
+//! A part appears under its name when it is complete and not before, so a process may be killed at any
+//! time: what is there is right, and a second run computes what is missing. Nothing in the folder depends
+//! on the number of threads, on the time, on the shard that computed it, or on how often it was
+//! interrupted: the final bytes are the same.
+
+use std::collections::BTreeMap;
+use std::fs::{self, File, TryLockError};
+use std::io::ErrorKind;
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+
+use serde::{Deserialize, Serialize};
+
+use crate::manifest::{Manifest, SCHEMA_VERSION};
+use crate::record::Chunk;
+use crate::store_error::StoreError;
+use crate::store_part::{self, PartRecord};
+use crate::summary::Summary;
+
+pub(crate) const MANIFEST: &str = "manifest.json";
+pub(crate) const SUMMARY: &str = "summary.json";
+const LOCK: &str = ".lock";
+
+/// Longest description that is read, bytes: the digests of a hundred thousand parts.
+const MAX_DESCRIPTION: u64 = 64 << 20;
+
+/// What computes seeds. The same seeds must give the same bits, whatever the thread and the cut.
+pub trait Compute: Sync {
+    /// What becomes of these seeds.
+    fn chunk(&self, seeds: Range<u64>) -> Chunk;
+
+    /// Where they start: a column for each name in [`Manifest::angles`].
+    fn angles(&self, seeds: Range<u64>) -> Vec<Vec<f64>>;
+}
+
+/// Without starting values.
+impl<F: Fn(Range<u64>) -> Chunk + Sync> Compute for F {
+    fn chunk(&self, seeds: Range<u64>) -> Chunk {
+        self(seeds)
+    }
+
+    fn angles(&self, _: Range<u64>) -> Vec<Vec<f64>> {
+        Vec::new()
+    }
+}
+
+/// How a sweep is run; nothing of it changes the result.
+#[derive(Clone, Copy)]
+pub struct RunSettings<'a> {
+    /// Threads; 0 means one per processor.
+    pub threads: usize,
+    /// Go on with what is in the folder, if there is something.
+    pub resume: bool,
+    /// Set to stop soon; the parts under way are dropped, at most one per thread.
+    pub stop: &'a AtomicBool,
+    /// Told of every few thousand seeds that are done.
+    pub done: &'a (dyn Fn(u64) + Sync),
+}
+
+/// `summary.json`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct StoreSummary {
+    /// [`SCHEMA_VERSION`].
+    pub schema_version: u32,
+    /// What became of the seeds.
+    pub outcomes: Summary,
+    /// The parts, in order.
+    pub parts: Vec<PartRecord>,
+}
+
+/// How a run ended.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Run {
+    /// The summary; `None` if it was stopped.
+    pub summary: Option<StoreSummary>,
+    /// Seeds that are in whole parts now.
+    pub seeds: u64,
+    /// Seeds of them that were there before.
+    pub seeds_before: u64,
+    /// Parts that were there, damaged, and were computed again: file and damage.
+    pub repaired: Vec<(String, String)>,
+}
+
+/// Run a sweep, or go on with it.
+///
+/// # Errors
+///
+/// [`StoreError`]; the folder is left as it was if it holds something else.
+pub fn run(
+    folder: &Path,
+    manifest: &Manifest,
+    compute: &impl Compute,
+    settings: &RunSettings<'_>,
+) -> Result<Run, StoreError> {
+    if manifest.seeds == 0 {
+        return Err(StoreError::NoSeeds);
+    }
+    let lock = Lock::take(folder, manifest, settings.resume)?;
+    let parts = manifest.shard.parts(manifest.parts());
+    let found = Mutex::new(Found::default());
+    for_each_part(parts.clone(), settings.threads, settings.stop, &|part| {
+        let path = folder.join(manifest.file_of(part));
+        let seeds = manifest.seeds_of(part);
+        let mut damage = None;
+        let mut result = None;
+        if path.exists() {
+            match store_part::read(folder, manifest, part) {
+                Ok(read) => {
+                    result = Some(read);
+                    (settings.done)(seeds.end - seeds.start);
+                }
+                Err(error) => damage = Some(error.to_string()),
+            }
+        }
+        let before = result.is_some();
+        if !before {
+            let (stop, done) = (settings.stop, settings.done);
+            result = store_part::write(folder, manifest, part, compute, stop, done)?;
+        }
+        if let Ok(mut found) = found.lock() {
+            if let Some(damage) = damage {
+                found.repaired.push((manifest.file_of(part), damage));
+            }
+            if let Some(result) = result {
+                found.seeds_before += if before { seeds.end - seeds.start } else { 0 };
+                found.parts.insert(part, result);
+            }
+        }
+        Ok(())
+    })?;
+    let found = found.into_inner().unwrap_or_default();
+    let complete = found.parts.len() as u64 == parts.end - parts.start;
+    let mut run = Run {
+        summary: None,
+        seeds: found.parts.values().map(|(_, summary)| summary.seeds()).sum(),
+        seeds_before: found.seeds_before,
+        repaired: found.repaired,
+    };
+    if complete {
+        let summary = StoreSummary::of(manifest, found.parts.into_values());
+        write_json(&folder.join(SUMMARY), &summary)?;
+        run.summary = Some(summary);
+    }
+    run.repaired.sort();
+    lock.release();
+    Ok(run)
+}
+
+#[derive(Default)]
+struct Found {
+    parts: BTreeMap<u64, (PartRecord, Summary)>,
+    seeds_before: u64,
+    repaired: Vec<(String, String)>,
+}
+
+impl StoreSummary {
+    /// Of parts in order.
+    pub(crate) fn of(
+        manifest: &Manifest,
+        parts: impl Iterator<Item = (PartRecord, Summary)>,
+    ) -> Self {
+        let mut outcomes = manifest.summary();
+        let parts = parts
+            .map(|(record, summary)| {
+                outcomes.merge(&summary);
+                record
+            })
+            .collect();
+        Self { schema_version: SCHEMA_VERSION, outcomes, parts }
+    }
+}
+
+/// Do something for every part, the next free thread taking the next part; the first error ends it.
+pub(crate) fn for_each_part(
+    parts: Range<u64>,
+    threads: usize,
+    stop: &AtomicBool,
+    work: &(dyn Fn(u64) -> Result<(), StoreError> + Sync),
+) -> Result<(), StoreError> {
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(threads)
+        .build()
+        .map_err(|error| StoreError::Threads { reason: error.to_string() })?;
+    let next = AtomicU64::new(parts.start);
+    let failed = AtomicBool::new(false);
+    let results = pool.broadcast(|_| {
+        while !stop.load(Ordering::Relaxed) && !failed.load(Ordering::Relaxed) {
+            let part = next.fetch_add(1, Ordering::Relaxed);
+            if part >= parts.end {
+                break;
+            }
+            if let Err(error) = work(part) {
+                failed.store(true, Ordering::Relaxed);
+                return Err(error);
+            }
+        }
+        Ok(())
+    });
+    results.into_iter().collect()
+}
+
+/// The right to write a folder, until it is dropped or the process ends, however it ends.
+pub(crate) struct Lock {
+    path: PathBuf,
+    _file: File,
+}
+
+impl Lock {
+    /// Make the folder if need be, see that it is fit for this sweep, and clear what a killed process left.
+    pub(crate) fn take(
+        folder: &Path,
+        manifest: &Manifest,
+        resume: bool,
+    ) -> Result<Self, StoreError> {
+        let io = |error| StoreError::file(folder, error);
+        fs::create_dir_all(folder).map_err(io)?;
+        let held = folder.join(MANIFEST);
+        let there = held.exists();
+        if there && !resume {
+            return Err(StoreError::Present { path: folder.to_owned() });
+        }
+        if !there && let Some(found) = foreign(folder)? {
+            return Err(StoreError::NotEmpty { path: folder.to_owned(), found });
+        }
+        let path = folder.join(LOCK);
+        let file = File::create(&path).map_err(|error| StoreError::file(&path, error))?;
+        file.try_lock().map_err(|error| match error {
+            TryLockError::WouldBlock => StoreError::Busy { path: folder.to_owned() },
+            TryLockError::Error(error) => StoreError::file(&path, error),
+        })?;
+        let lock = Self { path, _file: file };
+        columns::remove_unfinished(folder).map_err(io)?;
+        if there {
+            let held: Manifest = read_json(&held)?;
+            if let Some((key, wanted, found)) = manifest.difference(&held) {
+                let path = folder.to_owned();
+                return Err(StoreError::Differs { path, key, wanted, found });
+            }
+        } else {
+            columns::write_whole(&held, manifest.json().as_bytes())
+                .map_err(|error| StoreError::file(&held, error))?;
+        }
+        Ok(lock)
+    }
+
+    /// Give the folder free. After an error the file stays, without a lock on it, and does no harm.
+    pub(crate) fn release(self) {
+        // Best effort, as above.
+        let _ = fs::remove_file(&self.path);
+    }
+}
+
+/// Something in a folder that no unfinished sweep leaves there.
+fn foreign(folder: &Path) -> Result<Option<String>, StoreError> {
+    for entry in fs::read_dir(folder).map_err(|error| StoreError::file(folder, error))? {
+        let name = entry.map_err(|error| StoreError::file(folder, error))?.file_name();
+        let name = name.to_string_lossy();
+        if name != LOCK && !(name.starts_with(&format!(".{MANIFEST}."))) {
+            return Ok(Some(name.into_owned()));
+        }
+    }
+    Ok(None)
+}
+
+pub(crate) fn write_json(path: &Path, value: &impl Serialize) -> Result<(), StoreError> {
+    let description = |reason: String| StoreError::Description { path: path.to_owned(), reason };
+    let text = serde_json::to_string_pretty(value).map_err(|e| description(e.to_string()))? + "\n";
+    columns::write_whole(path, text.as_bytes()).map_err(|error| StoreError::file(path, error))
+}
+
+/// Read a description; one of another version of the form is told as that, whatever is in it.
+pub(crate) fn read_json<T: serde::de::DeserializeOwned>(path: &Path) -> Result<T, StoreError> {
+    let fail = |reason: String| StoreError::Description { path: path.to_owned(), reason };
+    let io = |error: std::io::Error| match error.kind() {
+        ErrorKind::InvalidData => fail("it is not UTF-8 text".to_owned()),
+        _ => StoreError::file(path, error),
+    };
+    let length = fs::metadata(path).map_err(io)?.len();
+    if length > MAX_DESCRIPTION {
+        return Err(fail(format!("{length} bytes are too many for a description")));
+    }
+    let text = fs::read_to_string(path).map_err(io)?;
+    let value: serde_json::Value =
+        serde_json::from_str(&text).map_err(|error| fail(error.to_string()))?;
+    let version = value.get("schema_version").and_then(serde_json::Value::as_u64);
+    if version != Some(SCHEMA_VERSION.into()) {
+        let version = version.map_or_else(|| "none".to_owned(), |version| version.to_string());
+        return Err(fail(format!("its schema version is {version}, not {SCHEMA_VERSION}")));
+    }
+    // From the text: numbers for keys are strings in a value.
+    serde_json::from_str(&text).map_err(|error| fail(error.to_string()))
+}

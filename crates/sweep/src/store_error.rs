@@ -1,0 +1,166 @@
+//! What can go wrong with a sweep on disk.
+
+use std::path::{Path, PathBuf};
+
+use columns::ColumnsError;
+
+use crate::shard::Shard;
+
+/// Why a sweep cannot be written, continued or joined.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum StoreError {
+    /// Occurs when the file system refuses.
+    #[error("{}: {error}", path.display())]
+    File {
+        /// The file or folder.
+        path: PathBuf,
+        /// Why.
+        error: std::io::Error,
+    },
+    /// Occurs when a part cannot be written or read.
+    #[error(transparent)]
+    Columns(#[from] ColumnsError),
+    /// Occurs when a sweep has no seeds.
+    #[error("a sweep of no seeds has no result")]
+    NoSeeds,
+    /// Occurs when the output folder holds a sweep, and it was not asked to go on with it.
+    #[error("{} holds a sweep already", path.display())]
+    Present {
+        /// The folder.
+        path: PathBuf,
+    },
+    /// Occurs when the output folder holds other things.
+    #[error("{} is not empty and holds no sweep: there is `{found}`", path.display())]
+    NotEmpty {
+        /// The folder.
+        path: PathBuf,
+        /// Something in it.
+        found: String,
+    },
+    /// Occurs when a folder holds no sweep.
+    #[error("{} holds no sweep: there is no {missing}", path.display())]
+    NoSweep {
+        /// The folder.
+        path: PathBuf,
+        /// The file that would be there.
+        missing: &'static str,
+    },
+    /// Occurs when a sweep was not finished.
+    #[error("the sweep in {} is not finished", path.display())]
+    Unfinished {
+        /// The folder.
+        path: PathBuf,
+    },
+    /// Occurs when another process is writing the folder.
+    #[error("another process is writing {}", path.display())]
+    Busy {
+        /// The folder.
+        path: PathBuf,
+    },
+    /// Occurs when two sweeps that should be one are not.
+    #[error("{} holds another sweep: `{key}` is {found}, not {wanted}", path.display())]
+    Differs {
+        /// The folder.
+        path: PathBuf,
+        /// In what it differs: a key of the manifest.
+        key: String,
+        /// What is wanted.
+        wanted: String,
+        /// What stands in the manifest.
+        found: String,
+    },
+    /// Occurs when a manifest or a summary cannot be read.
+    #[error("{}: {reason}", path.display())]
+    Description {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong.
+        reason: String,
+    },
+    /// Occurs when a part does not hold what it should.
+    #[error("{}: {reason}", path.display())]
+    Part {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong.
+        reason: String,
+    },
+    /// Occurs when shards of different cuts are joined.
+    #[error("{} is shard {found}, and the others are of {wanted}", path.display())]
+    OtherCut {
+        /// The folder.
+        path: PathBuf,
+        /// The shard there.
+        found: Shard,
+        /// How many shards the others are of.
+        wanted: u64,
+    },
+    /// Occurs when a shard is given twice.
+    #[error("shard {shard} is there twice: {} and {}", first.display(), second.display())]
+    Double {
+        /// The shard.
+        shard: Shard,
+        /// One folder.
+        first: PathBuf,
+        /// The other folder.
+        second: PathBuf,
+    },
+    /// Occurs when shards are not given.
+    #[error("of {of} shards these are missing: {}", list(missing))]
+    Missing {
+        /// Which; the first few.
+        missing: Vec<u64>,
+        /// Of how many.
+        of: u64,
+    },
+    /// Occurs when nothing is given to join.
+    #[error("there is nothing to merge")]
+    Nothing,
+    /// Occurs when the folder to write is one of the folders to read.
+    #[error("{} is to be read and written", path.display())]
+    SameFolder {
+        /// The folder.
+        path: PathBuf,
+    },
+    /// Occurs when the system gives no threads.
+    #[error("the threads cannot be started: {reason}")]
+    Threads {
+        /// Why.
+        reason: String,
+    },
+}
+
+/// Most numbers named one by one in an error.
+pub(crate) const NAMED: usize = 10;
+
+fn list(numbers: &[u64]) -> String {
+    let named: Vec<_> = numbers.iter().take(NAMED).map(u64::to_string).collect();
+    named.join(", ") + if numbers.len() > NAMED { ", ..." } else { "" }
+}
+
+impl StoreError {
+    pub(crate) fn file(path: &Path, error: std::io::Error) -> Self {
+        Self::File { path: path.to_owned(), error }
+    }
+
+    pub(crate) fn part(path: &Path, reason: impl Into<String>) -> Self {
+        Self::Part { path: path.to_owned(), reason: reason.into() }
+    }
+
+    /// What to do about it, if that is not plain from the message.
+    #[must_use]
+    pub fn help(&self) -> Option<&'static str> {
+        match self {
+            Self::Present { .. } => Some("--resume goes on with it; or choose another folder"),
+            Self::NotEmpty { .. } => Some("choose a folder that is empty or not there yet"),
+            Self::Differs { .. } => {
+                Some("a sweep is continued or joined only with exactly the same parameters")
+            }
+            Self::Unfinished { .. } => Some("run the same sweep with --resume first"),
+            Self::Busy { .. } => Some("wait until it has finished"),
+            Self::Part { .. } => Some("remove the file and run the same sweep with --resume"),
+            _ => None,
+        }
+    }
+}

@@ -1,0 +1,257 @@
+//! One part: a file of consecutive seeds.
+
+use std::fs::File;
+use std::io::Read as _;
+use std::ops::Range;
+use std::path::Path;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use columns::{Column, Data, Format, Kind, Schema, Spread, TableWriter, read_table};
+use serde::{Deserialize, Serialize};
+use sha2::{Digest as _, Sha256};
+
+use crate::manifest::{Manifest, hexadecimal};
+use crate::record::{Chunk, Failure, Outcomes};
+use crate::store::Compute;
+use crate::store_error::StoreError;
+use crate::summary::Summary;
+
+/// Seeds computed at a time: some milliseconds of work, so that an interruption is heard soon.
+const CHUNK_SEEDS: u64 = 1 << 13;
+
+/// Rows of a row group: some megabytes of columns, held per thread until they are encoded.
+const GROUP_SEEDS: u64 = 1 << 17;
+
+/// What `summary.json` says of a part.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct PartRecord {
+    /// The name of its file.
+    pub file: String,
+    /// Its seeds.
+    pub seeds: Range<u64>,
+    /// Length of the file, bytes.
+    pub bytes: u64,
+    /// SHA-256 of the file.
+    pub sha256: String,
+}
+
+const OUTCOME: &str = "the equilibrium reached, as its number in `equilibria` of the manifest; or -1: \
+    the iteration limit was reached, -2: stalled, -3: a number overflowed or was undefined, -4: \
+    converged to something that is in no list";
+
+/// The columns of a sweep.
+#[must_use]
+pub fn schema(manifest: &Manifest) -> Schema {
+    let mut columns = vec![Column::new(
+        "seed",
+        Kind::U64,
+        Spread::Rising,
+        "1",
+        "number of the start, from 0; with the seed number and the source it says where it is",
+    )];
+    for name in &manifest.angles {
+        columns.push(Column::new(name, Kind::F64, Spread::Many, "rad", "angle of the start"));
+    }
+    for solver in &manifest.solvers {
+        let mut push = |name, kind, spread, unit, about: &str| {
+            columns.push(Column::new(&format!("{solver}_{name}"), kind, spread, unit, about));
+        };
+        push("outcome", Kind::I16, Spread::Few, "1", OUTCOME);
+        push("iterations", Kind::U16, Spread::Few, "1", "iterations spent");
+        let about = "the solver's own residual where it stopped";
+        push("residual", Kind::F64, Spread::Many, "1", about);
+        let about = "potential energy where it stopped, above the height of joint 0";
+        push("energy_j", Kind::F64, Spread::Many, "J", about);
+    }
+    let notes = [
+        ("program", manifest.program.clone()),
+        ("system", manifest.system.name.clone()),
+        ("system_sha256", manifest.system.sha256.clone()),
+        ("seed_number", manifest.seed_number.to_string()),
+        ("source", manifest.source.clone()),
+    ];
+    let notes = notes.into_iter().map(|(key, value)| (format!("funicular.{key}"), value)).collect();
+    Schema { columns, notes }
+}
+
+pub fn format(manifest: &Manifest) -> Format {
+    if manifest.format == Format::Csv.extension() { Format::Csv } else { Format::Parquet }
+}
+
+/// Compute a part and write it; `None` if it was stopped before the end, and then nothing is left of it.
+pub fn write(
+    folder: &Path,
+    manifest: &Manifest,
+    part: u64,
+    compute: &impl Compute,
+    stop: &AtomicBool,
+    done: &(dyn Fn(u64) + Sync),
+) -> Result<Option<(PartRecord, Summary)>, StoreError> {
+    let path = folder.join(manifest.file_of(part));
+    let seeds = manifest.seeds_of(part);
+    let mut table = TableWriter::create(&path, format(manifest), &schema(manifest))?;
+    let mut summary = manifest.summary();
+    for group in steps(&seeds, GROUP_SEEDS) {
+        let mut rows: Vec<Data> = Vec::new();
+        for range in steps(&group, CHUNK_SEEDS) {
+            if stop.load(Ordering::Relaxed) {
+                return Ok(None);
+            }
+            let count = range.end - range.start;
+            let chunk = compute.chunk(range.clone());
+            // Bugs of the solvers' side, told instead of written.
+            if !fits(&chunk, &range, manifest) {
+                return Err(StoreError::part(&path, "a run of seeds came back incomplete"));
+            }
+            if let Some(outcome) = unknown_outcome(&chunk, manifest) {
+                return Err(StoreError::part(&path, format!("there is no outcome {outcome}")));
+            }
+            summary.add(&chunk);
+            let angles =
+                if manifest.angles.is_empty() { Vec::new() } else { compute.angles(range) };
+            let mut more = columns_of(chunk, angles);
+            if rows.is_empty() {
+                rows = more;
+            } else {
+                for (column, more) in rows.iter_mut().zip(&mut more) {
+                    column.append(more);
+                }
+            }
+            done(count);
+        }
+        table.write(rows)?;
+    }
+    table.finish()?;
+    Ok(Some((record(&path, manifest, part)?, summary)))
+}
+
+/// A range in steps; the last one may be shorter.
+fn steps(range: &Range<u64>, step: u64) -> impl Iterator<Item = Range<u64>> + use<> {
+    let end = range.end;
+    (range.start..end)
+        .step_by(usize::try_from(step).unwrap_or(usize::MAX))
+        .map(move |start| start..end.min(start.saturating_add(step)))
+}
+
+fn fits(chunk: &Chunk, range: &Range<u64>, manifest: &Manifest) -> bool {
+    let asked = |name: &str| manifest.solvers.iter().any(|solver| solver == name);
+    let rows = range.end - range.start;
+    let whole = |outcomes: &Option<Outcomes>, asked: bool| match outcomes {
+        Some(o) => {
+            let lengths = [o.outcome.len(), o.iterations.len(), o.residual.len(), o.energy_j.len()];
+            asked && lengths.iter().all(|length| *length as u64 == rows)
+        }
+        None => !asked,
+    };
+    chunk.seeds == *range
+        && whole(&chunk.lagrange, asked("lagrange"))
+        && whole(&chunk.energy, asked("energy"))
+}
+
+/// An outcome that is no entry of the list and no [`Failure`].
+fn unknown_outcome(chunk: &Chunk, manifest: &Manifest) -> Option<i16> {
+    let entries = manifest.equilibria.len();
+    let known = |outcome: i16| match usize::try_from(outcome) {
+        Ok(entry) => entry < entries,
+        Err(_) => outcome >= Failure::Unlisted as i16,
+    };
+    let outcomes = [&chunk.lagrange, &chunk.energy].into_iter().flatten();
+    outcomes.flat_map(|o| &o.outcome).copied().find(|outcome| !known(*outcome))
+}
+
+fn columns_of(chunk: Chunk, angles: Vec<Vec<f64>>) -> Vec<Data> {
+    let mut columns = vec![Data::U64(chunk.seeds.collect())];
+    columns.extend(angles.into_iter().map(Data::F64));
+    for outcomes in [chunk.lagrange, chunk.energy].into_iter().flatten() {
+        columns.push(Data::I16(outcomes.outcome));
+        columns.push(Data::U16(outcomes.iterations));
+        columns.push(Data::F64(outcomes.residual));
+        columns.push(Data::F64(outcomes.energy_j));
+    }
+    columns
+}
+
+/// Read a part back, and prove that it holds exactly its seeds, each once and in order.
+pub fn read(
+    folder: &Path,
+    manifest: &Manifest,
+    part: u64,
+) -> Result<(PartRecord, Summary), StoreError> {
+    let path = folder.join(manifest.file_of(part));
+    let wanted = manifest.seeds_of(part);
+    let mut summary = manifest.summary();
+    let mut next = wanted.start;
+    let mut gap = None;
+    let mut unknown = None;
+    read_table(&path, format(manifest), &schema(manifest), &mut |columns| {
+        let Some(Data::U64(seeds)) = columns.first() else { return };
+        let first = next;
+        for seed in seeds {
+            if *seed != next {
+                gap.get_or_insert((next, *seed));
+            }
+            next = next.wrapping_add(1);
+        }
+        let chunk = chunk_of(columns, first, manifest);
+        match unknown_outcome(&chunk, manifest) {
+            Some(outcome) => unknown = Some(outcome),
+            None => summary.add(&chunk),
+        }
+    })?;
+    if let Some(outcome) = unknown {
+        return Err(StoreError::part(&path, format!("there is no outcome {outcome}")));
+    }
+    if let Some((wanted, found)) = gap {
+        return Err(StoreError::part(&path, format!("seed {found} stands where {wanted} should")));
+    }
+    if next != wanted.end {
+        let (rows, all) = (next - wanted.start, wanted.end - wanted.start);
+        return Err(StoreError::part(&path, format!("there are {rows} seeds of {all}")));
+    }
+    Ok((record(&path, manifest, part)?, summary))
+}
+
+/// Rows read back, as they were computed. The schema was checked: every column is there.
+fn chunk_of(columns: &[Data], seed: u64, manifest: &Manifest) -> Chunk {
+    let mut lagrange = None;
+    let mut energy = None;
+    let before = 1 + manifest.angles.len();
+    for (solver, columns) in manifest.solvers.iter().zip(columns[before..].chunks_exact(4)) {
+        if let [
+            Data::I16(outcome),
+            Data::U16(iterations),
+            Data::F64(residual),
+            Data::F64(energy_j),
+        ] = columns
+        {
+            let (outcome, iterations) = (outcome.clone(), iterations.clone());
+            let (residual, energy_j) = (residual.clone(), energy_j.clone());
+            let outcomes = Outcomes { outcome, iterations, residual, energy_j };
+            if solver == "lagrange" {
+                lagrange = Some(outcomes);
+            } else {
+                energy = Some(outcomes);
+            }
+        }
+    }
+    Chunk { seeds: seed..seed + columns[0].len() as u64, lagrange, energy }
+}
+
+/// Length and digest of a part's file.
+fn record(path: &Path, manifest: &Manifest, part: u64) -> Result<PartRecord, StoreError> {
+    let io = |error| StoreError::file(path, error);
+    let mut file = File::open(path).map_err(io)?;
+    let mut hasher = Sha256::new();
+    let mut buffer = vec![0; 1 << 17];
+    let mut bytes = 0;
+    loop {
+        let read = file.read(&mut buffer).map_err(io)?;
+        if read == 0 {
+            break;
+        }
+        hasher.update(&buffer[..read]);
+        bytes += read as u64;
+    }
+    let sha256 = hexadecimal(&hasher.finalize());
+    Ok(PartRecord { file: manifest.file_of(part), seeds: manifest.seeds_of(part), bytes, sha256 })
+}

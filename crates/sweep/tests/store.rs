@@ -1,0 +1,167 @@
+//! A sweep on disk: the same bytes always, and nothing overwritten.
+
+mod store_common;
+
+use std::fs;
+use std::ops::Range;
+
+use columns::{Data, Format, read_table};
+use store_common::{MadeUp, QUICK, SEEDS, files, manifest, run, settings};
+use sweep::{Chunk, Compute, Manifest, Outcomes, Shard, StoreError, StoreSummary};
+
+#[test]
+fn threads_do_not_show_in_the_bytes() {
+    for format in ["parquet", "csv"] {
+        let manifest = Manifest { format: format.to_owned(), ..manifest() };
+        let folder = tempfile::tempdir().unwrap();
+        let (one, two) = (folder.path().join("one"), folder.path().join("deep/two"));
+        run(&one, &manifest, 1).unwrap();
+        run(&two, &manifest, 2).unwrap();
+        let files = files(&one);
+        assert_eq!(files, store_common::files(&two));
+        let names: Vec<_> = files.keys().cloned().collect();
+        let mut wanted = vec!["manifest.json".to_owned()];
+        wanted.extend((0..5).map(|part| format!("part-00000{part}.{format}")));
+        wanted.push("summary.json".to_owned());
+        assert_eq!(names, wanted);
+    }
+}
+
+#[test]
+fn the_rows_are_those_that_were_computed() {
+    let folder = tempfile::tempdir().unwrap();
+    let manifest = manifest();
+    run(folder.path(), &manifest, 2).unwrap();
+    let schema = sweep::schema(&manifest);
+    let names: Vec<_> = schema.columns.iter().map(|column| column.name.as_str()).collect();
+    assert_eq!(
+        names,
+        [
+            "seed",
+            "theta_1_rad",
+            "theta_2_rad",
+            "lagrange_outcome",
+            "lagrange_iterations",
+            "lagrange_residual",
+            "lagrange_energy_j",
+            "energy_outcome",
+            "energy_iterations",
+            "energy_residual",
+            "energy_energy_j"
+        ]
+    );
+    let mut all: Vec<Data> = schema.columns.iter().map(|c| Data::empty(c.kind)).collect();
+    for part in 0..5 {
+        let path = folder.path().join(format!("part-00000{part}.parquet"));
+        read_table(&path, Format::Parquet, &schema, &mut |columns| {
+            for (all, columns) in all.iter_mut().zip(columns) {
+                all.append(&mut columns.clone());
+            }
+        })
+        .unwrap();
+    }
+    let Chunk { lagrange, energy, .. } = QUICK.chunk(0..SEEDS);
+    let (lagrange, energy) = (lagrange.unwrap(), energy.unwrap());
+    let bits = |data: &Data| match data {
+        Data::F64(cells) => cells.iter().map(|x| x.to_bits()).collect::<Vec<_>>(),
+        _ => panic!("doubles"),
+    };
+    let doubles = |cells: &[f64]| cells.iter().map(|x| x.to_bits()).collect::<Vec<_>>();
+    assert_eq!(all[0], Data::U64((0..SEEDS).collect()));
+    assert_eq!(bits(&all[2]), doubles(&QUICK.angles(0..SEEDS)[1]));
+    assert_eq!(all[3], Data::I16(lagrange.outcome.clone()));
+    assert_eq!(all[4], Data::U16(lagrange.iterations));
+    assert_eq!(bits(&all[6]), doubles(&lagrange.energy_j));
+    assert_eq!(all[7], Data::I16(energy.outcome.clone()));
+    assert_eq!(bits(&all[9]), doubles(&energy.residual));
+
+    let summary: StoreSummary =
+        serde_json::from_str(&fs::read_to_string(folder.path().join("summary.json")).unwrap())
+            .unwrap();
+    assert_eq!(summary.outcomes.seeds(), SEEDS);
+    for code in -4..2_i16 {
+        let wanted = lagrange.outcome.iter().filter(|outcome| **outcome == code).count();
+        assert_eq!(
+            summary.outcomes.tally().lagrange.as_ref().unwrap().0[&code].count,
+            wanted as u64
+        );
+        let wanted = lagrange
+            .outcome
+            .iter()
+            .zip(&energy.outcome)
+            .filter(|pair| *pair == (&code, &0))
+            .count();
+        assert_eq!(summary.outcomes.tally().both.as_ref().unwrap()[&code][&0], wanted as u64);
+    }
+}
+
+#[test]
+fn nothing_is_overwritten() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out");
+    run(&out, &manifest(), 1).unwrap();
+    let before = files(&out);
+    let error = run(&out, &manifest(), 1).unwrap_err();
+    assert!(matches!(error, StoreError::Present { .. }));
+    assert!(error.help().unwrap().contains("--resume"));
+    assert_eq!(files(&out), before);
+
+    let thesis = folder.path().join("thesis");
+    fs::create_dir(&thesis).unwrap();
+    fs::write(thesis.join("chapter-1.tex"), "text").unwrap();
+    for result in [run(&thesis, &manifest(), 1), store_common::resume(&thesis, &manifest())] {
+        let error = result.unwrap_err();
+        assert!(matches!(&error, StoreError::NotEmpty { found, .. } if found == "chapter-1.tex"));
+    }
+    assert_eq!(files(&thesis).len(), 1);
+
+    let error = run(&thesis.join("chapter-1.tex"), &manifest(), 1).unwrap_err();
+    assert!(matches!(error, StoreError::File { .. }), "{error}");
+    let none = Manifest { seeds: 0, ..manifest() };
+    assert!(matches!(run(&folder.path().join("none"), &none, 1), Err(StoreError::NoSeeds)));
+}
+
+#[test]
+fn a_folder_that_is_being_written_is_left_alone() {
+    let folder = tempfile::tempdir().unwrap();
+    let slow = MadeUp { delay: std::time::Duration::from_millis(100) };
+    std::thread::scope(|scope| {
+        let first = scope.spawn(|| sweep::run(folder.path(), &manifest(), &slow, &settings(1)));
+        while !folder.path().join("part-000000.parquet").exists() {
+            std::thread::sleep(std::time::Duration::from_millis(5));
+        }
+        let error = store_common::resume(folder.path(), &manifest()).unwrap_err();
+        assert!(matches!(error, StoreError::Busy { .. }), "{error}");
+        assert!(first.join().unwrap().unwrap().summary.is_some());
+    });
+}
+
+#[test]
+fn an_incomplete_answer_of_a_solver_is_an_error() {
+    let short =
+        |seeds: Range<u64>| Chunk { seeds, lagrange: Some(Outcomes::default()), energy: None };
+    let folder = tempfile::tempdir().unwrap();
+    let manifest = Manifest { angles: Vec::new(), ..manifest() };
+    let error = sweep::run(folder.path(), &manifest, &short, &settings(2)).unwrap_err();
+    assert!(matches!(error, StoreError::Part { .. }), "{error}");
+    assert_eq!(files(folder.path()).keys().collect::<Vec<_>>(), [".lock", "manifest.json"]);
+}
+
+#[test]
+fn a_shard_has_exactly_its_part() {
+    let folder = tempfile::tempdir().unwrap();
+    let whole = folder.path().join("whole");
+    run(&whole, &manifest(), 1).unwrap();
+    let whole = files(&whole);
+    let mut parts = 0;
+    for number in 1..=3 {
+        let out = folder.path().join(number.to_string());
+        let result =
+            run(&out, &manifest().with_shard(Shard { number, of: 3 }), 2).unwrap().summary.unwrap();
+        for record in &result.parts {
+            assert_eq!(files(&out)[&record.file], whole[&record.file]);
+            parts += 1;
+        }
+    }
+    assert_eq!(parts, 5);
+}

@@ -1,0 +1,126 @@
+//! A made-up sweep: what the store does with rows does not depend on what they mean.
+
+#![allow(dead_code, clippy::unwrap_used, reason = "every test file uses some of it")]
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::ops::Range;
+use std::path::Path;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use sweep::{
+    Chunk, Compute, Manifest, Member, Origin, Outcomes, Run, RunSettings, SCHEMA_VERSION, Shard,
+    StoreError, SystemText,
+};
+
+/// Seeds of the made-up sweep: five parts, the last one of a single seed.
+pub const SEEDS: u64 = 4 * 1024 + 1;
+
+fn member(energy_j: f64) -> Member {
+    let angles_rad = vec![Some(1.0 / 3.0), None];
+    let origin = Origin::Discovered;
+    Member { origin, energy_j, angles_rad, index_in_plane: Some(0), mirrored: false }
+}
+
+pub fn manifest() -> Manifest {
+    Manifest {
+        schema_version: SCHEMA_VERSION,
+        program: "funicular 0".to_owned(),
+        system: SystemText::of(model::cases::paper().chain()),
+        seeds: SEEDS,
+        seed_number: 7,
+        source: "uniform".to_owned(),
+        solvers: vec!["lagrange".to_owned(), "energy".to_owned()],
+        angles: vec!["theta_1_rad".to_owned(), "theta_2_rad".to_owned()],
+        equilibria: vec![member(0.1 + 0.2), member(-1.0e-300)],
+        equilibria_complete: true,
+        format: "parquet".to_owned(),
+        part_seeds: 0,
+        shard: Shard::WHOLE,
+        range: 0..0,
+    }
+    .with_shard(Shard::WHOLE)
+}
+
+/// Numbers that a hash gives: reproducible, and of no order.
+pub struct MadeUp {
+    pub delay: std::time::Duration,
+}
+
+pub fn hash(seed: u64) -> u64 {
+    let mut x = seed.wrapping_add(0x9e37_79b9_7f4a_7c15);
+    x = (x ^ (x >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    x = (x ^ (x >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    x ^ (x >> 31)
+}
+
+#[expect(clippy::cast_precision_loss, reason = "any double will do")]
+fn double(seed: u64) -> f64 {
+    match seed % 97 {
+        0 => f64::NAN,
+        1 => f64::INFINITY,
+        _ => hash(seed) as f64 * 1e-19,
+    }
+}
+
+fn outcomes(seeds: Range<u64>, salt: u64) -> Outcomes {
+    let pick = |seed: u64, among: u64| u16::try_from(hash(seed ^ salt) % among).unwrap_or(0);
+    Outcomes {
+        outcome: seeds.clone().map(|s| pick(s, 6).cast_signed() - 4).collect(),
+        iterations: seeds.clone().map(|s| pick(s + 1, 40)).collect(),
+        residual: seeds.clone().map(|s| double(s ^ salt)).collect(),
+        energy_j: seeds.map(|s| -double(s ^ salt)).collect(),
+    }
+}
+
+impl Compute for MadeUp {
+    fn chunk(&self, seeds: Range<u64>) -> Chunk {
+        std::thread::sleep(self.delay);
+        let (lagrange, energy) =
+            (outcomes(seeds.clone(), 1 << 40), outcomes(seeds.clone(), 1 << 41));
+        Chunk { seeds, lagrange: Some(lagrange), energy: Some(energy) }
+    }
+
+    fn angles(&self, seeds: Range<u64>) -> Vec<Vec<f64>> {
+        [3, 5].map(|salt| seeds.clone().map(|s| double(s ^ salt << 30)).collect()).into()
+    }
+}
+
+pub const QUICK: MadeUp = MadeUp { delay: std::time::Duration::ZERO };
+pub static NEVER: AtomicBool = AtomicBool::new(false);
+
+pub fn settings(threads: usize) -> RunSettings<'static> {
+    RunSettings { threads, resume: false, stop: &NEVER, done: &|_| () }
+}
+
+pub fn run(folder: &Path, manifest: &Manifest, threads: usize) -> Result<Run, StoreError> {
+    sweep::run(folder, manifest, &QUICK, &settings(threads))
+}
+
+pub fn resume(folder: &Path, manifest: &Manifest) -> Result<Run, StoreError> {
+    sweep::run(folder, manifest, &QUICK, &RunSettings { resume: true, ..settings(2) })
+}
+
+/// Run until about `parts` parts are there, then stop as Ctrl-C does.
+pub fn stop_after(folder: &Path, manifest: &Manifest, parts: u64) -> Run {
+    let stop = AtomicBool::new(false);
+    let seeds = std::sync::atomic::AtomicU64::new(0);
+    let done = |count: u64| {
+        if seeds.fetch_add(count, Ordering::SeqCst) + count > parts * manifest.part_seeds {
+            stop.store(true, Ordering::SeqCst);
+        }
+    };
+    let settings = RunSettings { threads: 1, resume: true, stop: &stop, done: &done };
+    sweep::run(folder, manifest, &QUICK, &settings).unwrap()
+}
+
+/// All files of a folder with their bytes.
+pub fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
+    fs::read_dir(folder)
+        .unwrap()
+        .map(|entry| {
+            let entry = entry.unwrap();
+            (entry.file_name().into_string().unwrap(), fs::read(entry.path()).unwrap())
+        })
+        .collect()
+}
