@@ -81,6 +81,7 @@ mod vector;
 #[cfg(test)]
 mod twins;
 
+pub mod batch;
 pub mod bound;
 pub mod example;
 

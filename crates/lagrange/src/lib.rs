@@ -38,6 +38,7 @@
 //! other, nor share so much as a helper: that they agree is the evidence, so formulas that stand in
 //! both (a direction from angles, a sum of weights) stand there twice on purpose.
 
+pub mod batch;
 pub mod condensed;
 mod constraints;
 mod dense;

@@ -1,0 +1,242 @@
+//! Many seeds through the lanes.
+#![expect(
+    clippy::inline_always,
+    reason = "a pass over the bars is fast only as one loop of vector instructions"
+)]
+
+use model::Problem;
+
+use super::kernel::{Common, MOST_STEPS, State, step};
+use super::lanes::{LANES, Lanes};
+use super::numbers::{Bar, Numbers};
+use crate::SettingsError;
+
+/// What can be chosen.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BatchSettings {
+    /// A seed has converged when no equation is larger than this: moment rows in units of the largest force
+    /// times the mean length, closure in units of the total length. Default 1e-13, from 1e-15 to 1e-3.
+    pub tolerance: f64,
+    /// Newton steps after which a seed is given up. Default 1000, from 1 to 60,000.
+    pub max_iterations: u32,
+}
+
+impl Default for BatchSettings {
+    fn default() -> Self {
+        Self { tolerance: 1e-13, max_iterations: 1000 }
+    }
+}
+
+impl BatchSettings {
+    /// Check every range.
+    ///
+    /// # Errors
+    ///
+    /// [`SettingsError`] with the first field that is out of range.
+    pub fn validate(&self) -> Result<(), SettingsError> {
+        for (name, value, low, high) in [
+            ("tolerance", self.tolerance, 1e-15, 1e-3),
+            ("max_iterations", f64::from(self.max_iterations), 1.0, f64::from(MOST_STEPS)),
+        ] {
+            if !(low..=high).contains(&value) {
+                return Err(SettingsError { name, value, low, high });
+            }
+        }
+        Ok(())
+    }
+}
+
+/// How the iteration ended for one seed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Finish {
+    /// Every equation is below the tolerance.
+    Converged,
+    /// The iteration limit was reached.
+    IterationLimit,
+    /// A number overflowed or was undefined, the seed's own angles to begin with.
+    NonFinite,
+}
+
+/// Where many seeds ended: one entry per seed, n directions per seed.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Ends {
+    /// How.
+    pub finish: Vec<Finish>,
+    /// Newton steps spent.
+    pub iterations: Vec<u16>,
+    /// The largest equation, in the units of [`BatchSettings::tolerance`].
+    pub residual: Vec<f64>,
+    /// Potential energy above the height of joint 0, J.
+    pub energy_j: Vec<f64>,
+    /// Unit directions of the bars of seed 0, of seed 1, ...: along the heading, and up.
+    pub directions: Vec<[f64; 2]>,
+}
+
+impl Ends {
+    fn resize(&mut self, seeds: usize, bars: usize) {
+        self.finish.resize(seeds, Finish::NonFinite);
+        self.iterations.resize(seeds, 0);
+        self.residual.resize(seeds, f64::NAN);
+        self.energy_j.resize(seeds, f64::NAN);
+        self.directions.resize(seeds * bars, [f64::NAN; 2]);
+    }
+}
+
+/// A solver of one problem for many seeds in its vertical plane.
+///
+/// ```
+/// use lagrange::batch::{Batch, BatchSettings, Ends, Finish};
+/// let batch = Batch::new(&model::cases::paper(), BatchSettings::default())?;
+/// let mut ends = Ends::default();
+/// batch.solve(&[0.3, 0.7, -1.3, 2.8, 2.4, 4.0], &mut ends);
+/// assert_eq!(ends.finish, [Finish::Converged; 2]);
+/// // V of the paper counts from 6 mgl lower; here mgl = 9.80665 J.
+/// assert!((ends.energy_j[0] / 9.80665 + 6.0 - 2.335_468_651_999_305).abs() < 1e-12);
+/// # Ok::<(), lagrange::SettingsError>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct Batch {
+    numbers: Numbers,
+    settings: BatchSettings,
+}
+
+impl Batch {
+    /// Prepare a problem.
+    ///
+    /// # Errors
+    ///
+    /// [`SettingsError`] when a setting is out of range.
+    pub fn new(problem: &Problem, settings: BatchSettings) -> Result<Self, SettingsError> {
+        settings.validate()?;
+        Ok(Self { numbers: Numbers::of(problem), settings })
+    }
+
+    /// Number of bars n.
+    #[must_use]
+    pub fn bars(&self) -> usize {
+        self.numbers.bars.len()
+    }
+
+    /// Unit vector (X, Y) of the plane: from the first anchor towards the last, +Y if they are on one
+    /// vertical.
+    #[must_use]
+    pub fn heading(&self) -> [f64; 2] {
+        self.numbers.heading
+    }
+
+    /// Solve all seeds: `angles` holds n angles from the descending vertical, rad, for each of them. What
+    /// was in `ends` is replaced, its memory used again.
+    ///
+    /// # Panics
+    ///
+    /// When `angles` does not hold a multiple of n numbers.
+    pub fn solve(&self, angles: &[f64], ends: &mut Ends) {
+        let bars = self.bars();
+        assert!(angles.len().is_multiple_of(bars), "{bars} angles for every seed");
+        ends.resize(angles.len() / bars, bars);
+        match bars {
+            2 => self.unrolled::<2>(angles, ends),
+            3 => self.unrolled::<3>(angles, ends),
+            4 => self.unrolled::<4>(angles, ends),
+            5 => self.unrolled::<5>(angles, ends),
+            6 => self.unrolled::<6>(angles, ends),
+            _ => self.run(&self.numbers.bars, &mut vec![State::ZERO; bars], angles, ends),
+        }
+    }
+
+    /// With the number of bars known to the compiler.
+    #[inline(never)]
+    fn unrolled<const N: usize>(&self, angles: &[f64], ends: &mut Ends) {
+        let mut bars = [Bar::default(); N];
+        bars.copy_from_slice(&self.numbers.bars);
+        self.run(&bars, &mut [State::ZERO; N], angles, ends);
+    }
+
+    #[inline(always)]
+    fn run(&self, bars: &[Bar], states: &mut [State], angles: &[f64], ends: &mut Ends) {
+        let seeds = angles.len() / bars.len();
+        let mut common = Common {
+            pull: [Lanes::ZERO; 2],
+            pull_before: [Lanes::ZERO; 2],
+            count: [0; LANES],
+            far: [true; LANES],
+        };
+        // Which seed each lane has; one that is not there when there are none left.
+        let mut seed = [usize::MAX; LANES];
+        let (mut next, mut busy) = (0, 0);
+        for (lane, seed) in seed.iter_mut().enumerate().take(seeds) {
+            *seed = next;
+            load(states, angles, next, lane);
+            (next, busy) = (next + 1, busy + 1);
+        }
+        while busy > 0 {
+            let judged =
+                step(bars, self.numbers.span, self.settings.tolerance, states, &mut common);
+            let ended: [bool; LANES] = std::array::from_fn(|k| {
+                judged.converged[k] || (common.count[k] > self.settings.max_iterations)
+            });
+            if !ended.contains(&true) {
+                continue;
+            }
+            for lane in 0..LANES {
+                if !ended[lane] || seed[lane] == usize::MAX {
+                    continue;
+                }
+                self.store(states, &common, lane, judged.converged[lane], seed[lane], ends);
+                common.count[lane] = 0;
+                if next < seeds {
+                    seed[lane] = next;
+                    load(states, angles, next, lane);
+                    next += 1;
+                } else {
+                    seed[lane] = usize::MAX;
+                    busy -= 1;
+                }
+            }
+        }
+    }
+
+    /// Write down where a lane is.
+    #[inline(always)]
+    fn store(
+        &self,
+        states: &[State],
+        common: &Common,
+        lane: usize,
+        converged: bool,
+        seed: usize,
+        ends: &mut Ends,
+    ) {
+        let bars = states.len();
+        let directions = &mut ends.directions[seed * bars..(seed + 1) * bars];
+        for (u, state) in directions.iter_mut().zip(states) {
+            *u = [state.sin.0[lane], -state.cos.0[lane]];
+        }
+        let pull = common.pull_before.map(|part| part.0[lane]);
+        ends.energy_j[seed] = self.numbers.energy_j(directions);
+        ends.residual[seed] = self.numbers.largest(directions, pull);
+        // The step at which convergence was seen was not needed.
+        ends.iterations[seed] = u16::try_from(common.count[lane] - 1).unwrap_or(u16::MAX);
+        ends.finish[seed] = if converged {
+            Finish::Converged
+        } else if ends.residual[seed].is_finite() {
+            Finish::IterationLimit
+        } else {
+            Finish::NonFinite
+        };
+    }
+}
+
+/// Angles of seeds up to this are taken as they are, rad.
+const FEW_TURNS: f64 = 1000.0;
+
+/// Put a seed into a lane.
+#[inline(always)]
+fn load(states: &mut [State], angles: &[f64], seed: usize, lane: usize) {
+    let bars = states.len();
+    for (state, angle) in states.iter_mut().zip(&angles[seed * bars..]) {
+        // An angle without bounds would be outside the range of the sine.
+        let within = angle.abs() <= FEW_TURNS;
+        state.angle.0[lane] = if within { *angle } else { angle % std::f64::consts::TAU };
+    }
+}
