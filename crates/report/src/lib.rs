@@ -26,6 +26,7 @@ pub mod markdown;
 pub mod math;
 pub mod numbers;
 pub mod svg;
+pub mod view;
 
 pub use document::Report;
 pub use environment::Environment;
