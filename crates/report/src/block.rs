@@ -4,6 +4,7 @@ use validate::equations::EquationAudit;
 
 use crate::equations::Judged;
 use crate::figures::Figure;
+use crate::numbers::signs;
 
 /// A piece of the report. Texts may hold `code`, **strong** and links `[text](#anchor)`.
 #[derive(Debug, Clone)]
@@ -63,13 +64,13 @@ pub fn audit_cells(row: &EquationAudit) -> [String; 5] {
         if row.counts { crate::numbers::counted(x) } else { crate::numbers::measured(x, 4) }
     };
     [
-        row.what.to_owned(),
-        row.measure.to_owned(),
+        signs(row.what),
+        signs(row.measure),
         number(row.as_printed),
         match (row.as_corrected, row.corrected) {
             (None, _) => "-".to_owned(),
             (Some(value), "") => number(value),
-            (Some(value), form) => format!("{}: {form}", number(value)),
+            (Some(value), form) => format!("{}: {}", number(value), signs(form)),
         },
         crate::equations::verdict_word(row.verdict).to_owned(),
     ]

@@ -7,6 +7,7 @@ use validate::Reproduction;
 use crate::block::Block;
 use crate::chapters::{cases, citing, claims, equations, method, overview, positions, run, scan};
 use crate::environment::Environment;
+use crate::view::View;
 use crate::{html, markdown};
 
 /// Why there is no report.
@@ -17,7 +18,7 @@ pub enum ReportError {
     #[error("the census of the example: {0}")]
     Census(#[from] CensusError),
     /// Occurs when the results hold a number that JSON has no word for.
-    #[error("the results cannot be written: {0}")]
+    #[error("a number of the results cannot be written: {0}")]
     Json(#[from] serde_json::Error),
 }
 
@@ -26,6 +27,7 @@ pub enum ReportError {
 pub struct Report {
     reproduction: Reproduction,
     census: Census,
+    view: String,
     environment: Environment,
 }
 
@@ -42,10 +44,12 @@ impl Report {
     ///
     /// # Errors
     ///
-    /// [`ReportError::Census`] when the equilibria of the example cannot be listed.
+    /// [`ReportError::Census`] when the equilibria of the example cannot be listed, [`ReportError::Json`] when
+    /// a number is none.
     pub fn new(reproduction: Reproduction, environment: Environment) -> Result<Self, ReportError> {
         let census = Census::take(&model::cases::paper(), &census::Settings::default())?;
-        Ok(Self { reproduction, census, environment })
+        let view = View::new(&reproduction).fragment()?;
+        Ok(Self { reproduction, census, view, environment })
     }
 
     /// What it was made from.
@@ -88,7 +92,7 @@ impl Report {
         [
             overview::blocks(r),
             positions::blocks(r, &self.census),
-            scan::blocks(r),
+            scan::blocks(r, self.view.clone()),
             claims::blocks(r),
             equations::blocks(r),
             method::blocks(r),

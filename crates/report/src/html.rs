@@ -66,9 +66,8 @@ fn html(block: &Block) -> String {
         }
         Block::Text(text) => format!("<p>{}</p>\n", inline(text)),
         Block::List(items) => {
-            let items: String =
-                items.iter().map(|item| format!("<li>{}</li>\n", inline(item))).collect();
-            format!("<ul>\n{items}</ul>\n")
+            let items: Vec<_> = items.iter().map(|item| inline(item)).collect();
+            format!("<ul>\n<li>{}</li>\n</ul>\n", items.join("</li>\n<li>"))
         }
         Block::Table(table) => rows(table),
         Block::Equation(judged) => equation(judged),
@@ -98,12 +97,15 @@ fn html(block: &Block) -> String {
 
 fn drawn(figure: &Figure) -> String {
     format!(
-        "<figure id=\"{}\">\n<div class=\"panels\">\n{}</div>\n<figcaption>{}</figcaption>\n</figure>\n",
+        "<figure class=\"plate\" id=\"{}\">\n<div class=\"panels\">\n{}</div>\n<figcaption>{}</figcaption>\n</figure>\n",
         figure.id,
         figure.panels.concat(),
         inline(&figure.caption)
     )
 }
+
+/// Cells with more characters get room for a few words in a line.
+const LONG: usize = 32;
 
 /// A table in a box that scrolls on its own, so that the page does not.
 fn rows(table: &Table) -> String {
@@ -128,9 +130,13 @@ fn rows(table: &Table) -> String {
         text.push_str("<tr>");
         for (k, cell) in row.iter().enumerate() {
             let content = if table.verdicts == Some(k) { verdict(cell) } else { inline(cell) };
-            let class = if is_number(cell) { " class=\"number\"" } else { "" };
+            let class = match cell {
+                cell if is_number(cell) && k > 0 => " class=\"number\"",
+                cell if cell.chars().count() > LONG => " class=\"long\"",
+                _ => "",
+            };
             if k == 0 {
-                let _ = write!(text, "<th scope=\"row\">{content}</th>");
+                let _ = write!(text, "<th scope=\"row\"{class}>{content}</th>");
             } else {
                 let _ = write!(text, "<td{class}>{content}</td>");
             }
@@ -143,8 +149,15 @@ fn rows(table: &Table) -> String {
 
 /// Whether a cell is right-aligned.
 fn is_number(cell: &str) -> bool {
-    let first = cell.split(' ').next().unwrap_or_default();
-    cell == "-" || cell.starts_with("<\u{a0}10") || first.parse::<f64>().is_ok()
+    /// Longest number with its unit; what is longer is a sentence that begins with one.
+    const LONGEST: usize = 24;
+    /// Longest unit, `(E1)` or `mgl/rad`.
+    const UNIT: usize = 7;
+    let mut words = cell.split(' ');
+    let first = words.next().unwrap_or_default();
+    let units = words.all(|word| word.len() <= UNIT);
+    let number = first.parse::<f64>().is_ok() || first.starts_with("<\u{a0}10");
+    cell == "-" || (cell.len() <= LONGEST && number && units)
 }
 
 /// A verdict with a sign for those who see no colour.

@@ -16,7 +16,7 @@ fn block(block: &Block) -> String {
     match block {
         Block::Heading(level, _, text) => format!("{} {text}\n", "#".repeat(usize::from(*level))),
         Block::Text(text) => format!("{text}\n"),
-        Block::List(items) => items.iter().map(|item| format!("- {item}\n")).collect(),
+        Block::List(items) => format!("- {}\n", items.join("\n- ")),
         Block::Table(table) => rows(table),
         Block::Equation(judged) => equation(judged),
         Block::Statements(audit) => rows(&Table {
@@ -48,7 +48,7 @@ fn rows(table: &Table) -> String {
         let _ = writeln!(text, "{}\n", table.caption);
     }
     text += &line(table.head.iter().map(|cell| (*cell).to_owned()).collect());
-    text += &format!("|{}\n", "---|".repeat(table.head.len()));
+    text.push_str(&line(vec!["---".to_owned(); table.head.len()]).replace(' ', ""));
     for row in &table.rows {
         text += &line(row.iter().map(|cell| escaped(cell)).collect());
     }
@@ -71,7 +71,8 @@ fn equation(judged: &Judged) -> String {
         math(equation.printed)
     );
     if let Some(corrected) = equation.corrected {
-        text += &format!("\n{}:\n\n{}", instead(*verdict), math(corrected));
+        // Writing to a String cannot fail.
+        let _ = write!(text, "\n{}:\n\n{}", instead(*verdict), math(corrected));
     }
     text.push('\n');
     text += &rows(&Table {

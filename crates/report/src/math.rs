@@ -3,20 +3,29 @@
 use pulldown_latex::config::{DisplayMode, RenderConfig};
 use pulldown_latex::{Parser, Storage, push_mathml};
 
-/// Colours that stand for the two marks on their way through the converter: LaTeX knows colours, MathML
+/// Colours that stand for the marks on their way through the converter: LaTeX knows colours, MathML
 /// has classes, and nothing else in the equations has a colour.
-const MARKS: [Mark; 2] = [
+const MARKS: [Mark; 3] = [
     Mark {
         command: r"\wrong{",
         through: r"\textcolor{#010101}{",
         style: "color: rgb(1 1 1)",
         class: "wrong",
+        plain: r"\underline{",
     },
     Mark {
         command: r"\fixed{",
         through: r"\textcolor{#020202}{",
         style: "color: rgb(2 2 2)",
         class: "fixed",
+        plain: r"\underline{",
+    },
+    Mark {
+        command: r"\range{",
+        through: r"\textcolor{#030303}{",
+        style: "color: rgb(3 3 3)",
+        class: "range",
+        plain: r"\overline{",
     },
 ];
 
@@ -26,6 +35,8 @@ struct Mark {
     through: &'static str,
     style: &'static str,
     class: &'static str,
+    /// What stands for it in plain LaTeX.
+    plain: &'static str,
 }
 
 /// MathML of a displayed formula. What is marked `\wrong` or `\fixed` has that class.
@@ -47,19 +58,33 @@ pub fn mathml(latex: &str) -> String {
         // Writing to a String cannot fail; were it to, the page shows so.
         "<merror></merror>".clone_into(&mut text);
     }
-    MARKS.iter().fold(text, |text, mark| {
+    let marked = MARKS.iter().fold(text, |text, mark| {
         text.replace(&format!("style=\"{}\"", mark.style), &format!("class=\"{}\"", mark.class))
-    })
+    });
+    BRACKETED.iter().fold(marked, |text, (from, to)| text.replace(from, to))
 }
 
-/// LaTeX that needs no macro of ours: marks become an underline.
+/// Brackets about a matrix stretch only in a font made for mathematics. The style of the page draws them
+/// as borders of the matrix instead; the signs stay for those who listen.
+const BRACKETED: [(&str, &str); 2] = [
+    (
+        "<mo stretchy=\"true\">[</mo><mtable class=\"menv-arraylike\">",
+        "<mo class=\"fence\" stretchy=\"false\">[</mo><mtable class=\"bracketed\">",
+    ),
+    (
+        "</mtable><mo stretchy=\"true\">]</mo>",
+        "</mtable><mo class=\"fence\" stretchy=\"false\">]</mo>",
+    ),
+];
+
+/// LaTeX that needs no macro of ours: marks become a line under or over.
 ///
 /// ```
 /// assert_eq!(report::math::plain_latex(r"a = \wrong{b}"), r"a = \underline{b}");
 /// ```
 #[must_use]
 pub fn plain_latex(latex: &str) -> String {
-    MARKS.iter().fold(latex.to_owned(), |text, mark| text.replace(mark.command, r"\underline{"))
+    MARKS.iter().fold(latex.to_owned(), |text, mark| text.replace(mark.command, mark.plain))
 }
 
 #[cfg(test)]

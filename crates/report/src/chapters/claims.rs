@@ -4,7 +4,7 @@ use validate::Reproduction;
 use validate::claims::Claim;
 
 use crate::block::{Block, Table, heading, text};
-use crate::numbers::{counted, fixed, measured, stable};
+use crate::numbers::{counted, fixed, measured, signs, stable};
 
 pub(crate) fn blocks(r: &Reproduction) -> Vec<Block<'_>> {
     vec![
@@ -19,7 +19,6 @@ pub(crate) fn blocks(r: &Reproduction) -> Vec<Block<'_>> {
             caption: "The claims in the order of the paper.".to_owned(),
             head: vec![
                 "claim",
-                "where",
                 "printed",
                 "lagrange",
                 "energy",
@@ -28,7 +27,7 @@ pub(crate) fn blocks(r: &Reproduction) -> Vec<Block<'_>> {
                 "the number behind it",
             ],
             rows: r.claims.iter().map(row).collect(),
-            verdicts: Some(6),
+            verdicts: Some(5),
         }),
     ]
 }
@@ -41,11 +40,10 @@ fn row(claim: &Claim) -> Vec<String> {
         _ => "-".to_owned(),
     };
     vec![
-        p.says.clone(),
-        p.place.clone(),
+        signs(&format!("{} ({})", p.says, p.place)),
         match &p.unit {
             Some(unit) if p.digits.is_some() => format!("{} {unit}", p.printed),
-            _ => p.printed.clone(),
+            _ => signs(&p.printed),
         },
         value(claim, claim.lagrange),
         value(claim, claim.energy),
@@ -78,7 +76,7 @@ fn value(claim: &Claim, value: Option<f64>) -> String {
 
 /// What the verdict rests on.
 fn number(claim: &Claim) -> String {
-    let what = stable(&claim.number_is);
+    let what = signs(&stable(&claim.number_is));
     match claim.number {
         None => what,
         Some(number) if is_count(claim) => format!("{}: {what}", counted(number)),

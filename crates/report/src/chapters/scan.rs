@@ -6,7 +6,8 @@ use crate::block::{Block, Table, heading, text};
 use crate::figures;
 use crate::numbers::{fixed, measured};
 
-pub(crate) fn blocks(r: &Reproduction) -> Vec<Block<'_>> {
+/// `view` is the interactive picture, a piece of HTML.
+pub(crate) fn blocks(r: &Reproduction, view: String) -> Vec<Block<'_>> {
     vec![
         heading(2, "scan", "How the paper obtained its numbers"),
         text(
@@ -17,7 +18,19 @@ pub(crate) fn blocks(r: &Reproduction) -> Vec<Block<'_>> {
         ),
         Block::Table(returned(r)),
         Block::Figure(figures::valley(r)),
+        heading(3, "view", "To try it"),
+        Block::Slot {
+            html: view,
+            instead: "In `report.html` the chain can be turned about OD here and led along its closure curve, with V and \
+                      its slope."
+                .to_owned(),
+        },
     ]
+}
+
+/// A difference of angles in deg, the short way round.
+fn nearer(difference: f64) -> f64 {
+    (difference + 180.0).rem_euclid(360.0) - 180.0
 }
 
 /// What the scan returns against what is printed and what is true.
@@ -45,7 +58,7 @@ fn returned(r: &Reproduction) -> Table {
                 printed(format!("{id}-{quantity}")),
                 fixed(found, 5),
                 format!("{} ({name})", fixed(true_value, 8)),
-                measured(found - true_value, 3),
+                measured(if k < 3 { nearer(found - true_value) } else { found - true_value }, 3),
             ]
         })
     });

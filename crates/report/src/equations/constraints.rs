@@ -108,7 +108,7 @@ pub(super) const EQUATIONS: &[Equation] = &[
     },
     Equation {
         number: "(22)",
-        printed: r"b_{i,j} = \frac{\partial f_i}{\partial q_j}, \quad i = \overline{1,12}, \quad j = \overline{1,18}",
+        printed: r"b_{i,j} = \frac{\partial f_i}{\partial q_j}, \quad i = \range{1,12}, \quad j = \range{1,18}",
         corrected: None,
         says: "The matrix of constraints: how each of the twelve closures changes with each coordinate.",
     },

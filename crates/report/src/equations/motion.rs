@@ -6,33 +6,33 @@ use super::Equation;
 pub(super) const EQUATIONS: &[Equation] = &[
     Equation {
         number: "(33)",
-        printed: r"\wrong{\left[ \begin{bmatrix} [\mathbf{M}_1] & [\mathbf{0}_{6,6}] & [\mathbf{0}_{6,6}] \\ [\mathbf{0}_{6,6}] & [\mathbf{M}_2] & [\mathbf{0}_{6,6}] \\ [\mathbf{0}_{6,6}] & [\mathbf{0}_{6,6}] & [\mathbf{M}_3] \end{bmatrix} - [\mathbf{B}]^T \right]} \begin{bmatrix} \{\ddot{\mathbf{q}}\} \\ \{\boldsymbol{\lambda}\} \end{bmatrix} = \begin{bmatrix} \{\mathbf{F}_{q_1}\} + \{\tilde{\mathbf{F}}_{q_1}\} \\ \{\mathbf{F}_{q_2}\} + \{\tilde{\mathbf{F}}_{q_2}\} \\ \{\mathbf{F}_{q_3}\} + \{\tilde{\mathbf{F}}_{q_3}\} \\ \wrong{-[\mathbf{B}] \{\mathbf{q}\}} \end{bmatrix}",
+        printed: r"\wrong{\left[ \begin{bmatrix} [\mathbf{M}_1] & [\mathbf{0}_{6,6}] & [\mathbf{0}_{6,6}] \\ {}[\mathbf{0}_{6,6}] & [\mathbf{M}_2] & [\mathbf{0}_{6,6}] \\ {}[\mathbf{0}_{6,6}] & [\mathbf{0}_{6,6}] & [\mathbf{M}_3] \end{bmatrix} - [\mathbf{B}]^T \right]} \begin{bmatrix} \{\ddot{\mathbf{q}}\} \\ \{\boldsymbol{\lambda}\} \end{bmatrix} = \begin{bmatrix} \{\mathbf{F}_{q_1}\} + \{\tilde{\mathbf{F}}_{q_1}\} \\ \{\mathbf{F}_{q_2}\} + \{\tilde{\mathbf{F}}_{q_2}\} \\ \{\mathbf{F}_{q_3}\} + \{\tilde{\mathbf{F}}_{q_3}\} \\ \wrong{-[\mathbf{B}] \{\mathbf{q}\}} \end{bmatrix}",
         corrected: Some(
-            r"\begin{bmatrix} [\mathbf{M}_1] & [\mathbf{0}_{6,6}] & [\mathbf{0}_{6,6}] &  \\ [\mathbf{0}_{6,6}] & [\mathbf{M}_2] & [\mathbf{0}_{6,6}] & -[\mathbf{B}]^T \\ [\mathbf{0}_{6,6}] & [\mathbf{0}_{6,6}] & [\mathbf{M}_3] &  \\ & \fixed{[\mathbf{B}]} & & \fixed{[\mathbf{0}_{12,12}]} \end{bmatrix} \begin{bmatrix} \{\ddot{\mathbf{q}}\} \\ \{\boldsymbol{\lambda}\} \end{bmatrix} = \begin{bmatrix} \{\mathbf{F}_{q_1}\} + \{\tilde{\mathbf{F}}_{q_1}\} \\ \{\mathbf{F}_{q_2}\} + \{\tilde{\mathbf{F}}_{q_2}\} \\ \{\mathbf{F}_{q_3}\} + \{\tilde{\mathbf{F}}_{q_3}\} \\ \fixed{-[\dot{\mathbf{B}}] \{\dot{\mathbf{q}}\}} \end{bmatrix}",
+            r"\begin{bmatrix} [\mathbf{M}_1] & [\mathbf{0}_{6,6}] & [\mathbf{0}_{6,6}] &  \\ {}[\mathbf{0}_{6,6}] & [\mathbf{M}_2] & [\mathbf{0}_{6,6}] & -[\mathbf{B}]^T \\ {}[\mathbf{0}_{6,6}] & [\mathbf{0}_{6,6}] & [\mathbf{M}_3] &  \\ & \fixed{[\mathbf{B}]} & & \fixed{[\mathbf{0}_{12,12}]} \end{bmatrix} \begin{bmatrix} \{\ddot{\mathbf{q}}\} \\ \{\boldsymbol{\lambda}\} \end{bmatrix} = \begin{bmatrix} \{\mathbf{F}_{q_1}\} + \{\tilde{\mathbf{F}}_{q_1}\} \\ \{\mathbf{F}_{q_2}\} + \{\tilde{\mathbf{F}}_{q_2}\} \\ \{\mathbf{F}_{q_3}\} + \{\tilde{\mathbf{F}}_{q_3}\} \\ \fixed{-[\dot{\mathbf{B}}] \{\dot{\mathbf{q}}\}} \end{bmatrix}",
         ),
         says: "The equation of motion: inertia and multipliers against the forces, and the constraints differentiated twice. Printed without the lower rows of its matrix and with [B]{q}, which is no derivative of the constraints.",
     },
     Equation {
         number: "(34)",
-        printed: r"\{\mathbf{F}_{q_i}\} = \begin{bmatrix} \{\mathbf{F}_{s_i}\} \\ \{\mathbf{F}_{\beta_i}\} \end{bmatrix}, \quad i = \overline{1,3}",
+        printed: r"\{\mathbf{F}_{q_i}\} = \begin{bmatrix} \{\mathbf{F}_{s_i}\} \\ \{\mathbf{F}_{\beta_i}\} \end{bmatrix}, \quad i = \range{1,3}",
         corrected: None,
         says: "The generalised force on a bar: a force at its centre, then the moments that go with its angles.",
     },
     Equation {
         number: "(35)",
-        printed: r"\{\mathbf{F}_{s_i}\} = [0 \;\; 0 \;\; -m_i g]^T, \quad i = \overline{1,3}",
+        printed: r"\{\mathbf{F}_{s_i}\} = [0 \;\; 0 \;\; -m_i g]^T, \quad i = \range{1,3}",
         corrected: None,
         says: "The only force is the bar's weight, straight down.",
     },
     Equation {
         number: "(36)",
-        printed: r"\{\mathbf{F}_{\beta_i}\} = [0 \;\; 0 \;\; 0]^T, \quad i = \overline{1,3}",
+        printed: r"\{\mathbf{F}_{\beta_i}\} = [0 \;\; 0 \;\; 0]^T, \quad i = \range{1,3}",
         corrected: None,
         says: "A weight at the centre has no moment about it.",
     },
     Equation {
         number: "(37)",
-        printed: r"\{\tilde{\mathbf{F}}_{q_i}\} = \begin{bmatrix} \{\tilde{\mathbf{F}}_{s_i}\} \\ \{\tilde{\mathbf{F}}_{\beta_i}\} \end{bmatrix}, \quad i = \overline{1,3}",
+        printed: r"\{\tilde{\mathbf{F}}_{q_i}\} = \begin{bmatrix} \{\tilde{\mathbf{F}}_{s_i}\} \\ \{\tilde{\mathbf{F}}_{\beta_i}\} \end{bmatrix}, \quad i = \range{1,3}",
         corrected: None,
         says: "The inertial forces that go with the squares of the rates, in the same order.",
     },

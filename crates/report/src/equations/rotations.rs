@@ -6,7 +6,7 @@ use super::Equation;
 pub(super) const EQUATIONS: &[Equation] = &[
     Equation {
         number: "(1)",
-        printed: r"[A_i] = [\psi_i]\,[\theta_i]\,[\varphi_i], \quad i = \overline{1,3}",
+        printed: r"[A_i] = [\psi_i]\,[\theta_i]\,[\varphi_i], \quad i = \range{1,3}",
         corrected: None,
         says: "The orientation of a bar is three turns, one after the other (Bryan angles): about x by ψ, \
                about the turned y by θ, about the twice turned z by φ.",
@@ -25,7 +25,7 @@ pub(super) const EQUATIONS: &[Equation] = &[
     },
     Equation {
         number: "(4)",
-        printed: r"[\varphi_i] = \begin{bmatrix} \cos\varphi_i & -\sin\varphi_i & 0 \\ \sin\varphi_i & \cos\varphi_i & 0 \\ 0 & 0 & 1 \end{bmatrix}, \quad i = \overline{1,3}",
+        printed: r"[\varphi_i] = \begin{bmatrix} \cos\varphi_i & -\sin\varphi_i & 0 \\ \sin\varphi_i & \cos\varphi_i & 0 \\ 0 & 0 & 1 \end{bmatrix}, \quad i = \range{1,3}",
         corrected: None,
         says: "The turn by φ about the z axis.",
     },

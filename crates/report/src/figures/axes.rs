@@ -3,7 +3,7 @@
 use crate::svg::{Anchor, Svg};
 
 /// Room for the labels: left, right, above, below, px.
-const MARGIN: [f64; 4] = [58.0, 14.0, 14.0, 48.0];
+const MARGIN: [f64; 4] = [58.0, 14.0, 30.0, 48.0];
 
 /// A frame from data to px.
 #[derive(Debug, Clone, Copy)]
@@ -57,6 +57,6 @@ impl Axes {
         let middle = self.at([f64::midpoint(self.x[0], self.x[1]), self.y[0]]);
         svg.text("label", [middle[0], self.size[1] - 8.0], Anchor::Middle, x_name);
         let top = self.at([self.x[0], self.y[1]]);
-        svg.text("label", [top[0] + 8.0, top[1] + 12.0], Anchor::Start, y_name);
+        svg.text("label", [top[0] - 40.0, top[1] - 12.0], Anchor::Start, y_name);
     }
 }

@@ -1,6 +1,6 @@
 //! Every equilibrium of the example, as the census proves them.
 
-use ::census::{Census, ProvenEquilibrium};
+use ::census::{Census, Interval, ProvenEquilibrium};
 use model::Problem;
 
 use super::{Figure, moved};
@@ -53,7 +53,7 @@ fn panel(k: usize, e: &ProvenEquilibrium, weight_j: f64) -> String {
         &format!("Bars in {}. {index} directions in which the energy falls.", signs.join(", ")),
     );
     svg.text("heading", [SIZE[0] / 2.0, 20.0], Anchor::Middle, &heading);
-    let origin = e.joints_m.first().map_or([0.0; 3], |j| j.map(|x| x.mid()));
+    let origin = e.joints_m.first().map_or([0.0; 3], |j| j.map(Interval::mid));
     let flat = |side: f64| -> Vec<[f64; 2]> {
         e.joints_m
             .iter()

@@ -12,8 +12,8 @@ const LENGTH: f64 = 118.0;
 const FORCE: f64 = 34.0;
 
 /// Size of a panel, and where O lies in it.
-const SIZE: [f64; 2] = [300.0, 440.0];
-const ORIGIN: [f64; 2] = [118.0, 112.0];
+const SIZE: [f64; 2] = [300.0, 486.0];
+const ORIGIN: [f64; 2] = [118.0, 138.0];
 
 /// E1, what Fig. 4 shows, and E2.
 #[must_use]
@@ -81,14 +81,12 @@ fn equilibrium(p: &Position, id: &str, heading: &str) -> String {
         // The arrow starts at the joint and points where the ground pulls.
         let tip = moved(at[joint], FORCE, force);
         svg.arrow("force reaction", at[joint], tip);
-        let size = fixed(across.hypot(up), 3);
-        let label = moved(
-            tip,
-            1.0,
-            [if across < 0.0 { -6.0 } else { 8.0 }, if up < 0.0 { 16.0 } else { -4.0 }],
-        );
-        let anchor = if across < 0.0 { Anchor::End } else { Anchor::Start };
-        svg.text("label small", label, anchor, &format!("{name}: {size} mg"));
+        let size = format!("{} mg at {name}", fixed(across.hypot(up), 3));
+        if joint == 0 {
+            svg.text("label small", moved(tip, 1.0, [-8.0, 4.0]), Anchor::End, &size);
+        } else {
+            svg.text("label small", moved(at[joint], 1.0, [0.0, 30.0]), Anchor::Middle, &size);
+        }
     }
     names(&mut svg, &at);
     let bottom = SIZE[1] - 34.0;
@@ -133,10 +131,10 @@ fn printed(r: &Reproduction) -> String {
     weights(&mut svg, &at);
     // V falls towards smaller theta: A moves to the left.
     svg.arrow("force falls", moved(at[1], 1.0, [-10.0, 0.0]), moved(at[1], 1.0, [-46.0, 0.0]));
-    svg.text("label small", moved(at[1], 1.0, [12.0, -8.0]), Anchor::Start, "V falls to the left:");
+    svg.text("label small", moved(at[1], 1.0, [16.0, 14.0]), Anchor::Start, "V falls to the left:");
     svg.text(
         "label small",
-        moved(at[1], 1.0, [12.0, 10.0]),
+        moved(at[1], 1.0, [16.0, 31.0]),
         Anchor::Start,
         &format!("dV/dθ = {} mgl", fixed(r.figures.slope_at_x, 3)),
     );

@@ -54,21 +54,21 @@ fn in_space() -> String {
             Anchor::Middle,
             &format!("C_{}", bar + 1),
         );
-        let [near, far] = [moved(from, -24.0, aside), moved(to, -24.0, aside)];
+        let [near, far] = [moved(from, -34.0, aside), moved(to, -34.0, aside)];
         svg.arrow("dimension", near, far);
         svg.arrow("dimension", far, near);
-        let at = moved(moved(from, 0.62, along), -38.0, aside);
+        let at = moved(moved(from, 0.62, along), -47.0, aside);
         svg.text("label", [at[0], at[1] + 5.0], Anchor::Middle, &format!("l_{}", bar + 1));
         let [near, far] = [moved(from, -10.0, aside), moved(centre, -10.0, aside)];
         svg.arrow("dimension", near, far);
         svg.arrow("dimension", far, near);
-        let at = moved(moved(from, share * 0.5, along), -17.0, aside);
+        let at = moved(moved(from, share * 0.5, along), -21.0, aside);
         svg.text("label small", [at[0], at[1] + 4.0], Anchor::Middle, &format!("r_{}", bar + 1));
     }
     for (k, (name, offset)) in [
         ("O", [-14.0, -6.0]),
-        ("A_1", [-20.0, 8.0]),
-        ("A_2", [18.0, 16.0]),
+        ("A_1", [20.0, -6.0]),
+        ("A_2", [-12.0, -14.0]),
         ("A_3 (X_3 Y_3 Z_3 )", [-14.0, -20.0]),
     ]
     .into_iter()

@@ -63,25 +63,25 @@ fn whole(r: &Reproduction) -> String {
     let [ix, x] = r.figures.scan_results;
     // The tangent at (x), as long as it stays in the picture.
     let slope = r.figures.slope_at_x * 1_f64.to_radians();
-    let tangent = [-19.0, 32.0].map(|d: f64| axes.at([x[0] + d, x[3] + slope * d]));
+    let tangent = [-13.0, 26.0].map(|d: f64| axes.at([x[0] + d, x[3] + slope * d]));
     svg.line("tangent", tangent[0], tangent[1]);
     for p in &r.equilibria {
         let at = axes.at([p.lagrange_deg[0], p.lagrange_mgl]);
         let minimum = p.stability.index_in_plane == 0;
         if minimum {
-            svg.circle("minimum", at, 6.0)
+            svg.circle("minimum", at, 6.0);
         } else {
-            svg.diamond("maximum", at, 7.0)
+            svg.diamond("maximum", at, 7.0);
         }
         let name = p.name.replace('\'', "′");
-        let offset = if minimum { 22.0 } else { -12.0 };
+        let offset = if minimum { 24.0 } else { -13.0 };
         svg.text("label strong", [at[0], at[1] + offset], Anchor::Middle, &name);
     }
     let at = axes.at([x[0], x[3]]);
     svg.cross("wrong-mark", at, 6.0);
     svg.text("label strong", [at[0] - 10.0, at[1] - 8.0], Anchor::End, "(x)");
     let at = axes.at([ix[0], ix[3]]);
-    svg.text("label", [at[0] + 12.0, at[1] - 6.0], Anchor::Start, "(ix)");
+    svg.text("label", [at[0] + 12.0, at[1] + 16.0], Anchor::Start, "(ix)");
     svg.finish()
 }
 
@@ -92,7 +92,7 @@ fn near(r: &Reproduction) -> String {
     let above = |point: &[f64; 2]| [point[0], (point[1] - e1[1]) * TINY];
     let highest = r.figures.near_minimum.iter().map(|p| above(p)[1]).fold(0.0, f64::max);
     let axes =
-        Axes::new(size, [ix[0] - NEAR_DEG, ix[0] + NEAR_DEG], [-0.08 * highest, 1.08 * highest]);
+        Axes::new(size, [ix[0] - NEAR_DEG, ix[0] + NEAR_DEG], [-0.12 * highest, 1.08 * highest]);
     let mut svg = Svg::new(
         "valley-near",
         size,
@@ -100,12 +100,13 @@ fn near(r: &Reproduction) -> String {
         "A parabola with the points of the scan on it, 0.0573 degrees apart. E1 at its bottom lies between two of them; the \
          nearer one, 0.015 degrees to the right, is the printed (ix).",
     );
-    let step = 10_f64.powf(highest.log10().floor());
+    // Four or five ticks of a round size.
+    let step = 10_f64.powf((highest / 2.0).log10().floor()) * 2.0;
     axes.draw(
         &mut svg,
         [
             &ticks([19.6, 19.7, 19.8], 1),
-            &ticks((0..=9).map(|k| f64::from(k) * step).filter(|v| *v <= highest), 0),
+            &ticks((0..=12).map(|k| f64::from(k) * step).filter(|v| *v <= highest), 0),
         ],
         ["θ in degrees", "V − V(E1) in 10⁻⁷ mgl"],
     );
@@ -122,6 +123,6 @@ fn near(r: &Reproduction) -> String {
     svg.circle("minimum", at, 6.0);
     svg.text("label strong", [at[0] - 10.0, at[1] - 12.0], Anchor::Middle, "E1");
     let at = axes.at(above(&[ix[0], ix[3]]));
-    svg.text("label", [at[0] + 10.0, at[1] + 4.0], Anchor::Start, "(ix)");
+    svg.text("label", [at[0] + 6.0, at[1] + 18.0], Anchor::Start, "(ix)");
     svg.finish()
 }

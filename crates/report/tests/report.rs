@@ -1,0 +1,155 @@
+//! The report of the paper: complete, self-contained, accessible, and the same as the golden copy.
+
+use std::path::Path;
+use std::sync::LazyLock;
+
+use report::equations::{self, judged};
+use report::numbers::measured;
+use report::{Environment, Report};
+use validate::equations::Verdict;
+
+/// One report for all tests.
+static REPORT: LazyLock<Report> = LazyLock::new(|| {
+    let reproduction = validate::reproduce(|_| {}).expect("the paper is reproduced");
+    let command = ["funicular", "reproduce", "--out", "report"].map(String::from);
+    Report::new(reproduction, Environment::here(command.into_iter())).expect("a report")
+});
+
+/// Set this variable to anything to write the golden copy anew: `BLESS=1 cargo test -p report`.
+const BLESS: &str = "BLESS";
+
+#[test]
+fn the_golden_copy_is_what_comes_out() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../validation/REPORT.md");
+    let text = REPORT.golden();
+    if std::env::var_os(BLESS).is_some() {
+        std::fs::write(&path, &text).unwrap();
+    }
+    let golden = std::fs::read_to_string(&path).unwrap();
+    for (k, (ours, theirs)) in text.lines().zip(golden.lines()).enumerate() {
+        assert_eq!(
+            ours,
+            theirs,
+            "line {} of validation/REPORT.md; {BLESS}=1 writes it anew",
+            k + 1
+        );
+    }
+    assert_eq!(text, golden);
+}
+
+#[test]
+fn every_equation_has_a_verdict_and_every_verdict_a_number() {
+    let judged = judged(&REPORT.reproduction().equations);
+    assert_eq!(judged.len(), 41 + 26);
+    for j in &judged {
+        assert!(!j.rows.is_empty(), "{} is not judged", j.equation.number);
+        for row in &j.rows {
+            assert!(row.as_printed.is_finite(), "{row:?}");
+            assert_ne!(row.measure, "nothing measured", "{row:?}");
+        }
+        // A correction in print if and only if the numbers ask for one.
+        let failing = matches!(j.verdict, Verdict::Corrected | Verdict::Refuted);
+        assert_eq!(failing, j.equation.corrected.is_some(), "{}", j.equation.number);
+    }
+    // Numbered or not, every row of the audit is told.
+    let told: usize = judged.iter().map(|j| j.rows.len()).sum();
+    let rest = equations::statements(&REPORT.reproduction().equations).count();
+    assert_eq!(told + rest, REPORT.reproduction().equations.len());
+}
+
+#[test]
+fn page_and_markdown_tell_the_same_numbers() {
+    let (html, markdown) = (REPORT.html(), REPORT.markdown());
+    for row in &REPORT.reproduction().equations {
+        let number = measured(row.as_printed, 4);
+        // A bound has a `<`, which is an entity in HTML.
+        assert!(html.contains(&number.replace('<', "&lt;")), "{number}");
+        let in_markdown =
+            if row.counts { report::numbers::counted(row.as_printed) } else { number };
+        assert!(markdown.contains(&in_markdown.replace("<\u{a0}", "< ")), "{in_markdown}");
+    }
+    for claim in &REPORT.reproduction().claims {
+        let says = report::numbers::signs(&claim.printed.says);
+        assert!(html.contains(&report::svg::escape(&says)), "{says}");
+    }
+}
+
+#[test]
+fn the_page_needs_nothing_else() {
+    let html = REPORT.html();
+    for wanted in ["http://", "https://", "src=\"", "@import", "url(", "<link rel=\"stylesheet\""] {
+        let allowed = html.matches("http://www.w3.org/").count();
+        let found = html.matches(wanted).count();
+        let expected = if wanted == "http://" { allowed } else { 0 };
+        assert_eq!(found, expected, "the page asks for something by {wanted}");
+    }
+    assert!(html.starts_with("<!DOCTYPE html>\n<html lang=\"en\">"));
+    // A few hundred kilobytes: it goes by mail.
+    assert!(html.len() < 1_500_000, "{}", html.len());
+}
+
+#[test]
+fn headings_go_down_one_level_at_a_time_and_every_anchor_is_there_once() {
+    let html = REPORT.html();
+    let levels: Vec<u32> = html
+        .match_indices("<h")
+        .filter_map(|(at, _)| html[at + 2..].chars().next()?.to_digit(10))
+        .collect();
+    assert_eq!(levels.first(), Some(&1));
+    assert_eq!(levels.iter().filter(|level| **level == 1).count(), 1);
+    assert!(levels.windows(2).all(|pair| pair[1] <= pair[0] + 1), "{levels:?}");
+    for (at, _) in html.match_indices("href=\"#") {
+        let anchor = html[at + 7..].split('"').next().unwrap();
+        assert_eq!(html.matches(&format!(" id=\"{anchor}\"")).count(), 1, "{anchor}");
+    }
+    let ids: Vec<&str> = html
+        .match_indices(" id=\"")
+        .map(|(at, _)| html[at + 5..].split('"').next().unwrap())
+        .collect();
+    let mut once = ids.clone();
+    once.sort_unstable();
+    once.dedup();
+    assert_eq!(once.len(), ids.len(), "an id stands twice");
+}
+
+#[test]
+fn every_picture_says_what_it_shows() {
+    let html = REPORT.html();
+    for (at, _) in html.match_indices("<svg ") {
+        let tag = html[at..].split('>').next().unwrap();
+        assert!(tag.contains("role=\"") && tag.contains("aria-label"), "{tag}");
+    }
+    assert!(html.matches("<figcaption").count() >= 5);
+    assert_eq!(html.matches("<figcaption").count(), html.matches("<figure").count());
+    assert_eq!(html.matches("<math").count(), html.matches("</math>").count());
+    assert!(!html.contains("merror") && !html.contains("NaN"));
+}
+
+#[test]
+fn every_table_has_as_many_cells_in_each_row_as_in_its_head() {
+    for text in [REPORT.markdown(), REPORT.golden()] {
+        for block in text.split("\n\n").filter(|block| block.starts_with('|')) {
+            let cells = |line: &str| line.replace("\\|", "").matches('|').count();
+            let mut lines = block.lines();
+            let head = cells(lines.next().unwrap());
+            assert!(lines.all(|line| !line.starts_with('|') || cells(line) == head), "{block}");
+        }
+    }
+}
+
+#[test]
+fn only_the_last_part_knows_where_it_was_made() {
+    let golden = REPORT.golden();
+    let markdown = REPORT.markdown();
+    let run = markdown.strip_prefix(&golden).unwrap();
+    assert!(run.contains("## This run") && run.contains("`funicular reproduce --out report`"));
+    assert!(run.contains("rustc ") && run.contains("nalgebra "));
+    assert!(
+        !golden.contains("rustc ") && !golden.contains("e-1"),
+        "a rounding is told as a number"
+    );
+    let json: serde_json::Value = serde_json::from_str(&REPORT.json().unwrap()).unwrap();
+    assert_eq!(json["schema_version"], 1);
+    assert_eq!(json["environment"]["command"], "funicular reproduce --out report");
+    assert!(json["figures"]["closure_curve"].as_array().unwrap().len() > 100);
+}
