@@ -1,6 +1,7 @@
-"""Execute every notebook of this folder headless, and optionally keep the cleaned outputs."""
+"""Execute the notebooks of this folder headless, all or those named, and optionally keep the cleaned outputs."""
 
 import sys
+import tempfile
 from pathlib import Path
 
 import nbformat
@@ -23,7 +24,7 @@ def clean(notebook, here):
             if output.output_type in ("display_data", "execute_result"):
                 output["metadata"] = {}
     text = nbformat.writes(notebook)
-    for path in (str(here.parent), str(Path.home())):
+    for path in (str(here.parent), str(Path.home()), tempfile.gettempdir()):
         if path in text:
             raise SystemExit(f"an output names a path of this machine: {path}")
     return text + ("" if text.endswith("\n") else "\n")
@@ -31,7 +32,8 @@ def clean(notebook, here):
 
 def main():
     write = "--write" in sys.argv[1:]
-    notebooks = sorted(HERE.glob("*.ipynb"))
+    names = [name for name in sys.argv[1:] if name != "--write"]
+    notebooks = [HERE / Path(name).name for name in names] or sorted(HERE.glob("*.ipynb"))
     if not notebooks:
         raise SystemExit("there is no notebook to execute")
     for path in notebooks:
