@@ -1,0 +1,425 @@
+//! `funicular census` as its users meet it: tables, JSON, figure, CSV, refusals, exit codes.
+
+#![expect(clippy::unwrap_used, reason = "helpers of tests")]
+
+use std::fmt::Write as _;
+use std::path::PathBuf;
+use std::process::Output;
+
+use assert_cmd::Command;
+use serde_json::Value;
+
+/// Energies of E1 and E2 with the paper's zero, mgl, and the angles of E1, degrees (external: 40-digit
+/// root finding; the energies from a Gröbner basis with real-root counting as well).
+const E1_MGL: f64 = 2.335_468_651_999_305;
+const E2_MGL: f64 = 3.664_531_348_000_695;
+const E1_DEG: [f64; 3] = [19.694_867_976_133_02, 38.599_136_184_451_89, -73.920_588_792_231_34];
+
+/// λ₂ and λ₃ at E1, mg (external: the same root finding).
+const E1_PULL_MG: [f64; 2] = [-0.648_944_835_933_933_6, 2.312_944_292_241_837_6];
+
+/// Of the paper's case: 1 kg, 1 m, standard gravity.
+const MGL: f64 = 9.80665;
+
+/// Values of order 10 in double precision, through a few operations.
+const ROUNDING: f64 = 1e-13;
+
+fn funicular(arguments: &[&str]) -> Output {
+    let mut command = Command::cargo_bin("funicular").unwrap();
+    command.env("NO_COLOR", "1").arg("census").args(arguments).output().unwrap()
+}
+
+fn stdout(output: &Output) -> String {
+    String::from_utf8(output.stdout.clone()).unwrap()
+}
+
+/// Standard error as one line, without the frame of the report.
+fn stderr(output: &Output) -> String {
+    let text = String::from_utf8(output.stderr.clone()).unwrap();
+    text.split(|c: char| c.is_whitespace() || c == '│').filter(|word| !word.is_empty()).fold(
+        String::new(),
+        |line, word| if line.is_empty() { word.to_owned() } else { line + " " + word },
+    )
+}
+
+/// A folder of this test alone.
+fn folder(name: &str) -> PathBuf {
+    let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("census").join(name);
+    let _ = std::fs::remove_dir_all(&path);
+    std::fs::create_dir_all(&path).unwrap();
+    path
+}
+
+/// A system file with these bars as (length, mass).
+fn chain(name: &str, end_m: [f64; 3], bars: &[(f64, f64)]) -> String {
+    let mut text =
+        format!("name = \"{name}\"\n[anchors]\nstart_m = [0.0, 0.0, 0.0]\nend_m = {end_m:?}\n");
+    for (length, mass) in bars {
+        writeln!(text, "[[bars]]\nlength_m = {length:?}\nmass_kg = {mass:?}").unwrap();
+    }
+    let path = folder(name).join("chain.toml");
+    std::fs::write(&path, text).unwrap();
+    path.to_str().unwrap().to_owned()
+}
+
+/// The JSON of a census that ends with this exit code.
+fn json(arguments: &[&str], code: i32) -> Value {
+    let output = funicular(&[arguments, &["--json"]].concat());
+    assert_eq!(output.status.code(), Some(code), "{}", stderr(&output));
+    let value: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(value["schema_version"], 1);
+    let census = &value["census"];
+    assert_eq!(
+        census["count"].as_u64().unwrap(),
+        value["equilibria"].as_array().unwrap().len() as u64
+    );
+    assert_eq!(
+        census["undecided_boxes"].as_u64().unwrap(),
+        census["undecided"].as_array().unwrap().len() as u64
+    );
+    assert_eq!(census["check"]["passed"], true);
+    let complete = census["complete"].as_bool().unwrap();
+    assert_eq!(complete, code == 0);
+    for equilibrium in value["equilibria"].as_array().unwrap() {
+        // Neither a NaN nor an infinity, which would come out as null.
+        assert_no_null(equilibrium, &["circle"]);
+        let reached = |rung: &str| {
+            let ladder = equilibrium["evidence"]["ladder"].as_array().unwrap();
+            ladder.iter().find(|s| s["rung"] == rung).unwrap()["reached"].as_bool().unwrap()
+        };
+        assert!(reached("verified") && !reached("agreed"));
+        assert_eq!(reached("complete"), complete);
+        let enclosed = &equilibrium["enclosures"]["energy_j"];
+        let energy = equilibrium["energy_j"].as_f64().unwrap();
+        assert!(number(&enclosed[0]) <= energy && energy <= number(&enclosed[1]));
+    }
+    value
+}
+
+fn assert_no_null(value: &Value, allowed: &[&str]) {
+    match value {
+        Value::Array(items) => items.iter().for_each(|item| assert_no_null(item, allowed)),
+        Value::Object(map) => {
+            for (key, item) in map {
+                assert!(!item.is_null() || allowed.contains(&key.as_str()), "{key} is null");
+                assert_no_null(item, allowed);
+            }
+        }
+        _ => {}
+    }
+}
+
+fn number(value: &Value) -> f64 {
+    value.as_f64().unwrap()
+}
+
+fn close(value: &Value, expected: f64) {
+    let value = number(value);
+    assert!((value - expected).abs() <= ROUNDING * expected.abs().max(1.0), "{value} {expected}");
+}
+
+#[test]
+fn the_paper_has_four_equilibria_in_its_plane() {
+    let value = json(&["--case", "three-equal-bars"], 0);
+    let census = &value["census"];
+    assert_eq!((&census["circles"], &census["circle_count"]), (&true.into(), &2.into()));
+    assert_eq!(
+        (&census["euler_characteristic"], &census["alternating_sum"]),
+        (&0.into(), &0.into())
+    );
+    assert_eq!(census["betti"], serde_json::json!([1, 1]));
+    assert_eq!(census["energy_symbol"], "mgl");
+    close(&census["energy_unit_j"], MGL);
+    let found = value["equilibria"].as_array().unwrap();
+    let labels: Vec<&str> = found.iter().map(|e| e["label"].as_str().unwrap()).collect();
+    assert_eq!(labels, ["1", "1'", "2", "2'"]);
+    // E2 is E1 upside down: its bars in reverse order, turned by 180 degrees.
+    let e2_deg = [-E1_DEG[2], -E1_DEG[1], -E1_DEG[0]];
+    for (k, e) in found.iter().enumerate() {
+        let (energy, angles) = if k < 2 { (E1_MGL, E1_DEG) } else { (E2_MGL, e2_deg) };
+        close(&e["energy_scaled"], energy - 6.0);
+        close(&e["energy_j"], (energy - 6.0) * MGL);
+        let mirror = if k % 2 == 1 { -1.0 } else { 1.0 };
+        for (bar, angle) in angles.iter().enumerate() {
+            let signed = mirror * angle;
+            // 2e-14 degrees are the last place of a hundred degrees.
+            assert!((number(&e["angles_signed_deg"][bar]) - signed).abs() < 1e-12);
+            assert!((number(&e["angles_deg"][bar]) - signed.rem_euclid(360.0)).abs() < 1e-12);
+            let [low, high] = [0, 1].map(|end| number(&e["enclosures"]["angles_rad"][bar][end]));
+            assert!(low < high && high - low < 1e-14);
+        }
+        let stability = &e["stability"];
+        let (in_plane, in_space, index) =
+            if k < 2 { ("minimum", "stable", [0, 0]) } else { ("maximum", "unstable", [1, 2]) };
+        assert_eq!(
+            (&stability["in_plane"], &stability["in_space"]),
+            (&in_plane.into(), &in_space.into())
+        );
+        assert_eq!(stability["index_in_plane"], index[0]);
+        assert_eq!(stability["index_in_space"], index[1]);
+        assert_eq!(e["evidence"]["rung"], if k < 2 { "optimal" } else { "complete" });
+        assert_eq!(
+            e["signs"],
+            if k < 2 { serde_json::json!([1, 1, -1]) } else { serde_json::json!([1, -1, -1]) }
+        );
+        assert_eq!(e["circle"], 1 + k / 2);
+        assert_eq!(e["solver"], "census");
+        assert!(number(&e["box_width"]) < 1e-13);
+    }
+    for (e, mirror) in [(&found[0], 1.0), (&found[1], -1.0)] {
+        close(&e["multipliers_n"][0][1], mirror * E1_PULL_MG[0] * MGL);
+        close(&e["multipliers_n"][0][2], E1_PULL_MG[1] * MGL);
+        assert_eq!(e["reactions_n"]["start"], e["multipliers_n"][0]);
+        assert_eq!(e["joints_m"][3], serde_json::json!([0.0, 0.0, -2.0]));
+    }
+}
+
+#[test]
+fn the_paper_in_tables() {
+    let output = funicular(&["--case", "three-equal-bars"]);
+    assert_eq!(output.status.code(), Some(0));
+    assert!(output.stderr.is_empty());
+    let text = stdout(&output);
+    for wanted in [
+        "4 equilibria in a vertical plane, 2 circles in space",
+        "proved to be all",
+        "2.3354686519993",
+        "3.6645313480007",
+        "286.079411207769",
+        "-73.9205887922313",
+        "TTC",
+        "TCC",
+        "verified  4 of 4",
+        "complete  4 of 4",
+        "optimal   2 of 4",
+        "agreed    0 of 4",
+        "Betti numbers [1, 1]",
+        "proved anew without the search",
+    ] {
+        assert!(text.contains(wanted), "{wanted} is not in\n{text}");
+    }
+    assert!(text.lines().all(|line| line.chars().count() <= 160), "{text}");
+}
+
+#[test]
+fn the_figure_holds_four_shapes_and_the_csv_all_joints() {
+    let out = folder("paper");
+    let [svg, csv] = ["shapes.svg", "shapes.csv"].map(|name| out.join(name));
+    let [svg_path, csv_path] = [&svg, &csv].map(|path| path.to_str().unwrap());
+    let output = funicular(&[
+        "--case",
+        "three-equal-bars",
+        "--svg",
+        svg_path,
+        "--csv",
+        csv_path,
+        "--threads",
+        "1",
+    ]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let text = std::fs::read_to_string(&svg).unwrap();
+    let document = roxmltree::Document::parse(&text).unwrap();
+    let root = document.root_element();
+    assert!(root.has_tag_name(("http://www.w3.org/2000/svg", "svg")));
+    let children =
+        |tag: &str| root.children().filter(|child| child.tag_name().name() == tag).count();
+    assert_eq!((children("title"), children("desc")), (1, 1));
+    let class = |node: &roxmltree::Node, class: &str| node.attribute("class") == Some(class);
+    let shapes: Vec<_> = root.children().filter(|node| class(node, "shape")).collect();
+    assert_eq!(shapes.len(), 4);
+    for (shape, compressed) in shapes.iter().zip([1, 1, 2, 2]) {
+        let count = |name: &str| shape.children().filter(|node| class(node, name)).count();
+        assert_eq!((count("bar"), count("core")), (3, compressed));
+        assert!(shape.children().any(|node| node.tag_name().name() == "title"));
+        for bar in shape.children().filter(|node| class(node, "bar")) {
+            let at = |name: &str| -> f64 { bar.attribute(name).unwrap().parse().unwrap() };
+            // All bars are 1 m, and the anchors 2 m = 170 px apart.
+            let length = (at("x2") - at("x1")).hypot(at("y2") - at("y1"));
+            assert!((length - 85.0).abs() < 0.02, "{length}");
+        }
+    }
+    let table = std::fs::read_to_string(&csv).unwrap();
+    let rows: Vec<Vec<&str>> = table.lines().map(|line| line.split(',').collect()).collect();
+    assert_eq!(rows.len(), 1 + 4 * 4);
+    assert!(rows.iter().all(|row| row.len() == rows[0].len()));
+    assert_eq!((rows[1][0], rows[5][0], rows[16][0]), ("1", "1'", "2'"));
+    let energy: f64 = rows[9][1].parse().unwrap();
+    assert!((energy / MGL - (E2_MGL - 6.0)).abs() < ROUNDING);
+    // Nothing else is left in the folder.
+    assert_eq!(std::fs::read_dir(&out).unwrap().count(), 2);
+}
+
+#[test]
+fn a_triangle_has_its_two_positions() {
+    // Sides 3, 4 and 5: the joint is (9/5, ±12/5) from the start, in the vertical plane of the anchors.
+    let file = chain("triangle", [3.0, 4.0, 0.0], &[(3.0, 2.0), (4.0, 1.0)]);
+    let value = json(&[&file], 0);
+    assert_eq!(value["census"]["count"], 2);
+    assert_eq!(value["census"]["circles"], false);
+    assert_eq!(value["census"]["circle_count"], Value::Null);
+    // Half of all the weight, 1.5 kg, sits at the joint.
+    for (k, height) in [(0, -2.4), (1, 2.4)] {
+        let e = &value["equilibria"][k];
+        close(&e["joints_m"][1][2], height);
+        close(&e["joints_m"][1][0], 1.8 * 0.6);
+        close(&e["joints_m"][1][1], 1.8 * 0.8);
+        close(&e["energy_j"], 1.5 * 9.80665 * height);
+        assert_eq!(e["circle"], Value::Null);
+    }
+    // A manifold of dimension 0 has two points, and no direction in the plane at all.
+    assert_eq!(value["census"]["euler_characteristic"], 2);
+    assert_eq!(value["equilibria"][1]["stability"]["index_in_space"], 1);
+}
+
+#[test]
+fn coincident_anchors_are_circles() {
+    let value = json(&["--case", "slack"], 0);
+    assert_eq!(value["census"]["circles"], true);
+    assert_eq!(value["census"]["betti"], serde_json::json!([1, 2, 1]));
+    let text = stdout(&funicular(&["--case", "slack"]));
+    assert!(text.contains("circles in space") && text.contains("proved to be all"), "{text}");
+}
+
+#[test]
+fn a_straight_closure_is_undecided_and_says_so() {
+    // 1 + 1 + 1 - 1 = 2.
+    let file = chain("straight", [2.0, 0.0, 0.0], &[(1.0, 1.0); 4]);
+    let value = json(&[&file], 3);
+    let census = &value["census"];
+    assert!(census["undecided_boxes"].as_u64().unwrap() > 0);
+    assert_eq!(census["euler_characteristic"], Value::Null);
+    assert!(census["topology_unknown"].as_str().unwrap().contains("straight position"));
+    for open in census["undecided"].as_array().unwrap() {
+        assert_eq!(open["reason"], "degenerate");
+        assert!(open["pattern_count"].as_u64().unwrap() > 0);
+        assert!(number(&open["at"][0][0]) <= number(&open["at"][0][1]));
+    }
+    let output = funicular(&[&file]);
+    assert_eq!(output.status.code(), Some(3));
+    let text = stdout(&output);
+    for wanted in
+        ["NOT proved to be all", "Undecided:", "infinite", "complete  0 of", "straight position"]
+    {
+        assert!(text.contains(wanted), "{wanted} is not in\n{text}");
+    }
+    // The figure says so too.
+    let svg = folder("straight-figure").join("figure.svg");
+    let output = funicular(&[&file, "--svg", svg.to_str().unwrap()]);
+    assert_eq!(output.status.code(), Some(3));
+    let text = std::fs::read_to_string(svg).unwrap();
+    assert!(text.contains("not proved to be all") && text.contains("not drawn"));
+    assert!(roxmltree::Document::parse(&text).is_ok());
+}
+
+#[test]
+fn slack_families_are_listed_as_such() {
+    // Weights on strings: massless bars that can hang slack in the middle.
+    let file = chain(
+        "strings",
+        [0.3, 0.0, 0.5],
+        &[(0.9, 0.0), (0.4, 3.0), (0.85, 0.0), (1.0, 0.0), (0.35, 2.0)],
+    );
+    let value = json(&[&file], 0);
+    let families = value["census"]["slack_families"].as_array().unwrap();
+    assert!(!families.is_empty());
+    for family in families {
+        assert_eq!((&family["signs"][2], &family["signs"][3]), (&0.into(), &0.into()));
+        assert_eq!(family["dimension_in_plane"], 0);
+        assert!(number(&family["energy_j"][0]) <= number(&family["energy_j"][1]));
+    }
+    assert_eq!(value["census"]["alternating_sum"], value["census"]["euler_characteristic"]);
+    let text = stdout(&funicular(&[&file]));
+    assert!(text.contains("families of slack bars") && text.contains(".."), "{text}");
+}
+
+#[test]
+fn chains_out_of_reach_are_refused_with_their_cost() {
+    let output = funicular(&["--case", "thirty-bars"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(output.stdout.is_empty());
+    let text = stderr(&output);
+    for wanted in
+        ["30 bars", "patterns", "about", "no census goes beyond 24 bars", "funicular solve"]
+    {
+        assert!(text.contains(wanted), "{wanted} is not in\n{text}");
+    }
+    let output = funicular(&["--case", "five-in-space", "--max-bars", "4"]);
+    assert_eq!(output.status.code(), Some(2));
+    let text = stderr(&output);
+    assert!(
+        text.contains("the limit is 4 bars") && text.contains("--max-bars 5 takes it"),
+        "{text}"
+    );
+    // And that goes on.
+    let output = funicular(&["--case", "five-in-space", "--max-bars", "5"]);
+    assert_eq!(output.status.code(), Some(0));
+}
+
+#[test]
+fn bad_input_is_refused_with_its_reason() {
+    let single = chain("single", [1.0, 0.0, 0.0], &[(1.0, 1.0)]);
+    let short = chain("short", [4.0, 0.0, 0.0], &[(1.0, 1.0); 3]);
+    let weightless = chain("weightless", [1.0, 0.0, 0.0], &[(1.0, 0.0); 3]);
+    let nowhere = folder("nowhere").join("missing").join("figure.svg");
+    let directory = folder("directory");
+    for (arguments, wanted) in [
+        (vec![single.as_str()], "cannot move"),
+        (vec![short.as_str()], "m are missing"),
+        (vec![weightless.as_str()], "no bar has mass"),
+        (vec!["no-such-file.toml"], "no-such-file.toml"),
+        (vec!["--case", "no-such-case"], "no case named"),
+        (vec![], "required"),
+        (vec!["--case", "two-bars", "--max-bars", "0"], "max_bars must be from 1 to 24"),
+        (vec!["--case", "two-bars", "--max-bars", "25"], "max_bars must be from 1 to 24"),
+        (vec!["--case", "two-bars", "--max-bars", "many"], "invalid value"),
+        (vec!["--case", "two-bars", "--threads", "0"], "invalid value"),
+        (vec!["--case", "two-bars", "--svg", nowhere.to_str().unwrap()], "there is no folder"),
+        (vec!["--case", "two-bars", "--csv", directory.to_str().unwrap()], "it is a folder"),
+    ] {
+        let output = funicular(&arguments);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+        assert!(output.stdout.is_empty());
+        assert!(stderr(&output).contains(wanted), "{arguments:?}: {}", stderr(&output));
+    }
+}
+
+#[test]
+fn the_answer_does_not_depend_on_the_number_of_threads() {
+    let with = |threads: &str| {
+        let mut value = json(&["--case", "five-in-space", "--threads", threads], 0);
+        value["census"]["statistics"]["seconds"] = 0.into();
+        for e in value["equilibria"].as_array_mut().unwrap() {
+            e["evidence"]["solve_s"] = 0.into();
+        }
+        value
+    };
+    assert_eq!(with("1"), with("3"));
+}
+
+/// An interruption in the middle of the work leaves no file behind, not even a part of one.
+#[cfg(unix)]
+#[test]
+fn an_interruption_leaves_nothing_half_written() {
+    use std::os::unix::process::ExitStatusExt;
+
+    // Twenty different bars: minutes of work.
+    let bars: Vec<(f64, f64)> =
+        (0..20).map(|k| (0.5 + 0.017 * f64::from(k * k % 23), 1.0)).collect();
+    let file = chain("long", [4.0, 0.0, 1.0], &bars);
+    let out = folder("interrupted");
+    let svg = out.join("figure.svg");
+    let mut child = std::process::Command::new(assert_cmd::cargo::cargo_bin("funicular"))
+        .args(["census", &file, "--max-bars", "20", "--json", "--svg", svg.to_str().unwrap()])
+        .stdout(std::process::Stdio::null())
+        .spawn()
+        .unwrap();
+    std::thread::sleep(std::time::Duration::from_millis(300));
+    assert!(child.try_wait().unwrap().is_none(), "still at work");
+    let interrupt = std::process::Command::new("kill")
+        .args(["-INT", &child.id().to_string()])
+        .status()
+        .unwrap();
+    assert!(interrupt.success());
+    assert_eq!(child.wait().unwrap().signal(), Some(2));
+    assert_eq!(std::fs::read_dir(out).unwrap().count(), 0);
+}
