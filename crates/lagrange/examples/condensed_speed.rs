@@ -58,8 +58,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 }
 
 fn equal_bars(n: usize) -> Result<Problem, Box<dyn std::error::Error>> {
-    let bar = Bar::homogeneous(1.5 / n as f64, 1.0 / n as f64)?;
     let anchors = Anchors { start_m: [0.0; 3], end_m: [1.0, 0.0, -0.2] };
+    let bar = Bar::homogeneous(1.5 * anchors.span_m() / n as f64, 1.0 / n as f64)?;
     Ok(Problem::new(Chain::new("equal bars", STANDARD_GRAVITY_M_S2, anchors, vec![bar; n])?)?)
 }
 
