@@ -119,7 +119,7 @@ fn rows(table: &Table) -> String {
         escape(&label)
     );
     if !table.caption.is_empty() {
-        let _ = writeln!(text, "<caption>{}</caption>", inline(&table.caption));
+        let _ = writeln!(text, "<caption><span>{}</span></caption>", inline(&table.caption));
     }
     text.push_str("<thead><tr>");
     for cell in &table.head {

@@ -70,6 +70,17 @@ impl Svg {
         self.element(format_args!(r#"<polygon class="{class}" points="{}"/>"#, path.trim_end()));
     }
 
+    /// Boxes between two opposite corners each, as one shape.
+    pub fn boxes(&mut self, class: &str, boxes: impl IntoIterator<Item = [[f64; 2]; 2]>) {
+        let mut path = String::new();
+        for [[x1, y1], [x2, y2]] in boxes {
+            let _ = write!(path, "M{x1:.1} {y1:.1}H{x2:.1}V{y2:.1}H{x1:.1}z");
+        }
+        if !path.is_empty() {
+            self.element(format_args!(r#"<path class="{class}" d="{path}"/>"#));
+        }
+    }
+
     /// A disc or a ring.
     pub fn circle(&mut self, class: &str, [x, y]: [f64; 2], radius: f64) {
         self.element(format_args!(

@@ -1,8 +1,11 @@
 //! What there is to draw: the closure curve with the paper's scan on it, and how each solver converges.
 
-use energy::example::{Branch, CurvePoint, PAPER_STEP_RAD, Scan, ScanMinimum, curve};
+use energy::example::{Branch, CurvePoint, PAPER_STEP_RAD, ScanMinimum, curve};
 use model::{Problem, SolverName};
 use serde::Serialize;
+
+use crate::basins::Basins;
+use crate::example::Example;
 
 /// Points of each branch of the closure curve: half a degree of arc or less between neighbours.
 const CURVE_POINTS: usize = 721;
@@ -35,6 +38,8 @@ pub struct Figures {
     pub near_minimum: Vec<[f64; 2]>,
     /// Slope of V along the closure curve at (x), mgl/rad.
     pub slope_at_x: f64,
+    /// Where the starts of a slice lead, by each solver.
+    pub basins: [Basins; 2],
     /// Residuals of the solvers, iteration by iteration.
     pub histories: Vec<History>,
 }
@@ -61,7 +66,8 @@ pub struct History {
 impl Figures {
     /// Work them out.
     #[must_use]
-    pub fn compute(problem: &Problem, found: &Scan) -> Self {
+    pub fn compute(example: &Example) -> Self {
+        let (problem, found) = (&example.problem, &example.energy.scan);
         let scanned = |branch: Branch| {
             (1..=found.first.points)
                 .filter_map(|k| {
@@ -77,6 +83,7 @@ impl Figures {
             scan_results: [result(&found.first), result(&found.second)],
             near_minimum: near(&found.first),
             slope_at_x: energy::example::slope(found.second.theta_rad, found.second.branch),
+            basins: Basins::of_both(example),
             histories: STARTS
                 .iter()
                 .flat_map(|&(start, angles)| {
@@ -172,12 +179,11 @@ fn by_energy(problem: &Problem, start: &'static str, angles: [f64; 3]) -> Option
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::example::Example;
 
     #[test]
     fn both_solvers_converge_quadratically() {
         let example = Example::solve().unwrap();
-        let figures = Figures::compute(&example.problem, &example.energy.scan);
+        let figures = Figures::compute(&example);
         assert_eq!(figures.histories.len(), 2 * STARTS.len());
         for history in &figures.histories {
             let r = &history.residuals;
@@ -196,7 +202,7 @@ mod tests {
     #[test]
     fn the_scan_lies_on_the_curve_and_its_second_result_on_a_slope() {
         let example = Example::solve().unwrap();
-        let figures = Figures::compute(&example.problem, &example.energy.scan);
+        let figures = Figures::compute(&example);
         // The secant of the first two points of the scan, half a step further on; the slope changes by
         // less than 2 mgl/rad per rad.
         let [first, second] = [figures.scan_points[1][0], figures.scan_points[1][1]];

@@ -6,6 +6,7 @@
 //! ([`claims`], [`equations`]). [`independence`] proves from the dependency graph that the agreement of the
 //! two is worth something.
 
+pub mod basins;
 pub mod books;
 pub mod bounds;
 pub mod cables;

@@ -77,6 +77,14 @@ pub struct Position {
     pub ladder: Vec<Statement>,
 }
 
+impl Position {
+    /// The highest rung reached.
+    #[must_use]
+    pub fn rung(&self) -> Option<Rung> {
+        self.ladder.iter().filter(|s| s.reached).map(|s| s.rung).max()
+    }
+}
+
 /// The reproduction in a few numbers.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Summary {
@@ -159,7 +167,7 @@ pub fn reproduce_with(
         equations,
         cases,
         seeds,
-        figures: Figures::compute(&example.problem, &example.energy.scan),
+        figures: Figures::compute(&example),
         summary,
         seconds: clock.elapsed().as_secs_f64(),
     })

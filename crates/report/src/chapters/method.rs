@@ -34,6 +34,7 @@ pub(crate) fn blocks(r: &Reproduction) -> Vec<Block<'_>> {
              the minimum, `lagrange` at any of the equilibria. The exact counts are at the end, with the rest that may differ from \
              machine to machine.",
         ),
+        Block::Figure(figures::basins(r)),
         Block::Table(Table {
             caption: "Random starts: planar ones with three random angles, spatial ones with three random directions.".to_owned(),
             head: vec!["solver", "starts", "converged", "equilibria reached", "lost"],

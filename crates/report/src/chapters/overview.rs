@@ -1,6 +1,7 @@
 //! The first page: what came out.
 
 use validate::Reproduction;
+use validate::equations::Verdict;
 
 use crate::block::{Block, heading, text};
 use crate::figures;
@@ -72,13 +73,19 @@ fn findings(r: &Reproduction) -> Vec<String> {
             fixed(e2.lagrange_mgl, 8)
         ));
     }
+    let judged = crate::equations::judged(&r.equations);
+    let with = |verdict| judged.iter().filter(|j| j.verdict == verdict).count();
     items.push(format!(
-        "**Of the equations, [{} need a correction](#equations)**, from a wrong index to a lost weight; with the corrections \
-         all of them hold to rounding, and the system has 30 equations for 30 unknowns, not 18.",
-        crate::equations::judged(&r.equations)
-            .iter()
-            .filter(|j| j.equation.corrected.is_some())
-            .count()
+        "**Of {} equations, [{} need a correction](#equations)**, from a wrong index to a lost weight, and {}, the second \
+         position, cannot be saved. With the corrections all others hold to rounding, and the system has 30 equations for 30 \
+         unknowns, not 18.",
+        judged.len(),
+        with(Verdict::Corrected),
+        with(Verdict::Refuted),
+    ));
+    items.push(format!(
+        "**There are exactly {} equilibria in the plane**, and {} circles of them in space: [proved](#census).",
+        r.completeness.planar, r.completeness.circles
     ));
     items.push(format!(
         "**E1 is the lowest of all positions, E2 the highest**: [semidefinite bounds](#positions) without any guess are \

@@ -5,12 +5,14 @@
 //! colour-blind; whatever a colour says, a dash, a shape or a word says too.
 
 mod axes;
+mod basins;
 mod census;
 mod convergence;
 mod equilibria;
 mod mechanism;
 mod valley;
 
+pub use basins::basins;
 pub use census::census;
 pub use convergence::convergence;
 pub use equilibria::equilibria;
