@@ -92,4 +92,5 @@ pub use kind::SystemFileErrorKind;
 pub use limits::{MAX_BARS, MAX_BARS_FILE_BYTES, MAX_FILE_BYTES};
 pub use location::Position;
 pub use read::{parse_problem, parse_system, read_problem, read_problem_with, read_system};
+pub use suggest::nearest;
 pub use write::write_system;

@@ -1,0 +1,143 @@
+//! Several parameters: every combination, or in step.
+
+use model::{Chain, Problem};
+
+use crate::vary::{MAX_POINTS, Number, PointError, Vary, VaryError, apply};
+
+/// How several parameters are combined.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Combine {
+    /// Every value of each with every value of the others; the last one changes fastest.
+    #[default]
+    Product,
+    /// The first values of all, the second values of all, and so on.
+    Zip,
+}
+
+/// A chain with parameters: a list of paths, each a row of points.
+///
+/// Along a path the branches of equilibria are followed. In a product the last parameter runs along the
+/// path, and each combination of the others has a path of its own; in step there is one path.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Study {
+    base: Chain,
+    numbers: Vec<Number>,
+    /// For each path, for each point, for each number.
+    paths: Vec<Vec<Vec<f64>>>,
+}
+
+impl Study {
+    /// The study of a chain over parameters.
+    ///
+    /// # Errors
+    ///
+    /// [`VaryError`] when a bar is missing, a number is named twice, lists to be taken in step differ in
+    /// length, or there are more than [`MAX_POINTS`] points.
+    ///
+    /// ```
+    /// use sweep::{Combine, Study};
+    /// let chain = model::cases::paper().into_chain();
+    /// let vary = ["bars.2.mass_kg=1,2,3".parse()?, "anchors.end_m.z=-2.5..-0.5:5".parse()?];
+    /// let study = Study::new(chain.clone(), &vary, Combine::Product)?;
+    /// assert_eq!((study.paths().len(), study.paths()[0].len()), (3, 5));
+    /// assert!(Study::new(chain, &vary, Combine::Zip).is_err());
+    /// # Ok::<(), sweep::VaryError>(())
+    /// ```
+    pub fn new(base: Chain, vary: &[Vary], combine: Combine) -> Result<Self, VaryError> {
+        for (k, one) in vary.iter().enumerate() {
+            one.check(&base)?;
+            if vary[..k].iter().any(|other| other.number == one.number) {
+                return Err(VaryError::new(
+                    one.text(),
+                    0..one.text().len(),
+                    format!("`{}` is varied twice", one.number),
+                    "name each number once",
+                ));
+            }
+        }
+        let numbers = vary.iter().map(|one| one.number).collect();
+        let paths = match combine {
+            Combine::Product => product(vary)?,
+            Combine::Zip => vec![zip(vary)?],
+        };
+        Ok(Self { base, numbers, paths })
+    }
+
+    /// The numbers that vary.
+    #[must_use]
+    pub fn numbers(&self) -> &[Number] {
+        &self.numbers
+    }
+
+    /// The paths: for each point the values of [`numbers`](Self::numbers).
+    #[must_use]
+    pub fn paths(&self) -> &[Vec<Vec<f64>>] {
+        &self.paths
+    }
+
+    /// The chain whose numbers vary.
+    #[must_use]
+    pub fn base(&self) -> &Chain {
+        &self.base
+    }
+
+    /// The problem at some values of the numbers, on or off the grid.
+    ///
+    /// # Errors
+    ///
+    /// [`PointError`] when the values describe no problem.
+    pub fn problem(&self, values: &[f64]) -> Result<Problem, PointError> {
+        let numbers: Vec<_> = self.numbers.iter().copied().zip(values.iter().copied()).collect();
+        apply(&self.base, &numbers)
+    }
+}
+
+fn too_many(vary: &[Vary]) -> VaryError {
+    let text = vary.last().map_or("", Vary::text);
+    VaryError::new(
+        text,
+        0..text.len(),
+        "the parameters have too many combinations",
+        format!("at most {MAX_POINTS} points are allowed"),
+    )
+}
+
+fn product(vary: &[Vary]) -> Result<Vec<Vec<Vec<f64>>>, VaryError> {
+    let points = vary.iter().try_fold(1_usize, |points, one| points.checked_mul(one.values.len()));
+    if points.is_none_or(|points| points > MAX_POINTS) {
+        return Err(too_many(vary));
+    }
+    let Some((along, others)) = vary.split_last() else { return Ok(vec![vec![vec![]]]) };
+    let mut fixed: Vec<Vec<f64>> = vec![vec![]];
+    for one in others {
+        let longer = |head: &Vec<f64>, value: &f64| {
+            let mut head = head.clone();
+            head.push(*value);
+            head
+        };
+        fixed = fixed
+            .iter()
+            .flat_map(|head| one.values.iter().map(move |value| longer(head, value)))
+            .collect();
+    }
+    let path = |head: &Vec<f64>| -> Vec<Vec<f64>> {
+        let point = |value: &f64| head.iter().copied().chain([*value]).collect();
+        along.values.iter().map(point).collect()
+    };
+    Ok(fixed.iter().map(path).collect())
+}
+
+fn zip(vary: &[Vary]) -> Result<Vec<Vec<f64>>, VaryError> {
+    let length = vary.first().map_or(1, |one| one.values.len());
+    for one in vary {
+        if one.values.len() != length {
+            return Err(VaryError::new(
+                one.text(),
+                0..one.text().len(),
+                format!("{} values, but `{}` has {length}", one.values.len(), vary[0].number),
+                "parameters taken in step need equally many values",
+            ));
+        }
+    }
+    Ok((0..length).map(|k| vary.iter().map(|one| one.values[k]).collect()).collect())
+}

@@ -1,0 +1,311 @@
+//! From curves between stations to branches and events.
+
+use nalgebra::DVector;
+
+use super::arc::{Arc, ArcPoint, Port, left};
+use super::branch::{Branch, BranchEnd, BranchPoint};
+use super::course::Course;
+use super::event::{Event, EventKind};
+use super::observe::Observed;
+use super::segment::distance;
+use super::station::{Node, Station};
+
+/// The arcs between two stations.
+#[derive(Debug, Clone)]
+pub(crate) struct Link {
+    /// Numbers of the stations.
+    pub(crate) stations: [usize; 2],
+    /// For each curve its arcs and the kinds of its turns.
+    pub(crate) curves: Vec<(Vec<Arc>, Vec<EventKind>)>,
+}
+
+/// A pull this near to infinite (its homogeneous weight) is not shown: it is a straight chain.
+const INFINITE: f64 = 1e-7;
+
+/// Two sightings of one branch point: by the change of the index and by the turn of the twins, which is
+/// located to the square root of rounding only.
+const SAME_POSITION: f64 = 1e-6;
+const SAME_SHAPE: f64 = 1e-2;
+
+pub(crate) struct Assembly<'a> {
+    course: &'a Course<'a>,
+    stations: &'a [Station],
+    pub(crate) branches: Vec<Branch>,
+    pub(crate) events: Vec<Event>,
+    /// The branch of each node of each station.
+    open: Vec<Vec<Option<usize>>>,
+    /// Where each event was seen.
+    places: Vec<DVector<f64>>,
+}
+
+impl<'a> Assembly<'a> {
+    pub(crate) fn new(course: &'a Course<'a>, stations: &'a [Station], links: &[Link]) -> Self {
+        let count = |station: &Station| station.nodes.as_ref().map_or(0, Vec::len);
+        let mut assembly = Self {
+            course,
+            stations,
+            branches: vec![],
+            events: vec![],
+            open: stations.iter().map(|station| vec![None; count(station)]).collect(),
+            places: vec![],
+        };
+        for link in links {
+            assembly.begin(link.stations[0]);
+            for (arcs, kinds) in &link.curves {
+                let turns = assembly.turns(arcs, kinds);
+                for arc in arcs {
+                    assembly.add(link, arc, &turns);
+                }
+            }
+        }
+        for station in 0..stations.len() {
+            assembly.begin(station);
+        }
+        assembly.vertical_exchanges();
+        assembly.unite();
+        assembly
+    }
+
+    /// Nodes that nothing leads to begin their branches here.
+    fn begin(&mut self, station: usize) {
+        let Some(nodes) = &self.stations[station].nodes else { return };
+        for (k, node) in nodes.iter().enumerate() {
+            if self.open[station][k].is_none() {
+                let id = self.branches.len();
+                let start = if station == 0 { BranchEnd::Path } else { BranchEnd::Border };
+                let points = vec![self.node_point(station, node)];
+                self.branches.push(Branch { id, points, start, end: BranchEnd::Path });
+                self.open[station][k] = Some(id);
+            }
+        }
+    }
+
+    /// The events of the turns of a curve.
+    fn turns(&mut self, arcs: &[Arc], kinds: &[EventKind]) -> Vec<usize> {
+        let mut ids = vec![];
+        for (k, kind) in kinds.iter().enumerate() {
+            let place = arcs.iter().find_map(|arc| {
+                let at = arc.ports.iter().position(|port| *port == Port::Turn(k))?;
+                if at == 0 { arc.points.first() } else { arc.points.last() }
+            });
+            if let Some(place) = place {
+                ids.push(self.event(*kind, &place.y, &place.seen));
+            }
+        }
+        ids
+    }
+
+    fn event(&mut self, kind: EventKind, y: &DVector<f64>, seen: &Observed) -> usize {
+        let id = self.events.len();
+        let n = y.len() - 4;
+        let position = y[n + 3];
+        self.events.push(Event {
+            id,
+            kind,
+            position,
+            values: self.course.values_at(position),
+            span_m: self.course.plane(position).span_m(),
+            branches: vec![],
+            angles_rad: y.iter().take(n).map(|angle| wrap(*angle)).collect(),
+            energy_j: seen.energy_j,
+            residual: left(self.course, y),
+            singular: seen.singular,
+        });
+        self.places.push(y.clone());
+        id
+    }
+
+    /// Put an arc at the end of its branch, or begin one with it.
+    fn add(&mut self, link: &Link, arc: &Arc, turns: &[usize]) {
+        let [low, high] = link.stations;
+        let branch = match arc.ports[0] {
+            Port::Low(node) => self.open[low][node],
+            _ => None,
+        };
+        let branch = branch.unwrap_or_else(|| {
+            let id = self.branches.len();
+            let start = self.end(arc.ports[0], turns, id);
+            self.branches.push(Branch { id, points: vec![], start, end: BranchEnd::Path });
+            id
+        });
+        let turn = |port: Port| match port {
+            Port::Turn(k) => turns.get(k).copied(),
+            _ => None,
+        };
+        let last = arc.points.len() - 1;
+        for (k, point) in arc.points.iter().enumerate() {
+            let mut event = None;
+            if k == 0 {
+                event = turn(arc.ports[0]);
+                if event.is_none() {
+                    // The node is there already; a border is no equilibrium.
+                    continue;
+                }
+            } else if k == last {
+                match arc.ports[1] {
+                    Port::High(node) => {
+                        if let Some(nodes) = &self.stations[high].nodes {
+                            let shown = self.node_point(high, &nodes[node]);
+                            self.branches[branch].points.push(shown);
+                        }
+                        continue;
+                    }
+                    Port::Turn(_) => event = turn(arc.ports[1]),
+                    _ => continue,
+                }
+            }
+            if let Some(kind) = point.happens {
+                let id = self.event(kind, &point.y, &point.seen);
+                self.events[id].branches.push(branch);
+                event = Some(id);
+            }
+            let shown = self.curve_point(point, event);
+            self.branches[branch].points.push(shown);
+        }
+        match arc.ports[1] {
+            Port::High(node) => self.open[high][node] = Some(branch),
+            port => self.branches[branch].end = self.end(port, turns, branch),
+        }
+    }
+
+    fn end(&mut self, port: Port, turns: &[usize], branch: usize) -> BranchEnd {
+        match port {
+            Port::Turn(k) => match turns.get(k) {
+                Some(event) => {
+                    self.events[*event].branches.push(branch);
+                    BranchEnd::Event(*event)
+                }
+                None => BranchEnd::Lost,
+            },
+            Port::Border => BranchEnd::Border,
+            // A node without a branch is one that could not be reached.
+            Port::Low(_) | Port::High(_) | Port::Lost => BranchEnd::Lost,
+        }
+    }
+
+    fn node_point(&self, station: usize, node: &Node) -> BranchPoint {
+        let station = &self.stations[station];
+        BranchPoint { grid: station.grid, proved: true, ..self.shown(&node.y, &node.seen) }
+    }
+
+    fn curve_point(&self, point: &ArcPoint, event: Option<usize>) -> BranchPoint {
+        BranchPoint { event, ..self.shown(&point.y, &point.seen) }
+    }
+
+    fn shown(&self, y: &DVector<f64>, seen: &Observed) -> BranchPoint {
+        let n = y.len() - 4;
+        let position = y[n + 3];
+        let finite = y[n + 2].abs() > INFINITE;
+        BranchPoint {
+            position,
+            values: self.course.values_at(position),
+            span_m: self.course.plane(position).span_m(),
+            grid: None,
+            proved: false,
+            event: None,
+            pull_n: finite.then_some(seen.pull_n),
+            angles_rad: y.iter().take(n).map(|angle| wrap(*angle)).collect(),
+            energy_j: seen.energy_j,
+            axial_n: if finite { seen.axial_n.clone() } else { vec![] },
+            index_in_plane: seen.index_in_plane,
+            index_in_space: seen.index_in_space(),
+        }
+    }
+
+    /// Where the anchors pass one vertical exactly at a station, the index in space on both sides is
+    /// compared across it.
+    fn vertical_exchanges(&mut self) {
+        if self.course.frames.always_vertical {
+            return;
+        }
+        for station in self.stations.iter().filter(|station| station.vertical) {
+            for branch in 0..self.branches.len() {
+                let points = &self.branches[branch].points;
+                let at = points.iter().position(|point| {
+                    point.proved && (point.position - station.position).abs() <= 0.0
+                });
+                let Some(at) = at.filter(|at| *at > 0 && at + 1 < points.len()) else { continue };
+                let [before, after] = [&points[at - 1], &points[at + 1]];
+                let out = |p: &BranchPoint| p.index_in_space - p.index_in_plane;
+                if out(before) == out(after) {
+                    continue;
+                }
+                let kind = EventKind::SpaceExchange {
+                    from: before.index_in_space,
+                    to: after.index_in_space,
+                };
+                let node = station.nodes.iter().flatten().find(|node| {
+                    let angles = node.y.iter().zip(&points[at].angles_rad);
+                    angles.fold(0.0_f64, |a, (x, y)| a.max(wrap(x - y).abs())) <= 0.0
+                });
+                if let Some(node) = node {
+                    let id = self.event(kind, &node.y, &node.seen);
+                    self.events[id].branches.push(branch);
+                    self.branches[branch].points[at].event = Some(id);
+                }
+            }
+        }
+    }
+
+    /// One event for each branch point, however many curves meet there; numbers by rising position.
+    fn unite(&mut self) {
+        let count = self.events.len();
+        let mut same: Vec<usize> = (0..count).collect();
+        let passing = |event: &Event| event.branches.len() == 1;
+        for (k, same) in same.iter_mut().enumerate() {
+            if self.events[k].kind != EventKind::BranchPoint || passing(&self.events[k]) {
+                continue;
+            }
+            let twin = (0..count).find(|other| {
+                let event = &self.events[*other];
+                event.kind == EventKind::BranchPoint
+                    && passing(event)
+                    && (event.position - self.events[k].position).abs() <= SAME_POSITION
+                    && distance(&self.places[*other], &self.places[k]) <= SAME_SHAPE
+            });
+            if let Some(twin) = twin {
+                *same = twin;
+            }
+        }
+        for (k, &same) in same.iter().enumerate() {
+            if same != k {
+                let joined = std::mem::take(&mut self.events[k].branches);
+                self.events[same].branches.extend(joined);
+            }
+        }
+        let mut order: Vec<usize> = (0..count).filter(|k| same[*k] == *k).collect();
+        order.sort_by(|a, b| self.events[*a].position.total_cmp(&self.events[*b].position));
+        let mut number = vec![0; count];
+        for (new, old) in order.iter().enumerate() {
+            number[*old] = new;
+        }
+        let new = |old: usize| number[same[old]];
+        let mut events: Vec<Event> = order.iter().map(|old| self.events[*old].clone()).collect();
+        for (k, event) in events.iter_mut().enumerate() {
+            event.id = k;
+            event.branches.sort_unstable();
+            event.branches.dedup();
+        }
+        self.events = events;
+        for branch in &mut self.branches {
+            for end in [&mut branch.start, &mut branch.end] {
+                if let BranchEnd::Event(event) = end {
+                    *event = new(*event);
+                }
+            }
+            for event in branch.points.iter_mut().filter_map(|point| point.event.as_mut()) {
+                *event = new(*event);
+            }
+        }
+    }
+}
+
+/// An angle in (−π, π].
+fn wrap(angle: f64) -> f64 {
+    use std::f64::consts::{PI, TAU};
+    if angle > -PI && angle <= PI {
+        return angle;
+    }
+    let turned = angle.rem_euclid(TAU);
+    if turned > PI { turned - TAU } else { turned }
+}

@@ -1,0 +1,126 @@
+//! The chain along a path of parameters, as a planar one in units of its own.
+
+use std::cmp::Ordering;
+
+use model::Problem;
+
+use super::frame::Frames;
+use crate::product::Study;
+use crate::vary::{Plan, PointError};
+
+/// A path and the planar chains along it.
+pub(crate) struct Course<'a> {
+    study: &'a Study,
+    pub(crate) values: &'a [Vec<f64>],
+    pub(crate) frames: Frames,
+}
+
+/// A chain in its vertical plane: lengths in its total length, weights centred and in half their spread.
+#[derive(Debug, Clone)]
+pub(crate) struct Plane {
+    /// $l_i$.
+    pub(crate) length: Vec<f64>,
+    /// $c_i$, from −1 to 1.
+    pub(crate) weight: Vec<f64>,
+    /// $D$: horizontal, vertical.
+    pub(crate) span: [f64; 2],
+    /// Unit of length, m.
+    pub(crate) length_unit_m: f64,
+    /// Unit of force, N.
+    pub(crate) force_unit_n: f64,
+    /// What was taken from all $c_i$, N.
+    pub(crate) offset_n: f64,
+    /// All weight, N.
+    pub(crate) total_n: f64,
+}
+
+impl<'a> Course<'a> {
+    pub(crate) fn new(study: &'a Study, values: &'a [Vec<f64>]) -> Self {
+        let spans: Vec<[f64; 2]> = values
+            .iter()
+            .map(|values| {
+                let [x, y, _] = Self::plan(study, values).anchors.difference_m();
+                [x, y]
+            })
+            .collect();
+        Self { study, values, frames: Frames::new(&spans) }
+    }
+
+    /// Number of bars.
+    pub(crate) fn bars(&self) -> usize {
+        self.study.base().bars().len()
+    }
+
+    /// Position of a point on the path.
+    pub(crate) fn position(&self, point: usize) -> f64 {
+        let last = self.values.len() - 1;
+        if point == last && last > 0 { 1.0 } else { point as f64 / last.max(1) as f64 }
+    }
+
+    /// The interval that holds a position, and how far into it.
+    fn interval(&self, position: f64) -> (usize, f64) {
+        let intervals = self.values.len().saturating_sub(1).max(1);
+        let at = position * intervals as f64;
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped")]
+        let k = (at.floor().clamp(0.0, (intervals - 1) as f64)) as usize;
+        (k, at - k as f64)
+    }
+
+    /// The values of the parameters at a position, on or off the grid, beyond its ends too.
+    pub(crate) fn values_at(&self, position: f64) -> Vec<f64> {
+        if self.values.len() == 1 {
+            return self.values[0].clone();
+        }
+        let (k, part) = self.interval(position);
+        let between = |(a, b): (&f64, &f64)| {
+            // The points of the grid are met exactly.
+            match part.total_cmp(&1.0) {
+                _ if part.abs() <= 0.0 => *a,
+                Ordering::Equal => *b,
+                _ => a * (1.0 - part) + b * part,
+            }
+        };
+        self.values[k].iter().zip(&self.values[k + 1]).map(between).collect()
+    }
+
+    /// The problem at some values.
+    pub(crate) fn problem(&self, values: &[f64]) -> Result<Problem, PointError> {
+        self.study.problem(values)
+    }
+
+    fn plan(study: &Study, values: &[f64]) -> Plan {
+        let numbers: Vec<_> = study.numbers().iter().copied().zip(values.iter().copied()).collect();
+        Plan::new(study.base(), &numbers)
+    }
+
+    /// The planar chain at a position; nothing is checked.
+    pub(crate) fn plane(&self, position: f64) -> Plane {
+        let plan = Self::plan(self.study, &self.values_at(position));
+        let [x, y, z] = plan.anchors.difference_m();
+        let horizontal = self.frames.signed(self.interval(position).0, [x, y]);
+        let unit = model::sum(plan.bars.iter().map(|bar| bar.length_m));
+        let mut carried = 0.0;
+        let mut raw = Vec::with_capacity(plan.bars.len());
+        for bar in &plan.bars {
+            raw.push(carried + bar.mass_kg * ((bar.length_m - bar.centre_m()) / bar.length_m));
+            carried += bar.mass_kg;
+        }
+        let (first, last) = (raw[0], raw[raw.len() - 1]);
+        let (middle, half) = (0.5 * (first + last), 0.5 * (last - first));
+        let g = plan.gravity_m_s2;
+        Plane {
+            length: plan.bars.iter().map(|bar| bar.length_m / unit).collect(),
+            weight: raw.iter().map(|c| (c - middle) / half).collect(),
+            span: [horizontal / unit, z / unit],
+            length_unit_m: unit,
+            force_unit_n: half * g,
+            offset_n: middle * g,
+            total_n: carried * g,
+        }
+    }
+
+    /// +1 where the census looks along the direction of the plane, −1 where against it.
+    pub(crate) fn facing(&self, position: f64) -> f64 {
+        if self.plane(position).span[0] < 0.0 { -1.0 } else { 1.0 }
+    }
+}

@@ -1,0 +1,118 @@
+//! The equations of equilibrium along a path, with derivatives.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::course::{Course, Plane};
+
+/// Half the step of the difference quotient by the position. Only the direction in which a curve is
+/// predicted depends on it, and that the corrector makes good.
+const POSITION_STEP: f64 = 1e-6;
+
+/// Newton steps of a correction: quadratic convergence needs fewer, from near by.
+const CORRECTIONS: usize = 12;
+
+/// A correction smaller than this is the last: angles and pulls are of order one.
+const CORRECTED: f64 = 1e-13;
+
+/// A point with a residual above this is no equilibrium.
+pub(crate) const RESIDUAL: f64 = 1e-11;
+
+/// What the equations leave at `y`: n moments, two of the closure, and the size of the pull.
+pub(crate) fn residual(plane: &Plane, y: &DVector<f64>) -> DVector<f64> {
+    let n = plane.length.len();
+    let [h, v, w] = [y[n], y[n + 1], y[n + 2]];
+    let mut f = DVector::zeros(n + 3);
+    f[n] = -plane.span[0];
+    f[n + 1] = -plane.span[1];
+    for i in 0..n {
+        let (sin, cos) = y[i].sin_cos();
+        f[i] = h * cos + (v + w * plane.weight[i]) * sin;
+        f[n] += plane.length[i] * sin;
+        f[n + 1] -= plane.length[i] * cos;
+    }
+    f[n + 2] = h * h + v * v + w * w - 1.0;
+    f
+}
+
+/// The residual's derivatives by the n + 3 unknowns, and in the last column by the position; one row
+/// is left free.
+fn jacobian(course: &Course<'_>, plane: &Plane, y: &DVector<f64>) -> DMatrix<f64> {
+    let n = plane.length.len();
+    let [h, v, w] = [y[n], y[n + 1], y[n + 2]];
+    let mut j = DMatrix::zeros(n + 4, n + 4);
+    for i in 0..n {
+        let (sin, cos) = y[i].sin_cos();
+        let vertical = v + w * plane.weight[i];
+        j[(i, i)] = vertical * cos - h * sin;
+        j[(i, n)] = cos;
+        j[(i, n + 1)] = sin;
+        j[(i, n + 2)] = plane.weight[i] * sin;
+        j[(n, i)] = plane.length[i] * cos;
+        j[(n + 1, i)] = plane.length[i] * sin;
+    }
+    for (k, part) in [h, v, w].into_iter().enumerate() {
+        j[(n + 2, n + k)] = 2.0 * part;
+    }
+    let position = y[n + 3];
+    let ahead = residual(&course.plane(position + POSITION_STEP), y);
+    let behind = residual(&course.plane(position - POSITION_STEP), y);
+    for (row, slope) in ((ahead - behind) / (2.0 * POSITION_STEP)).iter().enumerate() {
+        j[(row, n + 3)] = *slope;
+    }
+    j
+}
+
+/// Solve the equations with one more, `row · (y − y₀) = offset`, from `y₀` on; `None` if that fails.
+pub(crate) fn correct(
+    course: &Course<'_>,
+    mut y: DVector<f64>,
+    row: &DVector<f64>,
+) -> Option<DVector<f64>> {
+    let n = course.bars();
+    let start = y.clone();
+    let mut best = f64::INFINITY;
+    for _ in 0..CORRECTIONS {
+        let plane = course.plane(y[n + 3]);
+        let f = residual(&plane, &y);
+        let mut j = jacobian(course, &plane, &y);
+        j.row_mut(n + 3).copy_from(&row.transpose());
+        let mut right = f.push(row.dot(&(&y - &start)));
+        right.neg_mut();
+        let step = j.lu().solve(&right)?;
+        let size = step.amax();
+        y += step;
+        if !size.is_finite() {
+            return None;
+        }
+        // Done, or as near as rounding lets it come.
+        if size <= CORRECTED || (size >= best && best <= CORRECTED.sqrt()) {
+            break;
+        }
+        best = size;
+    }
+    let left = residual(&course.plane(y[n + 3]), &y).amax();
+    (left <= RESIDUAL).then_some(y)
+}
+
+/// The unit tangent of the curve at `y`, on the side of `along`.
+pub(crate) fn tangent(
+    course: &Course<'_>,
+    y: &DVector<f64>,
+    along: &DVector<f64>,
+) -> Option<DVector<f64>> {
+    let n = course.bars();
+    let mut j = jacobian(course, &course.plane(y[n + 3]), y);
+    j.row_mut(n + 3).copy_from(&along.transpose());
+    let mut right = DVector::zeros(n + 4);
+    right[n + 3] = 1.0;
+    let t = j.lu().solve(&right)?;
+    let size = t.norm();
+    (size.is_finite() && size > 0.0).then(|| t / size)
+}
+
+/// The direction in which only the position changes.
+pub(crate) fn position_axis(bars: usize) -> DVector<f64> {
+    let mut axis = DVector::zeros(bars + 4);
+    axis[bars + 3] = 1.0;
+    axis
+}

@@ -1,0 +1,18 @@
+//! What can go wrong as a whole.
+
+/// Why nothing could be traced.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum TraceError {
+    /// Occurs when a setting of the census is out of range, or the chain is too long for one.
+    #[error(transparent)]
+    Census(#[from] census::CensusError),
+    /// Occurs when the path of the study that was asked for does not exist.
+    #[error("the study has {paths} paths, there is no path {path}")]
+    NoPath {
+        /// The path as asked for, from 0.
+        path: usize,
+        /// Number of paths.
+        paths: usize,
+    },
+}

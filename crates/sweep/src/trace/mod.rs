@@ -1,0 +1,53 @@
+//! Branches of equilibria over a parameter.
+//!
+//! At every point of a path a census lists all equilibria in the vertical plane of the anchors, with
+//! proof. Between neighbouring points every one of them is followed along its curve (module `curve`), which
+//! ends at exactly one other: of the next point, or, having turned back, of the same. Where a curve turns
+//! back, two branches meet in a fold. So the census at the points proves what is there, and the curves say
+//! what belongs together; a census half way between neighbours counts again.
+//!
+//! # The equations
+//!
+//! $\varphi_i$ is the angle of bar i from the descending vertical, $u_i = (\sin\varphi_i, -\cos\varphi_i)$, $(H, V)/w$ the
+//! pull of the chain on the first anchor in homogeneous coordinates and $F_i = (H, V + w c_i)$. Equilibria are
+//!
+//! $$ F_i \cdot u_i' = 0, \qquad \sum_i l_i u_i = D, \qquad H^2 + V^2 + w^2 = 1: $$
+//!
+//! n + 3 equations in n + 3 unknowns and the parameter. In this form nothing is singular where a bar changes
+//! from tension to compression ($F_i = 0$), nor where the chain becomes straight and its pull infinite
+//! ($w = 0$): there the curve turns back as in a fold.
+//!
+//! | meaning | code | shape | unit |
+//! |---|---|---|---|
+//! | $\varphi_i$ | `y[i]` | n | rad |
+//! | $H, V, w$ | `y[n..n + 3]` | 3 | homogeneous |
+//! | position on the path, 0 at its first point, 1 at its last | `y[n + 3]`, `position` | 1 | 1 |
+//! | $l_i, c_i, D$ | `Plane` | n, n, 2 | total length; half the spread of the $c_i$ |
+//!
+//! # References
+//!
+//! H. B. Keller, "Numerical solution of bifurcation and nonlinear eigenvalue problems", in: Applications of
+//! bifurcation theory, Academic Press 1977 (pseudo-arclength).
+
+mod arc;
+mod assemble;
+mod branch;
+mod check;
+mod course;
+mod curve;
+mod equations;
+mod error;
+mod event;
+mod frame;
+mod observe;
+mod refine;
+mod run;
+mod segment;
+mod station;
+
+pub use branch::{Branch, BranchEnd, BranchPoint};
+pub use check::Checks;
+pub use error::TraceError;
+pub use event::{Event, EventKind};
+pub use run::{Trace, TraceProgress, TraceSettings, trace};
+pub use station::{PointStatus, TracePoint};

@@ -1,0 +1,116 @@
+//! What can be seen of an equilibrium: energy, forces, indices.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::course::Plane;
+
+/// An equilibrium on a curve, in SI units, with its indices.
+#[derive(Debug, Clone)]
+pub(crate) struct Observed {
+    pub(crate) pull_n: [f64; 2],
+    pub(crate) energy_j: f64,
+    /// Axial forces, tension positive.
+    pub(crate) axial_n: Vec<f64>,
+    /// The same without unit, and finite where they are not; sign and zeros count.
+    pub(crate) along: Vec<f64>,
+    pub(crate) index_in_plane: usize,
+    pub(crate) index_out_of_plane: usize,
+    /// Determinant of the second derivative in the plane, bordered by the closure; sign and zeros count.
+    pub(crate) plane_test: f64,
+    /// Determinant of the second derivative out of the plane; sign and zeros count.
+    pub(crate) space_test: f64,
+    /// Smallest over largest eigenvalue, in size, of the bordered second derivative.
+    pub(crate) singular: f64,
+    /// Largest |sine| between two bars: 0 if the chain lies on one line.
+    pub(crate) bent: f64,
+}
+
+impl Observed {
+    pub(crate) fn at(plane: &Plane, y: &DVector<f64>) -> Self {
+        let n = plane.length.len();
+        // (H, V, w) and its negative are one pull.
+        let side = if y[n + 2] < 0.0 { -1.0 } else { 1.0 };
+        let [h, v, w] = [side * y[n], side * y[n + 1], side * y[n + 2]];
+        let units: Vec<[f64; 2]> = (0..n)
+            .map(|i| {
+                let (sin, cos) = y[i].sin_cos();
+                [sin, -cos]
+            })
+            .collect();
+        // F_i · u_i, times w.
+        let along: Vec<f64> =
+            (0..n).map(|i| h * units[i][0] + (v + w * plane.weight[i]) * units[i][1]).collect();
+        let hanging: f64 = (0..n).map(|i| plane.weight[i] * plane.length[i] * units[i][1]).sum();
+        let newton = plane.force_unit_n;
+        let joule = plane.length_unit_m;
+        let energy_j =
+            joule * ((plane.total_n - plane.offset_n) * plane.span[1] - newton * hanging);
+
+        let (index_in_plane, plane_test, singular) = in_plane(plane, &units, &along);
+        let (index_out_of_plane, space_test) = out_of_plane(plane, &along);
+        let bent = units
+            .iter()
+            .map(|u| (u[0] * units[0][1] - u[1] * units[0][0]).abs())
+            .fold(0.0, f64::max);
+        Self {
+            pull_n: [newton * h / w, newton * v / w - plane.offset_n],
+            energy_j,
+            axial_n: along.iter().map(|force| newton * force / w).collect(),
+            along,
+            index_in_plane,
+            index_out_of_plane,
+            plane_test,
+            space_test,
+            singular,
+            bent,
+        }
+    }
+
+    pub(crate) fn index_in_space(&self) -> usize {
+        self.index_in_plane + self.index_out_of_plane
+    }
+}
+
+/// Index, determinant and smallest eigenvalue of the second derivative of the Lagrangian
+/// $-\sum l_i F_i \cdot u_i + p \cdot D$ by angles and pull. Each of the two equations of the closure adds one
+/// negative eigenvalue to those of the second derivative along the closure.
+fn in_plane(plane: &Plane, units: &[[f64; 2]], along: &[f64]) -> (usize, f64, f64) {
+    let n = units.len();
+    let mut k = DMatrix::zeros(n + 2, n + 2);
+    for i in 0..n {
+        let length = plane.length[i];
+        k[(i, i)] = length * along[i];
+        for (row, slope) in [-units[i][1], units[i][0]].into_iter().enumerate() {
+            k[(n + row, i)] = -length * slope;
+            k[(i, n + row)] = -length * slope;
+        }
+    }
+    let values = k.symmetric_eigenvalues();
+    let negative = values.iter().filter(|value| **value < 0.0).count();
+    let smallest = values.iter().fold(f64::INFINITY, |a, value| a.min(value.abs()));
+    (negative.saturating_sub(2), values.product(), smallest / values.amax())
+}
+
+/// Index and determinant of the weighted Laplacian of force densities over the joints between the
+/// anchors. With the anchors on one vertical the turn about it is left out.
+fn out_of_plane(plane: &Plane, along: &[f64]) -> (usize, f64) {
+    let n = along.len();
+    if n < 2 {
+        return (0, 1.0);
+    }
+    let density = |i: usize| along[i] / plane.length[i];
+    let mut k = DMatrix::zeros(n - 1, n - 1);
+    for joint in 0..n - 1 {
+        k[(joint, joint)] = density(joint) + density(joint + 1);
+        if joint > 0 {
+            k[(joint, joint - 1)] = -density(joint);
+            k[(joint - 1, joint)] = -density(joint);
+        }
+    }
+    let mut values: Vec<f64> = k.symmetric_eigenvalues().iter().copied().collect();
+    if plane.span[0].abs() <= 0.0 {
+        values.sort_by(|a, b| a.abs().total_cmp(&b.abs()));
+        values.remove(0);
+    }
+    (values.iter().filter(|value| **value < 0.0).count(), values.iter().product())
+}

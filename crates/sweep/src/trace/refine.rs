@@ -1,0 +1,116 @@
+//! Locating what happens between two points of a curve.
+
+use nalgebra::DVector;
+
+use super::course::Course;
+use super::equations::correct;
+
+/// Halvings at most: they exhaust the digits of a double.
+const MOST: usize = 80;
+
+/// The bracket, as a part of the chord, below which there is nothing left to refine.
+const NARROW: f64 = 1e-14;
+
+/// The point on the curve between `a` and `b`, near to each other, where `test` changes its sign: points
+/// are named by their foot on the chord, and found by regula falsi (the Illinois rule) with bisection.
+///
+/// `test` sees the point and the chord. `None` if it does not change its sign, or the curve is lost.
+pub(crate) fn on_chord(
+    course: &Course<'_>,
+    a: &DVector<f64>,
+    b: &DVector<f64>,
+    test: impl Fn(&DVector<f64>, &DVector<f64>) -> Option<f64>,
+) -> Option<DVector<f64>> {
+    let chord = b - a;
+    let row = &chord / chord.norm();
+    let point = |part: f64| correct(course, a + part * &chord, &row);
+    let (mut low, mut high) = (0.0_f64, 1.0_f64);
+    let (mut at_low, mut at_high) = (test(a, &row)?, test(b, &row)?);
+    if at_low.abs() <= 0.0 {
+        return Some(a.clone());
+    }
+    if at_high.abs() <= 0.0 {
+        return Some(b.clone());
+    }
+    let changes = at_low * at_high < 0.0;
+    if !changes {
+        // So it does if one of them is no number.
+        return None;
+    }
+    let mut best = if at_low.abs() < at_high.abs() { a.clone() } else { b.clone() };
+    let mut kept = 0_i32;
+    for round in 0..MOST {
+        if high - low <= NARROW {
+            break;
+        }
+        let secant = low + (high - low) * at_low / (at_low - at_high);
+        // A weighted secant that keeps missing on one side gives way to bisection.
+        let inside = secant > low && secant < high && round % 4 != 3;
+        let middle = if inside { secant } else { 0.5 * (low + high) };
+        // At a point where two curves cross the corrector fails; next to it, it does not.
+        let Some(y) = point(middle) else { break };
+        let Some(here) = test(&y, &row) else { break };
+        best = y;
+        if here.abs() <= 0.0 {
+            break;
+        }
+        if here * at_low > 0.0 {
+            (low, at_low) = (middle, here);
+            if kept == 1 {
+                at_high *= 0.5;
+            }
+            kept = 1;
+        } else {
+            (high, at_high) = (middle, here);
+            if kept == -1 {
+                at_low *= 0.5;
+            }
+            kept = -1;
+        }
+    }
+    Some(best)
+}
+
+/// Half the width, as a part of the chord, of the neighbourhood from which a crossing is interpolated:
+/// the sixth power of it is below rounding, and its nearest point still far from singular.
+const AROUND: f64 = 0.02;
+
+/// Points of the interpolation, as parts of that.
+const SAMPLES: [f64; 6] = [-1.0, -2.0 / 3.0, -1.0 / 3.0, 1.0 / 3.0, 2.0 / 3.0, 1.0];
+
+/// The same where curves cross. There the corrector is singular, so the point is interpolated from its
+/// neighbours on the curve, as a function of `test` (Neville's scheme at 0).
+pub(crate) fn crossing_on_chord(
+    course: &Course<'_>,
+    a: &DVector<f64>,
+    b: &DVector<f64>,
+    test: impl Fn(&DVector<f64>, &DVector<f64>) -> Option<f64>,
+) -> Option<DVector<f64>> {
+    let rough = on_chord(course, a, b, &test)?;
+    let chord = b - a;
+    let size = chord.norm();
+    let row = &chord / size;
+    let middle = row.dot(&(&rough - a)) / size;
+    let half = AROUND.min(middle).min(1.0 - middle);
+    let samples: Option<Vec<(f64, DVector<f64>)>> = SAMPLES
+        .iter()
+        .map(|part| {
+            let y = correct(course, a + (middle + half * part) * &chord, &row)?;
+            Some((test(&y, &row)?, y))
+        })
+        .collect();
+    let Some(samples) = samples else { return Some(rough) };
+    // The test must rise or fall all the way.
+    let falls = samples.windows(2).all(|pair| pair[1].0 < pair[0].0);
+    if !(falls || samples.windows(2).all(|pair| pair[1].0 > pair[0].0)) {
+        return Some(rough);
+    }
+    let (tests, mut values): (Vec<f64>, Vec<DVector<f64>>) = samples.into_iter().unzip();
+    for level in 1..tests.len() {
+        for k in 0..tests.len() - level {
+            let (low, high) = (tests[k], tests[k + level]);
+            values[k] = (&values[k] * high - &values[k + 1] * low) / (high - low);
+        }
+    }
+    Some(values.swap_remove(0))
+}

@@ -1,0 +1,190 @@
+//! A point of the path with its census.
+
+use census::{Census, ProvenEquilibrium};
+use nalgebra::DVector;
+use serde::Serialize;
+
+use super::course::{Course, Plane};
+use super::observe::Observed;
+
+/// A point of the path and what its census says.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct TracePoint {
+    /// Position on the path: 0 at its first point, 1 at its last.
+    pub position: f64,
+    /// The values of the parameters.
+    pub values: Vec<f64>,
+    /// Distance of the anchors, m.
+    pub span_m: f64,
+    /// What is known there.
+    #[serde(flatten)]
+    pub status: PointStatus,
+}
+
+/// What is known at a point.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(rename_all = "kebab-case", tag = "status")]
+pub enum PointStatus {
+    /// All equilibria, with proof.
+    Complete {
+        /// How many there are in the plane.
+        count: usize,
+        /// How many of each index in the plane.
+        by_index: Vec<i64>,
+        /// Sum of (−1)^index.
+        alternating_sum: i64,
+        /// The Euler characteristic of the configurations in the plane, from the lengths alone.
+        euler_characteristic: Option<i64>,
+        /// Whether the anchors stand on one vertical: every equilibrium stands for a circle of them, which
+        /// meets the plane twice.
+        circles: bool,
+        /// Families of equilibria with slack bars; they are not followed.
+        families: usize,
+    },
+    /// The census leaves something undecided: a degenerate point. Branches are followed past it.
+    Undecided {
+        /// Why, once for each cell.
+        reasons: Vec<census::Reason>,
+        /// What is known all the same: the number of equilibria in the plane that are proved.
+        proved: usize,
+    },
+    /// The values describe no problem.
+    Refused {
+        /// Why.
+        reason: String,
+    },
+}
+
+/// An equilibrium of a census as a point of a curve.
+#[derive(Debug, Clone)]
+pub(crate) struct Node {
+    /// Angles, homogeneous pull, position.
+    pub(crate) y: DVector<f64>,
+    /// As the census has it.
+    pub(crate) seen: Observed,
+    /// Whether the curve's own indices and energy agree with those of the census.
+    pub(crate) agrees: bool,
+}
+
+/// A position with its equilibria; without, if there is no chain or its census is not complete.
+#[derive(Debug, Clone)]
+pub(crate) struct Station {
+    pub(crate) position: f64,
+    /// Number on the grid of the path.
+    pub(crate) grid: Option<usize>,
+    pub(crate) nodes: Option<Vec<Node>>,
+    pub(crate) status: PointStatus,
+    pub(crate) span_m: f64,
+    /// Whether the anchors stand on one vertical.
+    pub(crate) vertical: bool,
+}
+
+/// Relative difference of energies that both come from the same equilibrium; rounding is a thousandth.
+const SAME_ENERGY: f64 = 1e-11;
+
+impl Station {
+    /// Take the census at a position.
+    pub(crate) fn at(
+        course: &Course<'_>,
+        position: f64,
+        grid: Option<usize>,
+        settings: &census::Settings,
+    ) -> Result<Self, census::CensusError> {
+        let values = course.values_at(position);
+        let mut station = Self {
+            position,
+            grid,
+            nodes: None,
+            status: PointStatus::Refused { reason: String::new() },
+            span_m: course.plane(position).span_m(),
+            vertical: false,
+        };
+        let refused = |reason: String| PointStatus::Refused { reason };
+        let problem = match course.problem(&values) {
+            Ok(problem) => problem,
+            Err(error) => return Ok(Self { status: refused(error.to_string()), ..station }),
+        };
+        let census = match Census::take(&problem, settings) {
+            Ok(census) => census,
+            Err(error @ census::CensusError::WeightOnAnchors) => {
+                return Ok(Self { status: refused(error.to_string()), ..station });
+            }
+            Err(error) => return Err(error),
+        };
+        station.vertical = census.circles;
+        if census.complete {
+            station.nodes = Some(nodes(course, position, &census));
+            station.status = PointStatus::Complete {
+                count: census.count_in_plane(),
+                by_index: census.count_by_index(),
+                alternating_sum: census.alternating_sum(),
+                euler_characteristic: census.topology.as_ref().ok().map(|topology| topology.euler),
+                circles: census.circles,
+                families: census.families.len(),
+            };
+        } else {
+            station.status = PointStatus::Undecided {
+                reasons: census.undecided.iter().map(|undecided| undecided.reason).collect(),
+                proved: census.count_in_plane(),
+            };
+        }
+        Ok(station)
+    }
+
+    /// Whether the values describe no problem here.
+    pub(crate) fn is_refused(&self) -> bool {
+        matches!(self.status, PointStatus::Refused { .. })
+    }
+}
+
+impl Plane {
+    /// Distance of the anchors, m.
+    pub(crate) fn span_m(&self) -> f64 {
+        self.length_unit_m * self.span[0].hypot(self.span[1])
+    }
+}
+
+fn nodes(course: &Course<'_>, position: f64, census: &Census) -> Vec<Node> {
+    let plane = course.plane(position);
+    let facing = course.facing(position);
+    let mut nodes = vec![];
+    for equilibrium in &census.equilibria {
+        nodes.push(node(&plane, position, equilibrium, facing));
+        if census.circles {
+            nodes.push(node(&plane, position, equilibrium, -facing));
+        }
+    }
+    nodes
+}
+
+/// The equilibrium, or for `facing` = −1 its mirror image, in the frame of the path.
+fn node(plane: &Plane, position: f64, found: &ProvenEquilibrium, facing: f64) -> Node {
+    let n = plane.length.len();
+    let pull_n = [facing * found.pull_n[0].mid(), found.pull_n[1].mid()];
+    let h = pull_n[0] / plane.force_unit_n;
+    let v = (pull_n[1] + plane.offset_n) / plane.force_unit_n;
+    let size = h.hypot(v).hypot(1.0);
+    let mut y = DVector::zeros(n + 4);
+    for (slot, angle) in y.iter_mut().zip(&found.angles_rad) {
+        *slot = facing * angle.mid();
+    }
+    y[n] = h / size;
+    y[n + 1] = v / size;
+    y[n + 2] = size.recip();
+    y[n + 3] = position;
+    let own = Observed::at(plane, &y);
+    let scale = plane.length_unit_m * plane.total_n;
+    let energy_j = found.energy_j.mid();
+    let agrees = own.index_in_plane == found.index_in_plane
+        && own.index_out_of_plane == found.index_out_of_plane
+        && (own.energy_j - energy_j).abs() <= SAME_ENERGY * scale;
+    let seen = Observed {
+        pull_n,
+        energy_j,
+        axial_n: found.axial_n.iter().map(|force| force.mid()).collect(),
+        index_in_plane: found.index_in_plane,
+        index_out_of_plane: found.index_out_of_plane,
+        ..own
+    };
+    Node { y, seen, agrees }
+}

@@ -1,0 +1,133 @@
+//! From numbers to chains.
+
+use model::{Anchors, Bar, BarError, Chain, ChainError, Problem, Refusal};
+
+use super::number::{AnchorEnd, BarField, Number, Which};
+
+/// Why a point of a study is refused: the values describe no problem.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum PointError {
+    /// Occurs when a number of a bar is out of range.
+    #[error("bar {bar}: {error}")]
+    Bar {
+        /// Number of the bar, from 1.
+        bar: usize,
+        /// What is wrong with it.
+        error: BarError,
+    },
+    /// Occurs when a number of the chain is out of range.
+    #[error(transparent)]
+    Chain(#[from] ChainError),
+    /// Occurs when the chain is no equilibrium problem: out of reach, straight, without mass.
+    #[error(transparent)]
+    Refused(#[from] Refusal),
+}
+
+/// The chain with these numbers in place of its own, validated.
+///
+/// # Errors
+///
+/// [`PointError`] when a number is out of range or the chain has no answer.
+pub fn apply(base: &Chain, numbers: &[(Number, f64)]) -> Result<Problem, PointError> {
+    let Plan { gravity_m_s2, anchors, bars } = Plan::new(base, numbers);
+    let bars = bars
+        .iter()
+        .enumerate()
+        .map(|(k, draft)| draft.bar().map_err(|error| PointError::Bar { bar: k + 1, error }));
+    let bars: Vec<Bar> = bars.collect::<Result<_, _>>()?;
+    let chain = Chain::new(base.name(), gravity_m_s2, anchors, bars)?;
+    Ok(Problem::new(chain)?)
+}
+
+/// The numbers of a chain, not checked: between two points of a path they need not describe a problem.
+pub(crate) struct Plan {
+    pub(crate) gravity_m_s2: f64,
+    pub(crate) anchors: Anchors,
+    pub(crate) bars: Vec<Draft>,
+}
+
+impl Plan {
+    pub(crate) fn new(base: &Chain, numbers: &[(Number, f64)]) -> Self {
+        let mut plan = Self {
+            gravity_m_s2: base.gravity_m_s2(),
+            anchors: *base.anchors(),
+            bars: base.bars().iter().map(Draft::new).collect(),
+        };
+        for (number, value) in numbers {
+            plan.set(*number, *value);
+        }
+        plan
+    }
+
+    fn set(&mut self, number: Number, value: f64) {
+        match number {
+            Number::Gravity => self.gravity_m_s2 = value,
+            Number::Anchor(AnchorEnd::Start, axis) => self.anchors.start_m[axis] = value,
+            Number::Anchor(AnchorEnd::End, axis) => self.anchors.end_m[axis] = value,
+            Number::Bar(Which::All, field) => {
+                for bar in &mut self.bars {
+                    bar.set(field, value);
+                }
+            }
+            Number::Bar(Which::One(bar), field) => {
+                if let Some(bar) = bar.checked_sub(1).and_then(|k| self.bars.get_mut(k)) {
+                    bar.set(field, value);
+                }
+            }
+        }
+    }
+}
+
+/// A bar whose numbers are not checked yet. A centre and moments that are the defaults of a system file
+/// stay the defaults.
+pub(crate) struct Draft {
+    pub(crate) length_m: f64,
+    pub(crate) mass_kg: f64,
+    centre_m: Option<f64>,
+    inertia_kg_m2: Option<[f64; 3]>,
+}
+
+impl Draft {
+    fn new(bar: &Bar) -> Self {
+        let same = |a: f64, b: f64| a.to_bits() == b.to_bits();
+        let (length_m, mass_kg) = (bar.length_m(), bar.mass_kg());
+        let centre = bar.centre_m();
+        let inertia = bar.inertia_kg_m2();
+        let slender = Bar::slender_inertia(length_m, mass_kg);
+        let is_slender = inertia.iter().zip(slender).all(|(a, b)| same(*a, b));
+        Self {
+            length_m,
+            mass_kg,
+            centre_m: (!same(centre, 0.5 * length_m)).then_some(centre),
+            inertia_kg_m2: (!is_slender).then_some(inertia),
+        }
+    }
+
+    fn set(&mut self, field: BarField, value: f64) {
+        match field {
+            BarField::Length => self.length_m = value,
+            BarField::Mass => self.mass_kg = value,
+            BarField::Centre => self.centre_m = Some(value),
+            BarField::Inertia(axis) => {
+                let slender = Bar::slender_inertia(self.length_m, self.mass_kg);
+                self.inertia_kg_m2.get_or_insert(slender)[axis] = value;
+            }
+        }
+    }
+
+    /// Distance of the centre of weight from the first joint, m.
+    pub(crate) fn centre_m(&self) -> f64 {
+        self.centre_m.unwrap_or(0.5 * self.length_m)
+    }
+
+    fn bar(&self) -> Result<Bar, BarError> {
+        let slender = Bar::slender_inertia(self.length_m, self.mass_kg);
+        Bar::new(
+            self.length_m,
+            self.mass_kg,
+            self.centre_m(),
+            self.inertia_kg_m2.unwrap_or(slender),
+        )
+    }
+}

@@ -1,0 +1,151 @@
+//! One parameter with its values.
+
+use std::ops::Range;
+use std::str::FromStr;
+
+use model::Chain;
+
+use super::error::VaryError;
+use super::number::{Number, Which};
+
+/// Most values of one parameter, and most points of a study: each costs a census.
+pub const MAX_POINTS: usize = 1_000_000;
+
+/// One number of the system file and the values it takes.
+///
+/// ```
+/// let vary: sweep::Vary = "anchors.end_m.z=-2.5..-0.5:5".parse()?;
+/// assert_eq!(vary.number.to_string(), "anchors.end_m.z");
+/// assert_eq!(vary.values, [-2.5, -2.0, -1.5, -1.0, -0.5]);
+/// let error = "bars.2.mas_kg=1,2".parse::<sweep::Vary>().unwrap_err();
+/// assert_eq!(error.to_string(), "`bars.2.mas_kg=1,2`, character 8: unknown key `mas_kg`");
+/// assert!(error.help.starts_with("did you mean `mass_kg`?"));
+/// # Ok::<(), sweep::VaryError>(())
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct Vary {
+    /// Which number.
+    pub number: Number,
+    /// Its values, in their order; at least one.
+    pub values: Vec<f64>,
+    /// The text it was read from, for errors found later.
+    text: String,
+}
+
+const VALUES: &str = "values are a list, `0.1,1,10`, or a range with the number of its points, \
+                      `-2.9..-0.1:500`";
+
+impl Vary {
+    /// Check that the chain has what is to vary.
+    ///
+    /// # Errors
+    ///
+    /// [`VaryError`] when the chain has no such bar.
+    pub fn check(&self, chain: &Chain) -> Result<(), VaryError> {
+        let bars = chain.bars().len();
+        match self.number {
+            Number::Bar(Which::One(bar), _) if bar > bars => {
+                let path = self.text.split('=').next().unwrap_or_default();
+                let at = path.find(|c: char| c.is_ascii_digit()).unwrap_or(0);
+                let digits = path[at..].chars().take_while(char::is_ascii_digit).count();
+                Err(VaryError::new(
+                    &self.text,
+                    at..at + digits,
+                    format!("there is no bar {bar}"),
+                    format!("the chain has {bars} bars, numbered from 1"),
+                ))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// The text it was read from.
+    #[must_use]
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+}
+
+impl FromStr for Vary {
+    type Err = VaryError;
+
+    fn from_str(text: &str) -> Result<Self, VaryError> {
+        let Some(equals) = text.find('=') else {
+            let span = text.len()..text.len();
+            return Err(VaryError::new(text, span, "`=` and the values are missing", VALUES));
+        };
+        let number = Number::parse(text, equals)?;
+        let values = values(text, equals + 1..text.len())?;
+        Ok(Self { number, values, text: text.to_owned() })
+    }
+}
+
+fn values(text: &str, all: Range<usize>) -> Result<Vec<f64>, VaryError> {
+    let part = &text[all.clone()];
+    if let Some(dots) = part.find("..") {
+        let from = number(text, all.start..all.start + dots)?;
+        let rest = all.start + dots + 2;
+        let Some(colon) = text[rest..].find(':').map(|at| rest + at) else {
+            let help = "write `from..to:points`, as `-2.9..-0.1:500`";
+            let span = text.len()..text.len();
+            return Err(VaryError::new(text, span, "the number of points is missing", help));
+        };
+        let to = number(text, rest..colon)?;
+        let points = points(text, colon + 1..text.len())?;
+        return Ok(range(from, to, points));
+    }
+    let mut list = vec![];
+    let mut start = all.start;
+    for word in part.split(',') {
+        list.push(number(text, start..start + word.len())?);
+        start += word.len() + 1;
+    }
+    if list.len() > MAX_POINTS {
+        let what = format!("{} values are too many", list.len());
+        return Err(VaryError::new(text, all, what, format!("at most {MAX_POINTS} are allowed")));
+    }
+    Ok(list)
+}
+
+/// Equidistant values with both ends; the ends are exact.
+fn range(from: f64, to: f64, points: usize) -> Vec<f64> {
+    let last = points - 1;
+    (0..points)
+        .map(|k| match k {
+            0 => from,
+            _ if k == last => to,
+            _ => {
+                let part = k as f64 / last as f64;
+                let value = from * (1.0 - part) + to * part;
+                // What differs from zero by rounding only is zero: there, anchors stand on one vertical.
+                let rounding = 4.0 * f64::EPSILON * from.abs().max(to.abs());
+                if value.abs() <= rounding { 0.0 } else { value }
+            }
+        })
+        .collect()
+}
+
+fn number(text: &str, span: Range<usize>) -> Result<f64, VaryError> {
+    let word = text[span.clone()].trim();
+    match word.parse::<f64>() {
+        Ok(value) if value.is_finite() => Ok(value),
+        Ok(_) => Err(VaryError::new(text, span, format!("`{word}` is not finite"), VALUES)),
+        Err(_) if word.is_empty() => {
+            Err(VaryError::new(text, span, "a number is missing here", VALUES))
+        }
+        Err(_) => Err(VaryError::new(text, span, format!("`{word}` is not a number"), VALUES)),
+    }
+}
+
+fn points(text: &str, span: Range<usize>) -> Result<usize, VaryError> {
+    let word = text[span.clone()].trim();
+    match word.parse::<usize>() {
+        Ok(points) if (2..=MAX_POINTS).contains(&points) => Ok(points),
+        _ => Err(VaryError::new(
+            text,
+            span,
+            format!("`{word}` is no number of points"),
+            format!("a whole number from 2 to {MAX_POINTS} is allowed"),
+        )),
+    }
+}

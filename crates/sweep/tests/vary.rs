@@ -1,0 +1,140 @@
+//! `--vary`: what is accepted, what it does, and every error with its place.
+
+use model::Chain;
+use sweep::{Combine, Study, Vary, VaryError};
+
+fn vary(text: &str) -> Vary {
+    text.parse().unwrap_or_else(|error| panic!("{error}"))
+}
+
+fn paper() -> Chain {
+    model::cases::paper().into_chain()
+}
+
+#[test]
+fn paths_reach_every_number_of_a_system_file() {
+    for (path, value, wanted) in [
+        ("gravity_m_s2", 1.62, "gravity_m_s2 = 1.62"),
+        ("anchors.start_m.x", 0.25, "start_m = [0.25, 0.0, 0.0]"),
+        ("anchors.end_m[3]", -1.5, "end_m = [0.0, 0.0, -1.5]"),
+        ("bars.2.mass_kg", 7.0, "mass_kg = 7.0"),
+        ("bars[3].length_m", 1.25, "length_m = 1.25"),
+        ("bars.*.mass_kg", 5.0, "mass_kg = 5.0\ncount = 3"),
+        ("bars.1.centre_m", 0.125, "centre_m = 0.125"),
+        ("bars.1.inertia_kg_m2.2", 3.0, "inertia_kg_m2 = [0.0, 3.0"),
+    ] {
+        let study = Study::new(paper(), &[vary(&format!("{path}={value}"))], Combine::Product);
+        let study = study.unwrap();
+        let problem = study.problem(&study.paths()[0][0]).unwrap();
+        let text = model::system_file::write_system(problem.chain());
+        assert!(text.contains(wanted), "{path}: {wanted} is not in\n{text}");
+    }
+}
+
+#[test]
+fn a_centre_in_the_middle_stays_there() {
+    let study = Study::new(paper(), &[vary("bars.*.length_m=2")], Combine::Product).unwrap();
+    let problem = study.problem(&[2.0]).unwrap();
+    assert!(problem.chain().bars().iter().all(|bar| bar.centre_m().to_bits() == 1.0_f64.to_bits()));
+    let moved = [vary("bars.1.centre_m=0.9"), vary("bars.1.length_m=0.8")];
+    let study = Study::new(paper(), &moved, Combine::Product).unwrap();
+    let error = study.problem(&[0.9, 0.8]).unwrap_err();
+    assert!(error.to_string().starts_with("bar 1: the centre of weight must lie on the bar"));
+}
+
+#[test]
+fn ranges_have_exact_ends_and_an_exact_zero() {
+    let range = vary("anchors.end_m.x=-0.3..0.7:11").values;
+    assert_eq!(range.len(), 11);
+    assert_eq!(
+        [range[0], range[3], range[10]].map(f64::to_bits),
+        [-0.3, 0.0, 0.7].map(f64::to_bits)
+    );
+}
+
+#[test]
+fn products_and_steps() {
+    let two = [vary("bars.2.mass_kg=1,2"), vary("anchors.end_m.z=-2,-1.5,-1.2")];
+    let study = Study::new(paper(), &two, Combine::Product).unwrap();
+    assert_eq!(study.paths().len(), 2);
+    assert_eq!(study.paths()[1][2], [2.0, -1.2]);
+    let error = Study::new(paper(), &two, Combine::Zip).unwrap_err();
+    assert!(error.to_string().contains("3 values, but `bars.2.mass_kg` has 2"), "{error}");
+    let two = [vary("bars.2.mass_kg=1,2"), vary("anchors.end_m.z=-2,-1.5")];
+    let study = Study::new(paper(), &two, Combine::Zip).unwrap();
+    assert_eq!(study.paths(), [[[1.0, -2.0], [2.0, -1.5]]]);
+}
+
+#[test]
+fn errors_say_what_where_and_what_is_allowed() {
+    for (text, column, what, help) in [
+        (
+            "bars.2.mas_kg=1",
+            8,
+            "unknown key `mas_kg`",
+            "did you mean `mass_kg`? allowed here: length_m",
+        ),
+        ("bar.2.mass_kg=1", 1, "unknown key `bar`", "did you mean `bars`?"),
+        ("anchors.end_m.q=1", 15, "unknown component `q`", "allowed here: x, y, z"),
+        ("anchors.end_m.4=1", 15, "unknown component `4`", "x, y, z"),
+        ("anchors.end_m=1", 14, "a part of it is missing", "x, y, z"),
+        ("anchors.middle_m.x=1", 9, "unknown key `middle_m`", "start_m, end_m"),
+        ("bars.0.mass_kg=1", 6, "`0` is no bar", "from 1"),
+        ("bars.two.mass_kg=1", 6, "`two` is no bar", "from 1, or * for all"),
+        ("bars.2.mass_kg.x=1", 16, "has no parts", "bars.2.mass_kg="),
+        ("=1", 1, "unknown key ``", "gravity_m_s2, anchors, bars"),
+        ("gravity_m_s2", 13, "`=` and the values are missing", "0.1,1,10"),
+        ("gravity_m_s2=", 14, "a number is missing", "-2.9..-0.1:500"),
+        ("gravity_m_s2=1,,2", 16, "a number is missing", "list"),
+        ("gravity_m_s2=1,x", 16, "`x` is not a number", "list"),
+        ("gravity_m_s2=inf", 14, "`inf` is not finite", "list"),
+        ("gravity_m_s2=1e999", 14, "`1e999` is not finite", "list"),
+        ("gravity_m_s2=1..2", 18, "the number of points is missing", "from..to:points"),
+        ("gravity_m_s2=1..2:1", 19, "`1` is no number of points", "from 2 to 1000000"),
+        ("gravity_m_s2=1..2:1e9", 19, "`1e9` is no number of points", "from 2"),
+        ("gravity_m_s2=..2:5", 14, "a number is missing", "range"),
+    ] {
+        let error = text.parse::<Vary>().unwrap_err();
+        assert_eq!(error.column(), column, "{text}: {error}");
+        assert!(error.what.contains(what), "{text}: {}", error.what);
+        assert!(error.help.contains(help), "{text}: {}", error.help);
+    }
+}
+
+#[test]
+fn errors_of_the_chain_and_of_the_whole() {
+    let study = |texts: &[&str]| -> VaryError {
+        let all: Vec<Vary> = texts.iter().map(|text| vary(text)).collect();
+        Study::new(paper(), &all, Combine::Product).unwrap_err()
+    };
+    let error = study(&["bars.12.mass_kg=1"]);
+    assert_eq!((error.column(), error.span.len()), (6, 2));
+    assert_eq!(error.what, "there is no bar 12");
+    assert!(study(&["gravity_m_s2=1", "gravity_m_s2=2"]).what.contains("varied twice"));
+    let error = study(&["gravity_m_s2=1..2:1001", "bars.1.mass_kg=1..2:1000"]);
+    assert!(error.what.contains("too many combinations"), "{error}");
+}
+
+/// No text makes the parser panic.
+#[test]
+fn random_bytes_never_panic() {
+    const ALPHABET: &[char] =
+        &['a', 'n', 'c', 'b', '.', '[', ']', '=', ',', ':', '-', '1', '9', '*', 'e', '\u{e4}', ' '];
+    let mut state = 1_u64;
+    let mut accepted = 0;
+    for round in 0..20_000 {
+        let mut text: Vec<char> = "bars[2].mass_kg=1..2:10".chars().collect();
+        for _ in 0..=round % 6 {
+            // Knuth's linear congruential generator; the high bits are the good ones.
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+            let at = usize::try_from(state >> 33).unwrap() % text.len();
+            text[at] = ALPHABET[usize::try_from(state >> 40).unwrap() % ALPHABET.len()];
+        }
+        let text: String = text.into_iter().collect();
+        match text.parse::<Vary>() {
+            Ok(_) => accepted += 1,
+            Err(error) => assert!(!error.to_string().is_empty() && error.span.end <= text.len()),
+        }
+    }
+    assert!(accepted > 100, "{accepted}");
+}
