@@ -20,6 +20,11 @@ use rand_chacha::ChaCha8Rng;
 const PAPER_S: f64 = 2e-3;
 const TARGETS: [(usize, f64); 4] = [(5, 0.1), (6, 0.5), (8, 10.0), (10, 120.0)];
 
+/// Chains up to so many bars are taken several times, and the shortest time counts: others use the
+/// processors too.
+const SHORT: usize = 8;
+const REPEATS: usize = 3;
+
 fn random_problem(bars: usize, seed: u64) -> Problem {
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
     rng.set_stream(bars as u64);
@@ -76,8 +81,17 @@ fn main() -> ExitCode {
     );
     let mut means = vec![];
     for bars in min_bars..=max_bars {
-        let mut results: Vec<Census> =
-            (0..chains).map(|seed| take(&random_problem(bars, seed as u64))).collect();
+        let mut results: Vec<Census> = (0..chains)
+            .map(|seed| {
+                let problem = random_problem(bars, seed as u64);
+                let mut census = take(&problem);
+                for _ in 1..if bars <= SHORT { REPEATS } else { 1 } {
+                    let seconds = take(&problem).statistics.seconds;
+                    census.statistics.seconds = census.statistics.seconds.min(seconds);
+                }
+                census
+            })
+            .collect();
         results.sort_by(|a, b| a.statistics.seconds.total_cmp(&b.statistics.seconds));
         let complete = results.iter().filter(|census| census.complete).count();
         let seconds = |k: usize| results[k].statistics.seconds;
@@ -86,6 +100,10 @@ fn main() -> ExitCode {
         means.push(mean);
         let worst = seconds(chains - 1);
         let target = TARGETS.iter().find(|(at, _)| *at == bars).map(|(_, target)| *target);
+        for census in results.iter().filter(|census| !census.complete) {
+            let reasons: Vec<_> = census.undecided.iter().map(|open| open.reason).collect();
+            println!("incomplete: {reasons:?} {:?} {:?}", census.topology, census.statistics);
+        }
         good &= complete == chains && target.is_none_or(|target| worst < target);
         println!(
             "{bars:4} {chains:6} {complete:8} {:15} {:10} {mean:.4} {:8.4} {worst:7.4} {:6.0e} {}",

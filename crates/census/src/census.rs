@@ -223,10 +223,13 @@ pub(crate) fn by_energy_and_angles(
 }
 
 fn refuse_long(problem: &Problem, settings: &Settings) -> Result<(), CensusError> {
-    /// Time of a census of ten bars on one core, and the factor for each bar more: measured on random
-    /// chains (`examples/census_speed.rs`), good to an order of magnitude.
-    const TEN_BARS_S: f64 = 0.5;
-    const FACTOR: f64 = 3.0;
+    /// Processor time of a census of ten bars, and the factor for each bar more: t = 0.3 s · 2.1^(n − 10).
+    /// Measured on random chains of 8 to 16 bars (`examples/census_speed.rs`); good to an order of
+    /// magnitude, chains of one length differing by that. The number of equilibria doubles too.
+    const TEN_BARS_S: f64 = 0.3;
+    const FACTOR: f64 = 2.1;
+    /// Memory of a census of sixteen bars (some 100,000 equilibria of 5 kB): 0.5 GB · 2.1^(n − 16).
+    const SIXTEEN_BARS_GB: f64 = 0.5;
     let bars = problem.chain().bars().len();
     if bars <= settings.max_bars {
         return Ok(());
@@ -240,5 +243,6 @@ fn refuse_long(problem: &Problem, settings: &Settings) -> Result<(), CensusError
         max_bars: settings.max_bars,
         patterns: exponent(2.0, 0.0),
         estimate_s: TEN_BARS_S * exponent(FACTOR, 10.0),
+        estimate_gb: SIXTEEN_BARS_GB * exponent(FACTOR, 16.0),
     })
 }

@@ -16,8 +16,9 @@ pub enum CensusError {
     },
     /// Occurs when the chain has more bars than [`Settings::max_bars`](crate::Settings::max_bars).
     #[error(
-        "{bars} bars have {patterns:e} patterns of tension and compression; the limit is {max_bars} \
-         bars. A census of this chain would take about {estimate_s:.0e} s on one core"
+        "{bars} bars have {patterns:.1e} patterns of tension and compression; the limit is {max_bars} \
+         bars. A census of this chain would take about {estimate_s:.0e} s on one core and \
+         {estimate_gb:.0e} GB of memory"
     )]
     TooManyBars {
         /// Number of bars of the chain.
@@ -28,6 +29,8 @@ pub enum CensusError {
         patterns: f64,
         /// Estimated time on one core, s; good to an order of magnitude.
         estimate_s: f64,
+        /// Estimated memory, GB; good to an order of magnitude.
+        estimate_gb: f64,
     },
     /// Occurs when all the weight rests on the two anchors: no joint between them carries any, and
     /// the energy is the same in every position.

@@ -11,7 +11,8 @@ use crate::CensusError;
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Settings {
-    /// Chains with more bars are refused with an estimate of the cost. Default 12 (seconds), from 1 to
+    /// Chains with more bars are refused with an estimate of the cost. Default 12 (seconds, and some
+    /// thousand equilibria), from 1 to
     /// [`Settings::MAX_BARS`].
     pub max_bars: usize,
     /// A cell narrower than this, on a face of the half cube of pulls (whose edges have length 2), is

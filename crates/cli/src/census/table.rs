@@ -5,10 +5,13 @@ use std::fmt::Write as _;
 use model::{Problem, Rung};
 
 use super::answer::{Answer, Found, Summary};
-use crate::tables::{duration, long, numbers_from, short, table, vector, word};
+use crate::tables::{duration, long, numbers_from, short, significant, table, vector, word};
 
 /// So many equilibria are printed; `--json` and `--csv` have all.
 const PRINTED: usize = 40;
+
+/// Digits of an energy in joules: in its own unit it has all.
+const ENERGY_DIGITS: usize = 10;
 
 /// So many lines of bars are printed.
 const PRINTED_BARS: usize = 80;
@@ -77,7 +80,7 @@ fn overview(problem: &Problem, answer: &Answer) -> String {
     let scaled = format!("V / {unit}");
     let from_end = format!("V / {unit} from end");
     head.push(&scaled);
-    let other_zero = shift.abs() > 0.0;
+    let other_zero = answer.census.circles && shift.abs() > 0.0;
     if other_zero {
         head.push(&from_end);
     }
@@ -86,7 +89,11 @@ fn overview(problem: &Problem, answer: &Answer) -> String {
     rows.set_header(head);
     for found in answer.equilibria.iter().take(PRINTED) {
         let e = &found.equilibrium;
-        let mut row = vec![found.label.clone(), long(e.energy_j), long(found.energy_scaled)];
+        let mut row = vec![
+            found.label.clone(),
+            significant(e.energy_j, ENERGY_DIGITS),
+            long(found.energy_scaled),
+        ];
         if other_zero {
             row.push(long(found.energy_scaled + shift));
         }
