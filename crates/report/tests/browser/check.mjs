@@ -26,6 +26,10 @@ const PHONES = [{ width: 390, height: 844 }, { width: 360, height: 740 }];
 const CONTRAST = 4.5;
 // The view takes 0.6 s from state to state.
 const TRAVEL_MS = 3000;
+// A busy machine is not a fault of the page.
+const PATIENCE_MS = 120_000;
+// px; browsers draw no picture of any height.
+const TALLEST = 12_000;
 
 let failures = 0;
 const check = (name, good, detail = "") => {
@@ -50,8 +54,11 @@ async function look(name, options, body) {
     page.on("request", (r) => {
       if (r.url() !== here && !/^(data|blob):/.test(r.url())) noise.push(`${name}: asks for ${r.url()}`);
     });
+    page.setDefaultTimeout(PATIENCE_MS);
     await page.goto(here, { waitUntil: "load" });
     await body(page);
+  } catch (error) {
+    check(name, false, error.message);
   } finally {
     await context.close();
   }
@@ -59,7 +66,9 @@ async function look(name, options, body) {
 const shot = async (page, name, node) => {
   if (!given.shots) return;
   const path = join(given.shots, `${name}.png`);
-  await (node ? page.locator(node).screenshot({ path }) : page.screenshot({ path, fullPage: true }));
+  if (node) return page.locator(node).screenshot({ path, timeout: PATIENCE_MS });
+  const [width, height] = await page.evaluate(() => [document.documentElement.scrollWidth, document.documentElement.scrollHeight]);
+  await page.screenshot({ path, fullPage: true, timeout: PATIENCE_MS, clip: { x: 0, y: 0, width, height: Math.min(height, TALLEST) } });
 };
 
 const here = pathToFileURL(file).href;
