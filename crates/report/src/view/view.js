@@ -175,6 +175,7 @@
   };
   const go = (k) => {
     cancelAnimationFrame(state.travel);
+    readout.setAttribute("aria-busy", "false");
     state.at = wrap(k);
     show();
   };
@@ -189,6 +190,8 @@
       const share = Math.min(1, Math.max(0, (now - began) / TRAVEL_MS));
       const eased = share * share * (3 - 2 * share);
       state.at = share < 1 ? wrap(Math.round(from + way * eased)) : goal;
+      // Only the end of the way is read aloud.
+      readout.setAttribute("aria-busy", String(share < 1));
       show();
       if (share < 1) state.travel = requestAnimationFrame(step);
     };
