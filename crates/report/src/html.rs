@@ -156,7 +156,8 @@ fn is_number(cell: &str) -> bool {
     let mut words = cell.split(' ');
     let first = words.next().unwrap_or_default();
     let units = words.all(|word| word.len() <= UNIT);
-    let number = first.parse::<f64>().is_ok() || first.starts_with("<\u{a0}10");
+    let digit = first.trim_start_matches(['-', '<', '\u{a0}']).chars().next();
+    let number = digit.is_some_and(|c| c.is_ascii_digit());
     cell == "-" || (cell.len() <= LONGEST && number && units)
 }
 

@@ -98,6 +98,10 @@ mod tests {
                 let mathml = super::mathml(latex);
                 assert!(!mathml.contains("merror"), "{}: {mathml}", equation.number);
                 assert!(!mathml.contains("rgb("), "{}: {mathml}", equation.number);
+                // The converter puts a space into the base of a power of a bare \cos.
+                for script in ["msup", "msub", "msubsup"] {
+                    assert!(!mathml.contains(&format!("<{script}><mspace")), "{}", equation.number);
+                }
                 assert_eq!(
                     mathml.contains("class=\"wrong\"") || mathml.contains("class=\"fixed\""),
                     equation.corrected.is_some(),

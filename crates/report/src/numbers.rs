@@ -15,6 +15,7 @@ const BOUNDS: [(f64, &str); 3] =
 /// use report::numbers::measured;
 /// assert_eq!(measured(0.522_916_3, 4), "0.5229");
 /// assert_eq!(measured(-13.0, 4), "-13");
+/// assert_eq!(measured(-3.816e-6, 3), "-3.82×10⁻⁶");
 /// assert_eq!(measured(4.1e-13, 4), "<\u{a0}10⁻¹²");
 /// assert_eq!(measured(0.0, 4), "<\u{a0}10⁻¹²");
 /// assert_eq!(measured(f64::NAN, 4), "not a number");
@@ -26,6 +27,7 @@ pub fn measured(x: f64, digits: usize) -> String {
     }
     match BOUNDS.iter().rfind(|(bound, _)| x.abs() < *bound) {
         Some((_, text)) => (*text).to_owned(),
+        None if x.abs() < SMALL => powered(x, digits),
         None => significant(x, digits),
     }
 }
@@ -39,6 +41,23 @@ pub fn measured(x: f64, digits: usize) -> String {
 pub fn in_words(x: f64, digits: usize) -> String {
     measured(x, digits).replace("<\u{a0}", "less than ")
 }
+
+/// Below this zeros would hide the digits.
+const SMALL: f64 = 1e-3;
+
+/// Digits and a power of ten.
+fn powered(x: f64, digits: usize) -> String {
+    let text = format!("{x:.*e}", digits.saturating_sub(1));
+    let (digits, exponent) = text.split_once('e').unwrap_or((&text, "0"));
+    let raised = exponent.chars().filter_map(|c| match c {
+        '-' => Some('⁻'),
+        digit => RAISED.get(digit.to_digit(10)? as usize).copied(),
+    });
+    format!("{digits}×10{}", raised.collect::<String>())
+}
+
+/// Digits as exponents.
+const RAISED: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
 
 /// A number that counts something: an integer, and a bound where it is none.
 ///

@@ -39,17 +39,16 @@ impl Basins {
             let planar = example.by_lagrange(found);
             (planar.v_mgl, planar.angles_rad[0] > 0.0)
         });
-        let letter = |(v_mgl, towards_y): (f64, bool)| {
-            let same = |place: &(f64, bool)| {
-                (place.0 - v_mgl).abs() <= SAME_ENERGY_MGL && place.1 == towards_y
-            };
+        let letter = |(v_mgl, towards_y): End| {
+            let same =
+                |place: &End| (place.0 - v_mgl).abs() <= SAME_ENERGY_MGL && place.1 == towards_y;
             LETTERS
                 .into_iter()
                 .zip(&places)
                 .find(|(_, place)| same(place))
                 .map(|(letter, _)| letter)
         };
-        let rows = |ends: fn(&Example, &[[f64; 3]]) -> Vec<Option<(f64, bool)>>| {
+        let rows = |ends: Ends| {
             let rows = (0..SIDE).into_par_iter().rev().map(|row| {
                 let starts: Vec<_> =
                     (0..SIDE).map(|column| [angle(column), angle(row), BETA_RAD]).collect();
@@ -76,8 +75,14 @@ fn angle(k: usize) -> f64 {
     (2.0 * k as f64 / (SIDE - 1) as f64 - 1.0) * std::f64::consts::PI
 }
 
-/// V in mgl where each start ends, and whether joint A lies towards +Y there.
-fn by_lagrange(example: &Example, starts: &[[f64; 3]]) -> Vec<Option<(f64, bool)>> {
+/// V in mgl where a start ends, and whether joint A lies towards +Y there.
+type End = (f64, bool);
+
+/// Where starts end with a solver.
+type Ends = fn(&Example, &[[f64; 3]]) -> Vec<Option<End>>;
+
+/// Where each start ends by `lagrange`.
+fn by_lagrange(example: &Example, starts: &[[f64; 3]]) -> Vec<Option<End>> {
     let solver = lagrange::Solver::new(&example.problem, &lagrange::Settings::default());
     let Ok(mut solver) = solver else { return vec![None; starts.len()] };
     let mut end = |angles: &[f64; 3]| {
@@ -88,7 +93,7 @@ fn by_lagrange(example: &Example, starts: &[[f64; 3]]) -> Vec<Option<(f64, bool)
 }
 
 /// The same by `energy`, which stays in the plane.
-fn by_energy(example: &Example, starts: &[[f64; 3]]) -> Vec<Option<(f64, bool)>> {
+fn by_energy(example: &Example, starts: &[[f64; 3]]) -> Vec<Option<End>> {
     let settings =
         energy::Settings { motion: energy::Motion::Plane, ..energy::Settings::default() };
     let end = |angles: &[f64; 3]| {

@@ -11,7 +11,10 @@ pub(crate) fn blocks<'a>(r: &'a Reproduction, environment: &Environment) -> Vec<
     let e = environment;
     vec![
         heading(2, "this-run", "This run"),
-        text("Everything above is the same in every run. What follows is not."),
+        text(
+            "Everything above is the same in every run; from processor to processor only what is drawn of rounding may differ, in the \
+             last points of the residuals and on the ragged borders of the basins. What follows differs.",
+        ),
         Block::Table(Table {
             caption: String::new(),
             head: vec!["what", "which"],

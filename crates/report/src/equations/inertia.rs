@@ -66,8 +66,8 @@ pub(super) const EQUATIONS: &[Equation] = &[
     },
     Equation {
         number: "(32)",
-        printed: r"[\mathbf{M}_i] = \begin{bmatrix} m_i & 0 & 0 & \\ 0 & m_i & 0 & [\mathbf{0}] \\ 0 & 0 & m_i & \\ & [\mathbf{0}] & & [\mathbf{Q}_i]^T [\mathbf{J}_{C_i}] [\mathbf{Q}_i] \end{bmatrix}",
+        printed: r"[\mathbf{M}_i] = \begin{bmatrix} m_i & 0 & 0 \\ 0 & m_i & 0 \\ 0 & 0 & m_i \end{bmatrix} \begin{bmatrix} \mathbf{0} \\ \mathbf{0} \\ {}[\mathbf{Q}_i]^T [\mathbf{J}_{C_i}] [\mathbf{Q}_i] \end{bmatrix}, \quad i = \range{1,3}",
         corrected: None,
-        says: "The matrix of inertia of a bar: mass for its centre, (31) for its angles. Set in the print as two brackets side by side; read as one block diagonal matrix, with (31) corrected.",
+        says: "The matrix of inertia of a bar: mass for its centre, (31) for its angles. The copy of the text at hand sets it as two brackets side by side; it is read as one block diagonal matrix of 6 rows, with (31) corrected.",
     },
 ];

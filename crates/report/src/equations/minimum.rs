@@ -32,7 +32,7 @@ pub(super) const EQUATIONS: &[Equation] = &[
         number: "(v)",
         printed: r"V = mgl\,(6 - 2.5\cos\theta - 1.5\cos\alpha - 0.5\cos\beta)",
         corrected: None,
-        says: "The energy of the three weights: each bar carries the centres of those below it down. Zero is where all three centres would lie at the height of D.",
+        says: "The energy of the three weights: each bar carries the centres of those below it down. Heights count from D.",
     },
     Equation {
         number: "(vi)",
@@ -50,7 +50,7 @@ pub(super) const EQUATIONS: &[Equation] = &[
     },
     Equation {
         number: "(viii)",
-        printed: r"(20 - 16\cos\theta)\cos^2\alpha + 2(26\cos\theta - 20 - 8\cos^2\theta)\cos\alpha + 16\cos^2\theta + 25 - 40\cos\theta - 4\sin^2\theta = 0",
+        printed: r"(20 - 16\cos\theta){\cos}^2\,\alpha + 2(26\cos\theta - 20 - 8{\cos}^2\,\theta)\cos\alpha + 16{\cos}^2\,\theta + 25 - 40\cos\theta - 4{\sin}^2\,\theta = 0",
         corrected: None,
         says: "For a given θ a quadratic in cos α: (vii) squared and summed, and squared once more to be rid of sin α.",
     },
