@@ -89,6 +89,19 @@ fn main() -> ExitCode {
                     let seconds = take(&problem).statistics.seconds;
                     census.statistics.seconds = census.statistics.seconds.min(seconds);
                 }
+                if !census.complete {
+                    println!("seed {seed} of {bars} bars is incomplete: {:?}", census.topology);
+                    for open in &census.undecided {
+                        println!(
+                            "  {:?} on {:?} at {:?}: {} patterns, first {:?}",
+                            open.reason,
+                            open.chart,
+                            open.at,
+                            open.signs.len(),
+                            open.signs.first()
+                        );
+                    }
+                }
                 census
             })
             .collect();
@@ -100,10 +113,6 @@ fn main() -> ExitCode {
         means.push(mean);
         let worst = seconds(chains - 1);
         let target = TARGETS.iter().find(|(at, _)| *at == bars).map(|(_, target)| *target);
-        for census in results.iter().filter(|census| !census.complete) {
-            let reasons: Vec<_> = census.undecided.iter().map(|open| open.reason).collect();
-            println!("incomplete: {reasons:?} {:?} {:?}", census.topology, census.statistics);
-        }
         good &= complete == chains && target.is_none_or(|target| worst < target);
         println!(
             "{bars:4} {chains:6} {complete:8} {:15} {:10} {mean:.4} {:8.4} {worst:7.4} {:6.0e} {}",

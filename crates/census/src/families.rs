@@ -134,3 +134,62 @@ fn family(system: &System, signs: &[i8], group: u8) -> Existence {
         topology,
     }))
 }
+
+#[cfg(test)]
+mod tests {
+    use model::{Anchors, Bar, Chain, Problem};
+
+    use crate::{Census, Reason, Settings};
+
+    /// Bars as (length, mass, centre).
+    fn census(bars: &[(f64, f64, f64)], end_m: [f64; 3]) -> Census {
+        let bars = bars.iter().map(|(l, m, r)| Bar::new(*l, *m, *r, [0.0; 3]).unwrap()).collect();
+        let anchors = Anchors { start_m: [0.0; 3], end_m };
+        let problem = Problem::new(Chain::new("slack", 10.0, anchors, bars).unwrap()).unwrap();
+        let census = Census::take(&problem, &Settings::default()).unwrap();
+        assert_eq!(census.check(&problem), Ok(()));
+        census
+    }
+
+    #[test]
+    fn a_family_has_the_energy_and_the_forces_of_its_geometry() {
+        let bars = [(0.9, 2.0, 0.3), (0.5, 0.0, 0.25), (0.6, 0.0, 0.3), (0.7, 1.5, 0.2)];
+        let census = census(&bars, [0.3, 0.0, -0.1]);
+        assert!(census.complete);
+        let hanging = census.families.iter().find(|family| family.signs == [1, 0, 0, 1]).unwrap();
+        // Bar 1 hangs from the start, bar 4 from the end: by hand, with g = 10 m/s².
+        let energy = 10.0 * (2.0 * -0.3 + 1.5 * (-0.1 - 0.7 + 0.2));
+        let gap = (0.3_f64.powi(2) + 0.1_f64.powi(2)).sqrt();
+        let near = |interval: crate::Interval, expected: f64| {
+            (interval.mid() - expected).abs() < 1e-14 && interval.width() < 1e-13
+        };
+        assert!(near(hanging.energy_j, energy), "{:?}", hanging.energy_j);
+        assert!(near(hanging.gap_m, gap));
+        // Each hanging bar carries the share of its weight at its free end.
+        assert!(near(hanging.axial_n[0], 20.0 * 0.3 / 0.9));
+        assert!(near(hanging.axial_n[3], 15.0 * 0.5 / 0.7));
+        assert_eq!((hanging.index_in_plane, hanging.index_in_space()), (0, 0));
+        // No equilibrium is lower.
+        let lowest = census.equilibria.first().map_or(f64::INFINITY, |e| e.energy_j.lo());
+        assert!(hanging.energy_j.hi() < lowest);
+    }
+
+    #[test]
+    fn a_gap_that_may_be_zero_is_not_decided() {
+        // Bar 1 down by 0.9 and bar 4 up by 0.5 leave no gap for two equal slack bars: they can turn
+        // all around, folded, which is no regular family.
+        let bars = [(0.9, 2.0, 0.3), (0.4, 0.0, 0.2), (0.4, 0.0, 0.2), (0.5, 1.5, 0.2)];
+        let census = census(&bars, [0.0, 0.0, -0.4]);
+        assert!(!census.complete);
+        let unclear = census.undecided.iter().filter(|open| open.reason == Reason::Slack);
+        assert!(unclear.flat_map(|open| &open.signs).any(|signs| signs == &[1, 0, 0, 1]));
+    }
+
+    #[test]
+    fn a_gap_out_of_reach_is_no_family() {
+        // 0.4 + 0.4 cannot bridge what two hanging bars leave of a span of 1.5.
+        let bars = [(0.9, 2.0, 0.3), (0.4, 0.0, 0.2), (0.4, 0.0, 0.2), (0.5, 1.5, 0.2)];
+        let census = census(&bars, [1.5, 0.0, 0.0]);
+        assert!(census.complete && census.families.is_empty());
+    }
+}

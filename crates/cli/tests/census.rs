@@ -298,7 +298,7 @@ fn a_straight_closure_is_undecided_and_says_so() {
     assert_eq!(output.status.code(), Some(3));
     let text = stdout(&output);
     for wanted in
-        ["NOT proved to be all", "Undecided:", "infinite", "complete  0 of", "straight position"]
+        ["NOT proved to be all", "Undecided:", "unbounded", "complete  0 of", "straight position"]
     {
         assert!(text.contains(wanted), "{wanted} is not in\n{text}");
     }

@@ -250,7 +250,7 @@ fn undecided(census: &Summary) -> String {
     let mut rows = table(["pull, level / N", "pull, upright / N", "patterns", "first", "why"]);
     for open in census.undecided.iter().take(PRINTED_OPEN) {
         let [level, upright] = open.pull_n.map_or_else(
-            || ["infinite".to_owned(), "infinite".to_owned()],
+            || ["unbounded".to_owned(), "unbounded".to_owned()],
             |parts| parts.map(|[low, high]| format!("{} .. {}", short(low), short(high))),
         );
         rows.add_row([
