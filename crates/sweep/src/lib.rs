@@ -1,12 +1,41 @@
 //! Many seeds and many parameters in parallel: which start leads where.
 
+mod error;
+mod identify;
+mod manifest;
+mod merge;
 mod product;
 mod record;
+mod seeds;
+mod settings;
+mod shard;
+mod sobol;
+mod source;
+mod store;
+mod store_error;
+mod store_part;
+mod store_tally;
+mod summary;
+mod sweep;
 mod trace;
 mod vary;
 
+pub use error::SweepError;
+pub use identify::{JOINT_TOLERANCE, Member, Members, Origin};
+pub use manifest::{Manifest, SCHEMA_VERSION, SystemText};
+pub use merge::merge;
 pub use product::{Combine, Study};
 pub use record::{Chunk, Failure, Outcomes};
+pub use seeds::Stream;
+pub use settings::{Settings, Solvers};
+pub use shard::{Shard, ShardError, part_seeds};
+pub use source::{Axis, Source};
+pub use store::{Compute, Run, RunSettings, StoreSummary, run};
+pub use store_error::StoreError;
+pub use store_part::{PartRecord, schema};
+pub use store_tally::{OutcomeTally, SolverTally, Tally, rate_interval};
+pub use summary::{Comparison, Disagreement, KEPT, Summary};
+pub use sweep::Sweep;
 pub use trace::{
     Branch, BranchEnd, BranchPoint, Checks, Event, EventKind, PointStatus, Trace, TraceError,
     TracePoint, TraceProgress, TraceSettings, trace,

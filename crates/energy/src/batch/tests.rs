@@ -99,7 +99,8 @@ fn bad_and_straight_seeds() {
     let ends = solved(&problem, &[f64::NAN, 0.0, 1.0, 0.3, 0.7, -1.3, 1.0, f64::INFINITY, 1.0]);
     assert_eq!(ends.finish, [Finish::NonFinite, Finish::Minimum, Finish::NonFinite]);
     // Parallel bars cannot close to first order; E2 is stationary and a maximum.
-    let e2 = [73.92058879223134_f64, -38.59913618445189, -19.69486797613302].map(f64::to_radians);
+    let e2 = [73.920_588_792_231_34_f64, -38.599_136_184_451_89, -19.694_867_976_133_02]
+        .map(f64::to_radians);
     let ends = solved(&problem, &[[0.0; 3], [TAU / 2.0; 3], [1.0; 3], e2].concat());
     assert_eq!(ends.finish, [Finish::Minimum; 4]);
     assert!(solved(&problem, &[]).finish.is_empty());

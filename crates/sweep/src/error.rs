@@ -1,0 +1,73 @@
+//! Why a sweep cannot be made.
+
+/// Why a sweep cannot be made.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum SweepError {
+    /// Occurs when Sobol's sequence is asked for more bars than the table of direction numbers has.
+    #[error(
+        "Sobol's sequence is tabulated for up to {most} bars, the chain has {bars}: take uniform seeds"
+    )]
+    SobolDimensions {
+        /// Bars of the chain.
+        bars: usize,
+        /// Dimensions of the table.
+        most: usize,
+    },
+    /// Occurs when a grid has not one axis for each bar.
+    #[error("a grid needs one axis for each of the {bars} bars, got {axes}")]
+    GridAxes {
+        /// Bars of the chain.
+        bars: usize,
+        /// Axes as given.
+        axes: usize,
+    },
+    /// Occurs when an axis of a grid has no point, or an end that is no finite number.
+    #[error("axis {axis} of the grid, {points} points from {from_rad} to {to_rad} rad, is none")]
+    GridAxis {
+        /// Number of the axis, from 1.
+        axis: usize,
+        /// Points.
+        points: u64,
+        /// First end, rad.
+        from_rad: f64,
+        /// Last end, rad.
+        to_rad: f64,
+    },
+    /// Occurs when a grid has more points than can be counted.
+    #[error("the grid has more points than 2^64")]
+    GridSize,
+    /// Occurs when the chunks are empty or too long.
+    #[error("a chunk must have from 1 to {most} seeds, got {seeds}")]
+    Chunk {
+        /// As given.
+        seeds: u64,
+        /// Most.
+        most: u64,
+    },
+    /// Occurs when the chain has more equilibria than the columns can number.
+    #[error("{members} equilibria are more than the columns can number ({most})")]
+    TooManyEquilibria {
+        /// Found.
+        members: usize,
+        /// Largest number.
+        most: usize,
+    },
+    /// Occurs when a setting of the first solver is out of range.
+    #[error("lagrange: {0}")]
+    Lagrange(#[from] lagrange::SettingsError),
+    /// Occurs when a setting of the second solver is out of range.
+    #[error("energy: {0}")]
+    Energy(#[from] energy::Error),
+    /// Occurs when no census can be taken and nothing can be discovered either.
+    #[error("census: {0}")]
+    Census(#[from] census::CensusError),
+    /// Occurs when the threads cannot be started.
+    #[error("cannot start {threads} threads: {reason}")]
+    Threads {
+        /// How many.
+        threads: usize,
+        /// What the system says.
+        reason: String,
+    },
+}

@@ -1,0 +1,319 @@
+//! The list of equilibria that outcomes are numbered by, and the way to a number.
+
+use std::cmp::Ordering;
+use std::f64::consts::PI;
+
+use census::{Census, CensusError, ProvenEquilibrium, SlackFamily};
+use model::Problem;
+use serde::{Deserialize, Serialize};
+
+use crate::error::SweepError;
+use crate::settings::Settings;
+use crate::source::Source;
+
+/// An outcome is an equilibrium of the list when no joint is farther from it than this, in total lengths.
+/// A converged seed is within its residual (1e-13) times the condition of the equilibrium; equilibria
+/// nearer to each other than four times this narrow it to a quarter of their distance.
+pub const JOINT_TOLERANCE: f64 = 1e-6;
+
+/// Energies of one equilibrium differ by less than this, in total weight times total length: near an
+/// equilibrium the energy changes with the square of the distance, and with the gap.
+const ENERGY_TOLERANCE: f64 = 1e-9;
+
+/// Seed number of the seeds that discover equilibria: always the same, whatever the sweep.
+const DISCOVERY: u64 = 0x0066_756e_6963_756c;
+
+/// Where an entry of the list comes from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Origin {
+    /// Proved by the census.
+    Proven,
+    /// A family of equilibria with slack bars, proved by the census; one number for the whole of it.
+    Family,
+    /// Reached by a seed, where the census is not complete.
+    Discovered,
+}
+
+/// One entry of the list.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Member {
+    /// Where it comes from.
+    pub origin: Origin,
+    /// Potential energy above the height of joint 0, J.
+    pub energy_j: f64,
+    /// Angles of the bars from the descending vertical towards the last anchor, rad. Of a family, those
+    /// of one shape for the bars that carry force, and none for the slack ones.
+    pub angles_rad: Vec<Option<f64>>,
+    /// Negative directions of the second derivative of the energy in the plane; 0 is a minimum. None if
+    /// it is not known.
+    pub index_in_plane: Option<usize>,
+    /// With the anchors on one vertical: whether this is the mirror image of the entry that the census
+    /// shows, half a turn away on the same circle of equilibria.
+    pub mirrored: bool,
+}
+
+/// All entries, by energy and then by angles, and what it takes to find one. Equal for equal problems and
+/// settings: it depends on no seed of the sweep, no thread, no shard.
+///
+/// It is the list of the census when that is complete. When the census leaves something undecided, or the
+/// chain is too long for one, what [`Settings::discover`] random seeds (always the same) reach through
+/// both solvers is added. A seed that later converges to something else is
+/// [`Failure::Unlisted`](crate::Failure::Unlisted), and stays in the count.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Members {
+    list: Vec<Member>,
+    complete: bool,
+    lookup: Lookup,
+}
+
+/// The list in units of the chain.
+#[derive(Debug, Clone, PartialEq)]
+struct Lookup {
+    lengths: Vec<f64>,
+    /// One per entry, ascending.
+    energies: Vec<f64>,
+    /// Directions, n per entry; undefined for slack bars.
+    directions: Vec<[f64; 2]>,
+    /// Total weight times total length, J.
+    unit_j: f64,
+    tolerance: f64,
+}
+
+impl Members {
+    /// Make the list.
+    ///
+    /// # Errors
+    ///
+    /// [`SweepError::Census`] when every position is an equilibrium, [`SweepError::TooManyEquilibria`] when
+    /// the columns cannot number them.
+    pub fn of(problem: &Problem, settings: &Settings) -> Result<Self, SweepError> {
+        let (mut list, complete) = match Census::take(problem, &settings.census) {
+            Ok(census) => (proven(&census, problem), census.complete),
+            Err(CensusError::TooManyBars { .. }) => (vec![], false),
+            Err(error) => return Err(error.into()),
+        };
+        if list.len() > Self::MOST {
+            return Err(SweepError::TooManyEquilibria { members: list.len(), most: Self::MOST });
+        }
+        list.sort_by(by_energy_and_angles);
+        let mut members = Self { lookup: Lookup::new(problem, &list), list, complete };
+        if !complete {
+            members.discover(problem, settings)?;
+        }
+        Ok(members)
+    }
+
+    /// Largest number of entries: as many as there are codes that are not negative.
+    const MOST: usize = i16::MAX as usize;
+
+    /// The entries; the number of one is its place.
+    #[must_use]
+    pub fn list(&self) -> &[Member] {
+        &self.list
+    }
+
+    /// Whether it is proved that there are no others.
+    #[must_use]
+    pub fn complete(&self) -> bool {
+        self.complete
+    }
+
+    /// Largest distance of a joint from an entry, in total lengths: [`JOINT_TOLERANCE`] or less.
+    #[must_use]
+    pub fn tolerance(&self) -> f64 {
+        self.lookup.tolerance
+    }
+
+    /// The number of the nearest entry within the tolerance, for unit directions (along the heading, up)
+    /// of the bars.
+    #[must_use]
+    pub fn identify(&self, directions: &[[f64; 2]], energy_j: f64) -> Option<i16> {
+        let entry = self.lookup.nearest(directions, energy_j)?;
+        i16::try_from(entry).ok()
+    }
+
+    /// Add what the fixed random seeds reach.
+    fn discover(&mut self, problem: &Problem, settings: &Settings) -> Result<(), SweepError> {
+        const RUN: u64 = 1000;
+        let bars = problem.chain().bars().len();
+        let spring = Source::Uniform.ready(DISCOVERY, bars)?;
+        let newton = lagrange::batch::Batch::new(problem, settings.lagrange)?;
+        let descent = energy::batch::Batch::new(problem, settings.energy)?;
+        let mut angles = vec![];
+        let mut points = lagrange::batch::Ends::default();
+        let mut minima = energy::batch::Ends::default();
+        let all = u64::from(settings.discover);
+        for start in (0..all).step_by(usize::try_from(RUN).unwrap_or(1)) {
+            spring.fill(start..all.min(start + RUN), bars, &mut angles);
+            // Minima first: their index is known.
+            descent.minimise(&angles, &mut minima);
+            for (k, finish) in minima.finish.iter().enumerate() {
+                if *finish == energy::batch::Finish::Minimum {
+                    let u = &minima.directions[k * bars..(k + 1) * bars];
+                    self.add(u, minima.energy_j[k], Some(0));
+                }
+            }
+            newton.solve(&angles, &mut points);
+            for (k, finish) in points.finish.iter().enumerate() {
+                if *finish == lagrange::batch::Finish::Converged {
+                    let u = &points.directions[k * bars..(k + 1) * bars];
+                    self.add(u, points.energy_j[k], None);
+                }
+            }
+        }
+        self.lookup = Lookup::new(problem, &self.list);
+        Ok(())
+    }
+
+    /// Add an entry unless it is there.
+    fn add(&mut self, u: &[[f64; 2]], energy_j: f64, index: Option<usize>) {
+        if self.list.len() >= Self::MOST || self.lookup.nearest(u, energy_j).is_some() {
+            return;
+        }
+        let member = Member {
+            origin: Origin::Discovered,
+            energy_j,
+            angles_rad: u.iter().map(|u| Some(u[0].atan2(-u[1]))).collect(),
+            index_in_plane: index,
+            mirrored: false,
+        };
+        let at = self.list.partition_point(|other| by_energy_and_angles(other, &member).is_lt());
+        self.list.insert(at, member);
+        let bars = u.len();
+        self.lookup.energies.insert(at, energy_j / self.lookup.unit_j);
+        self.lookup.directions.splice(at * bars..at * bars, u.iter().copied());
+    }
+}
+
+impl Lookup {
+    fn new(problem: &Problem, list: &[Member]) -> Self {
+        let chain = problem.chain();
+        let total_m = chain.total_length_m();
+        let unit_j = chain.total_mass_kg() * chain.gravity_m_s2() * total_m;
+        let directions = list.iter().flat_map(|member| {
+            member.angles_rad.iter().map(|angle| {
+                angle.map_or([f64::NAN; 2], |angle| {
+                    let (sin, cos) = angle.sin_cos();
+                    [sin, -cos]
+                })
+            })
+        });
+        let mut lookup = Self {
+            lengths: chain.bars().iter().map(|bar| bar.length_m() / total_m).collect(),
+            energies: list.iter().map(|member| member.energy_j / unit_j).collect(),
+            directions: directions.collect(),
+            unit_j,
+            tolerance: JOINT_TOLERANCE,
+        };
+        let separation = lookup.separation();
+        lookup.tolerance = JOINT_TOLERANCE.min(0.25 * separation);
+        lookup
+    }
+
+    /// Smallest distance of two entries that are not farther apart in energy than the tolerance.
+    fn separation(&self) -> f64 {
+        let bars = self.lengths.len();
+        let mut least = f64::INFINITY;
+        for (entry, energy) in self.energies.iter().enumerate() {
+            let same = |other: &f64| other - energy <= 2.0 * ENERGY_TOLERANCE;
+            for other in entry + 1..self.energies.len() {
+                if !same(&self.energies[other]) {
+                    break;
+                }
+                let u = &self.directions[other * bars..(other + 1) * bars];
+                least = least.min(self.distance(entry, u));
+            }
+        }
+        least
+    }
+
+    /// The nearest entry within the tolerance.
+    #[inline]
+    fn nearest(&self, u: &[[f64; 2]], energy_j: f64) -> Option<usize> {
+        let energy = energy_j / self.unit_j;
+        let first = self.energies.partition_point(|other| *other < energy - ENERGY_TOLERANCE);
+        let mut best = (self.tolerance, None);
+        for entry in first..self.energies.len() {
+            if self.energies[entry] > energy + ENERGY_TOLERANCE {
+                break;
+            }
+            let distance = self.distance(entry, u);
+            if distance <= best.0 {
+                best = (distance, Some(entry));
+            }
+        }
+        best.1
+    }
+
+    /// Largest distance of a joint, in total lengths; for a family, largest part of a joint's distance that
+    /// the bars in force make.
+    #[inline]
+    fn distance(&self, entry: usize, u: &[[f64; 2]]) -> f64 {
+        let bars = self.lengths.len();
+        let member = &self.directions[entry * bars..(entry + 1) * bars];
+        let (mut off, mut largest) = ([0.0; 2], 0.0_f64);
+        for ((length, a), b) in self.lengths.iter().zip(member).zip(u) {
+            if a[0].is_nan() {
+                continue;
+            }
+            off[0] += length * (b[0] - a[0]);
+            off[1] += length * (b[1] - a[1]);
+            let square = off[0] * off[0] + off[1] * off[1];
+            // Undefined distances are the largest.
+            largest = if square <= largest { largest } else { square };
+        }
+        largest.sqrt()
+    }
+}
+
+/// Entries of the census: isolated equilibria, both halves of circles, and families.
+fn proven(census: &Census, problem: &Problem) -> Vec<Member> {
+    let isolated = census.equilibria.iter().flat_map(|equilibrium| {
+        let shown = isolated(equilibrium, false);
+        let mirrored = equilibrium.circle.then(|| isolated(equilibrium, true));
+        std::iter::once(shown).chain(mirrored)
+    });
+    isolated.chain(census.families.iter().map(|slack| family(slack, problem))).collect()
+}
+
+fn isolated(equilibrium: &ProvenEquilibrium, mirrored: bool) -> Member {
+    let sign = if mirrored { -1.0 } else { 1.0 };
+    Member {
+        origin: Origin::Proven,
+        energy_j: equilibrium.energy_j.mid(),
+        angles_rad: equilibrium.angles_rad.iter().map(|angle| Some(sign * angle.mid())).collect(),
+        index_in_plane: Some(equilibrium.index_in_plane),
+        mirrored,
+    }
+}
+
+/// The bars in force of a family stand upright: without a horizontal pull nothing else is in balance. Bar i
+/// points the way of its force, the pull and the weight before it, times its sign.
+fn family(slack: &SlackFamily, problem: &Problem) -> Member {
+    let chain = problem.chain();
+    let mut before = slack.pull_n[1].mid();
+    let angles = chain.bars().iter().zip(&slack.signs).map(|(bar, sign)| {
+        let weight = bar.mass_kg() * chain.gravity_m_s2();
+        let force = before + weight * (1.0 - bar.centre_m() / bar.length_m());
+        before += weight;
+        let up = force * f64::from(*sign) > 0.0;
+        (*sign != 0).then_some(if up { PI } else { 0.0 })
+    });
+    Member {
+        origin: Origin::Family,
+        energy_j: slack.energy_j.mid(),
+        angles_rad: angles.collect(),
+        index_in_plane: Some(slack.index_in_plane),
+        mirrored: false,
+    }
+}
+
+/// By energy, then by the angles, bar by bar; slack bars first.
+fn by_energy_and_angles(a: &Member, b: &Member) -> Ordering {
+    let angles = a.angles_rad.iter().zip(&b.angles_rad);
+    angles.fold(a.energy_j.total_cmp(&b.energy_j), |order, (x, y)| {
+        let less = |x: &Option<f64>| x.unwrap_or(f64::NEG_INFINITY);
+        order.then(less(x).total_cmp(&less(y)))
+    })
+}

@@ -1,0 +1,74 @@
+//! What can be chosen for a sweep over seeds.
+
+use crate::error::SweepError;
+use crate::source::Source;
+
+/// Which solvers are asked.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Solvers {
+    /// The paper's Newton iteration, which finds every kind of equilibrium.
+    Lagrange,
+    /// The minimisation of the energy.
+    Energy,
+    /// Both, from the same seeds.
+    #[default]
+    Both,
+}
+
+/// A sweep over seeds.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Settings {
+    /// The seed number: with it and the source, seed k is fixed. Default 1.
+    pub number: u64,
+    /// How the seeds are spread. Default uniform.
+    pub source: Source,
+    /// Which solvers. Default both.
+    pub solvers: Solvers,
+    /// Seeds in a chunk of [`Sweep::run`](crate::Sweep::run). Default 16,384, from 1 to 2²⁴: small enough for
+    /// the memory of a processor core, large enough to cost nothing.
+    pub chunk: u64,
+    /// Of the first solver.
+    pub lagrange: lagrange::batch::BatchSettings,
+    /// Of the second.
+    pub energy: energy::batch::BatchSettings,
+    /// Of the census that the outcomes are identified against. Default: that of the crate.
+    pub census: census::Settings,
+    /// Random seeds through both solvers that make the list where the census does not: see
+    /// [`Members`](crate::Members). Default 20,000; 0 for none.
+    pub discover: u32,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self {
+            number: 1,
+            source: Source::Uniform,
+            solvers: Solvers::Both,
+            chunk: 1 << 14,
+            lagrange: lagrange::batch::BatchSettings::default(),
+            energy: energy::batch::BatchSettings::default(),
+            census: census::Settings::default(),
+            discover: 20_000,
+        }
+    }
+}
+
+impl Settings {
+    /// Most seeds in a chunk.
+    pub const LARGEST_CHUNK: u64 = 1 << 24;
+
+    /// Check every range.
+    ///
+    /// # Errors
+    ///
+    /// [`SweepError`] for the first setting out of range.
+    pub fn validate(&self) -> Result<(), SweepError> {
+        if !(1..=Self::LARGEST_CHUNK).contains(&self.chunk) {
+            return Err(SweepError::Chunk { seeds: self.chunk, most: Self::LARGEST_CHUNK });
+        }
+        self.lagrange.validate()?;
+        self.energy.validate()?;
+        self.census.validate()?;
+        Ok(())
+    }
+}

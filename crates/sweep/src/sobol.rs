@@ -1,0 +1,151 @@
+//! Sobol's sequence, any point by its index.
+
+use crate::error::SweepError;
+
+/// Bits of a coordinate, and of the index.
+const BITS: usize = 64;
+
+/// Points in the unit cube that fill it evenly, in the order of the Gray code.
+///
+/// # References
+///
+/// S. Joe, F. Y. Kuo, "Constructing Sobol sequences with better two-dimensional projections", SIAM J. Sci.
+/// Comput. 30, 2008, doi:10.1137/070709359; their table new-joe-kuo-6.
+#[derive(Debug, Clone)]
+pub(crate) struct Sobol {
+    /// Direction numbers of each dimension.
+    directions: Vec<[u64; BITS]>,
+}
+
+impl Sobol {
+    pub(crate) fn new(dimensions: usize) -> Result<Self, SweepError> {
+        if dimensions > Self::MOST {
+            return Err(SweepError::SobolDimensions { bars: dimensions, most: Self::MOST });
+        }
+        let first = std::array::from_fn(|bit| 1 << (BITS - 1 - bit));
+        let others = JOE_KUO.iter().map(|(polynomial, start)| recurrence(*polynomial, start));
+        Ok(Self { directions: std::iter::once(first).chain(others).take(dimensions).collect() })
+    }
+
+    /// Dimensions in the table.
+    pub(crate) const MOST: usize = JOE_KUO.len() + 1;
+
+    /// Coordinate `dimension` of point `k`, as a binary fraction of 64 bits.
+    #[inline]
+    pub(crate) fn at(&self, k: u64, dimension: usize) -> u64 {
+        let mut gray = k ^ (k >> 1);
+        let mut bits = 0;
+        while gray != 0 {
+            bits ^= self.directions[dimension][gray.trailing_zeros() as usize];
+            gray &= gray - 1;
+        }
+        bits
+    }
+}
+
+/// Direction numbers $v_j = m_j/2^j$ from the first ones and a primitive polynomial of the same degree s,
+/// whose inner coefficients are the bits of `a`:
+/// $v_j = a_1 v_{j-1} \oplus \dots \oplus a_{s-1} v_{j-s+1} \oplus v_{j-s} \oplus (v_{j-s}/2^s)$.
+fn recurrence(a: u32, start: &[u32]) -> [u64; BITS] {
+    let degree = start.len();
+    let mut v = [0_u64; BITS];
+    for j in 0..BITS {
+        v[j] = if j < degree {
+            u64::from(start[j]) << (BITS - 1 - j)
+        } else {
+            let mut bits = v[j - degree] ^ (v[j - degree] >> degree);
+            for k in 1..degree {
+                if a >> (degree - 1 - k) & 1 == 1 {
+                    bits ^= v[j - k];
+                }
+            }
+            bits
+        };
+    }
+    v
+}
+
+/// Inner coefficients of the polynomial, and the first $m_j$, of dimensions 2 to 32.
+const JOE_KUO: [(u32, &[u32]); 31] = [
+    (0, &[1]),
+    (1, &[1, 3]),
+    (1, &[1, 3, 1]),
+    (2, &[1, 1, 1]),
+    (1, &[1, 1, 3, 3]),
+    (4, &[1, 3, 5, 13]),
+    (2, &[1, 1, 5, 5, 17]),
+    (4, &[1, 1, 5, 5, 5]),
+    (7, &[1, 1, 7, 11, 19]),
+    (11, &[1, 1, 5, 1, 1]),
+    (13, &[1, 1, 1, 3, 11]),
+    (14, &[1, 3, 5, 5, 31]),
+    (1, &[1, 3, 3, 9, 7, 49]),
+    (13, &[1, 1, 1, 15, 21, 21]),
+    (16, &[1, 3, 1, 13, 27, 49]),
+    (19, &[1, 1, 1, 15, 7, 5]),
+    (22, &[1, 3, 1, 15, 13, 25]),
+    (25, &[1, 1, 5, 5, 19, 61]),
+    (1, &[1, 3, 7, 11, 23, 15, 103]),
+    (4, &[1, 3, 7, 13, 13, 15, 69]),
+    (7, &[1, 1, 3, 13, 7, 35, 63]),
+    (8, &[1, 3, 5, 9, 1, 25, 53]),
+    (14, &[1, 3, 1, 13, 9, 35, 107]),
+    (19, &[1, 3, 1, 5, 27, 61, 31]),
+    (21, &[1, 1, 5, 11, 19, 41, 61]),
+    (28, &[1, 3, 5, 3, 3, 13, 69]),
+    (31, &[1, 1, 7, 13, 1, 19, 1]),
+    (32, &[1, 3, 7, 5, 13, 19, 59]),
+    (37, &[1, 1, 3, 9, 25, 29, 41]),
+    (41, &[1, 3, 5, 13, 23, 1, 55]),
+    (42, &[1, 3, 7, 3, 13, 59, 17]),
+];
+
+#[cfg(test)]
+mod tests {
+    use super::Sobol;
+    use crate::seeds::unit;
+
+    /// Dimensions 1, 2, 3, 8, 21 and 32 of the points as SciPy 1.17 gives them (`qmc.Sobol(32,
+    /// scramble=False)`, all digits: they are dyadic).
+    #[test]
+    fn points_are_those_of_another_program() {
+        let sobol = Sobol::new(32).unwrap();
+        for (k, expected) in [
+            (2, [0.75, 0.25, 0.25, 0.75, 0.25, 0.25]),
+            (5, [0.875, 0.875, 0.125, 0.375, 0.625, 0.625]),
+            (100, [0.414_062_5, 0.257_812_5, 0.773_437_5, 0.476_562_5, 0.757_812_5, 0.414_062_5]),
+            (
+                1000,
+                [
+                    0.219_726_562_5,
+                    0.096_679_687_5,
+                    0.518_554_687_5,
+                    0.899_414_062_5,
+                    0.522_460_937_5,
+                    0.145_507_812_5,
+                ],
+            ),
+        ] {
+            for (dimension, x) in [0, 1, 2, 7, 20, 31].into_iter().zip(expected) {
+                assert!((unit(sobol.at(k, dimension)) - x).abs() <= 0.0, "{k} {dimension}");
+            }
+        }
+    }
+
+    #[test]
+    fn every_block_of_points_is_a_permutation() {
+        let sobol = Sobol::new(32).unwrap();
+        for dimension in 0..32 {
+            let mut seen = [false; 1024];
+            for k in 1024..2048 {
+                seen[usize::try_from(sobol.at(k, dimension) >> 54).unwrap()] = true;
+            }
+            assert!(seen.iter().all(|seen| *seen));
+        }
+    }
+
+    #[test]
+    fn more_dimensions_than_the_table_are_refused() {
+        assert!(Sobol::new(33).is_err());
+    }
+}

@@ -1,0 +1,217 @@
+//! Sweeps over seeds: the same bits however they are cut, every seed accounted for, and the equilibria
+//! those of the census and of the scalar solvers.
+#![expect(clippy::unwrap_used, reason = "tests")]
+
+use model::{Anchors, Bar, Chain, Problem};
+use sweep::{Axis, Chunk, Comparison, Failure, Settings, Solvers, Source, Summary, Sweep};
+
+/// A chain between anchors at different heights, its bars all different: four planar equilibria at least.
+fn uneven(bars: usize) -> Problem {
+    let list = (0..bars)
+        .map(|k| {
+            let length = 1.0 + 0.37 * ((3 * k + 1) % 5) as f64;
+            Bar::new(length, 0.5 + 0.41 * ((2 * k) % 3) as f64, 0.4 * length, [0.0; 3]).unwrap()
+        })
+        .collect();
+    let anchors = Anchors { start_m: [0.3, -0.2, 1.0], end_m: [1.7, 0.9, 0.2] };
+    Problem::new(Chain::new("uneven", 9.81, anchors, list).unwrap()).unwrap()
+}
+
+/// All bits of a chunk, columns one after the other.
+fn bits(chunks: &[Chunk]) -> Vec<u64> {
+    let mut all = vec![];
+    for outcomes in chunks.iter().flat_map(|chunk| [&chunk.lagrange, &chunk.energy]).flatten() {
+        all.extend(outcomes.outcome.iter().map(|x| u64::from(x.cast_unsigned())));
+        all.extend(outcomes.iterations.iter().map(|x| u64::from(*x)));
+        all.extend(outcomes.residual.iter().chain(&outcomes.energy_j).map(|x| x.to_bits()));
+    }
+    all
+}
+
+#[test]
+fn a_run_of_seeds_has_the_same_bits_however_it_is_cut() {
+    let grid = Source::Grid(vec![Axis::full(40), Axis::full(30), Axis::fixed(0.3)]);
+    for source in [Source::Uniform, Source::Sobol, grid] {
+        let settings = Settings { number: 5, source, ..Settings::default() };
+        let sweep = Sweep::new(&model::cases::paper(), settings).unwrap();
+        let whole = sweep.run_chunk(100..3100);
+        let mut start = 100;
+        // Lengths below, at and above a group of lanes and a block.
+        for length in [1, 7, 8, 500, 1024, 1025] {
+            let part = sweep.run_chunk(start..start + length);
+            let at = usize::try_from(start - 100).unwrap();
+            let end = at + usize::try_from(length).unwrap();
+            for (part, whole) in [(&part.lagrange, &whole.lagrange), (&part.energy, &whole.energy)]
+            {
+                let (part, whole) = (part.as_ref().unwrap(), whole.as_ref().unwrap());
+                assert_eq!(part.outcome, whole.outcome[at..end]);
+                assert_eq!(part.iterations, whole.iterations[at..end]);
+                let same =
+                    |a: &[f64], b: &[f64]| a.iter().zip(b).all(|(a, b)| a.to_bits() == b.to_bits());
+                assert!(same(&part.energy_j, &whole.energy_j[at..end]));
+                assert!(same(&part.residual, &whole.residual[at..end]));
+            }
+            start += length;
+        }
+        assert_eq!(bits(&[whole]), bits(&[sweep.run_chunk(100..3100)]));
+    }
+}
+
+#[test]
+fn a_summary_is_the_same_for_any_threads_and_chunks() {
+    let problem = uneven(4);
+    let run = |threads: usize, chunk: u64| {
+        let settings = Settings { chunk, ..Settings::default() };
+        Sweep::new(&problem, settings).unwrap().run(11..6011, threads).unwrap()
+    };
+    let one = run(1, 6000);
+    for (threads, chunk) in [(2, 1000), (3, 7), (2, 1), (1, 16_384)] {
+        assert_eq!(one, run(threads, chunk));
+    }
+    // Folded by hand, in another order.
+    let sweep = Sweep::new(&problem, Settings::default()).unwrap();
+    let mut last = Summary::new(sweep.members().list());
+    last.add(&sweep.run_chunk(5000..6011));
+    let mut first = Summary::new(sweep.members().list());
+    first.add(&sweep.run_chunk(11..5000));
+    last.merge(&first);
+    assert_eq!(one, last);
+}
+
+#[test]
+fn every_seed_of_the_paper_is_accounted_for_and_listed() {
+    let sweep = Sweep::new(&model::cases::paper(), Settings::default()).unwrap();
+    assert!(sweep.members().complete());
+    let summary = sweep.run(0..100_000, 2).unwrap();
+    let tally = summary.tally();
+    let (lagrange, energy) = (tally.lagrange.as_ref().unwrap(), tally.energy.as_ref().unwrap());
+    let counts = |rows: &sweep::SolverTally| {
+        rows.0.iter().map(|(outcome, row)| (*outcome, row.count)).collect::<Vec<_>>()
+    };
+    // E1 and its image are minima, 0 and 1; E2 and its image maxima, 2 and 3.
+    let (newton, descent) = (counts(lagrange), counts(energy));
+    assert_eq!(newton.iter().map(|row| row.0).collect::<Vec<_>>(), [0, 1, 2, 3]);
+    assert_eq!(descent.iter().map(|row| row.0).collect::<Vec<_>>(), [0, 1]);
+    assert_eq!(newton.iter().map(|row| row.1).sum::<u64>(), 100_000);
+    assert_eq!(descent.iter().map(|row| row.1).sum::<u64>(), 100_000);
+    // The mirror image of a seed is as likely as the seed: equal rates, to five standard deviations
+    // of the difference of two counts.
+    for pair in [&newton[..2], &newton[2..], &descent[..]] {
+        let (a, b) = (pair[0].1 as f64, pair[1].1 as f64);
+        assert!((a - b).abs() < 5.0 * (a + b).sqrt(), "{a} {b}");
+    }
+    assert_eq!(summary.comparisons().map(|row| row.1).sum::<u64>(), 100_000);
+    assert!(summary.disagreements().is_empty());
+    let (rate, (low, high)) = summary.rate_of_energy(0).unwrap();
+    assert!(low < rate && rate < high && high - low < 0.007);
+}
+
+/// The same seeds, one by one, through the scalar solver: other ways, the same list.
+#[test]
+fn the_scalar_solver_reaches_the_same_equilibria() {
+    for problem in [model::cases::paper(), uneven(3)] {
+        let bars = problem.chain().bars().len();
+        let sweep = Sweep::new(&problem, Settings::default()).unwrap();
+        assert!(sweep.members().complete());
+        let chunk = sweep.run_chunk(0..2000);
+        let mut batch = std::collections::BTreeSet::new();
+        for outcome in chunk.lagrange.unwrap().outcome {
+            assert!(outcome >= 0, "{outcome}");
+            batch.insert(outcome);
+        }
+        let difference = problem.chain().anchors().difference_m();
+        let heading = difference[1].atan2(difference[0]);
+        let vertical = difference[0].hypot(difference[1]) <= 0.0;
+        let heading = if vertical { std::f64::consts::FRAC_PI_2 } else { heading };
+        let settings = lagrange::Settings::default();
+        let mut solver = lagrange::Solver::new(&problem, &settings).unwrap();
+        let mut scalar = std::collections::BTreeSet::new();
+        for phi in sweep.angles_rad(0..2000).chunks(bars) {
+            let found = solver.solve(&lagrange::Seed::planar_towards(heading, phi)).unwrap();
+            let found = found.solution().unwrap().equilibrium;
+            let lengths = problem.chain().bars().iter().map(Bar::length_m);
+            let u: Vec<[f64; 2]> = found
+                .joints_m
+                .windows(2)
+                .zip(lengths)
+                .map(|(joint, length)| {
+                    let d: [f64; 3] = std::array::from_fn(|k| (joint[1][k] - joint[0][k]) / length);
+                    [d[0] * heading.cos() + d[1] * heading.sin(), d[2]]
+                })
+                .collect();
+            // Every one is in the list of the census.
+            scalar.insert(sweep.members().identify(&u, found.energy_j).unwrap());
+        }
+        assert_eq!(batch, scalar);
+    }
+}
+
+#[test]
+fn longer_chains_are_identified_against_the_census() {
+    for bars in [5, 6, 8] {
+        let settings = Settings::default();
+        let sweep = Sweep::new(&uneven(bars), settings).unwrap();
+        assert!(sweep.members().complete());
+        let summary = sweep.run(0..3000, 2).unwrap();
+        let tally = summary.tally();
+        // Nothing converges to what the census does not have, and every minimum is a minimum there.
+        assert!(summary.disagreements().is_empty(), "{:?}", summary.disagreements());
+        for rows in [&tally.lagrange, &tally.energy] {
+            let rows = &rows.as_ref().unwrap().0;
+            assert!(!rows.contains_key(&(Failure::Unlisted as i16)));
+            assert_eq!(rows.values().map(|row| row.count).sum::<u64>(), 3000);
+        }
+        let failed = |rows: &sweep::SolverTally| -> u64 {
+            rows.0.iter().filter(|row| *row.0 < 0).map(|row| row.1.count).sum()
+        };
+        assert_eq!(failed(tally.energy.as_ref().unwrap()), 0);
+        assert!(failed(tally.lagrange.as_ref().unwrap()) < 30);
+    }
+}
+
+/// Without a census the list is what fixed seeds reach: a part of the census, and the same for any sweep.
+#[test]
+fn a_discovered_list_is_a_part_of_the_census() {
+    let problem = uneven(4);
+    let census = census::Settings { max_bars: 3, ..census::Settings::default() };
+    let full = Sweep::new(&problem, Settings::default()).unwrap();
+    let make = |number| {
+        let settings = Settings { number, census, discover: 5000, ..Settings::default() };
+        Sweep::new(&problem, settings).unwrap()
+    };
+    let (one, other) = (make(1), make(2));
+    assert!(full.members().complete() && !one.members().complete());
+    assert_eq!(one.members(), other.members());
+    assert_eq!(one.members().list().len(), full.members().list().len());
+    for (a, b) in one.members().list().iter().zip(full.members().list()) {
+        assert!((a.energy_j - b.energy_j).abs() < 1e-9);
+        assert!(a.index_in_plane.is_none() || a.index_in_plane == b.index_in_plane);
+    }
+    assert_eq!(one.run_chunk(0..500), full.run_chunk(0..500));
+}
+
+#[test]
+fn what_is_not_in_the_list_is_said() {
+    // A list of nothing: no census, no discovery.
+    let census = census::Settings { max_bars: 2, ..census::Settings::default() };
+    let settings = Settings { census, discover: 0, ..Settings::default() };
+    let sweep = Sweep::new(&model::cases::paper(), settings).unwrap();
+    let summary = sweep.run(0..50, 1).unwrap();
+    assert_eq!(summary.disagreements().len(), 50);
+    assert!(summary.disagreements().iter().all(|d| d.comparison == Comparison::NotListed));
+}
+
+#[test]
+fn one_solver_alone_and_settings_out_of_range() {
+    let only = |solvers| {
+        let settings = Settings { solvers, ..Settings::default() };
+        Sweep::new(&model::cases::paper(), settings).unwrap().run_chunk(3..40)
+    };
+    assert!(only(Solvers::Lagrange).energy.is_none() && only(Solvers::Energy).lagrange.is_none());
+    assert_eq!(only(Solvers::Lagrange).lagrange, only(Solvers::Both).lagrange);
+    let refused = Settings { chunk: 0, ..Settings::default() };
+    assert!(Sweep::new(&model::cases::paper(), refused).is_err());
+    let axes = Source::Grid(vec![Axis::full(3)]);
+    let refused = Settings { source: axes, ..Settings::default() };
+    assert!(Sweep::new(&model::cases::paper(), refused).is_err());
+}
