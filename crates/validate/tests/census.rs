@@ -363,6 +363,25 @@ fn the_claims_rest_on_the_census() {
     assert_eq!(unexpected(&|e| e.census.complete = false), fallen);
 }
 
+/// In the reproduction E1 and its mirror image alone stand on the highest rung.
+#[test]
+fn only_e1_is_optimal_in_the_reproduction() {
+    let r = validate::reproduction::reproduce_with(20, |_| ()).unwrap();
+    let rungs: Vec<_> = r.equilibria.iter().map(|p| (p.name, p.rung().unwrap())).collect();
+    let expected = [
+        ("E1", Rung::Optimal),
+        ("E1'", Rung::Optimal),
+        ("E2", Rung::Complete),
+        ("E2'", Rung::Complete),
+    ];
+    assert_eq!(rungs, expected);
+    for position in &r.equilibria {
+        let reached = |rung| position.ladder.iter().any(|s| s.rung == rung && s.reached);
+        assert!(reached(Rung::Verified) && reached(Rung::Complete), "{position:?}");
+        assert_eq!(reached(Rung::Agreed), position.name.starts_with("E1"));
+    }
+}
+
 /// The rungs of the ladder: `optimal` for E1 alone, `complete` for E2, and neither for what is not listed.
 #[test]
 fn the_ladder_is_honest() {
