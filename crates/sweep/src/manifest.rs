@@ -1,6 +1,7 @@
 //! What a folder of a sweep says about itself.
 
 use std::ops::Range;
+use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -8,6 +9,8 @@ use sha2::{Digest, Sha256};
 
 use crate::identify::Member;
 use crate::shard::{Shard, part_seeds};
+use crate::store::{MANIFEST, read_json};
+use crate::store_error::StoreError;
 use crate::summary::Summary;
 
 /// Version of the folder's form; raised when a key or a column changes its meaning.
@@ -80,6 +83,19 @@ pub(crate) fn hexadecimal(bytes: &[u8]) -> String {
 }
 
 impl Manifest {
+    /// Read the manifest of a folder.
+    ///
+    /// # Errors
+    ///
+    /// [`StoreError`] if there is none, or none that this program understands.
+    pub fn read(folder: &Path) -> Result<Self, StoreError> {
+        let path = folder.join(MANIFEST);
+        if !path.exists() {
+            return Err(StoreError::NoSweep { path: folder.to_owned(), missing: MANIFEST });
+        }
+        read_json(&path)
+    }
+
     /// How many parts the whole sweep has.
     #[must_use]
     pub fn parts(&self) -> u64 {

@@ -110,10 +110,7 @@ fn complete(
 impl Input {
     fn read(folder: &Path) -> Result<Self, StoreError> {
         let path = || folder.to_owned();
-        if !folder.join(MANIFEST).exists() {
-            return Err(StoreError::NoSweep { path: path(), missing: MANIFEST });
-        }
-        let manifest: Manifest = read_json(&folder.join(MANIFEST))?;
+        let manifest = Manifest::read(folder)?;
         let as_it_should = manifest.clone().with_shard(manifest.shard);
         if let Some((key, wanted, found)) = as_it_should.difference(&manifest) {
             return Err(StoreError::Differs { path: path(), key, wanted, found });
