@@ -2,6 +2,7 @@
 
 /// The allowed key most like this one, if it is like one at all: a slip of a few letters, another
 /// case, or the same first word (`mass` for `mass_kg`, `length_cm` for `length_m`).
+#[must_use]
 pub fn nearest(key: &str, allowed: &[&'static str]) -> Option<&'static str> {
     let key = key.to_lowercase();
     let alike = |name: &str, distance: usize| {
