@@ -44,6 +44,10 @@ pub enum Command {
     /// Find every equilibrium of a chain, stable or not, and prove that there is no other
     #[command(after_help = EXIT_CODES)]
     Census(crate::census::Census),
+    /// Run millions of starts through the solvers: which start leads where
+    Sweep(crate::sweep::Sweep),
+    /// Join the shards of a sweep, and prove that nothing is missing or double
+    Merge(crate::merge::Merge),
     /// List the named cases, or print the system file of one (a start for a file of your own)
     Cases(Cases),
     /// Print a completion script for a shell

@@ -11,16 +11,26 @@ pub enum Exit {
     BadInput,
     /// Not converged, or not decided.
     Undecided,
+    /// Interrupted by Ctrl-C, with something left that can be gone on with.
+    Interrupted,
+}
+
+impl Exit {
+    /// The exit code; 128 plus the number of SIGINT for an interruption, as shells have it.
+    pub fn code(self) -> u8 {
+        match self {
+            Self::Done => 0,
+            Self::CheckFailed => 1,
+            Self::BadInput => 2,
+            Self::Undecided => 3,
+            Self::Interrupted => 130,
+        }
+    }
 }
 
 impl From<Exit> for std::process::ExitCode {
     fn from(exit: Exit) -> Self {
-        Self::from(match exit {
-            Exit::Done => 0,
-            Exit::CheckFailed => 1,
-            Exit::BadInput => 2,
-            Exit::Undecided => 3,
-        })
+        Self::from(exit.code())
     }
 }
 

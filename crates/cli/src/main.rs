@@ -10,10 +10,12 @@ mod census;
 mod diagnostics;
 mod exit;
 mod input;
+mod merge;
 mod output;
 mod progress;
 mod reproduce;
 mod solve;
+mod sweep;
 mod tables;
 mod verdicts;
 
@@ -28,6 +30,8 @@ fn main() -> std::process::ExitCode {
         Command::Reproduce(arguments) => reproduce::run(&arguments),
         Command::Solve(arguments) => solve::run(&arguments),
         Command::Census(arguments) => census::run(&arguments),
+        Command::Sweep(arguments) => sweep::run(&arguments),
+        Command::Merge(arguments) => merge::run(&arguments),
         Command::Cases(arguments) => cases::run(&arguments),
         Command::Completions { shell } => {
             let mut script = Vec::new();

@@ -1,0 +1,58 @@
+//! `funicular merge`: the shards of a sweep joined.
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use crate::exit::{Exit, Failure};
+use crate::output;
+use crate::sweep::{
+    EXIT_CODES, json_object, on_interrupt, print_json, seeds_bar, store_failure, summary_tables,
+    threads, verdict, written,
+};
+
+/// `funicular merge`.
+#[derive(Debug, Args)]
+#[command(after_help = EXIT_CODES)]
+pub struct Merge {
+    /// The folders of all shards, in any order
+    #[arg(value_name = "DIR", required = true)]
+    pub folders: Vec<PathBuf>,
+    /// How many threads; 0 means one per processor. The result does not depend on it
+    #[arg(long, value_name = "T", default_value_t = 0, value_parser = threads)]
+    pub threads: usize,
+    /// Print one JSON object (schema_version 1) instead of tables
+    #[arg(long)]
+    pub json: bool,
+    /// The folder to write: new or empty, or what the same merge left when it was interrupted
+    #[arg(long, value_name = "DIR")]
+    pub out: PathBuf,
+}
+
+/// Run the command.
+pub fn run(arguments: &Merge) -> Result<Exit, Failure> {
+    let stop = on_interrupt()?;
+    let seeds = arguments.folders.first().and_then(|folder| ::sweep::Manifest::read(folder).ok());
+    let bar = seeds_bar(seeds.map_or(0, |manifest| manifest.seeds));
+    let done = |seeds| bar.inc(seeds);
+    let merged = ::sweep::merge(&arguments.folders, &arguments.out, arguments.threads, stop, &done);
+    bar.finish_and_clear();
+    let Some(summary) = merged.map_err(|error| store_failure(&error))? else {
+        eprintln!("Stopped. The same command goes on.");
+        return Ok(Exit::Interrupted);
+    };
+    let manifest =
+        ::sweep::Manifest::read(&arguments.out).map_err(|error| store_failure(&error))?;
+    if arguments.json {
+        print_json(&json_object(&manifest, &summary, &arguments.out))?;
+    } else {
+        let proof = format!(
+            "{} parts of {} shards: nothing is missing, nothing double, every digest as recorded.\n",
+            summary.parts.len(),
+            arguments.folders.len()
+        );
+        let tables = summary_tables(&manifest, &summary);
+        output::print(&(tables + &proof + &written(&arguments.out)))?;
+    }
+    Ok(verdict(&manifest, &summary))
+}

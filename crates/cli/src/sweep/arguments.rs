@@ -1,0 +1,157 @@
+//! The command line of `funicular sweep`.
+
+use std::path::PathBuf;
+
+use ::sweep::Shard;
+use clap::{Args, ValueEnum};
+
+use crate::args::Which;
+
+/// Most seeds of a sweep: at a few million a second, half a week.
+const MOST_SEEDS: u64 = 1_000_000_000_000;
+
+/// How `sweep` and `merge` end, for their help.
+pub const EXIT_CODES: &str = "\
+Exit codes:
+  0    done
+  1    a check failed: a seed converged to what the complete list of equilibria does not have, or the
+       solvers contradict each other (the seeds are listed)
+  2    bad input or usage; a folder that holds something else
+  130  interrupted (Ctrl-C or SIGTERM): what is done stays, --resume goes on";
+
+const EXAMPLES: &str = "\
+Examples:
+  funicular sweep --case paper --seeds 1e6 --out paper        a million starts of the paper's chain
+  funicular sweep chain.toml --seeds 1e8 --resume --out big   start it, or go on after an interruption
+  funicular sweep chain.toml --seeds 1e8 --shard 2/7 --out s2 the second of seven parts, on this machine
+  funicular merge s1 s2 s3 s4 s5 s6 s7 --out big              all of them, proved complete
+
+The folder holds manifest.json, part-000000.parquet and so on, and at the end summary.json. It is the same to
+the last byte for any number of threads and shards, interrupted or not.";
+
+/// `funicular sweep`.
+#[derive(Debug, Args)]
+#[command(after_help = EXIT_CODES, after_long_help = format!("{EXAMPLES}\n\n{EXIT_CODES}"))]
+pub struct Sweep {
+    /// The system file (TOML); see `funicular cases three-equal-bars` for one
+    #[arg(value_name = "FILE", required_unless_present = "case")]
+    pub file: Option<PathBuf>,
+    /// Sweep a named case instead of a file
+    #[arg(long, value_name = "NAME", conflicts_with = "file")]
+    pub case: Option<String>,
+    /// How many starts: 1000000, 1_000_000 or 1e6
+    #[arg(long, value_name = "N", value_parser = count)]
+    pub seeds: u64,
+    /// The number that all starts come from; another one gives others
+    #[arg(long, value_name = "S", default_value_t = 1)]
+    pub seed: u64,
+    /// How the starts are spread over the angles of the bars
+    #[arg(long, value_enum, default_value_t = Spread::Uniform)]
+    pub source: Spread,
+    /// Which solver
+    #[arg(long, value_enum, default_value_t = Which::Both)]
+    pub solver: Which,
+    /// How many threads; 0 means one per processor. The result does not depend on it
+    #[arg(long, value_name = "T", default_value_t = 0, value_parser = threads)]
+    pub threads: usize,
+    /// Only the K-th of N parts, to be joined by `funicular merge`
+    #[arg(long, value_name = "K/N", default_value_t = Shard::WHOLE)]
+    pub shard: Shard,
+    /// Go on with what is in the folder, if there is something
+    #[arg(long)]
+    pub resume: bool,
+    /// The form of the rows
+    #[arg(long, value_enum, default_value_t = Format::Parquet)]
+    pub format: Format,
+    /// Write the angles of the starts, too
+    #[arg(long)]
+    pub angles: bool,
+    /// Print one JSON object (schema_version 1) instead of tables
+    #[arg(long)]
+    pub json: bool,
+    /// The folder to write: new or empty, or with --resume one that holds this sweep
+    #[arg(long, value_name = "DIR")]
+    pub out: PathBuf,
+}
+
+/// How starts are spread.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Spread {
+    /// At random, every angle by itself
+    Uniform,
+    /// Sobol's sequence: evenly, with a random shift
+    Sobol,
+    /// A regular grid; --seeds must be a power with the number of bars
+    Grid,
+}
+
+impl std::fmt::Display for Spread {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            Self::Uniform => "uniform",
+            Self::Sobol => "sobol",
+            Self::Grid => "grid",
+        })
+    }
+}
+
+/// The form of the rows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Format {
+    /// Apache Parquet: small, with units
+    Parquet,
+    /// Comma-separated values
+    Csv,
+}
+
+impl std::fmt::Display for Format {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            Self::Parquet => "parquet",
+            Self::Csv => "csv",
+        })
+    }
+}
+
+/// Most threads that may be asked for.
+const MOST_THREADS: usize = 4096;
+
+pub(crate) fn threads(text: &str) -> Result<usize, String> {
+    match text.parse() {
+        Ok(threads) if threads <= MOST_THREADS => Ok(threads),
+        _ => Err(format!("a whole number up to {MOST_THREADS} is wanted")),
+    }
+}
+
+/// A count as people write it: digits, with underscores between them, or with a power of ten.
+fn count(text: &str) -> Result<u64, String> {
+    let wanted = || format!("a whole number from 1 to {MOST_SEEDS:e} is wanted, as 1000000 or 1e6");
+    let digits = |text: &str| {
+        let plain = text.starts_with(|c: char| c.is_ascii_digit())
+            && text.bytes().all(|byte| byte.is_ascii_digit() || byte == b'_');
+        text.replace('_', "").parse::<u64>().ok().filter(|_| plain)
+    };
+    let count = match text.split_once(['e', 'E']) {
+        None => digits(text),
+        Some((number, power)) => digits(number).and_then(|number| {
+            let power = u32::try_from(digits(power)?).ok()?;
+            number.checked_mul(10_u64.checked_pow(power)?)
+        }),
+    };
+    count.filter(|count| (1..=MOST_SEEDS).contains(count)).ok_or_else(wanted)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::count;
+
+    #[test]
+    fn counts_are_read_as_people_write_them() {
+        for (text, wanted) in [("1", 1), ("1_000", 1000), ("1e6", 1_000_000), ("25E1", 250)] {
+            assert_eq!(count(text), Ok(wanted));
+        }
+        for text in ["", "0", "-1", "+1", "1.5", "1e", "e6", "_1", "1e13", "1e99", "2e19", "ten"] {
+            assert!(count(text).is_err(), "{text}");
+        }
+    }
+}

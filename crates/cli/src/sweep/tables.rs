@@ -1,0 +1,175 @@
+//! What a sweep says in the end.
+
+use std::fmt::Write as _;
+
+use ::sweep::{Comparison, Failure, Manifest, SolverTally, StoreSummary, rate_interval};
+use serde_json::{Value, json};
+
+use crate::tables::{numbers_from, short, table, word};
+
+/// Seeds named one by one in the terminal; `summary.json` has more.
+const NAMED: usize = 20;
+
+/// Everything about the outcomes.
+pub fn summary(manifest: &Manifest, summary: &StoreSummary) -> String {
+    let all = summary.outcomes.seeds();
+    let shard = if manifest.shard.of > 1 {
+        format!(" (shard {} of {} seeds)", manifest.shard, manifest.seeds)
+    } else {
+        String::new()
+    };
+    let mut text = format!(
+        "{}: {all} {} seeds of number {}{shard}\n",
+        manifest.system.name, manifest.source, manifest.seed_number
+    );
+    let proof = if manifest.equilibria_complete {
+        "the census proves that there are no others"
+    } else {
+        "there may be others: the census is not complete"
+    };
+    let _ = writeln!(text, "{} equilibria in the list; {proof}\n", manifest.equilibria.len());
+    let tally = summary.outcomes.tally();
+    for (name, solver) in [("lagrange", &tally.lagrange), ("energy", &tally.energy)] {
+        if let Some(solver) = solver {
+            let _ = writeln!(text, "{name}:\n{}\n", outcomes(manifest, solver, all));
+        }
+    }
+    if tally.both.is_some() {
+        text += &comparisons(summary);
+    }
+    text
+}
+
+/// How fast it was; nothing was computed if everything was there.
+pub fn rate(computed: u64, seconds: f64) -> String {
+    if computed == 0 {
+        return "Everything was there already.\n".to_owned();
+    }
+    let rate = computed as f64 / seconds.max(f64::MIN_POSITIVE);
+    format!("{computed} seeds in {seconds:.1} s: {} a second, written\n", short(rate.round()))
+}
+
+fn outcomes(manifest: &Manifest, solver: &SolverTally, all: u64) -> comfy_table::Table {
+    let mut table = table([
+        "outcome",
+        "energy / J",
+        "index",
+        "seeds",
+        "rate / %",
+        "95 % interval",
+        "iterations: median",
+        "most",
+    ]);
+    // Equilibria first, then failures from the most harmless on.
+    let (failed, reached): (Vec<_>, Vec<_>) = solver.0.iter().partition(|(code, _)| **code < 0);
+    for (code, row) in reached.into_iter().chain(failed.into_iter().rev()) {
+        let member = usize::try_from(*code).ok().and_then(|k| manifest.equilibria.get(k));
+        let (low, high) = rate_interval(row.count, all);
+        let index = member.and_then(|member| member.index_in_plane);
+        table.add_row([
+            outcome(*code),
+            member.map_or_else(String::new, |member| short(member.energy_j)),
+            index.map_or_else(String::new, |index| index.to_string()),
+            row.count.to_string(),
+            short(percent(row.count, all)),
+            format!("{} to {}", short(100.0 * low), short(100.0 * high)),
+            row.median_iterations().to_string(),
+            row.max_iterations().to_string(),
+        ]);
+    }
+    numbers_from(&mut table, 1);
+    table
+}
+
+/// The words for an outcome.
+fn outcome(code: i16) -> String {
+    let failures = [
+        (Failure::IterationLimit, "iteration limit"),
+        (Failure::Stalled, "stalled"),
+        (Failure::NonFinite, "a number overflowed"),
+        (Failure::Unlisted, "in no list"),
+    ];
+    let failure = failures.iter().find(|(failure, _)| *failure as i16 == code);
+    failure.map_or_else(|| format!("equilibrium {code}"), |(_, words)| (*words).to_owned())
+}
+
+fn percent(count: u64, all: u64) -> f64 {
+    100.0 * count as f64 / all.max(1) as f64
+}
+
+fn comparisons(summary: &StoreSummary) -> String {
+    let all = summary.outcomes.seeds();
+    let mut table = table(["both solvers", "seeds", "rate / %", "as it should be"]);
+    for (comparison, count) in summary.outcomes.comparisons().filter(|(_, count)| *count > 0) {
+        table.add_row([
+            words(comparison).to_owned(),
+            count.to_string(),
+            short(percent(count, all)),
+            if comparison.should_not_be() { "NO" } else { "yes" }.to_owned(),
+        ]);
+    }
+    numbers_from(&mut table, 1);
+    let mut text = format!("{table}\n\n");
+    let listed = summary.outcomes.disagreements();
+    for disagreement in listed.iter().take(NAMED) {
+        let _ = writeln!(
+            text,
+            "seed {}: {} (lagrange: {}; energy: {})",
+            disagreement.seed,
+            words(disagreement.comparison),
+            outcome(disagreement.lagrange),
+            outcome(disagreement.energy)
+        );
+    }
+    if listed.len() > NAMED {
+        let _ = writeln!(text, "... summary.json lists {} of them", listed.len());
+    }
+    text
+}
+
+fn words(comparison: Comparison) -> &'static str {
+    match comparison {
+        Comparison::Same => "the same equilibrium",
+        Comparison::NoMinimum => "lagrange at a saddle or maximum, energy at a minimum",
+        Comparison::OtherBasin => "different minima",
+        Comparison::Unclassified => "different equilibria, one of unknown kind",
+        Comparison::Failed => "one or both did not converge",
+        Comparison::EnergyAtNoMinimum => "energy at no minimum",
+        Comparison::EnergiesDiffer => "the same equilibrium with different energies",
+        Comparison::NotListed => "one or both in no list",
+    }
+}
+
+/// Outcomes by solver, with rates and intervals.
+pub fn solvers_json(summary: &StoreSummary) -> Value {
+    let all = summary.outcomes.seeds();
+    let tally = summary.outcomes.tally();
+    let rows = |solver: &SolverTally| {
+        let row = |(code, row): (&i16, &::sweep::OutcomeTally)| {
+            let (low, high) = rate_interval(row.count, all);
+            json!({
+                "outcome": code,
+                "meaning": outcome(*code),
+                "count": row.count,
+                "rate": percent(row.count, all) / 100.0,
+                "rate_95": [low, high],
+                "iterations": { "median": row.median_iterations(), "max": row.max_iterations() },
+            })
+        };
+        Value::from(solver.0.iter().map(row).collect::<Vec<_>>())
+    };
+    let mut object = serde_json::Map::new();
+    for (name, solver) in [("lagrange", &tally.lagrange), ("energy", &tally.energy)] {
+        if let Some(solver) = solver {
+            object.insert(name.to_owned(), rows(solver));
+        }
+    }
+    object.into()
+}
+
+/// Seeds by comparison, if both solvers were asked.
+pub fn comparisons_json(summary: &StoreSummary) -> Value {
+    let counts = summary.outcomes.comparisons().map(|(c, count)| (word(&c), count.into()));
+    let both = summary.outcomes.tally().both.is_some();
+    Value::Object(counts.filter(|_| both).collect())
+}

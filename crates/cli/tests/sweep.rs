@@ -1,0 +1,247 @@
+//! `funicular sweep` and `funicular merge` as their users meet them.
+
+#![expect(clippy::unwrap_used, reason = "helpers of tests")]
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Output, Stdio};
+use std::time::{Duration, Instant};
+
+use serde_json::Value;
+
+/// Starts of most tests: four parts of 1024, in about a second.
+const SEEDS: &str = "4e3";
+
+fn program() -> Command {
+    let mut command = Command::new(assert_cmd::cargo::cargo_bin!("funicular"));
+    command.env("NO_COLOR", "1");
+    command
+}
+
+fn funicular(arguments: &[&str]) -> Output {
+    program().args(arguments).output().unwrap()
+}
+
+fn sweep(out: &Path, more: &[&str]) -> Output {
+    let out = out.to_str().unwrap();
+    funicular(&[&["sweep", "--case", "paper", "--seeds", SEEDS, "--out", out], more].concat())
+}
+
+fn stderr(output: &Output) -> String {
+    // Long messages are wrapped.
+    String::from_utf8_lossy(&output.stderr).split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+fn folder(name: &str) -> PathBuf {
+    let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("sweep").join(name);
+    let _ = fs::remove_dir_all(&path);
+    fs::create_dir_all(&path).unwrap();
+    path
+}
+
+fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
+    fs::read_dir(folder)
+        .unwrap()
+        .map(|entry| {
+            let entry = entry.unwrap();
+            (entry.file_name().into_string().unwrap(), fs::read(entry.path()).unwrap())
+        })
+        .collect()
+}
+
+/// A process that is gone when the test is.
+struct Running(Child);
+
+impl Drop for Running {
+    fn drop(&mut self) {
+        let _ = self.0.kill();
+        let _ = self.0.wait();
+    }
+}
+
+/// Start a longer sweep on one thread, and wait until some of its parts are there.
+fn started(out: &Path) -> Running {
+    let child = program().args(LONG).arg("--threads=1").arg("--out").arg(out);
+    let child = child.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
+    let running = Running(child);
+    let start = Instant::now();
+    while !out.join("part-000001.parquet").exists() {
+        assert!(start.elapsed() < Duration::from_secs(120), "no part appears");
+        std::thread::sleep(Duration::from_millis(2));
+    }
+    running
+}
+
+const LONG: [&str; 8] =
+    ["sweep", "--case", "paper", "--seeds", "500_000", "--solver", "lagrange", "--angles"];
+
+#[test]
+fn the_tables_and_the_object_say_the_same() {
+    let out = folder("tables");
+    let output = sweep(&out.join("a"), &[]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let text = String::from_utf8(output.stdout).unwrap();
+    for wanted in ["4000 uniform seeds of number 1", "equilibrium 0", "95 % interval", "energy:"] {
+        assert!(text.contains(wanted), "{wanted} is not in\n{text}");
+    }
+    let output = sweep(&out.join("b"), &["--json"]);
+    let object: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(object["schema_version"], 1);
+    assert_eq!(object["seeds"]["count"], 4000);
+    assert_eq!(object["system"]["bars"], 3);
+    assert_eq!(object["equilibria_complete"], true);
+    // FACTS: the planar chain of the paper has four equilibria.
+    assert_eq!(object["equilibria"].as_array().unwrap().len(), 4);
+    for solver in ["lagrange", "energy"] {
+        let rows = object["solvers"][solver].as_array().unwrap();
+        let count = |row: &Value| row["count"].as_u64().unwrap();
+        assert_eq!(rows.iter().map(count).sum::<u64>(), 4000, "{solver}");
+        for row in rows {
+            let (rate, interval) = (row["rate"].as_f64().unwrap(), &row["rate_95"]);
+            assert!(interval[0].as_f64().unwrap() < rate && rate < interval[1].as_f64().unwrap());
+        }
+    }
+    assert_eq!(files(&out.join("a")), files(&out.join("b")));
+}
+
+#[test]
+fn threads_shards_and_forms_do_not_show() {
+    let out = folder("shards");
+    for format in ["parquet", "csv"] {
+        let whole = out.join(format).join("whole");
+        let of = format!("--format={format}");
+        assert_eq!(sweep(&whole, &[&of, "--threads", "1", "--angles"]).status.code(), Some(0));
+        let mut merge = vec!["merge".to_owned()];
+        for k in 1..=7 {
+            let part = out.join(format).join(k.to_string());
+            let shard = format!("--shard={k}/7");
+            let output = sweep(&part, &[&of, &shard, "--threads", "2", "--angles"]);
+            assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+            merge.push(part.to_str().unwrap().to_owned());
+        }
+        let merged = out.join(format).join("merged");
+        merge.extend(["--out".to_owned(), merged.to_str().unwrap().to_owned()]);
+        let output = program().args(&merge).output().unwrap();
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        assert!(String::from_utf8_lossy(&output.stdout).contains("nothing is missing"));
+        assert_eq!(files(&merged), files(&whole), "{format}");
+        // And without one of them.
+        merge.remove(3);
+        let other = out.join(format).join("other");
+        *merge.last_mut().unwrap() = other.to_str().unwrap().to_owned();
+        let output = program().args(&merge).output().unwrap();
+        assert_eq!(output.status.code(), Some(2));
+        assert!(stderr(&output).contains("of 7 shards these are missing: 3"));
+        assert!(!other.exists());
+    }
+}
+
+#[test]
+fn a_killed_sweep_goes_on_to_the_same_bytes() {
+    let out = folder("killed");
+    let whole = out.join("whole");
+    assert!(program().args(LONG).arg("--out").arg(&whole).status().unwrap().success());
+    let cut = out.join("cut");
+    let mut running = started(&cut);
+    // SIGKILL: nothing can be tidied up.
+    running.0.kill().unwrap();
+    running.0.wait().unwrap();
+    assert!(!cut.join("summary.json").exists(), "it had finished: too few seeds for this machine");
+    let refused = program().args(LONG).arg("--out").arg(&cut).output().unwrap();
+    assert_eq!(refused.status.code(), Some(2));
+    assert!(stderr(&refused).contains("holds a sweep already"), "{}", stderr(&refused));
+    let other = program().args(LONG).args(["--resume", "--seed=2", "--out"]).arg(&cut).output();
+    let other = other.unwrap();
+    assert_eq!(other.status.code(), Some(2));
+    assert!(stderr(&other).contains("`seed_number` is 1, not 2"), "{}", stderr(&other));
+    let output = program().args(LONG).args(["--resume", "--json", "--out"]).arg(&cut).output();
+    let output = output.unwrap();
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let object: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert!(object["seeds_before"].as_u64().unwrap() > 0);
+    assert_eq!(files(&cut), files(&whole));
+}
+
+#[cfg(unix)]
+#[test]
+fn an_interrupted_sweep_says_how_to_go_on() {
+    let out = folder("interrupted");
+    for signal in ["INT", "TERM"] {
+        let cut = out.join(signal);
+        let mut running = started(&cut);
+        let id = running.0.id().to_string();
+        assert!(Command::new("kill").args(["-s", signal, &id]).status().unwrap().success());
+        let mut text = String::new();
+        let mut pipe = running.0.stderr.take().unwrap();
+        std::io::Read::read_to_string(&mut pipe, &mut text).unwrap();
+        assert_eq!(running.0.wait().unwrap().code(), Some(130), "{text}");
+        assert!(text.contains("--resume") && text.contains(" of 500000 seeds"), "{text}");
+        assert!(files(&cut).keys().all(|name| !name.starts_with(".part")));
+        let output = program().args(LONG).args(["--resume", "--out"]).arg(&cut).output().unwrap();
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    }
+    assert_eq!(files(&out.join("INT")), files(&out.join("TERM")));
+}
+
+#[test]
+fn bad_usage_is_refused_with_a_reason() {
+    let out = folder("usage");
+    let new = out.join("new");
+    for (arguments, wanted) in [
+        (&["--seeds", "0"][..], "a whole number from 1"),
+        (&["--seeds", "-5"], "a whole number from 1"),
+        (&["--seeds", "1e20"], "a whole number from 1"),
+        (&["--shard", "0/3"], "there is no shard 0 of 3"),
+        (&["--shard", "4/3"], "there is no shard 4 of 3"),
+        (&["--shard", "1"], "a shard is K/N"),
+        (&["--threads", "-1"], "--threads"),
+        (&["--threads", "9999999"], "a whole number up to"),
+        (&["--source", "random"], "possible values: uniform, sobol, grid"),
+        (&["--format", "xml"], "possible values: parquet, csv"),
+        (&["--source", "grid"], "15^3 and 4096 = 16^3"),
+        (&["--case", "nonsense"], "there is no case named `nonsense`"),
+    ] {
+        let mut all = vec!["sweep", "--out", new.to_str().unwrap()];
+        if !arguments.contains(&"--seeds") {
+            all.extend(["--seeds", SEEDS]);
+        }
+        if !arguments.contains(&"--case") {
+            all.extend(["--case", "paper"]);
+        }
+        all.extend(arguments);
+        let output = funicular(&all);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+        assert!(stderr(&output).contains(wanted), "{arguments:?}: {}", stderr(&output));
+        assert!(output.stdout.is_empty() && !new.exists(), "{arguments:?}");
+    }
+    let output = funicular(&["sweep", "--seeds", "10", "--out", new.to_str().unwrap()]);
+    assert_eq!(output.status.code(), Some(2));
+
+    fs::write(out.join("mine"), "").unwrap();
+    for resume in [&[][..], &["--resume"]] {
+        let output = sweep(&out, resume);
+        assert_eq!(output.status.code(), Some(2));
+        assert!(stderr(&output).contains("is not empty and holds no sweep: there is `mine`"));
+    }
+    let output = sweep(&out.join("mine"), &[]);
+    assert_eq!(output.status.code(), Some(2), "{}", stderr(&output));
+    let output = funicular(&["merge", out.to_str().unwrap(), "--out", new.to_str().unwrap()]);
+    assert!(stderr(&output).contains("holds no sweep: there is no manifest.json"));
+}
+
+#[test]
+fn a_regular_grid_is_swept() {
+    let out = folder("grid").join("out");
+    let arguments = ["--source", "grid", "--solver", "energy", "--json"];
+    let output = funicular(
+        &[
+            &["sweep", "--case", "paper", "--seeds", "1000", "--out", out.to_str().unwrap()],
+            &arguments[..],
+        ]
+        .concat(),
+    );
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let object: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert!(object["solvers"]["lagrange"].is_null() && object["solvers"]["energy"].is_array());
+}
