@@ -3,9 +3,11 @@
 use std::io::{self, Write};
 use std::num::NonZeroUsize;
 
+use census::Census;
 use miette::miette;
 use model::{Equilibrium, Problem, SystemSummary};
 use serde::Serialize;
+use validate::completeness::certify_by_census;
 use validate::{Agreement, Tolerances, compare, compare::judge_alone};
 
 use crate::answer;
@@ -23,6 +25,10 @@ pub const SCHEMA_VERSION: u32 = 1;
 /// through the condensed system of three, which gives the same (and costs nothing that grows faster
 /// than the number of bars).
 const FULL_SYSTEM_BARS: usize = 30;
+
+/// Chains up to this many bars are looked up in their census without being asked to: so long it takes
+/// less than a second.
+const CENSUS_BARS: usize = 8;
 
 /// What `solve --json` prints.
 #[derive(Debug, Serialize)]
@@ -50,7 +56,21 @@ pub fn run(arguments: &Solve) -> Result<Exit, Failure> {
         equilibria.push(found.map_err(|e| Failure::undecided(miette!("energy: {e}")))?.equilibrium);
     }
     progress.say("the judges");
-    let (equilibria, agreement) = judge(&problem, equilibria);
+    let (mut equilibria, agreement) = judge(&problem, equilibria);
+    if bars <= CENSUS_BARS {
+        progress.say("the census");
+        let census = Census::take(&problem, &census::Settings::default());
+        for answer in &mut equilibria {
+            match &census {
+                Ok(census) => certify_by_census(&problem, census, answer),
+                Err(error) => {
+                    for rung in [model::Rung::Verified, model::Rung::Complete] {
+                        answer.evidence.miss(rung, format!("no census: {error}"));
+                    }
+                }
+            }
+        }
+    }
 
     if let Some(path) = &arguments.csv {
         progress.say(&format!("writing {}", path.display()));

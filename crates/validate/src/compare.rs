@@ -127,7 +127,7 @@ pub fn judge_alone(problem: &Problem, answer: &mut Equilibrium) -> Statics {
 /// The rungs above `agreed`.
 fn certify_rung(problem: &Problem, answer: &mut Equilibrium) {
     for rung in [Rung::Verified, Rung::Complete] {
-        answer.evidence.miss(rung, "no interval proof was tried");
+        answer.evidence.miss(rung, "no interval proof was tried (`funicular census` does)");
     }
     match certify(problem, answer) {
         Ok(proof) => answer.evidence.reach(
