@@ -48,6 +48,10 @@ pub enum Command {
     Sweep(crate::sweep::Sweep),
     /// Join the shards of a sweep, and prove that nothing is missing or double
     Merge(crate::merge::Merge),
+    /// Follow all equilibria over a parameter: branches, folds, exchanges of stability
+    Trace(crate::trace::Arguments),
+    /// Draw which start leads where, by both solvers
+    Basins(crate::basins::Arguments),
     /// List the named cases, or print the system file of one (a start for a file of your own)
     Cases(Cases),
     /// Print a completion script for a shell

@@ -5,6 +5,7 @@
 
 mod answer;
 mod args;
+mod basins;
 mod cases;
 mod census;
 mod diagnostics;
@@ -17,6 +18,7 @@ mod reproduce;
 mod solve;
 mod sweep;
 mod tables;
+mod trace;
 mod verdicts;
 
 use clap::{CommandFactory, Parser};
@@ -32,6 +34,8 @@ fn main() -> std::process::ExitCode {
         Command::Census(arguments) => census::run(&arguments),
         Command::Sweep(arguments) => sweep::run(&arguments),
         Command::Merge(arguments) => merge::run(&arguments),
+        Command::Trace(arguments) => trace::run(&arguments),
+        Command::Basins(arguments) => basins::run(&arguments),
         Command::Cases(arguments) => cases::run(&arguments),
         Command::Completions { shell } => {
             let mut script = Vec::new();

@@ -1,0 +1,155 @@
+//! `funicular basins`: which start leads where, as pictures.
+
+use std::path::PathBuf;
+
+use ::sweep::{Axis, Basins, Field, Outcomes, Settings, Source, Sweep};
+use clap::Args;
+use miette::miette;
+use model::Problem;
+use rayon::prelude::*;
+
+use crate::cases;
+use crate::exit::{Exit, Failure};
+use crate::input;
+use crate::output;
+use crate::progress::Progress;
+
+const NOTES: &str = "\
+Each pixel is a start: the angles of two bars from the descending vertical, 0 to 360 degrees; all other bars start
+at --others. Both solvers start there, whether or not the chain closes. Files: lagrange.svg and energy.svg (the
+equilibrium reached), lagrange-iterations.svg and energy-iterations.svg.
+
+Example:
+  funicular basins --case three-equal-bars --size 400 --out pictures";
+
+/// Largest picture: 16 million starts for each solver.
+const LARGEST: u32 = 4096;
+
+/// `funicular basins`.
+#[derive(Debug, Args)]
+#[command(after_help = NOTES)]
+pub struct Arguments {
+    /// The system file (TOML); see `funicular cases three-equal-bars` for one
+    #[arg(value_name = "FILE", required_unless_present = "case")]
+    pub file: Option<PathBuf>,
+    /// A named case instead of a file
+    #[arg(long, value_name = "NAME", conflicts_with = "file")]
+    pub case: Option<String>,
+    /// Starts along each side
+    #[arg(long, value_name = "N", default_value_t = 300, value_parser = clap::value_parser!(u32).range(2..=i64::from(LARGEST)))]
+    pub size: u32,
+    /// The two bars whose angles are the axes
+    #[arg(long, value_name = "I,J", num_args = 2, value_delimiter = ',', default_values_t = [1, 2])]
+    pub bars: Vec<usize>,
+    /// Starting angle of all other bars, degrees from the descending vertical
+    #[arg(long, value_name = "DEGREES", default_value_t = 0.0, allow_hyphen_values = true)]
+    pub others: f64,
+    /// Write the pictures into this folder (made if it is not there)
+    #[arg(long, value_name = "DIR")]
+    pub out: PathBuf,
+}
+
+/// Run the command.
+pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
+    let problem = read(arguments)?;
+    let bars = problem.chain().bars().len();
+    let [i, j] = axes(arguments, bars)?;
+    let others = arguments.others.to_radians();
+    let axis = |bar: usize| {
+        if bar == i || bar == j {
+            Axis::full(u64::from(arguments.size))
+        } else {
+            Axis::fixed(others)
+        }
+    };
+    let settings =
+        Settings { source: Source::Grid((1..=bars).map(axis).collect()), ..Settings::default() };
+    let progress = Progress::start();
+    progress.say("the list of equilibria");
+    let sweep =
+        Sweep::new(&problem, settings).map_err(|error| Failure::bad_input(miette!("{error}")))?;
+    let size = u64::from(arguments.size);
+    progress.say(&format!("{} starts", size * size));
+    let rows: Vec<_> = (0..size)
+        .into_par_iter()
+        .map(|row| sweep.run_chunk(row * size..(row + 1) * size))
+        .collect();
+    let names: Vec<String> = sweep.members().list().iter().enumerate().map(name).collect();
+    let fixed = if bars > 2 {
+        format!("; all other bars start at {}\u{b0}", arguments.others)
+    } else {
+        String::new()
+    };
+    let title = problem.chain().name();
+    let labels = [i, j].map(|bar| format!("start of bar {bar} from the vertical / \u{b0}"));
+    output::make_folder(&arguments.out)?;
+    let mut said = String::new();
+    for solver in ["lagrange", "energy"] {
+        let mut all = Outcomes::default();
+        for chunk in &rows {
+            let part = if solver == "lagrange" { &chunk.lagrange } else { &chunk.energy };
+            let Some(part) = part else { continue };
+            all.outcome.extend(&part.outcome);
+            all.iterations.extend(&part.iterations);
+        }
+        let note =
+            |field: &str| format!("{field} by {solver} from {size} \u{d7} {size} starts{fixed}");
+        for (field, what, suffix) in [
+            (Field::Outcome, "equilibrium reached", ""),
+            (Field::Iterations, "iterations spent", "-iterations"),
+        ] {
+            let note = note(what);
+            let basins = Basins {
+                size: arguments.size,
+                outcomes: &all,
+                names: &names,
+                title,
+                note: &note,
+                labels: [&labels[0], &labels[1]],
+            };
+            let picture = basins.svg(field).map_err(|e| Failure::undecided(miette!("{e}")))?;
+            let path = arguments.out.join(format!("{solver}{suffix}.svg"));
+            output::write_whole(&path, &picture)?;
+            said += &format!("{}\n", path.display());
+        }
+        let failed = all.outcome.iter().filter(|outcome| **outcome < 0).count();
+        said += &format!("{solver}: {failed} of {} starts reached no equilibrium\n", size * size);
+    }
+    drop(progress);
+    output::print(&said)?;
+    Ok(Exit::Done)
+}
+
+fn read(arguments: &Arguments) -> Result<Problem, Failure> {
+    match (&arguments.file, &arguments.case) {
+        (Some(file), _) => input::problem(file),
+        (None, Some(name)) => cases::find(name).map(model::cases::Case::problem),
+        // clap asks for one of them.
+        (None, None) => Err(Failure::bad_input(miette!("name a system file or a case"))),
+    }
+}
+
+/// The two bars of the axes, the lower first: the grid runs along it.
+fn axes(arguments: &Arguments, bars: usize) -> Result<[usize; 2], Failure> {
+    let [i, j] = [arguments.bars[0], arguments.bars[1]];
+    if i == j || ![i, j].iter().all(|bar| (1..=bars).contains(bar)) {
+        return Err(Failure::bad_input(miette!(
+            "--bars {i},{j}: two different bars are needed, and the chain has bars 1 to {bars}"
+        )));
+    }
+    if !arguments.others.is_finite() {
+        return Err(Failure::bad_input(miette!("--others must be a finite angle in degrees")));
+    }
+    Ok([i.min(j), i.max(j)])
+}
+
+/// An equilibrium in the legend: its number, energy and kind.
+fn name((number, member): (usize, &::sweep::Member)) -> String {
+    let kind = match member.index_in_plane {
+        Some(0) => ", minimum",
+        Some(_) => ", no minimum",
+        None => "",
+    };
+    let mirrored = if member.mirrored { " (mirror image)" } else { "" };
+    format!("{number}: {:.4} J{kind}{mirrored}", member.energy_j)
+}

@@ -1,0 +1,325 @@
+//! `funicular trace`: all equilibria over a parameter.
+
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+use ::sweep::{
+    Abscissa, Combine, EventKind, PointStatus, Study, Trace, TraceProgress, TraceSettings, Vary,
+    VaryError, diagram, trace,
+};
+use clap::Args;
+use miette::{LabeledSpan, miette};
+use model::{Problem, SystemSummary};
+use serde::Serialize;
+
+use crate::cases;
+use crate::exit::{Exit, Failure};
+use crate::input;
+use crate::output;
+use crate::progress::Progress;
+use crate::tables;
+
+const EXAMPLES: &str = "\
+A parameter is any number of the system file and its values, a list or a range with its number of points:
+  --vary anchors.end_m.z=-2.9..-0.1:500     --vary bars.2.mass_kg=0.1,1,10
+  --vary gravity_m_s2=1.62,9.80665          --vary 'bars.*.length_m=0.5..2:31'
+Bars are counted from 1 along the chain. Between values the parameter runs straight. Branches are followed
+along the last parameter; each combination of the others is a path of its own (or all go in step: --zip).
+
+Examples:
+  funicular trace --case three-equal-bars --vary anchors.end_m.z=-3.1..-0.1:500 --over-span --svg paper.svg
+  funicular trace chain.toml --vary bars.2.mass_kg=0.1..10:200 --csv branches.csv --json | jq .traces[0].events
+
+Exit codes:
+  0  done; the censuses between the points agree with the branches
+  1  a check failed: a census differs from the branches
+  2  bad input or usage, or no point describes a chain
+  3  a branch could not be followed";
+
+/// Branches printed in full as a table.
+const SHOWN: usize = 60;
+
+/// `funicular trace`.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub struct Arguments {
+    /// The system file (TOML); see `funicular cases three-equal-bars` for one
+    #[arg(value_name = "FILE", required_unless_present = "case")]
+    pub file: Option<PathBuf>,
+    /// Trace a named case instead of a file
+    #[arg(long, value_name = "NAME", conflicts_with = "file")]
+    pub case: Option<String>,
+    /// A number of the system file and its values: `anchors.end_m.z=-2.9..-0.1:500` (repeatable)
+    #[arg(long, value_name = "KEY=VALUES", required = true, allow_hyphen_values = true)]
+    pub vary: Vec<String>,
+    /// Take the values of several parameters in step instead of in all combinations
+    #[arg(long)]
+    pub zip: bool,
+    /// Print one JSON object (schema_version 1) instead of tables
+    #[arg(long)]
+    pub json: bool,
+    /// Write all points of all branches, a line each, to this CSV file
+    #[arg(long, value_name = "FILE")]
+    pub csv: Option<PathBuf>,
+    /// Write the bifurcation diagram to this SVG file (with several paths: FILE-1.svg, FILE-2.svg, ...)
+    #[arg(long, value_name = "FILE")]
+    pub svg: Option<PathBuf>,
+    /// Draw the diagram over the distance of the anchors instead of the parameter
+    #[arg(long)]
+    pub over_span: bool,
+    /// Draw the angle of this bar, from 1
+    #[arg(long, value_name = "BAR", default_value_t = 1)]
+    pub bar: usize,
+}
+
+/// What `trace --json` prints.
+#[derive(Serialize)]
+struct Answer<'a> {
+    schema_version: u32,
+    system: SystemSummary,
+    traces: &'a [Trace],
+}
+
+/// Run the command.
+pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
+    let chain = read(arguments)?.into_chain();
+    let system = chain.summary();
+    if !(1..=system.bars).contains(&arguments.bar) {
+        let bars = system.bars;
+        return Err(Failure::bad_input(miette!(
+            "there is no bar {}: the chain has {bars} bars, numbered from 1",
+            arguments.bar
+        )));
+    }
+    let vary: Vec<Vary> = arguments
+        .vary
+        .iter()
+        .map(|text| text.parse().map_err(|error| vary_failure(&error)))
+        .collect::<Result<_, _>>()?;
+    let combine = if arguments.zip { Combine::Zip } else { Combine::Product };
+    let study = Study::new(chain, &vary, combine).map_err(|error| vary_failure(&error))?;
+    let traces = follow(&study)?;
+    if let Some(path) = &arguments.csv {
+        output::write_stream(path, |file| write_csv(file, &traces))?;
+    }
+    if let Some(path) = &arguments.svg {
+        let abscissa = if arguments.over_span { Abscissa::Span } else { Abscissa::Parameter };
+        for (k, one) in traces.iter().enumerate() {
+            let path = if traces.len() == 1 { path.clone() } else { numbered(path, k + 1) };
+            output::write_whole(&path, &diagram(one, &system.name, abscissa, arguments.bar))?;
+        }
+    }
+    let exit = verdict(&traces)?;
+    if arguments.json {
+        let answer =
+            Answer { schema_version: crate::solve::SCHEMA_VERSION, system, traces: &traces };
+        output::print_stream(|out| {
+            serde_json::to_writer_pretty(&mut *out, &answer)?;
+            out.write_all(b"\n")
+        })?;
+    } else {
+        output::print(&traces.iter().map(text).collect::<Vec<_>>().join("\n"))?;
+    }
+    Ok(exit)
+}
+
+fn read(arguments: &Arguments) -> Result<Problem, Failure> {
+    match (&arguments.file, &arguments.case) {
+        (Some(file), _) => input::problem(file),
+        (None, Some(name)) => cases::find(name).map(model::cases::Case::problem),
+        // clap asks for one of them.
+        (None, None) => Err(Failure::bad_input(miette!("name a system file or a case"))),
+    }
+}
+
+fn follow(study: &Study) -> Result<Vec<Trace>, Failure> {
+    let progress = Progress::start();
+    let paths = study.paths().len();
+    let mut traces = vec![];
+    for path in 0..paths {
+        let which =
+            if paths > 1 { format!("path {} of {paths}: ", path + 1) } else { String::new() };
+        let watch = |TraceProgress { done, total }: TraceProgress| {
+            progress.say(&format!("{which}census {done} of {total}"));
+        };
+        let found = trace(study, path, &TraceSettings::default(), &watch);
+        traces.push(found.map_err(|error| Failure::bad_input(miette!("{error}")))?);
+    }
+    Ok(traces)
+}
+
+/// The error with the place in the text of the parameter.
+fn vary_failure(error: &VaryError) -> Failure {
+    let label = LabeledSpan::new_with_span(Some(error.what.clone()), error.span.clone());
+    let report = miette!(
+        labels = vec![label],
+        help = error.help.clone(),
+        "--vary {}, character {}: {}",
+        error.text,
+        error.column(),
+        error.what
+    );
+    Failure::bad_input(report.with_source_code(error.text.clone()))
+}
+
+fn verdict(traces: &[Trace]) -> Result<Exit, Failure> {
+    let points = || traces.iter().flat_map(|trace| &trace.points);
+    let reason = points().next().and_then(|point| match &point.status {
+        PointStatus::Refused { reason } => Some(reason),
+        _ => None,
+    });
+    if let Some(reason) = reason
+        && points().all(|point| matches!(point.status, PointStatus::Refused { .. }))
+    {
+        return Err(Failure::bad_input(miette!(
+            "no value of the parameters describes a chain that can hang; the first: {reason}"
+        )));
+    }
+    let checks = || traces.iter().map(|trace| &trace.checks);
+    if checks().any(|checks| !checks.unfollowed.is_empty()) {
+        Ok(Exit::Undecided)
+    } else if checks().all(::sweep::Checks::agree) {
+        Ok(Exit::Done)
+    } else {
+        Ok(Exit::CheckFailed)
+    }
+}
+
+/// `name.svg` with a number: `name-2.svg`.
+fn numbered(path: &Path, number: usize) -> PathBuf {
+    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+    let name = match path.extension() {
+        Some(extension) => format!("{stem}-{number}.{}", extension.to_string_lossy()),
+        None => format!("{stem}-{number}"),
+    };
+    path.with_file_name(name)
+}
+
+/// A line per point of a branch: units in the names of the columns, nothing where a force is infinite.
+fn write_csv(to: &mut impl Write, traces: &[Trace]) -> io::Result<()> {
+    let Some(first) = traces.first() else { return Ok(()) };
+    let bars = first
+        .branches
+        .iter()
+        .chain(traces.iter().flat_map(|trace| &trace.branches))
+        .find_map(|branch| branch.points.first())
+        .map_or(0, |point| point.angles_rad.len());
+    write!(to, "path,branch,position,{},span_m,grid,proved,event", first.parameters.join(","))?;
+    write!(to, ",pull_horizontal_n,pull_vertical_n,energy_j,index_in_plane,index_in_space")?;
+    for bar in 1..=bars {
+        write!(to, ",angle_{bar}_rad,axial_{bar}_n")?;
+    }
+    writeln!(to)?;
+    for (path, trace) in traces.iter().enumerate() {
+        for branch in &trace.branches {
+            for p in &branch.points {
+                write!(to, "{},{},{:?}", path + 1, branch.id, p.position)?;
+                for value in &p.values {
+                    write!(to, ",{value:?}")?;
+                }
+                let number =
+                    |number: Option<usize>| number.map_or(String::new(), |k| k.to_string());
+                write!(to, ",{:?},{},{},{}", p.span_m, number(p.grid), p.proved, number(p.event))?;
+                match p.pull_n {
+                    Some([h, v]) => write!(to, ",{h:?},{v:?}")?,
+                    None => write!(to, ",,")?,
+                }
+                write!(to, ",{:?},{},{}", p.energy_j, p.index_in_plane, p.index_in_space)?;
+                for (bar, angle) in p.angles_rad.iter().enumerate() {
+                    write!(to, ",{angle:?},")?;
+                    if let Some(axial) = p.axial_n.get(bar) {
+                        write!(to, "{axial:?}")?;
+                    }
+                }
+                writeln!(to)?;
+            }
+        }
+    }
+    Ok(())
+}
+
+/// One trace for people.
+fn text(trace: &Trace) -> String {
+    let complete = |p: &&::sweep::TracePoint| matches!(p.status, PointStatus::Complete { .. });
+    let refused = |p: &&::sweep::TracePoint| matches!(p.status, PointStatus::Refused { .. });
+    let count = trace.points.len();
+    let proved = trace.points.iter().filter(complete).count();
+    let refused = trace.points.iter().filter(refused).count();
+    let undecided = count - proved - refused;
+    let checks = &trace.checks;
+    let mut text = format!(
+        "{}: {count} points, {proved} with all equilibria proved, {refused} refused, {undecided} degenerate; \
+         {} branches\n",
+        trace.parameters.join(", "),
+        trace.branches.len()
+    );
+    text += &table(trace);
+    for point in trace.points.iter().filter(|p| matches!(p.status, PointStatus::Undecided { .. })) {
+        text += &format!("degenerate at {}\n", values(trace, &point.values));
+    }
+    text += &format!(
+        "{} censuses between the points: {}\n",
+        checks.between,
+        if checks.agree() {
+            "each finds exactly the branches there, with the same indices".to_owned()
+        } else {
+            format!(
+                "{} differ from the branches, {} intervals could not be followed, {} energies or indices \
+                 differ, {} Euler characteristics do not hold",
+                checks.mismatches.len(),
+                checks.unfollowed.len(),
+                checks.disagreements,
+                checks.euler_violations
+            )
+        }
+    );
+    text
+}
+
+fn values(trace: &Trace, values: &[f64]) -> String {
+    let named = trace.parameters.iter().zip(values).zip(&trace.units);
+    named
+        .map(|((name, value), unit)| format!("{name} = {value} {unit}"))
+        .collect::<Vec<_>>()
+        .join(", ")
+}
+
+fn table(trace: &Trace) -> String {
+    let mut table = tables::table(["what happens", "where", "branches", "energy / J", "residual"]);
+    let shown = |kind: EventKind| !matches!(kind, EventKind::Unloaded { .. });
+    let events: Vec<_> = trace.events.iter().filter(|event| shown(event.kind)).collect();
+    for event in events.iter().take(SHOWN) {
+        let what = match event.kind {
+            EventKind::Fold => "fold: two branches meet and end".to_owned(),
+            EventKind::Straight => "straight chain: two branches meet and end".to_owned(),
+            EventKind::BranchPoint => "branch point".to_owned(),
+            EventKind::SpaceExchange { from, to } => {
+                format!("index in space {from} \u{2192} {to}")
+            }
+            other => other.name().to_owned(),
+        };
+        let branches: Vec<String> = event.branches.iter().map(ToString::to_string).collect();
+        table.add_row([
+            what,
+            values(trace, &event.values),
+            branches.join(", "),
+            format!("{:.9}", event.energy_j),
+            format!("{:.0e}", event.residual),
+        ]);
+    }
+    let unloaded = trace.events.len() - events.len();
+    let mut text = if events.is_empty() {
+        "no folds, branch points or exchanges of stability\n".to_owned()
+    } else {
+        format!("{table}\n")
+    };
+    if events.len() > SHOWN {
+        text += &format!("... and {} more (--json has them all)\n", events.len() - SHOWN);
+    }
+    if unloaded > 0 {
+        text += &format!(
+            "{unloaded} times a bar changes between tension and compression (--json has them)\n"
+        );
+    }
+    text
+}

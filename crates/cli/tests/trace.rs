@@ -1,0 +1,172 @@
+//! `funicular trace` and `funicular basins` as their users meet them.
+
+#![expect(clippy::unwrap_used, reason = "helpers of tests")]
+
+use std::path::PathBuf;
+use std::process::Output;
+
+use assert_cmd::Command;
+use serde_json::Value;
+
+fn funicular(arguments: &[&str]) -> Output {
+    Command::cargo_bin("funicular").unwrap().env("NO_COLOR", "1").args(arguments).output().unwrap()
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8(bytes.to_vec()).unwrap()
+}
+
+/// A folder of this test alone.
+fn folder(name: &str) -> PathBuf {
+    let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("trace").join(name);
+    let _ = std::fs::remove_dir_all(&path);
+    std::fs::create_dir_all(&path).unwrap();
+    path
+}
+
+const LEVEL: [&str; 7] = [
+    "trace",
+    "--case",
+    "three-equal-bars",
+    "--vary",
+    "anchors.end_m.z=0",
+    "--vary",
+    "anchors.end_m.x=0.3..1.5:13",
+];
+
+#[test]
+fn the_level_chain_has_its_folds_and_branch_points() {
+    let out = folder("level");
+    let [csv, svg] = ["level.csv", "level.svg"].map(|name| out.join(name));
+    let mut arguments = LEVEL.to_vec();
+    arguments.extend(["--json", "--csv", csv.to_str().unwrap(), "--svg", svg.to_str().unwrap()]);
+    let output = funicular(&arguments);
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    let json: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(json["schema_version"], 1);
+    let trace = &json["traces"][0];
+    let events = trace["events"].as_array().unwrap();
+    // Closed forms: crates/sweep/tests/trace.rs.
+    for (kind, count, wanted) in
+        [("fold", 4, 1.5_f64.sqrt()), ("branch-point", 2, 4_f64.cbrt() - 1.0)]
+    {
+        let found: Vec<f64> = events
+            .iter()
+            .filter(|event| event["kind"] == kind)
+            .map(|event| event["values"][1].as_f64().unwrap())
+            .collect();
+        assert_eq!(found.len(), count, "{kind}");
+        assert!(found.iter().all(|place| (place - wanted).abs() <= 1e-10), "{kind}: {found:?}");
+    }
+    assert!(!text(&output.stdout).contains("null"));
+    let csv = std::fs::read_to_string(csv).unwrap();
+    let head = csv.lines().next().unwrap();
+    assert!(head.starts_with("path,branch,position,anchors.end_m.z,anchors.end_m.x,span_m,"));
+    let points: usize = trace["branches"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|branch| branch["points"].as_array().unwrap().len())
+        .sum();
+    assert_eq!(csv.lines().count(), points + 1);
+    assert!(csv.lines().all(|line| line.matches(',').count() == head.matches(',').count()));
+    let svg = std::fs::read_to_string(svg).unwrap();
+    for wanted in ["energy / J", "anchors.end_m.x / m", "fold", "branch point", "unstable"] {
+        assert!(svg.contains(wanted), "{wanted} is not in the picture");
+    }
+    assert!(roxmltree::Document::parse(&svg).is_ok());
+}
+
+#[test]
+fn people_get_a_table() {
+    let output = funicular(&LEVEL);
+    assert_eq!(output.status.code(), Some(0));
+    let said = text(&output.stdout);
+    for wanted in ["fold: two branches", "branch point", "1.2247448713915", "each finds exactly"] {
+        assert!(said.contains(wanted), "{wanted} is not in\n{said}");
+    }
+}
+
+#[test]
+fn a_product_has_a_path_for_each_combination() {
+    let out = folder("product");
+    let svg = out.join("masses.svg");
+    let output = funicular(&[
+        "trace",
+        "--case",
+        "three-equal-bars",
+        "--vary",
+        "bars.2.mass_kg=0.5,2",
+        "--vary",
+        "anchors.end_m.z=-2.5..-1.5:3",
+        "--json",
+        "--svg",
+        svg.to_str().unwrap(),
+    ]);
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    let json: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(json["traces"].as_array().unwrap().len(), 2);
+    assert_eq!(json["traces"][1]["points"][0]["values"][0], 2.0);
+    assert!(out.join("masses-1.svg").exists() && out.join("masses-2.svg").exists());
+}
+
+#[test]
+fn errors_point_at_what_is_wrong() {
+    for (vary, wanted) in [
+        ("bars.2.mas_kg=1,2", "did you mean `mass_kg`?"),
+        ("bars.9.mass_kg=1,2", "there is no bar 9"),
+        ("anchors.end_m.z=1..2", "the number of points is missing"),
+        ("anchors.end_m.z=-9,-8", "no value of the parameters describes a chain"),
+    ] {
+        let output = funicular(&["trace", "--case", "three-equal-bars", "--vary", vary]);
+        assert_eq!(output.status.code(), Some(2), "{vary}");
+        assert!(output.stdout.is_empty());
+        let said = text(&output.stderr).split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(said.contains(wanted), "{vary}: {said}");
+    }
+    let output = funicular(&["trace", "--case", "three-equal-bars"]);
+    assert_eq!(output.status.code(), Some(2));
+    let output = funicular(&["trace", "--case", "thirty-bars", "--vary", "gravity_m_s2=1,2"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(text(&output.stderr).contains("30 bars"));
+}
+
+#[test]
+fn basins_are_drawn_for_both_solvers() {
+    let out = folder("basins");
+    let output = funicular(&[
+        "basins",
+        "--case",
+        "three-equal-bars",
+        "--size",
+        "24",
+        "--out",
+        out.to_str().unwrap(),
+    ]);
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    for solver in ["lagrange", "energy"] {
+        for suffix in ["", "-iterations"] {
+            let picture =
+                std::fs::read_to_string(out.join(format!("{solver}{suffix}.svg"))).unwrap();
+            assert!(picture.contains("data:image/png;base64,iVBORw0KGgo"), "{solver}{suffix}");
+            assert!(picture.contains("start of bar 1 from the vertical"));
+            assert!(roxmltree::Document::parse(&picture).is_ok());
+        }
+    }
+    // A minimiser reaches minima only.
+    let energy = std::fs::read_to_string(out.join("energy.svg")).unwrap();
+    assert!(energy.contains("minimum") && !energy.contains("no minimum"));
+    let lagrange = std::fs::read_to_string(out.join("lagrange.svg")).unwrap();
+    assert!(lagrange.contains("no minimum"));
+    let output = funicular(&[
+        "basins",
+        "--case",
+        "two-bars",
+        "--bars",
+        "1,3",
+        "--out",
+        out.to_str().unwrap(),
+    ]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(text(&output.stderr).contains("the chain has bars 1 to 2"));
+}
