@@ -148,7 +148,7 @@ impl Batch {
     fn fixed<const N: usize>(&self, angles: &[f64], ends: &mut Ends) {
         let mut pieces = [Piece::default(); N];
         pieces.copy_from_slice(&self.pieces.list);
-        self.run(&pieces, &mut [Place::ZERO; N], angles, ends);
+        pulp::Arch::new().dispatch(Vectors { batch: self, pieces, angles, ends });
     }
 
     #[inline(always)]
@@ -226,6 +226,23 @@ impl Batch {
         ends.iterations[seed] = u16::try_from(lane.trials).unwrap_or(u16::MAX);
         ends.residual[seed] = lane.slope;
         ends.energy_j[seed] = value * self.pieces.unit_j;
+    }
+}
+
+/// A minimisation to be compiled once for each kind of vector register; none of them changes a bit.
+struct Vectors<'a, const N: usize> {
+    batch: &'a Batch,
+    pieces: [Piece; N],
+    angles: &'a [f64],
+    ends: &'a mut Ends,
+}
+
+impl<const N: usize> pulp::NullaryFnOnce for Vectors<'_, N> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        self.batch.run(&self.pieces, &mut [Place::ZERO; N], self.angles, self.ends);
     }
 }
 

@@ -149,7 +149,7 @@ impl Batch {
     fn unrolled<const N: usize>(&self, angles: &[f64], ends: &mut Ends) {
         let mut bars = [Bar::default(); N];
         bars.copy_from_slice(&self.numbers.bars);
-        self.run(&bars, &mut [State::ZERO; N], angles, ends);
+        pulp::Arch::new().dispatch(Widest { batch: self, bars: &bars, angles, ends });
     }
 
     #[inline(always)]
@@ -224,6 +224,24 @@ impl Batch {
         } else {
             Finish::NonFinite
         };
+    }
+}
+
+/// The same loop compiled for the widest vectors that the processor has: the operations are the same, entry by
+/// entry, and so are the bits.
+struct Widest<'a, const N: usize> {
+    batch: &'a Batch,
+    bars: &'a [Bar; N],
+    angles: &'a [f64],
+    ends: &'a mut Ends,
+}
+
+impl<const N: usize> pulp::NullaryFnOnce for Widest<'_, N> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        self.batch.run(self.bars, &mut [State::ZERO; N], self.angles, self.ends);
     }
 }
 
