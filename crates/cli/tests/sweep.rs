@@ -25,7 +25,7 @@ fn funicular(arguments: &[&str]) -> Output {
 
 fn sweep(out: &Path, more: &[&str]) -> Output {
     let out = out.to_str().unwrap();
-    funicular(&[&["sweep", "--case", "paper", "--seeds", SEEDS, "--out", out], more].concat())
+    funicular(&[&["sweep", "--case", "three-equal-bars", "--seeds", SEEDS, "--out", out], more].concat())
 }
 
 fn stderr(output: &Output) -> String {
@@ -74,7 +74,7 @@ fn started(out: &Path) -> Running {
 }
 
 const LONG: [&str; 8] =
-    ["sweep", "--case", "paper", "--seeds", "500_000", "--solver", "lagrange", "--angles"];
+    ["sweep", "--case", "three-equal-bars", "--seeds", "500_000", "--solver", "lagrange", "--angles"];
 
 #[test]
 fn the_tables_and_the_object_say_the_same() {
@@ -207,7 +207,7 @@ fn bad_usage_is_refused_with_a_reason() {
             all.extend(["--seeds", SEEDS]);
         }
         if !arguments.contains(&"--case") {
-            all.extend(["--case", "paper"]);
+            all.extend(["--case", "three-equal-bars"]);
         }
         all.extend(arguments);
         let output = funicular(&all);
@@ -236,7 +236,7 @@ fn a_regular_grid_is_swept() {
     let arguments = ["--source", "grid", "--solver", "energy", "--json"];
     let output = funicular(
         &[
-            &["sweep", "--case", "paper", "--seeds", "1000", "--out", out.to_str().unwrap()],
+            &["sweep", "--case", "three-equal-bars", "--seeds", "1000", "--out", out.to_str().unwrap()],
             &arguments[..],
         ]
         .concat(),

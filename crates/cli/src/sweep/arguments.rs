@@ -21,7 +21,7 @@ Exit codes:
 
 const EXAMPLES: &str = "\
 Examples:
-  funicular sweep --case paper --seeds 1e6 --out paper        a million starts of the paper's chain
+  funicular sweep --case three-equal-bars --seeds 1e6 --out paper   the chain of the paper, a million starts
   funicular sweep chain.toml --seeds 1e8 --resume --out big   start it, or go on after an interruption
   funicular sweep chain.toml --seeds 1e8 --shard 2/7 --out s2 the second of seven parts, on this machine
   funicular merge s1 s2 s3 s4 s5 s6 s7 --out big              all of them, proved complete
