@@ -25,7 +25,9 @@ fn funicular(arguments: &[&str]) -> Output {
 
 fn sweep(out: &Path, more: &[&str]) -> Output {
     let out = out.to_str().unwrap();
-    funicular(&[&["sweep", "--case", "three-equal-bars", "--seeds", SEEDS, "--out", out], more].concat())
+    funicular(
+        &[&["sweep", "--case", "three-equal-bars", "--seeds", SEEDS, "--out", out], more].concat(),
+    )
 }
 
 fn stderr(output: &Output) -> String {
@@ -73,8 +75,16 @@ fn started(out: &Path) -> Running {
     running
 }
 
-const LONG: [&str; 8] =
-    ["sweep", "--case", "three-equal-bars", "--seeds", "500_000", "--solver", "lagrange", "--angles"];
+const LONG: [&str; 8] = [
+    "sweep",
+    "--case",
+    "three-equal-bars",
+    "--seeds",
+    "500_000",
+    "--solver",
+    "lagrange",
+    "--angles",
+];
 
 #[test]
 fn the_tables_and_the_object_say_the_same() {
@@ -236,7 +246,15 @@ fn a_regular_grid_is_swept() {
     let arguments = ["--source", "grid", "--solver", "energy", "--json"];
     let output = funicular(
         &[
-            &["sweep", "--case", "three-equal-bars", "--seeds", "1000", "--out", out.to_str().unwrap()],
+            &[
+                "sweep",
+                "--case",
+                "three-equal-bars",
+                "--seeds",
+                "1000",
+                "--out",
+                out.to_str().unwrap(),
+            ],
             &arguments[..],
         ]
         .concat(),
