@@ -32,7 +32,8 @@ fn sweep(out: &Path, more: &[&str]) -> Output {
 
 fn stderr(output: &Output) -> String {
     // Long messages are wrapped.
-    String::from_utf8_lossy(&output.stderr).split_whitespace().collect::<Vec<_>>().join(" ")
+    let text = String::from_utf8_lossy(&output.stderr).replace('│', " ");
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
 fn folder(name: &str) -> PathBuf {

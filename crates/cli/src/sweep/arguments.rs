@@ -40,7 +40,7 @@ pub struct Sweep {
     #[arg(long, value_name = "NAME", conflicts_with = "file")]
     pub case: Option<String>,
     /// How many starts: 1000000, 1_000_000 or 1e6
-    #[arg(long, value_name = "N", value_parser = count)]
+    #[arg(long, value_name = "N", value_parser = count, allow_negative_numbers = true)]
     pub seeds: u64,
     /// The number that all starts come from; another one gives others
     #[arg(long, value_name = "S", default_value_t = 1)]
@@ -52,7 +52,7 @@ pub struct Sweep {
     #[arg(long, value_enum, default_value_t = Which::Both)]
     pub solver: Which,
     /// How many threads; 0 means one per processor. The result does not depend on it
-    #[arg(long, value_name = "T", default_value_t = 0, value_parser = threads)]
+    #[arg(long, value_name = "T", default_value_t = 0, value_parser = threads, allow_negative_numbers = true)]
     pub threads: usize,
     /// Only the K-th of N parts, to be joined by `funicular merge`
     #[arg(long, value_name = "K/N", default_value_t = Shard::WHOLE)]
