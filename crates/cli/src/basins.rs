@@ -1,14 +1,13 @@
 //! `funicular basins`: which start leads where, as pictures.
 
+use std::fmt::Write as _;
 use std::path::PathBuf;
 
 use ::sweep::{Axis, Basins, Field, Outcomes, Settings, Source, Sweep};
 use clap::Args;
 use miette::miette;
-use model::Problem;
 use rayon::prelude::*;
 
-use crate::cases;
 use crate::exit::{Exit, Failure};
 use crate::input;
 use crate::output;
@@ -51,7 +50,7 @@ pub struct Arguments {
 
 /// Run the command.
 pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
-    let problem = read(arguments)?;
+    let problem = input::problem(arguments.file.as_deref(), arguments.case.as_deref())?;
     let bars = problem.chain().bars().len();
     let [i, j] = axes(arguments, bars)?;
     let others = arguments.others.to_radians();
@@ -110,23 +109,17 @@ pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
             let picture = basins.svg(field).map_err(|e| Failure::undecided(miette!("{e}")))?;
             let path = arguments.out.join(format!("{solver}{suffix}.svg"));
             output::write_whole(&path, &picture)?;
-            said += &format!("{}\n", path.display());
+            said += &path.display().to_string();
+            said.push('\n');
         }
         let failed = all.outcome.iter().filter(|outcome| **outcome < 0).count();
-        said += &format!("{solver}: {failed} of {} starts reached no equilibrium\n", size * size);
+        let starts = size * size;
+        // Writing to a String cannot fail.
+        let _ = writeln!(said, "{solver}: {failed} of {starts} starts reached no equilibrium");
     }
     drop(progress);
     output::print(&said)?;
     Ok(Exit::Done)
-}
-
-fn read(arguments: &Arguments) -> Result<Problem, Failure> {
-    match (&arguments.file, &arguments.case) {
-        (Some(file), _) => input::problem(file),
-        (None, Some(name)) => cases::find(name).map(model::cases::Case::problem),
-        // clap asks for one of them.
-        (None, None) => Err(Failure::bad_input(miette!("name a system file or a case"))),
-    }
 }
 
 /// The two bars of the axes, the lower first: the grid runs along it.

@@ -9,9 +9,7 @@ use std::path::{Path, PathBuf};
 use census::{CensusError, Settings};
 use clap::Args;
 use miette::miette;
-use model::Problem;
 
-use crate::cases;
 use crate::exit::{Exit, Failure};
 use crate::input;
 use crate::output;
@@ -65,7 +63,7 @@ pub fn run(arguments: &Census) -> Result<Exit, Failure> {
     }
     let progress = Progress::start();
     progress.say("reading");
-    let problem = read(arguments)?;
+    let problem = input::problem(arguments.file.as_deref(), arguments.case.as_deref())?;
     let census = census::Census::take_watched(&problem, &settings, &|now| {
         progress.say(&format!(
             "{} cells done, {} waiting, {} undecided, {} zeros proved",
@@ -99,16 +97,6 @@ pub fn run(arguments: &Census) -> Result<Exit, Failure> {
         (_, true) => Exit::Done,
         (_, false) => Exit::Undecided,
     })
-}
-
-/// The problem of the file or of the named case.
-fn read(arguments: &Census) -> Result<Problem, Failure> {
-    match (&arguments.file, &arguments.case) {
-        (Some(file), _) => input::problem(file),
-        (None, Some(name)) => cases::find(name).map(model::cases::Case::problem),
-        // clap asks for one of them.
-        (None, None) => Err(Failure::bad_input(miette!("name a system file or a case"))),
-    }
 }
 
 /// A file can be written only into a folder that is there.

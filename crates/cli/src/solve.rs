@@ -12,7 +12,6 @@ use validate::{Agreement, Tolerances, compare, compare::judge_alone};
 
 use crate::answer;
 use crate::args::{Solve, System, Which};
-use crate::cases;
 use crate::exit::{Exit, Failure};
 use crate::input;
 use crate::output;
@@ -43,7 +42,7 @@ struct Answer {
 pub fn run(arguments: &Solve) -> Result<Exit, Failure> {
     let progress = Progress::start();
     progress.say("reading");
-    let problem = read(arguments)?;
+    let problem = input::problem(arguments.file.as_deref(), arguments.case.as_deref())?;
     let bars = problem.chain().bars().len();
     let mut equilibria = Vec::new();
     if arguments.solver != Which::Energy {
@@ -125,16 +124,6 @@ fn lagrange_answer(problem: &Problem, system: System) -> Result<Equilibrium, Fai
             .map_err(|error| miette!("lagrange: {error}"))
     };
     found.map_err(Failure::undecided)
-}
-
-/// The problem of the file or of the named case.
-fn read(arguments: &Solve) -> Result<Problem, Failure> {
-    match (&arguments.file, &arguments.case) {
-        (Some(file), _) => input::problem(file),
-        (None, Some(name)) => cases::find(name).map(model::cases::Case::problem),
-        // clap asks for one of them.
-        (None, None) => Err(Failure::bad_input(miette!("name a system file or a case"))),
-    }
 }
 
 /// Two answers are compared; a single one is only judged by Newton's laws.

@@ -21,7 +21,6 @@ pub(crate) use self::arguments::threads;
 pub use self::arguments::{EXIT_CODES, Sweep};
 pub(crate) use self::interrupt::on_interrupt;
 use crate::args::Which;
-use crate::cases;
 use crate::exit::{Exit, Failure};
 use crate::input;
 use crate::output;
@@ -32,7 +31,7 @@ const TICK: Duration = Duration::from_millis(200);
 
 /// Run the command.
 pub fn run(arguments: &Sweep) -> Result<Exit, Failure> {
-    let problem = read(arguments)?;
+    let problem = input::problem(arguments.file.as_deref(), arguments.case.as_deref())?;
     let settings = settings(arguments, problem.chain().bars().len())?;
     let progress = Progress::start();
     progress.say("the list of equilibria");
@@ -81,15 +80,6 @@ pub fn run(arguments: &Sweep) -> Result<Exit, Failure> {
         output::print(&(tables::summary(&manifest, summary) + &rate + &written(&arguments.out)))?;
     }
     Ok(verdict(&manifest, summary))
-}
-
-fn read(arguments: &Sweep) -> Result<Problem, Failure> {
-    match (&arguments.file, &arguments.case) {
-        (Some(file), _) => input::problem(file),
-        (None, Some(name)) => cases::find(name).map(model::cases::Case::problem),
-        // clap asks for one of them.
-        (None, None) => Err(Failure::bad_input(miette!("name a system file or a case"))),
-    }
 }
 
 fn settings(arguments: &Sweep, bars: usize) -> Result<Settings, Failure> {

@@ -1,5 +1,6 @@
 //! `funicular trace`: all equilibria over a parameter.
 
+use std::fmt::Write as _;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
@@ -9,10 +10,9 @@ use ::sweep::{
 };
 use clap::Args;
 use miette::{LabeledSpan, miette};
-use model::{Problem, SystemSummary};
+use model::SystemSummary;
 use serde::Serialize;
 
-use crate::cases;
 use crate::exit::{Exit, Failure};
 use crate::input;
 use crate::output;
@@ -82,7 +82,7 @@ struct Answer<'a> {
 
 /// Run the command.
 pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
-    let chain = read(arguments)?.into_chain();
+    let chain = input::problem(arguments.file.as_deref(), arguments.case.as_deref())?.into_chain();
     let system = chain.summary();
     if !(1..=system.bars).contains(&arguments.bar) {
         let bars = system.bars;
@@ -121,15 +121,6 @@ pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
         output::print(&traces.iter().map(text).collect::<Vec<_>>().join("\n"))?;
     }
     Ok(exit)
-}
-
-fn read(arguments: &Arguments) -> Result<Problem, Failure> {
-    match (&arguments.file, &arguments.case) {
-        (Some(file), _) => input::problem(file),
-        (None, Some(name)) => cases::find(name).map(model::cases::Case::problem),
-        // clap asks for one of them.
-        (None, None) => Err(Failure::bad_input(miette!("name a system file or a case"))),
-    }
 }
 
 fn follow(study: &Study) -> Result<Vec<Trace>, Failure> {
@@ -255,10 +246,12 @@ fn text(trace: &Trace) -> String {
     );
     text += &table(trace);
     for point in trace.points.iter().filter(|p| matches!(p.status, PointStatus::Undecided { .. })) {
-        text += &format!("degenerate at {}\n", values(trace, &point.values));
+        // Writing to a String cannot fail.
+        let _ = writeln!(text, "degenerate at {}", values(trace, &point.values));
     }
-    text += &format!(
-        "{} censuses between the points: {}\n",
+    let _ = writeln!(
+        text,
+        "{} censuses between the points: {}",
         checks.between,
         if checks.agree() {
             "each finds exactly the branches there, with the same indices".to_owned()
@@ -314,11 +307,13 @@ fn table(trace: &Trace) -> String {
         format!("{table}\n")
     };
     if events.len() > SHOWN {
-        text += &format!("... and {} more (--json has them all)\n", events.len() - SHOWN);
+        // Writing to a String cannot fail.
+        let _ = writeln!(text, "... and {} more (--json has them all)", events.len() - SHOWN);
     }
     if unloaded > 0 {
-        text += &format!(
-            "{unloaded} times a bar changes between tension and compression (--json has them)\n"
+        let _ = writeln!(
+            text,
+            "{unloaded} times a bar changes between tension and compression (--json has them)"
         );
     }
     text

@@ -65,8 +65,9 @@ impl Drop for Running {
 
 /// Start a longer sweep on one thread, and wait until some of its parts are there.
 fn started(out: &Path) -> Running {
-    let child = program().args(LONG).arg("--threads=1").arg("--out").arg(out);
-    let child = child.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
+    let mut command = program();
+    command.args(LONG).arg("--threads=1").arg("--out").arg(out);
+    let child = command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
     let running = Running(child);
     let start = Instant::now();
     while !out.join("part-000001.parquet").exists() {

@@ -1,5 +1,7 @@
 //! Branches, folds and exchanges against closed forms and independent censuses.
 
+#![expect(clippy::unwrap_used, reason = "helpers of tests")]
+
 use sweep::{BranchEnd, Combine, EventKind, PointStatus, Study, Trace, TraceSettings, trace};
 
 /// Positions of events must be this good: the issue asks for 1e-10 in the parameter.
