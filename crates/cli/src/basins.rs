@@ -38,7 +38,7 @@ pub struct Arguments {
     #[arg(long, value_name = "N", default_value_t = 300, value_parser = clap::value_parser!(u32).range(2..=i64::from(LARGEST)))]
     pub size: u32,
     /// The two bars whose angles are the axes
-    #[arg(long, value_name = "I,J", num_args = 2, value_delimiter = ',', default_values_t = [1, 2])]
+    #[arg(long, value_name = "I,J", num_args = 1, value_delimiter = ',', default_values_t = [1, 2])]
     pub bars: Vec<usize>,
     /// Starting angle of all other bars, degrees from the descending vertical
     #[arg(long, value_name = "DEGREES", default_value_t = 0.0, allow_hyphen_values = true)]
@@ -124,7 +124,9 @@ pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
 
 /// The two bars of the axes, the lower first: the grid runs along it.
 fn axes(arguments: &Arguments, bars: usize) -> Result<[usize; 2], Failure> {
-    let [i, j] = [arguments.bars[0], arguments.bars[1]];
+    let [i, j] = arguments.bars[..] else {
+        return Err(Failure::bad_input(miette!("--bars wants two bars, as in --bars 1,2")));
+    };
     if i == j || ![i, j].iter().all(|bar| (1..=bars).contains(bar)) {
         return Err(Failure::bad_input(miette!(
             "--bars {i},{j}: two different bars are needed, and the chain has bars 1 to {bars}"
