@@ -1,7 +1,8 @@
 //! One bar over a whole cell of pulls: its direction and how the direction turns.
 
 use crate::Interval;
-use crate::cell::{Cell, Face};
+use crate::cell::Cell;
+use crate::face::Face;
 
 /// What a bar in tension contributes to the closure, over a cell: `l f` with `f = F/|F|`, and its
 /// derivative by the two coordinates of the cell.

@@ -10,7 +10,7 @@ use crate::families::{SlackFamily, families};
 use crate::merge::merge;
 use crate::morse::{self, MorseError};
 use crate::polish::{PreciseSystem, polish};
-use crate::search::search;
+use crate::search::{Progress, search};
 use crate::system::System;
 use crate::topology::{Topology, TopologyError};
 use crate::undecided::{Reason, Undecided, gather};
@@ -51,19 +51,6 @@ pub struct Statistics {
     pub levels: u32,
     /// Wall-clock time, s.
     pub seconds: f64,
-}
-
-/// How far a census has come.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Progress {
-    /// Cells done.
-    pub done: u64,
-    /// Cells waiting; grows at first, and is 0 at the end.
-    pub waiting: u64,
-    /// Zeros of the closure proved so far, those that neighbouring cells share several times.
-    pub proved: u64,
-    /// Cells given up so far, neighbours not yet joined.
-    pub undecided: u64,
 }
 
 impl Census {

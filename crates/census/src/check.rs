@@ -6,9 +6,10 @@
 
 use model::Problem;
 
-use crate::cell::{Cell, Face};
+use crate::cell::Cell;
 use crate::census::by_energy_and_angles;
 use crate::equilibrium::ProvenEquilibrium;
+use crate::face::Face;
 use crate::krawczyk::{Zero, inside, krawczyk, narrow};
 use crate::morse::MorseError;
 use crate::polish::{PreciseSystem, polish};

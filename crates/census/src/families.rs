@@ -10,8 +10,8 @@
 use serde::{Deserialize, Serialize};
 
 use crate::Interval;
-use crate::cell::Face;
 use crate::closure::signed;
+use crate::face::Face;
 use crate::system::System;
 use crate::topology::Topology;
 

@@ -233,8 +233,8 @@ mod tests {
     use rand_chacha::ChaCha8Rng;
 
     use super::*;
-    use crate::cell::Face;
     use crate::closure::Closure;
+    use crate::face::Face;
     use crate::slack;
 
     /// The chain of the test with the span that this pattern closes at this pull exactly.

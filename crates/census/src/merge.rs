@@ -68,7 +68,7 @@ fn apart(system: &System, a: &Cell, b: &Cell) -> bool {
 mod tests {
     use super::*;
     use crate::Interval;
-    use crate::cell::Face;
+    use crate::face::Face;
 
     fn system() -> System {
         System::new(&model::cases::paper()).unwrap()

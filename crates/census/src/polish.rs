@@ -3,8 +3,9 @@
 use model::Problem;
 
 use crate::Interval;
-use crate::cell::{Cell, Face};
+use crate::cell::Cell;
 use crate::closure::Closure;
+use crate::face::Face;
 use crate::krawczyk::{Zero, image, inside, inverse};
 use crate::precise::Precise;
 use crate::system::System;

@@ -8,7 +8,6 @@ use rayon::prelude::*;
 
 use crate::Settings;
 use crate::cell::Cell;
-use crate::census::Progress;
 use crate::closure::Pattern;
 use crate::family::Family;
 use crate::krawczyk::{Finding, Zero, examine};
@@ -21,6 +20,19 @@ const WORTH_THREADS: usize = 2_000;
 
 /// A contracted cell smaller than this part of the old one is looked at again before it is cut.
 const GOOD_CONTRACTION: f64 = 0.5;
+
+/// How far a census has come.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Progress {
+    /// Cells done.
+    pub done: u64,
+    /// Cells waiting; grows at first, and is 0 at the end.
+    pub waiting: u64,
+    /// Zeros of the closure proved so far, those that neighbouring cells share several times.
+    pub proved: u64,
+    /// Cells given up so far, neighbours not yet joined.
+    pub undecided: u64,
+}
 
 /// A cell, and the patterns that may have a zero in it.
 #[derive(Debug, Clone)]

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use model::{Problem, Vector};
 
-use crate::cell::Face;
+use crate::face::Face;
 use crate::{CensusError, Interval};
 
 /// A chain in units in which the total length and the spread of the weights are of order one. Units

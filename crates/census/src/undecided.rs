@@ -5,8 +5,9 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use crate::Interval;
-use crate::cell::{Cell, Face};
+use crate::cell::Cell;
 use crate::closure::Pattern;
+use crate::face::Face;
 use crate::search::Task;
 use crate::system::System;
 

@@ -1,8 +1,6 @@
 //! The command line.
 
-use std::path::PathBuf;
-
-use clap::{Args, Parser, Subcommand, ValueEnum};
+use clap::{Parser, Subcommand};
 use clap_complete::Shell;
 
 const EXIT_CODES: &str = "\
@@ -10,14 +8,18 @@ Exit codes:
   0  done, and every check agreed
   1  a check failed: the solvers disagree, or a claim came out otherwise than expected
   2  bad input or usage
-  3  not converged, or not decided";
+  3  not converged, or not decided
+130  interrupted; what is done is kept";
 
 const EXAMPLES: &str = "\
 Examples:
   funicular reproduce                        the paper, judged, in the terminal
-  funicular reproduce --out report           the same as report/report.md and report/results.json
+  funicular reproduce --out report           the same as report/report.html, report.md and results.json
   funicular solve chain.toml                 the shape and the forces of a chain of your own
   funicular solve --case ten-equal-bars --json | jq .agreement
+  funicular census chain.toml --svg shapes.svg   every equilibrium, and the proof that there is no other
+  funicular sweep chain.toml --seeds 1000000 --out starts    which start leads where
+  funicular trace chain.toml --vary anchors.end_m.z=-2.9..-0.1:200 --svg diagram.svg
   funicular completions bash > ~/.local/share/bash-completion/completions/funicular";
 
 /// Where does a chain of rigid bars come to rest under its own weight, and how sure can we be?
@@ -37,10 +39,10 @@ pub struct Cli {
 pub enum Command {
     /// Reproduce the paper: its claims, what both solvers find, and the verdicts
     #[command(after_help = EXIT_CODES)]
-    Reproduce(Reproduce),
+    Reproduce(crate::reproduce::Reproduce),
     /// Find the hanging equilibrium of a system file by both solvers, and compare them
     #[command(after_help = EXIT_CODES)]
-    Solve(Solve),
+    Solve(crate::solve::Solve),
     /// Find every equilibrium of a chain, stable or not, and prove that there is no other
     #[command(after_help = EXIT_CODES)]
     Census(crate::census::Census),
@@ -53,79 +55,12 @@ pub enum Command {
     /// Draw which start leads where, by both solvers
     Basins(crate::basins::Arguments),
     /// List the named cases, or print the system file of one (a start for a file of your own)
-    Cases(Cases),
+    Cases(crate::cases::Cases),
     /// Print a completion script for a shell
     Completions {
         /// The shell
         shell: Shell,
     },
-}
-
-/// `funicular reproduce`.
-#[derive(Debug, Args)]
-pub struct Reproduce {
-    /// Write report.md and results.json into this folder (made if it is not there)
-    #[arg(long, value_name = "DIR")]
-    pub out: Option<PathBuf>,
-    /// Print the results as one JSON object instead of tables
-    #[arg(long)]
-    pub json: bool,
-}
-
-/// `funicular solve`.
-#[derive(Debug, Args)]
-pub struct Solve {
-    /// The system file (TOML); see `funicular cases three-equal-bars` for one
-    #[arg(value_name = "FILE", required_unless_present = "case")]
-    pub file: Option<PathBuf>,
-    /// Solve a named case instead of a file
-    #[arg(long, value_name = "NAME", conflicts_with = "file")]
-    pub case: Option<String>,
-    /// Which solver; one alone gets no comparison
-    #[arg(long, value_enum, default_value_t = Which::Both)]
-    pub solver: Which,
-    /// Which equations lagrange solves
-    #[arg(long, value_enum, default_value_t = System::Auto)]
-    pub system: System,
-    /// Print one JSON object (schema_version 1) instead of tables
-    #[arg(long)]
-    pub json: bool,
-    /// Leave out the arrays over joints and bars
-    #[arg(long)]
-    pub summary: bool,
-    /// Write joints and forces, a line per joint, to this CSV file
-    #[arg(long, value_name = "FILE")]
-    pub csv: Option<PathBuf>,
-}
-
-/// Which solvers to ask.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum Which {
-    /// Forces first: constraints and multipliers
-    Lagrange,
-    /// Energy first: minimisation
-    Energy,
-    /// Both, and the comparison
-    Both,
-}
-
-/// Which of the systems of equations `lagrange` solves.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum System {
-    /// The full one up to 30 bars, the condensed one beyond
-    Auto,
-    /// The paper's: all coordinates and all multipliers at once
-    Full,
-    /// Three equations for the pull on the first anchor, whatever the number of bars
-    Condensed,
-}
-
-/// `funicular cases`.
-#[derive(Debug, Args)]
-pub struct Cases {
-    /// Print the system file of this case
-    #[arg(value_name = "NAME")]
-    pub name: Option<String>,
 }
 
 #[cfg(test)]

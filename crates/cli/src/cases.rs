@@ -1,12 +1,20 @@
 //! `funicular cases`: the registry of named cases.
 
+use clap::Args;
 use miette::miette;
 use model::cases;
 
-use crate::args::Cases;
 use crate::exit::{Exit, Failure};
 use crate::output;
 use crate::tables;
+
+/// `funicular cases`.
+#[derive(Debug, Args)]
+pub struct Cases {
+    /// Print the system file of this case
+    #[arg(value_name = "NAME")]
+    pub name: Option<String>,
+}
 
 /// Run the command.
 pub fn run(arguments: &Cases) -> Result<Exit, Failure> {

@@ -20,6 +20,7 @@ mod sweep;
 mod tables;
 mod trace;
 mod verdicts;
+mod which;
 
 use clap::{CommandFactory, Parser};
 

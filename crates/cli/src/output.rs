@@ -8,6 +8,9 @@ use miette::miette;
 
 use crate::exit::Failure;
 
+/// Version of the JSON objects; raised when a key that others rely on changes its meaning.
+pub const SCHEMA_VERSION: u32 = 1;
+
 /// Print to standard output. A reader that has gone away (`| head`) is no error.
 pub fn print(text: &str) -> Result<(), Failure> {
     print_stream(|out| out.write_all(text.as_bytes()))

@@ -1,14 +1,27 @@
 //! `funicular reproduce`: the paper, judged.
 
+use std::path::PathBuf;
+
+use clap::Args;
 use miette::miette;
 use report::{Environment, Report};
 use validate::table::csv;
 
-use crate::args::Reproduce;
 use crate::exit::{Exit, Failure};
 use crate::output;
 use crate::progress::Progress;
 use crate::verdicts;
+
+/// `funicular reproduce`.
+#[derive(Debug, Args)]
+pub struct Reproduce {
+    /// Write report.md and results.json into this folder (made if it is not there)
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Print the results as one JSON object instead of tables
+    #[arg(long)]
+    pub json: bool,
+}
 
 /// Run the command.
 pub fn run(arguments: &Reproduce) -> Result<Exit, Failure> {

@@ -2,8 +2,10 @@
 
 use std::io::{self, Write};
 use std::num::NonZeroUsize;
+use std::path::PathBuf;
 
 use census::Census;
+use clap::{Args, ValueEnum};
 use miette::miette;
 use model::{Equilibrium, Problem, SystemSummary};
 use serde::Serialize;
@@ -11,14 +13,11 @@ use validate::completeness::certify_by_census;
 use validate::{Agreement, Tolerances, compare, compare::judge_alone};
 
 use crate::answer;
-use crate::args::{Solve, System, Which};
 use crate::exit::{Exit, Failure};
 use crate::input;
-use crate::output;
+use crate::output::{self, SCHEMA_VERSION};
 use crate::progress::Progress;
-
-/// Version of the JSON object; raised when a key that others rely on changes its meaning.
-pub const SCHEMA_VERSION: u32 = 1;
+use crate::which::Which;
 
 /// Chains up to this many bars go through the paper's full system of 9n + 3 equations; longer ones
 /// through the condensed system of three, which gives the same (and costs nothing that grows faster
@@ -28,6 +27,43 @@ const FULL_SYSTEM_BARS: usize = 30;
 /// Chains up to this many bars are looked up in their census without being asked to: so long it takes
 /// less than a second.
 const CENSUS_BARS: usize = 8;
+
+/// `funicular solve`.
+#[derive(Debug, Args)]
+pub struct Solve {
+    /// The system file (TOML); see `funicular cases three-equal-bars` for one
+    #[arg(value_name = "FILE", required_unless_present = "case")]
+    pub file: Option<PathBuf>,
+    /// Solve a named case instead of a file
+    #[arg(long, value_name = "NAME", conflicts_with = "file")]
+    pub case: Option<String>,
+    /// Which solver; one alone gets no comparison
+    #[arg(long, value_enum, default_value_t = Which::Both)]
+    pub solver: Which,
+    /// Which equations lagrange solves
+    #[arg(long, value_enum, default_value_t = System::Auto)]
+    pub system: System,
+    /// Print one JSON object (schema_version 1) instead of tables
+    #[arg(long)]
+    pub json: bool,
+    /// Leave out the arrays over joints and bars
+    #[arg(long)]
+    pub summary: bool,
+    /// Write joints and forces, a line per joint, to this CSV file
+    #[arg(long, value_name = "FILE")]
+    pub csv: Option<PathBuf>,
+}
+
+/// Which of the systems of equations `lagrange` solves.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum System {
+    /// The full one up to 30 bars, the condensed one beyond
+    Auto,
+    /// The paper's: all coordinates and all multipliers at once
+    Full,
+    /// Three equations for the pull on the first anchor, whatever the number of bars
+    Condensed,
+}
 
 /// What `solve --json` prints.
 #[derive(Debug, Serialize)]

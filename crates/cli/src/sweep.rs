@@ -20,11 +20,11 @@ use self::arguments::Spread;
 pub(crate) use self::arguments::threads;
 pub use self::arguments::{EXIT_CODES, Sweep};
 pub(crate) use self::interrupt::on_interrupt;
-use crate::args::Which;
 use crate::exit::{Exit, Failure};
 use crate::input;
 use crate::output;
 use crate::progress::Progress;
+use crate::which::Which;
 
 /// How often the progress bar is drawn while nothing is reported.
 const TICK: Duration = Duration::from_millis(200);

@@ -111,8 +111,7 @@ pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
     }
     let exit = verdict(&traces)?;
     if arguments.json {
-        let answer =
-            Answer { schema_version: crate::solve::SCHEMA_VERSION, system, traces: &traces };
+        let answer = Answer { schema_version: output::SCHEMA_VERSION, system, traces: &traces };
         output::print_stream(|out| {
             serde_json::to_writer_pretty(&mut *out, &answer)?;
             out.write_all(b"\n")

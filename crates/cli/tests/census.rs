@@ -415,11 +415,12 @@ fn an_interruption_leaves_nothing_half_written() {
         .unwrap();
     std::thread::sleep(std::time::Duration::from_millis(300));
     assert!(child.try_wait().unwrap().is_none(), "still at work");
+    // Not SIGINT: a process started in the background of a script is born deaf to it, and so are its children.
     let interrupt = std::process::Command::new("kill")
-        .args(["-INT", &child.id().to_string()])
+        .args(["-TERM", &child.id().to_string()])
         .status()
         .unwrap();
     assert!(interrupt.success());
-    assert_eq!(child.wait().unwrap().signal(), Some(2));
+    assert_eq!(child.wait().unwrap().signal(), Some(15));
     assert_eq!(std::fs::read_dir(out).unwrap().count(), 0);
 }

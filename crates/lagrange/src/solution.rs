@@ -4,10 +4,10 @@ use model::{Equilibrium, Evidence, Reactions, SolverName, Vector};
 use nalgebra::{DVector, Vector3};
 
 use crate::dense::coordinates;
+use crate::effort::Effort;
 use crate::mechanism::{Mechanism, Units};
 use crate::multipliers::all_multipliers;
 use crate::reduced::Reduced;
-use crate::solve::Effort;
 use crate::spectrum::{LARGEST_DECOMPOSED, Spectrum, spectrum};
 use crate::stability::stability;
 use crate::{Settings, SolveError, relative_residual};

@@ -5,6 +5,7 @@ use std::time::Instant;
 use model::{InSpace, Problem, Stability};
 
 use crate::dense::Dense;
+use crate::effort::Effort;
 use crate::mechanism::{Mechanism, Units};
 use crate::newton::{Finish, Model, newton};
 use crate::reduced::Reduced;
@@ -25,24 +26,6 @@ const FIRST_HANDOVER: f64 = 1e-2;
 const LATER_HANDOVER: f64 = 0.03;
 /// ... down to this.
 const LAST_HANDOVER: f64 = 1e-12;
-
-/// What a solve took.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Effort {
-    /// Steps of all kinds.
-    pub iterations: usize,
-    /// Steps of relaxation among them.
-    pub relaxation_steps: usize,
-    /// Relaxations: 0 when Newton's method got there from the seed.
-    pub relaxations: usize,
-    /// How many times a bar was described by other angles, away from the lock; see
-    /// [`seat`](crate::seat).
-    pub seatings: usize,
-    /// False roots of the paper's equations that were met and left.
-    pub false_roots: usize,
-    /// Wall-clock time, s.
-    pub solve_s: f64,
-}
 
 /// A solver with its memory, for many seeds of one problem: nothing is allocated from seed to seed
 /// (with [`StepMethod::Reduced`]).

@@ -1,5 +1,7 @@
 //! Many seeds and many parameters in parallel: which start leads where.
 
+mod compute;
+mod description;
 mod error;
 mod identify;
 mod manifest;
@@ -14,6 +16,7 @@ mod sobol;
 mod source;
 mod store;
 mod store_error;
+mod store_lock;
 mod store_part;
 mod store_tally;
 mod summary;
@@ -21,9 +24,11 @@ mod sweep;
 mod trace;
 mod vary;
 
+pub use compute::Compute;
+pub use description::SCHEMA_VERSION;
 pub use error::SweepError;
 pub use identify::{JOINT_TOLERANCE, Member, Members, Origin};
-pub use manifest::{Manifest, SCHEMA_VERSION, SystemText};
+pub use manifest::{Manifest, SystemText};
 pub use merge::merge;
 pub use picture::{Abscissa, Basins, BasinsError, Field, diagram};
 pub use product::{Combine, Study};
@@ -32,7 +37,7 @@ pub use seeds::Stream;
 pub use settings::{Settings, Solvers};
 pub use shard::{Shard, ShardError, part_seeds};
 pub use source::{Axis, Source};
-pub use store::{Compute, Run, RunSettings, StoreSummary, run};
+pub use store::{Run, RunSettings, StoreSummary, run};
 pub use store_error::StoreError;
 pub use store_part::{PartRecord, schema};
 pub use store_tally::{OutcomeTally, SolverTally, Tally, rate_interval};

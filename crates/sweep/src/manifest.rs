@@ -7,14 +7,12 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use sha2::{Digest, Sha256};
 
+use crate::description::{MANIFEST, read_json};
 use crate::identify::Member;
 use crate::shard::{Shard, part_seeds};
-use crate::store::{MANIFEST, read_json};
+
 use crate::store_error::StoreError;
 use crate::summary::Summary;
-
-/// Version of the folder's form; raised when a key or a column changes its meaning.
-pub const SCHEMA_VERSION: u32 = 1;
 
 /// Everything that the rows of a sweep depend on, and which of them are here: `manifest.json`.
 ///
@@ -22,7 +20,7 @@ pub const SCHEMA_VERSION: u32 = 1;
 /// sines of the starting angles come from the system's library).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Manifest {
-    /// [`SCHEMA_VERSION`].
+    /// [`SCHEMA_VERSION`](crate::SCHEMA_VERSION).
     pub schema_version: u32,
     /// The program and its version: another version may take other steps.
     pub program: String,

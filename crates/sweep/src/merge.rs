@@ -6,10 +6,12 @@ use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::sync::atomic::AtomicBool;
 
+use crate::description::{MANIFEST, SUMMARY, read_json, write_json};
 use crate::manifest::Manifest;
 use crate::shard::Shard;
-use crate::store::{Lock, MANIFEST, SUMMARY, StoreSummary, for_each_part, read_json, write_json};
+use crate::store::{StoreSummary, for_each_part};
 use crate::store_error::{NAMED, StoreError};
+use crate::store_lock::Lock;
 use crate::store_part;
 
 /// A folder to be joined.

@@ -28,47 +28,20 @@
 //! interrupted: the final bytes are the same.
 
 use std::collections::BTreeMap;
-use std::fs::{self, File, TryLockError};
-use std::io::ErrorKind;
 use std::ops::Range;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
 use serde::{Deserialize, Serialize};
 
-use crate::manifest::{Manifest, SCHEMA_VERSION};
-use crate::record::Chunk;
+use crate::compute::Compute;
+use crate::description::{SCHEMA_VERSION, SUMMARY, write_json};
+use crate::manifest::Manifest;
 use crate::store_error::StoreError;
+use crate::store_lock::Lock;
 use crate::store_part::{self, PartRecord};
 use crate::summary::Summary;
-
-pub(crate) const MANIFEST: &str = "manifest.json";
-pub(crate) const SUMMARY: &str = "summary.json";
-const LOCK: &str = ".lock";
-
-/// Longest description that is read, bytes: the digests of a hundred thousand parts.
-const MAX_DESCRIPTION: u64 = 64 << 20;
-
-/// What computes seeds. The same seeds must give the same bits, whatever the thread and the cut.
-pub trait Compute: Sync {
-    /// What becomes of these seeds.
-    fn chunk(&self, seeds: Range<u64>) -> Chunk;
-
-    /// Where they start: a column for each name in [`Manifest::angles`].
-    fn angles(&self, seeds: Range<u64>) -> Vec<Vec<f64>>;
-}
-
-/// Without starting values.
-impl<F: Fn(Range<u64>) -> Chunk + Sync> Compute for F {
-    fn chunk(&self, seeds: Range<u64>) -> Chunk {
-        self(seeds)
-    }
-
-    fn angles(&self, _: Range<u64>) -> Vec<Vec<f64>> {
-        Vec::new()
-    }
-}
 
 /// How a sweep is run; nothing of it changes the result.
 #[derive(Clone, Copy)]
@@ -223,96 +196,4 @@ pub(crate) fn for_each_part(
         Ok(())
     });
     results.into_iter().collect()
-}
-
-/// The right to write a folder, until it is dropped or the process ends, however it ends.
-pub(crate) struct Lock {
-    path: PathBuf,
-    _file: File,
-}
-
-impl Lock {
-    /// Make the folder if need be, see that it is fit for this sweep, and clear what a killed process left.
-    pub(crate) fn take(
-        folder: &Path,
-        manifest: &Manifest,
-        resume: bool,
-    ) -> Result<Self, StoreError> {
-        let io = |error| StoreError::file(folder, error);
-        fs::create_dir_all(folder).map_err(io)?;
-        let held = folder.join(MANIFEST);
-        let there = held.exists();
-        if there && !resume {
-            return Err(StoreError::Present { path: folder.to_owned() });
-        }
-        if !there && let Some(found) = foreign(folder)? {
-            return Err(StoreError::NotEmpty { path: folder.to_owned(), found });
-        }
-        let path = folder.join(LOCK);
-        let file = File::create(&path).map_err(|error| StoreError::file(&path, error))?;
-        file.try_lock().map_err(|error| match error {
-            TryLockError::WouldBlock => StoreError::Busy { path: folder.to_owned() },
-            TryLockError::Error(error) => StoreError::file(&path, error),
-        })?;
-        let lock = Self { path, _file: file };
-        columns::remove_unfinished(folder).map_err(io)?;
-        if there {
-            let held: Manifest = read_json(&held)?;
-            if let Some((key, wanted, found)) = manifest.difference(&held) {
-                let path = folder.to_owned();
-                return Err(StoreError::Differs { path, key, wanted, found });
-            }
-        } else {
-            columns::write_whole(&held, manifest.json().as_bytes())
-                .map_err(|error| StoreError::file(&held, error))?;
-        }
-        Ok(lock)
-    }
-
-    /// Give the folder free. After an error the file stays, without a lock on it, and does no harm.
-    pub(crate) fn release(self) {
-        // Best effort, as above.
-        let _ = fs::remove_file(&self.path);
-    }
-}
-
-/// Something in a folder that no unfinished sweep leaves there.
-fn foreign(folder: &Path) -> Result<Option<String>, StoreError> {
-    for entry in fs::read_dir(folder).map_err(|error| StoreError::file(folder, error))? {
-        let name = entry.map_err(|error| StoreError::file(folder, error))?.file_name();
-        let name = name.to_string_lossy();
-        if name != LOCK && !(name.starts_with(&format!(".{MANIFEST}."))) {
-            return Ok(Some(name.into_owned()));
-        }
-    }
-    Ok(None)
-}
-
-pub(crate) fn write_json(path: &Path, value: &impl Serialize) -> Result<(), StoreError> {
-    let description = |reason: String| StoreError::Description { path: path.to_owned(), reason };
-    let text = serde_json::to_string_pretty(value).map_err(|e| description(e.to_string()))? + "\n";
-    columns::write_whole(path, text.as_bytes()).map_err(|error| StoreError::file(path, error))
-}
-
-/// Read a description; one of another version of the form is told as that, whatever is in it.
-pub(crate) fn read_json<T: serde::de::DeserializeOwned>(path: &Path) -> Result<T, StoreError> {
-    let fail = |reason: String| StoreError::Description { path: path.to_owned(), reason };
-    let io = |error: std::io::Error| match error.kind() {
-        ErrorKind::InvalidData => fail("it is not UTF-8 text".to_owned()),
-        _ => StoreError::file(path, error),
-    };
-    let length = fs::metadata(path).map_err(io)?.len();
-    if length > MAX_DESCRIPTION {
-        return Err(fail(format!("{length} bytes are too many for a description")));
-    }
-    let text = fs::read_to_string(path).map_err(io)?;
-    let value: serde_json::Value =
-        serde_json::from_str(&text).map_err(|error| fail(error.to_string()))?;
-    let version = value.get("schema_version").and_then(serde_json::Value::as_u64);
-    if version != Some(SCHEMA_VERSION.into()) {
-        let version = version.map_or_else(|| "none".to_owned(), |version| version.to_string());
-        return Err(fail(format!("its schema version is {version}, not {SCHEMA_VERSION}")));
-    }
-    // From the text: numbers for keys are strings in a value.
-    serde_json::from_str(&text).map_err(|error| fail(error.to_string()))
 }

@@ -10,9 +10,9 @@ use columns::{Column, Data, Format, Kind, Schema, Spread, TableWriter, read_tabl
 use serde::{Deserialize, Serialize};
 use sha2::{Digest as _, Sha256};
 
+use crate::compute::Compute;
 use crate::manifest::{Manifest, hexadecimal};
 use crate::record::{Chunk, Failure, Outcomes};
-use crate::store::Compute;
 use crate::store_error::StoreError;
 use crate::summary::Summary;
 

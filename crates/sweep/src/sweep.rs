@@ -5,12 +5,12 @@ use std::ops::Range;
 use model::Problem;
 use rayon::prelude::*;
 
+use crate::compute::Compute;
 use crate::error::SweepError;
 use crate::identify::Members;
 use crate::record::{Chunk, Failure, Outcomes};
 use crate::settings::{Settings, Solvers};
 use crate::source::Spring;
-use crate::store::Compute;
 use crate::summary::Summary;
 
 /// Many seeds of one problem through one or both solvers.

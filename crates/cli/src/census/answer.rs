@@ -5,7 +5,7 @@ use model::{Equilibrium, Problem, Rung, SystemSummary};
 use serde::Serialize;
 use validate::statics::judge;
 
-use crate::solve::SCHEMA_VERSION;
+use crate::output::SCHEMA_VERSION;
 
 /// Both ends of an enclosure.
 type Ends = [f64; 2];

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use ::sweep::Shard;
 use clap::{Args, ValueEnum};
 
-use crate::args::Which;
+use crate::which::Which;
 
 /// Most seeds of a sweep: at a few million a second, half a week.
 const MOST_SEEDS: u64 = 1_000_000_000_000;

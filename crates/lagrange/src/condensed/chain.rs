@@ -10,6 +10,7 @@ use super::loads::{Moments, count_from};
 use super::read::Read;
 use super::span::Span;
 use super::team::Team;
+use super::units::Units;
 
 /// Totals between these bounds leave room for cubes and their inverses in a double; others are
 /// brought to about 1 by powers of two, which costs no digit.
@@ -38,24 +39,6 @@ pub struct Condensed {
     pub(super) units: Units,
     pub(super) start_m: Vector,
     processors: NonZeroUsize,
-}
-
-/// What one is, in SI units.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Units {
-    /// m, a power of two.
-    pub length: f64,
-    /// kg, a power of two.
-    pub mass: f64,
-    /// m/s².
-    pub gravity: f64,
-}
-
-impl Units {
-    /// N
-    pub fn force(self) -> f64 {
-        self.mass * self.gravity
-    }
 }
 
 impl Condensed {

@@ -73,6 +73,7 @@ mod system;
 mod team;
 mod tension;
 mod trace;
+mod units;
 
 pub use chain::Condensed;
 pub use error::CondensedError;

@@ -4,9 +4,9 @@ use std::ops::Range;
 
 use model::{Bar, Chain};
 
-use super::chain::Units;
 use super::sums::{BLOCK, Twofold};
 use super::team::{Team, run, split, together};
+use super::units::Units;
 
 /// The bars as they are read.
 #[derive(Debug, Clone, Default)]

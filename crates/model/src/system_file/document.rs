@@ -1,8 +1,6 @@
 //! The walk over the spanned TOML tree: from keys and values to a chain.
 
-use std::error::Error;
 use std::ops::Range;
-use std::path::Path;
 
 use toml::Spanned;
 use toml::de::{DeArray, DeTable};
@@ -13,6 +11,7 @@ use super::error::SystemFileError;
 use super::kind::SystemFileErrorKind as Kind;
 use super::limits::{MAX_BARS, MAX_BARS_FILE_BYTES};
 use super::load::{Loaded, load};
+use super::source::Source;
 use super::table::{Table, Value};
 use crate::{Anchors, Bar, BarError, Chain, ChainError, Problem, Refusal, STANDARD_GRAVITY_M_S2};
 
@@ -21,19 +20,6 @@ const ANCHOR_KEYS: &[&str] = &["start_m", "end_m"];
 const BAR_KEYS: &[&str] = &["length_m", "mass_kg", "centre_m", "inertia_kg_m2", "count"];
 
 const WANTED_BARS: &str = "one or more tables [[bars]] with length_m and mass_kg";
-
-/// Reads bars from a file of another kind than [`columns`](super::columns), for
-/// [`read_problem_with`](super::read_problem_with): `None` if it does not know this kind.
-pub type BarsReader<'a> =
-    &'a dyn Fn(&Path) -> Option<Result<Vec<Bar>, Box<dyn Error + Send + Sync>>>;
-
-/// A text with its name, and the folder it comes from if it comes from one.
-pub(super) struct Source<'a> {
-    pub(super) file: &'a str,
-    pub(super) text: &'a str,
-    pub(super) folder: Option<&'a Path>,
-    pub(super) reader: Option<BarsReader<'a>>,
-}
 
 /// Where things stand, for the refusals that come after reading.
 struct Places {
@@ -52,15 +38,6 @@ enum Origin {
 }
 
 impl Source<'_> {
-    pub(super) fn error(
-        &self,
-        kind: Kind,
-        key: Option<String>,
-        span: Option<Range<usize>>,
-    ) -> SystemFileError {
-        SystemFileError::new(self.file, self.text, span, key, kind)
-    }
-
     pub(super) fn chain(&self) -> Result<Chain, SystemFileError> {
         self.read().map(|(chain, _)| chain)
     }

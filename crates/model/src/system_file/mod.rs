@@ -82,15 +82,16 @@ mod limits;
 mod load;
 mod location;
 mod read;
+mod source;
 mod suggest;
 mod table;
 mod write;
 
-pub use document::BarsReader;
 pub use error::SystemFileError;
 pub use kind::SystemFileErrorKind;
 pub use limits::{MAX_BARS, MAX_BARS_FILE_BYTES, MAX_FILE_BYTES};
 pub use location::Position;
 pub use read::{parse_problem, parse_system, read_problem, read_problem_with, read_system};
+pub use source::BarsReader;
 pub use suggest::nearest;
 pub use write::write_system;

@@ -2,11 +2,11 @@
 
 use std::path::Path;
 
-use super::document::{BarsReader, Source};
 use super::error::SystemFileError;
 use super::kind::SystemFileErrorKind as Kind;
 use super::limits::MAX_FILE_BYTES;
 use super::load::{Loaded, load, without_mark};
+use super::source::{BarsReader, Source};
 use crate::{Chain, Problem};
 
 /// Read a system file.

@@ -5,9 +5,9 @@ use std::ops::Range;
 use toml::Spanned;
 use toml::de::{DeInteger, DeTable, DeValue};
 
-use super::document::Source;
 use super::error::SystemFileError;
 use super::kind::SystemFileErrorKind as Kind;
+use super::source::Source;
 use super::suggest::nearest;
 use crate::Vector;
 

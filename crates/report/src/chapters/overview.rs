@@ -84,7 +84,8 @@ fn findings(r: &Reproduction) -> Vec<String> {
         with(Verdict::Refuted),
     ));
     items.push(format!(
-        "**There are exactly {} equilibria in the plane**, and {} circles of them in space: [proved](#census).",
+        "**There are exactly {} equilibria in the plane**, and {} circles of them in space, and the second position is none of \
+         them: [proved](#census).",
         r.completeness.planar, r.completeness.circles
     ));
     items.push(format!(

@@ -1,0 +1,25 @@
+//! What a stored sweep asks of whatever computes it.
+
+use std::ops::Range;
+
+use crate::record::Chunk;
+
+/// What computes seeds. The same seeds must give the same bits, whatever the thread and the cut.
+pub trait Compute: Sync {
+    /// What becomes of these seeds.
+    fn chunk(&self, seeds: Range<u64>) -> Chunk;
+
+    /// Where they start: a column for each name in [`Manifest::angles`].
+    fn angles(&self, seeds: Range<u64>) -> Vec<Vec<f64>>;
+}
+
+/// Without starting values.
+impl<F: Fn(Range<u64>) -> Chunk + Sync> Compute for F {
+    fn chunk(&self, seeds: Range<u64>) -> Chunk {
+        self(seeds)
+    }
+
+    fn angles(&self, _: Range<u64>) -> Vec<Vec<f64>> {
+        Vec::new()
+    }
+}
