@@ -7,6 +7,9 @@ use super::team::Team;
 /// says little more than the catenary does.
 const COARSE_FROM: usize = 16 * BLOCK;
 
+/// Moments that are summed side by side.
+const LANES: usize = 8;
+
 /// Lengths and loads of some bars.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Arrays {
@@ -110,13 +113,25 @@ impl Moments {
     /// standard deviation to both sides of its mean: a quadrature of third order.
     fn take(&mut self, lengths: &[f64], loads: &[f64]) {
         let Some(&origin) = loads.first() else { return };
-        let (mut length, mut first, mut second) = (0.0, 0.0, 0.0);
-        for (l, b) in lengths.iter().zip(loads) {
+        // Several sums side by side: each addition waits for the one before it.
+        let mut sums = [[0.0; LANES]; 3];
+        let mut add = |lane: usize, l: f64, b: f64| {
             let from = b - origin;
-            length += l;
-            first += l * from;
-            second += l * from * from;
+            for (sum, term) in sums.iter_mut().zip([l, l * from, l * from * from]) {
+                sum[lane] += term;
+            }
+        };
+        let (lengths, last_lengths) = lengths.as_chunks::<LANES>();
+        let (loads, last_loads) = loads.as_chunks::<LANES>();
+        for (l, b) in lengths.iter().zip(loads) {
+            for lane in 0..LANES {
+                add(lane, l[lane], b[lane]);
+            }
         }
+        for (lane, (l, b)) in last_lengths.iter().zip(last_loads).enumerate() {
+            add(lane, *l, *b);
+        }
+        let [length, first, second] = sums.map(|sums| sums.iter().sum::<f64>());
         let mean = first / length;
         let variance = (second / length - mean * mean).max(0.0);
         let centre = origin + mean;
