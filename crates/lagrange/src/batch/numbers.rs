@@ -58,9 +58,10 @@ impl Numbers {
     pub fn largest(&self, directions: &[[f64; 2]], pull: [f64; 2]) -> f64 {
         let mut gap = [-self.span[0], -self.span[1]];
         let mut largest = 0.0_f64;
-        let last = pull[0].hypot(pull[1] + 1.0);
+        // In these units no square that matters leaves the range, and a root is the same everywhere.
+        let size = |up: f64| (pull[0] * pull[0] + up * up).sqrt();
         let mean = 1.0 / self.bars.len() as f64;
-        let unit = pull[0].hypot(pull[1]).max(last).max(mean) * mean;
+        let unit = size(pull[1]).max(size(pull[1] + 1.0)).max(mean) * mean;
         for (bar, u) in self.bars.iter().zip(directions) {
             gap[0] += bar.length * u[0];
             gap[1] += bar.length * u[1];
