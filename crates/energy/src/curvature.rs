@@ -200,6 +200,16 @@ impl Curvature {
         (schur.negative + positive).saturating_sub(self.rank())
     }
 
+    /// Number of eigenvalues of which rounding does not tell whether they are below `-shift`: bars without
+    /// force that nearly lie on one line leave such.
+    pub(crate) fn undecided(&self, shift: f64) -> usize {
+        if shift > -self.slope.lowest {
+            return 0;
+        }
+        let (positive, below) = self.schur(shift).matrix.eigen().signs(LOST_SPREAD);
+        self.rank().saturating_sub(positive + below)
+    }
+
     /// Ratio of the largest to the smallest size of an eigenvalue, those below `zero` left out.
     ///
     /// The largest is taken from the bars; the smallest is enclosed by counting, within ten per

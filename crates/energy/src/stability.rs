@@ -86,7 +86,7 @@ impl SecondOrder {
         let zero = ZERO_CURVATURE * place.slope.pull;
 
         let index_in_plane = plane.index(zero);
-        let in_plane = if plane.index(-zero) > index_in_plane {
+        let in_plane = if plane.index(-zero) + plane.undecided(-zero) > index_in_plane {
             InPlane::Degenerate
         } else if index_in_plane == 0 {
             InPlane::Minimum

@@ -13,6 +13,9 @@ const NEARLY_STRAIGHT: f64 = 1e-6;
 /// Bisections of the interval of multipliers: all digits of a double.
 const BISECTIONS: usize = 64;
 
+/// Rounding of the forces along the bars, in units of the largest.
+const ROUNDING: f64 = 64.0 * f64::EPSILON;
+
 /// The common line of the bars, if they are on one to rounding: the direction in which no motion
 /// moves the last joint.
 pub(crate) fn line(shape: &Shape) -> Option<Vector> {
@@ -59,8 +62,14 @@ pub(crate) fn opening_multiplier(
             low = low.max(-tension(i, u));
         }
     }
-    if !(low < high && low.is_finite() && high.is_finite()) {
+    if !(low.is_finite() && high.is_finite()) {
         return None;
+    }
+    let room = high - low;
+    if room <= 0.0 {
+        // A single tau, at which two bars with nothing between them are slack, is met to rounding.
+        let size = low.abs().max(high.abs()).max(1.0);
+        return (room >= -ROUNDING * size).then(|| along(multiplier, 0.5 * (low + high), e));
     }
     for _ in 0..BISECTIONS {
         let tau = 0.5 * (low + high);
@@ -84,6 +93,33 @@ pub(crate) fn opening_multiplier(
 mod tests {
     use super::*;
     use crate::Motion;
+
+    /// Nothing hangs at the fold: the two bars there are slack, whatever multiplier it starts from, and the
+    /// rounding of its loads pushes neither.
+    #[test]
+    fn strands_that_meet_without_a_load_leave_the_last_bars_slack() {
+        let (down, up) = ([0.0, 0.0, -1.0], [0.0, 0.0, 1.0]);
+        let links = |rounding: f64| Links {
+            length: vec![0.25; 4],
+            hang: vec![0.5, 0.1 + rounding, 0.1 - rounding, -0.5],
+            span: [0.0; 3],
+            up,
+            vertical: true,
+            motion: Motion::Space,
+        };
+        let u = vec![down, down, up, up];
+        let moments = links(0.0).measure(&u);
+        let shape = Shape { u, moments };
+        let e = line(&shape).unwrap();
+        for start in [0.0, 0.1, -0.05] {
+            let at = |rounding| opening_multiplier(&links(rounding), &shape, [0.0, 0.0, start], e);
+            for rounding in [0.0, 1e-16, -1e-16] {
+                assert!((at(rounding).unwrap()[2] + 0.1).abs() < 1e-15);
+            }
+            // Of these two, one is pushed whatever the forces.
+            assert!(at(1e-3).is_none() != at(-1e-3).is_none());
+        }
+    }
 
     /// Four equal bars with both anchors at one point: by symmetry the strands share alike.
     #[test]

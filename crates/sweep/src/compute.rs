@@ -9,7 +9,7 @@ pub trait Compute: Sync {
     /// What becomes of these seeds.
     fn chunk(&self, seeds: Range<u64>) -> Chunk;
 
-    /// Where they start: a column for each name in [`Manifest::angles`].
+    /// Where they start: a column for each name in [`Manifest::angles`](crate::Manifest::angles).
     fn angles(&self, seeds: Range<u64>) -> Vec<Vec<f64>>;
 }
 
