@@ -1,4 +1,4 @@
-//! The paper's example against reference values that were established without this project: FACTS,
+//! The paper's example against reference values that were established without this project:
 //! 40-digit root finding and a Groebner basis (kind = external).
 
 use census::{Census, Interval, Settings};

@@ -19,11 +19,6 @@ use crate::output::{self, SCHEMA_VERSION};
 use crate::progress::Progress;
 use crate::which::Which;
 
-/// Chains up to this many bars go through the paper's full system of 9n + 3 equations; longer ones
-/// through the condensed system of three, which gives the same (and costs nothing that grows faster
-/// than the number of bars).
-const FULL_SYSTEM_BARS: usize = 30;
-
 /// Chains up to this many bars are looked up in their census without being asked to: so long it takes
 /// less than a second.
 const CENSUS_BARS: usize = 8;
@@ -41,7 +36,7 @@ pub struct Solve {
     #[arg(long, value_enum, default_value_t = Which::Both)]
     pub solver: Which,
     /// Which equations lagrange solves
-    #[arg(long, value_enum, default_value_t = System::Auto)]
+    #[arg(long, value_enum, default_value_t = System::Condensed)]
     pub system: System,
     /// Print one JSON object (schema_version 1) instead of tables
     #[arg(long)]
@@ -55,14 +50,15 @@ pub struct Solve {
 }
 
 /// Which of the systems of equations `lagrange` solves.
+///
+/// They have the same solutions; a test compares them. The angles of the full one lose digits where strands hang
+/// side by side or a chain is nearly straight, and its cost grows faster than the number of bars.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum System {
-    /// The full one up to 30 bars, the condensed one beyond
-    Auto,
-    /// The paper's: all coordinates and all multipliers at once
-    Full,
     /// Three equations for the pull on the first anchor, whatever the number of bars
     Condensed,
+    /// The paper's: all coordinates and all multipliers at once; for some 30 bars
+    Full,
 }
 
 /// What `solve --json` prints.
@@ -142,22 +138,18 @@ pub fn run(arguments: &Solve) -> Result<Exit, Failure> {
 
 /// The hanging equilibrium by `lagrange`, from the system of equations that was asked for.
 fn lagrange_answer(problem: &Problem, system: System) -> Result<Equilibrium, Failure> {
-    let full = match system {
-        System::Full => true,
-        System::Condensed => false,
-        System::Auto => problem.chain().bars().len() <= FULL_SYSTEM_BARS,
-    };
-    let found = if full {
-        lagrange::solve(problem, &lagrange::Settings::default())
+    let found = match system {
+        System::Full => lagrange::solve(problem, &lagrange::Settings::default())
             .map(|solution| solution.equilibrium)
-            .map_err(|error| miette!("lagrange: {error}"))
-    } else {
-        // The bits of the answer do not depend on how many share the work.
-        let processors = std::thread::available_parallelism().unwrap_or(NonZeroUsize::MIN);
-        lagrange::condensed::Solver::with_processors(processors)
-            .solve(problem, &lagrange::condensed::Settings::default())
-            .map(|solution| solution.equilibrium)
-            .map_err(|error| miette!("lagrange: {error}"))
+            .map_err(|error| miette!("lagrange: {error}")),
+        System::Condensed => {
+            // The bits of the answer do not depend on how many share the work.
+            let processors = std::thread::available_parallelism().unwrap_or(NonZeroUsize::MIN);
+            lagrange::condensed::Solver::with_processors(processors)
+                .solve(problem, &lagrange::condensed::Settings::default())
+                .map(|solution| solution.equilibrium)
+                .map_err(|error| miette!("lagrange: {error}"))
+        }
     };
     found.map_err(Failure::undecided)
 }

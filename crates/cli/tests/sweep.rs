@@ -103,7 +103,7 @@ fn the_tables_and_the_object_say_the_same() {
     assert_eq!(object["seeds"]["count"], 4000);
     assert_eq!(object["system"]["bars"], 3);
     assert_eq!(object["equilibria_complete"], true);
-    // FACTS: the planar chain of the paper has four equilibria.
+    // Known from the sextic of the closure: the planar chain of the paper has four equilibria.
     assert_eq!(object["equilibria"].as_array().unwrap().len(), 4);
     for solver in ["lagrange", "energy"] {
         let rows = object["solvers"][solver].as_array().unwrap();

@@ -2,11 +2,12 @@
 
 use std::time::Instant;
 
-use model::{Equilibrium, Evidence, Problem, SolverName, Vector};
+use model::{Equilibrium, Evidence, Problem, Rung, SolverName, Vector};
 
 use crate::links::Units;
 use crate::minimise::Minimum;
 use crate::reaction::{axial_forces, joint_forces, reactions};
+use crate::solver::doubt;
 use crate::stability::SecondOrder;
 use crate::vector::{VectorSum, scaled};
 
@@ -38,6 +39,10 @@ pub struct Work {
 const RESIDUAL_OF: &str =
     "projected gradient: largest force across a bar, over the largest force of the chain";
 
+/// Doubt of the forces, as a part of the largest, from which on the evidence speaks of it: what two solvers are
+/// asked to agree to.
+const WORTH_SAYING: f64 = 1e-8;
+
 impl Solution {
     pub(crate) fn new(problem: &Problem, units: &Units, minimum: Minimum, clock: Instant) -> Self {
         let second = SecondOrder::of(&minimum);
@@ -49,6 +54,16 @@ impl Solution {
         let residual = slope.residual();
         let iterations_usize = usize::try_from(iterations).unwrap_or(usize::MAX);
         let mut evidence = Evidence::converged(residual, RESIDUAL_OF, iterations_usize);
+        let doubt = doubt(&shape, &slope);
+        if doubt > WORTH_SAYING {
+            evidence.reach(
+                Rung::Converged,
+                format!(
+                    "{RESIDUAL_OF}: {residual:.1e} after {iterations} iterations; the bars are so nearly parallel that \
+                     their directions in double precision leave the forces in doubt by up to {doubt:.0e} of the largest"
+                ),
+            );
+        }
         evidence.nullity = second.nullity;
         evidence.condition = second.condition;
         let equilibrium = Equilibrium {

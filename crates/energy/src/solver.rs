@@ -186,15 +186,28 @@ fn accept(
     Ok((state.param(shape).gradient(slope).cost(value), None))
 }
 
+/// Smallest eigenvalue of the spread of the directions: the square of their angle to the line to which they are
+/// most nearly parallel.
+fn smallest_spread(shape: &Shape) -> f64 {
+    let eigen = shape.moments.spread.eigen();
+    let smallest = eigen.value[..eigen.size].iter().copied().fold(f64::INFINITY, f64::min);
+    smallest.max(LOST_SPREAD)
+}
+
 /// The smallest residual that directions in double precision can have.
 ///
 /// A unit vector in double precision leaves the closure uncertain by a rounding. Along a line to
 /// which all bars are nearly parallel, at an angle of the size `a`, closing that gap turns them by a
 /// rounding over `a`; `a²` is the smallest eigenvalue of the spread.
 fn rounding_floor(shape: &Shape) -> f64 {
-    let eigen = shape.moments.spread.eigen();
-    let smallest = eigen.value[..eigen.size].iter().copied().fold(f64::INFINITY, f64::min);
-    FLOOR * f64::EPSILON / smallest.max(LOST_SPREAD).sqrt()
+    FLOOR * f64::EPSILON / smallest_spread(shape).sqrt()
+}
+
+/// How far directions in double precision leave the forces in doubt, as a part of the largest: turned by a rounding
+/// over `a`, bars at the angle `a` to a common line change their forces by this beside `a`. On the line
+/// itself the forces are known by another way (module `straight`).
+pub(crate) fn doubt(shape: &Shape, slope: &Slope) -> f64 {
+    if slope.line.is_some() { 0.0 } else { FLOOR * f64::EPSILON / smallest_spread(shape) }
 }
 
 fn stalled(state: &Iterate, slope: &Slope) -> argmin::core::Error {

@@ -37,7 +37,7 @@ fn equal(n: usize, total: f64) -> Vec<Bar> {
     vec![Bar::homogeneous(total / n as f64, 1.0 / n as f64).unwrap(); n]
 }
 
-/// Reference digits: FACTS, 40-digit root finding (kind "external").
+/// Reference digits: 40-digit root finding (kind "external").
 #[test]
 fn the_papers_chain_hangs_in_e1() {
     let solution = solve(&model::cases::paper(), &Settings::default()).unwrap();
@@ -383,4 +383,36 @@ fn failures_are_typed() {
         ask([1.0, f64::NAN, 0.0], &[true; 3]),
         Err(CondensedError::PullNotFinite { .. })
     ));
+}
+
+/// Anchors a hair apart over a chain much longer: two strands side by side. By symmetry equal strands carry alike;
+/// different ones bend by $H/F_i$ and must lose the same height, $\sum l_i/F_i^2$ in each, however small H is.
+#[test]
+fn strands_that_hang_side_by_side_share_the_weight() {
+    let g = 9.81;
+    for (masses, gaps) in [
+        (vec![1.0; 12], [1e-3, 1e-7, 1e-13]),
+        (vec![1.0; 40], [1e-4, 1e-8, 1e-12]),
+        (vec![1.0, 2.0, 3.0, 1.0, 2.0, 5.0, 1.0, 1.0, 4.0, 2.0, 3.0, 1.0], [1e-4, 1e-7, 1e-12]),
+        ([[0.3; 7], [2.0; 7]].concat(), [1e-5, 1e-8, 1e-11]),
+    ] {
+        let n = masses.len();
+        for gap in gaps {
+            let anchors = Anchors { start_m: [0.0; 3], end_m: [gap, 0.0, 0.0] };
+            let bars = masses.iter().map(|m| Bar::homogeneous(1.0, *m).unwrap()).collect();
+            let chain = Chain::new("strands", g, anchors, bars).unwrap();
+            let problem = Problem::new(chain).unwrap();
+            let found = solve(&problem, &Settings::default()).unwrap();
+            let axial = &found.equilibrium.axial_n;
+            assert!(axial.iter().all(|force| *force > 0.0), "{n} {gap}");
+            // What hangs on both strands: half a bar less at either anchor.
+            let weight = g * (masses.iter().sum::<f64>() - 0.5 * (masses[0] + masses[n - 1]));
+            let carried = axial[0] + axial[n - 1];
+            let tilt = gap / n as f64;
+            assert!((carried / weight - 1.0).abs() < 1e-13 + 10.0 * tilt * tilt, "{n} {gap}");
+            let lost = |strand: &[f64]| strand.iter().map(|f| 1.0 / (f * f)).sum::<f64>();
+            let [down, up] = [lost(&axial[..n / 2]), lost(&axial[n / 2..])];
+            assert!((down / up - 1.0).abs() < 1e-12 + 1e3 * tilt * tilt, "{n} {gap} {down} {up}");
+        }
+    }
 }

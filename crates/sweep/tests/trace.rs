@@ -68,7 +68,7 @@ fn the_paper_s_chain_over_the_distance() {
         .iter()
         .filter(|event| !matches!(event.kind, EventKind::Straight | EventKind::Unloaded { .. }));
     assert_eq!(others.count(), 0);
-    // E1 of FACTS.md (external) at OD = 2 l: V + 6 mgl = 2.335..., theta = 19.69...
+    // E1 by 40-digit root finding (external) at OD = 2 l: V + 6 mgl = 2.335..., theta = 19.69...
     let e1 =
         trace.branches.iter().flat_map(|branch| &branch.points).find(|p| {
             (p.span_m - 2.0).abs() < 1e-12 && p.index_in_plane == 0 && p.angles_rad[0] > 0.0

@@ -8,6 +8,9 @@ use super::system::Frame;
 /// axes would lose more than three of sixteen digits of it.
 const NEARLY_STRAIGHT: f64 = 1e-3;
 
+/// Tilt of a bottom bar below which it counts as one of two strands that hang side by side.
+const STEEP: f64 = 0.05;
+
 /// A direction in the plane along which nearly all forces point, and the closure written along it.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Axis {
@@ -35,6 +38,31 @@ impl Axis {
         };
         let nearly = reach - chain.span.distance < NEARLY_STRAIGHT * chain.read.total_length;
         nearly.then(|| Self::through_the_anchors(chain, push, 1.0))
+    }
+
+    /// The vertical, for two strands that hang side by side and hold each other at the bottom, all bars in
+    /// tension; and the first bar of the strand that goes up. The bottom bars, steep too, belong to either.
+    pub fn double(chain: &Condensed) -> Option<(Self, usize)> {
+        let (span, bottom) = (&chain.span, &chain.bottom);
+        let nearly = span.across < NEARLY_STRAIGHT * chain.read.total_length
+            && span.across < STEEP * bottom.length
+            && bottom.over.abs() < NEARLY_STRAIGHT * bottom.length;
+        nearly.then(|| {
+            let split = if bottom.gap > 0.0 { bottom.group.start } else { bottom.group.end };
+            let (before, after) = chain.read.lengths.split_at(split);
+            let [before, after] =
+                [before, after].map(|lengths| Twofold::total(lengths.iter().copied()));
+            let slack = after.add(before.negate()).plus(-span.rise).value();
+            let frame = Frame::Aligned {
+                up: [1.0, 0.0],
+                slack,
+                aside: -span.across,
+                sides: [-1.0, 1.0],
+                push_side: 1.0,
+            };
+            let tilt = span.across / chain.read.total_length;
+            (Self { direction: [0.0, 1.0], side: 1.0, frame, slack: slack.abs(), tilt }, split)
+        })
     }
 
     /// The line of the anchors for a chain that is nearly folded along it, its compressed bar reaching

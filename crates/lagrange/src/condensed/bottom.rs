@@ -43,6 +43,8 @@ pub(super) struct Bottom {
     pub shortest_reach: f64,
     /// Height of the gap between the straight strands.
     pub gap: f64,
+    /// By how much the gap is higher than the group is long, to all digits where that is little.
+    pub over: f64,
 }
 
 /// What holds the bottom.
@@ -95,13 +97,16 @@ impl Bottom {
             read.blocks[block].length + read.lengths[block * BLOCK..first].iter().sum::<f64>();
         let other = (read.total_length - strand) - length;
         let mut gap = (strand - other) + rise;
-        if (gap.abs() - length).abs() <= DOUBTFUL * read.total_length {
-            let [strand, other] = [&read.lengths[..first], &read.lengths[end..]]
+        let mut over = gap.abs() - length;
+        if over.abs() <= DOUBTFUL * read.total_length {
+            let [strand, other, own] = [&read.lengths[..first], &read.lengths[end..], lengths]
                 .map(|lengths| Twofold::total(lengths.iter().copied()));
-            gap = strand.add(other.negate()).plus(rise).value();
+            let height = strand.add(other.negate()).plus(rise);
+            gap = height.value();
+            over = if gap < 0.0 { height.negate() } else { height }.add(own.negate()).value();
         }
         let shortest_reach = 2.0 * read.lengths[longest] - length;
-        Self { group, length, longest, shortest_reach, gap }
+        Self { group, length, longest, shortest_reach, gap, over }
     }
 
     /// How far the group is from straight when its ends are `gap` apart: from stretched out, or from
@@ -114,9 +119,13 @@ impl Bottom {
     pub fn hold(&self, across: f64, total_length: f64) -> Hold {
         let gap = across.hypot(self.gap);
         let rounding = ROUNDINGS * total_length;
-        if across <= rounding && (gap - self.length).abs() <= rounding {
+        // |G|² less the square of the length. Anchors that are a little apart pull strands of equal depth
+        // together, though the gap is no longer than the bar in any of its digits.
+        let terms = [across * across, self.over * (self.gap.abs() + self.length)];
+        let excess = terms[0] + terms[1];
+        if across <= rounding && self.over.abs() <= rounding {
             Hold::Meeting
-        } else if gap > self.length + rounding {
+        } else if excess > ROUNDINGS * (terms[0] + terms[1].abs()) {
             Hold::Tension
         } else if gap < self.shortest_reach - rounding {
             Hold::Compression

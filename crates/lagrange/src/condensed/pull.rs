@@ -136,7 +136,19 @@ impl Condensed {
 
     fn in_tension(&self, enough: f64, passes: &mut Passes) -> Option<Pull> {
         let upright = self.upright(self.all(), 0.0);
-        let Some(axis) = Axis::taut(self, false) else {
+        let taut = Axis::taut(self, false);
+        if taut.is_none()
+            && let Some((axis, split)) = Axis::double(self)
+            && let Some(start) = self.apart(passes)
+        {
+            let aligned = System { parts: self.split(split), frame: axis.frame, ..upright };
+            let begin = axis.enter(start);
+            let root = first_few(passes, |few| minimise(&aligned, begin, None, enough, few));
+            if let Some(root) = root {
+                return Some(self.found(axis.leave(root.force), Signs::Tension, &root, passes));
+            }
+        }
+        let Some(axis) = taut else {
             let start = self.rope(self.read.total_length - self.span.distance).force();
             let (near, contraction) = self.over_the_coarse(start);
             let root = first_few(passes, |few| minimise(&upright, near, contraction, enough, few))
@@ -204,6 +216,22 @@ impl Condensed {
     ///
     /// a monotone function of the force at the bottom, with a pole at either end of its range.
     fn meeting(&self, passes: &mut Passes) -> Option<Pull> {
+        let force = [0.0, self.shared(passes)?];
+        let jacobian = self.upright(self.all(), 0.0).closure(force).jacobian;
+        Some(Pull::new(self, self.span.level, force, Signs::Tension, jacobian, passes.spent))
+    }
+
+    /// The force at the bottom of two strands that nearly meet, their anchors a little apart: to first order
+    /// in H the strands turn as far as that asks for, $H \sum_i l_i/|F_i| = $ the way across.
+    fn apart(&self, passes: &mut Passes) -> Option<[f64; 2]> {
+        let vertical = self.shared(passes)?;
+        let bars = self.read.lengths.iter().zip(&self.read.loads);
+        let turns = model::sum(bars.map(|(length, load)| length / (vertical + load).abs()));
+        Some([self.span.across / turns, vertical])
+    }
+
+    /// The vertical force at the bottom of two strands that just meet.
+    fn shared(&self, passes: &mut Passes) -> Option<f64> {
         let Bottom { group, gap, .. } = &self.bottom;
         let load = if *gap < 0.0 {
             self.read.loads.get(group.end).copied()
@@ -213,7 +241,7 @@ impl Condensed {
         let end = -load.unwrap_or(0.0);
         let range = Bracket { low: end.min(0.0), high: end.max(0.0) };
         let read = &self.read;
-        let vertical = range.root(0.5 * end, end.abs(), 0.0, |vertical| {
+        range.root(0.5 * end, end.abs(), 0.0, |vertical| {
             if !passes.spend() {
                 return None;
             }
@@ -227,10 +255,7 @@ impl Condensed {
             let lost = model::sum(terms().map(|(turn, force)| turn / force));
             let slope = 2.0 * terms().map(|(turn, force)| turn / (force * force)).sum::<f64>();
             Some((-lost, slope / end.abs()))
-        });
-        let force = [0.0, vertical?];
-        let jacobian = self.upright(self.all(), 0.0).closure(force).jacobian;
-        Some(Pull::new(self, self.span.level, force, Signs::Tension, jacobian, passes.spent))
+        })
     }
 
     fn found(&self, force: [f64; 2], signs: Signs, root: &Root, passes: &Passes) -> Pull {
@@ -275,11 +300,15 @@ impl Condensed {
 
     fn around_the_bottom(&self) -> [Bars<'_>; 2] {
         let group = &self.bottom.group;
-        let part = |range: Range<usize>| Bars {
-            lengths: &self.read.lengths[range.clone()],
-            loads: &self.read.loads[range],
-        };
-        [part(0..group.start), part(group.end..self.bars())]
+        [self.part(0..group.start), self.part(group.end..self.bars())]
+    }
+
+    fn split(&self, at: usize) -> [Bars<'_>; 2] {
+        [self.part(0..at), self.part(at..self.bars())]
+    }
+
+    fn part(&self, range: Range<usize>) -> Bars<'_> {
+        Bars { lengths: &self.read.lengths[range.clone()], loads: &self.read.loads[range] }
     }
 
     fn upright<'a>(&self, parts: [Bars<'a>; 2], push: f64) -> System<'a> {

@@ -90,9 +90,8 @@ fn findings(r: &Reproduction) -> Vec<String> {
     ));
     items.push(format!(
         "**E1 is the lowest of all positions, E2 the highest**: [semidefinite bounds](#positions) without any guess are \
-         {} and {} mgl away.",
-        in_words(r.bounds.gap_to_e1_mgl, 2),
-        in_words(r.bounds.gap_to_e2_mgl, 2)
+         {} mgl away.",
+        in_words(r.bounds.gap_to_e1_mgl.max(r.bounds.gap_to_e2_mgl), 2)
     ));
     items
 }
