@@ -41,7 +41,7 @@ const RESIDUAL_OF: &str =
 
 /// Doubt of the forces, as a part of the largest, from which on the evidence speaks of it: what two solvers are
 /// asked to agree to.
-const WORTH_SAYING: f64 = 1e-8;
+const WORTH_SAYING: f64 = 1e-9;
 
 impl Solution {
     pub(crate) fn new(problem: &Problem, units: &Units, minimum: Minimum, clock: Instant) -> Self {

@@ -5,7 +5,7 @@
 //! prints as its second position is refuted without any equilibrium at all: over the whole box of
 //! positions whose angles round to the printed ones, the energy has a slope.
 
-use census::{Census, Interval};
+use census::{Census, Interval, SlackFamily};
 use model::{Chain, Equilibrium, Evidence, Problem, Rung};
 use serde::Serialize;
 
@@ -195,6 +195,11 @@ pub fn certify_by_census(problem: &Problem, census: &Census, answer: &mut Equili
     let listed = place.and_then(|place| Some((place, census.equilibria.get(place.number - 1)?)));
     let Some((place, proven)) = listed.filter(|(place, _)| place.beyond <= placed(chain)) else {
         let why = match place {
+            _ if in_family(chain, census, answer.energy_j) => {
+                "the answer is one of a family with slack bars, which the census lists as a whole: it is not alone in any \
+                 box"
+                    .to_owned()
+            }
             Some(place) => format!(
                 "the nearest equilibrium of the census lies {:.1e} of the total length away",
                 place.beyond
@@ -216,6 +221,15 @@ pub fn certify_by_census(problem: &Problem, census: &Census, answer: &mut Equili
         ),
     );
     complete(census, evidence);
+}
+
+/// Whether a family of equilibria with slack bars has this energy, to the rounding of a solver.
+fn in_family(chain: &Chain, census: &Census, energy_j: f64) -> bool {
+    /// Rounding of an energy, in units of weight times length.
+    const ROUNDING: f64 = 1e-12;
+    let unit_j = chain.total_mass_kg() * chain.gravity_m_s2() * chain.total_length_m();
+    let near = |family: &SlackFamily| (family.energy_j.mid() - energy_j).abs() <= ROUNDING * unit_j;
+    census.families.iter().any(near)
 }
 
 fn complete(census: &Census, evidence: &mut Evidence) {

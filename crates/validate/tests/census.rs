@@ -412,3 +412,21 @@ fn the_ladder_is_honest() {
     certify_by_census(&example.problem, &open, &mut e2);
     assert!(reached(&e2, Rung::Verified) && !reached(&e2, Rung::Complete));
 }
+
+/// A slack pair at the bottom is at rest in a family of positions: no box holds one of them alone, and the ladder
+/// says why.
+#[test]
+fn an_answer_of_a_slack_family_is_told_as_one() {
+    let bar = |length, mass| Bar::homogeneous(length, mass).unwrap();
+    // The last bar hangs from its anchor, the first three fill what is left of the way.
+    let bars = vec![bar(0.5, 0.0), bar(1.0, 0.0), bar(2.0, 0.0), bar(0.75, 1.0)];
+    let anchors = Anchors { start_m: [0.0; 3], end_m: [0.0, 0.0, 3.0] };
+    let problem = Problem::new(Chain::new("slack", 9.81, anchors, bars).unwrap()).unwrap();
+    let census = Census::take(&problem, &Settings::default()).unwrap();
+    assert_eq!(census.families.len(), 1);
+    let mut answer = energy::minimise(&problem, &energy::Settings::default()).unwrap().equilibrium;
+    certify_by_census(&problem, &census, &mut answer);
+    let ladder = answer.evidence.ladder();
+    let verified = ladder.iter().find(|s| s.rung == Rung::Verified).unwrap();
+    assert!(!verified.reached && verified.how.contains("family with slack bars"), "{verified:?}");
+}
