@@ -416,3 +416,23 @@ fn strands_that_hang_side_by_side_share_the_weight() {
         }
     }
 }
+
+/// A weight on two massless bars drawn ever tighter, three parts across to four down: its place is where two circles
+/// meet, and the forces follow. Reference digits: that formula with 60 digits (kind "external"). A rounding of
+/// the way between the anchors would change the third digit of the last of them.
+#[test]
+fn a_weight_on_a_line_ever_tighter_keeps_all_digits() {
+    for (height_m, expected) in [
+        (-1.5999, [332.979_774_964_977_93, 325.131_637_633_611_76]),
+        (-1.599_999_84, [8_229.859_802_329_457_8, 8_222.011_802_109_713_8]),
+        (-1.599_999_999_84, [260_130.865_515_486_23, 260_123.017_515_486_01]),
+        (-1.599_999_999_999_84, [8_224_945.663_176_712_4, 8_224_937.815_176_712_4]),
+    ] {
+        let bars =
+            vec![Bar::new(1.0, 1.0, 1.0, [0.0; 3]).unwrap(), Bar::homogeneous(1.0, 0.0).unwrap()];
+        let found = hang(bars, 9.81, [1.2, 0.0, height_m]);
+        for (axial, expected) in found.equilibrium.axial_n.iter().zip(expected) {
+            assert!((axial / expected - 1.0).abs() < 1e-15, "{height_m}: {axial} {expected}");
+        }
+    }
+}
