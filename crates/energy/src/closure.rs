@@ -20,6 +20,8 @@ pub(crate) struct Shape {
 pub(crate) struct Moments {
     /// `sum l_i u_i - D`.
     pub(crate) gap: Vector,
+    /// Size of the terms that each component of the gap is the difference of: it holds no more digits.
+    pub(crate) terms: Vector,
     /// `sum l_i (I - u_i u_iᵀ)`: how far the last joint moves for a pull on it.
     pub(crate) spread: Symmetric,
     /// `sum l_i h_i (I - u_i u_iᵀ) up`: the tangent part of the weight.
@@ -28,7 +30,7 @@ pub(crate) struct Moments {
     pub(crate) value: f64,
 }
 
-/// A gap below this is rounding; corrections stop there.
+/// A gap below this part of its terms is rounding; corrections stop there.
 const CLOSED: f64 = 4.0 * f64::EPSILON;
 
 /// Least part of the predicted fall of the squared gap that counts as success.
@@ -53,6 +55,10 @@ pub(crate) const LOST_SPREAD: f64 = model::STRAIGHT_TOLERANCE;
 
 /// Angle by which bars on one straight line are turned off it, alternately, rad.
 const NUDGE: f64 = 0.05;
+
+/// Where the gap as a whole is rounding, a component that shrinks to this part still says something: a chain drawn
+/// out along an axis holds that component to more digits than the others.
+const FINER: f64 = 0.5;
 
 /// How often a straight chain is nudged.
 const NUDGES: usize = 3;
@@ -107,7 +113,7 @@ impl Links {
         let mut nudges = 0;
         let mut gap = norm(shape.moments.gap);
         for _ in 0..corrections {
-            if gap <= CLOSED {
+            if shape.moments.closed() {
                 return Ok(shape);
             }
             let Moments { gap: r, spread, .. } = shape.moments;
@@ -128,7 +134,8 @@ impl Links {
             if !left.is_finite() {
                 return Err((gap, corrections));
             }
-            if gap * gap - left * left >= FAIR_PART * predicted {
+            let finer = gap <= SMALL_GAP && trial.moments.parts() <= FINER * shape.moments.parts();
+            if finer || gap * gap - left * left >= FAIR_PART * predicted {
                 (shape, gap) = (trial, left);
                 damping =
                     if damping > gap * FIRST_DAMPING { damping / DAMPING_FACTOR } else { 0.0 };
@@ -164,6 +171,20 @@ impl Links {
     }
 }
 
+impl Moments {
+    /// The components of the gap as parts of their terms, the largest of them.
+    fn parts(&self) -> f64 {
+        let parts = self.gap.iter().zip(&self.terms).map(|(gap, terms)| (gap / terms).abs());
+        // Nothing of nothing is closed.
+        parts.filter(|part| !part.is_nan()).fold(0.0, f64::max)
+    }
+
+    /// Whether the gap is nothing but rounding.
+    fn closed(&self) -> bool {
+        self.parts() <= CLOSED
+    }
+}
+
 /// The pull that answers `rhs` in `spread`, plus damping; pseudo-inverse where the chain is
 /// straight.
 pub(crate) fn answer(spread: &Symmetric, damping: f64, rhs: Vector) -> Vector {
@@ -196,6 +217,7 @@ const GOLDEN_ANGLE: f64 = 2.399_963_229_728_653;
 /// The sums while they run.
 struct Pass {
     closure: VectorSum,
+    terms: Vector,
     weight: VectorSum,
     value: Sum,
     spread: [f64; 6],
@@ -205,6 +227,7 @@ impl Pass {
     fn new() -> Self {
         Self {
             closure: VectorSum::default(),
+            terms: [0.0; 3],
             weight: VectorSum::default(),
             value: Sum::default(),
             spread: [0.0; 6],
@@ -214,20 +237,50 @@ impl Pass {
     #[inline]
     fn add(&mut self, links: &Links, i: usize, u: Vector) {
         let (l, h) = (links.length[i], links.hang[i]);
-        self.closure.add(scaled(l, u));
+        let (whole, rest) = parted(u);
+        self.closure.add(scaled(l, whole));
+        self.closure.add(scaled(l, rest));
+        for (terms, rest) in self.terms.iter_mut().zip(rest) {
+            *terms += l * rest.abs();
+        }
         self.weight.add(scaled(l * h, tangent(u, links.up)));
         self.value.add(l * h * dot(links.up, u));
         add_projector(&mut self.spread, l, u);
     }
 
     fn moments(&self, links: &Links) -> Moments {
+        let mut closure = self.closure;
+        for span in links.span {
+            closure.add(scaled(-1.0, span));
+        }
         Moments {
-            gap: along(self.closure.value(), -1.0, links.span),
+            gap: closure.value(),
+            terms: self.terms,
             spread: unpacked(&self.spread),
             weight: self.weight.value(),
             value: self.value.value(),
         }
     }
+}
+
+/// A unit vector as the nearest of the axes and what is missing, which keeps its digits however small it is:
+/// along the axis $-(1 - \cos\alpha) = -\sin^2\alpha/(1 + \cos\alpha)$. So the closure of a chain that is drawn out
+/// along an axis is a balance of small terms, its slack against what the bars lose by their angles.
+#[inline]
+fn parted(u: Vector) -> (Vector, Vector) {
+    let [x, y, z] = u.map(f64::abs);
+    let k = if x >= y && x >= z {
+        0
+    } else if y >= z {
+        1
+    } else {
+        2
+    };
+    let (mut whole, mut rest) = ([0.0; 3], u);
+    whole[k] = u[k].signum();
+    rest[k] = 0.0;
+    rest[k] = -whole[k] * dot(rest, rest) / (1.0 + u[k].abs());
+    (whole, rest)
 }
 
 /// Add `w (I - u uᵀ)` to a packed sum `[xx, yy, zz, xy, xz, yz]`. The diagonal is written as sums of

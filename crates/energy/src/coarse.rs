@@ -76,7 +76,7 @@ mod tests {
         let links = Links {
             length,
             hang,
-            span: [0.6, 0.0, 0.1],
+            span: [[0.6, 0.0, 0.1], [0.0; 3]],
             up: [0.0, 0.0, 1.0],
             vertical: false,
             motion: Motion::Space,

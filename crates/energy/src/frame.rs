@@ -2,7 +2,7 @@
 
 use model::{Anchors, Vector};
 
-use crate::vector::{cross, dot, norm, scaled, unit};
+use crate::vector::{Sum, cross, dot, norm, scaled, unit};
 
 /// World up; gravity acts along its negative.
 pub(crate) const WORLD_UP: Vector = [0.0, 0.0, 1.0];
@@ -21,6 +21,8 @@ const DRAWN_OUT: f64 = 0.25;
 pub(crate) struct Frame {
     /// The axes, in world coordinates; right-handed.
     axis: [Vector; 3],
+    /// Whether the first axis is the line of the anchors.
+    drawn_out: bool,
 }
 
 impl Frame {
@@ -32,9 +34,9 @@ impl Frame {
         let normal = cross(WORLD_UP, horizontal);
         match unit(difference_m) {
             Some(first) if spare_m < DRAWN_OUT * total_length_m && spare_m < anchors.span_m() => {
-                Self { axis: [first, normal, cross(first, normal)] }
+                Self { axis: [first, normal, cross(first, normal)], drawn_out: true }
             }
-            _ => Self { axis: [horizontal, normal, WORLD_UP] },
+            _ => Self { axis: [horizontal, normal, WORLD_UP], drawn_out: false },
         }
     }
 
@@ -48,6 +50,25 @@ impl Frame {
         // Scaled first: squares of metres may leave the range of a double.
         let flat = scaled(1.0 / total_length_m, [difference_m[0], difference_m[1], 0.0]);
         unit(flat).unwrap_or([0.0, 1.0, 0.0])
+    }
+
+    /// The way between the anchors in the frame, as a sum to twice the digits; it has no part along the
+    /// second axis, by the choice of the frame.
+    pub(crate) fn span(&self, difference: Vector) -> [Vector; 2] {
+        if self.drawn_out {
+            // The root of a square known to twice the digits: one step of Newton's method from the rounded one.
+            let length = norm(difference);
+            let mut square = Sum::default();
+            for x in difference {
+                square.add(x * x);
+                square.add(x.mul_add(x, -(x * x)));
+            }
+            square.add(-(length * length));
+            square.add(-length.mul_add(length, -(length * length)));
+            return [[length, 0.0, 0.0], [square.value() / (2.0 * length), 0.0, 0.0]];
+        }
+        let [across, _, up] = self.into_frame(difference);
+        [[across, 0.0, up], [0.0; 3]]
     }
 
     /// World to frame.

@@ -6,7 +6,7 @@ use crate::Motion;
 use crate::frame::{Frame, WORLD_UP, on_one_vertical};
 use crate::vector::{Sum, along, dot};
 
-/// A chain with total length 1 and total weight 1, in its own frame.
+/// A chain with a total length from 1 to 2 and total weight 1, in its own frame.
 ///
 /// The energy is linear in the directions `u_i` of the bars. Bar *i* lifts all bars after it and a
 /// part `r_i / l_i` of itself, so that
@@ -18,12 +18,14 @@ use crate::vector::{Sum, along, dot};
 /// digits and turns into its negative when the chain is read from its other end.
 #[derive(Debug, Clone)]
 pub(crate) struct Links {
-    /// Lengths `l_i`; their sum is 1.
+    /// Lengths `l_i`; their sum is from 1 to 2. The unit is a power of two, so that all digits of the lengths
+    /// are there: a nearly taut chain hangs on the last of them.
     pub(crate) length: Vec<f64>,
     /// Weight hanging on each bar less one half, `h_i`; never increasing along the chain.
     pub(crate) hang: Vec<f64>,
-    /// The end anchor seen from the start anchor, `D`; no component along the second axis.
-    pub(crate) span: Vector,
+    /// The end anchor seen from the start anchor, `D`, as a sum to twice the digits; no component along the
+    /// second axis.
+    pub(crate) span: [Vector; 2],
     /// World up; no component along the second axis.
     pub(crate) up: Vector,
     /// Whether the anchors lie on one vertical.
@@ -35,7 +37,7 @@ pub(crate) struct Links {
 /// The units and the frame that lead back to the world.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Units {
-    /// Unit of length: the total length, m.
+    /// Unit of length, m: the power of two below the total length.
     pub(crate) length_m: f64,
     /// Unit of force: the total weight, N.
     pub(crate) weight_n: f64,
@@ -45,15 +47,16 @@ pub(crate) struct Units {
 impl Links {
     pub(crate) fn new(problem: &Problem, motion: Motion) -> (Self, Units) {
         let chain = problem.chain();
-        let length_m = chain.total_length_m();
+        let total_m = chain.total_length_m();
+        let length_m = total_m.log2().floor().exp2();
         let mass_kg = chain.total_mass_kg();
         let weight_n = mass_kg * chain.gravity_m_s2();
         let difference_m = chain.anchors().difference_m();
         let bars = chain.bars();
         let span_m = chain.anchors().span_m();
         let longest_m = bars.iter().fold(0.0_f64, |m, bar| m.max(bar.length_m()));
-        let spare_m = (length_m - span_m).min(length_m + span_m - 2.0 * longest_m);
-        let frame = Frame::new(chain.anchors(), length_m, spare_m);
+        let spare_m = (total_m - span_m).min(total_m + span_m - 2.0 * longest_m);
+        let frame = Frame::new(chain.anchors(), total_m, spare_m);
         let length = bars.iter().map(|bar| bar.length_m() / length_m).collect();
         // Twice h_i: what hangs after bar i less what hangs before it.
         let mut hang = vec![0.0; bars.len()];
@@ -69,18 +72,24 @@ impl Links {
             *h = 0.5 * (*h + (after.value() + m * lever));
             after.add(m);
         }
-        let mut span = frame.into_frame(difference_m).map(|x| x / length_m);
+        let span = frame.span(difference_m.map(|x| x / length_m));
         let mut up = frame.into_frame(WORLD_UP);
         // Zero by the choice of the frame; rounding must not push a plane chain out of its plane.
-        span[1] = 0.0;
         up[1] = 0.0;
-        let vertical = on_one_vertical(difference_m, length_m);
+        let vertical = on_one_vertical(difference_m, total_m);
         (Self { length, hang, span, up, vertical, motion }, Units { length_m, weight_n, frame })
     }
 
     /// Number of bars.
     pub(crate) fn bars(&self) -> usize {
         self.length.len()
+    }
+
+    /// The total length.
+    pub(crate) fn total(&self) -> f64 {
+        let mut total = Sum::default();
+        self.length.iter().for_each(|l| total.add(*l));
+        total.value()
     }
 
     /// Whether the turn of the whole chain about its anchors is a motion that costs nothing.
@@ -96,6 +105,6 @@ impl Links {
     /// What to add to the energy `sum l_i h_i up . u_i` of a closed chain to measure it from the
     /// height of joint 0 rather than from half way between the anchors.
     pub(crate) fn datum(&self) -> f64 {
-        0.5 * dot(self.up, self.span)
+        0.5 * dot(self.up, self.span[0])
     }
 }

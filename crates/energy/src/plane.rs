@@ -57,7 +57,7 @@ impl Turn {
     pub(crate) fn towards_anchor(links: &Links, multiplier: Vector) -> Option<(Self, f64)> {
         let up = links.up;
         let level = [up[2], 0.0, -up[0]];
-        let offset = dot(level, links.span);
+        let offset = dot(level, links.span[0]);
         if links.motion == Motion::Plane || links.vertical || offset.abs() > NEARLY_VERTICAL {
             return None;
         }
@@ -108,7 +108,7 @@ mod tests {
             let links = Links {
                 length: vec![0.5, 0.5],
                 hang: vec![0.25, -0.25],
-                span: up,
+                span: [up, [0.0; 3]],
                 up,
                 vertical: true,
                 motion: Motion::Space,

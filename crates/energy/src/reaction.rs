@@ -112,7 +112,7 @@ pub fn reaction_by_differences(
         let motion = if axis == 1 { Motion::Space } else { Motion::Plane };
         let least_energy = |h: f64| -> Result<f64, Error> {
             let mut displaced = Links { motion, vertical: false, ..links.clone() };
-            displaced.span[axis] += h;
+            displaced.span[0][axis] += h;
             let datum = displaced.datum();
             let settings = Settings { motion, ..*settings };
             let minimum = descend(displaced, start.clone(), &settings)?;
@@ -145,7 +145,7 @@ fn extrapolated(step: f64, value: impl Fn(f64) -> Result<f64, Error>) -> Result<
 /// How far the anchor can move, at least, before the chain cannot close any more: what is left of the
 /// total length over the span, or of the other bars and the span over the longest bar.
 fn spare_length(links: &Links) -> f64 {
-    let span = norm(links.span);
+    let (total, span) = (links.total(), norm(links.span[0]));
     let longest = links.length.iter().fold(0.0_f64, |m, l| m.max(*l));
-    (1.0 - span).min(1.0 + span - 2.0 * longest)
+    (total - span).min(total + span - 2.0 * longest)
 }

@@ -203,11 +203,15 @@ fn rounding_floor(shape: &Shape) -> f64 {
     FLOOR * f64::EPSILON / smallest_spread(shape).sqrt()
 }
 
-/// How far directions in double precision leave the forces in doubt, as a part of the largest: turned by a rounding
-/// over `a`, bars at the angle `a` to a common line change their forces by this beside `a`. On the line
-/// itself the forces are known by another way (module `straight`).
+/// How far directions in double precision leave the forces in doubt, as a part of the largest: of bars at an angle `a`
+/// to a common line they hold the forces along the line to a rounding, and what is left of the gradient, over `a`. On the line itself the forces are
+/// known by another way (module `straight`).
 pub(crate) fn doubt(shape: &Shape, slope: &Slope) -> f64 {
-    if slope.line.is_some() { 0.0 } else { FLOOR * f64::EPSILON / smallest_spread(shape) }
+    if slope.line.is_some() {
+        0.0
+    } else {
+        (FLOOR * f64::EPSILON + slope.residual()) / smallest_spread(shape).sqrt()
+    }
 }
 
 fn stalled(state: &Iterate, slope: &Slope) -> argmin::core::Error {

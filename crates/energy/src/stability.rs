@@ -108,7 +108,7 @@ impl SecondOrder {
             nullity: flat + turn + undetermined,
             condition: space.condition(zero),
             residual: place.slope.residual(),
-            gap: crate::vector::norm(place.shape.moments.gap),
+            gap: crate::vector::norm(place.shape.moments.gap) / links.total(),
         }
     }
 }

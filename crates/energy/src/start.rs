@@ -10,17 +10,17 @@ use crate::vector::{along, dot, norm, scaled, unit};
 const BISECTIONS: u32 = 60;
 
 impl Links {
-    /// Directions along a circular arc of length 1 through both anchors, hanging below their chord
+    /// Directions along a circular arc of the chain's length through both anchors, hanging below their chord
     /// (beside it when the chord is vertical), one for the middle of each bar.
     ///
-    /// The arc turns from `-gamma` to `+gamma` about the chord, `sin(gamma) / gamma` being the span.
+    /// The arc turns from `-gamma` to `+gamma` about the chord, `sin(gamma) / gamma` being the span over the length.
     /// A polygon on it closes nearly; the closure does the rest.
     pub(crate) fn arc(&self) -> Vec<Vector> {
-        let span = norm(self.span);
-        let half = half_opening(span);
+        let total = self.total();
+        let half = half_opening(norm(self.span[0]) / total);
         // The level direction in the plane of the anchors: `up` turned down into +first axis.
         let level = [self.up[2], 0.0, -self.up[0]];
-        let chord = unit(self.span).unwrap_or(level);
+        let chord = unit(self.span[0]).unwrap_or(level);
         // The chord turned by a right angle, to whichever side is up.
         let mut side = [-chord[2], 0.0, chord[0]];
         if side[0] * self.up[0] + side[2] * self.up[2] < 0.0 {
@@ -33,7 +33,7 @@ impl Links {
             .map(|l| {
                 middle = start + 0.5 * l;
                 start += l;
-                let (s, c) = (half * (2.0 * middle - 1.0)).sin_cos();
+                let (s, c) = (half * (2.0 * middle / total - 1.0)).sin_cos();
                 [c * chord[0] + s * side[0], 0.0, c * chord[2] + s * side[2]]
             })
             .collect()
@@ -49,16 +49,17 @@ impl Links {
     /// whole, which they do only in steps as small as what it has to spare. So the chain is turned
     /// first, and the other bars are closed on the way back, where they are a nearly taut chain.
     pub(crate) fn unfolded(&self, u: Vec<Vector>) -> Vec<Vector> {
-        let span = norm(self.span);
+        let span = norm(self.span[0]);
         let Some((k, longest)) =
             self.length.iter().copied().enumerate().max_by(|a, b| a.1.total_cmp(&b.1))
         else {
             return u;
         };
-        let spare = 1.0 + span - 2.0 * longest;
-        let (Some(to), Some(&from)) = (unit(self.span), u.get(k)) else { return u };
+        let total = self.total();
+        let spare = total + span - 2.0 * longest;
+        let (Some(to), Some(&from)) = (unit(self.span[0]), u.get(k)) else { return u };
         let Some(half) = unit(along(from, 1.0, to)) else { return u };
-        if spare > NEARLY_FOLDED || spare > span {
+        if spare > NEARLY_FOLDED * total || spare > span {
             return u;
         }
         // Two reflections are a turn: the first takes `from` to `-from`, the second that to `to`.
@@ -66,7 +67,8 @@ impl Links {
         let mut turned: Vec<Vector> =
             u.into_iter().map(|v| reflected(reflected(v, from), half)).collect();
 
-        let mut others = Self { span: along(self.span, -longest, to), ..self.clone() };
+        let [span, rest] = self.span;
+        let mut others = Self { span: [along(span, -longest, to), rest], ..self.clone() };
         others.length.remove(k);
         others.hang.remove(k);
         let mut rest = turned.clone();
@@ -112,7 +114,7 @@ mod tests {
         let links = Links {
             length: vec![0.2, 0.6, 0.2],
             hang: vec![0.3, 0.0, -0.3],
-            span: [0.21, 0.0, 0.0],
+            span: [[0.21, 0.0, 0.0], [0.0; 3]],
             up: [0.0, 0.0, 1.0],
             vertical: false,
             motion: crate::Motion::Space,
@@ -123,7 +125,7 @@ mod tests {
         let gap = links.measure(&turned).gap;
         assert!(norm(gap) < 1e-14);
         // A chain with more to spare stays.
-        let slack = Links { span: [0.4, 0.0, 0.0], ..links };
+        let slack = Links { span: [[0.4, 0.0, 0.0], [0.0; 3]], ..links };
         assert_eq!(slack.unfolded(u.clone()), u);
     }
 

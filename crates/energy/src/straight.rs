@@ -102,7 +102,7 @@ mod tests {
         let links = |rounding: f64| Links {
             length: vec![0.25; 4],
             hang: vec![0.5, 0.1 + rounding, 0.1 - rounding, -0.5],
-            span: [0.0; 3],
+            span: [[0.0; 3]; 2],
             up,
             vertical: true,
             motion: Motion::Space,
@@ -128,7 +128,7 @@ mod tests {
         let links = Links {
             length: vec![0.25; 4],
             hang: vec![0.375, 0.125, -0.125, -0.375],
-            span: [0.0; 3],
+            span: [[0.0; 3]; 2],
             up,
             vertical: true,
             motion: Motion::Space,
