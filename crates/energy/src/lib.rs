@@ -44,10 +44,11 @@
 //! `cargo run --release -p energy --example energy_speed` shows it up to a million bars. A pass over the
 //! bars costs a square root and a division per bar, and an iteration takes about five passes (system,
 //! step, two or three corrections of the closure); a method with three unknowns instead of 2 n needs one
-//! pass and stays ahead by that factor and by the coarser chains. Where the closure is nearly singular
-//! (a chain within a rounding of straight), the directions of the bars in double precision do not
-//! determine the forces any better than a rounding over the angle between them; see
-//! [`SecondOrder::condition`] and [`Evidence`](model::Evidence)`::nullity`.
+//! pass and stays ahead by that factor and by the coarser chains. A chain drawn out along one line, nearly
+//! taut or hanging as two strands side by side, is closed by the balance of its slack with what the bars
+//! lose by their angles to that line, and keeps its digits down to the slack of the tautest chain that is a
+//! problem; the forces along the line then hold to a rounding over those angles, and the evidence
+//! says so where that is much. See [`SecondOrder::condition`] and [`Evidence`](model::Evidence)`::nullity`.
 //!
 //! # Why some formulas are also in `lagrange`
 //!

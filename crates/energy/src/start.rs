@@ -59,7 +59,8 @@ impl Links {
         let spare = total + span - 2.0 * longest;
         let (Some(to), Some(&from)) = (unit(self.span[0]), u.get(k)) else { return u };
         let Some(half) = unit(along(from, 1.0, to)) else { return u };
-        if spare > NEARLY_FOLDED * total || spare > span {
+        // One other bar alone cannot be closed on anything.
+        if self.bars() < 3 || spare > NEARLY_FOLDED * total || spare > span {
             return u;
         }
         // Two reflections are a turn: the first takes `from` to `-from`, the second that to `to`.
