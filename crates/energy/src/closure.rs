@@ -237,11 +237,12 @@ impl Pass {
     #[inline]
     fn add(&mut self, links: &Links, i: usize, u: Vector) {
         let (l, h) = (links.length[i], links.hang[i]);
-        let (whole, rest) = parted(u);
-        self.closure.add(scaled(l, whole));
-        self.closure.add(scaled(l, rest));
+        let (axis, rest) = parted(u);
+        self.closure.add_to(axis, l.copysign(u[axis]));
+        let rest = scaled(l, rest);
+        self.closure.add(rest);
         for (terms, rest) in self.terms.iter_mut().zip(rest) {
-            *terms += l * rest.abs();
+            *terms += rest.abs();
         }
         self.weight.add(scaled(l * h, tangent(u, links.up)));
         self.value.add(l * h * dot(links.up, u));
@@ -263,24 +264,24 @@ impl Pass {
     }
 }
 
-/// A unit vector as the nearest of the axes and what is missing, which keeps its digits however small it is:
-/// along the axis $-(1 - \cos\alpha) = -\sin^2\alpha/(1 + \cos\alpha)$. So the closure of a chain that is drawn out
-/// along an axis is a balance of small terms, its slack against what the bars lose by their angles.
+/// The axis nearest to a unit vector, either way, and what the vector is less a unit step along it. That keeps its
+/// digits however small it is: along the axis $-(1 - \cos\alpha) = -\sin^2\alpha/(1 + \cos\alpha)$. So the
+/// closure of a chain that is drawn out along an axis is a balance of small terms, its slack against what the
+/// bars lose by their angles.
 #[inline]
-fn parted(u: Vector) -> (Vector, Vector) {
+fn parted(u: Vector) -> (usize, Vector) {
     let [x, y, z] = u.map(f64::abs);
-    let k = if x >= y && x >= z {
+    let axis = if x >= y && x >= z {
         0
     } else if y >= z {
         1
     } else {
         2
     };
-    let (mut whole, mut rest) = ([0.0; 3], u);
-    whole[k] = u[k].signum();
-    rest[k] = 0.0;
-    rest[k] = -whole[k] * dot(rest, rest) / (1.0 + u[k].abs());
-    (whole, rest)
+    let mut rest = u;
+    rest[axis] = 0.0;
+    rest[axis] = (-dot(rest, rest) / (1.0 + u[axis].abs())).copysign(-u[axis]);
+    (axis, rest)
 }
 
 /// Add `w (I - u uᵀ)` to a packed sum `[xx, yy, zz, xy, xz, yz]`. The diagonal is written as sums of

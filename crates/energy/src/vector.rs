@@ -54,14 +54,21 @@ pub(crate) struct VectorSum {
 }
 
 impl VectorSum {
+    #[inline]
     pub(crate) fn add(&mut self, term: Vector) {
         for (k, &t) in term.iter().enumerate() {
-            let s = self.total[k];
-            let next = s + t;
-            let back = next - s;
-            self.lost[k] += (s - (next - back)) + (t - back);
-            self.total[k] = next;
+            self.add_to(k, t);
         }
+    }
+
+    /// Add to one component.
+    #[inline]
+    pub(crate) fn add_to(&mut self, k: usize, t: f64) {
+        let s = self.total[k];
+        let next = s + t;
+        let back = next - s;
+        self.lost[k] += (s - (next - back)) + (t - back);
+        self.total[k] = next;
     }
 
     pub(crate) fn value(&self) -> Vector {
