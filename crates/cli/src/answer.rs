@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use model::{Equilibrium, SystemSummary};
 use validate::Agreement;
 
-use crate::tables::{duration, long, numbers_from, short, table, vector, word};
+use crate::tables::{duration, long, numbers_from, short, system_line, table, vector, word};
 
 /// Chains up to this many bars are printed joint by joint; longer ones by their ends (`--csv` and
 /// `--json` have all).
@@ -18,15 +18,7 @@ pub fn answer(
     agreement: Option<&Agreement>,
     summary: bool,
 ) -> String {
-    let mut text = format!(
-        "{}: {} bars, {} m long, {} kg, anchors {} m apart, g = {} m/s^2\n\n",
-        system.name,
-        system.bars,
-        short(system.total_length_m),
-        short(system.total_mass_kg),
-        short(system.span_m),
-        short(system.gravity_m_s2),
-    );
+    let mut text = system_line(system);
     text += &overview(equilibria);
     if !summary && let Some(first) = equilibria.first() {
         text += &shape(first, system.bars);

@@ -1,8 +1,8 @@
 //! Tables and numbers for the terminal.
 
 use comfy_table::{CellAlignment, ContentArrangement, LineStyle, Table, presets};
-use model::Vector;
 use model::cases::Case;
+use model::{SystemSummary, Vector};
 
 /// Width of tables where no terminal says its own.
 const WIDTH: u16 = 120;
@@ -34,6 +34,19 @@ pub fn cases(cases: &[Case]) -> String {
         table.add_row([case.name, case.about]);
     }
     format!("{table}\n")
+}
+
+/// What is solved, in a line of its own.
+pub fn system_line(system: &SystemSummary) -> String {
+    format!(
+        "{}: {} bars, {} m long, {} kg, anchors {} m apart, g = {} m/s^2\n\n",
+        system.name,
+        system.bars,
+        short(system.total_length_m),
+        short(system.total_mass_kg),
+        short(system.span_m),
+        short(system.gravity_m_s2),
+    )
 }
 
 /// A number for reading: six significant digits.

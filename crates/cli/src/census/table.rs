@@ -5,7 +5,9 @@ use std::fmt::Write as _;
 use model::{Problem, Rung};
 
 use super::answer::{Answer, Found, Summary};
-use crate::tables::{duration, long, numbers_from, short, significant, table, vector, word};
+use crate::tables::{
+    duration, long, numbers_from, short, significant, system_line, table, vector, word,
+};
 
 /// So many equilibria are printed; `--json` and `--csv` have all.
 const PRINTED: usize = 40;
@@ -21,16 +23,7 @@ const PRINTED_OPEN: usize = 12;
 
 /// The whole answer.
 pub fn text(problem: &Problem, answer: &Answer) -> String {
-    let system = &answer.system;
-    let mut text = format!(
-        "{}: {} bars, {} m long, {} kg, anchors {} m apart, g = {} m/s^2\n\n",
-        system.name,
-        system.bars,
-        short(system.total_length_m),
-        short(system.total_mass_kg),
-        short(system.span_m),
-        short(system.gravity_m_s2),
-    );
+    let mut text = system_line(&answer.system);
     text += &headline(&answer.census);
     if !answer.equilibria.is_empty() {
         text += &overview(problem, answer);
