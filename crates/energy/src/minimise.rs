@@ -119,7 +119,7 @@ pub(crate) fn descend(
     let moments = links.measure(&start);
     let closed = links
         .close(Shape { u: start, moments }, SEED_CORRECTIONS)
-        .map_err(|(gap, iterations)| Error::NotClosed { gap, iterations })?;
+        .map_err(|(gap, iterations)| Error::NotClosed { gap: gap / links.total(), iterations })?;
     let state =
         Executor::new(Hanging { links: Arc::clone(&links) }, FeasibleNewton::new(*settings))
             .configure(|state: Iterate| {
