@@ -1,5 +1,7 @@
 //! Errors with the line they are about.
 
+use std::io::Write as _;
+
 use miette::{Diagnostic, LabeledSpan, NamedSource, SourceCode};
 use model::system_file::SystemFileError;
 
@@ -51,4 +53,9 @@ impl Diagnostic for SystemFileReport {
         let label = self.error.key().unwrap_or("here").to_owned();
         Some(Box::new(std::iter::once(LabeledSpan::new_with_span(Some(label), span))))
     }
+}
+
+/// Tell something on standard error. Nobody may be reading there, and then there is nobody to tell that.
+pub fn tell(text: impl std::fmt::Display) {
+    let _ = writeln!(std::io::stderr(), "{text}");
 }

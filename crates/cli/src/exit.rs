@@ -1,6 +1,8 @@
 //! How the program ends.
 
-/// A way to end, with its exit code (DESIGN: 0 agreed, 1 a check failed, 2 bad input, 3 undecided).
+use crate::diagnostics::tell;
+
+/// A way to end, with its exit code (0 agreed, 1 a check failed, 2 bad input, 3 undecided).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Exit {
     /// Done, and every check agreed.
@@ -54,7 +56,7 @@ impl Failure {
 
     /// Print the report to standard error and say how to end.
     pub fn report(self) -> Exit {
-        eprintln!("{:?}", self.report);
+        tell(format_args!("{:?}", self.report));
         self.exit
     }
 }

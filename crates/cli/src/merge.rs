@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use crate::diagnostics::tell;
 use crate::exit::{Exit, Failure};
 use crate::output;
 use crate::sweep::{
@@ -38,7 +39,7 @@ pub fn run(arguments: &Merge) -> Result<Exit, Failure> {
     let merged = ::sweep::merge(&arguments.folders, &arguments.out, arguments.threads, stop, &done);
     bar.finish_and_clear();
     let Some(summary) = merged.map_err(|error| store_failure(&error))? else {
-        eprintln!("Stopped. The same command goes on.");
+        tell("Stopped. The same command goes on.");
         return Ok(Exit::Interrupted);
     };
     let manifest =

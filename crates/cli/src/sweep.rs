@@ -20,6 +20,7 @@ use self::arguments::Spread;
 pub(crate) use self::arguments::threads;
 pub use self::arguments::{EXIT_CODES, Sweep};
 pub(crate) use self::interrupt::on_interrupt;
+use crate::diagnostics::tell;
 use crate::exit::{Exit, Failure};
 use crate::input;
 use crate::output;
@@ -58,14 +59,14 @@ pub fn run(arguments: &Sweep) -> Result<Exit, Failure> {
     let run = run.map_err(|error| store_failure(&error))?;
     let seconds = start.elapsed().as_secs_f64();
     for (file, damage) in &run.repaired {
-        eprintln!("{file} was damaged and has been computed again: {damage}");
+        tell(format_args!("{file} was damaged and has been computed again: {damage}"));
     }
     let Some(summary) = &run.summary else {
-        eprintln!(
+        tell(format_args!(
             "Stopped: {} of {all} seeds are done and whole in {}. The same command with --resume goes on.",
             run.seeds,
             arguments.out.display()
-        );
+        ));
         return Ok(Exit::Interrupted);
     };
     let computed = run.seeds - run.seeds_before;

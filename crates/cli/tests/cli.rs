@@ -216,3 +216,16 @@ fn help_version_and_completions() {
     let cases = stdout(&funicular(&["cases"]));
     assert!(model::cases::all().iter().all(|case| cases.contains(case.name)));
 }
+
+/// An error that nobody reads is the same error: no panic, the right exit code.
+#[test]
+fn a_closed_standard_error_changes_no_exit_code() {
+    let (reader, writer) = std::io::pipe().unwrap();
+    drop(reader);
+    let status = std::process::Command::new(assert_cmd::cargo::cargo_bin("funicular"))
+        .args(["solve", "there-is-no-such-file.toml"])
+        .stderr(writer)
+        .status()
+        .unwrap();
+    assert_eq!(status.code(), Some(2));
+}
