@@ -69,6 +69,16 @@ pub enum Error {
         /// Projected gradient reached, in the unit of its tolerance.
         gradient: f64,
     },
+    /// Occurs when all bars lie on one line as far as double precision tells, and the anchors do not: a chain folded
+    /// to a fraction of 1e-7 of its length, whose least energy hangs on angles that are lost.
+    #[error(
+        "the bars lie on one line to rounding and the anchors {across:e} of the total length off it: what decides \
+         between the positions of such a folded chain is lost in double precision"
+    )]
+    NearlyFolded {
+        /// Distance of the end anchor from the line, in units of the total length.
+        across: f64,
+    },
     /// Occurs when a number of the computation is infinite or not a number.
     #[error("the {quantity} is not a finite number")]
     NotFinite {
@@ -96,6 +106,7 @@ impl Error {
             Self::NotClosed { .. } => "not closed",
             Self::IterationLimit { .. } => "iteration limit",
             Self::Stalled { .. } => "stalled",
+            Self::NearlyFolded { .. } => "nearly folded",
             Self::NotFinite { .. } => "not finite",
             Self::Ended { .. } => "ended by argmin",
         }

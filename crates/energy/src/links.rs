@@ -4,7 +4,7 @@ use model::{Problem, Vector};
 
 use crate::Motion;
 use crate::frame::{Frame, WORLD_UP, on_one_vertical};
-use crate::vector::{Sum, along, dot};
+use crate::vector::{Sum, along, dot, norm};
 
 /// A chain with a total length from 1 to 2 and total weight 1, in its own frame.
 ///
@@ -83,6 +83,16 @@ impl Links {
     /// Number of bars.
     pub(crate) fn bars(&self) -> usize {
         self.length.len()
+    }
+
+    /// What the bars can spare before they lie on one line: drawn out along the span, or the longest against all
+    /// others.
+    pub(crate) fn spare(&self) -> f64 {
+        let [span, rest] = self.span;
+        let span = norm(std::array::from_fn(|k| span[k] + rest[k]));
+        let longest = self.length.iter().fold(0.0_f64, |most, l| most.max(*l));
+        let others = self.total() - longest;
+        (self.total() - span).min(others - longest + span)
     }
 
     /// The total length.

@@ -12,6 +12,8 @@ use crate::hanging::Hanging;
 use crate::links::Links;
 use crate::slope::Slope;
 use crate::solver::{FeasibleNewton, Iterate};
+use crate::straight::lost;
+use crate::vector::norm;
 use crate::{Error, Seed, Settings, Solution};
 
 /// Corrections of the closure from a seed, which may be anywhere.
@@ -108,6 +110,10 @@ fn first_guess(links: &Links, settings: &Settings) -> Result<Vec<Vector>, Error>
     }
 }
 
+/// Largest gap that is a closed chain's, as a part of the length it can spare: with more, it may be that no chain of
+/// these bars is near.
+const OPEN_PART: f64 = 0.1;
+
 /// Close the start and let argmin run the solver.
 pub(crate) fn descend(
     links: Links,
@@ -134,6 +140,16 @@ pub(crate) fn descend(
     outcome(&state)?;
     match (state.take_param(), state.take_gradient()) {
         (Some(shape), Some(slope)) => {
+            if let Some(across) = lost(&links, &slope) {
+                return Err(Error::NearlyFolded { across });
+            }
+            let gap = norm(shape.moments.gap);
+            if gap > OPEN_PART * links.spare() {
+                return Err(Error::NotClosed {
+                    gap: gap / links.total(),
+                    iterations: SEED_CORRECTIONS,
+                });
+            }
             Ok(Minimum { links, shape, slope, iterations: state.get_iter(), evaluations })
         }
         _ => Err(Error::NotFinite { quantity: "last iterate" }),

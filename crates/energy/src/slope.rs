@@ -34,6 +34,8 @@ pub(crate) struct Slope {
     /// The direction of the bars if all are on one straight line: the closure then leaves this part
     /// of the multiplier free, and the row of the closure along it is none.
     pub(crate) line: Option<Vector>,
+    /// Whether on that line the multiplier leaves no bar pushed.
+    pub(crate) opened: bool,
 }
 
 impl Slope {
@@ -43,7 +45,7 @@ impl Slope {
         let line = line(shape);
         let opening = line.and_then(|e| opening_multiplier(links, shape, multiplier, e));
         let slope = Self::with_multiplier(links, &shape.u, opening.unwrap_or(multiplier));
-        Self { line, ..slope }
+        Self { line, opened: opening.is_some(), ..slope }
     }
 
     fn with_multiplier(links: &Links, u: &[Vector], multiplier: Vector) -> Self {
@@ -72,6 +74,7 @@ impl Slope {
             highest,
             pull: pull.sqrt(),
             line: None,
+            opened: false,
         }
     }
 

@@ -54,7 +54,7 @@ impl Solution {
         let residual = slope.residual();
         let iterations_usize = usize::try_from(iterations).unwrap_or(usize::MAX);
         let mut evidence = Evidence::converged(residual, RESIDUAL_OF, iterations_usize);
-        let doubt = doubt(&shape, &slope);
+        let doubt = doubt(&links, &shape, &slope);
         if doubt > WORTH_SAYING {
             evidence.reach(
                 Rung::Converged,

@@ -11,6 +11,7 @@ use crate::hanging::{Hanging, Place};
 use crate::links::Links;
 use crate::plane::Turn;
 use crate::slope::Slope;
+use crate::straight::{lost, off_the_line};
 use crate::vector::{dot, norm, scaled};
 use crate::{Error, Settings};
 
@@ -204,17 +205,22 @@ fn rounding_floor(shape: &Shape) -> f64 {
 }
 
 /// How far directions in double precision leave the forces in doubt, as a part of the largest: of bars at an angle `a`
-/// to a common line they hold the forces along the line to a rounding, and what is left of the gradient, over `a`. On the line itself the forces are
-/// known by another way (module `straight`).
-pub(crate) fn doubt(shape: &Shape, slope: &Slope) -> f64 {
-    if slope.line.is_some() {
-        0.0
+/// to a common line they hold the forces along the line to a rounding, and what is left of the gradient, over `a`. On
+/// the line itself the forces are those of the limit (module `straight`), exact if the anchors are on it; by as much as
+/// they are off it the bars have room to turn by the root of that.
+pub(crate) fn doubt(links: &Links, shape: &Shape, slope: &Slope) -> f64 {
+    if let Some(e) = slope.line {
+        off_the_line(links, e).map_or(0.0, f64::sqrt)
     } else {
         (FLOOR * f64::EPSILON + slope.residual()) / smallest_spread(shape).sqrt()
     }
 }
 
-fn stalled(state: &Iterate, slope: &Slope) -> argmin::core::Error {
+/// Why no step helps: the chain is folded beyond what double precision tells, or it is not known.
+fn stalled(links: &Links, state: &Iterate, slope: &Slope) -> argmin::core::Error {
+    if let Some(across) = lost(links, slope) {
+        return Error::NearlyFolded { across }.into();
+    }
     Error::Stalled { iterations: state.get_iter(), gradient: slope.residual() }.into()
 }
 
@@ -256,7 +262,7 @@ impl Solver<Hanging, Iterate> for FeasibleNewton {
             if curvature.index(ZERO_CURVATURE * slope.pull) > 0 {
                 return match self.escape(problem, &curvature)? {
                     Some((shape, slope)) => accept(problem, state, shape, slope),
-                    None => Err(stalled(&state, &slope)),
+                    None => Err(stalled(&curvature.links, &state, &slope)),
                 };
             }
             if self.polished || slope.residual() <= EXACT {
@@ -328,7 +334,7 @@ impl Solver<Hanging, Iterate> for FeasibleNewton {
                 return Ok((state, None));
             }
         }
-        Err(stalled(&state, &slope))
+        Err(stalled(&links, &state, &slope))
     }
 
     fn terminate(&mut self, _state: &Iterate) -> TerminationStatus {

@@ -1,10 +1,11 @@
 //! Chains folded on one straight line, where the closure leaves one force undetermined.
 
-use model::Vector;
+use model::{STRAIGHT_TOLERANCE, Vector};
 
 use crate::closure::{LOST_SPREAD, Shape};
 use crate::links::Links;
-use crate::vector::{along, dot};
+use crate::slope::Slope;
+use crate::vector::{along, cross, dot, norm};
 
 /// Only below this ratio of diagonal entries is a look at the eigenvalues worth while: the frame has
 /// an axis along the line.
@@ -32,6 +33,21 @@ pub(crate) fn line(shape: &Shape) -> Option<Vector> {
         return None;
     }
     Some([eigen.vector[k][0], eigen.vector[k][1], eigen.vector[k][2]])
+}
+
+/// How far the end anchor lies off the line through the first along the unit vector `e`, in total lengths, if that is
+/// more than rounding.
+pub(crate) fn off_the_line(links: &Links, e: Vector) -> Option<f64> {
+    let [span, rest] = links.span;
+    let span: Vector = std::array::from_fn(|k| span[k] + rest[k]);
+    let across = norm(cross(e, span)) / links.total();
+    (across > STRAIGHT_TOLERANCE).then_some(across)
+}
+
+/// The same where all bars are on a line and one is pushed: what tells the positions of such a chain apart is lost.
+/// With all bars in tension there is nothing to tell: no configuration has less energy.
+pub(crate) fn lost(links: &Links, slope: &Slope) -> Option<f64> {
+    off_the_line(links, slope.line.filter(|_| !slope.opened)?)
 }
 
 /// The multiplier of a chain that hangs straight down and up again, its fold exactly at a joint.

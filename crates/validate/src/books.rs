@@ -25,8 +25,8 @@ impl Books {
     }
 }
 
-/// Check the books of an answer. Forces are measured as in [`Statics`](crate::statics::Statics), and of
-/// the energy counts what the rounding of the coordinates leaves unexplained.
+/// Check the books of an answer. Forces are measured as in [`Statics`](crate::statics::Statics); of the energy and of
+/// the axial forces counts what the rounding of the coordinates leaves unexplained.
 ///
 /// Arrays that do not fit the chain, and numbers that are not finite, give NaN.
 #[must_use]
@@ -46,7 +46,8 @@ pub fn books(chain: &Chain, answer: &Equilibrium) -> Books {
         bar.mass_kg() * chain.gravity_m_s2() * (from + part * (joints[i + 1][2] - joints[i][2]))
     });
     let off_j = (answer.energy_j - sum(heights)).abs();
-    let rounding_j = weight_n * stored_rounding_m(chain);
+    let stored_m = stored_rounding_m(chain);
+    let rounding_j = weight_n * stored_m;
     // Not `f64::max`, which would forget a NaN.
     let energy_j = if off_j <= rounding_j { 0.0 } else { off_j - rounding_j };
 
@@ -56,7 +57,11 @@ pub fn books(chain: &Chain, answer: &Equilibrium) -> Books {
         // The part of the weight that the lever rule gives to the far joint.
         force[2] -= bar.mass_kg() * chain.gravity_m_s2() * (bar.centre_m() / bar.length_m());
         let found = (0..3).map(|k| force[k] * (along[k] / norm(along))).sum::<f64>();
-        (answer.axial_n[i] - found).abs()
+        // Rounded coordinates turn a short bar, and a force along it loses by the square of the angle.
+        let turn = 2.0 * stored_m / bar.length_m();
+        let off_n = (answer.axial_n[i] - found).abs() - norm(force) * (turn * turn).min(2.0);
+        // Not `f64::max`, which would forget a NaN.
+        if off_n <= 0.0 { 0.0 } else { off_n }
     });
     let ends = [
         norm(difference(answer.reactions_n.start, forces[0])),

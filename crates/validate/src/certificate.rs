@@ -40,7 +40,8 @@
 //! minima); S. M. Rump, Acta Numerica 19 (2010) 287-449, doi:10.1017/S096249291000005X (rounding error
 //! bounds).
 
-use model::{Bar, Equilibrium, Problem, Vector, sum};
+use crate::statics::stored_rounding_m;
+use model::{Bar, Chain, Equilibrium, Problem, Vector, sum};
 
 /// Unit roundoff of doubles.
 const U: f64 = 0.5 * f64::EPSILON;
@@ -53,7 +54,10 @@ const U: f64 = 0.5 * f64::EPSILON;
 /// bound itself.
 const TERM_ULPS: f64 = 32.0;
 
-/// Largest gap, in units of total weight × total length, that still counts as "no configuration has
+/// Roundings of the energy of what rests on the last anchor: its product, and what it is added to.
+const STORED_ULPS: f64 = 4.0;
+
+/// Largest gap, in units of the weight between the anchors × total length, that still counts as "no configuration has
 /// less energy". Measured: 3e-15 for the paper's chain, below 1e-12 for all cases of the registry
 /// (test below).
 pub const GAP_TOLERANCE: f64 = 1e-10;
@@ -70,7 +74,8 @@ pub struct Certificate {
     pub lower_bound_j: f64,
     /// Energy found minus the lower bound, J.
     pub gap_j: f64,
-    /// The same in units of total weight × total length.
+    /// The same in units of the weight between the anchors (what the lever rule leaves on them does not count) ×
+    /// total length.
     pub gap: f64,
     /// Number of the bar in compression, from 1, if there is one.
     pub compressed_bar: Option<usize>,
@@ -107,8 +112,19 @@ pub enum Doubt {
     /// Occurs when the bound holds but stays further below the energy than [`GAP_TOLERANCE`].
     #[error("the lower bound stays {gap:.1e} of weight times length below the energy")]
     Gap {
-        /// The gap in units of total weight × total length.
+        /// The gap in units of the weight between the anchors × total length.
         gap: f64,
+    },
+    /// Occurs when the last joint misses its anchor by so much of what the chain can spare that no configuration of it
+    /// need be near.
+    #[error(
+        "the last joint misses its anchor by {missed_m:.1e} m, and the chain has but {spare_m:.1e} m to spare"
+    )]
+    Open {
+        /// How far the joint is from the anchor, beyond the rounding of coordinates, m.
+        missed_m: f64,
+        /// What the bars can spare before they lie on one line, m.
+        spare_m: f64,
     },
     /// Occurs when a number of the answer is not finite, or the arrays do not fit the chain.
     #[error("the answer is incomplete or not finite")]
@@ -117,7 +133,7 @@ pub enum Doubt {
 
 /// Certify that no configuration has less energy than the equilibrium found.
 ///
-/// Only its end reaction, the signs of its axial forces and its energy are used.
+/// Only its end reaction, the signs of its axial forces, its last joint and its energy are used.
 ///
 /// # Errors
 ///
@@ -131,9 +147,12 @@ pub fn certify(problem: &Problem, found: &Equilibrium) -> Result<Certificate, Do
     {
         return Err(Doubt::Unusable);
     }
-    let weight_n = chain.total_mass_kg() * chain.gravity_m_s2();
     let length_m = chain.total_length_m();
-    let force_n = norm(pull) + weight_n;
+    closed(chain, found)?;
+    // What the last bar leaves on its anchor moves nothing: without it the numbers are no larger than what hangs.
+    let resting_n = last_share(bars) * chain.gravity_m_s2();
+    let pull = [pull[0], pull[1], pull[2] - resting_n];
+    let force_n = norm(pull) + hanging_n(chain);
     let compressed = the_compressed_bar(&found.axial_n, force_n)?;
 
     let forces = bar_forces(bars, chain.gravity_m_s2(), pull);
@@ -151,16 +170,48 @@ pub fn certify(problem: &Problem, found: &Equilibrium) -> Result<Certificate, Do
     let work = sum((0..3).map(|c| pull[c] * difference[c]));
     let slack_j =
         compressed.map_or(0.0, |k| closure_slack(bars, &forces, force_n, difference, k, nu_k));
-    let rounding_j = TERM_ULPS * U * force_n * (length_m + norm(difference));
-    let lower_bound_j = work - cables - slack_j - 2.0 * rounding_j;
+    let rounding_j = TERM_ULPS * U * (force_n * (length_m + norm(difference)))
+        + STORED_ULPS * U * resting_n * difference[2].abs();
+    let lower_bound_j = resting_n * difference[2] + (work - cables - slack_j - 2.0 * rounding_j);
     let gap_j = found.energy_j - lower_bound_j;
-    let gap = gap_j / (weight_n * length_m);
+    let gap = gap_j / (hanging_n(chain) * length_m);
     // An energy below a proven bound is as wrong as one far above it; NaN fails both.
     if !(0.0..=GAP_TOLERANCE).contains(&gap) {
         return Err(Doubt::Gap { gap });
     }
     let compressed_bar = compressed.map(|k| k + 1);
     Ok(Certificate { lower_bound_j, gap_j, gap, compressed_bar, singular })
+}
+
+/// Largest part of what a chain can spare by which its last joint may miss the anchor.
+const OPEN_PART: f64 = 0.1;
+
+/// Whether the answer is a configuration of the chain, as far as that matters.
+fn closed(chain: &Chain, found: &Equilibrium) -> Result<(), Doubt> {
+    let Some(last) = found.joints_m.last() else { return Err(Doubt::Unusable) };
+    let end = chain.anchors().end_m;
+    let off = norm(std::array::from_fn(|k| last[k] - end[k]));
+    let missed_m = off - stored_rounding_m(chain);
+    let total = chain.total_length_m();
+    let longest = chain.bars().iter().fold(0.0_f64, |most, bar| most.max(bar.length_m()));
+    let span = chain.anchors().span_m();
+    let spare_m = (total - span).min((total - longest) - longest + span);
+    if off.is_nan() || missed_m > OPEN_PART * spare_m {
+        return Err(Doubt::Open { missed_m, spare_m });
+    }
+    Ok(())
+}
+
+/// The weight of the joints between the anchors, N; all of it where nothing hangs there.
+fn hanging_n(chain: &Chain) -> f64 {
+    let bars = chain.bars();
+    let far = |bar: &Bar| bar.mass_kg() * (bar.centre_m() / bar.length_m());
+    let near = |bar: &Bar| bar.mass_kg() * ((bar.length_m() - bar.centre_m()) / bar.length_m());
+    // No difference: what rests on an anchor may be the largest weight by far.
+    let joints = bars.windows(2).map(|pair| far(&pair[0]) + near(&pair[1]));
+    let mass_kg = sum(joints);
+    let mass_kg = if mass_kg > 0.0 { mass_kg } else { chain.total_mass_kg() };
+    mass_kg * chain.gravity_m_s2()
 }
 
 /// Index of the only bar in compression, if any.
@@ -174,10 +225,16 @@ fn the_compressed_bar(axial_n: &[f64], force_n: f64) -> Result<Option<usize>, Do
     }
 }
 
-/// The force `G_i / l_i` along each bar: the end reaction less the weight beyond the bar, N.
+/// The mass that the lever rule leaves at the far end of the last bar, on the anchor, kg.
+fn last_share(bars: &[Bar]) -> f64 {
+    bars.last().map_or(0.0, |bar| bar.mass_kg() * (bar.centre_m() / bar.length_m()))
+}
+
+/// The force `G_i / l_i` along each bar, N: the end reaction without what the last bar leaves on the anchor, less the
+/// weight between the bar and the anchor.
 fn bar_forces(bars: &[Bar], gravity: f64, pull: Vector) -> Vec<Vector> {
     let mut forces = vec![pull; bars.len()];
-    let (mut beyond, mut lost) = (0.0_f64, 0.0_f64);
+    let (mut beyond, mut lost) = (0.0 - last_share(bars), 0.0_f64);
     for (bar, force) in bars.iter().zip(&mut forces).rev() {
         let lever = bar.mass_kg() * (bar.centre_m() / bar.length_m());
         force[2] -= gravity * (beyond + lost + lever);
@@ -269,7 +326,8 @@ mod tests {
         Equilibrium {
             solver: SolverName::Lagrange,
             energy_j,
-            joints_m: Vec::new(),
+            // Only the last joint is read.
+            joints_m: vec![[0.0, 0.0, -2.0]],
             multipliers_n: Vec::new(),
             reactions_n: Reactions { start: [0.0; 3], end },
             axial_n: axial_n.to_vec(),
@@ -293,6 +351,42 @@ mod tests {
         assert!(certificate.gap < 1e-13, "{certificate:?}");
         assert!(certificate.singular, "both anchors lie on one vertical: the chain turns freely");
         assert_eq!(certificate.compressed_bar, Some(3));
+    }
+
+    /// Two bars of length 1 between anchors 1e-14 apart lie level. Hanging straight down they miss the anchor by a
+    /// rounding, and have so much less energy that every bound is far above.
+    #[test]
+    fn an_answer_that_is_no_configuration_gets_no_certificate() {
+        let anchors = Anchors { start_m: [0.0; 3], end_m: [0.0, 0.0, -1e-14] };
+        let bar = Bar::homogeneous(1.0, 1.0).unwrap();
+        let problem = Problem::new(Chain::new("two", 1.0, anchors, vec![bar; 2]).unwrap()).unwrap();
+        let hanging = Equilibrium {
+            joints_m: vec![[0.0; 3]],
+            axial_n: vec![0.5, 0.5],
+            ..answer([0.0, 0.0, 1.0], E1_SIGNS, -1.0)
+        };
+        assert!(matches!(certify(&problem, &hanging), Err(Doubt::Open { .. })));
+    }
+
+    /// What rests on the last anchor moves nothing: a certificate is as tight with it as without, and as strict.
+    #[test]
+    fn weight_on_the_last_anchor_changes_no_certificate() {
+        let heavy = 1e6;
+        let anchors = Anchors { start_m: [0.0; 3], end_m: [1.0, 0.0, 0.3] };
+        let gaps = [0.0, heavy].map(|resting| {
+            let bars = vec![
+                Bar::homogeneous(1.0, 1.0).unwrap(),
+                Bar::homogeneous(0.8, 1.0).unwrap(),
+                Bar::new(0.9, resting, 0.9, [0.0; 3]).unwrap(),
+            ];
+            let problem = Problem::new(Chain::new("resting", 1.0, anchors, bars).unwrap()).unwrap();
+            let settings = lagrange::condensed::Settings::default();
+            let found = lagrange::condensed::solve(&problem, &settings).unwrap().equilibrium;
+            let off = Equilibrium { energy_j: found.energy_j + 1e-8, ..found.clone() };
+            assert!(matches!(certify(&problem, &off), Err(Doubt::Gap { .. })));
+            certify(&problem, &found).unwrap().gap
+        });
+        assert!(gaps[0] < 1e-13 && gaps[1] < 4.0 * f64::EPSILON * heavy, "{gaps:?}");
     }
 
     #[test]

@@ -55,6 +55,8 @@ pub struct Pull {
     pub(super) remainder_of: f64,
     /// Force of the ground on bar 1 at joint 0, N.
     ground_n: Vector,
+    /// How far rounding may have moved the force, as a part of the largest.
+    pub(super) doubt: f64,
     passes: usize,
 }
 
@@ -78,6 +80,7 @@ impl Pull {
             pivots: [first, second - taken],
             remainder_of: second.abs() + taken.abs(),
             ground_n: [-force[0] * level[0] * unit, -force[0] * level[1] * unit, vertical * unit],
+            doubt: 0.0,
             passes,
         }
     }
@@ -259,7 +262,10 @@ impl Condensed {
     }
 
     fn found(&self, force: [f64; 2], signs: Signs, root: &Root, passes: &Passes) -> Pull {
-        Pull::new(self, self.span.level, force, signs, root.closure.jacobian, passes.spent)
+        let largest = force[0].hypot(force[1]) + self.largest_load();
+        let doubt = root.closure.doubt() / largest;
+        let jacobian = root.closure.jacobian;
+        Pull { doubt, ..Pull::new(self, self.span.level, force, signs, jacobian, passes.spent) }
     }
 
     /// The minimum for the coarse chain, and how fast it was reached.

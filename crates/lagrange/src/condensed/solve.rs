@@ -3,7 +3,7 @@
 use std::num::NonZeroUsize;
 use std::time::Instant;
 
-use model::{Equilibrium, Evidence, Problem, SolverName};
+use model::{Equilibrium, Evidence, Problem, Rung, SolverName};
 
 use super::chain::Condensed;
 use super::error::CondensedError;
@@ -11,6 +11,13 @@ use super::pull::Pull;
 use super::settings::Settings;
 use super::shape::{Totals, Vectors};
 use super::stability::second_order;
+
+/// What the residual is.
+const RESIDUAL_OF: &str = "distance of the last joint from its anchor, in total lengths";
+
+/// Doubt of the forces, as a part of the largest, from which on the evidence speaks of it: what two solvers are
+/// asked to agree to.
+const WORTH_SAYING: f64 = 1e-9;
 
 /// An equilibrium from the condensed equations. That it exists means converged.
 #[derive(Debug, Clone, PartialEq)]
@@ -139,11 +146,17 @@ impl Condensed {
             return Err(CondensedError::Overflow);
         }
         let second = second_order(self, pull);
-        let mut evidence = Evidence::converged(
-            closure,
-            "distance of the last joint from its anchor, in total lengths",
-            passes,
-        );
+        let mut evidence = Evidence::converged(closure, RESIDUAL_OF, passes);
+        if pull.doubt > WORTH_SAYING {
+            evidence.reach(
+                Rung::Converged,
+                format!(
+                    "{RESIDUAL_OF}: {closure:.1e} after {passes} iterations; the closure hardly depends on the pull, \
+                     and its rounding leaves the forces in doubt by up to {:.0e} of the largest",
+                    pull.doubt
+                ),
+            );
+        }
         evidence.nullity = second.nullity;
         evidence.condition = second.condition;
         let Vectors { joints_m, multipliers_n, axial_n } = memory;

@@ -91,7 +91,8 @@ fn loose(chain: &Condensed, bars: usize) -> SecondOrder {
     let gap = chain.span.across.hypot(chain.bottom.gap);
     let room = chain.bottom.room(gap);
     let straight = room <= STRAIGHT * chain.read.total_length;
-    let in_plane = bars.saturating_sub(if straight { 1 } else { 2 });
+    // Two bars between fixed ends cannot move in the plane, however straight.
+    let in_plane = bars.saturating_sub(if straight && chain.bars() > 2 { 1 } else { 2 });
     let across = bars - 1;
     SecondOrder {
         stability: Stability {

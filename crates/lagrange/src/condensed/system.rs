@@ -151,6 +151,21 @@ impl Closure {
         (a + c) * (a + c) / (a * c - b * b)
     }
 
+    /// How far the force may be from the true one: what the derivative makes of the residual, or of its rounding
+    /// errors where they are larger.
+    pub fn doubt(&self) -> f64 {
+        let [a, b, c] = self.jacobian.map(f64::abs);
+        let [r, s] = [0, 1].map(|k| self.residual[k].abs().max(self.floor[k]));
+        // The determinant over the larger diagonal entry, by elimination as in a step.
+        let (pivot, rest) = if a >= c {
+            (a, self.jacobian[2] - self.jacobian[1] / self.jacobian[0] * self.jacobian[1])
+        } else {
+            (c, self.jacobian[0] - self.jacobian[1] / self.jacobian[2] * self.jacobian[1])
+        };
+        let over = 1.0 / (pivot * rest.abs());
+        ((c * r + b * s) * over).hypot((b * r + a * s) * over)
+    }
+
     /// Newton's step; `None` when the derivative is singular to working precision.
     pub fn step(&self) -> Option<[f64; 2]> {
         let [a, b, c] = self.jacobian;
