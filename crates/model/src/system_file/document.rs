@@ -29,12 +29,20 @@ struct Places {
 
 /// Where the bars come from.
 enum Origin {
-    /// For every `[[bars]]` table: the number of its first bar, from 1, and the span of its length.
-    Tables(Vec<(usize, Range<usize>)>),
+    /// The `[[bars]]` tables.
+    Tables(Vec<BarsPlace>),
     /// The value of `bars_file`, and the file.
     File(Range<usize>, Loaded),
     /// The value of `bars_file`, the file being no text.
     Foreign(Range<usize>),
+}
+
+/// Where a `[[bars]]` table stands.
+struct BarsPlace {
+    /// The number of its first bar, from 1.
+    first: usize,
+    length: Range<usize>,
+    mass: Range<usize>,
 }
 
 impl Source<'_> {
@@ -57,12 +65,16 @@ impl Source<'_> {
             Refusal::BarTooLong { bar, .. } | Refusal::Folded { bar, .. } => Some(bar),
             Refusal::SingleBar { .. } | Refusal::NoMass => None,
         };
+        if let (Refusal::NoMass, Origin::Tables(tables)) = (&refusal, &places.bars) {
+            let (key, span) = ("bars[1].mass_kg".to_owned(), tables[0].mass.clone());
+            return self.error(Kind::Refused(refusal), Some(key), Some(span));
+        }
         let (key, span) = match (&places.bars, bar) {
             (Origin::Tables(tables), Some(bar)) => {
-                let table = tables.partition_point(|(first, _)| *first <= bar);
-                (format!("bars[{table}].length_m"), tables[table - 1].1.clone())
+                let table = tables.partition_point(|place| place.first <= bar);
+                (format!("bars[{table}].length_m"), tables[table - 1].length.clone())
             }
-            (Origin::Tables(tables), None) => ("bars".to_owned(), tables[0].1.clone()),
+            (Origin::Tables(tables), None) => ("bars".to_owned(), tables[0].length.clone()),
             (Origin::File(_, loaded), Some(bar)) => {
                 return Sheet::of(loaded).length_error(Kind::Refused(refusal), bar);
             }
@@ -166,7 +178,8 @@ fn bars(root: &Table<'_>, tables: &DeArray<'_>) -> Result<(Vec<Bar>, Origin), Sy
         if count > MAX_BARS - bars.len() {
             return Err(table.error(Kind::TooManyBars { limit: MAX_BARS }, "count"));
         }
-        places.push((bars.len() + 1, length.span()));
+        let mass = table.get("mass_kg").map_or_else(|| length.span(), Spanned::span);
+        places.push(BarsPlace { first: bars.len() + 1, length: length.span(), mass });
         bars.resize(bars.len() + count, bar);
     }
     Ok((bars, Origin::Tables(places)))

@@ -40,8 +40,8 @@ fn chains_that_are_no_equilibrium_problem() {
     );
     check(
         &anchored("[[bars]]\nlength_m = 1\nmass_kg = 0\ncount = 3\n"),
-        "f:5:12: bars: no bar has mass: without weight every position is an equilibrium",
-        "1",
+        "f:6:11: bars[1].mass_kg: no bar has mass: without weight every position is an equilibrium",
+        "0",
     );
     check(
         &anchored("[[bars]]\nlength_m = 2\nmass_kg = 1\n"),
