@@ -149,7 +149,7 @@ fn summary(r: &Reproduction) -> String {
             s.claims, s.confirmed, s.explained, s.corrected, s.refuted
         ),
         format!(
-            "{} rows of equations: {} hold only as corrected, {} not at all (--out DIR lists them).",
+            "{} parts of equations and statements: {} hold only as corrected, {} not at all (--out DIR lists them).",
             s.equations, s.equations_corrected, s.equations_refuted
         ),
         format!(
@@ -176,6 +176,7 @@ fn summary(r: &Reproduction) -> String {
 fn claim_value(claim: &Claim, value: Option<f64>) -> String {
     match (value, claim.printed.digits) {
         (None, _) => "-".to_owned(),
+        (Some(value), _) if claim.printed.is_count() => short(value),
         (Some(value), Some(digits)) => format!("{value:.*}", digits + 3),
         (Some(value), None) => short(value),
     }

@@ -121,9 +121,14 @@ fn rows(table: &Table) -> String {
     if !table.caption.is_empty() {
         let _ = writeln!(text, "<caption><span>{}</span></caption>", inline(&table.caption));
     }
+    // A column of numbers alone stands right; one with words among them stands left, all of it.
+    let numeric: Vec<bool> = (0..table.head.len())
+        .map(|k| k > 0 && table.rows.iter().all(|row| row.get(k).is_some_and(|c| is_number(c))))
+        .collect();
     text.push_str("<thead><tr>");
-    for cell in &table.head {
-        let _ = write!(text, "<th scope=\"col\">{}</th>", inline(cell));
+    for (cell, &number) in table.head.iter().zip(&numeric) {
+        let class = if number { " class=\"number\"" } else { "" };
+        let _ = write!(text, "<th scope=\"col\"{class}>{}</th>", inline(cell));
     }
     text.push_str("</tr></thead>\n<tbody>\n");
     for row in &table.rows {
@@ -131,7 +136,7 @@ fn rows(table: &Table) -> String {
         for (k, cell) in row.iter().enumerate() {
             let content = if table.verdicts == Some(k) { verdict(cell) } else { inline(cell) };
             let class = match cell {
-                cell if is_number(cell) && k > 0 => " class=\"number\"",
+                _ if numeric.get(k) == Some(&true) => " class=\"number\"",
                 cell if cell.chars().count() > LONG => " class=\"long\"",
                 _ => "",
             };
@@ -147,7 +152,7 @@ fn rows(table: &Table) -> String {
     text
 }
 
-/// Whether a cell is right-aligned.
+/// Whether a cell is a number, with its unit or none.
 fn is_number(cell: &str) -> bool {
     /// Longest number with its unit; what is longer is a sentence that begins with one.
     const LONGEST: usize = 24;
@@ -237,12 +242,54 @@ fn capital(text: &str) -> String {
     chars.next().map_or_else(String::new, |first| first.to_uppercase().chain(chars).collect())
 }
 
-/// A text with its few marks: `code`, **strong**, [text](#anchor).
+/// A text with its few marks: `code`, **strong**, [text](#anchor), `J_x`, `s^2`.
 fn inline(text: &str) -> String {
-    let text = escape(text);
-    let strong = pairs(&text, "**", "strong");
+    let pieces = escape(text);
+    // Names in code keep their underscores.
+    let pieces = pieces.split('`').enumerate();
+    let text: Vec<_> = pieces
+        .map(|(k, piece)| if k % 2 == 0 { scripts(piece) } else { piece.to_owned() })
+        .collect();
+    let strong = pairs(&text.join("`"), "**", "strong");
     let code = pairs(&strong, "`", "code");
     links(&code)
+}
+
+/// `J_x`, `b_{1,5}` and `[Q]^T` lowered and raised: an index after a letter that stands by itself, a power after
+/// anything.
+fn scripts(text: &str) -> String {
+    /// Longest index or power without braces: `Ci`, `12`.
+    const LONGEST: usize = 2;
+    let mut out = String::new();
+    let mut rest = text;
+    while let Some(at) = rest.find(['_', '^']) {
+        let (before, mark, after) = (&rest[..at], &rest[at..=at], &rest[at + 1..]);
+        let lowered = mark == "_";
+        let alone = {
+            let mut back = before.chars().rev();
+            back.next().is_some_and(char::is_alphabetic)
+                && !back.next().is_some_and(char::is_alphanumeric)
+        };
+        let braced = after.strip_prefix('{').and_then(|inner| inner.split_once('}'));
+        let bare = after.find(|c: char| !c.is_alphanumeric()).unwrap_or(after.len());
+        let script = braced.or_else(|| {
+            let fits = bare > 0 && after[..bare].chars().count() <= LONGEST;
+            fits.then(|| after.split_at(bare))
+        });
+        out.push_str(before);
+        match script {
+            Some((script, tail)) if !lowered || alone => {
+                let element = if lowered { "sub" } else { "sup" };
+                let _ = write!(out, "<{element}>{script}</{element}>");
+                rest = tail;
+            }
+            _ => {
+                out.push_str(mark);
+                rest = after;
+            }
+        }
+    }
+    out + rest
 }
 
 /// What stands between two marks becomes an element; an odd mark stays.
@@ -290,6 +337,11 @@ mod tests {
             inline("see [there](#x) and ` alone"),
             "see <a href=\"#x\">there</a> and ` alone"
         );
-        assert_eq!(inline("b_{1,5} [B]^T"), "b_{1,5} [B]^T");
+        assert_eq!(inline("b_{1,5} [B]^T"), "b<sub>1,5</sub> [B]<sup>T</sup>");
+        assert_eq!(
+            inline("J_x in 1/s^3, [J_Ci]"),
+            "J<sub>x</sub> in 1/s<sup>3</sup>, [J<sub>Ci</sub>]"
+        );
+        assert_eq!(inline("mass_kg and `e_x`, 2^"), "mass_kg and <code>e_x</code>, 2^");
     }
 }

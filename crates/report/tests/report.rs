@@ -3,8 +3,8 @@
 use std::path::Path;
 use std::sync::LazyLock;
 
+use report::block::audit_cells;
 use report::equations::{self, judged};
-use report::numbers::measured;
 use report::{Environment, Report};
 use validate::equations::Verdict;
 
@@ -61,16 +61,27 @@ fn every_equation_has_a_verdict_and_every_verdict_a_number() {
 fn page_and_markdown_tell_the_same_numbers() {
     let (html, markdown) = (REPORT.html(), REPORT.markdown());
     for row in &REPORT.reproduction().equations {
-        let number = measured(row.as_printed, 4);
+        let [what, measure, printed, corrected, word] = audit_cells(row);
+        let line = format!("| {what} | {measure} | {printed} | {corrected} | {word} |");
+        assert!(markdown.contains(&line.replace("<\u{a0}", "< ")), "{line}");
         // A bound has a `<`, which is an entity in HTML.
-        assert!(html.contains(&number.replace('<', "&lt;")), "{number}");
-        let in_markdown =
-            if row.counts { report::numbers::counted(row.as_printed) } else { number };
-        assert!(markdown.contains(&in_markdown.replace("<\u{a0}", "< ")), "{in_markdown}");
+        let printed = printed.replace('<', "&lt;");
+        let name = row.number.trim_matches(['(', ')']);
+        let heading = format!("<h3 id=\"eq-{name}\">");
+        let Some((_, article)) = html.split_once(&heading) else {
+            let cell = format!(">{printed}</td>");
+            let (_, table) = html.split_once("Statements of the text").unwrap();
+            assert!(table.contains(&cell), "{}: {cell}", row.number);
+            continue;
+        };
+        let (article, _) = article.split_once("</article>").unwrap();
+        let strong = format!(":</span> <strong>{printed}</strong>");
+        assert!(article.contains(&strong), "{}: {strong}", row.number);
     }
     for claim in &REPORT.reproduction().claims {
         let says = report::numbers::signs(&claim.printed.says);
-        assert!(html.contains(&report::svg::escape(&says)), "{says}");
+        let page = html.replace("<sub>", "_").replace("</sub>", "");
+        assert!(page.contains(&report::svg::escape(&says)), "{says}");
     }
 }
 

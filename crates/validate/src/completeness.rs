@@ -200,6 +200,10 @@ pub fn certify_by_census(problem: &Problem, census: &Census, answer: &mut Equili
                  box"
                     .to_owned()
             }
+            _ if !census.undecided.is_empty() => format!(
+                "the census leaves {} cells of pulls undecided, and this answer is in none of its boxes",
+                census.undecided.len()
+            ),
             Some(place) => format!(
                 "the nearest equilibrium of the census lies {:.1e} of the total length away",
                 place.beyond
@@ -237,9 +241,14 @@ fn complete(census: &Census, evidence: &mut Evidence) {
         evidence.reach(
             Rung::Complete,
             format!(
-                "one of {} in the plane, and no other: {} patterns of tension and compression excluded everywhere \
+                "one of {} in the plane{}, and no other: {} patterns of tension and compression excluded everywhere \
                  else, in {} cells of pulls",
                 census.count_in_plane(),
+                match census.families.len() {
+                    0 => String::new(),
+                    1 => ", besides a family with slack bars".to_owned(),
+                    families => format!(", besides {families} families with slack bars"),
+                },
                 patterns(census),
                 census.statistics.cells,
             ),

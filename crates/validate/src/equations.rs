@@ -1,9 +1,10 @@
 //! Every numbered equation of the paper, evaluated as it is printed and as it should be.
 //!
-//! [`audit`] types the equations in once more, letter by letter, and measures each against something that
-//! does not come from the same line of print: a product of matrices, a configuration that is closed by
-//! construction, a numeric derivative, Newton's law, or the equilibrium of lowest energy. Nothing is
-//! declared wrong by hand: the [`Verdict`] follows from the two numbers.
+//! [`audit`] types the equations in once more and measures each against something that does not come from
+//! the same line of print: a product of matrices, a configuration that is closed by construction, a numeric
+//! derivative, Newton's law, or the equilibrium of lowest energy. Where the fault is in the notation (a
+//! bracket that is missing, a number used twice, a citation that leads nowhere) the number is a count. No
+//! verdict is written down: each follows from the two numbers of its row.
 //!
 //! | module | section of the paper | equations |
 //! |---|---|---|

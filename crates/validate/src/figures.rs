@@ -11,7 +11,7 @@ use crate::example::Example;
 const CURVE_POINTS: usize = 721;
 
 /// Starts of the histories: angles of the three bars, rad, and what they are. The first is that of
-/// the solved example; the others lie a quarter of a turn and more away from every equilibrium.
+/// the solved example; the others lie far from every equilibrium.
 const STARTS: [(&str, [f64; 3]); 2] =
     [("rough guess near E1", [0.3, 0.7, -1.3]), ("all bars swung out", [1.4, 2.2, -1.0])];
 

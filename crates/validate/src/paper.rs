@@ -54,6 +54,14 @@ impl Printed {
     pub fn rounds_to(&self, value: f64) -> bool {
         self.digits.is_some_and(|digits| format!("{value:.digits$}") == self.printed)
     }
+
+    /// Whether it is a number of things, an integer, and no measure.
+    #[must_use]
+    pub fn is_count(&self) -> bool {
+        /// Units of what is measured; all others count.
+        const MEASURED: [&str; 8] = ["deg", "rad", "mg", "mgl", "mgl/rad", "l", "%", "s"];
+        self.digits == Some(0) && self.unit.as_deref().is_some_and(|unit| !MEASURED.contains(&unit))
+    }
 }
 
 /// What the numbers say about a claim.

@@ -173,9 +173,11 @@ pub fn reproduce_with(
     })
 }
 
-/// E1 as the audit of the equations takes it, from `lagrange`.
+/// E1 as the audit of the equations takes it: angles by the search for the least energy, forces by virtual work.
+///
+/// The audit uses the matrices of `lagrange`, so that "(40) holds" is no solver's own residual.
 fn e1_state(example: &Example) -> E1State {
-    let e1 = example.by_lagrange(&example.lagrange.e1);
+    let e1 = example.by_energy_e1();
     let [theta, alpha, beta] = e1.angles_rad;
     E1State { theta, alpha, beta, multipliers_mg: e1.forces_mg }
 }

@@ -35,7 +35,9 @@ pub(crate) fn blocks(r: &Reproduction) -> Vec<Block<'_>> {
 fn row(claim: &Claim) -> Vec<String> {
     let p = &claim.printed;
     let difference = match (claim.lagrange, claim.energy) {
-        (Some(lagrange), Some(energy)) if is_count(claim) => counted((lagrange - energy).abs()),
+        (Some(lagrange), Some(energy)) if claim.printed.is_count() => {
+            counted((lagrange - energy).abs())
+        }
         (Some(lagrange), Some(energy)) => measured((lagrange - energy).abs(), 4),
         _ => "-".to_owned(),
     };
@@ -53,22 +55,13 @@ fn row(claim: &Claim) -> Vec<String> {
     ]
 }
 
-/// Units of what is measured; all others count.
-const MEASURED: [&str; 8] = ["deg", "rad", "mg", "mgl", "mgl/rad", "l", "%", "s"];
-
-/// Whether the claim is about a number of things.
-fn is_count(claim: &Claim) -> bool {
-    let p = &claim.printed;
-    p.digits == Some(0) && p.unit.as_deref().is_some_and(|unit| !MEASURED.contains(&unit))
-}
-
 /// A solver's value with three decimals more than are printed.
 fn value(claim: &Claim, value: Option<f64>) -> String {
     /// Decimals more than printed.
     const MORE: usize = 3;
     match (value, claim.printed.digits) {
         (None, _) => "-".to_owned(),
-        (Some(value), _) if is_count(claim) => counted(value),
+        (Some(value), _) if claim.printed.is_count() => counted(value),
         (Some(value), Some(digits)) => fixed(value, digits + MORE),
         (Some(value), None) => measured(value, 6),
     }
@@ -79,7 +72,7 @@ fn number(claim: &Claim) -> String {
     let what = signs(&stable(&claim.number_is));
     match claim.number {
         None => what,
-        Some(number) if is_count(claim) => format!("{}: {what}", counted(number)),
+        Some(number) if claim.printed.is_count() => format!("{}: {what}", counted(number)),
         Some(number) => format!("{}: {what}", measured(number, 4)),
     }
 }

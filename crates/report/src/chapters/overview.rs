@@ -24,8 +24,8 @@ pub(crate) fn blocks(r: &Reproduction) -> Vec<Block<'_>> {
         ),
         heading(2, "outcome", "What came out"),
         text(format!(
-            "{} claims: {} confirmed, {} explained, {} corrected, {} refuted. {} rows of equations: {} hold only as \
-             corrected, {} not at all. Both solvers agree on {} of {} cases. {outcome}",
+            "{} claims: {} confirmed, {} explained, {} corrected, {} refuted. {} parts of equations and statements \
+             of the text: {} hold only as corrected, {} not at all. Both solvers agree on {} of {} cases. {outcome}",
             s.claims,
             s.confirmed,
             s.explained,

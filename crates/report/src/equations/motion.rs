@@ -6,11 +6,11 @@ use super::Equation;
 pub(super) const EQUATIONS: &[Equation] = &[
     Equation {
         number: "(33)",
-        printed: r"\wrong{\left[ \begin{bmatrix} [\mathbf{M}_1] & [\mathbf{0}_{6,6}] & [\mathbf{0}_{6,6}] \\ {}[\mathbf{0}_{6,6}] & [\mathbf{M}_2] & [\mathbf{0}_{6,6}] \\ {}[\mathbf{0}_{6,6}] & [\mathbf{0}_{6,6}] & [\mathbf{M}_3] \end{bmatrix} - [\mathbf{B}]^T \right]} \begin{bmatrix} \{\ddot{\mathbf{q}}\} \\ \{\boldsymbol{\lambda}\} \end{bmatrix} = \begin{bmatrix} \{\mathbf{F}_{q_1}\} + \{\tilde{\mathbf{F}}_{q_1}\} \\ \{\mathbf{F}_{q_2}\} + \{\tilde{\mathbf{F}}_{q_2}\} \\ \{\mathbf{F}_{q_3}\} + \{\tilde{\mathbf{F}}_{q_3}\} \\ \wrong{-[\mathbf{B}] \{\mathbf{q}\}} \end{bmatrix}",
+        printed: r"\wrong{\begin{bmatrix} [\mathbf{M}_1] & [\mathbf{0}_{6,6}] & [\mathbf{0}_{6,6}] \\ {}[\mathbf{0}_{6,6}] & [\mathbf{M}_2] & [\mathbf{0}_{6,6}] \\ {}[\mathbf{0}_{6,6}] & [\mathbf{0}_{6,6}] & [\mathbf{M}_3] \end{bmatrix} - [\mathbf{B}]^T} \begin{bmatrix} \{\ddot{\mathbf{q}}\} \\ \{\boldsymbol{\lambda}\} \end{bmatrix} = \begin{bmatrix} \{\mathbf{F}_{q_1}\} + \{\tilde{\mathbf{F}}_{q_1}\} \\ \{\mathbf{F}_{q_2}\} + \{\tilde{\mathbf{F}}_{q_2}\} \\ \{\mathbf{F}_{q_3}\} + \{\tilde{\mathbf{F}}_{q_3}\} \\ \wrong{-[\mathbf{B}] \{\mathbf{q}\}} \end{bmatrix}",
         corrected: Some(
             r"\begin{bmatrix} [\mathbf{M}_1] & [\mathbf{0}_{6,6}] & [\mathbf{0}_{6,6}] &  \\ {}[\mathbf{0}_{6,6}] & [\mathbf{M}_2] & [\mathbf{0}_{6,6}] & -[\mathbf{B}]^T \\ {}[\mathbf{0}_{6,6}] & [\mathbf{0}_{6,6}] & [\mathbf{M}_3] &  \\ & \fixed{[\mathbf{B}]} & & \fixed{[\mathbf{0}_{12,12}]} \end{bmatrix} \begin{bmatrix} \{\ddot{\mathbf{q}}\} \\ \{\boldsymbol{\lambda}\} \end{bmatrix} = \begin{bmatrix} \{\mathbf{F}_{q_1}\} + \{\tilde{\mathbf{F}}_{q_1}\} \\ \{\mathbf{F}_{q_2}\} + \{\tilde{\mathbf{F}}_{q_2}\} \\ \{\mathbf{F}_{q_3}\} + \{\tilde{\mathbf{F}}_{q_3}\} \\ \fixed{-[\dot{\mathbf{B}}] \{\dot{\mathbf{q}}\}} \end{bmatrix}",
         ),
-        says: "The equation of motion: inertia and multipliers against the forces, and the constraints differentiated twice. Printed without the lower rows of its matrix and with [B]{q}, which is no derivative of the constraints.",
+        says: "The equation of motion: inertia and multipliers against the forces, and the constraints differentiated twice. Printed without the bracket that joins its matrix, without the lower rows of that, and with [B]{q}, which is no derivative of the constraints.",
     },
     Equation {
         number: "(34)",
@@ -38,17 +38,17 @@ pub(super) const EQUATIONS: &[Equation] = &[
     },
     Equation {
         number: "(38)",
-        printed: r"\{\tilde{\mathbf{F}}_{s_i}\} = \wrong{-[\mathbf{A}_i][\mathbf{S}_i]^T[\dot{\mathbf{Q}}_i] + [\dot{\mathbf{A}}_i][\mathbf{S}_i]^T[\mathbf{Q}_i]} \begin{bmatrix} \dot\psi_i \\ \dot\theta_i \\ \dot\varphi_i \end{bmatrix} = \begin{bmatrix} 0 \\ 0 \\ 0 \end{bmatrix}",
+        printed: r"\{\tilde{\mathbf{F}}_{s_i}\} = \wrong{-[\mathbf{A}_i][\mathbf{S}_i]^T[\dot{\mathbf{Q}}_i] + [\dot{\mathbf{A}}_i][\mathbf{S}_i]^T[\mathbf{Q}_i]} \begin{bmatrix} \dot\psi_i \\ \dot\theta_i \\ \dot\varphi_i \end{bmatrix} = \begin{bmatrix} 0 \\ 0 \\ 0 \end{bmatrix}, \quad i = \range{1,3}",
         corrected: Some(
-            r"\{\tilde{\mathbf{F}}_{s_i}\} = \fixed{-\left( [\mathbf{A}_i][\mathbf{S}_i]^T[\dot{\mathbf{Q}}_i] + [\dot{\mathbf{A}}_i][\mathbf{S}_i]^T[\mathbf{Q}_i] \right)} \begin{bmatrix} \dot\psi_i \\ \dot\theta_i \\ \dot\varphi_i \end{bmatrix} = \begin{bmatrix} 0 \\ 0 \\ 0 \end{bmatrix}",
+            r"\{\tilde{\mathbf{F}}_{s_i}\} = \fixed{-\left( [\mathbf{A}_i][\mathbf{S}_i]^T[\dot{\mathbf{Q}}_i] + [\dot{\mathbf{A}}_i][\mathbf{S}_i]^T[\mathbf{Q}_i] \right)} \begin{bmatrix} \dot\psi_i \\ \dot\theta_i \\ \dot\varphi_i \end{bmatrix} = \begin{bmatrix} 0 \\ 0 \\ 0 \end{bmatrix}, \quad i = \range{1,3}",
         ),
         says: "The part of them at the centre, zero because of (28). Without the bracket a matrix is added to a column.",
     },
     Equation {
         number: "(39)",
-        printed: r"\{\tilde{\mathbf{F}}_{\beta_i}\} = \wrong{-[\mathbf{Q}_i]^T[\mathbf{J}_{C_i}][\dot{\mathbf{Q}}_i] + [\dot{\mathbf{Q}}_i]^T[\boldsymbol{\omega}_i][\mathbf{J}_{C_i}][\mathbf{Q}_i]} \begin{bmatrix} \dot\psi_i \\ \dot\theta_i \\ \dot\varphi_i \end{bmatrix}",
+        printed: r"\{\tilde{\mathbf{F}}_{\beta_i}\} = \wrong{-[\mathbf{Q}_i]^T[\mathbf{J}_{C_i}][\dot{\mathbf{Q}}_i] + [\dot{\mathbf{Q}}_i]^T[\boldsymbol{\omega}_i][\mathbf{J}_{C_i}][\mathbf{Q}_i]} \begin{bmatrix} \dot\psi_i \\ \dot\theta_i \\ \dot\varphi_i \end{bmatrix}, \quad i = \range{1,3}",
         corrected: Some(
-            r"\{\tilde{\mathbf{F}}_{\beta_i}\} = \fixed{-\left( [\mathbf{Q}_i]^T[\mathbf{J}_{C_i}][\dot{\mathbf{Q}}_i] + [\mathbf{Q}_i]^T[\boldsymbol{\omega}_i][\mathbf{J}_{C_i}][\mathbf{Q}_i] \right)} \begin{bmatrix} \dot\psi_i \\ \dot\theta_i \\ \dot\varphi_i \end{bmatrix}",
+            r"\{\tilde{\mathbf{F}}_{\beta_i}\} = \fixed{-\left( [\mathbf{Q}_i]^T[\mathbf{J}_{C_i}][\dot{\mathbf{Q}}_i] + [\mathbf{Q}_i]^T[\boldsymbol{\omega}_i][\mathbf{J}_{C_i}][\mathbf{Q}_i] \right)} \begin{bmatrix} \dot\psi_i \\ \dot\theta_i \\ \dot\varphi_i \end{bmatrix}, \quad i = \range{1,3}",
         ),
         says: "The part of them about the centre (gyroscopic). Besides the bracket, a dot too many: with it the second term has a rate more than the first.",
     },

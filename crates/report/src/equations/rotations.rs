@@ -31,9 +31,9 @@ pub(super) const EQUATIONS: &[Equation] = &[
     },
     Equation {
         number: "(5)",
-        printed: r"[A_i] = \begin{bmatrix} c\theta_i\, c\varphi_i & -c\theta_i\, s\varphi_i & s\theta_i \\ s\psi_i\, s\theta_i\, c\varphi_i + c\psi_i\, s\varphi_i & -s\psi_i\, s\theta_i\, s\varphi_i + c\psi_i\, c\varphi_i & -s\psi_i\, c\theta_i \\ -c\psi_i\, s\theta_i\, c\varphi_i + \wrong{s\psi_i\, s\theta_i} & c\psi_i\, s\theta_i\, s\varphi_i + s\psi_i\, c\varphi_i & \wrong{c\psi_i\, c\varphi_i} \end{bmatrix}",
+        printed: r"[A_i] = \begin{bmatrix} c\theta_i\, c\varphi_i & -c\theta_i\, s\varphi_i & s\theta_i \\ s\psi_i\, s\theta_i\, c\varphi_i + c\psi_i\, s\varphi_i & -s\psi_i\, s\theta_i\, s\varphi_i + c\psi_i\, c\varphi_i & -s\psi_i\, c\theta_i \\ -c\psi_i\, s\theta_i\, c\varphi_i + \wrong{s\psi_i\, s\theta_i} & c\psi_i\, s\theta_i\, s\varphi_i + s\psi_i\, c\varphi_i & \wrong{c\psi_i\, c\varphi_i} \end{bmatrix}, \quad i = \range{1,3}",
         corrected: Some(
-            r"[A_i] = \begin{bmatrix} c\theta_i\, c\varphi_i & -c\theta_i\, s\varphi_i & s\theta_i \\ s\psi_i\, s\theta_i\, c\varphi_i + c\psi_i\, s\varphi_i & -s\psi_i\, s\theta_i\, s\varphi_i + c\psi_i\, c\varphi_i & -s\psi_i\, c\theta_i \\ -c\psi_i\, s\theta_i\, c\varphi_i + \fixed{s\psi_i\, s\varphi_i} & c\psi_i\, s\theta_i\, s\varphi_i + s\psi_i\, c\varphi_i & \fixed{c\psi_i\, c\theta_i} \end{bmatrix}",
+            r"[A_i] = \begin{bmatrix} c\theta_i\, c\varphi_i & -c\theta_i\, s\varphi_i & s\theta_i \\ s\psi_i\, s\theta_i\, c\varphi_i + c\psi_i\, s\varphi_i & -s\psi_i\, s\theta_i\, s\varphi_i + c\psi_i\, c\varphi_i & -s\psi_i\, c\theta_i \\ -c\psi_i\, s\theta_i\, c\varphi_i + \fixed{s\psi_i\, s\varphi_i} & c\psi_i\, s\theta_i\, s\varphi_i + s\psi_i\, c\varphi_i & \fixed{c\psi_i\, c\theta_i} \end{bmatrix}, \quad i = \range{1,3}",
         ),
         says: "The product of (1), multiplied out; c and s are cosine and sine. Its first column is the direction of the bar.",
     },

@@ -91,7 +91,7 @@ fn panel(k: usize, start: &str, histories: &[&History], longest: usize) -> Strin
                 );
             }
         }
-        // The name stands at the third point, on the outer side of the line.
+        // The name stands at the second point, on the outer side of the line.
         if let Some([x, y]) = points.get(1) {
             let (anchor, dx) =
                 if class == "lagrange" { (Anchor::Start, 9.0) } else { (Anchor::End, -8.0) };

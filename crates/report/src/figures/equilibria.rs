@@ -11,6 +11,10 @@ use crate::svg::{Anchor, Svg};
 const LENGTH: f64 = 118.0;
 const FORCE: f64 = 34.0;
 
+/// A bar that leaves the vertical by less hides its weight, which is then drawn this far beside it, px.
+const HIDDEN: f64 = 6.0;
+const BESIDE: f64 = 11.0;
+
 /// Size of a panel, and where O lies in it.
 const SIZE: [f64; 2] = [300.0, 486.0];
 const ORIGIN: [f64; 2] = [118.0, 138.0];
@@ -34,8 +38,8 @@ pub fn equilibria(r: &Reproduction) -> Figure {
              in tension, dashed thick ones in compression. Left: the paper's first position, corrected; bar BD props \
              the chain up. Middle: the paper's second position (x). No reactions can hold it: whatever the \
              multipliers, {} mg of its equations are left over, and let go it would fall. Right: the second \
-             equilibrium there is, the first one turned upside down, a maximum of the energy. The mirror image of \
-             each is an equilibrium too: in space they are one circle, turned about OD.",
+             equilibrium there is, the first one turned upside down, a maximum of the energy. E1 and E2 each have a \
+             mirror image, and turned about OD each makes a circle of equilibria in space.",
             left_over(r).map_or_else(|| "some".to_owned(), |number| fixed(number, 4)),
         ),
     }
@@ -136,7 +140,7 @@ fn printed(r: &Reproduction) -> String {
         "label small",
         moved(at[1], 1.0, [16.0, 31.0]),
         Anchor::Start,
-        &format!("dV/dθ = {} mgl", fixed(r.figures.slope_at_x, 3)),
+        &format!("dV/dθ = {} mgl/rad", fixed(r.figures.slope_at_x, 3)),
     );
     names(&mut svg, &at);
     let bottom = SIZE[1] - 34.0;
@@ -160,11 +164,13 @@ fn printed(r: &Reproduction) -> String {
     svg.finish()
 }
 
-/// The three weights at the middles of the bars.
+/// The three weights at the middles of the bars; beside the bar where it hangs straight down and would hide its own.
 fn weights(svg: &mut Svg, at: &[[f64; 2]; 4]) {
     for ends in at.windows(2) {
         let middle = [f64::midpoint(ends[0][0], ends[1][0]), f64::midpoint(ends[0][1], ends[1][1])];
-        svg.arrow("force weight", middle, moved(middle, FORCE, [0.0, 1.0]));
+        let upright = (ends[1][0] - ends[0][0]).abs() < HIDDEN;
+        let from = if upright { moved(middle, 1.0, [BESIDE, 0.0]) } else { middle };
+        svg.arrow("force weight", from, moved(from, FORCE, [0.0, 1.0]));
     }
 }
 

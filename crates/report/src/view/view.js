@@ -49,7 +49,7 @@
   };
 
   // The chain. Its plane is turned by `turned`; screen x to the right, y down, no perspective.
-  const UNIT = 132, TOP = [180, 110], PER_MG = 0.33;
+  const UNIT = 132, TOP = [180, 110], PER_MG = 0.33, HIDDEN = 6, BESIDE = 11;
   const project = ([out, up]) => {
     const psi = state.turned * RAD;
     const [right, towards] = [out * Math.cos(psi), out * Math.sin(psi)];
@@ -82,7 +82,11 @@
       const kind = axial > 0 ? "bar pull" : axial < 0 ? "bar push" : "bar";
       line(chain, kind, project(joints[k]), project(joints[k + 1]));
       const middle = joints[k].map((x, i) => (x + joints[k + 1][i]) / 2);
-      arrow(chain, "arrow weight", project(middle), project([middle[0], middle[1] - PER_MG]));
+      // A bar that hangs straight down would hide its weight.
+      const upright = Math.abs(project(joints[k])[0] - project(joints[k + 1])[0]) < HIDDEN;
+      const [from, to] = [project(middle), project([middle[0], middle[1] - PER_MG])];
+      for (const end of upright ? [from, to] : []) end[0] += BESIDE;
+      arrow(chain, "arrow weight", from, to);
     }
     if (known && known.ground_mg) {
       for (const [joint, force] of [[joints[0], known.ground_mg[0]], [joints[3], known.ground_mg[1]]]) {

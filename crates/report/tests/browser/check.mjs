@@ -22,6 +22,8 @@ const FLAGS = [
 ];
 const DESK = { width: 1280, height: 900 };
 const PHONES = [{ width: 390, height: 844 }, { width: 360, height: 740 }];
+// A4 less the margins of the style sheet, 14 mm and 16 mm on either side, px.
+const PAPER = { width: 687, height: 1001 };
 // WCAG 2.2, contrast (minimum) of text.
 const CONTRAST = 4.5;
 // The view takes 0.6 s from state to state.
@@ -184,6 +186,10 @@ await look("print", {}, async (page) => {
   await page.emulateMedia({ media: "print" });
   check("print: the pictures", await page.locator("#funicular-view-energy").isVisible());
   check("print: no controls", !(await page.locator("#funicular-view-place").isVisible()));
+  // What is wider than the paper makes the browser shrink all of it.
+  await page.setViewportSize(PAPER);
+  const [wide, room] = await page.evaluate(() => [document.documentElement.scrollWidth, document.documentElement.clientWidth]);
+  check("print: nothing wider than the paper", wide <= room, `${wide} px in ${room}`);
   const pdf = await page.pdf({ format: "A4", ...(given.shots ? { path: join(given.shots, "print.pdf") } : {}) });
   check("print: a PDF", pdf.subarray(0, 5).toString() === "%PDF-", `${pdf.length} bytes`);
   await shot(page, "view-print", VIEW);

@@ -104,6 +104,8 @@ fn psi(facts: &Facts) -> Finding {
     Finding::new(Verdict::Explained.if_shown(shown), columns, what).lagrange(columns)
 }
 
+/// The paper says that Solution 1 proves it, which it does not. The closure does: AB and BD span at most 2l, so
+/// $|D - A|^2 = (5 - 4\cos\theta) l^2 \le 4 l^2$ and $\cos\theta \ge 1/4$ wherever the chain is.
 fn cosine(facts: &Facts) -> Finding {
     let all = facts.example.lagrange.all();
     let smallest =
@@ -114,7 +116,8 @@ fn cosine(facts: &Facts) -> Finding {
     Finding::new(
         verdict.if_shown(root),
         smallest,
-        "the smallest |cos phi_1| of the four equilibria",
+        "the smallest cos phi_1 of the four equilibria. Solution 1 has no proof of it; a short one is that AB and BD \
+         span at most 2l, so that cos theta is at least 1/4 on the whole closure curve",
     )
     .lagrange(smallest)
 }

@@ -35,26 +35,69 @@ impl Closed {
         }
         Self { lengths, levers, angles, centres, joints }
     }
+}
 
-    /// The component of bar's direction as (7)-(20) print it.
-    fn direction(&self, bar: usize, axis: usize) -> f64 {
-        let [psi, theta, phi] = self.angles[bar];
-        match axis {
-            0 => theta.cos() * phi.cos(),
-            1 => psi.sin() * theta.sin() * phi.cos() + psi.cos() * phi.sin(),
-            _ => -psi.cos() * theta.sin() * phi.cos() + psi.sin() * phi.sin(),
-        }
-    }
+/// A bar's letters in (7)-(20): `x`, `y`, `z` of its centre, `l`, `r`, and the sines and cosines of its angles.
+#[derive(Clone, Copy)]
+struct Letters {
+    x: f64,
+    y: f64,
+    z: f64,
+    l: f64,
+    r: f64,
+    s_psi: f64,
+    c_psi: f64,
+    s_th: f64,
+    c_th: f64,
+    s_phi: f64,
+    c_phi: f64,
+}
 
-    /// Where a bar begins: $X_C - r u$.
-    fn begin(&self, bar: usize, axis: usize) -> f64 {
-        self.centres[bar][axis] - self.levers[bar] * self.direction(bar, axis)
+impl Closed {
+    fn letters(&self) -> [Letters; 3] {
+        std::array::from_fn(|bar| {
+            let [x, y, z] = self.centres[bar].into();
+            let (l, r) = (self.lengths[bar], self.levers[bar]);
+            let [(s_psi, c_psi), (s_th, c_th), (s_phi, c_phi)] = self.angles[bar].map(f64::sin_cos);
+            Letters { x, y, z, l, r, s_psi, c_psi, s_th, c_th, s_phi, c_phi }
+        })
     }
+}
 
-    /// Where a bar ends: $X_C + (l - r) u$.
-    fn end(&self, bar: usize, axis: usize) -> f64 {
-        self.centres[bar][axis] + (self.lengths[bar] - self.levers[bar]) * self.direction(bar, axis)
-    }
+/// The constraint functions $f_1 \dots f_{12}$ of (7)-(9), (12)-(20) as they are printed, each typed by itself: a
+/// misprint in one is a misprint in one.
+fn as_printed(closed: &Closed) -> [f64; 12] {
+    let [b1, b2, b3] = closed.letters();
+    let [x_3, y_3, z_3]: [f64; 3] = closed.joints[3].into();
+    [
+        b1.x - b1.r * b1.c_th * b1.c_phi,
+        b1.y - b1.r * (b1.s_psi * b1.s_th * b1.c_phi + b1.c_psi * b1.s_phi),
+        b1.z - b1.r * (-b1.c_psi * b1.s_th * b1.c_phi + b1.s_psi * b1.s_phi),
+        b1.x + (b1.l - b1.r) * b1.c_th * b1.c_phi - b2.x + b2.r * b2.c_th * b2.c_phi,
+        b1.y + (b1.l - b1.r) * (b1.s_psi * b1.s_th * b1.c_phi + b1.c_psi * b1.s_phi) - b2.y
+            + b2.r * (b2.s_psi * b2.s_th * b2.c_phi + b2.c_psi * b2.s_phi),
+        b1.z + (b1.l - b1.r) * (-b1.c_psi * b1.s_th * b1.c_phi + b1.s_psi * b1.s_phi) - b2.z
+            + b2.r * (-b2.c_psi * b2.s_th * b2.c_phi + b2.s_psi * b2.s_phi),
+        b2.x + (b2.l - b2.r) * b2.c_th * b2.c_phi - b3.x + b3.r * b3.c_th * b3.c_phi,
+        b2.y + (b2.l - b2.r) * (b2.s_psi * b2.s_th * b2.c_phi + b2.c_psi * b2.s_phi) - b3.y
+            + b3.r * (b3.s_psi * b3.s_th * b3.c_phi + b3.c_psi * b3.s_phi),
+        b2.z + (b2.l - b2.r) * (-b2.c_psi * b2.s_th * b2.c_phi + b2.s_psi * b2.s_phi) - b3.z
+            + b3.r * (-b3.c_psi * b3.s_th * b3.c_phi + b3.s_psi * b3.s_phi),
+        b2.x + (b2.l - b2.r) * b2.c_th * b2.c_phi - x_3,
+        b2.y + (b2.l - b2.r) * (b2.s_psi * b2.s_th * b2.c_phi + b2.c_psi * b2.s_phi) - y_3,
+        b2.z + (b2.l - b2.r) * (-b2.c_psi * b2.s_th * b2.c_phi + b2.s_psi * b2.s_phi) - z_3,
+    ]
+}
+
+/// The same with the index 3 in (18)-(20).
+fn as_corrected(closed: &Closed) -> [f64; 12] {
+    let [_, _, b3] = closed.letters();
+    let [x_3, y_3, z_3]: [f64; 3] = closed.joints[3].into();
+    let mut f = as_printed(closed);
+    f[9] = b3.x + (b3.l - b3.r) * b3.c_th * b3.c_phi - x_3;
+    f[10] = b3.y + (b3.l - b3.r) * (b3.s_psi * b3.s_th * b3.c_phi + b3.c_psi * b3.s_phi) - y_3;
+    f[11] = b3.z + (b3.l - b3.r) * (-b3.c_psi * b3.s_th * b3.c_phi + b3.s_psi * b3.s_phi) - z_3;
+    f
 }
 
 /// Largest value of a constraint function over random closed configurations.
@@ -80,14 +123,15 @@ pub(super) fn rows() -> Vec<EquationAudit> {
         apart(|c| at_o(c) - c.joints[0]),
         ROUNDING,
     )];
-    for (axis, number) in ["(7)", "(8)", "(9)"].into_iter().enumerate() {
-        rows.push(
-            EquationAudit::new(number, "III", "constraint function: bar 1 is held at O").measured(
-                CLOSED,
-                open(|c| c.begin(0, axis)),
-                ROUNDING,
-            ),
-        );
+    let row = |number, f: usize, what| {
+        EquationAudit::new(number, "III", what).measured(
+            CLOSED,
+            open(|c| as_printed(c)[f - 1]),
+            ROUNDING,
+        )
+    };
+    for (number, f) in [("(7)", 1), ("(8)", 2), ("(9)", 3)] {
+        rows.push(row(number, f, "constraint function: bar 1 is held at O"));
     }
     rows.push(EquationAudit::new("(10)", "III", "bar 1 ends at A1").measured(
         CLOSED,
@@ -99,32 +143,19 @@ pub(super) fn rows() -> Vec<EquationAudit> {
         apart(|c| begin_2(c) - c.joints[1]),
         ROUNDING,
     ));
-    for (axis, number) in ["(12)", "(13)", "(14)"].into_iter().enumerate() {
-        rows.push(
-            EquationAudit::new(number, "III", "constraint function: bars 1 and 2 meet at A1")
-                .measured(CLOSED, open(|c| c.end(0, axis) - c.begin(1, axis)), ROUNDING),
-        );
+    for (number, f) in [("(12)", 4), ("(13)", 5), ("(14)", 6)] {
+        rows.push(row(number, f, "constraint function: bars 1 and 2 meet at A1"));
     }
-    for (axis, number) in ["(15)", "(16)", "(17)"].into_iter().enumerate() {
-        rows.push(
-            EquationAudit::new(number, "III", "constraint function: bars 2 and 3 meet at A2")
-                .measured(CLOSED, open(|c| c.end(1, axis) - c.begin(2, axis)), ROUNDING),
-        );
+    for (number, f) in [("(15)", 7), ("(16)", 8), ("(17)", 9)] {
+        rows.push(row(number, f, "constraint function: bars 2 and 3 meet at A2"));
     }
-    for (axis, number) in ["(18)", "(19)", "(20)"].into_iter().enumerate() {
-        rows.push(
-            EquationAudit::new(
-                number,
-                "III",
-                "C2, l2, r2 and the angles of bar 2 where bar 3 is held at A3",
-            )
-            .measured(CLOSED, open(|c| c.end(1, axis) - c.joints[3][axis]), ROUNDING)
-            .corrected(
-                "the same with the index 3: C3 + (l3 - r3) [A3] e_x = A3",
-                open(|c| c.end(2, axis) - c.joints[3][axis]),
-                ROUNDING,
-            ),
-        );
+    for (number, f) in [("(18)", 10), ("(19)", 11), ("(20)", 12)] {
+        let what = "C2, l2, r2 and the angles of bar 2 where bar 3 is held at A3";
+        rows.push(row(number, f, what).corrected(
+            "the same with the index 3: C3 + (l3 - r3) [A3] e_x = A3",
+            open(|c| as_corrected(c)[f - 1]),
+            ROUNDING,
+        ));
     }
     rows.push(
         EquationAudit::new("after (20)", "III", "18 coordinates less 12 constraints: 6 degrees of freedom, 3 of them useless")
@@ -221,12 +252,5 @@ fn constraint_functions(q: &DVector<f64>) -> DMatrix<f64> {
             Vector3::new(0.0, 0.0, -2.0),
         ],
     };
-    DMatrix::from_fn(12, 1, |row, _| {
-        let axis = row % 3;
-        match row / 3 {
-            0 => state.begin(0, axis),
-            joint @ (1 | 2) => state.end(joint - 1, axis) - state.begin(joint, axis),
-            _ => state.end(2, axis) - state.joints[3][axis],
-        }
-    })
+    DMatrix::from_column_slice(12, 1, &as_corrected(&state))
 }

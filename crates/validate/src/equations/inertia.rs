@@ -1,6 +1,6 @@
 //! Section V, velocities and matrices of inertia: eqs. (23)-(32).
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{DMatrix, Matrix3, Vector3};
 use rand::RngExt;
 
 use super::rotations::{phi_matrix, theta_matrix};
@@ -128,6 +128,22 @@ fn all_turned([_, theta, phi]: [f64; 3]) -> Matrix3<f64> {
 fn each_turned([_, theta, phi]: [f64; 3]) -> Matrix3<f64> {
     let (by_theta, by_phi) = (theta_matrix(theta).transpose(), phi_matrix(phi).transpose());
     Matrix3::from_columns(&[by_phi * by_theta * Vector3::x(), by_phi * Vector3::y(), Vector3::z()])
+}
+
+/// Rows of (32) for a bar less those that its place in (33) has: as printed, the matrix of the masses times the
+/// column of three blocks, or with the two as the blocks of one matrix.
+fn rows_too_many(one_matrix: bool) -> f64 {
+    let masses = DMatrix::<f64>::identity(3, 3);
+    let turning = dynamic(&inertia_product([0.1, 0.2, 0.3], &Vector3::new(1.0, 2.0, 3.0)));
+    let rows = if one_matrix {
+        masses.nrows() + turning.nrows()
+    } else {
+        let mut column = DMatrix::zeros(9, 3);
+        column.view_mut((6, 0), (3, 3)).copy_from(&turning);
+        // Each mass multiplies a block.
+        (masses.kronecker(&DMatrix::identity(3, 3)) * column).nrows()
+    };
+    rows as f64 - 6.0
 }
 
 /// Kinetic energy by (32) read as block diagonal, less that of translation and of rotation.
@@ -261,7 +277,7 @@ fn static_moments() -> Vec<EquationAudit> {
             "the static moment, zero because of (27); m stands for m_i",
         )
         .measured(
-            "largest entry of [S]v - m x_C x v at random x_C and of [S] at x_C = 0",
+            "largest entry of [S]v - m (x_C cross v) at random x_C and of [S] at x_C = 0",
             largest([moment_error, static_moment(1.0, &Vector3::zeros()).largest_entry()]),
             ROUNDING,
         ),
@@ -306,7 +322,21 @@ fn inertias() -> Vec<EquationAudit> {
         EquationAudit::new(
             "(32)",
             "V",
-            "the matrix of inertia of a bar, read as block diagonal, with (31) corrected",
+            "two brackets side by side are a product, of 9 rows where (33) needs 6",
+        )
+        .counted(
+            "rows of the product, or of the matrix, less the 6 of a bar's coordinates",
+            rows_too_many(false),
+        )
+        .corrected(
+            "one matrix of 6 rows with the blocks [diag(m_i)] and [Q_i]^T[J_Ci][Q_i]",
+            rows_too_many(true),
+            ROUNDING,
+        ),
+        EquationAudit::new(
+            "(32)",
+            "V",
+            "the matrix of inertia of a bar as one block diagonal matrix, with (31) corrected",
         )
         .measured(
             "kinetic energy less that of translation and rotation, 1000 random motions",

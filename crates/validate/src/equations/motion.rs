@@ -119,6 +119,17 @@ fn missing_rows(lower_rows: bool) -> f64 {
     unknowns as f64 - equations as f64
 }
 
+/// Columns that the factor of $\{\ddot q\}, \{\lambda\}$ on the left of (33) has too few: $[B]^T$ alone, or the whole
+/// matrix.
+fn missing_columns(bracket: bool) -> f64 {
+    let paper = model::cases::paper();
+    let matrix = lagrange::constraint_matrix(paper.chain(), &DVector::<f64>::zeros(18));
+    let unknowns = matrix.ncols() + matrix.nrows();
+    let transposed = matrix.transpose();
+    let columns = transposed.ncols() + if bracket { matrix.ncols() } else { 0 };
+    unknowns as f64 - columns as f64
+}
+
 /// Kinetic energy of rotation.
 fn kinetic(q: [f64; 3], rates: &Vector3<f64>, j: &Vector3<f64>) -> f64 {
     0.5 * rates.dot(&(inertia_product(q, j) * rates))
@@ -184,6 +195,9 @@ pub(super) fn rows() -> Vec<EquationAudit> {
                 NUMERIC,
             )
             .corrected("-[dB/dt]{q'}", lower_rows(false), NUMERIC),
+        EquationAudit::new("(33)", "VI", "no bracket joins [M] and -[B]^T, which so has 12 columns for 30 unknowns")
+            .counted("unknowns less columns of what stands before them", missing_columns(false))
+            .corrected("[[M], -[B]^T; [B], [0]]", missing_columns(true), ROUNDING),
         EquationAudit::new("(33)", "VI", "the matrix on the left lacks its lower rows [B] [0]")
             .counted("unknowns less equations", missing_rows(false))
             .corrected("[[M], -[B]^T; [B], [0]], 30 rows for 30 unknowns", missing_rows(true), ROUNDING),
