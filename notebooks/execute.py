@@ -1,5 +1,8 @@
 """Execute the notebooks of this folder headless, all or those named, and optionally keep the cleaned outputs."""
 
+import itertools
+import math
+import re
 import sys
 import tempfile
 from pathlib import Path
@@ -9,6 +12,8 @@ from nbclient import NotebookClient
 
 HERE = Path(__file__).resolve().parent
 TIMEOUT_S = 300  # per cell; the slowest takes a few seconds
+TIMED = "solve_s"  # a cell that reads this measures times
+NUMBER = re.compile(r"(-?\d+(?:\.\d+)?(?:e[-+]?\d+)?)")
 
 
 def clean(notebook, here):
@@ -30,6 +35,34 @@ def clean(notebook, here):
     return text + ("" if text.endswith("\n") else "\n")
 
 
+def told(notebook):
+    """What the cells print, line by line, without those that measure times."""
+    for cell in notebook.cells:
+        if cell.cell_type != "code" or TIMED in cell.source:
+            continue
+        for output in cell.get("outputs", []):
+            yield from output.get("text", "").splitlines()
+
+
+def alike(kept, found):
+    """Whether two lines tell the same: word by word, numbers to what rounding leaves of them."""
+    kept, found = NUMBER.split(kept), NUMBER.split(found)
+    if kept[::2] != found[::2] or len(kept) != len(found):
+        return False
+    pairs = zip(map(float, kept[1::2]), map(float, found[1::2]))
+    return all(math.isclose(a, b, rel_tol=1e-6, abs_tol=1e-9) for a, b in pairs)
+
+
+def compare(path, kept, found):
+    """Refuse outputs that are committed and do not come out any more."""
+    for k, (old, new) in enumerate(itertools.zip_longest(kept, found, fillvalue=""), 1):
+        if not alike(old, new):
+            raise SystemExit(
+                f"{path.name}: line {k} of what the cells print is committed as\n  {old}\nand comes out as\n  {new}\n"
+                "run notebooks/run --write, and read the difference"
+            )
+
+
 def main():
     write = "--write" in sys.argv[1:]
     names = [name for name in sys.argv[1:] if name != "--write"]
@@ -40,6 +73,7 @@ def main():
         notebook = nbformat.read(path, as_version=4)
         if not write and not any(c.get("outputs") for c in notebook.cells):
             raise SystemExit(f"{path.name} is committed without outputs: run notebooks/run --write")
+        kept = list(told(notebook))
         client = NotebookClient(
             notebook, timeout=TIMEOUT_S, kernel_name="python3", resources={"metadata": {"path": str(HERE)}}
         )
@@ -47,6 +81,8 @@ def main():
         text = clean(notebook, HERE)
         if write:
             path.write_text(text)
+        else:
+            compare(path, kept, list(told(notebook)))
         print(f"{path.name}: {sum(c.cell_type == 'code' for c in notebook.cells)} cells executed")
 
 
