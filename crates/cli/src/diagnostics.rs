@@ -74,6 +74,7 @@ impl std::fmt::Display for SystemFileReport {
     }
 }
 
+// Why a file cannot be read is part of the message; as a source it would be told twice.
 impl std::error::Error for SystemFileReport {}
 
 impl Diagnostic for SystemFileReport {

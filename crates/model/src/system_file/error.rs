@@ -113,5 +113,12 @@ impl fmt::Display for SystemFileError {
     }
 }
 
-// Why a file cannot be read is part of the message; as a source it would be told twice.
-impl std::error::Error for SystemFileError {}
+impl std::error::Error for SystemFileError {
+    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
+        match &self.0.kind {
+            SystemFileErrorKind::Unreadable(error)
+            | SystemFileErrorKind::UnreadableBars { error, .. } => Some(error),
+            _ => None,
+        }
+    }
+}
