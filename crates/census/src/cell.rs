@@ -1,6 +1,6 @@
 //! Where the pull can be: the half-space of all pulls, infinite ones included, as five squares.
 //!
-//! The pull is p = (H, V)/w with w ≥ 0, and `F_i` is parallel to (H, V + c_i w). Only the direction of
+//! The pull of bar 1 on joint 0 is p = (H, V)/w with w ≥ 0, and `F_i` is parallel to (H, V + c_i w). Only the direction of
 //! (H, V, w) matters, so the faces of half a cube hold every pull: the face w = 1 those of the order of
 //! the weights, the faces H = ±1 and V = ±1 the large ones, and their edge w = 0 the infinite ones.
 //! No bound on the zeros is needed: they cannot leave the cube.
@@ -71,7 +71,7 @@ impl Cell {
         matches!(self.face, Face::Near | Face::Around(_))
     }
 
-    /// The pull in the plane, in the system's units.
+    /// The pull of bar 1 on joint 0 in the plane, in the system's units.
     pub(crate) fn pull(&self, system: &System) -> [Interval; 2] {
         let [h, v, w] = self.homogeneous();
         let origin = system.origin(self.face);

@@ -99,7 +99,7 @@ impl ProvenEquilibrium {
         let newton = system.force_unit_n();
         Some(Self {
             signs: signs.to_vec(),
-            pull_n: [observed.pull[0] * newton, observed.pull[1] * newton],
+            pull_n: system.pull_on_anchor_n(observed.pull),
             alone_in: Neighbourhood { chart: alone_in.face, at: alone_in.at },
             angles_rad: observed.angles(),
             energy_j: observed.energy(system) * newton * Interval::point(system.length_unit_m),
@@ -121,7 +121,7 @@ impl ProvenEquilibrium {
 
 /// What follows from signs and pull, in the units of the system.
 struct Observed {
-    /// Pull of the chain on the first anchor, not centred.
+    /// Pull of bar 1 on joint 0, not centred.
     pull: [Interval; 2],
     forces: Vec<[Interval; 2]>,
     sizes: Vec<Interval>,
@@ -151,9 +151,10 @@ impl Observed {
         self.directions.iter().map(|[x, z]| angle::of_vector([-*z, *x])).collect()
     }
 
-    /// V = Σ m g z_C = (M − c₀) D_z − Σ c_i l_i u_iz with the centred weights.
+    /// V = Σ m g z_C = (M − c₀) D_z − Σ c_i l_i u_iz with the centred weights; M is what hangs behind
+    /// joint 0, at whose height weight has no energy.
     fn energy(&self, system: &System) -> Interval {
-        let total: Interval = system.mass.iter().copied().sum();
+        let total: Interval = system.added.iter().copied().sum();
         let hanging: Interval = self
             .directions
             .iter()
@@ -192,11 +193,11 @@ impl Observed {
     fn multipliers(&self, system: &System) -> Vec<[Interval; 3]> {
         let newton = system.force_unit_n();
         let mut pull = self.pull;
-        let mut forces = vec![pull.map(|part| -part)];
-        for mass in &system.mass {
-            pull[1] = pull[1] + *mass;
-            forces.push(pull);
+        let mut forces = vec![system.pull_on_anchor_n(pull).map(|part| -part)];
+        for weight in &system.added {
+            pull[1] = pull[1] + *weight;
+            forces.push(pull.map(|part| part * newton));
         }
-        forces.into_iter().map(|force| system.world(force.map(|part| part * newton))).collect()
+        forces.into_iter().map(|force| system.world(force)).collect()
     }
 }

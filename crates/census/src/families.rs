@@ -120,13 +120,13 @@ fn family(system: &System, signs: &[i8], group: u8) -> Existence {
     }
     let Ok(topology) = Topology::polygons(&sides) else { return Existence::Unclear };
     let newton = system.force_unit_n();
-    let mass: Interval = system.mass.iter().copied().sum();
+    let total: Interval = system.added.iter().copied().sum();
     let offset = Interval::point(system.offset);
     // The slack bars rise by what the others leave, at the weight of their group.
-    let energy = (mass - offset) * system.span[1] - hanging - at * gap[1];
+    let energy = (total - offset) * system.span[1] - hanging - at * gap[1];
     Existence::Proved(Box::new(SlackFamily {
         signs: signs.to_vec(),
-        pull_n: [Interval::ZERO, (-at - offset) * newton],
+        pull_n: [Interval::ZERO, system.pull_on_anchor_n([Interval::ZERO, -at - offset])[1]],
         gap_m: distance.scale(system.length_unit_m),
         energy_j: energy * newton * Interval::point(system.length_unit_m),
         axial_n: forces.into_iter().map(|force| force * newton).collect(),

@@ -6,9 +6,10 @@
 //!
 //! # The problem
 //!
-//! At rest the force along the chain is the pull $p$ on the first anchor plus the weights in between.
+//! At rest the force along the chain is the pull $p$ of bar 1 on joint 0 plus the weights in between.
 //! The moment balance of bar i says that it is parallel to $F_i = p + c_i e_z$, where $c_i$ is the
-//! weight carried before and at joint i−1, that of bar i shared by the lever rule. So
+//! weight carried at the joints 1 to i−1, that of each bar shared by the lever rule. What joint 0
+//! carries, $m_1(1 - r_1/l_1)$, adds to the pull on the first anchor alone. So
 //! $u_i = s_i F_i/|F_i|$ with $s_i = +1$ in tension and −1 in compression, and an equilibrium is a pattern
 //! of signs and a pull that close the chain:
 //!
@@ -24,7 +25,7 @@
 //! | $l_i$ | `length` | n | chain's total = 1/2..1 | section II |
 //! | $c_i$ | `weight` | n | centred, spread 1..2 | (40), summed and levered |
 //! | $s_i$ | `signs`, `Pattern` | n | ±1 | |
-//! | $p = (H, V)/w$ | `Cell` | 2 | projective | −(λ₁, λ₂, λ₃) |
+//! | $p = (H, V)/w$ | `Cell` | 2 | projective | −(λ₁, λ₂, λ₃), less what joint 0 carries |
 //! | $F_i$ | `force` | 2 per bar | that of $c_i$ | |
 //! | $l_i f_i = l_i F_i/\|F_i\|$ | `BarTerm` | 2 per bar | that of $l_i$ | |
 //! | $\Phi_s$, $\Phi_s'$ | `Closure` | 2, 2 × 2 | that of $l_i$ | (iii), (iv), for n bars |

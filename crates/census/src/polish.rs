@@ -1,6 +1,6 @@
 //! Enclosures as narrow as doubles allow, however ill-conditioned the pull.
 
-use model::Problem;
+use model::{Bar, Problem};
 
 use crate::Interval;
 use crate::cell::Cell;
@@ -20,7 +20,7 @@ const ROOM: f64 = 4.0;
 #[derive(Debug)]
 pub(crate) struct PreciseSystem {
     length: Vec<Precise>,
-    /// `c_i`, not centred.
+    /// `c_i`, not centred; exactly 0 for bar 1.
     weight: Vec<Precise>,
     span: [Precise; 2],
     offset: f64,
@@ -29,13 +29,15 @@ pub(crate) struct PreciseSystem {
 impl PreciseSystem {
     pub(crate) fn new(problem: &Problem, system: &System) -> Self {
         let bars = problem.chain().bars();
-        let mut carried = Precise::ZERO;
-        let mut weight = Vec::with_capacity(bars.len());
-        for bar in bars {
-            let mass = Precise::point(bar.mass_kg()).scale(system.mass_unit_kg.recip());
-            let length = Precise::point(bar.length_m());
-            weight.push(carried + mass * ((length - Precise::point(bar.centre_m())) / length));
-            carried = carried + mass;
+        let mass = |bar: &Bar| Precise::point(bar.mass_kg()).scale(system.mass_unit_kg.recip());
+        let [length, centre] =
+            [Bar::length_m, Bar::centre_m].map(|of| move |bar| Precise::point(of(bar)));
+        // As in `System`: what joint 0 carries is left out.
+        let mut carried = mass(&bars[0]) * (centre(&bars[0]) / length(&bars[0]));
+        let mut weight = vec![Precise::ZERO];
+        for bar in &bars[1..] {
+            weight.push(carried + mass(bar) * ((length(bar) - centre(bar)) / length(bar)));
+            carried = carried + mass(bar);
         }
         for group in &system.groups {
             let first = weight[group.start];

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use model::{Problem, Vector};
+use model::{Bar, Problem, Vector};
 
 use crate::face::Face;
 use crate::{CensusError, Interval};
@@ -13,7 +13,7 @@ use crate::{CensusError, Interval};
 pub(crate) struct System {
     /// `l_i`, in [`length_unit_m`](Self::length_unit_m).
     pub(crate) length: Vec<Interval>,
-    /// `c_i` less [`offset`](Self::offset), in [`mass_unit_kg`](Self::mass_unit_kg) × g: between −1
+    /// `c_i` less [`offset`](Self::offset), `c_1` being 0, in [`mass_unit_kg`](Self::mass_unit_kg) × g: between −1
     /// and 1, not falling.
     pub(crate) weight: Vec<Interval>,
     /// For each group, the weights of all bars less the one of the group: accurate where the
@@ -39,8 +39,12 @@ pub(crate) struct System {
     pub(crate) start_m: Vector,
     /// Joint n, m.
     pub(crate) end_m: Vector,
-    /// Masses in the unit of mass.
-    pub(crate) mass: Vec<Interval>,
+    /// What joint 0 carries, in the unit of mass: a part of the reaction there and of nothing else. It
+    /// may be larger than all other weights by any factor and is never added to them.
+    pub(crate) on_start: Interval,
+    /// What each bar adds behind joint 0, in the unit of mass: bar 1 what it leaves at joint 1, any other
+    /// bar its mass.
+    pub(crate) added: Vec<Interval>,
 }
 
 /// A power of two at or a little above a number that is not negative; its inverse is normal too.
@@ -78,16 +82,16 @@ impl System {
         let bars = chain.bars();
         let length_unit_m = power_of_two_above(chain.total_length_m());
 
-        // The lever rule: bar i leaves m_i (1 - r_i / l_i) at joint i-1 and the rest at joint i;
-        // c_i is all that hangs before and at joint i-1.
-        let mut carried = Interval::ZERO;
-        let mut raw = Vec::with_capacity(bars.len());
-        for bar in bars {
-            let mass = Interval::point(bar.mass_kg());
-            let lever = (Interval::point(bar.length_m()) - Interval::point(bar.centre_m()))
-                / Interval::point(bar.length_m());
-            raw.push(carried + mass * lever);
-            carried = carried + mass;
+        // c_i is all that hangs at the joints 1 to i-1. What joint 0 carries would be the same part of
+        // every c_i: a large one would cost them their digits.
+        let mut added: Vec<Interval> =
+            bars.iter().map(|bar| Interval::point(bar.mass_kg())).collect();
+        added[0] = at_second_joint(&bars[0]);
+        let mut carried = added[0];
+        let mut raw = vec![Interval::ZERO];
+        for bar in &bars[1..] {
+            raw.push(carried + at_first_joint(bar));
+            carried = carried + Interval::point(bar.mass_kg());
         }
         let groups = groups(problem);
         for group in &groups {
@@ -138,10 +142,8 @@ impl System {
             gravity_m_s2: chain.gravity_m_s2(),
             start_m: anchors.start_m,
             end_m: anchors.end_m,
-            mass: bars
-                .iter()
-                .map(|bar| Interval::point(bar.mass_kg()).scale(mass_unit_kg.recip()))
-                .collect(),
+            on_start: at_first_joint(&bars[0]).scale(mass_unit_kg.recip()),
+            added: added.into_iter().map(|mass| mass.scale(mass_unit_kg.recip())).collect(),
         }
     }
 
@@ -179,17 +181,11 @@ impl System {
     /// The weights of all bars less that of the bars of a group, from the masses in between.
     fn weights_from(&self, problem: &Problem, group: &Range<usize>) -> Vec<Interval> {
         let bars = problem.chain().bars();
-        // What a bar leaves at its first and at its second joint.
-        let first = |i: usize| {
-            let length = Interval::point(bars[i].length_m());
-            self.mass[i] * ((length - Interval::point(bars[i].centre_m())) / length)
-        };
-        let second = |i: usize| {
-            self.mass[i]
-                * (Interval::point(bars[i].centre_m()) / Interval::point(bars[i].length_m()))
-        };
+        let unit = self.mass_unit_kg.recip();
         let between = |from: usize, to: usize| {
-            second(from) + self.mass[from + 1..to].iter().copied().sum() + first(to)
+            at_second_joint(&bars[from]).scale(unit)
+                + self.added[from + 1..to].iter().copied().sum()
+                + at_first_joint(&bars[to]).scale(unit)
         };
         (0..bars.len())
             .map(|i| {
@@ -202,6 +198,12 @@ impl System {
                 }
             })
             .collect()
+    }
+
+    /// The pull of the chain on the first anchor, N, from that of bar 1 on joint 0.
+    pub(crate) fn pull_on_anchor_n(&self, [h, v]: [Interval; 2]) -> [Interval; 2] {
+        let newton = self.force_unit_n();
+        [h * newton, (v - self.on_start) * newton]
     }
 
     /// Unit of force, N.
@@ -219,6 +221,21 @@ impl System {
         };
         [part(self.direction[0]), part(self.direction[1]), up]
     }
+}
+
+/// What a bar leaves at its first joint, kg: m (1 − r/l), by the lever rule.
+fn at_first_joint(bar: &Bar) -> Interval {
+    let length = Interval::point(bar.length_m());
+    Interval::point(bar.mass_kg()) * ((length - Interval::point(bar.centre_m())) / length)
+}
+
+/// What a bar leaves at its second joint, kg: m r/l, and nothing at all if its centre is on the first.
+fn at_second_joint(bar: &Bar) -> Interval {
+    if bar.mass_kg() <= 0.0 || bar.centre_m() <= 0.0 {
+        return Interval::ZERO;
+    }
+    Interval::point(bar.mass_kg())
+        * (Interval::point(bar.centre_m()) / Interval::point(bar.length_m()))
 }
 
 /// Runs of bars joined by joints without weight.

@@ -121,9 +121,8 @@ fn unite(all: &mut Task, more: &Task) {
 impl Undecided {
     pub(crate) fn new(system: &System, reason: Reason, cell: &Cell, patterns: &[Pattern]) -> Self {
         let signs = patterns.iter().map(|pattern| pattern.signs(system.bars()).collect()).collect();
-        let newton = system.force_unit_n();
         let finite = cell.homogeneous()[2].lo() > 0.0;
-        let pull_n = finite.then(|| cell.pull(system).map(|part| part * newton));
+        let pull_n = finite.then(|| system.pull_on_anchor_n(cell.pull(system)));
         Self { reason, signs, chart: cell.face, at: cell.at, pull_n }
     }
 
@@ -133,7 +132,7 @@ impl Undecided {
         let group = system.groups.iter().position(|group| group.contains(&slack)).unwrap_or(0);
         let face = Face::Around(u8::try_from(group).unwrap_or(u8::MAX));
         let cell = Cell { face, at: [Interval::ZERO; 2] };
-        let pull_n = Some(cell.pull(system).map(|part| part * system.force_unit_n()));
+        let pull_n = Some(system.pull_on_anchor_n(cell.pull(system)));
         Self { reason: Reason::Slack, signs: vec![signs], chart: face, at: cell.at, pull_n }
     }
 }

@@ -173,6 +173,46 @@ fn weight_on_the_anchors_alone_is_refused() {
     assert_eq!(result, Err(CensusError::WeightOnAnchors));
 }
 
+/// Weight on an anchor acts on its reaction alone, however large it is.
+#[test]
+fn weight_on_an_anchor_takes_no_digits_from_the_rest() {
+    /// Widest box of an angle, rad, and of an energy, J; measured: 1.3e-14 and 1e-13.
+    const ANGLE_RAD: f64 = 4e-14;
+    const ENERGY_J: f64 = 4e-13;
+    let chain = |mass: f64| {
+        problem(&[(1.0, mass, 0.0), (0.8, 1.0, 0.4), (0.9, 1.0, 0.45)], [1.0, 0.0, 0.3])
+    };
+    let light = census(&chain(1.0));
+    assert!(light.complete && light.equilibria.len() == 8);
+    let mut widest = [0.0_f64; 2];
+    for mass in [0.0, 1e4, 1e8, 1e10, 1e14] {
+        let heavy = census(&chain(mass));
+        assert!(heavy.complete, "{mass:e}: {:?}", heavy.undecided);
+        assert_eq!(heavy.equilibria.len(), 8, "{mass:e}");
+        for (a, b) in heavy.equilibria.iter().zip(&light.equilibria) {
+            assert_eq!((&a.signs, a.index_in_plane), (&b.signs, b.index_in_plane));
+            for (x, y) in a.angles_rad.iter().zip(&b.angles_rad) {
+                widest[0] = widest[0].max(x.width());
+                assert!(x.width() < ANGLE_RAD && !x.misses(*y), "{mass:e}: {:e}", x.width());
+            }
+            widest[1] = widest[1].max(a.energy_j.width());
+            assert!(a.energy_j.width() < ENERGY_J && !a.energy_j.misses(b.energy_j));
+            // All joints but the first carry the same; the first carries the weight in addition.
+            let pairs = a.multipliers_n.iter().zip(&b.multipliers_n).enumerate();
+            for (joint, (x, y)) in pairs {
+                let more = if joint == 0 { (mass - 1.0) * 9.81 } else { 0.0 };
+                let off = (x[2].mid() - y[2].mid() - more).abs();
+                assert!(
+                    off <= 4.0 * f64::EPSILON * more.abs() + 1e-12,
+                    "{mass:e} {joint}: {off:e}"
+                );
+            }
+            assert!((a.pull_n[1].mid() + a.multipliers_n[0][2].mid()).abs() <= 0.0);
+        }
+    }
+    println!("widest: {widest:?}");
+}
+
 #[test]
 fn a_chain_too_long_is_refused_with_its_cost() {
     let result = Census::take(&equal(30, [2.5, 0.0, 0.0]), &Settings::default());
