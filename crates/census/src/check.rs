@@ -10,7 +10,7 @@ use crate::cell::Cell;
 use crate::census::by_energy_and_angles;
 use crate::equilibrium::ProvenEquilibrium;
 use crate::face::Face;
-use crate::krawczyk::{Zero, inside, krawczyk, narrow};
+use crate::krawczyk::{Zero, inside, krawczyk_about_zero, narrow};
 use crate::morse::MorseError;
 use crate::polish::{PreciseSystem, polish};
 use crate::system::System;
@@ -37,9 +37,22 @@ pub enum CheckError {
         /// Number in the list, from 1.
         number: usize,
     },
-    /// Occurs when the neighbourhood of an equilibrium is not proved to hold exactly one.
-    #[error("the neighbourhood of equilibrium {number} does not hold exactly one")]
+    /// Occurs when the neighbourhood of an equilibrium is proved to hold none.
+    #[error("the neighbourhood of equilibrium {number} holds none")]
+    Empty {
+        /// Number in the list, from 1.
+        number: usize,
+    },
+    /// Occurs when the neighbourhood of an equilibrium is not proved to hold exactly one. That refutes
+    /// nothing: it may hold one all the same.
+    #[error("the neighbourhood of equilibrium {number} is not proved to hold exactly one")]
     NotOne {
+        /// Number in the list, from 1.
+        number: usize,
+    },
+    /// Occurs when the index of an equilibrium is not proved. That refutes nothing.
+    #[error("the index of equilibrium {number} is not proved")]
+    IndexNotProved {
         /// Number in the list, from 1.
         number: usize,
     },
@@ -83,12 +96,26 @@ pub enum CheckError {
     },
 }
 
+impl CheckError {
+    /// Whether it shows that the census is wrong; else a proof did not succeed, which shows nothing.
+    ///
+    /// ```
+    /// use census::CheckError;
+    /// assert!(CheckError::Empty { number: 1 }.refutes());
+    /// assert!(!CheckError::NotOne { number: 1 }.refutes());
+    /// ```
+    #[must_use]
+    pub fn refutes(&self) -> bool {
+        !matches!(self, Self::NotOne { .. } | Self::IndexNotProved { .. })
+    }
+}
+
 impl Census {
     /// Judge this census of a chain.
     ///
     /// # Errors
     ///
-    /// The first thing that is wrong, as [`CheckError`].
+    /// The first thing that is wrong or not proved, as [`CheckError`].
     pub fn check(&self, problem: &Problem) -> Result<(), CheckError> {
         if problem.chain().bars().len() != self.statistics.bars {
             return Err(CheckError::Claim { quantity: "the number of bars" });
@@ -144,7 +171,10 @@ fn check_one(
         return Err(malformed);
     }
     let not_one = CheckError::NotOne { number };
-    let image = krawczyk(system, signs, &around, around.middle()).ok_or(not_one.clone())?;
+    let image = krawczyk_about_zero(system, signs, &around).ok_or(not_one.clone())?;
+    if image.misses(&around) {
+        return Err(CheckError::Empty { number });
+    }
     if !inside(&image, &around) {
         return Err(not_one);
     }
@@ -155,7 +185,8 @@ fn check_one(
     // `new` shows a circle by its other point if bar 1 leans the other way.
     let flip = |cell: Cell| if system.vertical && signs[0] < 0 { cell.mirrored() } else { cell };
     let zero = Zero { tight: flip(tight), alone_in: flip(around) };
-    let anew = ProvenEquilibrium::new(system, signs, &zero).ok_or(CheckError::Index { number })?;
+    let anew = ProvenEquilibrium::new(system, signs, &zero)
+        .ok_or(CheckError::IndexNotProved { number })?;
     if (anew.index_in_plane, anew.index_out_of_plane, anew.optimal, anew.circle)
         != (stated.index_in_plane, stated.index_out_of_plane, stated.optimal, stated.circle)
     {

@@ -137,6 +137,15 @@ pub(crate) fn inside(inner: &Cell, outer: &Cell) -> bool {
     inner.at[0].inside(outer.at[0]) && inner.at[1].inside(outer.at[1])
 }
 
+/// The image K(X) about the point of the cell where Newton's method from its middle ends, if it ends in
+/// the cell, else about the middle. The image is narrowest about the zero itself.
+pub(crate) fn krawczyk_about_zero(system: &System, signs: &[i8], cell: &Cell) -> Option<Cell> {
+    let (middle, half) = (cell.middle(), cell.half());
+    let x = newton(system, signs, cell, middle, half).map_or(middle, |(x, _)| x);
+    let within = (0..2).all(|k| cell.at[k].contains(x[k]));
+    krawczyk(system, signs, cell, if within { x } else { middle })
+}
+
 /// Newton's method from the middle: the last point and the size of the last step. No proof.
 fn newton(
     system: &System,

@@ -173,6 +173,30 @@ fn weight_on_the_anchors_alone_is_refused() {
     assert_eq!(result, Err(CensusError::WeightOnAnchors));
 }
 
+/// Next to a fold the middle of a neighbourhood is so far from its zero that Krawczyk's test about the middle
+/// fails: what the search proved about the zero, the check proves about the zero as well.
+#[test]
+fn next_to_a_fold_the_check_proves_what_the_search_proved() {
+    let bars = [
+        (0.744_003_286_989_166_3, 0.295_321_229_436_031_84, 0.734_670_458_537_469),
+        (0.800_934_968_638_009_8, 0.337_843_480_862_743_63, 0.252_195_513_658_455_1),
+        (0.955_505_132_010_287, 0.371_962_658_396_993_55, 0.359_763_508_059_449_1),
+        (0.606_212_031_725_482, 0.798_976_642_597_092_9, 0.357_182_036_441_701_43),
+    ];
+    let mut worst = 0.0_f64;
+    // From a tenth of a length off the fold to the last place, at both its sides.
+    for k in 0..=150 {
+        for off in [-1.0, 1.0].map(|sign| sign * 10_f64.powf(-0.1 * f64::from(k) - 1.0)) {
+            let end = [1.488_489_526_943_378_4, 0.0, 1.650_370_399_310_159_3 + off];
+            let census = census(&problem(&bars, end));
+            let conditions = census.equilibria.iter().map(|equilibrium| equilibrium.condition);
+            worst = conditions.fold(worst, f64::max);
+        }
+    }
+    // They are folds indeed.
+    assert!(worst > 1e6, "{worst:e}");
+}
+
 /// Weight on an anchor acts on its reaction alone, however large it is.
 #[test]
 fn weight_on_an_anchor_takes_no_digits_from_the_rest() {

@@ -160,7 +160,7 @@ fn a_perturbed_coefficient_is_caught() {
         let error = Err(CheckError::Wrong { number: 1, quantity: "the pull" });
         assert_eq!(census(bars).check(&problem(bars, 0.6 * (1.0 + 1e-9))), error);
         // And a much heavier one: the neighbourhood holds no equilibrium any more.
-        let error = Err(CheckError::NotOne { number: 1 });
+        let error = Err(CheckError::Empty { number: 1 });
         assert_eq!(census(bars).check(&problem(bars, 1.2)), error);
     }
 }
@@ -171,7 +171,7 @@ fn a_wrong_sign_a_wrong_number_of_bars_and_a_double_are_caught() {
         let census = census(bars);
         let mut wrong = census.clone();
         wrong.equilibria[0].signs[0] *= -1;
-        assert_eq!(check(&wrong), Err(CheckError::NotOne { number: 1 }));
+        assert_eq!(check(&wrong), Err(CheckError::Empty { number: 1 }));
         let mut wrong = census.clone();
         wrong.equilibria[0].signs.pop();
         assert_eq!(check(&wrong), Err(CheckError::Malformed { number: 1 }));
