@@ -1,8 +1,17 @@
 //! A census judged again, from the problem and its own claims.
 //!
 //! Nothing of the search is used: every claimed neighbourhood is proved anew to hold exactly one zero,
-//! every number is computed anew from it, and the count is held against the topology. What a check cannot
-//! see by itself, an equilibrium that is not listed, the Morse inequalities see.
+//! and every number is computed anew from it.
+//!
+//! That nothing is missing is not proved anew: only the search proves it. A list that is called complete is
+//! held against what every complete list must be. The Morse inequalities see any one missing equilibrium,
+//! but not a pair of neighbouring index that topology does not need. The lowest and the highest position of
+//! all are seen in any case. For the second derivative of the energy by motions out of the plane is
+//! $y^T \Omega y$ with the stress matrix Ω (module `stress`), and Ω positive semidefinite certifies
+//! that no position is lower, Ω negative semidefinite that none is higher; conversely the lowest and the
+//! highest position have such an Ω, being lowest and highest among chains in any dimension. So exactly
+//! one equilibrium has index 0 out of the plane, and exactly one has the largest that there is; a slack
+//! family stands for it if all other bars of the family are in tension, or all in compression.
 
 use model::Problem;
 
@@ -87,6 +96,17 @@ pub enum CheckError {
     /// Occurs when the equilibria and the topology of the configuration space contradict each other.
     #[error(transparent)]
     Morse(#[from] MorseError),
+    /// Occurs when a list that is called complete has not exactly one equilibrium or slack family that is
+    /// certified, by its stress matrix, to be the lowest or the highest position of all.
+    #[error(
+        "a complete list has one {which} position, certified by its stress matrix; this one has {found}"
+    )]
+    Extreme {
+        /// `lowest` or `highest`.
+        which: &'static str,
+        /// How many it has.
+        found: usize,
+    },
     /// Occurs when the slack families, the topology or the claim of completeness are not what follows
     /// from the rest.
     #[error("{quantity} does not follow from the chain")]
@@ -150,6 +170,25 @@ impl Census {
         }
         if self.undecided.is_empty() {
             self.morse()?;
+        }
+        if self.complete {
+            self.extremes()?;
+        }
+        Ok(())
+    }
+
+    /// Whether the lowest and the highest position of all are listed, and once.
+    fn extremes(&self) -> Result<(), CheckError> {
+        // The turn about vertical anchors is in the kernel of the stress matrix.
+        let joints = self.statistics.bars - 1 - usize::from(self.circles);
+        for (which, sign, index) in [("lowest", 1, 0), ("highest", -1, joints)] {
+            let equilibria = self.equilibria.iter().filter(|e| e.index_out_of_plane == index);
+            let families =
+                self.families.iter().filter(|f| f.signs.iter().all(|s| *s == sign || *s == 0));
+            let found = equilibria.count() + families.count();
+            if found != 1 {
+                return Err(CheckError::Extreme { which, found });
+            }
         }
         Ok(())
     }

@@ -43,7 +43,8 @@
 //! # What is independent of the search
 //!
 //! [`Topology`] knows from the lengths alone which numbers of equilibria of each index are possible;
-//! [`Census::check`] proves every claim of a census anew; [`sextic`] counts the equilibria of the paper's
+//! [`Census::check`] proves every listed equilibrium anew, and holds the claim that nothing is missing
+//! against what topology and duality say; [`sextic`] counts the equilibria of the paper's
 //! example by exact algebra.
 
 mod angle;

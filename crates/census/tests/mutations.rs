@@ -85,6 +85,68 @@ fn a_pair_that_cancels_in_the_euler_characteristic_is_caught_if_topology_needs_i
     }
 }
 
+/// What the check of a complete list can see of missing pairs that cancel in every count, and what it cannot: the
+/// lowest and the highest position must be there, and of the others the search alone knows.
+#[test]
+fn of_missing_pairs_that_topology_does_not_need_only_extremes_are_seen() {
+    let mut seen = [0, 0];
+    let mut unseen = 0;
+    for bars in CHAINS {
+        let whole = census(bars);
+        let size = whole.equilibria.len();
+        for (low, high) in (0..size).flat_map(|low| (low + 1..size).map(move |high| (low, high))) {
+            let index = |k: usize| whole.equilibria[k].index_in_plane;
+            if index(low).abs_diff(index(high)) != 1 {
+                continue;
+            }
+            let mut without = whole.clone();
+            without.equilibria.remove(high);
+            without.equilibria.remove(low);
+            if without.morse().is_err() {
+                assert!(check(&without).is_err());
+                continue;
+            }
+            // The lowest is the first of the list, the highest the last.
+            let error = |which| Err(CheckError::Extreme { which, found: 0 });
+            if low == 0 {
+                assert_eq!(check(&without), error("lowest"));
+                seen[0] += 1;
+            } else if high == size - 1 {
+                assert_eq!(check(&without), error("highest"));
+                seen[1] += 1;
+            } else {
+                assert_eq!(check(&without), Ok(()), "{bars} bars without {low} and {high}");
+                unseen += 1;
+            }
+            // A list that is not called complete may lack them.
+            without.complete = false;
+            assert_eq!(check(&without), Ok(()));
+        }
+    }
+    println!("seen {seen:?}, unseen {unseen}");
+    assert!(seen.iter().all(|seen| *seen > 0) && unseen > 0, "{seen:?} {unseen}");
+}
+
+/// Families stand for the lowest and the highest position where all other bars hang, or all stand.
+#[test]
+fn a_slack_family_may_be_the_lowest_or_the_highest() {
+    let bars = [(0.9, 2.0, 0.3), (0.4, 0.0, 0.2), (0.45, 0.0, 0.2), (0.5, 1.5, 0.2)]
+        .map(|(l, m, r)| Bar::new(l, m, r, [0.0; 3]).unwrap());
+    let anchors = |up: f64| Anchors { start_m: [0.0; 3], end_m: [0.3, 0.0, up] };
+    let mut extremes = [0, 0];
+    for up in [-0.4, -0.2, 0.0, 0.2, 0.4] {
+        let chain = Chain::new("slack", 9.81, anchors(up), bars.to_vec()).unwrap();
+        let problem = Problem::new(chain).unwrap();
+        let census = Census::take(&problem, &Settings::default()).unwrap();
+        assert!(census.complete && census.check(&problem) == Ok(()));
+        for (count, sign) in extremes.iter_mut().zip([1, -1]) {
+            let stands = |f: &&census::SlackFamily| f.signs.iter().all(|s| [0, sign].contains(s));
+            *count += census.families.iter().filter(stands).count();
+        }
+    }
+    assert!(extremes.iter().all(|count| *count > 0), "{extremes:?}");
+}
+
 #[test]
 fn a_flipped_index_is_caught() {
     for (census, k) in each_equilibrium() {
