@@ -79,9 +79,14 @@ impl Census {
             evidence.reach(
                 Rung::Complete,
                 format!(
-                    "no other of the {} patterns of tension and compression closes anywhere else \
+                    "no other of the {} patterns of tension and compression closes anywhere else{} \
                      ({} cells of pulls)",
                     2_u64.saturating_pow(u32::try_from(proven.signs.len()).unwrap_or(u32::MAX)),
+                    match self.families.len() {
+                        0 => String::new(),
+                        1 => ", but for 1 family with slack bars".to_owned(),
+                        number => format!(", but for {number} families with slack bars"),
+                    },
                     self.statistics.cells
                 ),
             );

@@ -155,6 +155,27 @@ fn slack_bars_make_families_that_the_topology_needs() {
     assert!(wrong.check(&five).is_err() && wrong.morse().is_err());
 }
 
+/// "No other closes" would be wrong where slack bars close in ways of their own: the evidence names them.
+#[test]
+fn the_evidence_of_completeness_names_the_slack_families() {
+    let slack = [(0.9, 2.0, 0.3), (0.4, 0.0, 0.2), (0.45, 0.0, 0.2), (0.5, 1.5, 0.2)];
+    let evidence = |end| {
+        let census = census(&problem(&slack, end));
+        let answer = census.to_model().remove(0);
+        let complete =
+            answer.evidence.ladder().iter().find(|step| step.rung == model::Rung::Complete);
+        let how = complete.map(|step| (step.reached, step.how.clone())).unwrap();
+        (census.equilibria.len(), census.families.len(), how.0, how.1)
+    };
+    let (equilibria, families, reached, how) = evidence([0.3, 0.0, 0.9]);
+    assert_eq!((equilibria, families, reached), (8, 2, true));
+    assert!(how.contains("anywhere else, but for 2 families with slack bars ("), "{how}");
+    // Out of reach of the slack bars there is none.
+    let (_, families, reached, how) = evidence([1.5, 0.0, 0.1]);
+    assert_eq!((families, reached), (0, true));
+    assert!(how.contains("anywhere else (") && !how.contains("slack"), "{how}");
+}
+
 #[test]
 fn three_slack_bars_are_a_curve_of_equilibria() {
     let chain =
