@@ -80,7 +80,7 @@ mod undecided;
 pub use census::{Census, Statistics};
 pub use check::CheckError;
 pub use equilibrium::{Neighbourhood, ProvenEquilibrium};
-pub use error::CensusError;
+pub use error::{CensusError, rough_time};
 pub use face::Face;
 pub use families::SlackFamily;
 pub use interval::Interval;

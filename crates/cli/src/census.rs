@@ -6,7 +6,7 @@ mod table;
 
 use std::path::{Path, PathBuf};
 
-use census::{CensusError, Settings};
+use census::{CensusError, Settings, rough_time};
 use clap::Args;
 use miette::miette;
 
@@ -124,56 +124,15 @@ fn refuse(error: &CensusError) -> Failure {
         format!(
             "--max-bars {bars} takes it all the same, in about {} (good to a factor of ten: the cost doubles with each \
              bar, as the number of equilibria does)",
-            long_time(*estimate_s)
+            rough_time(*estimate_s)
         )
     } else {
         format!(
             "no census goes beyond {} bars, --max-bars or not: the cost doubles with each bar, and this one would \
              take about {}. `funicular solve` finds the hanging equilibrium of a chain of any length",
             Settings::MAX_BARS,
-            long_time(*estimate_s)
+            rough_time(*estimate_s)
         )
     };
     Failure::bad_input(miette!(help = help, "{error}"))
-}
-
-/// A rough time in words, in the unit that people would use.
-fn long_time(seconds: f64) -> String {
-    /// Largest first; the year is the Julian one.
-    const UNITS: [(f64, &str); 5] = [
-        (365.25 * 86_400.0, "years"),
-        (86_400.0, "days"),
-        (3_600.0, "hours"),
-        (60.0, "minutes"),
-        (1.0, "s"),
-    ];
-    /// Beyond this a number of years is read more easily as a power of ten.
-    const MANY: f64 = 1e4;
-    if seconds < 1.0 {
-        return "a second".to_owned();
-    }
-    let (unit, name) =
-        UNITS.into_iter().find(|(unit, _)| seconds >= 2.0 * unit).unwrap_or((1.0, "s"));
-    let number = seconds / unit;
-    if number >= MANY { format!("{number:.0e} {name}") } else { format!("{number:.0} {name}") }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::long_time;
-
-    #[test]
-    fn times_are_in_units_that_people_use() {
-        for (seconds, words) in [
-            (0.3, "a second"),
-            (90.0, "90 s"),
-            (130.0, "2 minutes"),
-            (3.0 * 3_600.0, "3 hours"),
-            (1e6, "12 days"),
-            (1e9, "32 years"),
-            (1e30, "3e22 years"),
-        ] {
-            assert_eq!(long_time(seconds), words);
-        }
-    }
 }
