@@ -15,7 +15,7 @@ use crate::input;
 use crate::output;
 use crate::progress::Progress;
 
-/// At most so many shapes in the figure: ten rows of seven fit a screen or a page.
+/// At most so many shapes in the figure: ten rows of seven fit a screen or a page. The help of `--svg` says so.
 const SHAPES: usize = 70;
 
 /// More threads than this are a mistake.
@@ -36,7 +36,7 @@ pub struct Census {
     /// Refuse longer chains, with an estimate of what they would cost (at most 24)
     #[arg(long, value_name = "N", default_value_t = Settings::default().max_bars)]
     pub max_bars: usize,
-    /// Draw all shapes side by side into this SVG file
+    /// Draw the shapes side by side into this SVG file: all up to 70, of more the first 70 by energy
     #[arg(long, value_name = "FILE")]
     pub svg: Option<PathBuf>,
     /// Write joints and forces, a line per equilibrium and joint, to this CSV file

@@ -331,6 +331,41 @@ fn slack_families_are_listed_as_such() {
     let text = stdout(&funicular(&[&file]));
     assert!(text.contains("families of slack bars") && text.contains(".."), "{text}");
 }
+}
+
+#[test]
+fn of_many_equilibria_the_first_are_printed_bar_by_bar() {
+    // Seven different bars: more equilibria than are printed, and far more bars.
+    let bars: Vec<(f64, f64)> =
+        (0..7).map(|k| (0.5 + 0.037 * f64::from(k * k % 11), 1.0)).collect();
+    let file = chain("many", [1.1, 0.0, 0.3], &bars);
+    let value = json(&[&file], 0);
+    let count = value["census"]["count"].as_u64().unwrap();
+    assert!(count > 40, "{count}");
+    let text = stdout(&funicular(&[&file]));
+    let (_, angles) = text.split_once("Angles from the descending vertical").unwrap();
+    let (angles, _) = angles.split_once("Evidence:").unwrap();
+    // Eleven equilibria of seven bars are 77 lines, below the limit of 80.
+    let lines = angles.lines().filter(|l| l.contains("tension") || l.contains("compression"));
+    assert_eq!(lines.count(), 77, "{text}");
+    // The first and the eleventh are there, as in the JSON: ten digits say so.
+    for k in [0, 10] {
+        let angle = format!("{:?}", number(&value["equilibria"][k]["angles_deg"][6]));
+        assert!(angles.contains(&angle[..11]), "{angle} is not in\n{angles}");
+    }
+    let more = format!("... and {} equilibria with their angles and forces more", count - 11);
+    assert!(angles.contains(&more) && angles.contains("--json or --csv FILE"), "{angles}");
+    // Both tables with a line for each equilibrium say what they leave out.
+    let more = format!("... and {} equilibria more", count - 40);
+    assert_eq!(text.matches(&more).count(), 2, "{text}");
+}
+
+#[test]
+fn the_help_says_how_many_shapes_are_drawn() {
+    // Wherever the lines of the help are broken.
+    let text = stdout(&funicular(&["--help"]));
+    let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(text.contains("all up to 70, of more the first 70 by energy"), "{text}");
 
 #[test]
 fn chains_out_of_reach_are_refused_with_their_cost() {

@@ -15,7 +15,7 @@ const PRINTED: usize = 40;
 /// Digits of an energy in joules: in its own unit it has all.
 const ENERGY_DIGITS: usize = 10;
 
-/// So many lines of bars are printed.
+/// So many lines of bars are printed, those of whole equilibria; of the first one in any case.
 const PRINTED_BARS: usize = 80;
 
 /// So many undecided boxes and slack families are printed.
@@ -148,19 +148,16 @@ fn reactions(answer: &Answer) -> String {
         rows.add_row([found.label.clone(), vector(reactions.start), vector(reactions.end)]);
     }
     numbers_from(&mut rows, 1);
-    format!("Forces of the ground on the chain:\n{rows}\n\n")
+    let mut text = format!("Forces of the ground on the chain:\n{rows}\n");
+    left_out(&mut text, answer.equilibria.len(), PRINTED, "equilibria");
+    text + "\n"
 }
 
 /// Angles and forces, bar by bar.
 fn bars(answer: &Answer) -> String {
-    let lines = answer.equilibria.len() * answer.system.bars;
-    if lines > PRINTED_BARS {
-        return format!(
-            "The angles and forces of {lines} bars are not printed: --json or --csv FILE have them all.\n\n"
-        );
-    }
+    let printed = (PRINTED_BARS / answer.system.bars.max(1)).clamp(1, PRINTED);
     let mut rows = table(["#", "bar", "angle / deg", "signed / deg", "known to", "axial / N", ""]);
-    for found in &answer.equilibria {
+    for found in answer.equilibria.iter().take(printed) {
         for (k, angle) in found.angles_deg.iter().enumerate() {
             let axial = found.equilibrium.axial_n.get(k).copied().unwrap_or_default();
             let width = found.enclosures.angles_rad.get(k).map_or(0.0, |[low, high]| high - low);
@@ -176,9 +173,16 @@ fn bars(answer: &Answer) -> String {
         }
     }
     numbers_from(&mut rows, 1);
-    format!(
-        "Angles from the descending vertical, towards the last anchor (on one vertical: towards +Y):\n{rows}\n\n"
-    )
+    let mut text = format!(
+        "Angles from the descending vertical, towards the last anchor (on one vertical: towards +Y):\n{rows}\n"
+    );
+    left_out(
+        &mut text,
+        answer.equilibria.len(),
+        printed,
+        "equilibria with their angles and forces",
+    );
+    text + "\n"
 }
 
 /// How far the equilibria are proved, rung by rung: every reason once, with the equilibria it holds for.
