@@ -72,7 +72,7 @@ pub fn run(arguments: &Census) -> Result<Exit, Failure> {
     })
     .map_err(|error| refuse(&error))?;
     progress.say("the check of the census");
-    let verdict = census.check(&problem).map_err(|error| error.to_string());
+    let verdict = census.check(&problem);
     let name = problem.chain().name();
     let answer = answer::Answer::new(&problem, &census, verdict);
 
@@ -92,10 +92,13 @@ pub fn run(arguments: &Census) -> Result<Exit, Failure> {
     } else {
         output::print(&table::text(&problem, &answer))?;
     }
-    Ok(match (&answer.census.check, census.complete) {
-        (answer::Check { passed: false, .. }, _) => Exit::CheckFailed,
-        (_, true) => Exit::Done,
-        (_, false) => Exit::Undecided,
+    let check = &answer.census.check;
+    Ok(if check.refuted {
+        Exit::CheckFailed
+    } else if check.passed && census.complete {
+        Exit::Done
+    } else {
+        Exit::Undecided
     })
 }
 

@@ -194,7 +194,8 @@ fn the_paper_in_tables() {
         "optimal   2 of 4",
         "agreed    0 of 4",
         "Betti numbers [1, 1]",
-        "proved anew without the search",
+        "every equilibrium listed is proved anew without the search",
+        "That the list is complete rests on the search",
     ] {
         assert!(text.contains(wanted), "{wanted} is not in\n{text}");
     }
@@ -331,7 +332,6 @@ fn slack_families_are_listed_as_such() {
     let text = stdout(&funicular(&[&file]));
     assert!(text.contains("families of slack bars") && text.contains(".."), "{text}");
 }
-}
 
 #[test]
 fn of_many_equilibria_the_first_are_printed_bar_by_bar() {
@@ -366,6 +366,7 @@ fn the_help_says_how_many_shapes_are_drawn() {
     let text = stdout(&funicular(&["--help"]));
     let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
     assert!(text.contains("all up to 70, of more the first 70 by energy"), "{text}");
+}
 
 #[test]
 fn chains_out_of_reach_are_refused_with_their_cost() {

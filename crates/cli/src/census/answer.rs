@@ -1,6 +1,8 @@
 //! What `census --json` prints. Tables and CSV are written from the same.
 
-use census::{Interval, Position, ProvenEquilibrium, SlackFamily, Statistics, Undecided};
+use census::{
+    CheckError, Interval, Position, ProvenEquilibrium, SlackFamily, Statistics, Undecided,
+};
 use model::{Equilibrium, Problem, Rung, SystemSummary};
 use serde::Serialize;
 use validate::statics::judge;
@@ -113,15 +115,32 @@ pub struct Slack {
 #[derive(Debug, Serialize)]
 pub struct Check {
     pub passed: bool,
+    /// Whether something is shown to be wrong; else what failed is a proof, which shows nothing.
+    pub refuted: bool,
     pub failure: Option<String>,
 }
 
 /// At most so many patterns of an undecided box are listed: there can be 2^n.
 const PATTERNS: usize = 64;
 
+impl Check {
+    /// From the verdict.
+    pub fn of(verdict: Result<(), CheckError>) -> Self {
+        Self {
+            passed: verdict.is_ok(),
+            refuted: verdict.as_ref().is_err_and(CheckError::refutes),
+            failure: verdict.err().map(|error| error.to_string()),
+        }
+    }
+}
+
 impl Answer {
     /// Put together.
-    pub fn new(problem: &Problem, census: &census::Census, verdict: Result<(), String>) -> Self {
+    pub fn new(
+        problem: &Problem,
+        census: &census::Census,
+        verdict: Result<(), CheckError>,
+    ) -> Self {
         let (energy_unit_j, energy_symbol, energy_unit) = energy_unit(problem);
         let equilibria: Vec<Found> = census
             .positions()
@@ -147,7 +166,7 @@ impl Answer {
                 energy_unit_j,
                 energy_unit,
                 energy_symbol,
-                check: Check { passed: verdict.is_ok(), failure: verdict.err() },
+                check: Check::of(verdict),
                 statistics: census.statistics,
             },
             equilibria,

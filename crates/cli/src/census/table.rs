@@ -267,6 +267,22 @@ fn undecided(census: &Summary) -> String {
     text + "\n"
 }
 
+/// What the check proved, and what it did not.
+fn check_line(census: &Summary) -> String {
+    let listed = "Check: every equilibrium listed is proved anew without the search";
+    match (&census.check.failure, census.check.refuted) {
+        (None, _) if census.complete => format!(
+            "{listed}. That the list is complete rests on the search:\nthe check would see if one alone, the lowest \
+             or the highest were missing, not every pair."
+        ),
+        (None, _) => format!("{listed}."),
+        (Some(failure), true) => format!("Check FAILED: {failure}."),
+        (Some(failure), false) => {
+            format!("Check NOT DECIDED: {failure}. Nothing is shown to be wrong.")
+        }
+    }
+}
+
 /// The cross-checks, and what it took.
 fn sums(census: &Summary) -> String {
     let mut text = String::new();
@@ -288,10 +304,7 @@ fn sums(census: &Summary) -> String {
             );
         }
     }
-    let _ = match &census.check.failure {
-        None => writeln!(text, "Check: every claim proved anew without the search."),
-        Some(failure) => writeln!(text, "Check FAILED: {failure}."),
-    };
+    let _ = writeln!(text, "{}", check_line(census));
     let s = &census.statistics;
     let _ = writeln!(
         text,
@@ -301,4 +314,26 @@ fn sums(census: &Summary) -> String {
         duration(s.seconds)
     );
     text
+}
+
+#[cfg(test)]
+mod tests {
+    use census::{Census, CheckError, Settings};
+
+    use super::*;
+
+    #[test]
+    fn a_proof_that_fails_is_not_told_as_a_refutation() {
+        let problem = model::cases::paper();
+        let census = Census::take(&problem, &Settings::default()).unwrap();
+        let line = |verdict| check_line(&Answer::new(&problem, &census, verdict).census);
+        assert!(
+            line(Ok(())).contains("is proved anew") && line(Ok(())).contains("rests on the search")
+        );
+        let refuted = line(Err(CheckError::Empty { number: 2 }));
+        assert_eq!(refuted, "Check FAILED: the neighbourhood of equilibrium 2 holds none.");
+        let open = line(Err(CheckError::NotOne { number: 2 }));
+        assert!(open.starts_with("Check NOT DECIDED") && open.contains("is not proved to hold"));
+        assert!(!open.contains("FAILED"));
+    }
 }
