@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::sync::atomic::AtomicBool;
 
-use crate::description::{MANIFEST, SUMMARY, read_json, write_json};
+use crate::description::{SUMMARY, read_json, write_json};
 use crate::manifest::Manifest;
 use crate::shard::Shard;
 use crate::store::{StoreSummary, for_each_part};
@@ -47,7 +47,7 @@ pub fn merge(
             return Err(StoreError::SameFolder { path: out.to_owned() });
         }
     }
-    let lock = Lock::take(out, &whole, out.join(MANIFEST).exists())?;
+    let _lock = Lock::take(out, &whole, true)?;
     let proved = Mutex::new(BTreeMap::new());
     for_each_part(0..whole.parts(), threads, stop, &|part| {
         let Some(input) = inputs.values().find(|input| input.parts().contains(&part)) else {
@@ -77,7 +77,6 @@ pub fn merge(
     }
     let summary = StoreSummary::of(&whole, proved.into_values());
     write_json(&out.join(SUMMARY), &summary)?;
-    lock.release();
     Ok(Some(summary))
 }
 

@@ -94,7 +94,7 @@ pub fn run(
     if manifest.seeds == 0 {
         return Err(StoreError::NoSeeds);
     }
-    let lock = Lock::take(folder, manifest, settings.resume)?;
+    let _lock = Lock::take(folder, manifest, settings.resume)?;
     let parts = manifest.shard.parts(manifest.parts());
     let found = Mutex::new(Found::default());
     for_each_part(parts.clone(), settings.threads, settings.stop, &|part| {
@@ -141,7 +141,6 @@ pub fn run(
         run.summary = Some(summary);
     }
     run.repaired.sort();
-    lock.release();
     Ok(run)
 }
 

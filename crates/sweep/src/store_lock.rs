@@ -1,6 +1,7 @@
 //! One writer per folder, whatever ends it.
 
 use std::fs::{self, File, TryLockError};
+use std::io;
 use std::path::{Path, PathBuf};
 
 use crate::description::{MANIFEST, read_json};
@@ -17,6 +18,8 @@ pub(crate) struct Lock {
 
 impl Lock {
     /// Make the folder if need be, see that it is fit for this sweep, and clear what a killed process left.
+    ///
+    /// The lock comes first: what is seen before it may be gone or half written a moment later.
     pub(crate) fn take(
         folder: &Path,
         manifest: &Manifest,
@@ -24,6 +27,7 @@ impl Lock {
     ) -> Result<Self, StoreError> {
         let io = |error| StoreError::file(folder, error);
         fs::create_dir_all(folder).map_err(io)?;
+        let lock = Self::hold(folder)?;
         let held = folder.join(MANIFEST);
         let there = held.exists();
         if there && !resume {
@@ -32,13 +36,6 @@ impl Lock {
         if !there && let Some(found) = foreign(folder)? {
             return Err(StoreError::NotEmpty { path: folder.to_owned(), found });
         }
-        let path = folder.join(LOCK);
-        let file = File::create(&path).map_err(|error| StoreError::file(&path, error))?;
-        file.try_lock().map_err(|error| match error {
-            TryLockError::WouldBlock => StoreError::Busy { path: folder.to_owned() },
-            TryLockError::Error(error) => StoreError::file(&path, error),
-        })?;
-        let lock = Self { path, _file: file };
         columns::remove_unfinished(folder).map_err(io)?;
         if there {
             let held: Manifest = read_json(&held)?;
@@ -53,11 +50,59 @@ impl Lock {
         Ok(lock)
     }
 
-    /// Give the folder free. After an error the file stays, without a lock on it, and does no harm.
-    pub(crate) fn release(self) {
-        // Best effort, as above.
-        let _ = fs::remove_file(&self.path);
+    /// The lock alone.
+    fn hold(folder: &Path) -> Result<Self, StoreError> {
+        let path = folder.join(LOCK);
+        let io = |error| StoreError::file(&path, error);
+        loop {
+            // Not truncated: another process may hold it.
+            let file = File::options().create(true).append(true).open(&path).map_err(io)?;
+            match file.try_lock() {
+                Ok(()) => {}
+                Err(TryLockError::WouldBlock) => {
+                    return Err(StoreError::Busy { path: folder.to_owned() });
+                }
+                Err(TryLockError::Error(error)) => return Err(io(error)),
+            }
+            if is_at(&file, &path).map_err(io)? {
+                return Ok(Self { path, _file: file });
+            }
+            // Its last holder removed it in between; the next one to come would not see this lock.
+        }
     }
+}
+
+impl Drop for Lock {
+    /// Remove the file while it is still locked: nobody else's can be there.
+    fn drop(&mut self) {
+        if REMOVED {
+            // Best effort: a file without a lock on it does no harm.
+            let _ = fs::remove_file(&self.path);
+        }
+    }
+}
+
+/// Whether the file of a lock goes with it: where a file that was opened can be told from the one that has
+/// its name by now.
+const REMOVED: bool = cfg!(unix);
+
+/// Whether an open file is the one that has this name.
+#[cfg(unix)]
+fn is_at(file: &File, path: &Path) -> io::Result<bool> {
+    use std::os::unix::fs::MetadataExt as _;
+    let ours = file.metadata()?;
+    match fs::metadata(path) {
+        Ok(named) => Ok((named.dev(), named.ino()) == (ours.dev(), ours.ino())),
+        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(false),
+        Err(error) => Err(error),
+    }
+}
+
+/// Whether an open file is the one that has this name: nobody removes it here.
+#[cfg(not(unix))]
+#[expect(clippy::unnecessary_wraps, reason = "it can fail elsewhere")]
+fn is_at(_: &File, _: &Path) -> io::Result<bool> {
+    Ok(true)
 }
 
 /// Something in a folder that no unfinished sweep leaves there.
@@ -70,4 +115,27 @@ fn foreign(folder: &Path) -> Result<Option<String>, StoreError> {
         }
     }
     Ok(None)
+}
+
+#[cfg(all(test, unix))]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_lock_on_a_file_that_was_removed_is_none() {
+        let folder = tempfile::tempdir().unwrap();
+        let first = Lock::hold(folder.path()).unwrap();
+        assert!(matches!(Lock::hold(folder.path()), Err(StoreError::Busy { .. })));
+        // Opened while the first one held it, and got when it was gone.
+        let late = File::open(&first.path).unwrap();
+        assert!(is_at(&late, &first.path).unwrap());
+        drop(first);
+        late.try_lock().unwrap();
+        assert!(!is_at(&late, &folder.path().join(LOCK)).unwrap());
+        // Somebody else has made a new one meanwhile.
+        let second = Lock::hold(folder.path()).unwrap();
+        assert!(!is_at(&late, &second.path).unwrap());
+        drop(second);
+        assert!(!folder.path().join(LOCK).exists());
+    }
 }

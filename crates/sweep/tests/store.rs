@@ -136,6 +136,54 @@ fn a_folder_that_is_being_written_is_left_alone() {
     });
 }
 
+/// Rows that say whose they are.
+struct Marked(u64);
+
+impl Compute for Marked {
+    fn chunk(&self, seeds: Range<u64>) -> Chunk {
+        QUICK.chunk(seeds)
+    }
+
+    fn angles(&self, seeds: Range<u64>) -> Vec<Vec<f64>> {
+        vec![seeds.map(|_| self.0 as f64).collect(); 2]
+    }
+}
+
+/// Every round three different sweeps go for one new folder: one gets it, the others are told why not, and
+/// nothing of them is in it.
+#[test]
+fn of_sweeps_that_race_for_a_folder_one_gets_it() {
+    const ROUNDS: usize = 60;
+    let folder = tempfile::tempdir().unwrap();
+    let sweep_of = |seed_number| {
+        Manifest { seed_number, seeds: 10, format: "csv".to_owned(), ..manifest() }
+            .with_shard(Shard::WHOLE)
+    };
+    for round in 0..ROUNDS {
+        let out = folder.path().join(round.to_string());
+        let start = std::sync::Barrier::new(3);
+        let results: Vec<_> = std::thread::scope(|scope| {
+            let go = |number: u64| {
+                let (out, start) = (&out, &start);
+                scope.spawn(move || {
+                    start.wait();
+                    sweep::run(out, &sweep_of(number), &Marked(number), &settings(1))
+                })
+            };
+            [1, 2, 3].map(go).map(|thread| thread.join().unwrap()).into()
+        });
+        let first = results.iter().position(Result::is_ok).unwrap();
+        for (k, result) in results.iter().enumerate().filter(|(k, _)| *k != first) {
+            let told = matches!(result, Err(StoreError::Present { .. } | StoreError::Busy { .. }));
+            assert!(told, "round {round}, sweep {k}: {result:?}");
+        }
+        assert_eq!(Manifest::read(&out).unwrap().seed_number, first as u64 + 1);
+        let rows = fs::read_to_string(out.join("part-000000.csv")).unwrap();
+        let mark = format!("{:?}", (first + 1) as f64);
+        assert!(rows.lines().skip(1).all(|row| row.split(',').nth(1) == Some(&mark)), "{rows}");
+    }
+}
+
 #[test]
 fn an_incomplete_answer_of_a_solver_is_an_error() {
     let short =
@@ -144,7 +192,7 @@ fn an_incomplete_answer_of_a_solver_is_an_error() {
     let manifest = Manifest { angles: Vec::new(), ..manifest() };
     let error = sweep::run(folder.path(), &manifest, &short, &settings(2)).unwrap_err();
     assert!(matches!(error, StoreError::Part { .. }), "{error}");
-    assert_eq!(files(folder.path()).keys().collect::<Vec<_>>(), [".lock", "manifest.json"]);
+    assert_eq!(files(folder.path()).keys().collect::<Vec<_>>(), ["manifest.json"]);
 }
 
 #[test]
