@@ -59,7 +59,7 @@ pub fn run(arguments: &Sweep) -> Result<Exit, Failure> {
     let run = run.map_err(|error| store_failure(&error))?;
     let seconds = start.elapsed().as_secs_f64();
     for (file, damage) in &run.repaired {
-        tell(format_args!("{file} was damaged and has been computed again: {damage}"));
+        tell(format_args!("{file} could not be trusted and has been computed again: {damage}"));
     }
     let Some(summary) = &run.summary else {
         tell(format_args!(

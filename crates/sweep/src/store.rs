@@ -23,7 +23,8 @@
 //! with unit and description in the metadata of each Parquet column.
 //!
 //! A part appears under its name when it is complete and not before, so a process may be killed at any
-//! time: what is there is right, and a second run computes what is missing. Nothing in the folder depends
+//! time: a second run computes what is missing. Until the summary is there, the digest of every whole part stands in
+//! `.digests`; a part that does not have the digest that was written down, or none, is computed again. Nothing in the folder depends
 //! on the number of threads, on the time, on the shard that computed it, or on how often it was
 //! interrupted: the final bytes are the same.
 
@@ -38,6 +39,7 @@ use serde::{Deserialize, Serialize};
 use crate::compute::Compute;
 use crate::description::{SCHEMA_VERSION, SUMMARY, write_json};
 use crate::manifest::Manifest;
+use crate::store_digests::Digests;
 use crate::store_error::StoreError;
 use crate::store_lock::Lock;
 use crate::store_part::{self, PartRecord};
@@ -76,7 +78,7 @@ pub struct Run {
     pub seeds: u64,
     /// Seeds of them that were there before.
     pub seeds_before: u64,
-    /// Parts that were there, damaged, and were computed again: file and damage.
+    /// Parts that were there, could not be trusted, and were computed again: file and reason.
     pub repaired: Vec<(String, String)>,
 }
 
@@ -95,6 +97,7 @@ pub fn run(
         return Err(StoreError::NoSeeds);
     }
     let _lock = Lock::take(folder, manifest, settings.resume)?;
+    let digests = Digests::open(folder, manifest)?;
     let parts = manifest.shard.parts(manifest.parts());
     let found = Mutex::new(Found::default());
     for_each_part(parts.clone(), settings.threads, settings.stop, &|part| {
@@ -103,7 +106,9 @@ pub fn run(
         let mut damage = None;
         let mut result = None;
         if path.exists() {
-            match store_part::read(folder, manifest, part) {
+            let read = store_part::read(folder, manifest, part);
+            let read = read.and_then(|read| digests.check(folder, &read.0).map(|()| read));
+            match read {
                 Ok(read) => {
                     result = Some(read);
                     (settings.done)(seeds.end - seeds.start);
@@ -115,6 +120,9 @@ pub fn run(
         if !before {
             let (stop, done) = (settings.stop, settings.done);
             result = store_part::write(folder, manifest, part, compute, stop, done)?;
+            if let Some((record, _)) = &result {
+                digests.add(record)?;
+            }
         }
         if let Ok(mut found) = found.lock() {
             if let Some(damage) = damage {
@@ -138,6 +146,7 @@ pub fn run(
     if complete {
         let summary = StoreSummary::of(manifest, found.parts.into_values());
         write_json(&folder.join(SUMMARY), &summary)?;
+        Digests::close(folder);
         run.summary = Some(summary);
     }
     run.repaired.sort();

@@ -14,6 +14,7 @@ use crate::compute::Compute;
 use crate::manifest::{Manifest, hexadecimal};
 use crate::record::{Chunk, Failure, Outcomes};
 use crate::store_error::StoreError;
+use crate::store_footer::{footer, note};
 use crate::summary::Summary;
 
 /// Seeds computed at a time: some milliseconds of work, so that an interruption is heard soon.
@@ -171,7 +172,7 @@ fn columns_of(chunk: Chunk, angles: Vec<Vec<f64>>) -> Vec<Data> {
     columns
 }
 
-/// Read a part back, and prove that it holds exactly its seeds, each once and in order.
+/// Read a part back, and prove that it is of this sweep and holds exactly its seeds, each once and in order.
 pub fn read(
     folder: &Path,
     manifest: &Manifest,
@@ -207,6 +208,17 @@ pub fn read(
     if next != wanted.end {
         let (rows, all) = (next - wanted.start, wanted.end - wanted.start);
         return Err(StoreError::part(&path, format!("there are {rows} seeds of {all}")));
+    }
+    if format(manifest) == Format::Parquet {
+        let footer = footer(&path).map_err(|error| StoreError::file(&path, error))?;
+        for (key, wanted) in schema(manifest).notes {
+            let found = note(&footer, &key);
+            if found.as_ref() != Some(&wanted) {
+                let found = found.unwrap_or_else(|| "missing".to_owned());
+                let reason = format!("`{key}` at its end is {found}, not {wanted}");
+                return Err(StoreError::part(&path, reason));
+            }
+        }
     }
     Ok((record(&path, manifest, part)?, summary))
 }

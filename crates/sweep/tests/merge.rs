@@ -134,7 +134,14 @@ fn damage_is_found() {
     let other = folder.path().join("other");
     run(&other, &Manifest { seed_number: 8, ..manifest() }, 1).unwrap();
     fs::copy(other.join("part-000003.parquet"), &part).unwrap();
-    assert!(error(&shards, &out).to_string().contains("SHA-256"));
+    let told = error(&shards, &out).to_string();
+    assert!(told.ends_with("`funicular.seed_number` at its end is 8, not 7"), "{told}");
+    // Other rows that say that they are of this one.
+    let false_rows = folder.path().join("false");
+    sweep::run(&false_rows, &manifest(), &store_common::Shifted, &store_common::settings(1))
+        .unwrap();
+    fs::copy(false_rows.join("part-000003.parquet"), &part).unwrap();
+    assert!(error(&shards, &out).to_string().contains("its SHA-256 is"));
     fs::write(&part, &good).unwrap();
 
     let summary = shards[0].join("summary.json");

@@ -78,6 +78,109 @@ fn damaged_parts_are_computed_again_and_told() {
     assert_eq!(files(&out), wanted);
 }
 
+/// A bit that turns in a part without harm to its form, and whole parts of other sweeps: in a finished sweep the
+/// summary tells, in an unfinished one the list of digests.
+#[test]
+fn what_is_there_is_trusted_by_its_digest_alone() {
+    let folder = tempfile::tempdir().unwrap();
+    let other = folder.path().join("other");
+    let seed_8 = Manifest { seed_number: 8, ..manifest() };
+    run(&other, &seed_8, 1).unwrap();
+    let false_rows = folder.path().join("false");
+    sweep::run(&false_rows, &manifest(), &store_common::Shifted, &store_common::settings(1))
+        .unwrap();
+    for format in ["parquet", "csv"] {
+        let manifest = Manifest { format: format.to_owned(), ..manifest() };
+        let file = format!("part-000000.{format}");
+        let out = folder.path().join(format);
+        let wanted = {
+            run(&out, &manifest, 1).unwrap();
+            files(&out)
+        };
+        for finished in [true, false] {
+            for damage in 0..3 {
+                if !finished {
+                    fs::remove_dir_all(&out).unwrap();
+                    stop_after(&out, &manifest, 2);
+                    assert!(files(&out).contains_key(".digests"));
+                }
+                let path = out.join(&file);
+                let reason = match damage {
+                    0 => {
+                        fs::write(&path, with_a_bit_turned(&path, &manifest)).unwrap();
+                        "its SHA-256 is "
+                    }
+                    1 if format == "parquet" => {
+                        fs::copy(false_rows.join(&file), &path).unwrap();
+                        "its SHA-256 is "
+                    }
+                    2 if format == "parquet" => {
+                        fs::copy(other.join(&file), &path).unwrap();
+                        "`funicular.seed_number` at its end is 8, not 7"
+                    }
+                    _ => continue,
+                };
+                let run = resume(&out, &manifest).unwrap();
+                assert_eq!(run.repaired.len(), 1, "{:?}", run.repaired);
+                assert!(run.repaired[0].1.contains(reason), "{:?}", run.repaired);
+                assert_eq!(files(&out), wanted);
+            }
+        }
+    }
+}
+
+/// The file with a bit turned that its form does not show: the first from the middle on.
+fn with_a_bit_turned(path: &Path, manifest: &Manifest) -> Vec<u8> {
+    let good = fs::read(path).unwrap();
+    let format =
+        if manifest.format == "csv" { columns::Format::Csv } else { columns::Format::Parquet };
+    let decodes = |bytes: &[u8]| {
+        fs::write(path, bytes).unwrap();
+        columns::read_table(path, format, &sweep::schema(manifest), &mut |_| ()).is_ok()
+    };
+    (good.len() / 2..good.len())
+        .map(|at| {
+            let mut bytes = good.clone();
+            bytes[at] ^= 1;
+            bytes
+        })
+        .find(|bytes| decodes(bytes))
+        .unwrap()
+}
+
+#[test]
+fn a_list_of_digests_of_another_sweep_or_cut_off_is_no_proof() {
+    let folder = tempfile::tempdir().unwrap();
+    let wanted = whole(&folder.path().join("whole"));
+    let out = folder.path().join("out");
+    stop_after(&out, &manifest(), 3);
+    let text = fs::read_to_string(out.join(".digests")).unwrap();
+    let parts = text.lines().count() - 1;
+    assert!(text.lines().next().unwrap().ends_with("  manifest.json") && parts >= 2, "{text}");
+    // Its last line is cut off: one part is not trusted.
+    fs::write(out.join(".digests"), &text[..text.len() - 30]).unwrap();
+    let again = stop_after(&out, &manifest(), 3);
+    assert_eq!(again.repaired.len(), 1, "{:?}", again.repaired);
+    assert!(again.repaired[0].1.contains("was not written down"), "{:?}", again.repaired);
+    // It is of another sweep: none is.
+    let text = fs::read_to_string(out.join(".digests")).unwrap();
+    fs::write(out.join(".digests"), format!("x{}", &text[1..])).unwrap();
+    let last = resume(&out, &manifest()).unwrap();
+    assert!(last.repaired.len() >= parts, "{:?}", last.repaired);
+    assert_eq!((last.seeds_before, files(&out)), (0, wanted));
+}
+
+#[test]
+fn a_summary_that_cannot_be_read_is_an_error() {
+    let folder = tempfile::tempdir().unwrap();
+    run(folder.path(), &manifest(), 1).unwrap();
+    fs::write(folder.path().join("summary.json"), "{").unwrap();
+    let before = files(folder.path());
+    let error = resume(folder.path(), &manifest()).unwrap_err();
+    assert!(matches!(error, StoreError::Description { .. }), "{error}");
+    assert_eq!(files(folder.path()), before);
+}
+
 #[test]
 fn other_parameters_are_refused_by_name() {
     let folder = tempfile::tempdir().unwrap();

@@ -192,7 +192,7 @@ fn an_incomplete_answer_of_a_solver_is_an_error() {
     let manifest = Manifest { angles: Vec::new(), ..manifest() };
     let error = sweep::run(folder.path(), &manifest, &short, &settings(2)).unwrap_err();
     assert!(matches!(error, StoreError::Part { .. }), "{error}");
-    assert_eq!(files(folder.path()).keys().collect::<Vec<_>>(), ["manifest.json"]);
+    assert_eq!(files(folder.path()).keys().collect::<Vec<_>>(), [".digests", "manifest.json"]);
 }
 
 #[test]

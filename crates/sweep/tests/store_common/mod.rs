@@ -86,6 +86,20 @@ impl Compute for MadeUp {
     }
 }
 
+/// The same seeds with other numbers.
+pub struct Shifted;
+
+impl Compute for Shifted {
+    fn chunk(&self, seeds: Range<u64>) -> Chunk {
+        let (lagrange, energy) = (outcomes(seeds.clone(), 1), outcomes(seeds.clone(), 2));
+        Chunk { seeds, lagrange: Some(lagrange), energy: Some(energy) }
+    }
+
+    fn angles(&self, seeds: Range<u64>) -> Vec<Vec<f64>> {
+        QUICK.angles(seeds)
+    }
+}
+
 pub const QUICK: MadeUp = MadeUp { delay: std::time::Duration::ZERO };
 pub static NEVER: AtomicBool = AtomicBool::new(false);
 
