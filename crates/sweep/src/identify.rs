@@ -4,7 +4,7 @@ use std::cmp::Ordering;
 use std::f64::consts::PI;
 
 use census::{Census, CensusError, ProvenEquilibrium, SlackFamily};
-use model::Problem;
+use model::{Chain, Problem};
 use serde::{Deserialize, Serialize};
 
 use crate::error::SweepError;
@@ -125,6 +125,12 @@ impl Members {
         self.lookup.tolerance
     }
 
+    /// What energies are compared in: total weight times total length, J.
+    #[must_use]
+    pub fn energy_unit_j(&self) -> f64 {
+        self.lookup.unit_j
+    }
+
     /// The number of the nearest entry within the tolerance, for unit directions (along the heading, up)
     /// of the bars.
     #[must_use]
@@ -186,11 +192,16 @@ impl Members {
     }
 }
 
+/// Total weight times total length, J.
+pub(crate) fn energy_unit_j(chain: &Chain) -> f64 {
+    chain.total_mass_kg() * chain.gravity_m_s2() * chain.total_length_m()
+}
+
 impl Lookup {
     fn new(problem: &Problem, list: &[Member]) -> Self {
         let chain = problem.chain();
         let total_m = chain.total_length_m();
-        let unit_j = chain.total_mass_kg() * chain.gravity_m_s2() * total_m;
+        let unit_j = energy_unit_j(chain);
         let directions = list.iter().flat_map(|member| {
             member.angles_rad.iter().map(|angle| {
                 angle.map_or([f64::NAN; 2], |angle| {

@@ -8,7 +8,7 @@ use serde_json::Value;
 use sha2::{Digest, Sha256};
 
 use crate::description::{MANIFEST, read_json};
-use crate::identify::Member;
+use crate::identify::{Member, energy_unit_j};
 use crate::shard::{Shard, part_seeds};
 
 use crate::store_error::StoreError;
@@ -51,7 +51,7 @@ pub struct Manifest {
 }
 
 /// A system as text.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct SystemText {
     /// Its name.
     pub name: String,
@@ -59,6 +59,8 @@ pub struct SystemText {
     pub text: String,
     /// SHA-256 of the text.
     pub sha256: String,
+    /// What energies are compared in: total weight times total length, J.
+    pub unit_j: f64,
 }
 
 impl SystemText {
@@ -66,7 +68,12 @@ impl SystemText {
     #[must_use]
     pub fn of(chain: &model::Chain) -> Self {
         let text = model::system_file::write_system(chain);
-        Self { name: chain.name().to_owned(), sha256: digest(text.as_bytes()), text }
+        Self {
+            name: chain.name().to_owned(),
+            sha256: digest(text.as_bytes()),
+            text,
+            unit_j: energy_unit_j(chain),
+        }
     }
 }
 
@@ -125,7 +132,7 @@ impl Manifest {
 
     /// Nothing counted yet.
     pub(crate) fn summary(&self) -> Summary {
-        Summary::new(&self.equilibria)
+        Summary::new(&self.equilibria, self.system.unit_j)
     }
 
     /// As it stands in the file.

@@ -74,31 +74,33 @@ pub struct Summary {
     disagreements: Vec<Disagreement>,
     /// Index in the plane of each entry; −1 where it is not known.
     index: Vec<i32>,
-    /// Size of an energy: the largest of the list, as its bits.
+    /// Unit of the energies, J, as its bits.
     scale: u64,
 }
 
 /// Disagreements kept: the first by seed number. All are counted.
 pub const KEPT: usize = 1000;
 
-/// Energies of the same equilibrium agree to this, relative to the largest energy of the list: both solvers
-/// stop where the energy has settled to its rounding.
+/// Energies of the same equilibrium agree to this, in total weights times total lengths, as the list is identified
+/// by: the energies themselves say nothing of their errors, being near zero where a chain is taut. Both solvers
+/// stop where the energy has settled to its rounding, and to what is left of the gaps times the forces: at worst
+/// 2.2e-12 among the named cases (nearly-taut, whose forces are several hundred weights).
 const SAME_ENERGY: f64 = 1e-10;
 
 impl Summary {
-    /// Nothing yet, of a sweep with this list.
+    /// Nothing yet, of a sweep with this list and this unit of the energies
+    /// ([`Members::energy_unit_j`](crate::Members::energy_unit_j)).
     #[must_use]
-    pub fn new(list: &[Member]) -> Self {
+    pub fn new(list: &[Member], energy_unit_j: f64) -> Self {
         let index = |member: &Member| {
             member.index_in_plane.map_or(-1, |index| i32::try_from(index).unwrap_or(i32::MAX))
         };
-        let scale = list.iter().fold(0.0_f64, |scale, member| scale.max(member.energy_j.abs()));
         Self {
             tally: Tally::default(),
             comparisons: [0; 8],
             disagreements: vec![],
             index: list.iter().map(index).collect(),
-            scale: scale.to_bits(),
+            scale: energy_unit_j.to_bits(),
         }
     }
 

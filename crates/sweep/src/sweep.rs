@@ -153,7 +153,7 @@ impl Sweep {
     pub fn run(&self, seeds: Range<u64>, threads: usize) -> Result<Summary, SweepError> {
         let size = self.settings.chunk;
         let chunks = seeds.end.saturating_sub(seeds.start).div_ceil(size);
-        let nothing = || Summary::new(self.members.list());
+        let nothing = || Summary::new(self.members.list(), self.members.energy_unit_j());
         let add = |mut summary: Summary, k: u64| {
             let start = seeds.start + k * size;
             summary.add(&self.run_chunk(start..seeds.end.min(start.saturating_add(size))));

@@ -70,9 +70,10 @@ fn a_summary_is_the_same_for_any_threads_and_chunks() {
     }
     // Folded by hand, in another order.
     let sweep = Sweep::new(&problem, Settings::default()).unwrap();
-    let mut last = Summary::new(sweep.members().list());
+    let nothing = || Summary::new(sweep.members().list(), sweep.members().energy_unit_j());
+    let mut last = nothing();
     last.add(&sweep.run_chunk(5000..6011));
-    let mut first = Summary::new(sweep.members().list());
+    let mut first = nothing();
     first.add(&sweep.run_chunk(11..5000));
     last.merge(&first);
     assert_eq!(one, last);
@@ -167,6 +168,17 @@ fn longer_chains_are_identified_against_the_census() {
         assert_eq!(failed(tally.energy.as_ref().unwrap()), 0);
         assert!(failed(tally.lagrange.as_ref().unwrap()) < 30);
     }
+}
+
+/// A taut chain has energies near zero and errors that grow with its forces.
+#[test]
+fn the_energies_of_a_taut_chain_agree() {
+    let problem = model::cases::get("nearly-taut").unwrap().problem();
+    let sweep = Sweep::new(&problem, Settings::default()).unwrap();
+    let summary = sweep.run(0..3000, 2).unwrap();
+    assert!(summary.disagreements().is_empty(), "{:?}", summary.disagreements().first());
+    let same = summary.comparisons().find(|row| row.0 == Comparison::Same).unwrap().1;
+    assert!(same > 1000, "{same}");
 }
 
 /// Without a census the list is what fixed seeds reach: a part of the census, and the same for any sweep.
