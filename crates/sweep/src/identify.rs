@@ -119,12 +119,6 @@ impl Members {
         self.complete
     }
 
-    /// Largest distance of a joint from an entry, in total lengths: [`JOINT_TOLERANCE`] or less.
-    #[must_use]
-    pub fn tolerance(&self) -> f64 {
-        self.lookup.tolerance
-    }
-
     /// What energies are compared in: total weight times total length, J.
     #[must_use]
     pub fn energy_unit_j(&self) -> f64 {

@@ -99,14 +99,6 @@ impl Source {
 }
 
 impl Spring {
-    /// Number of different seeds, if it is finite.
-    pub(crate) fn points(&self) -> Option<u64> {
-        match self {
-            Self::Uniform { .. } | Self::Sobol { .. } => None,
-            Self::Grid { points, .. } => Some(*points),
-        }
-    }
-
     /// The angles of a run of seeds, bar by bar and seed by seed, in place of what is in `angles`.
     pub(crate) fn fill(&self, seeds: Range<u64>, bars: usize, angles: &mut Vec<f64>) {
         angles.clear();
@@ -159,7 +151,6 @@ mod tests {
     #[test]
     fn a_grid_has_each_point_once_and_then_begins_again() {
         let spring = Source::Grid(vec![Axis::full(2), Axis::fixed(0.25)]).ready(0, 2).unwrap();
-        assert_eq!(spring.points(), Some(2));
         let mut angles = vec![];
         spring.fill(0..3, 2, &mut angles);
         let half = std::f64::consts::FRAC_PI_2;

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::identify::Member;
 use crate::record::Chunk;
-use crate::store_tally::{Tally, rate_interval};
+use crate::store_tally::Tally;
 
 /// How the outcomes of one seed compare. The first solver finds equilibria of every kind and the second
 /// only minima, and each has its own way down, so that most differences are as they should be.
@@ -184,28 +184,5 @@ impl Summary {
     #[must_use]
     pub fn disagreements(&self) -> &[Disagreement] {
         &self.disagreements
-    }
-
-    /// Rate of an outcome of `lagrange` with its 95 % confidence interval (Wilson).
-    #[must_use]
-    pub fn rate_of_lagrange(&self, outcome: i16) -> Option<(f64, (f64, f64))> {
-        self.tally
-            .lagrange
-            .as_ref()
-            .map(|rows| self.rate(rows.0.get(&outcome).map_or(0, |r| r.count)))
-    }
-
-    /// Rate of an outcome of `energy` with its 95 % confidence interval (Wilson).
-    #[must_use]
-    pub fn rate_of_energy(&self, outcome: i16) -> Option<(f64, (f64, f64))> {
-        self.tally
-            .energy
-            .as_ref()
-            .map(|rows| self.rate(rows.0.get(&outcome).map_or(0, |r| r.count)))
-    }
-
-    fn rate(&self, count: u64) -> (f64, (f64, f64)) {
-        let all = self.seeds();
-        (count as f64 / all.max(1) as f64, rate_interval(count, all))
     }
 }

@@ -75,12 +75,6 @@ impl Sweep {
         &self.members
     }
 
-    /// Number of different seeds, if it is finite: the points of a grid.
-    #[must_use]
-    pub fn points(&self) -> Option<u64> {
-        self.spring.points()
-    }
-
     /// The angles of a run of seeds, rad: n for each seed.
     #[must_use]
     pub fn angles_rad(&self, seeds: Range<u64>) -> Vec<f64> {
