@@ -2,14 +2,18 @@
 
 use std::collections::BTreeMap;
 use std::fs;
+use std::io::{Read as _, Write as _};
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
-use std::sync::atomic::AtomicBool;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+
+use sha2::{Digest as _, Sha256};
 
 use crate::description::{SUMMARY, read_json, write_json};
-use crate::manifest::Manifest;
+use crate::manifest::{Manifest, hexadecimal};
 use crate::shard::Shard;
 use crate::store::{StoreSummary, for_each_part};
+use crate::store_digests::Digests;
 use crate::store_error::{NAMED, StoreError};
 use crate::store_lock::Lock;
 use crate::store_part;
@@ -24,10 +28,10 @@ struct Input {
 /// Join the shards of one sweep into a folder that is, byte for byte, the one that a single run would have
 /// written.
 ///
-/// Proved before a part is copied: the manifests differ in nothing but the shard; every shard is there
+/// Proved before any part is copied: the manifests differ in nothing but the shard; every shard is there
 /// once, and has the seeds that it should have; the digest of every part is the one that its shard's
 /// summary says; every part, decoded, holds its seeds each once and in order, and the outcomes that the
-/// summary counts. An interrupted merge is completed by the same merge again.
+/// summary counts. All parts are therefore read twice. An interrupted merge is completed by the same merge again.
 ///
 /// # Errors
 ///
@@ -49,19 +53,20 @@ pub fn merge(
     }
     let _lock = Lock::take(out, &whole, true)?;
     let proved = Mutex::new(BTreeMap::new());
-    for_each_part(0..whole.parts(), threads, stop, &|part| {
-        let Some(input) = inputs.values().find(|input| input.parts().contains(&part)) else {
+    let each = |work: &(dyn Fn(u64, &Input) -> Result<(), StoreError> + Sync)| {
+        for_each_part(0..whole.parts(), threads, stop, &|part| {
             // Every part is in a shard, and every shard is there.
-            return Ok(());
-        };
+            let input = inputs.values().find(|input| input.parts().contains(&part));
+            input.map_or(Ok(()), |input| work(part, input))
+        })
+    };
+    each(&|part, input| {
         let result = input.prove(part)?;
-        let (from, to) = (&input.folder, whole.file_of(part));
-        copy(&from.join(&to), &out.join(&to))?;
-        let seeds = whole.seeds_of(part);
-        done(seeds.end - seeds.start);
         if let Ok(mut proved) = proved.lock() {
             proved.insert(part, result);
         }
+        let seeds = whole.seeds_of(part);
+        done(seeds.end - seeds.start);
         Ok(())
     })?;
     let proved = proved.into_inner().unwrap_or_default();
@@ -75,8 +80,20 @@ pub fn merge(
             return Err(StoreError::Description { path: input.folder.join(SUMMARY), reason });
         }
     }
+    let copied = AtomicU64::new(0);
+    each(&|part, input| {
+        let file = whole.file_of(part);
+        let wanted = proved.get(&part).map(|(record, _)| record.sha256.as_str());
+        copy(&input.folder.join(&file), &out.join(&file), wanted.unwrap_or_default())?;
+        copied.fetch_add(1, Ordering::Relaxed);
+        Ok(())
+    })?;
+    if copied.into_inner() != whole.parts() {
+        return Ok(None);
+    }
     let summary = StoreSummary::of(&whole, proved.into_values());
     write_json(&out.join(SUMMARY), &summary)?;
+    Digests::close(out);
     Ok(Some(summary))
 }
 
@@ -165,6 +182,9 @@ impl Input {
     }
 }
 
+/// Bytes copied at a time.
+const COPIED: usize = 1 << 17;
+
 /// Whether two names lead to one folder.
 fn is_same(a: &Path, b: &Path) -> bool {
     match (fs::canonicalize(a), fs::canonicalize(b)) {
@@ -173,10 +193,23 @@ fn is_same(a: &Path, b: &Path) -> bool {
     }
 }
 
-fn copy(from: &Path, to: &Path) -> Result<(), StoreError> {
+/// Copy a file, and see that it is still the one that was proved.
+fn copy(from: &Path, to: &Path, wanted: &str) -> Result<(), StoreError> {
     let mut reader = fs::File::open(from).map_err(|error| StoreError::file(from, error))?;
     let io = |error| StoreError::file(to, error);
     let mut writer = columns::AtomicFile::create(to).map_err(io)?;
-    std::io::copy(&mut reader, &mut writer).map_err(io)?;
+    let mut hasher = Sha256::new();
+    let mut buffer = vec![0; COPIED];
+    loop {
+        let read = reader.read(&mut buffer).map_err(|error| StoreError::file(from, error))?;
+        if read == 0 {
+            break;
+        }
+        hasher.update(&buffer[..read]);
+        writer.write_all(&buffer[..read]).map_err(io)?;
+    }
+    if hexadecimal(&hasher.finalize()) != wanted {
+        return Err(StoreError::part(from, "it changed while it was being copied"));
+    }
     writer.commit().map_err(io)
 }

@@ -125,6 +125,8 @@ fn damage_is_found() {
     assert!(error(&shards, &out).to_string().contains("part-000003.parquet"));
     fs::write(&part, &good[..good.len() - 1]).unwrap();
     assert!(matches!(error(&shards, &out), StoreError::Columns(_)));
+    // Nothing was copied before all was proved.
+    assert_eq!(files(&out).into_keys().collect::<Vec<_>>(), ["manifest.json"]);
     fs::remove_file(&part).unwrap();
     assert!(error(&shards, &out).to_string().ends_with("part-000003.parquet: it is not there"));
     // Another part's rows under this name.
