@@ -8,9 +8,19 @@ use crate::diagnostics::tell;
 use crate::exit::{Exit, Failure};
 use crate::output;
 use crate::sweep::{
-    EXIT_CODES, json_object, on_interrupt, print_json, seeds_bar, store_failure, summary_tables,
-    threads, verdict, written,
+    json_object, on_interrupt, print_json, seeds_bar, store_failure, summary_tables, threads,
+    verdict, written,
 };
+
+/// How it ends, for its help.
+const EXIT_CODES: &str = "\
+Exit codes:
+  0    done: nothing is missing, nothing double, every digest as recorded
+  1    a check failed in the sweep: see `funicular sweep --help`
+  2    bad input or usage; a shard that is missing, damaged or of another sweep
+  3    not finished: the disk is full or fails, or another process is writing the folder;
+       it may pass, and the same command goes on
+  130  interrupted (Ctrl-C or SIGTERM): the same command goes on";
 
 /// `funicular merge`.
 #[derive(Debug, Args)]

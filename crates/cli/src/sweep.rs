@@ -17,8 +17,8 @@ use model::Problem;
 use serde_json::{Value, json};
 
 use self::arguments::Spread;
+pub use self::arguments::Sweep;
 pub(crate) use self::arguments::threads;
-pub use self::arguments::{EXIT_CODES, Sweep};
 pub(crate) use self::interrupt::on_interrupt;
 use crate::diagnostics::tell;
 use crate::exit::{Exit, Failure};
@@ -162,13 +162,15 @@ pub(crate) fn seeds_bar(seeds: u64) -> ProgressBar {
     bar
 }
 
-/// An error of the folder, with what to do about it.
+/// An error of the folder, with what to do about it. A disk that fails says nothing about the input: the sweep is
+/// undecided, and those who run many may try again.
 pub(crate) fn store_failure(error: &StoreError) -> Failure {
     let message = error.to_string();
-    Failure::bad_input(match error.help() {
+    let report = match error.help() {
         Some(help) => miette!(help = help, "{message}"),
         None => miette!("{message}"),
-    })
+    };
+    if error.may_pass() { Failure::undecided(report) } else { Failure::bad_input(report) }
 }
 
 /// What `--json` prints of a finished sweep.

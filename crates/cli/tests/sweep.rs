@@ -242,6 +242,37 @@ fn bad_usage_is_refused_with_a_reason() {
     assert!(stderr(&output).contains("holds no sweep: there is no manifest.json"));
 }
 
+/// A disk that takes nothing: the limit of file sizes stands for a full one.
+#[cfg(unix)]
+#[test]
+fn a_disk_that_fails_is_no_bad_input() {
+    let out = folder("full").join("out");
+    // Blocks of 512 bytes in `sh`: enough for the manifest, too little for a part.
+    let script = "ulimit -f 16; trap '' XFSZ; exec \"$@\"";
+    let limited = |out: &Path| {
+        let mut command = Command::new("sh");
+        command.args(["-c", script, "sh"]).arg(assert_cmd::cargo::cargo_bin!("funicular"));
+        command.args([
+            "sweep",
+            "--case",
+            "three-equal-bars",
+            "--seeds",
+            SEEDS,
+            "--resume",
+            "--out",
+        ]);
+        command.arg(out).output().unwrap()
+    };
+    let output = limited(&out);
+    assert_eq!(output.status.code(), Some(3), "{}", stderr(&output));
+    assert!(stderr(&output).contains("--resume"), "{}", stderr(&output));
+    let output = sweep(&out, &["--resume"]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let whole = folder("full-whole").join("out");
+    sweep(&whole, &[]);
+    assert_eq!(files(&out), files(&whole));
+}
+
 #[test]
 fn a_regular_grid_is_swept() {
     let out = folder("grid").join("out");

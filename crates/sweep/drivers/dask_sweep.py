@@ -10,13 +10,15 @@ the folder that one process would have written.
 
 A shard whose worker dies is given to another worker, which goes on with the parts that are whole (`--resume`).
 If the dead worker's process is still writing, the new one waits for it: the folder is locked. A shard that
-fails for a reason of its own (exit code 2: bad input) fails at once and for all; interrupted ones (exit code
-130, as batch systems do it) are retried. Without `--scheduler` a local cluster is started.
+fails for a reason of its own (exit code 2: bad input) fails at once and for all; one that a disk fails (exit code 3:
+full, or out of reach) or that is interrupted (130, as batch systems do it) or killed is retried. Without
+`--scheduler` a local cluster is started.
 
 Under Slurm, dask-jobqueue's SLURMCluster is such a scheduler; a job array needs no Dask at all: `funicular
 sweep ... --shard $SLURM_ARRAY_TASK_ID/64 --resume --out shards/$SLURM_ARRAY_TASK_ID`, then `funicular merge`.
 
-Exit codes are those of `funicular`: 0 done, 1 a check failed, 2 bad input; and 3 if a shard could not be finished.
+Exit codes are those of `funicular`: 0 done, 1 a check failed, 2 bad input, 130 interrupted; and 3 if a shard or the
+merge could not be finished: the same command goes on.
 """
 
 import argparse
@@ -42,6 +44,10 @@ class ShardFailed(Exception):
     """A shard that another attempt may finish."""
 
 
+# Seconds before a shard that failed may be tried again, by the worker that has it: a disk needs time to recover.
+PAUSE = 5.0
+
+
 def run_shard(program, arguments, number, shards, folder, threads):
     """Run one shard on a worker; the exit code and what the program said."""
     command = [program, "sweep", *arguments, "--shard", f"{number}/{shards}"]
@@ -57,6 +63,7 @@ def run_shard(program, arguments, number, shards, folder, threads):
         return number, done.returncode, json.loads(done.stdout)["seeds"]["count"]
     if done.returncode == BAD_INPUT:
         return number, BAD_INPUT, done.stderr
+    time.sleep(PAUSE)
     raise ShardFailed(f"shard {number}: exit code {done.returncode}: {words}")
 
 
@@ -137,7 +144,11 @@ def main(arguments=None):
     if code in (BAD_INPUT, UNDECIDED):
         return code
     command = [options.program, "merge", *map(str, folders), "--out", str(out / "merged")]
-    return max(code, subprocess.run(command, stdin=subprocess.DEVNULL).returncode)
+    merged = subprocess.run(command, stdin=subprocess.DEVNULL).returncode
+    if merged < 0:
+        print(f"the merge was ended by signal {-merged}", file=sys.stderr)
+        return UNDECIDED
+    return max(code, merged)
 
 
 if __name__ == "__main__":

@@ -59,6 +59,24 @@ def same(one, other):
     return len(names)
 
 
+# A program whose first try at the second shard meets a full disk, and whose first merge is killed.
+UNRELIABLE = """#!/bin/sh
+case "$*" in
+sweep*"--shard 2/"*) if mkdir '{folder}/full' 2>/dev/null; then echo 'No space left on device' >&2; exit 3; fi ;;
+merge*) if mkdir '{folder}/killed' 2>/dev/null; then kill -9 $$; fi ;;
+esac
+exec '{program}' "$@"
+"""
+
+
+def unreliable(program, folder):
+    """Write it."""
+    path = folder / "unreliable"
+    path.write_text(UNRELIABLE.format(program=program, folder=folder))
+    path.chmod(0o755)
+    return path
+
+
 def main():
     program, folder = os.path.abspath(sys.argv[1]), pathlib.Path(sys.argv[2]).resolve()
     whole, out = folder / "whole", folder / "dask"
@@ -85,6 +103,14 @@ def main():
         bad = ["--scheduler", cluster.scheduler_address, "--program", program, "--shards", "2"]
         bad += ["--out", str(folder / "bad"), "--", "--case", "nonsense", "--seeds", "10"]
         assert dask_sweep.main(bad) == dask_sweep.BAD_INPUT
+
+        # A disk that is full for a while costs an attempt, a merge that is killed is no success, and both go on.
+        again = ["--scheduler", cluster.scheduler_address, "--shards", "2", "--out", str(folder / "again")]
+        again += ["--program", str(unreliable(program, folder)), "--", "--case", "three-equal-bars"]
+        again += ["--seeds", "20_000", "--solver", "lagrange"]
+        assert dask_sweep.main(again) == dask_sweep.UNDECIDED
+        assert (folder / "full").exists() and not (folder / "again/merged").exists()
+        assert dask_sweep.main(again) == dask_sweep.DONE
 
 
 if __name__ == "__main__":

@@ -1,5 +1,6 @@
 //! What can go wrong with a sweep on disk.
 
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 use columns::ColumnsError;
@@ -148,6 +149,28 @@ impl StoreError {
         Self::Part { path: path.to_owned(), reason: reason.into() }
     }
 
+    /// Whether it is not the user's to mend: the disk is full or out of reach, the system gives no threads, or another
+    /// process has the folder. The same call may succeed later. A path that leads to no place to write is bad input.
+    #[must_use]
+    pub fn may_pass(&self) -> bool {
+        match self {
+            Self::File { error, .. } | Self::Columns(ColumnsError::File { error, .. }) => {
+                !matches!(
+                    error.kind(),
+                    ErrorKind::NotFound
+                        | ErrorKind::PermissionDenied
+                        | ErrorKind::AlreadyExists
+                        | ErrorKind::NotADirectory
+                        | ErrorKind::IsADirectory
+                        | ErrorKind::InvalidFilename
+                        | ErrorKind::InvalidInput
+                )
+            }
+            Self::Threads { .. } | Self::Busy { .. } => true,
+            _ => false,
+        }
+    }
+
     /// What to do about it, if that is not plain from the message.
     #[must_use]
     pub fn help(&self) -> Option<&'static str> {
@@ -159,6 +182,11 @@ impl StoreError {
             }
             Self::Unfinished { .. } => Some("run the same sweep with --resume first"),
             Self::Busy { .. } => Some("wait until it has finished"),
+            Self::File { .. } | Self::Columns(ColumnsError::File { .. }) if self.may_pass() => {
+                Some(
+                    "what is done stays; the same command goes on when there is room (sweep: with --resume)",
+                )
+            }
             Self::Part { .. } => Some("remove the file and run the same sweep with --resume"),
             _ => None,
         }

@@ -10,13 +10,15 @@ use crate::which::Which;
 /// Most seeds of a sweep: at a few million a second, half a week.
 const MOST_SEEDS: u64 = 1_000_000_000_000;
 
-/// How `sweep` and `merge` end, for their help.
-pub const EXIT_CODES: &str = "\
+/// How `sweep` ends, for its help.
+const EXIT_CODES: &str = "\
 Exit codes:
   0    done
   1    a check failed: a seed converged to what the complete list of equilibria does not have, or the
        solvers contradict each other (the seeds are listed)
   2    bad input or usage; a folder that holds something else
+  3    not finished: the disk is full or fails, or another process is writing the folder;
+       it may pass: what is done stays, --resume goes on
   130  interrupted (Ctrl-C or SIGTERM): what is done stays, --resume goes on";
 
 const EXAMPLES: &str = "\
