@@ -38,7 +38,7 @@ pub struct Arguments {
     #[arg(long, value_name = "N", default_value_t = 300, value_parser = clap::value_parser!(u32).range(2..=i64::from(LARGEST)))]
     pub size: u32,
     /// The two bars whose angles are the axes
-    #[arg(long, value_name = "I,J", num_args = 1, value_delimiter = ',', default_values_t = [1, 2])]
+    #[arg(long, value_name = "I,J", num_args = 1, value_delimiter = ',', default_value = "1,2")]
     pub bars: Vec<usize>,
     /// Starting angle of all other bars, degrees from the descending vertical
     #[arg(long, value_name = "DEGREES", default_value_t = 0.0, allow_hyphen_values = true)]

@@ -11,7 +11,7 @@ use ::sweep::{
     Axis, Manifest, RunSettings, SCHEMA_VERSION, Settings, Shard, Solvers, Source, StoreError,
     StoreSummary, SystemText,
 };
-use indicatif::{ProgressBar, ProgressStyle};
+use indicatif::{HumanCount, ProgressBar, ProgressState, ProgressStyle};
 use miette::miette;
 use model::Problem;
 use serde_json::{Value, json};
@@ -77,7 +77,7 @@ pub fn run(arguments: &Sweep) -> Result<Exit, Failure> {
         object["seconds"] = json!(seconds);
         print_json(&object)?;
     } else {
-        let rate = tables::rate(computed, seconds);
+        let rate = tables::rate(computed, run.seeds, seconds);
         output::print(&(tables::summary(&manifest, summary) + &rate + &written(&arguments.out)))?;
     }
     Ok(verdict(&manifest, summary))
@@ -153,13 +153,20 @@ fn manifest(arguments: &Sweep, problem: &Problem, sweep: &::sweep::Sweep) -> Man
 /// A bar that counts seeds, with rate and time left; silent where standard error is no terminal.
 pub(crate) fn seeds_bar(seeds: u64) -> ProgressBar {
     let bar = ProgressBar::new(seeds);
-    let template =
-        "{elapsed:>4} {wide_bar} {human_pos} of {human_len} seeds, {per_sec}, {eta} left";
+    let template = "{elapsed:>4} {wide_bar} {human_pos} of {human_len} seeds, {rate}, {eta} left";
     if let Ok(style) = ProgressStyle::with_template(template) {
-        bar.set_style(style);
+        bar.set_style(style.with_key("rate", whole_rate));
     }
     bar.enable_steady_tick(TICK);
     bar
+}
+
+/// Seeds a second: a part of a seed says nothing.
+fn whole_rate(state: &ProgressState, out: &mut dyn std::fmt::Write) {
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "it saturates")]
+    let rate = state.per_sec().round() as u64;
+    // Nobody to tell, as for every part of the bar.
+    let _ = write!(out, "{}/s", HumanCount(rate));
 }
 
 /// An error of the folder, with what to do about it. A disk that fails says nothing about the input: the sweep is

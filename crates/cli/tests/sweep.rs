@@ -150,6 +150,24 @@ fn threads_shards_and_forms_do_not_show() {
 }
 
 #[test]
+fn an_empty_shard_says_that_it_is() {
+    let out = folder("empty");
+    // Ten seeds are one part; it is in the last of the shards.
+    let shard = |k: u32| {
+        let (name, shard) = (out.join(k.to_string()), format!("--shard={k}/3"));
+        let name = name.to_str().unwrap();
+        funicular(&["sweep", "--case", "three-equal-bars", "--seeds=10", &shard, "--out", name])
+    };
+    for k in [1, 3] {
+        let output = shard(k);
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        let text = String::from_utf8(output.stdout).unwrap();
+        assert_eq!(text.contains("This shard is empty"), k == 1, "{text}");
+        assert!(!text.contains("there already"), "{text}");
+    }
+}
+
+#[test]
 fn a_killed_sweep_goes_on_to_the_same_bytes() {
     let out = folder("killed");
     let whole = out.join("whole");

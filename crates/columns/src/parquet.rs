@@ -23,8 +23,8 @@ use crate::error::ColumnsError;
 use crate::guard::guarded;
 use crate::table::{Column, Data, Kind, Schema, Spread};
 
-/// What the files say wrote them. Without a version: the same rows give the same bytes after an update of
-/// the program, as long as the encoders do; the version stands in the manifest of a sweep.
+/// What the files say wrote them. Without a version: the same rows and notes give the same bytes after an update of
+/// this crate, as long as the encoders do. Who writes a table may note a version (a sweep does: `funicular.program`).
 const CREATED_BY: &str = "funicular";
 
 /// Largest dictionary of a column of few values, bytes; one that grows beyond it goes on as plain numbers.

@@ -16,8 +16,8 @@ use crate::summary::Summary;
 
 /// Everything that the rows of a sweep depend on, and which of them are here: `manifest.json`.
 ///
-/// Two sweeps with the same manifest have the same rows to the last bit, on one kind of machine (the
-/// sines of the starting angles come from the system's library).
+/// Two sweeps with the same manifest have the same rows to the last bit, on whatever machine: the solvers take their
+/// sines from their own kernels.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Manifest {
     /// [`SCHEMA_VERSION`](crate::SCHEMA_VERSION).

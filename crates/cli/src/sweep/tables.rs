@@ -40,8 +40,11 @@ pub fn summary(manifest: &Manifest, summary: &StoreSummary) -> String {
     text
 }
 
-/// How fast it was; nothing was computed if everything was there.
-pub fn rate(computed: u64, seconds: f64) -> String {
+/// How fast it was; nothing was computed if everything was there, or if there is nothing to compute.
+pub fn rate(computed: u64, all: u64, seconds: f64) -> String {
+    if all == 0 {
+        return "This shard is empty: there are more shards than parts.\n".to_owned();
+    }
     if computed == 0 {
         return "Everything was there already.\n".to_owned();
     }
