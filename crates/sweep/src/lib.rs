@@ -1,4 +1,32 @@
 //! Many seeds and many parameters in parallel: which start leads where.
+//!
+//! # The folder of a sweep
+//!
+//! [`run()`] writes, and [`merge()`] joins, folders that hold
+//!
+//! | file | what |
+//! |---|---|
+//! | `manifest.json` | [`Manifest`]: everything the rows depend on; written first |
+//! | `part-000000.parquet`, ... | the rows, [`part_seeds`] of them in each |
+//! | `summary.json` | [`StoreSummary`]: counts of the outcomes, and the digest of every part; written last |
+//!
+//! and, until they are finished, `.digests`: the digests so far, as `sha256sum --check` reads them. The columns of a
+//! part ([`schema`]) are
+//!
+//! | column | type | unit | what |
+//! |---|---|---|---|
+//! | `seed` | u64 | 1 | number of the start |
+//! | `theta_1_rad`, ... | f64 | rad | the start, if asked for |
+//! | `lagrange_outcome` | i16 | 1 | number of the equilibrium in `equilibria` of the manifest, from 0, or a [`Failure`] |
+//! | `lagrange_iterations` | u16 | 1 | iterations spent |
+//! | `lagrange_residual` | f64 | 1 | the solver's own residual where it stopped |
+//! | `lagrange_energy_j` | f64 | J | energy where it stopped, above joint 0 |
+//! | `energy_outcome`, ..., `energy_energy_j` | | | the same of `energy` |
+//!
+//! and the codes of [`Failure`]s are −1 (iteration limit), −2 (stalled), −3 (a number overflowed or was undefined) and
+//! −4 (converged to something that is in no list). Unit and description of each column stand in its metadata in
+//! Parquet, and in the footer `funicular.program`, `.system`, `.system_sha256`, `.seed_number` and `.source`; CSV has
+//! the names alone.
 
 mod compute;
 mod description;

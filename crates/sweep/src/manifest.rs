@@ -17,7 +17,8 @@ use crate::summary::Summary;
 /// Everything that the rows of a sweep depend on, and which of them are here: `manifest.json`.
 ///
 /// Two sweeps with the same manifest have the same rows to the last bit, on whatever machine: the solvers take their
-/// sines from their own kernels.
+/// sines from their own kernels. (Of the system's library they use `hypot` alone, once, for the level distance of the
+/// anchors.)
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Manifest {
     /// [`SCHEMA_VERSION`](crate::SCHEMA_VERSION).

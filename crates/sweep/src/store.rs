@@ -1,26 +1,6 @@
 //! A sweep on disk: computed part after part, in bounded memory, whole at every moment.
 //!
-//! A folder holds
-//!
-//! | file | what |
-//! |---|---|
-//! | `manifest.json` | [`Manifest`]: everything the rows depend on; written first |
-//! | `part-000000.parquet`, ... | the rows, [`part_seeds`](crate::part_seeds) of them in each |
-//! | `summary.json` | [`StoreSummary`]: counts of the outcomes, and the digest of every part; written last |
-//!
-//! and the columns of a part are
-//!
-//! | column | type | unit | what |
-//! |---|---|---|---|
-//! | `seed` | u64 | 1 | number of the start |
-//! | `theta_1_rad`, ... | f64 | rad | the start, if asked for |
-//! | `lagrange_outcome` | i16 | 1 | number of the equilibrium in the manifest's list, or a [`Failure`](crate::Failure) |
-//! | `lagrange_iterations` | u16 | 1 | iterations spent |
-//! | `lagrange_residual` | f64 | 1 | the solver's own residual where it stopped |
-//! | `lagrange_energy_j` | f64 | J | energy where it stopped, above joint 0 |
-//! | `energy_outcome`, ..., `energy_energy_j` | | | the same of `energy` |
-//!
-//! with unit and description in the metadata of each Parquet column.
+//! What a folder holds stands in the documentation of the crate.
 //!
 //! A part appears under its name when it is complete and not before, so a process may be killed at any
 //! time: a second run computes what is missing. Until the summary is there, the digest of every whole part stands in

@@ -29,7 +29,12 @@ Examples:
   funicular merge s1 s2 s3 s4 s5 s6 s7 --out big              all of them, proved complete
 
 The folder holds manifest.json, part-000000.parquet and so on, and at the end summary.json. It is the same to
-the last byte for any number of threads and shards, interrupted or not.";
+the last byte for any number of threads and shards, interrupted or not.
+
+Columns: seed; theta_1_rad, ... (with --angles); and of each solver outcome (a number in `equilibria` of the
+manifest, or -1 iteration limit, -2 stalled, -3 a number overflowed, -4 in no list), iterations, residual and
+energy_j, as in lagrange_outcome. Parquet holds unit and description of each. The table of all files and columns is
+the documentation of the crate sweep: crates/sweep/src/lib.rs, or `cargo doc --open -p sweep`.";
 
 /// `funicular sweep`.
 #[derive(Debug, Args)]
