@@ -52,5 +52,30 @@ impl Svg {
 
 /// A text as SVG has it.
 pub(crate) fn escape(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+    let mut safe = String::with_capacity(text.len());
+    for c in text.chars() {
+        match c {
+            '&' => safe += "&amp;",
+            '<' => safe += "&lt;",
+            '>' => safe += "&gt;",
+            '"' => safe += "&quot;",
+            // XML has a place for neither, not even as a reference.
+            c if c.is_control() || matches!(c, '\u{fffe}' | '\u{ffff}') => safe.push(' '),
+            c => safe.push(c),
+        }
+    }
+    safe
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_name_is_well_formed() {
+        assert_eq!(
+            escape("a<b>&\"c\u{1}\n\u{7f}\u{ffff}\u{1f517}"),
+            "a&lt;b&gt;&amp;&quot;c    \u{1f517}"
+        );
+    }
 }
