@@ -112,10 +112,18 @@ pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
             said += &path.display().to_string();
             said.push('\n');
         }
-        let failed = all.outcome.iter().filter(|outcome| **outcome < 0).count();
+        let unlisted = ::sweep::Failure::Unlisted as i16;
+        let others = all.outcome.iter().filter(|outcome| **outcome == unlisted).count();
+        let failed = all.outcome.iter().filter(|outcome| **outcome < 0).count() - others;
         let starts = size * size;
         // Writing to a String cannot fail.
         let _ = writeln!(said, "{solver}: {failed} of {starts} starts reached no equilibrium");
+        if others > 0 {
+            let _ = writeln!(
+                said,
+                "{solver}: {others} of {starts} starts reached one that is in no list"
+            );
+        }
     }
     drop(progress);
     output::print(&said)?;

@@ -1,10 +1,10 @@
 //! Basins of attraction on a grid of two angles.
 
 use super::axis::{Axis, frame};
-use super::palette::{FAILURE, REGIONS, hex, ramp};
+use super::palette::{FAILURE, MOST_REGIONS, OTHER, hex, ramp, regions};
 use super::png::{base64, png};
 use super::svg::{Anchor, Svg};
-use crate::record::Outcomes;
+use crate::record::{Failure, Outcomes};
 
 /// What became of the seeds of a regular grid over two angles, from 0° to 360° each, the first varying
 /// fastest: each seed stands for the square around it.
@@ -52,6 +52,69 @@ const TOP: f64 = 80.0;
 const SIDE: f64 = 600.0;
 const WIDTH: f64 = 1010.0;
 const HEIGHT: f64 = 760.0;
+
+/// Most entries of a legend with two lines for each; more of them have one.
+const ROOMY: usize = 15;
+/// Width of a column of such a legend, and the height of its lines.
+const COLUMN: f64 = 400.0;
+const LINE: f64 = 22.0;
+/// Such lines beside the picture.
+const LINES: usize = 29;
+/// Most columns of a legend; beyond, it grows downwards.
+const COLUMNS: usize = 3;
+
+/// Colours with their names and the numbers of starts.
+#[derive(Default)]
+struct Legend(Vec<([u8; 3], String, usize)>);
+
+impl Legend {
+    /// Columns and lines in each.
+    fn shape(&self) -> (usize, usize) {
+        let entries = self.0.len();
+        if entries <= ROOMY {
+            return (1, entries);
+        }
+        let columns = entries.div_ceil(LINES).min(COLUMNS);
+        (columns, entries.div_ceil(columns))
+    }
+
+    /// Width and height of a picture that has room for it.
+    fn size(&self) -> [f64; 2] {
+        let (columns, lines) = self.shape();
+        if self.0.len() <= ROOMY {
+            return [WIDTH, HEIGHT];
+        }
+        let width = LEFT + SIDE + 24.0 + COLUMN * columns as f64;
+        [width, HEIGHT.max(TOP + LINE * (lines + 1) as f64)]
+    }
+
+    fn draw(&self, svg: &mut Svg, all: usize) {
+        let (_, lines) = self.shape();
+        let roomy = self.0.len() <= ROOMY;
+        for (k, (colour, name, count)) in self.0.iter().enumerate() {
+            let share = 100.0 * *count as f64 / all as f64;
+            let (left, line) = (LEFT + SIDE + 24.0, if roomy { 44.0 } else { LINE });
+            let (column, row) = ((k / lines) as f64, (k % lines) as f64);
+            let at = [left + COLUMN * column, TOP + 12.0 + line * row];
+            svg.push(format_args!(
+                "<rect x=\"{:.2}\" y=\"{:.2}\" width=\"18\" height=\"18\" fill=\"{}\" stroke=\"#000\"/>",
+                at[0],
+                at[1] - 9.0,
+                hex(*colour)
+            ));
+            svg.text([at[0] + 28.0, at[1] + 4.0], Anchor::Start, name);
+            svg.push("<g fill=\"#555\" font-size=\"12\">");
+            if roomy {
+                let share = format!("{share:.2} % of the starts");
+                svg.text([at[0] + 28.0, at[1] + 20.0], Anchor::Start, &share);
+            } else {
+                let end = [at[0] + COLUMN - 30.0, at[1] + 4.0];
+                svg.text(end, Anchor::End, &format!("{share:.2} %"));
+            }
+            svg.push("</g>");
+        }
+    }
+}
 /// Colours of the ramp of iterations; the next index of the palette is that of failures.
 const SHADES: usize = 64;
 
@@ -68,13 +131,21 @@ impl Basins<'_> {
         if side == 0 || side.checked_mul(side) != Some(outcomes) || outcome.len() != outcomes {
             return Err(BasinsError::Shape { size: self.size, outcomes });
         }
-        let mut svg = Svg::new(WIDTH, HEIGHT, self.title);
+        let legend = match field {
+            Field::Outcome => self.legend(),
+            Field::Iterations => Legend::default(),
+        };
+        let [width, height] = legend.size();
+        let mut svg = Svg::new(width, height, self.title);
         svg.push("<g font-size=\"17\" font-weight=\"bold\">");
         svg.text([LEFT, 34.0], Anchor::Start, self.title);
         svg.push("</g>");
         svg.text([LEFT, 58.0], Anchor::Start, self.note);
         let (pixels, palette) = match field {
-            Field::Outcome => self.regions(&mut svg),
+            Field::Outcome => {
+                legend.draw(&mut svg, outcomes);
+                self.regions()
+            }
             Field::Iterations => self.shades(&mut svg),
         };
         // The first row of a PNG is the top one, the largest second angle.
@@ -91,40 +162,47 @@ impl Basins<'_> {
         Ok(svg.finish())
     }
 
-    /// One colour per equilibrium, black for failures; with the legend.
-    fn regions(&self, svg: &mut Svg) -> (Vec<u8>, Vec<[u8; 3]>) {
-        let colours = REGIONS.len();
-        let mut palette = REGIONS.to_vec();
-        palette.push(FAILURE);
-        let index = |outcome: i16| usize::try_from(outcome).map_or(colours, |k| k % colours);
+    /// One colour per equilibrium, white for others, black for failures.
+    fn regions(&self) -> (Vec<u8>, Vec<[u8; 3]>) {
+        let mut palette = regions(self.names.len());
+        let colours = palette.len();
+        palette.extend([OTHER, FAILURE]);
+        let index = |outcome: i16| match usize::try_from(outcome) {
+            Ok(k) => k.min(colours),
+            Err(_) if outcome == Failure::Unlisted as i16 => colours,
+            Err(_) => colours + 1,
+        };
+        // The palette has at most 256 colours.
+        let pixel = |o: &i16| u8::try_from(index(*o)).unwrap_or(u8::MAX);
+        (self.outcomes.outcome.iter().map(pixel).collect(), palette)
+    }
+
+    /// What is in the picture, by number.
+    fn legend(&self) -> Legend {
         let outcome = &self.outcomes.outcome;
-        // The palette has far fewer than 256 colours.
-        let pixels = outcome.iter().map(|o| u8::try_from(index(*o)).unwrap_or(u8::MAX)).collect();
-        let mut entries: Vec<(usize, &str, usize)> = vec![];
-        for (k, name) in self.names.iter().enumerate() {
-            let count = outcome.iter().filter(|o| usize::try_from(**o) == Ok(k)).count();
-            if count > 0 {
-                entries.push((k % colours, name, count));
+        let colours = regions(self.names.len());
+        let mut counts = vec![0; colours.len()];
+        let (mut other, mut failed) = (0, 0);
+        for o in outcome {
+            match usize::try_from(*o) {
+                Ok(k) if k < counts.len() => counts[k] += 1,
+                Err(_) if *o != Failure::Unlisted as i16 => failed += 1,
+                _ => other += 1,
             }
         }
-        let failed = outcome.iter().filter(|o| **o < 0).count();
-        entries.push((colours, "no equilibrium reached", failed));
-        for (row, (colour, name, count)) in entries.iter().enumerate() {
-            let at = [LEFT + SIDE + 24.0, TOP + 12.0 + 44.0 * row as f64];
-            let fill = hex(palette[*colour]);
-            svg.push(format_args!(
-                "<rect x=\"{:.2}\" y=\"{:.2}\" width=\"18\" height=\"18\" fill=\"{fill}\" stroke=\"#000\"/>",
-                at[0],
-                at[1] - 9.0
-            ));
-            svg.text([at[0] + 28.0, at[1] + 4.0], Anchor::Start, name);
-            let share = 100.0 * *count as f64 / outcome.len() as f64;
-            let share = format!("{share:.2} % of the starts");
-            svg.push("<g fill=\"#555\" font-size=\"12\">");
-            svg.text([at[0] + 28.0, at[1] + 20.0], Anchor::Start, &share);
-            svg.push("</g>");
+        let own = self.names.iter().zip(colours).zip(counts).filter(|(_, count)| *count > 0);
+        let mut entries: Vec<_> =
+            own.map(|((name, colour), count)| (colour, name.clone(), count)).collect();
+        if other > 0 {
+            let name = if self.names.len() > MOST_REGIONS {
+                format!("from {MOST_REGIONS} on, or in no list")
+            } else {
+                "an equilibrium in no list".to_owned()
+            };
+            entries.push((OTHER, name, other));
         }
-        (pixels, palette)
+        entries.push((FAILURE, "no equilibrium reached".to_owned(), failed));
+        Legend(entries)
     }
 
     /// Light for few iterations, dark for many, black for failures; with the scale, which ends at the
@@ -181,5 +259,48 @@ impl Basins<'_> {
             svg.text([left + 32.0, top + 14.0], Anchor::Start, "no equilibrium reached");
         }
         (pixels, palette)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn picture(members: usize) -> String {
+        let names: Vec<_> = (0..members).map(|k| format!("{k}: 1.5 J, no minimum")).collect();
+        let outcome: Vec<i16> =
+            (0..400).map(|k| i16::try_from(k % (members + 1)).unwrap() - 1).collect();
+        let outcomes = Outcomes { iterations: vec![3; 400], outcome, ..Outcomes::default() };
+        let labels = ["a", "b"];
+        let basins =
+            Basins { size: 20, outcomes: &outcomes, names: &names, title: "t", note: "n", labels };
+        basins.svg(Field::Outcome).unwrap()
+    }
+
+    #[test]
+    fn every_equilibrium_has_its_colour_and_all_of_the_legend_is_in_the_picture() {
+        for members in [2, 14, 15, 20, 40, 120, 254, 300] {
+            let svg = picture(members);
+            let number = |text: &str, name: &str| -> f64 {
+                let value = text.split(&format!("{name}=\"")).nth(1).unwrap();
+                value.split('"').next().unwrap().parse().unwrap()
+            };
+            let boxes: Vec<_> = svg.lines().filter(|line| line.contains("width=\"18\"")).collect();
+            let fill = |line: &str| line.split("fill=\"").nth(1).unwrap()[..7].to_owned();
+            let colours: std::collections::BTreeSet<_> =
+                boxes.iter().map(|line| fill(line)).collect();
+            // And failures; beyond the palette the others are one.
+            let wanted = members.min(MOST_REGIONS) + 1 + usize::from(members > MOST_REGIONS);
+            assert_eq!((boxes.len(), colours.len()), (wanted, wanted), "{members}");
+            assert!(
+                boxes.last().unwrap().contains("#000000") && svg.contains("no equilibrium reached")
+            );
+            let (width, height) = (number(&svg, "width"), number(&svg, "height"));
+            for line in boxes {
+                let room = if members < ROOMY { 250.0 } else { COLUMN - 30.0 };
+                assert!(number(line, " x") + room <= width, "{members}: {line}");
+                assert!(number(line, " y") + 20.0 <= height, "{members}: {line}");
+            }
+        }
     }
 }
