@@ -8,8 +8,8 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 
 use ::sweep::{
-    Axis, Manifest, RunSettings, SCHEMA_VERSION, Settings, Shard, Solvers, Source, StoreError,
-    StoreSummary, SystemText,
+    Axis, Comparison, Manifest, RunSettings, SCHEMA_VERSION, Settings, Shard, Solvers, Source,
+    StoreError, StoreSummary, SystemText,
 };
 use indicatif::{HumanCount, ProgressBar, ProgressState, ProgressStyle};
 use miette::miette;
@@ -142,6 +142,7 @@ fn manifest(arguments: &Sweep, problem: &Problem, sweep: &::sweep::Sweep) -> Man
         angles: (1..=angles).map(|bar| format!("theta_{bar}_rad")).collect(),
         equilibria: sweep.members().list().to_vec(),
         equilibria_complete: sweep.members().complete(),
+        equilibria_left_out: sweep.members().left_out(),
         format: arguments.format.to_string(),
         part_seeds: 0,
         shard: Shard::WHOLE,
@@ -180,6 +181,11 @@ pub(crate) fn store_failure(error: &StoreError) -> Failure {
     if error.may_pass() { Failure::undecided(report) } else { Failure::bad_input(report) }
 }
 
+/// Whether a comparison says something of the list rather than of the solvers.
+fn is_gap(manifest: &Manifest, comparison: Comparison) -> bool {
+    comparison == Comparison::NotListed && !manifest.equilibria_complete
+}
+
 /// What `--json` prints of a finished sweep.
 pub(crate) fn json_object(manifest: &Manifest, summary: &StoreSummary, out: &Path) -> Value {
     json!({
@@ -188,6 +194,7 @@ pub(crate) fn json_object(manifest: &Manifest, summary: &StoreSummary, out: &Pat
         "seeds": { "count": summary.outcomes.seeds(), "range": manifest.range, "of": manifest.seeds },
         "equilibria": manifest.equilibria,
         "equilibria_complete": manifest.equilibria_complete,
+        "equilibria_left_out": manifest.equilibria_left_out,
         "solvers": tables::solvers_json(summary),
         "comparisons": tables::comparisons_json(summary),
         "disagreements": summary.outcomes.disagreements(),
@@ -212,12 +219,10 @@ pub(crate) fn written(out: &Path) -> String {
 }
 
 /// A seed that converged to what is in no complete list, or a minimisation that ended elsewhere than in a
-/// minimum, is a check that failed. Failures to converge are results.
+/// minimum, is a check that failed. Failures to converge are results, and so is a gap in a list that is not complete.
 pub(crate) fn verdict(manifest: &Manifest, summary: &StoreSummary) -> Exit {
-    use ::sweep::Comparison;
     let wrong = summary.outcomes.comparisons().any(|(comparison, count)| {
-        let gap = comparison == Comparison::NotListed && !manifest.equilibria_complete;
-        count > 0 && comparison.should_not_be() && !gap
+        count > 0 && comparison.should_not_be() && !is_gap(manifest, comparison)
     });
     let unlisted = ::sweep::Failure::Unlisted as i16;
     let tally = summary.outcomes.tally();

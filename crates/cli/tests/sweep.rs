@@ -149,6 +149,23 @@ fn threads_shards_and_forms_do_not_show() {
     }
 }
 
+/// Thirty bars are too many for a census: that most starts lead to what is in no list is told as that.
+#[test]
+fn a_list_with_gaps_is_no_check_that_failed() {
+    let out = folder("gaps").join("out");
+    let name = out.to_str().unwrap();
+    let output = funicular(&["sweep", "--case", "thirty-bars", "--seeds=100", "--out", name]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let text = String::from_utf8(output.stdout).unwrap();
+    for wanted in
+        ["1000 equilibria in the list, those reached most often of", "unknown: the list has gaps"]
+    {
+        assert!(text.contains(wanted), "{wanted} is not in\n{text}");
+    }
+    assert!(!text.contains(" NO ") && !text.contains("\nseed "), "{text}");
+    assert!(files(&out)["manifest.json"].len() < 3_000_000);
+}
+
 #[test]
 fn an_empty_shard_says_that_it_is() {
     let out = folder("empty");

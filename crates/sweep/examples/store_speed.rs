@@ -38,6 +38,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         angles: Vec::new(),
         equilibria: sweep.members().list().to_vec(),
         equilibria_complete: sweep.members().complete(),
+        equilibria_left_out: sweep.members().left_out(),
         format: format.clone(),
         part_seeds: 0,
         shard: Shard::WHOLE,

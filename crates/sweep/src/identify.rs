@@ -1,6 +1,7 @@
 //! The list of equilibria that outcomes are numbered by, and the way to a number.
 
-use std::cmp::Ordering;
+use std::cmp::{Ordering, Reverse};
+use std::collections::BTreeSet;
 use std::f64::consts::PI;
 
 use census::{Census, CensusError, ProvenEquilibrium, SlackFamily};
@@ -19,6 +20,10 @@ pub const JOINT_TOLERANCE: f64 = 1e-6;
 /// Energies of one equilibrium differ by less than this, in total weight times total length: near an
 /// equilibrium the energy changes with the square of the distance, and with the gap.
 const ENERGY_TOLERANCE: f64 = 1e-9;
+
+/// Most discovered equilibria in a list. In a long chain nearly every seed of the first solver reaches another one: a
+/// list of those identifies nothing, and each costs as much text as a thousand rows.
+pub const DISCOVERED: usize = 1000;
 
 /// Seed number of the seeds that discover equilibria: always the same, whatever the sweep.
 const DISCOVERY: u64 = 0x0066_756e_6963_756c;
@@ -58,12 +63,13 @@ pub struct Member {
 ///
 /// It is the list of the census when that is complete. When the census leaves something undecided, or the
 /// chain is too long for one, what [`Settings::discover`] random seeds (always the same) reach through
-/// both solvers is added. A seed that later converges to something else is
+/// both solvers is added: the [`DISCOVERED`] equilibria that most of them reach. A seed that later converges to something else is
 /// [`Failure::Unlisted`](crate::Failure::Unlisted), and stays in the count.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Members {
     list: Vec<Member>,
     complete: bool,
+    left_out: u64,
     lookup: Lookup,
 }
 
@@ -97,7 +103,8 @@ impl Members {
             return Err(SweepError::TooManyEquilibria { members: list.len(), most: Self::MOST });
         }
         list.sort_by(by_energy_and_angles);
-        let mut members = Self { lookup: Lookup::new(problem, &list), list, complete };
+        let lookup = Lookup::new(problem, &list);
+        let mut members = Self { list, complete, left_out: 0, lookup };
         if !complete {
             members.discover(problem, settings)?;
         }
@@ -106,6 +113,10 @@ impl Members {
 
     /// Largest number of entries: as many as there are codes that are not negative.
     const MOST: usize = i16::MAX as usize;
+
+    /// Most entries held while they are discovered, to bound the time of keeping them in order; a seed that
+    /// reaches something else then is counted as one more left out.
+    const HELD: usize = 2 * Self::MOST;
 
     /// The entries; the number of one is its place.
     #[must_use]
@@ -117,6 +128,12 @@ impl Members {
     #[must_use]
     pub fn complete(&self) -> bool {
         self.complete
+    }
+
+    /// How many equilibria were discovered and left out of the list, because the seeds reached others more often.
+    #[must_use]
+    pub fn left_out(&self) -> u64 {
+        self.left_out
     }
 
     /// What energies are compared in: total weight times total length, J.
@@ -144,6 +161,8 @@ impl Members {
         let mut points = lagrange::batch::Ends::default();
         let mut minima = energy::batch::Ends::default();
         let all = u64::from(settings.discover);
+        // Seeds that reached each entry.
+        let mut seeds = vec![0; self.list.len()];
         for start in (0..all).step_by(usize::try_from(RUN).unwrap_or(1)) {
             spring.fill(start..all.min(start + RUN), bars, &mut angles);
             // Minima first: their index is known.
@@ -151,24 +170,46 @@ impl Members {
             for (k, finish) in minima.finish.iter().enumerate() {
                 if *finish == energy::batch::Finish::Minimum {
                     let u = &minima.directions[k * bars..(k + 1) * bars];
-                    self.add(u, minima.energy_j[k], Some(0));
+                    self.add(u, minima.energy_j[k], Some(0), &mut seeds);
                 }
             }
             newton.solve(&angles, &mut points);
             for (k, finish) in points.finish.iter().enumerate() {
                 if *finish == lagrange::batch::Finish::Converged {
                     let u = &points.directions[k * bars..(k + 1) * bars];
-                    self.add(u, points.energy_j[k], None);
+                    self.add(u, points.energy_j[k], None, &mut seeds);
                 }
             }
         }
+        self.keep(&seeds);
         self.lookup = Lookup::new(problem, &self.list);
         Ok(())
     }
 
-    /// Add an entry unless it is there.
-    fn add(&mut self, u: &[[f64; 2]], energy_j: f64, index: Option<usize>) {
-        if self.list.len() >= Self::MOST || self.lookup.nearest(u, energy_j).is_some() {
+    /// Keep of the discovered entries those that most seeds reached; of equals the lower ones.
+    fn keep(&mut self, seeds: &[u64]) {
+        let mut found: Vec<usize> =
+            (0..self.list.len()).filter(|k| self.list[*k].origin == Origin::Discovered).collect();
+        let room = DISCOVERED.min(Self::MOST - (self.list.len() - found.len()));
+        if found.len() <= room {
+            return;
+        }
+        // Stable: the list is by energy.
+        found.sort_by_key(|k| Reverse(seeds[*k]));
+        let dropped: BTreeSet<usize> = found[room..].iter().copied().collect();
+        self.left_out += dropped.len() as u64;
+        let mut number = 0..;
+        self.list.retain(|_| number.next().is_none_or(|k| !dropped.contains(&k)));
+    }
+
+    /// Count a seed for its entry, a new one if it is not there.
+    fn add(&mut self, u: &[[f64; 2]], energy_j: f64, index: Option<usize>, seeds: &mut Vec<u64>) {
+        if let Some(entry) = self.lookup.nearest(u, energy_j) {
+            seeds[entry] += 1;
+            return;
+        }
+        if self.list.len() >= Self::HELD {
+            self.left_out += 1;
             return;
         }
         let member = Member {
@@ -180,6 +221,7 @@ impl Members {
         };
         let at = self.list.partition_point(|other| by_energy_and_angles(other, &member).is_lt());
         self.list.insert(at, member);
+        seeds.insert(at, 1);
         let bars = u.len();
         self.lookup.energies.insert(at, energy_j / self.lookup.unit_j);
         self.lookup.directions.splice(at * bars..at * bars, u.iter().copied());

@@ -57,7 +57,7 @@ mod vary;
 pub use compute::Compute;
 pub use description::SCHEMA_VERSION;
 pub use error::SweepError;
-pub use identify::{JOINT_TOLERANCE, Member, Members, Origin};
+pub use identify::{DISCOVERED, JOINT_TOLERANCE, Member, Members, Origin};
 pub use manifest::{Manifest, SystemText};
 pub use merge::merge;
 pub use picture::{Abscissa, Basins, BasinsError, Field, diagram};

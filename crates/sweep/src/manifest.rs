@@ -41,6 +41,8 @@ pub struct Manifest {
     pub equilibria: Vec<Member>,
     /// Whether the census has proved that there are no others.
     pub equilibria_complete: bool,
+    /// Equilibria that were reached when the list was made, and are not in it: too many, each from few seeds.
+    pub equilibria_left_out: u64,
     /// `parquet` or `csv`.
     pub format: String,
     /// Seeds of a part file; the last one may have fewer.

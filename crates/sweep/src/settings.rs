@@ -34,7 +34,8 @@ pub struct Settings {
     /// Of the census that the outcomes are identified against. Default: that of the crate.
     pub census: census::Settings,
     /// Random seeds through both solvers that make the list where the census does not: see
-    /// [`Members`](crate::Members). Default 20,000; 0 for none.
+    /// [`Members`](crate::Members); of what they reach at most [`DISCOVERED`](crate::DISCOVERED) are listed.
+    /// Default 20,000; 0 for none.
     pub discover: u32,
 }
 

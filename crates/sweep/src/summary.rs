@@ -70,7 +70,7 @@ pub struct Summary {
     tally: Tally,
     /// Seeds by comparison, in the order of [`Comparison::ALL`].
     comparisons: [u64; 8],
-    /// The first of those that should not be, by seed number.
+    /// The first of those that should not be.
     disagreements: Vec<Disagreement>,
     /// Index in the plane of each entry; −1 where it is not known.
     index: Vec<i32>,
@@ -78,7 +78,7 @@ pub struct Summary {
     scale: u64,
 }
 
-/// Disagreements kept: the first by seed number. All are counted.
+/// Disagreements kept: the first by seed number, those in no list last. All are counted.
 pub const KEPT: usize = 1000;
 
 /// Energies of the same equilibrium agree to this, in total weights times total lengths, as the list is identified
@@ -136,7 +136,9 @@ impl Summary {
     }
 
     fn keep(&mut self) {
-        self.disagreements.sort_unstable();
+        // A list with gaps may leave out most of the seeds, and hide no contradiction.
+        self.disagreements
+            .sort_unstable_by_key(|seed| (seed.comparison == Comparison::NotListed, *seed));
         self.disagreements.truncate(KEPT);
     }
 
@@ -179,8 +181,8 @@ impl Summary {
         Comparison::ALL.into_iter().zip(self.comparisons)
     }
 
-    /// The seeds on which the solvers disagree where they should not, by number: the first [`KEPT`] of
-    /// them.
+    /// The seeds on which the solvers disagree where they should not, by number, and then those in no list,
+    /// by number: the first [`KEPT`] of them.
     #[must_use]
     pub fn disagreements(&self) -> &[Disagreement] {
         &self.disagreements

@@ -203,6 +203,23 @@ fn a_discovered_list_is_a_part_of_the_census() {
     assert_eq!(one.run_chunk(0..500), full.run_chunk(0..500));
 }
 
+/// Nearly every start of a long chain leads somewhere else: the list ends.
+#[test]
+fn a_discovered_list_holds_what_is_reached_most() {
+    let problem = model::cases::get("thirty-bars").unwrap().problem();
+    let settings = Settings { discover: 3000, ..Settings::default() };
+    let sweep = Sweep::new(&problem, settings).unwrap();
+    let members = sweep.members();
+    assert_eq!(members.list().len(), sweep::DISCOVERED);
+    assert!(members.left_out() > 1000, "{}", members.left_out());
+    assert!(members.list().is_sorted_by(|a, b| a.energy_j <= b.energy_j));
+    // All descents end in the one minimum: it is there, and they are still identified.
+    let chunk = sweep.run_chunk(0..200);
+    let minima = members.list().iter().filter(|member| member.index_in_plane == Some(0)).count();
+    let descents = chunk.energy.unwrap().outcome;
+    assert!(minima >= 1 && descents.iter().all(|outcome| *outcome >= 0), "{descents:?}");
+}
+
 #[test]
 fn what_is_not_in_the_list_is_said() {
     // A list of nothing: no census, no discovery.

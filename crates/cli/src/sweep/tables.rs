@@ -5,6 +5,7 @@ use std::fmt::Write as _;
 use ::sweep::{Comparison, Failure, Manifest, SolverTally, StoreSummary, rate_interval};
 use serde_json::{Value, json};
 
+use super::is_gap;
 use crate::tables::{numbers_from, short, table, word};
 
 /// Seeds named one by one in the terminal; `summary.json` has more.
@@ -27,7 +28,14 @@ pub fn summary(manifest: &Manifest, summary: &StoreSummary) -> String {
     } else {
         "there may be others: the census is not complete"
     };
-    let _ = writeln!(text, "{} equilibria in the list; {proof}\n", manifest.equilibria.len());
+    let left_out = match manifest.equilibria_left_out {
+        0 => String::new(),
+        more => {
+            format!(", those reached most often of {}", manifest.equilibria.len() as u64 + more)
+        }
+    };
+    let listed = manifest.equilibria.len();
+    let _ = writeln!(text, "{listed} equilibria in the list{left_out}; {proof}\n");
     let tally = summary.outcomes.tally();
     for (name, solver) in [("lagrange", &tally.lagrange), ("energy", &tally.energy)] {
         if let Some(solver) = solver {
@@ -35,7 +43,7 @@ pub fn summary(manifest: &Manifest, summary: &StoreSummary) -> String {
         }
     }
     if tally.both.is_some() {
-        text += &comparisons(summary);
+        text += &comparisons(manifest, summary);
     }
     text
 }
@@ -100,7 +108,7 @@ fn percent(count: u64, all: u64) -> f64 {
     100.0 * count as f64 / all.max(1) as f64
 }
 
-fn comparisons(summary: &StoreSummary) -> String {
+fn comparisons(manifest: &Manifest, summary: &StoreSummary) -> String {
     let all = summary.outcomes.seeds();
     let mut table = table(["both solvers", "seeds", "rate / %", "as it should be"]);
     for (comparison, count) in summary.outcomes.comparisons().filter(|(_, count)| *count > 0) {
@@ -108,12 +116,19 @@ fn comparisons(summary: &StoreSummary) -> String {
             words(comparison).to_owned(),
             count.to_string(),
             short(percent(count, all)),
-            if comparison.should_not_be() { "NO" } else { "yes" }.to_owned(),
+            match comparison {
+                gap if is_gap(manifest, gap) => "unknown: the list has gaps",
+                wrong if wrong.should_not_be() => "NO",
+                _ => "yes",
+            }
+            .to_owned(),
         ]);
     }
     numbers_from(&mut table, 1);
     let mut text = format!("{table}\n\n");
-    let listed = summary.outcomes.disagreements();
+    // A seed for which the list has no entry is no contradiction.
+    let listed = summary.outcomes.disagreements().iter();
+    let listed: Vec<_> = listed.filter(|seed| !is_gap(manifest, seed.comparison)).collect();
     for disagreement in listed.iter().take(NAMED) {
         let _ = writeln!(
             text,

@@ -34,6 +34,7 @@ pub fn manifest() -> Manifest {
         angles: vec!["theta_1_rad".to_owned(), "theta_2_rad".to_owned()],
         equilibria: vec![member(0.1 + 0.2), member(-1.0e-300)],
         equilibria_complete: true,
+        equilibria_left_out: 0,
         format: "parquet".to_owned(),
         part_seeds: 0,
         shard: Shard::WHOLE,
