@@ -1,5 +1,7 @@
 //! One rigid bar.
 
+use crate::readable::Readable;
+
 /// One rigid bar, as the paper describes it: `l_i`, `m_i`, `r_i` and the principal central moments
 /// of inertia.
 ///
@@ -17,20 +19,21 @@ pub struct Bar {
 #[non_exhaustive]
 pub enum BarError {
     /// Occurs when the length is zero, negative, infinite or not a number.
-    #[error("the length of a bar must be positive and finite, got {length_m} m")]
+    #[error("the length of a bar must be positive and finite, got {} m", Readable(*length_m))]
     Length {
         /// The length as given.
         length_m: f64,
     },
     /// Occurs when the mass is negative, infinite or not a number; zero is a massless link.
-    #[error("the mass of a bar must be zero or positive, and finite, got {mass_kg} kg")]
+    #[error("the mass of a bar must be zero or positive, and finite, got {} kg", Readable(*mass_kg))]
     Mass {
         /// The mass as given.
         mass_kg: f64,
     },
     /// Occurs when the centre of weight does not lie on the bar.
     #[error(
-        "the centre of weight must lie on the bar, between 0 and its length {length_m} m, got {centre_m} m"
+        "the centre of weight must lie on the bar, between 0 and its length {} m, got {} m",
+        Readable(*length_m), Readable(*centre_m)
     )]
     Centre {
         /// The distance from the first joint as given.
@@ -39,7 +42,7 @@ pub enum BarError {
         length_m: f64,
     },
     /// Occurs when a principal moment of inertia is negative, infinite or not a number.
-    #[error("a moment of inertia must be zero or positive, and finite, got {moment_kg_m2} kg m^2")]
+    #[error("a moment of inertia must be zero or positive, and finite, got {} kg m^2", Readable(*moment_kg_m2))]
     Inertia {
         /// The first bad moment.
         moment_kg_m2: f64,

@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::readable::Readable;
 use crate::{Bar, Vector, sum};
 
 /// Standard acceleration of gravity, m/s² (exact by definition: 3rd CGPM, 1901).
@@ -59,7 +60,10 @@ pub enum ChainError {
     #[error("a chain needs at least one bar")]
     NoBars,
     /// Occurs when gravity is zero, negative, infinite or not a number.
-    #[error("gravity must be positive and finite (it acts along -Z), got {gravity_m_s2} m/s^2")]
+    #[error(
+        "gravity must be positive and finite (it acts along -Z), got {} m/s^2",
+        Readable(*gravity_m_s2)
+    )]
     Gravity {
         /// Gravity as given.
         gravity_m_s2: f64,

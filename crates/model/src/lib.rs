@@ -21,6 +21,7 @@ mod chain;
 mod equilibrium;
 mod evidence;
 mod problem;
+mod readable;
 mod sum;
 pub mod system_file;
 

@@ -1,5 +1,6 @@
 //! Chains that have an answer, and the refusal of those that have none.
 
+use crate::readable::Readable;
 use crate::{Anchors, Bar, Chain};
 
 /// How near to straight is straight, relative to the total length.
@@ -36,7 +37,7 @@ pub enum Refusal {
     /// share the force along it in any way they like.
     #[error(
         "a single bar between two fixed points cannot move, and the force along it is indeterminate \
-         (length {length_m} m, span {span_m} m)"
+         (length {} m, span {} m)", Readable(*length_m), Readable(*span_m)
     )]
     SingleBar {
         /// Length of the bar.
@@ -46,8 +47,8 @@ pub enum Refusal {
     },
     /// Occurs when the anchors are further apart than the bars reach.
     #[error(
-        "the anchors are {span_m} m apart and the bars reach only {total_length_m} m: \
-         {} m are missing", span_m - total_length_m
+        "the anchors are {} m apart and the bars reach only {} m: {} m are missing",
+        Readable(*span_m), Readable(*total_length_m), Readable(span_m - total_length_m)
     )]
     OutOfReach {
         /// Distance of the anchors.
@@ -58,8 +59,9 @@ pub enum Refusal {
     /// Occurs when the chain is straight and taut: it cannot move, and the force along it is
     /// indeterminate.
     #[error(
-        "the bars reach from anchor to anchor and no further (total length {total_length_m} m, span \
-         {span_m} m): the chain is straight and taut, and the force along it is indeterminate"
+        "the bars reach from anchor to anchor and no further (total length {} m, span \
+         {} m): the chain is straight and taut, and the force along it is indeterminate",
+        Readable(*total_length_m), Readable(*span_m)
     )]
     Taut {
         /// Distance of the anchors.
@@ -69,8 +71,9 @@ pub enum Refusal {
     },
     /// Occurs when one bar is longer than the other bars and the span together can close.
     #[error(
-        "bar {bar} is {length_m} m long, longer than the other bars ({rest_m} m) and the span \
-         ({span_m} m) together: the chain cannot close"
+        "bar {bar} is {} m long, longer than the other bars ({} m) and the span ({} m) together: \
+         the chain cannot close",
+        Readable(*length_m), Readable(*rest_m), Readable(*span_m)
     )]
     BarTooLong {
         /// Number of the bar, from 1.
@@ -85,9 +88,9 @@ pub enum Refusal {
     /// Occurs when one bar is exactly as long as the other bars and the span together: the chain
     /// closes only folded on one straight line, and the force along it is indeterminate.
     #[error(
-        "bar {bar} is {length_m} m long, exactly as long as the other bars ({rest_m} m) and the span \
-         ({span_m} m) together: the chain closes only folded on one line, and the force along it is \
-         indeterminate"
+        "bar {bar} is {} m long, exactly as long as the other bars ({} m) and the span ({} m) \
+         together: the chain closes only folded on one line, and the force along it is indeterminate",
+        Readable(*length_m), Readable(*rest_m), Readable(*span_m)
     )]
     Folded {
         /// Number of the bar, from 1.
@@ -102,8 +105,9 @@ pub enum Refusal {
     /// Occurs when the anchors are so far from the origin that the rounding of their coordinates
     /// decides whether the chain can hang, or cannot close, or is straight.
     #[error(
-        "the coordinates of the anchors reach {coordinate_m} m, where doubles place the anchors only to \
-         {rounding_m:e} m, and the bars are only {margin_m:e} m away from being straight"
+        "the coordinates of the anchors reach {} m, where doubles place the anchors only to \
+         {rounding_m:e} m, and the bars are only {margin_m:e} m away from being straight",
+        Readable(*coordinate_m)
     )]
     Unresolved {
         /// The largest coordinate.

@@ -49,6 +49,17 @@ fn chains_that_are_no_equilibrium_problem() {
          indeterminate (length 2 m, span 2 m)",
         "2",
     );
+    // Nobody counts three hundred zeros.
+    check(
+        "[anchors]\nstart_m = [0, 0, 0]\nend_m = [0, 0, -2e12]\n[[bars]]\nlength_m = 1e-300\nmass_kg = 1\n",
+        "f:3:9: anchors.end_m: the anchors are 2e12 m apart and the bars reach only 1e-300 m: 2e12 m are missing",
+        "[0, 0, -2e12]",
+    );
+    check(
+        &anchored("[[bars]]\nlength_m = -1e-300\nmass_kg = 1\n"),
+        "f:5:12: bars[1].length_m: the length of a bar must be positive and finite, got -1e-300 m",
+        "-1e-300",
+    );
     // The bar that is too long in the third table is the fifth of the chain.
     check(
         &anchored(
