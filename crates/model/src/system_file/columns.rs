@@ -20,7 +20,7 @@ use super::limits::{MAX_BARS, MAX_BARS_FILE_BYTES};
 use super::load::{Loaded, load, without_mark};
 use super::location::span_of;
 use super::suggest::nearest;
-use crate::{Bar, BarError, ChainError};
+use crate::{Bar, BarError};
 
 const COLUMNS: &[&str] = &["length_m", "mass_kg", "centre_m"];
 const WANTED_LENGTH: &str = "a column of lengths in metres";
@@ -94,7 +94,7 @@ impl<'a> Sheet<'a> {
             bars.push(self.bar(line, &header)?);
         }
         if bars.is_empty() {
-            return Err(self.error(Kind::Chain(ChainError::NoBars), None, &self.text[..0]));
+            return Err(self.error(Kind::NoRows, None, &self.text[..0]));
         }
         Ok(bars)
     }
@@ -132,8 +132,7 @@ impl<'a> Sheet<'a> {
             let fail = |kind| Err(self.error(kind, Some(name).filter(|n| !n.is_empty()), cell));
             if let Some(column) = COLUMNS.iter().position(|known| *known == name) {
                 if places[column].replace(k).is_some() {
-                    let key = name.to_owned();
-                    return fail(Kind::DuplicateKey { key, first_line: Some(1) });
+                    return fail(Kind::DuplicateColumn { column: COLUMNS[column] });
                 }
             } else if let Some(found) = name.chars().find(|c| matches!(c, ';' | '\t' | '|')) {
                 return Err(self.error(Kind::Separator { found }, None, line));

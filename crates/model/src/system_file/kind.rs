@@ -43,13 +43,19 @@ pub enum SystemFileErrorKind {
     /// Occurs when the text is no TOML.
     #[error("not valid TOML: {0}")]
     Syntax(String),
-    /// Occurs when a key or a column is given twice.
+    /// Occurs when a key is given twice.
     #[error("duplicate key `{key}`{}", first_line.map_or_else(String::new, |line| format!(", first given in line {line}")))]
     DuplicateKey {
         /// The key.
         key: String,
         /// The line of its first appearance, where that is certain.
         first_line: Option<usize>,
+    },
+    /// Occurs when a bars file has two columns of one name.
+    #[error("duplicate column `{column}`")]
+    DuplicateColumn {
+        /// The column.
+        column: &'static str,
     },
     /// Occurs when a key or a column is not one of those allowed in its place.
     #[error("unknown key `{key}`")]
@@ -105,6 +111,9 @@ pub enum SystemFileErrorKind {
         /// The limit.
         limit: usize,
     },
+    /// Occurs when a bars file has a header and no rows.
+    #[error("there are columns but no bars")]
+    NoRows,
     /// Occurs when the columns of a bars file are not separated by commas.
     #[error("columns are separated by commas, found {found:?}")]
     Separator {
@@ -174,6 +183,8 @@ impl SystemFileErrorKind {
                  double quotes, numbers take a decimal point and no unit"
             }
             Self::DuplicateKey { .. } => "a key is given once; every bar starts with [[bars]]",
+            Self::DuplicateColumn { .. } => "a column is given once; keep one of them",
+            Self::NoRows => "every line after the header is a bar, such as 0.25,1e-3",
             Self::WrongType { found: "a string", wanted } if wanted.contains("number") => {
                 "numbers are written without quotes"
             }

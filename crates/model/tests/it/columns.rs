@@ -36,12 +36,26 @@ fn headers_that_are_wrong() {
     );
     check(
         "length_m,mass_kg,length_m\n",
-        "b:1:18: length_m: duplicate key `length_m`, first given in line 1",
+        "b:1:18: length_m: duplicate column `length_m`",
         "length_m",
     );
     check("1.0,2.0\n", "b:1:1: 1.0: unknown key `1.0`", "1.0");
     let help = parse_bars("length,mass_kg\n", "b").unwrap_err().help().unwrap();
     assert_eq!(help, "did you mean `length_m`? allowed here: length_m, mass_kg, centre_m");
+}
+
+/// A bars file knows no `[[bars]]`.
+#[test]
+fn help_is_about_columns_and_rows() {
+    let help = |text: &str| parse_bars(text, "b").unwrap_err().help().unwrap();
+    assert_eq!(
+        help("length_m,mass_kg\n"),
+        "every line after the header is a bar, such as 0.25,1e-3"
+    );
+    assert_eq!(
+        help("length_m,mass_kg,mass_kg\n1,1,1\n"),
+        "a column is given once; keep one of them"
+    );
 }
 
 #[test]
@@ -77,7 +91,7 @@ fn rows_that_are_wrong() {
         "b:3:1: length_m: a moment of inertia must be zero or positive, and finite, got inf kg m^2",
         "1e200,1,",
     );
-    check("length_m,mass_kg\n", "b:1:1: a chain needs at least one bar", "");
+    check("length_m,mass_kg\n", "b:1:1: there are columns but no bars", "");
 }
 
 #[test]
