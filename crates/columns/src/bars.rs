@@ -6,8 +6,9 @@ use std::path::Path;
 use ::parquet::arrow::arrow_reader::{
     ArrowReaderMetadata, ArrowReaderOptions, ParquetRecordBatchReaderBuilder,
 };
+use ::parquet::basic::CompressionCodec;
 use ::parquet::file::FOOTER_SIZE;
-use ::parquet::file::metadata::ParquetMetaDataReader;
+use ::parquet::file::metadata::{ParquetMetaData, ParquetMetaDataReader};
 use arrow_array::types::{
     ArrowPrimitiveType, Float32Type, Float64Type, Int8Type, Int16Type, Int32Type, Int64Type,
     UInt8Type, UInt16Type, UInt32Type, UInt64Type,
@@ -25,6 +26,9 @@ const MASS: &str = "mass_kg";
 const CENTRE: &str = "centre_m";
 const COLUMNS: [&str; 3] = [LENGTH, MASS, CENTRE];
 const WANTED: &str = "numbers (floating point of 32 or 64 bits, or integers)";
+
+/// The compressions that the features of the `parquet` crate in our `Cargo.toml` are for.
+const COMPRESSIONS: &str = "Snappy, Zstandard, LZ4 and no compression";
 
 /// Rows decoded at a time: three columns of them stay in the second-level cache.
 pub const BATCH_ROWS: usize = 1 << 14;
@@ -101,9 +105,29 @@ pub fn footer(path: &Path, file: &File) -> Result<ArrowReaderMetadata, ColumnsEr
     let metadata = ParquetMetaDataReader::new()
         .parse_and_finish(file)
         .map_err(|error| not(error.to_string()))?;
+    check_compressions(path, &metadata)?;
     let options = ArrowReaderOptions::new().with_skip_arrow_metadata(true);
     ArrowReaderMetadata::try_new(metadata.into(), options)
         .map_err(|error| ColumnsError::damaged(path, &error))
+}
+
+/// What cannot be unpacked is not damaged.
+fn check_compressions(path: &Path, metadata: &ParquetMetaData) -> Result<(), ColumnsError> {
+    use CompressionCodec::{BROTLI, GZIP, LZ4, LZ4_RAW, LZO, SNAPPY, UNCOMPRESSED, ZSTD};
+    for column in metadata.row_groups().iter().flat_map(|group| group.columns()) {
+        match column.compression_codec() {
+            UNCOMPRESSED | SNAPPY | ZSTD | LZ4 | LZ4_RAW => {}
+            found @ (GZIP | BROTLI | LZO) => {
+                return Err(ColumnsError::Compression {
+                    path: path.to_owned(),
+                    column: column.column_path().string(),
+                    found: found.to_string(),
+                    supported: COMPRESSIONS,
+                });
+            }
+        }
+    }
+    Ok(())
 }
 
 fn check_rows(path: &Path, metadata: &ArrowReaderMetadata) -> Result<usize, ColumnsError> {

@@ -46,6 +46,18 @@ pub enum ColumnsError {
         /// What the reader found.
         reason: String,
     },
+    /// Occurs when a column is compressed by what this program does not read.
+    #[error("{}: column `{column}` is compressed by {found}, which cannot be read here; {supported} can", path.display())]
+    Compression {
+        /// The file.
+        path: PathBuf,
+        /// The column.
+        column: String,
+        /// Its compression, as the format names it.
+        found: String,
+        /// What can be read.
+        supported: &'static str,
+    },
     /// Occurs when a column is in the file that means nothing here.
     #[error("{}: unknown column `{column}`; allowed are {allowed}", path.display())]
     UnknownColumn {

@@ -14,6 +14,7 @@ use columns::{ColumnsError, read_bars};
 use model::{Bar, BarError};
 use parquet::arrow::ArrowWriter;
 use parquet::basic::Compression;
+use parquet::file::metadata::{ParquetMetaDataReader, ParquetMetaDataWriter};
 use parquet::file::properties::WriterProperties;
 
 struct Folder(tempfile::TempDir);
@@ -93,6 +94,39 @@ fn the_numbers_are_of_any_width_and_any_compression() {
     let narrow: [(&str, ArrayRef); 2] =
         [("length_m", Arc::new(Int16Array::from(vec![3]))), ("mass_kg", doubles([1.0]))];
     assert_eq!(read_bars(Folder::new().write(&narrow)).unwrap().len(), 1);
+}
+
+/// The writer of the tests packs no better than the reader unpacks: the description alone says another
+/// compression.
+#[test]
+fn a_compression_that_cannot_be_read_is_no_damage() {
+    let folder = Folder::new();
+    let columns = [("length_m", doubles([1.0])), ("mass_kg", doubles([2.0]))];
+    for (compression, name) in [
+        (Compression::GZIP(parquet::basic::GzipLevel::default()), "GZIP"),
+        (Compression::BROTLI(parquet::basic::BrotliLevel::default()), "BROTLI"),
+        (Compression::LZO, "LZO"),
+    ] {
+        let path = folder.write(&columns);
+        let whole = ParquetMetaDataReader::new().parse_and_finish(&File::open(&path).unwrap());
+        let mut builder = whole.unwrap().into_builder();
+        for group in builder.take_row_groups() {
+            let mut chunks = group.columns().to_vec();
+            let last = chunks.pop().unwrap().into_builder().set_compression(compression).build();
+            chunks.push(last.unwrap());
+            let group = group.into_builder().set_column_metadata(chunks).build().unwrap();
+            builder = builder.add_row_group(group);
+        }
+        let file = File::options().append(true).open(&path).unwrap();
+        ParquetMetaDataWriter::new(file, &builder.build()).finish().unwrap();
+        let error = error(&path);
+        assert!(matches!(error, ColumnsError::Compression { .. }), "{error}");
+        let wanted = format!(
+            "column `mass_kg` is compressed by {name}, which cannot be read here; Snappy, Zstandard, LZ4 and no \
+             compression can"
+        );
+        assert!(error.to_string().ends_with(&wanted), "{error}");
+    }
 }
 
 #[test]
