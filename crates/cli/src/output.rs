@@ -1,9 +1,11 @@
 //! Writing: standard output that may be a closed pipe, and files that are whole or not there.
 
-use std::fs::{self, File};
+use std::fmt::Display;
+use std::fs;
 use std::io::{self, BufWriter, ErrorKind, StdoutLock, Write};
 use std::path::Path;
 
+use columns::AtomicFile;
 use miette::miette;
 
 use crate::exit::Failure;
@@ -29,8 +31,11 @@ pub fn print_stream(
     }
 }
 
-/// Write a file by way of a temporary neighbour, so that an interruption leaves the old file or the
-/// new one and never half of either.
+fn cannot_write(path: &Path, why: impl Display) -> Failure {
+    Failure::bad_input(miette!("cannot write {}: {why}", path.display()))
+}
+
+/// Write a file, so that an interruption leaves the old file or the new one and never half of either.
 pub fn write_whole(path: &Path, text: &str) -> Result<(), Failure> {
     write_stream(path, |file| file.write_all(text.as_bytes()))
 }
@@ -38,20 +43,17 @@ pub fn write_whole(path: &Path, text: &str) -> Result<(), Failure> {
 /// The same for what is too long to be held as one text.
 pub fn write_stream(
     path: &Path,
-    content: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
+    content: impl FnOnce(&mut AtomicFile) -> io::Result<()>,
 ) -> Result<(), Failure> {
-    let name = path.file_name().map_or_else(String::new, |n| n.to_string_lossy().into_owned());
-    let part = path.with_file_name(format!(".{name}.{}.part", std::process::id()));
-    let written = File::create(&part).map(BufWriter::new).and_then(|mut file| {
+    let written = AtomicFile::create(path).and_then(|mut file| {
         content(&mut file)?;
-        file.flush()?;
-        fs::rename(&part, path)
+        file.commit()
     });
-    written.map_err(|error| {
-        // Best effort: the error to tell is the first one.
-        let _ = fs::remove_file(&part);
-        Failure::bad_input(miette!("cannot write {}: {error}", path.display()))
-    })
+    match written {
+        // Of a pipe, as above.
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => Err(cannot_write(path, error)),
+        _ => Ok(()),
+    }
 }
 
 /// Make a folder with its parents.

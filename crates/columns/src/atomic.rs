@@ -1,36 +1,67 @@
 //! Files that are whole or not there.
 
-use std::fs::{self, File};
-use std::io::{self, BufWriter, Write};
+use std::fs::{self, File, Metadata, OpenOptions};
+use std::io::{self, BufWriter, ErrorKind, IntoInnerError, Write};
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// Bytes collected before they go to the system.
 const BUFFER: usize = 1 << 18;
 
+/// Symbolic links followed before they are taken for a ring; the kernel of Linux has the same number.
+const MOST_LINKS: usize = 40;
+
 /// A file that appears under its name when it is complete: until then it grows beside it, and when it is
 /// dropped before it goes away. A process that is killed leaves `.NAME.PROCESS.part` behind, which
-/// [`remove_unfinished`] clears.
+/// [`remove_unfinished`] clears; one that is asked to end leaves nothing if it ends by [`abandon`].
+///
+/// Where the name is a symbolic link, the file that it leads to is replaced, and the link stays. What is
+/// there and is no regular file, such as a pipe or a device, cannot be replaced by one: it is written into
+/// as the bytes come. So is standard output under another name (`/dev/stdout`).
 #[derive(Debug)]
 pub struct AtomicFile {
-    path: PathBuf,
-    part: PathBuf,
-    file: Option<BufWriter<File>>,
+    // Before the part: closed when that goes away.
+    file: BufWriter<File>,
+    /// `None` for what is written straight into.
+    part: Option<Part>,
 }
 
 impl AtomicFile {
-    /// Begin a file.
+    /// Begin a file. A pipe with a name waits here for its reader.
     ///
     /// # Errors
     ///
     /// Those of the file system.
     pub fn create(path: &Path) -> io::Result<Self> {
-        if path.is_dir() {
-            return Err(io::Error::from(io::ErrorKind::IsADirectory));
+        let (file, part) = match standing(path)? {
+            Standing::Stream(file) => (file, None),
+            Standing::Special => (OpenOptions::new().write(true).open(path)?, None),
+            Standing::Regular(about) => {
+                let (part, file) = Part::begin(end_of_links(path)?)?;
+                // What nobody else could read stays so. Best effort: not every file system has permissions.
+                let _ = file.set_permissions(about.permissions());
+                (file, Some(part))
+            }
+            Standing::Nothing => {
+                let (part, file) = Part::begin(end_of_links(path)?)?;
+                (file, Some(part))
+            }
+        };
+        Ok(Self { file: BufWriter::with_capacity(BUFFER, file), part })
+    }
+
+    /// See whether a file could be written, and leave everything as it is.
+    ///
+    /// # Errors
+    ///
+    /// Those that [`create`](Self::create) would meet. Pipes and devices are not opened.
+    pub fn check(path: &Path) -> io::Result<()> {
+        match standing(path)? {
+            Standing::Stream(_) | Standing::Special => Ok(()),
+            Standing::Regular(_) | Standing::Nothing => {
+                Part::begin(end_of_links(path)?).map(|_| ())
+            }
         }
-        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-        let part = path.with_file_name(format!(".{name}.{}{UNFINISHED}", std::process::id()));
-        let file = Some(BufWriter::with_capacity(BUFFER, File::create(&part)?));
-        Ok(Self { path: path.to_owned(), part, file })
     }
 
     /// Give the file its name; what was there under it is replaced. The bytes are on the disk before.
@@ -38,37 +69,132 @@ impl AtomicFile {
     /// # Errors
     ///
     /// Those of the file system.
-    pub fn commit(mut self) -> io::Result<()> {
-        if let Some(writer) = self.file.take() {
-            let file = writer.into_inner().map_err(io::IntoInnerError::into_error);
-            // Taken out of `self`: the part must go by hand if this fails.
-            let named = file
-                .and_then(|file| file.sync_data())
-                .and_then(|()| fs::rename(&self.part, &self.path));
-            if named.is_err() {
-                let _ = fs::remove_file(&self.part);
-            }
-            return named;
-        }
-        Ok(())
+    pub fn commit(self) -> io::Result<()> {
+        let Self { file, part } = self;
+        let file = file.into_inner().map_err(IntoInnerError::into_error)?;
+        let Some(part) = part else { return Ok(()) };
+        file.sync_data()?;
+        part.name()
     }
 }
 
 impl Write for AtomicFile {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        self.file.as_mut().map_or(Ok(0), |file| file.write(bytes))
+        self.file.write(bytes)
     }
 
     fn flush(&mut self) -> io::Result<()> {
-        self.file.as_mut().map_or(Ok(()), BufWriter::flush)
+        self.file.flush()
     }
 }
 
-impl Drop for AtomicFile {
+/// What stands where a file is to be written.
+enum Standing {
+    Nothing,
+    Regular(Metadata),
+    /// Standard output.
+    Stream(File),
+    /// Another pipe, device or socket.
+    Special,
+}
+
+fn standing(path: &Path) -> io::Result<Standing> {
+    Ok(match fs::metadata(path) {
+        Err(error) if error.kind() == ErrorKind::NotFound => Standing::Nothing,
+        Err(error) => return Err(error),
+        Ok(about) if about.is_dir() => return Err(ErrorKind::IsADirectory.into()),
+        Ok(about) => match standard_output(&about) {
+            // One file by two descriptors would be written over itself.
+            Some(file) => Standing::Stream(file),
+            None if about.is_file() => Standing::Regular(about),
+            None => Standing::Special,
+        },
+    })
+}
+
+/// Standard output, if it is the file that this is about.
+#[cfg(unix)]
+fn standard_output(about: &Metadata) -> Option<File> {
+    use std::os::fd::AsFd;
+    use std::os::unix::fs::MetadataExt;
+
+    let file = File::from(io::stdout().as_fd().try_clone_to_owned().ok()?);
+    let own = file.metadata().ok()?;
+    ((own.dev(), own.ino()) == (about.dev(), about.ino())).then_some(file)
+}
+
+/// Elsewhere standard output has no other name.
+#[cfg(not(unix))]
+fn standard_output(_: &Metadata) -> Option<File> {
+    None
+}
+
+/// Where a path leads when symbolic links are followed; at the end there may be nothing yet.
+fn end_of_links(path: &Path) -> io::Result<PathBuf> {
+    let mut path = path.to_owned();
+    for _ in 0..MOST_LINKS {
+        let Ok(to) = fs::read_link(&path) else { return Ok(path) };
+        path = path.parent().unwrap_or(Path::new("")).join(to);
+    }
+    Err(io::Error::other("too many symbolic links"))
+}
+
+/// The parts that grow now.
+static GROWING: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
+
+/// A list of paths is never half changed: a thread that panicked does no harm.
+fn growing() -> MutexGuard<'static, Vec<PathBuf>> {
+    GROWING.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Remove all files that this process has begun, and end it: `end` should not return. Until it does no file
+/// can be begun or get its name, so that nothing is left behind and nothing complete is lost.
+pub fn abandon<T>(end: impl FnOnce() -> T) -> T {
+    let growing = growing();
+    for part in growing.iter() {
+        // Best effort: there is nobody to tell.
+        let _ = fs::remove_file(part);
+    }
+    end()
+}
+
+/// The file beside the one to be written, until it is that.
+#[derive(Debug)]
+struct Part {
+    path: PathBuf,
+    target: PathBuf,
+}
+
+impl Part {
+    fn begin(target: PathBuf) -> io::Result<(Self, File)> {
+        let name = target.file_name().unwrap_or_default().to_string_lossy();
+        let path = target.with_file_name(format!(".{name}.{}{UNFINISHED}", std::process::id()));
+        let mut growing = growing();
+        let file = File::create(&path)?;
+        growing.push(path.clone());
+        Ok((Self { path, target }, file))
+    }
+
+    fn name(self) -> io::Result<()> {
+        let mut growing = growing();
+        let named = fs::rename(&self.path, &self.target);
+        if named.is_ok() {
+            // Nothing is left that `drop` could remove.
+            growing.retain(|part| *part != self.path);
+        }
+        drop(growing);
+        named
+    }
+}
+
+impl Drop for Part {
     fn drop(&mut self) {
-        if self.file.take().is_some() {
+        let mut growing = growing();
+        let before = growing.len();
+        growing.retain(|part| *part != self.path);
+        if growing.len() < before {
             // Best effort: there is nobody to tell.
-            let _ = fs::remove_file(&self.part);
+            let _ = fs::remove_file(&self.path);
         }
     }
 }

@@ -13,7 +13,7 @@ mod parquet;
 mod table;
 mod writer;
 
-pub use atomic::{AtomicFile, remove_unfinished, write_whole};
+pub use atomic::{AtomicFile, abandon, remove_unfinished, write_whole};
 pub use bars::read_bars;
 pub use error::ColumnsError;
 pub use table::{Column, Data, Kind, Mismatch, Schema, Spread};
