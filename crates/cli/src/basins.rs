@@ -9,7 +9,7 @@ use miette::miette;
 use rayon::prelude::*;
 
 use crate::exit::{Exit, Failure};
-use crate::input;
+use crate::input::{self, Input};
 use crate::output;
 use crate::progress::Progress;
 
@@ -19,10 +19,23 @@ at --others. Both solvers start there, whether or not the chain closes. Files: l
 equilibrium reached), lagrange-iterations.svg and energy-iterations.svg.
 
 Example:
-  funicular basins --case three-equal-bars --size 400 --out pictures";
+  funicular basins --case three-equal-bars --size 400 --out pictures
+
+Exit codes:
+  0  done
+  2  bad input or usage
+  3  a picture could not be drawn";
 
 /// Largest picture: 16 million starts for each solver.
 const LARGEST: u32 = 4096;
+
+const SOLVERS: [&str; 2] = ["lagrange", "energy"];
+
+/// What is drawn, in words, and what the name of the file ends in.
+const FIELDS: [(Field, &str, &str); 2] = [
+    (Field::Outcome, "equilibrium reached", ""),
+    (Field::Iterations, "iterations spent", "-iterations"),
+];
 
 /// `funicular basins`.
 #[derive(Debug, Args)]
@@ -50,9 +63,17 @@ pub struct Arguments {
 
 /// Run the command.
 pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
-    let problem = input::problem(arguments.file.as_deref(), arguments.case.as_deref())?;
+    let Input { problem, files } =
+        input::problem(arguments.file.as_deref(), arguments.case.as_deref())?;
     let bars = problem.chain().bars().len();
     let [i, j] = axes(arguments, bars)?;
+    output::make_folder(&arguments.out)?;
+    let picture = |solver: &str, suffix: &str| arguments.out.join(format!("{solver}{suffix}.svg"));
+    let pictures: Vec<_> = SOLVERS
+        .iter()
+        .flat_map(|solver| FIELDS.iter().map(|(_, _, suffix)| picture(solver, suffix)))
+        .collect();
+    output::check(pictures.iter().map(PathBuf::as_path), &files)?;
     let others = arguments.others.to_radians();
     let axis = |bar: usize| {
         if bar == i || bar == j {
@@ -81,9 +102,8 @@ pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
     };
     let title = problem.chain().name();
     let labels = [i, j].map(|bar| format!("start of bar {bar} from the vertical / \u{b0}"));
-    output::make_folder(&arguments.out)?;
     let mut said = String::new();
-    for solver in ["lagrange", "energy"] {
+    for solver in SOLVERS {
         let mut all = Outcomes::default();
         for chunk in &rows {
             let part = if solver == "lagrange" { &chunk.lagrange } else { &chunk.energy };
@@ -93,10 +113,7 @@ pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
         }
         let note =
             |field: &str| format!("{field} by {solver} from {size} \u{d7} {size} starts{fixed}");
-        for (field, what, suffix) in [
-            (Field::Outcome, "equilibrium reached", ""),
-            (Field::Iterations, "iterations spent", "-iterations"),
-        ] {
+        for (field, what, suffix) in FIELDS {
             let note = note(what);
             let basins = Basins {
                 size: arguments.size,
@@ -106,9 +123,9 @@ pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
                 note: &note,
                 labels: [&labels[0], &labels[1]],
             };
-            let picture = basins.svg(field).map_err(|e| Failure::undecided(miette!("{e}")))?;
-            let path = arguments.out.join(format!("{solver}{suffix}.svg"));
-            output::write_whole(&path, &picture)?;
+            let drawn = basins.svg(field).map_err(|e| Failure::undecided(miette!("{e}")))?;
+            let path = picture(solver, suffix);
+            output::write_whole(&path, &drawn)?;
             said += &path.display().to_string();
             said.push('\n');
         }

@@ -4,14 +4,14 @@ mod answer;
 mod csv;
 mod table;
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use census::{CensusError, Settings, rough_time};
 use clap::Args;
 use miette::miette;
 
 use crate::exit::{Exit, Failure};
-use crate::input;
+use crate::input::{self, Input};
 use crate::output;
 use crate::progress::Progress;
 
@@ -49,10 +49,6 @@ pub struct Census {
 
 /// Run the command.
 pub fn run(arguments: &Census) -> Result<Exit, Failure> {
-    // Before the work, not after it.
-    for path in [&arguments.svg, &arguments.csv].into_iter().flatten() {
-        check_folder(path)?;
-    }
     let settings = Settings { max_bars: arguments.max_bars, ..Settings::default() };
     settings.validate().map_err(|error| Failure::bad_input(miette!("{error}")))?;
     if let Some(threads) = arguments.threads {
@@ -63,7 +59,10 @@ pub fn run(arguments: &Census) -> Result<Exit, Failure> {
     }
     let progress = Progress::start();
     progress.say("reading");
-    let problem = input::problem(arguments.file.as_deref(), arguments.case.as_deref())?;
+    let Input { problem, files } =
+        input::problem(arguments.file.as_deref(), arguments.case.as_deref())?;
+    let outputs = [&arguments.svg, &arguments.csv];
+    output::check(outputs.into_iter().flatten().map(PathBuf::as_path), &files)?;
     let census = census::Census::take_watched(&problem, &settings, &|now| {
         progress.say(&format!(
             "{} cells done, {} waiting, {} undecided, {} zeros proved",
@@ -76,7 +75,6 @@ pub fn run(arguments: &Census) -> Result<Exit, Failure> {
     let name = problem.chain().name();
     let answer = answer::Answer::new(&problem, &census, verdict);
 
-    // All the text first: an interruption meets no file half written.
     if let Some(path) = &arguments.svg {
         output::write_whole(path, &census.figure(name, SHAPES))?;
     }
@@ -100,22 +98,6 @@ pub fn run(arguments: &Census) -> Result<Exit, Failure> {
     } else {
         Exit::Undecided
     })
-}
-
-/// A file can be written only into a folder that is there.
-fn check_folder(path: &Path) -> Result<(), Failure> {
-    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
-    match folder {
-        Some(folder) if !folder.is_dir() => Err(Failure::bad_input(miette!(
-            "cannot write {}: there is no folder {}",
-            path.display(),
-            folder.display()
-        ))),
-        _ if path.is_dir() => {
-            Err(Failure::bad_input(miette!("cannot write {}: it is a folder", path.display())))
-        }
-        _ => Ok(()),
-    }
 }
 
 /// Why there is no census, and how to go on.

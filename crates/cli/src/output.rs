@@ -3,7 +3,7 @@
 use std::fmt::Display;
 use std::fs;
 use std::io::{self, BufWriter, ErrorKind, StdoutLock, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use columns::AtomicFile;
 use miette::miette;
@@ -28,6 +28,58 @@ pub fn print_stream(
             Err(Failure::bad_input(miette!("cannot write to standard output: {error}")))
         }
         _ => Ok(()),
+    }
+}
+
+/// Refuse, before the work, what cannot be written after it, and what would overwrite a file that is read
+/// or another that is written.
+pub fn check<'a>(
+    outputs: impl IntoIterator<Item = &'a Path>,
+    inputs: &[PathBuf],
+) -> Result<(), Failure> {
+    let inputs: Vec<_> = inputs.iter().map(|path| (path, place(path))).collect();
+    let mut others: Vec<(&Path, PathBuf)> = Vec::new();
+    for path in outputs {
+        check_one(path)?;
+        let Some(place) = place(path) else { continue };
+        if let Some((input, _)) = inputs.iter().find(|(_, other)| other.as_ref() == Some(&place)) {
+            return Err(cannot_write(
+                path,
+                format_args!("it is {}, which is read", input.display()),
+            ));
+        }
+        if let Some((other, _)) = others.iter().find(|(_, other)| *other == place) {
+            return Err(cannot_write(
+                path,
+                format_args!("{} is written to the same file", other.display()),
+            ));
+        }
+        others.push((path, place));
+    }
+    Ok(())
+}
+
+/// A file can be written only into a folder that is there, and where the system lets us.
+fn check_one(path: &Path) -> Result<(), Failure> {
+    match path.parent().filter(|folder| !folder.as_os_str().is_empty()) {
+        Some(folder) if !folder.is_dir() => {
+            Err(cannot_write(path, format_args!("there is no folder {}", folder.display())))
+        }
+        _ if path.is_dir() => Err(cannot_write(path, "it is a folder")),
+        _ => AtomicFile::check(path).map_err(|error| cannot_write(path, error)),
+    }
+}
+
+/// Where a file is, whatever leads to it; `None` for pipes and devices, which any number may read and write.
+fn place(path: &Path) -> Option<PathBuf> {
+    match fs::metadata(path) {
+        Ok(about) if !about.is_file() => None,
+        Ok(_) => fs::canonicalize(path).ok(),
+        Err(_) => {
+            let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
+            let folder = fs::canonicalize(folder.unwrap_or(Path::new("."))).ok()?;
+            Some(folder.join(path.file_name()?))
+        }
     }
 }
 

@@ -12,6 +12,8 @@ use crate::output;
 use crate::progress::Progress;
 use crate::verdicts;
 
+const FILES: [&str; 4] = ["report.html", "report.md", "results.json", "comparison.csv"];
+
 /// `funicular reproduce`.
 #[derive(Debug, Args)]
 pub struct Reproduce {
@@ -28,6 +30,8 @@ pub fn run(arguments: &Reproduce) -> Result<Exit, Failure> {
     if let Some(folder) = &arguments.out {
         // Before the work, not after it.
         output::make_folder(folder)?;
+        let files = FILES.map(|name| folder.join(name));
+        output::check(files.iter().map(PathBuf::as_path), &[])?;
     }
     let progress = Progress::start();
     let reproduction = validate::reproduce(|what| progress.say(what))
@@ -38,20 +42,17 @@ pub fn run(arguments: &Reproduce) -> Result<Exit, Failure> {
     let reproduction = report.reproduction();
     let json = || report.json().map_err(|error| Failure::undecided(miette!("{error}")));
     if let Some(folder) = &arguments.out {
-        output::write_whole(&folder.join("results.json"), &json()?)?;
-        output::write_whole(&folder.join("report.html"), &report.html())?;
-        output::write_whole(&folder.join("report.md"), &report.markdown())?;
-        output::write_whole(&folder.join("comparison.csv"), &csv(&reproduction.cases))?;
+        let texts = [report.html(), report.markdown(), json()?, csv(&reproduction.cases)];
+        for (name, text) in FILES.into_iter().zip(&texts) {
+            output::write_whole(&folder.join(name), text)?;
+        }
     }
     if arguments.json {
         output::print(&json()?)?;
     } else {
         output::print(&verdicts::reproduction(reproduction))?;
         if let Some(folder) = &arguments.out {
-            output::print(&format!(
-                "Written to {}: report.html, report.md, results.json, comparison.csv\n",
-                folder.display()
-            ))?;
+            output::print(&format!("Written to {}: {}\n", folder.display(), FILES.join(", ")))?;
         }
     }
     Ok(if reproduction.all_as_expected { Exit::Done } else { Exit::CheckFailed })

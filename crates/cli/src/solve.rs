@@ -14,7 +14,7 @@ use validate::{Agreement, Tolerances, compare, compare::judge_alone};
 
 use crate::answer;
 use crate::exit::{Exit, Failure};
-use crate::input;
+use crate::input::{self, Input};
 use crate::output::{self, SCHEMA_VERSION};
 use crate::progress::Progress;
 use crate::which::Which;
@@ -77,7 +77,9 @@ struct Answer {
 pub fn run(arguments: &Solve) -> Result<Exit, Failure> {
     let progress = Progress::start();
     progress.say("reading");
-    let problem = input::problem(arguments.file.as_deref(), arguments.case.as_deref())?;
+    let Input { problem, files } =
+        input::problem(arguments.file.as_deref(), arguments.case.as_deref())?;
+    output::check(arguments.csv.as_deref(), &files)?;
     let bars = problem.chain().bars().len();
     let mut equilibria = Vec::new();
     if arguments.solver != Which::Energy {

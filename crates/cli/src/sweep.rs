@@ -22,7 +22,7 @@ pub(crate) use self::arguments::threads;
 pub(crate) use self::interrupt::on_interrupt;
 use crate::diagnostics::tell;
 use crate::exit::{Exit, Failure};
-use crate::input;
+use crate::input::{self, Input};
 use crate::output;
 use crate::progress::Progress;
 use crate::which::Which;
@@ -32,7 +32,8 @@ const TICK: Duration = Duration::from_millis(200);
 
 /// Run the command.
 pub fn run(arguments: &Sweep) -> Result<Exit, Failure> {
-    let problem = input::problem(arguments.file.as_deref(), arguments.case.as_deref())?;
+    let Input { problem, .. } =
+        input::problem(arguments.file.as_deref(), arguments.case.as_deref())?;
     let settings = settings(arguments, problem.chain().bars().len())?;
     let progress = Progress::start();
     progress.say("the list of equilibria");

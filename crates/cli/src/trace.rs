@@ -14,7 +14,7 @@ use model::SystemSummary;
 use serde::Serialize;
 
 use crate::exit::{Exit, Failure};
-use crate::input;
+use crate::input::{self, Input};
 use crate::output;
 use crate::progress::Progress;
 use crate::tables;
@@ -82,7 +82,9 @@ struct Answer<'a> {
 
 /// Run the command.
 pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
-    let chain = input::problem(arguments.file.as_deref(), arguments.case.as_deref())?.into_chain();
+    let Input { problem, files } =
+        input::problem(arguments.file.as_deref(), arguments.case.as_deref())?;
+    let chain = problem.into_chain();
     let system = chain.summary();
     if !(1..=system.bars).contains(&arguments.bar) {
         let bars = system.bars;
@@ -98,16 +100,16 @@ pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
         .collect::<Result<_, _>>()?;
     let combine = if arguments.zip { Combine::Zip } else { Combine::Product };
     let study = Study::new(chain, &vary, combine).map_err(|error| vary_failure(&error))?;
+    let diagrams = diagrams(arguments.svg.as_deref(), study.paths().len());
+    let outputs = arguments.csv.iter().chain(&diagrams).map(PathBuf::as_path);
+    output::check(outputs, &files)?;
     let traces = follow(&study)?;
     if let Some(path) = &arguments.csv {
         output::write_stream(path, |file| write_csv(file, &traces))?;
     }
-    if let Some(path) = &arguments.svg {
-        let abscissa = if arguments.over_span { Abscissa::Span } else { Abscissa::Parameter };
-        for (k, one) in traces.iter().enumerate() {
-            let path = if traces.len() == 1 { path.clone() } else { numbered(path, k + 1) };
-            output::write_whole(&path, &diagram(one, &system.name, abscissa, arguments.bar))?;
-        }
+    let abscissa = if arguments.over_span { Abscissa::Span } else { Abscissa::Parameter };
+    for (path, one) in diagrams.iter().zip(&traces) {
+        output::write_whole(path, &diagram(one, &system.name, abscissa, arguments.bar))?;
     }
     let exit = verdict(&traces)?;
     if arguments.json {
@@ -172,6 +174,15 @@ fn verdict(traces: &[Trace]) -> Result<Exit, Failure> {
         Ok(Exit::Done)
     } else {
         Ok(Exit::CheckFailed)
+    }
+}
+
+/// Where the diagrams go, one for each path.
+fn diagrams(svg: Option<&Path>, paths: usize) -> Vec<PathBuf> {
+    match svg {
+        None => Vec::new(),
+        Some(path) if paths == 1 => vec![path.to_owned()],
+        Some(path) => (1..=paths).map(|number| numbered(path, number)).collect(),
     }
 }
 
