@@ -1,7 +1,7 @@
 //! Systems from files.
 
 use std::cell::RefCell;
-use std::fs::File;
+use std::fs::{self, File};
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
@@ -43,10 +43,11 @@ fn read(path: &Path) -> Result<Input, Failure> {
     Ok(Input { problem, files: files.into_inner() })
 }
 
-/// Whether a file is named or begins like Parquet.
+/// Whether a file is named or begins like Parquet. What is read from a pipe is gone: only a file is tasted.
 fn is_parquet(path: &Path) -> bool {
     let mut magic = [0; 4];
     path.extension().is_some_and(|e| e.eq_ignore_ascii_case("parquet"))
-        || File::open(path)
-            .is_ok_and(|mut file| file.read_exact(&mut magic).is_ok() && magic == *b"PAR1")
+        || fs::metadata(path).is_ok_and(|about| about.is_file())
+            && File::open(path)
+                .is_ok_and(|mut file| file.read_exact(&mut magic).is_ok() && magic == *b"PAR1")
 }
