@@ -3,13 +3,27 @@
 use clap::{Parser, Subcommand};
 use clap_complete::Shell;
 
-const EXIT_CODES: &str = "\
-Exit codes:
-  0  done, and every check agreed
-  1  a check failed: the solvers disagree, or a claim came out otherwise than expected
-  2  bad input or usage
-  3  not converged, or not decided
-130  interrupted; what is done is kept";
+/// How commands end, with what an interruption leaves.
+macro_rules! exit_codes {
+    ($interrupted:literal) => {
+        concat!(
+            "Exit codes:\n  \
+               0  done, and every check agreed\n  \
+               1  a check failed: the solvers disagree, or a claim came out otherwise than expected\n  \
+               2  bad input or usage\n  \
+               3  not converged, or not decided\n\
+             130  interrupted; ",
+            $interrupted
+        )
+    };
+}
+
+/// Of the program.
+const EXIT_CODES: &str = exit_codes!("what `sweep` and `merge` have done is kept, to go on from");
+
+/// Of the commands that begin anew.
+const ALL_OR_NOTHING: &str =
+    exit_codes!("nothing is kept to go on from, and no file is half written");
 
 const EXAMPLES: &str = "\
 Examples:
@@ -38,15 +52,15 @@ pub struct Cli {
 #[derive(Debug, Subcommand)]
 pub enum Command {
     /// Reproduce the paper: its claims, what both solvers find, and the verdicts
-    #[command(after_help = EXIT_CODES)]
+    #[command(after_help = ALL_OR_NOTHING)]
     Reproduce(crate::reproduce::Reproduce),
     /// Find the hanging equilibrium of a system file by both solvers, and compare them
     ///
     /// Time and memory grow with the number of bars: a million of them take about a second, and some 240 bytes each.
-    #[command(after_help = EXIT_CODES)]
+    #[command(after_help = ALL_OR_NOTHING)]
     Solve(crate::solve::Solve),
     /// Find every equilibrium of a chain, stable or not, and prove that there is no other
-    #[command(after_help = EXIT_CODES)]
+    #[command(after_help = ALL_OR_NOTHING)]
     Census(crate::census::Census),
     /// Run millions of starts through the solvers: which start leads where
     Sweep(crate::sweep::Sweep),

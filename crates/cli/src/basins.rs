@@ -10,6 +10,7 @@ use rayon::prelude::*;
 
 use crate::exit::{Exit, Failure};
 use crate::input::{self, Input};
+use crate::interrupt::end_on_interrupt;
 use crate::output;
 use crate::progress::Progress;
 
@@ -24,7 +25,8 @@ Example:
 Exit codes:
   0  done
   2  bad input or usage
-  3  a picture could not be drawn";
+  3  a picture could not be drawn
+130  interrupted; nothing is kept to go on from, and no picture is half written";
 
 /// Largest picture: 16 million starts for each solver.
 const LARGEST: u32 = 4096;
@@ -63,6 +65,7 @@ pub struct Arguments {
 
 /// Run the command.
 pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
+    end_on_interrupt()?;
     let Input { problem, files } =
         input::problem(arguments.file.as_deref(), arguments.case.as_deref())?;
     let bars = problem.chain().bars().len();

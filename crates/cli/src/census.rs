@@ -12,6 +12,7 @@ use miette::miette;
 
 use crate::exit::{Exit, Failure};
 use crate::input::{self, Input};
+use crate::interrupt::end_on_interrupt;
 use crate::output;
 use crate::progress::Progress;
 
@@ -49,6 +50,7 @@ pub struct Census {
 
 /// Run the command.
 pub fn run(arguments: &Census) -> Result<Exit, Failure> {
+    end_on_interrupt()?;
     let settings = Settings { max_bars: arguments.max_bars, ..Settings::default() };
     settings.validate().map_err(|error| Failure::bad_input(miette!("{error}")))?;
     if let Some(threads) = arguments.threads {

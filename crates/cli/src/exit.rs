@@ -13,7 +13,7 @@ pub enum Exit {
     BadInput,
     /// Not converged, or not decided.
     Undecided,
-    /// Interrupted by Ctrl-C, with something left that can be gone on with.
+    /// Interrupted by Ctrl-C or SIGTERM.
     Interrupted,
 }
 

@@ -11,6 +11,7 @@ mod census;
 mod diagnostics;
 mod exit;
 mod input;
+mod interrupt;
 mod merge;
 mod output;
 mod progress;

@@ -6,9 +6,10 @@ use clap::Args;
 
 use crate::diagnostics::tell;
 use crate::exit::{Exit, Failure};
+use crate::interrupt::on_interrupt;
 use crate::output;
 use crate::sweep::{
-    json_object, on_interrupt, print_json, seeds_bar, store_failure, summary_tables, threads,
+    json_object, print_json, seeds_bar, store_failure, summary_tables, threads,
     verdict, written,
 };
 

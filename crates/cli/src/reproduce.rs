@@ -8,6 +8,7 @@ use report::{Environment, Report};
 use validate::table::csv;
 
 use crate::exit::{Exit, Failure};
+use crate::interrupt::end_on_interrupt;
 use crate::output;
 use crate::progress::Progress;
 use crate::verdicts;
@@ -27,6 +28,7 @@ pub struct Reproduce {
 
 /// Run the command.
 pub fn run(arguments: &Reproduce) -> Result<Exit, Failure> {
+    end_on_interrupt()?;
     if let Some(folder) = &arguments.out {
         // Before the work, not after it.
         output::make_folder(folder)?;

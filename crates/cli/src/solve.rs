@@ -15,6 +15,7 @@ use validate::{Agreement, Tolerances, compare, compare::judge_alone};
 use crate::answer;
 use crate::exit::{Exit, Failure};
 use crate::input::{self, Input};
+use crate::interrupt::end_on_interrupt;
 use crate::output::{self, SCHEMA_VERSION};
 use crate::progress::Progress;
 use crate::which::Which;
@@ -75,6 +76,7 @@ struct Answer {
 
 /// Run the command.
 pub fn run(arguments: &Solve) -> Result<Exit, Failure> {
+    end_on_interrupt()?;
     let progress = Progress::start();
     progress.say("reading");
     let Input { problem, files } =

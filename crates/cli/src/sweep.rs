@@ -1,7 +1,6 @@
 //! `funicular sweep`: millions of starts, and where each of them leads.
 
 mod arguments;
-mod interrupt;
 mod tables;
 
 use std::path::Path;
@@ -19,10 +18,10 @@ use serde_json::{Value, json};
 use self::arguments::Spread;
 pub use self::arguments::Sweep;
 pub(crate) use self::arguments::threads;
-pub(crate) use self::interrupt::on_interrupt;
 use crate::diagnostics::tell;
 use crate::exit::{Exit, Failure};
 use crate::input::{self, Input};
+use crate::interrupt::on_interrupt;
 use crate::output;
 use crate::progress::Progress;
 use crate::which::Which;

@@ -15,6 +15,7 @@ use serde::Serialize;
 
 use crate::exit::{Exit, Failure};
 use crate::input::{self, Input};
+use crate::interrupt::end_on_interrupt;
 use crate::output;
 use crate::progress::Progress;
 use crate::tables;
@@ -34,7 +35,8 @@ Exit codes:
   0  done; the censuses between the points agree with the branches
   1  a check failed: a census differs from the branches
   2  bad input or usage, or no point describes a chain
-  3  a branch could not be followed";
+  3  a branch could not be followed
+130  interrupted; nothing is kept to go on from, and no file is half written";
 
 /// Branches printed in full as a table.
 const SHOWN: usize = 60;
@@ -82,6 +84,7 @@ struct Answer<'a> {
 
 /// Run the command.
 pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
+    end_on_interrupt()?;
     let Input { problem, files } =
         input::problem(arguments.file.as_deref(), arguments.case.as_deref())?;
     let chain = problem.into_chain();

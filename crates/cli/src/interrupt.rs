@@ -1,0 +1,47 @@
+//! Ctrl-C, and SIGTERM, as batch systems send it.
+
+use std::fs;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use miette::miette;
+
+use crate::exit::{Exit, Failure};
+
+static STOP: AtomicBool = AtomicBool::new(false);
+
+/// A flag that is set by the first Ctrl-C. The second one ends the program at once, which loses no more than
+/// the first.
+pub fn on_interrupt() -> Result<&'static AtomicBool, Failure> {
+    watch(|| {
+        if STOP.swap(true, Ordering::SeqCst) {
+            end();
+        }
+    })?;
+    Ok(&STOP)
+}
+
+/// For commands that keep nothing to go on from: the first Ctrl-C ends the program, and no file is left half
+/// written.
+pub fn end_on_interrupt() -> Result<(), Failure> {
+    // A hangup would be heard like a Ctrl-C, and a command under `nohup` is to live on.
+    if hangups_are_ignored() { Ok(()) } else { watch(end) }
+}
+
+fn watch(heard: impl FnMut() + Send + 'static) -> Result<(), Failure> {
+    ctrlc::set_handler(heard)
+        .map_err(|error| Failure::bad_input(miette!("Ctrl-C cannot be watched for: {error}")))
+}
+
+fn end() {
+    columns::abandon(|| std::process::exit(Exit::Interrupted.code().into()))
+}
+
+/// Whether the process was started deaf to SIGHUP. Linux says so; elsewhere nobody is asked.
+fn hangups_are_ignored() -> bool {
+    /// SIGHUP is signal 1, the lowest bit.
+    const HANGUP: u64 = 1;
+    let status = fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
+    mask.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok())
+        .is_some_and(|mask| mask & HANGUP != 0)
+}

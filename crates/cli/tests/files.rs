@@ -1,0 +1,348 @@
+//! Files that commands read and write: links, pipes, what must not be overwritten, and interruptions.
+
+#![cfg(unix)]
+#![expect(clippy::unwrap_used, reason = "helpers of tests")]
+
+use std::fs;
+use std::os::unix::fs::{FileTypeExt as _, symlink};
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Output, Stdio};
+use std::time::{Duration, Instant};
+
+use assert_cmd::cargo::cargo_bin;
+
+const SYSTEM: &str = "[anchors]\nstart_m = [0, 0, 0]\nend_m = [1, 0, -1]\n\
+                      [[bars]]\nlength_m = 1\nmass_kg = 1\ncount = 3\n";
+
+/// Patience of a loaded machine.
+const LONG: Duration = Duration::from_secs(60);
+
+/// A folder of this test alone.
+fn folder(name: &str) -> PathBuf {
+    let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("files").join(name);
+    let _ = fs::remove_dir_all(&path);
+    fs::create_dir_all(&path).unwrap();
+    path
+}
+
+/// The program in a folder, so that short names do.
+fn funicular(folder: &Path, arguments: &[&str]) -> Output {
+    let mut command = Command::new(cargo_bin("funicular"));
+    command.env("NO_COLOR", "1").current_dir(folder).args(arguments).output().unwrap()
+}
+
+/// Standard error as one line, without the frame of the report.
+fn stderr(output: &Output) -> String {
+    let text = String::from_utf8(output.stderr.clone()).unwrap();
+    let words = text.split(|c: char| c.is_whitespace() || c == '│' || c == '×');
+    words.filter(|word| !word.is_empty()).collect::<Vec<_>>().join(" ")
+}
+
+fn names(folder: &Path) -> Vec<String> {
+    let entries = fs::read_dir(folder).unwrap();
+    let mut names: Vec<_> =
+        entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
+    names.sort();
+    names
+}
+
+fn pipe(path: &Path) {
+    assert!(Command::new("mkfifo").arg(path).status().unwrap().success());
+}
+
+/// The commands that read a system and write files by name.
+const COMMANDS: [(&str, &[&str]); 3] =
+    [("solve", &[]), ("census", &[]), ("trace", &["--vary", "bars.1.mass_kg=1,2"])];
+
+#[test]
+fn pipes_are_written_into_and_links_are_followed() {
+    for (command, more) in COMMANDS {
+        let folder = folder(&format!("{command}-into"));
+        fs::write(folder.join("chain.toml"), SYSTEM).unwrap();
+        fs::write(folder.join("target.csv"), "old").unwrap();
+        symlink("target.csv", folder.join("link.csv")).unwrap();
+        pipe(&folder.join("pipe"));
+        let csv = |name: &str| {
+            let output =
+                funicular(&folder, &[&[command, "chain.toml", "--csv", name][..], more].concat());
+            assert_eq!(output.status.code(), Some(0), "{command} {name}: {}", stderr(&output));
+        };
+        csv("link.csv");
+        assert!(fs::symlink_metadata(folder.join("link.csv")).unwrap().is_symlink());
+        let wanted = fs::read_to_string(folder.join("target.csv")).unwrap();
+        assert!(wanted.lines().count() > 3, "{command}: {wanted}");
+
+        let (heard, said) = std::sync::mpsc::channel();
+        let reader = folder.join("pipe");
+        // Not joined: a pipe that nobody writes into would be read for ever.
+        std::thread::spawn(move || heard.send(fs::read_to_string(reader).unwrap()));
+        csv("pipe");
+        assert!(fs::metadata(folder.join("pipe")).unwrap().file_type().is_fifo());
+        assert_eq!(said.recv_timeout(LONG).unwrap(), wanted, "{command}");
+        assert_eq!(names(&folder), ["chain.toml", "link.csv", "pipe", "target.csv"]);
+    }
+}
+
+/// Both by one descriptor: neither is lost when standard output goes to a file.
+#[test]
+fn standard_output_has_another_name() {
+    let folder = folder("stdout");
+    fs::write(folder.join("chain.toml"), SYSTEM).unwrap();
+    let out = fs::File::create(folder.join("out")).unwrap();
+    let status = Command::new(cargo_bin("funicular"))
+        .args(["solve", "chain.toml", "--csv", "/dev/stdout"])
+        .current_dir(&folder)
+        .stdout(out)
+        .status()
+        .unwrap();
+    assert_eq!(status.code(), Some(0));
+    let text = fs::read_to_string(folder.join("out")).unwrap();
+    assert!(text.starts_with("solver,joint,x_m") && text.contains("\nAgreement: agreed"), "{text}");
+}
+
+#[test]
+fn what_is_read_is_not_overwritten() {
+    let folder = folder("overwritten");
+    fs::write(folder.join("chain.toml"), SYSTEM).unwrap();
+    let bars_file = SYSTEM.split("[[bars]]").next().unwrap();
+    fs::write(folder.join("columns.toml"), format!("bars_file = \"bars.csv\"\n{bars_file}"))
+        .unwrap();
+    let bars = "length_m,mass_kg\n1,1\n1,2\n1,1\n";
+    fs::write(folder.join("bars.csv"), bars).unwrap();
+    symlink("chain.toml", folder.join("link")).unwrap();
+    fs::create_dir(folder.join("deep")).unwrap();
+    for (command, more) in COMMANDS {
+        let options: &[&str] = if command == "solve" { &["--csv"] } else { &["--csv", "--svg"] };
+        for option in options {
+            for (file, out) in [
+                ("chain.toml", "chain.toml"),
+                ("chain.toml", "deep/../chain.toml"),
+                ("chain.toml", "link"),
+                ("link", "chain.toml"),
+                ("columns.toml", "bars.csv"),
+            ] {
+                let arguments = [&[command, file, option, out][..], more].concat();
+                let output = funicular(&folder, &arguments);
+                assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+                let text = stderr(&output);
+                assert!(
+                    text.contains(&format!("cannot write {out}: it is"))
+                        && text.contains("which is read"),
+                    "{text}"
+                );
+            }
+        }
+    }
+    let output = funicular(&folder, &["census", "chain.toml", "--csv", "new", "--svg", "./new"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("is written to the same file"), "{}", stderr(&output));
+
+    // Pictures have names of their own choice.
+    for (name, command) in [
+        ("lagrange.svg", &["basins", "deep/lagrange.svg", "--out", "deep"][..]),
+        (
+            "chain-2.svg",
+            &[
+                "trace",
+                "deep/chain-2.svg",
+                "--svg",
+                "deep/chain.svg",
+                "--vary",
+                "bars.1.mass_kg=1,2",
+            ],
+        ),
+    ] {
+        let path = folder.join("deep").join(name);
+        fs::write(&path, SYSTEM).unwrap();
+        let mut arguments = command.to_vec();
+        if name == "chain-2.svg" {
+            arguments.extend(["--vary", "bars.2.mass_kg=1,2"]);
+        }
+        let output = funicular(&folder, &arguments);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+        assert!(stderr(&output).contains("which is read"), "{}", stderr(&output));
+        assert_eq!(fs::read_to_string(&path).unwrap(), SYSTEM);
+        fs::remove_file(path).unwrap();
+    }
+    assert_eq!(fs::read_to_string(folder.join("chain.toml")).unwrap(), SYSTEM);
+    assert_eq!(fs::read_to_string(folder.join("bars.csv")).unwrap(), bars);
+    assert_eq!(names(&folder), ["bars.csv", "chain.toml", "columns.toml", "deep", "link"]);
+    assert!(names(&folder.join("deep")).is_empty());
+}
+
+/// None of these commands would end within a test.
+#[test]
+fn what_cannot_be_written_is_said_before_the_work() {
+    let folder = folder("before");
+    let bars: String =
+        (0..20).map(|k| format!("{},1\n", 0.5 + 0.017 * f64::from(k * k % 23))).collect();
+    fs::write(folder.join("bars.csv"), format!("length_m,mass_kg\n{bars}")).unwrap();
+    fs::write(
+        folder.join("chain.toml"),
+        "bars_file = \"bars.csv\"\n[anchors]\nstart_m = [0, 0, 0]\nend_m = [4, 0, 1]\n",
+    )
+    .unwrap();
+    fs::write(folder.join("many.toml"), SYSTEM.replace("count = 3", "count = 5_000")).unwrap();
+    let vary = ["--vary", "bars.1.mass_kg=1..2:1000"];
+    fs::create_dir(folder.join("folder")).unwrap();
+    for (out, why) in [("none/out", "there is no folder none"), ("folder", "it is a folder")] {
+        for command in [
+            vec!["solve", "many.toml", "--system", "full", "--csv", out],
+            vec!["census", "chain.toml", "--max-bars", "20", "--csv", out],
+            vec!["census", "chain.toml", "--max-bars", "20", "--svg", out],
+            [&["trace", "chain.toml", "--csv", out][..], &vary].concat(),
+            [&["trace", "chain.toml", "--svg", out][..], &vary].concat(),
+        ] {
+            let output = funicular(&folder, &command);
+            assert_eq!(output.status.code(), Some(2), "{command:?}");
+            let wanted = format!("cannot write {out}: {why}");
+            assert!(stderr(&output).contains(&wanted), "{command:?}: {}", stderr(&output));
+        }
+    }
+    fs::create_dir_all(folder.join("out/report.md")).unwrap();
+    let output = funicular(&folder, &["reproduce", "--out", "out"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert_eq!(names(&folder.join("out")), ["report.md"], "{}", stderr(&output));
+}
+
+/// The first bytes of a pipe are not lost by a look at them.
+#[test]
+fn bars_come_from_a_pipe() {
+    let folder = folder("bars");
+    pipe(&folder.join("pipe"));
+    let anchors = "[anchors]\nstart_m = [0, 0, 0]\nend_m = [1, 0, -1]\n";
+    let bars = "length_m,mass_kg\n1,1\n1,2\n1,1\n";
+    for name in ["pipe", "/dev/stdin"] {
+        let text = format!("bars_file = \"{name}\"\n{anchors}");
+        fs::write(folder.join("chain.toml"), text).unwrap();
+        let (reader, mut writer) = std::io::pipe().unwrap();
+        let child = Command::new(cargo_bin("funicular"))
+            .args(["solve", "chain.toml"])
+            .current_dir(&folder)
+            .stdin(reader)
+            .stdout(Stdio::null())
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        let mut child = Ended(child);
+        if name == "pipe" {
+            // Not joined: nobody may come to read.
+            let path = folder.join(name);
+            std::thread::spawn(move || fs::write(path, bars));
+        } else {
+            std::io::Write::write_all(&mut writer, bars.as_bytes()).unwrap();
+        }
+        drop(writer);
+        let code = child.code();
+        let mut text = String::new();
+        let mut pipe = child.0.stderr.take().unwrap();
+        std::io::Read::read_to_string(&mut pipe, &mut text).unwrap();
+        assert_eq!(code, Some(0), "{name}: {text}");
+    }
+}
+
+/// A process that ends with the test, however that ends.
+struct Ended(Child);
+
+impl Ended {
+    /// The exit code, within some patience.
+    fn code(&mut self) -> Option<i32> {
+        let start = Instant::now();
+        while start.elapsed() < LONG {
+            if let Some(status) = self.0.try_wait().unwrap() {
+                return status.code();
+            }
+            std::thread::sleep(Duration::from_millis(1));
+        }
+        panic!("it does not end");
+    }
+
+    fn signal(&self, name: &str) {
+        let id = self.0.id().to_string();
+        assert!(Command::new("kill").args(["-s", name, &id]).status().unwrap().success());
+    }
+}
+
+impl Drop for Ended {
+    fn drop(&mut self) {
+        let _ = self.0.kill();
+        let _ = self.0.wait();
+    }
+}
+
+/// The program, started by an `env` of GNU: a script may have had signals ignored, and its children inherit that.
+#[cfg(target_os = "linux")]
+fn started(folder: &Path, signals: &str, arguments: &[&str]) -> Ended {
+    let child = Command::new("env")
+        .args(["--default-signal", signals])
+        .arg(cargo_bin("funicular"))
+        .args(arguments)
+        .current_dir(folder)
+        .stdout(Stdio::null())
+        .spawn();
+    Ended(child.unwrap())
+}
+
+/// Until the file is being written; before the work there is a moment when one stands there empty.
+#[cfg(target_os = "linux")]
+fn wait_for_bytes(folder: &Path) {
+    let growing = |path: PathBuf| {
+        path.extension().is_some_and(|extension| extension == "part")
+            && fs::metadata(path).is_ok_and(|about| about.len() > 0)
+    };
+    let start = Instant::now();
+    while !fs::read_dir(folder).unwrap().any(|entry| growing(entry.unwrap().path())) {
+        assert!(start.elapsed() < LONG, "nothing is written");
+        std::thread::sleep(Duration::from_millis(1));
+    }
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn an_interruption_leaves_no_part_behind() {
+    let folder = folder("interrupted");
+    // Their joints are some 100 MB.
+    let text = SYSTEM.replace("count = 3", "count = 300_000");
+    fs::write(folder.join("chain.toml"), text).unwrap();
+    for signal in ["TERM", "INT"] {
+        let arguments = ["solve", "chain.toml", "--summary", "--csv", "out.csv"];
+        let mut running = started(&folder, "--default-signal", &arguments);
+        wait_for_bytes(&folder);
+        running.signal(signal);
+        assert_eq!(running.code(), Some(130), "{signal}");
+        assert_eq!(names(&folder), ["chain.toml"], "{signal}");
+    }
+}
+
+/// What runs under `nohup` lives on when the terminal is closed.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_hangup_that_is_ignored_is_ignored() {
+    let folder = folder("hangup");
+    let text = SYSTEM.replace("count = 3", "count = 300_000");
+    fs::write(folder.join("chain.toml"), text).unwrap();
+    let arguments = ["solve", "chain.toml", "--summary", "--csv", "out.csv"];
+    let mut running = started(&folder, "--ignore-signal=HUP", &arguments);
+    wait_for_bytes(&folder);
+    running.signal("HUP");
+    assert_eq!(running.code(), Some(0));
+    assert_eq!(names(&folder), ["chain.toml", "out.csv"]);
+}
+
+#[test]
+fn the_help_says_what_an_interruption_leaves() {
+    let help = |command: &str| {
+        let output = funicular(Path::new("."), &[command, "--help"]);
+        stderr(&output) + &String::from_utf8(output.stdout).unwrap()
+    };
+    for command in ["solve", "census", "reproduce", "trace", "basins"] {
+        let help = help(command);
+        assert!(help.contains("130  interrupted; nothing is kept to go on from"), "{help}");
+    }
+    for command in ["sweep", "merge"] {
+        assert!(
+            help(command).contains("what is done stays, and the same command goes"),
+            "{command}"
+        );
+    }
+}
