@@ -33,7 +33,7 @@ fn watch(heard: impl FnMut() + Send + 'static) -> Result<(), Failure> {
 }
 
 fn end() {
-    columns::abandon(|| std::process::exit(Exit::Interrupted.code().into()))
+    columns::abandon(|| std::process::exit(Exit::Interrupted.code().into()));
 }
 
 /// Whether the process was started deaf to SIGHUP. Linux says so; elsewhere nobody is asked.

@@ -9,8 +9,7 @@ use crate::exit::{Exit, Failure};
 use crate::interrupt::on_interrupt;
 use crate::output;
 use crate::sweep::{
-    json_object, print_json, seeds_bar, store_failure, summary_tables, threads,
-    verdict, written,
+    json_object, print_json, seeds_bar, store_failure, summary_tables, threads, verdict, written,
 };
 
 /// How it ends, for its help.

@@ -174,8 +174,10 @@ fn what_is_read_is_not_overwritten() {
 #[test]
 fn what_cannot_be_written_is_said_before_the_work() {
     let folder = folder("before");
-    let bars: String =
-        (0..20).map(|k| format!("{},1\n", 0.5 + 0.017 * f64::from(k * k % 23))).collect();
+    let bars: String = (0..20)
+        .map(|k| format!("{},1", 0.5 + 0.017 * f64::from(k * k % 23)))
+        .collect::<Vec<_>>()
+        .join("\n");
     fs::write(folder.join("bars.csv"), format!("length_m,mass_kg\n{bars}")).unwrap();
     fs::write(
         folder.join("chain.toml"),

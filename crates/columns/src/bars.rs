@@ -8,7 +8,7 @@ use ::parquet::arrow::arrow_reader::{
 };
 use ::parquet::basic::CompressionCodec;
 use ::parquet::file::FOOTER_SIZE;
-use ::parquet::file::metadata::{ParquetMetaData, ParquetMetaDataReader};
+use ::parquet::file::metadata::{ParquetMetaData, ParquetMetaDataReader, RowGroupMetaData};
 use arrow_array::types::{
     ArrowPrimitiveType, Float32Type, Float64Type, Int8Type, Int16Type, Int32Type, Int64Type,
     UInt8Type, UInt16Type, UInt32Type, UInt64Type,
@@ -114,7 +114,7 @@ pub fn footer(path: &Path, file: &File) -> Result<ArrowReaderMetadata, ColumnsEr
 /// What cannot be unpacked is not damaged.
 fn check_compressions(path: &Path, metadata: &ParquetMetaData) -> Result<(), ColumnsError> {
     use CompressionCodec::{BROTLI, GZIP, LZ4, LZ4_RAW, LZO, SNAPPY, UNCOMPRESSED, ZSTD};
-    for column in metadata.row_groups().iter().flat_map(|group| group.columns()) {
+    for column in metadata.row_groups().iter().flat_map(RowGroupMetaData::columns) {
         match column.compression_codec() {
             UNCOMPRESSED | SNAPPY | ZSTD | LZ4 | LZ4_RAW => {}
             found @ (GZIP | BROTLI | LZO) => {

@@ -8,11 +8,13 @@
     reason = "a test fails by panicking; helpers outside #[test] functions are part of it"
 )]
 
+mod chains_folded;
 mod chains_shapes;
 
 use std::collections::BTreeMap;
 
-use chains_shapes::{Shape, folded_chain, random_chain};
+use chains_folded::folded_chain;
+use chains_shapes::{Shape, random_chain};
 use lagrange::condensed;
 use model::{Anchors, Bar, Chain, Equilibrium, InPlane, Problem, Rung, Statement};
 use rayon::prelude::*;
