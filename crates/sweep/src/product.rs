@@ -46,13 +46,15 @@ impl Study {
     pub fn new(base: Chain, vary: &[Vary], combine: Combine) -> Result<Self, VaryError> {
         for (k, one) in vary.iter().enumerate() {
             one.check(&base)?;
-            if vary[..k].iter().any(|other| other.number == one.number) {
-                return Err(VaryError::new(
-                    one.text(),
-                    0..one.text().len(),
-                    format!("`{}` is varied twice", one.number),
-                    "name each number once",
-                ));
+            let twin = vary[..k].iter().find(|other| other.number.overlaps(one.number));
+            if let Some(twin) = twin {
+                let what = if twin.number == one.number {
+                    format!("`{}` is varied twice", one.number)
+                } else {
+                    format!("`{}` and `{}` set one number", twin.number, one.number)
+                };
+                let span = 0..one.text().len();
+                return Err(VaryError::new(one.text(), span, what, "name each number once"));
             }
         }
         let numbers = vary.iter().map(|one| one.number).collect();

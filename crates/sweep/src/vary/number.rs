@@ -66,9 +66,19 @@ impl Number {
         }
     }
 
+    /// Whether both set one number of a system file: `bars.1.length_m` and `bars.*.length_m` do.
+    pub(crate) fn overlaps(self, other: Self) -> bool {
+        match (self, other) {
+            (Self::Bar(one, field), Self::Bar(two, same)) => {
+                field == same && (one == two || one == Which::All || two == Which::All)
+            }
+            _ => self == other,
+        }
+    }
+
     /// The number that the beginning of `text`, up to `end`, is the path of.
     pub(super) fn parse(text: &str, end: usize) -> Result<Self, VaryError> {
-        let mut parts = Parts { text, rest: words(&text[..end]), end };
+        let mut parts = Parts { text, rest: words(text, end)?, end };
         let top = parts.key(TOP, "a path")?;
         let number = match top {
             "gravity_m_s2" => Self::Gravity,
@@ -124,26 +134,42 @@ impl fmt::Display for Number {
     }
 }
 
-/// The words of a path, as byte ranges: separated by dots, and by brackets around numbers.
-fn words(path: &str) -> Vec<Range<usize>> {
+/// The words of the path up to `end`, as byte ranges: separated by dots, and by brackets around numbers.
+fn words(text: &str, end: usize) -> Result<Vec<Range<usize>>, VaryError> {
+    const HELP: &str = "brackets enclose one number, as in `bars[2].mass_kg`";
     let mut words = vec![];
     let mut start = 0;
-    for (at, c) in path.char_indices() {
-        match c {
-            '.' | '[' | ']' => {
-                // `[2].` closes one word, not two.
-                if at > start || (c == '.' && !path[..at].ends_with(']')) {
-                    words.push(start..at);
-                }
-                start = at + 1;
+    // Where the open bracket is, and whether one was closed just before.
+    let (mut open, mut closed) = (None, false);
+    for (at, c) in text[..end].char_indices() {
+        let wrong = match (c, open) {
+            ('.' | '[', Some(bracket)) => Some((bracket, "this bracket is not closed")),
+            (']', None) => Some((at, "this bracket is not opened")),
+            ('.' | '[' | ']', _) => None,
+            _ if closed => Some((at, "a dot is missing here")),
+            _ => None,
+        };
+        if let Some((at, what)) = wrong {
+            let width = text[at..].chars().next().map_or(0, char::len_utf8);
+            return Err(VaryError::new(text, at..at + width, what, HELP));
+        }
+        if matches!(c, '.' | '[' | ']') {
+            // `[2].` closes one word, not two.
+            if at > start || !(closed || c == '[') {
+                words.push(start..at);
             }
-            _ => {}
+            start = at + 1;
+            open = (c == '[').then_some(at);
+            closed = c == ']';
         }
     }
-    if start < path.len() || path.ends_with('.') || path.is_empty() {
-        words.push(start..path.len());
+    if let Some(bracket) = open {
+        return Err(VaryError::new(text, bracket..bracket + 1, "this bracket is not closed", HELP));
     }
-    words
+    if !closed {
+        words.push(start..end);
+    }
+    Ok(words)
 }
 
 /// What is left of a path.
@@ -204,5 +230,45 @@ impl Parts<'_> {
                 Err(VaryError::new(self.text, span, what, format!("allowed here: {ALLOWED}")))
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn brackets_are_closed_and_enclose_one_word() {
+        for (text, column, what) in [
+            ("bars[2.mass_kg=1", 5, "not closed"),
+            ("bars.2]mass_kg=1", 7, "not opened"),
+            ("bars[2=1", 5, "not closed"),
+            ("bars[[2]].mass_kg=1", 5, "not closed"),
+            ("bars[2]mass_kg=1", 8, "a dot is missing"),
+            ("anchors.end_m[3]]=1", 17, "not opened"),
+            ("bars[2]..mass_kg=1", 9, "unknown key ``"),
+        ] {
+            let end = text.find('=').unwrap();
+            let error = Number::parse(text, end).unwrap_err();
+            assert!(error.what.contains(what), "{text}: {error}");
+            assert_eq!(error.column(), column, "{text}: {error}");
+        }
+        for (text, wanted) in [
+            ("bars[2].inertia_kg_m2[3]", "bars.2.inertia_kg_m2.z"),
+            ("bars[*].mass_kg", "bars.*.mass_kg"),
+            ("anchors.start_m[1]", "anchors.start_m.x"),
+        ] {
+            assert_eq!(Number::parse(text, text.len()).unwrap().to_string(), wanted);
+        }
+    }
+
+    #[test]
+    fn all_bars_overlap_each() {
+        let number = |text: &str| Number::parse(text, text.len()).unwrap();
+        let all = number("bars.*.length_m");
+        assert!(all.overlaps(number("bars.1.length_m")) && number("bars.1.length_m").overlaps(all));
+        assert!(!all.overlaps(number("bars.1.mass_kg")) && !all.overlaps(number("gravity_m_s2")));
+        assert!(!number("bars.2.length_m").overlaps(number("bars.1.length_m")));
+        assert!(number("gravity_m_s2").overlaps(number("gravity_m_s2")));
     }
 }
