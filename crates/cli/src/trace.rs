@@ -302,7 +302,7 @@ fn table(trace: &Trace) -> String {
             EventKind::SpaceExchange { from, to } => {
                 format!("index in space {from} \u{2192} {to}")
             }
-            other => other.name().to_owned(),
+            EventKind::Unloaded { .. } => event.kind.name().to_owned(),
         };
         let branches: Vec<String> = event.branches.iter().map(ToString::to_string).collect();
         table.add_row([

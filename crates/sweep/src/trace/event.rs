@@ -53,8 +53,6 @@ pub enum EventKind {
         /// Number of the bar, from 1.
         bar: usize,
     },
-    /// The curve could not be followed on: a failure of the program, not of the chain.
-    Lost,
 }
 
 impl EventKind {
@@ -67,7 +65,6 @@ impl EventKind {
             Self::BranchPoint => "branch-point",
             Self::SpaceExchange { .. } => "space-exchange",
             Self::Unloaded { .. } => "unloaded",
-            Self::Lost => "lost",
         }
     }
 }
