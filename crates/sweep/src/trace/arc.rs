@@ -3,15 +3,18 @@
 use nalgebra::DVector;
 
 use super::course::Course;
-use super::equations::residual;
+use super::curve::Turn;
+use super::equations::{RESIDUAL, correct, residual};
 use super::event::EventKind;
-use super::observe::Observed;
+use super::observe::{Observed, STRAIGHT};
 use super::refine::{crossing_on_chord, on_chord};
 use super::segment::{Curve, Tip};
 
-/// A chain whose bars agree in direction to this (sine) where its curve turns lies on one line; turns are
-/// located to the square root of rounding or better.
-const STRAIGHT: f64 = 1e-5;
+/// Halvings of a piece of a curve on which several indices change; what is left is below all tolerances.
+const HALVINGS: usize = 40;
+
+/// At a border with a chain more singular than this the indices are those of the points before it.
+const SINGULAR: f64 = 1e-7;
 
 /// A part of a curve, by rising position.
 #[derive(Debug, Clone)]
@@ -39,15 +42,27 @@ pub(crate) struct ArcPoint {
     pub(crate) happens: Option<EventKind>,
 }
 
-/// The arcs of a curve in their order along it, and the kinds of its turns.
-pub(crate) fn arcs(course: &Course<'_>, curve: &Curve) -> (Vec<Arc>, Vec<EventKind>) {
+/// What a curve is made of.
+#[derive(Debug, Clone)]
+pub(crate) struct Arcs {
+    /// In their order along the curve.
+    pub(crate) parts: Vec<Arc>,
+    /// What its turns are.
+    pub(crate) turns: Vec<EventKind>,
+    /// Whether all that happens on it is located.
+    pub(crate) sure: bool,
+}
+
+/// The arcs of a curve.
+pub(crate) fn arcs(course: &Course<'_>, curve: &Curve) -> Arcs {
     let point = |y: &DVector<f64>| {
         let seen = Observed::at(&course.plane(y[y.len() - 1]), y);
         ArcPoint { y: y.clone(), seen, happens: None }
     };
     let points: Vec<ArcPoint> = curve.points.iter().map(|p| point(&p.y)).collect();
-    let turns: Vec<usize> = (0..points.len()).filter(|k| curve.points[*k].turn).collect();
-    let kinds = turns.iter().map(|k| turn_kind(&points, *k)).collect();
+    let turns: Vec<usize> = (0..points.len()).filter(|k| curve.points[*k].turn.is_some()).collect();
+    let kinds = curve.points.iter().filter_map(|point| point.turn.map(turn_kind)).collect();
+    let mut sure = turns.iter().all(|k| left(course, &points[*k].y) <= RESIDUAL);
     let mut bounds = vec![0];
     bounds.extend(&turns);
     bounds.push(points.len() - 1);
@@ -57,7 +72,7 @@ pub(crate) fn arcs(course: &Course<'_>, curve: &Curve) -> (Vec<Arc>, Vec<EventKi
         let first = if part == 0 { port(curve.tips[0]) } else { Port::Turn(part - 1) };
         let last = if part == turns.len() { port(curve.tips[1]) } else { Port::Turn(part) };
         borrow_indices(&mut along, [first, last]);
-        let mut arc = Arc { points: happenings(course, along), ports: [first, last] };
+        let mut arc = Arc { points: happenings(course, along, &mut sure), ports: [first, last] };
         let (a, b) = (&arc.points[0].y, &arc.points[arc.points.len() - 1].y);
         if a[a.len() - 1] > b[b.len() - 1] {
             arc.points.reverse();
@@ -66,20 +81,23 @@ pub(crate) fn arcs(course: &Course<'_>, curve: &Curve) -> (Vec<Arc>, Vec<EventKi
         drop_roundings(&mut arc.points);
         found.push(arc);
     }
-    (found, kinds)
+    Arcs { parts: found, turns: kinds, sure }
 }
 
-/// In a turn the index in the plane is that of the arc; where the chain is straight, in space too.
+/// In a turn the index in the plane is that of the arc; where the chain is straight, in space too. So it is
+/// at a border with a degenerate chain.
 fn borrow_indices(along: &mut [ArcPoint], ports: [Port; 2]) {
     let count = along.len();
     for (k, neighbour, port) in
         [(0, 1, ports[0]), (count.wrapping_sub(1), count.wrapping_sub(2), ports[1])]
     {
-        if let (Port::Turn(_), Some(from)) = (port, along.get(neighbour)) {
-            let (inside, outside) = (from.seen.index_in_plane, from.seen.index_out_of_plane);
-            let seen = &mut along[k].seen;
+        let Some(from) = along.get(neighbour) else { continue };
+        let (inside, outside) = (from.seen.index_in_plane, from.seen.index_out_of_plane);
+        let seen = &mut along[k].seen;
+        let degenerate = port == Port::Border && seen.singular <= SINGULAR;
+        if degenerate || matches!(port, Port::Turn(_)) {
             seen.index_in_plane = inside;
-            if seen.bent <= STRAIGHT {
+            if degenerate || seen.bent <= STRAIGHT {
                 seen.index_out_of_plane = outside;
             }
         }
@@ -109,31 +127,23 @@ fn port(tip: Tip) -> Port {
     }
 }
 
-/// What a turn is: by the shape of the chain, and by the indices on both sides.
-fn turn_kind(points: &[ArcPoint], turn: usize) -> EventKind {
-    let index = |k: usize| points.get(k).map(|point| point.seen.index_in_plane);
-    if points[turn].seen.bent <= STRAIGHT {
-        EventKind::Straight
-    } else if turn > 0 && index(turn - 1) == index(turn + 1) {
+fn turn_kind(turn: Turn) -> EventKind {
+    match turn {
+        Turn::Fold => EventKind::Fold,
+        Turn::Straight => EventKind::Straight,
         // The two sides are twins: another branch, with their symmetry, passes between them.
-        EventKind::BranchPoint
-    } else {
-        EventKind::Fold
+        Turn::Crossing => EventKind::BranchPoint,
     }
 }
 
-/// The points of an arc with those in between at which an index or a sign changes.
-fn happenings(course: &Course<'_>, along: Vec<ArcPoint>) -> Vec<ArcPoint> {
+/// The points of an arc with those in between at which an index or a sign changes; `sure` becomes false if
+/// one cannot be located.
+fn happenings(course: &Course<'_>, along: Vec<ArcPoint>, sure: &mut bool) -> Vec<ArcPoint> {
     let mut all: Vec<ArcPoint> = vec![];
     for point in along {
         if let Some(before) = all.last() {
-            let mut between = changes(course, before, &point);
-            let rising = before.y[before.y.len() - 1] <= point.y[point.y.len() - 1];
-            between.sort_by(|a, b| {
-                let last = a.y.len() - 1;
-                let order = a.y[last].total_cmp(&b.y[last]);
-                if rising { order } else { order.reverse() }
-            });
+            let mut between = vec![];
+            *sure &= between_points(course, before, &point, HALVINGS, &mut between);
             all.extend(between);
         }
         all.push(point);
@@ -141,30 +151,77 @@ fn happenings(course: &Course<'_>, along: Vec<ArcPoint>) -> Vec<ArcPoint> {
     all
 }
 
-fn changes(course: &Course<'_>, a: &ArcPoint, b: &ArcPoint) -> Vec<ArcPoint> {
+/// What happens between two points, in its order along the curve; whether all of it is located.
+fn between_points(
+    course: &Course<'_>,
+    a: &ArcPoint,
+    b: &ArcPoint,
+    halvings: usize,
+    found: &mut Vec<ArcPoint>,
+) -> bool {
+    let several = |a: usize, b: usize| a.abs_diff(b) > 1;
+    let many = several(a.seen.index_in_plane, b.seen.index_in_plane)
+        || (comparable(course, a, b)
+            && several(a.seen.index_out_of_plane, b.seen.index_out_of_plane));
+    if many && halvings > 0 {
+        let chord = &b.y - &a.y;
+        let row = &chord / chord.norm();
+        let Some(y) = correct(course, &a.y + 0.5 * &chord, &row) else { return false };
+        let seen = Observed::at(&course.plane(y[y.len() - 1]), &y);
+        let middle = ArcPoint { y, seen, happens: None };
+        let first = between_points(course, a, &middle, halvings - 1, found);
+        let second = between_points(course, &middle, b, halvings - 1, found);
+        return first && second;
+    }
+    let (mut located, sure) = changes(course, a, b);
+    let rising = a.y[a.y.len() - 1] <= b.y[b.y.len() - 1];
+    located.sort_by(|a, b| {
+        let last = a.y.len() - 1;
+        let order = a.y[last].total_cmp(&b.y[last]);
+        if rising { order } else { order.reverse() }
+    });
+    found.extend(located);
+    sure
+}
+
+/// Whether the indices out of the plane of two points mean the same: on one vertical the turn about it is
+/// none of them.
+fn comparable(course: &Course<'_>, a: &ArcPoint, b: &ArcPoint) -> bool {
+    let vertical = |p: &ArcPoint| course.plane(p.y[p.y.len() - 1]).span[0].abs() <= 0.0;
+    course.frames.always_vertical || !(vertical(a) || vertical(b))
+}
+
+fn changes(course: &Course<'_>, a: &ArcPoint, b: &ArcPoint) -> (Vec<ArcPoint>, bool) {
     let see = |y: &DVector<f64>| Observed::at(&course.plane(y[y.len() - 1]), y);
     let locate =
         |test: &dyn Fn(&Observed) -> f64| on_chord(course, &a.y, &b.y, |y, _| Some(test(&see(y))));
     let mut found = vec![];
+    let mut sure = true;
     let mut add = |y: Option<DVector<f64>>, kind: EventKind| {
-        // A change that cannot be located is put in the middle: it is not left out.
-        let y = y.unwrap_or_else(|| 0.5 * (&a.y + &b.y));
+        // What cannot be located, or is no equilibrium, is no event: nothing is known of this piece.
+        let Some(y) = y.filter(|y| left(course, y) <= RESIDUAL) else {
+            sure = false;
+            return;
+        };
         let mut seen = see(&y);
         // In the event the index is that of the point before it.
         seen.index_in_plane = a.seen.index_in_plane;
         seen.index_out_of_plane = a.seen.index_out_of_plane;
         found.push(ArcPoint { y, seen, happens: Some(kind) });
     };
-    if a.seen.index_in_plane != b.seen.index_in_plane {
-        let crossing = crossing_on_chord(course, &a.y, &b.y, |y, _| Some(see(y).plane_test));
+    // Several indices that change in one point, or what is left of one after all halvings.
+    let whole = |change: usize| (change > 1).then(|| b.y.clone());
+    let in_plane = a.seen.index_in_plane.abs_diff(b.seen.index_in_plane);
+    if in_plane > 0 {
+        let crossing = whole(in_plane)
+            .or_else(|| crossing_on_chord(course, &a.y, &b.y, |y, _| Some(see(y).plane_test)));
         add(crossing, EventKind::BranchPoint);
     }
-    let vertical = |p: &ArcPoint| course.plane(p.y[p.y.len() - 1]).span[0].abs() <= 0.0;
-    let comparable = course.frames.always_vertical || !(vertical(a) || vertical(b));
-    if comparable && a.seen.index_out_of_plane != b.seen.index_out_of_plane {
+    let out_of_plane = a.seen.index_out_of_plane.abs_diff(b.seen.index_out_of_plane);
+    if comparable(course, a, b) && out_of_plane > 0 {
         let kind =
             EventKind::SpaceExchange { from: a.seen.index_in_space(), to: b.seen.index_in_space() };
-        add(locate(&|seen| seen.space_test), kind);
+        add(whole(out_of_plane).or_else(|| locate(&|seen| seen.space_test)), kind);
     }
     // On one line the chain carries forces that are infinite or indeterminate: their signs say nothing.
     let straight = a.seen.bent.min(b.seen.bent) <= STRAIGHT;
@@ -173,7 +230,7 @@ fn changes(course: &Course<'_>, a: &ArcPoint, b: &ArcPoint) -> Vec<ArcPoint> {
             add(locate(&|seen| seen.along[bar]), EventKind::Unloaded { bar: bar + 1 });
         }
     }
-    found
+    (found, sure)
 }
 
 /// Largest residual of the equations at a point.

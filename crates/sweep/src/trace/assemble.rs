@@ -2,9 +2,10 @@
 
 use nalgebra::DVector;
 
-use super::arc::{Arc, ArcPoint, Port, left};
+use super::arc::{Arc, ArcPoint, Arcs, Port, left};
 use super::branch::{Branch, BranchEnd, BranchPoint};
 use super::course::Course;
+use super::equations::RESIDUAL;
 use super::event::{Event, EventKind};
 use super::observe::Observed;
 use super::segment::distance;
@@ -15,8 +16,8 @@ use super::station::{Node, Station};
 pub(crate) struct Link {
     /// Numbers of the stations.
     pub(crate) stations: [usize; 2],
-    /// For each curve its arcs and the kinds of its turns.
-    pub(crate) curves: Vec<(Vec<Arc>, Vec<EventKind>)>,
+    /// The curves.
+    pub(crate) curves: Vec<Arcs>,
 }
 
 /// A pull this near to infinite (its homogeneous weight) is not shown: it is a straight chain.
@@ -51,9 +52,9 @@ impl<'a> Assembly<'a> {
         };
         for link in links {
             assembly.begin(link.stations[0]);
-            for (arcs, kinds) in &link.curves {
-                let turns = assembly.turns(arcs, kinds);
-                for arc in arcs {
+            for curve in &link.curves {
+                let turns = assembly.turns(&curve.parts, &curve.turns);
+                for arc in &curve.parts {
                     assembly.add(link, arc, &turns);
                 }
             }
@@ -137,8 +138,8 @@ impl<'a> Assembly<'a> {
             let mut event = None;
             if k == 0 {
                 event = turn(arc.ports[0]);
-                if event.is_none() {
-                    // The node is there already; a border is no equilibrium.
+                // The node is there already.
+                if event.is_none() && !self.hangs(arc.ports[0], point) {
                     continue;
                 }
             } else if k == last {
@@ -151,6 +152,7 @@ impl<'a> Assembly<'a> {
                         continue;
                     }
                     Port::Turn(_) => event = turn(arc.ports[1]),
+                    port if self.hangs(port, point) => {}
                     _ => continue,
                 }
             }
@@ -166,6 +168,11 @@ impl<'a> Assembly<'a> {
             Port::High(node) => self.open[high][node] = Some(branch),
             port => self.branches[branch].end = self.end(port, turns, branch),
         }
+    }
+
+    /// Whether the last point of a curve at a border is an equilibrium too.
+    fn hangs(&self, port: Port, point: &ArcPoint) -> bool {
+        port == Port::Border && left(self.course, &point.y) <= RESIDUAL
     }
 
     fn end(&mut self, port: Port, turns: &[usize], branch: usize) -> BranchEnd {
@@ -253,13 +260,16 @@ impl<'a> Assembly<'a> {
         let mut same: Vec<usize> = (0..count).collect();
         let passing = |event: &Event| event.branches.len() == 1;
         for (k, same) in same.iter_mut().enumerate() {
-            if self.events[k].kind != EventKind::BranchPoint || passing(&self.events[k]) {
+            if self.events[k].kind != EventKind::BranchPoint {
                 continue;
             }
-            let twin = (0..count).find(|other| {
+            // Curves that turn in it join one that passes; so does one that passes after the first.
+            let others = if passing(&self.events[k]) { 0..k } else { 0..count };
+            let twin = others.into_iter().find(|other| {
                 let event = &self.events[*other];
                 event.kind == EventKind::BranchPoint
                     && passing(event)
+                    && event.branches != self.events[k].branches
                     && (event.position - self.events[k].position).abs() <= SAME_POSITION
                     && distance(&self.places[*other], &self.places[k]) <= SAME_SHAPE
             });

@@ -1,6 +1,7 @@
 //! The chain along a path of parameters, as a planar one in units of its own.
 
 use std::cmp::Ordering;
+use std::sync::Arc;
 
 use model::Problem;
 
@@ -12,7 +13,9 @@ use crate::vary::{Plan, PointError};
 pub(crate) struct Course<'a> {
     study: &'a Study,
     pub(crate) values: &'a [Vec<f64>],
-    pub(crate) frames: Frames,
+    pub(crate) frames: Arc<Frames>,
+    /// The interval between two points whose straight line the path is taken for, everywhere.
+    only: Option<usize>,
 }
 
 /// A chain in its vertical plane: lengths in its total length, weights centred and in half their spread.
@@ -34,6 +37,9 @@ pub(crate) struct Plane {
     pub(crate) total_n: f64,
 }
 
+/// Steps of the values that differ by less than this part are equal: roundings of a range.
+const BEND: f64 = 1e-9;
+
 impl<'a> Course<'a> {
     pub(crate) fn new(study: &'a Study, values: &'a [Vec<f64>]) -> Self {
         let spans: Vec<[f64; 2]> = values
@@ -43,7 +49,39 @@ impl<'a> Course<'a> {
                 [x, y]
             })
             .collect();
-        Self { study, values, frames: Frames::new(&spans) }
+        Self { study, values, frames: Arc::new(Frames::new(&spans)), only: None }
+    }
+
+    /// The path between two positions, going on straight beyond them: what comes after a bend says nothing
+    /// about the curves before it. The path itself if there are points between the positions.
+    pub(crate) fn within(&self, low: f64, high: f64) -> Self {
+        let (interval, _) = self.interval(0.5 * (low + high));
+        let inside = self.position(interval) <= low && high <= self.position(interval + 1);
+        Self {
+            study: self.study,
+            values: self.values,
+            frames: Arc::clone(&self.frames),
+            only: inside.then_some(interval),
+        }
+    }
+
+    /// Whether the path has a corner in the point of this number.
+    pub(crate) fn bends(&self, point: usize) -> bool {
+        if point == 0 || point + 1 >= self.values.len() {
+            return false;
+        }
+        let rows = [point - 1, point, point + 1].map(|k| &self.values[k]);
+        (0..rows[0].len()).any(|k| {
+            let [before, here, after] = rows.map(|row| row[k]);
+            let size = (here - before).abs().max((after - here).abs());
+            (after - 2.0 * here + before).abs() > BEND * size + 4.0 * f64::EPSILON * here.abs()
+        })
+    }
+
+    /// Whether the numbers at a position are in their ranges. The chain may still be out of reach.
+    pub(crate) fn is_chain(&self, position: f64) -> bool {
+        let problem = self.problem(&self.values_at(position));
+        !matches!(problem, Err(PointError::Bar { .. } | PointError::Chain(_)))
     }
 
     /// Number of bars.
@@ -61,6 +99,9 @@ impl<'a> Course<'a> {
     fn interval(&self, position: f64) -> (usize, f64) {
         let intervals = self.values.len().saturating_sub(1).max(1);
         let at = position * intervals as f64;
+        if let Some(k) = self.only {
+            return (k, at - k as f64);
+        }
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped")]
         let k = (at.floor().clamp(0.0, (intervals - 1) as f64)) as usize;
         (k, at - k as f64)

@@ -3,14 +3,16 @@
 use nalgebra::DVector;
 
 use super::course::Course;
-use super::equations::{correct, position_axis, tangent};
+use super::equations::{Tangent, correct, position_axis, tangent};
+use super::observe::is_straight;
 use super::refine::on_chord;
 
 /// Cosine of the largest turn of the tangent in one step, about 14 degrees.
 const STRAIGHT_ENOUGH: f64 = 0.97;
 
-/// A corrector that moves a point further than this part of the step has found another curve.
-const CORRECTION: f64 = 0.3;
+/// A corrector that moves a point further than this part of the step has found another curve. A step that
+/// turns as far as it may leaves its tangent by half of that angle, 0.12.
+const CORRECTION: f64 = 0.2;
 
 /// Steps shorter than this are none.
 const SHORTEST: f64 = 1e-10;
@@ -25,20 +27,53 @@ const MOST_STEPS: usize = 5_000;
 /// there: the turn is that position.
 const BORDER_SLACK: f64 = 1e-9;
 
+/// Where the side of the tangent changes within so short a step, curves cross. Within a longer one the step
+/// may have changed from one curve to another that does not cross it but comes near.
+const CROSSING: f64 = 1e-5;
+
+/// The end of a walk past a crossing is this near to the end of the step that it checks.
+const SAME_END: f64 = 1e-7;
+
+/// Changes of the position along a step below this are not told from rounding.
+const FLAT: f64 = 1e-10;
+
+/// A slope that falls below this part of those at both ends of a step may change its sign twice.
+const DIP: f64 = 0.2;
+
+/// What is at an end of the interval in which a curve is followed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Gate {
+    /// A complete census.
+    Open,
+    /// No chain, or a degenerate one: a curve may turn just here.
+    Closed,
+    /// A number leaves its range: curves just end.
+    Edge,
+}
+
 /// One end of the interval in which a curve is followed.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Border {
     pub(crate) position: f64,
-    /// Whether there is no chain at this position, or none that is known.
-    pub(crate) closed: bool,
+    pub(crate) gate: Gate,
 }
 
 /// A point on a curve.
 #[derive(Debug, Clone)]
 pub(crate) struct CurvePoint {
     pub(crate) y: DVector<f64>,
-    /// Whether the curve turns back here.
-    pub(crate) turn: bool,
+    pub(crate) turn: Option<Turn>,
+}
+
+/// How a curve turns back.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Turn {
+    /// By itself.
+    Fold,
+    /// Where the chain is straight.
+    Straight,
+    /// Where another curve crosses.
+    Crossing,
 }
 
 /// Where a curve left the interval.
@@ -47,6 +82,20 @@ pub(crate) enum Exit {
     Low,
     High,
     Lost,
+}
+
+/// A point with its tangent.
+#[derive(Debug, Clone)]
+struct Here {
+    y: DVector<f64>,
+    tangent: Tangent,
+}
+
+/// A step along a curve: where it ends, and where it turns on the way.
+struct Step {
+    end: Here,
+    turn: Option<(DVector<f64>, Turn)>,
+    crosses: bool,
 }
 
 /// Follow the curve from `start` on, to higher positions first or to lower ones.
@@ -58,66 +107,160 @@ pub(crate) fn follow(
     longest: f64,
 ) -> (Vec<CurvePoint>, Exit) {
     let last = start.len() - 1;
-    let mut points = vec![CurvePoint { y: start.clone(), turn: false }];
+    let mut points = vec![CurvePoint { y: start.clone(), turn: None }];
     let sign = if forward { 1.0 } else { -1.0 };
-    let Some(mut t) = tangent(course, start, &(sign * position_axis(last - 3))) else {
+    let Some(first) = tangent(course, start, &(sign * position_axis(last - 3))) else {
         return (points, Exit::Lost);
     };
-    let mut a = start.clone();
-    let mut step = longest;
+    let ahead = |slope: f64| if slope > 0.0 { (high, Exit::High) } else { (low, Exit::Low) };
+    let mut here = Here { y: start.clone(), tangent: first };
+    let mut length = longest;
     for _ in 0..MOST_STEPS {
-        let (border, exit) = if t[last] > 0.0 { (high, Exit::High) } else { (low, Exit::Low) };
+        let slope = here.tangent.t[last];
+        let (border, exit) = ahead(slope);
         // The whole way to the border in one step, if that is not too long. Next to a closed border the
         // curve may just turn.
-        let way = (border.position - a[last]) / t[last];
-        let landing = way <= step && !border.closed;
-        let length = if landing { way.max(0.0) } else { step };
-        let predicted = &a + length * &t;
-        let row = if landing { sign_of(t[last]) * position_axis(last - 3) } else { t.clone() };
-        let next = correct(course, predicted.clone(), &row)
-            .filter(|b| (b - &predicted).norm() <= CORRECTION * length.max(SHORTEST))
-            .and_then(|b| tangent(course, &b, &t).map(|next| (b, next)))
-            .filter(|(_, next)| next.dot(&t) >= STRAIGHT_ENOUGH);
-        let Some((b, next)) = next else {
+        let way = (border.position - here.y[last]) / slope;
+        let landing = way <= length && border.gate != Gate::Closed;
+        let long = if landing { way.max(0.0) } else { length };
+        let row = landing.then(|| sign_of(slope) * position_axis(last - 3));
+        let step = step(course, &here, long, row.as_ref())
+            .filter(|step| !step.crosses || passes(course, &here, &step.end.y, long));
+        let Some(Step { end, turn, .. }) = step else {
             // Short of the border a landing is tried again as a step.
-            step = 0.5 * length.min(step);
-            if step < SHORTEST {
+            length = 0.5 * long.min(length);
+            if length < SHORTEST {
                 return (points, Exit::Lost);
             }
             continue;
         };
-        if t[last] * next[last] < 0.0 {
-            let slope =
-                |y: &DVector<f64>, chord: &DVector<f64>| tangent(course, y, chord).map(|t| t[last]);
-            let Some(turn) = on_chord(course, &a, &b, slope) else {
-                return (points, Exit::Lost);
-            };
-            let slack = if border.closed { BORDER_SLACK } else { 0.0 };
-            if beyond(turn[last], border.position, t[last]) > slack {
-                land(course, &a, &turn, border, &mut points);
+        let slope_there = end.tangent.t[last];
+        if let Some((y, turn)) = turn {
+            let slack = if border.gate == Gate::Closed { BORDER_SLACK } else { 0.0 };
+            if beyond(y[last], border.position, slope) > slack {
+                land(course, &here.y, &y, border, &mut points);
                 return (points, exit);
             }
-            points.push(CurvePoint { y: turn.clone(), turn: true });
-            let (border, exit) =
-                if next[last] > 0.0 { (high, Exit::High) } else { (low, Exit::Low) };
-            if beyond(b[last], border.position, next[last]) >= 0.0 {
-                land(course, &turn, &b, border, &mut points);
+            points.push(CurvePoint { y: y.clone(), turn: Some(turn) });
+            let (border, exit) = ahead(slope_there);
+            if beyond(end.y[last], border.position, slope_there) >= 0.0 {
+                land(course, &y, &end.y, border, &mut points);
                 return (points, exit);
             }
         } else if landing {
-            let mut b = b;
-            b[last] = border.position;
-            points.push(CurvePoint { y: b, turn: false });
+            let mut y = end.y;
+            y[last] = border.position;
+            points.push(CurvePoint { y, turn: None });
             return (points, exit);
-        } else if beyond(b[last], border.position, t[last]) >= 0.0 {
-            land(course, &a, &b, border, &mut points);
+        } else if beyond(end.y[last], border.position, slope) >= 0.0 {
+            land(course, &here.y, &end.y, border, &mut points);
             return (points, exit);
         }
-        points.push(CurvePoint { y: b.clone(), turn: false });
-        (a, t) = (b, next);
-        step = (GROWTH * length.max(SHORTEST)).min(longest);
+        points.push(CurvePoint { y: end.y.clone(), turn: None });
+        here = end;
+        length = (GROWTH * long.max(SHORTEST)).min(longest);
     }
     (points, Exit::Lost)
+}
+
+/// A step of this length, corrected across the tangent or in another `row`; `None` if it is too long to say
+/// what happens on it.
+fn step(course: &Course<'_>, here: &Here, length: f64, row: Option<&DVector<f64>>) -> Option<Step> {
+    let (a, t) = (&here.y, &here.tangent.t);
+    let last = a.len() - 1;
+    let predicted = a + length * t;
+    let b = correct(course, predicted.clone(), row.unwrap_or(t))?;
+    if (&b - &predicted).norm() > CORRECTION * length.max(SHORTEST) {
+        return None;
+    }
+    let next = tangent(course, &b, t)?;
+    if next.t.dot(t) < STRAIGHT_ENOUGH {
+        return None;
+    }
+    let crosses = next.side * here.tangent.side < 0.0;
+    // Where the pull passes infinity the chain is straight, and the curve turns there and only there.
+    let straightens = a[last - 1] * b[last - 1] < 0.0;
+    let slopes = [t[last], next.t[last]];
+    let turn = if slopes[0] * slopes[1] < 0.0 {
+        let slope =
+            |y: &DVector<f64>, chord: &DVector<f64>| tangent(course, y, chord).map(|t| t.t[last]);
+        let y = on_chord(course, a, &b, slope)?;
+        // Hanging straight down a chain can carry any force: there the curve crosses that of these forces.
+        let straight = is_straight(&y);
+        if straight != (straightens || (straight && crosses))
+            || dips(a, &y, [slopes[0], 0.0])
+            || dips(&y, &b, [0.0, slopes[1]])
+        {
+            return None;
+        }
+        let turn = match (straight, crosses) {
+            (true, _) => Turn::Straight,
+            (_, true) => Turn::Crossing,
+            _ => Turn::Fold,
+        };
+        Some((y, turn))
+    } else {
+        if straightens || dips(a, &b, slopes) {
+            return None;
+        }
+        None
+    };
+    Some(Step { end: Here { y: b, tangent: next }, turn, crosses })
+}
+
+/// Whether the position may turn twice, back and forth, between two points with these slopes of the same
+/// sign, of which one may be 0: the parabola through the slopes that has their mean changes its sign, or
+/// nearly.
+fn dips(a: &DVector<f64>, b: &DVector<f64>, [first, second]: [f64; 2]) -> bool {
+    let last = a.len() - 1;
+    let length = (b - a).norm();
+    let sign = sign_of(first + second);
+    let (first, second) = (sign * first, sign * second);
+    if first.max(second) * length <= FLAT {
+        return false;
+    }
+    let mean = sign * (b[last] - a[last]) / length;
+    // first + linear s + square s^2 for s from 0 to 1.
+    let square = 3.0 * (first + second) - 6.0 * mean;
+    let linear = second - first - square;
+    let lowest = -linear / (2.0 * square);
+    let inside = square > 0.0 && lowest > 0.0 && lowest < 1.0;
+    inside && first - linear * linear / (4.0 * square) < DIP * first.min(second)
+}
+
+/// Whether the curve itself leads across a crossing to the end of a long step: walked in steps so short that
+/// none changes to another curve.
+fn passes(course: &Course<'_>, from: &Here, end: &DVector<f64>, long: f64) -> bool {
+    if long <= CROSSING {
+        return true;
+    }
+    let chord = end - &from.y;
+    let size = chord.norm();
+    let row = &chord / size;
+    let mut here = from.clone();
+    let mut length = 0.5 * long;
+    let mut crossed = false;
+    for _ in 0..MOST_STEPS {
+        let rest = row.dot(&(end - &here.y)) / row.dot(&here.tangent.t);
+        let landing = rest <= length;
+        let try_long = if landing { rest.max(0.0) } else { length };
+        let step = step(course, &here, try_long, landing.then_some(&row))
+            .filter(|step| !step.crosses || (try_long <= CROSSING && !crossed));
+        let Some(step) = step else {
+            length = 0.5 * try_long.min(length);
+            if length < SHORTEST {
+                return false;
+            }
+            continue;
+        };
+        crossed |= step.crosses;
+        here = step.end;
+        if landing {
+            return crossed && (&here.y - end).norm() <= SAME_END;
+        }
+        length = (GROWTH * try_long.max(SHORTEST)).min(0.5 * long);
+    }
+    false
 }
 
 fn sign_of(x: f64) -> f64 {
@@ -141,5 +284,5 @@ fn land(
     let gap = |y: &DVector<f64>, _: &DVector<f64>| Some(y[last] - border.position);
     let mut y = on_chord(course, a, b, gap).unwrap_or_else(|| b.clone());
     y[last] = border.position;
-    points.push(CurvePoint { y, turn: false });
+    points.push(CurvePoint { y, turn: None });
 }

@@ -94,20 +94,32 @@ pub(crate) fn correct(
     (left <= RESIDUAL).then_some(y)
 }
 
+/// The unit tangent of a curve, and on which side of the curve it is.
+#[derive(Debug, Clone)]
+pub(crate) struct Tangent {
+    pub(crate) t: DVector<f64>,
+    /// Sign of the determinant of the derivatives with t as their last row. Along one curve it changes where
+    /// another crosses, and nowhere else: not in folds, not where the chain is straight.
+    pub(crate) side: f64,
+}
+
 /// The unit tangent of the curve at `y`, on the side of `along`.
 pub(crate) fn tangent(
     course: &Course<'_>,
     y: &DVector<f64>,
     along: &DVector<f64>,
-) -> Option<DVector<f64>> {
+) -> Option<Tangent> {
     let n = course.bars();
     let mut j = jacobian(course, &course.plane(y[n + 3]), y);
     j.row_mut(n + 3).copy_from(&along.transpose());
     let mut right = DVector::zeros(n + 4);
     right[n + 3] = 1.0;
-    let t = j.lu().solve(&right)?;
+    let factors = j.lu();
+    let t = factors.solve(&right)?;
     let size = t.norm();
-    (size.is_finite() && size > 0.0).then(|| t / size)
+    // `along` in the last row has the sign that t has there: t is on its side.
+    let side = factors.determinant().signum();
+    (size.is_finite() && size > 0.0).then(|| Tangent { t: t / size, side })
 }
 
 /// The direction in which only the position changes.

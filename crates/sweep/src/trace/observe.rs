@@ -4,6 +4,15 @@ use nalgebra::{DMatrix, DVector};
 
 use super::course::Plane;
 
+/// A chain whose bars agree in direction to this (sine) where its curve turns lies on one line; turns are
+/// located to the square root of rounding or better.
+pub(crate) const STRAIGHT: f64 = 1e-5;
+
+/// Whether the chain lies on one line.
+pub(crate) fn is_straight(y: &DVector<f64>) -> bool {
+    y.iter().take(y.len() - 4).all(|angle| (angle - y[0]).sin().abs() <= STRAIGHT)
+}
+
 /// An equilibrium on a curve, in SI units, with its indices.
 #[derive(Debug, Clone)]
 pub(crate) struct Observed {

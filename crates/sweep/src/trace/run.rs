@@ -6,14 +6,13 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use rayon::prelude::*;
 use serde::Serialize;
 
-use super::arc::{Arc, arcs};
 use super::assemble::{Assembly, Link};
 use super::branch::Branch;
 use super::check::{Checks, agrees};
 use super::course::Course;
 use super::error::TraceError;
-use super::event::{Event, EventKind};
-use super::segment::curves;
+use super::event::Event;
+use super::segment::Segment;
 use super::station::{PointStatus, Station, TracePoint};
 use crate::product::Study;
 
@@ -102,7 +101,7 @@ pub fn trace(
     let mut stations = work.take(&grid)?;
     let mut round = 0;
     let (branches, events) = loop {
-        let segments = segments(&stations);
+        let segments = segments(&course, &stations);
         let (branches, events) = work.branches(&stations, &segments);
         let differ = work.look_between(&stations, &segments, &branches)?;
         if differ.is_empty() || round == ROUNDS {
@@ -169,8 +168,10 @@ impl Work<'_> {
         let key = |pair: [usize; 2]| pair.map(|k| stations[k].position.to_bits());
         let is_fresh = |pair: &[usize; 2]| !self.known.contains_key(&key(*pair));
         let fresh: Vec<[usize; 2]> = segments.iter().copied().filter(is_fresh).collect();
-        let found: Vec<Segment> =
-            fresh.par_iter().map(|pair| Segment::new(self.course, stations, *pair)).collect();
+        let found: Vec<Segment> = fresh
+            .par_iter()
+            .map(|[a, b]| Segment::new(self.course, &stations[*a], &stations[*b]))
+            .collect();
         self.known.extend(fresh.into_iter().map(key).zip(found));
         let link = |pair: &[usize; 2]| Link {
             stations: *pair,
@@ -227,22 +228,13 @@ impl Work<'_> {
     }
 }
 
-/// The curves of an interval.
-struct Segment {
-    curves: Vec<(Vec<Arc>, Vec<EventKind>)>,
-    sure: bool,
-}
+/// The intervals in which to follow curves: between neighbouring complete censuses, past undecided ones
+/// (but not where the path has a corner there), and up to where the chain is refused.
+fn segments(course: &Course<'_>, stations: &[Station]) -> Vec<[usize; 2]> {
+    let barrier = |station: &Station| {
+        station.is_refused() || station.grid.is_some_and(|grid| course.bends(grid))
+    };
 
-impl Segment {
-    fn new(course: &Course<'_>, stations: &[Station], [low, high]: [usize; 2]) -> Self {
-        let (found, sure) = curves(course, &stations[low], &stations[high]);
-        Self { curves: found.iter().map(|curve| arcs(course, curve)).collect(), sure }
-    }
-}
-
-/// The intervals in which to follow curves: between neighbouring complete censuses, past undecided ones,
-/// and up to where the chain is refused.
-fn segments(stations: &[Station]) -> Vec<[usize; 2]> {
     let complete: Vec<usize> =
         (0..stations.len()).filter(|k| stations[*k].nodes.is_some()).collect();
     let (Some(&first), Some(&last)) = (complete.first(), complete.last()) else { return vec![] };
@@ -252,7 +244,7 @@ fn segments(stations: &[Station]) -> Vec<[usize; 2]> {
     }
     for pair in complete.windows(2) {
         let refused: Vec<usize> =
-            (pair[0]..pair[1]).filter(|k| stations[*k].is_refused()).collect();
+            (pair[0] + 1..pair[1]).filter(|k| barrier(&stations[*k])).collect();
         match (refused.first(), refused.last()) {
             (Some(from), Some(to)) => {
                 segments.push([pair[0], *from]);

@@ -2,8 +2,9 @@
 
 use nalgebra::DVector;
 
+use super::arc::{Arcs, arcs};
 use super::course::Course;
-use super::curve::{Border, CurvePoint, Exit, follow};
+use super::curve::{Border, CurvePoint, Exit, Gate, follow};
 use super::station::{Node, Station};
 
 /// Longest steps, in radians and parts of the path; each try with shorter ones follows curves that lie
@@ -37,24 +38,68 @@ pub(crate) struct Curve {
     pub(crate) tips: [Tip; 2],
 }
 
-/// The curves through all equilibria of two stations; whether every equilibrium is on exactly one, and
-/// none is lost.
-pub(crate) fn curves(course: &Course<'_>, low: &Station, high: &Station) -> (Vec<Curve>, bool) {
-    let mut last = vec![];
-    for longest in LONGEST {
-        let (found, sure) = attempt(course, low, high, longest);
-        if sure {
-            return (found, true);
-        }
-        last = found;
-    }
-    (last, false)
+/// The curves of an interval.
+#[derive(Debug, Clone)]
+pub(crate) struct Segment {
+    pub(crate) curves: Vec<Arcs>,
+    /// Whether every equilibrium of both stations is on exactly one curve, none is lost, and all that
+    /// happens on them is located.
+    pub(crate) sure: bool,
 }
 
-fn attempt(course: &Course<'_>, low: &Station, high: &Station, longest: f64) -> (Vec<Curve>, bool) {
-    let nodes = [low, high].map(|station| station.nodes.as_deref().unwrap_or_default());
-    let borders = [low, high]
-        .map(|station| Border { position: station.position, closed: station.nodes.is_none() });
+impl Segment {
+    /// The curves through all equilibria of two stations.
+    pub(crate) fn new(course: &Course<'_>, low: &Station, high: &Station) -> Self {
+        let course = course.within(low.position, high.position);
+        let borders = [border(&course, low, high), border(&course, high, low)];
+        let mut segment = Self { curves: vec![], sure: false };
+        if borders[1].position - borders[0].position <= NOWHERE * (high.position - low.position) {
+            // The chains end at the station itself.
+            return Self { sure: true, ..segment };
+        }
+        for longest in LONGEST {
+            let (curves, sure) = attempt(&course, [low, high], borders, longest);
+            segment.curves = curves.iter().map(|curve| arcs(&course, curve)).collect();
+            segment.sure = sure && segment.curves.iter().all(|curve| curve.sure);
+            if segment.sure {
+                break;
+            }
+        }
+        segment
+    }
+}
+
+/// Halvings that find where a number leaves its range; and how far before that curves end, as part of the
+/// interval: a bar without length has no equations.
+const EDGE_HALVINGS: i32 = 30;
+
+/// An interval that is left of one between stations, if it is shorter than this part, is none: what the
+/// halvings leave, twice.
+const NOWHERE: f64 = 2e-9;
+
+/// How far curves are followed towards a station from another.
+fn border(course: &Course<'_>, station: &Station, other: &Station) -> Border {
+    if station.nodes.is_some() {
+        return Border { position: station.position, gate: Gate::Open };
+    }
+    if course.is_chain(station.position) {
+        return Border { position: station.position, gate: Gate::Closed };
+    }
+    let (mut inside, mut outside) = (other.position, station.position);
+    for _ in 0..EDGE_HALVINGS {
+        let middle = 0.5 * (inside + outside);
+        *(if course.is_chain(middle) { &mut inside } else { &mut outside }) = middle;
+    }
+    Border { position: inside, gate: Gate::Edge }
+}
+
+fn attempt(
+    course: &Course<'_>,
+    stations: [&Station; 2],
+    borders: [Border; 2],
+    longest: f64,
+) -> (Vec<Curve>, bool) {
+    let nodes = stations.map(|station| station.nodes.as_deref().unwrap_or_default());
     let mut taken = [vec![false; nodes[0].len()], vec![false; nodes[1].len()]];
     let mut sure = true;
     let mut curves = vec![];
@@ -68,7 +113,7 @@ fn attempt(course: &Course<'_>, low: &Station, high: &Station, longest: f64) -> 
             let (points, exit) = follow(course, from, side == 0, borders, longest);
             let end = points.last().map_or(from, |point| &point.y);
             let mut arrive = |side: usize| match nearest(nodes[side], end) {
-                _ if borders[side].closed => Tip::Border,
+                _ if borders[side].gate != Gate::Open => Tip::Border,
                 Some(node) if !taken[side][node] => {
                     taken[side][node] = true;
                     if side == 0 { Tip::Low(node) } else { Tip::High(node) }
