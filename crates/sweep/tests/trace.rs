@@ -189,3 +189,70 @@ fn gravity_and_scale_change_no_shape() {
         "{coarse:?} {fine:?}"
     );
 }
+
+/// Of three points two are next to nothing: the branches that lie in between are found all the same, by
+/// what is missing at the branch points.
+#[test]
+fn a_sparse_grid_has_the_folds_and_branches_of_a_fine_one() {
+    for points in [3, 4, 10] {
+        let vary = ["anchors.end_m.z=0", &format!("anchors.end_m.x=0.05..2.5:{points}")];
+        let trace = run("three-equal-bars", &vary, 0);
+        sound(&trace);
+        assert_eq!(trace.branches.len(), 12, "{points}");
+        for (kind, count, wanted) in
+            [(EventKind::Fold, 4, 1.5_f64.sqrt()), (EventKind::BranchPoint, 2, 4_f64.cbrt() - 1.0)]
+        {
+            let found = places(&trace, kind, 1);
+            assert_eq!(found.len(), count, "{points}: {found:?}");
+            assert!(found.iter().all(|place| (place - wanted).abs() <= PARAMETER), "{found:?}");
+        }
+    }
+}
+
+/// Where the numbers describe no chain there are no branches, and nothing happens at the edge.
+#[test]
+fn ranges_that_leave_the_chains_end_branches() {
+    for (vary, branches, edge, least) in [
+        ("bars.1.length_m=-1..1.9:7", 4, Some(0.0), 0.0),
+        ("bars.2.mass_kg=-1..1:5", 4, Some(0.0), 0.0),
+        ("bars.2.mass_kg=-1..1:6", 4, Some(0.0), 0.0),
+        ("bars.1.centre_m=-1..2:7", 4, Some(0.0), 0.0),
+        ("bars.1.centre_m=-1..2:8", 4, Some(1.0), 0.0),
+        ("gravity_m_s2=-1..1:4", 4, Some(0.0), 0.0),
+        ("anchors.end_m.z=-2,-1,-2", 8, None, -2.0),
+    ] {
+        let trace = run("three-equal-bars", &[vary], 0);
+        assert!(trace.checks.agree(), "{vary}: {:?}", trace.checks);
+        let points = || trace.branches.iter().flat_map(|branch| &branch.points);
+        assert!(points().all(|point| point.values[0] >= least), "{vary}");
+        let reached =
+            |branch: &sweep::Branch| ![branch.start, branch.end].contains(&BranchEnd::Lost);
+        assert!(trace.branches.iter().all(reached), "{vary}");
+        assert_eq!(trace.branches.len(), branches, "{vary}");
+        assert!(places(&trace, EventKind::BranchPoint, 0).is_empty(), "{vary}");
+        assert!(trace.events.iter().all(|event| event.residual <= 1e-11), "{vary}");
+        if let Some(edge) = edge {
+            let near = |x: f64| (x - edge).abs() < 1e-6;
+            assert!(points().any(|point| near(point.values[0])), "{vary}: nothing at {edge}");
+        }
+    }
+}
+
+/// A trace without any decided point decides nothing.
+#[test]
+fn nothing_decided_is_no_agreement() {
+    for vary in ["gravity_m_s2=1,2,3", "gravity_m_s2=1"] {
+        let trace = run("level-odd", &[vary], 0);
+        assert!(trace.branches.is_empty() && !trace.checks.agree(), "{:?}", trace.checks);
+        assert!(!trace.checks.decided() && !trace.checks.undecided.is_empty());
+    }
+}
+
+#[test]
+fn a_number_is_set_once() {
+    let chain = model::cases::get("three-equal-bars").unwrap().problem().into_chain();
+    let vary = ["bars.1.length_m=0.5,0.6,0.7", "bars.*.length_m=1.0"];
+    let vary: Vec<_> = vary.iter().map(|text| text.parse().unwrap()).collect();
+    let error = Study::new(chain, &vary, Combine::Product).unwrap_err();
+    assert!(error.what.contains("`bars.1.length_m` and `bars.*.length_m` set one number"));
+}

@@ -2,8 +2,12 @@
 
 use serde::Serialize;
 
-use super::branch::Branch;
+use super::branch::{Branch, BranchEnd};
+use super::event::{Event, EventKind};
 use super::station::Station;
+
+/// Two curves that cross.
+const ARMS: usize = 4;
 
 /// What the checks of a trace say.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
@@ -13,7 +17,8 @@ pub struct Checks {
     /// Positions of those whose equilibria differ from the branches in number or in indices, after all
     /// rounds of refinement.
     pub mismatches: Vec<f64>,
-    /// Positions of those that were undecided.
+    /// Positions between two points or events at which no census could be decided, nor near by: nothing
+    /// is known there. If no census of the trace is complete, all its positions.
     pub undecided: Vec<f64>,
     /// Points that were added on the way, where branches and census differed at first.
     pub added: usize,
@@ -21,19 +26,46 @@ pub struct Checks {
     pub disagreements: usize,
     /// Intervals in which not every equilibrium could be followed.
     pub unfollowed: Vec<[f64; 2]>,
+    /// Positions of branch points whose other branches were not found, after all rounds of refinement.
+    pub incomplete: Vec<f64>,
     /// Points at which the alternating sum of the indices is not the Euler characteristic.
     pub euler_violations: usize,
 }
 
 impl Checks {
-    /// Whether every check agrees.
+    /// Whether every check was decided, and agrees.
     #[must_use]
     pub fn agree(&self) -> bool {
-        self.mismatches.is_empty()
-            && self.unfollowed.is_empty()
+        self.decided()
+            && self.mismatches.is_empty()
             && self.disagreements == 0
             && self.euler_violations == 0
     }
+
+    /// Whether every branch was followed, every branch point has its branches, and no stretch of the path
+    /// is without a complete census.
+    #[must_use]
+    pub fn decided(&self) -> bool {
+        self.unfollowed.is_empty() && self.incomplete.is_empty() && self.undecided.is_empty()
+    }
+}
+
+/// Positions of the branch points at which fewer than two curves cross.
+pub(crate) fn incomplete(branches: &[Branch], events: &[Event]) -> Vec<f64> {
+    let crossing = events.iter().filter(|event| event.kind == EventKind::BranchPoint);
+    let lacking = crossing.filter(|event| {
+        // Each branch that passes is two arms of the crossing, and each that ends is one.
+        let here = BranchEnd::Event(event.id);
+        let arms = event.branches.iter().map(|branch| {
+            let ends = [branches[*branch].start, branches[*branch].end];
+            match ends.into_iter().filter(|end| *end == here).count() {
+                0 => 2,
+                ends => ends,
+            }
+        });
+        arms.sum::<usize>() < ARMS
+    });
+    lacking.map(|event| event.position).collect()
 }
 
 /// Indices in the plane and in space of all equilibria at a station, sorted.

@@ -4,7 +4,27 @@
 //! proof. Between neighbouring points every one of them is followed along its curve (module `curve`), which
 //! ends at exactly one other: of the next point, or, having turned back, of the same. Where a curve turns
 //! back, two branches meet in a fold. So the census at the points proves what is there, and the curves say
-//! what belongs together; a census half way between neighbours counts again.
+//! what belongs together; a census between neighbouring points and events counts again. Where it differs, or a
+//! branch point lacks its branches, points are added.
+//!
+//! # Limits
+//!
+//! What begins and ends between two censuses and touches no other branch (two branches that meet in two folds,
+//! a closed curve) is not seen: a finer grid sees it. Curves end where a number leaves its range, and at
+//! degenerate points at an end of the path or in a corner of it.
+//!
+//! # Steps
+//!
+//! Along one curve the sign of det (derivatives; tangent) changes where another curve crosses and nowhere else,
+//! the slope of the position where the curve turns, and $w$ where the chain is straight, which is a turn. A step
+//! is halved until the signs at its ends say one such thing at most, and the slopes leave no room for two turns.
+//!
+//! # Columns
+//!
+//! `funicular trace --csv` writes the points of the branches, one line each: `path` (from 1), `branch`,
+//! `position`, a column for each parameter, `span_m`, `grid` (empty between the points), `proved`, `event` (its
+//! number, or empty), `pull_horizontal_n`, `pull_vertical_n`, `energy_j`, `index_in_plane`, `index_in_space`, and
+//! for each bar `angle_1_rad`, `axial_1_n`, ...: the fields of [`BranchPoint`].
 //!
 //! # The equations
 //!

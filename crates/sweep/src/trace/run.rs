@@ -8,10 +8,10 @@ use serde::Serialize;
 
 use super::assemble::{Assembly, Link};
 use super::branch::Branch;
-use super::check::{Checks, agrees};
+use super::check::{Checks, agrees, incomplete};
 use super::course::Course;
 use super::error::TraceError;
-use super::event::Event;
+use super::event::{Event, EventKind};
 use super::segment::Segment;
 use super::station::{PointStatus, Station, TracePoint};
 use crate::product::Study;
@@ -51,12 +51,20 @@ pub struct Trace {
     pub checks: Checks,
 }
 
-/// Where between two stations the checks look. Not half way: a symmetric path has something special
-/// there.
-const BETWEEN: f64 = 0.436_332_3;
+/// Where between two stations or events the checks look. Not half way: a symmetric path has something
+/// special there. Where the census is undecided they look at the next.
+const BETWEEN: [f64; 3] = [0.436_332_3, 0.701_356_1, 0.223_606_7];
+
+/// Between events nearer to each other than this part of the path nothing is counted: a census as near
+/// to both has nothing to tell from rounding.
+const NARROWEST: f64 = 1e-8;
 
 /// Rounds of adding points where branches and census differ.
 const ROUNDS: usize = 6;
+
+/// How much nearer to a branch point of which branches are missing each round looks than the one before:
+/// what branches off may end soon.
+const NEARER: f64 = 0.125;
 
 /// Follow all equilibria along one path of a study. `watch` is told of each census.
 ///
@@ -103,15 +111,22 @@ pub fn trace(
     let (branches, events) = loop {
         let segments = segments(&course, &stations);
         let (branches, events) = work.branches(&stations, &segments);
-        let differ = work.look_between(&stations, &segments, &branches)?;
-        if differ.is_empty() || round == ROUNDS {
+        work.checks.incomplete = incomplete(&branches, &events);
+        let gaps = gaps(&stations, &events);
+        let mut differ = work.look_between(&stations, &segments, &gaps, &branches)?;
+        if round == ROUNDS || (differ.is_empty() && work.checks.incomplete.is_empty()) {
             break (branches, events);
         }
+        differ.extend(work.look_beside(&gaps, &branches, round)?);
         round += 1;
         work.checks.added += differ.len();
         stations.extend(differ);
         stations.sort_by(|a, b| a.position.total_cmp(&b.position));
+        stations.dedup_by(|a, b| a.position.to_bits() == b.position.to_bits());
     };
+    if stations.iter().all(|station| matches!(station.status, PointStatus::Undecided { .. })) {
+        work.checks.undecided = stations.iter().map(|station| station.position).collect();
+    }
     let mut checks = work.checks;
     count_disagreements(&stations, &mut checks);
     let points =
@@ -182,50 +197,116 @@ impl Work<'_> {
         (branches, events)
     }
 
-    /// Count again between the stations; the censuses that differ from the branches.
+    /// Count again between the stations and events; the censuses that differ from the branches, or lie
+    /// where not all could be followed.
     fn look_between(
         &mut self,
         stations: &[Station],
         segments: &[[usize; 2]],
+        gaps: &[[f64; 2]],
         branches: &[Branch],
     ) -> Result<Vec<Station>, TraceError> {
-        let looks: Vec<(f64, [f64; 2])> = segments
+        let looks: Vec<Vec<f64>> = gaps
             .iter()
-            .map(|pair| pair.map(|k| stations[k].position))
-            .map(|[low, high]| (low + BETWEEN * (high - low), [low, high]))
+            .map(|[low, high]| BETWEEN.map(|part| low + part * (high - low)).to_vec())
             .collect();
-        let fresh: Vec<_> = looks
-            .iter()
-            .filter(|(position, _)| !self.between.contains_key(&position.to_bits()))
-            .map(|(position, _)| (*position, None))
-            .collect();
-        self.total.fetch_add(fresh.len(), Ordering::Relaxed);
-        self.checks.between += fresh.len();
-        for station in self.take(&fresh)? {
-            self.between.insert(station.position.to_bits(), station);
-        }
+        let looks = self.decide(&looks)?;
         self.checks.mismatches.clear();
         self.checks.undecided.clear();
-        self.checks.unfollowed.clear();
+        self.checks.unfollowed = segments
+            .iter()
+            .map(|pair| pair.map(|k| stations[k].position))
+            .filter(|ends| !self.known[&ends.map(f64::to_bits)].sure)
+            .collect();
+        let unsure = |position: f64| {
+            self.checks.unfollowed.iter().any(|[low, high]| (*low..=*high).contains(&position))
+        };
         let mut differ = vec![];
-        for (position, ends) in looks {
+        let (mut mismatches, mut undecided) = (vec![], vec![]);
+        for position in looks {
             let look = &self.between[&position.to_bits()];
-            let sure = self.known[&ends.map(f64::to_bits)].sure;
-            if !sure {
-                self.checks.unfollowed.push(ends);
-            }
             match agrees(branches, look) {
-                None => self.checks.undecided.push(position),
-                Some(false) => self.checks.mismatches.push(position),
-                Some(true) if sure => continue,
+                None => undecided.push(position),
+                Some(false) => mismatches.push(position),
+                Some(true) if !unsure(position) => continue,
                 Some(true) => {}
             }
-            if look.nodes.is_some() {
+            if look.nodes.is_some() || look.is_refused() {
                 differ.push(look.clone());
             }
         }
+        (self.checks.mismatches, self.checks.undecided) = (mismatches, undecided);
         Ok(differ)
     }
+
+    /// Count on both sides of branch points that lack branches, nearer in each round; the censuses that
+    /// differ.
+    fn look_beside(
+        &mut self,
+        gaps: &[[f64; 2]],
+        branches: &[Branch],
+        round: usize,
+    ) -> Result<Vec<Station>, TraceError> {
+        let mut looks = vec![];
+        for at in &self.checks.incomplete {
+            let near = (0..=round).fold(1.0, |near, _| NEARER * near);
+            for [low, high] in gaps {
+                let way = near * (high - low);
+                if (low - at).abs() <= NARROWEST {
+                    looks.push(vec![low + way]);
+                } else if (high - at).abs() <= NARROWEST {
+                    looks.push(vec![high - way]);
+                }
+            }
+        }
+        let looks = self.decide(&looks)?;
+        let looks = looks.iter().map(|position| &self.between[&position.to_bits()]);
+        Ok(looks.filter(|look| agrees(branches, look) == Some(false)).cloned().collect())
+    }
+
+    /// Take censuses: of each list up to the first that is decided. Where that was, or the last of the list.
+    fn decide(&mut self, lists: &[Vec<f64>]) -> Result<Vec<f64>, TraceError> {
+        let mut at = vec![0; lists.len()];
+        loop {
+            let wanted = lists.iter().zip(&at).filter_map(|(list, at)| list.get(*at));
+            let mut fresh: Vec<_> = wanted
+                .filter(|position| !self.between.contains_key(&position.to_bits()))
+                .map(|position| (*position, None))
+                .collect();
+            fresh.dedup();
+            self.total.fetch_add(fresh.len(), Ordering::Relaxed);
+            self.checks.between += fresh.len();
+            for station in self.take(&fresh)? {
+                self.between.insert(station.position.to_bits(), station);
+            }
+            let mut more = false;
+            for (list, at) in lists.iter().zip(&mut at) {
+                let look = &self.between[&list[*at].to_bits()];
+                let open = matches!(look.status, PointStatus::Undecided { .. });
+                if open && *at + 1 < list.len() {
+                    *at += 1;
+                    more = true;
+                }
+            }
+            if !more {
+                return Ok(lists.iter().zip(at).map(|(list, at)| list[at]).collect());
+            }
+        }
+    }
+}
+
+/// What lies between neighbouring stations and events in the plane.
+fn gaps(stations: &[Station], events: &[Event]) -> Vec<[f64; 2]> {
+    let in_plane =
+        |kind| matches!(kind, EventKind::Fold | EventKind::Straight | EventKind::BranchPoint);
+    let events = events.iter().filter(|event| in_plane(event.kind)).map(|event| event.position);
+    let (Some(first), Some(last)) = (stations.first(), stations.last()) else { return vec![] };
+    let mut bounds: Vec<f64> =
+        events.filter(|at| (first.position..=last.position).contains(at)).collect();
+    bounds.extend(stations.iter().map(|station| station.position));
+    bounds.sort_by(f64::total_cmp);
+    let gaps = bounds.windows(2).map(|pair| [pair[0], pair[1]]);
+    gaps.filter(|[low, high]| high - low > NARROWEST).collect()
 }
 
 /// The intervals in which to follow curves: between neighbouring complete censuses, past undecided ones
