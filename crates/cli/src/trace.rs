@@ -20,6 +20,28 @@ use crate::output;
 use crate::progress::Progress;
 use crate::tables;
 
+/// What `--csv` writes, in `--help`; the head of [`write_csv`] is tested against it.
+const CSV: &str = "\
+Write all points of all branches, a line each, to this CSV file
+
+Columns:
+  path, branch               numbers of the path, from 1, and of the branch, from 0
+  position                   on the path: 0 at its first point, 1 at its last
+  one for each parameter     its value, in the unit of the system file
+  span_m                     distance of the anchors
+  grid                       number of the point among the values asked for, from 0; empty in between
+  proved                     true: from a census; false: from the curve
+  event                      number of the event that happens here (--json has them all); else empty
+  pull_horizontal_n, pull_vertical_n
+                             pull of the chain on the first anchor, along the plane's horizontal direction \
+and along Z; empty where it is infinite
+  energy_j                   energy above the first joint
+  index_in_plane, index_in_space
+                             directions in which the energy falls: 0 is stable
+  angle_1_rad, axial_1_n, ...
+                             for each bar its angle from the descending vertical, and the force along it, \
+tension positive; empty where it is infinite";
+
 const EXAMPLES: &str = "\
 A parameter is any number of the system file and its values, a list or a range with its number of points:
   --vary anchors.end_m.z=-2.9..-0.1:500     --vary bars.2.mass_kg=0.1,1,10
@@ -32,11 +54,14 @@ Examples:
   funicular trace chain.toml --vary bars.2.mass_kg=0.1..10:200 --csv branches.csv --json | jq .traces[0].events
 
 Exit codes:
-  0  done; the censuses between the points agree with the branches
+  0  done; the censuses between the points and events agree with the branches
   1  a check failed: a census differs from the branches
   2  bad input or usage, or no point describes a chain
-  3  a branch could not be followed
-130  interrupted; nothing is kept to go on from, and no file is half written";
+  3  undecided: a branch could not be followed, a branch point lacks its branches, or nothing is known
+     between two points (degenerate chains)
+130  interrupted; nothing is kept to go on from, and no file is half written
+
+A pair of branches that begins and ends between two censuses, meeting no other, is not seen: take more points.";
 
 /// Branches printed in full as a table.
 const SHOWN: usize = 60;
@@ -60,8 +85,8 @@ pub struct Arguments {
     /// Print one JSON object (schema_version 1) instead of tables
     #[arg(long)]
     pub json: bool,
-    /// Write all points of all branches, a line each, to this CSV file
-    #[arg(long, value_name = "FILE")]
+    /// Write all points of all branches, a line each, to this CSV file (columns: --help)
+    #[arg(long, value_name = "FILE", long_help = CSV)]
     pub csv: Option<PathBuf>,
     /// Write the bifurcation diagram to this SVG file (with several paths: FILE-1.svg, FILE-2.svg, ...)
     #[arg(long, value_name = "FILE")]
@@ -122,7 +147,8 @@ pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
             out.write_all(b"\n")
         })?;
     } else {
-        output::print(&traces.iter().map(text).collect::<Vec<_>>().join("\n"))?;
+        let many = traces.len() > 1;
+        output::print(&traces.iter().map(|one| text(one, many)).collect::<Vec<_>>().join("\n"))?;
     }
     Ok(exit)
 }
@@ -171,12 +197,12 @@ fn verdict(traces: &[Trace]) -> Result<Exit, Failure> {
         )));
     }
     let checks = || traces.iter().map(|trace| &trace.checks);
-    if checks().any(|checks| !checks.unfollowed.is_empty()) {
-        Ok(Exit::Undecided)
-    } else if checks().all(::sweep::Checks::agree) {
+    if checks().all(::sweep::Checks::agree) {
         Ok(Exit::Done)
-    } else {
+    } else if checks().all(::sweep::Checks::decided) {
         Ok(Exit::CheckFailed)
+    } else {
+        Ok(Exit::Undecided)
     }
 }
 
@@ -242,8 +268,20 @@ fn write_csv(to: &mut impl Write, traces: &[Trace]) -> io::Result<()> {
     Ok(())
 }
 
-/// One trace for people.
-fn text(trace: &Trace) -> String {
+/// What stays the same along a path, with its values; nothing if that is nothing.
+fn fixed(trace: &Trace) -> String {
+    let Some(first) = trace.points.first() else { return String::new() };
+    let same = |k: &usize| {
+        trace.points.iter().all(|point| point.values[*k].to_bits() == first.values[*k].to_bits())
+    };
+    let named = (0..trace.parameters.len())
+        .filter(same)
+        .map(|k| format!("{} = {} {}", trace.parameters[k], first.values[k], trace.units[k]));
+    named.collect::<Vec<_>>().join(", ")
+}
+
+/// One trace for people; with others, each says for which values it is.
+fn text(trace: &Trace, many: bool) -> String {
     let complete = |p: &&::sweep::TracePoint| matches!(p.status, PointStatus::Complete { .. });
     let refused = |p: &&::sweep::TracePoint| matches!(p.status, PointStatus::Refused { .. });
     let count = trace.points.len();
@@ -251,8 +289,12 @@ fn text(trace: &Trace) -> String {
     let refused = trace.points.iter().filter(refused).count();
     let undecided = count - proved - refused;
     let checks = &trace.checks;
+    let of = match fixed(trace) {
+        fixed if many && !fixed.is_empty() => format!(" ({fixed})"),
+        _ => String::new(),
+    };
     let mut text = format!(
-        "{}: {count} points, {proved} with all equilibria proved, {refused} refused, {undecided} degenerate; \
+        "{}{of}: {count} points, {proved} with all equilibria proved, {refused} refused, {undecided} degenerate; \
          {} branches\n",
         trace.parameters.join(", "),
         trace.branches.len()
@@ -262,24 +304,38 @@ fn text(trace: &Trace) -> String {
         // Writing to a String cannot fail.
         let _ = writeln!(text, "degenerate at {}", values(trace, &point.values));
     }
+    // Writing to a String cannot fail.
     let _ = writeln!(
         text,
-        "{} censuses between the points: {}",
+        "{} censuses between the points and events: {}",
         checks.between,
-        if checks.agree() {
-            "each finds exactly the branches there, with the same indices".to_owned()
-        } else {
-            format!(
-                "{} differ from the branches, {} intervals could not be followed, {} energies or indices \
-                 differ, {} Euler characteristics do not hold",
-                checks.mismatches.len(),
-                checks.unfollowed.len(),
-                checks.disagreements,
-                checks.euler_violations
-            )
-        }
+        said(trace, proved == 0 && undecided > 0)
     );
     text
+}
+
+/// What the checks say.
+fn said(trace: &Trace, nothing: bool) -> String {
+    let checks = &trace.checks;
+    if checks.agree() {
+        return "each finds exactly the branches there, with the same indices".to_owned();
+    }
+    if nothing {
+        return "nothing was decided, every point is degenerate".to_owned();
+    }
+    [
+        (checks.mismatches.len(), "differ from the branches"),
+        (checks.undecided.len(), "are undecided"),
+        (checks.unfollowed.len(), "intervals could not be followed"),
+        (checks.incomplete.len(), "branch points lack branches"),
+        (checks.disagreements, "energies or indices differ"),
+        (checks.euler_violations, "Euler characteristics do not hold"),
+    ]
+    .into_iter()
+    .filter(|(count, _)| *count > 0)
+    .map(|(count, what)| format!("{count} {what}"))
+    .collect::<Vec<_>>()
+    .join(", ")
 }
 
 fn values(trace: &Trace, values: &[f64]) -> String {

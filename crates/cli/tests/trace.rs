@@ -111,11 +111,62 @@ fn a_product_has_a_path_for_each_combination() {
 }
 
 #[test]
+fn each_path_says_for_which_values_it_is() {
+    let output = funicular(&[
+        "trace",
+        "--case",
+        "three-equal-bars",
+        "--vary",
+        "bars.2.mass_kg=0.5,2",
+        "--vary",
+        "anchors.end_m.z=-2.5..-1.5:3",
+    ]);
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    let said = text(&output.stdout);
+    for mass in ["0.5", "2"] {
+        let head =
+            format!("bars.2.mass_kg, anchors.end_m.z (bars.2.mass_kg = {mass} kg): 3 points");
+        assert!(said.contains(&head), "{head} is not in\n{said}");
+    }
+}
+
+#[test]
+fn where_nothing_is_decided_nothing_is_claimed() {
+    let output =
+        funicular(&["trace", "--case", "level-odd", "--vary", "gravity_m_s2=1,2,3", "--json"]);
+    assert_eq!(output.status.code(), Some(3));
+    let json: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert!(!json["traces"][0]["checks"]["undecided"].as_array().unwrap().is_empty());
+    let output = funicular(&["trace", "--case", "level-odd", "--vary", "gravity_m_s2=1"]);
+    assert_eq!(output.status.code(), Some(3));
+    let said = text(&output.stdout);
+    assert!(said.contains("nothing was decided") && !said.contains("each finds"), "{said}");
+}
+
+/// Every column that is written is explained in the help.
+#[test]
+fn the_columns_are_in_the_help() {
+    let csv = folder("columns").join("two.csv");
+    let vary = ["--vary", "anchors.end_m.z=-1.5,-1.4", "--csv", csv.to_str().unwrap()];
+    let output = funicular(&[&["trace", "--case", "three-equal-bars"], &vary[..]].concat());
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    let help = text(&funicular(&["trace", "--help"]).stdout);
+    let written = std::fs::read_to_string(csv).unwrap();
+    for column in written.lines().next().unwrap().split(',') {
+        let bar = |name: &str| name.contains("_2_") || name.contains("_3_");
+        let parameter = column.starts_with("anchors.");
+        assert!(bar(column) || parameter || help.contains(column), "{column} is not in\n{help}");
+    }
+}
+
+#[test]
 fn errors_point_at_what_is_wrong() {
     for (vary, wanted) in [
         ("bars.2.mas_kg=1,2", "did you mean `mass_kg`?"),
         ("bars.9.mass_kg=1,2", "there is no bar 9"),
         ("anchors.end_m.z=1..2", "the number of points is missing"),
+        ("bars[2.mass_kg=1,2", "this bracket is not closed"),
+        ("bars.2]mass_kg=1,2", "this bracket is not opened"),
         ("anchors.end_m.z=-9,-8", "no value of the parameters describes a chain"),
     ] {
         let output = funicular(&["trace", "--case", "three-equal-bars", "--vary", vary]);
