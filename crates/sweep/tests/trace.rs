@@ -238,6 +238,16 @@ fn ranges_that_leave_the_chains_end_branches() {
     }
 }
 
+/// Hanging straight down a chain crosses the curve of its forces: that is no branch point.
+#[test]
+fn straight_along_the_vertical_is_straight() {
+    let trace = run("slack", &["anchors.end_m.z=-1..1:14"], 0);
+    assert!(trace.checks.agree(), "{:?}", trace.checks);
+    assert!(places(&trace, EventKind::BranchPoint, 0).is_empty());
+    let straight = places(&trace, EventKind::Straight, 0);
+    assert!(straight.iter().any(|z| (z + 0.35).abs() <= PARAMETER), "{straight:?}");
+}
+
 /// A trace without any decided point decides nothing.
 #[test]
 fn nothing_decided_is_no_agreement() {

@@ -186,8 +186,8 @@ fn step(course: &Course<'_>, here: &Here, length: f64, row: Option<&DVector<f64>
             |y: &DVector<f64>, chord: &DVector<f64>| tangent(course, y, chord).map(|t| t.t[last]);
         let y = on_chord(course, a, &b, slope)?;
         // Hanging straight down a chain can carry any force: there the curve crosses that of these forces.
-        let straight = is_straight(&y);
-        if straight != (straightens || (straight && crosses))
+        let straight = (straightens || crosses) && is_straight(&y);
+        if (straightens && !straight)
             || dips(a, &y, [slopes[0], 0.0])
             || dips(&y, &b, [0.0, slopes[1]])
         {

@@ -4,9 +4,9 @@ use nalgebra::{DMatrix, DVector};
 
 use super::course::Plane;
 
-/// A chain whose bars agree in direction to this (sine) where its curve turns lies on one line; turns are
-/// located to the square root of rounding or better.
-pub(crate) const STRAIGHT: f64 = 1e-5;
+/// A chain whose bars agree in direction to this (sine) where its curve turns lies on one line. Turns are
+/// located to the square root of rounding or better, but where curves cross, of the largest residual.
+pub(crate) const STRAIGHT: f64 = 1e-4;
 
 /// Whether the chain lies on one line.
 pub(crate) fn is_straight(y: &DVector<f64>) -> bool {
