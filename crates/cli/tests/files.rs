@@ -341,10 +341,11 @@ fn the_help_says_what_an_interruption_leaves() {
         let help = help(command);
         assert!(help.contains("130  interrupted; nothing is kept to go on from"), "{help}");
     }
-    for command in ["sweep", "merge"] {
-        assert!(
-            help(command).contains("what is done stays, and the same command goes"),
-            "{command}"
-        );
+    // `merge` has no --resume.
+    for (command, goes_on) in [
+        ("sweep", "130  interrupted (Ctrl-C or SIGTERM): what is done stays, --resume goes on"),
+        ("merge", "130  interrupted (Ctrl-C or SIGTERM): the same command goes on"),
+    ] {
+        assert!(help(command).contains(goes_on), "{command}");
     }
 }
