@@ -18,7 +18,7 @@ use super::newton::{NEWTON_PASSES, Passes, Root, first_few, minimise, polish};
 use super::settings::Settings;
 use super::span::Span;
 use super::start::Rope;
-use super::system::{Frame, System};
+use super::system::{Closure, Frame, System};
 use super::team::Team;
 use super::tension::nested;
 
@@ -55,8 +55,8 @@ pub struct Pull {
     pub(super) remainder_of: f64,
     /// Force of the ground on bar 1 at joint 0, N.
     ground_n: Vector,
-    /// How far rounding may have moved the force, as a part of the largest.
-    pub(super) doubt: f64,
+    /// The last closure computed, where an iteration found the force.
+    closure: Option<Closure>,
     passes: usize,
 }
 
@@ -80,7 +80,7 @@ impl Pull {
             pivots: [first, second - taken],
             remainder_of: second.abs() + taken.abs(),
             ground_n: [-force[0] * level[0] * unit, -force[0] * level[1] * unit, vertical * unit],
-            doubt: 0.0,
+            closure: None,
             passes,
         }
     }
@@ -262,10 +262,15 @@ impl Condensed {
     }
 
     fn found(&self, force: [f64; 2], signs: Signs, root: &Root, passes: &Passes) -> Pull {
-        let largest = force[0].hypot(force[1]) + self.largest_load();
-        let doubt = root.closure.doubt() / largest;
+        let closure = Some(root.closure);
         let jacobian = root.closure.jacobian;
-        Pull { doubt, ..Pull::new(self, self.span.level, force, signs, jacobian, passes.spent) }
+        Pull { closure, ..Pull::new(self, self.span.level, force, signs, jacobian, passes.spent) }
+    }
+
+    /// How far rounding may have moved the force of a pull, as a part of the largest force.
+    pub(super) fn doubt(&self, pull: &Pull) -> f64 {
+        let largest = pull.force[0].hypot(pull.force[1]) + self.largest_load();
+        pull.closure.map_or(0.0, |closure| closure.doubt() / largest)
     }
 
     /// The minimum for the coarse chain, and how fast it was reached.

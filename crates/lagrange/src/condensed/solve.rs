@@ -147,13 +147,13 @@ impl Condensed {
         }
         let second = second_order(self, pull);
         let mut evidence = Evidence::converged(closure, RESIDUAL_OF, passes);
-        if pull.doubt > WORTH_SAYING {
+        let doubt = self.doubt(pull);
+        if doubt > WORTH_SAYING {
             evidence.reach(
                 Rung::Converged,
                 format!(
                     "{RESIDUAL_OF}: {closure:.1e} after {passes} iterations; the closure hardly depends on the pull, \
-                     and its rounding leaves the forces in doubt by up to {:.0e} of the largest",
-                    pull.doubt
+                     and its rounding leaves the forces in doubt by up to {doubt:.0e} of the largest"
                 ),
             );
         }

@@ -54,7 +54,7 @@ pub(super) struct System<'a> {
 }
 
 /// The closure for some force.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Closure {
     /// `r`
     pub residual: [f64; 2],
