@@ -2,7 +2,7 @@
 //!
 //! Every figure is the least of several runs: what the machine does besides only adds. The chains are
 //! those of the bars to clear: equal bars, total length 1.5 times the span, anchors (0, 0, 0) and
-//! (1, 0, -0.2).
+//! (1, 0, -0.2); and deep ones, bars of 1 m from anchors a metre and a half apart.
 
 use std::hint::black_box;
 use std::time::Instant;
@@ -29,6 +29,36 @@ fn equal_bars(n: usize) -> Result<Problem, Box<dyn std::error::Error>> {
     let bars = vec![Bar::homogeneous(1.5 * span_m / n as f64, 1.0 / n as f64)?; n];
     let anchors = Anchors { start_m: [0.0; 3], end_m: [1.0, 0.0, -0.2] };
     Ok(Problem::new(Chain::new("equal bars", 9.81, anchors, bars)?)?)
+}
+
+fn deep(n: usize) -> Result<Problem, Box<dyn std::error::Error>> {
+    let bars = vec![Bar::homogeneous(1.0, 1.0)?; n];
+    let anchors = Anchors { start_m: [0.0; 3], end_m: [1.3, 0.0, -0.7] };
+    Ok(Problem::new(Chain::new("deep", 9.81, anchors, bars)?)?)
+}
+
+/// One line for each number of bars.
+fn growth(
+    chain: impl Fn(usize) -> Result<Problem, Box<dyn std::error::Error>>,
+) -> Result<(), Box<dyn std::error::Error>> {
+    let settings = Settings::default();
+    for n in [10, 100, 1_000, 10_000, 100_000, 1_000_000] {
+        let problem = chain(n)?;
+        let found = minimise(&problem, &settings)?;
+        let runs = (1_000_000 / n).clamp(3, 20);
+        let time = least(runs, (10_000 / n).max(1), || {
+            black_box(minimise(&problem, &settings).ok());
+        });
+        println!(
+            "  n = {n:<8} {:12.3} ms  {:6.1} ns per bar, {} iterations, gradient {:.0e}, gap {:.0e}",
+            1e3 * time,
+            1e9 * time / n as f64,
+            found.work.iterations,
+            found.work.gradient,
+            found.work.gap,
+        );
+    }
+    Ok(())
 }
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -73,21 +103,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     println!("  in space, no guess               {:9.2} us", 1e6 * none);
 
     println!("equal bars, no guess: shape, all forces, stability");
-    for n in [10, 100, 1_000, 10_000, 100_000, 1_000_000] {
-        let problem = equal_bars(n)?;
-        let found = minimise(&problem, &settings)?;
-        let runs = (1_000_000 / n).clamp(3, 20);
-        let time = least(runs, (10_000 / n).max(1), || {
-            black_box(minimise(&problem, &settings).ok());
-        });
-        println!(
-            "  n = {n:<8} {:12.3} ms  {:6.1} ns per bar, {} iterations, gradient {:.0e}, gap {:.0e}",
-            1e3 * time,
-            1e9 * time / n as f64,
-            found.work.iterations,
-            found.work.gradient,
-            found.work.gap,
-        );
-    }
-    Ok(())
+    growth(equal_bars)?;
+    println!("deep chains, the same");
+    growth(deep)
 }

@@ -57,6 +57,11 @@ impl Links {
 }
 
 impl Grouped {
+    /// Bars in each group.
+    pub(crate) fn sizes(&self) -> &[usize] {
+        &self.sizes
+    }
+
     /// The directions of the bars when every group is straight.
     pub(crate) fn spread(&self, u: &[Vector]) -> Vec<Vector> {
         self.sizes.iter().zip(u).flat_map(|(&size, &u)| std::iter::repeat_n(u, size)).collect()

@@ -33,7 +33,8 @@
 //!
 //! From no guess a long chain is first solved with its bars held parallel in groups of eight, and so on
 //! down to two dozen bars that start from a circular arc: restricted to such shapes the energy and the
-//! closure are those of a shorter chain. Three or four iterations on the chain itself are left.
+//! closure are those of a shorter chain. Three or four iterations on the chain itself are left. Where a deep
+//! chain bends within a few bars the bars around the bend are minimised by themselves first, their ends held.
 //!
 //! argmin (`Executor`, `CostFunction`, `Gradient`, `Hessian`, `Operator`, `Solver`, `IterState`) runs the
 //! minimisation. The `Solver` is ours: argmin has none for constrained problems, and its unconstrained
@@ -56,6 +57,7 @@
 //! forces appear in both, derived and written twice on purpose: that two programs which share no
 //! mechanics agree to the last digits is the experiment of this project. Do not deduplicate them.
 
+mod bend;
 mod closure;
 mod coarse;
 mod curvature;

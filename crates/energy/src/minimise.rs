@@ -20,8 +20,11 @@ use crate::{Error, Seed, Settings, Solution};
 const SEED_CORRECTIONS: usize = 300;
 
 /// Coarse chains only make the first guess for finer ones: their gradient need not be smaller than
-/// the error of a group of bars being straight.
+/// the error of a group of bars being straight,
 const COARSE_TOLERANCE: f64 = 1e-4;
+
+/// nor than this part of the mean weight of a group: what hangs at the bottom of a deep chain.
+const PART_OF_GROUP: f64 = 0.1;
 
 /// Find the shape of least energy from no guess.
 ///
@@ -95,19 +98,26 @@ impl Minimum {
     }
 }
 
-/// Directions to start from: the minimum of the coarser chain, or the arc.
+/// Directions to start from: the minimum of the coarser chain, or the arc. Where the coarser chain bends too sharply for
+/// its groups the bars around the bend are minimised by themselves, their ends held.
 fn first_guess(links: &Links, settings: &Settings) -> Result<Vec<Vector>, Error> {
     let Some(grouped) = links.grouped() else { return Ok(links.arc()) };
     let start = first_guess(&grouped.links, settings)?;
-    let coarse = Settings {
-        gradient_tolerance: settings.gradient_tolerance.max(COARSE_TOLERANCE),
-        ..*settings
-    };
+    let tolerance = COARSE_TOLERANCE.min(PART_OF_GROUP / grouped.links.bars() as f64);
+    let coarse =
+        Settings { gradient_tolerance: settings.gradient_tolerance.max(tolerance), ..*settings };
     // A coarse chain without an answer is no reason to give up: the arc remains.
-    match descend(grouped.links.clone(), start, &coarse) {
-        Ok(minimum) => Ok(grouped.spread(&minimum.shape.u)),
-        Err(_) => Ok(links.arc()),
+    let Ok(Minimum { shape, .. }) = descend(grouped.links.clone(), start, &coarse) else {
+        return Ok(links.arc());
+    };
+    let mut u = grouped.spread(&shape.u);
+    if let Some(bars) = grouped.bend(&shape.u)
+        && let Some((part, turn)) = links.part(bars.clone(), &u)
+        && let Ok(bent) = first_guess(&part, settings).and_then(|u| descend(part, u, &coarse))
+    {
+        u.splice(bars, bent.shape.u.iter().map(|u| turn.back(*u)));
     }
+    Ok(u)
 }
 
 /// Largest gap that is a closed chain's, as a part of the length it can spare: with more, it may be that no chain of

@@ -4,6 +4,7 @@ use model::Vector;
 
 use crate::Motion;
 use crate::links::Links;
+use crate::slope::Slope;
 use crate::vector::{dot, unit};
 
 /// Anchors with less than this part of the chain's length between their verticals lie almost on one
@@ -14,6 +15,9 @@ const NEARLY_VERTICAL: f64 = 0.01;
 /// the distance of the verticals times `phi`: up to this part of the distance Newton's method turns
 /// well.
 const WITHIN_REACH: f64 = 0.1;
+
+/// The direction of a horizontal pull this many times the mean gradient is known to a tenth of a radian.
+const CERTAIN: f64 = 10.0;
 
 /// The turn about the vertical that takes an equilibrium into the first and third axis of the frame.
 ///
@@ -47,15 +51,25 @@ impl Turn {
         Self { up, level, cosine, sine }
     }
 
+    /// The turn that takes a vector into the plane of the frame, its horizontal part along the level axis.
+    pub(crate) fn heading(links: &Links, v: Vector) -> Self {
+        let up = links.up;
+        let level = [up[2], 0.0, -up[0]];
+        let [cosine, sine, _] = unit([dot(level, v), v[1], 0.0]).unwrap_or([1.0, 0.0, 0.0]);
+        Self { up, level, cosine, sine }
+    }
+
     /// When the anchors lie almost on one vertical: the turn that takes the horizontal part of `mu` to
     /// where the end anchor lies, with the fall of the energy that comes with it.
     ///
     /// A turn `R` takes the last joint from `D` to `R D`, and closing the chain again costs
     /// `-R mu . (D - R D)`, `-mu` being the derivative of the energy by the place of the last joint.
     ///
-    /// `None` if the plane of the chain is near enough for Newton's method.
-    pub(crate) fn towards_anchor(links: &Links, multiplier: Vector) -> Option<(Self, f64)> {
-        let up = links.up;
+    /// `None` if the plane of the chain is near enough for Newton's method, or if it is not known yet: the horizontal part
+    /// of `mu` is uncertain by the gradient that is left. (It may be none at all: with a level bar that carries no force
+    /// at its bottom a chain hangs straight down and up again.)
+    pub(crate) fn towards_anchor(links: &Links, slope: &Slope) -> Option<(Self, f64)> {
+        let (up, multiplier) = (links.up, slope.multiplier);
         let level = [up[2], 0.0, -up[0]];
         let offset = dot(level, links.span[0]);
         if links.motion == Motion::Plane || links.vertical || offset.abs() > NEARLY_VERTICAL {
@@ -63,8 +77,10 @@ impl Turn {
         }
         let pull = [dot(level, multiplier) * offset.signum(), multiplier[1] * offset.signum()];
         let size = pull[0].hypot(pull[1]);
+        if size <= CERTAIN * slope.mean {
+            return None;
+        }
         let (cosine, sine) = (pull[0] / size, pull[1] / size);
-        // NaN for no pull at all is no reason to turn.
         let far = cosine < 0.0 || sine.abs() > WITHIN_REACH * offset.abs();
         let fall = size * offset.abs() * (1.0 - cosine);
         far.then_some((Self { up, level, cosine, sine }, fall))

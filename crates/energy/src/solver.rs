@@ -119,7 +119,7 @@ impl FeasibleNewton {
         shape: &Shape,
         slope: &Slope,
     ) -> Result<Option<Place>, argmin::core::Error> {
-        let Some((turn, predicted)) = Turn::towards_anchor(links, slope.multiplier) else {
+        let Some((turn, predicted)) = Turn::towards_anchor(links, slope) else {
             return Ok(None);
         };
         let u = turn.of(&shape.u);
