@@ -129,3 +129,18 @@ fn a_thousand_random_chains_hang_at_their_lowest() {
     }
     assert!(failed.is_empty(), "{} of {CHAINS}:\n{}", failed.len(), failed.join("\n"));
 }
+
+/// A hundred thousand bars of unit length between anchors two metres apart: all but straight down and up again, so that
+/// the chain made coarser says nothing of the bend. Both missed their anchor by more than the settings allow, because
+/// the last pass was saved on its word.
+#[test]
+fn deep_chains_are_not_closed_on_the_word_of_a_coarser_chain() {
+    for (n, end_m) in [(100_000, [2.0, 0.0, -1.0]), (99_999, [2.0, 0.0, 0.0])] {
+        let bars = vec![Bar::homogeneous(1.0, 1.0).unwrap(); n];
+        let anchors = Anchors { start_m: [0.0; 3], end_m };
+        let problem = Problem::new(Chain::new("deep", 9.806_65, anchors, bars).unwrap()).unwrap();
+        let answer = solve(&problem, &Settings::default()).unwrap().equilibrium;
+        let judged = judge(&problem, &answer);
+        assert!(judged.within(BALANCE) && judged.lowest, "{n}: {judged:?}");
+    }
+}

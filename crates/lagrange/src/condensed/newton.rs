@@ -82,7 +82,7 @@ pub(super) fn polish(system: &System<'_>, force: [f64; 2], passes: &mut Passes) 
 /// Minimise $\Phi$ from `force` on.
 ///
 /// `contraction` of the same chain made coarser lets the last pass be saved: the residual after the
-/// next step is then predicted, not computed. `None` when the passes ran out or rounding errors are
+/// next step is then predicted, not computed, by that or by its own, whichever is worse. `None` when the passes ran out or rounding errors are
 /// larger than [`Closure::floor`] says and prevent a closure of `enough` total lengths, too.
 pub(super) fn minimise(
     system: &System<'_>,
@@ -102,7 +102,7 @@ pub(super) fn minimise(
             return system.settled(&root.closure, enough).then_some(root);
         };
         if let Some(contraction) = contraction
-            && CAUTION * contraction * size * size <= 1.0
+            && CAUTION * contraction.max(root.contraction) * size * size <= 1.0
             && small(step, root.force)
             && root.closure.condition() <= WELL_CONDITIONED
         {

@@ -284,7 +284,10 @@ impl Condensed {
         let system = System { team: alone, ..self.upright([bars, NO_BARS], 0.0) };
         let mut passes = Passes::new(NEWTON_PASSES);
         let root = minimise(&system, start, None, f64::INFINITY, &mut passes);
-        root.map_or((start, None), |root| (root.force, Some(root.contraction)))
+        // Without a full step nothing was measured.
+        let measured =
+            |root: &Root| Some(root.contraction).filter(|contraction| *contraction > 0.0);
+        root.map_or((start, None), |root| (root.force, measured(&root)))
     }
 
     fn rope(&self, slack: f64) -> Rope {
