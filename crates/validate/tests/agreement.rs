@@ -2,7 +2,7 @@
 
 #![expect(clippy::unwrap_used, reason = "helpers of tests")]
 
-use model::{Equilibrium, Problem, Rung, cases};
+use model::{Anchors, Bar, Chain, Equilibrium, Problem, Rung, cases};
 use validate::table::{both, csv, table};
 use validate::{Tolerances, compare};
 
@@ -75,6 +75,98 @@ fn a_changed_answer_is_not_agreed_with() {
             }
         }
     }
+}
+
+/// All budgets wide open but one.
+fn only(budget: impl Fn(&mut Tolerances) -> &mut f64, value: f64) -> Tolerances {
+    let mut tolerances = Tolerances::project();
+    for open in [
+        &mut tolerances.joints,
+        &mut tolerances.forces,
+        &mut tolerances.energy,
+        &mut tolerances.statics,
+    ] {
+        open.value = 1.0;
+    }
+    *budget(&mut tolerances) = value;
+    tolerances
+}
+
+/// Kilometres and grams, so that a unit forgotten or added is no small matter.
+fn long_and_light() -> (Problem, [Equilibrium; 2]) {
+    let bars = [(900.0, 1e-3), (700.0, 3e-3), (1100.0, 2e-3)]
+        .map(|(length, mass)| Bar::homogeneous(length, mass).unwrap());
+    let anchors = Anchors { start_m: [0.0; 3], end_m: [1000.0, 300.0, -400.0] };
+    let chain = Chain::new("long and light", 9.81, anchors, bars.to_vec()).unwrap();
+    let problem = Problem::new(chain).unwrap();
+    let (answers, agreement) = both(&problem, &Tolerances::project()).unwrap();
+    assert!(agreement.agrees());
+    (problem, answers)
+}
+
+/// Changes a number of an answer by so much.
+type Change = fn(&mut Equilibrium, f64);
+
+/// The value of one budget.
+type Which = fn(&mut Tolerances) -> &mut f64;
+
+/// Half of a budget is allowed, twice the budget is not, in the units that the file of budgets names.
+#[test]
+fn each_budget_is_in_the_unit_that_its_file_says() {
+    /// Far above all rounding, far below one.
+    const BUDGET: f64 = 1e-6;
+    let (problem, good) = long_and_light();
+    let length_m = 2700.0;
+    let weight_n = 6e-3 * 9.81;
+    let largest_n =
+        good[0].multipliers_n.iter().map(|f| f[0].hypot(f[1]).hypot(f[2])).fold(weight_n, f64::max);
+    let budgets: [(&str, Which, Change, f64); 5] = [
+        ("joints / m", |t| &mut t.joints.value, |e, by| e.joints_m[2][1] += by, length_m),
+        ("forces / N", |t| &mut t.forces.value, |e, by| e.multipliers_n[1][0] -= by, largest_n),
+        ("energy / J", |t| &mut t.energy.value, |e, by| e.energy_j += by, weight_n * length_m),
+        (
+            "energy of energy less that of its joints",
+            |t| &mut t.energy.value,
+            |e, by| e.energy_j += by,
+            weight_n * length_m,
+        ),
+        (
+            "axial forces and reactions of energy less its joint forces",
+            |t| &mut t.statics.value,
+            |e, by| e.axial_n[2] += by,
+            largest_n,
+        ),
+    ];
+    for (name, which, change, unit) in budgets {
+        let tolerances = only(which, BUDGET);
+        for (part, agrees) in [(0.5, true), (2.0, false)] {
+            let mut answers = good.clone();
+            change(&mut answers[1], part * BUDGET * unit);
+            let agreement = compare(&problem, &mut answers, &tolerances);
+            assert_eq!(agreement.agrees(), agrees, "{name}, {part}: {:?}", agreement.reasons);
+            let said = agreement.reasons.iter().any(|reason| reason.starts_with(name));
+            assert_eq!(said, !agrees, "{name}, {part}: {:?}", agreement.reasons);
+        }
+    }
+}
+
+/// A joint without load between bars under tension is not free: the two bars are parallel.
+#[test]
+fn a_joint_without_load_is_held_by_bars_that_carry_force() {
+    let bars = [(1.0, 2.0), (0.5, 0.0), (0.7, 0.0), (1.0, 1.0)]
+        .map(|(length, mass)| Bar::homogeneous(length, mass).unwrap());
+    let anchors = Anchors { start_m: [0.0; 3], end_m: [2.0, 0.0, 0.0] };
+    let chain = Chain::new("string in the middle", 9.81, anchors, bars.to_vec()).unwrap();
+    let problem = Problem::new(chain).unwrap();
+    let (mut answers, agreement) = both(&problem, &Tolerances::project()).unwrap();
+    assert!(agreement.agrees() && agreement.free_joints == 0, "{:?}", agreement.reasons);
+    answers[0].joints_m[2][2] += 1e-3;
+    // What counts as no force is a matter of the budget of forces.
+    let forces = Tolerances::project().forces;
+    let tolerances = Tolerances { forces, ..only(|t| &mut t.joints.value, 1e-6) };
+    let agreement = compare(&problem, &mut answers, &tolerances);
+    assert!(!agreement.agrees() && agreement.free_joints == 0);
+    assert!((agreement.joints_m - 1e-3).abs() < 1e-9, "{}", agreement.joints_m);
 }
 
 #[test]
