@@ -46,6 +46,7 @@ mod effort;
 mod error;
 mod load;
 mod mechanism;
+mod meeting;
 mod multipliers;
 mod newton;
 mod point;

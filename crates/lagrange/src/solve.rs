@@ -7,6 +7,7 @@ use model::{InSpace, Problem, Stability};
 use crate::dense::Dense;
 use crate::effort::Effort;
 use crate::mechanism::{Mechanism, Units};
+use crate::meeting::share;
 use crate::newton::{Finish, Model, newton};
 use crate::reduced::Reduced;
 use crate::relax::relax;
@@ -120,6 +121,7 @@ impl<'p> Solver<'p> {
             let finish = self.newton()?;
             self.effort.solve_s = clock.elapsed().as_secs_f64();
             if finish == Finish::Converged {
+                share(&mut self.reduced, self.problem, &self.settings);
                 let stability = stability(&self.reduced.mechanism, &self.reduced.here);
                 if stability.in_space == InSpace::Stable {
                     return Ok(Outcome { solver: self });

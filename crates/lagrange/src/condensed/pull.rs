@@ -137,6 +137,13 @@ impl Condensed {
         if finite { Ok(pull) } else { Err(CondensedError::Overflow) }
     }
 
+    /// The pull if two strands just meet at the bottom; `None` if they do not.
+    pub(crate) fn if_meeting(&self) -> Option<Pull> {
+        let hold = self.bottom.hold(self.span.across, self.read.total_length);
+        let mut passes = Passes::new(Settings::default().max_passes);
+        (hold == Hold::Meeting).then(|| self.meeting(&mut passes)).flatten()
+    }
+
     fn in_tension(&self, enough: f64, passes: &mut Passes) -> Option<Pull> {
         let upright = self.upright(self.all(), 0.0);
         let taut = Axis::taut(self, false);
