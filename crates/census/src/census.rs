@@ -14,6 +14,7 @@ use crate::search::{Progress, search};
 use crate::system::System;
 use crate::topology::{Topology, TopologyError};
 use crate::undecided::{Reason, Undecided, gather};
+use crate::unloaded::unloaded;
 use crate::{CensusError, Settings};
 
 /// All equilibria of a chain, and how far that is proved.
@@ -91,7 +92,8 @@ impl Census {
         settings.validate()?;
         refuse_long(problem, settings)?;
         let system = System::new(problem)?;
-        let search = search(&system, settings, watch);
+        let unloaded = unloaded(&system);
+        let search = search(&system, settings, &unloaded, watch);
 
         let mut undecided: Vec<Undecided> = vec![];
         for task in gather(search.undecided) {
@@ -108,7 +110,8 @@ impl Census {
         for (pattern, zero) in unclear {
             undecided.push(Undecided::new(&system, Reason::Unclear, &zero.tight, &[pattern]));
         }
-        let mut equilibria = vec![];
+        let mut equilibria: Vec<_> =
+            unloaded.into_iter().map(|unloaded| unloaded.equilibrium).collect();
         let precise = PreciseSystem::new(problem, &system);
         for (pattern, zero) in zeros {
             let signs: Vec<i8> = pattern.signs(system.bars()).collect();

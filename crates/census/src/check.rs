@@ -23,6 +23,7 @@ use crate::krawczyk::{Zero, inside, krawczyk_about_zero, narrow};
 use crate::morse::MorseError;
 use crate::polish::{PreciseSystem, polish};
 use crate::system::System;
+use crate::unloaded::with_signs;
 use crate::{Census, CensusError, Interval};
 
 /// A stated enclosure may be that much wider than the one computed anew, both being at the level of
@@ -39,8 +40,8 @@ pub enum CheckError {
     /// Occurs when the problem has no census.
     #[error(transparent)]
     Problem(#[from] CensusError),
-    /// Occurs when an equilibrium has not one sign, +1 or −1, for each bar, or its neighbourhood is no
-    /// rectangle in a chart.
+    /// Occurs when an equilibrium has not one sign for each bar, +1 or −1 (0 for one bar at most), or its
+    /// neighbourhood is no rectangle in a chart.
     #[error("equilibrium {number} is malformed")]
     Malformed {
         /// Number in the list, from 1.
@@ -202,13 +203,35 @@ fn check_one(
 ) -> Result<(), CheckError> {
     let signs = &stated.signs;
     let malformed = CheckError::Malformed { number };
-    if signs.len() != system.bars() || signs.iter().any(|sign| sign.abs() != 1) {
+    let unloaded = signs.iter().filter(|sign| **sign == 0).count();
+    let is_sign = |sign: &i8| (-1..=1).contains(sign);
+    if signs.len() != system.bars() || !signs.iter().all(is_sign) || unloaded > 1 {
         return Err(malformed);
     }
     let around = Cell { face: stated.alone_in.chart, at: stated.alone_in.at };
     if matches!(around.face, Face::Around(group) if usize::from(group) >= system.groups.len()) {
         return Err(malformed);
     }
+    let anew = if unloaded == 1 {
+        let anew = with_signs(system, signs).ok_or(CheckError::NotOne { number })?.equilibrium;
+        if stated.alone_in != anew.alone_in {
+            return Err(CheckError::Wrong { number, quantity: "the neighbourhood" });
+        }
+        anew
+    } else {
+        proved_anew(problem, system, number, signs, around)?
+    };
+    compared(system, number, stated, &anew)
+}
+
+/// The equilibrium in a neighbourhood.
+fn proved_anew(
+    problem: &Problem,
+    system: &System,
+    number: usize,
+    signs: &[i8],
+    around: Cell,
+) -> Result<ProvenEquilibrium, CheckError> {
     let not_one = CheckError::NotOne { number };
     let image = krawczyk_about_zero(system, signs, &around).ok_or(not_one.clone())?;
     if image.misses(&around) {
@@ -220,12 +243,20 @@ fn check_one(
     let precise = PreciseSystem::new(problem, system);
     let tight = narrow(system, signs, &image);
     let tight = polish(system, &precise, signs, &Zero { tight, alone_in: around }).tight;
-    let wrong = |quantity| CheckError::Wrong { number, quantity };
     // `new` shows a circle by its other point if bar 1 leans the other way.
     let flip = |cell: Cell| if system.vertical && signs[0] < 0 { cell.mirrored() } else { cell };
     let zero = Zero { tight: flip(tight), alone_in: flip(around) };
-    let anew = ProvenEquilibrium::new(system, signs, &zero)
-        .ok_or(CheckError::IndexNotProved { number })?;
+    ProvenEquilibrium::new(system, signs, &zero).ok_or(CheckError::IndexNotProved { number })
+}
+
+/// Every number of an equilibrium against the one that is proved.
+fn compared(
+    system: &System,
+    number: usize,
+    stated: &ProvenEquilibrium,
+    anew: &ProvenEquilibrium,
+) -> Result<(), CheckError> {
+    let wrong = |quantity| CheckError::Wrong { number, quantity };
     if (anew.index_in_plane, anew.index_out_of_plane, anew.optimal, anew.circle)
         != (stated.index_in_plane, stated.index_out_of_plane, stated.optimal, stated.circle)
     {

@@ -21,12 +21,14 @@ use crate::system::System;
 /// turn by 180 degrees.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ProvenEquilibrium {
-    /// +1 for each bar in tension, −1 for each in compression.
+    /// +1 for each bar in tension, −1 for each in compression, 0 for one that carries nothing, or
+    /// less than a 10¹² part of the weights.
     pub signs: Vec<i8>,
     /// The pull of the chain on the first anchor, −λ₁..₃, N: its part along the horizontal direction from
     /// the first to the last anchor, and its part along Z.
     pub pull_n: [Interval; 2],
-    /// A neighbourhood of the pull that holds no other equilibrium with the same signs.
+    /// A neighbourhood of the pull that holds no other equilibrium with the same signs, whatever that of a
+    /// bar without force.
     pub alone_in: Neighbourhood,
     /// Angle of each bar from the descending vertical towards the last anchor, (−π, π].
     pub angles_rad: Vec<Interval>,
@@ -92,15 +94,27 @@ impl ProvenEquilibrium {
             return None;
         }
         let observed = Observed::at(system, signs, &cell);
-        let Indices { in_plane, out_of_plane, condition } =
-            inertia::indices(signs, &system.length, &observed.forces, system.vertical)?;
+        let indices = inertia::indices(signs, &system.length, &observed.forces, system.vertical)?;
         let optimal =
             stress::proves_optimal(signs, &system.length, &observed.sizes, system.vertical);
+        let alone_in = Neighbourhood { chart: alone_in.face, at: alone_in.at };
+        Some(Self::assemble(system, signs, &observed, alone_in, indices, optimal))
+    }
+
+    /// From what is proved about it. A bar with the sign 0 has its axial force, sign and all, as its size.
+    pub(crate) fn assemble(
+        system: &System,
+        signs: &[i8],
+        observed: &Observed,
+        alone_in: Neighbourhood,
+        Indices { in_plane, out_of_plane, condition }: Indices,
+        optimal: bool,
+    ) -> Self {
         let newton = system.force_unit_n();
-        Some(Self {
+        Self {
             signs: signs.to_vec(),
             pull_n: system.pull_on_anchor_n(observed.pull),
-            alone_in: Neighbourhood { chart: alone_in.face, at: alone_in.at },
+            alone_in,
             angles_rad: observed.angles(),
             energy_j: observed.energy(system) * newton * Interval::point(system.length_unit_m),
             joints_m: observed.joints(system),
@@ -115,17 +129,17 @@ impl ProvenEquilibrium {
             condition,
             optimal,
             circle: system.vertical,
-        })
+        }
     }
 }
 
 /// What follows from signs and pull, in the units of the system.
-struct Observed {
+pub(crate) struct Observed {
     /// Pull of bar 1 on joint 0, not centred.
-    pull: [Interval; 2],
-    forces: Vec<[Interval; 2]>,
-    sizes: Vec<Interval>,
-    directions: Vec<[Interval; 2]>,
+    pub(crate) pull: [Interval; 2],
+    pub(crate) forces: Vec<[Interval; 2]>,
+    pub(crate) sizes: Vec<Interval>,
+    pub(crate) directions: Vec<[Interval; 2]>,
 }
 
 impl Observed {

@@ -31,6 +31,7 @@ const LINE: f64 = 15.0;
 
 /// Tension: blue, solid. Compression: vermilion with a white core, hollow.
 const TENSION: &str = "stroke=\"#0072B2\" stroke-width=\"3.5\"";
+const UNLOADED: &str = "stroke=\"#777777\" stroke-width=\"2\" stroke-dasharray=\"6 3\"";
 const COMPRESSION: &str = "stroke=\"#D55E00\" stroke-width=\"6.5\"";
 const CORE: &str = "stroke=\"white\" stroke-width=\"2.5\"";
 const DARK: &str = "#222";
@@ -60,7 +61,8 @@ impl Census {
         let rows: Vec<Row> =
             shapes.chunks(columns).map(|shapes| Row::around(&frame, shapes)).collect();
         let grid = columns as f64 * panel_width;
-        let width = grid.max(LEAST_FIGURE);
+        let unloaded = shown.iter().any(|position| position.equilibrium.signs.contains(&0));
+        let width = grid.max(LEAST_FIGURE + if unloaded { NO_FORCE_KEY } else { 0.0 });
         let height = HEAD + rows.iter().map(Row::height).sum::<f64>() + FOOT;
         let [title, subtitle] = [escaped(name), self.subtitle(shown.len())];
         let mut svg = String::new();
@@ -73,7 +75,7 @@ impl Census {
              <title id=\"title\">Equilibria of {title}</title>\n\
              <desc id=\"description\">{subtitle} Each panel shows one shape in its vertical plane, with \
              its energy, its stability and its indices; bars in tension are solid, bars in compression \
-             hollow.</desc>\n\
+             hollow, bars without force dashed.</desc>\n\
              <rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n\
              <text x=\"{MARGIN}\" y=\"24\" font-size=\"16\" font-weight=\"bold\">{title}</text>\n\
              <text x=\"{MARGIN}\" y=\"43\">{subtitle}</text>\n"
@@ -95,7 +97,7 @@ impl Census {
             }
             y += row.height();
         }
-        key(&mut svg, &frame, height - 0.5 * FOOT);
+        key(&mut svg, &frame, unloaded, height - 0.5 * FOOT);
         svg.push_str("</svg>\n");
         svg
     }
@@ -245,11 +247,13 @@ fn line(svg: &mut String, class: &str, ends: [[f64; 2]; 2], style: &str) {
 
 /// A bar between two points.
 fn bar(svg: &mut String, ends: [[f64; 2]; 2], sign: i8) {
-    if sign < 0 {
-        line(svg, "bar", ends, COMPRESSION);
-        line(svg, "core", ends, CORE);
-    } else {
-        line(svg, "bar", ends, TENSION);
+    match sign {
+        ..0 => {
+            line(svg, "bar", ends, COMPRESSION);
+            line(svg, "core", ends, CORE);
+        }
+        0 => line(svg, "bar", ends, UNLOADED),
+        1.. => line(svg, "bar", ends, TENSION),
     }
 }
 
@@ -326,8 +330,11 @@ fn words(position: &Position) -> [String; 2] {
     [stability, indices]
 }
 
+/// What the key is longer where some bar carries no force.
+const NO_FORCE_KEY: f64 = 112.0;
+
 /// The key, and the scale.
-fn key(svg: &mut String, frame: &Frame, y: f64) {
+fn key(svg: &mut String, frame: &Frame, unloaded: bool, y: f64) {
     let text = |svg: &mut String, x: f64, text: &str| {
         let _ = writeln!(svg, "<text x=\"{x:.1}\" y=\"{:.1}\">{text}</text>", y + 4.0);
     };
@@ -337,13 +344,19 @@ fn key(svg: &mut String, frame: &Frame, y: f64) {
     text(svg, MARGIN + 44.0, "tension");
     bar(svg, swatch(MARGIN + 104.0), -1);
     text(svg, MARGIN + 148.0, "compression");
-    anchor(svg, [MARGIN + 244.0, y]);
-    text(svg, MARGIN + 256.0, "anchor");
-    joint(svg, [MARGIN + 316.0, y]);
-    text(svg, MARGIN + 326.0, "joint");
+    let mut left = MARGIN + 244.0;
+    if unloaded {
+        bar(svg, swatch(left), 0);
+        text(svg, left + 44.0, "no force");
+        left += NO_FORCE_KEY;
+    }
+    anchor(svg, [left, y]);
+    text(svg, left + 12.0, "anchor");
+    joint(svg, [left + 72.0, y]);
+    text(svg, left + 82.0, "joint");
     if frame.scale > 0.0 {
         let length = round_below(0.5 * SIDE / frame.scale);
-        let [x, end] = [MARGIN + 376.0, MARGIN + 376.0 + length * frame.scale];
+        let [x, end] = [left + 132.0, left + 132.0 + length * frame.scale];
         let style = format!("stroke=\"{DARK}\" stroke-width=\"1.5\"");
         line(svg, "scale", [[x, y], [end, y]], &style);
         for x in [x, end] {

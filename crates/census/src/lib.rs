@@ -18,7 +18,7 @@
 //! All $F_i$ lie in the vertical plane of $p$, and so does D: two equations in the two unknowns (H, V),
 //! for each of 2ⁿ patterns. With the anchors on one vertical every such plane will do, and each
 //! solution stands for a circle of equilibria. If H = 0, bars whose force vanishes may point anywhere
-//! (modules `slack`, `families`).
+//! (modules `slack`, `families`); a bar alone whose force vanishes has its own coordinates (`unloaded`).
 //!
 //! | meaning | code | shape | unit | equation |
 //! |---|---|---|---|---|
@@ -76,6 +76,7 @@ mod stress;
 mod system;
 mod topology;
 mod undecided;
+mod unloaded;
 
 pub use census::{Census, Statistics};
 pub use check::CheckError;

@@ -4,6 +4,8 @@
 //! taken in order. So neither the answer nor the point where the search gives up depends on the number
 //! of threads.
 
+use std::borrow::Cow;
+
 use rayon::prelude::*;
 
 use crate::Settings;
@@ -13,6 +15,7 @@ use crate::family::Family;
 use crate::krawczyk::{Finding, Zero, examine};
 use crate::slack;
 use crate::system::System;
+use crate::unloaded::Unloaded;
 
 /// Below so many tests in a level, threads cost more than they save: waking one takes microseconds,
 /// a test a tenth of one.
@@ -68,8 +71,13 @@ struct Outcome {
     proofs: u64,
 }
 
-/// Search the whole half cube. `watch` hears of the progress after each level.
-pub(crate) fn search(system: &System, settings: &Settings, watch: &dyn Fn(Progress)) -> Search {
+/// Search the whole half cube, but for what is settled. `watch` hears of the progress after each level.
+pub(crate) fn search(
+    system: &System,
+    settings: &Settings,
+    settled: &[Unloaded],
+    watch: &dyn Fn(Progress),
+) -> Search {
     let patterns: Vec<Pattern> = (0..1_u32 << system.bars()).map(Pattern).collect();
     let budget = settings.max_tests_per_pattern.saturating_mul(patterns.len() as u64);
     let mut level: Vec<Task> = Cell::roots(system)
@@ -83,7 +91,7 @@ pub(crate) fn search(system: &System, settings: &Settings, watch: &dyn Fn(Progre
             search.undecided.append(&mut level);
             break;
         }
-        let work = |task: &Task| examine_cell(system, settings, task);
+        let work = |task: &Task| examine_cell(system, settings, settled, task);
         let tests: usize = level.iter().map(|task| task.patterns.len()).sum();
         let outcomes: Vec<Outcome> = if tests < WORTH_THREADS {
             level.iter().map(work).collect()
@@ -111,19 +119,30 @@ pub(crate) fn search(system: &System, settings: &Settings, watch: &dyn Fn(Progre
 }
 
 /// Exclude, contract, prove, cut.
-fn examine_cell(system: &System, settings: &Settings, task: &Task) -> Outcome {
+fn examine_cell(
+    system: &System,
+    settings: &Settings,
+    settled: &[Unloaded],
+    task: &Task,
+) -> Outcome {
     let cell = task.cell.recentred(system);
     let mut outcome = Outcome::default();
     let mut noisy = [true; 2];
+    let mut asked = Cow::Borrowed(&task.patterns);
+    if !settled.is_empty() {
+        asked.to_mut().retain(|pattern| {
+            !settled.iter().any(|unloaded| unloaded.settles(system, &cell, *pattern))
+        });
+    }
     let (patterns, left, across) = match Family::over(system, &cell) {
         None => {
             noisy = [false; 2];
-            (slack::open(system, &cell, &task.patterns), cell, wider(&cell))
+            (slack::open(system, &cell, &asked), cell, wider(&cell))
         }
         Some(family) => {
             let mut patterns = vec![];
             let mut left: Option<Cell> = None;
-            for open in family.open(&task.patterns) {
+            for open in family.open(&asked) {
                 if open.promising {
                     outcome.proofs += 1;
                     let signs: Vec<i8> = open.pattern.signs(system.bars()).collect();

@@ -1,34 +1,9 @@
 //! Inputs that are no general position: the answer is honest, and never a wrong "complete".
 
+mod degenerate_common;
+
 use census::{Census, CensusError, Face, Reason, Settings, TopologyError};
-use model::{Anchors, Bar, Chain, Problem};
-
-/// Bars as (length, mass, centre).
-fn problem(bars: &[(f64, f64, f64)], end_m: [f64; 3]) -> Problem {
-    let bars: Result<Vec<Bar>, _> =
-        bars.iter().map(|(l, m, r)| Bar::new(*l, *m, *r, [0.0; 3])).collect();
-    let anchors = Anchors { start_m: [0.0; 3], end_m };
-    let chain = bars.map(|bars| Chain::new("degenerate", 9.81, anchors, bars).map(Problem::new));
-    match chain {
-        Ok(Ok(Ok(problem))) => problem,
-        other => panic!("{other:?}"),
-    }
-}
-
-fn equal(bars: usize, end_m: [f64; 3]) -> Problem {
-    problem(&vec![(1.0, 1.0, 0.5); bars], end_m)
-}
-
-fn census(problem: &Problem) -> Census {
-    match Census::take(problem, &Settings::default()) {
-        Ok(census) => {
-            // Whatever was found is right, complete or not.
-            assert_eq!(census.check(problem), Ok(()));
-            census
-        }
-        Err(error) => panic!("{error}"),
-    }
-}
+use degenerate_common::{census, equal, problem};
 
 #[test]
 fn a_straight_closure_is_never_complete() {
@@ -88,38 +63,6 @@ fn coincident_anchors_and_lengths_that_cancel_are_not_complete() {
         let census = census(&problem);
         assert!(!census.complete && !census.undecided.is_empty());
         assert!(matches!(census.topology, Err(TopologyError::Straight { .. })));
-    }
-}
-
-#[test]
-fn a_bar_without_force_is_reported_where_it_bridges_the_gap() {
-    // Bar 1 hangs down by 0.9, bar 3 rises by 0.4, and bar 2, which then carries nothing, is level
-    // and bridges the gap of 1 exactly.
-    let chain = |gap: f64| {
-        problem(&[(0.9, 1.0, 0.5), (1.0, 2.0, 0.75), (0.4, 1.0, 0.25)], [gap, 0.0, -0.5])
-    };
-    let exact = census(&chain(1.0));
-    assert!(!exact.complete && exact.topology.is_ok());
-    assert!(!exact.undecided.is_empty());
-    for undecided in &exact.undecided {
-        assert_eq!((undecided.reason, undecided.chart), (Reason::Unloaded, Face::Around(1)));
-        // The pull carries bar 1 and the share of bar 2 at joint 1, a quarter of its weight.
-        let [level, upright] = undecided.pull_n.expect("a finite pull");
-        let weight = -(1.0 + 2.0 * 0.25) * 9.81;
-        assert!(level.contains(0.0) && upright.contains(weight), "{upright:?} {weight}");
-    }
-    // A little off, and the equilibrium is found near by, the bar nearly without force.
-    for off in [1e-3, 1e-6, 1e-9, 1e-12] {
-        for sign in [-1.0, 1.0] {
-            let census = census(&chain(1.0 + sign * off));
-            assert!(census.complete, "{off:e}: {:?}", census.undecided);
-            let least = census
-                .equilibria
-                .iter()
-                .map(|equilibrium| equilibrium.axial_n[1].mag())
-                .fold(f64::INFINITY, f64::min);
-            assert!(least < 1e3 * off, "{off:e} {least:e}");
-        }
     }
 }
 

@@ -1,5 +1,6 @@
 //! The answer of `solve`, for people.
 
+use std::cmp::Ordering;
 use std::fmt::Write as _;
 
 use model::{Equilibrium, SystemSummary};
@@ -86,7 +87,12 @@ fn shape(e: &Equilibrium, bars: usize) -> String {
             short(force[1]),
             short(force[2]),
             axial.map_or_else(String::new, |a| {
-                if *a < 0.0 { "compression" } else { "tension" }.to_owned()
+                match a.partial_cmp(&0.0) {
+                    Some(Ordering::Less) => "compression",
+                    Some(Ordering::Greater) => "tension",
+                    _ => "nothing",
+                }
+                .to_owned()
             }),
             axial.map_or_else(String::new, |a| short(*a)),
         ]);

@@ -35,7 +35,7 @@ pub struct Found {
     /// Angle of each bar from the descending vertical, [0, 360) and (-180, 180].
     pub angles_deg: Vec<f64>,
     pub angles_signed_deg: Vec<f64>,
-    /// +1 for each bar in tension, -1 in compression.
+    /// +1 for each bar in tension, -1 in compression, 0 for one that carries next to nothing.
     pub signs: Vec<i8>,
     /// The energy in units of `census.energy_unit_j`.
     pub energy_scaled: f64,

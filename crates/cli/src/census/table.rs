@@ -105,10 +105,15 @@ fn overview(problem: &Problem, answer: &Answer) -> String {
     let _ = writeln!(
         text,
         "Energy V from the height of joint 0{}; {unit}: {}.\nBars from the start, T in tension, C in \
-         compression. In brackets: the number of directions in which the energy falls.\nBox: the largest relative \
+         compression{}. In brackets: the number of directions in which the energy falls.\nBox: the largest relative \
          width of the enclosures that prove the equilibrium.{}\n",
         if other_zero { " (from end: of the last anchor)" } else { "" },
         answer.census.energy_unit,
+        if answer.equilibria.iter().any(|found| found.signs.contains(&0)) {
+            ", a dot next to nothing"
+        } else {
+            ""
+        },
         if answer.census.circles {
             "\n1' is the mirror image of 1, on the same circle."
         } else {
@@ -118,7 +123,16 @@ fn overview(problem: &Problem, answer: &Answer) -> String {
     text
 }
 
-/// `TTC`; slack bars are dots.
+/// What a bar does, by its sign.
+fn carries(sign: i8) -> &'static str {
+    match sign {
+        1 => "tension",
+        -1 => "compression",
+        _ => "nothing",
+    }
+}
+
+/// `TTC`; bars without force are dots.
 fn pattern(signs: &[i8]) -> String {
     signs
         .iter()
@@ -168,7 +182,7 @@ fn bars(answer: &Answer) -> String {
                 found.angles_signed_deg.get(k).copied().map_or_else(String::new, long),
                 format!("{:.0e}", width.to_degrees()),
                 short(axial),
-                if axial < 0.0 { "compression" } else { "tension" }.to_owned(),
+                carries(found.signs.get(k).copied().unwrap_or_default()).to_owned(),
             ]);
         }
     }

@@ -1,0 +1,349 @@
+//! Equilibria in which one bar carries no force, or next to none.
+//!
+//! Where the force of bar k vanishes, its direction is not that of its force, and the closure as a
+//! function of the pull has no derivative there. It has one in other coordinates: the axial force ρ of
+//! bar k, with its sign, and the direction e of bar k. For
+//!
+//! $$ F_k = \varrho\, e, \qquad F_i = \varrho\, e + (c_i - c_k) e_z, \qquad
+//!    G(\varrho, e) = \sum_{i \ne k} s_i l_i \frac{F_i}{|F_i|} + l_k e - D = 0 $$
+//!
+//! tension (ρ > 0) and compression (ρ < 0) of bar k are one smooth system, as long as no other force
+//! vanishes. At ρ = 0 all other bars are upright; the derivative of G is regular if bar k is not, and if
+//! $\sum_{i \ne k} s_i l_i / |F_i|$ is not zero. So Krawczyk's test in (ρ, e) proves that exactly one
+//! equilibrium is near, whether or not its bar k carries nothing at all: lengths that are integers
+//! often make it carry nothing.
+//!
+//! The direction is written without trigonometry, $e = (a + t\,n)/|a + t\,n|$ about an axis a with its normal n.
+
+use crate::Interval;
+use crate::bar::unit;
+use crate::cell::Cell;
+use crate::closure::{Pattern, signed};
+use crate::equilibrium::{Neighbourhood, Observed, ProvenEquilibrium};
+use crate::face::Face;
+use crate::inertia::Indices;
+use crate::krawczyk::{image, inside};
+use crate::stress;
+use crate::system::System;
+
+/// A gap between upright bars that is off the length of the bar by more than this is none that it
+/// bridges without force, to rounding.
+const NEAR: f64 = 1e-9;
+
+/// A force of less than this, in the unit of the weights, is next to nothing: 2⁻⁴⁰, a 10¹² part. Its digits
+/// are what is left of much larger numbers.
+const NEXT_TO_NOTHING: f64 = f64::from_bits((1023 - 40) << 52);
+
+/// The largest disc of pulls tried, in the unit of the weights, and the factor to the next one.
+const LARGEST_DISC: f64 = 1.0 / 64.0;
+const NEXT_DISC: f64 = 0.125;
+/// Discs tried. The smallest is far above rounding.
+const DISCS: usize = 12;
+
+/// The range of directions is widened by this part of its width, and by this, so that the image can lie
+/// inside.
+const WIDER: f64 = 0.25;
+/// See [`WIDER`].
+const WIDER_BY: f64 = 1e-12;
+
+/// Contractions of the proved box: quadratic convergence needs six.
+const ROUNDS: usize = 20;
+
+/// An equilibrium with a bar that carries next to nothing, and the pulls that are settled with it.
+#[derive(Debug, Clone)]
+pub(crate) struct Unloaded {
+    pub(crate) equilibrium: ProvenEquilibrium,
+    /// Square of pulls about that without force: with the signs of the other bars there is no other
+    /// equilibrium in it, whatever the sign of bar k.
+    alone_in: Cell,
+    /// The bar.
+    bar: usize,
+    /// The signs of the others; bit k is 0.
+    others: Pattern,
+}
+
+impl Unloaded {
+    /// Whether all that a pattern can have in a cell is this equilibrium.
+    pub(crate) fn settles(&self, system: &System, cell: &Cell, pattern: Pattern) -> bool {
+        let mask = !Pattern::bit(system.bars(), self.bar);
+        pattern.0 & mask == self.others.0
+            && cell.on(self.alone_in.face, system).is_some_and(|cell| self.alone_in.encloses(&cell))
+    }
+}
+
+/// All of them.
+pub(crate) fn unloaded(system: &System) -> Vec<Unloaded> {
+    // Between anchors on one vertical such a bar is upright too, and its direction is not determined.
+    if system.vertical {
+        return vec![];
+    }
+    let bars = system.bars();
+    let single = system.groups.iter().filter(|group| group.len() == 1).map(|group| group.start);
+    single
+        .flat_map(|bar| {
+            let bit = Pattern::bit(bars, bar);
+            let patterns = (0..1_u32 << bars).filter(move |pattern| pattern & bit == 0);
+            patterns.filter_map(move |pattern| prove(system, bar, Pattern(pattern)))
+        })
+        .collect()
+}
+
+/// The equilibrium with these signs, 0 for the bar without force.
+pub(crate) fn with_signs(system: &System, signs: &[i8]) -> Option<Unloaded> {
+    let bars = system.bars();
+    let bar = signs.iter().position(|sign| *sign == 0)?;
+    let compressed = (0..bars).filter(|i| signs[*i] < 0);
+    let others = compressed.map(|i| Pattern::bit(bars, i)).sum();
+    let single = system.groups.iter().any(|group| group.len() == 1 && group.start == bar);
+    (single && !system.vertical).then(|| prove(system, bar, Pattern(others)))?
+}
+
+/// The closure in the coordinates (ρ, t), for one bar and one pattern of the others.
+struct Turned<'a> {
+    system: &'a System,
+    bar: usize,
+    /// The chart of pulls whose origin is that without force in the bar.
+    face: Face,
+    /// 0 for the bar.
+    signs: Vec<i8>,
+    /// a
+    axis: [Interval; 2],
+}
+
+/// What the bars do over a box of (ρ, t).
+struct Bars {
+    /// F of each bar but k, and of k with ρ e.
+    forces: Vec<[Interval; 2]>,
+    /// Direction of each bar.
+    directions: Vec<[Interval; 2]>,
+    /// |F|, but ρ for bar k.
+    sizes: Vec<Interval>,
+}
+
+impl Turned<'_> {
+    fn direction(&self, t: Interval) -> [Interval; 2] {
+        let [x, z] = self.axis;
+        unit([x - t * z, z + t * x])
+    }
+
+    /// `None` where the force of another bar may vanish.
+    fn bars(&self, [rho, t]: [Interval; 2]) -> Option<Bars> {
+        let e = self.direction(t);
+        let force = e.map(|part| rho * part);
+        let mut bars = Bars { forces: vec![], directions: vec![], sizes: vec![] };
+        for (sign, weight) in self.signs.iter().zip(self.system.weights(self.face)) {
+            if *sign == 0 {
+                bars.forces.push(force);
+                bars.directions.push(e);
+                bars.sizes.push(rho);
+                continue;
+            }
+            let force = [force[0], force[1] + *weight];
+            if force[0].contains(0.0) && force[1].contains(0.0) {
+                return None;
+            }
+            bars.forces.push(force);
+            bars.directions.push(unit(force).map(|part| signed(*sign, part)));
+            bars.sizes.push((force[0].square() + force[1].square()).sqrt());
+        }
+        Some(bars)
+    }
+
+    /// G.
+    fn gap(&self, bars: &Bars) -> [Interval; 2] {
+        let terms = bars.directions.iter().zip(&self.system.length);
+        let sum = |k: usize| terms.clone().map(|(u, length)| *length * u[k]).sum::<Interval>();
+        std::array::from_fn(|k| sum(k) - self.system.span[k])
+    }
+
+    /// The derivative of G by ρ and t, first index the component.
+    fn slope(&self, bars: &Bars, [rho, t]: [Interval; 2]) -> [[Interval; 2]; 2] {
+        let e = bars.directions[self.bar];
+        let n = normal(e);
+        let mut slope = [[Interval::ZERO; 2]; 2];
+        for (i, sign) in self.signs.iter().enumerate() {
+            if *sign == 0 {
+                for (row, part) in slope.iter_mut().zip(n) {
+                    row[1] = row[1] + self.system.length[i] * part;
+                }
+                continue;
+            }
+            // (I - f f^T)/|F| = g g^T/|F| with the normal g of f, whichever way f points.
+            let g = normal(bars.directions[i]);
+            let scale = signed(*sign, self.system.length[i] / bars.sizes[i]);
+            let (by_rho, by_turn) = (dot(g, e) * scale, dot(g, n) * scale * rho);
+            for (row, part) in slope.iter_mut().zip(g) {
+                *row = [row[0] + by_rho * part, row[1] + by_turn * part];
+            }
+        }
+        // e turns by dt/(1 + t²).
+        let turn = Interval::ONE / (Interval::ONE + t.square());
+        slope.map(|[by_rho, by_turn]| [by_rho, by_turn * turn])
+    }
+
+    /// Krawczyk's image of a box about a point of it.
+    fn krawczyk(&self, at: &Cell, x: [f64; 2]) -> Option<Cell> {
+        let slope = self.slope(&self.bars(at.at)?, at.at);
+        let gap = self.gap(&self.bars(x.map(Interval::point))?);
+        image(at, x, slope, gap)
+    }
+
+    /// A box of (ρ, t) that holds every zero whose |F_k| is at most `radius`, and exactly one: shrunk.
+    fn only_one(&self, radius: f64) -> Option<Cell> {
+        let disc = Interval::new(-radius, radius);
+        // With all forces of the disc at once the other bars leave the gap l_k e.
+        let mut left = self.system.span;
+        for (i, sign) in self.signs.iter().enumerate().filter(|(_, sign)| **sign != 0) {
+            let force = [disc, disc + self.system.weights(self.face)[i]];
+            if force[0].contains(0.0) && force[1].contains(0.0) {
+                return None;
+            }
+            let direction = unit(force);
+            for k in 0..2 {
+                left[k] = left[k] - signed(*sign, self.system.length[i] * direction[k]);
+            }
+        }
+        let along = dot(self.axis, left);
+        if along.lo() <= 0.0 {
+            return None;
+        }
+        let turned = dot(normal(self.axis), left) / along;
+        let margin = WIDER * turned.width() + WIDER_BY;
+        let whole = Cell {
+            face: self.face,
+            at: [disc, Interval::new(turned.lo() - margin, turned.hi() + margin)],
+        };
+        let mut best = self.krawczyk(&whole, whole.middle())?;
+        if !inside(&best, &whole) {
+            return None;
+        }
+        for _ in 0..ROUNDS {
+            let Some(next) = self.krawczyk(&best, best.middle()) else { break };
+            let parts = [0, 1].map(|k| best.at[k].intersect(next.at[k]));
+            let [Some(rho), Some(t)] = parts else { break };
+            let next = Cell { face: self.face, at: [rho, t] };
+            let gain = (0..2).any(|k| next.at[k].width() < 0.75 * best.at[k].width());
+            best = next;
+            if !gain {
+                break;
+            }
+        }
+        Some(best)
+    }
+
+    /// The indices. The rotation rates of the other bars are the unknowns: that of bar k follows from the
+    /// closure across it, and enters the second derivative with the factor $h_k = l_k \varrho$ alone,
+    ///
+    /// $$ \sum_{i \ne k} h_i \dot\theta_i^2 + h_k (w \cdot \dot\theta)^2, \qquad b \cdot \dot\theta = 0, $$
+    ///
+    /// $h_i = s_i l_i |F_i|$, $b_i = l_i\,e \cdot n_i$, $w_i = l_i\,n_k \cdot n_i / l_k$. It has one
+    /// negative direction less than bars are compressed where $b^T H^{-1} b < 0$. Out of the plane the closure is
+    /// one equation, which bar k can meet without force: as many as are compressed.
+    fn indices(&self, bars: &Bars, condition: f64) -> Option<Indices> {
+        let k = self.bar;
+        let e = bars.directions[k];
+        let n_k = normal(e);
+        let (mut bb, mut bw, mut ww, mut out) = ([Interval::ZERO; 4]).into();
+        for (i, sign) in self.signs.iter().enumerate().filter(|(_, sign)| **sign != 0) {
+            let length = self.system.length[i];
+            let h = signed(*sign, length * bars.sizes[i]);
+            let n = normal(bars.directions[i]);
+            let b = length * dot(e, n);
+            let across = length / self.system.length[k];
+            let w = across * dot(n_k, n);
+            bb = bb + b.square() / h;
+            bw = bw + b * w / h;
+            ww = ww + w.square() / h;
+            out = out + across.square() / h;
+        }
+        let h_k = self.system.length[k] * bars.sizes[k];
+        let regular = [ww, out].map(|part| Interval::ONE + h_k * part);
+        if regular.iter().any(|part| part.sign() != Some(1)) {
+            return None;
+        }
+        let schur = bb - h_k * bw.square() / regular[0];
+        let compressed = self.signs.iter().filter(|sign| **sign < 0).count();
+        let less = match schur.sign()? {
+            -1 => 1,
+            1 => 0,
+            _ => return None,
+        };
+        Some(Indices {
+            in_plane: compressed.checked_sub(less)?,
+            out_of_plane: compressed,
+            condition,
+        })
+    }
+}
+
+/// The equilibrium near the pull without force in a bar, if there is exactly one with these signs of the
+/// others and its bar carries next to nothing.
+fn prove(system: &System, bar: usize, others: Pattern) -> Option<Unloaded> {
+    let group = system.groups.iter().position(|group| group.start == bar)?;
+    let face = Face::Around(u8::try_from(group).ok()?);
+    let signs: Vec<i8> = others
+        .signs(system.bars())
+        .enumerate()
+        .map(|(i, s)| if i == bar { 0 } else { s })
+        .collect();
+    // The gap that upright bars leave.
+    let mut gap = system.span;
+    for (i, sign) in signs.iter().enumerate().filter(|(_, sign)| **sign != 0) {
+        let up = system.weights(face)[i].sign()?;
+        gap[1] = gap[1] - signed(sign * up, system.length[i]);
+    }
+    let distance = (gap[0].square() + gap[1].square()).sqrt();
+    if (distance - system.length[bar]).mig() > NEAR {
+        return None;
+    }
+    let axis = gap.map(|part| Interval::point(part.mid() / system.length[bar].mid()));
+    let turned = Turned { system, bar, face, signs, axis };
+    let mut radius = LARGEST_DISC;
+    let mut found = None;
+    for _ in 0..DISCS {
+        if let Some(tight) = turned.only_one(radius) {
+            found = Some(tight);
+            break;
+        }
+        radius *= NEXT_DISC;
+    }
+    let tight = found?;
+    // Any other the search finds by itself.
+    if tight.at[0].mag() > NEXT_TO_NOTHING {
+        return None;
+    }
+    let bars = turned.bars(tight.at)?;
+    let slope = turned.slope(&bars, tight.at).map(|row| row.map(Interval::mid));
+    let indices = turned.indices(&bars, condition(slope))?;
+    // A square inside the disc.
+    let side = Interval::new(-0.5 * radius, 0.5 * radius);
+    let alone_in = Cell { face, at: [side, side] };
+    let optimal = stress::proves_optimal(&turned.signs, &system.length, &bars.sizes, false);
+    let observed = Observed {
+        pull: Cell { face, at: bars.forces[bar] }.pull(system),
+        forces: bars.forces,
+        sizes: bars.sizes,
+        directions: bars.directions,
+    };
+    let neighbourhood = Neighbourhood { chart: face, at: alone_in.at };
+    let signs = &turned.signs;
+    let equilibrium =
+        ProvenEquilibrium::assemble(system, signs, &observed, neighbourhood, indices, optimal);
+    Some(Unloaded { equilibrium, alone_in, bar, others })
+}
+
+fn normal([x, z]: [Interval; 2]) -> [Interval; 2] {
+    [-z, x]
+}
+
+fn dot(a: [Interval; 2], b: [Interval; 2]) -> Interval {
+    a[0] * b[0] + a[1] * b[1]
+}
+
+/// Ratio of the singular values of a matrix.
+fn condition([[a, b], [c, d]]: [[f64; 2]; 2]) -> f64 {
+    let squares = a * a + b * b + c * c + d * d;
+    let determinant = a * d - b * c;
+    let rest = (squares * squares - 4.0 * determinant * determinant).max(0.0).sqrt();
+    0.5 * (squares + rest) / determinant.abs()
+}

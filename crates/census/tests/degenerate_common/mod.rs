@@ -1,0 +1,31 @@
+//! Chains, and censuses that are checked whatever they find.
+
+use census::{Census, Settings};
+use model::{Anchors, Bar, Chain, Problem};
+
+/// Bars as (length, mass, centre).
+pub fn problem(bars: &[(f64, f64, f64)], end_m: [f64; 3]) -> Problem {
+    let bars: Result<Vec<Bar>, _> =
+        bars.iter().map(|(l, m, r)| Bar::new(*l, *m, *r, [0.0; 3])).collect();
+    let anchors = Anchors { start_m: [0.0; 3], end_m };
+    let chain = bars.map(|bars| Chain::new("degenerate", 9.81, anchors, bars).map(Problem::new));
+    match chain {
+        Ok(Ok(Ok(problem))) => problem,
+        other => panic!("{other:?}"),
+    }
+}
+
+pub fn equal(bars: usize, end_m: [f64; 3]) -> Problem {
+    problem(&vec![(1.0, 1.0, 0.5); bars], end_m)
+}
+
+pub fn census(problem: &Problem) -> Census {
+    match Census::take(problem, &Settings::default()) {
+        Ok(census) => {
+            // Whatever was found is right, complete or not.
+            assert_eq!(census.check(problem), Ok(()));
+            census
+        }
+        Err(error) => panic!("{error}"),
+    }
+}
