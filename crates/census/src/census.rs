@@ -110,8 +110,7 @@ impl Census {
         for (pattern, zero) in unclear {
             undecided.push(Undecided::new(&system, Reason::Unclear, &zero.tight, &[pattern]));
         }
-        let mut equilibria: Vec<_> =
-            unloaded.into_iter().map(|unloaded| unloaded.equilibrium).collect();
+        let mut equilibria = unloaded.equilibria;
         let precise = PreciseSystem::new(problem, &system);
         for (pattern, zero) in zeros {
             let signs: Vec<i8> = pattern.signs(system.bars()).collect();

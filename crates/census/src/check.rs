@@ -213,7 +213,7 @@ fn check_one(
         return Err(malformed);
     }
     let anew = if unloaded == 1 {
-        let anew = with_signs(system, signs).ok_or(CheckError::NotOne { number })?.equilibrium;
+        let anew = with_signs(system, signs).ok_or(CheckError::NotOne { number })?;
         if stated.alone_in != anew.alone_in {
             return Err(CheckError::Wrong { number, quantity: "the neighbourhood" });
         }

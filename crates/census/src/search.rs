@@ -4,8 +4,6 @@
 //! taken in order. So neither the answer nor the point where the search gives up depends on the number
 //! of threads.
 
-use std::borrow::Cow;
-
 use rayon::prelude::*;
 
 use crate::Settings;
@@ -71,11 +69,11 @@ struct Outcome {
     proofs: u64,
 }
 
-/// Search the whole half cube, but for what is settled. `watch` hears of the progress after each level.
+/// Search the whole half cube, but for what is settled with the unloaded bars. `watch` hears of the progress after each level.
 pub(crate) fn search(
     system: &System,
     settings: &Settings,
-    settled: &[Unloaded],
+    unloaded: &Unloaded,
     watch: &dyn Fn(Progress),
 ) -> Search {
     let patterns: Vec<Pattern> = (0..1_u32 << system.bars()).map(Pattern).collect();
@@ -91,7 +89,7 @@ pub(crate) fn search(
             search.undecided.append(&mut level);
             break;
         }
-        let work = |task: &Task| examine_cell(system, settings, settled, task);
+        let work = |task: &Task| examine_cell(system, settings, unloaded, task);
         let tests: usize = level.iter().map(|task| task.patterns.len()).sum();
         let outcomes: Vec<Outcome> = if tests < WORTH_THREADS {
             level.iter().map(work).collect()
@@ -119,21 +117,11 @@ pub(crate) fn search(
 }
 
 /// Exclude, contract, prove, cut.
-fn examine_cell(
-    system: &System,
-    settings: &Settings,
-    settled: &[Unloaded],
-    task: &Task,
-) -> Outcome {
+fn examine_cell(system: &System, settings: &Settings, unloaded: &Unloaded, task: &Task) -> Outcome {
     let cell = task.cell.recentred(system);
     let mut outcome = Outcome::default();
     let mut noisy = [true; 2];
-    let mut asked = Cow::Borrowed(&task.patterns);
-    if !settled.is_empty() {
-        asked.to_mut().retain(|pattern| {
-            !settled.iter().any(|unloaded| unloaded.settles(system, &cell, *pattern))
-        });
-    }
+    let asked = unloaded.left(system, &cell, &task.patterns);
     let (patterns, left, across) = match Family::over(system, &cell) {
         None => {
             noisy = [false; 2];

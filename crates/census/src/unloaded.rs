@@ -15,6 +15,10 @@
 //!
 //! The direction is written without trigonometry, $e = (a + t\,n)/|a + t\,n|$ about an axis a with its normal n.
 
+use std::borrow::Cow;
+use std::collections::HashMap;
+use std::ops::Range;
+
 use crate::Interval;
 use crate::bar::unit;
 use crate::cell::Cell;
@@ -49,53 +53,80 @@ const WIDER_BY: f64 = 1e-12;
 /// Contractions of the proved box: quadratic convergence needs six.
 const ROUNDS: usize = 20;
 
-/// An equilibrium with a bar that carries next to nothing, and the pulls that are settled with it.
-#[derive(Debug, Clone)]
+/// The equilibria with a bar that carries next to nothing, and the pulls that are settled with them.
+#[derive(Debug, Default)]
 pub(crate) struct Unloaded {
-    pub(crate) equilibrium: ProvenEquilibrium,
-    /// Square of pulls about that without force: with the signs of the other bars there is no other
-    /// equilibrium in it, whatever the sign of bar k.
-    alone_in: Cell,
-    /// The bar.
-    bar: usize,
-    /// The signs of the others; bit k is 0.
-    others: Pattern,
+    pub(crate) equilibria: Vec<ProvenEquilibrium>,
+    settled: Vec<Settled>,
+}
+
+/// Squares of pulls about the one without force in a bar, one for each pattern of the others (the bit of the
+/// bar is 0): with these signs there is no equilibrium in it but the one that is listed, whatever the sign of
+/// the bar.
+#[derive(Debug)]
+struct Settled {
+    face: Face,
+    bit: u32,
+    /// Half a side of the square of each pattern.
+    half: HashMap<u32, f64>,
+    largest: f64,
 }
 
 impl Unloaded {
-    /// Whether all that a pattern can have in a cell is this equilibrium.
-    pub(crate) fn settles(&self, system: &System, cell: &Cell, pattern: Pattern) -> bool {
-        let mask = !Pattern::bit(system.bars(), self.bar);
-        pattern.0 & mask == self.others.0
-            && cell.on(self.alone_in.face, system).is_some_and(|cell| self.alone_in.encloses(&cell))
+    /// The patterns that may have equilibria in a cell besides those listed here.
+    pub(crate) fn left<'a>(
+        &self,
+        system: &System,
+        cell: &Cell,
+        patterns: &'a [Pattern],
+    ) -> Cow<'a, [Pattern]> {
+        let mut left = Cow::Borrowed(patterns);
+        for Settled { face, bit, half, largest } in &self.settled {
+            let Some(cell) = cell.on(*face, system) else { continue };
+            let farthest = cell.at[0].mag().max(cell.at[1].mag());
+            if farthest <= *largest {
+                left.to_mut().retain(|pattern| {
+                    half.get(&(pattern.0 & !bit)).is_none_or(|half| farthest > *half)
+                });
+            }
+        }
+        left
     }
 }
 
 /// All of them.
-pub(crate) fn unloaded(system: &System) -> Vec<Unloaded> {
-    // Between anchors on one vertical such a bar is upright too, and its direction is not determined.
-    if system.vertical {
-        return vec![];
-    }
+pub(crate) fn unloaded(system: &System) -> Unloaded {
+    let mut all = Unloaded::default();
     let bars = system.bars();
-    let single = system.groups.iter().filter(|group| group.len() == 1).map(|group| group.start);
-    single
-        .flat_map(|bar| {
-            let bit = Pattern::bit(bars, bar);
-            let patterns = (0..1_u32 << bars).filter(move |pattern| pattern & bit == 0);
-            patterns.filter_map(move |pattern| prove(system, bar, Pattern(pattern)))
-        })
-        .collect()
+    for group in &system.groups {
+        let bit = Pattern::bit(bars, group.start);
+        let mut half = HashMap::new();
+        let mut largest = 0.0_f64;
+        for others in (0..1_u32 << bars).filter(|pattern| pattern & bit == 0) {
+            if let Some(equilibrium) = prove(system, group, Pattern(others)) {
+                // A square about the origin of the chart.
+                let side = equilibrium.alone_in.at[0].hi();
+                largest = largest.max(side);
+                half.insert(others, side);
+                all.equilibria.push(equilibrium);
+            }
+        }
+        if let Some(face) = all.equilibria.last().map(|last| last.alone_in.chart)
+            && !half.is_empty()
+        {
+            all.settled.push(Settled { face, bit, half, largest });
+        }
+    }
+    all
 }
 
 /// The equilibrium with these signs, 0 for the bar without force.
-pub(crate) fn with_signs(system: &System, signs: &[i8]) -> Option<Unloaded> {
+pub(crate) fn with_signs(system: &System, signs: &[i8]) -> Option<ProvenEquilibrium> {
     let bars = system.bars();
     let bar = signs.iter().position(|sign| *sign == 0)?;
     let compressed = (0..bars).filter(|i| signs[*i] < 0);
     let others = compressed.map(|i| Pattern::bit(bars, i)).sum();
-    let single = system.groups.iter().any(|group| group.len() == 1 && group.start == bar);
-    (single && !system.vertical).then(|| prove(system, bar, Pattern(others)))?
+    prove(system, system.groups.iter().find(|group| group.contains(&bar))?, Pattern(others))
 }
 
 /// The closure in the coordinates (ρ, t), for one bar and one pattern of the others.
@@ -278,9 +309,14 @@ impl Turned<'_> {
 
 /// The equilibrium near the pull without force in a bar, if there is exactly one with these signs of the
 /// others and its bar carries next to nothing.
-fn prove(system: &System, bar: usize, others: Pattern) -> Option<Unloaded> {
-    let group = system.groups.iter().position(|group| group.start == bar)?;
-    let face = Face::Around(u8::try_from(group).ok()?);
+fn prove(system: &System, group: &Range<usize>, others: Pattern) -> Option<ProvenEquilibrium> {
+    // Between anchors on one vertical such a bar is upright too, and its direction is not determined.
+    if group.len() > 1 || system.vertical {
+        return None;
+    }
+    let bar = group.start;
+    let number = system.groups.iter().position(|other| other == group)?;
+    let face = Face::Around(u8::try_from(number).ok()?);
     let signs: Vec<i8> = others
         .signs(system.bars())
         .enumerate()
@@ -317,7 +353,6 @@ fn prove(system: &System, bar: usize, others: Pattern) -> Option<Unloaded> {
     let indices = turned.indices(&bars, condition(slope))?;
     // A square inside the disc.
     let side = Interval::new(-0.5 * radius, 0.5 * radius);
-    let alone_in = Cell { face, at: [side, side] };
     let optimal = stress::proves_optimal(&turned.signs, &system.length, &bars.sizes, false);
     let observed = Observed {
         pull: Cell { face, at: bars.forces[bar] }.pull(system),
@@ -325,11 +360,9 @@ fn prove(system: &System, bar: usize, others: Pattern) -> Option<Unloaded> {
         sizes: bars.sizes,
         directions: bars.directions,
     };
-    let neighbourhood = Neighbourhood { chart: face, at: alone_in.at };
+    let alone_in = Neighbourhood { chart: face, at: [side, side] };
     let signs = &turned.signs;
-    let equilibrium =
-        ProvenEquilibrium::assemble(system, signs, &observed, neighbourhood, indices, optimal);
-    Some(Unloaded { equilibrium, alone_in, bar, others })
+    Some(ProvenEquilibrium::assemble(system, signs, &observed, alone_in, indices, optimal))
 }
 
 fn normal([x, z]: [Interval; 2]) -> [Interval; 2] {
