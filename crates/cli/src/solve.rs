@@ -4,7 +4,7 @@ use std::io::{self, Write};
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
-use census::Census;
+use census::{Census, Topology, TopologyError};
 use clap::{Args, ValueEnum};
 use miette::miette;
 use model::{Equilibrium, Problem, SystemSummary};
@@ -26,6 +26,10 @@ const CENSUS_BARS: usize = 8;
 /// Tests per pattern for that: several times what generic chains need, and a second or so at most. A degenerate chain
 /// is left undecided; `funicular census` takes its time.
 const CENSUS_TESTS: u64 = 2_000;
+
+/// The same where the lengths fit into a straight line, so that the census cannot be complete: what generic chains need
+/// for each of their equilibria.
+const CENSUS_TESTS_STRAIGHT: u64 = 400;
 
 /// `funicular solve`.
 #[derive(Debug, Args)]
@@ -97,8 +101,9 @@ pub fn run(arguments: &Solve) -> Result<Exit, Failure> {
     let (mut equilibria, agreement) = judge(&problem, equilibria);
     if bars <= CENSUS_BARS {
         progress.say("the census");
-        let settings =
-            census::Settings { max_tests_per_pattern: CENSUS_TESTS, ..census::Settings::default() };
+        let straight = matches!(Topology::of(&problem), Err(TopologyError::Straight { .. }));
+        let max_tests_per_pattern = if straight { CENSUS_TESTS_STRAIGHT } else { CENSUS_TESTS };
+        let settings = census::Settings { max_tests_per_pattern, ..census::Settings::default() };
         let census = Census::take(&problem, &settings);
         for answer in &mut equilibria {
             match &census {
