@@ -207,10 +207,12 @@ fn rounding_floor(shape: &Shape) -> f64 {
 /// How far directions in double precision leave the forces in doubt, as a part of the largest: of bars at an angle `a`
 /// to a common line they hold the forces along the line to a rounding, and what is left of the gradient, over `a`. On
 /// the line itself the forces are those of the limit (module `straight`), exact if the anchors are on it; by as much as
-/// they are off it the bars have room to turn by the root of that.
+/// they are off it the bars have room to turn by the root of that. With a bar pushed on the line nothing is known of
+/// what the bars share along it.
 pub(crate) fn doubt(links: &Links, shape: &Shape, slope: &Slope) -> f64 {
     if let Some(e) = slope.line {
-        off_the_line(links, e).map_or(0.0, f64::sqrt)
+        let known = if slope.opened { 0.0 } else { 1.0 };
+        off_the_line(links, e).map_or(known, f64::sqrt)
     } else {
         (FLOOR * f64::EPSILON + slope.residual()) / smallest_spread(shape).sqrt()
     }

@@ -208,6 +208,26 @@ fn loose_bars_are_compared_by_what_is_determined() {
     }
 }
 
+/// A bar of three metres stands on the lowest joint of a strand and pulls the first anchor up: all bars are upright, and
+/// lengths alone do not say how the ties share the weight. Neither solver's forces are worth anything, and both say so.
+#[test]
+fn upright_chains_with_a_prop_are_told_in_doubt() {
+    let bars = [(1.0, 1.0), (3.0, 1.0), (1.0, 1.0), (1.0, 5.0), (1.0, 1.0)]
+        .map(|(length, mass)| Bar::homogeneous(length, mass).unwrap());
+    let anchors = Anchors { start_m: [0.0; 3], end_m: [0.0, 0.0, 1.0] };
+    let chain = Chain::new("prop", 9.81, anchors, bars.to_vec()).unwrap();
+    let mut answers = hang(&Problem::new(chain).unwrap()).unwrap();
+    for answer in &mut answers {
+        let heights = answer.joints_m.iter().map(|joint| joint[2]);
+        assert!(
+            heights.zip([0.0, 1.0, -2.0, -1.0, 0.0, 1.0]).all(|(z, at)| (z - at).abs() < 1e-12)
+        );
+        let converged = answer.evidence.ladder().iter().find(|s| s.rung == Rung::Converged);
+        let how = &converged.unwrap().how;
+        assert!(how.contains("in doubt by up to 1e0 of the largest"), "{}: {how}", answer.solver);
+    }
+}
+
 /// Two strands that hang straight down and just meet share the weight of the lowest joint in any way they
 /// like. Both solvers answer with the limit of anchors that are moved apart, each by a method of its own;
 /// here the anchors are moved apart.

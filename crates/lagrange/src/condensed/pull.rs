@@ -24,6 +24,9 @@ use super::tension::nested;
 
 /// A deviation smaller than this beside the largest load comes from cancellation.
 const LEAST_DEVIATION: f64 = 1e-8;
+/// A horizontal force less than this beside the largest one is none: bars turn off the vertical by less than the
+/// root of a rounding.
+const UPRIGHT: f64 = 1e-6;
 const NO_BARS: Bars<'static> = Bars { lengths: &[], loads: &[] };
 
 /// Which bars are compressed.
@@ -277,6 +280,12 @@ impl Condensed {
     /// How far rounding may have moved the force of a pull, as a part of the largest force.
     pub(super) fn doubt(&self, pull: &Pull) -> f64 {
         let largest = pull.force[0].hypot(pull.force[1]) + self.largest_load();
+        // Between anchors on one vertical a chain that is straight, one of its bars pushed, shares the weight
+        // along the vertical in any way.
+        let upright = self.span.across <= 0.0 && pull.force[0].abs() <= UPRIGHT * largest;
+        if upright && matches!(pull.signs, Signs::One(_)) {
+            return 1.0;
+        }
         pull.closure.map_or(0.0, |closure| closure.doubt() / largest)
     }
 
