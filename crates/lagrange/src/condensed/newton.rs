@@ -82,8 +82,9 @@ pub(super) fn polish(system: &System<'_>, force: [f64; 2], passes: &mut Passes) 
 /// Minimise $\Phi$ from `force` on.
 ///
 /// `contraction` of the same chain made coarser lets the last pass be saved: the residual after the
-/// next step is then predicted, not computed, by that or by its own, whichever is worse. `None` when the passes ran out or rounding errors are
-/// larger than [`Closure::floor`] says and prevent a closure of `enough` total lengths, too.
+/// next step is then predicted, not computed, by that or by its own, whichever is worse. `None` when the
+/// passes ran out or rounding errors are larger than [`Closure::floor`] says and prevent a closure of
+/// `enough` total lengths, too.
 pub(super) fn minimise(
     system: &System<'_>,
     force: [f64; 2],
