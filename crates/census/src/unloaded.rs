@@ -380,3 +380,97 @@ fn condition([[a, b], [c, d]]: [[f64; 2]; 2]) -> f64 {
     let rest = (squares * squares - 4.0 * determinant * determinant).max(0.0).sqrt();
     0.5 * (squares + rest) / determinant.abs()
 }
+
+#[cfg(test)]
+mod tests {
+    use model::{Anchors, Bar, Chain, Problem};
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::closure::Closure;
+
+    /// Four different bars, and the coordinates of bar 2 or 3 about some axis.
+    fn turned(system: &System, bar: usize, pattern: u32, axis: [f64; 2]) -> Turned<'_> {
+        let signs = Pattern(pattern).signs(4).enumerate();
+        Turned {
+            system,
+            bar,
+            face: Face::Around(u8::try_from(bar).unwrap()),
+            signs: signs.map(|(i, sign)| if i == bar { 0 } else { sign }).collect(),
+            axis: axis.map(Interval::point),
+        }
+    }
+
+    fn system() -> System {
+        let bars = [(0.9, 1.0, 0.5), (1.1, 2.0, 0.75), (0.4, 1.0, 0.25), (0.7, 1.5, 0.3)];
+        let bars = bars.map(|(l, m, r)| Bar::new(l, m, r, [0.0; 3]).unwrap());
+        let anchors = Anchors { start_m: [0.0; 3], end_m: [1.0, 0.0, -0.5] };
+        let chain = Chain::new("four", 9.81, anchors, bars.to_vec()).unwrap();
+        System::new(&Problem::new(chain).unwrap()).unwrap()
+    }
+
+    fn axis() -> impl Strategy<Value = [f64; 2]> {
+        (-3.1..3.1f64, 0.5..1.5f64)
+            .prop_map(|(angle, size)| [size * angle.cos(), size * angle.sin()])
+    }
+
+    /// Forces of bar 2 or 3 that leave every other one alone.
+    fn force() -> impl Strategy<Value = f64> {
+        (1e-3..0.1f64, prop::bool::ANY).prop_map(|(size, pushed)| if pushed { -size } else { size })
+    }
+
+    proptest! {
+        /// With bar k in tension or in compression G is the closure as a function of the pull.
+        #[test]
+        fn it_is_the_closure_in_other_coordinates(
+            bar in 1..3_usize, pattern in 0..16_u32, axis in axis(), rho in force(), t in -2.0..2.0f64,
+        ) {
+            let system = system();
+            let turned = turned(&system, bar, pattern, axis);
+            let bars = turned.bars([rho, t].map(Interval::point)).unwrap();
+            let gap = turned.gap(&bars);
+            let mut signs = turned.signs.clone();
+            signs[bar] = if rho < 0.0 { -1 } else { 1 };
+            // The direction by trigonometry.
+            let angle = axis[1].atan2(axis[0]) + t.atan();
+            let pull = [rho * angle.cos(), rho * angle.sin()];
+            let known = Closure::gap_over(&system, &signs, &Cell::point(turned.face, pull));
+            for k in 0..2 {
+                prop_assert!((gap[k].mid() - known[k].mid()).abs() < 1e-12, "{gap:?} {known:?}");
+                prop_assert!(gap[k].width() < 1e-13);
+            }
+        }
+
+        /// Its derivative has a twin by differences, at ρ = 0 too.
+        #[test]
+        fn the_slope_has_its_twin(
+            bar in 1..3_usize, pattern in 0..16_u32, axis in axis(), rho in force(), t in -2.0..2.0f64,
+            none in prop::bool::ANY,
+        ) {
+            let system = system();
+            let turned = turned(&system, bar, pattern, axis);
+            let x = [if none { 0.0 } else { rho }, t];
+            let at = x.map(Interval::point);
+            let slope = turned.slope(&turned.bars(at).unwrap(), at);
+            for j in 0..2 {
+                let gap = |h: f64| {
+                    let mut x = x;
+                    x[j] += h;
+                    turned.gap(&turned.bars(x.map(Interval::point)).unwrap()).map(Interval::mid)
+                };
+                let quotient = |h: f64, k: usize| (gap(h)[k] - gap(-h)[k]) / (2.0 * h);
+                for (k, row) in slope.iter().enumerate() {
+                    let twin = (4.0 * quotient(1e-4, k) - quotient(2e-4, k)) / 3.0;
+                    prop_assert!((row[j].mid() - twin).abs() < 1e-8, "{row:?} {twin}");
+                }
+            }
+        }
+    }
+
+    /// Singular values 3 and 1, turned.
+    #[test]
+    fn the_condition_is_the_ratio_of_the_singular_values() {
+        let (s, c) = 0.3_f64.sin_cos();
+        assert!((condition([[3.0 * c, -s], [3.0 * s, c]]) - 3.0).abs() < 1e-14);
+    }
+}
