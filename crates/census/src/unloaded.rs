@@ -388,6 +388,7 @@ mod tests {
 
     use super::*;
     use crate::closure::Closure;
+    use crate::inertia;
 
     /// Four different bars, and the coordinates of bar 2 or 3 about some axis.
     fn turned(system: &System, bar: usize, pattern: u32, axis: [f64; 2]) -> Turned<'_> {
@@ -438,6 +439,29 @@ mod tests {
             for k in 0..2 {
                 prop_assert!((gap[k].mid() - known[k].mid()).abs() < 1e-12, "{gap:?} {known:?}");
                 prop_assert!(gap[k].width() < 1e-13);
+            }
+        }
+
+        /// With a bar under force the indices are those of the other formula, wherever both are sure.
+        #[test]
+        fn the_indices_are_those_of_loaded_bars(
+            bar in 1..3_usize, pattern in 0..16_u32, axis in axis(), rho in force(), t in -2.0..2.0f64,
+        ) {
+            let system = system();
+            let turned = turned(&system, bar, pattern, axis);
+            let bars = turned.bars([rho, t].map(Interval::point)).unwrap();
+            let mut signs = turned.signs.clone();
+            signs[bar] = if rho < 0.0 { -1 } else { 1 };
+            let loaded = inertia::indices(&signs, &system.length, &bars.forces, false);
+            if let (Some(found), Some(loaded)) = (turned.indices(&bars, 1.0), loaded) {
+                prop_assert_eq!(found.in_plane, loaded.in_plane);
+                // One closure out of the plane: an index less than bars are compressed where Σ l²/h < 0.
+                let inverse = signs.iter().zip(&system.length).zip(&bars.forces).map(|((s, l), f)| {
+                    f64::from(*s) * l.mid() / f[0].mid().hypot(f[1].mid())
+                });
+                let compressed = signs.iter().filter(|sign| **sign < 0).count();
+                let less = usize::from(inverse.sum::<f64>() < 0.0);
+                prop_assert_eq!(found.out_of_plane, compressed - less);
             }
         }
 
