@@ -1,7 +1,8 @@
 //! A census judged again, from the problem and its own claims.
 //!
 //! Nothing of the search is used: every claimed neighbourhood is proved anew to hold exactly one zero,
-//! and every number is computed anew from it.
+//! and every number is computed anew from it. (Where a bar carries no force there is one proof, of module
+//! `unloaded`, and it is made again.)
 //!
 //! That nothing is missing is not proved anew: only the search proves it. A list that is called complete is
 //! held against what every complete list must be. The Morse inequalities see any one missing equilibrium,

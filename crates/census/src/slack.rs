@@ -9,7 +9,7 @@
 //!    \Bigl|D - \sum_{\text{others}} s_j l_j u_j\Bigr| \le \sum_g|\Lambda_g|. $$
 //!
 //! For one group this is a circle, and lengths in general position miss it: the small cells around
-//! the point are excluded. The point itself, where the bars of a group need not be parallel, is the
+//! the point are excluded. One bar alone that meets it is settled by [`unloaded`](crate::unloaded). The point itself, where the bars of a group need not be parallel, is the
 //! business of [`families`](crate::families).
 
 use crate::Interval;

@@ -5,6 +5,7 @@ use std::ops::Range;
 use model::Vector;
 
 use crate::coarse::Grouped;
+use crate::frame::on_one_vertical;
 use crate::links::Links;
 use crate::plane::Turn;
 use crate::vector::{VectorSum, along, dot, norm, scaled};
@@ -15,9 +16,6 @@ const SHARP: f64 = 0.5;
 /// Groups on either side of the bend that are solved anew: the bend of a hanging chain is a few bars wide where a group is
 /// too long for it, and what is left of it four groups up is a nearly straight strand.
 const SIDE: usize = 4;
-
-/// Horizontal parts below this part of the length are rounding: the ends lie on one vertical.
-const VERTICAL: f64 = 4.0 * f64::EPSILON;
 
 impl Grouped {
     /// The bars around the sharpest bend of the chain of groups, if it is sharp and they are less than half of all.
@@ -59,7 +57,7 @@ impl Links {
             hang: hang.iter().map(|h| (h - 0.5 * (highest + lowest)) / between).collect(),
             span: [span, [0.0; 3]],
             up: self.up,
-            vertical: norm(level) <= VERTICAL,
+            vertical: on_one_vertical([norm(level), 0.0, 0.0], 1.0),
             motion: self.motion,
         };
         (between > 0.0).then_some((part, turn))
