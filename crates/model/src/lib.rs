@@ -23,6 +23,7 @@ mod evidence;
 mod problem;
 mod readable;
 mod sum;
+pub mod system;
 pub mod system_file;
 
 pub use bar::{Bar, BarError};

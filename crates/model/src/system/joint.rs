@@ -1,0 +1,85 @@
+//! Joints and their supports.
+
+use crate::Vector;
+
+/// A spherical joint without friction.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Joint {
+    /// Its name, unique in the system.
+    pub name: String,
+    /// What holds it.
+    pub support: Support,
+    /// A point mass at the joint, kg.
+    pub mass_kg: f64,
+    /// A constant force at the joint besides the weight of its mass, world frame, N.
+    pub force_n: Vector,
+}
+
+/// What holds a joint. The force of a support is normal to the motion that it leaves free.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Support {
+    /// Nothing but the members that meet in it.
+    Free,
+    /// An anchor: it cannot move.
+    Fixed {
+        /// Where it is, m.
+        at_m: Vector,
+    },
+    /// It slides without friction on a straight line.
+    Line {
+        /// A point of the line, m.
+        at_m: Vector,
+        /// The direction of the line, of unit length.
+        direction: Vector,
+    },
+    /// It slides without friction in a plane.
+    Plane {
+        /// A point of the plane, m.
+        at_m: Vector,
+        /// The normal of the plane, of unit length.
+        normal: Vector,
+    },
+}
+
+impl Support {
+    /// A point of the support, m; nothing for a free joint.
+    #[must_use]
+    pub fn at_m(&self) -> Option<Vector> {
+        match *self {
+            Self::Free => None,
+            Self::Fixed { at_m } | Self::Line { at_m, .. } | Self::Plane { at_m, .. } => Some(at_m),
+        }
+    }
+
+    /// Whether the joint can move at all.
+    #[must_use]
+    pub fn is_fixed(&self) -> bool {
+        matches!(self, Self::Fixed { .. })
+    }
+}
+
+impl Joint {
+    /// A joint that only its members hold.
+    #[must_use]
+    pub fn free(name: impl Into<String>) -> Self {
+        Self { name: name.into(), support: Support::Free, mass_kg: 0.0, force_n: [0.0; 3] }
+    }
+
+    /// A joint that cannot move.
+    #[must_use]
+    pub fn anchor(name: impl Into<String>, at_m: Vector) -> Self {
+        Self { support: Support::Fixed { at_m }, ..Self::free(name) }
+    }
+
+    /// The same joint with a point mass, kg.
+    #[must_use]
+    pub fn with_mass(self, mass_kg: f64) -> Self {
+        Self { mass_kg, ..self }
+    }
+
+    /// The same joint with a constant force, N.
+    #[must_use]
+    pub fn with_force(self, force_n: Vector) -> Self {
+        Self { force_n, ..self }
+    }
+}

@@ -1,0 +1,58 @@
+//! Members between joints.
+
+use crate::{Bar, Vector};
+
+/// A straight member between two joints.
+///
+/// Its [`body`](Self::body) gives the unstretched length, the mass and where the mass is. Any weight or
+/// constant force at a point of a straight member is linear in the places of its two ends, so a member
+/// that stretches carries its loads at fixed *fractions* of its length.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Member {
+    /// The joint where it begins.
+    pub from: usize,
+    /// The joint where it ends.
+    pub to: usize,
+    /// Which changes of its length it resists.
+    pub kind: Kind,
+    /// Length (unstretched), mass, centre of weight from [`from`](Self::from), moments of inertia.
+    pub body: Bar,
+    /// Axial stiffness `EA`, N: the force that would double the length. `None` is inextensible.
+    pub stiffness_n: Option<f64>,
+    /// Constant forces at points of the member, besides its weight.
+    pub loads: Vec<PointLoad>,
+}
+
+/// Which changes of its length a member resists. With `l` the unstretched and `d` the present length:
+///
+/// | kind | inextensible | with stiffness `EA`: axial force |
+/// |---|---|---|
+/// | bar | `d = l` | `EA (d − l)/l` |
+/// | cable | `d ≤ l`, force ≥ 0, none where `d < l` | `max(0, EA (d − l)/l)` |
+/// | strut | `d ≥ l`, force ≤ 0, none where `d > l` | `min(0, EA (d − l)/l)` |
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Kind {
+    /// Tension and compression.
+    Bar,
+    /// Tension alone: shorter than its length it is slack.
+    Cable,
+    /// Compression alone.
+    Strut,
+}
+
+/// A constant force at a point of a member.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PointLoad {
+    /// Distance of the point from the joint where the member begins, on the unstretched member, m.
+    pub at_m: f64,
+    /// The force, world frame, N.
+    pub force_n: Vector,
+}
+
+impl Member {
+    /// A rigid bar.
+    #[must_use]
+    pub fn bar(from: usize, to: usize, body: Bar) -> Self {
+        Self { from, to, kind: Kind::Bar, body, stiffness_n: None, loads: Vec::new() }
+    }
+}

@@ -1,0 +1,113 @@
+//! Systems of bars: joints, and members between them.
+//!
+//! A [`System`] is any number of joints connected by any number of members: bars, and members of other
+//! kinds with laws of their own. Joints are spherical and without friction; some are held by supports,
+//! the others are free. Gravity acts along −Z on the masses of joints and members, and constant forces
+//! act at joints and at points of members.
+//!
+//! A chain between two anchors is the special case that [`Chain`](crate::Chain) describes.
+//!
+//! # Conventions
+//!
+//! Joints and members are numbered from 0 in the order in which they are given. A member runs from its
+//! joint [`from`](Member::from) to its joint [`to`](Member::to). Vectors are `[x, y, z]` in the world
+//! frame.
+
+mod answer;
+mod error;
+mod joint;
+mod member;
+
+pub use answer::{SystemEquilibrium, SystemStability};
+pub use error::SystemError;
+pub use joint::{Joint, Support};
+pub use member::{Kind, Member, PointLoad};
+
+use crate::Vector;
+
+/// Joints and members under gravity and constant forces.
+///
+/// ```
+/// use model::system::{Joint, Member, System};
+/// use model::Bar;
+/// // A lamp of 5 kg on two bars of 1 m between level anchors 1 m apart.
+/// let joints = vec![
+///     Joint::anchor("A", [0.0, 0.0, 0.0]),
+///     Joint::anchor("B", [1.0, 0.0, 0.0]),
+///     Joint::free("lamp").with_mass(5.0),
+/// ];
+/// let bar = Bar::homogeneous(1.0, 1.0)?;
+/// let members = vec![Member::bar(0, 2, bar), Member::bar(2, 1, bar)];
+/// let system = System::new("a lamp", 9.80665, joints, members)?;
+/// assert_eq!(system.total_mass_kg(), 7.0);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct System {
+    name: String,
+    gravity_m_s2: f64,
+    joints: Vec<Joint>,
+    members: Vec<Member>,
+}
+
+impl System {
+    /// A system of the given joints and members.
+    ///
+    /// # Errors
+    ///
+    /// [`SystemError`] when a number is out of range, or a member names a joint that is not there.
+    pub fn new(
+        name: impl Into<String>,
+        gravity_m_s2: f64,
+        joints: Vec<Joint>,
+        members: Vec<Member>,
+    ) -> Result<Self, SystemError> {
+        error::check(gravity_m_s2, &joints, &members)?;
+        Ok(Self { name: name.into(), gravity_m_s2, joints, members })
+    }
+
+    /// The name, for people.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// Gravity `g` along −Z, m/s².
+    #[must_use]
+    pub fn gravity_m_s2(&self) -> f64 {
+        self.gravity_m_s2
+    }
+
+    /// The joints.
+    #[must_use]
+    pub fn joints(&self) -> &[Joint] {
+        &self.joints
+    }
+
+    /// The members.
+    #[must_use]
+    pub fn members(&self) -> &[Member] {
+        &self.members
+    }
+
+    /// The point from which energies are measured: where the first supported joint is held, m.
+    ///
+    /// `V = Σ m g Z − Σ f · x +` elastic energies, with heights and places relative to this point.
+    #[must_use]
+    pub fn reference_m(&self) -> Vector {
+        self.joints.iter().find_map(|joint| joint.support.at_m()).unwrap_or_default()
+    }
+
+    /// Sum of the lengths of the members, m.
+    #[must_use]
+    pub fn total_length_m(&self) -> f64 {
+        crate::sum(self.members.iter().map(|member| member.body.length_m()))
+    }
+
+    /// Sum of the masses of joints and members, kg.
+    #[must_use]
+    pub fn total_mass_kg(&self) -> f64 {
+        let members = self.members.iter().map(|member| member.body.mass_kg());
+        crate::sum(self.joints.iter().map(|joint| joint.mass_kg).chain(members))
+    }
+}
