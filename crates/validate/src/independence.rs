@@ -23,7 +23,7 @@ const LINEAR_ALGEBRA: &[&str] = &[
 
 /// Packages of the workspace that may reach both solvers: the judge, what shows its verdicts, and what measures or
 /// sweeps both side by side.
-const MEETING_PLACES: &[&str] = &["validate", "cli", "benches", "report", "sweep"];
+const MEETING_PLACES: &[&str] = &["validate", "funicular", "benches", "report", "sweep"];
 
 /// Why the graph could not be read.
 #[derive(Debug, thiserror::Error)]
@@ -161,7 +161,7 @@ impl Graph {
             forbid("model", package, "model is data, no mechanics");
         }
         for package in &self.workspace {
-            forbid(package, "cli", "nothing uses the program");
+            forbid(package, "funicular", "nothing uses the program");
             if !MEETING_PLACES.contains(&package.as_str())
                 && package != "lagrange"
                 && self.path(package, "lagrange").is_some()
