@@ -85,7 +85,6 @@ mod vector;
 mod twins;
 
 pub mod batch;
-pub mod bound;
 pub mod example;
 
 pub use error::Error;

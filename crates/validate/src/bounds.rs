@@ -3,7 +3,7 @@
 //! Convex programmes, solved by clarabel and rounded to proofs, against the equilibria that the solvers
 //! found: the semidefinite bounds are tight on both sides, the bound by cables is not.
 
-use energy::bound::{BoundError, BoundSettings, Sense, cable_bound, semidefinite};
+use bounds::{BoundError, BoundSettings, Sense, cable_bound, semidefinite};
 use serde::Serialize;
 
 use crate::example::Example;

@@ -18,7 +18,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-use energy::bound::{BoundError, BoundSettings, cable_bound};
+use bounds::{BoundError, BoundSettings, cable_bound};
 use model::{Equilibrium, Problem, Vector};
 use serde::Serialize;
 

@@ -6,8 +6,8 @@
 //! has to be listed, and no energy may lie outside the bounds by semidefinite programming, between which
 //! the first and the last of the list have to fit exactly.
 
+use bounds::{BoundError, BoundSettings, Sense, semidefinite};
 use census::{Census, Interval};
-use energy::bound::{BoundError, BoundSettings, Sense, semidefinite};
 use lagrange::{Seed, Settings, SolveError, Solver};
 use model::{Chain, Problem, Vector};
 

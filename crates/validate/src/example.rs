@@ -27,7 +27,7 @@ pub enum ExampleError {
     Energy(#[from] energy::Error),
     /// Occurs when a convex programme is not solved.
     #[error("bounds: {0}")]
-    Bounds(#[from] energy::bound::BoundError),
+    Bounds(#[from] bounds::BoundError),
     /// Occurs when the census refuses the example.
     #[error("census: {0}")]
     Census(#[from] census::CensusError),

@@ -98,6 +98,8 @@ mod semidefinite;
 #[cfg(feature = "cones")]
 mod settings;
 mod stress;
+#[cfg(feature = "cones")]
+mod sum;
 
 #[cfg(feature = "cones")]
 pub use cable::{CableBound, cable_bound};

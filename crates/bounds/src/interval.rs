@@ -8,17 +8,17 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 /// All numbers from `lo` to `hi`. Whatever is not a number becomes the whole line: nothing is known,
 /// and nothing can be proved with it.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Interval {
-    pub(super) lo: f64,
-    pub(super) hi: f64,
+pub(crate) struct Interval {
+    pub(crate) lo: f64,
+    pub(crate) hi: f64,
 }
 
 impl Interval {
-    pub(super) const ZERO: Self = Self { lo: 0.0, hi: 0.0 };
+    pub(crate) const ZERO: Self = Self { lo: 0.0, hi: 0.0 };
     const LINE: Self = Self { lo: f64::NEG_INFINITY, hi: f64::INFINITY };
 
     /// A number that is exact as it stands.
-    pub(super) fn exact(x: f64) -> Self {
+    pub(crate) fn exact(x: f64) -> Self {
         Self::ordered(x, x)
     }
 
@@ -33,12 +33,12 @@ impl Interval {
 
     /// A number inside.
     #[cfg(any(test, feature = "cones"))]
-    pub(super) fn middle(self) -> f64 {
+    pub(crate) fn middle(self) -> f64 {
         0.5 * self.lo + 0.5 * self.hi
     }
 
     /// The square; never negative.
-    pub(super) fn square(self) -> Self {
+    pub(crate) fn square(self) -> Self {
         let (a, b) = (self.lo.abs(), self.hi.abs());
         let far = a.max(b);
         let near = if self.lo <= 0.0 && self.hi >= 0.0 { 0.0 } else { a.min(b) };
@@ -46,7 +46,7 @@ impl Interval {
     }
 
     /// The square root of what is not negative.
-    pub(super) fn sqrt(self) -> Self {
+    pub(crate) fn sqrt(self) -> Self {
         Self::ordered(
             self.lo.max(0.0).sqrt().next_down().max(0.0),
             self.hi.max(0.0).sqrt().next_up(),
@@ -117,15 +117,15 @@ impl Div for Interval {
 ///
 /// D. E. Knuth, The Art of Computer Programming, vol. 2, 3rd ed., section 4.2.2, theorem B.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct IntervalSum {
+pub(crate) struct IntervalSum {
     head: f64,
     tail: Interval,
 }
 
 impl IntervalSum {
-    pub(super) const ZERO: Self = Self { head: 0.0, tail: Interval::ZERO };
+    pub(crate) const ZERO: Self = Self { head: 0.0, tail: Interval::ZERO };
 
-    pub(super) fn add(&mut self, term: Interval) {
+    pub(crate) fn add(&mut self, term: Interval) {
         let (a, b) = (self.head, term.lo);
         let sum = a + b;
         let of_a = sum - b;
@@ -136,7 +136,7 @@ impl IntervalSum {
         self.tail = self.tail + Interval::exact(error) + width;
     }
 
-    pub(super) fn value(&self) -> Interval {
+    pub(crate) fn value(&self) -> Interval {
         Interval::exact(self.head) + self.tail
     }
 }

@@ -1,13 +1,9 @@
 //! The semidefinite bound.
 
-#![expect(clippy::unwrap_used, reason = "helpers of tests")]
-
-mod bound_support;
-
-use bound_support::{chain, configuration, direction, energy, rng, scaled, unit_j};
+use crate::support::{chain, configuration, direction, energy, minus, norm, rng, scaled, unit_j};
+use bounds::{BoundError, BoundSettings, ConeStatus, Sense, cable_bound, semidefinite};
 use clarabel::algebra::CscMatrix;
 use clarabel::solver::{DefaultSettings, DefaultSolver, IPSolver, SolverStatus, SupportedConeT};
-use energy::bound::{BoundError, BoundSettings, ConeStatus, Sense, cable_bound, semidefinite};
 use energy::{Seed, Settings, minimise_from};
 use model::{Anchors, Bar, Chain, Problem};
 
@@ -24,7 +20,7 @@ const SOLVER: f64 = 1e-7;
 /// test to use the rows up. What is compared differs by 1e-2 where the rows matter.
 const LIFTED: f64 = 2e-6;
 
-fn bound(problem: &Problem, sense: Sense) -> energy::bound::SemidefiniteBound {
+fn bound(problem: &Problem, sense: Sense) -> bounds::SemidefiniteBound {
     semidefinite(problem, sense, &BoundSettings::default()).unwrap()
 }
 
@@ -204,7 +200,7 @@ fn random_chains_have_no_gap() {
             assert!(gap.abs() < ROUNDING, "{stream}: {gap:e}");
             assert!((value - found.energy_j).abs() < ROUNDING * unit);
             for (bar, ends) in problem.chain().bars().iter().zip(found.joints_m.windows(2)) {
-                let length = bound_support::norm(bound_support::minus(ends[1], ends[0]));
+                let length = norm(minus(ends[1], ends[0]));
                 assert!((length - bar.length_m()).abs() < 1e-14, "{stream}");
             }
             assert!(found.open_m < 1e-13, "{stream}");

@@ -1,6 +1,6 @@
 //! Settings of the cone solver.
 
-use super::BoundError;
+use crate::error::BoundError;
 
 /// Settings of a bound; the same for both programmes.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -2,8 +2,8 @@
 
 use model::{Problem, Vector};
 
-use super::data::{Data, Plane, Sense};
-use crate::vector::{Sum, VectorSum, norm, scaled};
+use crate::data::{Data, Plane, Sense};
+use crate::sum::Sum;
 
 /// A chain found by a cone programme, without any starting guess.
 #[derive(Debug, Clone, PartialEq)]
@@ -24,7 +24,7 @@ pub struct Configuration {
 impl Configuration {
     /// From the bar vectors in the plane of the anchors, the axial forces and the pull, all without
     /// units and with gravity reversed for an upper bound.
-    pub(super) fn new(
+    pub(crate) fn new(
         problem: &Problem,
         sense: Sense,
         data: &Data,
@@ -34,24 +34,29 @@ impl Configuration {
         pull: [f64; 2],
     ) -> Self {
         let anchors = problem.chain().anchors();
-        let mut sum = VectorSum::default();
-        sum.add(anchors.start_m);
+        let mut sum = [Sum::default(); 3];
+        let mut go = |step: Vector| {
+            for (sum, step) in sum.iter_mut().zip(step) {
+                sum.add(step);
+            }
+            sum.map(|sum| sum.value())
+        };
+        go(anchors.start_m);
         let mut energy = Sum::default();
         let mut joints_m = Vec::with_capacity(bars.len() + 1);
         joints_m.push(anchors.start_m);
         for (bar, tail) in bars.iter().zip(&data.tail_weight) {
-            sum.add(scaled(data.scale.length, plane.lift(*bar)));
             energy.add(tail.middle() * bar[1]);
-            joints_m.push(sum.value());
+            joints_m.push(go(plane.lift(*bar).map(|x| data.scale.length * x)));
         }
-        sum.add(scaled(-1.0, anchors.end_m));
+        let [x, y, z] = go(anchors.end_m.map(|x| -x));
         let newtons = |x: f64| sense.sign() * data.scale.weight * x;
         Self {
             joints_m,
             axial_n: axial.iter().map(|f| newtons(*f)).collect(),
             pull_n: plane.lift(pull).map(newtons),
             energy_j: sense.energy(data.scale, energy.value()),
-            open_m: norm(sum.value()),
+            open_m: (x * x + y * y + z * z).sqrt(),
         }
     }
 }

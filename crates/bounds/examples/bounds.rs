@@ -1,10 +1,10 @@
 //! The bounds of chains of many sizes, with their gaps and their times.
 //!
-//! `cargo run --release -p energy --features sdp --example bounds`
+//! `cargo run --release -p bounds --features sdp --example bounds`
 
 use std::time::Instant;
 
-use energy::bound::{BoundSettings, Sense, cable_bound, semidefinite};
+use bounds::{BoundSettings, Sense, cable_bound, semidefinite};
 use model::{Anchors, Bar, Chain, Problem};
 
 /// Largest chain for which the semidefinite programme is shown; it is solved in fractions of a second

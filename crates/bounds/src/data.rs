@@ -10,7 +10,7 @@ use model::Problem;
 #[cfg(feature = "cones")]
 use model::Vector;
 
-use super::interval::{Interval, IntervalSum};
+use crate::interval::{Interval, IntervalSum};
 
 /// Which side of the energy a bound is on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -24,7 +24,7 @@ pub enum Sense {
 
 impl Sense {
     /// +1 or −1: the factor of all weights.
-    pub(super) fn sign(self) -> f64 {
+    pub(crate) fn sign(self) -> f64 {
         match self {
             Self::Lower => 1.0,
             Self::Upper => -1.0,
@@ -33,12 +33,12 @@ impl Sense {
 
     /// The energy of the problem as posed, J, from the least value of the problem solved.
     #[cfg(feature = "cones")]
-    pub(super) fn energy(self, scale: Scale, value: f64) -> f64 {
+    pub(crate) fn energy(self, scale: Scale, value: f64) -> f64 {
         self.sign() * scale.length * (scale.weight * value)
     }
 
     /// [`energy`](Self::energy), rounded away from the configurations.
-    pub(super) fn rigorous(self, scale: Scale, value: f64) -> f64 {
+    pub(crate) fn rigorous(self, scale: Scale, value: f64) -> f64 {
         let energy = Interval::exact(scale.length)
             * (Interval::exact(scale.weight) * Interval::exact(value));
         match self {
@@ -50,36 +50,36 @@ impl Sense {
 
 /// Units, both powers of two.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Scale {
+pub(crate) struct Scale {
     /// Unit of length, m.
-    pub(super) length: f64,
+    pub(crate) length: f64,
     /// Unit of force, N.
-    pub(super) weight: f64,
+    pub(crate) weight: f64,
 }
 
 impl Scale {
     /// A force density without its unit.
-    pub(super) fn without_force_density(self, value_n_m: f64) -> f64 {
+    pub(crate) fn without_force_density(self, value_n_m: f64) -> f64 {
         value_n_m * self.length / self.weight
     }
 }
 
 /// The chain without units; gravity reversed for [`Sense::Upper`].
 #[derive(Debug, Clone)]
-pub(super) struct Data {
-    pub(super) scale: Scale,
+pub(crate) struct Data {
+    pub(crate) scale: Scale,
     /// l_i.
-    pub(super) length: Vec<Interval>,
+    pub(crate) length: Vec<Interval>,
     /// W_k, the weight at joints k = 1..n, each bar's shared between its ends by the lever rule.
-    pub(super) joint_weight: Vec<Interval>,
+    pub(crate) joint_weight: Vec<Interval>,
     /// c_i = Σ of W_k over k = i..n: the energy is Σ c_i d_iZ.
-    pub(super) tail_weight: Vec<Interval>,
+    pub(crate) tail_weight: Vec<Interval>,
     /// D, from the first anchor to the last.
-    pub(super) difference: [Interval; 3],
+    pub(crate) difference: [Interval; 3],
 }
 
 impl Data {
-    pub(super) fn new(problem: &Problem, sense: Sense) -> Self {
+    pub(crate) fn new(problem: &Problem, sense: Sense) -> Self {
         let chain = problem.chain();
         let gravity = Interval::exact(sense.sign() * chain.gravity_m_s2());
         let scale = Scale {
@@ -126,13 +126,13 @@ impl Data {
     }
 
     /// Number of bars.
-    pub(super) fn bars(&self) -> usize {
+    pub(crate) fn bars(&self) -> usize {
         self.length.len()
     }
 
     /// The vertical plane of the anchors; OYZ, the paper's choice, when they are on one vertical.
     #[cfg(feature = "cones")]
-    pub(super) fn plane(&self, problem: &Problem) -> Plane {
+    pub(crate) fn plane(&self, problem: &Problem) -> Plane {
         /// Of the total length; a span this small (or subnormal) has no direction worth keeping, and
         /// no effect on an energy. What is proved takes the anchors as they are.
         const ON_ONE_VERTICAL: f64 = f64::EPSILON * f64::EPSILON;
@@ -149,19 +149,19 @@ impl Data {
 /// The vertical plane of the anchors, and D in it.
 #[cfg(feature = "cones")]
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Plane {
+pub(crate) struct Plane {
     /// Horizontal unit vector.
-    pub(super) direction: [f64; 2],
+    pub(crate) direction: [f64; 2],
     /// D along it, not negative.
-    pub(super) span: f64,
+    pub(crate) span: f64,
     /// D along Z.
-    pub(super) height: f64,
+    pub(crate) height: f64,
 }
 
 #[cfg(feature = "cones")]
 impl Plane {
     /// The vector with these two components.
-    pub(super) fn lift(&self, [across, up]: [f64; 2]) -> Vector {
+    pub(crate) fn lift(&self, [across, up]: [f64; 2]) -> Vector {
         [self.direction[0] * across, self.direction[1] * across, up]
     }
 }

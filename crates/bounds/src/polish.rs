@@ -7,8 +7,8 @@
 //! that an interior point method leaves out. Nothing that is proved rests on it: the bounds hold
 //! for every q, and a polished q is used only where it gives the better one.
 
-use super::data::{Data, Plane};
-use crate::vector::Sum;
+use crate::data::{Data, Plane};
+use crate::sum::Sum;
 
 /// Steps at most; quadratic convergence from nine digits takes two.
 const MAX_STEPS: usize = 20;
@@ -18,19 +18,19 @@ const MAX_HALVINGS: usize = 20;
 /// How far bars may miss the last anchor, of the unit of length (within a factor two of the total
 /// length), to count as a configuration. Newton's method leaves 1e-16, and 1e-13 where the forces are
 /// a thousand times the weight; what does not converge leaves the solver's 1e-9 or more.
-pub(super) const CLOSED: f64 = 1e-12;
+pub(crate) const CLOSED: f64 = 1e-12;
 
 /// The pull of a chain, in its plane (across, up), and how well it closes.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Pull {
+pub(crate) struct Pull {
     /// q.
-    pub(super) q: [f64; 2],
+    pub(crate) q: [f64; 2],
     /// |Σ d_i − D|, without units.
-    pub(super) open: f64,
+    pub(crate) open: f64,
 }
 
 /// A chain with given signs of its axial forces.
-pub(super) struct Signed<'a> {
+pub(crate) struct Signed<'a> {
     length: Vec<f64>,
     tail: Vec<f64>,
     sign: &'a [f64],
@@ -38,7 +38,7 @@ pub(super) struct Signed<'a> {
 }
 
 impl<'a> Signed<'a> {
-    pub(super) fn new(data: &Data, plane: &Plane, sign: &'a [f64]) -> Self {
+    pub(crate) fn new(data: &Data, plane: &Plane, sign: &'a [f64]) -> Self {
         Self {
             length: data.length.iter().map(|l| l.middle()).collect(),
             tail: data.tail_weight.iter().map(|c| c.middle()).collect(),
@@ -48,31 +48,31 @@ impl<'a> Signed<'a> {
     }
 
     /// F_i for this pull.
-    pub(super) fn force(&self, q: [f64; 2], i: usize) -> [f64; 2] {
+    pub(crate) fn force(&self, q: [f64; 2], i: usize) -> [f64; 2] {
         [q[0], q[1] - self.tail[i]]
     }
 
     /// s_i |F_i|.
-    pub(super) fn axial(&self, q: [f64; 2], i: usize) -> f64 {
+    pub(crate) fn axial(&self, q: [f64; 2], i: usize) -> f64 {
         let [across, up] = self.force(q, i);
         self.sign[i] * across.hypot(up)
     }
 
     /// d_i for this pull.
-    pub(super) fn bar(&self, q: [f64; 2], i: usize) -> [f64; 2] {
+    pub(crate) fn bar(&self, q: [f64; 2], i: usize) -> [f64; 2] {
         let [across, up] = self.force(q, i);
         let factor = self.sign[i] * self.length[i] / across.hypot(up);
         [factor * across, factor * up]
     }
 
     /// Number of bars.
-    pub(super) fn bars(&self) -> usize {
+    pub(crate) fn bars(&self) -> usize {
         self.length.len()
     }
 
     /// Σ c_i d_iZ for this pull.
     #[cfg(feature = "sdp")]
-    pub(super) fn energy(&self, q: [f64; 2]) -> f64 {
+    pub(crate) fn energy(&self, q: [f64; 2]) -> f64 {
         model::sum((0..self.bars()).map(|i| self.tail[i] * self.bar(q, i)[1]))
     }
 
@@ -110,7 +110,7 @@ impl<'a> Signed<'a> {
     }
 
     /// Newton's method from `start`; where it ends is never worse than where it began.
-    pub(super) fn close(&self, start: [f64; 2]) -> Pull {
+    pub(crate) fn close(&self, start: [f64; 2]) -> Pull {
         let mut q = start;
         let mut gap = self.gap(q);
         let mut open = size(gap);

@@ -1,11 +1,7 @@
 //! The bounds that need no cone solver: true for whatever they are given, tight for the optimum.
 
-#![expect(clippy::unwrap_used, reason = "helpers of tests")]
-
-mod bound_support;
-
-use bound_support::{chain, configuration, energy, rng, scaled, unit_j};
-use energy::bound::{Sense, pull_bound, stress_bound};
+use crate::support::{chain, configuration, energy, rng, scaled, unit_j};
+use bounds::{Sense, pull_bound, stress_bound};
 use energy::{Settings, minimise};
 use model::{Anchors, Bar, Chain, Equilibrium, Problem};
 use rand::RngExt;

@@ -2,8 +2,8 @@
 
 use model::{Problem, Vector};
 
-use super::data::{Data, Sense};
-use super::interval::{Interval, IntervalSum};
+use crate::data::{Data, Sense};
+use crate::interval::{Interval, IntervalSum};
 
 /// A rigorous bound on the energy of every configuration, from any guess of the pull.
 ///
@@ -22,7 +22,7 @@ use super::interval::{Interval, IntervalSum};
 /// `pull_n`: q, world frame, N; −∞ (or +∞, for an upper bound) when it is not finite.
 ///
 /// ```
-/// use energy::bound::{Sense, pull_bound};
+/// use bounds::{Sense, pull_bound};
 /// // The paper's chain is propped up by a bar in compression, which no cable can be: two cables hang
 /// // straight down to the last anchor and the third is slack, V = -4 mgl (2 mgl in the paper's terms).
 /// let problem = model::cases::paper();
@@ -43,7 +43,7 @@ pub fn pull_bound(problem: &Problem, sense: Sense, pull_n: Vector) -> f64 {
 }
 
 /// The bound without units; −∞ when q is not finite.
-pub(super) fn lower_bound(data: &Data, q: Vector) -> f64 {
+pub(crate) fn lower_bound(data: &Data, q: Vector) -> f64 {
     let q = q.map(Interval::exact);
     let across = q[0].square() + q[1].square();
     let mut total = IntervalSum::ZERO;

@@ -13,23 +13,24 @@ use std::time::Instant;
 use clarabel::algebra::CscMatrix;
 use clarabel::solver::{DefaultSettings, DefaultSolution, DefaultSolver, IPSolver, SupportedConeT};
 
-use super::{BoundError, BoundSettings, ConeStatus};
+use crate::error::{BoundError, ConeStatus};
+use crate::settings::BoundSettings;
 
 /// `constant + Σ coefficient · variable`.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Affine {
-    pub(super) constant: f64,
-    pub(super) terms: Vec<(usize, f64)>,
+pub(crate) struct Affine {
+    pub(crate) constant: f64,
+    pub(crate) terms: Vec<(usize, f64)>,
 }
 
 impl Affine {
-    pub(super) fn new<const N: usize>(constant: f64, terms: [(usize, f64); N]) -> Self {
+    pub(crate) fn new<const N: usize>(constant: f64, terms: [(usize, f64); N]) -> Self {
         Self { constant, terms: terms.into() }
     }
 
     /// Plus a coefficient times a variable.
     #[cfg(feature = "sdp")]
-    pub(super) fn with(mut self, variable: usize, coefficient: f64) -> Self {
+    pub(crate) fn with(mut self, variable: usize, coefficient: f64) -> Self {
         self.terms.push((variable, coefficient));
         self
     }
@@ -37,7 +38,7 @@ impl Affine {
 
 /// A programme under construction.
 #[derive(Debug, Default)]
-pub(super) struct Program {
+pub(crate) struct Program {
     cost: Vec<f64>,
     rows: Vec<usize>,
     columns: Vec<usize>,
@@ -64,7 +65,7 @@ pub struct ConeEvidence {
 impl ConeEvidence {
     /// `Ok` when the programme is solved, or when what was made of its last iterate is proved to be
     /// the optimum anyway: the proof asks nothing of the solver.
-    pub(super) fn accept(&self, proved: bool) -> Result<(), BoundError> {
+    pub(crate) fn accept(&self, proved: bool) -> Result<(), BoundError> {
         if proved || self.status == ConeStatus::Solved {
             return Ok(());
         }
@@ -79,7 +80,7 @@ impl ConeEvidence {
 
 impl Program {
     /// With variables of these costs.
-    pub(super) fn minimise(cost: Vec<f64>) -> Self {
+    pub(crate) fn minimise(cost: Vec<f64>) -> Self {
         Self { cost, ..Self::default() }
     }
 
@@ -94,7 +95,7 @@ impl Program {
     }
 
     /// |(s_1, s_2, ...)| ≤ s_0. Returns the first row.
-    pub(super) fn second_order(&mut self, entries: &[Affine]) -> usize {
+    pub(crate) fn second_order(&mut self, entries: &[Affine]) -> usize {
         let first = self.constants.len();
         for entry in entries {
             self.row(1.0, entry);
@@ -106,7 +107,7 @@ impl Program {
     /// The symmetric matrix with this upper triangle, column by column, is positive semidefinite.
     /// Returns the first row.
     #[cfg(feature = "sdp")]
-    pub(super) fn semidefinite(&mut self, columns: &[&[Affine]]) -> usize {
+    pub(crate) fn semidefinite(&mut self, columns: &[&[Affine]]) -> usize {
         let first = self.constants.len();
         for column in columns {
             for (i, entry) in column.iter().enumerate() {
@@ -119,7 +120,7 @@ impl Program {
     }
 
     /// Solve it.
-    pub(super) fn solve(
+    pub(crate) fn solve(
         self,
         settings: &BoundSettings,
     ) -> Result<(DefaultSolution<f64>, ConeEvidence), BoundError> {

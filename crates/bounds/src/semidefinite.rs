@@ -2,11 +2,13 @@
 
 use model::{Problem, Vector};
 
-use super::data::{Data, Plane, Sense};
-use super::polish::{CLOSED, Signed};
-use super::program::{Affine, ConeEvidence, Program};
-use super::stress::{Proof, certify};
-use super::{BoundError, BoundSettings, Configuration};
+use crate::configuration::Configuration;
+use crate::data::{Data, Plane, Sense};
+use crate::error::BoundError;
+use crate::polish::{CLOSED, Signed};
+use crate::program::{Affine, ConeEvidence, Program};
+use crate::settings::BoundSettings;
+use crate::stress::{Proof, certify};
 
 // Nothing is called by name: clarabel's calls find their routines there when the binary is linked.
 use dense_lapack as _;
@@ -24,7 +26,7 @@ pub struct SemidefiniteBound {
     /// The solver's value, J: good to about its tolerance when the status is solved, and no proof.
     pub bound_j: f64,
     /// The proved value, J: no configuration in space has less energy (more, for an upper bound),
-    /// whatever the rounding. See [`stress_bound`](super::stress_bound).
+    /// whatever the rounding. See [`stress_bound`](crate::stress_bound).
     pub rigorous_j: f64,
     /// By what fraction the force densities had to be raised for the proof: 0, or a few roundings
     /// where the stress matrix of the optimum is singular.
@@ -47,7 +49,7 @@ impl SemidefiniteBound {
 }
 
 /// Bound the energy of all configurations in space by a semidefinite programme, without a guess, and
-/// find the configuration that attains the bound. See the [module](super) for the programme and why
+/// find the configuration that attains the bound. See the [crate documentation](crate) for the programme and why
 /// it is tight.
 ///
 /// The work grows with the number of bars, and so does the solver's loss of digits: up to a thousand
@@ -63,7 +65,7 @@ impl SemidefiniteBound {
 /// cannot be rounded to a proof.
 ///
 /// ```
-/// use energy::bound::{BoundSettings, Sense, semidefinite};
+/// use bounds::{BoundSettings, Sense, semidefinite};
 /// let problem = model::cases::paper();
 /// let mgl = problem.chain().gravity_m_s2(); // m = 1 kg, l = 1 m
 /// let lower = semidefinite(&problem, Sense::Lower, &BoundSettings::default())?;
@@ -71,7 +73,7 @@ impl SemidefiniteBound {
 /// // The paper measures from 6 mgl below: 2.33546865 (ix), and the maximum, which it never finds.
 /// assert!((lower.rigorous_j / mgl + 6.0 - 2.335_468_651_999_305).abs() < 1e-13);
 /// assert!((upper.rigorous_j / mgl + 6.0 - 3.664_531_348_000_695).abs() < 1e-13);
-/// # Ok::<(), energy::bound::BoundError>(())
+/// # Ok::<(), bounds::BoundError>(())
 /// ```
 pub fn semidefinite(
     problem: &Problem,
@@ -201,7 +203,7 @@ impl Variables {
     }
 }
 
-/// Set up and solve the programme in the form of springs in a row; see the [module](super).
+/// Set up and solve the programme in the form of springs in a row; see the [crate documentation](crate).
 ///
 /// With joints 1..k−1 eliminated, what is left of the Lagrangian is a function of joint k,
 /// $\tfrac12 u_k |x|^2 + g_k z + e_k$: a spring u_k to the first anchor, a weight g_k. Eliminating

@@ -2,11 +2,13 @@
 
 use model::Problem;
 
-use super::data::{Data, Sense};
-use super::polish::{CLOSED, Signed};
-use super::program::{Affine, ConeEvidence, Program};
-use super::pull::lower_bound;
-use super::{BoundError, BoundSettings, Configuration};
+use crate::configuration::Configuration;
+use crate::data::{Data, Sense};
+use crate::error::BoundError;
+use crate::polish::{CLOSED, Signed};
+use crate::program::{Affine, ConeEvidence, Program};
+use crate::pull::lower_bound;
+use crate::settings::BoundSettings;
 
 /// A bar of a chain that is not taut is called slack when it is shorter than its length by more than
 /// this fraction, a thousand times the solver's tolerance.
@@ -18,7 +20,7 @@ pub struct CableBound {
     /// The solver's value, J: good to about its tolerance, and no proof.
     pub bound_j: f64,
     /// The proved value, J: no configuration in space has less energy, whatever the rounding. See
-    /// [`pull_bound`](super::pull_bound).
+    /// [`pull_bound`](crate::pull_bound).
     pub rigorous_j: f64,
     /// The chain of cables that attains the bound, with its axial forces, none negative.
     pub cables: Configuration,
@@ -47,7 +49,7 @@ impl CableBound {
 /// Bound the energy of all configurations from below by that of a chain of cables, a second-order
 /// cone programme of one cone per bar; for any number of bars.
 ///
-/// In terms of the pull q (see [`pull_bound`](super::pull_bound)):
+/// In terms of the pull q (see [`pull_bound`](crate::pull_bound)):
 ///
 /// $$ \max_{q,\,t}\; q \cdot D - \sum_i l_i t_i \quad\text{with}\quad |q - c_i e_Z| \le t_i , $$
 ///
@@ -60,7 +62,7 @@ impl CableBound {
 /// [`BoundError`]: a setting out of range, or a programme that clarabel does not solve.
 ///
 /// ```
-/// use energy::bound::{BoundSettings, cable_bound};
+/// use bounds::{BoundSettings, cable_bound};
 /// use model::{Anchors, Bar, Chain, Problem};
 /// // Two bars of weight 1 N hang in an equilateral triangle: V = -√3/2.
 /// let anchors = Anchors { start_m: [0.0; 3], end_m: [1.0, 0.0, 0.0] };

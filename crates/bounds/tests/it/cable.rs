@@ -1,11 +1,7 @@
 //! The second-order cone bound.
 
-#![expect(clippy::unwrap_used, reason = "helpers of tests")]
-
-mod bound_support;
-
-use bound_support::{chain, configuration, energy, rng, scaled, unit_j};
-use energy::bound::{BoundError, BoundSettings, ConeStatus, cable_bound};
+use crate::support::{chain, configuration, energy, rng, scaled, unit_j};
+use bounds::{BoundError, BoundSettings, ConeStatus, cable_bound};
 use energy::{Settings, minimise};
 use model::{Anchors, Bar, Chain, Problem};
 

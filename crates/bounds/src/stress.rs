@@ -2,8 +2,8 @@
 
 use model::{Problem, Vector};
 
-use super::data::{Data, Sense};
-use super::interval::{Interval, IntervalSum};
+use crate::data::{Data, Sense};
+use crate::interval::{Interval, IntervalSum};
 
 /// What [`stress_bound`] proves.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -49,7 +49,7 @@ pub struct StressBound {
 /// global optimum.
 ///
 /// ```
-/// use energy::bound::{Sense, stress_bound};
+/// use bounds::{Sense, stress_bound};
 /// use model::{Anchors, Bar, Chain, Problem};
 /// // Two bars of weight 1 N hang in an equilateral triangle: the joint is at depth √3/2, V = -√3/2.
 /// let anchors = Anchors { start_m: [0.0; 3], end_m: [1.0, 0.0, 0.0] };
@@ -101,11 +101,11 @@ pub fn stress_bound(
 
 /// A proved bound without units.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Proof {
+pub(crate) struct Proof {
     /// No configuration has less energy.
-    pub(super) value: f64,
+    pub(crate) value: f64,
     /// By what fraction the force densities were raised.
-    pub(super) raised: f64,
+    pub(crate) raised: f64,
 }
 
 /// First fraction by which the force densities are raised when they do not do as they are: one
@@ -119,7 +119,7 @@ const LAST_RAISE: f64 = 1e-2;
 
 /// The bound from bar vectors (the last one is replaced by what closes the chain) and force
 /// densities, raised if need be.
-pub(super) fn certify(data: &Data, bars: &[Vector], tau: &[f64]) -> Option<Proof> {
+pub(crate) fn certify(data: &Data, bars: &[Vector], tau: &[f64]) -> Option<Proof> {
     if !tau.iter().chain(bars.iter().flatten()).all(|x| x.is_finite()) {
         return None;
     }
