@@ -1,7 +1,5 @@
 //! Shared among processors, the condensed solver gives the same bits.
 
-#![expect(clippy::unwrap_used, reason = "helpers of tests")]
-
 use std::num::NonZeroUsize;
 
 use lagrange::condensed::{Settings, Solver};

@@ -1,18 +1,12 @@
 //! Hanging chains of all hard shapes at once: the condensed solver solves them all, and every answer is
 //! an equilibrium by Newton's laws and the lowest by the stress matrix.
 
-#![expect(
-    clippy::unwrap_used,
-    reason = "a test fails by panicking; helpers outside #[test] functions are part of it"
-)]
-
-mod condensed_judge;
-
-use condensed_judge::judge;
 use lagrange::condensed::{Settings, solve};
 use model::{Anchors, Bar, Chain, Problem};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
+
+use crate::judge::judge;
 
 /// Random chains of the test.
 const CHAINS: u64 = 1000;

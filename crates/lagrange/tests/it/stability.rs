@@ -1,13 +1,11 @@
 //! Stability, nullity and balance of equilibria of random chains, judged by means that the crate does
 //! not use: eigenvalues of the bordered matrix, and cross products in the world frame.
-#![expect(clippy::unwrap_used, reason = "helpers of tests")]
 
-mod common;
-
-use common::{problem, spatial_seed, stream};
 use lagrange::{Settings, Solution, jacobian, solve, solve_from};
 use model::{InSpace, Problem};
 use nalgebra::{DMatrix, DVector, Vector3};
+
+use crate::common::{problem, spatial_seed, stream};
 
 /// Eigenvalues of the bordered matrix below this are zero; the smallest others met are above 1e-7.
 const ZERO: f64 = 1e-9;

@@ -1,6 +1,4 @@
 //! Random chains, seeds and states for the tests.
-#![expect(dead_code, reason = "each test binary uses its own part")]
-#![expect(clippy::unwrap_used, reason = "the numbers drawn are in range")]
 
 use std::f64::consts::PI;
 

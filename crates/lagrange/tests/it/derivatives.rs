@@ -1,8 +1,5 @@
 //! Every analytic derivative has two twins, dual numbers and central differences, over random states.
 
-mod common;
-
-use common::{any_chain, stream, vector};
 use lagrange::{
     constraint_functions, constraint_matrix, direction, direction_gradient, direction_hessian,
     jacobian, load_vector, residual, rotation, spin,
@@ -11,6 +8,8 @@ use model::Chain;
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 use num_dual::Dual64;
 use rand::RngExt;
+
+use crate::common::{any_chain, stream, vector};
 
 /// Dual numbers differ from the formulas by rounding alone: a few hundred operations on numbers of
 /// order ten. Worst measured: 3e-14.

@@ -1,13 +1,10 @@
 //! Problems at the edge of what is allowed: an answer or an error, never a panic, a NaN or a hang.
 
-#![expect(clippy::unwrap_used, reason = "helpers of tests")]
-
-mod common;
-
-use common::{problem, stream};
 use lagrange::{Settings, Solution, SolveError, constraint_matrix, jacobian, solve};
 use model::{Anchors, Bar, Chain, InPlane, InSpace, Problem};
 use nalgebra::DVector;
+
+use crate::common::{problem, stream};
 
 fn hang(end_m: [f64; 3], bars: Vec<Bar>) -> Result<Solution, SolveError> {
     let anchors = Anchors { start_m: [0.0; 3], end_m };

@@ -1,9 +1,6 @@
 //! The paper's equations have roots that are no equilibria: where cos θ = cos φ = 0 they lose a moment
 //! balance. Shown by building one, from the equations alone.
 
-mod common;
-
-use common::{spatial_seed, stream};
 use lagrange::{
     Seed, Settings, SolveError, StepMethod, relative_residual, seat, solve_from, survey,
 };
@@ -11,6 +8,8 @@ use model::cases;
 use nalgebra::{DVector, Matrix3, Vector3};
 use rand::RngExt;
 use std::f64::consts::FRAC_PI_2;
+
+use crate::common::{spatial_seed, stream};
 
 /// Directions of the three bars of the example for a pull on the first anchor (units of mg), when the
 /// first bar, in the plane OYZ, does not feel the force across that plane.

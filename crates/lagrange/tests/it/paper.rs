@@ -3,15 +3,14 @@
 //! Reference values: kind external, forty-digit root finding on the elimination of the example
 //! (sextic in the cosine of theta), rounded to a double.
 
-mod common;
-
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use common::MG;
 use lagrange::{
     Seed, Settings, Solution, StepMethod, relative_residual, solve, solve_from, spectrum,
 };
 use model::{InPlane, InSpace, cases};
+
+use crate::common::MG;
 
 /// Angles of E1 from the descending vertical, degrees.
 const E1: [f64; 3] = [19.694_867_976_133_02, 38.599_136_184_451_89, -73.920_588_792_231_34];

@@ -1,10 +1,9 @@
 //! Random seeds: how many converge, to what, and the two forms of the method against each other.
 
-mod common;
-
-use common::{MG, distance, planar_seed, problem, spatial_seed, stream};
 use lagrange::{Seed, Settings, SolveError, Solver, StepMethod, solve_from, survey};
 use model::cases;
+
+use crate::common::{MG, distance, planar_seed, problem, spatial_seed, stream};
 
 const SEEDS: usize = 2000;
 /// Rounding of two methods at one root, relative to the length. Worst measured: 9e-16.

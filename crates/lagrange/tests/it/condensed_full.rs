@@ -2,11 +2,6 @@
 //! and from the signs and a rough pull of any equilibrium of the full system that same equilibrium. For 2 to 30
 //! bars: a single bar is refused as a problem, it cannot move and the force along it is indeterminate.
 
-#![expect(
-    clippy::unwrap_used,
-    reason = "a test fails by panicking; helpers outside #[test] functions are part of it"
-)]
-
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use lagrange::condensed::{self, Condensed};

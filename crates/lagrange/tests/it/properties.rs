@@ -2,14 +2,12 @@
 //!
 //! The stable equilibrium of a chain whose anchors are not on one vertical is unique, so that two
 //! solves of the same physics must meet.
-#![expect(clippy::unwrap_used, reason = "helpers of tests")]
 
-mod common;
-
-use common::{distance, problem, stream};
 use lagrange::{Settings, Solution, solve};
 use model::{Anchors, Bar, Chain, Problem, Vector};
 use proptest::prelude::*;
+
+use crate::common::{distance, problem, stream};
 
 /// Two solves of the same physics agree to a few rounding errors of the data times the condition of the
 /// system. Worst of 12,000 cases measured: less than a tenth of this.

@@ -1,19 +1,14 @@
 //! The condensed solver against closed forms, the reference values of the paper's example, brute force
 //! and the catenary.
 
-#![expect(
-    clippy::unwrap_used,
-    reason = "a test fails by panicking; helpers outside #[test] functions are part of it"
-)]
 #![expect(clippy::excessive_precision, reason = "reference digits stand as they were published")]
 
-mod condensed_judge;
-
-use condensed_judge::judge;
 use lagrange::condensed::{Condensed, CondensedError, Settings, Solution, solve};
 use model::{Anchors, Bar, Chain, InPlane, InSpace, Problem, STANDARD_GRAVITY_M_S2, Vector};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
+
+use crate::judge::judge;
 
 fn hang(bars: Vec<Bar>, gravity: f64, end_m: Vector) -> Solution {
     let problem = problem(bars, gravity, end_m);

@@ -1,0 +1,17 @@
+//! The tests of the solver from outside, in one program.
+
+#![expect(clippy::unwrap_used, reason = "a test fails by panicking; so do its helpers")]
+
+mod common;
+mod condensed;
+mod condensed_full;
+mod condensed_processors;
+mod condensed_random;
+mod derivatives;
+mod extremes;
+mod false_roots;
+mod judge;
+mod paper;
+mod properties;
+mod seeds;
+mod stability;
