@@ -2,13 +2,12 @@
 
 use nalgebra::DVector;
 
-use super::course::Course;
-use super::curve::Turn;
-use super::equations::{RESIDUAL, correct, residual};
-use super::event::EventKind;
-use super::observe::{Observed, STRAIGHT};
-use super::refine::{crossing_on_chord, on_chord};
-use super::segment::{Curve, Tip};
+use crate::curve::{Curve, CurveEnd, Turn};
+use crate::equations::{RESIDUAL, correct, residual};
+use crate::event::EventKind;
+use crate::locate::{crossing_on_chord, on_chord};
+use crate::observables::{Observables, STRAIGHT};
+use crate::path::Path;
 
 /// Halvings of a piece of a curve on which several indices change; what is left is below all tolerances.
 const HALVINGS: usize = 40;
@@ -20,12 +19,12 @@ const SINGULAR: f64 = 1e-7;
 #[derive(Debug, Clone)]
 pub(crate) struct Arc {
     pub(crate) points: Vec<ArcPoint>,
-    pub(crate) ports: [Port; 2],
+    pub(crate) ends: [ArcEnd; 2],
 }
 
 /// An end of an arc.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Port {
+pub(crate) enum ArcEnd {
     Low(usize),
     High(usize),
     /// The turn of this number on the curve.
@@ -38,7 +37,7 @@ pub(crate) enum Port {
 #[derive(Debug, Clone)]
 pub(crate) struct ArcPoint {
     pub(crate) y: DVector<f64>,
-    pub(crate) seen: Observed,
+    pub(crate) seen: Observables,
     pub(crate) happens: Option<EventKind>,
 }
 
@@ -54,29 +53,29 @@ pub(crate) struct Arcs {
 }
 
 /// The arcs of a curve.
-pub(crate) fn arcs(course: &Course<'_>, curve: &Curve) -> Arcs {
+pub(crate) fn arcs(path: &Path<'_>, curve: &Curve) -> Arcs {
     let point = |y: &DVector<f64>| {
-        let seen = Observed::at(&course.plane(y[y.len() - 1]), y);
+        let seen = Observables::at(&path.plane(y[y.len() - 1]), y);
         ArcPoint { y: y.clone(), seen, happens: None }
     };
     let points: Vec<ArcPoint> = curve.points.iter().map(|p| point(&p.y)).collect();
     let turns: Vec<usize> = (0..points.len()).filter(|k| curve.points[*k].turn.is_some()).collect();
     let kinds = curve.points.iter().filter_map(|point| point.turn.map(turn_kind)).collect();
-    let mut sure = turns.iter().all(|k| left(course, &points[*k].y) <= RESIDUAL);
+    let mut sure = turns.iter().all(|k| left(path, &points[*k].y) <= RESIDUAL);
     let mut bounds = vec![0];
     bounds.extend(&turns);
     bounds.push(points.len() - 1);
     let mut found = vec![];
     for (part, ends) in bounds.windows(2).enumerate() {
         let mut along: Vec<ArcPoint> = points[ends[0]..=ends[1]].to_vec();
-        let first = if part == 0 { port(curve.tips[0]) } else { Port::Turn(part - 1) };
-        let last = if part == turns.len() { port(curve.tips[1]) } else { Port::Turn(part) };
+        let first = if part == 0 { end(curve.ends[0]) } else { ArcEnd::Turn(part - 1) };
+        let last = if part == turns.len() { end(curve.ends[1]) } else { ArcEnd::Turn(part) };
         borrow_indices(&mut along, [first, last]);
-        let mut arc = Arc { points: happenings(course, along, &mut sure), ports: [first, last] };
+        let mut arc = Arc { points: happenings(path, along, &mut sure), ends: [first, last] };
         let (a, b) = (&arc.points[0].y, &arc.points[arc.points.len() - 1].y);
         if a[a.len() - 1] > b[b.len() - 1] {
             arc.points.reverse();
-            arc.ports.reverse();
+            arc.ends.reverse();
         }
         drop_roundings(&mut arc.points);
         found.push(arc);
@@ -86,16 +85,16 @@ pub(crate) fn arcs(course: &Course<'_>, curve: &Curve) -> Arcs {
 
 /// In a turn the index in the plane is that of the arc; where the chain is straight, in space too. So it is
 /// at a border with a degenerate chain.
-fn borrow_indices(along: &mut [ArcPoint], ports: [Port; 2]) {
+fn borrow_indices(along: &mut [ArcPoint], ends: [ArcEnd; 2]) {
     let count = along.len();
-    for (k, neighbour, port) in
-        [(0, 1, ports[0]), (count.wrapping_sub(1), count.wrapping_sub(2), ports[1])]
+    for (k, neighbour, end) in
+        [(0, 1, ends[0]), (count.wrapping_sub(1), count.wrapping_sub(2), ends[1])]
     {
         let Some(from) = along.get(neighbour) else { continue };
         let (inside, outside) = (from.seen.index_in_plane, from.seen.index_out_of_plane);
         let seen = &mut along[k].seen;
-        let degenerate = port == Port::Border && seen.singular <= SINGULAR;
-        if degenerate || matches!(port, Port::Turn(_)) {
+        let degenerate = end == ArcEnd::Border && seen.singular <= SINGULAR;
+        if degenerate || matches!(end, ArcEnd::Turn(_)) {
             seen.index_in_plane = inside;
             if degenerate || seen.bent <= STRAIGHT {
                 seen.index_out_of_plane = outside;
@@ -118,12 +117,12 @@ fn drop_roundings(points: &mut Vec<ArcPoint>) {
     });
 }
 
-fn port(tip: Tip) -> Port {
+fn end(tip: CurveEnd) -> ArcEnd {
     match tip {
-        Tip::Low(node) => Port::Low(node),
-        Tip::High(node) => Port::High(node),
-        Tip::Border => Port::Border,
-        Tip::Lost => Port::Lost,
+        CurveEnd::Low(node) => ArcEnd::Low(node),
+        CurveEnd::High(node) => ArcEnd::High(node),
+        CurveEnd::Border => ArcEnd::Border,
+        CurveEnd::Lost => ArcEnd::Lost,
     }
 }
 
@@ -138,12 +137,12 @@ fn turn_kind(turn: Turn) -> EventKind {
 
 /// The points of an arc with those in between at which an index or a sign changes; `sure` becomes false if
 /// one cannot be located.
-fn happenings(course: &Course<'_>, along: Vec<ArcPoint>, sure: &mut bool) -> Vec<ArcPoint> {
+fn happenings(path: &Path<'_>, along: Vec<ArcPoint>, sure: &mut bool) -> Vec<ArcPoint> {
     let mut all: Vec<ArcPoint> = vec![];
     for point in along {
         if let Some(before) = all.last() {
             let mut between = vec![];
-            *sure &= between_points(course, before, &point, HALVINGS, &mut between);
+            *sure &= between_points(path, before, &point, HALVINGS, &mut between);
             all.extend(between);
         }
         all.push(point);
@@ -153,7 +152,7 @@ fn happenings(course: &Course<'_>, along: Vec<ArcPoint>, sure: &mut bool) -> Vec
 
 /// What happens between two points, in its order along the curve; whether all of it is located.
 fn between_points(
-    course: &Course<'_>,
+    path: &Path<'_>,
     a: &ArcPoint,
     b: &ArcPoint,
     halvings: usize,
@@ -161,19 +160,19 @@ fn between_points(
 ) -> bool {
     let several = |a: usize, b: usize| a.abs_diff(b) > 1;
     let many = several(a.seen.index_in_plane, b.seen.index_in_plane)
-        || (comparable(course, a, b)
+        || (comparable(path, a, b)
             && several(a.seen.index_out_of_plane, b.seen.index_out_of_plane));
     if many && halvings > 0 {
         let chord = &b.y - &a.y;
         let row = &chord / chord.norm();
-        let Some(y) = correct(course, &a.y + 0.5 * &chord, &row) else { return false };
-        let seen = Observed::at(&course.plane(y[y.len() - 1]), &y);
+        let Some(y) = correct(path, &a.y + 0.5 * &chord, &row) else { return false };
+        let seen = Observables::at(&path.plane(y[y.len() - 1]), &y);
         let middle = ArcPoint { y, seen, happens: None };
-        let first = between_points(course, a, &middle, halvings - 1, found);
-        let second = between_points(course, &middle, b, halvings - 1, found);
+        let first = between_points(path, a, &middle, halvings - 1, found);
+        let second = between_points(path, &middle, b, halvings - 1, found);
         return first && second;
     }
-    let (mut located, sure) = changes(course, a, b);
+    let (mut located, sure) = changes(path, a, b);
     let rising = a.y[a.y.len() - 1] <= b.y[b.y.len() - 1];
     located.sort_by(|a, b| {
         let last = a.y.len() - 1;
@@ -186,20 +185,20 @@ fn between_points(
 
 /// Whether the indices out of the plane of two points mean the same: on one vertical the turn about it is
 /// none of them.
-fn comparable(course: &Course<'_>, a: &ArcPoint, b: &ArcPoint) -> bool {
-    let vertical = |p: &ArcPoint| course.plane(p.y[p.y.len() - 1]).span[0].abs() <= 0.0;
-    course.frames.always_vertical || !(vertical(a) || vertical(b))
+fn comparable(path: &Path<'_>, a: &ArcPoint, b: &ArcPoint) -> bool {
+    let vertical = |p: &ArcPoint| path.plane(p.y[p.y.len() - 1]).span[0].abs() <= 0.0;
+    path.frames.always_vertical || !(vertical(a) || vertical(b))
 }
 
-fn changes(course: &Course<'_>, a: &ArcPoint, b: &ArcPoint) -> (Vec<ArcPoint>, bool) {
-    let see = |y: &DVector<f64>| Observed::at(&course.plane(y[y.len() - 1]), y);
+fn changes(path: &Path<'_>, a: &ArcPoint, b: &ArcPoint) -> (Vec<ArcPoint>, bool) {
+    let see = |y: &DVector<f64>| Observables::at(&path.plane(y[y.len() - 1]), y);
     let locate =
-        |test: &dyn Fn(&Observed) -> f64| on_chord(course, &a.y, &b.y, |y, _| Some(test(&see(y))));
+        |test: &dyn Fn(&Observables) -> f64| on_chord(path, &a.y, &b.y, |y, _| Some(test(&see(y))));
     let mut found = vec![];
     let mut sure = true;
     let mut add = |y: Option<DVector<f64>>, kind: EventKind| {
         // What cannot be located, or is no equilibrium, is no event: nothing is known of this piece.
-        let Some(y) = y.filter(|y| left(course, y) <= RESIDUAL) else {
+        let Some(y) = y.filter(|y| left(path, y) <= RESIDUAL) else {
             sure = false;
             return;
         };
@@ -214,11 +213,11 @@ fn changes(course: &Course<'_>, a: &ArcPoint, b: &ArcPoint) -> (Vec<ArcPoint>, b
     let in_plane = a.seen.index_in_plane.abs_diff(b.seen.index_in_plane);
     if in_plane > 0 {
         let crossing = whole(in_plane)
-            .or_else(|| crossing_on_chord(course, &a.y, &b.y, |y, _| Some(see(y).plane_test)));
+            .or_else(|| crossing_on_chord(path, &a.y, &b.y, |y, _| Some(see(y).plane_test)));
         add(crossing, EventKind::BranchPoint);
     }
     let out_of_plane = a.seen.index_out_of_plane.abs_diff(b.seen.index_out_of_plane);
-    if comparable(course, a, b) && out_of_plane > 0 {
+    if comparable(path, a, b) && out_of_plane > 0 {
         let kind =
             EventKind::SpaceExchange { from: a.seen.index_in_space(), to: b.seen.index_in_space() };
         add(whole(out_of_plane).or_else(|| locate(&|seen| seen.space_test)), kind);
@@ -234,6 +233,6 @@ fn changes(course: &Course<'_>, a: &ArcPoint, b: &ArcPoint) -> (Vec<ArcPoint>, b
 }
 
 /// Largest residual of the equations at a point.
-pub(crate) fn left(course: &Course<'_>, y: &DVector<f64>) -> f64 {
-    residual(&course.plane(y[y.len() - 1]), y).amax()
+pub(crate) fn left(path: &Path<'_>, y: &DVector<f64>) -> f64 {
+    residual(&path.plane(y[y.len() - 1]), y).amax()
 }

@@ -1,21 +1,21 @@
-//! From curves between stations to branches and events.
+//! From curves between census points to branches and events.
 
 use nalgebra::DVector;
 
-use super::arc::{Arc, ArcPoint, Arcs, Port, left};
-use super::branch::{Branch, BranchEnd, BranchPoint};
-use super::course::Course;
-use super::equations::RESIDUAL;
-use super::event::{Event, EventKind};
-use super::observe::Observed;
-use super::segment::distance;
-use super::station::{Node, Station};
+use crate::arc::{Arc, ArcEnd, ArcPoint, Arcs, left};
+use crate::branch::{Branch, BranchEnd, BranchPoint};
+use crate::census_point::{CensusPoint, Node};
+use crate::equations::RESIDUAL;
+use crate::event::{Event, EventKind};
+use crate::observables::Observables;
+use crate::path::Path;
+use crate::segment::distance;
 
-/// The arcs between two stations.
+/// The arcs between two census points.
 #[derive(Debug, Clone)]
 pub(crate) struct Link {
-    /// Numbers of the stations.
-    pub(crate) stations: [usize; 2],
+    /// Numbers of the census points.
+    pub(crate) census_points: [usize; 2],
     /// The curves.
     pub(crate) curves: Vec<Arcs>,
 }
@@ -29,29 +29,36 @@ const SAME_POSITION: f64 = 1e-6;
 const SAME_SHAPE: f64 = 1e-2;
 
 pub(crate) struct Assembly<'a> {
-    course: &'a Course<'a>,
-    stations: &'a [Station],
+    path: &'a Path<'a>,
+    census_points: &'a [CensusPoint],
     pub(crate) branches: Vec<Branch>,
     pub(crate) events: Vec<Event>,
-    /// The branch of each node of each station.
+    /// The branch of each node of each census point.
     open: Vec<Vec<Option<usize>>>,
     /// Where each event was seen.
     places: Vec<DVector<f64>>,
 }
 
 impl<'a> Assembly<'a> {
-    pub(crate) fn new(course: &'a Course<'a>, stations: &'a [Station], links: &[Link]) -> Self {
-        let count = |station: &Station| station.nodes.as_ref().map_or(0, Vec::len);
+    pub(crate) fn new(
+        path: &'a Path<'a>,
+        census_points: &'a [CensusPoint],
+        links: &[Link],
+    ) -> Self {
+        let count = |census_point: &CensusPoint| census_point.nodes.as_ref().map_or(0, Vec::len);
         let mut assembly = Self {
-            course,
-            stations,
+            path,
+            census_points,
             branches: vec![],
             events: vec![],
-            open: stations.iter().map(|station| vec![None; count(station)]).collect(),
+            open: census_points
+                .iter()
+                .map(|census_point| vec![None; count(census_point)])
+                .collect(),
             places: vec![],
         };
         for link in links {
-            assembly.begin(link.stations[0]);
+            assembly.begin(link.census_points[0]);
             for curve in &link.curves {
                 let turns = assembly.turns(&curve.parts, &curve.turns);
                 for arc in &curve.parts {
@@ -59,8 +66,8 @@ impl<'a> Assembly<'a> {
                 }
             }
         }
-        for station in 0..stations.len() {
-            assembly.begin(station);
+        for census_point in 0..census_points.len() {
+            assembly.begin(census_point);
         }
         assembly.vertical_exchanges();
         assembly.unite();
@@ -68,15 +75,15 @@ impl<'a> Assembly<'a> {
     }
 
     /// Nodes that nothing leads to begin their branches here.
-    fn begin(&mut self, station: usize) {
-        let Some(nodes) = &self.stations[station].nodes else { return };
+    fn begin(&mut self, census_point: usize) {
+        let Some(nodes) = &self.census_points[census_point].nodes else { return };
         for (k, node) in nodes.iter().enumerate() {
-            if self.open[station][k].is_none() {
+            if self.open[census_point][k].is_none() {
                 let id = self.branches.len();
-                let start = if station == 0 { BranchEnd::Path } else { BranchEnd::Border };
-                let points = vec![self.node_point(station, node)];
+                let start = if census_point == 0 { BranchEnd::Path } else { BranchEnd::Border };
+                let points = vec![self.node_point(census_point, node)];
                 self.branches.push(Branch { id, points, start, end: BranchEnd::Path });
-                self.open[station][k] = Some(id);
+                self.open[census_point][k] = Some(id);
             }
         }
     }
@@ -86,7 +93,7 @@ impl<'a> Assembly<'a> {
         let mut ids = vec![];
         for (k, kind) in kinds.iter().enumerate() {
             let place = arcs.iter().find_map(|arc| {
-                let at = arc.ports.iter().position(|port| *port == Port::Turn(k))?;
+                let at = arc.ends.iter().position(|end| *end == ArcEnd::Turn(k))?;
                 if at == 0 { arc.points.first() } else { arc.points.last() }
             });
             if let Some(place) = place {
@@ -96,7 +103,7 @@ impl<'a> Assembly<'a> {
         ids
     }
 
-    fn event(&mut self, kind: EventKind, y: &DVector<f64>, seen: &Observed) -> usize {
+    fn event(&mut self, kind: EventKind, y: &DVector<f64>, seen: &Observables) -> usize {
         let id = self.events.len();
         let n = y.len() - 4;
         let position = y[n + 3];
@@ -104,12 +111,12 @@ impl<'a> Assembly<'a> {
             id,
             kind,
             position,
-            values: self.course.values_at(position),
-            span_m: self.course.plane(position).span_m(),
+            values: self.path.values_at(position),
+            span_m: self.path.plane(position).span_m(),
             branches: vec![],
             angles_rad: y.iter().take(n).map(|angle| wrap(*angle)).collect(),
             energy_j: seen.energy_j,
-            residual: left(self.course, y),
+            residual: left(self.path, y),
             singular: seen.singular,
         });
         self.places.push(y.clone());
@@ -118,41 +125,41 @@ impl<'a> Assembly<'a> {
 
     /// Put an arc at the end of its branch, or begin one with it.
     fn add(&mut self, link: &Link, arc: &Arc, turns: &[usize]) {
-        let [low, high] = link.stations;
-        let branch = match arc.ports[0] {
-            Port::Low(node) => self.open[low][node],
+        let [low, high] = link.census_points;
+        let branch = match arc.ends[0] {
+            ArcEnd::Low(node) => self.open[low][node],
             _ => None,
         };
         let branch = branch.unwrap_or_else(|| {
             let id = self.branches.len();
-            let start = self.end(arc.ports[0], turns, id);
+            let start = self.end(arc.ends[0], turns, id);
             self.branches.push(Branch { id, points: vec![], start, end: BranchEnd::Path });
             id
         });
-        let turn = |port: Port| match port {
-            Port::Turn(k) => turns.get(k).copied(),
+        let turn = |end: ArcEnd| match end {
+            ArcEnd::Turn(k) => turns.get(k).copied(),
             _ => None,
         };
         let last = arc.points.len() - 1;
         for (k, point) in arc.points.iter().enumerate() {
             let mut event = None;
             if k == 0 {
-                event = turn(arc.ports[0]);
+                event = turn(arc.ends[0]);
                 // The node is there already.
-                if event.is_none() && !self.hangs(arc.ports[0], point) {
+                if event.is_none() && !self.is_equilibrium(arc.ends[0], point) {
                     continue;
                 }
             } else if k == last {
-                match arc.ports[1] {
-                    Port::High(node) => {
-                        if let Some(nodes) = &self.stations[high].nodes {
+                match arc.ends[1] {
+                    ArcEnd::High(node) => {
+                        if let Some(nodes) = &self.census_points[high].nodes {
                             let shown = self.node_point(high, &nodes[node]);
                             self.branches[branch].points.push(shown);
                         }
                         continue;
                     }
-                    Port::Turn(_) => event = turn(arc.ports[1]),
-                    port if self.hangs(port, point) => {}
+                    ArcEnd::Turn(_) => event = turn(arc.ends[1]),
+                    end if self.is_equilibrium(end, point) => {}
                     _ => continue,
                 }
             }
@@ -164,49 +171,49 @@ impl<'a> Assembly<'a> {
             let shown = self.curve_point(point, event);
             self.branches[branch].points.push(shown);
         }
-        match arc.ports[1] {
-            Port::High(node) => self.open[high][node] = Some(branch),
-            port => self.branches[branch].end = self.end(port, turns, branch),
+        match arc.ends[1] {
+            ArcEnd::High(node) => self.open[high][node] = Some(branch),
+            end => self.branches[branch].end = self.end(end, turns, branch),
         }
     }
 
     /// Whether the last point of a curve at a border is an equilibrium too.
-    fn hangs(&self, port: Port, point: &ArcPoint) -> bool {
-        port == Port::Border && left(self.course, &point.y) <= RESIDUAL
+    fn is_equilibrium(&self, end: ArcEnd, point: &ArcPoint) -> bool {
+        end == ArcEnd::Border && left(self.path, &point.y) <= RESIDUAL
     }
 
-    fn end(&mut self, port: Port, turns: &[usize], branch: usize) -> BranchEnd {
-        match port {
-            Port::Turn(k) => match turns.get(k) {
+    fn end(&mut self, end: ArcEnd, turns: &[usize], branch: usize) -> BranchEnd {
+        match end {
+            ArcEnd::Turn(k) => match turns.get(k) {
                 Some(event) => {
                     self.events[*event].branches.push(branch);
                     BranchEnd::Event(*event)
                 }
                 None => BranchEnd::Lost,
             },
-            Port::Border => BranchEnd::Border,
+            ArcEnd::Border => BranchEnd::Border,
             // A node without a branch is one that could not be reached.
-            Port::Low(_) | Port::High(_) | Port::Lost => BranchEnd::Lost,
+            ArcEnd::Low(_) | ArcEnd::High(_) | ArcEnd::Lost => BranchEnd::Lost,
         }
     }
 
-    fn node_point(&self, station: usize, node: &Node) -> BranchPoint {
-        let station = &self.stations[station];
-        BranchPoint { grid: station.grid, proved: true, ..self.shown(&node.y, &node.seen) }
+    fn node_point(&self, census_point: usize, node: &Node) -> BranchPoint {
+        let census_point = &self.census_points[census_point];
+        BranchPoint { grid: census_point.grid, proved: true, ..self.shown(&node.y, &node.seen) }
     }
 
     fn curve_point(&self, point: &ArcPoint, event: Option<usize>) -> BranchPoint {
         BranchPoint { event, ..self.shown(&point.y, &point.seen) }
     }
 
-    fn shown(&self, y: &DVector<f64>, seen: &Observed) -> BranchPoint {
+    fn shown(&self, y: &DVector<f64>, seen: &Observables) -> BranchPoint {
         let n = y.len() - 4;
         let position = y[n + 3];
         let finite = y[n + 2].abs() > INFINITE;
         BranchPoint {
             position,
-            values: self.course.values_at(position),
-            span_m: self.course.plane(position).span_m(),
+            values: self.path.values_at(position),
+            span_m: self.path.plane(position).span_m(),
             grid: None,
             proved: false,
             event: None,
@@ -219,17 +226,17 @@ impl<'a> Assembly<'a> {
         }
     }
 
-    /// Where the anchors pass one vertical exactly at a station, the index in space on both sides is
+    /// Where the anchors pass one vertical exactly at a census point, the index in space on both sides is
     /// compared across it.
     fn vertical_exchanges(&mut self) {
-        if self.course.frames.always_vertical {
+        if self.path.frames.always_vertical {
             return;
         }
-        for station in self.stations.iter().filter(|station| station.vertical) {
+        for census_point in self.census_points.iter().filter(|census_point| census_point.vertical) {
             for branch in 0..self.branches.len() {
                 let points = &self.branches[branch].points;
                 let at = points.iter().position(|point| {
-                    point.proved && (point.position - station.position).abs() <= 0.0
+                    point.proved && (point.position - census_point.position).abs() <= 0.0
                 });
                 let Some(at) = at.filter(|at| *at > 0 && at + 1 < points.len()) else { continue };
                 let [before, after] = [&points[at - 1], &points[at + 1]];
@@ -241,7 +248,7 @@ impl<'a> Assembly<'a> {
                     from: before.index_in_space,
                     to: after.index_in_space,
                 };
-                let node = station.nodes.iter().flatten().find(|node| {
+                let node = census_point.nodes.iter().flatten().find(|node| {
                     let angles = node.y.iter().zip(&points[at].angles_rad);
                     angles.fold(0.0_f64, |a, (x, y)| a.max(wrap(x - y).abs())) <= 0.0
                 });

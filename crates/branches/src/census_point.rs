@@ -4,12 +4,12 @@ use census::{Census, ProvenEquilibrium};
 use nalgebra::DVector;
 use serde::Serialize;
 
-use super::course::{Course, Plane};
-use super::observe::Observed;
+use crate::observables::Observables;
+use crate::path::{Path, PlanarChain};
 
 /// A point of the path and what its census says.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct TracePoint {
+pub struct PathPoint {
     /// Position on the path: 0 at its first point, 1 at its last.
     pub position: f64,
     /// The values of the parameters.
@@ -61,14 +61,14 @@ pub(crate) struct Node {
     /// Angles, homogeneous pull, position.
     pub(crate) y: DVector<f64>,
     /// As the census has it.
-    pub(crate) seen: Observed,
+    pub(crate) seen: Observables,
     /// Whether the curve's own indices and energy agree with those of the census.
     pub(crate) agrees: bool,
 }
 
 /// A position with its equilibria; without, if there is no chain or its census is not complete.
 #[derive(Debug, Clone)]
-pub(crate) struct Station {
+pub(crate) struct CensusPoint {
     pub(crate) position: f64,
     /// Number on the grid of the path.
     pub(crate) grid: Option<usize>,
@@ -82,39 +82,39 @@ pub(crate) struct Station {
 /// Relative difference of energies that both come from the same equilibrium; rounding is a thousandth.
 const SAME_ENERGY: f64 = 1e-11;
 
-impl Station {
+impl CensusPoint {
     /// Take the census at a position.
     pub(crate) fn at(
-        course: &Course<'_>,
+        path: &Path<'_>,
         position: f64,
         grid: Option<usize>,
         settings: &census::Settings,
     ) -> Result<Self, census::CensusError> {
-        let values = course.values_at(position);
-        let mut station = Self {
+        let values = path.values_at(position);
+        let mut census_point = Self {
             position,
             grid,
             nodes: None,
             status: PointStatus::Refused { reason: String::new() },
-            span_m: course.plane(position).span_m(),
+            span_m: path.plane(position).span_m(),
             vertical: false,
         };
         let refused = |reason: String| PointStatus::Refused { reason };
-        let problem = match course.problem(&values) {
+        let problem = match path.problem(&values) {
             Ok(problem) => problem,
-            Err(error) => return Ok(Self { status: refused(error.to_string()), ..station }),
+            Err(error) => return Ok(Self { status: refused(error.to_string()), ..census_point }),
         };
         let census = match Census::take(&problem, settings) {
             Ok(census) => census,
             Err(error @ census::CensusError::WeightOnAnchors) => {
-                return Ok(Self { status: refused(error.to_string()), ..station });
+                return Ok(Self { status: refused(error.to_string()), ..census_point });
             }
             Err(error) => return Err(error),
         };
-        station.vertical = census.circles;
+        census_point.vertical = census.circles;
         if census.complete {
-            station.nodes = Some(nodes(course, position, &census));
-            station.status = PointStatus::Complete {
+            census_point.nodes = Some(nodes(path, position, &census));
+            census_point.status = PointStatus::Complete {
                 count: census.count_in_plane(),
                 by_index: census.count_by_index(),
                 alternating_sum: census.alternating_sum(),
@@ -123,12 +123,12 @@ impl Station {
                 families: census.families.len(),
             };
         } else {
-            station.status = PointStatus::Undecided {
+            census_point.status = PointStatus::Undecided {
                 reasons: census.undecided.iter().map(|undecided| undecided.reason).collect(),
                 proved: census.count_in_plane(),
             };
         }
-        Ok(station)
+        Ok(census_point)
     }
 
     /// Whether the values describe no problem here.
@@ -137,16 +137,9 @@ impl Station {
     }
 }
 
-impl Plane {
-    /// Distance of the anchors, m.
-    pub(crate) fn span_m(&self) -> f64 {
-        self.length_unit_m * self.span[0].hypot(self.span[1])
-    }
-}
-
-fn nodes(course: &Course<'_>, position: f64, census: &Census) -> Vec<Node> {
-    let plane = course.plane(position);
-    let facing = course.facing(position);
+fn nodes(path: &Path<'_>, position: f64, census: &Census) -> Vec<Node> {
+    let plane = path.plane(position);
+    let facing = path.facing(position);
     let mut nodes = vec![];
     for equilibrium in &census.equilibria {
         nodes.push(node(&plane, position, equilibrium, facing));
@@ -158,7 +151,7 @@ fn nodes(course: &Course<'_>, position: f64, census: &Census) -> Vec<Node> {
 }
 
 /// The equilibrium, or for `facing` = −1 its mirror image, in the frame of the path.
-fn node(plane: &Plane, position: f64, found: &ProvenEquilibrium, facing: f64) -> Node {
+fn node(plane: &PlanarChain, position: f64, found: &ProvenEquilibrium, facing: f64) -> Node {
     let n = plane.length.len();
     let pull_n = [facing * found.pull_n[0].mid(), found.pull_n[1].mid()];
     let h = pull_n[0] / plane.force_unit_n;
@@ -172,13 +165,13 @@ fn node(plane: &Plane, position: f64, found: &ProvenEquilibrium, facing: f64) ->
     y[n + 1] = v / size;
     y[n + 2] = size.recip();
     y[n + 3] = position;
-    let own = Observed::at(plane, &y);
+    let own = Observables::at(plane, &y);
     let scale = plane.length_unit_m * plane.total_n;
     let energy_j = found.energy_j.mid();
     let agrees = own.index_in_plane == found.index_in_plane
         && own.index_out_of_plane == found.index_out_of_plane
         && (own.energy_j - energy_j).abs() <= SAME_ENERGY * scale;
-    let seen = Observed {
+    let seen = Observables {
         pull_n,
         energy_j,
         axial_n: found.axial_n.iter().map(|force| force.mid()).collect(),

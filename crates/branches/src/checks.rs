@@ -2,14 +2,14 @@
 
 use serde::Serialize;
 
-use super::branch::{Branch, BranchEnd};
-use super::event::{Event, EventKind};
-use super::station::Station;
+use crate::branch::{Branch, BranchEnd};
+use crate::census_point::CensusPoint;
+use crate::event::{Event, EventKind};
 
 /// Two curves that cross.
 const ARMS: usize = 4;
 
-/// What the checks of a trace say.
+/// What the checks say.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct Checks {
     /// Censuses taken between neighbouring points, to compare with the branches there.
@@ -18,7 +18,7 @@ pub struct Checks {
     /// rounds of refinement.
     pub mismatches: Vec<f64>,
     /// Positions between two points or events at which no census could be decided, nor near by: nothing
-    /// is known there. If no census of the trace is complete, all its positions.
+    /// is known there. If no census of the path is complete, all its positions.
     pub undecided: Vec<f64>,
     /// Points that were added on the way, where branches and census differed at first.
     pub added: usize,
@@ -68,9 +68,9 @@ pub(crate) fn incomplete(branches: &[Branch], events: &[Event]) -> Vec<f64> {
     lacking.map(|event| event.position).collect()
 }
 
-/// Indices in the plane and in space of all equilibria at a station, sorted.
-fn census_indices(station: &Station) -> Option<Vec<[usize; 2]>> {
-    let nodes = station.nodes.as_ref()?;
+/// Indices in the plane and in space of all equilibria at a census point, sorted.
+fn census_indices(census_point: &CensusPoint) -> Option<Vec<[usize; 2]>> {
+    let nodes = census_point.nodes.as_ref()?;
     let mut indices: Vec<[usize; 2]> =
         nodes.iter().map(|node| [node.seen.index_in_plane, node.seen.index_in_space()]).collect();
     indices.sort_unstable();
@@ -94,10 +94,10 @@ fn branch_indices(branches: &[Branch], position: f64) -> Vec<[usize; 2]> {
     indices
 }
 
-/// Whether the branches are what the census of a station finds; `None` if the station is undecided.
-pub(crate) fn agrees(branches: &[Branch], station: &Station) -> Option<bool> {
-    if station.is_refused() {
-        return Some(branch_indices(branches, station.position).is_empty());
+/// Whether the branches are what a census finds; `None` if it is undecided.
+pub(crate) fn agrees(branches: &[Branch], census_point: &CensusPoint) -> Option<bool> {
+    if census_point.is_refused() {
+        return Some(branch_indices(branches, census_point.position).is_empty());
     }
-    Some(census_indices(station)? == branch_indices(branches, station.position))
+    Some(census_indices(census_point)? == branch_indices(branches, census_point.position))
 }

@@ -1,4 +1,4 @@
-//! The trace of a path.
+//! All equilibria along a path: censuses at its points, curves between them, and checks.
 
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -6,26 +6,26 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use rayon::prelude::*;
 use serde::Serialize;
 
-use super::assemble::{Assembly, Link};
-use super::branch::Branch;
-use super::check::{Checks, agrees, incomplete};
-use super::course::Course;
-use super::error::TraceError;
-use super::event::{Event, EventKind};
-use super::segment::Segment;
-use super::station::{PointStatus, Station, TracePoint};
-use crate::product::Study;
+use crate::assemble::{Assembly, Link};
+use crate::branch::Branch;
+use crate::census_point::{CensusPoint, PathPoint, PointStatus};
+use crate::checks::{Checks, agrees, incomplete};
+use crate::error::ContinuationError;
+use crate::event::{Event, EventKind};
+use crate::path::Path;
+use crate::segment::Segment;
+use crate::study::Study;
 
 /// What can be chosen.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct TraceSettings {
+pub struct ContinuationSettings {
     /// Settings of the censuses.
     pub census: census::Settings,
 }
 
-/// How far a trace has come.
+/// How far a continuation has come.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct TraceProgress {
+pub struct Progress {
     /// Censuses taken.
     pub done: usize,
     /// Censuses to take, as far as is known.
@@ -34,13 +34,13 @@ pub struct TraceProgress {
 
 /// All equilibria along a path, as branches.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Trace {
+pub struct Continuation {
     /// The numbers that vary, by their paths in a system file.
     pub parameters: Vec<String>,
     /// Their units.
     pub units: Vec<&'static str>,
     /// The points of the path.
-    pub points: Vec<TracePoint>,
+    pub points: Vec<PathPoint>,
     /// Unit vectors (X, Y) of the plane's horizontal direction at the points.
     pub directions: Vec<[f64; 2]>,
     /// The branches.
@@ -51,7 +51,7 @@ pub struct Trace {
     pub checks: Checks,
 }
 
-/// Where between two stations or events the checks look. Not half way: a symmetric path has something
+/// Where between two census points or events the checks look. Not half way: a symmetric path has something
 /// special there. Where the census is undecided they look at the next.
 const BETWEEN: [f64; 3] = [0.436_332_3, 0.701_356_1, 0.223_606_7];
 
@@ -66,146 +66,155 @@ const ROUNDS: usize = 6;
 /// what branches off may end soon.
 const NEARER: f64 = 0.125;
 
-/// Follow all equilibria along one path of a study. `watch` is told of each census.
-///
-/// # Errors
-///
-/// [`TraceError`] when the chain is too long for a census or there is no such path. A point that is
-/// refused or undecided is no error: it says so.
-///
-/// ```
-/// use sweep::{Combine, EventKind, Study, TraceSettings, trace};
-/// // Two bars of 1 m: two positions, which meet where the anchors are 2 m apart.
-/// let vary = ["anchors.end_m.x=1.5..2.1:7".parse()?];
-/// let chain = model::system_file::parse_system(
-///     "anchors = { start_m = [0, 0, 0], end_m = [1, 0, 0] }\n\
-///      bars = [{ length_m = 1, mass_kg = 1, count = 2 }]", "two.toml")?;
-/// let trace = trace(&Study::new(chain, &vary, Combine::Product)?, 0, &TraceSettings::default(), &|_| {})?;
-/// assert_eq!((trace.branches.len(), trace.events.len()), (2, 1));
-/// assert_eq!(trace.events[0].kind, EventKind::Straight);
-/// assert!((trace.events[0].values[0] - 2.0).abs() < 1e-12);
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
-pub fn trace(
-    study: &Study,
-    path: usize,
-    settings: &TraceSettings,
-    watch: &(dyn Fn(TraceProgress) + Sync),
-) -> Result<Trace, TraceError> {
-    let paths = study.paths();
-    let values = paths.get(path).ok_or(TraceError::NoPath { path, paths: paths.len() })?;
-    let course = Course::new(study, values);
-    let grid: Vec<_> = (0..values.len()).map(|k| (course.position(k), Some(k))).collect();
-    let mut work = Work {
-        course: &course,
-        settings,
-        watch,
-        done: AtomicUsize::new(0),
-        total: AtomicUsize::new(grid.len()),
-        known: BTreeMap::new(),
-        between: BTreeMap::new(),
-        checks: Checks::default(),
-    };
-    let mut stations = work.take(&grid)?;
-    let mut round = 0;
-    let (branches, events) = loop {
-        let segments = segments(&course, &stations);
-        let (branches, events) = work.branches(&stations, &segments);
-        work.checks.incomplete = incomplete(&branches, &events);
-        let gaps = gaps(&stations, &events);
-        let mut differ = work.look_between(&stations, &segments, &gaps, &branches)?;
-        if round == ROUNDS || (differ.is_empty() && work.checks.incomplete.is_empty()) {
-            break (branches, events);
+impl Continuation {
+    /// Follow all equilibria along one path of a study. `watch` is told of each census.
+    ///
+    /// # Errors
+    ///
+    /// [`ContinuationError`] when the chain is too long for a census or there is no such path. A point that is
+    /// refused or undecided is no error: it says so.
+    ///
+    /// ```
+    /// use branches::{Combine, Continuation, ContinuationSettings, EventKind, Study};
+    /// // Two bars of 1 m: two positions, which meet where the anchors are 2 m apart.
+    /// let vary = ["anchors.end_m.x=1.5..2.1:7".parse()?];
+    /// let chain = model::system_file::parse_system(
+    ///     "anchors = { start_m = [0, 0, 0], end_m = [1, 0, 0] }\n\
+    ///      bars = [{ length_m = 1, mass_kg = 1, count = 2 }]", "two.toml")?;
+    /// let study = Study::new(chain, &vary, Combine::Product)?;
+    /// let found = Continuation::follow(&study, 0, &ContinuationSettings::default(), &|_| {})?;
+    /// assert_eq!((found.branches.len(), found.events.len()), (2, 1));
+    /// assert_eq!(found.events[0].kind, EventKind::Straight);
+    /// assert!((found.events[0].values[0] - 2.0).abs() < 1e-12);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn follow(
+        study: &Study,
+        path: usize,
+        settings: &ContinuationSettings,
+        watch: &(dyn Fn(Progress) + Sync),
+    ) -> Result<Self, ContinuationError> {
+        let paths = study.paths();
+        let values =
+            paths.get(path).ok_or(ContinuationError::NoPath { path, paths: paths.len() })?;
+        let path = Path::new(study, values);
+        let grid: Vec<_> = (0..values.len()).map(|k| (path.position(k), Some(k))).collect();
+        let mut work = Work {
+            path: &path,
+            settings,
+            watch,
+            done: AtomicUsize::new(0),
+            total: AtomicUsize::new(grid.len()),
+            known: BTreeMap::new(),
+            between: BTreeMap::new(),
+            checks: Checks::default(),
+        };
+        let mut census_points = work.take(&grid)?;
+        let mut round = 0;
+        let (branches, events) = loop {
+            let segments = segments(&path, &census_points);
+            let (branches, events) = work.branches(&census_points, &segments);
+            work.checks.incomplete = incomplete(&branches, &events);
+            let gaps = gaps(&census_points, &events);
+            let mut differ = work.look_between(&census_points, &segments, &gaps, &branches)?;
+            if round == ROUNDS || (differ.is_empty() && work.checks.incomplete.is_empty()) {
+                break (branches, events);
+            }
+            differ.extend(work.look_beside(&gaps, &branches, round)?);
+            round += 1;
+            work.checks.added += differ.len();
+            census_points.extend(differ);
+            census_points.sort_by(|a, b| a.position.total_cmp(&b.position));
+            census_points.dedup_by(|a, b| a.position.to_bits() == b.position.to_bits());
+        };
+        if census_points
+            .iter()
+            .all(|census_point| matches!(census_point.status, PointStatus::Undecided { .. }))
+        {
+            work.checks.undecided =
+                census_points.iter().map(|census_point| census_point.position).collect();
         }
-        differ.extend(work.look_beside(&gaps, &branches, round)?);
-        round += 1;
-        work.checks.added += differ.len();
-        stations.extend(differ);
-        stations.sort_by(|a, b| a.position.total_cmp(&b.position));
-        stations.dedup_by(|a, b| a.position.to_bits() == b.position.to_bits());
-    };
-    if stations.iter().all(|station| matches!(station.status, PointStatus::Undecided { .. })) {
-        work.checks.undecided = stations.iter().map(|station| station.position).collect();
+        let mut checks = work.checks;
+        count_disagreements(&census_points, &mut checks);
+        let points = census_points.iter().filter(|census_point| census_point.grid.is_some()).map(
+            |census_point| PathPoint {
+                position: census_point.position,
+                values: path.values_at(census_point.position),
+                span_m: census_point.span_m,
+                status: census_point.status.clone(),
+            },
+        );
+        Ok(Self {
+            parameters: study.numbers().iter().map(ToString::to_string).collect(),
+            units: study.numbers().iter().map(|number| number.unit()).collect(),
+            points: points.collect(),
+            directions: path.frames.direction.clone(),
+            branches,
+            events,
+            checks,
+        })
     }
-    let mut checks = work.checks;
-    count_disagreements(&stations, &mut checks);
-    let points =
-        stations.iter().filter(|station| station.grid.is_some()).map(|station| TracePoint {
-            position: station.position,
-            values: course.values_at(station.position),
-            span_m: station.span_m,
-            status: station.status.clone(),
-        });
-    Ok(Trace {
-        parameters: study.numbers().iter().map(ToString::to_string).collect(),
-        units: study.numbers().iter().map(|number| number.unit()).collect(),
-        points: points.collect(),
-        directions: course.frames.direction.clone(),
-        branches,
-        events,
-        checks,
-    })
 }
 
 /// What is kept from round to round.
 struct Work<'a> {
-    course: &'a Course<'a>,
-    settings: &'a TraceSettings,
-    watch: &'a (dyn Fn(TraceProgress) + Sync),
+    path: &'a Path<'a>,
+    settings: &'a ContinuationSettings,
+    watch: &'a (dyn Fn(Progress) + Sync),
     done: AtomicUsize,
     total: AtomicUsize,
     /// The curves of each interval, by the bits of its ends.
     known: BTreeMap<[u64; 2], Segment>,
-    /// The censuses between stations, by the bits of their positions.
-    between: BTreeMap<u64, Station>,
+    /// The censuses between census points, by the bits of their positions.
+    between: BTreeMap<u64, CensusPoint>,
     checks: Checks,
 }
 
 impl Work<'_> {
     /// Take censuses.
-    fn take(&self, wanted: &[(f64, Option<usize>)]) -> Result<Vec<Station>, TraceError> {
-        let station = |(position, grid): &(f64, Option<usize>)| {
-            let station = Station::at(self.course, *position, *grid, &self.settings.census);
+    fn take(&self, wanted: &[(f64, Option<usize>)]) -> Result<Vec<CensusPoint>, ContinuationError> {
+        let census_point = |(position, grid): &(f64, Option<usize>)| {
+            let census_point = CensusPoint::at(self.path, *position, *grid, &self.settings.census);
             let done = self.done.fetch_add(1, Ordering::Relaxed) + 1;
-            (self.watch)(TraceProgress { done, total: self.total.load(Ordering::Relaxed) });
-            station
+            (self.watch)(Progress { done, total: self.total.load(Ordering::Relaxed) });
+            census_point
         };
-        let stations: Vec<_> = wanted.par_iter().map(station).collect();
-        Ok(stations.into_iter().collect::<Result<_, _>>()?)
+        let census_points: Vec<_> = wanted.par_iter().map(census_point).collect();
+        Ok(census_points.into_iter().collect::<Result<_, _>>()?)
     }
 
     /// Follow the curves and join them.
     fn branches(
         &mut self,
-        stations: &[Station],
+        census_points: &[CensusPoint],
         segments: &[[usize; 2]],
     ) -> (Vec<Branch>, Vec<Event>) {
-        let key = |pair: [usize; 2]| pair.map(|k| stations[k].position.to_bits());
+        let key = |pair: [usize; 2]| pair.map(|k| census_points[k].position.to_bits());
         let is_fresh = |pair: &[usize; 2]| !self.known.contains_key(&key(*pair));
         let fresh: Vec<[usize; 2]> = segments.iter().copied().filter(is_fresh).collect();
         let found: Vec<Segment> = fresh
             .par_iter()
-            .map(|[a, b]| Segment::new(self.course, &stations[*a], &stations[*b]))
+            .map(|[a, b]| Segment::new(self.path, &census_points[*a], &census_points[*b]))
             .collect();
         self.known.extend(fresh.into_iter().map(key).zip(found));
         let link = |pair: &[usize; 2]| Link {
-            stations: *pair,
+            census_points: *pair,
             curves: self.known[&key(*pair)].curves.clone(),
         };
         let links: Vec<Link> = segments.iter().map(link).collect();
-        let Assembly { branches, events, .. } = Assembly::new(self.course, stations, &links);
+        let Assembly { branches, events, .. } = Assembly::new(self.path, census_points, &links);
         (branches, events)
     }
 
-    /// Count again between the stations and events; the censuses that differ from the branches, or lie
+    /// Count again between the census points and events; the censuses that differ from the branches, or lie
     /// where not all could be followed.
     fn look_between(
         &mut self,
-        stations: &[Station],
+        census_points: &[CensusPoint],
         segments: &[[usize; 2]],
         gaps: &[[f64; 2]],
         branches: &[Branch],
-    ) -> Result<Vec<Station>, TraceError> {
+    ) -> Result<Vec<CensusPoint>, ContinuationError> {
         let looks: Vec<Vec<f64>> = gaps
             .iter()
             .map(|[low, high]| BETWEEN.map(|part| low + part * (high - low)).to_vec())
@@ -215,7 +224,7 @@ impl Work<'_> {
         self.checks.undecided.clear();
         self.checks.unfollowed = segments
             .iter()
-            .map(|pair| pair.map(|k| stations[k].position))
+            .map(|pair| pair.map(|k| census_points[k].position))
             .filter(|ends| !self.known[&ends.map(f64::to_bits)].sure)
             .collect();
         let unsure = |position: f64| {
@@ -246,7 +255,7 @@ impl Work<'_> {
         gaps: &[[f64; 2]],
         branches: &[Branch],
         round: usize,
-    ) -> Result<Vec<Station>, TraceError> {
+    ) -> Result<Vec<CensusPoint>, ContinuationError> {
         let mut looks = vec![];
         for at in &self.checks.incomplete {
             let near = (0..=round).fold(1.0, |near, _| NEARER * near);
@@ -265,7 +274,7 @@ impl Work<'_> {
     }
 
     /// Take censuses: of each list up to the first that is decided. Where that was, or the last of the list.
-    fn decide(&mut self, lists: &[Vec<f64>]) -> Result<Vec<f64>, TraceError> {
+    fn decide(&mut self, lists: &[Vec<f64>]) -> Result<Vec<f64>, ContinuationError> {
         let mut at = vec![0; lists.len()];
         loop {
             let wanted = lists.iter().zip(&at).filter_map(|(list, at)| list.get(*at));
@@ -276,8 +285,8 @@ impl Work<'_> {
             fresh.dedup();
             self.total.fetch_add(fresh.len(), Ordering::Relaxed);
             self.checks.between += fresh.len();
-            for station in self.take(&fresh)? {
-                self.between.insert(station.position.to_bits(), station);
+            for census_point in self.take(&fresh)? {
+                self.between.insert(census_point.position.to_bits(), census_point);
             }
             let mut more = false;
             for (list, at) in lists.iter().zip(&mut at) {
@@ -295,15 +304,17 @@ impl Work<'_> {
     }
 }
 
-/// What lies between neighbouring stations and events in the plane.
-fn gaps(stations: &[Station], events: &[Event]) -> Vec<[f64; 2]> {
+/// What lies between neighbouring census points and events in the plane.
+fn gaps(census_points: &[CensusPoint], events: &[Event]) -> Vec<[f64; 2]> {
     let in_plane =
         |kind| matches!(kind, EventKind::Fold | EventKind::Straight | EventKind::BranchPoint);
     let events = events.iter().filter(|event| in_plane(event.kind)).map(|event| event.position);
-    let (Some(first), Some(last)) = (stations.first(), stations.last()) else { return vec![] };
+    let (Some(first), Some(last)) = (census_points.first(), census_points.last()) else {
+        return vec![];
+    };
     let mut bounds: Vec<f64> =
         events.filter(|at| (first.position..=last.position).contains(at)).collect();
-    bounds.extend(stations.iter().map(|station| station.position));
+    bounds.extend(census_points.iter().map(|census_point| census_point.position));
     bounds.sort_by(f64::total_cmp);
     let gaps = bounds.windows(2).map(|pair| [pair[0], pair[1]]);
     gaps.filter(|[low, high]| high - low > NARROWEST).collect()
@@ -311,13 +322,13 @@ fn gaps(stations: &[Station], events: &[Event]) -> Vec<[f64; 2]> {
 
 /// The intervals in which to follow curves: between neighbouring complete censuses, past undecided ones
 /// (but not where the path has a corner there), and up to where the chain is refused.
-fn segments(course: &Course<'_>, stations: &[Station]) -> Vec<[usize; 2]> {
-    let barrier = |station: &Station| {
-        station.is_refused() || station.grid.is_some_and(|grid| course.bends(grid))
+fn segments(path: &Path<'_>, census_points: &[CensusPoint]) -> Vec<[usize; 2]> {
+    let barrier = |census_point: &CensusPoint| {
+        census_point.is_refused() || census_point.grid.is_some_and(|grid| path.bends(grid))
     };
 
     let complete: Vec<usize> =
-        (0..stations.len()).filter(|k| stations[*k].nodes.is_some()).collect();
+        (0..census_points.len()).filter(|k| census_points[*k].nodes.is_some()).collect();
     let (Some(&first), Some(&last)) = (complete.first(), complete.last()) else { return vec![] };
     let mut segments = vec![];
     if first > 0 {
@@ -325,7 +336,7 @@ fn segments(course: &Course<'_>, stations: &[Station]) -> Vec<[usize; 2]> {
     }
     for pair in complete.windows(2) {
         let refused: Vec<usize> =
-            (pair[0] + 1..pair[1]).filter(|k| barrier(&stations[*k])).collect();
+            (pair[0] + 1..pair[1]).filter(|k| barrier(&census_points[*k])).collect();
         match (refused.first(), refused.last()) {
             (Some(from), Some(to)) => {
                 segments.push([pair[0], *from]);
@@ -334,18 +345,18 @@ fn segments(course: &Course<'_>, stations: &[Station]) -> Vec<[usize; 2]> {
             _ => segments.push([pair[0], pair[1]]),
         }
     }
-    if last + 1 < stations.len() {
+    if last + 1 < census_points.len() {
         segments.push([last, last + 1]);
     }
     segments
 }
 
-fn count_disagreements(stations: &[Station], checks: &mut Checks) {
-    for station in stations {
-        let nodes = station.nodes.iter().flatten();
+fn count_disagreements(census_points: &[CensusPoint], checks: &mut Checks) {
+    for census_point in census_points {
+        let nodes = census_point.nodes.iter().flatten();
         checks.disagreements += nodes.filter(|node| !node.agrees).count();
         if let PointStatus::Complete { alternating_sum, euler_characteristic: Some(euler), .. } =
-            station.status
+            census_point.status
             && alternating_sum != euler
         {
             checks.euler_violations += 1;

@@ -2,10 +2,10 @@
 
 use nalgebra::DVector;
 
-use super::course::Course;
-use super::equations::{Tangent, correct, position_axis, tangent};
-use super::observe::is_straight;
-use super::refine::on_chord;
+use crate::equations::{Tangent, correct, position_axis, tangent};
+use crate::locate::on_chord;
+use crate::observables::is_straight;
+use crate::path::Path;
 
 /// Cosine of the largest turn of the tangent in one step, about 14 degrees.
 const STRAIGHT_ENOUGH: f64 = 0.97;
@@ -65,6 +65,26 @@ pub(crate) struct CurvePoint {
     pub(crate) turn: Option<Turn>,
 }
 
+/// What is at the end of a curve.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum CurveEnd {
+    /// An equilibrium of the lower census point.
+    Low(usize),
+    /// An equilibrium of the higher census point.
+    High(usize),
+    /// A position at which there is no chain, or no complete census.
+    Border,
+    /// It could not be followed.
+    Lost,
+}
+
+/// A curve of equilibria in an interval.
+#[derive(Debug, Clone)]
+pub(crate) struct Curve {
+    pub(crate) points: Vec<CurvePoint>,
+    pub(crate) ends: [CurveEnd; 2],
+}
+
 /// How a curve turns back.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Turn {
@@ -100,7 +120,7 @@ struct Step {
 
 /// Follow the curve from `start` on, to higher positions first or to lower ones.
 pub(crate) fn follow(
-    course: &Course<'_>,
+    path: &Path<'_>,
     start: &DVector<f64>,
     forward: bool,
     [low, high]: [Border; 2],
@@ -109,7 +129,7 @@ pub(crate) fn follow(
     let last = start.len() - 1;
     let mut points = vec![CurvePoint { y: start.clone(), turn: None }];
     let sign = if forward { 1.0 } else { -1.0 };
-    let Some(first) = tangent(course, start, &(sign * position_axis(last - 3))) else {
+    let Some(first) = tangent(path, start, &(sign * position_axis(last - 3))) else {
         return (points, Exit::Lost);
     };
     let ahead = |slope: f64| if slope > 0.0 { (high, Exit::High) } else { (low, Exit::Low) };
@@ -124,8 +144,8 @@ pub(crate) fn follow(
         let landing = way <= length && border.gate != Gate::Closed;
         let long = if landing { way.max(0.0) } else { length };
         let row = landing.then(|| sign_of(slope) * position_axis(last - 3));
-        let step = step(course, &here, long, row.as_ref())
-            .filter(|step| !step.crosses || passes(course, &here, &step.end.y, long));
+        let step = step(path, &here, long, row.as_ref())
+            .filter(|step| !step.crosses || passes(path, &here, &step.end.y, long));
         let Some(Step { end, turn, .. }) = step else {
             // Short of the border a landing is tried again as a step.
             length = 0.5 * long.min(length);
@@ -138,13 +158,13 @@ pub(crate) fn follow(
         if let Some((y, turn)) = turn {
             let slack = if border.gate == Gate::Closed { BORDER_SLACK } else { 0.0 };
             if beyond(y[last], border.position, slope) > slack {
-                land(course, &here.y, &y, border, &mut points);
+                land(path, &here.y, &y, border, &mut points);
                 return (points, exit);
             }
             points.push(CurvePoint { y: y.clone(), turn: Some(turn) });
             let (border, exit) = ahead(slope_there);
             if beyond(end.y[last], border.position, slope_there) >= 0.0 {
-                land(course, &y, &end.y, border, &mut points);
+                land(path, &y, &end.y, border, &mut points);
                 return (points, exit);
             }
         } else if landing {
@@ -153,7 +173,7 @@ pub(crate) fn follow(
             points.push(CurvePoint { y, turn: None });
             return (points, exit);
         } else if beyond(end.y[last], border.position, slope) >= 0.0 {
-            land(course, &here.y, &end.y, border, &mut points);
+            land(path, &here.y, &end.y, border, &mut points);
             return (points, exit);
         }
         points.push(CurvePoint { y: end.y.clone(), turn: None });
@@ -165,15 +185,15 @@ pub(crate) fn follow(
 
 /// A step of this length, corrected across the tangent or in another `row`; `None` if it is too long to say
 /// what happens on it.
-fn step(course: &Course<'_>, here: &Here, length: f64, row: Option<&DVector<f64>>) -> Option<Step> {
+fn step(path: &Path<'_>, here: &Here, length: f64, row: Option<&DVector<f64>>) -> Option<Step> {
     let (a, t) = (&here.y, &here.tangent.t);
     let last = a.len() - 1;
     let predicted = a + length * t;
-    let b = correct(course, predicted.clone(), row.unwrap_or(t))?;
+    let b = correct(path, predicted.clone(), row.unwrap_or(t))?;
     if (&b - &predicted).norm() > CORRECTION * length.max(SHORTEST) {
         return None;
     }
-    let next = tangent(course, &b, t)?;
+    let next = tangent(path, &b, t)?;
     if next.t.dot(t) < STRAIGHT_ENOUGH {
         return None;
     }
@@ -183,8 +203,8 @@ fn step(course: &Course<'_>, here: &Here, length: f64, row: Option<&DVector<f64>
     let slopes = [t[last], next.t[last]];
     let turn = if slopes[0] * slopes[1] < 0.0 {
         let slope =
-            |y: &DVector<f64>, chord: &DVector<f64>| tangent(course, y, chord).map(|t| t.t[last]);
-        let y = on_chord(course, a, &b, slope)?;
+            |y: &DVector<f64>, chord: &DVector<f64>| tangent(path, y, chord).map(|t| t.t[last]);
+        let y = on_chord(path, a, &b, slope)?;
         // Hanging straight down a chain can carry any force: there the curve crosses that of these forces.
         let straight = (straightens || crosses) && is_straight(&y);
         if (straightens && !straight)
@@ -230,7 +250,7 @@ fn dips(a: &DVector<f64>, b: &DVector<f64>, [first, second]: [f64; 2]) -> bool {
 
 /// Whether the curve itself leads across a crossing to the end of a long step: walked in steps so short that
 /// none changes to another curve.
-fn passes(course: &Course<'_>, from: &Here, end: &DVector<f64>, long: f64) -> bool {
+fn passes(path: &Path<'_>, from: &Here, end: &DVector<f64>, long: f64) -> bool {
     if long <= CROSSING {
         return true;
     }
@@ -244,7 +264,7 @@ fn passes(course: &Course<'_>, from: &Here, end: &DVector<f64>, long: f64) -> bo
         let rest = row.dot(&(end - &here.y)) / row.dot(&here.tangent.t);
         let landing = rest <= length;
         let try_long = if landing { rest.max(0.0) } else { length };
-        let step = step(course, &here, try_long, landing.then_some(&row))
+        let step = step(path, &here, try_long, landing.then_some(&row))
             .filter(|step| !step.crosses || (try_long <= CROSSING && !crossed));
         let Some(step) = step else {
             length = 0.5 * try_long.min(length);
@@ -274,7 +294,7 @@ fn beyond(position: f64, border: f64, direction: f64) -> f64 {
 
 /// The point between two where the curve crosses the border.
 fn land(
-    course: &Course<'_>,
+    path: &Path<'_>,
     a: &DVector<f64>,
     b: &DVector<f64>,
     border: Border,
@@ -282,7 +302,7 @@ fn land(
 ) {
     let last = a.len() - 1;
     let gap = |y: &DVector<f64>, _: &DVector<f64>| Some(y[last] - border.position);
-    let mut y = on_chord(course, a, b, gap).unwrap_or_else(|| b.clone());
+    let mut y = on_chord(path, a, b, gap).unwrap_or_else(|| b.clone());
     y[last] = border.position;
     points.push(CurvePoint { y, turn: None });
 }

@@ -2,9 +2,11 @@
 
 use std::fmt::Write as _;
 
-use super::axis::{Axis, frame};
-use super::svg::{Anchor, Svg};
-use crate::trace::{BranchPoint, EventKind, PointStatus, Trace};
+use crate::branch::BranchPoint;
+use crate::census_point::PointStatus;
+use crate::continuation::Continuation;
+use crate::event::EventKind;
+use figures::{Anchor, Axis, Svg, frame};
 
 /// What the horizontal axis shows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -58,23 +60,23 @@ const RIGHT: f64 = 870.0;
 const PANELS: [[f64; 2]; 2] = [[90.0, 400.0], [440.0, 750.0]];
 const HEIGHT: f64 = 880.0;
 
-/// The bifurcation diagram of a trace as SVG: energy, and the angle of one bar (from 1), over the
+/// The bifurcation diagram of a continuation as SVG: energy, and the angle of one bar (from 1), over the
 /// parameter or the distance of the anchors.
 #[must_use]
-pub fn diagram(trace: &Trace, title: &str, abscissa: Abscissa, bar: usize) -> String {
-    let last = trace.parameters.len().saturating_sub(1);
+pub fn diagram(continuation: &Continuation, title: &str, abscissa: Abscissa, bar: usize) -> String {
+    let last = continuation.parameters.len().saturating_sub(1);
     let over = |values: &[f64], span_m: f64| match abscissa {
         Abscissa::Parameter => values.get(last).copied().unwrap_or(0.0),
         Abscissa::Span => span_m,
     };
-    let label = match (abscissa, trace.parameters.get(last)) {
-        (Abscissa::Parameter, Some(name)) => format!("{name} / {}", trace.units[last]),
+    let label = match (abscissa, continuation.parameters.get(last)) {
+        (Abscissa::Parameter, Some(name)) => format!("{name} / {}", continuation.units[last]),
         _ => "distance of the anchors / m".to_owned(),
     };
     let bar = bar.max(1);
     let angle = |angles: &[f64]| angles.get(bar - 1).map_or(0.0, |angle| angle.to_degrees());
-    let points = || trace.branches.iter().flat_map(|branch| &branch.points);
-    let grid = trace.points.iter().map(|point| over(&point.values, point.span_m));
+    let points = || continuation.branches.iter().flat_map(|branch| &branch.points);
+    let grid = continuation.points.iter().map(|point| over(&point.values, point.span_m));
     let x = Axis::around(grid, 0.02, [LEFT, RIGHT]);
     let [top, bottom] = PANELS[0];
     let energy = Axis::around(points().map(|p| p.energy_j), 0.05, [bottom, top]);
@@ -87,19 +89,19 @@ pub fn diagram(trace: &Trace, title: &str, abscissa: Abscissa, bar: usize) -> St
     svg.push("</g>");
     let fixed: Vec<String> = (0..last)
         .filter_map(|k| {
-            let value = trace.points.first()?.values.get(k)?;
-            let unit = trace.units[k];
-            let same = trace.points.iter().all(|p| (p.values[k] - value).abs() <= 0.0);
-            same.then(|| format!("{} = {value} {unit}", trace.parameters[k]))
+            let value = continuation.points.first()?.values.get(k)?;
+            let unit = continuation.units[k];
+            let same = continuation.points.iter().all(|p| (p.values[k] - value).abs() <= 0.0);
+            same.then(|| format!("{} = {value} {unit}", continuation.parameters[k]))
         })
         .collect();
     svg.text([LEFT, 50.0], Anchor::Start, &fixed.join(", "));
-    let refused = shade(&mut svg, trace, &x, &over);
+    let refused = shade(&mut svg, continuation, &x, &over);
     for (panel, y) in [&energy, &angles].into_iter().enumerate() {
         let value = |p: &BranchPoint| {
             if panel == 0 { p.energy_j } else { angle(&p.angles_rad) }
         };
-        for branch in &trace.branches {
+        for branch in &continuation.branches {
             let seen: Vec<(f64, f64, usize)> = branch
                 .points
                 .iter()
@@ -107,7 +109,7 @@ pub fn diagram(trace: &Trace, title: &str, abscissa: Abscissa, bar: usize) -> St
                 .collect();
             line(&mut svg, &seen, &x, y, panel == 1);
         }
-        for event in &trace.events {
+        for event in &continuation.events {
             let mark = MARKS.iter().find(|mark| mark.0 == event.kind.name());
             if let Some((_, _, shape)) = mark {
                 let at = if panel == 0 { event.energy_j } else { angle(&event.angles_rad) };
@@ -119,7 +121,7 @@ pub fn diagram(trace: &Trace, title: &str, abscissa: Abscissa, bar: usize) -> St
     let angle_label = format!("angle of bar {bar} from the vertical / \u{b0}");
     frame(&mut svg, &x, &energy, ["", "energy / J"], [false, false]);
     frame(&mut svg, &x, &angles, [&label, &angle_label], [false, true]);
-    legend(&mut svg, trace, refused);
+    legend(&mut svg, continuation, refused);
     svg.finish()
 }
 
@@ -164,14 +166,19 @@ fn stroke(svg: &mut Svg, path: &mut String, style: Option<usize>) {
 }
 
 /// Grey where there is no chain; whether that is anywhere.
-fn shade(svg: &mut Svg, trace: &Trace, x: &Axis, over: &impl Fn(&[f64], f64) -> f64) -> bool {
-    let refused = |k: usize| matches!(trace.points[k].status, PointStatus::Refused { .. });
+fn shade(
+    svg: &mut Svg,
+    continuation: &Continuation,
+    x: &Axis,
+    over: &impl Fn(&[f64], f64) -> f64,
+) -> bool {
+    let refused = |k: usize| matches!(continuation.points[k].status, PointStatus::Refused { .. });
     let mut any = false;
-    for k in 0..trace.points.len().saturating_sub(1) {
+    for k in 0..continuation.points.len().saturating_sub(1) {
         if refused(k) && refused(k + 1) {
             any = true;
             let [a, b] = [k, k + 1].map(|k| {
-                let point = &trace.points[k];
+                let point = &continuation.points[k];
                 x.at(over(&point.values, point.span_m))
             });
             for [top, bottom] in PANELS {
@@ -188,8 +195,8 @@ fn shade(svg: &mut Svg, trace: &Trace, x: &Axis, over: &impl Fn(&[f64], f64) -> 
 }
 
 /// What is drawn, in two rows under the panels.
-fn legend(svg: &mut Svg, trace: &Trace, refused: bool) {
-    let points = || trace.branches.iter().flat_map(|branch| &branch.points);
+fn legend(svg: &mut Svg, continuation: &Continuation, refused: bool) {
+    let points = || continuation.branches.iter().flat_map(|branch| &branch.points);
     let mut entries: Vec<(String, &str)> = vec![];
     for (k, one) in STYLES.iter().enumerate() {
         if points().any(|p| style(p) == k) {
@@ -198,10 +205,10 @@ fn legend(svg: &mut Svg, trace: &Trace, refused: bool) {
         }
     }
     for (kind, name, shape) in MARKS {
-        if trace
+        if continuation
             .events
             .iter()
-            .any(|event: &crate::trace::Event| EventKind::name(event.kind) == kind)
+            .any(|event: &crate::event::Event| EventKind::name(event.kind) == kind)
         {
             entries.push((shape.to_owned(), name));
         }

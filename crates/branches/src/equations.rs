@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::course::{Course, Plane};
+use crate::path::{Path, PlanarChain};
 
 /// Half the step of the difference quotient by the position. Only the direction in which a curve is
 /// predicted depends on it, and that the corrector makes good.
@@ -18,7 +18,7 @@ const CORRECTED: f64 = 1e-13;
 pub(crate) const RESIDUAL: f64 = 1e-11;
 
 /// What the equations leave at `y`: n moments, two of the closure, and the size of the pull.
-pub(crate) fn residual(plane: &Plane, y: &DVector<f64>) -> DVector<f64> {
+pub(crate) fn residual(plane: &PlanarChain, y: &DVector<f64>) -> DVector<f64> {
     let n = plane.length.len();
     let [h, v, w] = [y[n], y[n + 1], y[n + 2]];
     let mut f = DVector::zeros(n + 3);
@@ -36,7 +36,7 @@ pub(crate) fn residual(plane: &Plane, y: &DVector<f64>) -> DVector<f64> {
 
 /// The residual's derivatives by the n + 3 unknowns, and in the last column by the position; one row
 /// is left free.
-fn jacobian(course: &Course<'_>, plane: &Plane, y: &DVector<f64>) -> DMatrix<f64> {
+fn jacobian(path: &Path<'_>, plane: &PlanarChain, y: &DVector<f64>) -> DMatrix<f64> {
     let n = plane.length.len();
     let [h, v, w] = [y[n], y[n + 1], y[n + 2]];
     let mut j = DMatrix::zeros(n + 4, n + 4);
@@ -54,8 +54,8 @@ fn jacobian(course: &Course<'_>, plane: &Plane, y: &DVector<f64>) -> DMatrix<f64
         j[(n + 2, n + k)] = 2.0 * part;
     }
     let position = y[n + 3];
-    let ahead = residual(&course.plane(position + POSITION_STEP), y);
-    let behind = residual(&course.plane(position - POSITION_STEP), y);
+    let ahead = residual(&path.plane(position + POSITION_STEP), y);
+    let behind = residual(&path.plane(position - POSITION_STEP), y);
     for (row, slope) in ((ahead - behind) / (2.0 * POSITION_STEP)).iter().enumerate() {
         j[(row, n + 3)] = *slope;
     }
@@ -64,17 +64,17 @@ fn jacobian(course: &Course<'_>, plane: &Plane, y: &DVector<f64>) -> DMatrix<f64
 
 /// Solve the equations with one more, `row · (y − y₀) = offset`, from `y₀` on; `None` if that fails.
 pub(crate) fn correct(
-    course: &Course<'_>,
+    path: &Path<'_>,
     mut y: DVector<f64>,
     row: &DVector<f64>,
 ) -> Option<DVector<f64>> {
-    let n = course.bars();
+    let n = path.bars();
     let start = y.clone();
     let mut best = f64::INFINITY;
     for _ in 0..CORRECTIONS {
-        let plane = course.plane(y[n + 3]);
+        let plane = path.plane(y[n + 3]);
         let f = residual(&plane, &y);
-        let mut j = jacobian(course, &plane, &y);
+        let mut j = jacobian(path, &plane, &y);
         j.row_mut(n + 3).copy_from(&row.transpose());
         let mut right = f.push(row.dot(&(&y - &start)));
         right.neg_mut();
@@ -90,7 +90,7 @@ pub(crate) fn correct(
         }
         best = size;
     }
-    let left = residual(&course.plane(y[n + 3]), &y).amax();
+    let left = residual(&path.plane(y[n + 3]), &y).amax();
     (left <= RESIDUAL).then_some(y)
 }
 
@@ -104,13 +104,9 @@ pub(crate) struct Tangent {
 }
 
 /// The unit tangent of the curve at `y`, on the side of `along`.
-pub(crate) fn tangent(
-    course: &Course<'_>,
-    y: &DVector<f64>,
-    along: &DVector<f64>,
-) -> Option<Tangent> {
-    let n = course.bars();
-    let mut j = jacobian(course, &course.plane(y[n + 3]), y);
+pub(crate) fn tangent(path: &Path<'_>, y: &DVector<f64>, along: &DVector<f64>) -> Option<Tangent> {
+    let n = path.bars();
+    let mut j = jacobian(path, &path.plane(y[n + 3]), y);
     j.row_mut(n + 3).copy_from(&along.transpose());
     let mut right = DVector::zeros(n + 4);
     right[n + 3] = 1.0;

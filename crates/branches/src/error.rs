@@ -1,9 +1,9 @@
 //! What can go wrong as a whole.
 
-/// Why nothing could be traced.
+/// Why no equilibrium could be followed.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
-pub enum TraceError {
+pub enum ContinuationError {
     /// Occurs when a setting of the census is out of range, or the chain is too long for one.
     #[error(transparent)]
     Census(#[from] census::CensusError),

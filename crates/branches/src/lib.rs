@@ -1,4 +1,4 @@
-//! Branches of equilibria over a parameter.
+//! Continuation of equilibria over a parameter: branches, folds, branch points, exchanges of stability.
 //!
 //! At every point of a path a census lists all equilibria in the vertical plane of the anchors, with
 //! proof. Between neighbouring points every one of them is followed along its curve (module `curve`), which
@@ -42,7 +42,7 @@
 //! | $\varphi_i$ | `y[i]` | n | rad |
 //! | $H, V, w$ | `y[n..n + 3]` | 3 | homogeneous |
 //! | position on the path, 0 at its first point, 1 at its last | `y[n + 3]`, `position` | 1 | 1 |
-//! | $l_i, c_i, D$ | `Plane` | n, n, 2 | total length; half the spread of the $c_i$ |
+//! | $l_i, c_i, D$ | `PlanarChain` | n, n, 2 | total length; half the spread of the $c_i$ |
 //!
 //! # References
 //!
@@ -52,22 +52,31 @@
 mod arc;
 mod assemble;
 mod branch;
-mod check;
-mod course;
+mod census_point;
+mod checks;
+mod continuation;
 mod curve;
+mod diagram;
 mod equations;
 mod error;
 mod event;
 mod frame;
-mod observe;
-mod refine;
-mod run;
+mod locate;
+mod observables;
+mod parameter;
+mod path;
 mod segment;
-mod station;
+mod study;
 
 pub use branch::{Branch, BranchEnd, BranchPoint};
-pub use check::Checks;
-pub use error::TraceError;
+pub use census_point::{PathPoint, PointStatus};
+pub use checks::Checks;
+pub use continuation::{Continuation, ContinuationSettings, Progress};
+pub use diagram::{Abscissa, diagram};
+pub use error::ContinuationError;
 pub use event::{Event, EventKind};
-pub use run::{Trace, TraceProgress, TraceSettings, trace};
-pub use station::{PointStatus, TracePoint};
+pub use parameter::apply::PointError;
+pub use parameter::error::ParameterError;
+pub use parameter::number::{AnchorEnd, BarField, Number, Which};
+pub use parameter::values::{MAX_POINTS, Parameter};
+pub use study::{Combine, Study};

@@ -2,8 +2,8 @@
 
 use nalgebra::DVector;
 
-use super::course::Course;
-use super::equations::correct;
+use crate::equations::correct;
+use crate::path::Path;
 
 /// Halvings at most: they exhaust the digits of a double.
 const MOST: usize = 80;
@@ -16,14 +16,14 @@ const NARROW: f64 = 1e-14;
 ///
 /// `test` sees the point and the chord. `None` if it does not change its sign, or the curve is lost.
 pub(crate) fn on_chord(
-    course: &Course<'_>,
+    path: &Path<'_>,
     a: &DVector<f64>,
     b: &DVector<f64>,
     test: impl Fn(&DVector<f64>, &DVector<f64>) -> Option<f64>,
 ) -> Option<DVector<f64>> {
     let chord = b - a;
     let row = &chord / chord.norm();
-    let point = |part: f64| correct(course, a + part * &chord, &row);
+    let point = |part: f64| correct(path, a + part * &chord, &row);
     let (mut low, mut high) = (0.0_f64, 1.0_f64);
     let (mut at_low, mut at_high) = (test(a, &row)?, test(b, &row)?);
     if at_low.abs() <= 0.0 {
@@ -81,12 +81,12 @@ const SAMPLES: [f64; 6] = [-1.0, -2.0 / 3.0, -1.0 / 3.0, 1.0 / 3.0, 2.0 / 3.0, 1
 /// The same where curves cross. There the corrector is singular, so the point is interpolated from its
 /// neighbours on the curve, as a function of `test` (Neville's scheme at 0).
 pub(crate) fn crossing_on_chord(
-    course: &Course<'_>,
+    path: &Path<'_>,
     a: &DVector<f64>,
     b: &DVector<f64>,
     test: impl Fn(&DVector<f64>, &DVector<f64>) -> Option<f64>,
 ) -> Option<DVector<f64>> {
-    let rough = on_chord(course, a, b, &test)?;
+    let rough = on_chord(path, a, b, &test)?;
     let chord = b - a;
     let size = chord.norm();
     let row = &chord / size;
@@ -95,7 +95,7 @@ pub(crate) fn crossing_on_chord(
     let samples: Option<Vec<(f64, DVector<f64>)>> = SAMPLES
         .iter()
         .map(|part| {
-            let y = correct(course, a + (middle + half * part) * &chord, &row)?;
+            let y = correct(path, a + (middle + half * part) * &chord, &row)?;
             Some((test(&y, &row)?, y))
         })
         .collect();

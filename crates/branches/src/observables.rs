@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::course::Plane;
+use crate::path::PlanarChain;
 
 /// A chain whose bars agree in direction to this (sine) where its curve turns lies on one line. Turns are
 /// located to the square root of rounding or better, but where curves cross, of the largest residual.
@@ -15,7 +15,7 @@ pub(crate) fn is_straight(y: &DVector<f64>) -> bool {
 
 /// An equilibrium on a curve, in SI units, with its indices.
 #[derive(Debug, Clone)]
-pub(crate) struct Observed {
+pub(crate) struct Observables {
     pub(crate) pull_n: [f64; 2],
     pub(crate) energy_j: f64,
     /// Axial forces, tension positive.
@@ -34,8 +34,8 @@ pub(crate) struct Observed {
     pub(crate) bent: f64,
 }
 
-impl Observed {
-    pub(crate) fn at(plane: &Plane, y: &DVector<f64>) -> Self {
+impl Observables {
+    pub(crate) fn at(plane: &PlanarChain, y: &DVector<f64>) -> Self {
         let n = plane.length.len();
         // (H, V, w) and its negative are one pull.
         let side = if y[n + 2] < 0.0 { -1.0 } else { 1.0 };
@@ -83,7 +83,7 @@ impl Observed {
 /// Index, determinant and smallest eigenvalue of the second derivative of the Lagrangian
 /// $-\sum l_i F_i \cdot u_i + p \cdot D$ by angles and pull. Each of the two equations of the closure adds one
 /// negative eigenvalue to those of the second derivative along the closure.
-fn in_plane(plane: &Plane, units: &[[f64; 2]], along: &[f64]) -> (usize, f64, f64) {
+fn in_plane(plane: &PlanarChain, units: &[[f64; 2]], along: &[f64]) -> (usize, f64, f64) {
     let n = units.len();
     let mut k = DMatrix::zeros(n + 2, n + 2);
     for i in 0..n {
@@ -102,7 +102,7 @@ fn in_plane(plane: &Plane, units: &[[f64; 2]], along: &[f64]) -> (usize, f64, f6
 
 /// Index and determinant of the weighted Laplacian of force densities over the joints between the
 /// anchors. With the anchors on one vertical the turn about it is left out.
-fn out_of_plane(plane: &Plane, along: &[f64]) -> (usize, f64) {
+fn out_of_plane(plane: &PlanarChain, along: &[f64]) -> (usize, f64) {
     let n = along.len();
     if n < 2 {
         return (0, 1.0);

@@ -5,12 +5,12 @@ use std::sync::Arc;
 
 use model::Problem;
 
-use super::frame::Frames;
-use crate::product::Study;
-use crate::vary::{Plan, PointError};
+use crate::frame::Frames;
+use crate::parameter::apply::{PointError, UncheckedChain};
+use crate::study::Study;
 
 /// A path and the planar chains along it.
-pub(crate) struct Course<'a> {
+pub(crate) struct Path<'a> {
     study: &'a Study,
     pub(crate) values: &'a [Vec<f64>],
     pub(crate) frames: Arc<Frames>,
@@ -20,7 +20,7 @@ pub(crate) struct Course<'a> {
 
 /// A chain in its vertical plane: lengths in its total length, weights centred and in half their spread.
 #[derive(Debug, Clone)]
-pub(crate) struct Plane {
+pub(crate) struct PlanarChain {
     /// $l_i$.
     pub(crate) length: Vec<f64>,
     /// $c_i$, from −1 to 1.
@@ -37,15 +37,22 @@ pub(crate) struct Plane {
     pub(crate) total_n: f64,
 }
 
+impl PlanarChain {
+    /// Distance of the anchors, m.
+    pub(crate) fn span_m(&self) -> f64 {
+        self.length_unit_m * self.span[0].hypot(self.span[1])
+    }
+}
+
 /// Steps of the values that differ by less than this part are equal: roundings of a range.
 const BEND: f64 = 1e-9;
 
-impl<'a> Course<'a> {
+impl<'a> Path<'a> {
     pub(crate) fn new(study: &'a Study, values: &'a [Vec<f64>]) -> Self {
         let spans: Vec<[f64; 2]> = values
             .iter()
             .map(|values| {
-                let [x, y, _] = Self::plan(study, values).anchors.difference_m();
+                let [x, y, _] = Self::chain(study, values).anchors.difference_m();
                 [x, y]
             })
             .collect();
@@ -129,28 +136,28 @@ impl<'a> Course<'a> {
         self.study.problem(values)
     }
 
-    fn plan(study: &Study, values: &[f64]) -> Plan {
+    fn chain(study: &Study, values: &[f64]) -> UncheckedChain {
         let numbers: Vec<_> = study.numbers().iter().copied().zip(values.iter().copied()).collect();
-        Plan::new(study.base(), &numbers)
+        UncheckedChain::new(study.base(), &numbers)
     }
 
     /// The planar chain at a position; nothing is checked.
-    pub(crate) fn plane(&self, position: f64) -> Plane {
-        let plan = Self::plan(self.study, &self.values_at(position));
-        let [x, y, z] = plan.anchors.difference_m();
+    pub(crate) fn plane(&self, position: f64) -> PlanarChain {
+        let chain = Self::chain(self.study, &self.values_at(position));
+        let [x, y, z] = chain.anchors.difference_m();
         let horizontal = self.frames.signed(self.interval(position).0, [x, y]);
-        let unit = model::sum(plan.bars.iter().map(|bar| bar.length_m));
+        let unit = model::sum(chain.bars.iter().map(|bar| bar.length_m));
         let mut carried = 0.0;
-        let mut raw = Vec::with_capacity(plan.bars.len());
-        for bar in &plan.bars {
+        let mut raw = Vec::with_capacity(chain.bars.len());
+        for bar in &chain.bars {
             raw.push(carried + bar.mass_kg * ((bar.length_m - bar.centre_m()) / bar.length_m));
             carried += bar.mass_kg;
         }
         let (first, last) = (raw[0], raw[raw.len() - 1]);
         let (middle, half) = (0.5 * (first + last), 0.5 * (last - first));
-        let g = plan.gravity_m_s2;
-        Plane {
-            length: plan.bars.iter().map(|bar| bar.length_m / unit).collect(),
+        let g = chain.gravity_m_s2;
+        PlanarChain {
+            length: chain.bars.iter().map(|bar| bar.length_m / unit).collect(),
             weight: raw.iter().map(|c| (c - middle) / half).collect(),
             span: [horizontal / unit, z / unit],
             length_unit_m: unit,

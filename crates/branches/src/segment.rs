@@ -1,11 +1,11 @@
-//! All curves between two neighbouring stations.
+//! All curves between two neighbouring census points.
 
 use nalgebra::DVector;
 
-use super::arc::{Arcs, arcs};
-use super::course::Course;
-use super::curve::{Border, CurvePoint, Exit, Gate, follow};
-use super::station::{Node, Station};
+use crate::arc::{Arcs, arcs};
+use crate::census_point::{CensusPoint, Node};
+use crate::curve::{Border, Curve, CurveEnd, Exit, Gate, follow};
+use crate::path::Path;
 
 /// Longest steps, in radians and parts of the path; each try with shorter ones follows curves that lie
 /// closer together.
@@ -18,48 +18,28 @@ const NEAR: f64 = 1e-6;
 const APART: f64 = 20.0;
 const NEAR_ENOUGH: f64 = 1e-3;
 
-/// What is at the end of a curve.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Tip {
-    /// An equilibrium of the lower station.
-    Low(usize),
-    /// An equilibrium of the higher station.
-    High(usize),
-    /// A position at which there is no chain, or no complete census.
-    Border,
-    /// It could not be followed.
-    Lost,
-}
-
-/// A curve of equilibria in an interval.
-#[derive(Debug, Clone)]
-pub(crate) struct Curve {
-    pub(crate) points: Vec<CurvePoint>,
-    pub(crate) tips: [Tip; 2],
-}
-
 /// The curves of an interval.
 #[derive(Debug, Clone)]
 pub(crate) struct Segment {
     pub(crate) curves: Vec<Arcs>,
-    /// Whether every equilibrium of both stations is on exactly one curve, none is lost, and all that
+    /// Whether every equilibrium of both census points is on exactly one curve, none is lost, and all that
     /// happens on them is located.
     pub(crate) sure: bool,
 }
 
 impl Segment {
-    /// The curves through all equilibria of two stations.
-    pub(crate) fn new(course: &Course<'_>, low: &Station, high: &Station) -> Self {
-        let course = course.within(low.position, high.position);
-        let borders = [border(&course, low, high), border(&course, high, low)];
+    /// The curves through all equilibria of two census points.
+    pub(crate) fn new(path: &Path<'_>, low: &CensusPoint, high: &CensusPoint) -> Self {
+        let path = path.within(low.position, high.position);
+        let borders = [border(&path, low, high), border(&path, high, low)];
         let mut segment = Self { curves: vec![], sure: false };
         if borders[1].position - borders[0].position <= NOWHERE * (high.position - low.position) {
-            // The chains end at the station itself.
+            // The chains end at the census point itself.
             return Self { sure: true, ..segment };
         }
         for longest in LONGEST {
-            let (curves, sure) = attempt(&course, [low, high], borders, longest);
-            segment.curves = curves.iter().map(|curve| arcs(&course, curve)).collect();
+            let (curves, sure) = attempt(&path, [low, high], borders, longest);
+            segment.curves = curves.iter().map(|curve| arcs(&path, curve)).collect();
             segment.sure = sure && segment.curves.iter().all(|curve| curve.sure);
             if segment.sure {
                 break;
@@ -73,33 +53,33 @@ impl Segment {
 /// interval: a bar without length has no equations.
 const EDGE_HALVINGS: i32 = 30;
 
-/// An interval that is left of one between stations, if it is shorter than this part, is none: what the
+/// An interval that is left of one between census points, if it is shorter than this part, is none: what the
 /// halvings leave, twice.
 const NOWHERE: f64 = 2e-9;
 
-/// How far curves are followed towards a station from another.
-fn border(course: &Course<'_>, station: &Station, other: &Station) -> Border {
-    if station.nodes.is_some() {
-        return Border { position: station.position, gate: Gate::Open };
+/// How far curves are followed towards a census point from another.
+fn border(path: &Path<'_>, census_point: &CensusPoint, other: &CensusPoint) -> Border {
+    if census_point.nodes.is_some() {
+        return Border { position: census_point.position, gate: Gate::Open };
     }
-    if course.is_chain(station.position) {
-        return Border { position: station.position, gate: Gate::Closed };
+    if path.is_chain(census_point.position) {
+        return Border { position: census_point.position, gate: Gate::Closed };
     }
-    let (mut inside, mut outside) = (other.position, station.position);
+    let (mut inside, mut outside) = (other.position, census_point.position);
     for _ in 0..EDGE_HALVINGS {
         let middle = 0.5 * (inside + outside);
-        *(if course.is_chain(middle) { &mut inside } else { &mut outside }) = middle;
+        *(if path.is_chain(middle) { &mut inside } else { &mut outside }) = middle;
     }
     Border { position: inside, gate: Gate::Edge }
 }
 
 fn attempt(
-    course: &Course<'_>,
-    stations: [&Station; 2],
+    path: &Path<'_>,
+    census_points: [&CensusPoint; 2],
     borders: [Border; 2],
     longest: f64,
 ) -> (Vec<Curve>, bool) {
-    let nodes = stations.map(|station| station.nodes.as_deref().unwrap_or_default());
+    let nodes = census_points.map(|census_point| census_point.nodes.as_deref().unwrap_or_default());
     let mut taken = [vec![false; nodes[0].len()], vec![false; nodes[1].len()]];
     let mut sure = true;
     let mut curves = vec![];
@@ -110,24 +90,24 @@ fn attempt(
             }
             taken[side][start] = true;
             let from = &nodes[side][start].y;
-            let (points, exit) = follow(course, from, side == 0, borders, longest);
+            let (points, exit) = follow(path, from, side == 0, borders, longest);
             let end = points.last().map_or(from, |point| &point.y);
             let mut arrive = |side: usize| match nearest(nodes[side], end) {
-                _ if borders[side].gate != Gate::Open => Tip::Border,
+                _ if borders[side].gate != Gate::Open => CurveEnd::Border,
                 Some(node) if !taken[side][node] => {
                     taken[side][node] = true;
-                    if side == 0 { Tip::Low(node) } else { Tip::High(node) }
+                    if side == 0 { CurveEnd::Low(node) } else { CurveEnd::High(node) }
                 }
-                _ => Tip::Lost,
+                _ => CurveEnd::Lost,
             };
             let end = match exit {
                 Exit::Low => arrive(0),
                 Exit::High => arrive(1),
-                Exit::Lost => Tip::Lost,
+                Exit::Lost => CurveEnd::Lost,
             };
-            sure &= end != Tip::Lost;
-            let start = if side == 0 { Tip::Low(start) } else { Tip::High(start) };
-            curves.push(Curve { points, tips: [start, end] });
+            sure &= end != CurveEnd::Lost;
+            let start = if side == 0 { CurveEnd::Low(start) } else { CurveEnd::High(start) };
+            curves.push(Curve { points, ends: [start, end] });
         }
     }
     (curves, sure)

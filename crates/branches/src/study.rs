@@ -2,7 +2,10 @@
 
 use model::{Chain, Problem};
 
-use crate::vary::{MAX_POINTS, Number, PointError, Vary, VaryError, apply};
+use crate::parameter::apply::{PointError, apply};
+use crate::parameter::error::ParameterError;
+use crate::parameter::number::Number;
+use crate::parameter::values::{MAX_POINTS, Parameter};
 
 /// How several parameters are combined.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -31,19 +34,19 @@ impl Study {
     ///
     /// # Errors
     ///
-    /// [`VaryError`] when a bar is missing, a number is named twice, lists to be taken in step differ in
+    /// [`ParameterError`] when a bar is missing, a number is named twice, lists to be taken in step differ in
     /// length, or there are more than [`MAX_POINTS`] points.
     ///
     /// ```
-    /// use sweep::{Combine, Study};
+    /// use branches::{Combine, Study};
     /// let chain = model::cases::paper().into_chain();
     /// let vary = ["bars.2.mass_kg=1,2,3".parse()?, "anchors.end_m.z=-2.5..-0.5:5".parse()?];
     /// let study = Study::new(chain.clone(), &vary, Combine::Product)?;
     /// assert_eq!((study.paths().len(), study.paths()[0].len()), (3, 5));
     /// assert!(Study::new(chain, &vary, Combine::Zip).is_err());
-    /// # Ok::<(), sweep::VaryError>(())
+    /// # Ok::<(), branches::ParameterError>(())
     /// ```
-    pub fn new(base: Chain, vary: &[Vary], combine: Combine) -> Result<Self, VaryError> {
+    pub fn new(base: Chain, vary: &[Parameter], combine: Combine) -> Result<Self, ParameterError> {
         for (k, one) in vary.iter().enumerate() {
             one.check(&base)?;
             let twin = vary[..k].iter().find(|other| other.number.overlaps(one.number));
@@ -54,7 +57,7 @@ impl Study {
                     format!("`{}` and `{}` set one number", twin.number, one.number)
                 };
                 let span = 0..one.text().len();
-                return Err(VaryError::new(one.text(), span, what, "name each number once"));
+                return Err(ParameterError::new(one.text(), span, what, "name each number once"));
             }
         }
         let numbers = vary.iter().map(|one| one.number).collect();
@@ -94,9 +97,9 @@ impl Study {
     }
 }
 
-fn too_many(vary: &[Vary]) -> VaryError {
-    let text = vary.last().map_or("", Vary::text);
-    VaryError::new(
+fn too_many(vary: &[Parameter]) -> ParameterError {
+    let text = vary.last().map_or("", Parameter::text);
+    ParameterError::new(
         text,
         0..text.len(),
         "the parameters have too many combinations",
@@ -104,7 +107,7 @@ fn too_many(vary: &[Vary]) -> VaryError {
     )
 }
 
-fn product(vary: &[Vary]) -> Result<Vec<Vec<Vec<f64>>>, VaryError> {
+fn product(vary: &[Parameter]) -> Result<Vec<Vec<Vec<f64>>>, ParameterError> {
     let points = vary.iter().try_fold(1_usize, |points, one| points.checked_mul(one.values.len()));
     if points.is_none_or(|points| points > MAX_POINTS) {
         return Err(too_many(vary));
@@ -129,11 +132,11 @@ fn product(vary: &[Vary]) -> Result<Vec<Vec<Vec<f64>>>, VaryError> {
     Ok(fixed.iter().map(path).collect())
 }
 
-fn zip(vary: &[Vary]) -> Result<Vec<Vec<f64>>, VaryError> {
+fn zip(vary: &[Parameter]) -> Result<Vec<Vec<f64>>, ParameterError> {
     let length = vary.first().map_or(1, |one| one.values.len());
     for one in vary {
         if one.values.len() != length {
-            return Err(VaryError::new(
+            return Err(ParameterError::new(
                 one.text(),
                 0..one.text().len(),
                 format!("{} values, but `{}` has {length}", one.values.len(), vary[0].number),

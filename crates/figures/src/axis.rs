@@ -1,12 +1,14 @@
 //! Axes: ranges, round ticks, frames.
 
-use super::svg::{Anchor, Svg, escape};
+use crate::svg::{Anchor, Svg, escape};
 
 /// A range of values on a stretch of the picture.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Axis {
-    pub(crate) values: [f64; 2],
-    pub(crate) pixels: [f64; 2],
+pub struct Axis {
+    /// Its ends.
+    pub values: [f64; 2],
+    /// Where they stand in the picture.
+    pub pixels: [f64; 2],
 }
 
 /// Ticks on an axis, about.
@@ -14,7 +16,8 @@ const TICKS: f64 = 7.0;
 
 impl Axis {
     /// An axis that holds all values with a margin of this part.
-    pub(crate) fn around(values: impl Iterator<Item = f64>, margin: f64, pixels: [f64; 2]) -> Self {
+    #[must_use]
+    pub fn around(values: impl Iterator<Item = f64>, margin: f64, pixels: [f64; 2]) -> Self {
         let (low, high) = values
             .filter(|x| x.is_finite())
             .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
@@ -25,14 +28,17 @@ impl Axis {
         Self { values: [low - margin * size, high + margin * size], pixels }
     }
 
-    pub(crate) fn at(&self, value: f64) -> f64 {
+    /// Where a value stands in the picture.
+    #[must_use]
+    pub fn at(&self, value: f64) -> f64 {
         let [low, high] = self.values;
         let [from, to] = self.pixels;
         from + (value - low) / (high - low) * (to - from)
     }
 
     /// Round values at round distances; the digits they need behind the point.
-    pub(crate) fn ticks(&self, degrees: bool) -> (Vec<f64>, usize) {
+    #[must_use]
+    pub fn ticks(&self, degrees: bool) -> (Vec<f64>, usize) {
         let [low, high] = self.values;
         let rough = (high - low) / TICKS;
         let step = if degrees && rough > 5.0 {
@@ -52,7 +58,7 @@ impl Axis {
 }
 
 /// The frame of a panel with ticks, numbers and labels.
-pub(crate) fn frame(svg: &mut Svg, x: &Axis, y: &Axis, labels: [&str; 2], degrees: [bool; 2]) {
+pub fn frame(svg: &mut Svg, x: &Axis, y: &Axis, labels: [&str; 2], degrees: [bool; 2]) {
     let [left, right] = x.pixels;
     let [bottom, top] = y.pixels;
     svg.push(format_args!(

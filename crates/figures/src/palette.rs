@@ -13,13 +13,13 @@ const REGIONS: [[u8; 3]; 8] = [
 ];
 
 /// What leads nowhere.
-pub(crate) const FAILURE: [u8; 3] = [0, 0, 0];
+pub const FAILURE: [u8; 3] = [0, 0, 0];
 
 /// What leads to an equilibrium without a colour of its own.
-pub(crate) const OTHER: [u8; 3] = [0xff, 0xff, 0xff];
+pub const OTHER: [u8; 3] = [0xff, 0xff, 0xff];
 
 /// Most colours of regions: with the two above, as many as a byte can number.
-pub(crate) const MOST_REGIONS: usize = 254;
+pub const MOST_REGIONS: usize = 254;
 
 /// Least lightness of a colour in Oklab: darker ones are far from black by their numbers and look like it.
 const DARKEST: f64 = 0.3;
@@ -29,7 +29,8 @@ const LEVELS: [u8; 9] = [0, 32, 64, 96, 128, 160, 192, 224, 255];
 
 /// Different colours, up to [`MOST_REGIONS`]: those of Okabe and Ito as far as they go, then always the one that is
 /// farthest from all before it, and from black and white. The first ones do not depend on how many are asked for.
-pub(crate) fn regions(count: usize) -> Vec<[u8; 3]> {
+#[must_use]
+pub fn regions(count: usize) -> Vec<[u8; 3]> {
     let mut colours: Vec<[u8; 3]> = REGIONS.into_iter().take(count).collect();
     let mut candidates: Vec<([u8; 3], f64)> = vec![];
     for r in LEVELS {
@@ -86,13 +87,15 @@ fn oklab(colour: [u8; 3]) -> [f64; 3] {
 }
 
 /// The colour as SVG has it.
-pub(crate) fn hex([r, g, b]: [u8; 3]) -> String {
+#[must_use]
+pub fn hex([r, g, b]: [u8; 3]) -> String {
     format!("#{r:02x}{g:02x}{b:02x}")
 }
 
 /// From light (0) to dark (1), even in grey: between four colours of the ramp cividis (Nuñez, Anderton and
 /// Renslow, 2018, doi:10.1371/journal.pone.0199239), reversed.
-pub(crate) fn ramp(part: f64) -> [u8; 3] {
+#[must_use]
+pub fn ramp(part: f64) -> [u8; 3] {
     const STOPS: [[f64; 3]; 5] = [
         [253.0, 231.0, 55.0],
         [187.0, 173.0, 108.0],

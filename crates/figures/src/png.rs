@@ -9,7 +9,8 @@
 const BLOCK: usize = 0xffff;
 
 /// A raster of indices into a palette of at most 256 colours, rows from the top, as PNG.
-pub(crate) fn png(width: u32, height: u32, pixels: &[u8], palette: &[[u8; 3]]) -> Vec<u8> {
+#[must_use]
+pub fn png(width: u32, height: u32, pixels: &[u8], palette: &[[u8; 3]]) -> Vec<u8> {
     let mut file = b"\x89PNG\r\n\x1a\n".to_vec();
     let mut head = vec![];
     head.extend(width.to_be_bytes());
@@ -76,7 +77,8 @@ fn adler32(bytes: &[u8]) -> u32 {
 }
 
 /// Bytes as base64.
-pub(crate) fn base64(bytes: &[u8]) -> String {
+#[must_use]
+pub fn base64(bytes: &[u8]) -> String {
     const DIGITS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     let mut text = String::with_capacity(bytes.len().div_ceil(3) * 4);
     for three in bytes.chunks(3) {

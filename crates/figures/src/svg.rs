@@ -3,18 +3,24 @@
 use std::fmt::{Display, Write};
 
 /// An SVG text in the making.
-pub(crate) struct Svg(String);
+#[derive(Debug, Clone)]
+pub struct Svg(String);
 
 /// Where a text is anchored.
-#[derive(Clone, Copy)]
-pub(crate) enum Anchor {
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Anchor {
+    /// At its beginning.
     Start,
+    /// At its middle.
     Middle,
+    /// At its end.
     End,
 }
 
 impl Svg {
-    pub(crate) fn new(width: f64, height: f64, title: &str) -> Self {
+    /// A white picture of this size in pixels.
+    #[must_use]
+    pub fn new(width: f64, height: f64, title: &str) -> Self {
         let mut svg = Self(String::new());
         svg.push(format_args!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
@@ -27,12 +33,13 @@ impl Svg {
     }
 
     /// Add an element.
-    pub(crate) fn push(&mut self, element: impl Display) {
+    pub fn push(&mut self, element: impl Display) {
         // Writing to a String cannot fail.
         let _ = writeln!(self.0, "{element}");
     }
 
-    pub(crate) fn text(&mut self, [x, y]: [f64; 2], anchor: Anchor, text: &str) {
+    /// Add a text.
+    pub fn text(&mut self, [x, y]: [f64; 2], anchor: Anchor, text: &str) {
         let anchor = match anchor {
             Anchor::Start => "start",
             Anchor::Middle => "middle",
@@ -44,14 +51,17 @@ impl Svg {
         ));
     }
 
-    pub(crate) fn finish(mut self) -> String {
+    /// The text of the file.
+    #[must_use]
+    pub fn finish(mut self) -> String {
         self.0.push_str("</svg>\n");
         self.0
     }
 }
 
 /// A text as SVG has it.
-pub(crate) fn escape(text: &str) -> String {
+#[must_use]
+pub fn escape(text: &str) -> String {
     let mut safe = String::with_capacity(text.len());
     for c in text.chars() {
         match c {

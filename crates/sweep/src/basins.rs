@@ -1,9 +1,9 @@
 //! Basins of attraction on a grid of two angles.
 
-use super::axis::{Axis, frame};
-use super::palette::{FAILURE, MOST_REGIONS, OTHER, hex, ramp, regions};
-use super::png::{base64, png};
-use super::svg::{Anchor, Svg};
+use figures::{
+    Anchor, Axis, FAILURE, MOST_REGIONS, OTHER, Svg, base64, frame, hex, png, ramp, regions,
+};
+
 use crate::record::{Failure, Outcomes};
 
 /// What became of the seeds of a regular grid over two angles, from 0° to 360° each, the first varying

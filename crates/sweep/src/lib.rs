@@ -28,14 +28,13 @@
 //! Parquet, and in the footer `funicular.program`, `.system`, `.system_sha256`, `.seed_number` and `.source`; CSV has
 //! the names alone.
 
+mod basins;
 mod compute;
 mod description;
 mod error;
 mod identify;
 mod manifest;
 mod merge;
-mod picture;
-mod product;
 mod record;
 mod seeds;
 mod settings;
@@ -51,17 +50,14 @@ mod store_part;
 mod store_tally;
 mod summary;
 mod sweep;
-mod trace;
-mod vary;
 
+pub use basins::{Basins, BasinsError, Field};
 pub use compute::Compute;
 pub use description::SCHEMA_VERSION;
 pub use error::SweepError;
 pub use identify::{DISCOVERED, JOINT_TOLERANCE, Member, Members, Origin};
 pub use manifest::{Manifest, SystemText};
 pub use merge::merge;
-pub use picture::{Abscissa, Basins, BasinsError, Field, diagram};
-pub use product::{Combine, Study};
 pub use record::{Chunk, Failure, Outcomes};
 pub use seeds::Stream;
 pub use settings::{Settings, Solvers};
@@ -73,8 +69,3 @@ pub use store_part::{PartRecord, schema};
 pub use store_tally::{OutcomeTally, SolverTally, Tally, rate_interval};
 pub use summary::{Comparison, Disagreement, KEPT, Summary};
 pub use sweep::Sweep;
-pub use trace::{
-    Branch, BranchEnd, BranchPoint, Checks, Event, EventKind, PointStatus, Trace, TraceError,
-    TracePoint, TraceProgress, TraceSettings, trace,
-};
-pub use vary::{AnchorEnd, BarField, MAX_POINTS, Number, PointError, Vary, VaryError, Which};

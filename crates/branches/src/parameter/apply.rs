@@ -2,7 +2,7 @@
 
 use model::{Anchors, Bar, BarError, Chain, ChainError, Problem, Refusal};
 
-use super::number::{AnchorEnd, BarField, Number, Which};
+use crate::parameter::number::{AnchorEnd, BarField, Number, Which};
 
 /// Why a point of a study is refused: the values describe no problem.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
@@ -30,34 +30,34 @@ pub enum PointError {
 ///
 /// [`PointError`] when a number is out of range or the chain has no answer.
 pub fn apply(base: &Chain, numbers: &[(Number, f64)]) -> Result<Problem, PointError> {
-    let Plan { gravity_m_s2, anchors, bars } = Plan::new(base, numbers);
+    let UncheckedChain { gravity_m_s2, anchors, bars } = UncheckedChain::new(base, numbers);
     let bars = bars
         .iter()
         .enumerate()
-        .map(|(k, draft)| draft.bar().map_err(|error| PointError::Bar { bar: k + 1, error }));
+        .map(|(k, bar)| bar.bar().map_err(|error| PointError::Bar { bar: k + 1, error }));
     let bars: Vec<Bar> = bars.collect::<Result<_, _>>()?;
     let chain = Chain::new(base.name(), gravity_m_s2, anchors, bars)?;
     Ok(Problem::new(chain)?)
 }
 
 /// The numbers of a chain, not checked: between two points of a path they need not describe a problem.
-pub(crate) struct Plan {
+pub(crate) struct UncheckedChain {
     pub(crate) gravity_m_s2: f64,
     pub(crate) anchors: Anchors,
-    pub(crate) bars: Vec<Draft>,
+    pub(crate) bars: Vec<UncheckedBar>,
 }
 
-impl Plan {
+impl UncheckedChain {
     pub(crate) fn new(base: &Chain, numbers: &[(Number, f64)]) -> Self {
-        let mut plan = Self {
+        let mut chain = Self {
             gravity_m_s2: base.gravity_m_s2(),
             anchors: *base.anchors(),
-            bars: base.bars().iter().map(Draft::new).collect(),
+            bars: base.bars().iter().map(UncheckedBar::new).collect(),
         };
         for (number, value) in numbers {
-            plan.set(*number, *value);
+            chain.set(*number, *value);
         }
-        plan
+        chain
     }
 
     fn set(&mut self, number: Number, value: f64) {
@@ -81,14 +81,14 @@ impl Plan {
 
 /// A bar whose numbers are not checked yet. A centre and moments that are the defaults of a system file
 /// stay the defaults.
-pub(crate) struct Draft {
+pub(crate) struct UncheckedBar {
     pub(crate) length_m: f64,
     pub(crate) mass_kg: f64,
     centre_m: Option<f64>,
     inertia_kg_m2: Option<[f64; 3]>,
 }
 
-impl Draft {
+impl UncheckedBar {
     fn new(bar: &Bar) -> Self {
         let same = |a: f64, b: f64| a.to_bits() == b.to_bits();
         let (length_m, mass_kg) = (bar.length_m(), bar.mass_kg());

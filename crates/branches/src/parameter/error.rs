@@ -5,7 +5,7 @@ use std::ops::Range;
 /// Why the text of a parameter is none: what, where, and what would be allowed.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("`{text}`, character {}: {what}", self.column())]
-pub struct VaryError {
+pub struct ParameterError {
     /// The text of the parameter.
     pub text: String,
     /// The bytes of the text that the error is about.
@@ -16,7 +16,7 @@ pub struct VaryError {
     pub help: String,
 }
 
-impl VaryError {
+impl ParameterError {
     pub(crate) fn new(
         text: &str,
         span: Range<usize>,

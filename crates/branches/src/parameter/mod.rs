@@ -4,13 +4,7 @@
 //! `bars.*.length_m=0.5..2:31`. Components may also be written as in the error messages of system files,
 //! `anchors.end_m[3]`, `bars[2].mass_kg`.
 
-mod apply;
-mod error;
-mod number;
-mod spec;
-
-pub(crate) use apply::Plan;
-pub use apply::{PointError, apply};
-pub use error::VaryError;
-pub use number::{AnchorEnd, BarField, Number, Which};
-pub use spec::{MAX_POINTS, Vary};
+pub(crate) mod apply;
+pub(crate) mod error;
+pub(crate) mod number;
+pub(crate) mod values;

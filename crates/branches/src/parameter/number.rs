@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use model::system_file::nearest;
 
-use super::error::VaryError;
+use crate::parameter::error::ParameterError;
 
 /// One number of a system file, or the same number of every bar.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -77,7 +77,7 @@ impl Number {
     }
 
     /// The number that the beginning of `text`, up to `end`, is the path of.
-    pub(super) fn parse(text: &str, end: usize) -> Result<Self, VaryError> {
+    pub(super) fn parse(text: &str, end: usize) -> Result<Self, ParameterError> {
         let mut parts = Parts { text, rest: words(text, end)?, end };
         let top = parts.key(TOP, "a path")?;
         let number = match top {
@@ -102,7 +102,7 @@ impl Number {
         };
         match parts.rest.first() {
             None => Ok(number),
-            Some(more) => Err(VaryError::new(
+            Some(more) => Err(ParameterError::new(
                 text,
                 more.clone(),
                 format!("`{number}` is a number and has no parts"),
@@ -135,7 +135,7 @@ impl fmt::Display for Number {
 }
 
 /// The words of the path up to `end`, as byte ranges: separated by dots, and by brackets around numbers.
-fn words(text: &str, end: usize) -> Result<Vec<Range<usize>>, VaryError> {
+fn words(text: &str, end: usize) -> Result<Vec<Range<usize>>, ParameterError> {
     const HELP: &str = "brackets enclose one number, as in `bars[2].mass_kg`";
     let mut words = vec![];
     let mut start = 0;
@@ -151,7 +151,7 @@ fn words(text: &str, end: usize) -> Result<Vec<Range<usize>>, VaryError> {
         };
         if let Some((at, what)) = wrong {
             let width = text[at..].chars().next().map_or(0, char::len_utf8);
-            return Err(VaryError::new(text, at..at + width, what, HELP));
+            return Err(ParameterError::new(text, at..at + width, what, HELP));
         }
         if matches!(c, '.' | '[' | ']') {
             // `[2].` closes one word, not two.
@@ -164,7 +164,12 @@ fn words(text: &str, end: usize) -> Result<Vec<Range<usize>>, VaryError> {
         }
     }
     if let Some(bracket) = open {
-        return Err(VaryError::new(text, bracket..bracket + 1, "this bracket is not closed", HELP));
+        return Err(ParameterError::new(
+            text,
+            bracket..bracket + 1,
+            "this bracket is not closed",
+            HELP,
+        ));
     }
     if !closed {
         words.push(start..end);
@@ -180,11 +185,20 @@ struct Parts<'a> {
 }
 
 impl Parts<'_> {
-    fn next(&mut self, owner: &str, allowed: &str) -> Result<(String, Range<usize>), VaryError> {
+    fn next(
+        &mut self,
+        owner: &str,
+        allowed: &str,
+    ) -> Result<(String, Range<usize>), ParameterError> {
         if self.rest.is_empty() {
             let span = self.end..self.end;
             let what = format!("{owner} is not a number: a part of it is missing");
-            return Err(VaryError::new(self.text, span, what, format!("allowed here: {allowed}")));
+            return Err(ParameterError::new(
+                self.text,
+                span,
+                what,
+                format!("allowed here: {allowed}"),
+            ));
         }
         let span = self.rest.remove(0);
         Ok((self.text[span.clone()].trim().to_owned(), span))
@@ -194,7 +208,7 @@ impl Parts<'_> {
         &mut self,
         allowed: &'static [&'static str],
         owner: &str,
-    ) -> Result<&'static str, VaryError> {
+    ) -> Result<&'static str, ParameterError> {
         let list = allowed.join(", ");
         let (word, span) = self.next(owner, &list)?;
         if let Some(key) = allowed.iter().find(|key| **key == word) {
@@ -204,10 +218,10 @@ impl Parts<'_> {
             Some(meant) => format!("did you mean `{meant}`? allowed here: {list}"),
             None => format!("allowed here: {list}"),
         };
-        Err(VaryError::new(self.text, span, format!("unknown key `{word}`"), help))
+        Err(ParameterError::new(self.text, span, format!("unknown key `{word}`"), help))
     }
 
-    fn axis(&mut self) -> Result<usize, VaryError> {
+    fn axis(&mut self) -> Result<usize, ParameterError> {
         const ALLOWED: &str = "x, y, z (or [1], [2], [3])";
         let (word, span) = self.next("a vector", ALLOWED)?;
         let axis = AXES.iter().position(|axis| *axis == word).or_else(|| {
@@ -215,11 +229,11 @@ impl Parts<'_> {
         });
         axis.ok_or_else(|| {
             let what = format!("unknown component `{word}`");
-            VaryError::new(self.text, span, what, format!("allowed here: {ALLOWED}"))
+            ParameterError::new(self.text, span, what, format!("allowed here: {ALLOWED}"))
         })
     }
 
-    fn bar(&mut self) -> Result<Which, VaryError> {
+    fn bar(&mut self) -> Result<Which, ParameterError> {
         const ALLOWED: &str = "the number of a bar, from 1, or * for all";
         let (word, span) = self.next("`bars`", ALLOWED)?;
         match word.parse::<usize>() {
@@ -227,7 +241,7 @@ impl Parts<'_> {
             Ok(bar) if bar > 0 => Ok(Which::One(bar)),
             _ => {
                 let what = format!("`{word}` is no bar");
-                Err(VaryError::new(self.text, span, what, format!("allowed here: {ALLOWED}")))
+                Err(ParameterError::new(self.text, span, what, format!("allowed here: {ALLOWED}")))
             }
         }
     }

@@ -5,8 +5,8 @@ use std::str::FromStr;
 
 use model::Chain;
 
-use super::error::VaryError;
-use super::number::{Number, Which};
+use crate::parameter::error::ParameterError;
+use crate::parameter::number::{Number, Which};
 
 /// Most values of one parameter, and most points of a study: each costs a census.
 pub const MAX_POINTS: usize = 1_000_000;
@@ -14,16 +14,16 @@ pub const MAX_POINTS: usize = 1_000_000;
 /// One number of the system file and the values it takes.
 ///
 /// ```
-/// let vary: sweep::Vary = "anchors.end_m.z=-2.5..-0.5:5".parse()?;
+/// let vary: branches::Parameter = "anchors.end_m.z=-2.5..-0.5:5".parse()?;
 /// assert_eq!(vary.number.to_string(), "anchors.end_m.z");
 /// assert_eq!(vary.values, [-2.5, -2.0, -1.5, -1.0, -0.5]);
-/// let error = "bars.2.mas_kg=1,2".parse::<sweep::Vary>().unwrap_err();
+/// let error = "bars.2.mas_kg=1,2".parse::<branches::Parameter>().unwrap_err();
 /// assert_eq!(error.to_string(), "`bars.2.mas_kg=1,2`, character 8: unknown key `mas_kg`");
 /// assert!(error.help.starts_with("did you mean `mass_kg`?"));
-/// # Ok::<(), sweep::VaryError>(())
+/// # Ok::<(), branches::ParameterError>(())
 /// ```
 #[derive(Debug, Clone, PartialEq)]
-pub struct Vary {
+pub struct Parameter {
     /// Which number.
     pub number: Number,
     /// Its values, in their order; at least one.
@@ -35,20 +35,20 @@ pub struct Vary {
 const VALUES: &str = "values are a list, `0.1,1,10`, or a range with the number of its points, \
                       `-2.9..-0.1:500`";
 
-impl Vary {
+impl Parameter {
     /// Check that the chain has what is to vary.
     ///
     /// # Errors
     ///
-    /// [`VaryError`] when the chain has no such bar.
-    pub fn check(&self, chain: &Chain) -> Result<(), VaryError> {
+    /// [`ParameterError`] when the chain has no such bar.
+    pub fn check(&self, chain: &Chain) -> Result<(), ParameterError> {
         let bars = chain.bars().len();
         match self.number {
             Number::Bar(Which::One(bar), _) if bar > bars => {
                 let path = self.text.split('=').next().unwrap_or_default();
                 let at = path.find(|c: char| c.is_ascii_digit()).unwrap_or(0);
                 let digits = path[at..].chars().take_while(char::is_ascii_digit).count();
-                Err(VaryError::new(
+                Err(ParameterError::new(
                     &self.text,
                     at..at + digits,
                     format!("there is no bar {bar}"),
@@ -66,13 +66,13 @@ impl Vary {
     }
 }
 
-impl FromStr for Vary {
-    type Err = VaryError;
+impl FromStr for Parameter {
+    type Err = ParameterError;
 
-    fn from_str(text: &str) -> Result<Self, VaryError> {
+    fn from_str(text: &str) -> Result<Self, ParameterError> {
         let Some(equals) = text.find('=') else {
             let span = text.len()..text.len();
-            return Err(VaryError::new(text, span, "`=` and the values are missing", VALUES));
+            return Err(ParameterError::new(text, span, "`=` and the values are missing", VALUES));
         };
         let number = Number::parse(text, equals)?;
         let values = values(text, equals + 1..text.len())?;
@@ -80,7 +80,7 @@ impl FromStr for Vary {
     }
 }
 
-fn values(text: &str, all: Range<usize>) -> Result<Vec<f64>, VaryError> {
+fn values(text: &str, all: Range<usize>) -> Result<Vec<f64>, ParameterError> {
     let part = &text[all.clone()];
     if let Some(dots) = part.find("..") {
         let from = number(text, all.start..all.start + dots)?;
@@ -88,7 +88,7 @@ fn values(text: &str, all: Range<usize>) -> Result<Vec<f64>, VaryError> {
         let Some(colon) = text[rest..].find(':').map(|at| rest + at) else {
             let help = "write `from..to:points`, as `-2.9..-0.1:500`";
             let span = text.len()..text.len();
-            return Err(VaryError::new(text, span, "the number of points is missing", help));
+            return Err(ParameterError::new(text, span, "the number of points is missing", help));
         };
         let to = number(text, rest..colon)?;
         let points = points(text, colon + 1..text.len())?;
@@ -102,7 +102,12 @@ fn values(text: &str, all: Range<usize>) -> Result<Vec<f64>, VaryError> {
     }
     if list.len() > MAX_POINTS {
         let what = format!("{} values are too many", list.len());
-        return Err(VaryError::new(text, all, what, format!("at most {MAX_POINTS} are allowed")));
+        return Err(ParameterError::new(
+            text,
+            all,
+            what,
+            format!("at most {MAX_POINTS} are allowed"),
+        ));
     }
     Ok(list)
 }
@@ -125,23 +130,23 @@ fn range(from: f64, to: f64, points: usize) -> Vec<f64> {
         .collect()
 }
 
-fn number(text: &str, span: Range<usize>) -> Result<f64, VaryError> {
+fn number(text: &str, span: Range<usize>) -> Result<f64, ParameterError> {
     let word = text[span.clone()].trim();
     match word.parse::<f64>() {
         Ok(value) if value.is_finite() => Ok(value),
-        Ok(_) => Err(VaryError::new(text, span, format!("`{word}` is not finite"), VALUES)),
+        Ok(_) => Err(ParameterError::new(text, span, format!("`{word}` is not finite"), VALUES)),
         Err(_) if word.is_empty() => {
-            Err(VaryError::new(text, span, "a number is missing here", VALUES))
+            Err(ParameterError::new(text, span, "a number is missing here", VALUES))
         }
-        Err(_) => Err(VaryError::new(text, span, format!("`{word}` is not a number"), VALUES)),
+        Err(_) => Err(ParameterError::new(text, span, format!("`{word}` is not a number"), VALUES)),
     }
 }
 
-fn points(text: &str, span: Range<usize>) -> Result<usize, VaryError> {
+fn points(text: &str, span: Range<usize>) -> Result<usize, ParameterError> {
     let word = text[span.clone()].trim();
     match word.parse::<usize>() {
         Ok(points) if (2..=MAX_POINTS).contains(&points) => Ok(points),
-        _ => Err(VaryError::new(
+        _ => Err(ParameterError::new(
             text,
             span,
             format!("`{word}` is no number of points"),

@@ -1,9 +1,9 @@
 //! `--vary`: what is accepted, what it does, and every error with its place.
 
+use branches::{Combine, Parameter, ParameterError, Study};
 use model::Chain;
-use sweep::{Combine, Study, Vary, VaryError};
 
-fn vary(text: &str) -> Vary {
+fn vary(text: &str) -> Parameter {
     text.parse().unwrap_or_else(|error| panic!("{error}"))
 }
 
@@ -94,7 +94,7 @@ fn errors_say_what_where_and_what_is_allowed() {
         ("gravity_m_s2=1..2:1e9", 19, "`1e9` is no number of points", "from 2"),
         ("gravity_m_s2=..2:5", 14, "a number is missing", "range"),
     ] {
-        let error = text.parse::<Vary>().unwrap_err();
+        let error = text.parse::<Parameter>().unwrap_err();
         assert_eq!(error.column(), column, "{text}: {error}");
         assert!(error.what.contains(what), "{text}: {}", error.what);
         assert!(error.help.contains(help), "{text}: {}", error.help);
@@ -103,8 +103,8 @@ fn errors_say_what_where_and_what_is_allowed() {
 
 #[test]
 fn errors_of_the_chain_and_of_the_whole() {
-    let study = |texts: &[&str]| -> VaryError {
-        let all: Vec<Vary> = texts.iter().map(|text| vary(text)).collect();
+    let study = |texts: &[&str]| -> ParameterError {
+        let all: Vec<Parameter> = texts.iter().map(|text| vary(text)).collect();
         Study::new(paper(), &all, Combine::Product).unwrap_err()
     };
     let error = study(&["bars.12.mass_kg=1"]);
@@ -131,7 +131,7 @@ fn random_bytes_never_panic() {
             text[at] = ALPHABET[usize::try_from(state >> 40).unwrap() % ALPHABET.len()];
         }
         let text: String = text.into_iter().collect();
-        match text.parse::<Vary>() {
+        match text.parse::<Parameter>() {
             Ok(_) => accepted += 1,
             Err(error) => assert!(!error.to_string().is_empty() && error.span.end <= text.len()),
         }

@@ -1,9 +1,7 @@
 //! Chains nobody chose: branches against censuses and closed forms, on coarse grids and on fine ones.
 
-#![expect(clippy::unwrap_used, reason = "helpers of tests")]
-
+use branches::{Combine, Continuation, ContinuationSettings, EventKind, Study};
 use census::{Census, Settings};
-use sweep::{Combine, EventKind, Study, Trace, TraceSettings, trace};
 
 /// Positions of events must be this good.
 const PARAMETER: f64 = 1e-10;
@@ -45,7 +43,7 @@ fn study(text: &str, vary: &str) -> Study {
     Study::new(chain, &[vary.parse().unwrap()], Combine::Product).unwrap()
 }
 
-fn places(trace: &Trace, kind: EventKind) -> Vec<f64> {
+fn places(trace: &Continuation, kind: EventKind) -> Vec<f64> {
     trace.events.iter().filter(|event| event.kind == kind).map(|event| event.values[0]).collect()
 }
 
@@ -63,7 +61,7 @@ fn straights(drawn: &Drawn, range: [f64; 2]) -> Vec<f64> {
     x
 }
 
-fn indices(branches: &Trace, position: f64) -> Vec<usize> {
+fn indices(branches: &Continuation, position: f64) -> Vec<usize> {
     let mut found = vec![];
     for branch in branches.branches.iter().filter(|branch| branch.covers(position)) {
         // Behind an event the index is that of the next point.
@@ -77,7 +75,7 @@ fn indices(branches: &Trace, position: f64) -> Vec<usize> {
 }
 
 /// The branches at as many values as given, none of them a value of the trace.
-fn counts(study: &Study, trace: &Trace, range: [f64; 2], values: usize) {
+fn counts(study: &Study, trace: &Continuation, range: [f64; 2], values: usize) {
     let mut compared = 0;
     for k in 0..values {
         let position = (k as f64 + 0.371_9) / values as f64;
@@ -106,7 +104,8 @@ fn random_chains_have_the_branches_of_their_censuses() {
         for points in [9, 70] {
             let study =
                 study(&drawn.text, &format!("anchors.end_m.x={}..{}:{points}", range[0], range[1]));
-            let trace = trace(&study, 0, &TraceSettings::default(), &|_| {}).unwrap();
+            let trace =
+                Continuation::follow(&study, 0, &ContinuationSettings::default(), &|_| {}).unwrap();
             let which = format!("{points} points of\n{}", drawn.text);
             assert!(trace.checks.agree(), "{:?} {which}", trace.checks);
             // Without symmetry nothing branches.
@@ -138,7 +137,8 @@ fn a_fold_next_to_a_straight_chain_is_not_stepped_over() {
     let straight = straight.map(|reach| (reach * reach - 0.22 * 0.22).sqrt());
     for points in [7, 100, 233, 700] {
         let study = study(TEXT, &format!("anchors.end_m.x=0.1..1.94:{points}"));
-        let trace = trace(&study, 0, &TraceSettings::default(), &|_| {}).unwrap();
+        let trace =
+            Continuation::follow(&study, 0, &ContinuationSettings::default(), &|_| {}).unwrap();
         assert!(trace.checks.agree(), "{points}: {:?}", trace.checks);
         let found = places(&trace, EventKind::Straight);
         assert_eq!(found.len(), straight.len(), "{points}: {found:?}");

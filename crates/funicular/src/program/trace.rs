@@ -4,9 +4,9 @@ use std::fmt::Write as _;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-use ::sweep::{
-    Abscissa, Combine, EventKind, PointStatus, Study, Trace, TraceProgress, TraceSettings, Vary,
-    VaryError, diagram, trace,
+use branches::{
+    Abscissa, Combine, Continuation, ContinuationSettings, EventKind, Parameter, ParameterError,
+    PointStatus, Study, diagram,
 };
 use clap::Args;
 use miette::{LabeledSpan, miette};
@@ -104,7 +104,7 @@ pub struct Arguments {
 struct Answer<'a> {
     schema_version: u32,
     system: SystemSummary,
-    traces: &'a [Trace],
+    traces: &'a [Continuation],
 }
 
 /// Run the command.
@@ -121,7 +121,7 @@ pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
             arguments.bar
         )));
     }
-    let vary: Vec<Vary> = arguments
+    let vary: Vec<Parameter> = arguments
         .vary
         .iter()
         .map(|text| text.parse().map_err(|error| vary_failure(&error)))
@@ -153,24 +153,24 @@ pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
     Ok(exit)
 }
 
-fn follow(study: &Study) -> Result<Vec<Trace>, Failure> {
+fn follow(study: &Study) -> Result<Vec<Continuation>, Failure> {
     let progress = Progress::start();
     let paths = study.paths().len();
     let mut traces = vec![];
     for path in 0..paths {
         let which =
             if paths > 1 { format!("path {} of {paths}: ", path + 1) } else { String::new() };
-        let watch = |TraceProgress { done, total }: TraceProgress| {
+        let watch = |branches::Progress { done, total }: branches::Progress| {
             progress.say(&format!("{which}census {done} of {total}"));
         };
-        let found = trace(study, path, &TraceSettings::default(), &watch);
+        let found = Continuation::follow(study, path, &ContinuationSettings::default(), &watch);
         traces.push(found.map_err(|error| Failure::bad_input(miette!("{error}")))?);
     }
     Ok(traces)
 }
 
 /// The error with the place in the text of the parameter.
-fn vary_failure(error: &VaryError) -> Failure {
+fn vary_failure(error: &ParameterError) -> Failure {
     let label = LabeledSpan::new_with_span(Some(error.what.clone()), error.span.clone());
     let report = miette!(
         labels = vec![label],
@@ -183,7 +183,7 @@ fn vary_failure(error: &VaryError) -> Failure {
     Failure::bad_input(report.with_source_code(error.text.clone()))
 }
 
-fn verdict(traces: &[Trace]) -> Result<Exit, Failure> {
+fn verdict(traces: &[Continuation]) -> Result<Exit, Failure> {
     let points = || traces.iter().flat_map(|trace| &trace.points);
     let reason = points().next().and_then(|point| match &point.status {
         PointStatus::Refused { reason } => Some(reason),
@@ -197,9 +197,9 @@ fn verdict(traces: &[Trace]) -> Result<Exit, Failure> {
         )));
     }
     let checks = || traces.iter().map(|trace| &trace.checks);
-    if checks().all(::sweep::Checks::agree) {
+    if checks().all(branches::Checks::agree) {
         Ok(Exit::Done)
-    } else if checks().all(::sweep::Checks::decided) {
+    } else if checks().all(branches::Checks::decided) {
         Ok(Exit::CheckFailed)
     } else {
         Ok(Exit::Undecided)
@@ -226,7 +226,7 @@ fn numbered(path: &Path, number: usize) -> PathBuf {
 }
 
 /// A line per point of a branch: units in the names of the columns, nothing where a force is infinite.
-fn write_csv(to: &mut impl Write, traces: &[Trace]) -> io::Result<()> {
+fn write_csv(to: &mut impl Write, traces: &[Continuation]) -> io::Result<()> {
     let Some(first) = traces.first() else { return Ok(()) };
     let bars = first
         .branches
@@ -269,7 +269,7 @@ fn write_csv(to: &mut impl Write, traces: &[Trace]) -> io::Result<()> {
 }
 
 /// What stays the same along a path, with its values; nothing if that is nothing.
-fn fixed(trace: &Trace) -> String {
+fn fixed(trace: &Continuation) -> String {
     let Some(first) = trace.points.first() else { return String::new() };
     let same = |k: &usize| {
         trace.points.iter().all(|point| point.values[*k].to_bits() == first.values[*k].to_bits())
@@ -281,9 +281,9 @@ fn fixed(trace: &Trace) -> String {
 }
 
 /// One trace for people; with others, each says for which values it is.
-fn text(trace: &Trace, many: bool) -> String {
-    let complete = |p: &&::sweep::TracePoint| matches!(p.status, PointStatus::Complete { .. });
-    let refused = |p: &&::sweep::TracePoint| matches!(p.status, PointStatus::Refused { .. });
+fn text(trace: &Continuation, many: bool) -> String {
+    let complete = |p: &&branches::PathPoint| matches!(p.status, PointStatus::Complete { .. });
+    let refused = |p: &&branches::PathPoint| matches!(p.status, PointStatus::Refused { .. });
     let count = trace.points.len();
     let proved = trace.points.iter().filter(complete).count();
     let refused = trace.points.iter().filter(refused).count();
@@ -315,7 +315,7 @@ fn text(trace: &Trace, many: bool) -> String {
 }
 
 /// What the checks say.
-fn said(trace: &Trace, nothing: bool) -> String {
+fn said(trace: &Continuation, nothing: bool) -> String {
     let checks = &trace.checks;
     if checks.agree() {
         return "each finds exactly the branches there, with the same indices".to_owned();
@@ -338,7 +338,7 @@ fn said(trace: &Trace, nothing: bool) -> String {
     .join(", ")
 }
 
-fn values(trace: &Trace, values: &[f64]) -> String {
+fn values(trace: &Continuation, values: &[f64]) -> String {
     let named = trace.parameters.iter().zip(values).zip(&trace.units);
     named
         .map(|((name, value), unit)| format!("{name} = {value} {unit}"))
@@ -346,7 +346,7 @@ fn values(trace: &Trace, values: &[f64]) -> String {
         .join(", ")
 }
 
-fn table(trace: &Trace) -> String {
+fn table(trace: &Continuation) -> String {
     let mut table = tables::table(["what happens", "where", "branches", "energy / J", "residual"]);
     let shown = |kind: EventKind| !matches!(kind, EventKind::Unloaded { .. });
     let events: Vec<_> = trace.events.iter().filter(|event| shown(event.kind)).collect();

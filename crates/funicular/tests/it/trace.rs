@@ -46,7 +46,7 @@ fn the_level_chain_has_its_folds_and_branch_points() {
     assert_eq!(json["schema_version"], 1);
     let trace = &json["traces"][0];
     let events = trace["events"].as_array().unwrap();
-    // Closed forms: crates/sweep/tests/trace.rs.
+    // Closed forms: crates/branches/tests/it/closed_forms.rs.
     for (kind, count, wanted) in
         [("fold", 4, 1.5_f64.sqrt()), ("branch-point", 2, 4_f64.cbrt() - 1.0)]
     {

@@ -1,21 +1,21 @@
 //! Branches, folds and exchanges against closed forms and independent censuses.
 
-#![expect(clippy::unwrap_used, reason = "helpers of tests")]
-
-use sweep::{BranchEnd, Combine, EventKind, PointStatus, Study, Trace, TraceSettings, trace};
+use branches::{
+    Branch, BranchEnd, Combine, Continuation, ContinuationSettings, EventKind, PointStatus, Study,
+};
 
 /// Positions of events must be this good: the issue asks for 1e-10 in the parameter.
 const PARAMETER: f64 = 1e-10;
 
-fn run(case: &str, vary: &[&str], path: usize) -> Trace {
+fn run(case: &str, vary: &[&str], path: usize) -> Continuation {
     let chain = model::cases::get(case).unwrap().problem().into_chain();
     let vary: Vec<_> = vary.iter().map(|text| text.parse().unwrap()).collect();
     let study = Study::new(chain, &vary, Combine::Product).unwrap();
-    trace(&study, path, &TraceSettings::default(), &|_| {}).unwrap()
+    Continuation::follow(&study, path, &ContinuationSettings::default(), &|_| {}).unwrap()
 }
 
 /// The checks of the trace itself, and those that need only its data.
-fn sound(trace: &Trace) {
+fn sound(trace: &Continuation) {
     assert!(trace.checks.agree(), "{:?}", trace.checks);
     assert!(trace.checks.between > 0 && trace.checks.undecided.is_empty(), "{:?}", trace.checks);
     for (grid, point) in trace.points.iter().enumerate() {
@@ -45,7 +45,7 @@ fn sound(trace: &Trace) {
     }
 }
 
-fn places(trace: &Trace, kind: EventKind, number: usize) -> Vec<f64> {
+fn places(trace: &Continuation, kind: EventKind, number: usize) -> Vec<f64> {
     trace.events.iter().filter(|e| e.kind == kind).map(|e| e.values[number]).collect()
 }
 
@@ -225,8 +225,7 @@ fn ranges_that_leave_the_chains_end_branches() {
         assert!(trace.checks.agree(), "{vary}: {:?}", trace.checks);
         let points = || trace.branches.iter().flat_map(|branch| &branch.points);
         assert!(points().all(|point| point.values[0] >= least), "{vary}");
-        let reached =
-            |branch: &sweep::Branch| ![branch.start, branch.end].contains(&BranchEnd::Lost);
+        let reached = |branch: &Branch| ![branch.start, branch.end].contains(&BranchEnd::Lost);
         assert!(trace.branches.iter().all(reached), "{vary}");
         assert_eq!(trace.branches.len(), branches, "{vary}");
         assert!(places(&trace, EventKind::BranchPoint, 0).is_empty(), "{vary}");

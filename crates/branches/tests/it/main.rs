@@ -1,0 +1,7 @@
+//! Branches over a parameter, seen from outside: what is found, and how a parameter is written.
+
+#![expect(clippy::unwrap_used, reason = "helpers of tests")]
+
+mod closed_forms;
+mod parameters;
+mod random_chains;
