@@ -1,19 +1,79 @@
 //! Why a system cannot be built.
 
-use super::{Joint, Member};
+use std::collections::{HashMap, HashSet};
+
+use super::{Joint, Member, Support};
+use crate::readable::Readable;
+use crate::{SMALLEST_TOTAL, Vector};
 
 /// Why a system cannot be built.
+///
+/// Members are counted from 1, joints are named.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SystemError {
     /// Occurs when gravity is zero, negative, infinite or not a number.
-    #[error("gravity must be positive and finite (it acts along -Z), got {gravity_m_s2} m/s^2")]
+    #[error(
+        "gravity must be positive and finite (it acts along -Z), got {} m/s^2",
+        Readable(*gravity_m_s2)
+    )]
     Gravity {
         /// Gravity as given.
         gravity_m_s2: f64,
     },
+    /// Occurs when there are no members.
+    #[error("a system needs at least one member")]
+    NoMembers,
+    /// Occurs when two joints have the same name.
+    #[error("two joints are called {name:?}")]
+    DuplicateName {
+        /// The name.
+        name: String,
+        /// Number of the second of them, from 0.
+        joint: usize,
+    },
+    /// Occurs when a coordinate of a support is infinite or not a number.
+    #[error("the coordinates of joint {name:?} must be finite, got {coordinate_m} m")]
+    Coordinate {
+        /// Name of the joint.
+        name: String,
+        /// Number of the joint, from 0.
+        joint: usize,
+        /// The first bad coordinate.
+        coordinate_m: f64,
+    },
+    /// Occurs when the direction of a line or the normal of a plane is not of unit length.
+    #[error("the direction of the support of joint {name:?} must have the length 1, got {}", Readable(*length))]
+    Direction {
+        /// Name of the joint.
+        name: String,
+        /// Number of the joint, from 0.
+        joint: usize,
+        /// The length as given.
+        length: f64,
+    },
+    /// Occurs when a point mass is negative, infinite or not a number.
+    #[error("the mass at joint {name:?} must be zero or positive, and finite, got {} kg", Readable(*mass_kg))]
+    Mass {
+        /// Name of the joint.
+        name: String,
+        /// Number of the joint, from 0.
+        joint: usize,
+        /// The mass as given.
+        mass_kg: f64,
+    },
+    /// Occurs when a force at a joint is infinite or not a number.
+    #[error("the force at joint {name:?} must be finite, got {component_n} N")]
+    Force {
+        /// Name of the joint.
+        name: String,
+        /// Number of the joint, from 0.
+        joint: usize,
+        /// The first bad component.
+        component_n: f64,
+    },
     /// Occurs when a member begins or ends at a joint that is not there.
-    #[error("member {member} meets joint {joint}, and there are only {joints}")]
+    #[error("member {member} meets joint number {joint}, and there are only {joints}")]
     NoSuchJoint {
         /// Number of the member, from 1.
         member: usize,
@@ -23,14 +83,72 @@ pub enum SystemError {
         joints: usize,
     },
     /// Occurs when a member begins and ends at the same joint.
-    #[error("member {member} begins and ends at joint {joint}")]
+    #[error("a member begins and ends at joint {joint:?}")]
     SelfLoop {
         /// Number of the member, from 1.
         member: usize,
         /// Name of the joint.
         joint: String,
     },
+    /// Occurs when two members connect the same two joints: how they share a force is indeterminate.
+    #[error(
+        "two members connect joint {from:?} with joint {to:?} (numbers {first} and {member}): how \
+         they share a force is indeterminate"
+    )]
+    Parallel {
+        /// Number of the second member, from 1.
+        member: usize,
+        /// Number of the first member, from 1.
+        first: usize,
+        /// Name of a joint.
+        from: String,
+        /// Name of the other joint.
+        to: String,
+    },
+    /// Occurs when the axial stiffness of a member is zero, negative, infinite or not a number.
+    #[error("the stiffness EA of a member must be positive and finite, got {} N", Readable(*stiffness_n))]
+    Stiffness {
+        /// Number of the member, from 1.
+        member: usize,
+        /// The stiffness as given.
+        stiffness_n: f64,
+    },
+    /// Occurs when a force acts at a point that is not on its member, or is not finite.
+    #[error(
+        "a force on a member must be finite and act between 0 and its length {} m, got {component_n} N \
+         at {at_m} m", Readable(*length_m)
+    )]
+    PointLoad {
+        /// Number of the member, from 1.
+        member: usize,
+        /// Place of the force.
+        at_m: f64,
+        /// Length of the member.
+        length_m: f64,
+        /// The component of largest size, or the first that is not finite.
+        component_n: f64,
+    },
+    /// Occurs when every number is finite and a total is not: lengths, loads, or their product.
+    #[error("the {quantity} of this system is larger than a double can hold")]
+    Overflow {
+        /// Which total.
+        quantity: &'static str,
+    },
+    /// Occurs when a total is less than [`SMALLEST_TOTAL`], so that digits would be lost without notice.
+    #[error(
+        "the {quantity} of this system, {total:e} in SI units, is too small for double precision (least: {:e})",
+        SMALLEST_TOTAL
+    )]
+    Underflow {
+        /// Which total.
+        quantity: &'static str,
+        /// Its value in SI units.
+        total: f64,
+    },
 }
+
+/// How far from 1 the length of a direction may be: the rounding of its three components.
+pub(crate) const UNIT_TOLERANCE: f64 = 8.0 * f64::EPSILON;
 
 /// Refuse what is no system.
 pub(super) fn check(
@@ -41,20 +159,117 @@ pub(super) fn check(
     if !(gravity_m_s2.is_finite() && gravity_m_s2 > 0.0) {
         return Err(SystemError::Gravity { gravity_m_s2 });
     }
-    for (k, member) in members.iter().enumerate() {
-        for joint in [member.from, member.to] {
-            if joint >= joints.len() {
-                return Err(SystemError::NoSuchJoint {
-                    member: k + 1,
-                    joint,
-                    joints: joints.len(),
-                });
-            }
+    if members.is_empty() {
+        return Err(SystemError::NoMembers);
+    }
+    let mut names = HashSet::with_capacity(joints.len());
+    for (number, joint) in joints.iter().enumerate() {
+        if !names.insert(joint.name.as_str()) {
+            return Err(SystemError::DuplicateName { name: joint.name.clone(), joint: number });
         }
-        if member.from == member.to {
-            let joint = joints[member.from].name.clone();
-            return Err(SystemError::SelfLoop { member: k + 1, joint });
+        check_joint(number, joint)?;
+    }
+    let mut pairs = HashMap::with_capacity(members.len());
+    for (k, member) in members.iter().enumerate() {
+        check_member(k + 1, member, joints)?;
+        let pair = (member.from.min(member.to), member.from.max(member.to));
+        if let Some(first) = pairs.insert(pair, k + 1) {
+            return Err(SystemError::Parallel {
+                member: k + 1,
+                first,
+                from: joints[member.from].name.clone(),
+                to: joints[member.to].name.clone(),
+            });
+        }
+    }
+    check_totals(gravity_m_s2, joints, members)
+}
+
+fn check_joint(number: usize, joint: &Joint) -> Result<(), SystemError> {
+    let name = || joint.name.clone();
+    if let Some(coordinate_m) = joint.support.at_m().and_then(first_bad) {
+        return Err(SystemError::Coordinate { name: name(), joint: number, coordinate_m });
+    }
+    if let Support::Line { direction: [x, y, z], .. } | Support::Plane { normal: [x, y, z], .. } =
+        joint.support
+    {
+        let length = x.hypot(y).hypot(z);
+        if length.is_nan() || (length - 1.0).abs() > UNIT_TOLERANCE {
+            return Err(SystemError::Direction { name: name(), joint: number, length });
+        }
+    }
+    if !(joint.mass_kg.is_finite() && joint.mass_kg >= 0.0) {
+        return Err(SystemError::Mass { name: name(), joint: number, mass_kg: joint.mass_kg });
+    }
+    match first_bad(joint.force_n) {
+        Some(component_n) => Err(SystemError::Force { name: name(), joint: number, component_n }),
+        None => Ok(()),
+    }
+}
+
+fn check_member(number: usize, member: &Member, joints: &[Joint]) -> Result<(), SystemError> {
+    for joint in [member.from, member.to] {
+        if joint >= joints.len() {
+            let joints = joints.len();
+            return Err(SystemError::NoSuchJoint { member: number, joint, joints });
+        }
+    }
+    if member.from == member.to {
+        let joint = joints[member.from].name.clone();
+        return Err(SystemError::SelfLoop { member: number, joint });
+    }
+    if let Some(stiffness_n) = member.stiffness_n
+        && !(stiffness_n.is_finite() && stiffness_n > 0.0)
+    {
+        return Err(SystemError::Stiffness { member: number, stiffness_n });
+    }
+    let length_m = member.body.length_m();
+    for load in &member.loads {
+        let component_n = first_bad(load.force_n);
+        if component_n.is_some() || !(0.0..=length_m).contains(&load.at_m) {
+            let largest = load.force_n.into_iter().fold(0.0, |a: f64, x| a.max(x.abs()));
+            let component_n = component_n.unwrap_or(largest);
+            let at_m = load.at_m;
+            return Err(SystemError::PointLoad { member: number, at_m, length_m, component_n });
         }
     }
     Ok(())
+}
+
+/// Totals must be numbers with digits to spare, as those of a [`Chain`](crate::Chain).
+fn check_totals(
+    gravity_m_s2: f64,
+    joints: &[Joint],
+    members: &[Member],
+) -> Result<(), SystemError> {
+    let length_m = crate::sum(members.iter().map(|member| member.body.length_m()));
+    let masses = joints.iter().map(|joint| joint.mass_kg);
+    let mass_kg = crate::sum(masses.chain(members.iter().map(|member| member.body.mass_kg())));
+    let forces = joints.iter().map(|joint| joint.force_n);
+    let forces = forces.chain(members.iter().flat_map(|m| m.loads.iter().map(|l| l.force_n)));
+    let force_n = crate::sum(forces.map(|[x, y, z]| x.hypot(y).hypot(z)));
+    let load_n = mass_kg * gravity_m_s2 + force_n;
+    let reach_m = joints
+        .iter()
+        .filter_map(|joint| joint.support.at_m())
+        .fold(0.0, |a: f64, at| at.into_iter().fold(a, |a, x| a.max(x.abs())));
+    let loaded = load_n > 0.0;
+    for (quantity, total, may_vanish) in [
+        ("extent of the supports", 2.0 * reach_m, true),
+        ("total length", length_m, false),
+        ("total load", load_n, !loaded),
+        ("total load times total length", load_n * length_m, !loaded),
+    ] {
+        if !total.is_finite() {
+            return Err(SystemError::Overflow { quantity });
+        }
+        if total < SMALLEST_TOTAL && !may_vanish {
+            return Err(SystemError::Underflow { quantity, total });
+        }
+    }
+    Ok(())
+}
+
+fn first_bad(vector: Vector) -> Option<f64> {
+    vector.into_iter().find(|x| !x.is_finite())
 }

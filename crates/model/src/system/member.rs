@@ -55,4 +55,32 @@ impl Member {
     pub fn bar(from: usize, to: usize, body: Bar) -> Self {
         Self { from, to, kind: Kind::Bar, body, stiffness_n: None, loads: Vec::new() }
     }
+
+    /// An inextensible cable.
+    #[must_use]
+    pub fn cable(from: usize, to: usize, body: Bar) -> Self {
+        Self { kind: Kind::Cable, ..Self::bar(from, to, body) }
+    }
+
+    /// The same member with an axial stiffness `EA`, N.
+    #[must_use]
+    pub fn with_stiffness(self, stiffness_n: f64) -> Self {
+        Self { stiffness_n: Some(stiffness_n), ..self }
+    }
+
+    /// The greatest distance of its ends that the member allows, m; infinite where it stretches or does not
+    /// resist tension.
+    #[must_use]
+    pub fn greatest_length_m(&self) -> f64 {
+        match (self.kind, self.stiffness_n) {
+            (Kind::Bar | Kind::Cable, None) => self.body.length_m(),
+            _ => f64::INFINITY,
+        }
+    }
+
+    /// Whether the ends can come no nearer to each other than the length: a rigid bar or strut.
+    #[must_use]
+    pub fn keeps_apart(&self) -> bool {
+        self.stiffness_n.is_none() && matches!(self.kind, Kind::Bar | Kind::Strut)
+    }
 }

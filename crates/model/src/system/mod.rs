@@ -14,14 +14,19 @@
 //! frame.
 
 mod answer;
+mod convert;
 mod error;
+mod graph;
 mod joint;
 mod member;
+mod refusal;
 
 pub use answer::{SystemEquilibrium, SystemStability};
 pub use error::SystemError;
+pub(crate) use error::UNIT_TOLERANCE;
 pub use joint::{Joint, Support};
 pub use member::{Kind, Member, PointLoad};
+pub use refusal::SystemRefusal;
 
 use crate::Vector;
 
@@ -109,5 +114,19 @@ impl System {
     pub fn total_mass_kg(&self) -> f64 {
         let members = self.members.iter().map(|member| member.body.mass_kg());
         crate::sum(self.joints.iter().map(|joint| joint.mass_kg).chain(members))
+    }
+
+    /// The number of the joint of this name.
+    #[must_use]
+    pub fn joint(&self, name: &str) -> Option<usize> {
+        self.joints.iter().position(|joint| joint.name == name)
+    }
+
+    /// Distance of two supported joints, m; NaN where one of them has no support.
+    fn distance_m(&self, a: usize, b: usize) -> f64 {
+        match (self.joints[a].support.at_m(), self.joints[b].support.at_m()) {
+            (Some(start_m), Some(end_m)) => crate::Anchors { start_m, end_m }.span_m(),
+            _ => f64::NAN,
+        }
     }
 }

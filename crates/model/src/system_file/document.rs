@@ -6,23 +6,27 @@ use toml::Spanned;
 use toml::de::{DeArray, DeTable};
 
 use super::columns::Sheet;
+use super::described::Described;
 use super::duplicate;
 use super::error::SystemFileError;
 use super::kind::SystemFileErrorKind as Kind;
 use super::limits::{MAX_BARS, MAX_BARS_FILE_BYTES};
 use super::load::{Loaded, load};
+use super::loads;
+use super::network;
 use super::source::Source;
 use super::table::{Table, Value};
 use crate::{Anchors, Bar, BarError, Chain, ChainError, Problem, Refusal, STANDARD_GRAVITY_M_S2};
 
-const ROOT_KEYS: &[&str] = &["name", "gravity_m_s2", "anchors", "bars", "bars_file"];
+const ROOT_KEYS: &[&str] =
+    &["name", "gravity_m_s2", "anchors", "bars", "bars_file", "loads", "joints"];
 const ANCHOR_KEYS: &[&str] = &["start_m", "end_m"];
 const BAR_KEYS: &[&str] = &["length_m", "mass_kg", "centre_m", "inertia_kg_m2", "count"];
 
 const WANTED_BARS: &str = "one or more tables [[bars]] with length_m and mass_kg";
 
 /// Where things stand, for the refusals that come after reading.
-struct Places {
+pub(super) struct Places {
     end: Range<usize>,
     bars: Origin,
 }
@@ -53,6 +57,31 @@ impl Source<'_> {
     pub(super) fn problem(&self) -> Result<Problem, SystemFileError> {
         let (chain, places) = self.read()?;
         Problem::new(chain).map_err(|refusal| self.refusal(refusal, &places))
+    }
+
+    /// Whatever the text describes, accepted as an equilibrium problem.
+    pub(super) fn described(&self) -> Result<Described, SystemFileError> {
+        let tree = self.tree()?;
+        let root = Table::root(self, tree.get_ref());
+        root.only(ROOT_KEYS)?;
+        if root.get("joints").is_some() {
+            return network::read(&root).map(Described::System);
+        }
+        let (chain, places) = self.chain_of(&root)?;
+        if root.get("loads").is_none() {
+            let problem = Problem::new(chain);
+            return problem.map(Described::Chain).map_err(|refusal| self.refusal(refusal, &places));
+        }
+        let loaded = loads::put(&root, &chain)?;
+        match Problem::new(chain) {
+            // The loads may be all that weighs; the system's own check says so if nothing does.
+            Ok(_) | Err(Refusal::NoMass) => {}
+            Err(refusal) => return Err(self.refusal(refusal, &places)),
+        }
+        match loaded.refusal() {
+            Ok(()) => Ok(Described::System(loaded)),
+            Err(refusal) => Err(root.error(Kind::SystemRefused(refusal), "loads")),
+        }
     }
 
     /// Put a refusal where the number stands that it rests on.
@@ -86,19 +115,35 @@ impl Source<'_> {
         self.error(Kind::Refused(refusal), Some(key), Some(span))
     }
 
-    fn read(&self) -> Result<(Chain, Places), SystemFileError> {
+    /// The text as a tree with places; every number of it is still text.
+    fn tree(&self) -> Result<Spanned<DeTable<'_>>, SystemFileError> {
         let tree = DeTable::parse(self.text).map_err(|error| self.syntax(&error))?;
         if tree.get_ref().is_empty() {
             return Err(self.error(Kind::Empty, None, None));
         }
+        Ok(tree)
+    }
+
+    /// A chain without loads, which is all that a [`Chain`] can hold.
+    fn read(&self) -> Result<(Chain, Places), SystemFileError> {
+        let tree = self.tree()?;
         let root = Table::root(self, tree.get_ref());
         root.only(ROOT_KEYS)?;
+        for key in ["joints", "loads"] {
+            if root.get(key).is_some() {
+                return Err(root.error(Kind::NotAChain { key }, key));
+            }
+        }
+        self.chain_of(&root)
+    }
+
+    fn chain_of(&self, root: &Table<'_>) -> Result<(Chain, Places), SystemFileError> {
         let name = root.text("name")?.unwrap_or("unnamed");
         let gravity = root.number("gravity_m_s2")?.unwrap_or(STANDARD_GRAVITY_M_S2);
         let table =
             root.table("anchors", root.require("anchors", "a table with start_m and end_m")?)?;
         let anchors = anchors(&table)?;
-        let (bars, origin) = self.bars(&root)?;
+        let (bars, origin) = self.bars(root)?;
         let end = table.get("end_m").map_or(0..0, Spanned::span);
 
         let chain = Chain::new(name, gravity, anchors, bars).map_err(|error| {
@@ -185,7 +230,8 @@ fn bars(root: &Table<'_>, tables: &DeArray<'_>) -> Result<(Vec<Bar>, Origin), Sy
     Ok((bars, Origin::Tables(places)))
 }
 
-fn bar(table: &Table<'_>, length: &Value<'_>) -> Result<Bar, SystemFileError> {
+/// The body of one bar: length, mass, centre, moments.
+pub(super) fn bar(table: &Table<'_>, length: &Value<'_>) -> Result<Bar, SystemFileError> {
     let length_m = table.number_of("length_m", length)?;
     let mass = table.require("mass_kg", "a mass in kilograms")?;
     let mass_kg = table.number_of("mass_kg", mass)?;

@@ -47,6 +47,12 @@ impl SystemFileError {
         Self(Box::new(Details { file: file.to_owned(), text: text.to_owned(), span, key, kind }))
     }
 
+    /// The same error in a text whose places are those of this one.
+    pub(super) fn of_text(mut self, text: &str) -> Self {
+        text.clone_into(&mut self.0.text);
+        self
+    }
+
     /// The file as it was named; the bars file if the error stands there.
     #[must_use]
     pub fn file(&self) -> &str {

@@ -2,7 +2,14 @@
 
 use std::path::PathBuf;
 
+use crate::readable::Readable;
+use crate::system::{SystemError, SystemRefusal};
 use crate::{BarError, ChainError, Refusal};
+
+/// What the program knows, and what it does not.
+pub const SCOPE: &str = "known are joints without friction, bars, cables and struts, rigid or with a stiffness \
+     stiffness_n (EA), their weight, masses at joints and constant forces; not known are friction, \
+     contact, bending, damping and a sea bed";
 
 /// What is wrong.
 #[derive(Debug, thiserror::Error)]
@@ -43,6 +50,9 @@ pub enum SystemFileErrorKind {
     /// Occurs when the text is no TOML.
     #[error("not valid TOML: {0}")]
     Syntax(String),
+    /// Occurs when the text begins like JSON and is none, or holds what no system can.
+    #[error("not valid JSON: {0}")]
+    Json(String),
     /// Occurs when a key is given twice.
     #[error("duplicate key `{key}`{}", first_line.map_or_else(String::new, |line| format!(", first given in line {line}")))]
     DuplicateKey {
@@ -67,6 +77,60 @@ pub enum SystemFileErrorKind {
         /// The allowed key that looks most like it.
         suggestion: Option<&'static str>,
     },
+    /// Occurs when a key asks for what is not modelled.
+    #[error("`{key}` is outside what is modelled here")]
+    OutOfScope {
+        /// The key.
+        key: String,
+    },
+    /// Occurs when a chain is wanted, and the file describes another system.
+    #[error("`{key}` makes this a system of bars, and a chain without loads is wanted here")]
+    NotAChain {
+        /// The key that a chain does not have.
+        key: &'static str,
+    },
+    /// Occurs when a bar begins or ends at a joint that is not there.
+    #[error("there is no joint {joint:?}")]
+    UnknownJoint {
+        /// The name.
+        joint: String,
+        /// The joint whose name looks most like it.
+        suggestion: Option<String>,
+    },
+    /// Occurs when a member is of an unknown kind.
+    #[error("there is no member of the kind {found:?}")]
+    UnknownKind {
+        /// The word.
+        found: String,
+        /// The words allowed.
+        allowed: &'static [&'static str],
+        /// The one most like it.
+        suggestion: Option<&'static str>,
+    },
+    /// Occurs when a load acts on an anchor, where it moves nothing.
+    #[error("joint {joint:?} is an anchor: a load there goes straight into the ground")]
+    LoadedAnchor {
+        /// Name or number of the joint.
+        joint: String,
+    },
+    /// Occurs when a load has neither mass nor force.
+    #[error("a load needs mass_kg or force_n")]
+    NoLoadGiven,
+    /// Occurs when a mass at a joint is negative, infinite or not a number.
+    #[error("a mass must be zero or positive, and finite, got {} kg", Readable(*mass_kg))]
+    Mass {
+        /// The mass as given.
+        mass_kg: f64,
+    },
+    /// Occurs when a force is infinite or not a number.
+    #[error("a force must be finite, got {component_n} N")]
+    Force {
+        /// The first bad component.
+        component_n: f64,
+    },
+    /// Occurs when a direction is zero or not finite.
+    #[error("a direction must be finite and not zero")]
+    NoDirection,
     /// Occurs when a required key or column is missing.
     #[error("the key `{key}` is missing")]
     MissingKey {
@@ -146,6 +210,12 @@ pub enum SystemFileErrorKind {
     /// Occurs when the chain is no equilibrium problem.
     #[error(transparent)]
     Refused(Refusal),
+    /// Occurs when the system cannot be built.
+    #[error(transparent)]
+    System(SystemError),
+    /// Occurs when the system is no equilibrium problem.
+    #[error(transparent)]
+    SystemRefused(SystemRefusal),
 }
 
 impl SystemFileErrorKind {
@@ -153,12 +223,16 @@ impl SystemFileErrorKind {
     #[must_use]
     pub fn help(&self) -> Option<String> {
         let help = match self {
-            Self::UnknownKey { allowed, suggestion, .. } => {
+            Self::UnknownKey { allowed, suggestion, .. }
+            | Self::UnknownKind { allowed, suggestion, .. } => {
                 let list = format!("allowed here: {}", allowed.join(", "));
                 return Some(match suggestion {
                     Some(near) => format!("did you mean `{near}`? {list}"),
                     None => list,
                 });
+            }
+            Self::UnknownJoint { suggestion, .. } => {
+                return suggestion.as_ref().map(|near| format!("did you mean {near:?}?"));
             }
             Self::MissingKey { key, wanted } => return Some(format!("{key} must be {wanted}")),
             Self::OutOfRange { wanted, .. } => return Some(format!("allowed: {wanted}")),
@@ -169,13 +243,21 @@ impl SystemFileErrorKind {
                 std::io::ErrorKind::IsADirectory => "this is a folder; name a file in it",
                 _ => return None,
             },
+            Self::OutOfScope { .. } => SCOPE,
+            Self::NotAChain { .. } => "only commands for any system read such files",
+            Self::LoadedAnchor { .. } => "remove the load, or put it on a joint that can move",
+            Self::NoLoadGiven => {
+                "mass_kg hangs a mass there, force_n = [x, y, z] pulls with a constant force"
+            }
+            Self::System(error) => return system_help(error).map(str::to_owned),
+            Self::SystemRefused(refusal) => system_refusal_help(refusal),
             Self::NoFolder => "write the bars as [[bars]], or read the system from its file",
             Self::TooLong { .. } => {
                 "equal bars in a row are written once, with `count`; many different ones as columns, \
                  with `bars_file`"
             }
             Self::Empty => {
-                "a system needs [anchors] with start_m and end_m, and one or more [[bars]]"
+                "a system needs [anchors] with start_m and end_m, or [joints] by name, and one or more [[bars]]"
             }
             Self::NotText { .. } => "save the file as UTF-8",
             Self::Syntax(_) => {
@@ -204,7 +286,16 @@ impl SystemFileErrorKind {
             }
             Self::Chain(error) => return chain_help(error).map(str::to_owned),
             Self::Refused(refusal) => refusal_help(refusal),
-            Self::WrongType { .. } | Self::Bar(_) | Self::ForeignBars(_) => return None,
+            Self::Json(_) => {
+                "an object with the keys of the TOML file: {\"joints\": {...}, \"bars\": [...]}; names \
+                 and keys in double quotes, no comments, no comma behind the last"
+            }
+            Self::WrongType { .. }
+            | Self::Bar(_)
+            | Self::ForeignBars(_)
+            | Self::Mass { .. }
+            | Self::Force { .. }
+            | Self::NoDirection => return None,
         };
         Some(help.to_owned())
     }
@@ -217,6 +308,34 @@ fn chain_help(error: &ChainError) -> Option<&'static str> {
             Some("check the units: lengths are in metres, masses in kilograms")
         }
         ChainError::Gravity { .. } | ChainError::Anchor { .. } => None,
+    }
+}
+
+fn system_help(error: &SystemError) -> Option<&'static str> {
+    match error {
+        SystemError::Parallel { .. } => {
+            Some("replace them by one bar, or put a joint into one of them")
+        }
+        SystemError::Overflow { .. } | SystemError::Underflow { .. } => {
+            Some("check the units: lengths are in metres, masses in kilograms, forces in newtons")
+        }
+        SystemError::NoMembers => Some("describe every bar under a line [[bars]]"),
+        _ => None,
+    }
+}
+
+fn system_refusal_help(refusal: &SystemRefusal) -> &'static str {
+    match refusal {
+        SystemRefusal::Unconnected { .. } => "remove the joint, or connect it by a bar",
+        SystemRefusal::Falls { .. } => "give one of its joints a place: at_m = [x, y, z]",
+        SystemRefusal::NothingMoves => "leave one joint without at_m",
+        SystemRefusal::NoLoad => "give a bar or a joint a mass, or a joint a force",
+        SystemRefusal::OutOfReach { .. } | SystemRefusal::Taut { .. } => {
+            "move the anchors together or lengthen the bars"
+        }
+        SystemRefusal::TooLong { .. } | SystemRefusal::Folded { .. } => {
+            "shorten this bar, or lengthen another of the loop"
+        }
     }
 }
 

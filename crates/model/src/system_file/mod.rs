@@ -1,4 +1,4 @@
-//! System files: a chain as TOML, read with the place of every error.
+//! System files: a chain, or any system of bars, as TOML or JSON, read with the place of every error.
 //!
 //! ```
 //! let text = r#"
@@ -45,6 +45,64 @@
 //! The file is UTF-8, with or without a byte order mark, with line ends `\n` or `\r\n`, and at most
 //! [`MAX_FILE_BYTES`] long.
 //!
+//! # Loads on a chain
+//!
+//! `[[loads]]` puts masses and constant forces at the joints between the bars of a chain: `joint` is the
+//! number of a joint, from 1 to the number of bars less 1, and `mass_kg`, `force_n` or both are what acts
+//! there. Several loads at one joint add up.
+//!
+//! # Systems of bars by name
+//!
+//! With `[joints]` in the place of `[anchors]`, `[[bars]]` connect joints by name:
+//!
+//! ```
+//! let text = r#"
+//! [joints]
+//! A = { at_m = [0, 0, 0] }                  # an anchor
+//! B = { at_m = [2, 0, 0.5], free = "x" }    # slides along x without friction
+//! P = { mass_kg = 5, force_n = [0, 12, 0] } # free, with a mass and a constant force
+//!
+//! [[bars]]
+//! from = "A"
+//! to = "P"
+//! length_m = 0.5
+//! mass_kg = 1.0
+//! count = 3                                 # three in a row, joints A-P.1 and A-P.2 between them
+//!
+//! [[bars]]
+//! from = "P"
+//! to = "B"
+//! length_m = 1.0
+//! mass_kg = 1.0
+//! forces = [{ force_n = [0, 1, 0], at_m = 0.25 }]   # a side wind; at_m optional: the middle
+//! "#;
+//! use model::system_file::{Described, parse};
+//! let Described::System(system) = parse(text, "bridle.toml")? else { panic!("no chain") };
+//! assert_eq!(system.joints()[3].name, "A-P.1");
+//! # Ok::<(), model::system_file::SystemFileError>(())
+//! ```
+//!
+//! | key | | unit | what is allowed | if it is left out |
+//! |---|---|---|---|---|
+//! | `at_m` of a joint | `[x, y, z]` | m | finite: where the joint is held | the joint is free |
+//! | `free` of a joint | text | | `"x"`, `"y"`, `"z"`: it slides on that line through `at_m`; `"xy"`, `"xz"`, `"yz"`: in that plane | held in all directions |
+//! | `along` of a joint | `[x, y, z]` | | direction of the line through `at_m` on which it slides | |
+//! | `normal` of a joint | `[x, y, z]` | | normal of the plane through `at_m` in which it slides | |
+//! | `mass_kg` of a joint | number | kg | zero or positive, finite; not at an anchor | 0 |
+//! | `force_n` of a joint | `[x, y, z]` | N | finite; not at an anchor | none |
+//! | `from`, `to` of a bar | text | | names of two different joints | an error |
+//! | `kind` of a bar | text | | `"bar"`, `"cable"` (pulls or is slack), `"strut"` (pushes or is loose) | `"bar"` |
+//! | `stiffness_n` of a bar | number | N | its axial stiffness EA, positive; `length_m` is then the unstretched length | inextensible |
+//! | `forces` of a bar | tables | | `force_n` in N, and `at_m` from 0 to `length_m` | none; at the middle |
+//!
+//! The other keys of a bar are those of a chain. Two bars between the same two joints, joints that no bar
+//! meets, parts that nothing holds, and lengths that cannot close a loop are refused with their numbers.
+//!
+//! # JSON
+//!
+//! A text that begins with a brace is JSON: one object with the keys of the TOML file. Errors have their
+//! places in it all the same.
+//!
 //! # A million different bars
 //!
 //! `bars_file = "bars.csv"` takes the bars from a file of [`columns`]; its path is relative to the folder
@@ -74,24 +132,34 @@
 //! ```
 
 pub mod columns;
+mod described;
 mod document;
 mod duplicate;
 mod error;
+mod json;
 mod kind;
 mod limits;
 mod load;
+mod loads;
 mod location;
+mod network;
 mod read;
 mod source;
 mod suggest;
 mod table;
 mod write;
+mod write_network;
 
+pub use described::Described;
 pub use error::SystemFileError;
-pub use kind::SystemFileErrorKind;
+pub use kind::{SCOPE, SystemFileErrorKind};
 pub use limits::{MAX_BARS, MAX_BARS_FILE_BYTES, MAX_FILE_BYTES};
 pub use location::Position;
-pub use read::{parse_problem, parse_system, read_problem, read_problem_with, read_system};
+pub use read::{
+    parse, parse_problem, parse_system, read, read_problem, read_problem_with, read_system,
+    read_with,
+};
 pub use source::BarsReader;
 pub use suggest::nearest;
 pub use write::write_system;
+pub use write_network::write_network;

@@ -2,14 +2,97 @@
 
 use std::path::Path;
 
+use super::described::Described;
 use super::error::SystemFileError;
+use super::json;
 use super::kind::SystemFileErrorKind as Kind;
 use super::limits::MAX_FILE_BYTES;
 use super::load::{Loaded, load, without_mark};
 use super::source::{BarsReader, Source};
 use crate::{Chain, Problem};
 
-/// Read a system file.
+/// Read a system file of any kind: a chain, a chain with loads, or joints by name; TOML, or JSON with the
+/// same keys.
+///
+/// # Errors
+///
+/// [`SystemFileError`] with the place and the reason; why something is no equilibrium problem points at the
+/// number that it rests on.
+pub fn read(path: impl AsRef<Path>) -> Result<Described, SystemFileError> {
+    read_with(path, &|_| None)
+}
+
+/// [`read()`] for a program that reads bars from more kinds of files than this crate does: `reader` is asked
+/// first for what `bars_file` names.
+///
+/// # Errors
+///
+/// Those of [`read()`]; an error of the reader is placed at `bars_file`.
+pub fn read_with(
+    path: impl AsRef<Path>,
+    reader: BarsReader<'_>,
+) -> Result<Described, SystemFileError> {
+    let path = path.as_ref();
+    let Loaded { file, text } = open(path)?;
+    described(&file, without_mark(&text), path.parent(), Some(reader))
+}
+
+/// Parse the text of a system file of any kind; `file` is its name in errors. The bars must stand in the
+/// text: no file is opened.
+///
+/// # Errors
+///
+/// [`SystemFileError`] with the place and the reason.
+///
+/// ```
+/// use model::system_file::{Described, parse};
+/// let text = r#"
+/// [joints]
+/// A = { at_m = [0, 0, 0] }
+/// B = { at_m = [1, 0, 0] }
+/// lamp = { mass_kg = 5 }
+///
+/// [[bars]]
+/// from = "A"
+/// to = "lamp"
+/// length_m = 1
+/// mass_kg = 0
+///
+/// [[bars]]
+/// from = "lamp"
+/// to = "B"
+/// length_m = 0.5
+/// mass_kg = 0
+/// count = 2
+/// "#;
+/// let Described::System(system) = parse(text, "lamp.toml")? else { panic!("joints by name") };
+/// assert_eq!((system.joints().len(), system.members().len()), (4, 3));
+/// # Ok::<(), model::system_file::SystemFileError>(())
+/// ```
+pub fn parse(text: &str, file: &str) -> Result<Described, SystemFileError> {
+    described(file, without_mark(text), None, None)
+}
+
+/// JSON is read as the TOML that says the same.
+fn described(
+    file: &str,
+    text: &str,
+    folder: Option<&Path>,
+    reader: Option<BarsReader<'_>>,
+) -> Result<Described, SystemFileError> {
+    if !json::is_json(text) {
+        return Source { file, text, folder, reader }.described();
+    }
+    let failed = |(offset, message): (usize, String)| {
+        let kind = Kind::Json(message);
+        SystemFileError::new(file, text, Some(offset..offset), None, kind)
+    };
+    let same = json::as_toml(text).map_err(failed)?;
+    let source = Source { file, text: &same, folder, reader };
+    source.described().map_err(|error| error.of_text(text))
+}
+
+/// Read the system file of a chain.
 ///
 /// # Errors
 ///

@@ -3,7 +3,7 @@
 /// The allowed key most like this one, if it is like one at all: a slip of a few letters, another
 /// case, or the same first word (`mass` for `mass_kg`, `length_cm` for `length_m`).
 #[must_use]
-pub fn nearest(key: &str, allowed: &[&'static str]) -> Option<&'static str> {
+pub fn nearest<'a>(key: &str, allowed: &[&'a str]) -> Option<&'a str> {
     let key = key.to_lowercase();
     let alike = |name: &str, distance: usize| {
         // A third of the letters wrong is still a slip; more is another word.

@@ -14,6 +14,10 @@ use crate::Vector;
 /// A value with its place.
 pub(super) type Value<'a> = Spanned<DeValue<'a>>;
 
+/// Keys that ask for what is not modelled.
+const BEYOND: &[&str] =
+    &["stiffness", "seabed", "floor", "friction", "damping", "contact", "bending", "temperature"];
+
 /// One table, with its path in front of its keys.
 pub(super) struct Table<'a> {
     source: &'a Source<'a>,
@@ -72,8 +76,12 @@ impl<'a> Table<'a> {
             None => Ok(()),
             Some(key) => {
                 let name = key.get_ref().to_string();
-                let suggestion = nearest(&name, allowed);
-                let kind = Kind::UnknownKey { key: name.clone(), allowed, suggestion };
+                let kind = if BEYOND.contains(&name.as_str()) {
+                    Kind::OutOfScope { key: name.clone() }
+                } else {
+                    let suggestion = nearest(&name, allowed);
+                    Kind::UnknownKey { key: name.clone(), allowed, suggestion }
+                };
                 Err(self.error_at(kind, &name, key.span()))
             }
         }
@@ -156,18 +164,53 @@ impl<'a> Table<'a> {
 
     /// A whole number of at least 1; 1 if the key is not there.
     pub(super) fn count(&self, key: &str) -> Result<usize, SystemFileError> {
-        const WANTED: &str = "a whole number of bars, 1 or more";
-        let Some(value) = self.get(key) else { return Ok(1) };
+        match self.get(key) {
+            Some(value) => self.count_of(key, value, "a whole number of bars, 1 or more"),
+            None => Ok(1),
+        }
+    }
+
+    /// A whole number of at least 1.
+    pub(super) fn count_of(
+        &self,
+        key: &str,
+        value: &Value<'_>,
+        wanted: &'static str,
+    ) -> Result<usize, SystemFileError> {
         let Some(integer) = value.get_ref().as_integer() else {
-            return Err(self.wrong_type(key, value, WANTED));
+            return Err(self.wrong_type(key, value, wanted));
         };
         match usize::from_str_radix(integer.as_str(), integer.radix()) {
             Ok(count) if count > 0 => Ok(count),
             _ => {
                 let found = integer.to_string();
-                Err(self.error(Kind::OutOfRange { found, wanted: WANTED }, key))
+                Err(self.error(Kind::OutOfRange { found, wanted }, key))
             }
         }
+    }
+
+    /// Refuse a mass or a force that is none, at its place.
+    pub(super) fn check_load(
+        &self,
+        mass_kg: Option<f64>,
+        force_n: Option<Vector>,
+    ) -> Result<(), SystemFileError> {
+        if mass_kg.is_some_and(|mass| !(mass.is_finite() && mass >= 0.0)) {
+            return Err(self.error(Kind::Mass { mass_kg: mass_kg.unwrap_or(f64::NAN) }, "mass_kg"));
+        }
+        if let Some(bad) = force_n.and_then(|force| force.into_iter().find(|x| !x.is_finite())) {
+            let kind = Kind::Force { component_n: bad };
+            return Err(self.component_error(kind, "force_n", f64::is_finite));
+        }
+        Ok(())
+    }
+
+    /// The keys with their values, in the order of the file.
+    pub(super) fn in_order(&self) -> Vec<(&'a str, &'a Value<'a>)> {
+        let entries: &'a DeTable<'a> = self.entries;
+        let mut all: Vec<_> = entries.iter().collect();
+        all.sort_by_key(|(key, _)| key.span().start);
+        all.into_iter().map(|(key, value)| (key.get_ref().as_ref(), value)).collect()
     }
 }
 

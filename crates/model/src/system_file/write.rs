@@ -51,10 +51,11 @@ fn same(a: &Bar, b: &Bar) -> bool {
 }
 
 /// Whether two rows of numbers differ in any bit.
-fn differ(a: &[f64], b: &[f64]) -> bool {
+pub(super) fn differ(a: &[f64], b: &[f64]) -> bool {
     a.iter().zip(b).any(|(x, y)| x.to_bits() != y.to_bits())
 }
 
-fn vector(v: Vector) -> String {
+/// A vector as the file has it.
+pub(super) fn vector(v: Vector) -> String {
     format!("[{:?}, {:?}, {:?}]", v[0], v[1], v[2])
 }

@@ -10,4 +10,5 @@ mod mutations;
 mod refused;
 mod round_trip;
 mod support;
+mod systems;
 mod texts;

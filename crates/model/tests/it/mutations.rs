@@ -1,7 +1,7 @@
 //! Ten thousand random changes to good files: no panic, and every error can be shown.
 
 use model::system_file::columns::parse_bars;
-use model::system_file::{SystemFileError, parse_problem};
+use model::system_file::{SystemFileError, parse, parse_problem};
 
 /// A small generator (splitmix64): the mutations are the same on every machine.
 struct Random(u64);
@@ -83,4 +83,21 @@ fn ten_thousand_mutations_of_a_system_file_never_panic() {
 fn ten_thousand_mutations_of_a_bars_file_never_panic() {
     let original = "length_m,mass_kg,centre_m\n1.0,2.5e-1,0.25\n0.5, 3,\n10,0,9.75\n";
     mutate_and_read(original, b"0123456789.-+eE,\"\r\n \t;", |text| parse_bars(text, "mutated"));
+}
+
+const NETWORK: &str = "[joints]\nA = { at_m = [0, 0, 0] }\nB = { at_m = [2, 0, 0], free = \"xy\" }\n\
+P = { mass_kg = 5 }\n[[bars]]\nfrom = \"A\"\nto = \"P\"\nlength_m = 0.5\nmass_kg = 1\ncount = 3\n\
+[[bars]]\nfrom = \"P\"\nto = \"B\"\nlength_m = 1\nmass_kg = 0.5\nforces = [{ force_n = [0, 1, 0] }]\n";
+
+#[test]
+fn ten_thousand_mutations_of_a_network_never_panic() {
+    mutate_and_read(NETWORK, b"0123456789.-+eE[]{}=_#\"'\n,ABP", |text| parse(text, "mutated"));
+}
+
+#[test]
+fn ten_thousand_mutations_of_json_never_panic() {
+    let json = "{\"name\": \"\\u00e4\\/\", \"joints\": {\"A\": {\"at_m\": [0, 0, 0]}, \"P\": {\"mass_kg\": \
+                5}},\n \"bars\": [{\"from\": \"A\", \"to\": \"P\", \"length_m\": 0.5, \"mass_kg\": 1}]}";
+    // Half of the mutants are noise; a few still describe a system.
+    mutate_and_read(json, b"0123456789.-+eE[]{}:\\\"u\n, ", |text| parse(text, "mutated"));
 }

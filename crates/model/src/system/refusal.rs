@@ -1,0 +1,244 @@
+//! Systems that are no equilibrium problem.
+
+use super::System;
+use super::graph::Graph;
+use crate::readable::Readable;
+
+/// Why a system has no equilibrium to be found.
+///
+/// Members are counted from 1, joints are named.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum SystemRefusal {
+    /// Occurs when no member meets a joint.
+    #[error("no member meets joint {name:?}")]
+    Unconnected {
+        /// Name of the joint.
+        name: String,
+        /// Number of the joint, from 0.
+        joint: usize,
+    },
+    /// Occurs when a connected part of the system has no support: it falls.
+    #[error(
+        "nothing holds joint {name:?} and the {} joints connected with it: this part falls", joints - 1
+    )]
+    Falls {
+        /// Name of a joint of the part.
+        name: String,
+        /// Number of that joint, from 0.
+        joint: usize,
+        /// Joints of the part.
+        joints: usize,
+    },
+    /// Occurs when no joint can move.
+    #[error("every joint is an anchor: nothing can move")]
+    NothingMoves,
+    /// Occurs when there is neither mass nor force: every position is an equilibrium.
+    #[error(
+        "no mass and no force act on the system: without load every position is an equilibrium"
+    )]
+    NoLoad,
+    /// Occurs when two anchors are further apart than the members between them reach.
+    #[error(
+        "the anchors {from:?} and {to:?} are {} m apart and the members between them reach only {} m: \
+         {} m are missing", Readable(*distance_m), Readable(*reach_m), Readable(distance_m - reach_m)
+    )]
+    OutOfReach {
+        /// Name of an anchor.
+        from: String,
+        /// Name of the other anchor.
+        to: String,
+        /// Number of the other anchor, from 0.
+        joint: usize,
+        /// Their distance.
+        distance_m: f64,
+        /// The shortest way from the one to the other over members.
+        reach_m: f64,
+    },
+    /// Occurs when two anchors are just as far apart as the members between them reach: they lie straight
+    /// and taut, and the force along them is indeterminate.
+    #[error(
+        "the anchors {from:?} and {to:?} are {} m apart and the members between them reach just as far \
+         ({} m): they lie straight and taut, and the force along them is indeterminate",
+        Readable(*distance_m), Readable(*reach_m)
+    )]
+    Taut {
+        /// Name of an anchor.
+        from: String,
+        /// Name of the other anchor.
+        to: String,
+        /// Number of the other anchor, from 0.
+        joint: usize,
+        /// Their distance.
+        distance_m: f64,
+        /// The shortest way from the one to the other over members.
+        reach_m: f64,
+    },
+    /// Occurs when a member is longer than the rest of a loop through it.
+    #[error(
+        "member {member} from {from:?} to {to:?} is {} m long, and the rest of a loop through it ({}) \
+         only {} m: the loop cannot close, {} m are missing",
+        Readable(*length_m), way.join(", "), Readable(*rest_m), Readable(length_m - rest_m)
+    )]
+    TooLong {
+        /// Number of the member, from 1.
+        member: usize,
+        /// Name of its first joint.
+        from: String,
+        /// Name of its second joint.
+        to: String,
+        /// Its length.
+        length_m: f64,
+        /// Length of the rest of the loop.
+        rest_m: f64,
+        /// Names of the joints of the rest of the loop, shortened in the middle where they are many.
+        way: Vec<String>,
+    },
+    /// Occurs when a member is just as long as the rest of a loop through it: the loop closes only folded
+    /// on one line, and the force along it is indeterminate.
+    #[error(
+        "member {member} from {from:?} to {to:?} is {} m long, exactly as long as the rest of a loop \
+         through it ({}): the loop closes only folded on one line, and the force along it is indeterminate",
+        Readable(*length_m), way.join(", ")
+    )]
+    Folded {
+        /// Number of the member, from 1.
+        member: usize,
+        /// Name of its first joint.
+        from: String,
+        /// Name of its second joint.
+        to: String,
+        /// Its length.
+        length_m: f64,
+        /// Names of the joints of the rest of the loop, shortened in the middle where they are many.
+        way: Vec<String>,
+    },
+}
+
+/// Anchors times members up to which all pairs of anchors are held against the members between them:
+/// a tenth of a second. What is not found here the solvers find.
+const PAIRS: usize = 2_000_000;
+
+impl System {
+    /// Accept the system as an equilibrium problem, or say why it has no answer.
+    ///
+    /// Lengths are held against every loop of members that is shortest for one of its members, and against
+    /// the shortest ways between anchors (where anchors times members are at most two million): conditions
+    /// that are necessary, and for chains sufficient.
+    ///
+    /// # Errors
+    ///
+    /// [`SystemRefusal`] with the numbers it rests on.
+    ///
+    /// ```
+    /// use model::Bar;
+    /// use model::system::{Joint, Member, System, SystemRefusal};
+    /// let joints = vec![
+    ///     Joint::anchor("A", [0.0, 0.0, 0.0]),
+    ///     Joint::free("P"),
+    ///     Joint::anchor("B", [3.0, 0.0, 0.0]),
+    /// ];
+    /// let bar = Bar::homogeneous(1.0, 1.0)?;
+    /// let members = vec![Member::bar(0, 1, bar), Member::bar(1, 2, bar)];
+    /// let system = System::new("too short", 9.81, joints, members)?;
+    /// assert!(matches!(
+    ///     system.refusal(),
+    ///     Err(SystemRefusal::OutOfReach { distance_m: 3.0, reach_m: 2.0, .. })
+    /// ));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn refusal(&self) -> Result<(), SystemRefusal> {
+        let graph = Graph::new(self);
+        self.connected(&graph)?;
+        if self.joints().iter().all(|joint| joint.support.is_fixed()) {
+            return Err(SystemRefusal::NothingMoves);
+        }
+        if self.is_unloaded() {
+            return Err(SystemRefusal::NoLoad);
+        }
+        self.anchors_in_reach(&graph)?;
+        self.loops_close(&graph)
+    }
+
+    /// Whether nothing loads the system: neither weight nor forces.
+    #[must_use]
+    pub fn is_unloaded(&self) -> bool {
+        let still = |force_n: [f64; 3]| force_n.iter().all(|x| x.abs() <= 0.0);
+        self.total_mass_kg() <= 0.0
+            && self.joints().iter().all(|joint| still(joint.force_n))
+            && self.members().iter().all(|m| m.loads.iter().all(|load| still(load.force_n)))
+    }
+
+    fn connected(&self, graph: &Graph) -> Result<(), SystemRefusal> {
+        let joints = self.joints();
+        if let Some(joint) = (0..joints.len()).find(|joint| graph.at(*joint).is_empty()) {
+            return Err(SystemRefusal::Unconnected { name: joints[joint].name.clone(), joint });
+        }
+        for part in graph.components() {
+            if part.iter().all(|joint| joints[*joint].support.at_m().is_none()) {
+                let (joint, joints_of_part) = (part[0], part.len());
+                return Err(SystemRefusal::Falls {
+                    name: joints[joint].name.clone(),
+                    joint,
+                    joints: joints_of_part,
+                });
+            }
+        }
+        Ok(())
+    }
+
+    fn anchors_in_reach(&self, graph: &Graph) -> Result<(), SystemRefusal> {
+        let joints = self.joints();
+        let anchors: Vec<usize> =
+            (0..joints.len()).filter(|joint| joints[*joint].support.is_fixed()).collect();
+        if anchors.len().saturating_mul(self.members().len()) > PAIRS {
+            return Ok(());
+        }
+        for (k, &start) in anchors.iter().enumerate() {
+            let ways = graph.distances(start, f64::INFINITY, None);
+            for &joint in &anchors[k + 1..] {
+                let Some(reach_m) = ways.get(joint) else { continue };
+                let distance_m = self.distance_m(start, joint);
+                let (from, to) = (joints[start].name.clone(), joints[joint].name.clone());
+                let near = distance_m.max(reach_m) * crate::STRAIGHT_TOLERANCE;
+                if (reach_m - distance_m).abs() <= near {
+                    return Err(SystemRefusal::Taut { from, to, joint, distance_m, reach_m });
+                }
+                if reach_m < distance_m {
+                    return Err(SystemRefusal::OutOfReach { from, to, joint, distance_m, reach_m });
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn loops_close(&self, graph: &Graph) -> Result<(), SystemRefusal> {
+        for (k, member) in self.members().iter().enumerate() {
+            if !member.keeps_apart() {
+                continue;
+            }
+            let length_m = member.body.length_m();
+            let near = length_m * crate::STRAIGHT_TOLERANCE;
+            let ways = graph.distances(member.from, length_m + near, Some((k, member.to)));
+            let Some(rest_m) = ways.get(member.to) else { continue };
+            let (number, name) = (k + 1, |joint: usize| self.joints()[joint].name.clone());
+            let (from, to) = (name(member.from), name(member.to));
+            let way = shortened(ways.way(member.to).into_iter().map(name).collect());
+            return Err(if (length_m - rest_m).abs() <= near {
+                SystemRefusal::Folded { member: number, from, to, length_m, way }
+            } else {
+                SystemRefusal::TooLong { member: number, from, to, length_m, rest_m, way }
+            });
+        }
+        Ok(())
+    }
+}
+
+/// At most six names, with the number of those left out in the middle.
+fn shortened(mut names: Vec<String>) -> Vec<String> {
+    if names.len() > 6 {
+        let left_out = names.len() - 5;
+        names.splice(3..3 + left_out, [format!("{left_out} more")]);
+    }
+    names
+}

@@ -1,0 +1,336 @@
+//! Systems of bars by name: `[joints]`, and `[[bars]]` between them.
+
+use std::collections::HashMap;
+use std::ops::Range;
+
+use toml::Spanned;
+use toml::de::DeArray;
+
+use super::document::bar;
+use super::error::SystemFileError;
+use super::kind::SystemFileErrorKind as Kind;
+use super::limits::MAX_BARS;
+use super::suggest::nearest;
+use super::table::{Table, Value};
+use crate::STANDARD_GRAVITY_M_S2;
+use crate::Vector;
+use crate::system::{
+    Joint, Kind as MemberKind, Member, PointLoad, Support, System, SystemError, SystemRefusal,
+    UNIT_TOLERANCE,
+};
+
+const ROOT_KEYS: &[&str] = &["name", "gravity_m_s2", "joints", "bars"];
+const JOINT_KEYS: &[&str] = &["at_m", "free", "along", "normal", "mass_kg", "force_n"];
+const MEMBER_KEYS: &[&str] = &[
+    "from",
+    "to",
+    "length_m",
+    "mass_kg",
+    "centre_m",
+    "inertia_kg_m2",
+    "count",
+    "kind",
+    "stiffness_n",
+    "forces",
+];
+const FORCE_KEYS: &[&str] = &["force_n", "at_m"];
+const KINDS: &[&str] = &["bar", "cable", "strut"];
+const FREE: &str = "\"x\", \"y\", \"z\" (a line), \"xy\", \"xz\" or \"yz\" (a plane)";
+const WANTED_JOINTS: &str = "a table of joints, such as A = { at_m = [0, 0, 0] }";
+const WANTED_BARS: &str = "one or more tables [[bars]] with from, to, length_m and mass_kg";
+
+/// A system while it is read.
+struct Reading<'a> {
+    root: &'a Table<'a>,
+    joints: Vec<Joint>,
+    /// Where each named joint stands.
+    joint_spans: Vec<Range<usize>>,
+    numbers: HashMap<String, usize>,
+    members: Vec<Member>,
+    /// Where each `[[bars]]` table stands, with the number of its first member, from 1.
+    tables: Vec<(usize, Range<usize>)>,
+}
+
+/// The system of a file with `[joints]`.
+pub(super) fn read(root: &Table<'_>) -> Result<System, SystemFileError> {
+    if root.get("anchors").is_some() {
+        return Err(root.error(Kind::Conflict { key: "joints", other: "anchors" }, "joints"));
+    }
+    root.only(ROOT_KEYS)?;
+    let name = root.text("name")?.unwrap_or("unnamed");
+    let gravity = root.number("gravity_m_s2")?.unwrap_or(STANDARD_GRAVITY_M_S2);
+    let mut reading = Reading {
+        root,
+        joints: Vec::new(),
+        joint_spans: Vec::new(),
+        numbers: HashMap::new(),
+        members: Vec::new(),
+        tables: Vec::new(),
+    };
+    reading.joints()?;
+    reading.bars()?;
+    reading.finish(name, gravity)
+}
+
+impl Reading<'_> {
+    fn joints(&mut self) -> Result<(), SystemFileError> {
+        let value = self.root.require("joints", WANTED_JOINTS)?;
+        let table = self.root.table("joints", value)?;
+        for (name, value) in table.in_order() {
+            let joint = joint(name, &table.table(name, value)?)?;
+            self.numbers.insert(name.to_owned(), self.joints.len());
+            self.joints.push(joint);
+            self.joint_spans.push(value.span());
+        }
+        Ok(())
+    }
+
+    fn bars(&mut self) -> Result<(), SystemFileError> {
+        let value = self.root.require("bars", WANTED_BARS)?;
+        let tables = value.get_ref().as_array();
+        let tables: &DeArray<'_> =
+            tables.ok_or_else(|| self.root.wrong_type("bars", value, WANTED_BARS))?;
+        for (k, value) in tables.iter().enumerate() {
+            let table = self.root.table(&format!("bars[{}]", k + 1), value)?;
+            self.tables.push((self.members.len() + 1, value.span()));
+            self.run(&table)?;
+        }
+        Ok(())
+    }
+
+    /// The members of one `[[bars]]` table: one, or `count` in a row with joints between them.
+    fn run(&mut self, table: &Table<'_>) -> Result<(), SystemFileError> {
+        table.only(MEMBER_KEYS)?;
+        let (from, from_name) = self.joint(table, "from")?;
+        let (to, to_name) = self.joint(table, "to")?;
+        let model = member(table)?;
+        let count = table.count("count")?;
+        if count > MAX_BARS - self.members.len() {
+            return Err(table.error(Kind::TooManyBars { limit: MAX_BARS }, "count"));
+        }
+        let run = self.free_run(from_name, to_name, count);
+        let mut here = from;
+        for k in 1..=count {
+            let there = if k == count {
+                to
+            } else {
+                self.joints.push(Joint::free(format!("{run}.{k}")));
+                self.joints.len() - 1
+            };
+            self.members.push(Member { from: here, to: there, ..model.clone() });
+            here = there;
+        }
+        Ok(())
+    }
+
+    /// A name for a run of bars, so that the joints between them are new: `A-P`, or `A-P#2`, ...
+    fn free_run(&mut self, from: &str, to: &str, count: usize) -> String {
+        let mut run = format!("{from}-{to}");
+        if count > 1 {
+            let mut again = 1;
+            while self.numbers.contains_key(&format!("{run}.1")) {
+                again += 1;
+                run = format!("{from}-{to}#{again}");
+            }
+            self.numbers.insert(format!("{run}.1"), self.joints.len());
+        }
+        run
+    }
+
+    /// The joint that `from` or `to` names.
+    fn joint<'t>(
+        &self,
+        table: &'t Table<'_>,
+        key: &'static str,
+    ) -> Result<(usize, &'t str), SystemFileError> {
+        let value = table.require(key, "the name of a joint")?;
+        let Some(name) = value.get_ref().as_str() else {
+            return Err(table.wrong_type(key, value, "the name of a joint"));
+        };
+        let named = self.numbers.get(name).copied();
+        let named = named.filter(|joint| self.joints.get(*joint).is_some_and(|j| j.name == name));
+        named.map(|joint| (joint, name)).ok_or_else(|| {
+            let names: Vec<&str> = self.joints.iter().map(|joint| joint.name.as_str()).collect();
+            let suggestion = nearest(name, &names).map(str::to_owned);
+            table.error(Kind::UnknownJoint { joint: name.to_owned(), suggestion }, key)
+        })
+    }
+
+    fn finish(self, name: &str, gravity_m_s2: f64) -> Result<System, SystemFileError> {
+        let Self { root, joints, joint_spans, members, tables, .. } = self;
+        let names: Vec<String> = joints.iter().map(|joint| joint.name.clone()).collect();
+        // What stands in the file as a joint or a table of bars is the place of an error about it.
+        let at_joint = |kind, joint: usize| match joint_spans.get(joint) {
+            Some(span) => root.error_at(kind, &format!("joints.{}", names[joint]), span.clone()),
+            None => root.error(kind, "bars"),
+        };
+        let at_member = |kind, member: usize| {
+            let table = tables.partition_point(|(first, _)| *first <= member);
+            let span = tables[table - 1].1.clone();
+            root.error_at(kind, &format!("bars[{table}]"), span)
+        };
+        let system =
+            System::new(name, gravity_m_s2, joints, members).map_err(|error| match &error {
+                SystemError::Gravity { .. } => root.error(Kind::System(error), "gravity_m_s2"),
+                SystemError::DuplicateName { joint, .. }
+                | SystemError::Coordinate { joint, .. }
+                | SystemError::Direction { joint, .. }
+                | SystemError::Mass { joint, .. }
+                | SystemError::Force { joint, .. } => {
+                    let joint = *joint;
+                    at_joint(Kind::System(error), joint)
+                }
+                SystemError::SelfLoop { member, .. }
+                | SystemError::Parallel { member, .. }
+                | SystemError::NoSuchJoint { member, .. }
+                | SystemError::Stiffness { member, .. }
+                | SystemError::PointLoad { member, .. } => {
+                    let member = *member;
+                    at_member(Kind::System(error), member)
+                }
+                _ => root.error(Kind::System(error), "bars"),
+            })?;
+        system.refusal().map_err(|refusal| match &refusal {
+            SystemRefusal::Unconnected { joint, .. }
+            | SystemRefusal::Falls { joint, .. }
+            | SystemRefusal::OutOfReach { joint, .. }
+            | SystemRefusal::Taut { joint, .. } => {
+                let joint = *joint;
+                at_joint(Kind::SystemRefused(refusal), joint)
+            }
+            SystemRefusal::TooLong { member, .. } | SystemRefusal::Folded { member, .. } => {
+                let member = *member;
+                at_member(Kind::SystemRefused(refusal), member)
+            }
+            _ => root.error(Kind::SystemRefused(refusal), "joints"),
+        })?;
+        Ok(system)
+    }
+}
+
+fn joint(name: &str, table: &Table<'_>) -> Result<Joint, SystemFileError> {
+    table.only(JOINT_KEYS)?;
+    let vector = |key: &str| table.get(key).map(|value| table.vector(key, value)).transpose();
+    let mass = table.number("mass_kg")?;
+    let force_n = vector("force_n")?;
+    table.check_load(mass, force_n)?;
+    let support = support(table, vector("at_m")?)?;
+    if support.is_fixed()
+        && let Some(key) = ["mass_kg", "force_n"].into_iter().find(|key| table.get(key).is_some())
+    {
+        return Err(table.error(Kind::LoadedAnchor { joint: name.to_owned() }, key));
+    }
+    let force_n = force_n.unwrap_or_default();
+    Ok(Joint { name: name.to_owned(), support, mass_kg: mass.unwrap_or(0.0), force_n })
+}
+
+fn support(table: &Table<'_>, at_m: Option<Vector>) -> Result<Support, SystemFileError> {
+    const SLIDES: [&str; 3] = ["free", "along", "normal"];
+    let mut given = SLIDES.into_iter().filter(|key| table.get(key).is_some());
+    let slide = given.next();
+    if let (Some(other), Some(key)) = (slide, given.next()) {
+        return Err(table.error(Kind::Conflict { key, other }, key));
+    }
+    let Some(at_m) = at_m else {
+        return match slide {
+            Some(key) => Err(table.error(
+                Kind::MissingKey {
+                    key: "at_m",
+                    wanted: "a point where the joint may be, [x, y, z]",
+                },
+                key,
+            )),
+            None => Ok(Support::Free),
+        };
+    };
+    match slide {
+        None => Ok(Support::Fixed { at_m }),
+        Some("free") => free(table, at_m),
+        Some(key) => {
+            let direction = unit(table, key)?;
+            Ok(if key == "along" {
+                Support::Line { at_m, direction }
+            } else {
+                Support::Plane { at_m, normal: direction }
+            })
+        }
+    }
+}
+
+/// `free = "x"` and the like.
+fn free(table: &Table<'_>, at_m: Vector) -> Result<Support, SystemFileError> {
+    let axis = |k: usize| std::array::from_fn(|c| if c == k { 1.0 } else { 0.0 });
+    let word = table.text("free")?.unwrap_or_default();
+    Ok(match word {
+        "x" => Support::Line { at_m, direction: axis(0) },
+        "y" => Support::Line { at_m, direction: axis(1) },
+        "z" => Support::Line { at_m, direction: axis(2) },
+        "yz" => Support::Plane { at_m, normal: axis(0) },
+        "xz" => Support::Plane { at_m, normal: axis(1) },
+        "xy" => Support::Plane { at_m, normal: axis(2) },
+        _ => {
+            let found = format!("{word:?}");
+            return Err(table.error(Kind::OutOfRange { found, wanted: FREE }, "free"));
+        }
+    })
+}
+
+/// A direction of any length, made one of unit length.
+fn unit(table: &Table<'_>, key: &'static str) -> Result<Vector, SystemFileError> {
+    let value = table.require(key, "a direction [x, y, z]")?;
+    let vector = table.vector(key, value)?;
+    if (vector[0].hypot(vector[1]).hypot(vector[2]) - 1.0).abs() <= UNIT_TOLERANCE {
+        // What is written with all its digits reads back as it was.
+        return Ok(vector);
+    }
+    // Scaled first, so that no square overflows or vanishes.
+    let size = vector.into_iter().fold(0.0, |a: f64, x| a.max(x.abs()));
+    let scaled = vector.map(|x| x / size);
+    let length = scaled[0].hypot(scaled[1]).hypot(scaled[2]);
+    if length.is_finite() && size > 0.0 {
+        Ok(scaled.map(|x| x / length))
+    } else {
+        Err(table.error(Kind::NoDirection, key))
+    }
+}
+
+/// The member that a `[[bars]]` table describes, without its joints.
+fn member(table: &Table<'_>) -> Result<Member, SystemFileError> {
+    let length = table.require("length_m", "a length in metres")?;
+    let body = bar(table, length)?;
+    let kind = match table.text("kind")? {
+        None | Some("bar") => MemberKind::Bar,
+        Some("cable") => MemberKind::Cable,
+        Some("strut") => MemberKind::Strut,
+        Some(other) => {
+            let suggestion = nearest(other, KINDS);
+            let kind = Kind::UnknownKind { found: other.to_owned(), allowed: KINDS, suggestion };
+            return Err(table.error(kind, "kind"));
+        }
+    };
+    let mut loads = Vec::new();
+    if let Some(value) = table.get("forces") {
+        const WANTED: &str = "an array of forces, such as [{ force_n = [0, 12, 0] }]";
+        let items = value.get_ref().as_array();
+        let items = items.ok_or_else(|| table.wrong_type("forces", value, WANTED))?;
+        for (k, item) in items.iter().enumerate() {
+            loads.push(force(&table.table(&format!("forces[{}]", k + 1), item)?, body.length_m())?);
+        }
+    }
+    Ok(Member { from: 0, to: 0, kind, body, stiffness_n: table.number("stiffness_n")?, loads })
+}
+
+/// A force on a bar; in the middle if no place is given.
+fn force(table: &Table<'_>, length_m: f64) -> Result<PointLoad, SystemFileError> {
+    table.only(FORCE_KEYS)?;
+    let value: &Value<'_> = table.require("force_n", "a force in newtons, [x, y, z]")?;
+    let force_n = table.vector("force_n", value)?;
+    table.check_load(None, Some(force_n))?;
+    let at_m = table.number("at_m")?.unwrap_or(0.5 * length_m);
+    if !(0.0..=length_m).contains(&at_m) {
+        let span = table.get("at_m").map_or(0..0, Spanned::span);
+        let kind = Kind::OutOfRange { found: at_m.to_string(), wanted: "from 0 to length_m" };
+        return Err(table.error_at(kind, "at_m", span));
+    }
+    Ok(PointLoad { at_m, force_n })
+}

@@ -1,0 +1,84 @@
+//! Writing systems of bars: the text that reads back to the same system, bit for bit.
+
+use std::fmt::Write as _;
+
+use super::write::{differ, vector};
+use crate::Bar;
+use crate::system::{Joint, Kind, Member, Support, System};
+
+/// The system file of a system of bars, every joint with its name and every member on its own.
+///
+/// ```
+/// use model::system_file::{Described, parse, write_network};
+/// let system = model::system::System::from(model::cases::paper().chain());
+/// assert_eq!(parse(&write_network(&system), "paper.toml")?, Described::System(system));
+/// # Ok::<(), model::system_file::SystemFileError>(())
+/// ```
+#[must_use]
+pub fn write_network(system: &System) -> String {
+    let mut text = format!(
+        "name = {}\ngravity_m_s2 = {:?}\n\n[joints]\n",
+        toml::Value::from(system.name()),
+        system.gravity_m_s2(),
+    );
+    // Writing to a String cannot fail.
+    for joint in system.joints() {
+        let _ = writeln!(text, "{} = {}", toml::Value::from(joint.name.as_str()), entry(joint));
+    }
+    for member in system.members() {
+        write_member(&mut text, system, member);
+    }
+    text
+}
+
+fn entry(joint: &Joint) -> String {
+    let mut keys = Vec::new();
+    if let Some(at_m) = joint.support.at_m() {
+        keys.push(format!("at_m = {}", vector(at_m)));
+    }
+    match joint.support {
+        Support::Line { direction, .. } => keys.push(format!("along = {}", vector(direction))),
+        Support::Plane { normal, .. } => keys.push(format!("normal = {}", vector(normal))),
+        Support::Free | Support::Fixed { .. } => {}
+    }
+    if differ(&[joint.mass_kg], &[0.0]) {
+        keys.push(format!("mass_kg = {:?}", joint.mass_kg));
+    }
+    if differ(&joint.force_n, &[0.0; 3]) {
+        keys.push(format!("force_n = {}", vector(joint.force_n)));
+    }
+    format!("{{ {} }}", keys.join(", "))
+}
+
+fn write_member(text: &mut String, system: &System, member: &Member) {
+    let name = |joint: usize| toml::Value::from(system.joints()[joint].name.as_str());
+    let body = &member.body;
+    let (length_m, mass_kg) = (body.length_m(), body.mass_kg());
+    let _ = write!(
+        text,
+        "\n[[bars]]\nfrom = {}\nto = {}\nlength_m = {length_m:?}\nmass_kg = {mass_kg:?}\n",
+        name(member.from),
+        name(member.to),
+    );
+    if differ(&[body.centre_m()], &[0.5 * length_m]) {
+        let _ = writeln!(text, "centre_m = {:?}", body.centre_m());
+    }
+    if differ(&body.inertia_kg_m2(), &Bar::slender_inertia(length_m, mass_kg)) {
+        let _ = writeln!(text, "inertia_kg_m2 = {}", vector(body.inertia_kg_m2()));
+    }
+    match member.kind {
+        Kind::Bar => {}
+        Kind::Cable => text.push_str("kind = \"cable\"\n"),
+        Kind::Strut => text.push_str("kind = \"strut\"\n"),
+    }
+    if let Some(stiffness_n) = member.stiffness_n {
+        let _ = writeln!(text, "stiffness_n = {stiffness_n:?}");
+    }
+    if !member.loads.is_empty() {
+        let forces = member.loads.iter();
+        let forces = forces.map(|load| {
+            format!("{{ force_n = {}, at_m = {:?} }}", vector(load.force_n), load.at_m)
+        });
+        let _ = writeln!(text, "forces = [{}]", forces.collect::<Vec<_>>().join(", "));
+    }
+}

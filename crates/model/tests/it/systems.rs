@@ -1,0 +1,211 @@
+//! Systems of bars: texts that describe one, and texts that do not, each with its exact error.
+
+use model::system::{Kind, Support, System};
+use model::system_file::{Described, parse, write_network};
+
+/// A lamp on two strands between level anchors.
+const LAMP: &str = "name = \"lamp\"\n\n[joints]\nA = { at_m = [0, 0, 0] }\nB = { at_m = [2, 0, 0] }\n\
+P = { mass_kg = 5 }\n\n[[bars]]\nfrom = \"A\"\nto = \"P\"\nlength_m = 0.5\nmass_kg = 1\ncount = 3\n\n\
+[[bars]]\nfrom = \"P\"\nto = \"B\"\nlength_m = 1\nmass_kg = 0.5\n";
+
+#[track_caller]
+fn system(text: &str) -> System {
+    match parse(text, "f") {
+        Ok(Described::System(system)) => system,
+        other => panic!("{other:?}"),
+    }
+}
+
+/// The text must be refused with this message (file, line, column, key, reason).
+#[track_caller]
+fn check(text: &str, message: &str) {
+    let error = parse(text, "f").expect_err(text);
+    assert_eq!(error.to_string(), message);
+}
+
+/// The lamp with one piece of its text replaced.
+fn changed(old: &str, new: &str) -> String {
+    assert!(LAMP.contains(old), "{old}");
+    LAMP.replacen(old, new, 1)
+}
+
+#[test]
+fn joints_stand_in_the_order_of_the_file_and_those_of_a_run_behind_them() {
+    let lamp = system(LAMP);
+    let names: Vec<&str> = lamp.joints().iter().map(|joint| joint.name.as_str()).collect();
+    assert_eq!(names, ["A", "B", "P", "A-P.1", "A-P.2"]);
+    let ends: Vec<_> = lamp.members().iter().map(|member| (member.from, member.to)).collect();
+    assert_eq!(ends, [(0, 3), (3, 4), (4, 2), (2, 1)]);
+    assert_eq!(lamp.name(), "lamp");
+    assert_eq!(lamp.total_mass_kg(), 8.5);
+    assert_eq!(lamp.total_length_m(), 2.5);
+    assert_eq!(lamp.joints()[2].mass_kg, 5.0);
+}
+
+#[test]
+fn supports_loads_and_kinds_are_read() {
+    let text = "[joints]\nA = { at_m = [0, 0, 0] }\nS = { at_m = [1, 0, 0], free = \"x\", mass_kg = 1 }\n\
+        T = { at_m = [1, 1, 0], free = \"xy\" }\nU = { at_m = [2, 0, 0], along = [0, 3, 4] }\n\
+        V = { at_m = [0, 2, 0], normal = [0, 0, -2], force_n = [1, 2, 3] }\n\
+        [[bars]]\nfrom = \"A\"\nto = \"S\"\nlength_m = 2\nmass_kg = 1\n\
+        forces = [{ force_n = [0, 12, 0] }, { force_n = [1, 0, 0], at_m = 0.5 }]\n\
+        [[bars]]\nfrom = \"S\"\nto = \"T\"\nlength_m = 2\nmass_kg = 0\nkind = \"cable\"\nstiffness_n = 1e6\n\
+        [[bars]]\nfrom = \"T\"\nto = \"U\"\nlength_m = 2\nmass_kg = 0\nkind = \"strut\"\n\
+        [[bars]]\nfrom = \"U\"\nto = \"V\"\nlength_m = 2\nmass_kg = 0\n";
+    let read = system(text);
+    let support = |k: usize| read.joints()[k].support;
+    assert_eq!(support(1), Support::Line { at_m: [1.0, 0.0, 0.0], direction: [1.0, 0.0, 0.0] });
+    assert_eq!(support(2), Support::Plane { at_m: [1.0, 1.0, 0.0], normal: [0.0, 0.0, 1.0] });
+    // 3, 4, 5: the classic right triangle.
+    assert_eq!(support(3), Support::Line { at_m: [2.0, 0.0, 0.0], direction: [0.0, 0.6, 0.8] });
+    assert_eq!(support(4), Support::Plane { at_m: [0.0, 2.0, 0.0], normal: [0.0, 0.0, -1.0] });
+    assert_eq!(read.joints()[4].force_n, [1.0, 2.0, 3.0]);
+    let members = read.members();
+    assert_eq!(
+        members.iter().map(|m| m.kind).collect::<Vec<_>>(),
+        [Kind::Bar, Kind::Cable, Kind::Strut, Kind::Bar]
+    );
+    assert_eq!(members[1].stiffness_n, Some(1e6));
+    let loads: Vec<_> = members[0].loads.iter().map(|load| (load.at_m, load.force_n)).collect();
+    assert_eq!(loads, [(1.0, [0.0, 12.0, 0.0]), (0.5, [1.0, 0.0, 0.0])]);
+}
+
+#[test]
+fn json_says_the_same() {
+    let json = r#"{
+        "name": "lamp",
+        "joints": {"A": {"at_m": [0, 0, 0]}, "B": {"at_m": [2, 0, 0]}, "P": {"mass_kg": 5}},
+        "bars": [
+            {"from": "A", "to": "P", "length_m": 0.5, "mass_kg": 1, "count": 3},
+            {"from": "P", "to": "B", "length_m": 1, "mass_kg": 0.5}
+        ]
+    }"#;
+    assert_eq!(system(json), system(LAMP));
+    let wrong = json.replace("\"mass_kg\": 5", "\"mass\": 5");
+    check(&wrong, "f:3:78: joints.P.mass: unknown key `mass`");
+    check("{\"joints\": }", "f:1:12: not valid JSON: expected value");
+}
+
+#[test]
+fn a_chain_gains_loads_at_its_joints() {
+    let chain = "[anchors]\nstart_m = [0, 0, 0]\nend_m = [2, 0, 0]\n[[bars]]\nlength_m = 0.5\nmass_kg = 1\n\
+        count = 6\n";
+    let loaded = |rest: &str| format!("{chain}[[loads]]\n{rest}");
+    let read =
+        system(&loaded("joint = 3\nmass_kg = 5\n[[loads]]\njoint = 3\nforce_n = [0, 1, 0]\n"));
+    assert_eq!((read.joints()[3].mass_kg, read.joints()[3].force_n), (5.0, [0.0, 1.0, 0.0]));
+    assert_eq!(read.joints()[6].support, Support::Fixed { at_m: [2.0, 0.0, 0.0] });
+    assert!(matches!(parse(chain, "f"), Ok(Described::Chain(_))));
+    check(
+        &loaded("joint = 6\nmass_kg = 5\n"),
+        "f:9:9: loads[1].joint: joint \"6\" is an anchor: a load there goes straight into the ground",
+    );
+    check(
+        &loaded("joint = 7\nmass_kg = 5\n"),
+        "f:9:9: loads[1].joint: the number 7 is out of range",
+    );
+    check(&loaded("joint = 1\n"), "f:9:9: loads[1].joint: a load needs mass_kg or force_n");
+    check(
+        &loaded("joint = 1\nmass_kg = -1\n"),
+        "f:10:11: loads[1].mass_kg: a mass must be zero or positive, and finite, got -1 kg",
+    );
+    check(
+        &loaded("joint = 1\nforce_n = [0, nan, 0]\n"),
+        "f:10:15: loads[1].force_n[2]: a force must be finite, got NaN N",
+    );
+}
+
+#[test]
+fn mistakes_are_told_where_they_stand() {
+    check(&changed("to = \"P\"", "to = \"p\""), "f:10:6: bars[1].to: there is no joint \"p\"");
+    check(
+        &changed("length_m = 0.5", "lenght_m = 0.5"),
+        "f:11:1: bars[1].lenght_m: unknown key `lenght_m`",
+    );
+    check(
+        &changed("mass_kg = 5 }", "mass_kg = 5, friction = 0.1 }"),
+        "f:6:20: joints.P.friction: `friction` is outside what is modelled here",
+    );
+    check(
+        &changed("at_m = [2, 0, 0] }", "at_m = [2, 0, 0], mass_kg = 1 }"),
+        "f:5:35: joints.B.mass_kg: joint \"B\" is an anchor: a load there goes straight into the ground",
+    );
+    check(
+        &changed("at_m = [2, 0, 0] }", "at_m = [2, 0, 0], free = \"q\" }"),
+        "f:5:32: joints.B.free: the number \"q\" is out of range",
+    );
+    check(
+        &changed("mass_kg = 5 }", "free = \"x\" }"),
+        "f:6:14: joints.P.free: the key `at_m` is missing",
+    );
+    check(
+        &changed("count = 3", "count = 3\nkind = \"rope\""),
+        "f:14:8: bars[1].kind: there is no member of the kind \"rope\"",
+    );
+    check(
+        &changed("to = \"P\"", "to = \"A\"").replace("count = 3", "count = 1"),
+        "f:8:1: bars[1]: a member begins and ends at joint \"A\"",
+    );
+    check(
+        &format!("{LAMP}[[bars]]\nfrom = \"B\"\nto = \"P\"\nlength_m = 1\nmass_kg = 1\n"),
+        "f:20:1: bars[3]: two members connect joint \"B\" with joint \"P\" (numbers 4 and 5): how they \
+         share a force is indeterminate",
+    );
+}
+
+#[test]
+fn systems_without_an_answer_are_refused_with_their_numbers() {
+    check(
+        &changed("P = {", "Q = { mass_kg = 1 }\nP = {"),
+        "f:6:5: joints.Q: no member meets joint \"Q\"",
+    );
+    check(
+        &changed("P = {", "Q = { mass_kg = 1 }\nR = { mass_kg = 1 }\nP = {").replace(
+            "[[bars]]\nfrom = \"P\"",
+            "[[bars]]\nfrom = \"Q\"\nto = \"R\"\nlength_m = 1\nmass_kg = 1\n[[bars]]\nfrom = \"P\"",
+        ),
+        "f:6:5: joints.Q: nothing holds joint \"Q\" and the 1 joints connected with it: this part falls",
+    );
+    check(
+        &changed("at_m = [2, 0, 0]", "at_m = [4, 0, 0]"),
+        "f:5:5: joints.B: the anchors \"A\" and \"B\" are 4 m apart and the members between them reach only \
+         2.5 m: 1.5 m are missing",
+    );
+    check(
+        &changed("at_m = [2, 0, 0]", "at_m = [2.5, 0, 0]"),
+        "f:5:5: joints.B: the anchors \"A\" and \"B\" are 2.5 m apart and the members between them reach just \
+         as far (2.5 m): they lie straight and taut, and the force along them is indeterminate",
+    );
+    check(
+        &changed("length_m = 1\n", "length_m = 10\n"),
+        "f:15:1: bars[2]: member 4 from \"P\" to \"B\" is 10 m long, and the rest of a loop through it (P, \
+         A-P.2, A-P.1, A, B) only 3.5 m: the loop cannot close, 6.5 m are missing",
+    );
+    check(
+        &changed("length_m = 1\n", "length_m = 3.5\n"),
+        "f:15:1: bars[2]: member 4 from \"P\" to \"B\" is 3.5 m long, exactly as long as the rest of a loop \
+         through it (P, A-P.2, A-P.1, A, B): the loop closes only folded on one line, and the force along it \
+         is indeterminate",
+    );
+    let light = LAMP.replace("mass_kg = 5", "mass_kg = 0").replace("mass_kg = 1", "mass_kg = 0");
+    check(
+        &light.replace("mass_kg = 0.5", "mass_kg = 0"),
+        "f:3:1: joints: no mass and no force act on the system: without load every position is an \
+         equilibrium",
+    );
+}
+
+#[test]
+fn systems_read_back_as_they_were() {
+    let text = LAMP.replace(
+        "P = { mass_kg = 5 }",
+        "P = { mass_kg = 5, force_n = [0.1, 0, -0.3] }\n\
+        \"a \\\"b\\\".c\" = { at_m = [1, 1, 1], along = [1, 2, 3] }\n\
+        Q = { at_m = [1, 0.1, 1], normal = [1, -7, 3], mass_kg = 1e-3 }",
+    ) + "[[bars]]\nfrom = \"P\"\nto = \"a \\\"b\\\".c\"\nlength_m = 1.1\nmass_kg = 0.1\ncentre_m = 0.3\n\
+           stiffness_n = 123.4\n[[bars]]\nfrom = \"Q\"\nto = \"B\"\nlength_m = 2.1\nmass_kg = 0.1\n\
+           kind = \"cable\"\nforces = [{ force_n = [1, 2, 3] }]\n";
+    let first = system(&text);
+    let again = system(&write_network(&first));
+    assert_eq!(again, first);
+}
