@@ -1,8 +1,8 @@
 //! Which start leads where: a slice through the planar starts.
 
 use model::SolverName;
-use validate::Reproduction;
-use validate::basins::Basins;
+use paper::Reproduction;
+use paper::basins::Basins;
 
 use super::Figure;
 use super::axes::Axes;

@@ -1,8 +1,8 @@
 //! Residual against iteration for both solvers.
 
 use model::SolverName;
-use validate::Reproduction;
-use validate::figures::History;
+use paper::Reproduction;
+use paper::figures::History;
 
 use super::Figure;
 use super::axes::Axes;
