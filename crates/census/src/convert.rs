@@ -1,10 +1,11 @@
 //! The census in the words of the model: plain numbers with their evidence.
 
+use intervals::Interval;
 use model::{
     Equilibrium, Evidence, InPlane, InSpace, Reactions, Rung, SolverName, Stability, Vector,
 };
 
-use crate::{Census, Interval, Position, ProvenEquilibrium};
+use crate::{Census, Position, ProvenEquilibrium};
 
 impl Census {
     /// The isolated equilibria as answers of a solver, in the order of the census: middles of the
