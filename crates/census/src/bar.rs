@@ -1,7 +1,6 @@
 //! One bar over a whole cell of pulls: its direction and how the direction turns.
 
-use intervals::Interval;
-
+use crate::Interval;
 use crate::cell::Cell;
 use crate::face::Face;
 

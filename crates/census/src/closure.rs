@@ -1,7 +1,6 @@
 //! The closure of one pattern of tension and compression: Φ(p) = Σ sᵢ lᵢ Fᵢ/|Fᵢ| − D.
 
-use intervals::Interval;
-
+use crate::Interval;
 use crate::bar::BarTerm;
 use crate::cell::Cell;
 use crate::system::System;

@@ -1,11 +1,12 @@
 //! The census in the words of the model: plain numbers with their evidence.
 
-use intervals::Interval;
 use model::{
-    Equilibrium, Evidence, InPlane, InSpace, Reactions, Rung, SolverName, Stability, Vector,
+    Complete, Equilibrium, Evidence, InPlane, InSpace, NoCertificate, Optimal, Reactions, Reason,
+    SolverName, Stability, Status, Vector, Verified,
 };
 
-use crate::{Census, Position, ProvenEquilibrium};
+use crate::topology::TopologyError;
+use crate::{Census, Interval, Position, ProvenEquilibrium};
 
 impl Census {
     /// The isolated equilibria as answers of a solver, in the order of the census: middles of the
@@ -15,8 +16,8 @@ impl Census {
     /// use census::{Census, Settings};
     /// let census = Census::take(&model::cases::paper(), &Settings::default())?;
     /// let answers = census.to_model();
-    /// assert_eq!(answers[0].evidence.rung(), model::Rung::Optimal);
-    /// assert_eq!(answers[1].evidence.rung(), model::Rung::Complete);
+    /// assert_eq!(answers[0].evidence.rung(), Some(model::Rung::Optimal));
+    /// assert_eq!(answers[1].evidence.rung(), Some(model::Rung::Complete));
     /// assert_eq!(answers[1].stability.index_in_space, 2);
     /// # Ok::<(), census::CensusError>(())
     /// ```
@@ -48,7 +49,7 @@ impl Census {
         };
         let index_in_space = proven.index_in_space();
         Equilibrium {
-            solver: SolverName::Census,
+            solver: SolverName::CENSUS,
             energy_j: proven.energy_j.mid(),
             joints_m: vectors(&proven.joints_m),
             multipliers_n,
@@ -65,55 +66,55 @@ impl Census {
     }
 
     fn evidence(&self, proven: &ProvenEquilibrium) -> Evidence {
-        let width = proven.width();
         let mut evidence =
-            Evidence::converged(width, "width of the enclosures of pull and angles", 0);
+            Evidence::enclosed("width of the enclosures of pull and angles", proven.width());
         evidence.condition = proven.condition;
         evidence.solve_s = self.statistics.seconds;
-        evidence.reach(
-            Rung::Verified,
-            format!(
-                "Krawczyk's test: exactly one equilibrium in a box of relative width {width:.1e}"
-            ),
-        );
-        if self.complete {
-            evidence.reach(
-                Rung::Complete,
-                format!(
-                    "no other of the {} patterns of tension and compression closes anywhere else{} \
-                     ({} cells of pulls)",
-                    2_u64.saturating_pow(u32::try_from(proven.signs.len()).unwrap_or(u32::MAX)),
-                    match self.families.len() {
-                        0 => String::new(),
-                        1 => ", but for 1 family with slack bars".to_owned(),
-                        number => format!(", but for {number} families with slack bars"),
-                    },
-                    self.statistics.cells
-                ),
-            );
+        let ladder = &mut evidence.ladder;
+        ladder.verified = Status::Reached(Verified {
+            box_width: proven.width(),
+            distance: 0.0,
+            circle: proven.circle,
+        });
+        ladder.complete = self.completeness();
+        ladder.optimal = if proven.optimal {
+            Status::Reached(Optimal { gap: None, singular: proven.circle })
         } else {
-            let undecided = self.undecided.len();
-            evidence.miss(
-                Rung::Complete,
-                match &self.topology {
-                    Err(error) if undecided == 0 => error.to_string(),
-                    _ => format!("{undecided} cells of pulls are undecided"),
-                },
-            );
-        }
-        if proven.optimal {
-            evidence.reach(
-                Rung::Optimal,
-                "the stress matrix is positive semidefinite, by factorisation in intervals",
-            );
-        } else if proven.index_in_space() > 0 {
-            evidence.miss(
-                Rung::Optimal,
-                format!("the energy falls in {} directions", proven.index_in_space()),
-            );
-        } else {
-            evidence.miss(Rung::Optimal, "the pivots of the stress matrix are not proved positive");
-        }
+            Status::Open(Reason::NoCertificate(match proven.index_in_space() {
+                0 => NoCertificate::PivotsUndecided,
+                directions => NoCertificate::EnergyFalls { directions },
+            }))
+        };
         evidence
+    }
+
+    /// The rung `complete` of every equilibrium of this list.
+    #[must_use]
+    pub fn completeness(&self) -> Status<Complete> {
+        if self.complete {
+            return Status::Reached(Complete {
+                in_plane: self.count_in_plane(),
+                families: self.families.len(),
+                patterns: self.patterns(),
+                cells: self.statistics.cells,
+            });
+        }
+        Status::Open(match &self.topology {
+            Err(error) if self.undecided.is_empty() => match error {
+                TopologyError::Straight { sides } => {
+                    Reason::StraightPosition { sides: sides.clone() }
+                }
+                TopologyError::TooFewSides { sides } | TopologyError::TooManySides { sides } => {
+                    Reason::CountUnchecked { sides: *sides }
+                }
+            },
+            _ => Reason::CensusUndecided { cells: self.undecided.len() },
+        })
+    }
+
+    /// Patterns of tension and compression that the census goes through, 2ⁿ; the largest number where they are more.
+    #[must_use]
+    pub fn patterns(&self) -> u64 {
+        2_u64.saturating_pow(u32::try_from(self.statistics.bars).unwrap_or(u32::MAX))
     }
 }

@@ -6,9 +6,7 @@
 
 use std::fmt::Write;
 
-use intervals::Interval;
-
-use crate::{Census, Position};
+use crate::{Census, Interval, Position};
 
 /// The longer side of the common frame of all shapes, px, and the least room for the caption.
 const SIDE: f64 = 170.0;

@@ -47,6 +47,7 @@
 //! against what topology and duality say; [`sextic`] counts the equilibria of the paper's
 //! example by exact algebra.
 
+mod angle;
 mod bar;
 mod cell;
 mod census;
@@ -60,11 +61,13 @@ mod families;
 mod family;
 mod figure;
 mod inertia;
+mod interval;
 mod krawczyk;
 mod merge;
 mod morse;
 mod polish;
 mod position;
+mod precise;
 mod search;
 mod settings;
 pub mod sextic;
@@ -81,7 +84,7 @@ pub use equilibrium::{Neighbourhood, ProvenEquilibrium};
 pub use error::{CensusError, rough_time};
 pub use face::Face;
 pub use families::SlackFamily;
-pub use intervals::Interval;
+pub use interval::Interval;
 pub use morse::MorseError;
 pub use position::Position;
 pub use search::Progress;

@@ -1,9 +1,7 @@
 //! The equilibria of one vertical plane, one by one.
 
-use intervals::Interval;
-
 use crate::equilibrium::Neighbourhood;
-use crate::{Census, ProvenEquilibrium};
+use crate::{Census, Interval, ProvenEquilibrium};
 
 /// An equilibrium in one vertical plane through the anchors.
 ///

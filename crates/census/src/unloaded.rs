@@ -19,8 +19,7 @@ use std::borrow::Cow;
 use std::collections::HashMap;
 use std::ops::Range;
 
-use intervals::Interval;
-
+use crate::Interval;
 use crate::bar::unit;
 use crate::cell::Cell;
 use crate::closure::{Pattern, signed};

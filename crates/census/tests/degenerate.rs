@@ -105,18 +105,17 @@ fn the_evidence_of_completeness_names_the_slack_families() {
     let evidence = |end| {
         let census = census(&problem(&slack, end));
         let answer = census.to_model().remove(0);
-        let complete =
-            answer.evidence.ladder().iter().find(|step| step.rung == model::Rung::Complete);
-        let how = complete.map(|step| (step.reached, step.how.clone())).unwrap();
-        (census.equilibria.len(), census.families.len(), how.0, how.1)
+        let complete = answer.evidence.ladder.complete;
+        (census.equilibria.len(), census.families.len(), complete)
     };
-    let (equilibria, families, reached, how) = evidence([0.3, 0.0, 0.9]);
-    assert_eq!((equilibria, families, reached), (8, 2, true));
-    assert!(how.contains("anywhere else, but for 2 families with slack bars ("), "{how}");
+    let (equilibria, families, complete) = evidence([0.3, 0.0, 0.9]);
+    assert_eq!((equilibria, families, complete.proof().unwrap().families), (8, 2, 2));
+    let how = complete.to_string();
+    assert!(how.contains("besides 2 families with slack bars, and no other"), "{how}");
     // Out of reach of the slack bars there is none.
-    let (_, families, reached, how) = evidence([1.5, 0.0, 0.1]);
-    assert_eq!((families, reached), (0, true));
-    assert!(how.contains("anywhere else (") && !how.contains("slack"), "{how}");
+    let (_, families, complete) = evidence([1.5, 0.0, 0.1]);
+    assert_eq!((families, complete.proof().unwrap().families), (0, 0));
+    assert!(!complete.to_string().contains("slack"), "{complete}");
 }
 
 #[test]
@@ -181,10 +180,10 @@ fn weight_on_an_anchor_takes_no_digits_from_the_rest() {
             assert_eq!((&a.signs, a.index_in_plane), (&b.signs, b.index_in_plane));
             for (x, y) in a.angles_rad.iter().zip(&b.angles_rad) {
                 widest[0] = widest[0].max(x.width());
-                assert!(x.width() < ANGLE_RAD && !x.disjoint(*y), "{mass:e}: {:e}", x.width());
+                assert!(x.width() < ANGLE_RAD && !x.misses(*y), "{mass:e}: {:e}", x.width());
             }
             widest[1] = widest[1].max(a.energy_j.width());
-            assert!(a.energy_j.width() < ENERGY_J && !a.energy_j.disjoint(b.energy_j));
+            assert!(a.energy_j.width() < ENERGY_J && !a.energy_j.misses(b.energy_j));
             // All joints but the first carry the same; the first carries the weight in addition.
             let pairs = a.multipliers_n.iter().zip(&b.multipliers_n).enumerate();
             for (joint, (x, y)) in pairs {

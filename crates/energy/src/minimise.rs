@@ -52,7 +52,7 @@ pub fn minimise(problem: &Problem, settings: &Settings) -> Result<Solution, Erro
     let (links, units) = Links::new(problem, settings.motion);
     let start = first_guess(&links, settings)?;
     let minimum = descend(links, start, settings)?;
-    Ok(Solution::new(problem, &units, minimum, clock))
+    Ok(Solution::new(problem, &units, minimum, settings, clock))
 }
 
 /// Find the local minimum below a seed.
@@ -73,7 +73,7 @@ pub fn minimise_from(
     let (links, units) = Links::new(problem, settings.motion);
     let start = seed.in_frame(&links, &units)?;
     let minimum = descend(links, start, settings)?;
-    Ok(Solution::new(problem, &units, minimum, clock))
+    Ok(Solution::new(problem, &units, minimum, settings, clock))
 }
 
 /// What a run of the minimiser ends with.

@@ -2,11 +2,14 @@
 
 use std::time::Instant;
 
-use model::{Equilibrium, Evidence, Problem, Rung, SolverName, Vector};
+use model::{
+    Equilibrium, Evidence, ForceUncertainty, Problem, SolverName, UncertaintyCause, Vector,
+};
 
 use crate::links::Units;
 use crate::minimise::Minimum;
 use crate::reaction::{axial_forces, joint_forces, reactions};
+use crate::settings::Settings;
 use crate::solver::doubt;
 use crate::stability::SecondOrder;
 use crate::vector::{VectorSum, scaled};
@@ -44,7 +47,13 @@ const RESIDUAL_OF: &str =
 const WORTH_SAYING: f64 = 1e-9;
 
 impl Solution {
-    pub(crate) fn new(problem: &Problem, units: &Units, minimum: Minimum, clock: Instant) -> Self {
+    pub(crate) fn new(
+        problem: &Problem,
+        units: &Units,
+        minimum: Minimum,
+        settings: &Settings,
+        clock: Instant,
+    ) -> Self {
         let second = SecondOrder::of(&minimum);
         let Minimum { links, shape, slope, iterations, evaluations } = minimum;
         let directions: Vec<Vector> = shape.u.iter().map(|&u| units.frame.into_world(u)).collect();
@@ -53,21 +62,17 @@ impl Solution {
 
         let residual = slope.residual();
         let iterations_usize = usize::try_from(iterations).unwrap_or(usize::MAX);
-        let mut evidence = Evidence::converged(residual, RESIDUAL_OF, iterations_usize);
-        let doubt = doubt(&links, &shape, &slope);
-        if doubt > WORTH_SAYING {
-            evidence.reach(
-                Rung::Converged,
-                format!(
-                    "{RESIDUAL_OF}: {residual:.1e} after {iterations} iterations; the bars are so nearly parallel that \
-                     their directions in double precision leave the forces in doubt by up to {doubt:.0e} of the largest"
-                ),
-            );
+        let tolerance = settings.gradient_tolerance;
+        let mut evidence = Evidence::new(RESIDUAL_OF, residual, tolerance, iterations_usize);
+        let relative = doubt(&links, &shape, &slope);
+        if relative > WORTH_SAYING {
+            let cause = UncertaintyCause::ParallelBars;
+            evidence = evidence.with_force_uncertainty(ForceUncertainty { relative, cause });
         }
         evidence.nullity = second.nullity;
         evidence.condition = second.condition;
         let equilibrium = Equilibrium {
-            solver: SolverName::Energy,
+            solver: SolverName::ENERGY,
             energy_j: energy * units.weight_n * units.length_m,
             joints_m: joints(problem, &directions),
             reactions_n: reactions(&multipliers_n),

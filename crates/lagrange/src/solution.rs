@@ -55,9 +55,10 @@ impl Solution {
             bars if bars <= LARGEST_DECOMPOSED => Spectrum::reduced(&reduced.mechanism, point)?,
             _ => Spectrum::estimated(&reduced.mechanism, point),
         };
-        let mut evidence = Evidence::converged(
-            residual,
+        let mut evidence = Evidence::new(
             "largest of the 6n + 3(n+1) equations, in mg, mgl and l",
+            residual,
+            settings.tolerance * tolerance_unit(chain, &lambda),
             effort.iterations,
         );
         evidence.nullity = spectrum.nullity;
@@ -66,7 +67,7 @@ impl Solution {
         let multipliers_n: Vec<Vector> =
             lambda.as_slice().chunks_exact(3).map(|at| [at[0], at[1], at[2]]).collect();
         let equilibrium = Equilibrium {
-            solver: SolverName::Lagrange,
+            solver: SolverName::LAGRANGE,
             energy_j: energy(reduced) * units.weight * units.length,
             joints_m: joints(&mechanism, reduced),
             reactions_n: Reactions {
@@ -89,6 +90,16 @@ impl Solution {
             condition: spectrum.condition,
         })
     }
+}
+
+/// What the tolerance of the reduced equations is in units of the full ones: those measure moments in the largest
+/// force times the mean length and closure in the total length, these in *mgl* and *l*.
+fn tolerance_unit(chain: &model::Chain, lambda: &DVector<f64>) -> f64 {
+    let bars = chain.bars().len() as f64;
+    let mean_weight_n = chain.total_mass_kg() * chain.gravity_m_s2() / bars;
+    let forces = lambda.as_slice().chunks_exact(3);
+    let largest_n = forces.map(|f| f[0].hypot(f[1]).hypot(f[2])).fold(0.0, f64::max);
+    bars.max(largest_n / mean_weight_n)
 }
 
 /// Potential energy from joint 0, $V = \sum m_i g\\,Z_{C_i}$, in units of the total weight and length.

@@ -101,6 +101,14 @@ pub enum ChainError {
 /// less than the smallest normal number, digits would be lost without notice, and products would vanish.
 pub const SMALLEST_TOTAL: f64 = f64::MIN_POSITIVE / f64::EPSILON;
 
+/// Largest level distance of anchors on one vertical, relative to the total length.
+///
+/// The two differences of coordinates and the total length carry a rounding error of about one unit in
+/// the last place each, decimal coordinates half a unit each; sixteen units leave room for them and
+/// for coordinates that were computed in a few steps. The turn of a chain about anchors that are
+/// really so far apart level changes its energy by less than the rounding of the energy.
+pub const VERTICAL_TOLERANCE: f64 = 16.0 * f64::EPSILON;
+
 impl Chain {
     /// A chain of the given bars, from the start anchor to the end anchor.
     ///
@@ -181,6 +189,23 @@ impl Chain {
     #[must_use]
     pub fn total_mass_kg(&self) -> f64 {
         sum(self.bars.iter().map(Bar::mass_kg))
+    }
+
+    /// Whether both anchors stand on one vertical, to rounding ([`VERTICAL_TOLERANCE`]): the chain then
+    /// turns about it freely, and any vertical plane through the anchors is its plane.
+    ///
+    /// Everything that computes in doubles asks here. The census, which takes the coordinates as exact
+    /// numbers, asks for a level distance of exactly zero: next to it equilibria are proved to be
+    /// isolated where on it there are circles of them.
+    ///
+    /// ```
+    /// let paper = model::cases::paper();
+    /// assert!(paper.chain().anchors_on_one_vertical());
+    /// ```
+    #[must_use]
+    pub fn anchors_on_one_vertical(&self) -> bool {
+        let [x, y, _] = self.anchors.difference_m();
+        x.hypot(y) <= VERTICAL_TOLERANCE * self.total_length_m()
     }
 
     /// The few numbers that name the system in an answer.

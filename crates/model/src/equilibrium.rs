@@ -2,7 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::{Evidence, Vector};
+use crate::Vector;
+use crate::evidence::Evidence;
+use crate::solver_name::SolverName;
+use crate::stability::Stability;
 
 /// One equilibrium as one solver found it: observables only, so that solvers with nothing in common
 /// can be compared.
@@ -32,28 +35,6 @@ pub struct Equilibrium {
     pub evidence: Evidence,
 }
 
-/// The solver behind an answer.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum SolverName {
-    /// Crate `lagrange`: forces first.
-    Lagrange,
-    /// Crate `energy`: energy first.
-    Energy,
-    /// Crate `census`: every equilibrium, by interval branch and bound.
-    Census,
-}
-
-impl std::fmt::Display for SolverName {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(match self {
-            Self::Lagrange => "lagrange",
-            Self::Energy => "energy",
-            Self::Census => "census",
-        })
-    }
-}
-
 /// Forces of the ground on the chain at its two anchors, world frame, N.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Reactions {
@@ -61,45 +42,4 @@ pub struct Reactions {
     pub start: Vector,
     /// At joint n.
     pub end: Vector,
-}
-
-/// Second-order behaviour of an equilibrium.
-///
-/// The index is the number of independent directions in which the energy falls (Morse index of the
-/// energy on the configurations that keep every bar whole and both ends in place).
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Stability {
-    /// Character among the motions in the vertical plane of the equilibrium.
-    pub in_plane: InPlane,
-    /// Morse index among those motions.
-    pub index_in_plane: usize,
-    /// Stability among all motions. The neutral turn of the whole chain about vertical anchors does
-    /// not count against it.
-    pub in_space: InSpace,
-    /// Morse index among all motions.
-    pub index_in_space: usize,
-}
-
-/// Character of an equilibrium among the motions in its own vertical plane.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum InPlane {
-    /// No direction of falling energy.
-    Minimum,
-    /// The energy falls in some directions and rises in others.
-    Saddle,
-    /// The energy falls in every direction.
-    Maximum,
-    /// The second derivative has a zero eigenvalue: the second order does not decide.
-    Degenerate,
-}
-
-/// Stability of an equilibrium among all motions.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum InSpace {
-    /// No direction of falling energy.
-    Stable,
-    /// At least one direction of falling energy.
-    Unstable,
 }

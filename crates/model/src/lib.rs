@@ -6,7 +6,7 @@
 //!
 //! No mechanics lives here. The two solvers, which must know nothing of each other, both depend on
 //! this crate; a formula of statics in it would be a formula they share. Sums of lengths and masses,
-//! the distance of two anchors, and the moments of a slender bar (which no equilibrium depends on) are
+//! the distance of two anchors and whether they stand on one vertical, and the moments of a slender bar (which no equilibrium depends on) are
 //! all it computes.
 //!
 //! # Conventions
@@ -19,18 +19,29 @@ mod bar;
 pub mod cases;
 mod chain;
 mod equilibrium;
-mod evidence;
+pub mod evidence;
 mod problem;
 mod readable;
+mod solver_name;
+mod stability;
 mod sum;
 pub mod system;
 pub mod system_file;
 
 pub use bar::{Bar, BarError};
-pub use chain::{Anchors, Chain, ChainError, SMALLEST_TOTAL, STANDARD_GRAVITY_M_S2, SystemSummary};
-pub use equilibrium::{Equilibrium, InPlane, InSpace, Reactions, SolverName, Stability};
-pub use evidence::{Evidence, Rung, Statement};
+pub use chain::{
+    Anchors, Chain, ChainError, SMALLEST_TOTAL, STANDARD_GRAVITY_M_S2, SystemSummary,
+    VERTICAL_TOLERANCE,
+};
+pub use equilibrium::{Equilibrium, Reactions};
+pub use evidence::{
+    Agreed, Complete, Convergence, Disagreement, Evidence, Excess, ForceUncertainty, Ladder,
+    NoAnswer, NoCensus, NoCertificate, Optimal, Quantity, Reason, Rung, StabilityDifference,
+    Statement, Status, UncertaintyCause, Verified,
+};
 pub use problem::{Problem, Refusal, STRAIGHT_TOLERANCE};
+pub use solver_name::SolverName;
+pub use stability::{InPlane, InSpace, Stability};
 pub use sum::sum;
 
 /// A point or a vector in the world frame: `[x, y, z]`, unit as said where it is used.

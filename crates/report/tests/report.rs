@@ -3,14 +3,14 @@
 use std::path::Path;
 use std::sync::LazyLock;
 
-use paper::equations::Verdict;
 use report::block::audit_cells;
 use report::equations::{self, judged};
 use report::{Environment, Report};
+use validate::equations::Verdict;
 
 /// One report for all tests.
 static REPORT: LazyLock<Report> = LazyLock::new(|| {
-    let reproduction = paper::reproduce(|_| {}).expect("the paper is reproduced");
+    let reproduction = validate::reproduce(|_| {}).expect("the paper is reproduced");
     let command = ["funicular", "reproduce", "--out", "report"].map(String::from);
     Report::new(reproduction, Environment::here(command.into_iter())).expect("a report")
 });
@@ -160,7 +160,7 @@ fn only_the_last_part_knows_where_it_was_made() {
         "a rounding is told as a number"
     );
     let json: serde_json::Value = serde_json::from_str(&REPORT.json().unwrap()).unwrap();
-    assert_eq!(json["schema_version"], 1);
+    assert_eq!(json["schema_version"], 2);
     assert_eq!(json["environment"]["command"], "funicular reproduce --out report");
     assert!(json["figures"]["closure_curve"].as_array().unwrap().len() > 100);
 }

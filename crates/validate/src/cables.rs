@@ -22,7 +22,6 @@ use bounds::{BoundError, BoundSettings, cable_bound};
 use model::{Equilibrium, Problem, Vector};
 use serde::Serialize;
 
-use crate::compare::free_turn;
 use crate::tolerances::Tolerances;
 
 /// Smallest axial force, in units of the largest joint force, that says that a bar is in tension: below
@@ -102,7 +101,7 @@ pub fn hold_against_cables(problem: &Problem, found: &Equilibrium) -> Result<Cab
         gap: bound.gap_j(found.energy_j) / energy_j,
         optimum: (bound.bound_j - bound.rigorous_j) / energy_j,
         axial: (!on_a_line).then(|| worst(axial) / force_n),
-        joints: (!free_turn(chain)).then(|| worst(apart) / length_m),
+        joints: (!chain.anchors_on_one_vertical()).then(|| worst(apart) / length_m),
         iterations: bound.evidence.iterations,
     })
 }

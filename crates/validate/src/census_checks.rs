@@ -11,7 +11,6 @@ use census::{Census, Interval};
 use lagrange::{Seed, Settings, SolveError, Solver};
 use model::{Chain, Problem, Vector};
 
-use crate::compare::free_turn;
 use crate::statics::{judge, stored_rounding_m};
 
 /// Where a position stands in a census.
@@ -33,7 +32,7 @@ pub fn nearest(chain: &Chain, census: &Census, joints_m: &[Vector]) -> Option<Ne
         if boxes.len() != joints_m.len() {
             return f64::NAN;
         }
-        let turned = if free_turn(chain) {
+        let turned = if chain.anchors_on_one_vertical() {
             turned_onto(chain.anchors().start_m, boxes, joints_m)
         } else {
             joints_m.to_vec()

@@ -41,7 +41,7 @@
 //! bounds).
 
 use crate::statics::stored_rounding_m;
-use model::{Bar, Chain, Equilibrium, Problem, Vector, sum};
+use model::{Bar, Chain, Equilibrium, NoCertificate, Optimal, Problem, Vector, sum};
 
 /// Unit roundoff of doubles.
 const U: f64 = 0.5 * f64::EPSILON;
@@ -84,51 +84,12 @@ pub struct Certificate {
     pub singular: bool,
 }
 
-/// Why there is no certificate.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum Doubt {
-    /// Occurs when two or more bars are in compression: the stress matrix has a negative eigenvalue,
-    /// and the equilibrium is unstable in space.
-    #[error(
-        "{bars} bars are in compression: the stress matrix is indefinite, there is less energy elsewhere"
-    )]
-    SeveralCompressed {
-        /// How many.
-        bars: usize,
-    },
-    /// Occurs when one bar is in compression and its force is too large for the others to hold it up
-    /// in space: `Σ 1/τ_i > 0`, proven.
-    #[error(
-        "bar {bar} is pressed too hard: the sum of the inverse force densities is {excess:e} of its terms, \
-         the stress matrix is indefinite, there is less energy elsewhere"
-    )]
-    Indefinite {
-        /// The compressed bar, from 1.
-        bar: usize,
-        /// `Σ 1/τ_i` over `Σ |1/τ_i|`.
-        excess: f64,
-    },
-    /// Occurs when the bound holds but stays further below the energy than [`GAP_TOLERANCE`].
-    #[error("the lower bound stays {gap:.1e} of weight times length below the energy")]
-    Gap {
-        /// The gap in units of the weight between the anchors × total length.
-        gap: f64,
-    },
-    /// Occurs when the last joint misses its anchor by so much of what the chain can spare that no configuration of it
-    /// need be near.
-    #[error(
-        "the last joint misses its anchor by {missed_m:.1e} m, and the chain has but {spare_m:.1e} m to spare"
-    )]
-    Open {
-        /// How far the joint is from the anchor, beyond the rounding of coordinates, m.
-        missed_m: f64,
-        /// What the bars can spare before they lie on one line, m.
-        spare_m: f64,
-    },
-    /// Occurs when a number of the answer is not finite, or the arrays do not fit the chain.
-    #[error("the answer is incomplete or not finite")]
-    Unusable,
+impl Certificate {
+    /// The proof of the rung `optimal`.
+    #[must_use]
+    pub fn proof(&self) -> Optimal {
+        Optimal { gap: Some(self.gap), singular: self.singular }
+    }
 }
 
 /// Certify that no configuration has less energy than the equilibrium found.
@@ -137,15 +98,15 @@ pub enum Doubt {
 ///
 /// # Errors
 ///
-/// [`Doubt`] when the bound proves nothing, with the reason.
-pub fn certify(problem: &Problem, found: &Equilibrium) -> Result<Certificate, Doubt> {
+/// [`NoCertificate`] when the bound proves nothing, with the reason.
+pub fn certify(problem: &Problem, found: &Equilibrium) -> Result<Certificate, NoCertificate> {
     let chain = problem.chain();
     let bars = chain.bars();
     let pull = found.reactions_n.end;
     if found.axial_n.len() != bars.len()
         || !pull.iter().chain(&found.axial_n).chain([&found.energy_j]).all(|x| x.is_finite())
     {
-        return Err(Doubt::Unusable);
+        return Err(NoCertificate::Unusable);
     }
     let length_m = chain.total_length_m();
     closed(chain, found)?;
@@ -177,7 +138,7 @@ pub fn certify(problem: &Problem, found: &Equilibrium) -> Result<Certificate, Do
     let gap = gap_j / (hanging_n(chain) * length_m);
     // An energy below a proven bound is as wrong as one far above it; NaN fails both.
     if !(0.0..=GAP_TOLERANCE).contains(&gap) {
-        return Err(Doubt::Gap { gap });
+        return Err(NoCertificate::Gap { gap });
     }
     let compressed_bar = compressed.map(|k| k + 1);
     Ok(Certificate { lower_bound_j, gap_j, gap, compressed_bar, singular })
@@ -187,8 +148,8 @@ pub fn certify(problem: &Problem, found: &Equilibrium) -> Result<Certificate, Do
 const OPEN_PART: f64 = 0.1;
 
 /// Whether the answer is a configuration of the chain, as far as that matters.
-fn closed(chain: &Chain, found: &Equilibrium) -> Result<(), Doubt> {
-    let Some(last) = found.joints_m.last() else { return Err(Doubt::Unusable) };
+fn closed(chain: &Chain, found: &Equilibrium) -> Result<(), NoCertificate> {
+    let Some(last) = found.joints_m.last() else { return Err(NoCertificate::Unusable) };
     let end = chain.anchors().end_m;
     let off = norm(std::array::from_fn(|k| last[k] - end[k]));
     let missed_m = off - stored_rounding_m(chain);
@@ -197,7 +158,7 @@ fn closed(chain: &Chain, found: &Equilibrium) -> Result<(), Doubt> {
     let span = chain.anchors().span_m();
     let spare_m = (total - span).min((total - longest) - longest + span);
     if off.is_nan() || missed_m > OPEN_PART * spare_m {
-        return Err(Doubt::Open { missed_m, spare_m });
+        return Err(NoCertificate::NotClosed { missed_m, spare_m });
     }
     Ok(())
 }
@@ -215,13 +176,13 @@ fn hanging_n(chain: &Chain) -> f64 {
 }
 
 /// Index of the only bar in compression, if any.
-fn the_compressed_bar(axial_n: &[f64], force_n: f64) -> Result<Option<usize>, Doubt> {
+fn the_compressed_bar(axial_n: &[f64], force_n: f64) -> Result<Option<usize>, NoCertificate> {
     let pressed = |axial_n: f64| axial_n < -NO_FORCE * force_n;
     let mut compressed = axial_n.iter().enumerate().filter(|(_, a)| pressed(**a)).map(|(i, _)| i);
     let first = compressed.next();
     match compressed.count() {
         0 => Ok(first),
-        more => Err(Doubt::SeveralCompressed { bars: more + 1 }),
+        more => Err(NoCertificate::SeveralCompressed { bars: more + 1 }),
     }
 }
 
@@ -254,7 +215,7 @@ fn reduced_compression(
     forces: &[Vector],
     force_n: f64,
     k: usize,
-) -> Result<(f64, bool), Doubt> {
+) -> Result<(f64, bool), NoCertificate> {
     let compliance = |i: usize| bars[i].length_m() / norm(forces[i]);
     let others = || (0..bars.len()).filter(|i| *i != k);
     let rest = sum(others().map(compliance));
@@ -267,7 +228,7 @@ fn reduced_compression(
     if !(rest + error).is_finite() || excess > error + own_error {
         // A bar without force beside a compressed one makes the sum infinite.
         let excess = if rest.is_finite() { excess / (rest + own) } else { 1.0 };
-        return Err(Doubt::Indefinite { bar: k + 1, excess });
+        return Err(NoCertificate::Indefinite { bar: k + 1, excess });
     }
     let singular = excess.abs() <= error + own_error;
     let needed = own.max((rest + error) * (1.0 + TERM_ULPS * U));
@@ -324,7 +285,7 @@ mod tests {
     /// An answer with the numbers the certificate reads; reference digits, external.
     fn answer(end: Vector, axial_n: [f64; 3], energy_j: f64) -> Equilibrium {
         Equilibrium {
-            solver: SolverName::Lagrange,
+            solver: SolverName::LAGRANGE,
             energy_j,
             // Only the last joint is read.
             joints_m: vec![[0.0, 0.0, -2.0]],
@@ -337,7 +298,7 @@ mod tests {
                 in_space: InSpace::Stable,
                 index_in_space: 0,
             },
-            evidence: Evidence::converged(0.0, "given", 0),
+            evidence: Evidence::new("given", 0.0, 0.0, 0),
         }
     }
 
@@ -365,7 +326,7 @@ mod tests {
             axial_n: vec![0.5, 0.5],
             ..answer([0.0, 0.0, 1.0], E1_SIGNS, -1.0)
         };
-        assert!(matches!(certify(&problem, &hanging), Err(Doubt::Open { .. })));
+        assert!(matches!(certify(&problem, &hanging), Err(NoCertificate::NotClosed { .. })));
     }
 
     /// What rests on the last anchor moves nothing: a certificate is as tight with it as without, and as strict.
@@ -383,7 +344,7 @@ mod tests {
             let settings = lagrange::condensed::Settings::default();
             let found = lagrange::condensed::solve(&problem, &settings).unwrap().equilibrium;
             let off = Equilibrium { energy_j: found.energy_j + 1e-8, ..found.clone() };
-            assert!(matches!(certify(&problem, &off), Err(Doubt::Gap { .. })));
+            assert!(matches!(certify(&problem, &off), Err(NoCertificate::Gap { .. })));
             certify(&problem, &found).unwrap().gap
         });
         assert!(gaps[0] < 1e-13 && gaps[1] < 4.0 * f64::EPSILON * heavy, "{gaps:?}");
@@ -394,7 +355,7 @@ mod tests {
         // E2 is E1 upside down: two bars pressed (bars 1 and 2 of E2 are 3 and 2 of E1 reversed).
         let end = [0.0, 0.648_944_835_933_933_7, 3.0 - 0.687_055_707_758_162_4];
         let e2 = answer(end, [1.0, -1.0, -1.0], -E1_ENERGY - 6.0);
-        assert_eq!(certify(&paper(), &e2), Err(Doubt::SeveralCompressed { bars: 2 }));
+        assert_eq!(certify(&paper(), &e2), Err(NoCertificate::SeveralCompressed { bars: 2 }));
         // More energy than the minimum, less than the minimum, NaN.
         for energy in [E1_ENERGY + 1e-6, E1_ENERGY - 1e-6, f64::NAN] {
             assert!(certify(&paper(), &answer(E1_END, E1_SIGNS, energy)).is_err());
@@ -407,6 +368,6 @@ mod tests {
         }
         // A wrong sign: as if bar 3 were pulled.
         let wrong = answer(E1_END, [1.0; 3], E1_ENERGY);
-        assert!(matches!(certify(&paper(), &wrong), Err(Doubt::Gap { .. })));
+        assert!(matches!(certify(&paper(), &wrong), Err(NoCertificate::Gap { .. })));
     }
 }

@@ -1,43 +1,65 @@
-//! Two answers held against each other, and each against Newton's laws.
+//! Answers held against each other, and each against Newton's laws.
 
-use model::{Bar, Chain, Equilibrium, Problem, Rung, Vector};
-use serde::Serialize;
+use model::{
+    Agreed, Chain, Disagreement, Equilibrium, Excess, NoCensus, Problem, Quantity, Reason,
+    SolverName, StabilityDifference, Status,
+};
+use serde::{Serialize, Serializer};
 
-use crate::books::{Books, books};
 use crate::certificate::certify;
-use crate::statics::{Statics, judge, stored_rounding_m};
+use crate::consistency::{Consistency, consistency};
+use crate::differences::{Differences, free_joints, worst};
+use crate::statics::{Statics, judge};
 use crate::tolerances::Tolerances;
+use crate::units::Units;
 
-/// How far two answers agree: the object `agreement` of the JSON.
+/// How far answers agree: the object `agreement` of the JSON. Of more than two, the largest differences of any
+/// two.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Agreement {
-    /// Largest distance of a joint in one answer from the same joint in the other, m.
+    /// Largest distance of a joint in one answer from the same joint in another, m.
     pub joints_m: f64,
     /// Largest difference of a joint force, N.
     pub forces_n: f64,
-    /// Difference of the energies, J.
+    /// Largest difference of the energies, J.
     pub energy_j: f64,
     /// With both anchors on one vertical every turn about it is an equilibrium too: the angle by
     /// which the second answer was turned onto the first before the comparison, rad.
     pub turned_rad: Option<f64>,
-    /// Joints without load between bars without force, in both answers: they may be anywhere that
+    /// Joints without load between bars without force, in all answers: they may be anywhere that
     /// the lengths of the bars allow, so their places are judged by Newton's laws alone.
     pub free_joints: usize,
     /// Violations of Newton's laws by each answer.
-    pub statics: [Statics; 2],
+    pub statics: Vec<Statics>,
     /// Whether the other numbers of each answer follow from its joints and forces.
-    pub books: [Books; 2],
+    #[serde(rename = "books")]
+    pub consistency: Vec<Consistency>,
     /// Whether all of these are within their budgets.
     pub verdict: Verdict,
-    /// What exceeds its budget.
-    pub reasons: Vec<String>,
+    /// What speaks against it.
+    #[serde(flatten, serialize_with = "with_sentences")]
+    pub disagreement: Disagreement,
 }
 
-/// Whether two answers are one.
+/// The key `reasons` with the words, and the numbers beside it.
+fn with_sentences<S: Serializer>(
+    disagreement: &Disagreement,
+    serializer: S,
+) -> Result<S::Ok, S::Error> {
+    #[derive(Serialize)]
+    struct Keys<'a> {
+        reasons: Vec<String>,
+        #[serde(flatten)]
+        numbers: &'a Disagreement,
+    }
+    Keys { reasons: disagreement.sentences(), numbers: disagreement }.serialize(serializer)
+}
+
+/// Whether answers are one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Verdict {
-    /// All differences are within their budgets, and both answers in balance.
+    /// All differences are within their budgets, and all answers in balance.
     Agreed,
     /// Something is not.
     Disagreed,
@@ -50,68 +72,45 @@ impl std::fmt::Display for Verdict {
 }
 
 impl Agreement {
-    /// Whether the two answers are one.
+    /// Whether the answers are one.
     #[must_use]
     pub fn agrees(&self) -> bool {
         self.verdict == Verdict::Agreed
     }
-}
 
-/// Units in which differences are judged.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Units {
-    /// Total length, m.
-    pub length_m: f64,
-    /// The larger of the total weight and the largest joint force, N.
-    pub force_n: f64,
-    /// Total weight × total length, J.
-    pub energy_j: f64,
-    /// Rounding of a joint's coordinates: they are stored in the world frame, however far from its
-    /// origin the anchors are, m.
-    pub rounding_m: f64,
-}
-
-impl Units {
-    /// The units of a chain whose largest joint force is known.
-    #[must_use]
-    pub fn new(chain: &Chain, multipliers_n: &[Vector]) -> Self {
-        let length_m = chain.total_length_m();
-        let weight_n = chain.total_mass_kg() * chain.gravity_m_s2();
-        Self {
-            length_m,
-            force_n: multipliers_n.iter().map(|f| norm(*f)).fold(weight_n, f64::max),
-            energy_j: weight_n * length_m,
-            rounding_m: stored_rounding_m(chain),
+    /// The rung `agreed` of the answers that were compared.
+    fn rung(&self, solvers: Vec<SolverName>) -> Status<Agreed> {
+        if !self.agrees() {
+            return Status::Open(Reason::SolversDisagree(self.disagreement.clone()));
         }
+        Status::Reached(Agreed {
+            solvers,
+            joints_m: self.joints_m,
+            forces_n: self.forces_n,
+            energy_j: self.energy_j,
+            statics: worst(self.statics.iter().map(Statics::largest)),
+        })
     }
 }
 
-/// Hold two answers against each other and each against Newton's laws, and write what that proves into
-/// their evidence: `agreed`, and `optimal` where a certificate exists.
+/// Hold answers against each other, every two of them, and each against Newton's laws, and write what that proves
+/// into their evidence: `agreed`, and `optimal` where a certificate exists.
+///
+/// # Panics
+///
+/// When there are fewer than two answers: one alone is judged by [`judge_alone`].
 #[must_use]
 pub fn compare(
     problem: &Problem,
-    answers: &mut [Equilibrium; 2],
+    answers: &mut [Equilibrium],
     tolerances: &Tolerances,
 ) -> Agreement {
-    let chain = problem.chain();
-    let agreement = differences(chain, answers, tolerances);
-    for answer in answers.iter_mut() {
-        if agreement.agrees() {
-            answer.evidence.reach(
-                Rung::Agreed,
-                format!(
-                    "lagrange and energy differ by {:.1e} m, {:.1e} N, {:.1e} J; the statics judge finds \
-                     every bar in balance to {:.1e}",
-                    agreement.joints_m,
-                    agreement.forces_n,
-                    agreement.energy_j,
-                    worst(agreement.statics.iter().map(Statics::largest)),
-                ),
-            );
-        } else {
-            answer.evidence.miss(Rung::Agreed, agreement.reasons.join("; "));
-        }
+    assert!(answers.len() >= 2, "{} answers cannot be compared", answers.len());
+    let agreement = agreement(problem.chain(), answers, tolerances);
+    let solvers = answers.iter().map(|answer| answer.solver.clone()).collect();
+    let rung = agreement.rung(solvers);
+    for answer in answers {
+        answer.evidence.ladder.agreed = rung.clone();
         certify_rung(problem, answer);
     }
     agreement
@@ -119,162 +118,117 @@ pub fn compare(
 
 /// Judge one answer that has no second to compare with.
 pub fn judge_alone(problem: &Problem, answer: &mut Equilibrium) -> Statics {
-    answer.evidence.miss(Rung::Agreed, "only one solver was asked");
+    let statics = judge(problem.chain(), &answer.joints_m, &answer.multipliers_n);
+    answer.evidence.ladder.agreed = Status::Open(Reason::OneSolverOnly {
+        solver: answer.solver.clone(),
+        statics: statics.largest(),
+    });
     certify_rung(problem, answer);
-    judge(problem.chain(), &answer.joints_m, &answer.multipliers_n)
+    statics
 }
 
 /// The rungs above `agreed`.
 fn certify_rung(problem: &Problem, answer: &mut Equilibrium) {
-    for rung in [Rung::Verified, Rung::Complete] {
-        answer.evidence.miss(rung, "no interval proof was tried (`funicular census` does)");
-    }
-    match certify(problem, answer) {
-        Ok(proof) => answer.evidence.reach(
-            Rung::Optimal,
-            format!(
-                "the stress matrix is positive semidefinite{}: no configuration has less energy than \
-                 {:.1e} of weight times length below this one",
-                if proof.singular { " (singular: the free turn about the vertical)" } else { "" },
-                proof.gap,
-            ),
-        ),
-        Err(doubt) => answer.evidence.miss(Rung::Optimal, doubt.to_string()),
-    }
+    let proof = certify(problem, answer);
+    let ladder = &mut answer.evidence.ladder;
+    ladder.verified = Status::Open(Reason::NoCensus(NoCensus::NotAsked));
+    ladder.complete = Status::Open(Reason::NoCensus(NoCensus::NotAsked));
+    ladder.optimal = match proof {
+        Ok(certificate) => Status::Reached(certificate.proof()),
+        Err(because) => Status::Open(Reason::NoCertificate(because)),
+    };
 }
 
-fn differences(chain: &Chain, answers: &[Equilibrium; 2], tolerances: &Tolerances) -> Agreement {
-    let [first, second] = answers;
-    let units = Units::new(chain, &first.multipliers_n);
-    let turned_rad = free_turn(chain).then(|| turn_onto(chain, first, second));
-    let (sin, cos) = turned_rad.unwrap_or(0.0).sin_cos();
-    let origin = chain.anchors().start_m;
-    let turned = |[x, y, z]: Vector| [cos * x - sin * y, sin * x + cos * y, z];
-    let place = |joint: &Vector| std::array::from_fn(|k| joint[k] - origin[k]);
+/// What the budgets are held against, one after the other.
+struct Judgement<'a> {
+    tolerances: &'a Tolerances,
+    units: Units,
+    found: Disagreement,
+}
 
-    let free = free_joints(chain, answers, tolerances.forces.value * units.force_n);
-    let held = |joints_m: &[Vector], k: usize| if free[k] { origin } else { joints_m[k] };
-    let joints_m = if answers.iter().all(|answer| answer.joints_m.len() == free.len()) {
-        let pairs = (0..free.len()).map(|k| [held(&first.joints_m, k), held(&second.joints_m, k)]);
-        worst(pairs.map(|[a, b]| distance(place(&a), turned(place(&b)))))
-    } else {
-        f64::NAN
-    };
-    let free_joints = free.iter().filter(|free| **free).count();
-    let forces_n =
-        largest(&first.multipliers_n, &second.multipliers_n, |a, b| distance(*a, turned(*b)));
-    let energy_j = (first.energy_j - second.energy_j).abs();
-    let statics = answers.each_ref().map(|a| judge(chain, &a.joints_m, &a.multipliers_n));
-    let books = answers.each_ref().map(|a| books(chain, a));
-
-    let mut reasons = Vec::new();
-    let mut budget = |what: &str, value: f64, limit: f64| {
+impl Judgement<'_> {
+    fn hold(&mut self, what: Quantity, value: f64, budget: f64) {
         // NaN is over every budget.
-        if value.is_nan() || value > limit {
-            reasons.push(format!("{what}: {value:.2e} is over its budget of {limit:.2e}"));
+        if value.is_nan() || value > budget {
+            self.found.excesses.push(Excess { what, value, budget });
         }
-    };
-    budget("joints / m", joints_m, tolerances.joints.value * units.length_m + units.rounding_m);
-    budget("forces / N", forces_n, tolerances.forces.value * units.force_n);
-    budget("energy / J", energy_j, tolerances.energy.value * units.energy_j);
-    for (answer, statics) in answers.iter().zip(&statics) {
-        budget(
-            &format!("statics of {}, at bar {}", answer.solver, statics.worst_bar),
+    }
+
+    /// Two answers: their differences, and their second-order behaviour.
+    fn pair(&mut self, [first, second]: [&Equilibrium; 2], differences: &Differences) {
+        let (tolerances, units) = (self.tolerances, self.units);
+        let between = [&first.solver, &second.solver].map(SolverName::clone);
+        self.hold(
+            Quantity::Joints { between: between.clone() },
+            differences.joints_m,
+            tolerances.joints.value * units.length_m + units.rounding_m,
+        );
+        self.hold(
+            Quantity::Forces { between: between.clone() },
+            differences.forces_n,
+            tolerances.forces.value * units.force_n,
+        );
+        self.hold(
+            Quantity::Energy { between: between.clone() },
+            differences.energy_j,
+            tolerances.energy.value * units.energy_j,
+        );
+        let found = [first.stability, second.stability];
+        if found[0] != found[1] {
+            self.found.stability.push(StabilityDifference { between, found });
+        }
+    }
+
+    /// One answer by itself.
+    fn alone(&mut self, solver: &SolverName, statics: &Statics, consistency: &Consistency) {
+        let tolerances = self.tolerances;
+        let solver = || solver.clone();
+        self.hold(
+            Quantity::Statics { solver: solver(), bar: statics.worst_bar },
             statics.largest(),
             tolerances.statics.value,
         );
-    }
-    for (answer, books) in answers.iter().zip(&books) {
-        budget(
-            &format!("energy of {} less that of its joints", answer.solver),
-            books.energy,
+        self.hold(
+            Quantity::EnergyOfJoints { solver: solver() },
+            consistency.energy,
             tolerances.energy.value,
         );
-        budget(
-            &format!("axial forces and reactions of {} less its joint forces", answer.solver),
-            books.forces(),
+        self.hold(
+            Quantity::AxialForcesAndReactions { solver: solver() },
+            consistency.forces(),
             tolerances.statics.value,
         );
     }
-    if first.stability != second.stability {
-        reasons.push(format!(
-            "stability: {:?} by {}, {:?} by {}",
-            first.stability, first.solver, second.stability, second.solver
-        ));
+}
+
+fn agreement(chain: &Chain, answers: &[Equilibrium], tolerances: &Tolerances) -> Agreement {
+    let units = Units::new(chain, &answers[0].multipliers_n);
+    let mut judgement = Judgement { tolerances, units, found: Disagreement::default() };
+    let free = free_joints(chain, answers, tolerances.forces.value * units.force_n);
+    let mut differences = Vec::new();
+    for (k, first) in answers.iter().enumerate() {
+        for second in &answers[k + 1..] {
+            let found = Differences::of(chain, [first, second], &free);
+            judgement.pair([first, second], &found);
+            differences.push(found);
+        }
     }
-    let verdict = if reasons.is_empty() { Verdict::Agreed } else { Verdict::Disagreed };
+    let statics: Vec<_> =
+        answers.iter().map(|a| judge(chain, &a.joints_m, &a.multipliers_n)).collect();
+    let consistency: Vec<_> = answers.iter().map(|a| consistency(chain, a)).collect();
+    for ((answer, statics), consistency) in answers.iter().zip(&statics).zip(&consistency) {
+        judgement.alone(&answer.solver, statics, consistency);
+    }
+    let verdict = if judgement.found.is_empty() { Verdict::Agreed } else { Verdict::Disagreed };
     Agreement {
-        joints_m,
-        forces_n,
-        energy_j,
-        turned_rad,
-        free_joints,
+        joints_m: worst(differences.iter().map(|d| d.joints_m)),
+        forces_n: worst(differences.iter().map(|d| d.forces_n)),
+        energy_j: worst(differences.iter().map(|d| d.energy_j)),
+        turned_rad: differences.first().and_then(|d| d.turned_rad),
+        free_joints: free.iter().filter(|free| **free).count(),
         statics,
-        books,
+        consistency,
         verdict,
-        reasons,
+        disagreement: judgement.found,
     }
-}
-
-/// A joint with less than this part of the total weight carries no load: a rounding of the weight.
-const NO_LOAD: f64 = f64::EPSILON;
-
-/// Which joints 0..=n carry no load and lie between bars that carry no force in either answer: an
-/// equilibrium does not say where such a joint is. Where a joint without load lies between bars with
-/// force, the two are parallel, and it is held.
-fn free_joints(chain: &Chain, answers: &[Equilibrium; 2], no_force_n: f64) -> Vec<bool> {
-    let bars = chain.bars();
-    let mut free = vec![false; bars.len() + 1];
-    let no_load_kg = NO_LOAD * chain.total_mass_kg();
-    // What of a bar's mass its second end carries.
-    let beyond = |bar: &Bar| bar.mass_kg() * (bar.centre_m() / bar.length_m());
-    for k in 1..bars.len() {
-        let load_kg = beyond(&bars[k - 1]) + (bars[k].mass_kg() - beyond(&bars[k]));
-        // Arrays that do not fit, and NaN, free nothing.
-        let limp = |bar: usize| {
-            answers.iter().all(|a| a.axial_n.get(bar).is_some_and(|n| n.abs() <= no_force_n))
-        };
-        free[k] = load_kg <= no_load_kg && limp(k - 1) && limp(k);
-    }
-    free
-}
-
-/// Whether the chain turns freely about the vertical through both anchors.
-#[must_use]
-pub fn free_turn(chain: &Chain) -> bool {
-    let [x, y, _] = chain.anchors().difference_m();
-    x.hypot(y) <= model::STRAIGHT_TOLERANCE * chain.total_length_m()
-}
-
-/// The turn about the vertical that brings the joints of `second` closest to those of `first`.
-fn turn_onto(chain: &Chain, first: &Equilibrium, second: &Equilibrium) -> f64 {
-    let [ox, oy, _] = chain.anchors().start_m;
-    let (mut along, mut across) = (0.0, 0.0);
-    for (a, b) in first.joints_m.iter().zip(&second.joints_m) {
-        let (ax, ay, bx, by) = (a[0] - ox, a[1] - oy, b[0] - ox, b[1] - oy);
-        along += ax * bx + ay * by;
-        across += bx * ay - by * ax;
-    }
-    f64::atan2(across, along)
-}
-
-/// Largest difference of two arrays, by the given measure; NaN if they differ in length.
-fn largest(a: &[Vector], b: &[Vector], measure: impl Fn(&Vector, &Vector) -> f64) -> f64 {
-    if a.len() != b.len() {
-        return f64::NAN;
-    }
-    worst(a.iter().zip(b).map(|(a, b)| measure(a, b)))
-}
-
-/// The largest value, NaN if there is one (`f64::max` would forget it).
-fn worst(values: impl Iterator<Item = f64>) -> f64 {
-    values.fold(0.0, |a: f64, b| if a.is_nan() || b.is_nan() { f64::NAN } else { a.max(b) })
-}
-
-fn distance(a: Vector, b: Vector) -> f64 {
-    norm(std::array::from_fn(|k| a[k] - b[k]))
-}
-
-fn norm([x, y, z]: Vector) -> f64 {
-    x.hypot(y).hypot(z)
 }

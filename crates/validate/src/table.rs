@@ -7,8 +7,9 @@ use model::{Equilibrium, Problem, Rung};
 use rayon::prelude::*;
 use serde::Serialize;
 
-use crate::compare::{Agreement, Units, compare};
+use crate::compare::{Agreement, compare};
 use crate::tolerances::Tolerances;
+use crate::units::Units;
 
 /// Joints and joint forces are listed one by one up to this many bars; of longer chains the ends, the
 /// energy and the largest differences.
@@ -110,7 +111,7 @@ fn run(case: &Case, tolerances: &Tolerances) -> CaseResult {
                 agreement.energy_j / units.energy_j,
                 statics.fold(0.0, f64::max),
             ]);
-            result.rung = Some(answers[0].evidence.rung());
+            result.rung = answers[0].evidence.rung();
             result.rows = rows(case.name, &answers, &agreement, &units);
             result.agreement = Some(agreement);
         }

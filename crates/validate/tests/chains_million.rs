@@ -72,7 +72,7 @@ fn a_million_bars_are_as_accurate_as_ten() {
         let energy = energy::minimise(&problem, &energy::Settings::default()).unwrap().equilibrium;
         accurate(&problem, &energy);
         let agreement = compare(&problem, &mut [lagrange, energy], &Tolerances::project());
-        assert!(agreement.agrees(), "{:?}", agreement.reasons);
+        assert!(agreement.agrees(), "{:?}", agreement.disagreement);
         println!(
             "  joints {:.1e} m, forces {:.1e} N, energy {:.1e} J",
             agreement.joints_m, agreement.forces_n, agreement.energy_j

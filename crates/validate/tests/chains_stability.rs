@@ -13,11 +13,11 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use lagrange::condensed::{self, Condensed};
 use lagrange::{Seed, Settings, solve_from};
-use model::{Anchors, Bar, Chain, Equilibrium, InPlane, InSpace, Problem, Vector};
+use model::{Anchors, Bar, Chain, Equilibrium, InPlane, InSpace, NoCertificate, Problem, Vector};
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use validate::certificate::{Doubt, certify};
+use validate::certificate::certify;
 
 /// Bars of the largest chain.
 const LARGEST: usize = 12;
@@ -177,7 +177,7 @@ fn indices_are_those_of_dense_matrices() {
                     assert_eq!(in_space, 0, "{what}: {proof:?}");
                     certified += 1;
                 }
-                Err(Doubt::SeveralCompressed { .. } | Doubt::Indefinite { .. }) => {
+                Err(NoCertificate::SeveralCompressed { .. } | NoCertificate::Indefinite { .. }) => {
                     assert!(in_space > 0, "{what}");
                 }
                 Err(doubt) => panic!("{what}: {doubt}"),
@@ -227,6 +227,6 @@ fn the_highest_equilibrium_of_a_hundred_thousand_bars() {
             assert_eq!(stability.index_in_space, 2 * n - 3);
         }
         let doubt = certify(&problem, &arch).unwrap_err();
-        assert_eq!(doubt, Doubt::SeveralCompressed { bars: n });
+        assert_eq!(doubt, NoCertificate::SeveralCompressed { bars: n });
     }
 }

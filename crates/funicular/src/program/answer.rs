@@ -6,7 +6,7 @@ use std::fmt::Write as _;
 use model::{Equilibrium, SystemSummary};
 use validate::Agreement;
 
-use crate::tables::{duration, long, numbers_from, short, system_line, table, vector, word};
+use crate::tables::{duration, long, numbers_from, rung, short, system_line, table, vector, word};
 
 /// Chains up to this many bars are printed joint by joint; longer ones by their ends (`--csv` and
 /// `--json` have all).
@@ -109,8 +109,8 @@ fn ladder(equilibria: &[Equilibrium]) -> String {
     let mut text = String::new();
     for e in equilibria {
         // Writing to a String cannot fail.
-        let _ = writeln!(text, "Evidence for the answer of {}: {}", e.solver, e.evidence.rung());
-        for s in e.evidence.ladder() {
+        let _ = writeln!(text, "Evidence for the answer of {}: {}", e.solver, rung(&e.evidence));
+        for s in e.evidence.ladder.statements() {
             let _ = writeln!(
                 text,
                 "  {} {:<10} {}",

@@ -31,7 +31,7 @@ pub struct Census {
     /// Take the census of a named case instead of a file
     #[arg(long, value_name = "NAME", conflicts_with = "file")]
     pub case: Option<String>,
-    /// Print one JSON object (schema_version 1) instead of tables
+    /// Print one JSON object (schema_version 2) instead of tables
     #[arg(long)]
     pub json: bool,
     /// Refuse longer chains, with an estimate of what they would cost (at most 24)

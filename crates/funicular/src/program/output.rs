@@ -11,7 +11,7 @@ use miette::miette;
 use crate::exit::Failure;
 
 /// Version of the JSON objects; raised when a key that others rely on changes its meaning.
-pub const SCHEMA_VERSION: u32 = 1;
+pub const SCHEMA_VERSION: u32 = 2;
 
 /// Print to standard output. A reader that has gone away (`| head`) is no error.
 pub fn print(text: &str) -> Result<(), Failure> {

@@ -9,7 +9,7 @@ use clap::{Args, ValueEnum};
 use miette::miette;
 use model::{Equilibrium, Problem, SystemSummary};
 use serde::Serialize;
-use validate::completeness::certify_by_census;
+use validate::census_rungs::{certify_by_census, without_census};
 use validate::{Agreement, Tolerances, compare, compare::judge_alone};
 
 use crate::answer;
@@ -46,7 +46,7 @@ pub struct Solve {
     /// Which equations lagrange solves
     #[arg(long, value_enum, default_value_t = System::Condensed)]
     pub system: System,
-    /// Print one JSON object (schema_version 1) instead of tables
+    /// Print one JSON object (schema_version 2) instead of tables
     #[arg(long)]
     pub json: bool,
     /// Leave out the arrays over joints and bars
@@ -98,7 +98,7 @@ pub fn run(arguments: &Solve) -> Result<Exit, Failure> {
         equilibria.push(found.map_err(|e| Failure::undecided(miette!("energy: {e}")))?.equilibrium);
     }
     progress.say("the judges");
-    let (mut equilibria, agreement) = judge(&problem, equilibria);
+    let agreement = judge(&problem, &mut equilibria);
     if bars <= CENSUS_BARS {
         progress.say("the census");
         let straight = matches!(Topology::of(&problem), Err(TopologyError::Straight { .. }));
@@ -108,11 +108,7 @@ pub fn run(arguments: &Solve) -> Result<Exit, Failure> {
         for answer in &mut equilibria {
             match &census {
                 Ok(census) => certify_by_census(&problem, census, answer),
-                Err(error) => {
-                    for rung in [model::Rung::Verified, model::Rung::Complete] {
-                        answer.evidence.miss(rung, format!("no census: {error}"));
-                    }
-                }
+                Err(error) => without_census(error, answer),
             }
         }
     }
@@ -168,24 +164,13 @@ fn lagrange_answer(problem: &Problem, system: System) -> Result<Equilibrium, Fai
     found.map_err(Failure::undecided)
 }
 
-/// Two answers are compared; a single one is only judged by Newton's laws.
-fn judge(problem: &Problem, equilibria: Vec<Equilibrium>) -> (Vec<Equilibrium>, Option<Agreement>) {
-    let mut equilibria = match <[Equilibrium; 2]>::try_from(equilibria) {
-        Ok(mut both) => {
-            let agreement = compare(problem, &mut both, &Tolerances::project());
-            return (both.into(), Some(agreement));
-        }
-        Err(other) => other,
-    };
-    for answer in &mut equilibria {
-        let statics = judge_alone(problem, answer);
-        let why = format!(
-            "only one solver was asked; the statics judge finds every bar in balance to {:.1e}",
-            statics.largest()
-        );
-        answer.evidence.miss(model::Rung::Agreed, why);
+/// Answers are compared; a single one is only judged by Newton's laws.
+fn judge(problem: &Problem, equilibria: &mut [Equilibrium]) -> Option<Agreement> {
+    if let [answer] = equilibria {
+        judge_alone(problem, answer);
+        return None;
     }
-    (equilibria, None)
+    Some(compare(problem, equilibria, &Tolerances::project()))
 }
 
 /// The answer as JSON without the arrays over joints and bars.

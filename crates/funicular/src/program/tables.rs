@@ -2,7 +2,7 @@
 
 use comfy_table::{CellAlignment, ContentArrangement, LineStyle, Table, presets};
 use model::cases::Case;
-use model::{SystemSummary, Vector};
+use model::{Evidence, SystemSummary, Vector};
 
 /// Width of tables where no terminal says its own.
 const WIDTH: u16 = 120;
@@ -85,6 +85,11 @@ pub fn significant(x: f64, digits: usize) -> String {
 
 pub fn vector(v: Vector) -> String {
     format!("({})", v.map(short).join(", "))
+}
+
+/// The highest rung that an answer has reached.
+pub fn rung(evidence: &Evidence) -> String {
+    evidence.rung().map_or_else(|| "none".to_owned(), |rung| rung.to_string())
 }
 
 /// The serialised name of a unit variant.

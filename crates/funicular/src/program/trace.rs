@@ -82,7 +82,7 @@ pub struct Arguments {
     /// Take the values of several parameters in step instead of in all combinations
     #[arg(long)]
     pub zip: bool,
-    /// Print one JSON object (schema_version 1) instead of tables
+    /// Print one JSON object (schema_version 2) instead of tables
     #[arg(long)]
     pub json: bool,
     /// Write all points of all branches, a line each, to this CSV file (columns: --help)

@@ -3,7 +3,7 @@
 use std::num::NonZeroUsize;
 use std::time::Instant;
 
-use model::{Equilibrium, Evidence, Problem, Rung, SolverName};
+use model::{Equilibrium, Evidence, ForceUncertainty, Problem, SolverName, UncertaintyCause};
 
 use super::chain::Condensed;
 use super::error::CondensedError;
@@ -146,22 +146,17 @@ impl Condensed {
             return Err(CondensedError::Overflow);
         }
         let second = second_order(self, pull);
-        let mut evidence = Evidence::converged(closure, RESIDUAL_OF, passes);
-        let doubt = self.doubt(pull);
-        if doubt > WORTH_SAYING {
-            evidence.reach(
-                Rung::Converged,
-                format!(
-                    "{RESIDUAL_OF}: {closure:.1e} after {passes} iterations; the closure hardly depends on the pull, \
-                     and its rounding leaves the forces in doubt by up to {doubt:.0e} of the largest"
-                ),
-            );
+        let mut evidence = Evidence::new(RESIDUAL_OF, closure, settings.closure, passes);
+        let relative = self.doubt(pull);
+        if relative > WORTH_SAYING {
+            let cause = UncertaintyCause::WeakClosure;
+            evidence = evidence.with_force_uncertainty(ForceUncertainty { relative, cause });
         }
         evidence.nullity = second.nullity;
         evidence.condition = second.condition;
         let Vectors { joints_m, multipliers_n, axial_n } = memory;
         Ok(Equilibrium {
-            solver: SolverName::Lagrange,
+            solver: SolverName::LAGRANGE,
             energy_j,
             joints_m,
             multipliers_n,

@@ -171,7 +171,7 @@ fn evidence_is_filled() {
     let found =
         solve_from(&problem, &Seed::planar(&[0.3, 0.7, -1.3]), &Settings::default()).unwrap();
     let evidence = &found.equilibrium.evidence;
-    assert_eq!(evidence.rung(), model::Rung::Converged);
+    assert_eq!(evidence.rung(), Some(model::Rung::Converged));
     assert_eq!(evidence.iterations, found.effort.iterations);
     assert_eq!(found.residual_history.len(), found.effort.iterations);
     assert!(evidence.solve_s > 0.0 && evidence.condition.is_finite());

@@ -1,6 +1,9 @@
 //! The answer of one solver for a system.
 
-use crate::{Evidence, InSpace, SolverName, Vector};
+use crate::Vector;
+use crate::evidence::Evidence;
+use crate::solver_name::SolverName;
+use crate::stability::InSpace;
 
 /// One equilibrium of a [`System`](super::System) as one solver found it: observables only.
 #[derive(Debug, Clone, PartialEq)]

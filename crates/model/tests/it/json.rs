@@ -1,14 +1,24 @@
 //! The JSON of an answer: the keys that other programs rely on, and no more than they are told of.
 
-use model::{Equilibrium, Evidence, InPlane, InSpace, Reactions, Rung, SolverName, Stability};
+use model::{
+    Agreed, Disagreement, Equilibrium, Evidence, Excess, ForceUncertainty, InPlane, InSpace,
+    NoCensus, NoCertificate, Optimal, Quantity, Reactions, Reason, Rung, SolverName, Stability,
+    StabilityDifference, Status, UncertaintyCause, Verified,
+};
 use serde_json::Value;
 
+fn agreed() -> Agreed {
+    let solvers = vec![SolverName::LAGRANGE, SolverName::ENERGY, SolverName::new("a third")];
+    Agreed { solvers, joints_m: 1e-13, forces_n: 2e-12, energy_j: 0.0, statics: 3e-16 }
+}
+
 fn equilibrium() -> Equilibrium {
-    let mut evidence = Evidence::converged(1e-15, "residual", 4);
-    evidence.reach(Rung::Agreed, "both");
-    evidence.miss(Rung::Optimal, "no certificate");
+    let mut evidence = Evidence::new("residual", 1e-15, 1e-13, 4);
+    evidence.ladder.agreed = Status::Reached(agreed());
+    evidence.ladder.optimal =
+        Status::Open(Reason::NoCertificate(NoCertificate::Indefinite { bar: 2, excess: 0.25 }));
     Equilibrium {
-        solver: SolverName::Lagrange,
+        solver: SolverName::LAGRANGE,
         energy_j: -1.0,
         joints_m: vec![[0.0; 3], [1.0, 2.0, 3.0]],
         multipliers_n: vec![[0.0; 3]; 2],
@@ -65,7 +75,21 @@ fn the_keys_of_an_equilibrium_are_those_of_the_design() {
             "solve_s"
         ]
     );
-    assert_eq!(keys(&json["evidence"]["ladder"][0]), ["how", "reached", "rung"]);
+    let ladder = &json["evidence"]["ladder"];
+    assert_eq!(keys(&ladder[0]), ["how", "proof", "reached", "rung"]);
+    assert_eq!(
+        keys(&ladder[0]["proof"]),
+        ["force_uncertainty", "iterations", "residual", "residual_of", "tolerance"]
+    );
+    assert_eq!(
+        keys(&ladder[1]["proof"]),
+        ["energy_j", "forces_n", "joints_m", "solvers", "statics"]
+    );
+    assert_eq!(keys(&ladder[2]), ["how", "reached", "reason", "rung"]);
+    assert_eq!(ladder[2]["reason"]["kind"], "not_tried");
+    assert_eq!(ladder[4]["reason"]["kind"], "no_certificate");
+    assert_eq!(ladder[4]["reason"]["because"], "indefinite");
+    assert_eq!(ladder[4]["reason"]["excess"], 0.25);
     let system = model::cases::paper().chain().summary();
     assert_eq!(
         keys(&serde_json::to_value(system).unwrap()),
@@ -93,7 +117,7 @@ fn words_are_those_of_the_design() {
         serde_json::to_value(value).unwrap().as_str().unwrap().to_owned()
     }
     assert_eq!(
-        [SolverName::Lagrange, SolverName::Energy, SolverName::Census].map(word),
+        [SolverName::LAGRANGE, SolverName::ENERGY, SolverName::CENSUS].map(word),
         ["lagrange", "energy", "census"]
     );
     assert_eq!(
@@ -105,37 +129,103 @@ fn words_are_those_of_the_design() {
     assert_eq!(Rung::ALL.map(word), rungs);
     // People read the same words.
     assert_eq!(Rung::ALL.map(|rung| rung.to_string()), rungs);
-    for solver in [SolverName::Lagrange, SolverName::Energy, SolverName::Census] {
+    for solver in [SolverName::LAGRANGE, SolverName::ENERGY, SolverName::CENSUS] {
         assert_eq!(solver.to_string(), word(solver));
     }
 }
 
 #[test]
 fn the_rung_is_the_highest_that_was_reached() {
-    let mut evidence = Evidence::converged(2.5e-16, "force", 7);
-    let reached =
-        |evidence: &Evidence| evidence.ladder().iter().map(|s| s.reached).collect::<Vec<_>>();
-    assert_eq!(evidence.rung(), Rung::Converged);
+    let mut evidence = Evidence::new("force", 2.5e-16, 1e-13, 7);
+    let reached = |evidence: &Evidence| Rung::ALL.map(|rung| evidence.ladder.is_reached(rung));
+    assert_eq!(evidence.rung(), Some(Rung::Converged));
     assert_eq!(reached(&evidence), [true, false, false, false, false]);
-    assert_eq!(evidence.ladder()[0].how, "force: 2.5e-16 after 7 iterations");
-    assert!(evidence.ladder()[1..].iter().all(|s| s.how == "not tried"));
+    assert_eq!(evidence.ladder.how(Rung::Converged), "force: 2.5e-16 after 7 iterations");
+    let statements = evidence.ladder.statements();
+    assert!(statements[1..].iter().all(|s| !s.reached && s.how == "not tried"));
+    assert_eq!(statements.map(|s| s.rung), Rung::ALL);
 
     // A rung may be reached without those below it, and the ladder says so.
-    evidence.reach(Rung::Optimal, "certificate");
-    assert_eq!(evidence.rung(), Rung::Optimal);
+    evidence.ladder.optimal = Status::Reached(Optimal { gap: Some(1e-15), singular: false });
+    assert_eq!(evidence.rung(), Some(Rung::Optimal));
     assert_eq!(reached(&evidence), [true, false, false, false, true]);
-    evidence.miss(Rung::Agreed, "they differ");
-    assert_eq!(evidence.rung(), Rung::Optimal);
-    assert_eq!(evidence.ladder()[1].how, "they differ");
-    evidence.reach(Rung::Agreed, "on second thoughts");
+    evidence.ladder.agreed = Status::Reached(agreed());
     // What was reached can be taken back.
-    evidence.miss(Rung::Optimal, "the certificate is void");
-    assert_eq!(evidence.rung(), Rung::Agreed);
-    assert_eq!(evidence.ladder()[4].how, "the certificate is void");
-    evidence.miss(Rung::Agreed, "no");
-    assert_eq!(evidence.rung(), Rung::Converged);
-
-    let rungs: Vec<_> = evidence.ladder().iter().map(|s| s.rung).collect();
-    assert_eq!(rungs, Rung::ALL);
+    evidence.ladder.optimal = Status::Open(Reason::NoCertificate(NoCertificate::Unusable));
+    assert_eq!(evidence.rung(), Some(Rung::Agreed));
+    evidence.ladder.agreed = Status::default();
+    assert_eq!(evidence.rung(), Some(Rung::Converged));
     assert!(Rung::ALL.is_sorted());
+}
+
+/// A residual above its tolerance, or none at all, is no convergence, and nothing else is lost by it.
+#[test]
+fn converged_is_not_reached_above_the_tolerance() {
+    for residual in [1.000_1e-12, f64::NAN, f64::INFINITY] {
+        let evidence = Evidence::new("force", residual, 1e-12, 3);
+        assert_eq!(evidence.rung(), None);
+        let Some(Reason::AboveTolerance(convergence)) = evidence.ladder.converged.reason() else {
+            panic!("{evidence:?}")
+        };
+        assert_eq!((convergence.tolerance, convergence.iterations), (Some(1e-12), 3));
+        assert!(evidence.ladder.how(Rung::Converged).contains("above the tolerance of 1e-12"));
+        let json = serde_json::to_value(&evidence).unwrap();
+        assert!(json["rung"].is_null());
+        assert_eq!(json["ladder"][0]["reason"]["kind"], "above_tolerance");
+        assert_eq!(json["ladder"][0]["reason"]["residual"].is_number(), residual.is_finite());
+    }
+    assert_eq!(Evidence::new("force", 1e-12, 1e-12, 3).rung(), Some(Rung::Converged));
+}
+
+/// Every reason is written and read back with its numbers; what is not a number is null.
+#[test]
+fn reasons_read_back() {
+    let stability = equilibrium().stability;
+    let between = [SolverName::LAGRANGE, SolverName::ENERGY];
+    let excess = Excess {
+        what: Quantity::Statics { solver: SolverName::new("a third"), bar: 3 },
+        value: 1e-3,
+        budget: 1e-11,
+    };
+    let disagreement = Disagreement {
+        excesses: vec![excess],
+        stability: vec![StabilityDifference { between, found: [stability; 2] }],
+    };
+    let reasons = [
+        Reason::NotTried,
+        Reason::OneSolverOnly { solver: SolverName::ENERGY, statics: 1e-15 },
+        Reason::SolversDisagree(disagreement),
+        Reason::NoCensus(NoCensus::TooManyBars { bars: 30, limit: 12 }),
+        Reason::SlackFamily,
+        Reason::NotAmongDecided { cells: 2 },
+        Reason::Elsewhere { distance: 1e-6 },
+        Reason::StraightPosition { sides: vec![1, 2] },
+        Reason::NoCertificate(NoCertificate::Gap { gap: 0.5 }),
+    ];
+    for reason in reasons {
+        let mut evidence =
+            Evidence::new("force", 0.0, 0.0, 0).with_force_uncertainty(ForceUncertainty {
+                relative: 1e-6,
+                cause: UncertaintyCause::ParallelBars,
+            });
+        evidence.ladder.agreed = Status::Open(reason);
+        evidence.ladder.verified =
+            Status::Reached(Verified { box_width: 1e-15, distance: 0.0, circle: true });
+        let json = serde_json::to_string(&evidence).unwrap();
+        let back: Evidence = serde_json::from_str(&json).unwrap();
+        assert_eq!(back, evidence, "{json}");
+        assert!(!evidence.ladder.how(Rung::Agreed).is_empty());
+    }
+    let excess = Excess {
+        what: Quantity::EnergyOfJoints { solver: SolverName::ENERGY },
+        value: f64::NAN,
+        budget: 1.0,
+    };
+    let json = serde_json::to_value(&excess).unwrap();
+    assert_eq!((&json["what"], &json["solver"]), (&"energy_of_joints".into(), &"energy".into()));
+    assert!(json["value"].is_null());
+    assert!(serde_json::from_value::<Excess>(json).unwrap().value.is_nan());
+    // A rung without the proof or the reason is no evidence.
+    let bare = r#"[{"rung": "agreed", "reached": true, "how": "trust me"}]"#;
+    assert!(serde_json::from_str::<model::Ladder>(bare).is_err());
 }

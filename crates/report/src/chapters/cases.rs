@@ -1,6 +1,6 @@
 //! Both solvers on every case of the registry.
 
-use paper::Reproduction;
+use validate::Reproduction;
 
 use crate::block::{Block, Table, heading, text};
 use crate::numbers::measured;

@@ -1,6 +1,6 @@
 //! The method in short.
 
-use paper::Reproduction;
+use validate::Reproduction;
 
 use super::run::word;
 use crate::block::{Block, Table, heading, text};

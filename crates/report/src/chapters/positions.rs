@@ -1,7 +1,7 @@
 //! The equilibria: angles, energies, forces, and how far each is proved.
 
 use census::Census;
-use paper::Reproduction;
+use validate::Reproduction;
 
 use super::run::word;
 use crate::block::{Block, Table, heading, text};
@@ -121,7 +121,7 @@ fn forces(r: &Reproduction) -> Table {
 /// One row for each rung of each equilibrium; the mirror images stand on the same rungs.
 fn ladder(r: &Reproduction) -> Table {
     let rows = r.equilibria.iter().filter(|p| !p.name.ends_with('\'')).flat_map(|p| {
-        p.ladder.iter().map(|statement| {
+        p.ladder.statements().into_iter().map(|statement| {
             vec![
                 p.name.to_owned(),
                 statement.rung.to_string(),

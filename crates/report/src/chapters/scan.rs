@@ -1,6 +1,6 @@
 //! How the paper obtained its numbers.
 
-use paper::Reproduction;
+use validate::Reproduction;
 
 use crate::block::{Block, Table, heading, text};
 use crate::figures;

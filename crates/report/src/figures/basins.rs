@@ -1,8 +1,7 @@
 //! Which start leads where: a slice through the planar starts.
 
-use model::SolverName;
-use paper::Reproduction;
-use paper::basins::Basins;
+use validate::Reproduction;
+use validate::basins::Basins;
 
 use super::Figure;
 use super::axes::Axes;
@@ -35,10 +34,7 @@ pub fn basins(r: &Reproduction) -> Figure {
 fn panel(basins: &Basins) -> String {
     let size = [430.0, 470.0];
     let axes = Axes::new([430.0, 420.0], [-180.0, 180.0], [-180.0, 180.0]);
-    let name = match basins.solver {
-        SolverName::Lagrange => "lagrange",
-        _ => "energy",
-    };
+    let name = basins.solver.as_str();
     let shares: Vec<String> = PLACES
         .iter()
         .filter(|(letter, ..)| basins.count(*letter) > 0)

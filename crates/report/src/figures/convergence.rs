@@ -1,8 +1,7 @@
 //! Residual against iteration for both solvers.
 
-use model::SolverName;
-use paper::Reproduction;
-use paper::figures::History;
+use validate::Reproduction;
+use validate::figures::History;
 
 use super::Figure;
 use super::axes::Axes;
@@ -70,10 +69,7 @@ fn panel(k: usize, start: &str, histories: &[&History], longest: usize) -> Strin
                 axes.at([(history.first_iteration + k) as f64, decade])
             })
             .collect();
-        let class = match history.solver {
-            SolverName::Lagrange => "lagrange",
-            _ => "energy",
-        };
+        let class = history.solver.as_str();
         svg.polyline(&format!("history {class}"), points.iter().copied());
         for point in &points {
             if class == "lagrange" {

@@ -1,4 +1,4 @@
-use model::{InPlane, InSpace, Stability};
+use model::{InPlane, InSpace, Ladder, Stability};
 
 use super::*;
 
@@ -26,7 +26,7 @@ fn position(name: &'static str, [theta, alpha, beta]: [f64; 3], v: f64, index: u
             index_in_space: index,
         },
         nullity: 4,
-        ladder: Vec::new(),
+        ladder: Ladder::default(),
     }
 }
 

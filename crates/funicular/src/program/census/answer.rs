@@ -3,7 +3,7 @@
 use census::{
     CheckError, Interval, Position, ProvenEquilibrium, SlackFamily, Statistics, Undecided,
 };
-use model::{Equilibrium, Problem, Rung, SystemSummary};
+use model::{Equilibrium, Problem, Reason, SolverName, Status, SystemSummary};
 use serde::Serialize;
 use validate::statics::judge;
 
@@ -197,13 +197,10 @@ fn found(problem: &Problem, census: &census::Census, position: &Position, unit_j
     let proven = &position.equilibrium;
     let mut equilibrium = census.position_to_model(position);
     let statics = judge(problem.chain(), &equilibrium.joints_m, &equilibrium.multipliers_n);
-    equilibrium.evidence.miss(
-        Rung::Agreed,
-        format!(
-            "only the census was asked; the statics judge finds every bar in balance to {:.1e}",
-            statics.largest()
-        ),
-    );
+    equilibrium.evidence.ladder.agreed = Status::Open(Reason::OneSolverOnly {
+        solver: SolverName::CENSUS,
+        statics: statics.largest(),
+    });
     let signed: Vec<f64> =
         proven.angles_rad.iter().map(|angle| signed_deg(angle.mid().to_degrees())).collect();
     Found {

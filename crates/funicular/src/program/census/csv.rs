@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use super::answer::Answer;
+use crate::tables::rung;
 
 /// A line per equilibrium and joint: position, force of bar k+1 on bar k (at joint 0 of the ground on
 /// bar 1, at joint n of the ground on bar n), and angle and axial force of the bar that ends there.
@@ -22,7 +23,7 @@ pub fn joints(answer: &Answer) -> String {
                 e.energy_j,
                 e.stability.index_in_plane,
                 e.stability.index_in_space,
-                e.evidence.rung(),
+                rung(&e.evidence),
                 found.box_width,
             );
             let bar = k

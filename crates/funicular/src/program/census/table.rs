@@ -6,7 +6,7 @@ use model::{Problem, Rung};
 
 use super::answer::{Answer, Found, Summary};
 use crate::tables::{
-    duration, long, numbers_from, short, significant, system_line, table, vector, word,
+    duration, long, numbers_from, rung, short, significant, system_line, table, vector, word,
 };
 
 /// So many equilibria are printed; `--json` and `--csv` have all.
@@ -95,7 +95,7 @@ fn overview(problem: &Problem, answer: &Answer) -> String {
             format!("{} ({})", word(&e.stability.in_plane), e.stability.index_in_plane),
             format!("{} ({})", word(&e.stability.in_space), e.stability.index_in_space),
             format!("{:.0e}", found.box_width),
-            e.evidence.rung().to_string(),
+            rung(&e.evidence),
         ]);
         rows.add_row(row);
     }
@@ -203,19 +203,15 @@ fn bars(answer: &Answer) -> String {
 fn evidence(answer: &Answer) -> String {
     let all = answer.equilibria.len();
     let mut text = "Evidence:\n".to_owned();
-    for rung in Rung::ALL.into_iter().filter(|rung| *rung != Rung::Converged) {
-        let reached = |found: &&Found| {
-            found.equilibrium.evidence.ladder().iter().any(|s| s.rung == rung && s.reached)
-        };
+    for step in Rung::ALL.into_iter().filter(|rung| *rung != Rung::Converged) {
+        let reached = |found: &&Found| found.equilibrium.evidence.ladder.is_reached(step);
         let there: Vec<&Found> = answer.equilibria.iter().filter(reached).collect();
         let how = |found: Option<&Found>| {
-            found
-                .and_then(|f| f.equilibrium.evidence.ladder().iter().find(|s| s.rung == rung))
-                .map_or_else(String::new, |s| s.how.clone())
+            found.map_or_else(String::new, |found| found.equilibrium.evidence.ladder.how(step))
         };
         let missed = answer.equilibria.iter().find(|found| !reached(found));
         let mark = if there.is_empty() { '-' } else { '+' };
-        let _ = write!(text, "  {mark} {:<9} {} of {all}", rung.to_string(), there.len());
+        let _ = write!(text, "  {mark} {:<9} {} of {all}", step.to_string(), there.len());
         // Of many, the one with the widest box speaks for all.
         if let Some(widest) = there.iter().max_by(|a, b| a.box_width.total_cmp(&b.box_width)) {
             let _ = write!(text, ": {}", how(Some(widest)));

@@ -1,0 +1,132 @@
+//! The angle of a vector, enclosed, without the system's libm.
+
+use crate::Interval;
+
+/// π: the double below and the one above (3.14159265358979311 < π < 3.14159265358979357).
+pub(crate) const PI: Interval =
+    Interval::ordered(std::f64::consts::PI, f64::from_bits(std::f64::consts::PI.to_bits() + 1));
+
+/// How often the angle is halved: then |x| < tan(π/16) < 0.2.
+const HALVINGS: usize = 3;
+
+/// Terms of the series for |x| < 0.2: the first one left out is below 0.2²⁷/27 < 2⁻⁶⁷, far below the
+/// last place of x.
+const TERMS: u32 = 13;
+
+/// The angle of (x, y) from the first axis, in (−π, π]; both ends may lie in (π, 2π) if the vectors
+/// straddle the negative axis. The vectors must not contain zero, else nothing is known.
+///
+/// # References
+///
+/// The alternating series and the halving formula atan x = 2 atan(x/(1 + √(1 + x²))): NIST Digital
+/// Library of Mathematical Functions, 4.24.3 and 4.24.17, <https://dlmf.nist.gov/4.24>
+pub(crate) fn of_vector([x, y]: [Interval; 2]) -> Interval {
+    let half_pi = PI.scale(0.5);
+    if x.mid().abs() >= y.mid().abs() {
+        if x.lo() > 0.0 {
+            return tangent_inverse(y / x);
+        }
+        if x.hi() < 0.0 {
+            let turn = if y.mid() < 0.0 { -PI } else { PI };
+            return turn + tangent_inverse(y / x);
+        }
+    } else if y.lo() > 0.0 {
+        return half_pi - tangent_inverse(x / y);
+    } else if y.hi() < 0.0 {
+        return -half_pi - tangent_inverse(x / y);
+    }
+    Interval::new(-PI.hi(), PI.hi())
+}
+
+/// The inverse tangent; it grows with its argument.
+fn tangent_inverse(x: Interval) -> Interval {
+    let low = at(x.lo());
+    if x.width() > 0.0 { Interval::new(low.lo(), at(x.hi()).hi()) } else { low }
+}
+
+fn at(x: f64) -> Interval {
+    let mut x = Interval::point(x);
+    for _ in 0..HALVINGS {
+        x = x / (Interval::ONE + (Interval::ONE + x.square()).sqrt());
+    }
+    (x * series(x.square(), TERMS)).scale(f64::from(1 << HALVINGS))
+}
+
+/// (atan √s)/√s = 1 − s/3 + s²/5 − ... for the numbers s of 0..1 in the interval.
+///
+/// With the rests R_k = 1/(2k + 1) − s/(2k + 3) + ... it is R_0, and R_k = 1/(2k + 1) − s R_{k+1}. The
+/// terms of `R_k` alternate in sign and do not grow for s ≤ 1, so `R_k` lies between 0 and its first
+/// term 1/(2k + 1). From that enclosure of the first rest left out, k = `terms`, Horner's scheme goes
+/// down to k = 0; each step multiplies its width by s, and in the end it is s^`terms`/(2 `terms` + 1),
+/// the first term left out.
+fn series(square: Interval, terms: u32) -> Interval {
+    let first_of_rest =
+        |k: u32| Interval::ONE / Interval::point(2.0_f64.mul_add(f64::from(k), 1.0));
+    let rest = Interval::ZERO.hull(first_of_rest(terms));
+    (0..terms).rev().fold(rest, |rest, k| first_of_rest(k) - square * rest)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    #[test]
+    fn known_angles_are_enclosed_and_narrow() {
+        // tan(π/6) = 1/√3, tan(π/8) = √2 − 1: both angles are π over an integer.
+        let three = Interval::point(3.0).sqrt();
+        let eighth = Interval::point(2.0).sqrt() - Interval::ONE;
+        for (vector, parts) in [
+            ([three, Interval::ONE], 6.0),
+            ([Interval::ONE, three], 3.0),
+            ([Interval::ONE, Interval::ONE], 4.0),
+            ([Interval::ONE, eighth], 8.0),
+            ([Interval::ZERO, Interval::ONE], 2.0),
+        ] {
+            for [x, y] in [vector, [vector[0], -vector[1]]] {
+                let angle = of_vector([x, y]).abs();
+                let expected = PI / Interval::point(parts);
+                assert!(!angle.misses(expected), "{angle:?} {expected:?}");
+                assert!(angle.width() < 4e-15, "{:e}", angle.width());
+            }
+            let obtuse = of_vector([-vector[0], vector[1]]);
+            let expected = PI - PI / Interval::point(parts);
+            assert!(!obtuse.misses(expected) && obtuse.width() < 8e-15);
+        }
+        assert_eq!(of_vector([Interval::ZERO, Interval::ZERO]), Interval::new(-PI.hi(), PI.hi()));
+    }
+
+    /// With few terms the rest that is left out is far above all roundings: the enclosure must hold it,
+    /// and be no wider than the first term left out.
+    #[test]
+    fn the_rest_of_the_series_is_enclosed() {
+        for terms in 1..TERMS {
+            for x in [0.02, 0.1, 0.2, 0.5, 0.9_f64] {
+                let sum = series(Interval::point(x).square(), terms);
+                let reference = x.atan() / x;
+                // A unit or two in the last place for the system's function and the quotient.
+                let slack = 4.0 * f64::EPSILON;
+                assert!(
+                    sum.lo() - slack <= reference && reference <= sum.hi() + slack,
+                    "{terms} terms at {x}: {sum:?} {reference}"
+                );
+                let left_out =
+                    x.powi(2 * terms.cast_signed()) / f64::from(2 * terms + 1) + 16.0 * slack;
+                assert!(sum.width() <= left_out, "{terms} terms at {x}: {:e}", sum.width());
+            }
+        }
+    }
+
+    proptest! {
+        /// An independent method: the system's `atan2`, good to a unit or two in the last place.
+        #[test]
+        fn the_systems_atan2_is_enclosed(x in -2.0..2.0f64, y in -2.0..2.0f64) {
+            prop_assume!(x.hypot(y) > 1e-3);
+            let angle = of_vector([Interval::point(x), Interval::point(y)]);
+            let reference = y.atan2(x);
+            let slack = 4.0 * f64::EPSILON * reference.abs().max(1e-300);
+            prop_assert!(angle.lo() - slack <= reference && reference <= angle.hi() + slack);
+            prop_assert!(angle.width() < 1e-14);
+        }
+    }
+}

@@ -1,4 +1,0 @@
-//! What is proved with these numbers stands on them: enclosures hold the exact results.
-
-mod interval;
-mod sums;

@@ -1,0 +1,112 @@
+//! The rung `agreed`.
+
+use serde::{Deserialize, Serialize};
+
+use super::finite;
+use crate::solver_name::SolverName;
+use crate::stability::Stability;
+
+/// Answers of several solvers are one, and each is in balance.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Agreed {
+    /// Whose answers.
+    pub solvers: Vec<SolverName>,
+    /// Largest distance of a joint in one answer from the same joint in another, m.
+    #[serde(with = "finite")]
+    pub joints_m: f64,
+    /// Largest difference of a joint force, N.
+    #[serde(with = "finite")]
+    pub forces_n: f64,
+    /// Largest difference of the energies, J.
+    #[serde(with = "finite")]
+    pub energy_j: f64,
+    /// Largest violation of geometry and of Newton's laws by any of the answers, dimensionless.
+    #[serde(with = "finite")]
+    pub statics: f64,
+}
+
+/// A number that is over its budget.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Excess {
+    /// What the number measures.
+    #[serde(flatten)]
+    pub what: Quantity,
+    /// The number; not a number where an answer is incomplete or not finite.
+    #[serde(with = "finite")]
+    pub value: f64,
+    /// What it may be.
+    #[serde(with = "finite")]
+    pub budget: f64,
+}
+
+/// What a comparison measures.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "what", rename_all = "snake_case")]
+#[non_exhaustive]
+pub enum Quantity {
+    /// Largest distance of a joint in one answer from the same joint in the other, m.
+    Joints {
+        /// The two solvers.
+        between: [SolverName; 2],
+    },
+    /// Largest difference of a joint force, N.
+    Forces {
+        /// The two solvers.
+        between: [SolverName; 2],
+    },
+    /// Difference of the energies, J.
+    Energy {
+        /// The two solvers.
+        between: [SolverName; 2],
+    },
+    /// Violation of geometry and of Newton's laws by one answer, dimensionless.
+    Statics {
+        /// The solver.
+        solver: SolverName,
+        /// The bar with the largest violation, from 1; 0 where the answer is incomplete.
+        bar: usize,
+    },
+    /// The energy that an answer names less that of its joints, in units of weight times length.
+    EnergyOfJoints {
+        /// The solver.
+        solver: SolverName,
+    },
+    /// Axial forces and reactions that an answer names less those of its joint forces, in units of force.
+    AxialForcesAndReactions {
+        /// The solver.
+        solver: SolverName,
+    },
+}
+
+/// Two solvers that find different second-order behaviour.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct StabilityDifference {
+    /// The two solvers.
+    pub between: [SolverName; 2],
+    /// What each of them finds.
+    pub found: [Stability; 2],
+}
+
+/// What speaks against answers being one.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub struct Disagreement {
+    /// What is over its budget.
+    pub excesses: Vec<Excess>,
+    /// Different second-order behaviour.
+    pub stability: Vec<StabilityDifference>,
+}
+
+impl Disagreement {
+    /// Whether there is none.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.excesses.is_empty() && self.stability.is_empty()
+    }
+
+    /// Each part in a sentence.
+    #[must_use]
+    pub fn sentences(&self) -> Vec<String> {
+        let excesses = self.excesses.iter().map(ToString::to_string);
+        excesses.chain(self.stability.iter().map(ToString::to_string)).collect()
+    }
+}

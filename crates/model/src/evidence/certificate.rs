@@ -1,0 +1,65 @@
+//! The rung `optimal`.
+
+use serde::{Deserialize, Serialize};
+
+use super::finite;
+
+/// No configuration has less energy: the stress matrix is positive semidefinite.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Optimal {
+    /// The energy less a proved lower bound of all energies, in units of the weight between the anchors times the
+    /// total length; nothing where a factorisation in intervals proves it of the exact equilibrium.
+    pub gap: Option<f64>,
+    /// Whether the stress matrix is singular as far as doubles can tell: the free turn about the vertical through
+    /// both anchors.
+    pub singular: bool,
+}
+
+/// Why there is no certificate of global minimality.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "because", rename_all = "snake_case")]
+#[non_exhaustive]
+pub enum NoCertificate {
+    /// Occurs when two or more bars are in compression: the stress matrix has a negative eigenvalue,
+    /// and the equilibrium is unstable in space.
+    SeveralCompressed {
+        /// How many.
+        bars: usize,
+    },
+    /// Occurs when one bar is in compression and its force is too large for the others to hold it up
+    /// in space: `Σ 1/τ_i > 0`, proven.
+    Indefinite {
+        /// The compressed bar, from 1.
+        bar: usize,
+        /// `Σ 1/τ_i` over `Σ |1/τ_i|`.
+        #[serde(with = "finite")]
+        excess: f64,
+    },
+    /// Occurs when the bound holds but stays too far below the energy.
+    Gap {
+        /// The gap in units of the weight between the anchors × total length.
+        #[serde(with = "finite")]
+        gap: f64,
+    },
+    /// Occurs when the last joint misses its anchor by so much of what the chain can spare that no configuration of
+    /// it need be near.
+    NotClosed {
+        /// How far the joint is from the anchor, beyond the rounding of coordinates, m.
+        #[serde(with = "finite")]
+        missed_m: f64,
+        /// What the bars can spare before they lie on one line, m.
+        #[serde(with = "finite")]
+        spare_m: f64,
+    },
+    /// Occurs when the energy is proved to fall in some directions.
+    EnergyFalls {
+        /// How many independent ones.
+        directions: usize,
+    },
+    /// Occurs when the pivots of the stress matrix are not proved positive, nor otherwise.
+    PivotsUndecided,
+    /// Occurs when a number of the answer is not finite, or the arrays do not fit the chain.
+    Unusable,
+}
+
+impl std::error::Error for NoCertificate {}

@@ -1,0 +1,182 @@
+//! The five rungs together.
+
+use std::fmt::Display;
+
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+use super::agreed::Agreed;
+use super::certificate::Optimal;
+use super::complete::Complete;
+use super::convergence::Convergence;
+use super::reason::Reason;
+use super::rung::Rung;
+use super::status::Status;
+use super::verified::Verified;
+
+/// What is known about each rung. A rung may be reached without those below it.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Ladder {
+    /// A solver's own residual is below its tolerance.
+    pub converged: Status<Convergence>,
+    /// Solvers agree, and the statics judge finds every bar in balance.
+    pub agreed: Status<Agreed>,
+    /// Interval arithmetic proves that exactly one equilibrium lies in a stated box.
+    pub verified: Status<Verified>,
+    /// A census proves that there is no other equilibrium outside the listed boxes.
+    pub complete: Status<Complete>,
+    /// A certificate proves that no configuration has less energy.
+    pub optimal: Status<Optimal>,
+}
+
+/// One rung in a sentence.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Statement {
+    /// The rung.
+    pub rung: Rung,
+    /// Whether it was reached.
+    pub reached: bool,
+    /// How it was reached, or why not.
+    pub how: String,
+}
+
+impl Ladder {
+    /// Whether a rung was reached.
+    #[must_use]
+    pub fn is_reached(&self, rung: Rung) -> bool {
+        self.reason(rung).is_none()
+    }
+
+    /// Why a rung was not reached; nothing if it was.
+    #[must_use]
+    pub fn reason(&self, rung: Rung) -> Option<&Reason> {
+        match rung {
+            Rung::Converged => self.converged.reason(),
+            Rung::Agreed => self.agreed.reason(),
+            Rung::Verified => self.verified.reason(),
+            Rung::Complete => self.complete.reason(),
+            Rung::Optimal => self.optimal.reason(),
+        }
+    }
+
+    /// How a rung was reached, or why not, in a sentence.
+    #[must_use]
+    pub fn how(&self, rung: Rung) -> String {
+        let status: &dyn Display = match rung {
+            Rung::Converged => &self.converged,
+            Rung::Agreed => &self.agreed,
+            Rung::Verified => &self.verified,
+            Rung::Complete => &self.complete,
+            Rung::Optimal => &self.optimal,
+        };
+        status.to_string()
+    }
+
+    /// The highest rung reached, if any is.
+    #[must_use]
+    pub fn highest(&self) -> Option<Rung> {
+        Rung::ALL.into_iter().rev().find(|rung| self.is_reached(*rung))
+    }
+
+    /// One statement for each rung, lowest first.
+    #[must_use]
+    pub fn statements(&self) -> [Statement; 5] {
+        Rung::ALL.map(|rung| Statement {
+            rung,
+            reached: self.is_reached(rung),
+            how: self.how(rung),
+        })
+    }
+
+    /// How the solver ended, converged or not; nothing if that is not known.
+    #[must_use]
+    pub fn convergence(&self) -> Option<&Convergence> {
+        match &self.converged {
+            Status::Reached(convergence) | Status::Open(Reason::AboveTolerance(convergence)) => {
+                Some(convergence)
+            }
+            Status::Open(_) => None,
+        }
+    }
+
+    pub(super) fn convergence_mut(&mut self) -> Option<&mut Convergence> {
+        match &mut self.converged {
+            Status::Reached(convergence) | Status::Open(Reason::AboveTolerance(convergence)) => {
+                Some(convergence)
+            }
+            Status::Open(_) => None,
+        }
+    }
+}
+
+/// A rung in JSON: the words, and the numbers beside them.
+#[derive(Serialize, Deserialize)]
+#[serde(tag = "rung", rename_all = "lowercase")]
+enum Entry {
+    Converged(Line<Convergence>),
+    Agreed(Line<Agreed>),
+    Verified(Line<Verified>),
+    Complete(Line<Complete>),
+    Optimal(Line<Optimal>),
+}
+
+#[derive(Serialize, Deserialize)]
+struct Line<P> {
+    reached: bool,
+    how: String,
+    #[serde(default = "none", skip_serializing_if = "Option::is_none")]
+    proof: Option<P>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    reason: Option<Reason>,
+}
+
+/// A proof need not have a default for its absence to have one.
+fn none<P>() -> Option<P> {
+    None
+}
+
+impl<P: Clone + Display> Line<P> {
+    fn of(status: &Status<P>) -> Self {
+        Self {
+            reached: status.is_reached(),
+            how: status.to_string(),
+            proof: status.proof().cloned(),
+            reason: status.reason().cloned(),
+        }
+    }
+
+    fn status<E: serde::de::Error>(self) -> Result<Status<P>, E> {
+        match (self.reached, self.proof, self.reason) {
+            (true, Some(proof), None) => Ok(Status::Reached(proof)),
+            (false, None, Some(reason)) => Ok(Status::Open(reason)),
+            _ => Err(E::custom("a rung is reached with its proof, or open with its reason")),
+        }
+    }
+}
+
+impl Serialize for Ladder {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_seq([
+            Entry::Converged(Line::of(&self.converged)),
+            Entry::Agreed(Line::of(&self.agreed)),
+            Entry::Verified(Line::of(&self.verified)),
+            Entry::Complete(Line::of(&self.complete)),
+            Entry::Optimal(Line::of(&self.optimal)),
+        ])
+    }
+}
+
+impl<'de> Deserialize<'de> for Ladder {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let mut ladder = Self::default();
+        for entry in Vec::<Entry>::deserialize(deserializer)? {
+            match entry {
+                Entry::Converged(line) => ladder.converged = line.status()?,
+                Entry::Agreed(line) => ladder.agreed = line.status()?,
+                Entry::Verified(line) => ladder.verified = line.status()?,
+                Entry::Complete(line) => ladder.complete = line.status()?,
+                Entry::Optimal(line) => ladder.optimal = line.status()?,
+            }
+        }
+        Ok(ladder)
+    }
+}

@@ -1,0 +1,271 @@
+//! The words of the evidence, all of them.
+
+use std::fmt::{self, Display, Formatter};
+
+use super::agreed::{Agreed, Disagreement, Excess, Quantity, StabilityDifference};
+use super::certificate::{NoCertificate, Optimal};
+use super::complete::{Complete, NoCensus};
+use super::convergence::{Convergence, ForceUncertainty, UncertaintyCause};
+use super::reason::{NoAnswer, Reason};
+use super::rung::Rung;
+use super::status::Status;
+use super::verified::Verified;
+
+impl Display for Rung {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Converged => "converged",
+            Self::Agreed => "agreed",
+            Self::Verified => "verified",
+            Self::Complete => "complete",
+            Self::Optimal => "optimal",
+        })
+    }
+}
+
+impl<P: Display> Display for Status<P> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Reached(proof) => proof.fmt(f),
+            Self::Open(reason) => reason.fmt(f),
+        }
+    }
+}
+
+impl Display for Convergence {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let Self { residual_of, residual, iterations, .. } = self;
+        write!(f, "{residual_of}: {residual:.1e} after {iterations} iterations")?;
+        match self.tolerance {
+            // Also where the residual is not a number.
+            Some(tolerance) if !matches!(residual.partial_cmp(&tolerance), Some(order) if order.is_le()) =>
+            {
+                write!(f, ", above the tolerance of {tolerance:.0e}")?;
+            }
+            _ => {}
+        }
+        self.force_uncertainty.map_or(Ok(()), |uncertainty| write!(f, "; {uncertainty}"))
+    }
+}
+
+impl Display for ForceUncertainty {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        f.write_str(match self.cause {
+            UncertaintyCause::WeakClosure => {
+                "the closure hardly depends on the pull, and its rounding leaves the forces"
+            }
+            UncertaintyCause::ParallelBars => {
+                "the bars are so nearly parallel that their directions in double precision leave the forces"
+            }
+        })?;
+        write!(f, " in doubt by up to {:.0e} of the largest", self.relative)
+    }
+}
+
+impl Display for Agreed {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        for (k, solver) in self.solvers.iter().enumerate() {
+            let before = match k {
+                0 => "",
+                _ if k + 1 == self.solvers.len() => " and ",
+                _ => ", ",
+            };
+            write!(f, "{before}{solver}")?;
+        }
+        let Self { joints_m, forces_n, energy_j, statics, .. } = self;
+        write!(
+            f,
+            " differ by {joints_m:.1e} m, {forces_n:.1e} N, {energy_j:.1e} J; the statics judge finds every bar in \
+             balance to {statics:.1e}"
+        )
+    }
+}
+
+impl Display for Excess {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let Self { what, value, budget } = self;
+        write!(f, "{what}: {value:.2e} is over its budget of {budget:.2e}")
+    }
+}
+
+impl Display for Quantity {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Joints { between: [a, b] } => write!(f, "joints of {a} and {b} / m"),
+            Self::Forces { between: [a, b] } => write!(f, "forces of {a} and {b} / N"),
+            Self::Energy { between: [a, b] } => write!(f, "energy of {a} and {b} / J"),
+            Self::Statics { solver, bar } => write!(f, "statics of {solver}, at bar {bar}"),
+            Self::EnergyOfJoints { solver } => {
+                write!(f, "energy of {solver} less that of its joints")
+            }
+            Self::AxialForcesAndReactions { solver } => {
+                write!(f, "axial forces and reactions of {solver} less its joint forces")
+            }
+        }
+    }
+}
+
+impl Display for StabilityDifference {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let ([a, b], [first, second]) = (&self.between, &self.found);
+        write!(f, "stability: {first} by {a}, {second} by {b}")
+    }
+}
+
+impl Display for Disagreement {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.sentences().join("; "))
+    }
+}
+
+impl Display for Verified {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "Krawczyk's test in intervals: exactly one equilibrium{} in a box of relative width {:.1e}, and this \
+             answer within {:.1e} of the total length of it",
+            if self.circle { " (a circle of them, turned about the anchors)" } else { "" },
+            self.box_width,
+            self.distance,
+        )
+    }
+}
+
+impl Display for Complete {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let Self { in_plane, families, patterns, cells } = self;
+        write!(f, "one of {in_plane} in the plane")?;
+        match families {
+            0 => {}
+            1 => write!(f, ", besides a family with slack bars")?,
+            _ => write!(f, ", besides {families} families with slack bars")?,
+        }
+        write!(
+            f,
+            ", and no other: {patterns} patterns of tension and compression excluded everywhere else, in {cells} cells \
+             of pulls"
+        )
+    }
+}
+
+impl Display for Optimal {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        f.write_str("the stress matrix is positive semidefinite")?;
+        if self.singular {
+            f.write_str(" (singular: the free turn about the vertical)")?;
+        }
+        match self.gap {
+            None => f.write_str(", by factorisation in intervals"),
+            Some(gap) => write!(
+                f,
+                ": no configuration has less energy than {gap:.1e} of weight times length below this one"
+            ),
+        }
+    }
+}
+
+/// What the judge of balance found of an answer that stands alone.
+fn balance(f: &mut Formatter<'_>, statics: f64) -> fmt::Result {
+    write!(f, "; the statics judge finds every bar in balance to {statics:.1e}")
+}
+
+impl Display for Reason {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NotTried => f.write_str("not tried"),
+            Self::AboveTolerance(convergence) => convergence.fmt(f),
+            Self::OneSolverOnly { solver, statics } => {
+                write!(f, "only {solver} was asked")?;
+                balance(f, *statics)
+            }
+            Self::OtherSolverWithoutAnswer { solver, because, statics } => {
+                write!(f, "{solver} {because}")?;
+                balance(f, *statics)
+            }
+            Self::SolversDisagree(disagreement) => disagreement.fmt(f),
+            Self::NoCensus(because) => because.fmt(f),
+            Self::SlackFamily => f.write_str(
+                "the answer is one of a family with slack bars, which the census lists as a whole: it is not alone in \
+                 any box",
+            ),
+            Self::NotAmongDecided { cells } => write!(
+                f,
+                "the census leaves {cells} cells of pulls undecided, and this answer is in none of its boxes"
+            ),
+            Self::Elsewhere { distance } => write!(
+                f,
+                "the nearest equilibrium of the census lies {distance:.1e} of the total length away"
+            ),
+            Self::NothingListed => {
+                f.write_str("the census lists no equilibrium to compare with")
+            }
+            Self::CensusUndecided { cells } => write!(f, "{cells} cells of pulls are undecided"),
+            Self::StraightPosition { sides } => write!(
+                f,
+                "sides {} are together as long as the others: a straight position exists, and the configuration space \
+                 is no manifold there",
+                sides.iter().map(usize::to_string).collect::<Vec<_>>().join(", ")
+            ),
+            Self::CountUnchecked { sides } => write!(
+                f,
+                "the number of equilibria is not checked: the topology of a polygon of {sides} sides is not counted"
+            ),
+            Self::NoCertificate(because) => because.fmt(f),
+        }
+    }
+}
+
+impl Display for NoAnswer {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::MinimaOnly => "looks for minima and has no answer here",
+            Self::Refused => "has no answer",
+        })
+    }
+}
+
+impl Display for NoCensus {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NotAsked => f.write_str("no interval proof was tried (`funicular census` does)"),
+            Self::TooManyBars { bars, limit } => {
+                write!(f, "no census: {bars} bars, and the limit is {limit}")
+            }
+            Self::WeightOnAnchors => f.write_str(
+                "no census: all the weight of this chain rests on its two anchors: the energy is the same in every \
+                 position, and every position is an equilibrium",
+            ),
+            Self::Settings => f.write_str("no census: its settings are out of range"),
+        }
+    }
+}
+
+impl Display for NoCertificate {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::SeveralCompressed { bars } => write!(
+                f,
+                "{bars} bars are in compression: the stress matrix is indefinite, there is less energy elsewhere"
+            ),
+            Self::Indefinite { bar, excess } => write!(
+                f,
+                "bar {bar} is pressed too hard: the sum of the inverse force densities is {excess:e} of its terms, the \
+                 stress matrix is indefinite, there is less energy elsewhere"
+            ),
+            Self::Gap { gap } => {
+                write!(f, "the lower bound stays {gap:.1e} of weight times length below the energy")
+            }
+            Self::NotClosed { missed_m, spare_m } => write!(
+                f,
+                "the last joint misses its anchor by {missed_m:.1e} m, and the chain has but {spare_m:.1e} m to spare"
+            ),
+            Self::EnergyFalls { directions } => {
+                write!(f, "the energy falls in {directions} directions")
+            }
+            Self::PivotsUndecided => {
+                f.write_str("the pivots of the stress matrix are not proved positive")
+            }
+            Self::Unusable => f.write_str("the answer is incomplete or not finite"),
+        }
+    }
+}

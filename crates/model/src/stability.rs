@@ -1,0 +1,66 @@
+//! Second-order behaviour of an equilibrium.
+
+use std::fmt::{self, Display, Formatter};
+
+use serde::{Deserialize, Serialize};
+
+/// Second-order behaviour of an equilibrium.
+///
+/// The index is the number of independent directions in which the energy falls (Morse index of the
+/// energy on the configurations that keep every bar whole and both ends in place).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Stability {
+    /// Character among the motions in the vertical plane of the equilibrium.
+    pub in_plane: InPlane,
+    /// Morse index among those motions.
+    pub index_in_plane: usize,
+    /// Stability among all motions. The neutral turn of the whole chain about vertical anchors does
+    /// not count against it.
+    pub in_space: InSpace,
+    /// Morse index among all motions.
+    pub index_in_space: usize,
+}
+
+/// Character of an equilibrium among the motions in its own vertical plane.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum InPlane {
+    /// No direction of falling energy.
+    Minimum,
+    /// The energy falls in some directions and rises in others.
+    Saddle,
+    /// The energy falls in every direction.
+    Maximum,
+    /// The second derivative has a zero eigenvalue: the second order does not decide.
+    Degenerate,
+}
+
+/// Stability of an equilibrium among all motions.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum InSpace {
+    /// No direction of falling energy.
+    Stable,
+    /// At least one direction of falling energy.
+    Unstable,
+}
+
+impl Display for Stability {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let in_plane = match self.in_plane {
+            InPlane::Minimum => "minimum",
+            InPlane::Saddle => "saddle",
+            InPlane::Maximum => "maximum",
+            InPlane::Degenerate => "degenerate",
+        };
+        let in_space = match self.in_space {
+            InSpace::Stable => "stable",
+            InSpace::Unstable => "unstable",
+        };
+        let Self { index_in_plane, index_in_space, .. } = self;
+        write!(
+            f,
+            "{in_plane} in the plane (index {index_in_plane}), {in_space} in space (index {index_in_space})"
+        )
+    }
+}

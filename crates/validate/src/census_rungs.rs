@@ -1,0 +1,61 @@
+//! The rungs `verified` and `complete` of an answer, from a census.
+
+use census::{Census, CensusError, SlackFamily};
+use model::{Chain, Equilibrium, NoCensus, Problem, Reason, Status, Verified};
+
+use crate::census_checks::{Nearest, nearest, placed};
+
+/// Say on an answer of a solver how far the census carries it: the rungs `verified` and `complete`.
+pub fn certify_by_census(problem: &Problem, census: &Census, answer: &mut Equilibrium) {
+    let chain = problem.chain();
+    let ladder = &mut answer.evidence.ladder;
+    let place = nearest(chain, census, &answer.joints_m);
+    let listed = place.and_then(|place| Some((place, census.equilibria.get(place.number - 1)?)));
+    if let Some((place, proven)) = listed.filter(|(place, _)| place.beyond <= placed(chain)) {
+        ladder.verified = Status::Reached(Verified {
+            box_width: proven.width(),
+            distance: place.beyond,
+            circle: proven.circle,
+        });
+        ladder.complete = census.completeness();
+    } else {
+        let reason = not_listed(chain, census, place, answer.energy_j);
+        ladder.verified = Status::Open(reason.clone());
+        ladder.complete = Status::Open(reason);
+    }
+}
+
+/// Say on an answer that there is no census, and why.
+pub fn without_census(error: &CensusError, answer: &mut Equilibrium) {
+    let reason = Reason::NoCensus(match error {
+        CensusError::TooManyBars { bars, max_bars, .. } => {
+            NoCensus::TooManyBars { bars: *bars, limit: *max_bars }
+        }
+        CensusError::WeightOnAnchors => NoCensus::WeightOnAnchors,
+        _ => NoCensus::Settings,
+    });
+    let ladder = &mut answer.evidence.ladder;
+    ladder.verified = Status::Open(reason.clone());
+    ladder.complete = Status::Open(reason);
+}
+
+/// Why an answer is none of the equilibria of the list.
+fn not_listed(chain: &Chain, census: &Census, place: Option<Nearest>, energy_j: f64) -> Reason {
+    if in_family(chain, census, energy_j) {
+        return Reason::SlackFamily;
+    }
+    match (census.undecided.len(), place) {
+        (0, Some(place)) => Reason::Elsewhere { distance: place.beyond },
+        (0, None) => Reason::NothingListed,
+        (cells, _) => Reason::NotAmongDecided { cells },
+    }
+}
+
+/// Whether a family of equilibria with slack bars has this energy, to the rounding of a solver.
+fn in_family(chain: &Chain, census: &Census, energy_j: f64) -> bool {
+    /// Rounding of an energy, in units of weight times length.
+    const ROUNDING: f64 = 1e-12;
+    let unit_j = chain.total_mass_kg() * chain.gravity_m_s2() * chain.total_length_m();
+    let near = |family: &SlackFamily| (family.energy_j.mid() - energy_j).abs() <= ROUNDING * unit_j;
+    census.families.iter().any(near)
+}

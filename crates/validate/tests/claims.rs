@@ -1,0 +1,153 @@
+//! The judges of the claims can be wrong-footed by no wrong number: altered prints and altered answers
+//! change the verdicts.
+
+#![expect(clippy::unwrap_used, reason = "helpers of tests")]
+
+use std::sync::OnceLock;
+
+use validate::claims::{Claim, Verdict, claims};
+use validate::example::Example;
+use validate::paper::Paper;
+use validate::seeds::{Survey, surveys};
+
+/// The example and small surveys, solved once.
+fn solved() -> &'static (Example, Vec<Survey>) {
+    static ONCE: OnceLock<(Example, Vec<Survey>)> = OnceLock::new();
+    ONCE.get_or_init(|| {
+        let example = Example::solve().unwrap();
+        let surveys = surveys(&example, 300);
+        (example, surveys)
+    })
+}
+
+fn find(claims: &[Claim], id: &str) -> Claim {
+    claims.iter().find(|claim| claim.printed.id == id).unwrap().clone()
+}
+
+/// The verdict on a claim if something else were printed.
+fn if_printed(id: &str, text: &str) -> Verdict {
+    let mut paper = Paper::project();
+    let printed = paper.claims.iter_mut().find(|claim| claim.id == id).unwrap();
+    text.clone_into(&mut printed.printed);
+    let (example, surveys) = solved();
+    find(&claims(&paper, example, surveys), id).verdict
+}
+
+#[test]
+fn the_verdict_follows_what_is_printed() {
+    for (id, text, verdict) in [
+        // The truth would be confirmed.
+        ("ix-theta", "19.69487", Verdict::Confirmed),
+        ("ix-alpha", "38.59914", Verdict::Confirmed),
+        ("ix-beta", "286.07941", Verdict::Confirmed),
+        ("x-theta", "73.92059", Verdict::Confirmed),
+        ("x-alpha", "321.40086", Verdict::Confirmed),
+        ("x-energy", "3.66453", Verdict::Confirmed),
+        ("second", "3.66453", Verdict::Confirmed),
+        ("abstract-18", "30", Verdict::Confirmed),
+        ("reference-45", "33", Verdict::Confirmed),
+        // Another grid point, a wrong last digit, a wrong count would not.
+        ("ix-theta", "19.76704", Verdict::Refuted),
+        ("ix-theta", "19.70976", Verdict::Refuted),
+        ("ix-energy", "2.33548", Verdict::Refuted),
+        ("x-theta", "73.92100", Verdict::Explained),
+        ("parameters", "17", Verdict::Corrected),
+        ("freedom", "3", Verdict::Corrected),
+        ("useless", "2", Verdict::Corrected),
+        ("unknowns-40", "30", Verdict::Corrected),
+        ("system-30", "18", Verdict::Corrected),
+        ("four", "2", Verdict::Corrected),
+        ("x-first-point", "0.11459", Verdict::Undecided),
+        // What is no number supports no verdict.
+        ("ix-theta", "nineteen", Verdict::Undecided),
+        ("x-theta", "NaN", Verdict::Undecided),
+        ("abstract-18", "eighteen", Verdict::Undecided),
+    ] {
+        assert_eq!(if_printed(id, text), verdict, "{id} printed as {text}");
+    }
+}
+
+/// Names of the claims that are not as expected when the answers are altered.
+fn unexpected(change: impl Fn(&mut Example)) -> Vec<String> {
+    let (example, surveys) = solved();
+    let mut altered = example.clone();
+    change(&mut altered);
+    let judged = claims(&Paper::project(), &altered, surveys);
+    judged.into_iter().filter(|claim| !claim.as_expected).map(|claim| claim.printed.id).collect()
+}
+
+#[test]
+fn an_altered_answer_changes_the_verdicts_that_rest_on_it() {
+    assert_eq!(unexpected(|_| ()), Vec::<String>::new());
+
+    // One multiplier with the wrong sign, in either solver.
+    let flipped = unexpected(|e| {
+        let force = &mut e.lagrange.e1.equilibrium.multipliers_n[2];
+        force[2] = -force[2];
+    });
+    assert_eq!(flipped, ["reaction-b-z", "turned"]);
+    let flipped = unexpected(|e| {
+        let force = &mut e.energy.e1.equilibrium.multipliers_n[1];
+        force[1] = -force[1];
+    });
+    assert_eq!(flipped, ["reaction-a-y"]);
+    assert_eq!(unexpected(|e| e.energy.reaction_at_d_mg[2] += 1e-9), ["reaction-d-z"]);
+
+    // A position a little off, an energy a little off.
+    let moved = unexpected(|e| e.energy.e1.equilibrium.joints_m[1][2] += 1e-9);
+    assert_eq!(moved, ["span", "ix-theta", "ix-alpha", "same-first"]);
+    let lower = unexpected(|e| e.energy.e1.equilibrium.energy_j -= 1e-10);
+    assert_eq!(lower, ["ix-energy"]);
+
+    // E2 of other stability, or a minimiser that stays there.
+    assert_eq!(
+        unexpected(|e| e.energy.at_e2.stability = e.lagrange.e1.equilibrium.stability),
+        ["minima"]
+    );
+    assert_eq!(
+        unexpected(|e| e.energy.from_e2.equilibrium = e.lagrange.e2.equilibrium.clone()),
+        ["second"]
+    );
+    // A third circle's worth of freedom.
+    assert_eq!(unexpected(|e| e.lagrange.e1.nullity = 5), ["infinity"]);
+
+    // Another scan.
+    let finer = unexpected(|e| e.energy.scan = energy::example::scan(5e-4).unwrap());
+    let all = ["scan-ix", "scan-x", "ix-theta", "ix-alpha", "ix-beta", "x-first-point"];
+    assert!(finer.iter().all(|id| all.contains(&id.as_str())) && finer.len() >= 3, "{finer:?}");
+}
+
+#[test]
+fn nan_is_never_a_verdict() {
+    let (example, surveys) = solved();
+    let mut altered = example.clone();
+    altered.lagrange.e1.equilibrium.energy_j = f64::NAN;
+    altered.lagrange.e1.equilibrium.joints_m[1][1] = f64::NAN;
+    altered.energy.e1.equilibrium.multipliers_n[3][1] = f64::NAN;
+    let judged = claims(&Paper::project(), &altered, surveys);
+    for id in [
+        "span",
+        "ix-theta",
+        "ix-alpha",
+        "ix-energy",
+        "same-first",
+        "symmetric-ix",
+        "cosine",
+        "turned",
+    ] {
+        let claim = find(&judged, id);
+        assert!(!claim.as_expected, "{claim:?}");
+    }
+    assert!(judged.iter().all(|claim| claim.number.is_none_or(f64::is_finite)));
+}
+
+#[test]
+fn every_claim_has_a_judge() {
+    let (example, surveys) = solved();
+    for claim in claims(&Paper::project(), example, surveys) {
+        assert_ne!(claim.number_is, "nobody judges this claim", "{}", claim.printed.id);
+    }
+    let mut paper = Paper::project();
+    paper.claims[0].id = "a claim that nobody knows".to_owned();
+    assert_eq!(claims(&paper, example, surveys)[0].verdict, Verdict::Undecided);
+}
