@@ -82,13 +82,13 @@ pub fn cable_bound(problem: &Problem, settings: &BoundSettings) -> Result<CableB
 
     // Variables: q across and up, then t_i.
     let mut cost = vec![-plane.span, -plane.height];
-    cost.extend(data.length.iter().map(|l| l.middle()));
+    cost.extend(data.length.iter().map(|l| l.mid()));
     let mut program = Program::minimise(cost);
     for (i, tail) in data.tail_weight.iter().enumerate() {
         program.second_order(&[
             Affine::new(0.0, [(2 + i, 1.0)]),
             Affine::new(0.0, [(0, 1.0)]),
-            Affine::new(-tail.middle(), [(1, 1.0)]),
+            Affine::new(-tail.mid(), [(1, 1.0)]),
         ]);
     }
     let (solution, evidence) = program.solve(settings)?;
@@ -107,10 +107,10 @@ pub fn cable_bound(problem: &Problem, settings: &BoundSettings) -> Result<CableB
     } else {
         let bars: Vec<_> = solution.z.chunks_exact(3).map(|z| [-z[1], -z[2]]).collect();
         let slack: Vec<usize> = (0..n)
-            .filter(|&i| bars[i][0].hypot(bars[i][1]) < (1.0 - SLACK) * data.length[i].middle())
+            .filter(|&i| bars[i][0].hypot(bars[i][1]) < (1.0 - SLACK) * data.length[i].mid())
             .collect();
         // A slack bar carries nothing, and that says what the pull is.
-        let pull = slack.first().map_or(raw, |&i| [0.0, data.tail_weight[i].middle()]);
+        let pull = slack.first().map_or(raw, |&i| [0.0, data.tail_weight[i].mid()]);
         (pull, bars, slack)
     };
     evidence.accept(taut)?;

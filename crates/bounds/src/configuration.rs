@@ -1,9 +1,9 @@
 //! What a bound's programme says about the chain that attains it.
 
+use intervals::CompensatedSum;
 use model::{Problem, Vector};
 
 use crate::data::{Data, Plane, Sense};
-use crate::sum::Sum;
 
 /// A chain found by a cone programme, without any starting guess.
 #[derive(Debug, Clone, PartialEq)]
@@ -34,7 +34,7 @@ impl Configuration {
         pull: [f64; 2],
     ) -> Self {
         let anchors = problem.chain().anchors();
-        let mut sum = [Sum::default(); 3];
+        let mut sum = [CompensatedSum::default(); 3];
         let mut go = |step: Vector| {
             for (sum, step) in sum.iter_mut().zip(step) {
                 sum.add(step);
@@ -42,11 +42,11 @@ impl Configuration {
             sum.map(|sum| sum.value())
         };
         go(anchors.start_m);
-        let mut energy = Sum::default();
+        let mut energy = CompensatedSum::default();
         let mut joints_m = Vec::with_capacity(bars.len() + 1);
         joints_m.push(anchors.start_m);
         for (bar, tail) in bars.iter().zip(&data.tail_weight) {
-            energy.add(tail.middle() * bar[1]);
+            energy.add(tail.mid() * bar[1]);
             joints_m.push(go(plane.lift(*bar).map(|x| data.scale.length * x)));
         }
         let [x, y, z] = go(anchors.end_m.map(|x| -x));

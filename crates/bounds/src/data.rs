@@ -6,11 +6,10 @@
 //! difference of coordinates) is carried as an interval, so that a bound speaks of the chain as
 //! given and not of a rounded neighbour.
 
+use intervals::{Interval, IntervalSum};
 use model::Problem;
 #[cfg(feature = "cones")]
 use model::Vector;
-
-use crate::interval::{Interval, IntervalSum};
 
 /// Which side of the energy a bound is on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -39,11 +38,11 @@ impl Sense {
 
     /// [`energy`](Self::energy), rounded away from the configurations.
     pub(crate) fn rigorous(self, scale: Scale, value: f64) -> f64 {
-        let energy = Interval::exact(scale.length)
-            * (Interval::exact(scale.weight) * Interval::exact(value));
+        let energy = Interval::point(scale.length)
+            * (Interval::point(scale.weight) * Interval::point(value));
         match self {
-            Self::Lower => energy.lo,
-            Self::Upper => -energy.lo,
+            Self::Lower => energy.lo(),
+            Self::Upper => -energy.lo(),
         }
     }
 }
@@ -81,23 +80,23 @@ pub(crate) struct Data {
 impl Data {
     pub(crate) fn new(problem: &Problem, sense: Sense) -> Self {
         let chain = problem.chain();
-        let gravity = Interval::exact(sense.sign() * chain.gravity_m_s2());
+        let gravity = Interval::point(sense.sign() * chain.gravity_m_s2());
         let scale = Scale {
             length: power_of_two_below(chain.total_length_m()),
             weight: power_of_two_below(chain.total_mass_kg() * chain.gravity_m_s2()),
         };
-        let per_length = Interval::exact(scale.length);
-        let per_weight = Interval::exact(scale.weight);
+        let per_length = Interval::point(scale.length);
+        let per_weight = Interval::point(scale.weight);
 
         let length: Vec<_> =
-            chain.bars().iter().map(|bar| Interval::exact(bar.length_m()) / per_length).collect();
+            chain.bars().iter().map(|bar| Interval::point(bar.length_m()) / per_length).collect();
         // Weight of each bar, and the share that its far joint carries.
         let carried: Vec<_> = chain
             .bars()
             .iter()
             .map(|bar| {
-                let weight = Interval::exact(bar.mass_kg()) * gravity / per_weight;
-                let lever = Interval::exact(bar.centre_m()) / Interval::exact(bar.length_m());
+                let weight = Interval::point(bar.mass_kg()) * gravity / per_weight;
+                let lever = Interval::point(bar.centre_m()) / Interval::point(bar.length_m());
                 (weight, weight * lever)
             })
             .collect();
@@ -118,8 +117,8 @@ impl Data {
         let anchors = chain.anchors();
         let difference = std::array::from_fn(|k| {
             let mut sum = IntervalSum::ZERO;
-            sum.add(Interval::exact(anchors.end_m[k]));
-            sum.add(Interval::exact(-anchors.start_m[k]));
+            sum.add(Interval::point(anchors.end_m[k]));
+            sum.add(Interval::point(-anchors.start_m[k]));
             sum.value() / per_length
         });
         Self { scale, length, joint_weight, tail_weight, difference }
@@ -190,15 +189,15 @@ mod tests {
     #[test]
     fn lumped_weights_of_the_paper() {
         let mut data = Data::new(&model::cases::paper(), Sense::Lower);
-        let unit = data.tail_weight[0].middle() / 2.5;
+        let unit = data.tail_weight[0].mid() / 2.5;
         let expected = [2.5, 1.5, 0.5];
         for (tail, expected) in data.tail_weight.iter().zip(expected) {
-            assert!((tail.middle() / unit - expected).abs() < 1e-15);
+            assert!((tail.mid() / unit - expected).abs() < 1e-15);
             // A handful of operations, each rounded outward on both sides.
-            assert!(tail.hi - tail.lo < 16.0 * f64::EPSILON);
+            assert!(tail.hi() - tail.lo() < 16.0 * f64::EPSILON);
         }
         for (weight, expected) in data.joint_weight.drain(..).zip([1.0, 1.0, 0.5]) {
-            assert!((weight.middle() / unit - expected).abs() < 1e-15);
+            assert!((weight.mid() / unit - expected).abs() < 1e-15);
         }
     }
 }

@@ -87,7 +87,6 @@ mod configuration;
 mod data;
 #[cfg(feature = "cones")]
 mod error;
-mod interval;
 #[cfg(feature = "cones")]
 mod polish;
 #[cfg(feature = "cones")]
@@ -98,8 +97,6 @@ mod semidefinite;
 #[cfg(feature = "cones")]
 mod settings;
 mod stress;
-#[cfg(feature = "cones")]
-mod sum;
 
 #[cfg(feature = "cones")]
 pub use cable::{CableBound, cable_bound};

@@ -7,8 +7,9 @@
 //! that an interior point method leaves out. Nothing that is proved rests on it: the bounds hold
 //! for every q, and a polished q is used only where it gives the better one.
 
+use intervals::CompensatedSum;
+
 use crate::data::{Data, Plane};
-use crate::sum::Sum;
 
 /// Steps at most; quadratic convergence from nine digits takes two.
 const MAX_STEPS: usize = 20;
@@ -40,8 +41,8 @@ pub(crate) struct Signed<'a> {
 impl<'a> Signed<'a> {
     pub(crate) fn new(data: &Data, plane: &Plane, sign: &'a [f64]) -> Self {
         Self {
-            length: data.length.iter().map(|l| l.middle()).collect(),
-            tail: data.tail_weight.iter().map(|c| c.middle()).collect(),
+            length: data.length.iter().map(|l| l.mid()).collect(),
+            tail: data.tail_weight.iter().map(|c| c.mid()).collect(),
             sign,
             target: [plane.span, plane.height],
         }
@@ -77,7 +78,7 @@ impl<'a> Signed<'a> {
     }
 
     fn gap(&self, q: [f64; 2]) -> [f64; 2] {
-        let mut sums = [Sum::default(); 2];
+        let mut sums = [CompensatedSum::default(); 2];
         for i in 0..self.bars() {
             for (sum, d) in sums.iter_mut().zip(self.bar(q, i)) {
                 sum.add(d);

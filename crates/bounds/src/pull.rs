@@ -1,9 +1,9 @@
 //! A bound from the pull alone: the chain as if its bars were cables.
 
+use intervals::{Interval, IntervalSum};
 use model::{Problem, Vector};
 
 use crate::data::{Data, Sense};
-use crate::interval::{Interval, IntervalSum};
 
 /// A rigorous bound on the energy of every configuration, from any guess of the pull.
 ///
@@ -44,7 +44,7 @@ pub fn pull_bound(problem: &Problem, sense: Sense, pull_n: Vector) -> f64 {
 
 /// The bound without units; −∞ when q is not finite.
 pub(crate) fn lower_bound(data: &Data, q: Vector) -> f64 {
-    let q = q.map(Interval::exact);
+    let q = q.map(Interval::point);
     let across = q[0].square() + q[1].square();
     let mut total = IntervalSum::ZERO;
     for (q, difference) in q.iter().zip(&data.difference) {
@@ -54,6 +54,6 @@ pub(crate) fn lower_bound(data: &Data, q: Vector) -> f64 {
         let force = (across + (q[2] - *tail).square()).sqrt();
         total.add(-(*length * force));
     }
-    let value = total.value().lo;
+    let value = total.value().lo();
     if value.is_nan() { f64::NEG_INFINITY } else { value }
 }

@@ -143,7 +143,7 @@ fn certificate(
         .length
         .iter()
         .enumerate()
-        .map(|(i, l)| axial.map_or_else(|| signed.axial(q, i), |f| f[i]) / l.middle())
+        .map(|(i, l)| axial.map_or_else(|| signed.axial(q, i), |f| f[i]) / l.mid())
         .collect();
     certify(data, &bars, &tau)
 }
@@ -162,18 +162,17 @@ impl Stress {
     /// The pull that the heights and the axial forces belong to; its horizontal part is positive.
     fn pull(&self, data: &Data) -> [f64; 2] {
         let (mut up, mut weight) = (0.0, 0.0);
-        let vertical = |i: usize| {
-            self.axial[i] / data.length[i].middle() * (self.height[i + 1] - self.height[i])
-        };
+        let vertical =
+            |i: usize| self.axial[i] / data.length[i].mid() * (self.height[i + 1] - self.height[i]);
         // Longer bars know their direction better.
         for i in 0..data.bars() {
-            let share = data.length[i].middle().powi(2);
-            up += share * (vertical(i) + data.tail_weight[i].middle());
+            let share = data.length[i].mid().powi(2);
+            up += share * (vertical(i) + data.tail_weight[i].mid());
             weight += share;
         }
         let mut across = 0.0;
         for i in 0..data.bars() {
-            let share = data.length[i].middle().powi(2);
+            let share = data.length[i].mid().powi(2);
             across += share * (self.axial[i].powi(2) - vertical(i).powi(2));
         }
         [(across / weight).max(0.0).sqrt(), up / weight]
@@ -220,8 +219,8 @@ fn solve(
     settings: &BoundSettings,
 ) -> Result<(Stress, ConeEvidence), BoundError> {
     let n = data.bars();
-    let length: Vec<f64> = data.length.iter().map(|l| l.middle()).collect();
-    let weight: Vec<f64> = data.joint_weight.iter().map(|w| w.middle()).collect();
+    let length: Vec<f64> = data.length.iter().map(|l| l.mid()).collect();
+    let weight: Vec<f64> = data.joint_weight.iter().map(|w| w.mid()).collect();
     let at = Variables { bars: n };
     let across = plane.span > 0.0;
 

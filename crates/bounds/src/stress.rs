@@ -1,9 +1,9 @@
 //! A bound from any configuration and any force densities: the certificate of global optimality.
 
+use intervals::{Interval, IntervalSum};
 use model::{Problem, Vector};
 
 use crate::data::{Data, Sense};
-use crate::interval::{Interval, IntervalSum};
 
 /// What [`stress_bound`] proves.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -128,7 +128,7 @@ pub(crate) fn certify(data: &Data, bars: &[Vector], tau: &[f64]) -> Option<Proof
         let raised: Vec<f64> = tau
             .iter()
             .zip(&data.length)
-            .map(|(t, l)| t + raise * (t.abs() + raise / l.hi))
+            .map(|(t, l)| t + raise * (t.abs() + raise / l.hi()))
             .collect();
         let value = lower_bound(data, bars, &raised);
         // A pivot that is barely positive is barely an aid: raise on while it pays.
@@ -150,41 +150,41 @@ fn lower_bound(data: &Data, bars: &[Vector], tau: &[f64]) -> Option<f64> {
     for (k, sum) in last.iter_mut().enumerate() {
         sum.add(data.difference[k]);
         for bar in &bars[..n - 1] {
-            sum.add(Interval::exact(-bar[k]));
+            sum.add(Interval::point(-bar[k]));
         }
     }
     let last = last.map(|sum| sum.value());
-    let bar = |i: usize| if i + 1 == n { last } else { bars[i].map(Interval::exact) };
+    let bar = |i: usize| if i + 1 == n { last } else { bars[i].map(Interval::point) };
 
     let mut total = IntervalSum::ZERO;
-    let mut stiffness = Interval::exact(tau[0]);
+    let mut stiffness = Interval::point(tau[0]);
     let mut load = [Interval::ZERO; 3];
-    let mut force = bar(0).map(|d| Interval::exact(tau[0]) * d);
+    let mut force = bar(0).map(|d| Interval::point(tau[0]) * d);
     for i in 0..n {
         let d = bar(i);
-        let t = Interval::exact(tau[i]);
+        let t = Interval::point(tau[i]);
         total.add(data.tail_weight[i] * d[2]);
         let square = d[0].square() + d[1].square() + d[2].square();
-        total.add(t * (square - data.length[i].square()) * Interval::exact(0.5));
+        total.add(t * (square - data.length[i].square()) * Interval::point(0.5));
         if i + 1 == n {
             break;
         }
         // Joint i + 1, between this bar and the next: its residual force, then its elimination.
-        let next = Interval::exact(tau[i + 1]);
+        let next = Interval::point(tau[i + 1]);
         let next_force = bar(i + 1).map(|d| next * d);
         let pivot = stiffness + next;
-        if !(pivot.lo > 0.0 && pivot.hi.is_finite()) {
+        if !(pivot.lo() > 0.0 && pivot.hi().is_finite()) {
             return None;
         }
         for k in 0..3 {
             let weight = if k == 2 { data.joint_weight[i] } else { Interval::ZERO };
             let a = load[k] + (weight + (force[k] - next_force[k]));
-            total.add(-(a.square() / pivot * Interval::exact(0.5)));
+            total.add(-(a.square() / pivot * Interval::point(0.5)));
             load[k] = a * next / pivot;
         }
         stiffness = stiffness * next / pivot;
         force = next_force;
     }
-    let value = total.value().lo;
+    let value = total.value().lo();
     value.is_finite().then_some(value)
 }

@@ -1,6 +1,7 @@
 //! One bar over a whole cell of pulls: its direction and how the direction turns.
 
-use crate::Interval;
+use intervals::Interval;
+
 use crate::cell::Cell;
 use crate::face::Face;
 

@@ -9,7 +9,8 @@
 //! vanishes its direction turns with the small difference of two numbers of order one, and rounding
 //! would hide a zero close by; so cells near it move to a chart whose origin is that very point.
 
-use crate::Interval;
+use intervals::Interval;
+
 use crate::face::Face;
 use crate::system::System;
 
@@ -199,8 +200,8 @@ impl Cell {
     }
 
     /// Whether both cells share no pull; they must be on the same face.
-    pub(crate) fn misses(&self, other: &Self) -> bool {
-        self.at[0].misses(other.at[0]) || self.at[1].misses(other.at[1])
+    pub(crate) fn disjoint(&self, other: &Self) -> bool {
+        self.at[0].disjoint(other.at[0]) || self.at[1].disjoint(other.at[1])
     }
 
     /// Whether all of `other`, on the same face, is in this cell.

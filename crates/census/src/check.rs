@@ -14,6 +14,7 @@
 //! one equilibrium has index 0 out of the plane, and exactly one has the largest that there is; a slack
 //! family stands for it if all other bars of the family are in tension, or all in compression.
 
+use intervals::Interval;
 use model::Problem;
 
 use crate::cell::Cell;
@@ -25,7 +26,7 @@ use crate::morse::MorseError;
 use crate::polish::{PreciseSystem, polish};
 use crate::system::System;
 use crate::unloaded::with_signs;
-use crate::{Census, CensusError, Interval};
+use crate::{Census, CensusError};
 
 /// A stated enclosure may be that much wider than the one computed anew, both being at the level of
 /// rounding errors; measured: below 4 on thousands of equilibria.
@@ -152,7 +153,7 @@ impl Census {
             // The same equilibrium twice would have overlapping pulls and equal signs.
             let twice = self.equilibria[..k].iter().any(|other| {
                 other.signs == equilibrium.signs
-                    && (0..2).all(|k| !other.pull_n[k].misses(equilibrium.pull_n[k]))
+                    && (0..2).all(|k| !other.pull_n[k].disjoint(equilibrium.pull_n[k]))
             });
             if twice || !in_order {
                 return Err(CheckError::Order { number: k + 1 });
@@ -235,7 +236,7 @@ fn proved_anew(
 ) -> Result<ProvenEquilibrium, CheckError> {
     let not_one = CheckError::NotOne { number };
     let image = krawczyk_about_zero(system, signs, &around).ok_or(not_one.clone())?;
-    if image.misses(&around) {
+    if image.disjoint(&around) {
         return Err(CheckError::Empty { number });
     }
     if !inside(&image, &around) {
@@ -276,7 +277,7 @@ fn compared(
         ("the multiplier", flat(&stated.multipliers_n), flat(&anew.multipliers_n)),
         ("the axial force", stated.axial_n.clone(), anew.axial_n.clone()),
     ] {
-        if stated.len() != anew.len() || stated.iter().zip(&anew).any(|(a, b)| a.misses(*b)) {
+        if stated.len() != anew.len() || stated.iter().zip(&anew).any(|(a, b)| a.disjoint(*b)) {
             return Err(wrong(quantity));
         }
         let size = anew.iter().map(|x| x.mag()).fold(0.0, f64::max);

@@ -1,6 +1,7 @@
 //! The closure of one pattern of tension and compression: Φ(p) = Σ sᵢ lᵢ Fᵢ/|Fᵢ| − D.
 
-use crate::Interval;
+use intervals::Interval;
+
 use crate::bar::BarTerm;
 use crate::cell::Cell;
 use crate::system::System;

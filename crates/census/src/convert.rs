@@ -1,12 +1,13 @@
 //! The census in the words of the model: plain numbers with their evidence.
 
+use intervals::Interval;
 use model::{
     Complete, Equilibrium, Evidence, InPlane, InSpace, NoCertificate, Optimal, Reactions, Reason,
     SolverName, Stability, Status, Vector, Verified,
 };
 
 use crate::topology::TopologyError;
-use crate::{Census, Interval, Position, ProvenEquilibrium};
+use crate::{Census, Position, ProvenEquilibrium};
 
 impl Census {
     /// The isolated equilibria as answers of a solver, in the order of the census: middles of the

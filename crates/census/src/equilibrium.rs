@@ -1,9 +1,8 @@
 //! One equilibrium with everything that is proved about it.
 
+use intervals::{Interval, atan2};
 use serde::{Deserialize, Serialize};
 
-use crate::Interval;
-use crate::angle;
 use crate::bar::unit;
 use crate::cell::Cell;
 use crate::closure::signed;
@@ -162,7 +161,7 @@ impl Observed {
 
     /// From the descending vertical: (−u_z, u_x).
     fn angles(&self) -> Vec<Interval> {
-        self.directions.iter().map(|[x, z]| angle::of_vector([-*z, *x])).collect()
+        self.directions.iter().map(|[x, z]| atan2(*x, -*z)).collect()
     }
 
     /// V = Σ m g z_C = (M − c₀) D_z − Σ c_i l_i u_iz with the centred weights; M is what hangs behind

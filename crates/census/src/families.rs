@@ -7,9 +7,9 @@
 //! polygons with their lengths and the gap as sides; on it the energy is constant and across it the
 //! second derivative is the one of the other bars, `h_j = s_j l_j |F_j|`.
 
+use intervals::Interval;
 use serde::{Deserialize, Serialize};
 
-use crate::Interval;
 use crate::closure::signed;
 use crate::face::Face;
 use crate::system::System;

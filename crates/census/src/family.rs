@@ -14,7 +14,8 @@
 //! (N. J. Higham, "Accuracy and Stability of Numerical Algorithms", 2002, section 4.2,
 //! doi:10.1137/1.9780898718027)
 
-use crate::Interval;
+use intervals::Interval;
+
 use crate::bar::BarTerm;
 use crate::cell::Cell;
 use crate::closure::Pattern;

@@ -6,7 +6,9 @@
 
 use std::fmt::Write;
 
-use crate::{Census, Interval, Position};
+use intervals::Interval;
+
+use crate::{Census, Position};
 
 /// The longer side of the common frame of all shapes, px, and the least room for the caption.
 const SIDE: f64 = 170.0;

@@ -19,7 +19,8 @@
 //! Y. Chabrillac, J.-P. Crouzeix, "Definiteness and semidefiniteness of quadratic forms revisited",
 //! Linear Algebra Appl. 63 (1984) 283-292, doi:10.1016/0024-3795(84)90150-2
 
-use crate::Interval;
+use intervals::Interval;
+
 use crate::bar::unit;
 use crate::closure::signed;
 

@@ -12,7 +12,8 @@
 //! (1969) 187-201, doi:10.1007/BF02234767; R. E. Moore, SIAM J. Numer. Anal. 14 (1977) 611-615,
 //! doi:10.1137/0714040
 
-use crate::Interval;
+use intervals::Interval;
+
 use crate::cell::Cell;
 use crate::closure::Closure;
 use crate::system::System;
@@ -75,7 +76,7 @@ pub(crate) fn examine(system: &System, signs: &[i8], cell: &Cell) -> Finding {
         return Finding::Unknown;
     }
     let tight = tighten(system, signs, &around, &image, x, step);
-    if tight.misses(cell) {
+    if tight.disjoint(cell) {
         return Finding::None;
     }
     Finding::One(Zero { tight, alone_in: around })
@@ -134,7 +135,7 @@ pub(crate) fn narrow(system: &System, signs: &[i8], cell: &Cell) -> Cell {
 
 /// Whether one cell lies in the interior of another on the same face.
 pub(crate) fn inside(inner: &Cell, outer: &Cell) -> bool {
-    inner.at[0].inside(outer.at[0]) && inner.at[1].inside(outer.at[1])
+    inner.at[0].interior_to(outer.at[0]) && inner.at[1].interior_to(outer.at[1])
 }
 
 /// The image K(X) about the point of the cell where Newton's method from its middle ends, if it ends in

@@ -47,7 +47,6 @@
 //! against what topology and duality say; [`sextic`] counts the equilibria of the paper's
 //! example by exact algebra.
 
-mod angle;
 mod bar;
 mod cell;
 mod census;
@@ -61,13 +60,11 @@ mod families;
 mod family;
 mod figure;
 mod inertia;
-mod interval;
 mod krawczyk;
 mod merge;
 mod morse;
 mod polish;
 mod position;
-mod precise;
 mod search;
 mod settings;
 pub mod sextic;
@@ -84,7 +81,7 @@ pub use equilibrium::{Neighbourhood, ProvenEquilibrium};
 pub use error::{CensusError, rough_time};
 pub use face::Face;
 pub use families::SlackFamily;
-pub use interval::Interval;
+pub use intervals::Interval;
 pub use morse::MorseError;
 pub use position::Position;
 pub use search::Progress;

@@ -58,7 +58,7 @@ fn relation(system: &System, a: &Zero, b: &Zero) -> Relation {
 /// Whether no pull lies in both.
 fn apart(system: &System, a: &Cell, b: &Cell) -> bool {
     match b.on(a.face, system) {
-        Some(same_face) => a.misses(&same_face),
+        Some(same_face) => a.disjoint(&same_face),
         // On the face of `a` its constant coordinate has the sign of the face.
         None => b.behind(a.face, system),
     }
@@ -67,8 +67,8 @@ fn apart(system: &System, a: &Cell, b: &Cell) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Interval;
     use crate::face::Face;
+    use intervals::Interval;
 
     fn system() -> System {
         System::new(&model::cases::paper()).unwrap()

@@ -1,13 +1,13 @@
 //! Enclosures as narrow as doubles allow, however ill-conditioned the pull.
 
+use intervals::{DoubleDouble, Interval};
 use model::{Bar, Problem};
 
-use crate::Interval;
 use crate::cell::Cell;
 use crate::closure::Closure;
 use crate::face::Face;
 use crate::krawczyk::{Zero, image, inside, inverse};
-use crate::precise::Precise;
+
 use crate::system::System;
 
 /// Newton steps with the precise closure: the first one brings the last place of a double.
@@ -19,22 +19,23 @@ const ROOM: f64 = 4.0;
 /// The data of the closure to twice the usual precision.
 #[derive(Debug)]
 pub(crate) struct PreciseSystem {
-    length: Vec<Precise>,
+    length: Vec<DoubleDouble>,
     /// `c_i`, not centred; exactly 0 for bar 1.
-    weight: Vec<Precise>,
-    span: [Precise; 2],
+    weight: Vec<DoubleDouble>,
+    span: [DoubleDouble; 2],
     offset: f64,
 }
 
 impl PreciseSystem {
     pub(crate) fn new(problem: &Problem, system: &System) -> Self {
         let bars = problem.chain().bars();
-        let mass = |bar: &Bar| Precise::point(bar.mass_kg()).scale(system.mass_unit_kg.recip());
+        let mass =
+            |bar: &Bar| DoubleDouble::point(bar.mass_kg()).scale(system.mass_unit_kg.recip());
         let [length, centre] =
-            [Bar::length_m, Bar::centre_m].map(|of| move |bar| Precise::point(of(bar)));
+            [Bar::length_m, Bar::centre_m].map(|of| move |bar| DoubleDouble::point(of(bar)));
         // As in `System`: what joint 0 carries is left out.
         let mut carried = mass(&bars[0]) * (centre(&bars[0]) / length(&bars[0]));
-        let mut weight = vec![Precise::ZERO];
+        let mut weight = vec![DoubleDouble::ZERO];
         for bar in &bars[1..] {
             weight.push(carried + mass(bar) * ((length(bar) - centre(bar)) / length(bar)));
             carried = carried + mass(bar);
@@ -43,15 +44,15 @@ impl PreciseSystem {
             let first = weight[group.start];
             weight[group.clone()].fill(first);
         }
-        let shorten = |x: Precise| x.scale(system.length_unit_m.recip());
+        let shorten = |x: DoubleDouble| x.scale(system.length_unit_m.recip());
         let anchors = problem.chain().anchors();
         let [x, y, z] = std::array::from_fn(|k| {
-            shorten(Precise::point(anchors.end_m[k]) - Precise::point(anchors.start_m[k]))
+            shorten(DoubleDouble::point(anchors.end_m[k]) - DoubleDouble::point(anchors.start_m[k]))
         });
         let horizontal =
-            if system.vertical { Precise::ZERO } else { (x.square() + y.square()).sqrt() };
+            if system.vertical { DoubleDouble::ZERO } else { (x.square() + y.square()).sqrt() };
         Self {
-            length: bars.iter().map(|bar| shorten(Precise::point(bar.length_m()))).collect(),
+            length: bars.iter().map(|bar| shorten(DoubleDouble::point(bar.length_m()))).collect(),
             weight,
             span: [horizontal, z],
             offset: system.offset,
@@ -60,10 +61,10 @@ impl PreciseSystem {
 
     /// Φ at a point of a chart.
     fn gap(&self, system: &System, signs: &[i8], face: Face, at: [f64; 2]) -> [Interval; 2] {
-        let [h, v, w] = Cell::point(face, at).homogeneous().map(|x| Precise::point(x.mid()));
+        let [h, v, w] = Cell::point(face, at).homogeneous().map(|x| DoubleDouble::point(x.mid()));
         let origin = match face {
             Face::Around(group) => self.weight[system.groups[usize::from(group)].start],
-            _ => Precise::point(self.offset),
+            _ => DoubleDouble::point(self.offset),
         };
         let mut gap = self.span.map(|part| -part);
         for ((sign, length), weight) in signs.iter().zip(&self.length).zip(&self.weight) {
@@ -74,7 +75,7 @@ impl PreciseSystem {
                 gap[k] = gap[k] + if *sign < 0 { -term } else { term };
             }
         }
-        gap.map(Precise::interval)
+        gap.map(DoubleDouble::interval)
     }
 }
 

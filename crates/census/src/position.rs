@@ -1,7 +1,9 @@
 //! The equilibria of one vertical plane, one by one.
 
+use intervals::Interval;
+
 use crate::equilibrium::Neighbourhood;
-use crate::{Census, Interval, ProvenEquilibrium};
+use crate::{Census, ProvenEquilibrium};
 
 /// An equilibrium in one vertical plane through the anchors.
 ///

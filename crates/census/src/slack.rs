@@ -12,7 +12,8 @@
 //! the point are excluded. One bar alone that meets it is settled by [`unloaded`](crate::unloaded). The point itself, where the bars of a group need not be parallel, is the
 //! business of [`families`](crate::families).
 
-use crate::Interval;
+use intervals::Interval;
+
 use crate::bar::BarTerm;
 use crate::cell::Cell;
 use crate::closure::{Pattern, signed};

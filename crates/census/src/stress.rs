@@ -15,7 +15,8 @@
 //!
 //! R. Connelly, "Rigidity and energy", Invent. Math. 66 (1982) 11-33, doi:10.1007/BF01404753
 
-use crate::Interval;
+use intervals::Interval;
+
 use crate::closure::signed;
 
 /// Whether the stress matrix is proved to be positive semidefinite, by the pivots of its factorisation

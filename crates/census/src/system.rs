@@ -2,10 +2,11 @@
 
 use std::ops::Range;
 
+use intervals::Interval;
 use model::{Bar, Problem, Vector};
 
+use crate::CensusError;
 use crate::face::Face;
-use crate::{CensusError, Interval};
 
 /// A chain in units in which the total length and the spread of the weights are of order one. Units
 /// are powers of two, so that scaling rounds nothing.

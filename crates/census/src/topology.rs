@@ -21,10 +21,10 @@
 //! M. Farber, D. Schütz, "Homology of planar polygon spaces", Geometriae Dedicata 125 (2007) 75-92,
 //! doi:10.1007/s10711-007-9139-7, Theorem 1
 
+use intervals::Interval;
 use model::Problem;
 use serde::{Deserialize, Serialize};
 
-use crate::Interval;
 use crate::system::System;
 
 /// Betti numbers and Euler characteristic of a closed manifold.

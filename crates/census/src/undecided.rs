@@ -2,9 +2,9 @@
 
 use std::collections::BTreeMap;
 
+use intervals::Interval;
 use serde::{Deserialize, Serialize};
 
-use crate::Interval;
 use crate::cell::Cell;
 use crate::closure::Pattern;
 use crate::face::Face;
@@ -108,7 +108,7 @@ pub(crate) fn gather(mut tasks: Vec<Task>) -> Vec<Task> {
 }
 
 fn touch(a: &Task, b: &Task) -> bool {
-    a.cell.face == b.cell.face && !a.cell.misses(&b.cell)
+    a.cell.face == b.cell.face && !a.cell.disjoint(&b.cell)
 }
 
 fn unite(all: &mut Task, more: &Task) {

@@ -19,7 +19,8 @@ use std::borrow::Cow;
 use std::collections::HashMap;
 use std::ops::Range;
 
-use crate::Interval;
+use intervals::Interval;
+
 use crate::bar::unit;
 use crate::cell::Cell;
 use crate::closure::{Pattern, signed};

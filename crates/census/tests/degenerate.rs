@@ -180,10 +180,10 @@ fn weight_on_an_anchor_takes_no_digits_from_the_rest() {
             assert_eq!((&a.signs, a.index_in_plane), (&b.signs, b.index_in_plane));
             for (x, y) in a.angles_rad.iter().zip(&b.angles_rad) {
                 widest[0] = widest[0].max(x.width());
-                assert!(x.width() < ANGLE_RAD && !x.misses(*y), "{mass:e}: {:e}", x.width());
+                assert!(x.width() < ANGLE_RAD && !x.disjoint(*y), "{mass:e}: {:e}", x.width());
             }
             widest[1] = widest[1].max(a.energy_j.width());
-            assert!(a.energy_j.width() < ENERGY_J && !a.energy_j.misses(b.energy_j));
+            assert!(a.energy_j.width() < ENERGY_J && !a.energy_j.disjoint(b.energy_j));
             // All joints but the first carry the same; the first carries the weight in addition.
             let pairs = a.multipliers_n.iter().zip(&b.multipliers_n).enumerate();
             for (joint, (x, y)) in pairs {

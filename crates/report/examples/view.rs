@@ -7,7 +7,7 @@ use report::view::View;
 const SEEDS: usize = 10;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let reproduction = validate::reproduction::reproduce_with(SEEDS, |next| eprintln!("{next}"))?;
+    let reproduction = paper::reproduction::reproduce_with(SEEDS, |next| eprintln!("{next}"))?;
     let view = View::new(&reproduction).fragment()?;
     println!(
         "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\

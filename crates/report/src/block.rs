@@ -1,6 +1,6 @@
 //! What a report is made of: the same blocks become Markdown and HTML.
 
-use validate::equations::EquationAudit;
+use paper::equations::EquationAudit;
 
 use crate::equations::Judged;
 use crate::figures::Figure;

@@ -1,8 +1,8 @@
 //! The report, chapter by chapter.
 
 use census::{Census, CensusError};
+use paper::Reproduction;
 use serde::Serialize;
-use validate::Reproduction;
 
 use crate::block::Block;
 use crate::chapters::{cases, citing, claims, equations, method, overview, positions, run, scan};

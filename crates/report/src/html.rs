@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use validate::equations::Verdict;
+use paper::equations::Verdict;
 
 use crate::block::{Block, Table, audit_cells};
 use crate::equations::{Judged, verdict_word};

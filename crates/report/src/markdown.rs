@@ -84,8 +84,8 @@ fn equation(judged: &Judged) -> String {
 }
 
 /// What the second form of an equation is.
-pub(crate) fn instead(verdict: validate::equations::Verdict) -> &'static str {
-    if verdict == validate::equations::Verdict::Refuted {
+pub(crate) fn instead(verdict: paper::equations::Verdict) -> &'static str {
+    if verdict == paper::equations::Verdict::Refuted {
         "What is true instead"
     } else {
         "As corrected"

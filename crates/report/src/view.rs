@@ -11,8 +11,8 @@
 use std::fmt::Write as _;
 
 use energy::example::{Branch, alpha, curve, slope};
+use paper::reproduction::{Position, Reproduction};
 use serde::Serialize;
-use validate::reproduction::{Position, Reproduction};
 
 /// Samples of each branch of the closure curve: theta moves by a third of a degree at most.
 const SAMPLES: usize = 361;

@@ -3,14 +3,14 @@
 use std::path::Path;
 use std::sync::LazyLock;
 
+use paper::equations::Verdict;
 use report::block::audit_cells;
 use report::equations::{self, judged};
 use report::{Environment, Report};
-use validate::equations::Verdict;
 
 /// One report for all tests.
 static REPORT: LazyLock<Report> = LazyLock::new(|| {
-    let reproduction = validate::reproduce(|_| {}).expect("the paper is reproduced");
+    let reproduction = paper::reproduce(|_| {}).expect("the paper is reproduced");
     let command = ["funicular", "reproduce", "--out", "report"].map(String::from);
     Report::new(reproduction, Environment::here(command.into_iter())).expect("a report")
 });

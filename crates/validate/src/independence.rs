@@ -23,7 +23,7 @@ const LINEAR_ALGEBRA: &[&str] = &[
 
 /// Packages of the workspace that may reach both solvers: the judge, what shows its verdicts, and what measures or
 /// sweeps both side by side.
-const MEETING_PLACES: &[&str] = &["validate", "funicular", "benches", "report", "sweep"];
+const MEETING_PLACES: &[&str] = &["validate", "paper", "report", "sweep", "benches", "funicular"];
 
 /// Why the graph could not be read.
 #[derive(Debug, thiserror::Error)]

@@ -38,7 +38,7 @@ impl Tolerances {
     /// Never: a test reads the file that is compiled in.
     #[must_use]
     pub fn project() -> Self {
-        toml::from_str(include_str!("../../../validation/tolerances.toml"))
+        toml::from_str(include_str!("../data/tolerances.toml"))
             .expect("validation/tolerances.toml is read by a test")
     }
 }

@@ -36,7 +36,7 @@ pub fn run(arguments: &Reproduce) -> Result<Exit, Failure> {
         output::check(files.iter().map(PathBuf::as_path), &[])?;
     }
     let progress = Progress::start();
-    let reproduction = validate::reproduce(|what| progress.say(what))
+    let reproduction = paper::reproduce(|what| progress.say(what))
         .map_err(|error| Failure::undecided(miette!("{error}")))?;
     drop(progress);
     let report = Report::new(reproduction, Environment::here(std::env::args()))

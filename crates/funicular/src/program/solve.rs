@@ -9,7 +9,7 @@ use clap::{Args, ValueEnum};
 use miette::miette;
 use model::{Equilibrium, Problem, SystemSummary};
 use serde::Serialize;
-use validate::census_rungs::{certify_by_census, without_census};
+use validate::completeness::{certify_by_census, without_census};
 use validate::{Agreement, Tolerances, compare, compare::judge_alone};
 
 use crate::answer;

@@ -1,9 +1,9 @@
 //! The reproduction for people: what the paper claims, what two solvers find, where it is wrong.
 
-use validate::Reproduction;
-use validate::claims::Claim;
-use validate::paper::{Printed, Verdict};
-use validate::seeds::Survey;
+use paper::Reproduction;
+use paper::claims::Claim;
+use paper::printed::{Printed, Verdict};
+use paper::seeds::Survey;
 
 use crate::tables::{numbers_from, short, significant, table, word};
 

@@ -1,6 +1,6 @@
 //! Both solvers on every case of the registry.
 
-use validate::Reproduction;
+use paper::Reproduction;
 
 use crate::block::{Block, Table, heading, text};
 use crate::numbers::measured;

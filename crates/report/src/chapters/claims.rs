@@ -1,7 +1,7 @@
 //! Every printed number and statement, judged.
 
-use validate::Reproduction;
-use validate::claims::Claim;
+use paper::Reproduction;
+use paper::claims::Claim;
 
 use crate::block::{Block, Table, heading, text};
 use crate::numbers::{counted, fixed, measured, signs, stable};

@@ -1,6 +1,6 @@
 //! Equation by equation.
 
-use validate::Reproduction;
+use paper::Reproduction;
 
 use crate::block::{Block, Table, heading, text};
 use crate::equations::{judged, statements, verdict_word};
@@ -26,7 +26,7 @@ pub(crate) fn blocks(r: &Reproduction) -> Vec<Block<'_>> {
 
 /// The equations by verdict.
 fn overview(judged: &[crate::equations::Judged]) -> Table {
-    use validate::equations::Verdict;
+    use paper::equations::Verdict;
     let rows = [Verdict::Holds, Verdict::Corrected, Verdict::Refuted, Verdict::Definition].map(
         |verdict| {
             let of: Vec<&str> =

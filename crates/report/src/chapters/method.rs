@@ -1,6 +1,6 @@
 //! The method in short.
 
-use validate::Reproduction;
+use paper::Reproduction;
 
 use super::run::word;
 use crate::block::{Block, Table, heading, text};

@@ -1,7 +1,7 @@
 //! The first page: what came out.
 
-use validate::Reproduction;
-use validate::equations::Verdict;
+use paper::Reproduction;
+use paper::equations::Verdict;
 
 use crate::block::{Block, heading, text};
 use crate::figures;

@@ -1,7 +1,7 @@
 //! The equilibria: angles, energies, forces, and how far each is proved.
 
 use census::Census;
-use validate::Reproduction;
+use paper::Reproduction;
 
 use super::run::word;
 use crate::block::{Block, Table, heading, text};

@@ -1,7 +1,7 @@
 //! What differs from run to run: where, with what, how long, and the counts that hang on the last bit.
 
-use validate::Reproduction;
-use validate::seeds::Survey;
+use paper::Reproduction;
+use paper::seeds::Survey;
 
 use crate::block::{Block, Table, heading, text};
 use crate::environment::Environment;

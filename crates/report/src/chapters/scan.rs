@@ -1,6 +1,6 @@
 //! How the paper obtained its numbers.
 
-use validate::Reproduction;
+use paper::Reproduction;
 
 use crate::block::{Block, Table, heading, text};
 use crate::figures;

@@ -2,7 +2,7 @@
 //!
 //! Two macros mark the difference: `\wrong{...}` around what is printed wrong, `\fixed{...}` around what
 //! belongs there; `\range{1,3}` is the paper's overline for i = 1, 2, 3. The verdict and the numbers behind it are no part of this table: they come from
-//! [`validate::equations`], evaluated at run time.
+//! [`paper::equations`], evaluated at run time.
 //!
 //! | module | section of the paper | equations |
 //! |---|---|---|
@@ -20,7 +20,7 @@ mod motion;
 mod multipliers;
 mod rotations;
 
-use validate::equations::{EquationAudit, Verdict};
+use paper::equations::{EquationAudit, Verdict};
 
 /// One numbered equation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

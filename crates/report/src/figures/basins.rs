@@ -1,7 +1,7 @@
 //! Which start leads where: a slice through the planar starts.
 
-use validate::Reproduction;
-use validate::basins::Basins;
+use paper::Reproduction;
+use paper::basins::Basins;
 
 use super::Figure;
 use super::axes::Axes;

@@ -1,7 +1,7 @@
 //! Residual against iteration for both solvers.
 
-use validate::Reproduction;
-use validate::figures::History;
+use paper::Reproduction;
+use paper::figures::History;
 
 use super::Figure;
 use super::axes::Axes;

@@ -1,7 +1,7 @@
 //! The positions to scale with their forces: the paper's Figs. 3 and 4, and what Fig. 4 should have been.
 
-use validate::Reproduction;
-use validate::reproduction::Position;
+use paper::Reproduction;
+use paper::reproduction::Position;
 
 use super::{Figure, joints, moved};
 use crate::numbers::fixed;

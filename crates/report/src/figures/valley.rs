@@ -1,7 +1,7 @@
 //! The energy along the closure curve, with the paper's scan on it.
 
-use validate::Reproduction;
-use validate::figures::NEAR_DEG;
+use paper::Reproduction;
+use paper::figures::NEAR_DEG;
 
 use super::Figure;
 use super::axes::Axes;

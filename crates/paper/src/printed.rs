@@ -133,7 +133,7 @@ impl Paper {
     /// Never: a test reads the file that is compiled in.
     #[must_use]
     pub fn project() -> Self {
-        toml::from_str(include_str!("../../../validation/paper.toml"))
+        toml::from_str(include_str!("../data/paper.toml"))
             .expect("validation/paper.toml is read by a test")
     }
 

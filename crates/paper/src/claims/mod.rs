@@ -22,8 +22,8 @@ use serde::Serialize;
 
 use crate::completeness::Completeness;
 use crate::example::Example;
-pub use crate::paper::Verdict;
-use crate::paper::{Paper, Printed};
+pub use crate::printed::Verdict;
+use crate::printed::{Paper, Printed};
 use crate::seeds::Survey;
 pub use multiplier_system::{Misfit, misfit};
 

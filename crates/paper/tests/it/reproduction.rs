@@ -1,16 +1,14 @@
 //! The whole paper, judged: the headline of this project.
 
-#![expect(clippy::unwrap_used, reason = "helpers of tests")]
-
 use std::sync::OnceLock;
 
 use model::{InPlane, InSpace, SolverName};
+use paper::claims::{Claim, Verdict};
+use paper::equations;
+use paper::printed::Paper;
+use paper::reproduction::{Reproduction, reproduce_with};
+use paper::seeds::{Kind, SEEDS, Survey};
 use serde_json::Value;
-use validate::claims::{Claim, Verdict};
-use validate::equations;
-use validate::paper::Paper;
-use validate::reproduction::{Reproduction, reproduce_with};
-use validate::seeds::{Kind, SEEDS, Survey};
 
 fn reproduction() -> &'static Reproduction {
     static ONCE: OnceLock<Reproduction> = OnceLock::new();

@@ -1,14 +1,12 @@
 //! The judges of the claims can be wrong-footed by no wrong number: altered prints and altered answers
 //! change the verdicts.
 
-#![expect(clippy::unwrap_used, reason = "helpers of tests")]
-
 use std::sync::OnceLock;
 
-use validate::claims::{Claim, Verdict, claims};
-use validate::example::Example;
-use validate::paper::Paper;
-use validate::seeds::{Survey, surveys};
+use paper::claims::{Claim, Verdict, claims};
+use paper::example::Example;
+use paper::printed::Paper;
+use paper::seeds::{Survey, surveys};
 
 /// The example and small surveys, solved once.
 fn solved() -> &'static (Example, Vec<Survey>) {

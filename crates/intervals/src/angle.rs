@@ -1,9 +1,13 @@
 //! The angle of a vector, enclosed, without the system's libm.
 
-use crate::Interval;
+use crate::interval::Interval;
 
 /// π: the double below and the one above (3.14159265358979311 < π < 3.14159265358979357).
-pub(crate) const PI: Interval =
+///
+/// ```
+/// assert!(intervals::PI.width() < 5e-16);
+/// ```
+pub const PI: Interval =
     Interval::ordered(std::f64::consts::PI, f64::from_bits(std::f64::consts::PI.to_bits() + 1));
 
 /// How often the angle is halved: then |x| < tan(π/16) < 0.2.
@@ -13,14 +17,21 @@ const HALVINGS: usize = 3;
 /// last place of x.
 const TERMS: u32 = 13;
 
-/// The angle of (x, y) from the first axis, in (−π, π]; both ends may lie in (π, 2π) if the vectors
-/// straddle the negative axis. The vectors must not contain zero, else nothing is known.
+/// The angle of the vector (x, y) from the first axis, rad, in (−π, π]; both ends may lie in (π, 2π) if
+/// the vectors straddle the negative axis. If they contain zero nothing is known: all of [−π, π].
+///
+/// ```
+/// use intervals::{Interval, PI, atan2};
+/// let angle = atan2(Interval::ONE, Interval::ONE);
+/// assert!(!angle.disjoint(PI.scale(0.25)) && angle.width() < 4e-15);
+/// ```
 ///
 /// # References
 ///
 /// The alternating series and the halving formula atan x = 2 atan(x/(1 + √(1 + x²))): NIST Digital
 /// Library of Mathematical Functions, 4.24.3 and 4.24.17, <https://dlmf.nist.gov/4.24>
-pub(crate) fn of_vector([x, y]: [Interval; 2]) -> Interval {
+#[must_use]
+pub fn atan2(y: Interval, x: Interval) -> Interval {
     let half_pi = PI.scale(0.5);
     if x.mid().abs() >= y.mid().abs() {
         if x.lo() > 0.0 {
@@ -84,16 +95,16 @@ mod tests {
             ([Interval::ZERO, Interval::ONE], 2.0),
         ] {
             for [x, y] in [vector, [vector[0], -vector[1]]] {
-                let angle = of_vector([x, y]).abs();
+                let angle = atan2(y, x).abs();
                 let expected = PI / Interval::point(parts);
-                assert!(!angle.misses(expected), "{angle:?} {expected:?}");
+                assert!(!angle.disjoint(expected), "{angle:?} {expected:?}");
                 assert!(angle.width() < 4e-15, "{:e}", angle.width());
             }
-            let obtuse = of_vector([-vector[0], vector[1]]);
+            let obtuse = atan2(vector[1], -vector[0]);
             let expected = PI - PI / Interval::point(parts);
-            assert!(!obtuse.misses(expected) && obtuse.width() < 8e-15);
+            assert!(!obtuse.disjoint(expected) && obtuse.width() < 8e-15);
         }
-        assert_eq!(of_vector([Interval::ZERO, Interval::ZERO]), Interval::new(-PI.hi(), PI.hi()));
+        assert_eq!(atan2(Interval::ZERO, Interval::ZERO), Interval::new(-PI.hi(), PI.hi()));
     }
 
     /// With few terms the rest that is left out is far above all roundings: the enclosure must hold it,
@@ -122,7 +133,7 @@ mod tests {
         #[test]
         fn the_systems_atan2_is_enclosed(x in -2.0..2.0f64, y in -2.0..2.0f64) {
             prop_assume!(x.hypot(y) > 1e-3);
-            let angle = of_vector([Interval::point(x), Interval::point(y)]);
+            let angle = atan2(Interval::point(y), Interval::point(x));
             let reference = y.atan2(x);
             let slack = 4.0 * f64::EPSILON * reference.abs().max(1e-300);
             prop_assert!(angle.lo() - slack <= reference && reference <= angle.hi() + slack);

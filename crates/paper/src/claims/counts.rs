@@ -4,7 +4,7 @@ use lagrange::{constraint_matrix, direction_gradient, jacobian, residual, spin};
 use nalgebra::DVector;
 
 use super::{Facts, Finding};
-use crate::paper::{Printed, Verdict};
+use crate::printed::{Printed, Verdict};
 
 /// The largest number of a displayed equation in the paper's text (before the example's roman ones).
 const LAST_EQUATION: f64 = 41.0;

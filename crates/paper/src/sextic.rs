@@ -35,7 +35,7 @@ fn slopes() -> [f64; 2] {
 /// `None` if an interval stays undecided; roundings (1e-12 here) are far below what decides.
 ///
 /// ```
-/// let roots = validate::sextic::roots().unwrap();
+/// let roots = paper::sextic::roots().unwrap();
 /// assert_eq!(roots.len(), 2);
 /// // Real-root counting and 20 digits by others: 0.27696938689753988505, 0.94150073489823487574.
 /// assert!((roots[0] - 0.276_969_386_897_539_9).abs() < 1e-15);

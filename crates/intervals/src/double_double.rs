@@ -1,8 +1,7 @@
-//! Numbers of about 32 digits with a proved error: pairs of doubles.
+//! Numbers of about 32 digits with a proved error: unevaluated sums of two doubles ("double-double").
 //!
-//! Near a fold the pull is ill-conditioned: an error of one unit in the last place of the closure moves
-//! it by many. There the closure is evaluated with these numbers, so that the enclosures of the
-//! result are as narrow as doubles allow.
+//! Where a result is ill-conditioned, its residual is evaluated with these numbers, so that the
+//! enclosures of the result are as narrow as doubles allow.
 //!
 //! A number is `hi + lo ± error`. Sums and products of two doubles are split exactly into their rounded
 //! value and the rounding error; what else is rounded is added to the error. Quotients and roots are
@@ -15,8 +14,8 @@
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use crate::Interval;
-use crate::interval::up;
+use crate::interval::Interval;
+use crate::rounding::{two_sum, up};
 
 /// Half a unit in the last place, relative.
 const U: f64 = f64::EPSILON / 2.0;
@@ -27,26 +26,33 @@ const SLACK: f64 = 1.0 + 64.0 * f64::EPSILON;
 /// More than what a product can lose to underflow.
 const TINY: f64 = f64::MIN_POSITIVE;
 
-/// `hi + lo`, off by at most `error`.
+/// A number `hi + lo`, off by at most `error`.
+///
+/// ```
+/// use intervals::DoubleDouble;
+/// // The doubles next to √2 are 2e-16 apart; its square as a double is off by 4e-16.
+/// let two = DoubleDouble::point(2.0).sqrt().square() - DoubleDouble::point(2.0);
+/// assert!(two.interval().mag() < 1e-28);
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Precise {
+pub struct DoubleDouble {
     hi: f64,
     lo: f64,
     error: f64,
 }
 
-/// The rounded sum and its rounding error, exactly (Knuth).
-fn two_sum(a: f64, b: f64) -> (f64, f64) {
-    let sum = a + b;
-    let b_part = sum - a;
-    (sum, (a - (sum - b_part)) + (b - b_part))
-}
-
-impl Precise {
-    pub(crate) const ZERO: Self = Self { hi: 0.0, lo: 0.0, error: 0.0 };
+impl DoubleDouble {
+    /// The number 0.
+    pub const ZERO: Self = Self { hi: 0.0, lo: 0.0, error: 0.0 };
 
     /// A double, exactly.
-    pub(crate) fn point(x: f64) -> Self {
+    ///
+    /// ```
+    /// use intervals::DoubleDouble;
+    /// assert!(DoubleDouble::point(0.1).interval().contains(0.1));
+    /// ```
+    #[must_use]
+    pub fn point(x: f64) -> Self {
         Self { hi: x, lo: 0.0, error: 0.0 }
     }
 
@@ -57,7 +63,14 @@ impl Precise {
     }
 
     /// Times a power of two; both parts must stay normal, else the loss goes into the error.
-    pub(crate) fn scale(self, power_of_two: f64) -> Self {
+    ///
+    /// ```
+    /// use intervals::DoubleDouble;
+    /// let quarter = DoubleDouble::point(1.0).scale(0.25);
+    /// assert!(quarter.interval().contains(0.25));
+    /// ```
+    #[must_use]
+    pub fn scale(self, power_of_two: f64) -> Self {
         Self {
             hi: self.hi * power_of_two,
             lo: self.lo * power_of_two,
@@ -66,7 +79,14 @@ impl Precise {
     }
 
     /// An interval around it.
-    pub(crate) fn interval(self) -> Interval {
+    ///
+    /// ```
+    /// use intervals::DoubleDouble;
+    /// let third = (DoubleDouble::point(1.0) / DoubleDouble::point(3.0)).interval();
+    /// assert!(third.contains(1.0 / 3.0) && third.width() < 2e-16);
+    /// ```
+    #[must_use]
+    pub fn interval(self) -> Interval {
         Interval::point(self.hi) + Interval::around(self.lo, self.error)
     }
 
@@ -75,12 +95,25 @@ impl Precise {
         up(self.hi.abs() + up(self.lo.abs() + self.error))
     }
 
-    pub(crate) fn square(self) -> Self {
+    /// Its square.
+    ///
+    /// ```
+    /// use intervals::DoubleDouble;
+    /// assert!(DoubleDouble::point(1.5).square().interval().contains(2.25));
+    /// ```
+    #[must_use]
+    pub fn square(self) -> Self {
         self * self
     }
 
     /// The square root of a positive number; an infinite error for any other.
-    pub(crate) fn sqrt(self) -> Self {
+    ///
+    /// ```
+    /// use intervals::DoubleDouble;
+    /// assert!(DoubleDouble::point(2.25).sqrt().interval().contains(1.5));
+    /// ```
+    #[must_use]
+    pub fn sqrt(self) -> Self {
         let first = self.hi.max(0.0).sqrt();
         let rest = self - Self::point(first).square();
         let second = rest.hi / (2.0 * first);
@@ -92,14 +125,14 @@ impl Precise {
     }
 }
 
-impl Neg for Precise {
+impl Neg for DoubleDouble {
     type Output = Self;
     fn neg(self) -> Self {
         Self { hi: -self.hi, lo: -self.lo, error: self.error }
     }
 }
 
-impl Add for Precise {
+impl Add for DoubleDouble {
     type Output = Self;
     fn add(self, other: Self) -> Self {
         let (sum, rest) = two_sum(self.hi, other.hi);
@@ -110,14 +143,14 @@ impl Add for Precise {
     }
 }
 
-impl Sub for Precise {
+impl Sub for DoubleDouble {
     type Output = Self;
     fn sub(self, other: Self) -> Self {
         self + -other
     }
 }
 
-impl Mul for Precise {
+impl Mul for DoubleDouble {
     type Output = Self;
     fn mul(self, other: Self) -> Self {
         let product = self.hi * other.hi;
@@ -133,7 +166,7 @@ impl Mul for Precise {
     }
 }
 
-impl Div for Precise {
+impl Div for DoubleDouble {
     type Output = Self;
     fn div(self, other: Self) -> Self {
         let first = self.hi / other.hi;
@@ -147,7 +180,7 @@ impl Div for Precise {
     }
 }
 
-impl std::iter::Sum for Precise {
+impl std::iter::Sum for DoubleDouble {
     fn sum<I: Iterator<Item = Self>>(terms: I) -> Self {
         terms.fold(Self::ZERO, |total, term| total + term)
     }
@@ -165,12 +198,12 @@ mod tests {
         BigRational::from_float(x).expect("finite")
     }
 
-    fn value(x: Precise) -> BigRational {
+    fn value(x: DoubleDouble) -> BigRational {
         exact(x.hi) + exact(x.lo)
     }
 
     /// Whether the exact value is within the error, and the error at the level of 2⁻⁹⁵.
-    fn close(x: Precise, reference: &BigRational) -> bool {
+    fn close(x: DoubleDouble, reference: &BigRational) -> bool {
         let error = exact(x.error);
         (value(x) - reference).abs() <= error
             && error <= reference.abs() * exact(2f64.powi(-95)) + exact(1e-290)
@@ -178,9 +211,9 @@ mod tests {
     }
 
     /// Sums of two doubles of different size, exactly.
-    fn pair() -> impl Strategy<Value = Precise> {
+    fn pair() -> impl Strategy<Value = DoubleDouble> {
         (0.1..10.0f64, -1.0..1.0f64, any::<bool>()).prop_map(|(a, b, negative)| {
-            let x = Precise::normal(a, b * 1e-17, 0.0);
+            let x = DoubleDouble::normal(a, b * 1e-17, 0.0);
             if negative { -x } else { x }
         })
     }
@@ -209,7 +242,7 @@ mod tests {
         #[test]
         fn errors_are_carried(a in pair(), b in pair(), s in -1.0..1.0f64, t in -1.0..1.0f64) {
             // Any operand within the error gives a result within the error.
-            let blur = |x: Precise| Precise { error: 1e-20, ..x };
+            let blur = |x: DoubleDouble| DoubleDouble { error: 1e-20, ..x };
             let (x, y) = (value(a) + exact(s) * exact(1e-20), value(b) + exact(t) * exact(1e-20));
             for (result, reference) in [
                 (blur(a) + blur(b), &x + &y),
@@ -223,7 +256,7 @@ mod tests {
 
     #[test]
     fn nothing_is_known_of_a_root_or_quotient_of_zero() {
-        assert!(Precise::ZERO.sqrt().error.is_infinite());
-        assert!((Precise::point(1.0) / Precise::ZERO).error.is_infinite());
+        assert!(DoubleDouble::ZERO.sqrt().error.is_infinite());
+        assert!((DoubleDouble::point(1.0) / DoubleDouble::ZERO).error.is_infinite());
     }
 }

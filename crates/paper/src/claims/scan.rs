@@ -6,7 +6,7 @@ use energy::example::{Branch, LARGEST_THETA_COSINE, PAPER_STEP_RAD, ScanMinimum,
 use model::{Anchors, Chain, InPlane, InSpace, Problem};
 
 use super::{ANGLE_RAD, ENERGY_MGL, Facts, Finding, largest, printed_degrees};
-use crate::paper::{Paper, Printed, Verdict};
+use crate::printed::{Paper, Printed, Verdict};
 
 pub(super) fn judge(facts: &Facts, printed: &Printed) -> Option<Finding> {
     let scan = &facts.example.energy.scan;

@@ -4,19 +4,19 @@ use std::time::Instant;
 
 use model::{Equilibrium, Ladder, NoAnswer, Reason, Rung, SolverName, Stability, Status, cases};
 use serde::Serialize;
+use validate::compare::{compare, judge_alone};
+use validate::completeness::certify_by_census;
+use validate::table::{CaseResult, Row, table};
+use validate::tolerances::Tolerances;
 
 use crate::bounds::Bounds;
-use crate::census_rungs::certify_by_census;
 use crate::claims::{Claim, Verdict, claims};
-use crate::compare::{compare, judge_alone};
 use crate::completeness::Completeness;
 use crate::equations::{self, E1State, EquationAudit, audit};
 use crate::example::{Example, ExampleError};
 use crate::figures::Figures;
-use crate::paper::Paper;
+use crate::printed::Paper;
 use crate::seeds::{SEEDS, Survey, surveys};
-use crate::table::{CaseResult, Row, table};
-use crate::tolerances::Tolerances;
 
 /// Version of the JSON object; raised when a key that others rely on changes its meaning.
 pub const SCHEMA_VERSION: u32 = 2;

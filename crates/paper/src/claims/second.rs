@@ -6,7 +6,7 @@ use model::InPlane;
 use super::multiplier_system::{Misfit, misfit};
 use super::{ANGLE_RAD, ENERGY_MGL, Facts, Finding, largest, printed_degrees, smallest};
 use crate::example::Planar;
-use crate::paper::{Printed, Verdict};
+use crate::printed::{Printed, Verdict};
 
 /// A slope or a misfit below this, mgl/rad or mg, would be that of an equilibrium printed with five
 /// decimals of a degree: 1e-7 rad times curvatures of some mgl. Well above that, far below what is found.

@@ -7,7 +7,7 @@ use model::SolverName;
 
 use super::{ANGLE_RAD, FORCE_MG, Facts, Finding, largest, smallest};
 use crate::example::Planar;
-use crate::paper::{Printed, Verdict};
+use crate::printed::{Printed, Verdict};
 use crate::seeds::Kind;
 
 pub(super) fn judge(facts: &Facts, printed: &Printed) -> Option<Finding> {

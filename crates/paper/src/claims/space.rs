@@ -3,11 +3,11 @@
 use lagrange::{Seed, relative_residual};
 use model::{Chain, SolverName, Vector};
 use nalgebra::DVector;
+use validate::statics;
 
 use super::{ANGLE_RAD, Facts, Finding, largest};
-use crate::paper::{Printed, Verdict};
+use crate::printed::{Printed, Verdict};
 use crate::seeds::Kind;
-use crate::statics;
 
 pub(super) fn judge(facts: &Facts, printed: &Printed) -> Option<Finding> {
     match printed.id.as_str() {

@@ -1,0 +1,35 @@
+//! Numbers that know their rounding error: what makes a computation a proof.
+//!
+//! ```
+//! use intervals::{Interval, PI, atan2};
+//! // 1/3 is no double; its enclosure is one rounding wide.
+//! let third = Interval::ONE / Interval::point(3.0);
+//! assert!(third.width() < 2e-16 && (third * Interval::point(3.0)).contains(1.0));
+//! // 4 atan 1 = π, without the system's libm.
+//! let pi = atan2(Interval::ONE, Interval::ONE).scale(4.0);
+//! assert!(!pi.disjoint(PI) && pi.width() < 2e-14);
+//! ```
+//!
+//! | type | a number is | for |
+//! |---|---|---|
+//! | [`Interval`] | all numbers between two doubles | every proof |
+//! | [`IntervalSum`] | an interval | sums of many terms |
+//! | [`DoubleDouble`] | two doubles and an error | residuals of ill-conditioned systems |
+//! | [`CompensatedSum`] | a double, without a proof | sums of many terms |
+//!
+//! No mechanics lives here, and the two solvers use none of it: what judges their answers shares nothing
+//! with them.
+
+mod angle;
+mod double_double;
+mod interval;
+mod interval_sum;
+mod rounding;
+mod sum;
+
+pub use angle::{PI, atan2};
+pub use double_double::DoubleDouble;
+pub use interval::Interval;
+pub use interval_sum::IntervalSum;
+pub use rounding::{down, two_sum, up};
+pub use sum::CompensatedSum;

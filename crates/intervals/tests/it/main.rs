@@ -1,0 +1,4 @@
+//! What is proved with these numbers stands on them: enclosures hold the exact results.
+
+mod interval;
+mod sums;
