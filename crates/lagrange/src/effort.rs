@@ -9,9 +9,9 @@ pub struct Effort {
     pub relaxation_steps: usize,
     /// Relaxations: 0 when Newton's method got there from the seed.
     pub relaxations: usize,
-    /// How many times a bar was described by other angles, away from the lock; see
-    /// [`seat`](crate::seat).
-    pub seatings: usize,
+    /// How many times a bar was described by other angles, away from gimbal lock; see
+    /// [`Settings::lock_margin`](crate::Settings::lock_margin).
+    pub reparametrisations: usize,
     /// False roots of the paper's equations that were met and left.
     pub false_roots: usize,
     /// Wall-clock time, s.

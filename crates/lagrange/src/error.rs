@@ -41,8 +41,8 @@ pub enum SolveError {
     },
     /// Occurs when all equations of the paper hold and a bar is not in balance: a false root at
     /// cos θ = cos φ = 0, where the equations lose a moment balance. Only when
-    /// [`Settings::lock_margin`](crate::Settings::lock_margin) is zero; otherwise the bar is seated
-    /// anew and the solve goes on.
+    /// [`Settings::lock_margin`](crate::Settings::lock_margin) is zero; otherwise the bar
+    /// gets other angles and the solve goes on.
     #[error(
         "false root: the equations hold, and a moment of {moment:.3e} (in units of the largest force \
          times the mean length) acts on bar {bar}"

@@ -61,7 +61,6 @@ mod spectrum;
 mod spin;
 mod stability;
 mod step;
-mod survey;
 mod system;
 
 pub use constraints::{constraint_functions, constraint_matrix};
@@ -74,6 +73,5 @@ pub use settings::{Settings, SettingsError, StepMethod};
 pub use solution::Solution;
 pub use solve::{Outcome, Solver, solve, solve_from};
 pub use spectrum::{Spectrum, spectrum};
-pub use spin::{seat, spin};
-pub use survey::{Group, Survey, survey};
+pub use spin::spin;
 pub use system::{jacobian, relative_residual, residual};

@@ -14,7 +14,7 @@ use crate::condensed::Condensed;
 use crate::mechanism::Units;
 use crate::newton::Model;
 use crate::reduced::Reduced;
-use crate::spin::seat;
+use crate::spin::regular_angles;
 
 /// Bars nearer to the vertical than this are upright: the root of a rounding, summed over many bars.
 const UPRIGHT: f64 = 1e-6;
@@ -29,8 +29,12 @@ pub(crate) fn share(reduced: &mut Reduced, problem: &Problem, settings: &Setting
     }
     let Some(meeting) = Condensed::new(problem).if_meeting() else { return };
     let before = (reduced.here.angles.clone(), reduced.here.pull);
-    let straight: Vec<[f64; 3]> =
-        reduced.here.bars.iter().map(|bar| seat(&(Vector3::z() * bar.u.z.signum()))).collect();
+    let straight: Vec<[f64; 3]> = reduced
+        .here
+        .bars
+        .iter()
+        .map(|bar| regular_angles(&(Vector3::z() * bar.u.z.signum())))
+        .collect();
     let pull = -Vector3::from(meeting.ground_n()) / Units::total(problem.chain()).weight;
     reduced.resume(straight.into_iter(), pull);
     if reduced.largest() > settings.tolerance {

@@ -6,7 +6,7 @@ use crate::mechanism::Mechanism;
 use crate::multipliers::estimate_pull;
 use crate::newton::Model;
 use crate::point::{Metric, Point};
-use crate::spin::seat;
+use crate::spin::regular_angles;
 use crate::step::Matrix;
 
 /// All memory of a solve; nothing is allocated while it runs.
@@ -24,10 +24,10 @@ pub(crate) struct Reduced {
     pub matrix: Matrix,
     /// How the residual is measured.
     metric: Metric,
-    /// Bars whose spin axis is shorter are seated.
+    /// Bars whose spin axis is shorter get other angles.
     pub lock_margin: f64,
-    /// How many times a bar was seated.
-    pub seatings: usize,
+    /// How many times a bar got other angles.
+    pub reparametrisations: usize,
     /// Whether the matrix is that of the point.
     assembled: bool,
 }
@@ -42,7 +42,7 @@ impl Reduced {
             metric: Metric { force: 1.0, gap: mechanism.chord_metric() },
             mechanism,
             lock_margin,
-            seatings: 0,
+            reparametrisations: 0,
             assembled: false,
         }
     }
@@ -52,7 +52,7 @@ impl Reduced {
         self.here.angles.copy_from_slice(angles);
         self.here.turn(&self.mechanism);
         self.estimate();
-        self.seat(self.lock_margin);
+        self.leave_gimbal_lock(self.lock_margin);
     }
 
     /// Choose the unit of force for the run that begins here: the largest force, at least the weight.
@@ -98,20 +98,20 @@ impl Reduced {
         self.assembled = false;
     }
 
-    /// Seat every bar whose spin axis is shorter than `margin`.
-    pub fn seat(&mut self, margin: f64) {
-        let mut seated = 0;
+    /// Describe every bar whose spin axis is shorter than `margin` by angles away from gimbal lock.
+    pub fn leave_gimbal_lock(&mut self, margin: f64) {
+        let mut changed = 0;
         for (bar, angles) in self.here.bars.iter().zip(&mut self.here.angles) {
             if bar.frame.spin().norm_squared() < margin * margin {
-                *angles = seat(&bar.u);
-                seated += 1;
+                *angles = regular_angles(&bar.u);
+                changed += 1;
             }
         }
-        if seated > 0 {
+        if changed > 0 {
             self.here.turn(&self.mechanism);
             self.here.load(&self.carried);
             self.assembled = false;
-            self.seatings += seated;
+            self.reparametrisations += changed;
         }
     }
 
@@ -152,6 +152,6 @@ impl Model for Reduced {
 
     fn accept(&mut self) {
         self.stay();
-        self.seat(self.lock_margin);
+        self.leave_gimbal_lock(self.lock_margin);
     }
 }

@@ -42,14 +42,14 @@ const EARNED: f64 = 1e-4;
 const HALVINGS: usize = 20;
 /// The merit is a sum of terms of order one: below this its changes are rounding.
 const ROUNDING: f64 = 1e-15;
-/// Bars are seated generously: the motion has no preference for any angles.
-const SEAT_MARGIN: f64 = 0.1;
+/// Bars leave gimbal lock early: the motion has no preference for any angles.
+const LOCK_MARGIN: f64 = 0.1;
 
 /// Sink from where `chain` is until the norm of the residual is below `handover`, at most `limit`
 /// steps; how many it took.
 pub(crate) fn relax(chain: &mut Reduced, handover: f64, limit: usize) -> usize {
     let (mut tau, mut penalty) = (FIRST_TAU, 1.0_f64);
-    chain.seat(SEAT_MARGIN);
+    chain.leave_gimbal_lock(LOCK_MARGIN);
     chain.estimate();
     chain.choose_unit();
     let mut norm = chain.norm();
@@ -61,7 +61,7 @@ pub(crate) fn relax(chain: &mut Reduced, handover: f64, limit: usize) -> usize {
         viscous_step(chain, tau, gap);
         let slope = slope(chain, &mut penalty, gap);
         let cut = take(chain, penalty, slope);
-        chain.seat(SEAT_MARGIN);
+        chain.leave_gimbal_lock(LOCK_MARGIN);
         chain.estimate();
         let before = std::mem::replace(&mut norm, chain.norm());
         tau *= if cut { CUT } else { (before / norm).clamp(CUT, FASTEST_GROWTH) };

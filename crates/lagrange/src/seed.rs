@@ -6,7 +6,7 @@ use model::Problem;
 use nalgebra::Vector3;
 
 use crate::SolveError;
-use crate::spin::seat;
+use crate::spin::regular_angles;
 
 /// Angles ψ, θ, φ of each bar, rad.
 #[derive(Debug, Clone, PartialEq)]
@@ -31,8 +31,8 @@ impl Seed {
     /// In the vertical plane turned by `heading` from *OXZ* about +Z, with `phi` measured from the
     /// descending vertical towards the heading, rad.
     ///
-    /// At heading π/2 the directions are those of [`Seed::planar`]; the angles are not, since every
-    /// bar is [seated](seat).
+    /// At heading π/2 the directions are those of [`Seed::planar`]; the angles are not, since those of
+    /// every bar are chosen away from gimbal lock.
     #[must_use]
     pub fn planar_towards(heading: f64, phi: &[f64]) -> Self {
         let (sin, cos) = heading.sin_cos();
@@ -40,13 +40,13 @@ impl Seed {
             let (out, down) = phi.sin_cos();
             Vector3::new(out * cos, out * sin, -down)
         });
-        Self { angles: directions.map(|u| seat(&u)).collect() }
+        Self { angles: directions.map(|u| regular_angles(&u)).collect() }
     }
 
     /// Any directions of the bars, from first to last joint; their lengths do not matter.
     #[must_use]
     pub fn directions(directions: &[model::Vector]) -> Self {
-        Self { angles: directions.iter().map(|u| seat(&Vector3::from(*u))).collect() }
+        Self { angles: directions.iter().map(|u| regular_angles(&Vector3::from(*u))).collect() }
     }
 
     /// A circular arc that hangs from anchor to anchor with the length of the chain: a seed that needs
@@ -67,7 +67,7 @@ impl Seed {
             let middle = (before + 0.5 * bar.length_m()) / length;
             before += bar.length_m();
             let (sin, cos) = (half * (2.0 * middle - 1.0)).sin_cos();
-            seat(&(chord * cos + up * sin))
+            regular_angles(&(chord * cos + up * sin))
         });
         Self { angles: bars.collect() }
     }

@@ -12,8 +12,7 @@ pub enum StepMethod {
     Dense,
 }
 
-/// Settings of [`solve_from`](crate::solve_from), [`solve`](crate::solve()) and
-/// [`survey`](crate::survey()).
+/// Settings of [`solve_from`](crate::solve_from) and [`solve`](crate::solve()).
 ///
 /// ```
 /// let settings = lagrange::Settings { max_iterations: 50, ..Default::default() };
@@ -43,10 +42,9 @@ pub struct Settings {
     ///
     /// Default 500. At least 1.
     pub max_relaxation_steps: usize,
-    /// A bar is described anew ([`seat`](crate::seat)) when the length of its
-    /// [`spin`](crate::spin()) falls below this. With 0 the paper's angles are kept whatever happens,
-    /// and its false roots are met: they end in
-    /// [`SolveError::FalseRoot`](crate::SolveError::FalseRoot).
+    /// A bar is described by other angles when the length of its [`spin`](crate::spin()) falls below
+    /// this, near gimbal lock. With 0 the paper's angles are kept whatever happens, and its false
+    /// roots are met: they end in [`SolveError::FalseRoot`](crate::SolveError::FalseRoot).
     ///
     /// Default 0.1. Range 0 to 0.9.
     pub lock_margin: f64,

@@ -19,7 +19,7 @@ use crate::{Seed, Settings, Solution, SolveError, StepMethod};
 /// A moment this large, in units of the largest force times the mean length, on a state that solves
 /// the paper's equations is no rounding error: it is one that the equations do not see.
 const UNSEEN_MOMENT: f64 = 1e-9;
-/// False roots left in one run; each seats one bar, and a seated bar has no false root near by.
+/// False roots left in one run: with other angles a bar has no false root near by.
 const ESCAPES: usize = 16;
 /// The first relaxation hands over to Newton's method at this norm of the residual, ...
 const FIRST_HANDOVER: f64 = 1e-2;
@@ -139,7 +139,7 @@ impl<'p> Solver<'p> {
     fn reset(&mut self) {
         self.history.clear();
         self.effort = Effort::default();
-        self.reduced.seatings = 0;
+        self.reduced.reparametrisations = 0;
     }
 
     /// One run of Newton's method, past false roots.
@@ -152,7 +152,7 @@ impl<'p> Solver<'p> {
                 StepMethod::Dense => self.newton_dense(),
             };
             self.effort.iterations += self.history.len() - before;
-            self.effort.seatings = self.reduced.seatings;
+            self.effort.reparametrisations = self.reduced.reparametrisations;
             if finish == Finish::Stagnated {
                 return Ok(finish);
             }
@@ -165,7 +165,7 @@ impl<'p> Solver<'p> {
                 return Err(SolveError::FalseRoot { bar: bar + 1, moment });
             }
             self.effort.false_roots += 1;
-            self.reduced.seat(SEAT_ALL);
+            self.reduced.leave_gimbal_lock(EVERY_BAR);
         }
         Ok(Finish::Stagnated)
     }
@@ -206,7 +206,7 @@ impl<'p> Solver<'p> {
 }
 
 /// A margin that every bar off its best angles falls below.
-const SEAT_ALL: f64 = 1.0;
+const EVERY_BAR: f64 = 1.0;
 
 impl Outcome<'_> {
     /// Potential energy from the height of joint 0, J.

@@ -15,8 +15,8 @@
 //! way and the third does not turn it at all: the paper's equations lose one of the two moment
 //! balances of that bar and admit **false roots**, states that satisfy all 6n + 3(n+1) equations and
 //! are no equilibria. They are isolated, and Newton's method converges to them like to any other
-//! root: on the paper's chain from 4 % of random spatial seeds. The cure is to [`seat`] the bar: the
-//! same direction, another spin.
+//! root: on the paper's chain from 4 % of random spatial seeds. The cure is to describe the bar by
+//! other angles ([`regular_angles`]): the same direction, another spin.
 
 use nalgebra::Vector3;
 
@@ -42,15 +42,7 @@ pub fn spin(theta: f64, phi: f64) -> Vector3<f64> {
 
 /// Angles of a bar with the given direction, as far from a lost moment balance as they can be:
 /// $\varphi = 0$, where $|v| \ge 1$.
-///
-/// ```
-/// let u = nalgebra::Vector3::new(0.0, 1.0, 0.0); // where psi = 0, theta = pi/2 loses a balance
-/// let [psi, theta, phi] = lagrange::seat(&u);
-/// assert!((lagrange::direction(psi, theta, phi) - u).norm() < 1e-15);
-/// assert!(lagrange::spin(theta, phi).norm() >= 1.0);
-/// ```
-#[must_use]
-pub fn seat(direction: &Vector3<f64>) -> [f64; 3] {
+pub(crate) fn regular_angles(direction: &Vector3<f64>) -> [f64; 3] {
     let across = direction.y.hypot(direction.z);
     // At the poles u = ±e_x any psi serves; atan2(0, 0) = 0 and atan2(0, -0) = pi both do.
     [direction.y.atan2(-direction.z), across.atan2(direction.x), 0.0]
@@ -71,4 +63,28 @@ pub(crate) fn across(v: &Vector3<f64>) -> [Vector3<f64>; 2] {
         Vector3::new(1.0 + sign * axis.x * axis.x * a, sign * b, -sign * axis.x),
         Vector3::new(b, sign + axis.y * axis.y * a, -axis.y),
     ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn regular_angles_have_their_direction_and_a_long_spin() {
+        for k in 0..200 {
+            let k = f64::from(k);
+            // All around, the poles of each axis among them.
+            let u = match k as u8 {
+                0 => Vector3::x(),
+                1 => -Vector3::x(),
+                // Here the paper's psi = 0, theta = pi/2 loses a moment balance.
+                2 => Vector3::y(),
+                3 => -Vector3::z(),
+                _ => Vector3::new(k.sin(), (2.0 * k).cos(), (3.0 * k).sin()).normalize(),
+            };
+            let angles = regular_angles(&u);
+            assert!((Frame::new(angles).direction() - u).norm() < 1e-15);
+            assert!(spin(angles[1], angles[2]).norm() >= 1.0 - 1e-15);
+        }
+    }
 }

@@ -22,18 +22,4 @@ pub enum CondensedError {
     /// Occurs when a force or the energy is larger than a double can hold.
     #[error("a force of this chain is larger than a double can hold")]
     Overflow,
-    /// Occurs when the list of signs has not one entry for each bar.
-    #[error("there are signs for {got} bars, the chain has {expected}")]
-    SignsLength {
-        /// Bars of the chain.
-        expected: usize,
-        /// Signs given.
-        got: usize,
-    },
-    /// Occurs when a component of the pull to start from is infinite or not a number.
-    #[error("the pull to start from has a component of {component_n} N")]
-    PullNotFinite {
-        /// The component.
-        component_n: f64,
-    },
 }

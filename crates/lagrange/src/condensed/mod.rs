@@ -18,7 +18,7 @@
 //! | $l_i$ | `lengths` | m |
 //! | $s_i$ | [`Pull::compressed`] | 1 |
 //! | $D = (D_h, D_z)$ | `across`, `rise` | m |
-//! | $r = \sum s_i l_i F_i/\lvert F_i\rvert - D$ | [`Miss`], `residual` | m |
+//! | $r = \sum s_i l_i F_i/\lvert F_i\rvert - D$ | `residual` | m |
 //! | $\varrho, \varphi$: compression and slope of the bottom bar | `log`, `angle` | N, rad |
 //!
 //! # The method
@@ -63,7 +63,6 @@ mod pull;
 mod read;
 mod settings;
 mod shape;
-mod signs;
 mod solve;
 mod span;
 mod stability;
@@ -80,5 +79,4 @@ pub use error::CondensedError;
 pub use pull::Pull;
 pub use settings::Settings;
 pub use shape::Shape;
-pub use signs::Miss;
 pub use solve::{Solution, Solver, solve};

@@ -38,8 +38,6 @@ pub(super) enum Signs {
     One(usize),
     /// None, and these carry no force at all: they have just to fill the gap between the strands.
     Loose(Range<usize>),
-    /// Those marked.
-    Listed(Vec<bool>),
 }
 
 /// An equilibrium, as briefly as it can be said: the force in the bottom bar and the signs.
@@ -101,7 +99,6 @@ impl Pull {
         match &self.signs {
             Signs::Tension | Signs::Loose(_) => Vec::new(),
             Signs::One(bar) => vec![*bar],
-            Signs::Listed(signs) => (0..signs.len()).filter(|k| signs[*k]).collect(),
         }
     }
 

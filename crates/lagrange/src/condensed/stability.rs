@@ -42,7 +42,6 @@ pub(super) fn second_order(chain: &Condensed, pull: &Pull) -> SecondOrder {
     let compressed = match &pull.signs {
         Signs::Tension | Signs::Loose(_) => 0,
         Signs::One(_) => 1,
-        Signs::Listed(signs) => signs.iter().filter(|compressed| **compressed).count(),
     };
     let [first, second] = pull.pivots;
     let freedoms = chain.bars() - 2;

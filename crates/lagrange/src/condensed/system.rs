@@ -184,3 +184,58 @@ impl Closure {
         step.iter().all(|x| x.is_finite()).then_some(step)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::num::NonZeroUsize;
+
+    use super::*;
+
+    /// Steps of the central differences, in units of the force: their error is about the square.
+    const STEP: f64 = 1e-5;
+    /// Worst measured: 3e-10 of the largest entry.
+    const DIFFERENCES: f64 = 1e-8;
+
+    /// The derivative of the closure has a twin by central differences, in both frames, with a bar in
+    /// compression and without.
+    #[test]
+    fn derivative_of_the_closure_has_a_twin() {
+        let lengths = [0.7, 1.2, 0.5, 0.9, 1.1];
+        let loads = [-1.9, -0.8, 0.0, 0.7, 1.6];
+        let bars =
+            |from: usize, to: usize| Bars { lengths: &lengths[from..to], loads: &loads[from..to] };
+        let upright = Frame::Upright { across: 2.0, rise: -0.3 };
+        let (sin, cos) = 0.4_f64.sin_cos();
+        let (up, sides) = ([sin, cos], [-1.0, 1.0]);
+        let aligned = Frame::Aligned { up, slack: 0.3, aside: 0.1, sides, push_side: 1.0 };
+        for frame in [upright, aligned] {
+            for push in [0.0, 0.6] {
+                let system = System {
+                    parts: [bars(0, 2), bars(2, 5)],
+                    push,
+                    frame,
+                    total_length: 4.4,
+                    team: Team::new(NonZeroUsize::MIN, 5),
+                };
+                for k in 0..50 {
+                    let k = f64::from(k);
+                    let force = [3.0 + k.sin(), (1.7 * k).cos() * 2.0];
+                    let [a, b, c] = system.closure(force).jacobian;
+                    let by = |column: usize| {
+                        let at = |sign: f64| {
+                            let mut there = force;
+                            there[column] += sign * STEP;
+                            system.closure(there).residual
+                        };
+                        let (ahead, behind) = (at(1.0), at(-1.0));
+                        [0, 1].map(|row| (ahead[row] - behind[row]) / (2.0 * STEP))
+                    };
+                    let size = a.abs().max(b.abs()).max(c.abs());
+                    for (got, expected) in [a, b, b, c].iter().zip([by(0), by(1)].concat()) {
+                        assert!((got - expected).abs() < DIFFERENCES * size, "{got} {expected}");
+                    }
+                }
+            }
+        }
+    }
+}

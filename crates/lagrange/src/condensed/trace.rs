@@ -105,7 +105,7 @@ impl Walk {
 struct Path<'a> {
     chain: &'a Condensed,
     force: [f64; 2],
-    special: &'a Special<'a>,
+    special: &'a Special,
 }
 
 impl Path<'_> {
@@ -158,23 +158,20 @@ impl Path<'_> {
 }
 
 /// Bars that do not just point along their force.
-enum Special<'a> {
+enum Special {
     /// None.
     None,
     /// This one points against it.
     One(usize),
-    /// Those marked do.
-    Listed(&'a [bool]),
     /// These have none: from the first on, they have these vectors.
     Loose(usize, Vec<[f64; 2]>),
 }
 
-impl<'a> Special<'a> {
-    fn new(chain: &Condensed, pull: &'a Pull) -> Self {
+impl Special {
+    fn new(chain: &Condensed, pull: &Pull) -> Self {
         match &pull.signs {
             Signs::Tension => Self::None,
             Signs::One(bar) => Self::One(*bar),
-            Signs::Listed(signs) => Self::Listed(signs),
             Signs::Loose(range) => {
                 let gap = [chain.span.across, chain.bottom.gap];
                 Self::Loose(range.start, fold(&chain.read.lengths[range.clone()], gap))
@@ -192,13 +189,6 @@ impl<'a> Special<'a> {
             Self::One(bar) => {
                 if let Some(k) = bar.checked_sub(first).filter(|k| *k < count) {
                     turn(k);
-                }
-            }
-            Self::Listed(signs) => {
-                for k in 0..count {
-                    if signs[first + k] {
-                        turn(k);
-                    }
                 }
             }
             Self::Loose(start, bars) => {

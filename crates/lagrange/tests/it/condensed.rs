@@ -3,6 +3,9 @@
 
 #![expect(clippy::excessive_precision, reason = "reference digits stand as they were published")]
 
+use std::f64::consts::PI;
+
+use lagrange::Seed;
 use lagrange::condensed::{Condensed, CondensedError, Settings, Solution, solve};
 use model::{Anchors, Bar, Chain, InPlane, InSpace, Problem, STANDARD_GRAVITY_M_S2, Vector};
 use rand::{RngExt, SeedableRng};
@@ -144,13 +147,13 @@ fn many_equal_bars_approach_the_catenary_with_order_two() {
     }
 }
 
-/// For few bars: from many pulls with every pattern of signs, no equilibrium lies lower, and what is
-/// stable in space lies no higher.
+/// For few bars: of the equilibria that the full system reaches from many seeds none lies lower, and
+/// those stable in space lie no higher.
 #[test]
 fn brute_force_finds_nothing_lower() {
-    const STARTS: usize = 12;
+    const SEEDS: usize = 60;
     let mut rng = ChaCha8Rng::seed_from_u64(3);
-    let mut seen = [0; 2];
+    let (mut seen, mut reached) = ([0; 2], [0; 2]);
     for round in 0..60 {
         let n = 2 + round % 5;
         let bars: Vec<Bar> = (0..n)
@@ -172,77 +175,23 @@ fn brute_force_finds_nothing_lower() {
         let Ok(problem) = Problem::new(chain) else { continue };
         let best = solve(&problem, &Settings::default()).unwrap();
         seen[best.pull.compressed().len()] += 1;
-        let condensed = Condensed::new(&problem);
-        let weight = problem.chain().total_mass_kg();
-        for pattern in 0..1_u32 << n {
-            let compressed: Vec<bool> = (0..n).map(|k| pattern >> k & 1 == 1).collect();
-            for _ in 0..STARTS {
-                let start = std::array::from_fn(|_| weight * rng.random_range(-1.5..1.5));
-                let Ok(pull) = condensed.pull_from(start, &compressed, &Settings::default()) else {
-                    continue;
-                };
-                let Ok(other) = condensed.equilibrium(&pull, &Settings::default()) else {
-                    continue;
-                };
-                let found = judge(&problem, &other);
-                assert!(found.within(1e-11), "{found:?}");
-                let scale = weight * total;
-                let above = (other.energy_j - best.equilibrium.energy_j) / scale;
-                assert!(above > -1e-12, "lower by {above:e}");
-                let stable = other.stability.in_space == InSpace::Stable;
-                assert_eq!(stable, above < 1e-11, "{:?} at {above:e}", other.stability);
-                assert_eq!(stable, found.lowest, "{found:?}");
-            }
+        let scale = problem.chain().total_mass_kg() * total;
+        let mut solver = lagrange::Solver::new(&problem, &lagrange::Settings::default()).unwrap();
+        for _ in 0..SEEDS {
+            let mut any = || rng.random_range(-PI..PI);
+            let seed = Seed::spatial((0..n).map(|_| [any(), any(), any()]).collect());
+            // Not every seed of these shapes leads somewhere.
+            let Ok(found) = solver.solve(&seed) else { continue };
+            let above = (found.energy_j() - best.equilibrium.energy_j) / scale;
+            assert!(above > -1e-12, "lower by {above:e}");
+            let stability = found.stability();
+            let stable = stability.in_space == InSpace::Stable;
+            assert_eq!(stable, above < 1e-11, "{stability:?} at {above:e}");
+            reached[usize::from(stable)] += 1;
         }
     }
     assert!(seen[0] > 10 && seen[1] > 10, "both kinds must occur: {seen:?}");
-}
-
-/// The pull of a given equilibrium, however it is turned about vertical anchors, is found again.
-#[test]
-fn the_papers_second_equilibrium_is_found_from_its_signs() {
-    let problem = model::cases::paper();
-    let chain = problem.chain();
-    let unit = chain.bars()[0].mass_kg() * chain.gravity_m_s2();
-    let condensed = Condensed::new(&problem);
-    // E2 is E1 upside down: the first bar is the propped one, the others are compressed.
-    let compressed = [false, true, true];
-    let pull = condensed
-        .pull_from([0.4 * unit, 0.5 * unit, -0.7 * unit], &compressed, &Settings::default())
-        .unwrap();
-    let found = condensed.equilibrium(&pull, &Settings::default()).unwrap();
-    let energy = found.energy_j / (unit * chain.bars()[0].length_m()) + 6.0;
-    assert!((energy - 3.664_531_348_000_694_990_7).abs() < 1e-12, "{energy}");
-    assert_eq!(found.stability.in_plane, InPlane::Maximum);
-    assert_eq!((found.stability.index_in_plane, found.stability.index_in_space), (1, 2));
-}
-
-/// Twin of the analytic derivative by central differences.
-#[test]
-fn derivative_of_the_miss_has_a_twin() {
-    let mut rng = ChaCha8Rng::seed_from_u64(4);
-    for n in 2..8 {
-        let bars: Vec<Bar> = (0..n)
-            .map(|_| {
-                Bar::homogeneous(rng.random_range(0.5..1.0), rng.random_range(0.5..1.0)).unwrap()
-            })
-            .collect();
-        let chain = Condensed::new(&problem(bars, 3.0, [0.4, 0.3, 0.2]));
-        let compressed: Vec<bool> = (0..n).map(|_| rng.random_range(0..2) == 0).collect();
-        let pull: Vector = std::array::from_fn(|_| rng.random_range(1.0..5.0));
-        let here = chain.miss(pull, &compressed).unwrap();
-        let step = 1e-5;
-        for k in 0..3 {
-            let at = |sign: f64| {
-                let mut there = pull;
-                there[k] += sign * step;
-                chain.miss(there, &compressed).unwrap().miss_m
-            };
-            let difference = (at(1.0) - at(-1.0)) / (2.0 * step);
-            let off = (here.derivative_m_n.column(k) - difference).norm();
-            assert!(off < 1e-9 * here.derivative_m_n.norm(), "{off}");
-        }
-    }
+    assert!(reached[0] > 100 && reached[1] > 100, "both kinds must be reached: {reached:?}");
 }
 
 /// Shapes where forces vanish, are indeterminate, or follow no iteration at all.
@@ -368,16 +317,6 @@ fn failures_are_typed() {
     assert!(matches!(solve(&problem, &few), Err(CondensedError::NotClosed { .. })));
     let bad = Settings { closure: f64::NAN, ..Settings::default() };
     assert!(matches!(solve(&problem, &bad), Err(CondensedError::Settings(_))));
-    let chain = Condensed::new(&problem);
-    let ask = |pull: Vector, signs: &[bool]| chain.pull_from(pull, signs, &Settings::default());
-    assert!(matches!(
-        ask([1.0; 3], &[true]),
-        Err(CondensedError::SignsLength { expected: 3, got: 1 })
-    ));
-    assert!(matches!(
-        ask([1.0, f64::NAN, 0.0], &[true; 3]),
-        Err(CondensedError::PullNotFinite { .. })
-    ));
 }
 
 /// Anchors a hair apart over a chain much longer: two strands side by side. By symmetry equal strands carry alike;

@@ -15,3 +15,4 @@ mod paper;
 mod properties;
 mod seeds;
 mod stability;
+mod survey;

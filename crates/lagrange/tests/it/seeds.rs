@@ -1,9 +1,10 @@
 //! Random seeds: how many converge, to what, and the two forms of the method against each other.
 
-use lagrange::{Seed, Settings, SolveError, Solver, StepMethod, solve_from, survey};
+use lagrange::{Seed, Settings, SolveError, Solver, StepMethod, solve_from};
 use model::cases;
 
 use crate::common::{MG, distance, planar_seed, problem, spatial_seed, stream};
+use crate::survey::survey;
 
 const SEEDS: usize = 2000;
 /// Rounding of two methods at one root, relative to the length. Worst measured: 9e-16.
@@ -17,7 +18,7 @@ fn every_seed_of_the_example_converges_to_one_of_the_four() {
             let mut random = stream(51, index);
             if planar { planar_seed(&mut random, 3) } else { spatial_seed(&mut random, 3) }
         });
-        let survey = survey(&cases::paper(), seeds, &Settings::default()).unwrap();
+        let survey = survey(&cases::paper(), seeds, &Settings::default());
         assert_eq!((survey.seeds, survey.converged), (SEEDS, SEEDS), "lost {:?}", survey.lost);
         assert_eq!(survey.iterations.iter().sum::<usize>(), SEEDS);
         // E1 and E2, each with its mirror image, and nothing else.
@@ -46,7 +47,7 @@ fn every_seed_of_random_chains_converges() {
             let mut random = stream(52, 100 * bars + index);
             let problem = problem(&mut random, bars, index % 4 == 0);
             let seeds: Vec<Seed> = (0..20).map(|_| spatial_seed(&mut random, bars)).collect();
-            let survey = survey(&problem, seeds, &Settings::default()).unwrap();
+            let survey = survey(&problem, seeds, &Settings::default());
             assert_eq!(survey.converged, 20, "n = {bars}, chain {index}, {:?}", survey.lost);
         }
     }
@@ -109,7 +110,7 @@ fn seeds_that_do_not_fit_are_refused() {
         solve_from(&problem, &Seed::planar(&[0.0; 3]), &bad),
         Err(SolveError::Settings(_))
     ));
-    let out = survey(&problem, [Seed::planar(&[0.0])], &Settings::default()).unwrap();
+    let out = survey(&problem, [Seed::planar(&[0.0])], &Settings::default());
     assert_eq!((out.converged, out.rejected, out.lost), (0, 1, vec![0]));
 }
 

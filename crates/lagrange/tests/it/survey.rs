@@ -1,8 +1,7 @@
-//! Many seeds: how many converge, to which equilibrium, in how many steps, and what of the rest.
+//! Counts over many seeds: how many converge, to which equilibrium, in how many steps.
 
-use model::{Problem, Stability};
-
-use crate::{Seed, Settings, SolveError, Solver};
+use lagrange::{Seed, Settings, SolveError, Solver};
+use model::Problem;
 
 /// Energies closer than this, relative to the total weight times the total length, are the same
 /// equilibrium: states converged to 1e-13 agree to 1e-12, and two equilibria have no reason to.
@@ -22,7 +21,7 @@ pub struct Survey {
     /// Seeds that ended at a local minimum of the residual after all relaxations.
     pub stagnated: usize,
     /// Seeds that ended at a false root of the paper's equations; only with
-    /// [`Settings::lock_margin`] zero.
+    /// `lock_margin` zero.
     pub false_roots: usize,
     /// Seeds that do not fit the chain.
     pub rejected: usize,
@@ -42,19 +41,10 @@ pub struct Group {
     /// Of these, with joint 1 on the side of +Y of joint 0: tells the two mirror images in the plane
     /// *OYZ* apart.
     pub towards_y: usize,
-    /// Second-order behaviour.
-    pub stability: Stability,
 }
 
 impl Survey {
-    /// Part of the seeds that converged, 0 to 1.
-    #[must_use]
-    pub fn rate(&self) -> f64 {
-        self.converged as f64 / self.seeds.max(1) as f64
-    }
-
     /// The number of steps that the given part (0 to 1) of the converged seeds did not exceed.
-    #[must_use]
     pub fn iterations_quantile(&self, part: f64) -> usize {
         let wanted = part * self.converged as f64;
         let mut seen = 0;
@@ -84,30 +74,15 @@ impl Survey {
     }
 }
 
-/// Solve from each seed in turn and count.
-///
-/// # Errors
-///
-/// [`SolveError::Settings`] when a setting is out of range. A seed that leads nowhere is no error: it
-/// is counted.
-///
-/// ```
-/// use lagrange::{Seed, Settings, survey};
-/// let seeds = [[0.3, 0.7, -1.3], [1.3, -0.7, -0.3], [-0.3, -0.7, 1.3]];
-/// let seeds = seeds.iter().map(|phi| Seed::planar(phi));
-/// let survey = survey(&model::cases::paper(), seeds, &Settings::default())?;
-/// assert_eq!((survey.seeds, survey.converged, survey.groups.len()), (3, 3, 2));
-/// assert_eq!((survey.groups[0].count, survey.groups[0].towards_y), (2, 1));
-/// # Ok::<(), lagrange::SolveError>(())
-/// ```
+/// Solve from each seed in turn and count. A seed that leads nowhere is counted, too.
 pub fn survey(
     problem: &Problem,
     seeds: impl IntoIterator<Item = Seed>,
     settings: &Settings,
-) -> Result<Survey, SolveError> {
+) -> Survey {
     let chain = problem.chain();
     let unit_j = chain.total_mass_kg() * chain.gravity_m_s2() * chain.total_length_m();
-    let mut solver = Solver::new(problem, settings)?;
+    let mut solver = Solver::new(problem, settings).unwrap();
     let mut survey = Survey::default();
     for (index, seed) in seeds.into_iter().enumerate() {
         survey.seeds += 1;
@@ -118,7 +93,6 @@ pub fn survey(
                     energy_j: found.energy_j(),
                     count: 1,
                     towards_y: usize::from(found.first_offset_m()[1] > 0.0),
-                    stability: found.stability(),
                 };
                 survey.direct += usize::from(effort.relaxations == 0);
                 survey.count(effort.iterations, group, SAME_ENERGY * unit_j);
@@ -132,5 +106,5 @@ pub fn survey(
         }
         survey.lost.push(index);
     }
-    Ok(survey)
+    survey
 }
