@@ -62,6 +62,7 @@ mod spin;
 mod stability;
 mod step;
 mod system;
+mod thresholds;
 
 pub use constraints::{constraint_functions, constraint_matrix};
 pub use effort::Effort;

@@ -27,7 +27,7 @@ pub(crate) fn share(reduced: &mut Reduced, problem: &Problem, settings: &Setting
     if !reduced.here.bars.iter().all(|bar| upright(&bar.u)) {
         return;
     }
-    let Some(meeting) = Condensed::new(problem).if_meeting() else { return };
+    let Some(meeting) = Condensed::new(problem).indeterminate_pull() else { return };
     let before = (reduced.here.angles.clone(), reduced.here.pull);
     let straight: Vec<[f64; 3]> = reduced
         .here

@@ -6,7 +6,7 @@
 //! $$ G_k = D + \Bigl(\sum_{i<k} l_i - \sum_{i>k} l_i\Bigr) e_z. $$
 //!
 //! Its height grows by $l_k + l_{k+1}$ from one bar to the next, so there is one bar with
-//! $|e_z \cdot G_k| \le l_k$: the bottom bar. If $|G_k| > l_k$ the strands are pulled together, and
+//! $|e_z \cdot G_k| \le l_k$: the bottom bar. If $|G_k| > l_k$ the strands are pulled in_parallel, and
 //! the convex function $\Phi(q) = \sum l_i |q + b_i e_z| - q \cdot D$ has its minimum where no force
 //! vanishes: all bars are in tension. If $|G_k| \le l_k$ the minimum is the kink $q = 0$ (there
 //! $D - \sum_{i \ne k} l_i u_i = G_k$ must not be longer than $l_k$): as a cable the bar would be
@@ -17,17 +17,9 @@
 
 use std::ops::Range;
 
-use super::read::Read;
-use super::sums::{BLOCK, Twofold};
-
-/// Loads smaller than this beside the largest are no loads: their squares would underflow.
-const NO_LOAD: f64 = 1e-100;
-/// Roundings, in units of the last place of the total length, within which two lengths agree.
-const ROUNDINGS: f64 = 4.0 * f64::EPSILON;
-
-/// Nearer than this to a straight bottom bar, in total lengths, the gap is summed with all care: it has
-/// to be known whether strands of equal bars just meet.
-const DOUBTFUL: f64 = 1e-10;
+use super::bar_data::BarData;
+use super::sums::{BLOCK, DoubleDouble};
+use crate::thresholds::{NO_LOAD, RECHECKED_GAP};
 
 /// The bars at the bottom.
 #[derive(Debug, Clone)]
@@ -47,25 +39,11 @@ pub(super) struct Bottom {
     pub over: f64,
 }
 
-/// What holds the bottom.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Hold {
-    /// The strands are pulled together: all bars in tension.
-    Tension,
-    /// The longest bar of the group pushes the strands apart.
-    Compression,
-    /// The group hangs between the strands without force.
-    Loose,
-    /// Anchors on one vertical, two strands that just meet: how they share the weight of the joint
-    /// at the bottom is indeterminate.
-    Meeting,
-}
-
 impl Bottom {
     /// The first bar whose second end lies at or above the lowest point that strands of equal depth
     /// reach: where `rise + 2 (l_1 + ... + l_k) >= total`.
-    pub fn bar(read: &Read, rise: f64) -> usize {
-        let Read { lengths, blocks, total_length: total, .. } = read;
+    pub fn bar(bars: &BarData, rise: f64) -> usize {
+        let BarData { lengths, blocks, total_length: total, .. } = bars;
         let beyond = |length: f64| 2.0 * length + (rise - total) >= 0.0;
         // The first block has nothing before it, so there is always one to look in.
         let block = blocks.partition_point(|block| !beyond(block.length)).saturating_sub(1);
@@ -81,31 +59,31 @@ impl Bottom {
     }
 
     /// Everything about the bottom, once loads are counted from it.
-    pub fn new(bar: usize, read: &Read, rise: f64) -> Self {
-        let loads = &read.loads;
+    pub fn new(bar: usize, bars: &BarData, rise: f64) -> Self {
+        let loads = &bars.loads;
         let largest = loads[0].abs().max(loads[loads.len() - 1].abs());
-        let none = |load: &f64| load.abs() <= NO_LOAD * largest;
-        let first = bar - loads[..bar].iter().rev().take_while(|load| none(load)).count();
-        let end = bar + 1 + loads[bar + 1..].iter().take_while(|load| none(load)).count();
+        let unloaded = |load: &f64| load.abs() <= NO_LOAD * largest;
+        let first = bar - loads[..bar].iter().rev().take_while(|load| unloaded(load)).count();
+        let end = bar + 1 + loads[bar + 1..].iter().take_while(|load| unloaded(load)).count();
         let group = first..end;
-        let lengths = &read.lengths[group.clone()];
+        let lengths = &bars.lengths[group.clone()];
         let length = model::sum(lengths.iter().copied());
         let longest = (group.clone())
-            .fold(bar, |best, k| if read.lengths[k] > read.lengths[best] { k } else { best });
+            .fold(bar, |best, k| if bars.lengths[k] > bars.lengths[best] { k } else { best });
         let block = first / BLOCK;
         let strand =
-            read.blocks[block].length + read.lengths[block * BLOCK..first].iter().sum::<f64>();
-        let other = (read.total_length - strand) - length;
+            bars.blocks[block].length + bars.lengths[block * BLOCK..first].iter().sum::<f64>();
+        let other = (bars.total_length - strand) - length;
         let mut gap = (strand - other) + rise;
         let mut over = gap.abs() - length;
-        if over.abs() <= DOUBTFUL * read.total_length {
-            let [strand, other, own] = [&read.lengths[..first], &read.lengths[end..], lengths]
-                .map(|lengths| Twofold::total(lengths.iter().copied()));
+        if over.abs() <= RECHECKED_GAP * bars.total_length {
+            let [strand, other, own] = [&bars.lengths[..first], &bars.lengths[end..], lengths]
+                .map(|lengths| DoubleDouble::total(lengths.iter().copied()));
             let height = strand.add(other.negate()).plus(rise);
             gap = height.value();
             over = if gap < 0.0 { height.negate() } else { height }.add(own.negate()).value();
         }
-        let shortest_reach = 2.0 * read.lengths[longest] - length;
+        let shortest_reach = 2.0 * bars.lengths[longest] - length;
         Self { group, length, longest, shortest_reach, gap, over }
     }
 
@@ -113,24 +91,5 @@ impl Bottom {
     /// folded on its longest bar. Negative when it cannot be.
     pub fn room(&self, gap: f64) -> f64 {
         (self.length - gap).min(gap - self.shortest_reach)
-    }
-
-    /// What holds the bottom when the anchors are `across` apart horizontally.
-    pub fn hold(&self, across: f64, total_length: f64) -> Hold {
-        let gap = across.hypot(self.gap);
-        let rounding = ROUNDINGS * total_length;
-        // |G|² less the square of the length. Anchors that are a little apart pull strands of equal depth
-        // together, though the gap is no longer than the bar in any of its digits.
-        let terms = [across * across, self.over * (self.gap.abs() + self.length)];
-        let excess = terms[0] + terms[1];
-        if across <= rounding && self.over.abs() <= rounding {
-            Hold::Meeting
-        } else if excess > ROUNDINGS * (terms[0] + terms[1].abs()) {
-            Hold::Tension
-        } else if gap < self.shortest_reach - rounding {
-            Hold::Compression
-        } else {
-            Hold::Loose
-        }
     }
 }

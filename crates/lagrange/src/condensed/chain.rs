@@ -5,11 +5,14 @@ use std::ops::Range;
 
 use model::{Chain, Problem, Vector};
 
+use super::bar_data::BarData;
 use super::bottom::Bottom;
+use super::kernel::Bars;
 use super::loads::{Moments, count_from};
-use super::read::Read;
+
+use super::parallel::Workers;
 use super::span::Span;
-use super::team::Team;
+use super::system::{Frame, System};
 use super::units::Units;
 
 /// Totals between these bounds leave room for cubes and their inverses in a double; others are
@@ -31,7 +34,7 @@ const COMFORTABLE: Range<f64> = 1e-60..1e60;
 pub struct Condensed {
     /// Lengths, loads and totals, in units of the chain. The loads are counted from the bottom bar:
     /// `b_i`, negative before it.
-    pub(super) read: Read,
+    pub(super) bars: BarData,
     /// Moments of the loads.
     pub(super) moments: Moments,
     pub(super) span: Span,
@@ -58,49 +61,49 @@ impl Condensed {
     /// ```
     #[must_use]
     pub fn with_processors(problem: &Problem, processors: NonZeroUsize) -> Self {
-        Self::prepare(problem, processors, Read::default(), Moments::default())
+        Self::prepare(problem, processors, BarData::default(), Moments::default())
     }
 
     /// Prepare another chain in the memory of this one: for a million bars, fresh memory costs more than
     /// all computing.
     #[must_use]
     pub fn again(self, problem: &Problem) -> Self {
-        Self::prepare(problem, self.processors, self.read, self.moments)
+        Self::prepare(problem, self.processors, self.bars, self.moments)
     }
 
     fn prepare(
         problem: &Problem,
         processors: NonZeroUsize,
-        mut read: Read,
+        mut bars: BarData,
         moments: Moments,
     ) -> Self {
         let chain = problem.chain();
-        let team = Team::new(processors, chain.bars().len());
+        let workers = Workers::new(processors, chain.bars().len());
         let si = Units { length: 1.0, mass: 1.0, gravity: chain.gravity_m_s2() };
-        read.read(chain, si, team);
-        let (length, mass) = (read.total_length, read.total_mass);
+        bars.read(chain, si, workers);
+        let (length, mass) = (bars.total_length, bars.total_mass);
         if COMFORTABLE.contains(&length) && COMFORTABLE.contains(&mass) {
-            return Self::with_units(chain, si, processors, read, moments);
+            return Self::with_units(chain, si, processors, bars, moments);
         }
         let units = Units { length: power_of_two(length), mass: power_of_two(mass), ..si };
-        read.read(chain, units, team);
-        Self::with_units(chain, units, processors, read, moments)
+        bars.read(chain, units, workers);
+        Self::with_units(chain, units, processors, bars, moments)
     }
 
     /// Number of bars.
     #[must_use]
     pub fn bars(&self) -> usize {
-        self.read.lengths.len()
+        self.bars.lengths.len()
     }
 
     /// The processors that this chain keeps busy.
-    pub(super) fn team(&self) -> Team {
-        Team::new(self.processors, self.bars())
+    pub(super) fn workers(&self) -> Workers {
+        Workers::new(self.processors, self.bars())
     }
 
     /// Whether the anchors lie on one vertical: their horizontal distance is a rounding error.
     pub(super) fn on_one_vertical(&self) -> bool {
-        self.span.across <= f64::EPSILON * self.read.total_length
+        self.span.across <= f64::EPSILON * self.bars.total_length
     }
 
     /// Horizontal distance of the anchors, seen along the plane of an equilibrium.
@@ -108,21 +111,54 @@ impl Condensed {
         self.span.across * (self.span.level[0] * level[0] + self.span.level[1] * level[1])
     }
 
+    /// The largest load, in absolute value: that of the first bar or of the last.
+    pub(super) fn largest_load(&self) -> f64 {
+        self.bars.loads[0].abs().max(self.bars.loads[self.bars.loads.len() - 1].abs())
+    }
+
+    /// All bars.
+    pub(super) fn all(&self) -> [Bars<'_>; 2] {
+        [Bars { lengths: &self.bars.lengths, loads: &self.bars.loads }, Bars::NONE]
+    }
+
+    /// The bars of both strands, without those at the bottom.
+    pub(super) fn around_the_bottom(&self) -> [Bars<'_>; 2] {
+        let group = &self.bottom.group;
+        [self.part(0..group.start), self.part(group.end..self.bars())]
+    }
+
+    /// All bars, in two parts.
+    pub(super) fn split(&self, at: usize) -> [Bars<'_>; 2] {
+        [self.part(0..at), self.part(at..self.bars())]
+    }
+
+    fn part(&self, range: Range<usize>) -> Bars<'_> {
+        Bars { lengths: &self.bars.lengths[range.clone()], loads: &self.bars.loads[range] }
+    }
+
+    /// The condensed equations in upright axes, with an effective bar of the length `strut` in
+    /// compression.
+    pub(super) fn upright<'a>(&self, parts: [Bars<'a>; 2], strut: f64) -> System<'a> {
+        let frame = Frame::Upright { across: self.span.across, rise: self.span.rise };
+        let (total_length, workers) = (self.bars.total_length, self.workers());
+        System { parts, strut, frame, total_length, workers }
+    }
+
     fn with_units(
         chain: &Chain,
         units: Units,
         processors: NonZeroUsize,
-        mut read: Read,
+        mut bars: BarData,
         mut moments: Moments,
     ) -> Self {
-        let team = Team::new(processors, chain.bars().len());
+        let workers = Workers::new(processors, chain.bars().len());
         let span = Span::new(chain.anchors(), 1.0 / units.length);
-        let bottom = Bottom::bar(&read, span.rise);
+        let bottom = Bottom::bar(&bars, span.rise);
         moments.clear(chain.bars().len());
-        count_from(bottom, &read.lengths, &mut read.loads, &mut moments, team);
-        let bottom = Bottom::new(bottom, &read, span.rise);
+        count_from(bottom, &bars.lengths, &mut bars.loads, &mut moments, workers);
+        let bottom = Bottom::new(bottom, &bars, span.rise);
         let start_m = chain.anchors().start_m;
-        Self { read, moments, span, bottom, units, start_m, processors }
+        Self { bars, moments, span, bottom, units, start_m, processors }
     }
 }
 

@@ -21,9 +21,10 @@
 //!
 //! For a nearly straight chain all this happens in the axes of its line, and the angle counts from it.
 
-use super::axis::{Axis, Fold};
+use super::axis::Axis;
 use super::bracket::Bracket;
-use super::newton::{Passes, Root, first_few};
+use super::folded::Folded;
+use super::newton::{Budget, Root, within_a_few_passes};
 use super::system::{Closure, Frame, System};
 
 /// Largest change of the logarithm of the compression in one step.
@@ -32,17 +33,17 @@ const LARGEST_LOG_STEP: f64 = 2.0;
 const TO_THE_END: f64 = 0.9;
 /// Shortest part of a step that is tried.
 const SHORTEST: f64 = 1e-3;
-/// A compression that is larger than the loads by this factor is none: no direction this far from
-/// the line of the anchors lets the other bars reach.
+/// Where the compression would have to be larger than the loads by this factor, the other bars do not
+/// reach: the direction is too far from the line of the anchors.
 const NO_REACH: f64 = 1e17;
 
-/// What to solve.
+/// The equations of a chain with a bar in compression, and where to start.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Push<'a> {
+pub(super) struct Strut<'a> {
     /// Bars, and the axes in which forces are written.
     pub system: System<'a>,
     /// For a folded chain: the axes at each point are those of the bar there, and these are upright.
-    pub fold: Option<Fold>,
+    pub folded: Option<Folded>,
     /// The bar at angle 0 points along the first axis (+1) or against it (-1).
     pub side: f64,
     /// Horizontal unit vector, from the start towards the end anchor.
@@ -87,7 +88,7 @@ fn dot(a: [f64; 2], b: [f64; 2]) -> f64 {
     a[0] * b[0] + a[1] * b[1]
 }
 
-impl Push<'_> {
+impl Strut<'_> {
     /// The same problem, given in upright axes, in other ones.
     #[must_use]
     pub fn along(&self, axis: &Axis) -> Self {
@@ -107,16 +108,16 @@ impl Push<'_> {
         }
     }
 
-    /// Find the equilibrium. `None` when the passes ran out, or rounding errors prevent a closure of
-    /// `enough`, in units of the total length.
-    pub fn solve(&self, enough: f64, passes: &mut Passes) -> Option<Root> {
-        let direct = first_few(passes, |few| {
+    /// Find the equilibrium. `None` when the passes ran out, or rounding errors prevent a closure within
+    /// the budget.
+    pub fn solve(&self, budget: &mut Budget) -> Option<Root> {
+        let direct = within_a_few_passes(budget, |few| {
             let log = self.compression(self.angle, self.load.ln(), few)?;
-            self.newton(Point { size: log.exp(), angle: self.angle }, enough, few)
+            self.newton(Point { size: log.exp(), angle: self.angle }, few)
         });
         direct.or_else(|| {
-            let start = self.nested(passes)?;
-            first_few(passes, |few| self.newton(start, enough, few))
+            let start = self.nested(budget)?;
+            within_a_few_passes(budget, |few| self.newton(start, few))
         })
     }
 
@@ -127,10 +128,10 @@ impl Push<'_> {
         let force = bar.map(|u| -size * u);
         let cosine = dot(bar, self.level);
         let cosine_by_angle = dot([-bar[1], bar[0]], self.level);
-        let (along, closure) = match &self.fold {
+        let (along, closure) = match &self.folded {
             None => (bar, self.system.closure(force)),
-            Some(fold) => {
-                let system = System { frame: fold.frame(bar), ..self.system };
+            Some(folded) => {
+                let system = System { frame: folded.frame(bar), ..self.system };
                 ([-1.0, 0.0], system.closure([size, 0.0]))
             }
         };
@@ -144,12 +145,12 @@ impl Push<'_> {
 
     /// Newton's method with the step shortened until the equations, in units of their rounding errors,
     /// are nearer to zero.
-    fn newton(&self, start: Point, enough: f64, passes: &mut Passes) -> Option<Root> {
+    fn newton(&self, start: Point, budget: &mut Budget) -> Option<Root> {
         let (mut at, mut here) = (start, self.equations(start));
-        passes.spend();
+        budget.spend();
         // The equation that vanishes for a vertical bar between vertical anchors.
         let turning = match self.system.frame {
-            Frame::Upright { .. } if self.fold.is_none() => 0,
+            Frame::Upright { .. } if self.folded.is_none() => 0,
             _ => 1,
         };
         let first = here.cosine;
@@ -164,6 +165,7 @@ impl Push<'_> {
             if size <= 1.0 {
                 return Some(root);
             }
+            let enough = budget.closure;
             let settled = || self.system.settled(&here.closure, enough).then_some(root);
             let [r, s] = here.closure.residual;
             let (by_log, mut by_angle) = (here.by_log, here.by_angle);
@@ -182,7 +184,7 @@ impl Push<'_> {
             let floor = here.closure.floor;
             let before = norm(&here, floor);
             loop {
-                if part < SHORTEST || !passes.spend() {
+                if part < SHORTEST || !budget.spend() {
                     return settled();
                 }
                 let trial =
@@ -198,10 +200,10 @@ impl Push<'_> {
     }
 
     /// $\ln\varrho$ that closes the chain along the bar for a given direction; `None` when none does.
-    fn compression(&self, angle: f64, start: f64, passes: &mut Passes) -> Option<f64> {
+    fn compression(&self, angle: f64, start: f64, budget: &mut Budget) -> Option<f64> {
         let limit = (NO_REACH * self.largest_load).ln();
         Bracket::LINE.root(start, 1.0, 1.0, |log| {
-            if !passes.spend() {
+            if !budget.spend() {
                 return None;
             }
             let e = self.equations(Point { size: log.min(limit).exp(), angle });
@@ -212,13 +214,13 @@ impl Push<'_> {
         })
     }
 
-    fn nested(&self, passes: &mut Passes) -> Option<Point> {
+    fn nested(&self, budget: &mut Budget) -> Option<Point> {
         let mut log = self.load.ln();
         let angle = self.between.root(self.angle, 1.0, 1.0, |angle| {
-            let Some(found) = self.compression(angle, log, passes) else {
+            let Some(found) = self.compression(angle, log, budget) else {
                 // Out of reach: the root lies towards the line of the anchors.
                 let out = if angle > self.line { f64::MAX } else { -f64::MAX };
-                return (passes.spent < passes.limit).then_some((out, 0.0));
+                return (budget.spent < budget.limit).then_some((out, 0.0));
             };
             log = found;
             let e = self.equations(Point { size: log.exp(), angle });

@@ -5,8 +5,8 @@
 
 use std::ops::Range;
 
-use super::sums::Twofold;
-use super::team::{SHARE, Team};
+use super::parallel::{CHUNK, Workers};
+use super::sums::DoubleDouble;
 
 /// Numbers treated alike in one step of the loop.
 const LANES: usize = 4;
@@ -23,8 +23,11 @@ pub(super) struct Bars<'a> {
 }
 
 impl Bars<'_> {
-    fn share(self, share: Range<usize>) -> Self {
-        Self { lengths: &self.lengths[share.clone()], loads: &self.loads[share] }
+    /// None.
+    pub const NONE: Self = Self { lengths: &[], loads: &[] };
+
+    fn chunk(self, range: Range<usize>) -> Self {
+        Self { lengths: &self.lengths[range.clone()], loads: &self.loads[range] }
     }
 }
 
@@ -44,17 +47,17 @@ pub(super) struct Upright {
 }
 
 /// Add up what [`Upright`] holds.
-pub(super) fn upright(parts: &[Bars<'_>], h: f64, v: f64, team: Team) -> Upright {
+pub(super) fn upright(parts: &[Bars<'_>], h: f64, v: f64, workers: Workers) -> Upright {
     let mut sum = UprightSum::default();
     for part in parts {
-        if part.lengths.len() <= SHARE {
-            // Nothing to share, and no memory to ask for: short chains take less time than that.
+        if part.lengths.len() <= CHUNK {
+            // Nothing to divide, and no memory to ask for: short chains take less time than that.
             sum.merge(&UprightSum::of(*part, h, v));
             continue;
         }
-        for share in team.over(part.lengths.len(), |share| UprightSum::of(part.share(share), h, v))
-        {
-            sum.merge(&share);
+        let chunk = |range| UprightSum::of(part.chunk(range), h, v);
+        for chunk in workers.over(part.lengths.len(), chunk) {
+            sum.merge(&chunk);
         }
     }
     Upright { inverse: sum.inverse.value(), rise: sum.rise.value(), ..sum.rest }
@@ -63,8 +66,8 @@ pub(super) fn upright(parts: &[Bars<'_>], h: f64, v: f64, team: Team) -> Upright
 /// [`Upright`] while it is added up.
 #[derive(Debug, Clone, Copy, Default)]
 struct UprightSum {
-    inverse: Twofold,
-    rise: Twofold,
+    inverse: DoubleDouble,
+    rise: DoubleDouble,
     rest: Upright,
 }
 
@@ -113,11 +116,11 @@ fn upright_block(lengths: &[f64], loads: &[f64], hh: f64, v: f64) -> Upright {
         }
     });
     Upright {
-        inverse: fold(inverse),
-        rise: fold(rise),
-        cube: fold(cube),
-        cube_z: fold(cube_z),
-        cube_zz: fold(cube_zz),
+        inverse: add_lanes(inverse),
+        rise: add_lanes(rise),
+        cube: add_lanes(cube),
+        cube_z: add_lanes(cube_z),
+        cube_zz: add_lanes(cube_zz),
     }
 }
 
@@ -140,7 +143,7 @@ pub(super) struct Aligned {
 /// Add up what [`Aligned`] holds; `weight` is $(e_p, e_q)$. With `side` -1 angles count from the
 /// opposite of the axis, near to which these bars lie.
 pub(super) fn aligned(part: Bars<'_>, force: [f64; 2], weight: [f64; 2], side: f64) -> Aligned {
-    let (mut versine, mut sine) = (Twofold::default(), Twofold::default());
+    let (mut versine, mut sine) = (DoubleDouble::default(), DoubleDouble::default());
     let mut sums = Aligned::default();
     for (lengths, loads) in part.lengths.chunks(SPAN).zip(part.loads.chunks(SPAN)) {
         let block = aligned_block(lengths, loads, force, weight, side);
@@ -177,7 +180,13 @@ fn aligned_block(
             qq[k] += stiff * (p * p);
         }
     });
-    Aligned { versine: fold(versine), sine: fold(sine), pp: fold(pp), pq: fold(pq), qq: fold(qq) }
+    Aligned {
+        versine: add_lanes(versine),
+        sine: add_lanes(sine),
+        pp: add_lanes(pp),
+        pq: add_lanes(pq),
+        qq: add_lanes(qq),
+    }
 }
 
 /// Show all bars to `step`, [`LANES`] at a time. The last ones are filled up with bars of no length,
@@ -198,7 +207,7 @@ fn lanes(lengths: &[f64], loads: &[f64], mut step: impl FnMut(&[f64; LANES], &[f
     }
 }
 
-fn fold(lanes: [f64; LANES]) -> f64 {
+fn add_lanes(lanes: [f64; LANES]) -> f64 {
     (lanes[0] + lanes[1]) + (lanes[2] + lanes[3])
 }
 

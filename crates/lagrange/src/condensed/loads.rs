@@ -1,7 +1,7 @@
 //! From the weights of the joints to the loads between the bottom bar and every other.
 
-use super::sums::{BLOCK, Twofold, running};
-use super::team::Team;
+use super::parallel::Workers;
+use super::sums::{BLOCK, DoubleDouble, running};
 
 /// Chains of fewer bars are solved without a coarse chain first: of fewer than sixteen blocks it
 /// says little more than the catenary does.
@@ -20,19 +20,19 @@ pub(super) struct Arrays {
 /// Replace the weights of the joints (entry i: the joint before bar i) by the loads $b_i$ counted
 /// from bar `bottom`, and take their moments while they are in the cache.
 ///
-/// Blocks count outwards from the bottom, each from zero, and are then shifted by a twofold offset:
+/// Blocks count outwards from the bottom, each from zero, and are then shifted by an offset of twice the digits:
 /// no rounding grows with n, and next to the bottom there is no offset at all.
 pub(super) fn count_from(
     bottom: usize,
     lengths: &[f64],
     loads: &mut [f64],
     moments: &mut Moments,
-    team: Team,
+    workers: Workers,
 ) {
     let (before, after) = loads.split_at_mut(bottom + 1);
     let (lengths_before, lengths_after) = lengths.split_at(bottom + 1);
     let mut other = Moments { wanted: moments.wanted, ..Moments::default() };
-    if team.size() == 1 {
+    if workers.size() == 1 {
         count_down(lengths_before, before, moments);
         count_up(lengths_after, after, &mut other);
     } else {
@@ -46,7 +46,7 @@ pub(super) fn count_from(
 
 /// Bars after the bottom: the load grows by the joint before each.
 fn count_up(lengths: &[f64], loads: &mut [f64], moments: &mut Moments) {
-    let mut offset = Twofold::default();
+    let mut offset = DoubleDouble::default();
     for (lengths, loads) in lengths.chunks(BLOCK).zip(loads.chunks_mut(BLOCK)) {
         let here = running(loads, 0.0);
         for load in loads.iter_mut() {
@@ -60,7 +60,7 @@ fn count_up(lengths: &[f64], loads: &mut [f64], moments: &mut Moments) {
 /// The bottom, last, and the bars before it: the load falls by the joint after each, whose weight stands
 /// with the next bar.
 fn count_down(lengths: &[f64], loads: &mut [f64], moments: &mut Moments) {
-    let mut offset = Twofold::default();
+    let mut offset = DoubleDouble::default();
     let mut after = 0.0;
     let mut space = [0.0; BLOCK];
     for (lengths, loads) in lengths.rchunks(BLOCK).zip(loads.rchunks_mut(BLOCK)) {
@@ -89,7 +89,7 @@ pub(super) struct Moments {
 }
 
 impl Moments {
-    /// Begin anew for a chain of so many bars, in the same memory.
+    /// Begin again for a chain of so many bars, in the same memory.
     pub fn clear(&mut self, bars: usize) {
         self.wanted = bars >= COARSE_FROM;
         // Two for each block, and the bottom may split one block in two.
@@ -165,8 +165,8 @@ mod tests {
             let mut loads = weights.clone();
             let mut moments = Moments::default();
             moments.clear(n);
-            let team = Team::new(std::num::NonZeroUsize::MIN, n);
-            count_from(bottom, &lengths, &mut loads, &mut moments, team);
+            let workers = Workers::new(std::num::NonZeroUsize::MIN, n);
+            count_from(bottom, &lengths, &mut loads, &mut moments, workers);
             for i in 0..n {
                 let expected: f64 = if i >= bottom {
                     weights[bottom + 1..=i].iter().sum()

@@ -50,28 +50,28 @@
 //! ```
 
 mod axis;
+mod bar_data;
 mod bottom;
 mod bracket;
+mod catenary;
 mod chain;
 mod compression;
 mod error;
-mod fold;
+mod folded;
 mod kernel;
 mod loads;
 mod newton;
+mod parallel;
 mod pull;
-mod read;
+mod reconstruction;
+mod regime;
 mod settings;
 mod shape;
 mod solve;
 mod span;
 mod stability;
-mod start;
 mod sums;
 mod system;
-mod team;
-mod tension;
-mod trace;
 mod units;
 
 pub use chain::Condensed;

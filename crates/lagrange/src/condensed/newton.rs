@@ -1,11 +1,12 @@
 //! Newton's method on the condensed equations of a chain in tension: the minimum of a convex function.
 
+use super::settings::Settings;
 use super::system::{Closure, System};
 
 /// A step is good when the slope along it has fallen to this part.
 const GOOD_SLOPE: f64 = 0.9;
-/// A step that was much too short is stretched by this factor.
-const STRETCH: f64 = 4.0;
+/// A step that was much too short is lengthened by this factor.
+const EXPANSION: f64 = 4.0;
 /// Secants stay away from the ends of their interval by this part of it.
 const MARGIN: f64 = 0.1;
 /// Conditions up to this let the residual after a step be predicted; beyond, a tiny residual may still
@@ -14,7 +15,7 @@ const WELL_CONDITIONED: f64 = 1e4;
 /// A step is small when it changes the horizontal force, and the vertical one beside the whole, by less
 /// than this part.
 const SMALL_STEP: f64 = 1e-3;
-/// From residuals below this, in roundings, nothing can be learnt.
+/// Residuals below this, in roundings, say nothing of the contraction.
 const NOISE: f64 = 1e3;
 /// How much the prediction of the next residual may be wrong.
 const CAUTION: f64 = 10.0;
@@ -34,44 +35,51 @@ pub(super) struct Root {
     pub contraction: f64,
 }
 
-/// Counts passes over the bars, against the limit of the settings.
+/// What a solve may spend, and what is asked of it.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Passes {
+pub(super) struct Budget {
+    /// Passes over the bars so far.
     pub spent: usize,
+    /// Passes at most.
     pub limit: usize,
+    /// A closure, in total lengths, with which an iteration that gets no further is content.
+    pub closure: f64,
 }
 
-impl Passes {
-    pub fn new(limit: usize) -> Self {
-        Self { spent: 0, limit }
+impl Budget {
+    pub fn of(settings: &Settings) -> Self {
+        Self { spent: 0, limit: settings.max_passes, closure: settings.closure }
     }
 
-    /// Spend one; false when none is left.
+    /// Spend a pass; false when none is left.
     pub fn spend(&mut self) -> bool {
         self.spent += 1;
         self.spent <= self.limit
     }
 }
 
-/// Let a method try with few passes, and count them.
-pub(super) fn first_few<T>(passes: &mut Passes, solve: impl FnOnce(&mut Passes) -> T) -> T {
-    let limit = passes.limit.min(passes.spent + NEWTON_PASSES);
-    let mut few = Passes { limit, ..*passes };
+/// Let a method that may fail try with few passes, and count them.
+pub(super) fn within_a_few_passes<T>(
+    budget: &mut Budget,
+    solve: impl FnOnce(&mut Budget) -> T,
+) -> T {
+    let limit = budget.limit.min(budget.spent + NEWTON_PASSES);
+    let mut few = Budget { limit, ..*budget };
     let answer = solve(&mut few);
-    passes.spent = few.spent;
+    budget.spent = few.spent;
     answer
 }
 
 /// Newton's method from a root found in other axes, as long as it gets closer.
-pub(super) fn polish(system: &System<'_>, force: [f64; 2], passes: &mut Passes) -> Root {
+pub(super) fn polish(system: &System<'_>, force: [f64; 2], budget: &mut Budget) -> Root {
     let mut root = Root { force, closure: system.closure(force), contraction: 0.0 };
-    passes.spend();
+    budget.spend();
     for _ in 0..POLISH_STEPS {
         let Some([x, y]) = root.closure.step() else { break };
         let force = [root.force[0] + x, root.force[1] + y];
         let closure = system.closure(force);
         // A NaN is not closer.
-        if !passes.spend() || closure.size().total_cmp(&root.closure.size()).is_ge() {
+        if !budget.spend() || closure.size().total_cmp(&root.closure.size()).is_ge() {
             break;
         }
         root = Root { force, closure, contraction: 0.0 };
@@ -83,24 +91,23 @@ pub(super) fn polish(system: &System<'_>, force: [f64; 2], passes: &mut Passes) 
 ///
 /// `contraction` of the same chain made coarser lets the last pass be saved: the residual after the
 /// next step is then predicted, not computed, by that or by its own, whichever is worse. `None` when the
-/// passes ran out or rounding errors are larger than [`Closure::floor`] says and prevent a closure of
-/// `enough` total lengths, too.
+/// passes ran out or rounding errors are larger than [`Closure::floor`] says and prevent a closure
+/// within the budget, too.
 pub(super) fn minimise(
     system: &System<'_>,
     force: [f64; 2],
     contraction: Option<f64>,
-    enough: f64,
-    passes: &mut Passes,
+    budget: &mut Budget,
 ) -> Option<Root> {
     let mut root = Root { force, closure: system.closure(force), contraction: 0.0 };
-    passes.spend();
+    budget.spend();
     loop {
         let size = root.closure.size();
         if size <= 1.0 {
             return Some(root);
         }
         let Some(step) = root.closure.step() else {
-            return system.settled(&root.closure, enough).then_some(root);
+            return system.settled(&root.closure, budget.closure).then_some(root);
         };
         if let Some(contraction) = contraction
             && CAUTION * contraction.max(root.contraction) * size * size <= 1.0
@@ -110,7 +117,7 @@ pub(super) fn minimise(
             root.force = [root.force[0] + step[0], root.force[1] + step[1]];
             return Some(root);
         }
-        match along(system, &root, step, passes) {
+        match along(system, &root, step, budget) {
             Some((part, closure)) => {
                 root.force = advance(root.force, step, part);
                 root.closure = closure;
@@ -118,7 +125,7 @@ pub(super) fn minimise(
                     root.contraction = root.contraction.max(closure.size() / (size * size));
                 }
             }
-            None => return system.settled(&root.closure, enough).then_some(root),
+            None => return system.settled(&root.closure, budget.closure).then_some(root),
         }
     }
 }
@@ -139,7 +146,7 @@ fn along(
     system: &System<'_>,
     root: &Root,
     step: [f64; 2],
-    passes: &mut Passes,
+    budget: &mut Budget,
 ) -> Option<(f64, Closure)> {
     let slope = |closure: &Closure| closure.residual[0] * step[0] + closure.residual[1] * step[1];
     let first = slope(&root.closure);
@@ -151,7 +158,7 @@ fn along(
     let mut high: Option<(f64, f64)> = None;
     let mut part = 1.0;
     loop {
-        if !passes.spend() {
+        if !budget.spend() {
             return None;
         }
         let closure = system.closure(advance(root.force, step, part));
@@ -166,7 +173,7 @@ fn along(
             high = Some((part, here));
         }
         let next = match high {
-            None => part * STRETCH,
+            None => part * EXPANSION,
             Some((high, slope_high)) => {
                 let secant = slope_low / (slope_low - slope_high);
                 let secant = if secant.is_finite() { secant } else { 0.5 };

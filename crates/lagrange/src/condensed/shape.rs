@@ -4,11 +4,11 @@ use std::ops::Range;
 
 use model::{Reactions, Vector};
 
+use super::bar_data::resize;
 use super::chain::Condensed;
+use super::parallel::split;
 use super::pull::Pull;
-use super::read::fit;
-use super::team::split;
-use super::trace::trace;
+use super::reconstruction::reconstruct;
 
 /// A shape in its vertical plane, one array per quantity; SI units.
 ///
@@ -85,16 +85,17 @@ impl Condensed {
             (&mut *axial_n, n),
             (&mut *vertical_n, n + 1),
         ] {
-            fit(array, count);
+            resize(array, count);
         }
-        let sink = [&mut along_m[1..], &mut height_m[1..], &mut axial_n[..], &mut vertical_n[1..]];
-        let ends = trace(self, pull, sink, split, |sink, stretch| {
-            let [along_m, height_m, axial_n, vertical_n] = sink;
-            let bars = stretch.first..stretch.first + stretch.axial.len();
-            scale(&mut along_m[bars.clone()], stretch.along, length);
-            scale(&mut height_m[bars.clone()], stretch.height, length);
-            scale(&mut axial_n[bars.clone()], stretch.axial, force);
-            scale(&mut vertical_n[bars], stretch.vertical, force);
+        let output =
+            [&mut along_m[1..], &mut height_m[1..], &mut axial_n[..], &mut vertical_n[1..]];
+        let ends = reconstruct(self, pull, output, split, |output, segment| {
+            let [along_m, height_m, axial_n, vertical_n] = output;
+            let bars = segment.first..segment.first + segment.axial.len();
+            scale(&mut along_m[bars.clone()], segment.along, length);
+            scale(&mut height_m[bars.clone()], segment.height, length);
+            scale(&mut axial_n[bars.clone()], segment.axial, force);
+            scale(&mut vertical_n[bars], segment.vertical, force);
         });
         (along_m[0], height_m[0]) = (0.0, 0.0);
         vertical_n[0] = pull.ground_n()[2];
@@ -113,25 +114,25 @@ impl Condensed {
         let h = pull.force[0] * force;
         let (hx, hy) = (h * ex, h * ey);
         let Vectors { joints_m, multipliers_n, axial_n } = to;
-        fit(joints_m, n + 1);
-        fit(multipliers_n, n + 1);
-        fit(axial_n, n);
-        let sink = ([&mut joints_m[1..], &mut multipliers_n[1..]], [&mut axial_n[..]]);
-        let split = |(vectors, numbers), shares: &[Range<usize>]| {
-            split(vectors, shares).into_iter().zip(split(numbers, shares)).collect()
+        resize(joints_m, n + 1);
+        resize(multipliers_n, n + 1);
+        resize(axial_n, n);
+        let output = ([&mut joints_m[1..], &mut multipliers_n[1..]], [&mut axial_n[..]]);
+        let split = |(vectors, numbers), ranges: &[Range<usize>]| {
+            split(vectors, ranges).into_iter().zip(split(numbers, ranges)).collect()
         };
-        let ends = trace(self, pull, sink, split, |sink, stretch| {
-            let ([joints_m, multipliers_n], [axial_n]) = sink;
-            let bars = stretch.first..stretch.first + stretch.axial.len();
-            let positions = stretch.along.iter().zip(stretch.height);
+        let ends = reconstruct(self, pull, output, split, |output, segment| {
+            let ([joints_m, multipliers_n], [axial_n]) = output;
+            let bars = segment.first..segment.first + segment.axial.len();
+            let positions = segment.along.iter().zip(segment.height);
             for (joint, (s, z)) in joints_m[bars.clone()].iter_mut().zip(positions) {
                 let s = s * length;
                 *joint = [x0 + ex * s, y0 + ey * s, z0 + z * length];
             }
-            for (lambda, v) in multipliers_n[bars.clone()].iter_mut().zip(stretch.vertical) {
+            for (lambda, v) in multipliers_n[bars.clone()].iter_mut().zip(segment.vertical) {
                 *lambda = [hx, hy, v * force];
             }
-            scale(&mut axial_n[bars], stretch.axial, force);
+            scale(&mut axial_n[bars], segment.axial, force);
         });
         joints_m[0] = self.start_m;
         multipliers_n[0] = pull.ground_n();
@@ -148,7 +149,7 @@ impl Condensed {
         let [ex, ey] = self.span.level.map(|e| e * self.span.across);
         let [x, y] = pull.level.map(|e| e * along);
         let off = (x - ex).hypot(y - ey).hypot(height - self.span.rise);
-        off / self.read.total_length
+        off / self.bars.total_length
     }
 }
 
@@ -160,7 +161,7 @@ pub(super) struct Vectors {
     pub axial_n: Vec<f64>,
 }
 
-/// What belongs to all bars together.
+/// What belongs to all bars in_parallel.
 pub(super) struct Totals {
     pub reactions_n: Reactions,
     pub energy_j: f64,

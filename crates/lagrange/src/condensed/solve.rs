@@ -11,13 +11,10 @@ use super::pull::Pull;
 use super::settings::Settings;
 use super::shape::{Totals, Vectors};
 use super::stability::second_order;
+use crate::thresholds::REPORTED_FORCE_ERROR;
 
 /// What the residual is.
 const RESIDUAL_OF: &str = "distance of the last joint from its anchor, in total lengths";
-
-/// Doubt of the forces, as a part of the largest, from which on the evidence speaks of it: what two solvers are
-/// asked to agree to.
-const WORTH_SAYING: f64 = 1e-9;
 
 /// An equilibrium from the condensed equations. That it exists means converged.
 #[derive(Debug, Clone, PartialEq)]
@@ -38,7 +35,7 @@ pub struct Solution {
 /// ```
 /// use lagrange::condensed::{Settings, solve};
 /// let solution = solve(&model::cases::paper(), &Settings::default())?;
-/// // E1: the third bar props the chain up, and the anchors carry three weights together.
+/// // E1: the third bar props the chain up, and the anchors carry three weights in_parallel.
 /// assert_eq!(solution.pull.compressed(), [2]);
 /// let weight = model::STANDARD_GRAVITY_M_S2;
 /// let ground = solution.pull.ground_n();
@@ -147,8 +144,8 @@ impl Condensed {
         }
         let second = second_order(self, pull);
         let mut evidence = Evidence::new(RESIDUAL_OF, closure, settings.closure, passes);
-        let relative = self.doubt(pull);
-        if relative > WORTH_SAYING {
+        let relative = self.force_error(pull);
+        if relative > REPORTED_FORCE_ERROR {
             let cause = UncertaintyCause::WeakClosure;
             evidence = evidence.with_force_uncertainty(ForceUncertainty { relative, cause });
         }

@@ -2,7 +2,7 @@
 
 use model::Anchors;
 
-use super::sums::Twofold;
+use super::sums::DoubleDouble;
 
 /// Horizontal direction of the plane when the anchors are on one vertical and any will do: the
 /// paper's plane OYZ, and of its two mirror images the one of the paper's Fig. 3, whose stretched
@@ -21,16 +21,16 @@ pub(super) struct Span {
     /// Distance of the anchors.
     pub distance: f64,
     /// Its square, to twice the digits.
-    pub distance_squared: Twofold,
+    pub distance_squared: DoubleDouble,
 }
 
 impl Span {
     /// With lengths multiplied by `scale`, a power of two.
     pub fn new(anchors: &Anchors, scale: f64) -> Self {
-        let difference: [Twofold; 3] = std::array::from_fn(|k| {
-            Twofold::sum(anchors.end_m[k] * scale, -anchors.start_m[k] * scale)
+        let difference: [DoubleDouble; 3] = std::array::from_fn(|k| {
+            DoubleDouble::sum(anchors.end_m[k] * scale, -anchors.start_m[k] * scale)
         });
-        let [x, y, rise] = difference.map(Twofold::value);
+        let [x, y, rise] = difference.map(DoubleDouble::value);
         let across = x.hypot(y);
         Self {
             level: if across > 0.0 { [x / across, y / across] } else { ANY_LEVEL },
@@ -39,7 +39,7 @@ impl Span {
             distance: across.hypot(rise),
             distance_squared: difference
                 .into_iter()
-                .fold(Twofold::default(), |sum, part| sum.add(part.square())),
+                .fold(DoubleDouble::default(), |sum, part| sum.add(part.square())),
         }
     }
 

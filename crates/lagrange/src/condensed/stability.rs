@@ -18,13 +18,7 @@ use model::{InPlane, InSpace, Stability};
 
 use super::chain::Condensed;
 use super::pull::{Pull, Signs};
-
-/// A pivot this small beside the terms of which it is the difference is zero.
-const ZERO: f64 = 1e-12;
-
-/// Loose bars with less room than this, in total lengths, between them and a straight line are straight:
-/// their directions, like the square root of it, are within 1e-6 of one line.
-const STRAIGHT: f64 = 1e-12;
+use crate::thresholds::{NO_ROOM, ZERO_PIVOT};
 
 /// Stability, dimension of the null space of the closure's derivative in space, and its condition.
 #[derive(Debug, Clone, Copy)]
@@ -36,12 +30,10 @@ pub(super) struct SecondOrder {
 
 /// Second order of an equilibrium.
 pub(super) fn second_order(chain: &Condensed, pull: &Pull) -> SecondOrder {
-    if let Signs::Loose(bars) = &pull.signs {
-        return loose(chain, bars.len());
-    }
     let compressed = match &pull.signs {
-        Signs::Tension | Signs::Loose(_) => 0,
-        Signs::One(_) => 1,
+        Signs::Tension => 0,
+        Signs::Compressed(_) => 1,
+        Signs::Unloaded(bars) => return unloaded(chain, bars.len()),
     };
     let [first, second] = pull.pivots;
     let freedoms = chain.bars() - 2;
@@ -49,7 +41,7 @@ pub(super) fn second_order(chain: &Condensed, pull: &Pull) -> SecondOrder {
     // cannot move has nothing that could vanish.
     let degenerate = compressed > 0
         && freedoms > 0
-        && (second.abs() <= ZERO * pull.remainder_of || first.abs() <= f64::MIN_POSITIVE);
+        && (second.abs() <= ZERO_PIVOT * pull.remainder_of || first.abs() <= f64::MIN_POSITIVE);
     let positive = [first, second].iter().filter(|pivot| **pivot > 0.0).count();
     let positive = if degenerate { usize::from(first > 0.0) } else { positive };
     let horizontal = chain.across_in(pull.level) / pull.force[0];
@@ -84,12 +76,12 @@ pub(super) fn second_order(chain: &Condensed, pull: &Pull) -> SecondOrder {
 }
 
 /// Bars without force, all others in tension: the least energy, and not only here. What moves at no
-/// cost moves the loose bars alone, as far as they keep their ends where they are: two conditions in
+/// cost moves the unloaded bars alone, as far as they keep their ends where they are: two conditions in
 /// the plane (one where they are straight) and one out of it.
-fn loose(chain: &Condensed, bars: usize) -> SecondOrder {
+fn unloaded(chain: &Condensed, bars: usize) -> SecondOrder {
     let gap = chain.span.across.hypot(chain.bottom.gap);
     let room = chain.bottom.room(gap);
-    let straight = room <= STRAIGHT * chain.read.total_length;
+    let straight = room <= NO_ROOM * chain.bars.total_length;
     // Two bars between fixed ends cannot move in the plane, however straight.
     let in_plane = bars.saturating_sub(if straight && chain.bars() > 2 { 1 } else { 2 });
     let across = bars - 1;

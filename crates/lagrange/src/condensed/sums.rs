@@ -6,14 +6,14 @@ pub(super) const BLOCK: usize = 256;
 
 /// A number as the unevaluated sum of two doubles, some 32 digits.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub(super) struct Twofold {
+pub(super) struct DoubleDouble {
     /// The nearest double.
     pub high: f64,
     /// What it leaves.
     pub low: f64,
 }
 
-impl Twofold {
+impl DoubleDouble {
     pub fn sum(a: f64, b: f64) -> Self {
         let high = a + b;
         let shadow = high - a;
@@ -81,14 +81,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn twofold_keeps_what_a_double_loses() {
+    fn double_double_keeps_what_a_double_loses() {
         let tiny = f64::EPSILON / 8.0;
-        let sum = Twofold::total([1.0, tiny, -1.0].into_iter());
+        let sum = DoubleDouble::total([1.0, tiny, -1.0].into_iter());
         assert!((sum.value() - tiny).abs() <= f64::EPSILON * tiny);
         // (1 + e)^2 - 1 - 2e = e^2.
-        let square = Twofold::sum(1.0, tiny).square().plus(-1.0).plus(-2.0 * tiny);
+        let square = DoubleDouble::sum(1.0, tiny).square().plus(-1.0).plus(-2.0 * tiny);
         assert!(square.value().abs() <= 2.0 * tiny * tiny);
-        assert!((Twofold::product(0.1, 0.1).value() - 0.1 * 0.1).abs() <= f64::EPSILON * 0.01);
+        assert!((DoubleDouble::product(0.1, 0.1).value() - 0.1 * 0.1).abs() <= f64::EPSILON * 0.01);
     }
 
     #[test]

@@ -3,15 +3,13 @@
 //! $$ r(q) = \sum_i s_i\\,l_i\\,\frac{q + b_i e_z}{|q + b_i e_z|} - D = 0. $$
 //!
 //! Signs are +1 except for one effective bar: the bottom group, whose longest bar is compressed, is
-//! a bar of length `push` with the sign -1. The derivative of r is symmetric,
+//! a bar of length `strut` with the sign -1. The derivative of r is symmetric,
 //! $\sum (s_i l_i/|F_i|)(1 - u_i u_i^T)$; without a compressed bar r is the gradient of the convex
 //! $\Phi$ (module `bottom`).
 
 use super::kernel::{Bars, aligned, upright, versine_of};
-use super::team::Team;
-
-/// Roundings of the closure, in units of the last place of the terms that were added.
-const ROUNDINGS: f64 = 4.0 * f64::EPSILON;
+use super::parallel::Workers;
+use crate::thresholds::{CLOSURE_ROUNDING, SLACK_ROUNDINGS};
 
 /// Axes in which the closure is written.
 #[derive(Debug, Clone, Copy)]
@@ -35,7 +33,7 @@ pub(super) enum Frame {
         /// Whether the forces of each part point along the axis (+1) or against it (-1).
         sides: [f64; 2],
         /// The same for the compressed bar.
-        push_side: f64,
+        strut_side: f64,
     },
 }
 
@@ -45,12 +43,12 @@ pub(super) struct System<'a> {
     /// Bars in tension.
     pub parts: [Bars<'a>; 2],
     /// Length of the compressed bar, whose load is 0; without one, 0.
-    pub push: f64,
+    pub strut: f64,
     pub frame: Frame,
     /// Total length: the scale of the closure.
     pub total_length: f64,
-    /// Who adds up.
-    pub team: Team,
+    /// The threads that add up.
+    pub workers: Workers,
 }
 
 /// The closure for some force.
@@ -64,9 +62,6 @@ pub(super) struct Closure {
     pub floor: [f64; 2],
 }
 
-/// A balance of small terms may stop at this many of its rounding errors, some 1e-8 of the slack.
-const STALLED: f64 = 1e7;
-
 impl System<'_> {
     /// Whether an iteration that gets no further may stop here: the chain closes to `enough`, in units
     /// of its total length, and a slack is met to many of its digits.
@@ -74,7 +69,7 @@ impl System<'_> {
         let [r, s] = closure.residual;
         let met = match self.frame {
             Frame::Upright { .. } => true,
-            Frame::Aligned { .. } => closure.size() <= STALLED,
+            Frame::Aligned { .. } => closure.size() <= SLACK_ROUNDINGS,
         };
         met && r.hypot(s) <= enough * self.total_length
     }
@@ -83,42 +78,43 @@ impl System<'_> {
     pub fn closure(&self, q: [f64; 2]) -> Closure {
         match self.frame {
             Frame::Upright { across, rise } => {
-                let sums = upright(&self.parts, q[0], q[1], self.team);
-                let (push, stiff) = self.pushed(q);
-                let residual = [q[0] * sums.inverse + push[0] - across, sums.rise + push[1] - rise];
+                let sums = upright(&self.parts, q[0], q[1], self.workers);
+                let (strut, stiff) = self.strut_terms(q);
+                let residual =
+                    [q[0] * sums.inverse + strut[0] - across, sums.rise + strut[1] - rise];
                 let jacobian = [
                     sums.cube_zz + stiff[0],
                     stiff[1] - q[0] * sums.cube_z,
                     q[0] * q[0] * sums.cube + stiff[2],
                 ];
                 // Where the pull is small, so are the horizontal terms.
-                let width = (q[0] * sums.inverse).abs() + push[0].abs() + across;
-                let floor = [ROUNDINGS * width, ROUNDINGS * self.total_length];
+                let width = (q[0] * sums.inverse).abs() + strut[0].abs() + across;
+                let floor = [CLOSURE_ROUNDING * width, CLOSURE_ROUNDING * self.total_length];
                 Closure { residual, jacobian, floor }
             }
-            Frame::Aligned { up, slack, aside, sides, push_side } => {
+            Frame::Aligned { up, slack, aside, sides, strut_side } => {
                 let [a, b] = [0, 1].map(|k| aligned(self.parts[k], q, up, sides[k]));
-                let (push, stiff) = self.pushed(q);
-                let versine = if self.push > 0.0 {
+                let (strut, stiff) = self.strut_terms(q);
+                let versine = if self.strut > 0.0 {
                     // The bar points against its force.
-                    let (cosine, sine) = (-push[0] / self.push, -push[1] / self.push);
-                    push_side * self.push * versine_of(push_side * cosine, sine)
+                    let (cosine, sine) = (-strut[0] / self.strut, -strut[1] / self.strut);
+                    strut_side * self.strut * versine_of(strut_side * cosine, sine)
                 } else {
                     0.0
                 };
                 let bent = a.versine + b.versine + versine.abs();
                 let along = slack - sides[0] * a.versine - sides[1] * b.versine + versine;
                 Closure {
-                    residual: [along, a.sine + b.sine + push[1] - aside],
+                    residual: [along, a.sine + b.sine + strut[1] - aside],
                     jacobian: [
                         a.pp + b.pp + stiff[0],
                         a.pq + b.pq + stiff[1],
                         a.qq + b.qq + stiff[2],
                     ],
                     floor: [
-                        ROUNDINGS * (slack.abs() + bent),
+                        CLOSURE_ROUNDING * (slack.abs() + bent),
                         // By Cauchy's inequality a bound of the sines.
-                        ROUNDINGS * ((2.0 * bent * self.total_length).sqrt() + aside.abs()),
+                        CLOSURE_ROUNDING * ((2.0 * bent * self.total_length).sqrt() + aside.abs()),
                     ],
                 }
             }
@@ -126,14 +122,14 @@ impl System<'_> {
     }
 
     /// Vector of the compressed bar, and its part of the derivative.
-    fn pushed(&self, q: [f64; 2]) -> ([f64; 2], [f64; 3]) {
-        if self.push <= 0.0 {
+    fn strut_terms(&self, q: [f64; 2]) -> ([f64; 2], [f64; 3]) {
+        if self.strut <= 0.0 {
             return ([0.0; 2], [0.0; 3]);
         }
         let size = q[0].hypot(q[1]);
         let (x, z) = (q[0] / size, q[1] / size);
-        let stiff = -self.push / size;
-        ([-self.push * x, -self.push * z], [stiff * z * z, -stiff * x * z, stiff * x * x])
+        let stiff = -self.strut / size;
+        ([-self.strut * x, -self.strut * z], [stiff * z * z, -stiff * x * z, stiff * x * x])
     }
 }
 
@@ -153,7 +149,7 @@ impl Closure {
 
     /// How far the force may be from the true one: what the derivative makes of the residual, or of its rounding
     /// errors where they are larger.
-    pub fn doubt(&self) -> f64 {
+    pub fn force_error(&self) -> f64 {
         let [a, b, c] = self.jacobian.map(f64::abs);
         let [r, s] = [0, 1].map(|k| self.residual[k].abs().max(self.floor[k]));
         // The determinant over the larger diagonal entry, by elimination as in a step.
@@ -207,15 +203,15 @@ mod tests {
         let upright = Frame::Upright { across: 2.0, rise: -0.3 };
         let (sin, cos) = 0.4_f64.sin_cos();
         let (up, sides) = ([sin, cos], [-1.0, 1.0]);
-        let aligned = Frame::Aligned { up, slack: 0.3, aside: 0.1, sides, push_side: 1.0 };
+        let aligned = Frame::Aligned { up, slack: 0.3, aside: 0.1, sides, strut_side: 1.0 };
         for frame in [upright, aligned] {
-            for push in [0.0, 0.6] {
+            for strut in [0.0, 0.6] {
                 let system = System {
                     parts: [bars(0, 2), bars(2, 5)],
-                    push,
+                    strut,
                     frame,
                     total_length: 4.4,
-                    team: Team::new(NonZeroUsize::MIN, 5),
+                    workers: Workers::new(NonZeroUsize::MIN, 5),
                 };
                 for k in 0..50 {
                     let k = f64::from(k);

@@ -1,56 +1,57 @@
-//! Several processors at once, for chains long enough to be worth it.
+//! Several threads at once, for chains long enough to be worth it.
 
 use std::num::NonZeroUsize;
 use std::ops::Range;
 
-/// Bars of one share. Whatever adds up is added up share by share from zero, and the shares in order,
+/// Bars of one chunk. Whatever adds up is added up chunk by chunk from zero, and the chunks in order,
 /// so that the bits of an answer do not depend on how many processors there are. Whole blocks; and about
 /// the fewest bars for which one more processor pays: below, starting it takes as long as what it saves.
-pub(super) const SHARE: usize = 64 * 1024;
+pub(super) const CHUNK: usize = 64 * 1024;
 
-/// How many processors work together.
+/// How many processors work on a chain.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Team(NonZeroUsize);
+pub(super) struct Workers(NonZeroUsize);
 
-impl Team {
+impl Workers {
     /// So many, but no more than a chain of so many bars keeps busy.
     pub fn new(processors: NonZeroUsize, bars: usize) -> Self {
-        let busy = NonZeroUsize::new(bars / SHARE).unwrap_or(NonZeroUsize::MIN);
+        let busy = NonZeroUsize::new(bars / CHUNK).unwrap_or(NonZeroUsize::MIN);
         Self(processors.min(busy))
     }
 
-    /// How many work.
+    /// How many there are.
     pub fn size(self) -> usize {
         self.0.get()
     }
 
-    /// Shares of the bars in order, for each of the team some consecutive ones.
-    pub fn shares(self, bars: usize) -> Vec<Vec<Range<usize>>> {
-        let shares: Vec<Range<usize>> =
-            (0..bars).step_by(SHARE).map(|first| first..bars.min(first + SHARE)).collect();
-        let each = shares.len().div_ceil(self.size()).max(1);
-        shares.chunks(each).map(<[_]>::to_vec).collect()
+    /// Chunks of the bars in order, for each worker some consecutive ones.
+    pub fn chunks_of(self, bars: usize) -> Vec<Vec<Range<usize>>> {
+        let chunks: Vec<Range<usize>> =
+            (0..bars).step_by(CHUNK).map(|first| first..bars.min(first + CHUNK)).collect();
+        let each = chunks.len().div_ceil(self.size()).max(1);
+        chunks.chunks(each).map(<[_]>::to_vec).collect()
     }
 
-    /// Work on all shares, and collect what comes out in their order.
+    /// Work on all chunks, and collect what comes out in their order.
     pub fn over<R: Send>(
         self,
         bars: usize,
         work: impl Fn(Range<usize>) -> R + Sync,
     ) -> impl Iterator<Item = R> {
-        let done =
-            together(self.shares(bars), |shares| shares.into_iter().map(&work).collect::<Vec<R>>());
+        let done = in_parallel(self.chunks_of(bars), |chunks| {
+            chunks.into_iter().map(&work).collect::<Vec<R>>()
+        });
         done.into_iter().flatten()
     }
 }
 
-/// Consecutive shares as one.
-pub(super) fn run(shares: &[Range<usize>]) -> Option<Range<usize>> {
-    Some(shares.first()?.start..shares.last()?.end)
+/// Consecutive chunks as one range.
+pub(super) fn joined(chunks: &[Range<usize>]) -> Option<Range<usize>> {
+    Some(chunks.first()?.start..chunks.last()?.end)
 }
 
 /// Do all jobs at the same time, the last on this processor, and collect what they return.
-pub(super) fn together<J: Send, R: Send>(
+pub(super) fn in_parallel<J: Send, R: Send>(
     jobs: impl IntoIterator<Item = J>,
     work: impl Fn(J) -> R + Sync,
 ) -> Vec<R> {
@@ -68,19 +69,19 @@ pub(super) fn together<J: Send, R: Send>(
     })
 }
 
-/// Arrays in pieces, one for each share of the bars.
+/// Arrays in pieces, one for each of consecutive ranges of the bars.
 pub(super) fn split<'a, T, const N: usize>(
     mut arrays: [&'a mut [T]; N],
-    shares: &[Range<usize>],
+    chunks: &[Range<usize>],
 ) -> Vec<[&'a mut [T]; N]> {
-    let piece = |share: &Range<usize>| {
+    let piece = |chunk: &Range<usize>| {
         arrays.each_mut().map(|array| {
-            let (piece, rest) = std::mem::take(array).split_at_mut(share.len());
+            let (piece, rest) = std::mem::take(array).split_at_mut(chunk.len());
             *array = rest;
             piece
         })
     };
-    shares.iter().map(piece).collect()
+    chunks.iter().map(piece).collect()
 }
 
 #[cfg(test)]
@@ -89,28 +90,28 @@ mod tests {
     use crate::condensed::sums::BLOCK;
 
     #[test]
-    fn shares_cover_all_bars_in_order() {
+    fn chunks_cover_all_bars_in_order() {
         for bars in [0, 1, 255, 256, 257, 100_000, 1_000_001] {
             for processors in 1..5 {
-                let team = Team(NonZeroUsize::new(processors).unwrap());
-                let groups = team.shares(bars);
+                let workers = Workers(NonZeroUsize::new(processors).unwrap());
+                let groups = workers.chunks_of(bars);
                 assert!(groups.len() <= processors && groups.iter().all(|g| !g.is_empty()));
                 let mut next = 0;
-                for share in groups.concat() {
-                    assert!(share.start == next && share.start % BLOCK == 0 && !share.is_empty());
-                    next = share.end;
+                for chunk in groups.concat() {
+                    assert!(chunk.start == next && chunk.start % BLOCK == 0 && !chunk.is_empty());
+                    next = chunk.end;
                 }
                 assert_eq!(next, bars);
-                let firsts: Vec<usize> = team.over(bars, |share| share.start).collect();
+                let firsts: Vec<usize> = workers.over(bars, |chunk| chunk.start).collect();
                 assert!(firsts.is_sorted());
             }
         }
-        assert_eq!(Team::new(NonZeroUsize::new(8).unwrap(), 1000).size(), 1);
+        assert_eq!(Workers::new(NonZeroUsize::new(8).unwrap(), 1000).size(), 1);
     }
 
     #[test]
     fn jobs_return_in_order() {
-        assert_eq!(together([1, 2, 3], |job| job * job), [1, 4, 9]);
-        assert!(together(Vec::<u8>::new(), |job| job).is_empty());
+        assert_eq!(in_parallel([1, 2, 3], |job| job * job), [1, 4, 9]);
+        assert!(in_parallel(Vec::<u8>::new(), |job| job).is_empty());
     }
 }

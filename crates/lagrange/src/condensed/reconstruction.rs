@@ -2,19 +2,19 @@
 
 use std::ops::Range;
 
+use super::bar_data::BarData;
 use super::chain::Condensed;
-use super::fold::fold;
+use super::parallel::{in_parallel, joined};
 use super::pull::{Pull, Signs};
-use super::read::Read;
-use super::sums::{Twofold, running};
-use super::team::{run, together};
+use super::regime::fill;
+use super::sums::{DoubleDouble, running};
 
 /// Bars that are followed in one go.
-const STRETCH: usize = 64;
+const SEGMENT: usize = 64;
 
 /// Some consecutive bars of an equilibrium, in units of the chain.
-pub(super) struct Stretch<'a> {
-    /// Place of the first bar among those that go to one sink.
+pub(super) struct Segment<'a> {
+    /// Place of the first bar among those that go to one output.
     pub first: usize,
     /// Horizontal position of the second joint of each bar, from joint 0, in the plane.
     pub along: &'a [f64],
@@ -35,63 +35,64 @@ pub(super) struct Ends {
     pub energy: f64,
 }
 
-/// Follow the chain from joint 0 to joint n and show every stretch of it, with the sink of its bars. With
-/// several processors there are several sinks, made by `split`, for shares of the bars in order.
-pub(super) fn trace<S: Send>(
+/// Follow the chain from joint 0 to joint n and hand every segment of it to `write`, with the output of
+/// its bars. With several threads there are several outputs, made by `split`, for ranges of the bars in
+/// order.
+pub(super) fn reconstruct<S: Send>(
     chain: &Condensed,
     pull: &Pull,
-    mut sink: S,
+    mut output: S,
     split: impl FnOnce(S, &[Range<usize>]) -> Vec<S>,
-    show: impl Fn(&mut S, &Stretch<'_>) + Sync,
+    write: impl Fn(&mut S, &Segment<'_>) + Sync,
 ) -> Ends {
-    let special = Special::new(chain, pull);
-    let (team, bars) = (chain.team(), chain.bars());
-    let path = Path { chain, force: pull.force, special: &special };
-    let groups = team.shares(bars);
+    let exception = Exception::new(chain, pull);
+    let (workers, bars) = (chain.workers(), chain.bars());
+    let path = Path { chain, force: pull.force, exception: &exception };
+    let groups = workers.chunks_of(bars);
     let end = if groups.len() <= 1 {
-        let shares = groups.into_iter().flatten();
-        shares.fold(Walk::default(), |from, share| {
-            path.follow(share, 0, &from, |stretch| show(&mut sink, stretch))
+        let chunks = groups.into_iter().flatten();
+        chunks.fold(Progress::default(), |from, chunk| {
+            path.follow(chunk, 0, &from, |segment| write(&mut output, segment))
         })
     } else {
-        let runs: Vec<Range<usize>> = groups.iter().filter_map(|shares| run(shares)).collect();
+        let ranges: Vec<Range<usize>> = groups.iter().filter_map(|chunks| joined(chunks)).collect();
         // Where each begins follows from the steps of those before it, not yet from their joints.
-        let steps = together(groups[..groups.len() - 1].to_vec(), |shares| {
+        let steps = in_parallel(groups[..groups.len() - 1].to_vec(), |chunks| {
             let steps =
-                shares.into_iter().map(|share| path.follow(share, 0, &Walk::default(), |_| {}));
-            steps.collect::<Vec<Walk>>()
+                chunks.into_iter().map(|chunk| path.follow(chunk, 0, &Progress::default(), |_| {}));
+            steps.collect::<Vec<Progress>>()
         });
-        let mut from = vec![Walk::default()];
+        let mut from = vec![Progress::default()];
         for step in &steps {
             from.push(step.iter().fold(from[from.len() - 1], |from, step| from.then(step)));
         }
-        let jobs = groups.into_iter().zip(from).zip(split(sink, &runs));
-        let ends = together(jobs, |((shares, from), mut sink)| {
-            let start = shares.first().map_or(0, |share| share.start);
-            shares.into_iter().fold(from, |from, share| {
-                path.follow(share, start, &from, |stretch| show(&mut sink, stretch))
+        let jobs = groups.into_iter().zip(from).zip(split(output, &ranges));
+        let ends = in_parallel(jobs, |((chunks, from), mut output)| {
+            let start = chunks.first().map_or(0, |chunk| chunk.start);
+            chunks.into_iter().fold(from, |from, chunk| {
+                path.follow(chunk, start, &from, |segment| write(&mut output, segment))
             })
         });
         ends.last().copied().unwrap_or_default()
     };
     let last = [end.along.value(), end.height.value()];
     // V = (W - W_before) D_z - sum b_i l_i u_iz, with the weight W_before between joint 0 and the bottom.
-    let before = chain.read.at_start - chain.read.loads[0];
-    let energy = (chain.read.total_mass - before) * last[1] - end.moment.value();
+    let before = chain.bars.at_start - chain.bars.loads[0];
+    let energy = (chain.bars.total_mass - before) * last[1] - end.moment.value();
     Ends { last, energy }
 }
 
-/// What adds up along the way.
+/// What has added up along the way.
 #[derive(Debug, Clone, Copy, Default)]
-struct Walk {
-    along: Twofold,
-    height: Twofold,
+struct Progress {
+    along: DoubleDouble,
+    height: DoubleDouble,
     /// $\sum b_i l_i u_{iz}$
-    moment: Twofold,
+    moment: DoubleDouble,
 }
 
-impl Walk {
-    /// Where one gets by another walk after this one.
+impl Progress {
+    /// Where another way leads after this one.
     fn then(&self, other: &Self) -> Self {
         Self {
             along: self.along.add(other.along),
@@ -101,32 +102,32 @@ impl Walk {
     }
 }
 
-/// The chain and the force that shapes it.
+/// A chain and the force that shapes it.
 struct Path<'a> {
     chain: &'a Condensed,
     force: [f64; 2],
-    special: &'a Special,
+    exception: &'a Exception,
 }
 
 impl Path<'_> {
-    /// Follow a share of the bars, and show them: `place` is that of its first bar in the sink.
+    /// Follow a chunk of the bars, and write them: `place` is that of its first bar in the output.
     /// Returns where it ends.
     fn follow(
         &self,
-        share: Range<usize>,
+        chunk: Range<usize>,
         place: usize,
-        from: &Walk,
-        mut show: impl FnMut(&Stretch<'_>),
-    ) -> Walk {
-        let mut walk = Walk::default();
-        let Read { lengths, loads, beyond, .. } = &self.chain.read;
+        from: &Progress,
+        mut write: impl FnMut(&Segment<'_>),
+    ) -> Progress {
+        let mut here = Progress::default();
+        let BarData { lengths, loads, beyond, .. } = &self.chain.bars;
         let [h, v] = self.force;
-        let mut space = [[0.0; STRETCH]; 4];
+        let mut space = [[0.0; SEGMENT]; 4];
         let arrays =
-            lengths[share.clone()].chunks(STRETCH).zip(loads[share.clone()].chunks(STRETCH));
-        let arrays = arrays.zip(beyond[share.clone()].chunks(STRETCH));
-        for (stretch, ((lengths, loads), beyond)) in arrays.enumerate() {
-            let first = share.start + stretch * STRETCH;
+            lengths[chunk.clone()].chunks(SEGMENT).zip(loads[chunk.clone()].chunks(SEGMENT));
+        let arrays = arrays.zip(beyond[chunk.clone()].chunks(SEGMENT));
+        for (segment, ((lengths, loads), beyond)) in arrays.enumerate() {
+            let first = chunk.start + segment * SEGMENT;
             let [along, height, axial, vertical] = &mut space;
             let count = lengths.len();
             let (along, height) = (&mut along[..count], &mut height[..count]);
@@ -140,41 +141,41 @@ impl Path<'_> {
                 axial[k] = size;
                 vertical[k] = up + beyond[k];
             }
-            self.special.correct(first, along, height, axial);
-            walk.moment = walk.moment.plus(product(loads, height));
+            self.exception.correct(first, along, height, axial);
+            here.moment = here.moment.plus(product(loads, height));
             let (dx, dz) = (running(along, 0.0), running(height, 0.0));
             let (from_x, from_z) =
-                (from.along.add(walk.along).value(), from.height.add(walk.height).value());
+                (from.along.add(here.along).value(), from.height.add(here.height).value());
             for (x, z) in along.iter_mut().zip(height.iter_mut()) {
                 *x += from_x;
                 *z += from_z;
             }
-            walk.along = walk.along.plus(dx);
-            walk.height = walk.height.plus(dz);
-            show(&Stretch { first: first - place, along, height, axial, vertical });
+            here.along = here.along.plus(dx);
+            here.height = here.height.plus(dz);
+            write(&Segment { first: first - place, along, height, axial, vertical });
         }
-        from.then(&walk)
+        from.then(&here)
     }
 }
 
-/// Bars that do not just point along their force.
-enum Special {
-    /// None.
+/// Bars that do not point along their force.
+enum Exception {
+    /// All do.
     None,
     /// This one points against it.
-    One(usize),
-    /// These have none: from the first on, they have these vectors.
-    Loose(usize, Vec<[f64; 2]>),
+    Compressed(usize),
+    /// These carry none: from this bar on, they have these vectors.
+    Unloaded(usize, Vec<[f64; 2]>),
 }
 
-impl Special {
+impl Exception {
     fn new(chain: &Condensed, pull: &Pull) -> Self {
         match &pull.signs {
             Signs::Tension => Self::None,
-            Signs::One(bar) => Self::One(*bar),
-            Signs::Loose(range) => {
+            Signs::Compressed(bar) => Self::Compressed(*bar),
+            Signs::Unloaded(range) => {
                 let gap = [chain.span.across, chain.bottom.gap];
-                Self::Loose(range.start, fold(&chain.read.lengths[range.clone()], gap))
+                Self::Unloaded(range.start, fill(&chain.bars.lengths[range.clone()], gap))
             }
         }
     }
@@ -186,12 +187,12 @@ impl Special {
         };
         match self {
             Self::None => {}
-            Self::One(bar) => {
+            Self::Compressed(bar) => {
                 if let Some(k) = bar.checked_sub(first).filter(|k| *k < count) {
                     turn(k);
                 }
             }
-            Self::Loose(start, bars) => {
+            Self::Unloaded(start, bars) => {
                 for (k, at) in (first..first + x.len()).enumerate() {
                     if let Some(bar) = at.checked_sub(*start).and_then(|b| bars.get(b)) {
                         (x[k], z[k], axial[k]) = (bar[0], bar[1], 0.0);

@@ -1,11 +1,19 @@
-//! Bars without force between two strands: any shape that fits is an equilibrium; this is one.
+//! Bars without force between two vertical strands: any shape that fits is an equilibrium; this is one.
+
+use super::super::chain::Condensed;
+use super::super::pull::{Pull, Signs};
+
+/// No force at the bottom: every other bar carries the weights below it, straight up.
+pub(super) fn solve(chain: &Condensed) -> Pull {
+    Pull::new(chain, Signs::Unloaded(chain.bottom.group.clone()), [0.0; 2], [0.0; 3], 0)
+}
 
 /// Vectors of bars of the given lengths that lead along `gap` together.
 ///
 /// The bar in the middle of the length and the straight pieces before and after it make a quadrangle
 /// with the gap; of its shapes the one is taken whose diagonal is in the middle of its range, hanging
 /// below the gap. The lengths must be able to fill the gap; what rounding errors leave open stays open.
-pub(super) fn fold(lengths: &[f64], gap: [f64; 2]) -> Vec<[f64; 2]> {
+pub(in super::super) fn fill(lengths: &[f64], gap: [f64; 2]) -> Vec<[f64; 2]> {
     let way = gap[0].hypot(gap[1]);
     let along = if way > 0.0 { [gap[0] / way, gap[1] / way] } else { [1.0, 0.0] };
     let total = model::sum(lengths.iter().copied());
@@ -94,7 +102,7 @@ mod tests {
             (&[1.5], [0.0, -1.5]),
         ];
         for (lengths, gap) in cases {
-            let bars = fold(lengths, gap);
+            let bars = fill(lengths, gap);
             let sum = bars.iter().fold([0.0, 0.0], |s, b| [s[0] + b[0], s[1] + b[1]]);
             assert!(
                 (sum[0] - gap[0]).hypot(sum[1] - gap[1]) < 1e-14,

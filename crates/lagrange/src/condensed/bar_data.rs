@@ -1,16 +1,16 @@
-//! One pass over the bars of the model.
+//! The bars of a chain as arrays, read in one pass.
 
 use std::ops::Range;
 
 use model::{Bar, Chain};
 
-use super::sums::{BLOCK, Twofold};
-use super::team::{Team, run, split, together};
+use super::parallel::{Workers, in_parallel, joined, split};
+use super::sums::{BLOCK, DoubleDouble};
 use super::units::Units;
 
-/// The bars as they are read.
+/// The numbers of all bars.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Read {
+pub(super) struct BarData {
     /// `l_i`.
     pub lengths: Vec<f64>,
     /// Weight of the joint before each bar; nothing before the first, which the ground carries.
@@ -34,27 +34,27 @@ pub(super) struct Block {
     mass: f64,
 }
 
-impl Read {
-    /// Read a chain, into the same memory as the last one.
-    pub fn read(&mut self, chain: &Chain, units: Units, team: Team) {
+impl BarData {
+    /// BarData a chain, into the same memory as the last one.
+    pub fn read(&mut self, chain: &Chain, units: Units, workers: Workers) {
         let bars = chain.bars();
         for array in [&mut self.lengths, &mut self.loads, &mut self.beyond] {
-            fit(array, bars.len());
+            resize(array, bars.len());
         }
         let (lengths, loads, beyond) =
             (&mut self.lengths[..], &mut self.loads[..], &mut self.beyond[..]);
-        let all = Share { bars, lengths, loads, beyond };
-        if team.size() == 1 {
+        let all = Part { bars, lengths, loads, beyond };
+        if workers.size() == 1 {
             self.blocks.clear();
             self.blocks.reserve(bars.len().div_ceil(BLOCK));
             all.read(units, &mut self.blocks);
         } else {
             // For each processor one run of bars: nothing is added up over more than a block here.
             let runs: Vec<Range<usize>> =
-                team.shares(bars.len()).iter().filter_map(|shares| run(shares)).collect();
-            let blocks = together(all.split(&runs), |share| {
-                let mut blocks = Vec::with_capacity(share.bars.len().div_ceil(BLOCK));
-                share.read(units, &mut blocks);
+                workers.chunks_of(bars.len()).iter().filter_map(|chunks| joined(chunks)).collect();
+            let blocks = in_parallel(all.split(&runs), |part| {
+                let mut blocks = Vec::with_capacity(part.bars.len().div_ceil(BLOCK));
+                part.read(units, &mut blocks);
                 blocks
             });
             self.blocks = blocks.concat();
@@ -69,7 +69,7 @@ impl Read {
 
     /// Replace the length of each block by that of all before it; and the totals.
     fn add_up(&mut self) {
-        let (mut length, mut mass) = (Twofold::default(), Twofold::default());
+        let (mut length, mut mass) = (DoubleDouble::default(), DoubleDouble::default());
         for block in &mut self.blocks {
             let here = block.length;
             block.length = length.value();
@@ -81,22 +81,22 @@ impl Read {
     }
 }
 
-/// Some bars, and where they are read to.
-struct Share<'a> {
+/// Some bars, and where they are written to.
+struct Part<'a> {
     bars: &'a [Bar],
     lengths: &'a mut [f64],
     loads: &'a mut [f64],
     beyond: &'a mut [f64],
 }
 
-impl Share<'_> {
-    fn split(self, shares: &[Range<usize>]) -> Vec<Self> {
+impl Part<'_> {
+    fn split(self, ranges: &[Range<usize>]) -> Vec<Self> {
         let Self { bars, lengths, loads, beyond } = self;
-        let arrays = split([lengths, loads, beyond], shares);
-        let parts = shares.iter().zip(arrays);
+        let arrays = split([lengths, loads, beyond], ranges);
+        let parts = ranges.iter().zip(arrays);
         parts
-            .map(|(share, [lengths, loads, beyond])| Share {
-                bars: &bars[share.clone()],
+            .map(|(range, [lengths, loads, beyond])| Part {
+                bars: &bars[range.clone()],
                 lengths,
                 loads,
                 beyond,
@@ -128,7 +128,7 @@ impl Share<'_> {
 
 /// Give an array another length. What it holds is written over, so fresh memory is asked for zeroed,
 /// which costs nothing before it is touched.
-pub(super) fn fit<T: Clone + Default>(array: &mut Vec<T>, n: usize) {
+pub(super) fn resize<T: Clone + Default>(array: &mut Vec<T>, n: usize) {
     if array.capacity() < n {
         *array = vec![T::default(); n];
     } else {

@@ -5,9 +5,13 @@
 //! deviation. That is exact for the rope itself, and for every chain in the limit of the taut one:
 //! there the pull is $\sqrt{\mathrm{var}\\,b/(2\\,\mathrm{slack})}$ whatever the distribution.
 
+use super::chain::Condensed;
+use super::span::Span;
+use crate::thresholds::LEAST_DEVIATION;
+
 /// A chain as the catenary sees it.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Rope {
+pub(super) struct Catenary {
     /// Horizontal distance of the ends, positive.
     pub across: f64,
     /// Height of the end above the start.
@@ -22,7 +26,22 @@ pub(super) struct Rope {
     pub deviation: f64,
 }
 
-impl Rope {
+impl Catenary {
+    /// The catenary of a chain that is longer than its span by `slack`.
+    pub fn of(chain: &Condensed, slack: f64) -> Self {
+        let Span { across, rise, distance, .. } = chain.span;
+        let length = chain.bars.total_length;
+        let (mean, deviation) = chain.moments.total(length);
+        Self {
+            across,
+            rise,
+            length,
+            slack_squared: slack * (length + distance),
+            mean,
+            deviation: deviation.max(LEAST_DEVIATION * chain.largest_load()),
+        }
+    }
+
     /// Force at load 0, horizontal and vertical.
     ///
     /// With $\sinh x/x = \rho = \sqrt{L^2 - D_z^2}/D_h$ the horizontal pull is $W D_h/(2 x L)$, and the
@@ -80,7 +99,7 @@ mod tests {
         // c = 1, from x = -1 to x = 2: loads are the arc length.
         let length = 2.0_f64.sinh() + 1.0_f64.sinh();
         let rise = 2.0_f64.cosh() - 1.0_f64.cosh();
-        let rope = Rope {
+        let rope = Catenary {
             across: 3.0,
             rise,
             length,

@@ -1,0 +1,16 @@
+//! A fold whose anchors are too near to each other to say along which line it lies: the axes turn with
+//! the compressed bar.
+
+use super::super::chain::Condensed;
+use super::super::compression::Strut;
+use super::super::folded::Folded;
+use super::super::newton::Budget;
+use super::super::pull::Pull;
+use super::strut;
+
+/// The closure along the force of the bar, in whatever direction the iteration tries.
+pub(super) fn solve(chain: &Condensed, budget: &mut Budget) -> Option<Pull> {
+    let turning = Strut { folded: Folded::of(chain), ..strut::upright(chain) };
+    let root = turning.solve(budget)?;
+    Some(strut::pull(chain, &root, root.force, budget))
+}

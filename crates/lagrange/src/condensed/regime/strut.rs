@@ -1,0 +1,49 @@
+//! The lowest bar in compression, all others in tension: upright axes.
+
+use std::f64::consts::FRAC_PI_2;
+
+use super::super::axis::Axis;
+use super::super::bottom::Bottom;
+use super::super::bracket::Bracket;
+use super::super::chain::Condensed;
+use super::super::compression::Strut;
+use super::super::newton::{Budget, Root};
+use super::super::pull::{Pull, Signs};
+use super::super::span::Span;
+
+/// Newton's method for compression and slope of the bar, nested searches in reserve.
+pub(super) fn solve(chain: &Condensed, budget: &mut Budget) -> Option<Pull> {
+    let root = upright(chain).solve(budget)?;
+    Some(pull(chain, &root, root.force, budget))
+}
+
+/// The same in the axes of a line along which the bars nearly lie.
+pub(super) fn along(chain: &Condensed, axis: &Axis, budget: &mut Budget) -> Option<Pull> {
+    let root = upright(chain).along(axis).solve(budget)?;
+    Some(pull(chain, &root, axis.leave(root.force), budget))
+}
+
+/// The equations in upright axes, and where to start.
+pub(super) fn upright(chain: &Condensed) -> Strut<'_> {
+    let Bottom { group, shortest_reach, gap, .. } = &chain.bottom;
+    let Span { across, rise, .. } = chain.span;
+    let beside = [group.start.checked_sub(1), Some(group.end)];
+    let beside = beside.into_iter().flatten().filter_map(|k| chain.bars.loads.get(k));
+    Strut {
+        system: chain.upright(chain.around_the_bottom(), *shortest_reach),
+        folded: None,
+        side: 1.0,
+        level: [1.0, 0.0],
+        between: Bracket { low: -FRAC_PI_2, high: FRAC_PI_2 },
+        // With the strands straight the bar's slope follows from the height of the gap.
+        angle: (gap / shortest_reach).clamp(-1.0, 1.0).asin(),
+        line: rise.atan2(across),
+        load: beside.fold(f64::INFINITY, |least, load| least.min(load.abs())),
+        largest_load: chain.largest_load(),
+    }
+}
+
+/// The pull with the longest of the lowest bars in compression.
+pub(super) fn pull(chain: &Condensed, root: &Root, force: [f64; 2], budget: &Budget) -> Pull {
+    Pull::at(chain, Signs::Compressed(chain.bottom.longest), force, root, budget)
+}

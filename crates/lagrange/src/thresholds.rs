@@ -1,0 +1,56 @@
+//! Where decisions turn, and why there.
+//!
+//! Every threshold that tells one way of solving, one kind of equilibrium or one remark on it from
+//! another stands here. All are set against the [unit roundoff](UNIT_ROUNDOFF) and the digits that
+//! the steps before them keep; constants of an iteration (how far a step may go, when to give up)
+//! stand with the iteration.
+
+/// Unit roundoff u: one operation on doubles errs by at most this part of its result, 1.1e-16.
+pub(crate) const UNIT_ROUNDOFF: f64 = 0.5 * f64::EPSILON;
+
+/// Rounding of a closure, in parts of the terms that are added: a few u for each of direction,
+/// product and sum. Compensated sums keep it there for any number of bars.
+pub(crate) const CLOSURE_ROUNDING: f64 = 8.0 * UNIT_ROUNDOFF;
+
+/// Lengths, sums of lengths and distances that differ by less than this part of the total length are
+/// equal: both carry the rounding of a closure.
+pub(crate) const EQUAL_LENGTHS: f64 = CLOSURE_ROUNDING;
+
+/// Slack, in total lengths, below which a chain is nearly straight and its closure is balanced along
+/// an axis: with a closure known to $8u$, upright axes would leave less than 12 digits of the slack.
+pub(crate) const NEARLY_STRAIGHT: f64 = 1e-3;
+
+/// Tilt of a bottom bar, rad, below which it counts as one of two strands that hang side by side: its
+/// versine, 1.25e-3, is then of the size of [`NEARLY_STRAIGHT`].
+pub(crate) const STEEP: f64 = 0.05;
+
+/// A gap this near to the length of the bottom bar, in total lengths, is summed again to twice the
+/// digits: the plain sum of a million bars may err by $10^6 u$.
+pub(crate) const RECHECKED_GAP: f64 = 1e-10;
+
+/// Loads smaller than this beside the largest are zero: their cubes would underflow in units of it.
+pub(crate) const NO_LOAD: f64 = 1e-100;
+
+/// A deviation of the loads smaller than this beside the largest comes from cancellation: it is the
+/// root of a difference of squares, $\sqrt{u}$.
+pub(crate) const LEAST_DEVIATION: f64 = 1e-8;
+
+/// Bars nearer to the vertical than this, rad, are upright. A versine of u belongs to an angle of
+/// $\sqrt{2u}$ = 1.5e-8; the sums over many bars lose up to two digits more.
+pub(crate) const UPRIGHT: f64 = 1e-6;
+
+/// A balance of small terms may stop at this many of its rounding errors: 1e-8 of the slack, which
+/// leaves half of the digits of a force.
+pub(crate) const SLACK_ROUNDINGS: f64 = 1e7;
+
+/// An error of the forces, as a part of the largest, above which the evidence speaks of it: what two
+/// solvers are asked to agree to.
+pub(crate) const REPORTED_FORCE_ERROR: f64 = 1e-9;
+
+/// A pivot of the closure's derivative this small beside the terms of which it is the difference is
+/// zero: they carry some $10^4 u$ where large forces cancel.
+pub(crate) const ZERO_PIVOT: f64 = 1e-12;
+
+/// Unloaded bars with less room than this, in total lengths, between them and a straight line are
+/// straight: their directions, like the square root of it, are within 1e-6 of one line.
+pub(crate) const NO_ROOM: f64 = 1e-12;
