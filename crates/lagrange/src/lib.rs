@@ -48,6 +48,7 @@ mod load;
 mod mechanism;
 mod meeting;
 mod multipliers;
+pub mod network;
 mod newton;
 mod point;
 mod reduced;

@@ -11,6 +11,7 @@ mod derivatives;
 mod extremes;
 mod false_roots;
 mod judge;
+mod network;
 mod paper;
 mod properties;
 mod seeds;

@@ -1,0 +1,89 @@
+//! What can go wrong in a solve of a system.
+
+use super::settings::SettingsError;
+
+/// Why no equilibrium of a system was returned. `Ok` always means converged.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// Occurs when a setting is out of range.
+    #[error(transparent)]
+    Settings(#[from] SettingsError),
+    /// Occurs when the seed has not one place for each joint, or not one force for each member.
+    #[error("the seed holds {got} {of}, the system has {expected}")]
+    SeedLength {
+        /// `joints` or `members`.
+        of: &'static str,
+        /// Those of the system.
+        expected: usize,
+        /// Those of the seed.
+        got: usize,
+    },
+    /// Occurs when a place or a force of the seed is infinite or not a number.
+    #[error("the seed is not finite at {of} {number}")]
+    SeedNotFinite {
+        /// `joint` or `member`.
+        of: &'static str,
+        /// Its number, from 0.
+        number: usize,
+    },
+    /// Occurs when the supports of connected joints let them move along their total load.
+    #[error(
+        "joint {joint} and the {joints} joints connected with it fall: no support resists {load_n:.3e} N of \
+         their load"
+    )]
+    Falls {
+        /// Name of the first joint of the component.
+        joint: String,
+        /// Joints of the component.
+        joints: usize,
+        /// The part of the load that no support resists, N.
+        load_n: f64,
+    },
+    /// Occurs when two held joints are further apart than the members between them reach.
+    #[error(
+        "{distance_m} m between {from} and {to}, and the members between them reach {reach_m} m"
+    )]
+    TooShort {
+        /// Name of a held joint.
+        from: String,
+        /// Name of another.
+        to: String,
+        /// Distance of the two, m.
+        distance_m: f64,
+        /// Length of the shortest path of members between them, m.
+        reach_m: f64,
+    },
+    /// Occurs when no load acts and no member is stretched: every shape is in equilibrium.
+    #[error("no load acts on any joint that can move: nothing decides the shape")]
+    Unloaded,
+    /// Occurs when the iteration ends before balance and lengths hold.
+    #[error(
+        "not converged after {iterations} factorisations: balance of {joint} is off by {unbalance:.3e} of the \
+         largest force, the length of member {member} by {misfit_m:.3e} m"
+    )]
+    NotConverged {
+        /// Sparse factorisations.
+        iterations: usize,
+        /// Name of the joint that is least in balance.
+        joint: String,
+        /// What is left there, in units of the largest force.
+        unbalance: f64,
+        /// Number of the member whose length is furthest off, from 0.
+        member: usize,
+        /// How far, m.
+        misfit_m: f64,
+    },
+    /// Occurs when only unstable equilibria were found, though the hanging one was asked for.
+    #[error("only unstable equilibria found, the last of index {index}")]
+    Unstable {
+        /// Morse index of the last.
+        index: usize,
+    },
+    /// Occurs when the factor of the matrix cannot be held in memory.
+    #[error("no memory for the factor of a matrix of {unknowns} unknowns")]
+    Memory {
+        /// Unknowns of the matrix.
+        unknowns: usize,
+    },
+}

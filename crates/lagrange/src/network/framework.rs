@@ -1,0 +1,179 @@
+//! A system as a framework: forces at joints, members without weight, and units that suit it.
+//!
+//! A weight or a constant force $p$ at the fraction $s$ of a straight member does the work
+//! $p \cdot ((1 - s)\,x_a + s\,x_b)$, linear in the places of its two ends: it acts as $(1 - s)\,p$
+//! at the one and $s\,p$ at the other. That is the lever rule, and it holds for a member that
+//! stretches uniformly as well. What remains of the member is a law between its length and its
+//! axial force.
+
+use model::Vector;
+use model::system::{Joint, Kind, Member, Support, System};
+use nalgebra::{Matrix3, Vector3};
+
+/// A joint: where it may be, and the force that acts on it.
+#[derive(Debug, Clone)]
+pub(super) struct Node {
+    /// A place that its support allows.
+    pub base: Vector3<f64>,
+    /// Its free directions, orthonormal: the first [`freedom`](Self::freedom) columns.
+    pub axes: Matrix3<f64>,
+    /// Number of its free directions.
+    pub freedom: usize,
+    /// Loads of the joint and of its members' shares.
+    pub load: Vector3<f64>,
+}
+
+/// A member without weight.
+#[derive(Debug, Clone)]
+pub(super) struct Link {
+    /// Joint where it begins.
+    pub from: usize,
+    /// Joint where it ends.
+    pub to: usize,
+    /// Unstretched length.
+    pub length: f64,
+    /// Elongation by a unit of axial force, `l / EA`; zero when inextensible.
+    pub compliance: f64,
+    /// Which sign of axial force it can have.
+    pub kind: Kind,
+    /// Its loads' shares at its two joints.
+    pub shares: [Vector3<f64>; 2],
+}
+
+impl Link {
+    /// From where it begins to where it ends.
+    pub fn span(&self, places: &[Vector3<f64>]) -> Vector3<f64> {
+        places[self.to] - places[self.from]
+    }
+
+    /// Whether it can bear an axial force of this sign.
+    pub fn bears(&self, axial: f64) -> bool {
+        match self.kind {
+            Kind::Bar => true,
+            Kind::Cable => axial > 0.0,
+            Kind::Strut => axial < 0.0,
+        }
+    }
+}
+
+/// The units in which the solver computes.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Units {
+    /// Mean length of the members, m.
+    pub length_m: f64,
+    /// Mean load of the joints, N; 1 N where there is none.
+    pub force_n: f64,
+    /// Origin of places, m.
+    pub origin_m: Vector3<f64>,
+}
+
+/// A system as the solver sees it, in [`Units`].
+#[derive(Debug, Clone)]
+pub(super) struct Framework {
+    pub units: Units,
+    pub nodes: Vec<Node>,
+    pub links: Vec<Link>,
+}
+
+impl Framework {
+    pub fn new(system: &System) -> Self {
+        let shares: Vec<_> = system.members().iter().map(|m| shares_n(system, m)).collect();
+        let mut loads: Vec<_> =
+            system.joints().iter().map(|joint| own_load_n(system, joint)).collect();
+        for (member, [start, end]) in system.members().iter().zip(&shares) {
+            loads[member.from] += start;
+            loads[member.to] += end;
+        }
+        let units = units(system, &loads);
+        let nodes = system.joints().iter().zip(&loads);
+        let nodes = nodes.map(|(joint, load)| node(joint, load, units)).collect();
+        let links = system.members().iter().zip(&shares);
+        let links = links.map(|(member, shares)| link(member, shares, units)).collect();
+        Self { units, nodes, links }
+    }
+
+    /// Number of free directions of all joints.
+    pub fn freedoms(&self) -> usize {
+        self.nodes.iter().map(|node| node.freedom).sum()
+    }
+
+    /// Whether a member has an end that can move.
+    pub fn moves(&self, link: &Link) -> bool {
+        self.nodes[link.from].freedom + self.nodes[link.to].freedom > 0
+    }
+
+    /// Sum of the pulls of all members and of the load at each joint; `pulls` are the forces with
+    /// which the members pull their first joint towards their last.
+    pub fn unbalance(&self, pulls: impl Iterator<Item = Vector3<f64>>) -> Vec<Vector3<f64>> {
+        let mut sums: Vec<_> = self.nodes.iter().map(|node| node.load).collect();
+        for (link, pull) in self.links.iter().zip(pulls) {
+            sums[link.from] += pull;
+            sums[link.to] -= pull;
+        }
+        sums
+    }
+}
+
+/// Weight of the point mass and constant force of a joint, N.
+fn own_load_n(system: &System, joint: &Joint) -> Vector3<f64> {
+    Vector3::from(joint.force_n) - Vector3::z() * (joint.mass_kg * system.gravity_m_s2())
+}
+
+/// Weight and loads of a member shared between its joints by the lever rule, N.
+fn shares_n(system: &System, member: &Member) -> [Vector3<f64>; 2] {
+    let length = member.body.length_m();
+    let weight = Vector3::z() * (-member.body.mass_kg() * system.gravity_m_s2());
+    let mut shares = [Vector3::zeros(); 2];
+    let own = std::iter::once((member.body.centre_m(), weight));
+    let others = member.loads.iter().map(|load| (load.at_m, Vector3::from(load.force_n)));
+    for (at, force) in own.chain(others) {
+        let fraction = at / length;
+        shares[0] += force * (1.0 - fraction);
+        shares[1] += force * fraction;
+    }
+    shares
+}
+
+fn units(system: &System, loads: &[Vector3<f64>]) -> Units {
+    let mean = |total: f64, count: usize| if total > 0.0 { total / count as f64 } else { 1.0 };
+    Units {
+        length_m: mean(system.total_length_m(), system.members().len()),
+        force_n: mean(model::sum(loads.iter().map(Vector3::norm)), loads.len()),
+        origin_m: system.reference_m().into(),
+    }
+}
+
+fn node(joint: &Joint, load_n: &Vector3<f64>, units: Units) -> Node {
+    let place = |at_m: Vector| (Vector3::from(at_m) - units.origin_m) / units.length_m;
+    let (base, axes, freedom) = match joint.support {
+        Support::Free => (Vector3::zeros(), Matrix3::identity(), 3),
+        Support::Fixed { at_m } => (place(at_m), Matrix3::zeros(), 0),
+        Support::Line { at_m, direction } => {
+            let along = Vector3::from(direction).normalize();
+            (place(at_m), Matrix3::from_columns(&[along, Vector3::zeros(), Vector3::zeros()]), 1)
+        }
+        Support::Plane { at_m, normal } => {
+            let [first, second] = across(&Vector3::from(normal).normalize());
+            (place(at_m), Matrix3::from_columns(&[first, second, Vector3::zeros()]), 2)
+        }
+    };
+    Node { base, axes, freedom, load: load_n / units.force_n }
+}
+
+/// Two unit vectors normal to a unit vector and to each other.
+pub(super) fn across(normal: &Vector3<f64>) -> [Vector3<f64>; 2] {
+    let first = normal.cross(&Matrix3::identity().column(normal.iamin())).normalize();
+    [first, normal.cross(&first)]
+}
+
+fn link(member: &Member, shares_n: &[Vector3<f64>; 2], units: Units) -> Link {
+    let length = member.body.length_m() / units.length_m;
+    Link {
+        from: member.from,
+        to: member.to,
+        length,
+        compliance: member.stiffness_n.map_or(0.0, |stiffness| length * units.force_n / stiffness),
+        kind: member.kind,
+        shares: shares_n.map(|share| share / units.force_n),
+    }
+}

@@ -1,0 +1,223 @@
+//! The hanging shape by its forces: least complementary energy.
+//!
+//! With every member in tension the forces $F$ of an equilibrium minimise the convex function
+//! $\sum_e \varphi^*_e(F_e)$ minus the work at the supports, subject to the balance of the joints,
+//! and the multipliers of that balance are the places of the joints. Newton's method with the law
+//! rounded off (module `law`) needs one sparse factorisation a step; the rounding falls step by
+//! step.
+//!
+//! It starts from force densities $w$: with $F = w\,d$ balance is a linear system for the places,
+//! and
+//! $w \leftarrow w\,|d|/l$ brings the lengths nearer to $l$ (the iteration of Weiszfeld).
+
+use nalgebra::{Matrix3, Vector3};
+
+use super::error::Error;
+use super::framework::{Framework, Link};
+use super::law::Tension;
+use super::state::State;
+use super::stiffness::Stiffness;
+use model::system::Kind;
+
+/// Force-density iterations before Newton's method. Each costs a scalar factorisation, a tenth of a
+/// Newton step; thirty save about as many Newton steps as they cost and start it inside the region
+/// where full steps are taken.
+const DENSITY_STEPS: usize = 30;
+/// First rounding, relative to the starting force of each member.
+const FIRST_ROUNDING: f64 = 0.1;
+/// Each rounding is this fraction of the last one.
+const ROUNDING_FALL: f64 = 0.2;
+/// At the last rounding a taut member is longer than `l (1 - 5e-7)`: near enough for the final
+/// iteration to see which members are taut.
+const LAST_ROUNDING: f64 = 1e-3;
+/// A member has at least this fraction of the mean starting force in its rounding.
+const LEAST_SCALE: f64 = 0.1;
+/// Next rounding when the step would gain less than this fraction of the rounding's own energy.
+const GAIN: f64 = 0.1;
+/// A step is halved while the slope at its end rises steeper than this fraction of the first slope.
+const SLOPE: f64 = 0.5;
+/// Newton steps in all; nets of 20,000 members take some 15.
+const MOST_STEPS: usize = 200;
+
+/// Forces and places, and what it took.
+pub(super) struct Hanging {
+    pub state: State,
+    pub steps: usize,
+    /// Whether the last rounding was reached.
+    pub settled: bool,
+}
+
+/// The hanging shape with all bars taken as cables.
+///
+/// # Errors
+///
+/// [`Error::Memory`] when the factor cannot be held.
+pub(super) fn hang(framework: &Framework, stiffness: &mut Stiffness) -> Result<Hanging, Error> {
+    let mut shape = Shape::by_densities(framework)?;
+    let mean = mean_force(&shape.forces);
+    let scales: Vec<f64> =
+        shape.forces.iter().map(|force| force.norm().max(LEAST_SCALE * mean)).collect();
+    let (mut rounding, mut steps, mut settled) = (FIRST_ROUNDING, 0, mean == 0.0);
+    while !settled && steps < MOST_STEPS {
+        let done = shape.step(framework, stiffness, &scales, rounding);
+        steps += 1;
+        if done {
+            settled = rounding <= LAST_ROUNDING;
+            rounding *= ROUNDING_FALL;
+        }
+    }
+    let state = shape.state(framework, &scales, rounding);
+    Ok(Hanging { state, steps, settled })
+}
+
+/// Whether a member takes part: one that cannot pull does not.
+fn pulls(framework: &Framework, link: &Link) -> bool {
+    link.kind != Kind::Strut && framework.moves(link)
+}
+
+fn mean_force(forces: &[Vector3<f64>]) -> f64 {
+    forces.iter().map(Vector3::norm).sum::<f64>() / forces.len().max(1) as f64
+}
+
+/// Forces in balance, and the places that go with them.
+struct Shape {
+    places: Vec<Vector3<f64>>,
+    forces: Vec<Vector3<f64>>,
+}
+
+impl Shape {
+    /// Force densities, first `1 / l` times the mean load, improved some times.
+    fn by_densities(framework: &Framework) -> Result<Self, Error> {
+        let sliding = framework.nodes.iter().any(|node| matches!(node.freedom, 1 | 2));
+        let mut stiffness = Stiffness::new(framework, !sliding)?;
+        let mut densities: Vec<f64> = framework
+            .links
+            .iter()
+            .map(|link| if pulls(framework, link) { link.length.recip() } else { 0.0 })
+            .collect();
+        let mut places = Vec::new();
+        for step in 0..=DENSITY_STEPS {
+            places = by_density(framework, &mut stiffness, &densities, sliding);
+            if step < DENSITY_STEPS {
+                for (density, link) in densities.iter_mut().zip(&framework.links) {
+                    let span = link.span(&places).norm();
+                    *density *= span / (link.length + link.compliance * *density * span);
+                }
+            }
+        }
+        let forces = framework.links.iter().zip(&densities);
+        let forces = forces.map(|(link, w)| link.span(&places) * *w).collect();
+        Ok(Self { places, forces })
+    }
+
+    /// One Newton step at one rounding; whether the next one may follow.
+    fn step(
+        &mut self,
+        framework: &Framework,
+        stiffness: &mut Stiffness,
+        scales: &[f64],
+        rounding: f64,
+    ) -> bool {
+        let mu = |k: usize| rounding * scales[k];
+        let laws: Vec<Option<Tension>> = framework
+            .links
+            .iter()
+            .enumerate()
+            .map(|(k, link)| {
+                pulls(framework, link).then(|| Tension::new(link, &self.forces[k], mu(k)))
+            })
+            .collect();
+        let block = |law: &Option<Tension>| law.as_ref().map_or(Matrix3::zeros(), |l| l.stiffness);
+        stiffness.assemble(framework, laws.iter().map(block));
+        stiffness.factorise_definite();
+        // What the forces would be at the places as they are; the moves bring them into balance.
+        let now =
+            framework.links.iter().zip(&laws).zip(&self.forces).map(|((link, law), force)| {
+                let gap = law.as_ref().map(|law| link.span(&self.places) - law.span);
+                force + gap.map_or(Vector3::zeros(), |gap| block(law) * gap)
+            });
+        let mut moves = stiffness.gather(framework, &framework.unbalance(now));
+        stiffness.solve(&mut moves);
+        for (place, step) in self.places.iter_mut().zip(stiffness.scatter(framework, &moves)) {
+            *place += step;
+        }
+        let spans: Vec<_> = framework.links.iter().map(|link| link.span(&self.places)).collect();
+        let change: Vec<Vector3<f64>> = laws
+            .iter()
+            .zip(&spans)
+            .map(|(law, span)| {
+                law.as_ref().map_or(Vector3::zeros(), |l| l.stiffness * (span - l.span))
+            })
+            .collect();
+        let slope = |t: f64| -> f64 {
+            let links = framework.links.iter().enumerate().filter(|(k, _)| laws[*k].is_some());
+            let work = links.map(|(k, link)| {
+                let span = Tension::span(link, &(self.forces[k] + change[k] * t), mu(k));
+                change[k].dot(&(span - spans[k]))
+            });
+            work.sum()
+        };
+        let first = slope(0.0);
+        let mut t = 1.0;
+        while slope(t) > SLOPE * first.abs() && t > f64::EPSILON {
+            t *= 0.5;
+        }
+        for (force, change) in self.forces.iter_mut().zip(&change) {
+            *force += change * t;
+        }
+        let energy: f64 =
+            framework.links.iter().enumerate().map(|(k, link)| mu(k) * link.length).sum();
+        t >= 1.0 && first.abs() < GAIN * energy
+    }
+
+    /// Axial forces, and which members are taut: those with more force than their rounding.
+    fn state(self, framework: &Framework, scales: &[f64], rounding: f64) -> State {
+        let axial: Vec<f64> = self.forces.iter().map(Vector3::norm).collect();
+        let taut = framework
+            .links
+            .iter()
+            .enumerate()
+            .map(|(k, link)| link.kind != Kind::Strut && axial[k] > rounding * scales[k])
+            .collect();
+        State { places: self.places, axial, taut }
+    }
+}
+
+/// Places of the joints in balance for given force densities.
+fn by_density(
+    framework: &Framework,
+    stiffness: &mut Stiffness,
+    densities: &[f64],
+    sliding: bool,
+) -> Vec<Vector3<f64>> {
+    let bases: Vec<_> = framework.nodes.iter().map(|node| node.base).collect();
+    let pulls = framework.links.iter().zip(densities);
+    let unbalance = framework.unbalance(pulls.map(|(link, density)| link.span(&bases) * *density));
+    if sliding {
+        stiffness.assemble(framework, densities.iter().map(|w| Matrix3::identity() * *w));
+        stiffness.factorise_definite();
+        let mut moves = stiffness.gather(framework, &unbalance);
+        stiffness.solve(&mut moves);
+        let moves = stiffness.scatter(framework, &moves);
+        return bases.iter().zip(moves).map(|(base, step)| base + step).collect();
+    }
+    stiffness.assemble_scalar(densities.iter().copied());
+    stiffness.factorise_definite();
+    let size = stiffness.size();
+    let mut moves = vec![0.0; 3 * size];
+    let seats = |joint: usize| stiffness.seat(joint);
+    for (joint, force) in unbalance.iter().enumerate() {
+        if let Some(seat) = seats(joint) {
+            for axis in 0..3 {
+                moves[axis * size + seat] = force[axis];
+            }
+        }
+    }
+    stiffness.solve(&mut moves);
+    let place = |(joint, base): (usize, &Vector3<f64>)| {
+        stiffness.seat(joint).map_or(*base, |seat| {
+            base + Vector3::new(moves[seat], moves[size + seat], moves[2 * size + seat])
+        })
+    };
+    bases.iter().enumerate().map(place).collect()
+}

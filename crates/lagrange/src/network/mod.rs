@@ -1,0 +1,40 @@
+//! Equilibria of any system of members, forces first.
+//!
+//! A [`System`](model::system::System) is a framework: its weights and loads act at the joints by
+//! the lever rule, and a member is a law of elongation from force. The hanging shape follows from
+//! the least complementary energy over the forces in balance; Newton's method on places and forces
+//! then brings any equilibrium, stable or not, to rounding.
+//!
+//! | symbol | code | meaning |
+//! |---|---|---|
+//! | $x_j$ | `places` | place of joint j |
+//! | $d_e = x_b - x_a$ | `span` | span of member e from joint a to joint b |
+//! | $N_e$ | `axial` | axial force, tension positive |
+//! | $F_e = N_e\\,d_e/|d_e|$ | `pull`, `force` | force with which member e pulls joint a towards joint b |
+//! | $w_e = N_e/|d_e|$ | `density` | force density |
+//! | $l_e$ | `length` | unstretched length |
+//! | $c_e = l_e/EA_e$ | `compliance` | elongation by a unit of axial force |
+//! | $\mu_e$ | `mu` | rounding of the law of a member in tension |
+//! | $R$ | `rows` | derivative of the lengths of inextensible taut members by the places |
+
+mod error;
+mod framework;
+mod hanging;
+mod law;
+mod newton;
+mod possible;
+mod residual;
+mod second_order;
+mod seed;
+mod settings;
+mod settle;
+mod solution;
+mod solve;
+mod state;
+mod stiffness;
+
+pub use error::Error;
+pub use seed::Seed;
+pub use settings::{Settings, SettingsError};
+pub use solution::{Forces, Solution};
+pub use solve::{solve, solve_from};

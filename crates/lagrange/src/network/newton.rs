@@ -1,0 +1,219 @@
+//! Newton's method on places and axial forces together.
+//!
+//! With the directions $u$ and lengths $d$ of the members the equations are the balance of the
+//! joints and
+//! $|d| = l + c\,N$ for every taut member, and their derivative is
+//!
+//! $$ \begin{bmatrix} \sum C^T \tfrac{N}{d} (1 - u u^T) C & C^T u \\\\ u^T C & -c \end{bmatrix}. $$
+//!
+//! It is symmetric and indefinite. A step solves it by refinement: with $-c - 1/\rho$ in place of
+//! $-c$ the forces can be eliminated, which leaves a matrix over the joints alone, and the small
+//! $1/\rho$ is taken out again by the residual of the true system. The same equations hold at every
+//! equilibrium, stable or not.
+
+use nalgebra::Vector3;
+
+use super::framework::Framework;
+use super::law::by_direction;
+use super::residual::Residual;
+use super::settings::Settings;
+use super::state::State;
+use super::stiffness::Stiffness;
+
+/// $\rho$ in units of the largest stiffness $N/l$: far above it, so that a sweep gains some digits,
+/// and far below the inverse of rounding.
+const PENALTY: f64 = 1e5;
+/// Sweeps of refinement in a step.
+const SWEEPS: usize = 8;
+/// Refinement ends when the residual of the linear system has fallen to this.
+const REFINED: f64 = 1e-11;
+/// A step is accepted when the merit falls by this part of what the slope promises.
+const ARMIJO: f64 = 1e-4;
+/// A step is halved at most so many times.
+const HALVINGS: usize = 24;
+
+/// A run of Newton's method: the best state, its residual, and the steps it took.
+pub(super) struct Run {
+    pub state: State,
+    pub residual: Residual,
+    pub steps: usize,
+}
+
+impl Run {
+    /// A run that has made no step yet.
+    pub fn at(framework: &Framework, state: State) -> Self {
+        Self { residual: Residual::new(framework, &state), state, steps: 0 }
+    }
+}
+
+/// Improve a state until it is in equilibrium to rounding, or no step helps.
+pub(super) fn polish(
+    framework: &Framework,
+    stiffness: &mut Stiffness,
+    settings: &Settings,
+    state: State,
+) -> Run {
+    let mut run = Run::at(framework, state);
+    while run.steps < settings.max_iterations {
+        let done = run.residual.size() <= settings.tolerance;
+        let Some(step) = Step::new(framework, stiffness, &run) else { break };
+        run.steps += 1;
+        let Some((state, residual)) = search(framework, &run, &step, done) else { break };
+        (run.state, run.residual) = (state, residual);
+        if done {
+            break;
+        }
+    }
+    run
+}
+
+/// The longest of the halved steps that lowers the merit.
+fn search(framework: &Framework, run: &Run, step: &Step, done: bool) -> Option<(State, Residual)> {
+    let mut t = 1.0;
+    for _ in 0..if done { 1 } else { HALVINGS } {
+        let state = step.applied(&run.state, t);
+        let residual = Residual::new(framework, &state);
+        if residual.merit <= run.residual.merit * (1.0 - 2.0 * ARMIJO * t) {
+            return Some((state, residual));
+        }
+        t *= 0.5;
+    }
+    None
+}
+
+/// Change of places and of axial forces.
+struct Step {
+    places: Vec<Vector3<f64>>,
+    axial: Vec<f64>,
+}
+
+/// One row of the derivative: a member's direction and its stiffnesses.
+struct Row {
+    u: Vector3<f64>,
+    /// $N/d$, normal to the member.
+    across: f64,
+    /// Whether the member keeps its length.
+    taut: bool,
+    compliance: f64,
+    /// $1/(c + 1/\rho)$.
+    along: f64,
+}
+
+impl Step {
+    fn new(framework: &Framework, stiffness: &mut Stiffness, run: &Run) -> Option<Self> {
+        let rows = rows(framework, run);
+        let blocks = rows.iter().map(|row| by_direction(&row.u, row.across, row.along));
+        stiffness.assemble(framework, blocks);
+        if !stiffness.factorise_indefinite() {
+            return None;
+        }
+        let residual = &run.residual;
+        let mut step = Self {
+            places: vec![Vector3::zeros(); framework.nodes.len()],
+            axial: vec![0.0; framework.links.len()],
+        };
+        let (mut forces, mut lengths) = (residual.forces.clone(), residual.lengths.clone());
+        let first = size(framework, &forces, &lengths, residual.unit);
+        let mut last = f64::INFINITY;
+        for _ in 0..SWEEPS {
+            let better = step.refined(framework, stiffness, &rows, &forces, &lengths);
+            (forces, lengths) = better.left(framework, &rows, residual);
+            let left = size(framework, &forces, &lengths, residual.unit);
+            if left.is_nan() || left >= last {
+                break;
+            }
+            (step, last) = (better, left);
+            if left <= REFINED * first {
+                break;
+            }
+        }
+        // A step that leaves all of the residual is none.
+        (last < first).then_some(step)
+    }
+
+    /// The step plus the solution for what is left.
+    fn refined(
+        &self,
+        framework: &Framework,
+        stiffness: &mut Stiffness,
+        rows: &[Row],
+        forces: &[Vector3<f64>],
+        lengths: &[f64],
+    ) -> Self {
+        let mut right = forces.to_vec();
+        for ((link, row), misfit) in framework.links.iter().zip(rows).zip(lengths) {
+            let pull = row.u * (row.along * misfit);
+            right[link.from] -= pull;
+            right[link.to] += pull;
+        }
+        let mut moves = stiffness.gather(framework, &right);
+        stiffness.solve(&mut moves);
+        let moves = stiffness.scatter(framework, &moves);
+        let links = framework.links.iter().zip(rows).zip(lengths);
+        let axial =
+            links.map(|((link, row), misfit)| row.along * (row.u.dot(&link.span(&moves)) - misfit));
+        Self {
+            axial: self.axial.iter().zip(axial).map(|(a, more)| a + more).collect(),
+            places: self.places.iter().zip(&moves).map(|(place, more)| place + more).collect(),
+        }
+    }
+
+    /// What the linear system leaves of the residual.
+    fn left(
+        &self,
+        framework: &Framework,
+        rows: &[Row],
+        residual: &Residual,
+    ) -> (Vec<Vector3<f64>>, Vec<f64>) {
+        let (mut forces, mut lengths) = (residual.forces.clone(), residual.lengths.clone());
+        for (k, (link, row)) in framework.links.iter().zip(rows).enumerate() {
+            let change = link.span(&self.places);
+            let stretch = row.u.dot(&change);
+            let pull = (change - row.u * stretch) * row.across + row.u * self.axial[k];
+            forces[link.from] += pull;
+            forces[link.to] -= pull;
+            if row.taut {
+                lengths[k] -= stretch - row.compliance * self.axial[k];
+            }
+        }
+        (forces, lengths)
+    }
+
+    fn applied(&self, state: &State, t: f64) -> State {
+        State {
+            places: state.places.iter().zip(&self.places).map(|(p, step)| p + step * t).collect(),
+            axial: state.axial.iter().zip(&self.axial).map(|(a, step)| a + step * t).collect(),
+            taut: state.taut.clone(),
+        }
+    }
+}
+
+fn size(framework: &Framework, forces: &[Vector3<f64>], lengths: &[f64], unit: f64) -> f64 {
+    let forces = framework.nodes.iter().zip(forces);
+    let squares = forces.map(|(node, force)| node.axes.tr_mul(force).norm_squared());
+    squares.sum::<f64>() / (unit * unit) + lengths.iter().map(|l| l * l).sum::<f64>()
+}
+
+fn rows(framework: &Framework, run: &Run) -> Vec<Row> {
+    let directions = &run.residual.directions;
+    let across = |k: usize| -> f64 {
+        let (_, length) = directions[k];
+        if length > 0.0 { run.state.axial[k] / length } else { 0.0 }
+    };
+    let links = framework.links.iter();
+    let stiffest = (0..directions.len()).map(|k| across(k).abs()).fold(0.0, f64::max);
+    let rho = PENALTY * if stiffest > 0.0 { stiffest } else { 1.0 };
+    links
+        .enumerate()
+        .map(|(k, link)| {
+            let taut = run.state.taut[k] && framework.moves(link);
+            Row {
+                u: directions[k].0,
+                across: across(k),
+                taut,
+                compliance: link.compliance,
+                along: if taut { (link.compliance + rho.recip()).recip() } else { 0.0 },
+            }
+        })
+        .collect()
+}

@@ -1,0 +1,153 @@
+//! What can be said before, or instead of, an answer.
+
+use std::cmp::Ordering;
+use std::collections::BinaryHeap;
+
+use model::system::{Kind, System};
+use nalgebra::{Matrix3, Vector3};
+
+use super::error::Error;
+use super::framework::Framework;
+
+/// A component falls when its supports leave it this part of its load.
+const UNHELD: f64 = 1e-12;
+/// A direction is held when the sum of the squared cosines to the supports' normals is at least
+/// this.
+const HELD: f64 = 1e-18;
+
+/// Refuse systems that no support holds, and systems without any load.
+pub(super) fn check(system: &System, framework: &Framework) -> Result<(), Error> {
+    let component = components(framework);
+    let count = component.iter().max().map_or(0, |last| last + 1);
+    let mut held = vec![Matrix3::<f64>::zeros(); count];
+    let mut loads = vec![Vector3::<f64>::zeros(); count];
+    let mut sizes = vec![0.0_f64; count];
+    for (node, &part) in framework.nodes.iter().zip(&component) {
+        held[part] += Matrix3::identity() - node.axes * node.axes.transpose();
+        loads[part] += node.load;
+        sizes[part] += node.load.norm();
+    }
+    for part in 0..count {
+        let free = loads[part] - onto_range(&held[part], &loads[part]);
+        let unsupported = held[part].trace() < HELD;
+        if unsupported || free.norm() > UNHELD * sizes[part] {
+            let joints = component.iter().filter(|other| **other == part).count();
+            let first = component.iter().position(|other| *other == part).unwrap_or(0);
+            let joint = system.joints()[first].name.clone();
+            let load_n = free.norm() * framework.units.force_n;
+            return Err(Error::Falls { joint, joints: joints - 1, load_n });
+        }
+    }
+    let loaded = framework.nodes.iter().any(|node| node.axes.tr_mul(&node.load).norm() > 0.0);
+    let elastic = framework.links.iter().any(|link| link.compliance > 0.0);
+    if loaded || elastic || framework.freedoms() == 0 { Ok(()) } else { Err(Error::Unloaded) }
+}
+
+/// The part of a vector in the range of a positive semidefinite matrix.
+fn onto_range(matrix: &Matrix3<f64>, vector: &Vector3<f64>) -> Vector3<f64> {
+    let eigen = matrix.symmetric_eigen();
+    let held = (0..3).filter(|&k| eigen.eigenvalues[k] > HELD.sqrt());
+    held.map(|k| {
+        let direction = eigen.eigenvectors.column(k);
+        direction * direction.dot(vector)
+    })
+    .sum()
+}
+
+/// Number of the component of each joint.
+fn components(framework: &Framework) -> Vec<usize> {
+    let mut parent: Vec<usize> = (0..framework.nodes.len()).collect();
+    for link in &framework.links {
+        let (a, b) = (root(&mut parent, link.from), root(&mut parent, link.to));
+        parent[a.max(b)] = a.min(b);
+    }
+    let mut numbers = vec![usize::MAX; parent.len()];
+    let mut next = 0;
+    (0..numbers.len())
+        .map(|joint| {
+            let top = root(&mut parent, joint);
+            if numbers[top] == usize::MAX {
+                numbers[top] = next;
+                next += 1;
+            }
+            numbers[top]
+        })
+        .collect()
+}
+
+fn root(parent: &mut [usize], mut joint: usize) -> usize {
+    while parent[joint] != joint {
+        parent[joint] = parent[parent[joint]];
+        joint = parent[joint];
+    }
+    joint
+}
+
+/// Two anchors that are further apart than inextensible bars and cables between them reach, if
+/// there are such.
+pub(super) fn too_short(system: &System, framework: &Framework) -> Option<Error> {
+    let mut neighbours = vec![Vec::new(); framework.nodes.len()];
+    for link in &framework.links {
+        if link.kind != Kind::Strut {
+            let reach = if link.compliance > 0.0 { f64::INFINITY } else { link.length };
+            neighbours[link.from].push((link.to, reach));
+            neighbours[link.to].push((link.from, reach));
+        }
+    }
+    let anchors: Vec<usize> =
+        (0..framework.nodes.len()).filter(|&joint| framework.nodes[joint].freedom == 0).collect();
+    anchors.iter().find_map(|&from| {
+        let reach = shortest(&neighbours, from);
+        let place = |joint: usize| framework.nodes[joint].base;
+        let worst = anchors
+            .iter()
+            .map(|&to| ((place(to) - place(from)).norm() - reach[to], to))
+            .max_by(|a, b| a.0.total_cmp(&b.0))?;
+        let unit = framework.units.length_m;
+        (worst.0 > 0.0).then(|| Error::TooShort {
+            from: system.joints()[from].name.clone(),
+            to: system.joints()[worst.1].name.clone(),
+            distance_m: (place(worst.1) - place(from)).norm() * unit,
+            reach_m: reach[worst.1] * unit,
+        })
+    })
+}
+
+/// A joint on the way, nearest first.
+struct Reached(f64, usize);
+
+impl PartialEq for Reached {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other) == Ordering::Equal
+    }
+}
+impl Eq for Reached {}
+impl PartialOrd for Reached {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+impl Ord for Reached {
+    fn cmp(&self, other: &Self) -> Ordering {
+        other.0.total_cmp(&self.0)
+    }
+}
+
+/// Length of the shortest path to each joint (Dijkstra).
+fn shortest(neighbours: &[Vec<(usize, f64)>], from: usize) -> Vec<f64> {
+    let mut reach = vec![f64::INFINITY; neighbours.len()];
+    reach[from] = 0.0;
+    let mut queue = BinaryHeap::from([Reached(0.0, from)]);
+    while let Some(Reached(length, joint)) = queue.pop() {
+        if length > reach[joint] {
+            continue;
+        }
+        for &(next, step) in &neighbours[joint] {
+            if length + step < reach[next] {
+                reach[next] = length + step;
+                queue.push(Reached(reach[next], next));
+            }
+        }
+    }
+    reach
+}

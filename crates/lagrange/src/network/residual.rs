@@ -1,0 +1,90 @@
+//! How far a state is from an equilibrium.
+
+use nalgebra::Vector3;
+
+use super::error::Error;
+use super::framework::Framework;
+use super::state::State;
+use model::system::System;
+
+/// Rounding of a coordinate in a length, in units in the last place of the largest coordinate.
+const ROUNDING_UNITS: f64 = 8.0;
+
+/// Balance of the joints and lengths of the members that keep one.
+pub(super) struct Residual {
+    /// Unbalanced force at each joint.
+    pub forces: Vec<Vector3<f64>>,
+    /// Length by the law minus length, of each taut member; zero for the others.
+    pub lengths: Vec<f64>,
+    /// Direction and length of each member.
+    pub directions: Vec<(Vector3<f64>, f64)>,
+    /// Largest force, the unit of `balance`.
+    pub unit: f64,
+    /// Largest unbalanced force along a free direction, in units of the largest force, and its
+    /// joint.
+    pub balance: (f64, usize),
+    /// Largest error of a length, in units of the length or its rounding, and its member.
+    pub length: (f64, usize),
+    /// Sum of squares, for the search along a step.
+    pub merit: f64,
+}
+
+impl Residual {
+    pub fn new(framework: &Framework, state: &State) -> Self {
+        let directions = state.directions(framework);
+        let pulls = directions.iter().zip(&state.axial).map(|((u, _), axial)| u * *axial);
+        let forces = framework.unbalance(pulls);
+        let unit = state.largest_force(framework).max(f64::MIN_POSITIVE);
+        let links =
+            framework.links.iter().zip(&directions).zip(state.axial.iter().zip(&state.taut));
+        let lengths: Vec<f64> = links
+            .map(|((link, (_, length)), (axial, taut))| {
+                let keeps = *taut && framework.moves(link);
+                if keeps { link.length + link.compliance * axial - length } else { 0.0 }
+            })
+            .collect();
+        let free =
+            framework.nodes.iter().zip(&forces).map(|(node, f)| node.axes.tr_mul(f).norm() / unit);
+        let extent = state.places.iter().map(Vector3::amax).fold(0.0, f64::max);
+        let relative = framework.links.iter().zip(&lengths).map(|(link, misfit)| {
+            misfit.abs() / link.length.max(extent * ROUNDING_UNITS * f64::EPSILON / ROUNDED_AWAY)
+        });
+        let squares = free.clone().chain(lengths.iter().copied()).map(|r| r * r);
+        let merit = squares.sum();
+        let (balance, length) = (largest(free), largest(relative));
+        Self { forces, lengths, directions, unit, balance, length, merit }
+    }
+
+    /// The larger of the two, dimensionless.
+    pub fn size(&self) -> f64 {
+        // `f64::max` would lose a NaN.
+        if self.balance.0.is_nan() { self.balance.0 } else { self.balance.0.max(self.length.0) }
+    }
+
+    /// The error of a solve that ends here.
+    pub fn not_converged(
+        &self,
+        system: &System,
+        framework: &Framework,
+        iterations: usize,
+    ) -> Error {
+        let member = self.length.1;
+        Error::NotConverged {
+            iterations,
+            joint: system.joints()[self.balance.1].name.clone(),
+            unbalance: self.balance.0,
+            member,
+            misfit_m: self.lengths.get(member).map_or(0.0, |r| r.abs()) * framework.units.length_m,
+        }
+    }
+}
+
+/// The tolerance whose part the rounding of coordinates may take.
+const ROUNDED_AWAY: f64 = 1e-12;
+
+/// Largest value and its place; a NaN is the largest.
+fn largest(values: impl Iterator<Item = f64>) -> (f64, usize) {
+    values.enumerate().fold((0.0, 0), |(most, at), (k, value)| {
+        if value > most || value.is_nan() { (value, k) } else { (most, at) }
+    })
+}

@@ -1,0 +1,273 @@
+//! The second order at an equilibrium: mechanisms, self-stresses, and the Morse index.
+//!
+//! With $R$ the rows $u_e^T C_e$ of the inextensible taut members, motions that keep all lengths
+//! are its kernel (mechanisms), and axial forces that balance without loads the kernel of its
+//! transpose (self-stresses). The energy's second derivative among such motions is
+//! $\sum C^T \big(\tfrac{N}{d} (1 - u u^T) + \tfrac{1}{c} u u^T\big) C$ on the kernel of $R$.
+
+use faer::{Mat, Side};
+use nalgebra::{Matrix3, Vector3};
+
+use super::framework::{Framework, Node, across};
+use super::law::by_direction;
+use super::state::State;
+use super::stiffness::Stiffness;
+
+/// A singular value below this fraction of the largest is zero.
+const RANK: f64 = 1e-9;
+/// A curvature below this fraction of the largest $|N|/d$ is zero, or, where elastic members are
+/// far stiffer, below their rounding.
+const FLAT: f64 = 1e-9;
+const ROUNDING: f64 = 1e-13;
+/// For sparse factors: stiffness along rigid members in units of the largest $|N|/d$. A negative
+/// curvature counts as one if it is smaller than this times the squared singular values of the
+/// rows.
+const RIGID: f64 = 1e6;
+/// Joints and forces lie in a plane to this part of the extent.
+const PLANE: f64 = 1e-9;
+
+/// What the second order says.
+pub(super) struct SecondOrder {
+    /// Directions in which the energy falls.
+    pub index: usize,
+    /// Directions in which it neither falls nor rises.
+    pub neutral: usize,
+    /// Independent motions that keep all lengths, where they were counted.
+    pub mechanisms: Option<usize>,
+    /// Basis of the axial forces that balance without loads, one number a member; where it was
+    /// found.
+    pub self_stresses: Option<Vec<Vec<f64>>>,
+    /// The same index among the motions in the vertical plane of the system, if there is one.
+    pub index_in_plane: Option<usize>,
+}
+
+impl SecondOrder {
+    /// Of an equilibrium; by dense decompositions where the freedoms are at most `dense`.
+    pub fn new(
+        framework: &Framework,
+        stiffness: &mut Stiffness,
+        state: &State,
+        dense: usize,
+    ) -> Self {
+        let planar = in_plane(framework, state);
+        if framework.freedoms() <= dense {
+            let space = Dense::new(framework, state);
+            let (index, neutral) = space.count;
+            let index_in_plane = planar.map(|planar| Dense::new(&planar, state).count.0);
+            let (mechanisms, self_stresses) = (Some(space.mechanisms), Some(space.self_stresses));
+            return Self { index, neutral, mechanisms, self_stresses, index_in_plane };
+        }
+        let (index, neutral) = sparse(framework, stiffness, state);
+        let index_in_plane = planar.and_then(|planar| {
+            let mut stiffness = Stiffness::new(&planar, false).ok()?;
+            Some(sparse(&planar, &mut stiffness, state).0)
+        });
+        Self { index, neutral, mechanisms: None, self_stresses: None, index_in_plane }
+    }
+}
+
+/// One member at an equilibrium.
+struct Link {
+    u: Vector3<f64>,
+    across: f64,
+    /// `None` for an inextensible one.
+    along: Option<f64>,
+    taut: bool,
+}
+
+fn links(framework: &Framework, state: &State) -> Vec<Link> {
+    let directions = state.directions(framework);
+    let links = framework.links.iter().zip(directions).enumerate();
+    links
+        .map(|(k, (link, (u, length)))| Link {
+            u,
+            across: if length > 0.0 { state.axial[k] / length } else { 0.0 },
+            along: (link.compliance > 0.0).then(|| link.compliance.recip()),
+            taut: state.taut[k] && framework.moves(link),
+        })
+        .collect()
+}
+
+/// Index and number of neutral directions from the pivots of two shifted factors.
+fn sparse(framework: &Framework, stiffness: &mut Stiffness, state: &State) -> (usize, usize) {
+    let links = links(framework, state);
+    let largest = links.iter().map(|link| link.across.abs()).fold(0.0, f64::max);
+    let negative = |stiffness: &mut Stiffness, shift: f64| {
+        let blocks = links.iter().map(|link| {
+            let along = if link.taut { link.along.unwrap_or(RIGID * largest) } else { 0.0 };
+            by_direction(&link.u, link.across, along)
+        });
+        stiffness.assemble(framework, blocks);
+        stiffness.shift(shift);
+        stiffness.factorise_indefinite();
+        stiffness.negative_pivots()
+    };
+    let flat = FLAT * largest;
+    let index = negative(stiffness, flat);
+    (index, negative(stiffness, -flat).saturating_sub(index))
+}
+
+/// Dense decompositions of a small system.
+struct Dense {
+    count: (usize, usize),
+    mechanisms: usize,
+    self_stresses: Vec<Vec<f64>>,
+}
+
+impl Dense {
+    fn new(framework: &Framework, state: &State) -> Self {
+        let links = links(framework, state);
+        let seats = seats(framework);
+        let size = framework.freedoms();
+        let rigid: Vec<usize> =
+            (0..links.len()).filter(|&k| links[k].taut && links[k].along.is_none()).collect();
+        let mut rows = Mat::<f64>::zeros(rigid.len(), size);
+        for (row, &k) in rigid.iter().enumerate() {
+            for (joint, sign) in [(framework.links[k].from, -1.0), (framework.links[k].to, 1.0)] {
+                let node = &framework.nodes[joint];
+                for axis in 0..node.freedom {
+                    rows[(row, seats[joint] + axis)] +=
+                        sign * node.axes.column(axis).dot(&links[k].u);
+                }
+            }
+        }
+        let (motions, stresses) = kernels(&rows);
+        let mut hessian = Mat::<f64>::zeros(size, size);
+        for (k, link) in links.iter().enumerate() {
+            let along = if link.taut { link.along.unwrap_or(0.0) } else { 0.0 };
+            add(framework, &seats, &mut hessian, k, &by_direction(&link.u, link.across, along));
+        }
+        let largest = links.iter().map(|link| link.across.abs()).fold(0.0, f64::max);
+        let stiffest = links.iter().filter_map(|link| link.along).fold(0.0, f64::max);
+        let flat = (FLAT * largest).max(ROUNDING * stiffest);
+        let projected = motions.transpose() * &hessian * &motions;
+        let curvatures = eigenvalues(&projected);
+        let index = curvatures.iter().filter(|c| **c < -flat).count();
+        let neutral = curvatures.iter().filter(|c| c.abs() <= flat).count();
+        let self_stresses = (0..stresses.ncols())
+            .map(|column| {
+                let mut forces = vec![0.0; links.len()];
+                for (row, &k) in rigid.iter().enumerate() {
+                    forces[k] = stresses[(row, column)];
+                }
+                forces
+            })
+            .collect();
+        Self { count: (index, neutral), mechanisms: motions.ncols(), self_stresses }
+    }
+}
+
+/// First unknown of each joint.
+fn seats(framework: &Framework) -> Vec<usize> {
+    let nodes = framework.nodes.iter();
+    nodes
+        .scan(0, |next, node| {
+            let first = *next;
+            *next += node.freedom;
+            Some(first)
+        })
+        .collect()
+}
+
+/// Kernels of a matrix and of its transpose, as columns.
+fn kernels(rows: &Mat<f64>) -> (Mat<f64>, Mat<f64>) {
+    let (height, width) = (rows.nrows(), rows.ncols());
+    if height == 0 || width == 0 {
+        return (Mat::identity(width, width), Mat::identity(height, height));
+    }
+    let Ok(svd) = rows.svd() else {
+        return (Mat::identity(width, width), Mat::zeros(height, 0));
+    };
+    let values = svd.S().column_vector();
+    let largest = values[0];
+    let rank = (0..values.nrows()).filter(|&k| values[k] > RANK * largest).count();
+    let motions = svd.V().subcols(rank, width - rank).to_owned();
+    let stresses = svd.U().subcols(rank, height - rank).to_owned();
+    (motions, stresses)
+}
+
+fn eigenvalues(matrix: &Mat<f64>) -> Vec<f64> {
+    if matrix.nrows() == 0 {
+        return Vec::new();
+    }
+    // A decomposition that fails says nothing: every direction is then counted as neutral.
+    matrix.self_adjoint_eigenvalues(Side::Lower).unwrap_or_else(|_| vec![0.0; matrix.nrows()])
+}
+
+/// Add the block of a member to a dense matrix.
+fn add(
+    framework: &Framework,
+    seats: &[usize],
+    matrix: &mut Mat<f64>,
+    member: usize,
+    block: &Matrix3<f64>,
+) {
+    let link = &framework.links[member];
+    let ends = [(link.from, -1.0), (link.to, 1.0)];
+    for (one, sign_one) in ends {
+        for (other, sign_other) in ends {
+            let (a, b) = (&framework.nodes[one], &framework.nodes[other]);
+            let part = a.axes.tr_mul(block) * b.axes * (sign_one * sign_other);
+            for row in 0..a.freedom {
+                for column in 0..b.freedom {
+                    matrix[(seats[one] + row, seats[other] + column)] += part[(row, column)];
+                }
+            }
+        }
+    }
+}
+
+/// The framework with only the motions in the vertical plane of all joints, loads and supports.
+fn in_plane(framework: &Framework, state: &State) -> Option<Framework> {
+    let origin = state.places.first()?;
+    let extent = state.places.iter().map(|p| (p - origin).norm()).fold(0.0, f64::max);
+    let flat = |v: Vector3<f64>| Vector3::new(v.x, v.y, 0.0);
+    let mut spread = state.places.iter().map(|p| flat(p - origin));
+    let mut loads = framework.nodes.iter().map(|node| flat(node.load));
+    let largest = framework.nodes.iter().map(|node| node.load.norm()).fold(0.0, f64::max);
+    let widest = |vectors: &mut dyn Iterator<Item = Vector3<f64>>| {
+        vectors.fold(Vector3::zeros(), |w: Vector3<f64>, v| if v.norm() > w.norm() { v } else { w })
+    };
+    let mut along = widest(&mut spread.clone());
+    if along.norm() <= PLANE * extent {
+        along = widest(&mut loads.clone());
+        if along.norm() <= PLANE * largest {
+            along = Vector3::x();
+        }
+    }
+    let normal = Vector3::z().cross(&along).normalize();
+    let lies = spread.all(|p| p.dot(&normal).abs() <= PLANE * extent)
+        && loads.all(|f| f.dot(&normal).abs() <= PLANE * largest);
+    if !lies {
+        return None;
+    }
+    let mut planar = framework.clone();
+    for node in &mut planar.nodes {
+        *node = node_in_plane(node, &normal)?;
+    }
+    Some(planar)
+}
+
+/// A joint with only its motions in a plane; nothing when its support is oblique to the plane.
+fn node_in_plane(node: &Node, normal: &Vector3<f64>) -> Option<Node> {
+    let free = node.axes * node.axes.transpose();
+    let out = free * normal;
+    // The normal is free, or held, or the support is oblique.
+    let rate = out.dot(normal);
+    let oblique = (out - normal * rate).norm() > PLANE || (rate > PLANE && rate < 1.0 - PLANE);
+    if oblique {
+        return None;
+    }
+    let within = free - normal * normal.transpose() * rate;
+    let (mut axes, mut freedom) = (Matrix3::zeros(), 0);
+    let [first, second] = across(normal);
+    let candidates = [within * first, within * second];
+    for candidate in candidates {
+        let rest = candidate - axes * axes.tr_mul(&candidate);
+        if rest.norm() > PLANE.sqrt() {
+            axes.set_column(freedom, &rest.normalize());
+            freedom += 1;
+        }
+    }
+    Some(Node { axes, freedom, ..node.clone() })
+}

@@ -1,0 +1,47 @@
+//! Where a solve starts.
+
+use model::Vector;
+use model::system::System;
+
+use super::error::Error;
+
+/// Places of the joints, and axial forces if they are known.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Seed {
+    /// Place of each joint, world frame, m. Joints that are held are put where their supports
+    /// allow.
+    pub joints_m: Vec<Vector>,
+    /// Axial force of each member, N, tension positive; without them those that leave the joints
+    /// least out of balance.
+    pub axial_n: Option<Vec<f64>>,
+}
+
+impl Seed {
+    /// Places alone.
+    #[must_use]
+    pub fn at(joints_m: Vec<Vector>) -> Self {
+        Self { joints_m, axial_n: None }
+    }
+
+    pub(super) fn check(&self, system: &System) -> Result<(), Error> {
+        let lengths = [
+            ("joints", system.joints().len(), self.joints_m.len()),
+            ("members", system.members().len(), self.axial_n.as_ref().map_or(0, Vec::len)),
+        ];
+        let given = if self.axial_n.is_some() { 2 } else { 1 };
+        for (of, expected, got) in lengths.into_iter().take(given) {
+            if expected != got {
+                return Err(Error::SeedLength { of, expected, got });
+            }
+        }
+        let infinite = |place: &Vector| place.iter().any(|c| !c.is_finite());
+        if let Some(number) = self.joints_m.iter().position(infinite) {
+            return Err(Error::SeedNotFinite { of: "joint", number });
+        }
+        let forces = self.axial_n.iter().flatten();
+        if let Some(number) = forces.clone().position(|force| !force.is_finite()) {
+            return Err(Error::SeedNotFinite { of: "member", number });
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,69 @@
+//! Settings of the solve of a system.
+
+/// Settings of [`solve`](super::solve()) and [`solve_from`](super::solve_from()).
+///
+/// ```
+/// use lagrange::network::Settings;
+/// assert!(Settings::default().validate().is_ok());
+/// assert!(Settings { tolerance: 0.0, ..Default::default() }.validate().is_err());
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Settings {
+    /// An answer has converged when every joint is in balance to this part of the largest force and
+    /// every length is right to this part of it. Where the places are so large that rounding a
+    /// coordinate changes a length by more, that rounding (eight units in the last place) takes its
+    /// part.
+    ///
+    /// Default 1e-12. Range 1e-14 to 1e-3.
+    pub tolerance: f64,
+    /// Newton steps of one run on places and forces.
+    ///
+    /// Default 100. At least 1.
+    pub max_iterations: usize,
+    /// Up to this number of free directions mechanisms, self-stresses and the Morse index are
+    /// counted from dense decompositions, cubic in the number; above, from the pivots of sparse
+    /// factors.
+    ///
+    /// Default 300. Range 0 to 3000.
+    pub dense_freedoms: usize,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self { tolerance: 1e-12, max_iterations: 100, dense_freedoms: 300 }
+    }
+}
+
+/// Why settings cannot be used.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[error("setting {name} = {value} is outside its range, {low} to {high}")]
+pub struct SettingsError {
+    /// The field.
+    pub name: &'static str,
+    /// Its value.
+    pub value: f64,
+    /// Smallest value allowed.
+    pub low: f64,
+    /// Largest value allowed.
+    pub high: f64,
+}
+
+impl Settings {
+    /// Check every range.
+    ///
+    /// # Errors
+    ///
+    /// [`SettingsError`] with the first field that is out of range; NaN is out of every range.
+    pub fn validate(&self) -> Result<(), SettingsError> {
+        for (name, value, low, high) in [
+            ("tolerance", self.tolerance, 1e-14, 1e-3),
+            ("max_iterations", self.max_iterations as f64, 1.0, 1e9),
+            ("dense_freedoms", self.dense_freedoms as f64, 0.0, 3000.0),
+        ] {
+            if !(low..=high).contains(&value) {
+                return Err(SettingsError { name, value, low, high });
+            }
+        }
+        Ok(())
+    }
+}

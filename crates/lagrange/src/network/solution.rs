@@ -1,0 +1,197 @@
+//! The answer for a system.
+
+use model::system::{SystemEquilibrium, SystemStability};
+use model::{Evidence, InSpace, SolverName, Vector};
+use nalgebra::Vector3;
+
+use super::framework::Framework;
+use super::second_order::SecondOrder;
+use super::state::State;
+
+/// Which of the forces in balance an answer shows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Forces {
+    /// There are no others.
+    Unique,
+    /// Self-stresses can be added. Shown is the member of the family with the least sum of squared
+    /// axial forces times lengths: the limit of equally stiff members.
+    LeastNorm,
+    /// Self-stresses can be added, and the member with the least norm would ask a cable to push or
+    /// a strut to pull. Shown is the one that the iteration found.
+    Found,
+    /// The system is too large to count self-stresses (see
+    /// [`Settings::dense_freedoms`](super::Settings::dense_freedoms)).
+    Uncounted,
+}
+
+/// An equilibrium of a system. That it exists means converged.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Solution {
+    /// The equilibrium as everyone reads it.
+    pub equilibrium: SystemEquilibrium,
+    /// Balance of the joints in units of the largest force, or lengths in units of the length,
+    /// whichever is larger.
+    pub residual: f64,
+    /// Sparse factorisations of all stages.
+    pub factorisations: usize,
+    /// Independent motions that keep the lengths of all inextensible taut members, where they were
+    /// counted.
+    pub mechanisms: Option<usize>,
+    /// Basis of the self-stresses: axial forces of all members, N, that balance without loads;
+    /// orthonormal, empty where the forces are unique. Only inextensible taut members take part.
+    /// Nothing where they were not counted.
+    pub self_stresses: Option<Vec<Vec<f64>>>,
+    /// Which of the forces in balance are shown.
+    pub forces: Forces,
+    /// Members that are slack: cables shorter than their length, struts longer.
+    pub slack: Vec<usize>,
+    /// Inextensible members that have their length and bear no force: of cables and struts it is
+    /// open whether they are slack or taut, of bars the direction may be open.
+    pub limp: Vec<usize>,
+}
+
+/// A force below this part of the largest one is none.
+pub(super) const NO_FORCE: f64 = 1e-10;
+/// A member that misses its length by less than this part of it just reaches.
+const NO_SLACK: f64 = 1e-10;
+
+/// What the answer is made of.
+pub(super) struct Found {
+    pub state: State,
+    pub residual: f64,
+    pub tolerance: f64,
+    pub factorisations: usize,
+    pub second_order: SecondOrder,
+    pub solve_s: f64,
+}
+
+impl Solution {
+    pub(super) fn new(framework: &Framework, found: Found) -> Self {
+        let Found { mut state, residual, tolerance, factorisations, second_order, solve_s } = found;
+        let forces = choose(framework, &mut state, second_order.self_stresses.as_deref());
+        let mut evidence = Evidence::new(
+            "balance of joints in units of the largest force, and lengths in units of the length",
+            residual,
+            tolerance,
+            factorisations,
+        );
+        evidence.solve_s = solve_s;
+        evidence.nullity =
+            second_order.neutral + second_order.self_stresses.as_ref().map_or(0, Vec::len);
+        let largest = state.largest_force(framework);
+        let members = 0..framework.links.len();
+        let slack = members.clone().filter(|&k| !state.taut[k]).collect();
+        let directions = state.directions(framework);
+        let limp = members
+            .filter(|&k| {
+                let link = &framework.links[k];
+                let rigid = link.compliance <= 0.0 && framework.moves(link);
+                let reaches = (directions[k].1 - link.length).abs() <= NO_SLACK * link.length;
+                rigid && reaches && state.axial[k].abs() <= NO_FORCE * largest
+            })
+            .collect();
+        Self {
+            equilibrium: equilibrium(framework, &state, &second_order, evidence),
+            residual,
+            factorisations,
+            mechanisms: second_order.mechanisms,
+            self_stresses: second_order.self_stresses,
+            forces,
+            slack,
+            limp,
+        }
+    }
+}
+
+/// The member of the family of forces that is shown: least $\sum N^2 l$.
+fn choose(framework: &Framework, state: &mut State, basis: Option<&[Vec<f64>]>) -> Forces {
+    let Some(basis) = basis else { return Forces::Uncounted };
+    if basis.is_empty() {
+        return Forces::Unique;
+    }
+    // A Gram-Schmidt basis in the norm of the lengths, and the forces without their part in it.
+    let product = |a: &[f64], b: &[f64]| -> f64 {
+        framework.links.iter().zip(a.iter().zip(b)).map(|(link, (a, b))| a * b * link.length).sum()
+    };
+    let mut orthonormal: Vec<Vec<f64>> = Vec::new();
+    let mut least = state.axial.clone();
+    let without = |from: &mut Vec<f64>, unit: &[f64]| {
+        let part = product(from, unit);
+        from.iter_mut().zip(unit).for_each(|(f, u)| *f -= part * u);
+    };
+    for stress in basis {
+        let mut stress = stress.clone();
+        // Twice is enough.
+        for _ in 0..2 {
+            for unit in &orthonormal {
+                without(&mut stress, unit);
+            }
+        }
+        let norm = product(&stress, &stress).sqrt();
+        for force in &mut stress {
+            *force /= norm;
+        }
+        without(&mut least, &stress);
+        orthonormal.push(stress);
+    }
+    let largest = state.largest_force(framework);
+    let borne = framework.links.iter().zip(&least).zip(&state.taut);
+    let allowed = borne
+        .filter(|(_, taut)| **taut)
+        .all(|((link, axial), _)| axial.abs() <= NO_FORCE * largest || link.bears(*axial));
+    if !allowed {
+        return Forces::Found;
+    }
+    state.axial = least;
+    Forces::LeastNorm
+}
+
+fn equilibrium(
+    framework: &Framework,
+    state: &State,
+    second_order: &SecondOrder,
+    evidence: Evidence,
+) -> SystemEquilibrium {
+    let units = framework.units;
+    let to_n = |force: Vector3<f64>| Vector::from(force * units.force_n);
+    let directions = state.directions(framework);
+    let pulls: Vec<_> =
+        directions.iter().zip(&state.axial).map(|((u, _), axial)| u * *axial).collect();
+    let reactions = framework.unbalance(pulls.iter().copied()).into_iter().zip(&framework.nodes);
+    // The ground takes what the free directions leave.
+    let reactions = reactions.map(|(left, node)| to_n(node.axes * node.axes.tr_mul(&left) - left));
+    let links = || framework.links.iter().zip(&pulls);
+    SystemEquilibrium {
+        solver: SolverName::LAGRANGE,
+        energy_j: energy(framework, state) * units.force_n * units.length_m,
+        joints_m: state
+            .places
+            .iter()
+            .map(|place| (place * units.length_m + units.origin_m).into())
+            .collect(),
+        start_forces_n: links().map(|(link, pull)| to_n(-pull - link.shares[0])).collect(),
+        end_forces_n: links().map(|(link, pull)| to_n(pull - link.shares[1])).collect(),
+        axial_n: state.axial.iter().map(|axial| axial * units.force_n).collect(),
+        reactions_n: reactions.collect(),
+        stability: stability(second_order),
+        evidence,
+    }
+}
+
+fn stability(second_order: &SecondOrder) -> SystemStability {
+    SystemStability {
+        in_space: if second_order.index == 0 { InSpace::Stable } else { InSpace::Unstable },
+        index_in_space: second_order.index,
+        index_in_plane: second_order.index_in_plane,
+        neutral: second_order.neutral,
+    }
+}
+
+/// Potential energy from the origin: loads, and $c N^2/2$ of elastic members.
+pub(super) fn energy(framework: &Framework, state: &State) -> f64 {
+    let loads =
+        framework.nodes.iter().zip(&state.places).map(|(node, place)| -node.load.dot(place));
+    let links = framework.links.iter().zip(&state.axial);
+    let stored = links.map(|(link, axial)| 0.5 * link.compliance * axial * axial);
+    model::sum(loads.chain(stored))
+}

@@ -1,0 +1,231 @@
+//! The solve: hang, settle, polish, and look at the second order.
+
+use std::time::Instant;
+
+use model::system::{Kind, System};
+use nalgebra::Vector3;
+
+use super::error::Error;
+use super::framework::Framework;
+use super::hanging::hang;
+use super::law::by_direction;
+use super::newton::{Run, polish};
+use super::possible::{check, too_short};
+use super::second_order::SecondOrder;
+use super::seed::Seed;
+use super::settings::Settings;
+use super::settle::settle;
+use super::solution::{Found, NO_FORCE, Solution};
+use super::state::State;
+use super::stiffness::Stiffness;
+
+/// Changes of the set of taut members before the iteration counts as failed.
+const SIGN_CHANGES: usize = 30;
+/// A cable shorter than this part of its length is slack at the start.
+const SLACK_LENGTH: f64 = 1e-3;
+/// Tries to leave an unstable equilibrium, each by a small move of every joint.
+const KICKS: usize = 4;
+/// Size of such a kick, in units of the mean length.
+const KICK: f64 = 1e-2;
+/// Ridge of the least squares for the forces of a seed, in units of the stiffness.
+const RIDGE: f64 = 1e-9;
+
+/// The hanging equilibrium of a system: the lowest one where every bar is in tension (then it is
+/// the only minimum), and a local minimum of the energy otherwise.
+///
+/// # Errors
+///
+/// [`Error`], with numbers: what falls, what does not reach, what did not converge.
+pub fn solve(system: &System, settings: &Settings) -> Result<Solution, Error> {
+    settings.validate()?;
+    let mut solver = Solver::new(system, *settings)?;
+    let hanging = hang(&solver.framework, &mut solver.stiffness)?;
+    solver.factorisations += hanging.steps;
+    let start = hanging.state;
+    let all_pull = solver.framework.links.iter().zip(&start.taut);
+    let all_pull = all_pull.filter(|(link, _)| link.kind != Kind::Cable).all(|(_, taut)| *taut);
+    if hanging.settled
+        && all_pull
+        && let Ok(run) = solver.with_signs(start.clone())
+    {
+        return solver.stable(run);
+    }
+    if let Some(error) = too_short(system, &solver.framework) {
+        return Err(error);
+    }
+    let run = solver.settled(start, 0)?;
+    solver.stable(run)
+}
+
+/// The equilibrium that Newton's method reaches from a seed, stable or not.
+///
+/// # Errors
+///
+/// [`Error`], with numbers.
+pub fn solve_from(system: &System, seed: &Seed, settings: &Settings) -> Result<Solution, Error> {
+    settings.validate()?;
+    seed.check(system)?;
+    let mut solver = Solver::new(system, *settings)?;
+    let start = solver.start(seed);
+    let run = solver.with_signs(start)?;
+    let second_order = solver.second_order(&run.state);
+    Ok(solver.solution(run, second_order))
+}
+
+struct Solver<'a> {
+    system: &'a System,
+    settings: Settings,
+    framework: Framework,
+    stiffness: Stiffness,
+    factorisations: usize,
+    began: Instant,
+}
+
+impl<'a> Solver<'a> {
+    fn new(system: &'a System, settings: Settings) -> Result<Self, Error> {
+        let began = Instant::now();
+        let framework = Framework::new(system);
+        check(system, &framework)?;
+        let stiffness = Stiffness::new(&framework, false)?;
+        Ok(Self { system, settings, framework, stiffness, factorisations: 0, began })
+    }
+
+    /// Newton's method, with the set of taut members changed until all signs are right.
+    fn with_signs(&mut self, mut state: State) -> Result<Run, Error> {
+        for _ in 0..SIGN_CHANGES {
+            let run = polish(&self.framework, &mut self.stiffness, &self.settings, state);
+            self.factorisations += run.steps;
+            if run.residual.size().is_nan() || run.residual.size() > self.settings.tolerance {
+                let (system, framework) = (self.system, &self.framework);
+                return Err(run.residual.not_converged(system, framework, self.factorisations));
+            }
+            let Some(next) = self.signs_mended(&run) else { return Ok(run) };
+            state = next;
+        }
+        let run = Run::at(&self.framework, state);
+        Err(run.residual.not_converged(self.system, &self.framework, self.factorisations))
+    }
+
+    /// The state with cables that push made slack and slack ones that are too long made taut,
+    /// struts the other way round; nothing when there are none.
+    fn signs_mended(&self, run: &Run) -> Option<State> {
+        let mut state = run.state.clone();
+        let mut changed = false;
+        let least = NO_FORCE * run.residual.unit;
+        for (k, link) in self.framework.links.iter().enumerate() {
+            if link.kind == Kind::Bar {
+                continue;
+            }
+            let axial = state.axial[k];
+            let excess = run.residual.directions[k].1 - link.length;
+            let outside = if link.kind == Kind::Cable { excess } else { -excess };
+            if state.taut[k] && axial.abs() > least && !link.bears(axial) {
+                (state.taut[k], state.axial[k], changed) = (false, 0.0, true);
+            } else if !state.taut[k] && outside > self.settings.tolerance * link.length {
+                (state.taut[k], changed) = (true, true);
+            }
+        }
+        changed.then_some(state)
+    }
+
+    /// A rest of the true members near a state, moved a little: the shape as cables is often a saddle
+    /// of the bars', with bars that have no length in it or lie in one line.
+    fn settled(&mut self, mut state: State, kick: usize) -> Result<Run, Error> {
+        let joints = state.places.iter_mut().zip(&self.framework.nodes).enumerate();
+        for (joint, (place, node)) in joints {
+            *place += node.axes * (node.axes.tr_mul(&scatter(joint, kick)) * KICK);
+        }
+        let (state, steps) = settle(&self.framework, &mut self.stiffness, state);
+        self.factorisations += steps;
+        self.with_signs(state)
+    }
+
+    /// Leave unstable equilibria.
+    fn stable(mut self, mut run: Run) -> Result<Solution, Error> {
+        let mut second_order = self.second_order(&run.state);
+        for kick in 1..=KICKS {
+            if second_order.index == 0 {
+                return Ok(self.solution(run, second_order));
+            }
+            run = self.settled(run.state, kick)?;
+            second_order = self.second_order(&run.state);
+        }
+        if second_order.index == 0 {
+            return Ok(self.solution(run, second_order));
+        }
+        Err(Error::Unstable { index: second_order.index })
+    }
+
+    fn second_order(&mut self, state: &State) -> SecondOrder {
+        let dense = self.settings.dense_freedoms;
+        SecondOrder::new(&self.framework, &mut self.stiffness, state, dense)
+    }
+
+    fn solution(self, run: Run, second_order: SecondOrder) -> Solution {
+        let found = Found {
+            residual: run.residual.size(),
+            tolerance: self.settings.tolerance,
+            state: run.state,
+            factorisations: self.factorisations,
+            second_order,
+            solve_s: self.began.elapsed().as_secs_f64(),
+        };
+        Solution::new(&self.framework, found)
+    }
+
+    /// The state of a seed.
+    fn start(&mut self, seed: &Seed) -> State {
+        let units = self.framework.units;
+        let places = self.framework.nodes.iter().zip(&seed.joints_m).map(|(node, at_m)| {
+            let given = (Vector3::from(*at_m) - units.origin_m) / units.length_m;
+            node.base + node.axes * node.axes.tr_mul(&(given - node.base))
+        });
+        let members = self.framework.links.len();
+        let mut state = State {
+            places: places.collect(),
+            axial: vec![0.0; members],
+            taut: vec![true; members],
+        };
+        state.axial = match &seed.axial_n {
+            Some(axial_n) => axial_n.iter().map(|axial| axial / units.force_n).collect(),
+            None => self.best_forces(&state),
+        };
+        let directions = state.directions(&self.framework);
+        for (k, link) in self.framework.links.iter().enumerate() {
+            let short = 1.0 - directions[k].1 / link.length;
+            let slack = match link.kind {
+                Kind::Bar => false,
+                Kind::Cable => short > SLACK_LENGTH || state.axial[k] < 0.0,
+                Kind::Strut => -short > SLACK_LENGTH || state.axial[k] > 0.0,
+            };
+            if slack {
+                (state.taut[k], state.axial[k]) = (false, 0.0);
+            }
+        }
+        state
+    }
+
+    /// Axial forces that leave the joints least out of balance.
+    fn best_forces(&mut self, state: &State) -> Vec<f64> {
+        let directions = state.directions(&self.framework);
+        let blocks = directions.iter().map(|(u, _)| by_direction(u, 0.0, 1.0));
+        self.stiffness.assemble(&self.framework, blocks);
+        self.stiffness.shift(RIDGE);
+        self.stiffness.factorise_definite();
+        self.factorisations += 1;
+        let loads: Vec<_> = self.framework.nodes.iter().map(|node| node.load).collect();
+        let mut moves = self.stiffness.gather(&self.framework, &loads);
+        self.stiffness.solve(&mut moves);
+        let moves = self.stiffness.scatter(&self.framework, &moves);
+        let links = self.framework.links.iter().zip(&directions);
+        links.map(|(link, (u, _))| u.dot(&link.span(&moves))).collect()
+    }
+}
+
+/// A fixed direction for each joint and each try, spread without pattern (golden ratios).
+fn scatter(joint: usize, kick: usize) -> Vector3<f64> {
+    const STEPS: [f64; 3] =
+        [0.819_172_513_396_164_4, 0.671_043_606_703_789_2, 0.549_700_477_901_897_7];
+    let at = (joint * 7 + kick * 13 + 1) as f64;
+    Vector3::from(STEPS.map(|step| 2.0 * (at * step).fract() - 1.0))
+}

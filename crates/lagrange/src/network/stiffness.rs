@@ -1,0 +1,340 @@
+//! Sparse symmetric matrices over the free directions of the joints, and their factorisation.
+//!
+//! Every matrix here is $\sum_e C_e^T K_e C_e$ with one symmetric 3 x 3 block $K_e$ a member, where
+//! $C_e$ takes moves of the joints to the change of the member's span. Its pattern is that of the
+//! members; the joints are numbered by approximate minimum degree, which a tree or a chain passes
+//! without any fill.
+
+use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::linalg::cholesky::ldlt::factor::LdltRegularization;
+use faer::perm::PermRef;
+use faer::sparse::linalg::amd;
+use faer::sparse::linalg::cholesky::{
+    CholeskySymbolicParams, LdltRef, SymbolicCholesky, SymbolicCholeskyRaw, SymmetricOrdering,
+    factorize_symbolic_cholesky,
+};
+use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
+use faer::{Conj, MatMut, Par, Side, Spec};
+use nalgebra::{Matrix3, Vector3};
+
+use super::error::Error;
+use super::framework::Framework;
+
+/// A pivot below this fraction of the largest diagonal entry is no pivot: the direction is left out
+/// of the solve. Some fifty rounding errors.
+const NO_PIVOT: f64 = 1e-14;
+
+/// Where the blocks of one member stand.
+#[derive(Debug, Clone, Copy)]
+struct Place {
+    /// Joint that is eliminated first, and the other.
+    low: usize,
+    high: usize,
+    /// Rows between the diagonal block of `low` and the first row of `high` in its columns.
+    gap: usize,
+}
+
+/// Where the unknowns of a joint stand.
+#[derive(Debug, Clone, Copy, Default)]
+struct Seat {
+    first: usize,
+    count: usize,
+}
+
+/// The matrix, its pattern analysed once.
+pub(super) struct Stiffness {
+    seats: Vec<Seat>,
+    places: Vec<Place>,
+    columns: Vec<usize>,
+    rows: Vec<usize>,
+    values: Vec<f64>,
+    symbolic: SymbolicCholesky<usize>,
+    factor: Vec<f64>,
+    memory: MemBuffer,
+}
+
+impl Stiffness {
+    /// The pattern of a framework with the free directions of its joints; with `scalar` one unknown
+    /// a free joint, for matrices whose blocks are multiples of the identity.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Memory`] when the factor cannot be held.
+    pub fn new(framework: &Framework, scalar: bool) -> Result<Self, Error> {
+        let counts: Vec<usize> = framework
+            .nodes
+            .iter()
+            .map(|node| if scalar { usize::from(node.freedom > 0) } else { node.freedom })
+            .collect();
+        let size = counts.iter().sum();
+        let lost = || Error::Memory { unknowns: size };
+        let rank = elimination_order(framework).ok_or_else(lost)?;
+        let seats = seats(&counts, &rank);
+        let (places, columns, rows) = pattern(framework, &seats, &rank);
+        let matrix = SymbolicSparseColMatRef::new_checked(size, size, &columns, None, &rows);
+        // The joints are in their order already; this says so to a routine that turns the lower
+        // triangle over only where it permutes.
+        let same: Vec<usize> = (0..size).collect();
+        let symbolic = factorize_symbolic_cholesky(
+            matrix,
+            Side::Lower,
+            SymmetricOrdering::Custom(PermRef::new_checked(&same, &same, size)),
+            CholeskySymbolicParams::default(),
+        )
+        .map_err(|_| lost())?;
+        let scratch = symbolic
+            .factorize_numeric_ldlt_scratch::<f64>(Par::Seq, Spec::default())
+            .or(symbolic.solve_in_place_scratch::<f64>(3, Par::Seq));
+        let memory = MemBuffer::try_new(scratch).map_err(|_| lost())?;
+        let (values, factor) = (vec![0.0; rows.len()], vec![0.0; symbolic.len_val()]);
+        Ok(Self { seats, places, columns, rows, values, symbolic, factor, memory })
+    }
+
+    /// Number of unknowns.
+    pub fn size(&self) -> usize {
+        self.columns.len() - 1
+    }
+
+    /// Set to $\sum_e C_e^T K_e C_e$ with the blocks of `blocks`, in the order of the members.
+    pub fn assemble(&mut self, framework: &Framework, blocks: impl Iterator<Item = Matrix3<f64>>) {
+        self.values.fill(0.0);
+        for (place, block) in self.places.iter().zip(blocks) {
+            let (low, high) = (&framework.nodes[place.low], &framework.nodes[place.high]);
+            let (seat_low, seat_high) = (self.seats[place.low], self.seats[place.high]);
+            let (by_low, by_high) = (block * low.axes, block * high.axes);
+            let same_low = low.axes.tr_mul(&by_low);
+            let same_high = high.axes.tr_mul(&by_high);
+            let mixed = high.axes.tr_mul(&by_low);
+            for column in 0..seat_low.count {
+                let start = self.columns[seat_low.first + column];
+                let height = seat_low.count - column;
+                for row in 0..height {
+                    self.values[start + row] += same_low[(column + row, column)];
+                }
+                for row in 0..seat_high.count {
+                    self.values[start + height + place.gap + row] -= mixed[(row, column)];
+                }
+            }
+            for column in 0..seat_high.count {
+                let start = self.columns[seat_high.first + column];
+                for row in 0..seat_high.count - column {
+                    self.values[start + row] += same_high[(column + row, column)];
+                }
+            }
+        }
+    }
+
+    /// The same for a scalar matrix: one number a member.
+    pub fn assemble_scalar(&mut self, weights: impl Iterator<Item = f64>) {
+        self.values.fill(0.0);
+        for (place, weight) in self.places.iter().zip(weights) {
+            let (low, high) = (self.seats[place.low], self.seats[place.high]);
+            if low.count == 1 {
+                let start = self.columns[low.first];
+                self.values[start] += weight;
+                if high.count == 1 {
+                    self.values[start + 1 + place.gap] -= weight;
+                }
+            }
+            if high.count == 1 {
+                self.values[self.columns[high.first]] += weight;
+            }
+        }
+    }
+
+    /// Largest diagonal entry.
+    pub fn largest(&self) -> f64 {
+        let diagonal = self.columns[..self.size()].iter().map(|&start| self.values[start]);
+        diagonal.fold(0.0, |largest, entry| largest.max(entry.abs()))
+    }
+
+    /// Add a multiple of the identity.
+    pub fn shift(&mut self, by: f64) {
+        for column in 0..self.size() {
+            self.values[self.columns[column]] += by;
+        }
+    }
+
+    /// Factorise a matrix that ought to be positive definite; directions without stiffness, or with
+    /// a negative one, are left out of later solves.
+    pub fn factorise_definite(&mut self) {
+        let signs = vec![1; self.size()];
+        self.factorise(Some(&signs));
+    }
+
+    /// Factorise a matrix as it is, positive and negative pivots alike; directions without
+    /// stiffness are left out of later solves. Whether all came out finite.
+    pub fn factorise_indefinite(&mut self) -> bool {
+        self.factorise(None)
+    }
+
+    fn factorise(&mut self, signs: Option<&[i8]>) -> bool {
+        let (size, largest) = (self.size(), self.largest());
+        let pattern =
+            SymbolicSparseColMatRef::new_checked(size, size, &self.columns, None, &self.rows);
+        let regularisation = LdltRegularization {
+            dynamic_regularization_signs: signs,
+            dynamic_regularization_delta: if largest > 0.0 { largest / NO_PIVOT } else { 1.0 },
+            dynamic_regularization_epsilon: if largest > 0.0 { NO_PIVOT * largest } else { 1.0 },
+        };
+        let factored = self.symbolic.factorize_numeric_ldlt(
+            &mut self.factor,
+            SparseColMatRef::new(pattern, &self.values),
+            Side::Lower,
+            regularisation,
+            Par::Seq,
+            MemStack::new(&mut self.memory),
+            Spec::default(),
+        );
+        factored.is_ok() && self.pivots().all(f64::is_finite)
+    }
+
+    /// Number of negative pivots of the factor.
+    pub fn negative_pivots(&self) -> usize {
+        self.pivots().filter(|pivot| *pivot < 0.0).count()
+    }
+
+    fn pivots(&self) -> Box<dyn Iterator<Item = f64> + '_> {
+        match self.symbolic.raw() {
+            SymbolicCholeskyRaw::Simplicial(symbolic) => {
+                let columns = &symbolic.col_ptr()[..self.size()];
+                Box::new(columns.iter().map(|&start| self.factor[start]))
+            }
+            SymbolicCholeskyRaw::Supernodal(symbolic) => {
+                let (begins, ends) = (symbolic.supernode_begin(), symbolic.supernode_end());
+                let starts = symbolic.col_ptr_for_val();
+                Box::new((0..symbolic.n_supernodes()).flat_map(move |s| {
+                    let width = ends[s] - begins[s];
+                    let height = (starts[s + 1] - starts[s]) / width.max(1);
+                    (0..width).map(move |k| self.factor[starts[s] + k * height + k])
+                }))
+            }
+        }
+    }
+
+    /// Solve with the factor, in place; several right-hand sides one after another.
+    pub fn solve(&mut self, right: &mut [f64]) {
+        let size = self.size();
+        if size == 0 {
+            return;
+        }
+        let sides = right.len() / size;
+        LdltRef::new(&self.symbolic, &self.factor).solve_in_place_with_conj(
+            Conj::No,
+            MatMut::from_column_major_slice_mut(right, size, sides),
+            Par::Seq,
+            MemStack::new(&mut self.memory),
+        );
+    }
+
+    /// The components of forces at the joints along their free directions.
+    pub fn gather(&self, framework: &Framework, forces: &[Vector3<f64>]) -> Vec<f64> {
+        let mut gathered = vec![0.0; self.size()];
+        for ((node, seat), force) in framework.nodes.iter().zip(&self.seats).zip(forces) {
+            let along = node.axes.tr_mul(force);
+            gathered[seat.first..seat.first + seat.count]
+                .copy_from_slice(&along.as_slice()[..seat.count]);
+        }
+        gathered
+    }
+
+    /// The moves of the joints from their components along the free directions.
+    pub fn scatter(&self, framework: &Framework, moves: &[f64]) -> Vec<Vector3<f64>> {
+        let joints = framework.nodes.iter().zip(&self.seats);
+        joints
+            .map(|(node, seat)| {
+                let components = &moves[seat.first..seat.first + seat.count];
+                components.iter().enumerate().map(|(k, s)| node.axes.column(k) * *s).sum()
+            })
+            .collect()
+    }
+
+    /// Where the unknown of a joint stands in a scalar matrix; nothing for a joint that is held.
+    pub fn seat(&self, joint: usize) -> Option<usize> {
+        (self.seats[joint].count > 0).then_some(self.seats[joint].first)
+    }
+}
+
+/// Rank of each joint in the elimination, by approximate minimum degree.
+fn elimination_order(framework: &Framework) -> Option<Vec<usize>> {
+    let joints = framework.nodes.len();
+    let mut neighbours = vec![Vec::new(); joints];
+    for link in &framework.links {
+        if framework.nodes[link.from].freedom > 0 && framework.nodes[link.to].freedom > 0 {
+            let (low, high) = (link.from.min(link.to), link.from.max(link.to));
+            neighbours[high].push(low);
+        }
+    }
+    let (mut columns, mut rows) = (vec![0], Vec::new());
+    for list in &mut neighbours {
+        list.sort_unstable();
+        list.dedup();
+        rows.extend_from_slice(list);
+        columns.push(rows.len());
+    }
+    let graph = SymbolicSparseColMatRef::new_checked(joints, joints, &columns, None, &rows);
+    let (mut order, mut rank) = (vec![0; joints], vec![0; joints]);
+    let mut memory =
+        MemBuffer::try_new(amd::order_maybe_unsorted_scratch::<usize>(joints, rows.len())).ok()?;
+    let stack = MemStack::new(&mut memory);
+    let control = amd::Control::default();
+    amd::order_maybe_unsorted(&mut order, &mut rank, graph, control, stack).ok()?;
+    Some(rank)
+}
+
+/// Unknowns of the joints one after another in the order of elimination.
+fn seats(counts: &[usize], rank: &[usize]) -> Vec<Seat> {
+    let mut order = vec![0; rank.len()];
+    for (joint, &place) in rank.iter().enumerate() {
+        order[place] = joint;
+    }
+    let mut seats = vec![Seat::default(); counts.len()];
+    let mut first = 0;
+    for joint in order {
+        seats[joint] = Seat { first, count: counts[joint] };
+        first += counts[joint];
+    }
+    seats
+}
+
+/// Places of the members' blocks, and the lower triangle column by column.
+fn pattern(
+    framework: &Framework,
+    seats: &[Seat],
+    rank: &[usize],
+) -> (Vec<Place>, Vec<usize>, Vec<usize>) {
+    let mut later = vec![Vec::new(); seats.len()];
+    let ends = framework.links.iter().map(|link| {
+        if rank[link.from] < rank[link.to] { (link.from, link.to) } else { (link.to, link.from) }
+    });
+    let ends: Vec<_> = ends.collect();
+    for &(low, high) in &ends {
+        if seats[low].count > 0 && seats[high].count > 0 {
+            later[low].push(rank[high]);
+        }
+    }
+    let mut order = vec![0; rank.len()];
+    for (joint, &place) in rank.iter().enumerate() {
+        order[place] = joint;
+    }
+    let (mut columns, mut rows) = (vec![0], Vec::new());
+    for &joint in &order {
+        later[joint].sort_unstable();
+        later[joint].dedup();
+        let seat = seats[joint];
+        for column in 0..seat.count {
+            rows.extend(seat.first + column..seat.first + seat.count);
+            for &other in &later[joint] {
+                let there = seats[order[other]];
+                rows.extend(there.first..there.first + there.count);
+            }
+            columns.push(rows.len());
+        }
+    }
+    let places = ends.iter().map(|&(low, high)| {
+        let before = later[low].iter().take_while(|other| **other < rank[high]);
+        let gap = before.map(|&other| seats[order[other]].count).sum();
+        Place { low, high, gap }
+    });
+    (places.collect(), columns, rows)
+}

@@ -1,0 +1,434 @@
+//! Systems of members against closed forms, and every answer against Newton's laws.
+
+use lagrange::network::{Error, Forces, Seed, Settings, Solution, solve, solve_from};
+use model::system::{Joint, Kind, Member, Support, System};
+use model::{Bar, InSpace, Vector};
+use nalgebra::Vector3;
+
+/// Twice the tolerance of the solver, relative to the number or to one.
+const EXACT: f64 = 2e-12;
+
+fn bar(from: usize, to: usize, length_m: f64, mass_kg: f64) -> Member {
+    Member::bar(from, to, Bar::homogeneous(length_m, mass_kg).unwrap())
+}
+
+fn cable(from: usize, to: usize, length_m: f64, mass_kg: f64) -> Member {
+    Member { kind: Kind::Cable, ..bar(from, to, length_m, mass_kg) }
+}
+
+/// Gravity 1 m/s²: weights in N are masses in kg.
+fn system(joints: Vec<Joint>, members: Vec<Member>) -> System {
+    System::new("test", 1.0, joints, members).unwrap()
+}
+
+fn hang(system: &System) -> Solution {
+    let solution = solve(system, &Settings::default()).unwrap();
+    judge(system, &solution);
+    solution
+}
+
+#[track_caller]
+fn close(got: f64, expected: f64) {
+    assert!((got - expected).abs() <= EXACT * expected.abs().max(1.0), "{got} is not {expected}");
+}
+
+#[track_caller]
+fn near(got: Vector, expected: Vector) {
+    for axis in 0..3 {
+        close(got[axis], expected[axis]);
+    }
+}
+
+/// Newton's laws and the laws of the members, from the observables alone.
+#[track_caller]
+fn judge(system: &System, solution: &Solution) {
+    let answer = &solution.equilibrium;
+    let largest = answer.axial_n.iter().fold(1e-300, |most: f64, n| most.max(n.abs()));
+    let g = system.gravity_m_s2();
+    let mut at_joints: Vec<Vector3<f64>> = system
+        .joints()
+        .iter()
+        .zip(&answer.reactions_n)
+        .map(|(joint, ground)| {
+            Vector3::from(joint.force_n) - Vector3::z() * (joint.mass_kg * g)
+                + Vector3::from(*ground)
+        })
+        .collect();
+    for (k, member) in system.members().iter().enumerate() {
+        let [a, b] = [member.from, member.to].map(|joint| Vector3::from(answer.joints_m[joint]));
+        let start = Vector3::from(answer.start_forces_n[k]);
+        let end = Vector3::from(answer.end_forces_n[k]);
+        let length = member.body.length_m();
+        let weight = Vector3::z() * (-member.body.mass_kg() * g);
+        let mut sum = start + end + weight;
+        let mut moment =
+            (b - a).cross(&end) + ((b - a) * (member.body.centre_m() / length)).cross(&weight);
+        for load in &member.loads {
+            let force = Vector3::from(load.force_n);
+            sum += force;
+            moment += ((b - a) * (load.at_m / length)).cross(&force);
+        }
+        assert!(sum.norm() <= 1e-11 * largest, "member {k}: forces leave {sum}");
+        assert!(moment.norm() <= 1e-11 * largest * length, "member {k}: moments leave {moment}");
+        let strain = member.stiffness_n.map_or(0.0, |stiffness| answer.axial_n[k] / stiffness);
+        let excess = (b - a).norm() - length * (1.0 + strain);
+        let slack = solution.slack.contains(&k);
+        match member.kind {
+            Kind::Cable if slack => {
+                assert!(excess <= 1e-12 * length && answer.axial_n[k].abs() < 1e-12);
+            }
+            Kind::Strut if slack => {
+                assert!(excess >= -1e-12 * length && answer.axial_n[k].abs() < 1e-12);
+            }
+            _ => assert!(excess.abs() <= 1e-12 * length, "member {k}: {excess} m"),
+        }
+        assert!(member.kind != Kind::Cable || answer.axial_n[k] >= -1e-10 * largest);
+        assert!(member.kind != Kind::Strut || answer.axial_n[k] <= 1e-10 * largest);
+        at_joints[member.from] -= start;
+        at_joints[member.to] -= end;
+    }
+    for (joint, left) in at_joints.iter().enumerate() {
+        assert!(left.norm() <= 1e-11 * largest, "joint {joint}: {left}");
+    }
+}
+
+/// A lamp on two bars: the weights of the bars go half to the lamp.
+#[test]
+fn v_hanger_with_a_lamp() {
+    let joints = vec![
+        Joint::anchor("A", [0.0; 3]),
+        Joint::anchor("B", [1.0, 0.0, 0.0]),
+        Joint::free("lamp").with_mass(5.0),
+    ];
+    let system = system(joints, vec![bar(0, 2, 1.0, 1.0), bar(2, 1, 1.0, 1.0)]);
+    let answer = hang(&system).equilibrium;
+    let height = 3.0_f64.sqrt() / 2.0;
+    near(answer.joints_m[2], [0.5, 0.0, -height]);
+    // 6 N on two bars at 60 degrees.
+    close(answer.axial_n[0], 6.0 / (2.0 * height));
+    near(answer.reactions_n[0], [-3.0 / (2.0 * height), 0.0, 3.5]);
+    near(answer.reactions_n[1], [3.0 / (2.0 * height), 0.0, 3.5]);
+    close(answer.energy_j, -5.0 * height - 2.0 * height / 2.0);
+    assert_eq!(answer.stability.in_space, InSpace::Stable);
+    // The lamp is held in the plane and swings out of it.
+    assert_eq!(answer.stability.index_in_plane, Some(0));
+    assert_eq!(answer.stability.neutral, 0);
+}
+
+/// Lengths 3 and 4 over a span of 5 meet at a right angle.
+#[test]
+fn two_bars_at_a_right_angle() {
+    let joints = vec![
+        Joint::anchor("A", [0.0; 3]),
+        Joint::anchor("B", [5.0, 0.0, 0.0]),
+        Joint::free("P").with_mass(10.0),
+    ];
+    let solution = hang(&system(joints, vec![bar(0, 2, 3.0, 0.0), bar(1, 2, 4.0, 0.0)]));
+    near(solution.equilibrium.joints_m[2], [1.8, 0.0, -2.4]);
+    close(solution.equilibrium.axial_n[0], 8.0);
+    close(solution.equilibrium.axial_n[1], 6.0);
+    // Out of the plane it swings about AB: the only motion.
+    assert_eq!((solution.mechanisms, solution.forces), (Some(1), Forces::Unique));
+}
+
+/// Three legs to anchors on a circle: hanging, and standing up from a seed above.
+#[test]
+fn tripod() {
+    let corner = |k: f64| {
+        let angle = std::f64::consts::TAU * k / 3.0;
+        [3.0 * angle.cos(), 3.0 * angle.sin(), 0.0]
+    };
+    let mut joints: Vec<_> =
+        (0..3).map(|k| Joint::anchor(format!("A{k}"), corner(f64::from(k)))).collect();
+    joints.push(Joint::free("P").with_mass(6.0));
+    let system = system(joints, (0..3).map(|k| bar(k, 3, 5.0, 0.0)).collect());
+    let answer = hang(&system).equilibrium;
+    near(answer.joints_m[3], [0.0, 0.0, -4.0]);
+    for axial in &answer.axial_n {
+        close(*axial, 2.5);
+    }
+    let mut seed: Vec<Vector> = (0..3).map(|k| corner(f64::from(k))).collect();
+    seed.push([0.3, -0.2, 3.0]);
+    let standing = solve_from(&system, &Seed::at(seed), &Settings::default()).unwrap();
+    judge(&system, &standing);
+    near(standing.equilibrium.joints_m[3], [0.0, 0.0, 4.0]);
+    for axial in &standing.equilibrium.axial_n {
+        close(*axial, -2.5);
+    }
+    // Three bars hold the point in space: no motion, no index.
+    assert_eq!(standing.mechanisms, Some(0));
+    assert_eq!(standing.equilibrium.stability.index_in_space, 0);
+}
+
+/// A triangle of rigid bars hung at one corner with unequal weights at the others: the centre of
+/// gravity is below the corner, and the bar opposite is in compression. With `G` the centre at the
+/// depth h, balance of the corner L is `-w_L L + w (R - L) = -(m_L g/h) G`, so `w_L = m_L g/h` and
+/// `w = -m_L m_R g/(h M)`.
+#[test]
+fn mobile() {
+    let (left, right) = (2.0_f64, 3.0_f64);
+    let joints = vec![
+        Joint::anchor("hook", [0.0; 3]),
+        Joint::free("L").with_mass(left),
+        Joint::free("R").with_mass(right),
+    ];
+    let members = vec![bar(0, 1, 1.0, 0.0), bar(0, 2, 1.0, 0.0), bar(1, 2, 1.0, 0.0)];
+    let solution = hang(&system(joints, members));
+    let total = left + right;
+    let depth = (left * left + right * right + left * right).sqrt() / total;
+    let axial = &solution.equilibrium.axial_n;
+    close(axial[0], left / depth);
+    close(axial[1], right / depth);
+    close(axial[2], -left * right / (depth * total));
+    close(solution.equilibrium.energy_j, -total * depth);
+    let stability = solution.equilibrium.stability;
+    assert_eq!((stability.index_in_space, stability.neutral), (0, 1));
+    assert_eq!(stability.index_in_plane, Some(0));
+}
+
+/// Weights on a string, built from its forces: a horizontal tension and the vertical forces of the
+/// bars give directions, these with any lengths the span.
+#[test]
+fn loaded_string() {
+    let (tension, first) = (7.0_f64, 9.0_f64);
+    let weights = [3.0, 1.0, 4.0, 1.0, 5.0, 9.0_f64];
+    let lengths = [1.0, 0.5, 2.0, 0.7, 1.3, 0.9, 1.1_f64];
+    let mut vertical = first;
+    let (mut at, mut places, mut axial) = (Vector3::zeros(), vec![Vector3::zeros()], Vec::new());
+    for (k, length) in lengths.iter().enumerate() {
+        let pull = Vector3::new(tension, 0.0, -vertical);
+        axial.push(pull.norm());
+        at += pull.normalize() * *length;
+        places.push(at);
+        vertical -= weights.get(k).unwrap_or(&0.0);
+    }
+    let mut joints = vec![Joint::anchor("A", [0.0; 3])];
+    joints.extend((0..6).map(|k| Joint::free(format!("{k}")).with_mass(weights[k])));
+    joints.push(Joint::anchor("B", at.into()));
+    let members = (0..7).map(|k| bar(k, k + 1, lengths[k], 0.0)).collect();
+    let answer = hang(&system(joints, members)).equilibrium;
+    for (got, expected) in answer.joints_m.iter().zip(&places) {
+        near(*got, (*expected).into());
+    }
+    for (got, expected) in answer.axial_n.iter().zip(&axial) {
+        close(*got, *expected);
+    }
+    near(answer.reactions_n[0], [-tension, 0.0, first]);
+}
+
+/// A V of two springs, built from the angle at which it hangs.
+#[test]
+fn elastic_v_hanger() {
+    let (half, angle, weight, stiffness) = (2.0_f64, 0.4_f64, 50.0_f64, 1000.0_f64);
+    let axial = weight / (2.0 * angle.sin());
+    let length = half / angle.cos() / (1.0 + axial / stiffness);
+    let spring = |from, to| Member { stiffness_n: Some(stiffness), ..bar(from, to, length, 0.0) };
+    let joints = vec![
+        Joint::anchor("A", [-half, 0.0, 0.0]),
+        Joint::anchor("B", [half, 0.0, 0.0]),
+        Joint::free("P").with_mass(weight),
+    ];
+    let solution = hang(&system(joints, vec![spring(0, 2), spring(2, 1)]));
+    let answer = &solution.equilibrium;
+    near(answer.joints_m[2], [0.0, 0.0, -half * angle.tan()]);
+    close(answer.axial_n[0], axial);
+    // Energies from joint A, and what the springs hold.
+    close(answer.energy_j, -weight * half * angle.tan() + axial * axial * length / stiffness);
+    assert_eq!(solution.mechanisms, Some(3));
+}
+
+/// The case of MoorPy's own test that expects equal vertical forces at both ends. The elastic
+/// catenary has H 58377.241422650 N and V 63044.412955917 and 61931.004442948 N; a run of n elastic
+/// cables with their weights comes near as 1/n².
+#[test]
+fn elastic_catenary_as_limit() {
+    const END: Vector = [246.224_209_400_329_47, 0.0, 263.557_663_308_431_64];
+    const LENGTH: f64 = 360.635_662_623_969_27;
+    const EXPECTED: [f64; 3] = [58_377.241_422_650, 63_044.412_955_917, 61_931.004_442_948];
+    let run = |n: usize| -> [f64; 3] {
+        let mut joints = vec![Joint::anchor("low", [0.0; 3])];
+        joints.extend((1..n).map(|k| Joint::free(format!("{k}"))));
+        joints.push(Joint::anchor("high", END));
+        let part = LENGTH / n as f64;
+        let member =
+            |k| Member { stiffness_n: Some(700e6), ..cable(k, k + 1, part, 3.08735 * part) };
+        let system = System::new("line", 1.0, joints, (0..n).map(member).collect()).unwrap();
+        let answer = hang(&system).equilibrium;
+        [answer.reactions_n[n][0], answer.reactions_n[n][2], -answer.reactions_n[0][2]]
+    };
+    let errors = |n: usize| {
+        let got = run(n);
+        [0, 1, 2].map(|k| got[k] - EXPECTED[k])
+    };
+    let (coarse, fine) = (errors(20), errors(40));
+    for k in 0..3 {
+        let order = (coarse[k] / fine[k]).log2();
+        assert!((order - 2.0).abs() < 0.02, "order {order}");
+        // Richardson's extrapolation takes the leading error out.
+        let limit = fine[k] + (fine[k] - coarse[k]) / 3.0;
+        assert!(limit.abs() < 1e-6 * EXPECTED[k], "{limit}");
+    }
+}
+
+/// The paper's chain, E1 and E2: three bars between anchors at 2 l on one vertical.
+#[test]
+fn the_papers_chain() {
+    let system = {
+        let mut joints = vec![Joint::anchor("O", [0.0; 3])];
+        joints.extend(["A", "B"].map(Joint::free));
+        joints.push(Joint::anchor("D", [0.0, 0.0, -2.0]));
+        system(joints, (0..3).map(|k| bar(k, k + 1, 1.0, 1.0)).collect())
+    };
+    let first = hang(&system).equilibrium;
+    // V of FACTS is measured 6 mgl higher.
+    close(first.energy_j, 2.335_468_651_999_305 - 6.0);
+    let horizontal = |force: Vector| force[0].hypot(force[1]);
+    close(horizontal(first.reactions_n[0]), 0.648_944_835_933_933_6);
+    close(first.reactions_n[0][2], 2.312_944_292_241_837_6);
+    close(first.reactions_n[3][2], 0.687_055_707_758_162_4);
+    assert!(first.axial_n[0] > 0.0 && first.axial_n[1] > 0.0 && first.axial_n[2] < 0.0);
+    assert_eq!((first.stability.index_in_space, first.stability.neutral), (0, 1));
+    assert_eq!(first.stability.index_in_plane, Some(0));
+    // E2 from roughly its angles.
+    let angles = [73.9_f64, -38.6, -19.7].map(f64::to_radians);
+    let mut places = vec![[0.0; 3]];
+    for (k, angle) in angles.iter().enumerate() {
+        let last = places[k];
+        places.push([0.0, last[1] + angle.sin(), last[2] - angle.cos()]);
+    }
+    let second = solve_from(&system, &Seed::at(places), &Settings::default()).unwrap();
+    judge(&system, &second);
+    let second = second.equilibrium;
+    close(second.energy_j, 3.664_531_348_000_695 - 6.0);
+    assert_eq!((second.stability.index_in_space, second.stability.neutral), (2, 1));
+    assert_eq!(second.stability.index_in_plane, Some(1));
+    assert_eq!(second.stability.in_space, InSpace::Unstable);
+}
+
+/// A cable that is longer than needed is slack; one that just reaches bears nothing.
+#[test]
+fn slack_and_just_taut_cables() {
+    let joints = vec![
+        Joint::anchor("A", [0.0; 3]),
+        Joint::anchor("B", [5.0, 0.0, 0.0]),
+        Joint::anchor("C", [1.8, 3.0, -2.4]),
+        Joint::free("P").with_mass(10.0),
+    ];
+    let with = |length| {
+        let members = vec![cable(0, 3, 3.0, 0.0), bar(1, 3, 4.0, 0.0), cable(2, 3, length, 0.0)];
+        hang(&system(joints.clone(), members))
+    };
+    let slack = with(3.5);
+    assert_eq!((slack.slack.as_slice(), slack.limp.as_slice()), (&[2][..], &[][..]));
+    near(slack.equilibrium.joints_m[3], [1.8, 0.0, -2.4]);
+    close(slack.equilibrium.axial_n[0], 8.0);
+    let taut = with(3.0);
+    assert_eq!(taut.limp, [2]);
+    near(taut.equilibrium.joints_m[3], [1.8, 0.0, -2.4]);
+    close(taut.equilibrium.axial_n[1], 6.0);
+}
+
+/// A bar from an anchor to a slider on a vertical line, and to one in a vertical plane: the bar of 2 m
+/// at 1 m from the anchor hangs at 30 degrees.
+#[test]
+fn sliders() {
+    let line = Support::Line { at_m: [1.0, 0.0, 7.0], direction: [0.0, 0.0, 1.0] };
+    let plane = Support::Plane { at_m: [1.0, 7.0, 7.0], normal: [1.0, 0.0, 0.0] };
+    for support in [line, plane] {
+        let slider = Joint { support, ..Joint::free("S").with_mass(3.0) };
+        let system = system(vec![Joint::anchor("A", [0.0; 3]), slider], vec![bar(0, 1, 2.0, 2.0)]);
+        let answer = hang(&system).equilibrium;
+        near(answer.joints_m[1], [1.0, 0.0, -(3.0_f64.sqrt())]);
+        // 4 N at the slider.
+        close(answer.axial_n[0], 8.0 / 3.0_f64.sqrt());
+        near(answer.reactions_n[1], [4.0 / 3.0_f64.sqrt(), 0.0, 0.0]);
+        near(answer.reactions_n[0], [-4.0 / 3.0_f64.sqrt(), 0.0, 5.0]);
+    }
+}
+
+/// A point on three bars in one plane: one self-stress. With axial forces a, b, a under the weight 1,
+/// `sqrt 2 a + b = 1` and least `2 sqrt 2 a^2 + b^2` give `b = 2 a`, `a = 1/(2 + sqrt 2)`.
+#[test]
+fn indeterminate_forces() {
+    let root = 2.0_f64.sqrt();
+    let mut joints: Vec<_> = [-1.0, 0.0, 1.0]
+        .into_iter()
+        .map(|x| Joint::anchor(format!("{x}"), [x, 0.0, 0.0]))
+        .collect();
+    joints.push(Joint::free("P").with_mass(1.0));
+    let members = [root, 1.0, root].into_iter().enumerate().map(|(k, l)| bar(k, 3, l, 0.0));
+    let solution = hang(&system(joints, members.collect()));
+    assert_eq!(solution.forces, Forces::LeastNorm);
+    assert_eq!(solution.self_stresses.as_ref().map(Vec::len), Some(1));
+    let least = 1.0 / (2.0 + root);
+    close(solution.equilibrium.axial_n[0], least);
+    close(solution.equilibrium.axial_n[1], 2.0 * least);
+}
+
+/// A square net from its four corners: every bar pulls, and the answer has the net's symmetry.
+#[test]
+fn net_of_eight_by_eight() {
+    const N: usize = 8;
+    let span = 0.8 * (N - 1) as f64;
+    let corner = |i: usize| if i == 0 { 0.0 } else { span };
+    let edge = |i: usize| i == 0 || i == N - 1;
+    let mut joints = Vec::new();
+    let mut members = Vec::new();
+    for i in 0..N {
+        for j in 0..N {
+            let name = format!("{i} {j}");
+            joints.push(if edge(i) && edge(j) {
+                Joint::anchor(name, [corner(i), corner(j), 0.0])
+            } else {
+                Joint::free(name)
+            });
+            if i + 1 < N {
+                members.push(bar(i * N + j, (i + 1) * N + j, 1.0, 1.0));
+            }
+            if j + 1 < N {
+                members.push(bar(i * N + j, i * N + j + 1, 1.0, 1.0));
+            }
+        }
+    }
+    let system = system(joints, members);
+    let answer = hang(&system).equilibrium;
+    assert!(answer.axial_n.iter().all(|axial| *axial > 0.0));
+    let quarter = system.total_mass_kg() / 4.0;
+    for (joint, reaction) in system.joints().iter().zip(&answer.reactions_n) {
+        if joint.support.is_fixed() {
+            assert!((reaction[2] - quarter).abs() < 1e-10 * quarter);
+        }
+    }
+    for i in 0..N {
+        for j in 0..N {
+            let (here, there) = (answer.joints_m[i * N + j], answer.joints_m[j * N + i]);
+            assert!((here[2] - there[2]).abs() < 1e-10);
+        }
+    }
+}
+
+#[test]
+fn refusals_name_their_numbers() {
+    let free = vec![Joint::free("P").with_mass(1.0), Joint::free("Q")];
+    let falls = solve(&system(free, vec![bar(0, 1, 1.0, 1.0)]), &Settings::default());
+    let Err(Error::Falls { joint, joints, load_n }) = falls else { panic!("{falls:?}") };
+    assert_eq!((joint.as_str(), joints), ("P", 1));
+    close(load_n, 2.0);
+
+    let rail = Support::Line { at_m: [0.0; 3], direction: [0.0, 0.0, 1.0] };
+    let slides = vec![Joint { support: rail, ..Joint::free("S") }, Joint::free("Q")];
+    let falls = solve(&system(slides, vec![bar(0, 1, 1.0, 1.0)]), &Settings::default());
+    assert!(matches!(falls, Err(Error::Falls { .. })), "{falls:?}");
+
+    let far =
+        vec![Joint::anchor("A", [0.0; 3]), Joint::free("P"), Joint::anchor("B", [3.0, 0.0, 0.0])];
+    let members = vec![bar(0, 1, 1.0, 1.0), bar(1, 2, 1.5, 1.0)];
+    let short = solve(&system(far, members), &Settings::default());
+    let Err(Error::TooShort { distance_m, reach_m, .. }) = short else { panic!("{short:?}") };
+    close(distance_m, 3.0);
+    close(reach_m, 2.5);
+
+    let still = vec![Joint::anchor("A", [0.0; 3]), Joint::free("P")];
+    let unloaded = solve(&system(still, vec![bar(0, 1, 1.0, 0.0)]), &Settings::default());
+    assert_eq!(unloaded, Err(Error::Unloaded));
+}
