@@ -2,10 +2,9 @@
 
 use std::ops::Range;
 
-use model::Vector;
+use model::{VERTICAL_TOLERANCE, Vector};
 
 use crate::coarse::Grouped;
-use crate::frame::on_one_vertical;
 use crate::links::Links;
 use crate::plane::Turn;
 use crate::vector::{VectorSum, along, dot, norm, scaled};
@@ -57,7 +56,7 @@ impl Links {
             hang: hang.iter().map(|h| (h - 0.5 * (highest + lowest)) / between).collect(),
             span: [span, [0.0; 3]],
             up: self.up,
-            vertical: on_one_vertical([norm(level), 0.0, 0.0], 1.0),
+            vertical: norm(level) <= VERTICAL_TOLERANCE,
             motion: self.motion,
         };
         (between > 0.0).then_some((part, turn))
@@ -67,7 +66,7 @@ impl Links {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Motion;
+    use crate::settings::Motion;
 
     /// A chain of a hundred equal bars that hangs from two near anchors.
     fn deep() -> Links {

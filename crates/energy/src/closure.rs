@@ -2,8 +2,8 @@
 
 use model::Vector;
 
-use crate::Motion;
 use crate::links::Links;
+use crate::settings::Motion;
 use crate::symmetric::{Column, Symmetric};
 use crate::vector::{Sum, VectorSum, along, cross, dot, norm, scaled, tangent};
 

@@ -71,7 +71,7 @@ impl Grouped {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Motion;
+    use crate::settings::Motion;
 
     #[test]
     fn a_chain_of_straight_groups_has_the_energy_and_the_closure_of_the_bars() {

@@ -5,9 +5,9 @@ use std::sync::Arc;
 use argmin::core::Operator;
 use model::Vector;
 
-use crate::Motion;
 use crate::closure::{LOST_SPREAD, Shape, add_projector, answer, unpacked};
 use crate::links::Links;
+use crate::settings::Motion;
 use crate::slope::Slope;
 use crate::symmetric::{Column, MOST, Symmetric};
 use crate::vector::{along, cross, dot, norm, scaled, tangent};

@@ -1,20 +1,18 @@
 //! The frame in which the minimiser works.
 
-use model::{Anchors, Vector};
+use model::{Chain, Vector};
 
+use crate::regime::Reach;
 use crate::vector::{Sum, cross, dot, norm, scaled, unit};
 
 /// World up; gravity acts along its negative.
 pub(crate) const WORLD_UP: Vector = [0.0, 0.0, 1.0];
 
-/// A chain that can spare less than this part of its length is drawn out along its span.
+/// An orthonormal frame whose second axis is normal to the vertical plane of the anchors.
 ///
 /// Where all bars are nearly parallel, squares of small angles decide, and they keep their digits
 /// only if the common line is an axis: the span of a chain that is nearly taut or nearly folded, the
 /// vertical of a chain whose two strands hang side by side. In between any axes will do.
-const DRAWN_OUT: f64 = 0.25;
-
-/// An orthonormal frame whose second axis is normal to the vertical plane of the anchors.
 ///
 /// For anchors on one vertical the plane is *OYZ*, the paper's choice.
 #[derive(Debug, Clone, Copy)]
@@ -26,14 +24,12 @@ pub(crate) struct Frame {
 }
 
 impl Frame {
-    /// The frame of a chain of the given total length and with the given length to spare before it
-    /// cannot close any more, m.
-    pub(crate) fn new(anchors: &Anchors, total_length_m: f64, spare_m: f64) -> Self {
-        let difference_m = anchors.difference_m();
-        let horizontal = Self::horizontal(anchors, total_length_m);
+    /// The frame of a chain; its first axis lies along the span if the reach asks for it.
+    pub(crate) fn new(chain: &Chain, reach: Reach) -> Self {
+        let horizontal = Self::horizontal(chain);
         let normal = cross(WORLD_UP, horizontal);
-        match unit(difference_m) {
-            Some(first) if spare_m < DRAWN_OUT * total_length_m && spare_m < anchors.span_m() => {
+        match unit(chain.anchors().difference_m()) {
+            Some(first) if reach.along_span() => {
                 Self { axis: [first, normal, cross(first, normal)], drawn_out: true }
             }
             _ => Self { axis: [horizontal, normal, WORLD_UP], drawn_out: false },
@@ -42,13 +38,14 @@ impl Frame {
 
     /// Horizontal unit vector in the vertical plane of the anchors, towards the end anchor; *Y* when
     /// the anchors lie on one vertical.
-    pub(crate) fn horizontal(anchors: &Anchors, total_length_m: f64) -> Vector {
-        let difference_m = anchors.difference_m();
-        if on_one_vertical(difference_m, total_length_m) {
+    pub(crate) fn horizontal(chain: &Chain) -> Vector {
+        if chain.anchors_on_one_vertical() {
             return [0.0, 1.0, 0.0];
         }
+        let difference_m = chain.anchors().difference_m();
         // Scaled first: squares of metres may leave the range of a double.
-        let flat = scaled(1.0 / total_length_m, [difference_m[0], difference_m[1], 0.0]);
+        let scale = 1.0 / chain.total_length_m();
+        let flat = scaled(scale, [difference_m[0], difference_m[1], 0.0]);
         unit(flat).unwrap_or([0.0, 1.0, 0.0])
     }
 
@@ -84,20 +81,23 @@ impl Frame {
     }
 }
 
-/// Whether the anchors lie on one vertical, to rounding: the chain can then turn about it freely.
-pub(crate) fn on_one_vertical(difference_m: Vector, total_length_m: f64) -> bool {
-    norm([difference_m[0] / total_length_m, difference_m[1] / total_length_m, 0.0])
-        <= 4.0 * f64::EPSILON
-}
-
 #[cfg(test)]
 mod tests {
+    use model::{Anchors, Bar};
+
     use super::*;
+
+    /// Three bars of 1 m that are drawn out along the span.
+    fn frame(end_m: Vector) -> Frame {
+        let anchors = Anchors { start_m: [0.0; 3], end_m };
+        let bars = vec![Bar::homogeneous(1.0, 1.0).unwrap(); 3];
+        Frame::new(&Chain::new("frame", 9.81, anchors, bars).unwrap(), Reach::DrawnOut)
+    }
 
     #[test]
     fn frames_are_orthonormal_and_turn_back() {
         for end_m in [[0.0, 0.0, -2.0], [1.0, -2.0, 0.5], [1e-3, 0.0, 0.0], [0.0; 3]] {
-            let frame = Frame::new(&Anchors { start_m: [0.0; 3], end_m }, 3.0, 0.6);
+            let frame = frame(end_m);
             for i in 0..3 {
                 for k in 0..3 {
                     let expected = if i == k { 1.0 } else { 0.0 };
@@ -115,8 +115,7 @@ mod tests {
 
     #[test]
     fn the_papers_example_moves_in_oyz_and_nothing_is_rounded() {
-        let anchors = Anchors { start_m: [0.0; 3], end_m: [0.0, 0.0, -2.0] };
-        let frame = Frame::new(&anchors, 3.0, 0.6);
+        let frame = frame([0.0, 0.0, -2.0]);
         let bits = |v: Vector| v.map(|x| x.abs().to_bits());
         assert_eq!(bits(frame.into_frame([0.0, 0.0, -2.0])), bits([2.0, 0.0, 0.0]));
         assert_eq!(frame.into_frame([5.0, 0.0, 0.0])[1].abs().to_bits(), 5.0_f64.to_bits());

@@ -2,8 +2,9 @@
 
 use model::{Problem, Vector};
 
-use crate::Motion;
-use crate::frame::{Frame, WORLD_UP, on_one_vertical};
+use crate::frame::{Frame, WORLD_UP};
+use crate::regime::{Reach, Turning};
+use crate::settings::Motion;
 use crate::vector::{Sum, along, dot, norm};
 
 /// A chain with a total length from 1 to 2 and total weight 1, in its own frame.
@@ -55,8 +56,8 @@ impl Links {
         let bars = chain.bars();
         let span_m = chain.anchors().span_m();
         let longest_m = bars.iter().fold(0.0_f64, |m, bar| m.max(bar.length_m()));
-        let spare_m = (total_m - span_m).min(total_m + span_m - 2.0 * longest_m);
-        let frame = Frame::new(chain.anchors(), total_m, spare_m);
+        let reach = Reach::of(bars.len(), total_m, span_m, longest_m);
+        let frame = Frame::new(chain, reach);
         let length = bars.iter().map(|bar| bar.length_m() / length_m).collect();
         // Twice h_i: what hangs after bar i less what hangs before it.
         let mut hang = vec![0.0; bars.len()];
@@ -76,7 +77,7 @@ impl Links {
         let mut up = frame.into_frame(WORLD_UP);
         // Zero by the choice of the frame; rounding must not push a plane chain out of its plane.
         up[1] = 0.0;
-        let vertical = on_one_vertical(difference_m, total_m);
+        let vertical = chain.anchors_on_one_vertical();
         (Self { length, hang, span, up, vertical, motion }, Units { length_m, weight_n, frame })
     }
 
@@ -104,7 +105,7 @@ impl Links {
 
     /// Whether the turn of the whole chain about its anchors is a motion that costs nothing.
     pub(crate) fn turns(&self) -> bool {
-        self.vertical && self.motion == Motion::Space
+        Turning::of(self) == Turning::Free
     }
 
     /// Gradient of the Lagrangian by the direction of bar `i`, over its length: `h_i up + mu`.

@@ -8,13 +8,15 @@ use model::{Problem, Vector};
 
 use crate::closure::Shape;
 use crate::curvature::Curvature;
-use crate::hanging::Hanging;
+use crate::error::Error;
 use crate::links::Links;
+use crate::objective::Objective;
+use crate::seed::Seed;
+use crate::settings::Settings;
 use crate::slope::Slope;
+use crate::solution::Solution;
 use crate::solver::{FeasibleNewton, Iterate};
-use crate::straight::lost;
 use crate::vector::norm;
-use crate::{Error, Seed, Settings, Solution};
 
 /// Corrections of the closure from a seed, which may be anywhere.
 const SEED_CORRECTIONS: usize = 300;
@@ -137,7 +139,7 @@ pub(crate) fn descend(
         .close(Shape { u: start, moments }, SEED_CORRECTIONS)
         .map_err(|(gap, iterations)| Error::NotClosed { gap: gap / links.total(), iterations })?;
     let state =
-        Executor::new(Hanging { links: Arc::clone(&links) }, FeasibleNewton::new(*settings))
+        Executor::new(Objective { links: Arc::clone(&links) }, FeasibleNewton::new(*settings))
             .configure(|state: Iterate| {
                 state.param(Arc::new(closed)).max_iters(settings.max_iterations)
             })
@@ -150,7 +152,7 @@ pub(crate) fn descend(
     outcome(&state)?;
     match (state.take_param(), state.take_gradient()) {
         (Some(shape), Some(slope)) => {
-            if let Some(across) = lost(&links, &slope) {
+            if let Some(across) = slope.lost(&links) {
                 return Err(Error::NearlyFolded { across });
             }
             let gap = norm(shape.moments.gap);

@@ -2,14 +2,10 @@
 
 use model::Vector;
 
-use crate::Motion;
 use crate::links::Links;
+use crate::regime::Turning;
 use crate::slope::Slope;
 use crate::vector::{dot, unit};
-
-/// Anchors with less than this part of the chain's length between their verticals lie almost on one
-/// vertical: the turn is soft, and steps along straight lines distort the chain more than they win.
-const NEARLY_VERTICAL: f64 = 0.01;
 
 /// A step by the angle `phi` along straight lines distorts the chain by `phi²`, against a gradient of
 /// the distance of the verticals times `phi`: up to this part of the distance Newton's method turns
@@ -72,7 +68,7 @@ impl Turn {
         let (up, multiplier) = (links.up, slope.multiplier);
         let level = [up[2], 0.0, -up[0]];
         let offset = dot(level, links.span[0]);
-        if links.motion == Motion::Plane || links.vertical || offset.abs() > NEARLY_VERTICAL {
+        if Turning::of(links) != Turning::Soft {
             return None;
         }
         let pull = [dot(level, multiplier) * offset.signum(), multiplier[1] * offset.signum()];
@@ -117,6 +113,7 @@ impl Turn {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::settings::Motion;
 
     #[test]
     fn a_turned_chain_comes_into_the_plane_and_goes_back() {

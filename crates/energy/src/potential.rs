@@ -2,7 +2,7 @@
 
 use model::Problem;
 
-use crate::Seed;
+use crate::seed::Seed;
 use crate::vector::Sum;
 
 /// Potential energy of a chain with the given directions, measured from the height of joint 0, J.

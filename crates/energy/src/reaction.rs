@@ -2,13 +2,15 @@
 
 use model::{Problem, Reactions, Vector};
 
+use crate::error::Error;
 use crate::frame::WORLD_UP;
 use crate::links::{Links, Units};
 use crate::minimise::descend;
 use crate::plane::Turn;
+use crate::settings::{Motion, Settings};
 use crate::slope::Slope;
+use crate::solution::Solution;
 use crate::vector::{Sum, along, norm, scaled};
-use crate::{Error, Motion, Settings, Solution};
 
 /// The force at every joint, world frame, N, in the order of the paper's multipliers.
 ///

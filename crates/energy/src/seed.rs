@@ -2,10 +2,11 @@
 
 use model::{Problem, Vector};
 
+use crate::error::Error;
 use crate::frame::Frame;
 use crate::links::{Links, Units};
+use crate::settings::Motion;
 use crate::vector::{scaled, unit};
-use crate::{Error, Motion};
 
 /// One direction per bar, from joint *i*-1 to joint *i*, in the world frame. Any length but zero;
 /// the chain need not close.
@@ -49,7 +50,7 @@ impl Seed {
         if let Some(&angle_rad) = angles_rad.iter().find(|a| !a.is_finite()) {
             return Err(Error::SeedAngle { angle_rad });
         }
-        let across = Frame::horizontal(chain.anchors(), chain.total_length_m());
+        let across = Frame::horizontal(chain);
         let directions: Vec<Vector> = angles_rad
             .iter()
             .map(|angle| {

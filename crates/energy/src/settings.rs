@@ -1,6 +1,6 @@
 //! What the caller may choose.
 
-use crate::Error;
+use crate::error::Error;
 
 /// The motions among which the energy is minimised.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]

@@ -4,7 +4,7 @@ use model::Vector;
 
 use crate::closure::{Shape, answer};
 use crate::links::Links;
-use crate::straight::{line, opening_multiplier};
+use crate::strands::{line, off_the_line, opening_multiplier};
 use crate::vector::{dot, norm, scaled, tangent};
 
 /// The projected gradient and what comes with it.
@@ -82,6 +82,13 @@ impl Slope {
     /// force (or the weight, if that is more).
     pub(crate) fn residual(&self) -> f64 {
         self.across / self.pull
+    }
+
+    /// How far off the common line of the bars the end anchor lies, in total lengths, where all bars are on
+    /// a line and one is compressed: what tells the positions of such a chain apart is lost. With all bars
+    /// in tension there is nothing to tell: no configuration has less energy.
+    pub(crate) fn lost(&self, links: &Links) -> Option<f64> {
+        off_the_line(links, self.line.filter(|_| !self.opened)?)
     }
 
     /// Size of the multiplier: what an error of the closure costs.

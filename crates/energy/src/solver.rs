@@ -7,13 +7,14 @@ use model::Vector;
 
 use crate::closure::{LOST_SPREAD, Shape};
 use crate::curvature::Curvature;
-use crate::hanging::{Hanging, Place};
+use crate::error::Error;
 use crate::links::Links;
+use crate::objective::{Objective, Place};
 use crate::plane::Turn;
+use crate::settings::Settings;
 use crate::slope::Slope;
-use crate::straight::{lost, off_the_line};
+use crate::strands::off_the_line;
 use crate::vector::{dot, norm, scaled};
-use crate::{Error, Settings};
 
 /// argmin's state for this solver: closed shape, projected gradient, projected Hessian.
 pub(crate) type Iterate = IterState<Arc<Shape>, Arc<Slope>, (), Curvature, (), f64>;
@@ -114,7 +115,7 @@ impl FeasibleNewton {
     /// Turn the whole chain towards the plane of its anchors, if that is far and the turn is soft.
     fn swing(
         &mut self,
-        problem: &mut Problem<Hanging>,
+        problem: &mut Problem<Objective>,
         links: &Links,
         shape: &Shape,
         slope: &Slope,
@@ -144,7 +145,7 @@ impl FeasibleNewton {
     /// there is no such mode or no way along it.
     fn escape(
         &mut self,
-        problem: &mut Problem<Hanging>,
+        problem: &mut Problem<Objective>,
         curvature: &Curvature,
     ) -> Result<Option<Place>, argmin::core::Error> {
         let (links, shape, slope) = (&curvature.links, &curvature.shape, &curvature.slope);
@@ -178,7 +179,7 @@ impl FeasibleNewton {
 
 /// Make a closed shape the current iterate.
 fn accept(
-    problem: &mut Problem<Hanging>,
+    problem: &mut Problem<Objective>,
     state: Iterate,
     shape: Arc<Shape>,
     slope: Arc<Slope>,
@@ -206,7 +207,7 @@ fn rounding_floor(shape: &Shape) -> f64 {
 
 /// How far directions in double precision leave the forces in doubt, as a part of the largest: of bars at an angle `a`
 /// to a common line they hold the forces along the line to a rounding, and what is left of the gradient, over `a`. On
-/// the line itself the forces are those of the limit (module `straight`), exact if the anchors are on it; by as much as
+/// the line itself the forces are those of the limit (module `strands`), exact if the anchors are on it; by as much as
 /// they are off it the bars have room to turn by the root of that. With a bar pushed on the line nothing is known of
 /// what the bars share along it.
 pub(crate) fn doubt(links: &Links, shape: &Shape, slope: &Slope) -> f64 {
@@ -220,7 +221,7 @@ pub(crate) fn doubt(links: &Links, shape: &Shape, slope: &Slope) -> f64 {
 
 /// Why no step helps: the chain is folded beyond what double precision tells, or it is not known.
 fn stalled(links: &Links, state: &Iterate, slope: &Slope) -> argmin::core::Error {
-    if let Some(across) = lost(links, slope) {
+    if let Some(across) = slope.lost(links) {
         return Error::NearlyFolded { across }.into();
     }
     Error::Stalled { iterations: state.get_iter(), gradient: slope.residual() }.into()
@@ -234,14 +235,14 @@ fn current(state: &mut Iterate) -> Result<(Arc<Shape>, Arc<Slope>), Error> {
     }
 }
 
-impl Solver<Hanging, Iterate> for FeasibleNewton {
+impl Solver<Objective, Iterate> for FeasibleNewton {
     fn name(&self) -> &'static str {
         "feasible Newton"
     }
 
     fn init(
         &mut self,
-        problem: &mut Problem<Hanging>,
+        problem: &mut Problem<Objective>,
         mut state: Iterate,
     ) -> Result<(Iterate, Option<KV>), argmin::core::Error> {
         let Some(shape) = state.take_param() else {
@@ -253,7 +254,7 @@ impl Solver<Hanging, Iterate> for FeasibleNewton {
 
     fn next_iter(
         &mut self,
-        problem: &mut Problem<Hanging>,
+        problem: &mut Problem<Objective>,
         mut state: Iterate,
     ) -> Result<(Iterate, Option<KV>), argmin::core::Error> {
         let place = current(&mut state)?;

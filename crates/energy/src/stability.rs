@@ -6,12 +6,14 @@ use model::{InPlane, InSpace, Problem, Stability};
 
 use crate::closure::Shape;
 use crate::curvature::Curvature;
+use crate::error::Error;
 use crate::links::Links;
 use crate::minimise::Minimum;
 use crate::plane::Turn;
+use crate::seed::Seed;
+use crate::settings::Motion;
 use crate::slope::Slope;
 use crate::solver::ZERO_CURVATURE;
-use crate::{Error, Motion, Seed};
 
 /// Second-order behaviour, and how well it is decided.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -9,10 +9,10 @@ use model::Vector;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-use crate::Motion;
 use crate::closure::Shape;
 use crate::curvature::Curvature;
 use crate::links::Links;
+use crate::settings::Motion;
 use crate::slope::Slope;
 use crate::vector::{along, cross, dot, norm, scaled, tangent, unit};
 

@@ -10,7 +10,7 @@ use super::control::{Lane, Next};
 use super::piece::{Piece, Pieces, direction};
 use super::point::{Moves, Place, measure, slopes, turn};
 use super::wide::{WIDTH, same};
-use crate::Error;
+use crate::error::Error;
 
 /// What can be chosen.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -8,7 +8,9 @@ use rand_chacha::ChaCha8Rng;
 
 use super::piece::direction;
 use super::{Batch, BatchSettings, Ends, Finish};
-use crate::{Motion, Seed, Settings, minimise_from};
+use crate::minimise::minimise_from;
+use crate::seed::Seed;
+use crate::settings::{Motion, Settings};
 
 fn random_problem(rng: &mut ChaCha8Rng, bars: usize) -> Problem {
     loop {

@@ -8,8 +8,9 @@ use argmin::core::{
 };
 
 use super::{beta, closure, closure_gradient, potential, potential_gradient};
+use crate::error::Error;
 use crate::minimise::{ended, verdict};
-use crate::{Error, Settings};
+use crate::settings::Settings;
 
 /// A local minimum of (vi) on the closure curve.
 #[derive(Debug, Clone, Copy, PartialEq)]

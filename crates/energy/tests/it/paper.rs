@@ -3,7 +3,7 @@
 
 use crate::support::{difference, random_seed, rng, unbalanced};
 use energy::{
-    Motion, Seed, Settings, minimise, minimise_from, potential_j, reaction_by_differences, survey,
+    Motion, Seed, Settings, minimise, minimise_from, potential_j, reaction_by_differences,
 };
 use model::{InPlane, InSpace, STANDARD_GRAVITY_M_S2 as MG, cases};
 
@@ -91,13 +91,16 @@ fn ten_thousand_seeds_in_space_all_reach_the_one_minimum() {
     let problem = cases::paper();
     let mut rng = rng(2);
     let seeds: Vec<Seed> = (0..10_000).map(|_| random_seed(&problem, &mut rng)).collect();
-    let found = survey(&problem, &seeds, &Settings::default()).unwrap();
-    assert_eq!((found.tried, found.converged()), (10_000, 10_000), "{:?}", found.failures);
-    assert_eq!(found.levels.len(), 1);
-    assert!((found.levels[0].energy / MG + 6.0 - E1_MGL).abs() < 1e-13);
+    let (mut total, mut most) = (0, 0);
+    for seed in &seeds {
+        let found = minimise_from(&problem, seed, &Settings::default()).unwrap();
+        assert!((found.equilibrium.energy_j / MG + 6.0 - E1_MGL).abs() < 1e-13);
+        total += found.work.iterations;
+        most = most.max(found.work.iterations);
+    }
     // The work, frozen with room for another processor's square root.
-    assert!(found.mean_iterations() < 9.0, "{}", found.mean_iterations());
-    assert!(found.most_iterations() <= 25, "{}", found.most_iterations());
+    assert!(total < 90_000, "{total}");
+    assert!(most <= 25, "{most}");
 }
 
 #[test]

@@ -4,7 +4,6 @@ use model::{STRAIGHT_TOLERANCE, Vector};
 
 use crate::closure::{LOST_SPREAD, Shape};
 use crate::links::Links;
-use crate::slope::Slope;
 use crate::vector::{along, cross, dot, norm};
 
 /// Only below this ratio of diagonal entries is a look at the eigenvalues worth while: the frame has
@@ -42,12 +41,6 @@ pub(crate) fn off_the_line(links: &Links, e: Vector) -> Option<f64> {
     let span: Vector = std::array::from_fn(|k| span[k] + rest[k]);
     let across = norm(cross(e, span)) / links.total();
     (across > STRAIGHT_TOLERANCE).then_some(across)
-}
-
-/// The same where all bars are on a line and one is pushed: what tells the positions of such a chain apart is lost.
-/// With all bars in tension there is nothing to tell: no configuration has less energy.
-pub(crate) fn lost(links: &Links, slope: &Slope) -> Option<f64> {
-    off_the_line(links, slope.line.filter(|_| !slope.opened)?)
 }
 
 /// The multiplier of a chain that hangs straight down and up again, its fold exactly at a joint.
@@ -108,7 +101,7 @@ pub(crate) fn opening_multiplier(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Motion;
+    use crate::settings::Motion;
 
     /// Nothing hangs at the fold: the two bars there are slack, whatever multiplier it starts from, and the
     /// rounding of its loads pushes neither.

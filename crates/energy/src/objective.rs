@@ -14,16 +14,16 @@ use crate::slope::Slope;
 /// The parameter is a closed [`Shape`], shared and never changed: argmin keeps copies of the
 /// current, the previous and the best one, and a chain of a million bars is copied for none of them.
 #[derive(Debug, Clone)]
-pub(crate) struct Hanging {
+pub(crate) struct Objective {
     pub(crate) links: Arc<Links>,
 }
 
 /// Refuse what is not a number: a minimiser that compares with NaN may never stop.
 fn finite(value: f64, quantity: &'static str) -> Result<(), Error> {
-    if value.is_finite() { Ok(()) } else { Err(crate::Error::NotFinite { quantity }.into()) }
+    if value.is_finite() { Ok(()) } else { Err(crate::error::Error::NotFinite { quantity }.into()) }
 }
 
-impl CostFunction for Hanging {
+impl CostFunction for Objective {
     type Param = Arc<Shape>;
     type Output = f64;
 
@@ -33,7 +33,7 @@ impl CostFunction for Hanging {
     }
 }
 
-impl Gradient for Hanging {
+impl Gradient for Objective {
     type Param = Arc<Shape>;
     type Gradient = Arc<Slope>;
 
@@ -47,7 +47,7 @@ impl Gradient for Hanging {
 /// The pair at which the second derivative is taken.
 pub(crate) type Place = (Arc<Shape>, Arc<Slope>);
 
-impl Hessian for Hanging {
+impl Hessian for Objective {
     type Param = Place;
     type Hessian = Curvature;
 
