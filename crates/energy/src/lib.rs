@@ -87,6 +87,7 @@ mod twins;
 
 pub mod batch;
 pub mod example;
+pub mod network;
 
 pub use error::Error;
 pub use minimise::{minimise, minimise_from};

@@ -1,6 +1,8 @@
 //! Tests of the crate from outside.
 
 mod chains;
+mod network;
+mod network_support;
 mod paper;
 mod physics;
 mod support;

@@ -1,0 +1,128 @@
+//! Why there is no answer.
+
+use model::Vector;
+
+/// Why a minimisation gave no answer. `Ok` means converged to a local minimum, nothing less.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// Occurs when a setting is out of its range.
+    #[error("the setting {field} must lie between {low:e} and {high:e}, got {value:e}")]
+    Setting {
+        /// Name of the field.
+        field: &'static str,
+        /// Its value.
+        value: f64,
+        /// Smallest allowed value.
+        low: f64,
+        /// Largest allowed value.
+        high: f64,
+    },
+    /// Occurs when a system has no member.
+    #[error("the system has no member")]
+    NoMember,
+    /// Occurs when no force acts and no member is elastic: every configuration has the same energy.
+    #[error("no force acts on the system, and no member is elastic: nothing decides its shape")]
+    NoLoad,
+    /// Occurs when the direction of a support is zero, infinite or not a number.
+    #[error("the support of joint {joint} has a direction that points nowhere: [{}, {}, {}]", direction[0], direction[1], direction[2])]
+    Direction {
+        /// Number of the joint, from 0.
+        joint: usize,
+        /// The direction as given.
+        direction: Vector,
+    },
+    /// Occurs when a part of the system is free to move for ever along its load.
+    #[error(
+        "the part of the system with joint {joint} falls for ever: its supports leave it free to move along \
+         a force of {force_n} N"
+    )]
+    Falls {
+        /// Number of a joint of the part, from 0.
+        joint: usize,
+        /// Force along the motion, N.
+        force_n: f64,
+    },
+    /// Occurs when a seed has not one place per joint, or one that is not finite.
+    #[error("a seed needs a finite place for each of the {joints} joints, got {given}")]
+    Seed {
+        /// Joints of the system.
+        joints: usize,
+        /// Finite places of the seed.
+        given: usize,
+    },
+    /// Occurs when no configuration is found that keeps the lengths: supports too far apart, or a loop that
+    /// cannot be closed.
+    #[error(
+        "the lengths cannot all be kept: member {member} is {misfit_m} m off in the best configuration found"
+    )]
+    NotClosed {
+        /// Number of the member with the largest misfit, from 1.
+        member: usize,
+        /// Its misfit, m.
+        misfit_m: f64,
+    },
+    /// Occurs when the iterations are used up.
+    #[error(
+        "not converged after {iterations} iterations: unbalanced force {unbalance:e} of the largest, lengths \
+         off by {misfit:e}"
+    )]
+    IterationLimit {
+        /// Iterations made.
+        iterations: u64,
+        /// Largest unbalanced force over the largest force.
+        unbalance: f64,
+        /// Largest misfit of a length over the length.
+        misfit: f64,
+    },
+    /// Occurs when no step lowers the energy and the residual is still above its tolerance.
+    #[error(
+        "no step lowers the energy any further: unbalanced force {unbalance:e} of the largest, lengths off \
+         by {misfit:e}"
+    )]
+    Stalled {
+        /// Largest unbalanced force over the largest force.
+        unbalance: f64,
+        /// Largest misfit of a length over the length.
+        misfit: f64,
+    },
+    /// Occurs when a number of the computation is infinite or not a number.
+    #[error("the {quantity} is not a finite number")]
+    NotFinite {
+        /// Which number.
+        quantity: &'static str,
+    },
+    /// Occurs when there is not enough memory for the factorisation.
+    #[error("not enough memory to factorise a system of {coordinates} coordinates")]
+    Memory {
+        /// Coordinates of the system.
+        coordinates: usize,
+    },
+    /// Occurs when argmin ends a run for a reason that this crate never gives it.
+    #[error("argmin ended the run: {reason}")]
+    Ended {
+        /// The reason, in argmin's words.
+        reason: String,
+    },
+}
+
+impl Error {
+    /// The kind of the error in a few words, for counting.
+    #[must_use]
+    pub fn reason(&self) -> &'static str {
+        match self {
+            Self::Setting { .. } => "setting out of range",
+            Self::NoMember => "no member",
+            Self::NoLoad => "no load",
+            Self::Direction { .. } => "bad support",
+            Self::Falls { .. } => "falls",
+            Self::Seed { .. } => "bad seed",
+            Self::NotClosed { .. } => "not closed",
+            Self::IterationLimit { .. } => "iteration limit",
+            Self::Stalled { .. } => "stalled",
+            Self::NotFinite { .. } => "not finite",
+            Self::Memory { .. } => "out of memory",
+            Self::Ended { .. } => "ended by argmin",
+        }
+    }
+}

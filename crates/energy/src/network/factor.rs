@@ -1,0 +1,284 @@
+//! Sparse factorisations of matrices that couple the ends of members.
+
+use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
+use faer::linalg::cholesky::ldlt::factor::LdltRegularization;
+use faer::linalg::cholesky::llt::factor::LltRegularization;
+use faer::perm::PermRef;
+use faer::sparse::linalg::amd;
+use faer::sparse::linalg::cholesky::{
+    CholeskySymbolicParams, LdltRef, LltRef, SymbolicCholesky, SymbolicCholeskyRaw,
+    SymmetricOrdering, factorize_symbolic_cholesky, supernodal::SupernodalLdltRef,
+};
+use faer::sparse::{SparseColMatRef, SymbolicSparseColMat};
+use faer::{Conj, MatMut, Par, Side, Spec};
+use model::Vector;
+
+use crate::network::Error;
+use crate::network::frame::{Rod, Spot};
+use crate::vector::dot;
+
+/// What a member puts on the difference of its ends: `isotropic I + along d dᵀ`.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Block {
+    pub(super) isotropic: f64,
+    pub(super) along: f64,
+    pub(super) direction: Vector,
+}
+
+impl Block {
+    /// The bilinear form.
+    pub(super) fn between(&self, a: Vector, b: Vector) -> f64 {
+        self.isotropic * dot(a, b) + self.along * dot(self.direction, a) * dot(self.direction, b)
+    }
+}
+
+/// Which factorisation is at hand.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Kept {
+    Nothing,
+    Cholesky,
+    Signed,
+}
+
+/// A symmetric matrix with a block for each joint and each pair of joints that a member connects, and
+/// its factorisation.
+///
+/// The order of elimination is one of joints (approximate minimum degree): trees and chains are
+/// eliminated without fill-in, plane nets of *n* joints in about `n^1.5` operations.
+pub(super) struct Factor {
+    pattern: SymbolicSparseColMat<usize>,
+    symbolic: SymbolicCholesky<usize>,
+    /// For each member the joint that comes first in the matrix, the other one, and how many rows of the
+    /// first one's columns stand between the diagonal block and theirs; nothing for a support that is fixed.
+    pairs: Vec<Option<(usize, usize, usize)>>,
+    values: Vec<f64>,
+    lower: Vec<f64>,
+    memory: MemBuffer,
+    kept: Kept,
+    /// Factorisations made.
+    pub(super) count: u64,
+}
+
+/// For each joint that moves the joints after it that a member connects with it, itself first.
+fn neighbours(spots: &[Spot], rods: &[Rod]) -> Vec<Vec<usize>> {
+    let mut columns: Vec<Vec<usize>> =
+        (0..spots.len()).map(|j| if spots[j].freedom > 0 { vec![j] } else { vec![] }).collect();
+    for rod in rods {
+        if spots[rod.from].freedom > 0 && spots[rod.to].freedom > 0 {
+            columns[rod.from.min(rod.to)].push(rod.from.max(rod.to));
+        }
+    }
+    for column in &mut columns {
+        column.sort_unstable();
+        column.dedup();
+    }
+    columns
+}
+
+/// Order of elimination of the coordinates: approximate minimum degree of the joints.
+fn order(spots: &[Spot], columns: &[Vec<usize>]) -> Result<Vec<usize>, Error> {
+    let moving: Vec<usize> = (0..spots.len()).filter(|&j| spots[j].freedom > 0).collect();
+    let mut number = vec![0; spots.len()];
+    for (k, &j) in moving.iter().enumerate() {
+        number[j] = k;
+    }
+    let (mut starts, mut rows) = (vec![0], Vec::new());
+    for &j in &moving {
+        rows.extend(columns[j].iter().map(|&i| number[i]));
+        starts.push(rows.len());
+    }
+    let n = moving.len();
+    let (mut forward, mut inverse) = (vec![0; n], vec![0; n]);
+    let mut memory = MemBuffer::new(amd::order_maybe_unsorted_scratch::<usize>(n, rows.len()));
+    let pattern = SymbolicSparseColMat::new_checked(n, n, starts, None, rows);
+    amd::order_maybe_unsorted(
+        &mut forward,
+        &mut inverse,
+        pattern.as_ref(),
+        amd::Control::default(),
+        MemStack::new(&mut memory),
+    )
+    .map_err(|_| Error::Memory { coordinates: n })?;
+    let coordinates = |k: usize| {
+        let spot = spots[moving[k]];
+        spot.first..spot.first + spot.freedom
+    };
+    Ok(forward.into_iter().flat_map(coordinates).collect())
+}
+
+/// The lower triangle's pattern, column by column.
+fn lower_pattern(spots: &[Spot], columns: &[Vec<usize>]) -> (Vec<usize>, Vec<usize>) {
+    let (mut starts, mut rows) = (vec![0], Vec::new());
+    for (j, spot) in spots.iter().enumerate() {
+        for k in 0..spot.freedom {
+            rows.extend(spot.first + k..spot.first + spot.freedom);
+            for &i in columns[j].iter().skip(1) {
+                rows.extend(spots[i].first..spots[i].first + spots[i].freedom);
+            }
+            starts.push(rows.len());
+        }
+    }
+    (starts, rows)
+}
+
+impl Factor {
+    /// Choose the order of elimination and find the pattern of the factor.
+    pub(super) fn new(spots: &[Spot], rods: &[Rod]) -> Result<Self, Error> {
+        let columns = neighbours(spots, rods);
+        let forward = order(spots, &columns)?;
+        let n = forward.len();
+        let out_of_memory = || Error::Memory { coordinates: n };
+        let mut inverse = vec![0; n];
+        for (k, &p) in forward.iter().enumerate() {
+            inverse[p] = k;
+        }
+        let (starts, rows) = lower_pattern(spots, &columns);
+        let entries = rows.len();
+        let pattern = SymbolicSparseColMat::new_checked(n, n, starts, None, rows);
+        let symbolic = factorize_symbolic_cholesky(
+            pattern.as_ref(),
+            Side::Lower,
+            SymmetricOrdering::Custom(PermRef::new_checked(&forward, &inverse, n)),
+            CholeskySymbolicParams::default(),
+        )
+        .map_err(|_| out_of_memory())?;
+        let pairs = rods.iter().map(|rod| {
+            let (first, second) = (rod.from.min(rod.to), rod.from.max(rod.to));
+            let column = &columns[first];
+            let place =
+                column.binary_search(&second).ok().filter(|_| !columns[second].is_empty())?;
+            Some((first, second, column[1..place].iter().map(|&i| spots[i].freedom).sum()))
+        });
+        let scratch = StackReq::any_of(&[
+            symbolic.factorize_numeric_llt_scratch::<f64>(Par::Seq, Spec::default()),
+            symbolic.factorize_numeric_ldlt_scratch::<f64>(Par::Seq, Spec::default()),
+            symbolic.solve_in_place_scratch::<f64>(3, Par::Seq),
+        ]);
+        Ok(Self {
+            pairs: pairs.collect(),
+            values: vec![0.0; entries],
+            lower: vec![0.0; symbolic.len_val()],
+            memory: MemBuffer::try_new(scratch).map_err(|_| out_of_memory())?,
+            pattern,
+            symbolic,
+            kept: Kept::Nothing,
+            count: 0,
+        })
+    }
+
+    /// Size of the matrix.
+    pub(super) fn size(&self) -> usize {
+        self.symbolic.nrows()
+    }
+
+    /// Put the matrix together: the block of each member on the difference of its ends, and
+    /// `shift(joint)` on the diagonal.
+    pub(super) fn fill(
+        &mut self,
+        spots: &[Spot],
+        rods: &[Rod],
+        block: impl Fn(usize) -> Block,
+        shift: impl Fn(usize) -> f64,
+    ) {
+        let starts = self.pattern.col_ptr();
+        self.values.fill(0.0);
+        for (j, spot) in spots.iter().enumerate() {
+            for k in 0..spot.freedom {
+                self.values[starts[spot.first + k]] = shift(j);
+            }
+        }
+        for (e, rod) in rods.iter().enumerate() {
+            let block = block(e);
+            for j in [rod.from, rod.to] {
+                let spot = &spots[j];
+                for k in 0..spot.freedom {
+                    let start = starts[spot.first + k];
+                    for t in k..spot.freedom {
+                        self.values[start + t - k] += block.between(spot.axes[t], spot.axes[k]);
+                    }
+                }
+            }
+            let Some((first, second, skipped)) = self.pairs[e] else { continue };
+            let (column, row) = (&spots[first], &spots[second]);
+            for k in 0..column.freedom {
+                let start = starts[column.first + k] + column.freedom - k + skipped;
+                for t in 0..row.freedom {
+                    self.values[start + t] -= block.between(row.axes[t], column.axes[k]);
+                }
+            }
+        }
+    }
+
+    /// Cholesky's factorisation of the matrix; whether the matrix is positive definite.
+    pub(super) fn cholesky(&mut self) -> bool {
+        self.count += 1;
+        let matrix = SparseColMatRef::new(self.pattern.as_ref(), &self.values);
+        let done = self.symbolic.factorize_numeric_llt(
+            &mut self.lower,
+            matrix,
+            Side::Lower,
+            LltRegularization::default(),
+            Par::Seq,
+            MemStack::new(&mut self.memory),
+            Spec::default(),
+        );
+        // A pivot that is no number passes for a positive one.
+        let definite = done.is_ok() && self.lower.iter().all(|value| value.is_finite());
+        self.kept = if definite { Kept::Cholesky } else { Kept::Nothing };
+        definite
+    }
+
+    /// The factorisation `L D Lᵀ` and its number of negative pivots: by Sylvester's law that of negative
+    /// eigenvalues. Nothing where a pivot vanishes.
+    pub(super) fn negative_pivots(&mut self) -> Option<usize> {
+        self.count += 1;
+        let matrix = SparseColMatRef::new(self.pattern.as_ref(), &self.values);
+        let done = self.symbolic.factorize_numeric_ldlt(
+            &mut self.lower,
+            matrix,
+            Side::Lower,
+            LdltRegularization::default(),
+            Par::Seq,
+            MemStack::new(&mut self.memory),
+            Spec::default(),
+        );
+        self.kept = Kept::Nothing;
+        if done.is_err() || !self.lower.iter().all(|value| value.is_finite()) {
+            return None;
+        }
+        self.kept = Kept::Signed;
+        let pivots: Vec<f64> = match self.symbolic.raw() {
+            SymbolicCholeskyRaw::Simplicial(simplicial) => {
+                let starts = simplicial.col_ptr();
+                (0..self.size()).map(|k| self.lower[starts[k]]).collect()
+            }
+            SymbolicCholeskyRaw::Supernodal(supernodal) => {
+                let factor = SupernodalLdltRef::<usize, f64>::new(supernodal, &self.lower);
+                let diagonal = |s| {
+                    let values = factor.supernode(s).val();
+                    (0..values.ncols()).map(move |k| values[(k, k)])
+                };
+                (0..supernodal.n_supernodes()).flat_map(diagonal).collect()
+            }
+        };
+        Some(pivots.into_iter().filter(|pivot| *pivot < 0.0).count())
+    }
+
+    /// Solve with the factorisation made last, one right side after the other.
+    pub(super) fn solve(&mut self, right: &mut [f64]) {
+        let n = self.size();
+        if n == 0 {
+            return;
+        }
+        let columns = right.len() / n;
+        let right = MatMut::from_column_major_slice_mut(right, n, columns);
+        let stack = MemStack::new(&mut self.memory);
+        match self.kept {
+            Kept::Cholesky => LltRef::<usize, f64>::new(&self.symbolic, &self.lower)
+                .solve_in_place_with_conj(Conj::No, right, Par::Seq, stack),
+            Kept::Signed => LdltRef::<usize, f64>::new(&self.symbolic, &self.lower)
+                .solve_in_place_with_conj(Conj::No, right, Par::Seq, stack),
+            Kept::Nothing => debug_assert!(false, "no factorisation to solve with"),
+        }
+    }
+}

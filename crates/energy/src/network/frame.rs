@@ -1,0 +1,206 @@
+//! A system in the units and coordinates of the solver.
+
+use model::Vector;
+use model::system::{Joint, Kind, Member, Support, System};
+
+use crate::network::Error;
+use crate::vector::{along, cross, dot, norm, scaled, unit};
+
+/// A joint with the directions in which it can move.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Spot {
+    /// Number of its first coordinate.
+    pub(super) first: usize,
+    /// Number of its coordinates, 0 to 3.
+    pub(super) freedom: usize,
+    /// Orthonormal directions of its coordinates.
+    pub(super) axes: [Vector; 3],
+}
+
+/// A member without its weight, which acts at the joints.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Rod {
+    pub(super) from: usize,
+    pub(super) to: usize,
+    /// Unstretched length.
+    pub(super) length: f64,
+    pub(super) kind: Kind,
+    /// Elongation by a unit force; zero where inextensible.
+    pub(super) flexibility: f64,
+}
+
+/// The system without units: lengths in the longest member's, forces in the sum of all loads.
+///
+/// A force at a point of a straight member is linear in the places of the ends. Hence all weights and
+/// constant forces of a member act as if shared by its joints in the ratio of the lever arms.
+#[derive(Debug, Clone)]
+pub(super) struct Frame {
+    /// The origin in the world, m.
+    pub(super) origin_m: Vector,
+    /// The unit of length, m.
+    pub(super) length_m: f64,
+    /// The unit of force, N.
+    pub(super) force_n: f64,
+    pub(super) spots: Vec<Spot>,
+    /// Where supports are; the origin for free joints.
+    pub(super) supports: Vec<Vector>,
+    pub(super) rods: Vec<Rod>,
+    /// Load of each joint, the shares of its members included.
+    pub(super) loads: Vec<Vector>,
+    /// Number of coordinates.
+    pub(super) freedom: usize,
+}
+
+/// The loads of a member shared by its joints, N.
+pub(super) fn shares_n(member: &Member, gravity_m_s2: f64) -> [Vector; 2] {
+    let body = &member.body;
+    let mut shares = [[0.0; 3]; 2];
+    let mut put = |at_m: f64, force_n: Vector| {
+        let part = at_m / body.length_m();
+        shares[0] = along(shares[0], 1.0 - part, force_n);
+        shares[1] = along(shares[1], part, force_n);
+    };
+    put(body.centre_m(), [0.0, 0.0, -body.mass_kg() * gravity_m_s2]);
+    for load in &member.loads {
+        put(load.at_m, load.force_n);
+    }
+    shares
+}
+
+/// Load of each joint, the shares of its members included, N.
+fn loads_n(system: &System) -> Vec<Vector> {
+    let gravity = system.gravity_m_s2();
+    let weight = |joint: &Joint| along(joint.force_n, joint.mass_kg * gravity, [0.0, 0.0, -1.0]);
+    let mut loads: Vec<Vector> = system.joints().iter().map(weight).collect();
+    for member in system.members() {
+        let [start, end] = shares_n(member, gravity);
+        loads[member.from] = along(loads[member.from], 1.0, start);
+        loads[member.to] = along(loads[member.to], 1.0, end);
+    }
+    loads
+}
+
+/// Two directions that make an orthonormal frame with a third.
+fn across(direction: Vector) -> [Vector; 2] {
+    let steepest = (0..3).min_by(|&i, &j| direction[i].abs().total_cmp(&direction[j].abs()));
+    let mut helper = [0.0; 3];
+    helper[steepest.unwrap_or(0)] = 1.0;
+    let first = unit(cross(direction, helper)).unwrap_or(helper);
+    [first, cross(direction, first)]
+}
+
+/// The directions that a support leaves free, and their number.
+fn free_axes(joint: usize, support: &Support) -> Result<(usize, [Vector; 3]), Error> {
+    let straight = |direction| unit(direction).ok_or(Error::Direction { joint, direction });
+    Ok(match *support {
+        Support::Free => (3, [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]),
+        Support::Fixed { .. } => (0, [[0.0; 3]; 3]),
+        Support::Line { direction, .. } => (1, [straight(direction)?, [0.0; 3], [0.0; 3]]),
+        Support::Plane { normal, .. } => {
+            let [first, second] = across(straight(normal)?);
+            (2, [first, second, [0.0; 3]])
+        }
+    })
+}
+
+impl Frame {
+    /// The system without units.
+    pub(super) fn new(system: &System) -> Result<Self, Error> {
+        let origin_m = system.reference_m();
+        let lengths = system.members().iter().map(|member| member.body.length_m());
+        let length_m = lengths.fold(0.0, f64::max);
+        if length_m <= 0.0 {
+            return Err(Error::NoMember);
+        }
+        let loads_n = loads_n(system);
+        let mut total: f64 = loads_n.iter().map(|load| norm(*load)).sum();
+        if total <= 0.0 {
+            total = stiffest_n(system).ok_or(Error::NoLoad)?;
+        }
+        let mut freedom = 0;
+        let mut spots = Vec::with_capacity(loads_n.len());
+        for (number, joint) in system.joints().iter().enumerate() {
+            let (count, axes) = free_axes(number, &joint.support)?;
+            spots.push(Spot { first: freedom, freedom: count, axes });
+            freedom += count;
+        }
+        let supports = system.joints().iter().map(|joint| {
+            let at_m = joint.support.at_m().unwrap_or(origin_m);
+            scaled(1.0 / length_m, along(at_m, -1.0, origin_m))
+        });
+        let rods = system.members().iter().map(|member| Rod {
+            from: member.from,
+            to: member.to,
+            length: member.body.length_m() / length_m,
+            kind: member.kind,
+            flexibility: member
+                .stiffness_n
+                .map_or(0.0, |stiffness| member.body.length_m() / length_m * total / stiffness),
+        });
+        Ok(Self {
+            origin_m,
+            length_m,
+            force_n: total,
+            spots,
+            supports: supports.collect(),
+            rods: rods.collect(),
+            loads: loads_n.iter().map(|load| scaled(1.0 / total, *load)).collect(),
+            freedom,
+        })
+    }
+
+    /// From one end of a member to the other.
+    pub(super) fn span(&self, x: &[Vector], rod: usize) -> Vector {
+        along(x[self.rods[rod].to], -1.0, x[self.rods[rod].from])
+    }
+
+    /// The displacement of a joint by a change of the coordinates.
+    pub(super) fn displacement(&self, step: &[f64], joint: usize) -> Vector {
+        let spot = &self.spots[joint];
+        (0..spot.freedom).fold([0.0; 3], |sum, k| along(sum, step[spot.first + k], spot.axes[k]))
+    }
+
+    /// The relative displacement of the ends of a member.
+    pub(super) fn relative(&self, step: &[f64], rod: usize) -> Vector {
+        let Rod { from, to, .. } = self.rods[rod];
+        along(self.displacement(step, to), -1.0, self.displacement(step, from))
+    }
+
+    /// Places after a part of a change of the coordinates.
+    pub(super) fn moved(&self, x: &[Vector], part: f64, step: &[f64]) -> Vec<Vector> {
+        let go = |(joint, &x): (usize, &Vector)| along(x, part, self.displacement(step, joint));
+        x.iter().enumerate().map(go).collect()
+    }
+
+    /// Derivative by the coordinates of `sum pull(e) . (x_to - x_from) - sum load . x`.
+    pub(super) fn gradient(&self, pull: impl Fn(usize) -> Vector) -> Vec<f64> {
+        let mut forces: Vec<Vector> = self.loads.iter().map(|load| scaled(-1.0, *load)).collect();
+        for (e, rod) in self.rods.iter().enumerate() {
+            let pull = pull(e);
+            forces[rod.from] = along(forces[rod.from], -1.0, pull);
+            forces[rod.to] = along(forces[rod.to], 1.0, pull);
+        }
+        self.reduced(&forces)
+    }
+
+    /// Components of vectors at the joints along the coordinates.
+    pub(super) fn reduced(&self, vectors: &[Vector]) -> Vec<f64> {
+        let mut reduced = vec![0.0; self.freedom];
+        for (spot, &vector) in self.spots.iter().zip(vectors) {
+            for k in 0..spot.freedom {
+                reduced[spot.first + k] = dot(spot.axes[k], vector);
+            }
+        }
+        reduced
+    }
+
+    /// Energy of the loads.
+    pub(super) fn height(&self, x: &[Vector]) -> f64 {
+        -model::sum(self.loads.iter().zip(x).map(|(load, x)| dot(*load, *x)))
+    }
+}
+
+/// The largest stiffness of a member, N.
+fn stiffest_n(system: &System) -> Option<f64> {
+    system.members().iter().filter_map(|member| member.stiffness_n).reduce(f64::max)
+}

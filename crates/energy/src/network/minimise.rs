@@ -1,0 +1,195 @@
+//! The minimisation: from no guess, or from a seed.
+
+use std::sync::Arc;
+use std::time::Instant;
+
+use argmin::core::{Executor, State, TerminationReason, TerminationStatus};
+use model::Vector;
+use model::system::System;
+
+use crate::network::component::check_held;
+use crate::network::factor::Factor;
+use crate::network::frame::Frame;
+use crate::network::interior::{ITERATIONS, Interior, relaxable};
+use crate::network::newton::{Newton, finite};
+use crate::network::potential::{Iterate, Potential};
+use crate::network::shape::{Shape, Slope};
+use crate::network::solution::Solution;
+use crate::network::start::hanging;
+use crate::network::{Error, Settings};
+use crate::vector::{along, dot, scaled};
+
+/// Find a configuration of least energy from no guess.
+///
+/// The start is the minimum of the relaxation in which bars are cables. Where every bar pulls there, it is
+/// the global minimum and no more than a few steps are left.
+///
+/// # Errors
+///
+/// [`Error`]; `Ok` means a local minimum: forces in balance and lengths kept to their tolerance, and no
+/// direction in which the energy falls.
+///
+/// ```
+/// use model::Bar;
+/// use model::system::{Joint, Member, System};
+/// // A lamp of 5 kg on two light bars of 1 m between level anchors 1.2 m apart: 0.8 m below them.
+/// let joints = vec![
+///     Joint::anchor("A", [0.0, 0.0, 0.0]),
+///     Joint::anchor("B", [1.2, 0.0, 0.0]),
+///     Joint::free("lamp").with_mass(5.0),
+/// ];
+/// let bar = Bar::homogeneous(1.0, 0.0)?;
+/// let members = vec![Member::bar(0, 2, bar), Member::bar(2, 1, bar)];
+/// let system = System::new("a lamp", 10.0, joints, members)?;
+/// let solution = energy::network::minimise(&system, &Default::default())?;
+/// assert!((solution.equilibrium.joints_m[2][2] + 0.8).abs() < 1e-14);
+/// // Each bar carries half of the 50 N at an angle whose cosine is 0.8.
+/// assert!((solution.equilibrium.axial_n[0] - 31.25).abs() < 1e-12);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn minimise(system: &System, settings: &Settings) -> Result<Solution, Error> {
+    settings.validate()?;
+    let clock = Instant::now();
+    let frame = Arc::new(Frame::new(system)?);
+    check_held(&frame)?;
+    let start = hanging(&frame)?;
+    let factor = Factor::new(&frame.spots, &frame.rods)?;
+    let mut work = Effort::default();
+    let (start, factor) =
+        if relaxable(&frame) { relax(&frame, factor, start, &mut work)? } else { (start, factor) };
+    let minimum = descend(&frame, factor, start, true, settings, work)?;
+    Ok(Solution::new(system, &frame, minimum, settings, clock))
+}
+
+/// Find a local minimum from places of the joints, m.
+///
+/// The seed need not keep the lengths; supported joints are moved onto their supports.
+///
+/// # Errors
+///
+/// [`Error`]; `Ok` means what it means for [`minimise`].
+pub fn minimise_from(
+    system: &System,
+    seed_m: &[Vector],
+    settings: &Settings,
+) -> Result<Solution, Error> {
+    settings.validate()?;
+    let clock = Instant::now();
+    let frame = Arc::new(Frame::new(system)?);
+    check_held(&frame)?;
+    let start = seeded(&frame, seed_m)?;
+    let factor = Factor::new(&frame.spots, &frame.rods)?;
+    let minimum = descend(&frame, factor, start, false, settings, Effort::default())?;
+    Ok(Solution::new(system, &frame, minimum, settings, clock))
+}
+
+/// The seed in the solver's units, on the supports; no forces.
+fn seeded(frame: &Frame, seed_m: &[Vector]) -> Result<Shape, Error> {
+    let joints = frame.spots.len();
+    let scale = 1.0 / frame.length_m;
+    let x: Vec<Vector> =
+        seed_m.iter().map(|at_m| scaled(scale, along(*at_m, -1.0, frame.origin_m))).collect();
+    if x.len() != joints || !finite(&x) {
+        let given = x.iter().filter(|x| finite(&[**x])).count();
+        return Err(Error::Seed { joints, given });
+    }
+    let onto = |(joint, x): (usize, Vector)| {
+        let (spot, support) = (&frame.spots[joint], frame.supports[joint]);
+        let away = along(x, -1.0, support);
+        let free = spot.axes[..spot.freedom].iter();
+        free.fold(support, |sum, axis| along(sum, dot(away, *axis), *axis))
+    };
+    Ok(Shape {
+        x: x.into_iter().enumerate().map(onto).collect(),
+        force: vec![0.0; frame.rods.len()],
+    })
+}
+
+/// What a search has cost.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Effort {
+    pub(super) relaxation: u64,
+    pub(super) iterations: u64,
+    pub(super) factorisations: u64,
+}
+
+/// What a run of the minimiser ends with.
+pub(super) struct Minimum {
+    pub(super) shape: Arc<Shape>,
+    pub(super) slope: Arc<Slope>,
+    pub(super) factor: Factor,
+    pub(super) effort: Effort,
+}
+
+/// The minimum with bars taken for cables.
+fn relax(
+    frame: &Arc<Frame>,
+    factor: Factor,
+    start: Shape,
+    effort: &mut Effort,
+) -> Result<(Shape, Factor), Error> {
+    let solver = Interior::new(Arc::clone(frame), factor, &start);
+    let mut ended = Executor::new(Potential { frame: Arc::clone(frame) }, solver)
+        .configure(|state: Iterate| state.param(Arc::new(start)).max_iters(ITERATIONS))
+        .ctrlc(false)
+        .timer(false)
+        .run()
+        .map_err(passed_on)?;
+    // Ended or not: a relaxation is only a start.
+    let shape = ended.state.take_param().ok_or(Error::NotFinite { quantity: "relaxation" })?;
+    effort.relaxation = ended.state.get_iter();
+    Ok((ended.solver.settled(&shape), ended.solver.factor))
+}
+
+/// Down to a local minimum.
+fn descend(
+    frame: &Arc<Frame>,
+    factor: Factor,
+    start: Shape,
+    relaxed: bool,
+    settings: &Settings,
+    mut effort: Effort,
+) -> Result<Minimum, Error> {
+    let solver = Newton::new(Arc::clone(frame), factor, *settings, &start.force, relaxed);
+    let mut ended = Executor::new(Potential { frame: Arc::clone(frame) }, solver)
+        .configure(|state: Iterate| state.param(Arc::new(start)).max_iters(settings.max_iterations))
+        .ctrlc(false)
+        .timer(false)
+        .run()
+        .map_err(passed_on)?;
+    outcome(&ended.state)?;
+    effort.iterations = ended.state.get_iter();
+    effort.factorisations = ended.solver.factor.count;
+    match (ended.state.take_param(), ended.state.take_gradient()) {
+        (Some(shape), Some(slope)) => {
+            Ok(Minimum { shape, slope, factor: ended.solver.factor, effort })
+        }
+        _ => Err(Error::NotFinite { quantity: "last iterate" }),
+    }
+}
+
+/// An error that argmin passes on: ours if it was ours.
+fn passed_on(error: argmin::core::Error) -> Error {
+    error.downcast::<Error>().unwrap_or_else(|other| Error::Ended { reason: other.to_string() })
+}
+
+/// argmin's reasons, all of them: only one of them is a success, whatever `Ok` it came in.
+fn outcome(state: &Iterate) -> Result<(), Error> {
+    let (unbalance, misfit) =
+        state.get_gradient().map_or((f64::NAN, f64::NAN), |slope| (slope.unbalance, slope.misfit));
+    match state.get_termination_status() {
+        TerminationStatus::Terminated(reason) => match reason {
+            TerminationReason::SolverConverged => Ok(()),
+            TerminationReason::MaxItersReached => {
+                Err(Error::IterationLimit { iterations: state.get_iter(), unbalance, misfit })
+            }
+            TerminationReason::TargetCostReached
+            | TerminationReason::Interrupt
+            | TerminationReason::Timeout => Err(Error::Ended { reason: reason.text().to_owned() }),
+            TerminationReason::SolverExit(text) => Err(Error::Ended { reason: text.clone() }),
+        },
+        TerminationStatus::NotTerminated => {
+            Err(Error::Ended { reason: "not terminated".to_owned() })
+        }
+    }
+}

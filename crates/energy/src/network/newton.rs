@@ -1,0 +1,452 @@
+//! Newton's method on the augmented Lagrangian: down to a local minimum from anywhere.
+//!
+//! A spring of stiffness `kappa` in series with each member turns the lengths into energies,
+//!
+//! `M(x; F) = sum (F + kappa c)² / 2 kappa (1 + kappa phi) - sum load . x`,
+//!
+//! a function without constraints. Newton's method with a shift that keeps its matrix positive definite
+//! lowers it step by step, so no maximum and no saddle attracts it. Where its gradient is small the
+//! estimates `F` become the forces with the springs, and the springs become stiffer where the lengths do
+//! not improve. At a stationary point whose matrix is indefinite the step is one along the lowest mode.
+//!
+//! Near a solution `kappa` is large and every step updates the forces: that is Newton's method for places and
+//! forces together, in a matrix that is positive definite exactly where the second derivative of the
+//! energy is, on the motions that keep the lengths.
+//!
+//! M. J. D. Powell in R. Fletcher (ed.), Optimization (1969) 283-298; P. E. Gill and D. P. Robinson,
+//! Comput. Optim. Appl. 51 (2012) 1-25, doi:10.1007/s10589-010-9339-1
+
+use std::sync::Arc;
+
+use argmin::core::{KV, Problem, Solver, TerminationReason, TerminationStatus};
+
+use crate::network::factor::Factor;
+use crate::network::frame::Frame;
+use crate::network::law::{Excess, Softened};
+use crate::network::potential::{Iterate, Potential};
+use crate::network::shape::{Shape, Slope, largest};
+use crate::network::{Error, Settings};
+use crate::vector::{dot, norm, scaled};
+
+/// First strain of the springs under the largest force.
+const FIRST_STRAIN: f64 = 0.1;
+
+/// The springs become stiffer by this factor
+const STIFFEN: f64 = 5.0;
+
+/// where an update of the forces leaves more than this part of the misfit.
+const ENOUGH: f64 = 0.2;
+
+/// Strain at which the springs are stiff enough for any solution.
+const LAST_STRAIN: f64 = 1e-9;
+
+/// Misfit below which Newton's method for places and forces is tried.
+const NEAR: f64 = 1e-3;
+
+/// Misfit from a relaxation, which is right for most members: it is tried in any case.
+const RELAXED: f64 = 0.5;
+
+/// Strain of the springs in Newton's method for places and forces: what a step leaves of the error.
+const STIFF_STRAIN: f64 = 1e-6;
+
+/// Diagonal added there, over the size of the matrix: where a motion is neutral the step has no part of it.
+pub(super) const NEUTRAL: f64 = 1e-10;
+
+/// Steps of Newton's method for places and forces, and with one factorisation.
+const POLISH: usize = 12;
+const CHORDS: usize = 6;
+
+/// A chord step must leave at most this part of the residual.
+const CHORD_PROGRESS: f64 = 0.3;
+
+/// First shift and smallest one, over the size of the matrix.
+const FIRST_SHIFT: f64 = 1e-3;
+const SMALLEST_SHIFT: f64 = 1e-8;
+
+/// Largest shift: more than that and the steps are nothing.
+const LARGEST_SHIFT: f64 = 1e8;
+
+/// Part of the first-order fall of the energy that a step must bring.
+const FAIR: f64 = 1e-4;
+
+/// Rounding of the energy, over its size.
+const NOISE: f64 = 64.0 * f64::EPSILON;
+
+/// Halvings of a step before the shift grows.
+const HALVINGS: usize = 5;
+
+/// Solutions of a linear system that show the lowest mode.
+const MODE_STEPS: usize = 12;
+
+/// Largest displacement of a joint in the first step off a saddle, over the unit of length.
+const OFF_SADDLE: f64 = 0.3;
+
+/// How a run ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Ended {
+    Not,
+    Converged,
+}
+
+/// Newton's method as a solver for argmin.
+pub(super) struct Newton {
+    frame: Arc<Frame>,
+    pub(super) factor: Factor,
+    settings: Settings,
+    /// Force at which a spring is as long again as its member.
+    stiffness: f64,
+    /// Misfit after the last update of the forces.
+    misfit: f64,
+    shift: f64,
+    /// Whether the last step since the last update of the forces needed no shift.
+    definite: bool,
+    /// Misfit below which Newton's method for places and forces is tried next.
+    near: f64,
+    ended: Ended,
+}
+
+/// The augmented Lagrangian at one configuration.
+struct Local {
+    excess: Vec<Excess>,
+    soft: Vec<Softened>,
+    value: f64,
+    gradient: Vec<f64>,
+}
+
+impl Local {
+    /// Mean force of the members.
+    fn typical(&self) -> f64 {
+        let sum: f64 = self.soft.iter().map(|soft| soft.force.abs()).sum();
+        (sum / self.soft.len() as f64).max(f64::MIN_POSITIVE)
+    }
+}
+
+impl Newton {
+    /// From a start that is `relaxed` (the solution of the relaxation) or anything else.
+    pub(super) fn new(
+        frame: Arc<Frame>,
+        factor: Factor,
+        settings: Settings,
+        force: &[f64],
+        relaxed: bool,
+    ) -> Self {
+        Self {
+            stiffness: frame.largest_force(force) / FIRST_STRAIN,
+            frame,
+            factor,
+            settings,
+            misfit: f64::INFINITY,
+            shift: 0.0,
+            definite: false,
+            near: if relaxed { RELAXED } else { NEAR },
+            ended: Ended::Not,
+        }
+    }
+
+    fn kappa(&self, rod: usize) -> f64 {
+        self.stiffness / self.frame.rods[rod].length
+    }
+
+    /// The members with their springs, and the value of the augmented Lagrangian.
+    fn value(&self, x: &[model::Vector], force: &[f64]) -> (Vec<Excess>, Vec<Softened>, f64) {
+        let excess = self.frame.excesses(x);
+        let soft = |(e, c): (usize, &Excess)| {
+            self.frame.rods[e].softened(c.value, force[e], self.kappa(e))
+        };
+        let soft: Vec<Softened> = excess.iter().enumerate().map(soft).collect();
+        let potential = model::sum(soft.iter().map(|soft| soft.potential));
+        (excess, soft, self.frame.height(x) + potential)
+    }
+
+    fn local(&self, shape: &Shape) -> Local {
+        let (excess, soft, value) = self.value(&shape.x, &shape.force);
+        let gradient = self.frame.gradient(|e| scaled(soft[e].force, excess[e].gradient));
+        Local { excess, soft, value, gradient }
+    }
+
+    /// Factorise the second derivative with a shift; whether it is positive definite.
+    fn factorise(&mut self, local: &Local, shift: f64) -> bool {
+        let typical = local.typical();
+        let sizes = self.frame.sizes(|e| local.soft[e].force.abs().max(typical));
+        let block = |e: usize| local.excess[e].block(local.soft[e].force, local.soft[e].stiffness);
+        self.frame.fill(&mut self.factor, block, |joint| shift * sizes[joint]);
+        self.factor.cholesky()
+    }
+
+    /// One step down the augmented Lagrangian.
+    fn descend(&mut self, shape: &Shape, local: &Local) -> Result<Shape, Error> {
+        let noise = NOISE * (local.value.abs() + self.frame.largest_force(&shape.force));
+        loop {
+            if self.factorise(local, self.shift.max(NEUTRAL)) {
+                let mut step: Vec<f64> = local.gradient.iter().map(|g| -g).collect();
+                self.factor.solve(&mut step);
+                let slope: f64 = step.iter().zip(&local.gradient).map(|(s, g)| s * g).sum();
+                let mut part = 1.0;
+                for _ in 0..HALVINGS {
+                    let x = self.frame.moved(&shape.x, part, &step);
+                    let (_, _, value) = self.value(&x, &shape.force);
+                    if value <= local.value + FAIR * part * slope + noise {
+                        self.definite = self.shift <= 0.0;
+                        self.relent(part);
+                        return Ok(Shape { x, force: shape.force.clone() });
+                    }
+                    part *= 0.5;
+                }
+            }
+            self.shift = if self.shift > 0.0 { 8.0 * self.shift } else { FIRST_SHIFT };
+            if self.shift > LARGEST_SHIFT {
+                return Err(self.stalled(shape));
+            }
+        }
+    }
+
+    /// The next shift after a step of which this part was made.
+    fn relent(&mut self, part: f64) {
+        if part > 0.9 {
+            self.shift *= 0.2;
+            if self.shift < SMALLEST_SHIFT {
+                self.shift = 0.0;
+            }
+        } else if part < 0.3 {
+            self.shift = (4.0 * self.shift).max(SMALLEST_SHIFT);
+        }
+    }
+
+    fn stalled(&self, shape: &Shape) -> Error {
+        let slope = self.frame.slope(shape);
+        if slope.misfit > NEAR {
+            return Error::NotClosed {
+                member: slope.worst + 1,
+                misfit_m: slope.misfit * self.frame.rods[slope.worst].length * self.frame.length_m,
+            };
+        }
+        Error::Stalled { unbalance: slope.unbalance, misfit: slope.misfit }
+    }
+
+    /// At a stationary point of the augmented Lagrangian: a step along its lowest mode where its second
+    /// derivative is indefinite.
+    fn leave_saddle(&mut self, shape: &Shape, local: &Local) -> Option<Shape> {
+        if self.factorise(local, NEUTRAL) {
+            return None;
+        }
+        let mut shift = FIRST_SHIFT;
+        while !self.factorise(local, shift) {
+            shift *= 4.0;
+            if shift > LARGEST_SHIFT {
+                return None;
+            }
+        }
+        // A start without symmetry, the same in every run.
+        let mut mode: Vec<f64> =
+            (0..self.frame.freedom).map(|k| (1.0 + 0.618_033_988_75 * k as f64).sin()).collect();
+        for _ in 0..MODE_STEPS {
+            let size = largest(&mode);
+            for value in &mut mode {
+                *value /= size;
+            }
+            self.factor.solve(&mut mode);
+        }
+        let uphill: f64 = mode.iter().zip(&local.gradient).map(|(v, g)| v * g).sum();
+        let mut part = OFF_SADDLE / largest(&mode);
+        if uphill > 0.0 {
+            part = -part;
+        }
+        self.shift = shift;
+        for _ in 0..40 {
+            let x = self.frame.moved(&shape.x, part, &mode);
+            if self.value(&x, &shape.force).2 < local.value {
+                return Some(Shape { x, force: shape.force.clone() });
+            }
+            part *= 0.5;
+        }
+        None
+    }
+
+    /// Newton's method for places and forces. Nothing where it does not converge, or not to a minimum.
+    fn polish(&mut self, shape: &Shape) -> Option<Shape> {
+        let frame = Arc::clone(&self.frame);
+        let (mut shape, mut slope) = (shape.clone(), frame.slope(shape));
+        let stiffness = frame.largest_force(&shape.force) / STIFF_STRAIN;
+        for _ in 0..POLISH {
+            let start = slope.residual();
+            let active = self.factorise_stiff(&shape, stiffness)?;
+            for _ in 0..CHORDS {
+                let Some(next) = self.chord(&shape, stiffness, &active) else { break };
+                let there = frame.slope(&next);
+                let (before, after) = (slope.residual(), there.residual());
+                if !after.is_finite() {
+                    return None;
+                }
+                if after >= before && before <= self.tolerance(&shape) {
+                    return Some(shape);
+                }
+                (shape, slope) = (next, there);
+                if after > CHORD_PROGRESS * before {
+                    break;
+                }
+            }
+            if slope.residual() <= self.tolerance(&shape) {
+                return Some(shape);
+            }
+            if slope.residual() > 2.0 * start.max(NEAR) {
+                return None;
+            }
+        }
+        None
+    }
+
+    /// Which members resist, with stiff springs; the matrix is factorised. Nothing where it is not positive
+    /// definite.
+    fn factorise_stiff(&mut self, shape: &Shape, stiffness: f64) -> Option<Vec<bool>> {
+        let frame = Arc::clone(&self.frame);
+        let excess = frame.excesses(&shape.x);
+        let active: Vec<bool> = (0..frame.rods.len())
+            .map(|e| stiff(&frame, &excess[e], shape.force[e], e, stiffness).stiffness > 0.0)
+            .collect();
+        let largest = frame.largest_force(&shape.force);
+        let sizes = frame.sizes(|e| if active[e] { largest } else { 0.0 });
+        let block = |e: usize| {
+            let spring = stiff(&frame, &excess[e], shape.force[e], e, stiffness);
+            excess[e].block(if active[e] { shape.force[e] } else { 0.0 }, spring.stiffness)
+        };
+        frame.fill(&mut self.factor, block, |joint| {
+            NEUTRAL * if sizes[joint] > 0.0 { sizes[joint] } else { largest }
+        });
+        self.factor.cholesky().then_some(active)
+    }
+
+    /// One step with the factorisation at hand; nothing where other members resist than in it.
+    fn chord(&mut self, shape: &Shape, stiffness: f64, active: &[bool]) -> Option<Shape> {
+        let frame = Arc::clone(&self.frame);
+        let excess = frame.excesses(&shape.x);
+        let soft: Vec<Softened> = (0..frame.rods.len())
+            .map(|e| stiff(&frame, &excess[e], shape.force[e], e, stiffness))
+            .collect();
+        if soft.iter().zip(active).any(|(soft, active)| (soft.stiffness > 0.0) != *active) {
+            return None;
+        }
+        let mut step = frame.gradient(|e| scaled(soft[e].force, excess[e].gradient));
+        for value in &mut step {
+            *value = -*value;
+        }
+        self.factor.solve(&mut step);
+        let force = (0..frame.rods.len()).map(|e| {
+            soft[e].force + soft[e].stiffness * excess[e].change(frame.relative(&step, e))
+        });
+        Some(Shape { force: force.collect(), x: frame.moved(&shape.x, 1.0, &step) })
+    }
+
+    /// The tolerance, or what rounding of the places leaves where that is more.
+    fn tolerance(&self, shape: &Shape) -> f64 {
+        self.settings.tolerance.max(rounding_floor(&self.frame, shape))
+    }
+
+    /// One iteration far from the solution.
+    fn approach(&mut self, shape: &Shape, slope: &Slope) -> Result<Shape, Error> {
+        let local = self.local(shape);
+        let misfit = self.spring_misfit(shape, &local);
+        let enough = (0.1 * self.stiffness * misfit)
+            .max(self.frame.largest_force(&shape.force) * self.tolerance(shape));
+        if largest(&local.gradient) > enough {
+            return self.descend(shape, &local);
+        }
+        if !self.definite
+            && let Some(next) = self.leave_saddle(shape, &local)
+        {
+            return Ok(next);
+        }
+        (self.shift, self.definite) = (0.0, false);
+        let force: Vec<f64> = local.soft.iter().map(|soft| soft.force).collect();
+        if misfit > ENOUGH * self.misfit {
+            self.stiffness *= STIFFEN;
+            if self.stiffness * LAST_STRAIN > self.frame.largest_force(&force) && misfit > NEAR {
+                return Err(Error::NotClosed {
+                    member: slope.worst + 1,
+                    misfit_m: slope.misfit
+                        * self.frame.rods[slope.worst].length
+                        * self.frame.length_m,
+                });
+            }
+        }
+        self.misfit = misfit;
+        Ok(Shape { x: shape.x.clone(), force })
+    }
+
+    /// Largest elongation of a spring, over the length of its member.
+    fn spring_misfit(&self, shape: &Shape, local: &Local) -> f64 {
+        let change = local.soft.iter().zip(&shape.force).map(|(soft, force)| soft.force - force);
+        change.fold(0.0, |most: f64, change| most.max(change.abs())) / self.stiffness
+    }
+}
+
+/// A member with a spring of strain [`STIFF_STRAIN`] under the largest force.
+fn stiff(frame: &Frame, excess: &Excess, force: f64, rod: usize, stiffness: f64) -> Softened {
+    let rod = &frame.rods[rod];
+    rod.softened(excess.value, force, stiffness / rod.length)
+}
+
+/// What roundings of the places leave of the lengths: some units in the last place of the largest
+/// coordinate over the length of a member.
+pub(super) fn rounding_floor(frame: &Frame, shape: &Shape) -> f64 {
+    let extent = shape.x.iter().map(|x| dot(*x, *x)).fold(0.0, f64::max).sqrt();
+    let shortest = frame.rods.iter().map(|rod| rod.length).fold(f64::INFINITY, f64::min);
+    8.0 * f64::EPSILON * (1.0 + extent / shortest)
+}
+
+impl Solver<Potential, Iterate> for Newton {
+    fn name(&self) -> &'static str {
+        "Newton's method on the augmented Lagrangian"
+    }
+
+    fn init(
+        &mut self,
+        problem: &mut Problem<Potential>,
+        mut state: Iterate,
+    ) -> Result<(Iterate, Option<KV>), argmin::core::Error> {
+        let shape = state.take_param().ok_or(Error::NotFinite { quantity: "start" })?;
+        accept(problem, state, shape)
+    }
+
+    fn next_iter(
+        &mut self,
+        problem: &mut Problem<Potential>,
+        mut state: Iterate,
+    ) -> Result<(Iterate, Option<KV>), argmin::core::Error> {
+        let shape = state.take_param().ok_or(Error::NotFinite { quantity: "iterate" })?;
+        let slope = state.take_gradient().ok_or(Error::NotFinite { quantity: "gradient" })?;
+        if slope.misfit <= self.near {
+            match self.polish(&shape) {
+                Some(solution) => {
+                    self.ended = Ended::Converged;
+                    return accept(problem, state, Arc::new(solution));
+                }
+                None => self.near = NEAR.min(0.1 * slope.misfit),
+            }
+        }
+        let next = Arc::new(self.approach(&shape, &slope)?);
+        accept(problem, state, next)
+    }
+
+    fn terminate(&mut self, _state: &Iterate) -> TerminationStatus {
+        match self.ended {
+            Ended::Converged => TerminationStatus::Terminated(TerminationReason::SolverConverged),
+            Ended::Not => TerminationStatus::NotTerminated,
+        }
+    }
+}
+
+/// Make a configuration the current iterate.
+fn accept(
+    problem: &mut Problem<Potential>,
+    state: Iterate,
+    shape: Arc<Shape>,
+) -> Result<(Iterate, Option<KV>), argmin::core::Error> {
+    let slope = problem.gradient(&shape)?;
+    let cost = problem.cost(&shape)?;
+    Ok((state.param(shape).gradient(slope).cost(cost), None))
+}
+
+/// Whether all places are numbers.
+pub(super) fn finite(x: &[model::Vector]) -> bool {
+    x.iter().all(|x| norm(*x).is_finite())
+}

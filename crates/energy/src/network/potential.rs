@@ -1,0 +1,48 @@
+//! The system as argmin sees it.
+
+use std::sync::Arc;
+
+use argmin::core::{CostFunction, Error, Gradient, IterState};
+
+use crate::network::frame::Frame;
+use crate::network::shape::{Shape, Slope};
+
+/// argmin's state for the solvers of this module: places and forces, and the residuals there.
+pub(super) type Iterate = IterState<Arc<Shape>, Arc<Slope>, (), (), (), f64>;
+
+/// Energy of a configuration, and the gradient of its Lagrangian.
+#[derive(Debug, Clone)]
+pub(super) struct Potential {
+    pub(super) frame: Arc<Frame>,
+}
+
+/// Refuse what is not a number: a minimiser that compares with NaN may never stop.
+fn finite(value: f64, quantity: &'static str) -> Result<(), Error> {
+    if value.is_finite() {
+        Ok(())
+    } else {
+        Err(crate::network::Error::NotFinite { quantity }.into())
+    }
+}
+
+impl CostFunction for Potential {
+    type Param = Arc<Shape>;
+    type Output = f64;
+
+    fn cost(&self, shape: &Arc<Shape>) -> Result<f64, Error> {
+        let energy = self.frame.energy(shape);
+        finite(energy, "energy")?;
+        Ok(energy)
+    }
+}
+
+impl Gradient for Potential {
+    type Param = Arc<Shape>;
+    type Gradient = Arc<Slope>;
+
+    fn gradient(&self, shape: &Arc<Shape>) -> Result<Arc<Slope>, Error> {
+        let slope = self.frame.slope(shape);
+        finite(slope.residual(), "gradient of the energy")?;
+        Ok(Arc::new(slope))
+    }
+}

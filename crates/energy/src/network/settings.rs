@@ -1,0 +1,44 @@
+//! What the caller may choose.
+
+use crate::network::Error;
+
+/// How to minimise. Valid settings come from [`Default`] and pass [`Settings::validate`].
+///
+/// ```
+/// let settings = energy::network::Settings { max_iterations: 50, ..Default::default() };
+/// assert!(settings.validate().is_ok());
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Settings {
+    /// Largest unbalanced force at a joint over the largest force of the system, and largest misfit of a
+    /// length over the length, that count as none. Where the rounding of the places leaves more, the run
+    /// ends there and says so in the residual. Default 1e-12; from 1e-15 to 1e-3.
+    pub tolerance: f64,
+    /// Iterations of Newton's method. Default 1000; at least 1.
+    pub max_iterations: u64,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self { tolerance: 1e-12, max_iterations: 1000 }
+    }
+}
+
+impl Settings {
+    /// Check every range once.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Setting`] with the first field that is out of range.
+    pub fn validate(&self) -> Result<(), Error> {
+        let check = |field, value: f64, low: f64, high: f64| {
+            if (low..=high).contains(&value) {
+                Ok(())
+            } else {
+                Err(Error::Setting { field, value, low, high })
+            }
+        };
+        check("tolerance", self.tolerance, 1e-15, 1e-3)?;
+        check("max_iterations", self.max_iterations as f64, 1.0, u64::MAX as f64)
+    }
+}

@@ -1,0 +1,165 @@
+//! The answer of a minimisation.
+
+use std::sync::Arc;
+use std::time::Instant;
+
+use model::system::{System, SystemEquilibrium, SystemStability};
+use model::{Evidence, InSpace, SolverName, Vector};
+
+use crate::network::frame::{Frame, shares_n};
+use crate::network::minimise::Minimum;
+use crate::network::newton::rounding_floor;
+use crate::network::settings::Settings;
+use crate::network::shape::Shape;
+use crate::network::stability::{Rigidity, SecondOrder, second_order};
+use crate::vector::{along, dot, norm, scaled};
+
+/// A local minimum of the energy: the equilibrium with its evidence, and what the search cost.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Solution {
+    /// The observables.
+    pub equilibrium: SystemEquilibrium,
+    /// Whether the forces follow from the shape.
+    pub forces: Forces,
+    /// What the search cost.
+    pub work: Work,
+}
+
+/// Whether the forces of the members follow from the shape and the loads.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub enum Forces {
+    /// One set of forces is in balance with the loads.
+    Unique(Rigidity),
+    /// A family of them is; given is the member with the least `sum F² l`, the limit of equally stiff
+    /// members as they become rigid, or another one where that would make a cable push or a strut pull.
+    Family {
+        /// The counts.
+        rigidity: Rigidity,
+        /// Whether the forces given are those of the least norm.
+        least: bool,
+    },
+    /// The system is too large for the rank of its rigidity matrix to be counted.
+    NotCounted,
+}
+
+/// What a search cost, and how exactly it ended.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Work {
+    /// Iterations of the interior point method on the relaxation.
+    pub relaxation: u64,
+    /// Iterations of Newton's method on the system itself.
+    pub iterations: u64,
+    /// Factorisations of the matrix of all coordinates.
+    pub factorisations: u64,
+    /// Largest unbalanced force at a joint over the largest force of the system.
+    pub unbalance: f64,
+    /// Largest misfit of a length over the length.
+    pub misfit: f64,
+}
+
+/// What `Evidence::residual` means here.
+const RESIDUAL_OF: &str =
+    "largest unbalanced force at a joint over the largest force, or misfit of a length";
+
+impl Solution {
+    pub(super) fn new(
+        system: &System,
+        frame: &Arc<Frame>,
+        minimum: Minimum,
+        settings: &Settings,
+        clock: Instant,
+    ) -> Self {
+        let Minimum { shape, mut slope, mut factor, effort } = minimum;
+        let mut shape = Arc::unwrap_or_clone(shape);
+        let second = second_order(frame, &shape, &mut factor);
+        let forces = match second.rigidity {
+            Some(rigidity) if rigidity.self_stresses == 0 => Forces::Unique(rigidity),
+            Some(rigidity) => Forces::Family { rigidity, least: second.least.is_some() },
+            None => Forces::NotCounted,
+        };
+        if let Some(least) = &second.least {
+            shape.force.clone_from(least);
+            slope = Arc::new(frame.slope(&shape));
+        }
+        let iterations = usize::try_from(effort.relaxation + effort.iterations);
+        let iterations = iterations.unwrap_or(usize::MAX);
+        let tolerance = settings.tolerance.max(rounding_floor(frame, &shape));
+        let mut evidence = Evidence::new(RESIDUAL_OF, slope.residual(), tolerance, iterations);
+        evidence.nullity = second.neutral;
+        evidence.condition = second.condition;
+        let equilibrium = equilibrium(system, frame, &shape, &second, evidence);
+        let work = Work {
+            relaxation: effort.relaxation,
+            iterations: effort.iterations,
+            factorisations: factor.count,
+            unbalance: slope.unbalance,
+            misfit: slope.misfit,
+        };
+        let mut solution = Self { equilibrium, forces, work };
+        solution.equilibrium.evidence.solve_s = clock.elapsed().as_secs_f64();
+        solution
+    }
+}
+
+/// The observables in the world.
+fn equilibrium(
+    system: &System,
+    frame: &Frame,
+    shape: &Shape,
+    second: &SecondOrder,
+    evidence: Evidence,
+) -> SystemEquilibrium {
+    let (mut start_forces_n, mut end_forces_n, mut axial_n) = (vec![], vec![], vec![]);
+    let mut reactions_n: Vec<Vector> = system
+        .joints()
+        .iter()
+        .map(|joint| {
+            let weight = joint.mass_kg * system.gravity_m_s2();
+            scaled(-1.0, along(joint.force_n, -weight, [0.0, 0.0, 1.0]))
+        })
+        .collect();
+    for (e, member) in system.members().iter().enumerate() {
+        let d = frame.span(&shape.x, e);
+        // By virtual work: the derivative of the energy by the place of an end.
+        let pull = scaled(frame.force_n * shape.force[e], frame.rods[e].excess(d).gradient);
+        let [start, end] = shares_n(member, system.gravity_m_s2());
+        let at_start = scaled(-1.0, along(pull, 1.0, start));
+        let at_end = along(pull, -1.0, end);
+        reactions_n[member.from] = along(reactions_n[member.from], 1.0, at_start);
+        reactions_n[member.to] = along(reactions_n[member.to], 1.0, at_end);
+        start_forces_n.push(at_start);
+        end_forces_n.push(at_end);
+        axial_n.push(shape.force[e].signum() * norm(pull));
+    }
+    for (spot, reaction) in frame.spots.iter().zip(&mut reactions_n) {
+        // The ground pushes across the free motions alone; what is along them is rounding.
+        for axis in &spot.axes[..spot.freedom] {
+            *reaction = along(*reaction, -dot(*reaction, *axis), *axis);
+        }
+        if spot.freedom == 3 {
+            *reaction = [0.0; 3];
+        }
+    }
+    let place = |x: &Vector| along(frame.origin_m, frame.length_m, *x);
+    let joints_m = system.joints().iter().zip(&shape.x).map(|(joint, x)| match joint.support {
+        model::system::Support::Fixed { at_m } => at_m,
+        _ => place(x),
+    });
+    SystemEquilibrium {
+        solver: SolverName::ENERGY,
+        energy_j: frame.energy(shape) * frame.force_n * frame.length_m,
+        joints_m: joints_m.collect(),
+        start_forces_n,
+        end_forces_n,
+        axial_n,
+        reactions_n,
+        stability: SystemStability {
+            in_space: if second.index == 0 { InSpace::Stable } else { InSpace::Unstable },
+            index_in_space: second.index,
+            index_in_plane: second.index_in_plane,
+            neutral: second.neutral,
+        },
+        evidence,
+    }
+}

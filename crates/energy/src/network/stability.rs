@@ -1,0 +1,299 @@
+//! The second derivative of the energy at an equilibrium, on the motions that keep the lengths.
+//!
+//! Small systems: an orthonormal basis of those motions from the singular values of the rigidity matrix,
+//! whose rank also counts self-stresses and mechanisms, and the eigenvalues of the second derivative in that
+//! basis. Large ones: the signs of the pivots of the sparse matrix with stiff springs for the lengths.
+
+use faer::{Mat, Side};
+use model::Vector;
+
+use crate::network::factor::Factor;
+use crate::network::frame::{Frame, Spot};
+use crate::network::shape::{Shape, largest};
+use crate::vector::{along, cross, dot, norm, unit};
+
+/// Coordinates up to which dense matrices serve.
+pub(super) const DENSE: usize = 240;
+
+/// Eigenvalues below this part of the size of the matrix are zero.
+const ZERO: f64 = 1e-9;
+
+/// Singular values of the rigidity matrix below this part of the largest are zero.
+const RANK: f64 = 1e-9;
+
+/// Strain of the springs that stand for the lengths in the sparse count.
+const STRAIN: f64 = 1e-6;
+
+/// A component of a unit vector below this is none.
+const PLANE: f64 = 1e-9;
+
+/// How the lengths of the members that resist determine shape and forces.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Rigidity {
+    /// Rank of the rigidity matrix: one row for each inextensible member that resists, one column for
+    /// each coordinate of a joint.
+    pub rank: usize,
+    /// Independent sets of forces in balance with no load: with none the forces are unique.
+    pub self_stresses: usize,
+    /// Independent motions that keep the lengths to first order.
+    pub mechanisms: usize,
+    /// The smallest singular value that counts, and the largest that does not, over the largest one.
+    pub gap: [f64; 2],
+}
+
+/// The second order at an equilibrium.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct SecondOrder {
+    pub(super) index: usize,
+    pub(super) neutral: usize,
+    pub(super) index_in_plane: Option<usize>,
+    pub(super) rigidity: Option<Rigidity>,
+    /// Forces of the least norm, where they are not unique.
+    pub(super) least: Option<Vec<f64>>,
+    /// Largest over smallest eigenvalue that is not zero, by magnitude.
+    pub(super) condition: f64,
+}
+
+/// The second order at an equilibrium.
+pub(super) fn second_order(frame: &Frame, shape: &Shape, factor: &mut Factor) -> SecondOrder {
+    let mut second = if frame.freedom <= DENSE {
+        let dense = Dense::new(frame, shape);
+        let (index, neutral, condition) = dense.count();
+        SecondOrder {
+            index,
+            neutral,
+            index_in_plane: None,
+            least: dense.least_forces(frame, shape),
+            rigidity: Some(dense.rigidity),
+            condition,
+        }
+    } else {
+        let (index, neutral) = sparse_count(frame, shape, factor);
+        SecondOrder {
+            index,
+            neutral,
+            index_in_plane: None,
+            rigidity: None,
+            least: None,
+            condition: 1.0,
+        }
+    };
+    second.index_in_plane = index_in_plane(frame, shape);
+    second
+}
+
+/// Whether a member resists in this equilibrium.
+fn resists(frame: &Frame, shape: &Shape, rod: usize) -> bool {
+    frame.rods[rod].resists(shape.force[rod])
+}
+
+/// Index among the motions in the vertical plane of the system, if there is one.
+fn index_in_plane(frame: &Frame, shape: &Shape) -> Option<usize> {
+    let spots = plane_spots(frame, shape)?;
+    let mut freedom = 0;
+    let spots: Vec<Spot> = spots
+        .into_iter()
+        .map(|spot| {
+            let first = freedom;
+            freedom += spot.freedom;
+            Spot { first, ..spot }
+        })
+        .collect();
+    let flat = Frame { spots, freedom, ..frame.clone() };
+    if freedom <= DENSE {
+        return Some(Dense::new(&flat, shape).count().0);
+    }
+    let mut factor = Factor::new(&flat.spots, &flat.rods).ok()?;
+    Some(sparse_count(&flat, shape, &mut factor).0)
+}
+
+/// The joints with their motions in the vertical plane that holds places, loads and supports.
+fn plane_spots(frame: &Frame, shape: &Shape) -> Option<Vec<Spot>> {
+    let horizontal = |v: &Vector| [v[0], v[1], 0.0];
+    let longest = |vectors: &[Vector]| {
+        let flat = vectors.iter().map(horizontal);
+        flat.max_by(|a, b| norm(*a).total_cmp(&norm(*b))).unwrap_or_default()
+    };
+    let origin = shape.x[0];
+    let places: Vec<Vector> = shape.x.iter().map(|x| along(*x, -1.0, origin)).collect();
+    let (place, load) = (longest(&places), longest(&frame.loads));
+    let extent = largest(&places.iter().map(|place| norm(*place)).collect::<Vec<f64>>());
+    let small = PLANE * extent.max(1.0);
+    let direction = if norm(place) > small {
+        unit(place)?
+    } else if norm(load) > PLANE {
+        unit(load)?
+    } else {
+        [1.0, 0.0, 0.0]
+    };
+    let up = [0.0, 0.0, 1.0];
+    let normal = cross(direction, up);
+    let flat = places.iter().all(|place| dot(*place, normal).abs() <= small)
+        && frame.loads.iter().all(|load| dot(*load, normal).abs() <= PLANE);
+    if !flat {
+        return None;
+    }
+    frame.spots.iter().map(|spot| in_plane(spot, direction, up, normal)).collect()
+}
+
+/// A joint with its motions in a plane; nothing where its support is oblique to the plane.
+fn in_plane(spot: &Spot, direction: Vector, up: Vector, normal: Vector) -> Option<Spot> {
+    let zero = [0.0; 3];
+    let (freedom, axes) = match spot.freedom {
+        0 => (0, [zero; 3]),
+        1 => match dot(spot.axes[0], normal).abs() {
+            out if out < PLANE => (1, spot.axes),
+            out if out > 1.0 - PLANE => (0, [zero; 3]),
+            _ => return None,
+        },
+        2 => {
+            let held = cross(spot.axes[0], spot.axes[1]);
+            match dot(held, normal).abs() {
+                out if out < PLANE => (1, [unit(cross(held, normal))?, zero, zero]),
+                out if out > 1.0 - PLANE => (2, [direction, up, zero]),
+                _ => return None,
+            }
+        }
+        _ => (2, [direction, up, zero]),
+    };
+    Some(Spot { first: 0, freedom, axes })
+}
+
+/// Negative and vanishing eigenvalues by the signs of pivots.
+fn sparse_count(frame: &Frame, shape: &Shape, factor: &mut Factor) -> (usize, usize) {
+    let excess = frame.excesses(&shape.x);
+    let force = frame.largest_force(&shape.force);
+    let block = |e: usize| {
+        let rod = &frame.rods[e];
+        let spring = force / STRAIN / rod.length;
+        let stiffness =
+            if resists(frame, shape, e) { spring / (1.0 + spring * rod.flexibility) } else { 0.0 };
+        excess[e].block(shape.force[e], stiffness)
+    };
+    let sizes = frame.sizes(|_| force);
+    let mut below = |shift: f64| {
+        frame.fill(factor, block, |joint| shift * sizes[joint]);
+        factor.negative_pivots().unwrap_or(0)
+    };
+    let index = below(ZERO);
+    (index, below(-ZERO).saturating_sub(index))
+}
+
+/// Dense matrices at an equilibrium.
+struct Dense {
+    /// The second derivative on the motions that keep the lengths.
+    hessian: Mat<f64>,
+    /// Size of the second derivative.
+    size: f64,
+    /// Basis of the self-stresses by rows, one column for each inextensible member that resists.
+    stresses: Mat<f64>,
+    /// Those members.
+    taut: Vec<usize>,
+    rigidity: Rigidity,
+}
+
+impl Dense {
+    fn new(frame: &Frame, shape: &Shape) -> Self {
+        let n = frame.freedom;
+        let excess = frame.excesses(&shape.x);
+        let taut: Vec<usize> = (0..frame.rods.len())
+            .filter(|&e| resists(frame, shape, e) && !frame.rods[e].elastic())
+            .collect();
+        let mut rigidity = Mat::<f64>::zeros(taut.len(), n);
+        for (row, &e) in taut.iter().enumerate() {
+            let rod = &frame.rods[e];
+            for (joint, sign) in [(rod.from, -1.0), (rod.to, 1.0)] {
+                let spot = &frame.spots[joint];
+                for k in 0..spot.freedom {
+                    rigidity[(row, spot.first + k)] += sign * dot(excess[e].gradient, spot.axes[k]);
+                }
+            }
+        }
+        let mut hessian = Mat::<f64>::zeros(n, n);
+        for (e, rod) in frame.rods.iter().enumerate() {
+            let elastic = rod.elastic() && resists(frame, shape, e);
+            let block =
+                excess[e].block(shape.force[e], if elastic { 1.0 / rod.flexibility } else { 0.0 });
+            for (a, sign_a) in [(rod.from, -1.0), (rod.to, 1.0)] {
+                for (b, sign_b) in [(rod.from, -1.0), (rod.to, 1.0)] {
+                    let (row, column) = (&frame.spots[a], &frame.spots[b]);
+                    for i in 0..row.freedom {
+                        for k in 0..column.freedom {
+                            hessian[(row.first + i, column.first + k)] +=
+                                sign_a * sign_b * block.between(row.axes[i], column.axes[k]);
+                        }
+                    }
+                }
+            }
+        }
+        let size = frame.largest_force(&shape.force);
+        let (motions, stresses, rigidity) = kernels(&rigidity);
+        Self { hessian: motions.transpose() * &hessian * &motions, size, stresses, taut, rigidity }
+    }
+
+    /// Negative and vanishing eigenvalues, and the ratio of the largest to the smallest other one.
+    fn count(&self) -> (usize, usize, f64) {
+        if self.hessian.nrows() == 0 {
+            return (0, 0, 1.0);
+        }
+        let Ok(values) = self.hessian.self_adjoint_eigenvalues(Side::Lower) else {
+            return (0, 0, 1.0);
+        };
+        let zero = ZERO * largest(&values).max(self.size);
+        let index = values.iter().filter(|value| **value < -zero).count();
+        let neutral = values.iter().filter(|value| value.abs() <= zero).count();
+        let others = values.iter().map(|value| value.abs()).filter(|value| *value > zero);
+        let smallest = others.fold(f64::INFINITY, f64::min);
+        let condition = if smallest.is_finite() { largest(&values) / smallest } else { 1.0 };
+        (index, neutral, condition)
+    }
+
+    /// The forces with the least `sum F² l` that balance the same loads: the limit of equally stiff
+    /// members as they become rigid. Nothing where the forces are unique, or where a cable or strut would
+    /// have to work against its kind.
+    fn least_forces(&self, frame: &Frame, shape: &Shape) -> Option<Vec<f64>> {
+        let stresses = self.stresses.ncols();
+        if stresses == 0 {
+            return None;
+        }
+        let weighted = Mat::from_fn(self.taut.len(), stresses, |row, k| {
+            self.stresses[(row, k)] * frame.rods[self.taut[row]].length
+        });
+        let force = Mat::from_fn(self.taut.len(), 1, |row, _| shape.force[self.taut[row]]);
+        let gram = self.stresses.transpose() * &weighted;
+        let right = weighted.transpose() * &force;
+        let part = faer::linalg::solvers::Solve::solve(&gram.partial_piv_lu(), &right);
+        let change = &self.stresses * &part;
+        let mut least = shape.force.clone();
+        for (row, &e) in self.taut.iter().enumerate() {
+            least[e] -= change[(row, 0)];
+            if !frame.rods[e].resists(least[e]) {
+                return None;
+            }
+        }
+        Some(least)
+    }
+}
+
+/// Orthonormal bases of the motions that keep the lengths and of the self-stresses.
+fn kernels(rigidity: &Mat<f64>) -> (Mat<f64>, Mat<f64>, Rigidity) {
+    let (m, n) = (rigidity.nrows(), rigidity.ncols());
+    let unsolved =
+        |rank| Rigidity { rank, self_stresses: m - rank, mechanisms: n - rank, gap: [1.0, 0.0] };
+    if m == 0 || n == 0 {
+        return (Mat::identity(n, n), Mat::identity(m, m), unsolved(0));
+    }
+    let Ok(svd) = rigidity.svd() else {
+        return (Mat::identity(n, n), Mat::zeros(m, 0), unsolved(0));
+    };
+    let values: Vec<f64> = (0..m.min(n)).map(|k| svd.S()[k]).collect();
+    let most = values.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
+    let rank = values.iter().filter(|value| **value > RANK * most).count();
+    let gap = [
+        if rank > 0 { values[rank - 1] / most } else { 1.0 },
+        values.get(rank).map_or(0.0, |value| value / most),
+    ];
+    let motions = svd.V().get(.., rank..).to_owned();
+    let stresses = svd.U().get(.., rank..).to_owned();
+    (motions, stresses, Rigidity { gap, ..unsolved(rank) })
+}

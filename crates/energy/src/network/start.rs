@@ -1,0 +1,122 @@
+//! A configuration to start from: force densities.
+//!
+//! With the same force per length in every member the joints lie where a linear system says. The
+//! multiplicative iteration `F/l <- F/l · |d|/l` brings the lengths towards the members' own while every
+//! member keeps pulling: it ascends the dual of the problem in which all members are cables. It costs a
+//! scalar factorisation each, a small part of one of the matrix of all coordinates.
+//!
+//! H.-J. Schek, Comput. Methods Appl. Mech. Eng. 3 (1974) 115-134, doi:10.1016/0045-7825(74)90045-0
+
+use model::Vector;
+
+use crate::network::Error;
+use crate::network::factor::{Block, Factor};
+use crate::network::frame::{Frame, Spot};
+use crate::network::shape::Shape;
+use crate::vector::norm;
+
+/// Multiplicative updates of the force densities: lengths are within some per cent after that many,
+/// and more of them converge slowly.
+const UPDATES: usize = 5;
+
+/// The most by which one update changes a density.
+const CLAMP: f64 = 20.0;
+
+/// Part of the diagonal added where supports leave a translation free.
+const SHIFT: f64 = 1e-9;
+
+/// A joint that moves has this one coordinate in the scalar system, for each of the three axes alike.
+const SCALAR: Spot = Spot { first: 0, freedom: 1, axes: [[1.0, 0.0, 0.0]; 3] };
+
+/// The linear system of the force densities: scalar where joints are free or fixed, else with all
+/// coordinates.
+struct Densities {
+    spots: Vec<Spot>,
+    factor: Factor,
+    scalar: bool,
+}
+
+impl Densities {
+    fn new(frame: &Frame) -> Result<Self, Error> {
+        let scalar = frame.spots.iter().all(|spot| spot.freedom == 0 || spot.freedom == 3);
+        let mut spots = frame.spots.clone();
+        if scalar {
+            let mut first = 0;
+            for spot in &mut spots {
+                if spot.freedom > 0 {
+                    *spot = Spot { first, ..SCALAR };
+                    first += 1;
+                }
+            }
+        }
+        let factor = Factor::new(&spots, &frame.rods)?;
+        Ok(Self { spots, factor, scalar })
+    }
+
+    /// Places of the joints in balance with given densities.
+    fn places(&mut self, frame: &Frame, density: &[f64]) -> Result<Vec<Vector>, Error> {
+        let sizes = frame.sizes(|e| density[e] * frame.rods[e].length);
+        let block = |e: usize| Block { isotropic: density[e], ..Block::default() };
+        for shift in [0.0, SHIFT] {
+            self.factor.fill(&self.spots, &frame.rods, block, |joint| shift * sizes[joint]);
+            if self.factor.cholesky() {
+                return Ok(self.solve(frame, density));
+            }
+        }
+        Err(Error::NotFinite { quantity: "force density" })
+    }
+
+    fn solve(&mut self, frame: &Frame, density: &[f64]) -> Vec<Vector> {
+        // From the supports, where free joints lie at the origin.
+        let mut forces = frame.loads.clone();
+        for (e, rod) in frame.rods.iter().enumerate() {
+            let d = frame.span(&frame.supports, e);
+            for k in 0..3 {
+                forces[rod.from][k] += density[e] * d[k];
+                forces[rod.to][k] -= density[e] * d[k];
+            }
+        }
+        if !self.scalar {
+            let mut step = frame.reduced(&forces);
+            self.factor.solve(&mut step);
+            return frame.moved(&frame.supports, 1.0, &step);
+        }
+        let n = self.factor.size();
+        let mut right = vec![0.0; 3 * n];
+        for (spot, force) in self.spots.iter().zip(&forces).filter(|(spot, _)| spot.freedom > 0) {
+            for k in 0..3 {
+                right[k * n + spot.first] = force[k];
+            }
+        }
+        self.factor.solve(&mut right);
+        let place = |(spot, &support): (&Spot, &Vector)| match spot.freedom {
+            0 => support,
+            _ => std::array::from_fn(|k| right[k * n + spot.first]),
+        };
+        self.spots.iter().zip(&frame.supports).map(place).collect()
+    }
+}
+
+/// A hanging configuration in which all members pull, lengths not quite kept.
+pub(super) fn hanging(frame: &Frame) -> Result<Shape, Error> {
+    let mut densities = Densities::new(frame)?;
+    let mut density: Vec<f64> = frame.rods.iter().map(|rod| 1.0 / rod.length).collect();
+    let mut x = densities.places(frame, &density)?;
+    for update in 0..UPDATES {
+        let stretch: Vec<f64> = frame
+            .rods
+            .iter()
+            .enumerate()
+            .map(|(e, rod)| norm(frame.span(&x, e)) / rod.length)
+            .collect();
+        // At first all alike: the sag is that of the mean length.
+        let mean = stretch.iter().sum::<f64>() / stretch.len() as f64;
+        for (density, stretch) in density.iter_mut().zip(stretch) {
+            let ratio = if update == 0 { mean } else { stretch };
+            *density *= ratio.clamp(1.0 / CLAMP, CLAMP);
+        }
+        x = densities.places(frame, &density)?;
+    }
+    let force = (0..density.len()).map(|e| density[e] * frame.rods[e].length).collect();
+    Ok(Shape { x, force })
+}
