@@ -15,9 +15,11 @@ pub mod consistency;
 mod differences;
 pub mod independence;
 pub mod statics;
+pub mod systems;
 pub mod table;
 pub mod tolerances;
 pub mod units;
+mod vector;
 
 pub use compare::{Agreement, Verdict, compare};
 pub use tolerances::Tolerances;

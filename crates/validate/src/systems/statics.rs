@@ -1,0 +1,467 @@
+//! Newton's laws for every member and joint of a system, and the law of every member.
+//!
+//! It knows nothing of how an answer was found. A member is two points, the forces on it at both, and the
+//! loads between them, which act at fixed parts `a/l` of its length:
+//!
+//! $$ S + E + \sum P = 0, \qquad d \times E + \sum \frac{a}{l}\, d \times P = 0, \qquad d = x_b - x_a . $$
+//!
+//! A joint feels the opposites of these end forces, its own load and the force of its support. The axial
+//! force is that of the member with its loads lumped to its joints by the lever rule,
+//! $N = (E + \sum \frac{a}{l} P) \cdot d/|d|$, and must obey the member's law
+//! ([`Kind`](model::system::Kind)): its length where it is inextensible, its sign, none where it is slack.
+
+use model::system::{Kind, Member, Support, System, SystemEquilibrium};
+use model::{Vector, sum};
+use serde::Serialize;
+
+use crate::vector::{beyond, cross, dot, minus, norm, plus, times, worse};
+
+/// Where a violation is largest.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Place {
+    /// A member, counted from 1.
+    Member(usize),
+    /// A joint, counted from 0.
+    Joint(usize),
+    /// The system as a whole.
+    Whole,
+}
+
+/// Largest violations of geometry and of Newton's laws by an answer, dimensionless.
+///
+/// Every member and joint is measured by its own forces and its own length. What counts is beyond the
+/// rounding of the stored numbers: [`STORED_ULPS`] units in the last place of the largest coordinate or length,
+/// and of the largest force.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct SystemStatics {
+    /// Largest distance of a supported joint from its support, in units of the size of the system.
+    pub support: f64,
+    /// Largest violation of the length of an inextensible member, in units of that length.
+    pub length: f64,
+    /// Largest violation of a member's law of force: elongation times stiffness, the sign, no force where it
+    /// is slack.
+    pub law: f64,
+    /// Largest force left over on a member.
+    pub force: f64,
+    /// Largest moment left over on a member, in units of its force times its length.
+    pub moment: f64,
+    /// Largest force left over at a joint; the part of a support's force along the motion that it leaves free.
+    pub joint: f64,
+    /// Force left over on the whole system, in units of its loads.
+    pub balance: f64,
+    /// The axial forces and the energy less those that follow from joints and end forces.
+    pub derived: f64,
+    /// Where the largest of these is.
+    pub worst: Place,
+}
+
+/// Units in the last place that the rounding of stored numbers may come to: a coordinate is rounded when it is
+/// stored, and two of them are subtracted.
+const STORED_ULPS: f64 = 8.0;
+
+/// What the violations of one answer are measured by.
+struct Units {
+    /// Rounding of a coordinate or length, m.
+    rounding_m: f64,
+    /// Rounding of a force, N.
+    rounding_n: f64,
+    /// Size of the system, m.
+    size_m: f64,
+}
+
+impl SystemStatics {
+    /// The largest violation; NaN if any number of the answer is not finite or missing.
+    #[must_use]
+    pub fn largest(&self) -> f64 {
+        let Self { support, length, law, force, moment, joint, balance, derived, .. } = *self;
+        [support, length, law, force, moment, joint, balance, derived].into_iter().fold(0.0, worse)
+    }
+
+    /// Whether every violation is within the tolerance. NaN never is.
+    #[must_use]
+    pub fn passes(&self, tolerance: f64) -> bool {
+        self.largest() <= tolerance
+    }
+
+    /// Keep the larger of two violations, and where it is.
+    fn note(&mut self, field: fn(&mut Self) -> &mut f64, value: f64, place: Place) {
+        let most = self.largest();
+        let kept = field(self);
+        *kept = worse(*kept, value);
+        // NaN in `most` keeps its place.
+        if value > most || (value.is_nan() && !most.is_nan()) {
+            self.worst = place;
+        }
+    }
+}
+
+/// Judge an answer.
+///
+/// Arrays that do not fit the system, and numbers that are not finite, give NaN, which passes no tolerance.
+#[must_use]
+pub fn judge(system: &System, answer: &SystemEquilibrium) -> SystemStatics {
+    let mut found = SystemStatics {
+        support: 0.0,
+        length: 0.0,
+        law: 0.0,
+        force: 0.0,
+        moment: 0.0,
+        joint: 0.0,
+        balance: 0.0,
+        derived: 0.0,
+        worst: Place::Whole,
+    };
+    let (joints, members) = (system.joints().len(), system.members().len());
+    let fits = [answer.joints_m.len(), answer.reactions_n.len()] == [joints; 2]
+        && [answer.start_forces_n.len(), answer.end_forces_n.len(), answer.axial_n.len()]
+            == [members; 3];
+    if !fits {
+        found.note(|s| &mut s.balance, f64::NAN, Place::Whole);
+        return found;
+    }
+    let units = Units::new(system, answer);
+    for k in 0..members {
+        member(system, answer, k, &units, &mut found);
+    }
+    for (k, violation) in joint_balances(system, answer, &units).into_iter().enumerate() {
+        found.note(|s| &mut s.joint, violation, Place::Joint(k));
+    }
+    for k in 0..joints {
+        support(system, answer, k, &units, &mut found);
+    }
+    found.note(|s| &mut s.balance, whole(system, answer, &units), Place::Whole);
+    found.note(|s| &mut s.derived, energy(system, answer, &units), Place::Whole);
+    found
+}
+
+impl Units {
+    fn new(system: &System, answer: &SystemEquilibrium) -> Self {
+        let coordinates = answer.joints_m.iter().flatten();
+        let far_m = coordinates.fold(0.0, |most: f64, x| worse(most, x.abs()));
+        let longest_m = system.members().iter().map(|m| m.body.length_m()).fold(0.0, f64::max);
+        let forces = answer.start_forces_n.iter().chain(&answer.end_forces_n);
+        let largest_n = forces.chain(&answer.reactions_n).map(|f| norm(*f)).fold(0.0, worse);
+        let origin = system.reference_m();
+        let reach = answer.joints_m.iter().map(|x| norm(minus(*x, origin)));
+        let ulps = STORED_ULPS * f64::EPSILON;
+        Self {
+            rounding_m: ulps * far_m.max(longest_m),
+            rounding_n: ulps * largest_n,
+            size_m: reach.fold(longest_m, worse),
+        }
+    }
+
+    /// What of a force left over the rounding does not explain, in units of the forces that it is left from.
+    fn of_force(&self, left: Vector, forces: impl IntoIterator<Item = Vector>) -> f64 {
+        let unit = forces.into_iter().map(norm).fold(0.0, worse);
+        let excess = beyond(norm(left), self.rounding_n);
+        // No forces, and none left over.
+        if excess <= 0.0 { 0.0 } else { excess / unit }
+    }
+}
+
+/// Weight and forces of a member: where they act as a part of its length, and what they are.
+fn loads<'a>(system: &System, member: &'a Member) -> impl Iterator<Item = (f64, Vector)> + 'a {
+    let body = &member.body;
+    let length_m = body.length_m();
+    let weight = [0.0, 0.0, -body.mass_kg() * system.gravity_m_s2()];
+    let forces = member.loads.iter().map(move |load| (load.at_m / length_m, load.force_n));
+    forces.chain([(body.centre_m() / length_m, weight)])
+}
+
+fn member(
+    system: &System,
+    answer: &SystemEquilibrium,
+    k: usize,
+    units: &Units,
+    found: &mut SystemStatics,
+) {
+    let member = &system.members()[k];
+    let place = Place::Member(k + 1);
+    let along = minus(answer.joints_m[member.to], answer.joints_m[member.from]);
+    let distance_m = norm(along);
+    let (start, end) = (answer.start_forces_n[k], answer.end_forces_n[k]);
+    let loads: Vec<(f64, Vector)> = loads(system, member).collect();
+
+    let left = loads.iter().fold(plus(start, end), |left, (_, p)| plus(left, *p));
+    let forces = || [start, end].into_iter().chain(loads.iter().map(|(_, p)| *p));
+    found.note(|s| &mut s.force, units.of_force(left, forces()), place);
+
+    // What the second joint carries: along the member, or it would turn.
+    let carried = loads.iter().fold(end, |sum, (part, p)| plus(sum, times(*part, *p)));
+    let turn = cross(along, carried);
+    let unit_n = forces().map(norm).fold(0.0, worse);
+    // A displaced end turns the member: force times displacement.
+    let rounding = units.rounding_n * distance_m + unit_n * units.rounding_m;
+    let moment = beyond(norm(turn), rounding);
+    let moment = if moment <= 0.0 { 0.0 } else { moment / (unit_n * distance_m) };
+    found.note(|s| &mut s.moment, moment, place);
+
+    let axial_n = answer.axial_n[k];
+    // Where the ends meet there is no direction, and nothing to compare with.
+    if distance_m > units.rounding_m {
+        let followed = dot(carried, along) / distance_m;
+        let off = beyond((axial_n - followed).abs(), units.rounding_n);
+        let off = if off <= 0.0 { 0.0 } else { off / unit_n };
+        found.note(|s| &mut s.derived, off, place);
+    }
+    law(member, distance_m, axial_n, unit_n, units, place, found);
+}
+
+/// The law of one member: its length, or its force, or that one of both vanishes.
+fn law(
+    member: &Member,
+    distance_m: f64,
+    axial_n: f64,
+    unit_n: f64,
+    units: &Units,
+    place: Place,
+    found: &mut SystemStatics,
+) {
+    let length_m = member.body.length_m();
+    let longer = beyond(distance_m - length_m, units.rounding_m) / length_m;
+    let shorter = beyond(length_m - distance_m, units.rounding_m) / length_m;
+    let of_force = |violation: f64, rounding: f64| {
+        let excess = beyond(violation, units.rounding_n + rounding);
+        if excess <= 0.0 { 0.0 } else { excess / unit_n.max(excess) }
+    };
+    if let Some(stiffness_n) = member.stiffness_n {
+        let strain = (distance_m - length_m) / length_m;
+        let wanted_n = stiffness_n
+            * match member.kind {
+                Kind::Bar => strain,
+                Kind::Cable => strain.max(0.0),
+                Kind::Strut => strain.min(0.0),
+            };
+        let rounding = stiffness_n * units.rounding_m / length_m;
+        found.note(|s| &mut s.law, of_force((axial_n - wanted_n).abs(), rounding), place);
+        return;
+    }
+    let (length, sign, slack) = match member.kind {
+        Kind::Bar => (longer.max(shorter), 0.0, 0.0),
+        Kind::Cable => (longer, -axial_n, shorter),
+        Kind::Strut => (shorter, axial_n, longer),
+    };
+    // `max` forgets NaN, and the distance has it.
+    found.note(|s| &mut s.length, worse(length, 0.0 * distance_m), place);
+    found.note(|s| &mut s.law, of_force(sign, 0.0), place);
+    // Of a member that is slack and yet carries a force the smaller of both is wrong.
+    found.note(|s| &mut s.law, slack.min(of_force(axial_n.abs(), 0.0)), place);
+}
+
+/// What is left over at every joint.
+fn joint_balances(system: &System, answer: &SystemEquilibrium, units: &Units) -> Vec<f64> {
+    let gravity = system.gravity_m_s2();
+    let joints = system.joints();
+    let mut left: Vec<Vector> = joints
+        .iter()
+        .zip(&answer.reactions_n)
+        .map(|(joint, reaction)| {
+            let [x, y, z] = joint.force_n;
+            plus(*reaction, [x, y, z - joint.mass_kg * gravity])
+        })
+        .collect();
+    let mut unit_n: Vec<f64> = joints
+        .iter()
+        .zip(&answer.reactions_n)
+        .map(|(joint, reaction)| {
+            [norm(*reaction), norm(joint.force_n), joint.mass_kg * gravity]
+                .into_iter()
+                .fold(0.0, worse)
+        })
+        .collect();
+    for (k, member) in system.members().iter().enumerate() {
+        let ends = [(member.from, answer.start_forces_n[k]), (member.to, answer.end_forces_n[k])];
+        for (joint, force) in ends {
+            left[joint] = minus(left[joint], force);
+            unit_n[joint] = worse(unit_n[joint], norm(force));
+        }
+    }
+    let relative = |(left, unit): (Vector, f64)| {
+        let excess = beyond(norm(left), units.rounding_n);
+        if excess <= 0.0 { 0.0 } else { excess / unit }
+    };
+    left.into_iter().zip(unit_n).map(relative).collect()
+}
+
+/// A supported joint lies on its support, whose force is normal to the motion that it leaves free; a free joint
+/// gets no force.
+fn support(
+    system: &System,
+    answer: &SystemEquilibrium,
+    k: usize,
+    units: &Units,
+    found: &mut SystemStatics,
+) {
+    let reaction = answer.reactions_n[k];
+    let place = |at: Vector| minus(answer.joints_m[k], at);
+    let (off, along) = match system.joints()[k].support {
+        Support::Free => ([0.0; 3], reaction),
+        Support::Fixed { at_m } => (place(at_m), [0.0; 3]),
+        Support::Line { at_m, direction } => {
+            let along = |v: Vector| times(dot(v, direction), direction);
+            (minus(place(at_m), along(place(at_m))), along(reaction))
+        }
+        Support::Plane { at_m, normal } => {
+            let across = |v: Vector| times(dot(v, normal), normal);
+            (across(place(at_m)), minus(reaction, across(reaction)))
+        }
+    };
+    let off = beyond(norm(off), units.rounding_m) / units.size_m;
+    found.note(|s| &mut s.support, off, Place::Joint(k));
+    found.note(|s| &mut s.joint, units.of_force(along, [reaction]), Place::Joint(k));
+}
+
+/// Forces of all supports and all loads together, in units of their sizes.
+fn whole(system: &System, answer: &SystemEquilibrium, units: &Units) -> f64 {
+    let gravity = system.gravity_m_s2();
+    let masses = system.joints().iter();
+    let at_joints = masses.flat_map(|j| [j.force_n, [0.0, 0.0, -j.mass_kg * gravity]]);
+    let on_members = system.members().iter().flat_map(|m| loads(system, m).map(|(_, p)| p));
+    let all: Vec<Vector> =
+        at_joints.chain(on_members).chain(answer.reactions_n.iter().copied()).collect();
+    let left = std::array::from_fn(|c| sum(all.iter().map(|force| force[c])));
+    let unit = sum(all.iter().map(|force| norm(*force)));
+    let excess = beyond(norm(left), units.rounding_n);
+    if excess <= 0.0 { 0.0 } else { excess / unit }
+}
+
+/// The energy less that of the joints' places, in units of the sizes of its terms.
+fn energy(system: &System, answer: &SystemEquilibrium, units: &Units) -> f64 {
+    let origin = system.reference_m();
+    let gravity = system.gravity_m_s2();
+    let place = |k: usize| minus(answer.joints_m[k], origin);
+    let mut terms = Vec::new();
+    let mut unit_j = 0.0;
+    let mut work = |at: Vector, force: Vector| {
+        terms.push(-dot(force, at));
+        unit_j += norm(force) * units.size_m;
+    };
+    for (k, joint) in system.joints().iter().enumerate() {
+        let [x, y, z] = joint.force_n;
+        work(place(k), [x, y, z - joint.mass_kg * gravity]);
+    }
+    for member in system.members() {
+        let (a, b) = (place(member.from), place(member.to));
+        for (part, force) in loads(system, member) {
+            work(plus(a, times(part, minus(b, a))), force);
+        }
+    }
+    for member in system.members() {
+        let Some(stiffness_n) = member.stiffness_n else { continue };
+        let length_m = member.body.length_m();
+        let stretch_m = norm(minus(place(member.to), place(member.from))) - length_m;
+        let stretch_m = match member.kind {
+            Kind::Bar => stretch_m,
+            Kind::Cable => stretch_m.max(0.0),
+            Kind::Strut => stretch_m.min(0.0),
+        };
+        let elastic_j = 0.5 * stiffness_n / length_m * stretch_m * stretch_m;
+        terms.push(elastic_j);
+        unit_j += elastic_j + stiffness_n * units.rounding_m;
+    }
+    let off = (answer.energy_j - sum(terms)).abs();
+    if off <= 0.0 { 0.0 } else { off / unit_j }
+}
+
+#[cfg(test)]
+mod tests {
+    use model::system::{Joint, Member, System, SystemEquilibrium, SystemStability};
+    use model::{Bar, Evidence, InSpace, SolverName};
+
+    use super::{Place, judge};
+
+    /// A lamp of 2 N on two massless bars of 5 m between anchors 6 m apart (3, 4, 5): each bar pulls
+    /// with 5/4 N.
+    fn lamp() -> (System, SystemEquilibrium) {
+        let joints = vec![
+            Joint::anchor("A", [-3.0, 0.0, 0.0]),
+            Joint::anchor("B", [3.0, 0.0, 0.0]),
+            Joint::free("P").with_mass(0.2),
+        ];
+        let bar = Bar::homogeneous(5.0, 0.0).unwrap();
+        let members = vec![Member::bar(0, 2, bar), Member::cable(2, 1, bar)];
+        let system = System::new("lamp", 10.0, joints, members).unwrap();
+        let (left, right) = ([-0.75, 0.0, 1.0], [0.75, 0.0, 1.0]);
+        let answer = SystemEquilibrium {
+            solver: SolverName::Lagrange,
+            energy_j: -8.0,
+            joints_m: vec![[-3.0, 0.0, 0.0], [3.0, 0.0, 0.0], [0.0, 0.0, -4.0]],
+            start_forces_n: vec![left, right.map(|x| -x)],
+            end_forces_n: vec![left.map(|x| -x), right],
+            axial_n: vec![1.25, 1.25],
+            reactions_n: vec![left, right, [0.0; 3]],
+            stability: SystemStability {
+                in_space: InSpace::Stable,
+                index_in_space: 0,
+                index_in_plane: Some(0),
+                neutral: 0,
+            },
+            evidence: Evidence::converged(0.0, "closed form", 0),
+        };
+        (system, answer)
+    }
+
+    /// The largest violation with its place, of the lamp with one number changed.
+    fn changed(change: impl Fn(&mut SystemEquilibrium)) -> (f64, Place) {
+        let (system, mut answer) = lamp();
+        change(&mut answer);
+        let found = judge(&system, &answer);
+        (found.largest(), found.worst)
+    }
+
+    #[test]
+    fn a_closed_form_passes() {
+        assert!(changed(|_| {}).0 < 1e-15);
+    }
+
+    #[test]
+    fn every_number_of_an_answer_counts() {
+        const OFF: f64 = 1e-6;
+        let seen = |change: fn(&mut SystemEquilibrium)| {
+            let (most, _) = changed(change);
+            assert!(most.is_nan() || most > 1e-8, "{most:e}");
+        };
+        seen(|a| a.joints_m[0][1] += OFF);
+        seen(|a| a.joints_m[2][2] += OFF);
+        seen(|a| a.start_forces_n[0][0] += OFF);
+        seen(|a| a.end_forces_n[1][2] += OFF);
+        seen(|a| a.axial_n[1] += OFF);
+        seen(|a| a.reactions_n[1][0] += OFF);
+        seen(|a| a.reactions_n[2][1] += OFF);
+        seen(|a| a.energy_j += OFF);
+        seen(|a| drop(a.joints_m.pop()));
+        assert!(changed(|a| a.joints_m[2][0] = f64::NAN).0.is_nan());
+        assert!(changed(|a| a.axial_n[0] = f64::NAN).0.is_nan());
+        assert!(changed(|a| a.energy_j = f64::NAN).0.is_nan());
+    }
+
+    #[test]
+    fn the_place_is_that_of_the_largest_violation() {
+        assert_eq!(changed(|a| a.axial_n[1] += 0.1).1, Place::Member(2));
+        assert_eq!(changed(|a| a.reactions_n[2][1] += 0.1).1, Place::Joint(2));
+    }
+
+    #[test]
+    fn a_cable_that_pushes_is_told() {
+        // The same arch upside down balances as bars and not as a cable.
+        let (system, mut answer) = lamp();
+        answer.joints_m[2][2] = 4.0;
+        for forces in [&mut answer.start_forces_n, &mut answer.end_forces_n] {
+            for force in forces.iter_mut() {
+                force[0] = -force[0];
+            }
+        }
+        for reaction in &mut answer.reactions_n {
+            reaction[0] = -reaction[0];
+        }
+        answer.axial_n = vec![-1.25; 2];
+        answer.energy_j = 8.0;
+        let found = judge(&system, &answer);
+        assert!((found.law - 1.0).abs() < 1e-12 && found.worst == Place::Member(2), "{found:?}");
+        for other in [found.length, found.force, found.moment, found.joint, found.derived] {
+            assert!(other < 1e-15, "{found:?}");
+        }
+    }
+}
