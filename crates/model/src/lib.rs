@@ -36,7 +36,7 @@ pub use chain::{
 pub use equilibrium::{Equilibrium, Reactions};
 pub use evidence::{
     Agreed, Complete, Convergence, Disagreement, Evidence, Excess, ForceUncertainty, Ladder,
-    NoAnswer, NoCensus, NoCertificate, Optimal, Quantity, Reason, Rung, StabilityDifference,
+    NoAnswer, NoCensus, NoCertificate, Optimal, Place, Quantity, Reason, Rung, StabilityDifference,
     Statement, Status, UncertaintyCause, Verified,
 };
 pub use problem::{Problem, Refusal, STRAIGHT_TOLERANCE};

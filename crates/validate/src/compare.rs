@@ -42,7 +42,7 @@ pub struct Agreement {
 }
 
 /// The key `reasons` with the words, and the numbers beside it.
-fn with_sentences<S: Serializer>(
+pub(crate) fn with_sentences<S: Serializer>(
     disagreement: &Disagreement,
     serializer: S,
 ) -> Result<S::Ok, S::Error> {

@@ -66,6 +66,19 @@ pub enum Quantity {
         /// The bar with the largest violation, from 1; 0 where the answer is incomplete.
         bar: usize,
     },
+    /// Violation of geometry, of Newton's laws and of the members' laws by one answer for a system,
+    /// dimensionless.
+    SystemStatics {
+        /// The solver.
+        solver: SolverName,
+        /// Where it is.
+        place: Place,
+    },
+    /// Difference of the Morse indices of two answers for a system.
+    MorseIndex {
+        /// The two solvers.
+        between: [SolverName; 2],
+    },
     /// The energy that an answer names less that of its joints, in units of weight times length.
     EnergyOfJoints {
         /// The solver.
@@ -76,6 +89,18 @@ pub enum Quantity {
         /// The solver.
         solver: SolverName,
     },
+}
+
+/// A place in a system.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Place {
+    /// A member, counted from 1.
+    Member(usize),
+    /// A joint, counted from 0.
+    Joint(usize),
+    /// The system as a whole.
+    Whole,
 }
 
 /// Two solvers that find different second-order behaviour.

@@ -58,6 +58,12 @@ pub enum NoCertificate {
     },
     /// Occurs when the pivots of the stress matrix are not proved positive, nor otherwise.
     PivotsUndecided,
+    /// Occurs when the stress matrix of a system is not proved positive definite.
+    NotDefinite {
+        /// How many members are compressed; without any only a part that nothing loads or that turns freely
+        /// leaves it singular.
+        compressed: usize,
+    },
     /// Occurs when a number of the answer is not finite, or the arrays do not fit the chain.
     Unusable,
 }

@@ -34,7 +34,7 @@ use std::borrow::Cow;
 
 use serde::{Deserialize, Serialize};
 
-pub use agreed::{Agreed, Disagreement, Excess, Quantity, StabilityDifference};
+pub use agreed::{Agreed, Disagreement, Excess, Place, Quantity, StabilityDifference};
 pub use certificate::{NoCertificate, Optimal};
 pub use complete::{Complete, NoCensus};
 pub use convergence::{Convergence, ForceUncertainty, UncertaintyCause};

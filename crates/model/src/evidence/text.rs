@@ -2,7 +2,7 @@
 
 use std::fmt::{self, Display, Formatter};
 
-use super::agreed::{Agreed, Disagreement, Excess, Quantity, StabilityDifference};
+use super::agreed::{Agreed, Disagreement, Excess, Place, Quantity, StabilityDifference};
 use super::certificate::{NoCertificate, Optimal};
 use super::complete::{Complete, NoCensus};
 use super::convergence::{Convergence, ForceUncertainty, UncertaintyCause};
@@ -95,12 +95,26 @@ impl Display for Quantity {
             Self::Forces { between: [a, b] } => write!(f, "forces of {a} and {b} / N"),
             Self::Energy { between: [a, b] } => write!(f, "energy of {a} and {b} / J"),
             Self::Statics { solver, bar } => write!(f, "statics of {solver}, at bar {bar}"),
+            Self::SystemStatics { solver, place } => write!(f, "statics of {solver}, {place}"),
+            Self::MorseIndex { between: [a, b] } => {
+                write!(f, "numbers of directions in which the energy falls, by {a} and {b}")
+            }
             Self::EnergyOfJoints { solver } => {
                 write!(f, "energy of {solver} less that of its joints")
             }
             Self::AxialForcesAndReactions { solver } => {
                 write!(f, "axial forces and reactions of {solver} less its joint forces")
             }
+        }
+    }
+}
+
+impl Display for Place {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Member(number) => write!(f, "at member {number}"),
+            Self::Joint(number) => write!(f, "at joint number {number}"),
+            Self::Whole => f.write_str("of the whole system"),
         }
     }
 }
@@ -265,6 +279,10 @@ impl Display for NoCertificate {
             Self::PivotsUndecided => {
                 f.write_str("the pivots of the stress matrix are not proved positive")
             }
+            Self::NotDefinite { compressed } => write!(
+                f,
+                "the stress matrix is not proved positive definite, with {compressed} members compressed"
+            ),
             Self::Unusable => f.write_str("the answer is incomplete or not finite"),
         }
     }

@@ -20,6 +20,7 @@ mod graph;
 mod joint;
 mod member;
 mod refusal;
+mod symmetry;
 
 pub use answer::{SystemEquilibrium, SystemStability};
 pub use error::SystemError;
@@ -27,6 +28,7 @@ pub(crate) use error::UNIT_TOLERANCE;
 pub use joint::{Joint, Support};
 pub use member::{Kind, Member, PointLoad};
 pub use refusal::SystemRefusal;
+pub use symmetry::Part;
 
 use crate::Vector;
 

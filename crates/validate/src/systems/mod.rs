@@ -1,6 +1,12 @@
-//! The judge of systems of bars: Newton's laws and the laws of the members, from the observables of an
-//! answer alone.
+//! The judge of systems of bars: answers held against each other, against Newton's laws and the laws of the
+//! members, and against a proof that no configuration has less energy; from the observables alone.
 
+mod certificate;
+mod compare;
 mod statics;
+#[cfg(test)]
+mod tests;
 
-pub use statics::{Place, SystemStatics, judge};
+pub use certificate::certify;
+pub use compare::{SystemAgreement, compare, judge_alone};
+pub use statics::{SystemStatics, judge};

@@ -11,22 +11,10 @@
 //! ([`Kind`](model::system::Kind)): its length where it is inextensible, its sign, none where it is slack.
 
 use model::system::{Kind, Member, Support, System, SystemEquilibrium};
-use model::{Vector, sum};
+use model::{Place, Vector, sum};
 use serde::Serialize;
 
 use crate::vector::{beyond, cross, dot, minus, norm, plus, times, worse};
-
-/// Where a violation is largest.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Place {
-    /// A member, counted from 1.
-    Member(usize),
-    /// A joint, counted from 0.
-    Joint(usize),
-    /// The system as a whole.
-    Whole,
-}
 
 /// Largest violations of geometry and of Newton's laws by an answer, dimensionless.
 ///
@@ -363,105 +351,4 @@ fn energy(system: &System, answer: &SystemEquilibrium, units: &Units) -> f64 {
     }
     let off = (answer.energy_j - sum(terms)).abs();
     if off <= 0.0 { 0.0 } else { off / unit_j }
-}
-
-#[cfg(test)]
-mod tests {
-    use model::system::{Joint, Member, System, SystemEquilibrium, SystemStability};
-    use model::{Bar, Evidence, InSpace, SolverName};
-
-    use super::{Place, judge};
-
-    /// A lamp of 2 N on two massless bars of 5 m between anchors 6 m apart (3, 4, 5): each bar pulls
-    /// with 5/4 N.
-    fn lamp() -> (System, SystemEquilibrium) {
-        let joints = vec![
-            Joint::anchor("A", [-3.0, 0.0, 0.0]),
-            Joint::anchor("B", [3.0, 0.0, 0.0]),
-            Joint::free("P").with_mass(0.2),
-        ];
-        let bar = Bar::homogeneous(5.0, 0.0).unwrap();
-        let members = vec![Member::bar(0, 2, bar), Member::cable(2, 1, bar)];
-        let system = System::new("lamp", 10.0, joints, members).unwrap();
-        let (left, right) = ([-0.75, 0.0, 1.0], [0.75, 0.0, 1.0]);
-        let answer = SystemEquilibrium {
-            solver: SolverName::Lagrange,
-            energy_j: -8.0,
-            joints_m: vec![[-3.0, 0.0, 0.0], [3.0, 0.0, 0.0], [0.0, 0.0, -4.0]],
-            start_forces_n: vec![left, right.map(|x| -x)],
-            end_forces_n: vec![left.map(|x| -x), right],
-            axial_n: vec![1.25, 1.25],
-            reactions_n: vec![left, right, [0.0; 3]],
-            stability: SystemStability {
-                in_space: InSpace::Stable,
-                index_in_space: 0,
-                index_in_plane: Some(0),
-                neutral: 0,
-            },
-            evidence: Evidence::converged(0.0, "closed form", 0),
-        };
-        (system, answer)
-    }
-
-    /// The largest violation with its place, of the lamp with one number changed.
-    fn changed(change: impl Fn(&mut SystemEquilibrium)) -> (f64, Place) {
-        let (system, mut answer) = lamp();
-        change(&mut answer);
-        let found = judge(&system, &answer);
-        (found.largest(), found.worst)
-    }
-
-    #[test]
-    fn a_closed_form_passes() {
-        assert!(changed(|_| {}).0 < 1e-15);
-    }
-
-    #[test]
-    fn every_number_of_an_answer_counts() {
-        const OFF: f64 = 1e-6;
-        let seen = |change: fn(&mut SystemEquilibrium)| {
-            let (most, _) = changed(change);
-            assert!(most.is_nan() || most > 1e-8, "{most:e}");
-        };
-        seen(|a| a.joints_m[0][1] += OFF);
-        seen(|a| a.joints_m[2][2] += OFF);
-        seen(|a| a.start_forces_n[0][0] += OFF);
-        seen(|a| a.end_forces_n[1][2] += OFF);
-        seen(|a| a.axial_n[1] += OFF);
-        seen(|a| a.reactions_n[1][0] += OFF);
-        seen(|a| a.reactions_n[2][1] += OFF);
-        seen(|a| a.energy_j += OFF);
-        seen(|a| drop(a.joints_m.pop()));
-        assert!(changed(|a| a.joints_m[2][0] = f64::NAN).0.is_nan());
-        assert!(changed(|a| a.axial_n[0] = f64::NAN).0.is_nan());
-        assert!(changed(|a| a.energy_j = f64::NAN).0.is_nan());
-    }
-
-    #[test]
-    fn the_place_is_that_of_the_largest_violation() {
-        assert_eq!(changed(|a| a.axial_n[1] += 0.1).1, Place::Member(2));
-        assert_eq!(changed(|a| a.reactions_n[2][1] += 0.1).1, Place::Joint(2));
-    }
-
-    #[test]
-    fn a_cable_that_pushes_is_told() {
-        // The same arch upside down balances as bars and not as a cable.
-        let (system, mut answer) = lamp();
-        answer.joints_m[2][2] = 4.0;
-        for forces in [&mut answer.start_forces_n, &mut answer.end_forces_n] {
-            for force in forces.iter_mut() {
-                force[0] = -force[0];
-            }
-        }
-        for reaction in &mut answer.reactions_n {
-            reaction[0] = -reaction[0];
-        }
-        answer.axial_n = vec![-1.25; 2];
-        answer.energy_j = 8.0;
-        let found = judge(&system, &answer);
-        assert!((found.law - 1.0).abs() < 1e-12 && found.worst == Place::Member(2), "{found:?}");
-        for other in [found.length, found.force, found.moment, found.joint, found.derived] {
-            assert!(other < 1e-15, "{found:?}");
-        }
-    }
 }

@@ -1,0 +1,218 @@
+//! The certificate of global minimality for systems: no configuration has less energy.
+//!
+//! # The bound
+//!
+//! The potential of every kind of member is a convex function $\\varphi_e$ of the squared distance $t_e$ of its
+//! ends, so $\\varphi_e(t) \\ge \\varphi_e(t_e^*) + \\frac{w_e}{2}(t - t_e^*)$ wherever $w_e/2$ is a subgradient at
+//! $t_e^*$: of a bar any number at $t^* = l^2$, of a cable any $w \\ge 0$, of a strut any $w \\le 0$ there, and of an
+//! elastic member with the spring rate $k = EA/l$ any $w < k$ at $\\sqrt{t^*} = l/(1 - w/k)$. Summed over the members
+//! and less the work of the loads,
+//!
+//! $$ V(x) \\ge Q(x) = \\sum_e \\Big(\\varphi_e(t_e^*) + \\frac{w_e}{2}(|x_b - x_a|^2 - t_e^*)\\Big) - \\sum_j f_j\\cdot x_j, $$
+//!
+//! a quadratic function with the Hessian $\\Omega \\otimes I_3$, where $\\Omega = C_f^T \\mathrm{diag}(w)\\, C_f$ is the stress
+//! matrix over the joints that can move. If $\\Omega \\ge c > 0$, then with the gradient $r$ of $Q$ at any $\\tilde x$
+//!
+//! $$ V(x) \\ge Q(\\tilde x) - \\frac{|r|^2}{2c} \\quad \\text{for every } x . $$
+//!
+//! The $w_e$ are those of the answer, $N_e/d_e$; whatever their rounding, the bound holds, and the better the answer,
+//! the smaller the gap.
+//!
+//! # Rounding
+//!
+//! That $\\Omega \\ge c$ is proved by a Cholesky factorisation of $\\Omega - 2c\\, I$ in floating point that runs to its end:
+//! then $\\Omega - 2c I + E \\ge 0$ with $|E| \\le c$, as long as $c$ is above the rounding bound
+//! $\\gamma_{m+2}\\,\\mathrm{tr}(\\Omega)$ of the factorisation and of the entries, with $m$ the number of joints.
+//!
+//! # References
+//!
+//! R. Connelly, Invent. Math. 66 (1982) 11-33, doi:10.1007/BF01404753 (stress matrices); S. M. Rump, BIT Numer. Math. 46
+//! (2006) 433-452, doi:10.1007/s10543-006-0056-1 (positive definiteness by floating-point Cholesky).
+
+use faer::Side;
+use faer::sparse::{SparseColMat, Triplet};
+use model::system::{Kind, Member, Support, System, SystemEquilibrium};
+use model::{NoCertificate, Optimal, Vector, sum};
+
+use crate::vector::{dot, minus, norm, plus, times, worse};
+
+/// The largest gap that still counts as none, in units of the loads times the size of the system: what the
+/// solvers' own budget of energies allows.
+const GAP: f64 = 1e-9;
+
+/// Largest distance of a joint from the reference of the energy, or length of a member, m.
+pub(super) fn size_m(system: &System, answer: &SystemEquilibrium) -> f64 {
+    let origin = system.reference_m();
+    let longest = system.members().iter().map(|m| m.body.length_m()).fold(0.0, f64::max);
+    answer.joints_m.iter().map(|x| norm(minus(*x, origin))).fold(longest, worse)
+}
+
+/// Sum of the sizes of all loads, N.
+pub(super) fn total_load_n(system: &System) -> f64 {
+    let joints = system.joints().iter().map(|joint| joint.force_n);
+    let members = system.members().iter().flat_map(|m| m.loads.iter().map(|load| load.force_n));
+    sum(joints.chain(members).map(norm)) + system.total_mass_kg() * system.gravity_m_s2()
+}
+
+/// The largest force at an end of a member or of a support, N.
+pub(super) fn largest_force_n(answer: &SystemEquilibrium) -> f64 {
+    let forces = answer.start_forces_n.iter().chain(&answer.end_forces_n);
+    forces.chain(&answer.reactions_n).map(|force| norm(*force)).fold(0.0, worse)
+}
+
+/// Prove that no configuration of the system has less energy than this answer.
+///
+/// # Errors
+///
+/// [`NoCertificate`]: compressed members that the others do not outweigh, a gap that is too large, or an answer
+/// that is incomplete.
+pub fn certify(system: &System, answer: &SystemEquilibrium) -> Result<Optimal, NoCertificate> {
+    let fits = answer.joints_m.len() == system.joints().len()
+        && answer.axial_n.len() == system.members().len()
+        && answer.joints_m.iter().flatten().chain(&answer.axial_n).all(|x| x.is_finite());
+    if !fits || !answer.energy_j.is_finite() {
+        return Err(NoCertificate::Unusable);
+    }
+    let densities = densities(system, answer);
+    let least = least_eigenvalue(system, &densities).ok_or_else(|| NoCertificate::NotDefinite {
+        compressed: densities.iter().filter(|w| **w < 0.0).count(),
+    })?;
+    let unit_j = total_load_n(system) * size_m(system, answer);
+    let unit_j = if unit_j > 0.0 { unit_j } else { elastic_unit_j(system) };
+    let gap = (answer.energy_j - bound_j(system, answer, &densities, least)) / unit_j;
+    // NaN is no proof.
+    if gap <= GAP {
+        Ok(Optimal { gap: Some(gap), singular: false })
+    } else {
+        Err(NoCertificate::Gap { gap })
+    }
+}
+
+/// Energy of doubling the lengths of all elastic members, for systems without loads.
+fn elastic_unit_j(system: &System) -> f64 {
+    let energies = system.members().iter();
+    sum(energies.filter_map(|m| Some(0.5 * m.stiffness_n? * m.body.length_m())))
+}
+
+/// Force densities that the members' laws allow as subgradients: the nearest to those of the answer, N/m.
+fn densities(system: &System, answer: &SystemEquilibrium) -> Vec<f64> {
+    let of_member = |(member, axial_n): (&Member, &f64)| {
+        let distance_m = norm(minus(answer.joints_m[member.to], answer.joints_m[member.from]));
+        if distance_m <= 0.0 {
+            return 0.0;
+        }
+        let density = axial_n / distance_m;
+        match member.kind {
+            Kind::Bar => density,
+            Kind::Cable => density.max(0.0),
+            Kind::Strut => density.min(0.0),
+        }
+    };
+    system.members().iter().zip(&answer.axial_n).map(of_member).collect()
+}
+
+/// A proved lower bound of the least eigenvalue of the stress matrix, if it is proved positive.
+fn least_eigenvalue(system: &System, densities: &[f64]) -> Option<f64> {
+    let mut rows = vec![usize::MAX; system.joints().len()];
+    let mut size = 0;
+    for (row, joint) in rows.iter_mut().zip(system.joints()) {
+        if !joint.support.is_fixed() {
+            *row = size;
+            size += 1;
+        }
+    }
+    let mut diagonal = vec![0.0; size];
+    let mut entries = Vec::with_capacity(2 * densities.len() + size);
+    for (member, density) in system.members().iter().zip(densities) {
+        let (a, b) = (rows[member.from], rows[member.to]);
+        for row in [a, b] {
+            if let Some(sum) = diagonal.get_mut(row) {
+                *sum += density;
+            }
+        }
+        if a < size && b < size {
+            entries.push(Triplet::new(a.max(b), a.min(b), -density));
+        }
+    }
+    // Rounding of the entries (sums of at most as many terms as members) and of the factorisation, against the
+    // sum of the sizes of all terms on the diagonal: twice the trace of the matrix of |w|.
+    let terms = 2.0 * sum(densities.iter().map(|w| w.abs()));
+    let most = largest_degree(system) as f64 + size as f64 + 4.0;
+    let unit = 0.5 * f64::EPSILON * most;
+    let rounding = unit / (1.0 - 2.0 * unit) * terms;
+    let shift = 2.0 * rounding;
+    entries.extend((0..size).map(|k| Triplet::new(k, k, diagonal[k] - shift)));
+    let matrix = SparseColMat::<usize, f64>::try_new_from_triplets(size, size, &entries).ok()?;
+    matrix.sp_cholesky(Side::Lower).ok()?;
+    (rounding > 0.0).then_some(shift - rounding)
+}
+
+/// The most members that meet in a joint.
+fn largest_degree(system: &System) -> usize {
+    let mut degrees = vec![0_usize; system.joints().len()];
+    for member in system.members() {
+        degrees[member.from] += 1;
+        degrees[member.to] += 1;
+    }
+    degrees.into_iter().max().unwrap_or(0)
+}
+
+/// A lower bound of the energy of every configuration, J.
+fn bound_j(system: &System, answer: &SystemEquilibrium, densities: &[f64], least: f64) -> f64 {
+    let origin = system.reference_m();
+    let place = |k: usize| minus(answer.joints_m[k], origin);
+    let loads = joint_loads(system);
+    let mut gradient: Vec<Vector> = loads.iter().map(|load| times(-1.0, *load)).collect();
+    let mut terms = Vec::with_capacity(2 * densities.len() + loads.len());
+    for (member, density) in system.members().iter().zip(densities) {
+        let along = minus(place(member.to), place(member.from));
+        let pull = times(*density, along);
+        gradient[member.to] = plus(gradient[member.to], pull);
+        gradient[member.from] = minus(gradient[member.from], pull);
+        terms.push(tangent_j(member, *density, dot(along, along)));
+    }
+    terms.extend(loads.iter().enumerate().map(|(k, load)| -dot(*load, place(k))));
+    // Each term carries a few roundings, and so does each component of the gradient.
+    let rounding_j = 16.0 * f64::EPSILON * sum(terms.iter().map(|term| term.abs()));
+    let slope = sum(gradient.iter().enumerate().map(|(k, force)| {
+        let moving = match system.joints()[k].support {
+            Support::Fixed { .. } => [0.0; 3],
+            Support::Free => *force,
+            Support::Line { direction, .. } => times(dot(*force, direction), direction),
+            Support::Plane { normal, .. } => minus(*force, times(dot(*force, normal), normal)),
+        };
+        dot(moving, moving)
+    }));
+    sum(terms) - rounding_j - slope / (2.0 * least)
+}
+
+/// The tangent to a member's potential with the slope `w/2`, at the squared distance `t`, J.
+fn tangent_j(member: &Member, density: f64, squared_m2: f64) -> f64 {
+    let length_m = member.body.length_m();
+    let Some(stiffness_n) = member.stiffness_n else {
+        return 0.5 * density * (squared_m2 - length_m * length_m);
+    };
+    // With the distance d* of this slope, k/2 (d* - l)^2 + w/2 (t - d*^2).
+    let rate = stiffness_n / length_m;
+    let stretched_m = length_m / (1.0 - density / rate);
+    let stretch_m = stretched_m - length_m;
+    0.5 * rate * stretch_m * stretch_m + 0.5 * density * (squared_m2 - stretched_m * stretched_m)
+}
+
+/// Weights and forces at the joints, those of members by the lever rule, N.
+fn joint_loads(system: &System) -> Vec<Vector> {
+    let gravity = system.gravity_m_s2();
+    let weight = |mass_kg: f64| [0.0, 0.0, -mass_kg * gravity];
+    let own = system.joints().iter().map(|j| plus(j.force_n, weight(j.mass_kg)));
+    let mut loads: Vec<Vector> = own.collect();
+    for member in system.members() {
+        let body = &member.body;
+        let at = |at_m: f64| at_m / body.length_m();
+        let forces = member.loads.iter().map(|load| (at(load.at_m), load.force_n));
+        for (part, force) in forces.chain([(at(body.centre_m()), weight(body.mass_kg()))]) {
+            loads[member.from] = plus(loads[member.from], times(1.0 - part, force));
+            loads[member.to] = plus(loads[member.to], times(part, force));
+        }
+    }
+    loads
+}

@@ -1,0 +1,304 @@
+//! Answers for one system held against each other, and each against Newton's laws.
+
+use model::system::{Part, System, SystemEquilibrium};
+use model::{Agreed, Disagreement, Excess, NoCensus, Quantity, Reason, SolverName, Status, Vector};
+use serde::Serialize;
+
+use super::certificate::{certify, largest_force_n, size_m, total_load_n};
+use super::statics::{SystemStatics, judge};
+use crate::compare::{Verdict, with_sentences};
+use crate::tolerances::Tolerances;
+use crate::vector::{minus, norm, worse};
+
+/// How far answers agree: the object `agreement` of the JSON. Of more than two, the largest differences of any
+/// two.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct SystemAgreement {
+    /// Largest distance of a joint in one answer from the same joint in another, m. Parts that turn freely
+    /// about a vertical are turned onto each other first.
+    pub joints_m: f64,
+    /// Largest difference of a force at an end of a member or of a support, N.
+    pub forces_n: f64,
+    /// Largest difference of the energies, J.
+    pub energy_j: f64,
+    /// Joints without load whose members are all slack in every answer, so that they may be anywhere near:
+    /// their places are judged by the members' laws alone.
+    pub free_joints: usize,
+    /// Violations of geometry and of Newton's laws by each answer.
+    pub statics: Vec<SystemStatics>,
+    /// Whether all of these are within their budgets.
+    pub verdict: Verdict,
+    /// What speaks against it.
+    #[serde(flatten, serialize_with = "with_sentences")]
+    pub disagreement: Disagreement,
+}
+
+impl SystemAgreement {
+    /// Whether the answers are one.
+    #[must_use]
+    pub fn agrees(&self) -> bool {
+        self.verdict == Verdict::Agreed
+    }
+}
+
+/// What differences are held against, and what was found.
+struct Judgement<'a> {
+    system: &'a System,
+    tolerances: &'a Tolerances,
+    length_m: f64,
+    force_n: f64,
+    energy_j: f64,
+    parts: Vec<Part>,
+    free: Vec<bool>,
+    agreement: SystemAgreement,
+}
+
+/// Hold answers against each other, every two of them, and each against Newton's laws, and write what that
+/// proves into their evidence: `agreed`, and `optimal` where a certificate exists.
+///
+/// # Panics
+///
+/// When there are fewer than two answers: one alone is judged by [`judge_alone`].
+#[must_use]
+pub fn compare(
+    system: &System,
+    answers: &mut [SystemEquilibrium],
+    tolerances: &Tolerances,
+) -> SystemAgreement {
+    assert!(answers.len() >= 2, "{} answers cannot be compared", answers.len());
+    let agreement = Judgement::new(system, answers, tolerances).run(answers);
+    let rung = if agreement.agrees() {
+        Status::Reached(Agreed {
+            solvers: answers.iter().map(|answer| answer.solver.clone()).collect(),
+            joints_m: agreement.joints_m,
+            forces_n: agreement.forces_n,
+            energy_j: agreement.energy_j,
+            statics: agreement.statics.iter().map(SystemStatics::largest).fold(0.0, worse),
+        })
+    } else {
+        Status::Open(Reason::SolversDisagree(agreement.disagreement.clone()))
+    };
+    for answer in answers {
+        answer.evidence.ladder.agreed = rung.clone();
+        certify_rung(system, answer);
+    }
+    agreement
+}
+
+/// Judge one answer that has no second to compare with.
+pub fn judge_alone(system: &System, answer: &mut SystemEquilibrium) -> SystemStatics {
+    let statics = judge(system, answer);
+    answer.evidence.ladder.agreed = Status::Open(Reason::OneSolverOnly {
+        solver: answer.solver.clone(),
+        statics: statics.largest(),
+    });
+    certify_rung(system, answer);
+    statics
+}
+
+/// The rungs above `agreed`.
+fn certify_rung(system: &System, answer: &mut SystemEquilibrium) {
+    let optimal = match certify(system, answer) {
+        Ok(proof) => Status::Reached(proof),
+        Err(because) => Status::Open(Reason::NoCertificate(because)),
+    };
+    let ladder = &mut answer.evidence.ladder;
+    ladder.verified = Status::Open(Reason::NoCensus(NoCensus::NotAsked));
+    ladder.complete = Status::Open(Reason::NoCensus(NoCensus::NotAsked));
+    ladder.optimal = optimal;
+}
+
+impl<'a> Judgement<'a> {
+    fn new(system: &'a System, answers: &[SystemEquilibrium], tolerances: &'a Tolerances) -> Self {
+        let size_m = answers.iter().map(|answer| size_m(system, answer)).fold(0.0, worse);
+        let force_n = answers.iter().map(largest_force_n).fold(total_load_n(system), worse);
+        Self {
+            system,
+            tolerances,
+            length_m: size_m,
+            force_n,
+            energy_j: total_load_n(system) * size_m,
+            parts: system.parts(),
+            free: free_joints(system, answers),
+            agreement: SystemAgreement {
+                joints_m: 0.0,
+                forces_n: 0.0,
+                energy_j: 0.0,
+                free_joints: 0,
+                statics: Vec::new(),
+                verdict: Verdict::Agreed,
+                disagreement: Disagreement::default(),
+            },
+        }
+    }
+
+    fn run(mut self, answers: &[SystemEquilibrium]) -> SystemAgreement {
+        self.agreement.free_joints = self.free.iter().filter(|free| **free).count();
+        for (k, first) in answers.iter().enumerate() {
+            for second in &answers[k + 1..] {
+                self.pair(first, second);
+            }
+        }
+        for answer in answers {
+            let statics = judge(self.system, answer);
+            let (solver, place) = (answer.solver.clone(), statics.worst);
+            let budget = self.tolerances.statics.value;
+            self.hold(Quantity::SystemStatics { solver, place }, statics.largest(), budget);
+            self.agreement.statics.push(statics);
+        }
+        if !self.agreement.disagreement.is_empty() {
+            self.agreement.verdict = Verdict::Disagreed;
+        }
+        self.agreement
+    }
+
+    fn hold(&mut self, what: Quantity, value: f64, budget: f64) {
+        // NaN is over every budget.
+        if value.is_nan() || value > budget {
+            self.agreement.disagreement.excesses.push(Excess { what, value, budget });
+        }
+    }
+
+    /// Two answers: their differences, and their second-order behaviour.
+    fn pair(&mut self, first: &SystemEquilibrium, second: &SystemEquilibrium) {
+        let turns = self.turns(first, second);
+        let joints_m = self.joints_apart_m(first, second, &turns);
+        let forces_n = self.forces_apart_n(first, second, &turns);
+        let energy_j = (first.energy_j - second.energy_j).abs();
+        let agreement = &mut self.agreement;
+        agreement.joints_m = worse(agreement.joints_m, joints_m);
+        agreement.forces_n = worse(agreement.forces_n, forces_n);
+        agreement.energy_j = worse(agreement.energy_j, energy_j);
+        let between = [&first.solver, &second.solver].map(SolverName::clone);
+        let tolerances = self.tolerances;
+        let budget = tolerances.joints.value * self.length_m;
+        self.hold(Quantity::Joints { between: between.clone() }, joints_m, budget);
+        let budget = tolerances.forces.value * self.force_n;
+        self.hold(Quantity::Forces { between: between.clone() }, forces_n, budget);
+        let budget = tolerances.energy.value * self.energy_j;
+        self.hold(Quantity::Energy { between: between.clone() }, energy_j, budget);
+        let indices = [first.stability.index_in_space, second.stability.index_in_space];
+        self.hold(Quantity::MorseIndex { between }, indices[0].abs_diff(indices[1]) as f64, 0.0);
+    }
+
+    /// For every joint the part's turn that brings the second answer closest to the first: cosine, sine, and
+    /// the place of the axis.
+    fn turns(&self, first: &SystemEquilibrium, second: &SystemEquilibrium) -> Vec<Turn> {
+        let mut turns = vec![Turn::NONE; self.system.joints().len()];
+        for part in &self.parts {
+            let Some([x, y]) = part.axis_m else { continue };
+            let (mut along, mut across) = (0.0, 0.0);
+            for joint in &part.joints {
+                let (Some(a), Some(b)) = (first.joints_m.get(*joint), second.joints_m.get(*joint))
+                else {
+                    continue;
+                };
+                let (ax, ay, bx, by) = (a[0] - x, a[1] - y, b[0] - x, b[1] - y);
+                along += ax * bx + ay * by;
+                across += bx * ay - by * ax;
+            }
+            let (sin, cos) = f64::atan2(across, along).sin_cos();
+            for joint in &part.joints {
+                turns[*joint] = Turn { axis_m: [x, y], cos, sin };
+            }
+        }
+        turns
+    }
+
+    fn joints_apart_m(
+        &self,
+        first: &SystemEquilibrium,
+        second: &SystemEquilibrium,
+        turns: &[Turn],
+    ) -> f64 {
+        if [first.joints_m.len(), second.joints_m.len()] != [turns.len(); 2] {
+            return f64::NAN;
+        }
+        let held = (0..turns.len()).filter(|k| !self.free[*k]);
+        held.map(|k| norm(minus(first.joints_m[k], turns[k].place(second.joints_m[k]))))
+            .fold(0.0, worse)
+    }
+
+    fn forces_apart_n(
+        &self,
+        first: &SystemEquilibrium,
+        second: &SystemEquilibrium,
+        turns: &[Turn],
+    ) -> f64 {
+        let members = self.system.members();
+        let of_members = |a: &[Vector], b: &[Vector]| {
+            if [a.len(), b.len()] != [members.len(); 2] {
+                return f64::NAN;
+            }
+            let turned = |k: usize| turns[members[k].from].vector(b[k]);
+            (0..members.len()).map(|k| norm(minus(a[k], turned(k)))).fold(0.0, worse)
+        };
+        let reactions = if [first.reactions_n.len(), second.reactions_n.len()] == [turns.len(); 2] {
+            let pairs = first.reactions_n.iter().zip(&second.reactions_n).zip(turns);
+            pairs.map(|((a, b), turn)| norm(minus(*a, turn.vector(*b)))).fold(0.0, worse)
+        } else {
+            f64::NAN
+        };
+        let start = of_members(&first.start_forces_n, &second.start_forces_n);
+        let end = of_members(&first.end_forces_n, &second.end_forces_n);
+        worse(reactions, worse(start, end))
+    }
+}
+
+/// A turn about a vertical.
+#[derive(Clone, Copy)]
+struct Turn {
+    axis_m: [f64; 2],
+    cos: f64,
+    sin: f64,
+}
+
+impl Turn {
+    const NONE: Self = Self { axis_m: [0.0; 2], cos: 1.0, sin: 0.0 };
+
+    fn vector(&self, [x, y, z]: Vector) -> Vector {
+        [self.cos * x - self.sin * y, self.sin * x + self.cos * y, z]
+    }
+
+    fn place(&self, [x, y, z]: Vector) -> Vector {
+        let [ox, oy] = self.axis_m;
+        let [x, y, z] = self.vector([x - ox, y - oy, z]);
+        [x + ox, y + oy, z]
+    }
+}
+
+/// Which joints nothing loads and no member holds, because all that meet there are slack in every answer: such
+/// a joint can be moved a little without any change of energy.
+fn free_joints(system: &System, answers: &[SystemEquilibrium]) -> Vec<bool> {
+    let still = |force: Vector| force.iter().all(|x| x.abs() <= 0.0);
+    let mut free: Vec<bool> = system
+        .joints()
+        .iter()
+        .map(|j| j.support.at_m().is_none() && j.mass_kg <= 0.0 && still(j.force_n))
+        .collect();
+    for member in system.members() {
+        let unloaded =
+            member.body.mass_kg() <= 0.0 && member.loads.iter().all(|l| still(l.force_n));
+        let slack = unloaded && answers.iter().all(|answer| member_is_slack(member, answer));
+        if !slack {
+            free[member.from] = false;
+            free[member.to] = false;
+        }
+    }
+    free
+}
+
+/// Whether a member is slack by more than any rounding.
+fn member_is_slack(member: &model::system::Member, answer: &SystemEquilibrium) -> bool {
+    /// Far above the rounding of places, far below what anybody calls slack.
+    const CLEAR: f64 = 1e-6;
+    use model::system::Kind;
+    let places = (answer.joints_m.get(member.from), answer.joints_m.get(member.to));
+    let (Some(a), Some(b)) = places else { return false };
+    let (distance_m, length_m) = (norm(minus(*b, *a)), member.body.length_m());
+    match member.kind {
+        Kind::Bar => false,
+        Kind::Cable => distance_m < length_m * (1.0 - CLEAR),
+        Kind::Strut => distance_m > length_m * (1.0 + CLEAR),
+    }
+}

@@ -1,0 +1,181 @@
+//! The judge of systems on closed forms, right and tampered with.
+
+use model::system::{Joint, Member, System, SystemEquilibrium, SystemStability};
+use model::{Bar, Evidence, InSpace, NoCertificate, Place, Quantity, SolverName};
+
+use super::{certify, compare, judge};
+use crate::tolerances::Tolerances;
+
+/// A lamp of 2 N on two massless bars of 5 m between anchors 6 m apart (3, 4, 5): each bar pulls
+/// with 5/4 N.
+fn lamp() -> (System, SystemEquilibrium) {
+    let joints = vec![
+        Joint::anchor("A", [-3.0, 0.0, 0.0]),
+        Joint::anchor("B", [3.0, 0.0, 0.0]),
+        Joint::free("P").with_mass(0.2),
+    ];
+    let bar = Bar::homogeneous(5.0, 0.0).unwrap();
+    let members = vec![Member::bar(0, 2, bar), Member::cable(2, 1, bar)];
+    let system = System::new("lamp", 10.0, joints, members).unwrap();
+    let (left, right) = ([-0.75, 0.0, 1.0], [0.75, 0.0, 1.0]);
+    let answer = SystemEquilibrium {
+        solver: SolverName::LAGRANGE,
+        energy_j: -8.0,
+        joints_m: vec![[-3.0, 0.0, 0.0], [3.0, 0.0, 0.0], [0.0, 0.0, -4.0]],
+        start_forces_n: vec![left, right.map(|x| -x)],
+        end_forces_n: vec![left.map(|x| -x), right],
+        axial_n: vec![1.25, 1.25],
+        reactions_n: vec![left, right, [0.0; 3]],
+        stability: SystemStability {
+            in_space: InSpace::Stable,
+            index_in_space: 0,
+            index_in_plane: Some(0),
+            neutral: 0,
+        },
+        evidence: Evidence::new("closed form", 0.0, 0.0, 0),
+    };
+    (system, answer)
+}
+
+/// The largest violation with its place, of the lamp with one number changed.
+fn changed(change: impl Fn(&mut SystemEquilibrium)) -> (f64, Place) {
+    let (system, mut answer) = lamp();
+    change(&mut answer);
+    let found = judge(&system, &answer);
+    (found.largest(), found.worst)
+}
+
+#[test]
+fn a_closed_form_passes() {
+    assert!(changed(|_| {}).0 < 1e-15);
+}
+
+#[test]
+fn every_number_of_an_answer_counts() {
+    const OFF: f64 = 1e-6;
+    let seen = |change: fn(&mut SystemEquilibrium)| {
+        let (most, _) = changed(change);
+        assert!(most.is_nan() || most > 1e-8, "{most:e}");
+    };
+    seen(|a| a.joints_m[0][1] += OFF);
+    seen(|a| a.joints_m[2][2] += OFF);
+    seen(|a| a.start_forces_n[0][0] += OFF);
+    seen(|a| a.end_forces_n[1][2] += OFF);
+    seen(|a| a.axial_n[1] += OFF);
+    seen(|a| a.reactions_n[1][0] += OFF);
+    seen(|a| a.reactions_n[2][1] += OFF);
+    seen(|a| a.energy_j += OFF);
+    seen(|a| drop(a.joints_m.pop()));
+    assert!(changed(|a| a.joints_m[2][0] = f64::NAN).0.is_nan());
+    assert!(changed(|a| a.axial_n[0] = f64::NAN).0.is_nan());
+    assert!(changed(|a| a.energy_j = f64::NAN).0.is_nan());
+}
+
+#[test]
+fn the_place_is_that_of_the_largest_violation() {
+    assert_eq!(changed(|a| a.axial_n[1] += 0.1).1, Place::Member(2));
+    assert_eq!(changed(|a| a.reactions_n[2][1] += 0.1).1, Place::Joint(2));
+}
+
+/// The lamp upside down: in balance as bars, both compressed.
+fn arch() -> (System, SystemEquilibrium) {
+    let (system, mut answer) = lamp();
+    answer.joints_m[2][2] = 4.0;
+    for forces in [&mut answer.start_forces_n, &mut answer.end_forces_n] {
+        for force in forces.iter_mut() {
+            force[0] = -force[0];
+        }
+    }
+    for reaction in &mut answer.reactions_n {
+        reaction[0] = -reaction[0];
+    }
+    answer.axial_n = vec![-1.25; 2];
+    answer.energy_j = 8.0;
+    (system, answer)
+}
+
+#[test]
+fn a_cable_that_pushes_is_told() {
+    let (system, answer) = arch();
+    let found = judge(&system, &answer);
+    assert!((found.law - 1.0).abs() < 1e-12 && found.worst == Place::Member(2), "{found:?}");
+    for other in [found.length, found.force, found.moment, found.joint, found.derived] {
+        assert!(other < 1e-15, "{found:?}");
+    }
+}
+
+/// The lower bound of all energies is the energy itself, -8 J: the only other place of the joint, above,
+/// has +8 J.
+#[test]
+fn pulling_members_are_a_proof_of_the_global_minimum() {
+    let (system, answer) = lamp();
+    let proof = certify(&system, &answer).unwrap();
+    assert!(!proof.singular && proof.gap.unwrap().abs() < 1e-12, "{proof:?}");
+    // A tenth of a millimetre too low is no equilibrium, and the bound says how far off it is.
+    let mut off = answer.clone();
+    off.joints_m[2][2] -= 1e-4;
+    off.energy_j -= 2e-4;
+    assert!(certify(&system, &off).is_err() || certify(&system, &off).unwrap().gap.unwrap() <= 0.0);
+    let mut high = answer;
+    high.energy_j += 1e-3;
+    assert!(matches!(certify(&system, &high), Err(NoCertificate::Gap { gap }) if gap > 1e-5));
+}
+
+#[test]
+fn an_arch_has_no_certificate() {
+    let (system, answer) = arch();
+    assert_eq!(certify(&system, &answer), Err(NoCertificate::NotDefinite { compressed: 1 }));
+}
+
+#[test]
+fn answers_that_differ_do_not_agree() {
+    let (system, answer) = lamp();
+    let agreed = |change: &dyn Fn(&mut SystemEquilibrium)| {
+        let mut second = answer.clone();
+        second.solver = SolverName::ENERGY;
+        change(&mut second);
+        let mut both = [answer.clone(), second];
+        compare(&system, &mut both, &Tolerances::project())
+    };
+    assert!(agreed(&|_| ()).agrees());
+    assert!(!agreed(&|a| a.joints_m[2][1] += 1e-6).agrees());
+    assert!(!agreed(&|a| a.reactions_n[0][1] = f64::NAN).agrees());
+    let other = agreed(&|a| a.stability.index_in_space = 1);
+    assert!(
+        matches!(other.disagreement.excesses[..], [ref e] if matches!(e.what, Quantity::MorseIndex { .. }))
+    );
+}
+
+/// A pendulum of one bar turns about the vertical through its anchor.
+#[test]
+fn a_part_that_turns_is_turned_before_it_is_compared() {
+    let joints = vec![
+        Joint::anchor("A", [1.0, 2.0, 0.0]),
+        Joint::anchor("B", [1.0, 2.0, -6.0]),
+        Joint::free("P").with_mass(0.2),
+    ];
+    let bar = Bar::homogeneous(5.0, 0.0).unwrap();
+    let members = vec![Member::bar(0, 2, bar), Member::bar(2, 1, bar)];
+    let system = System::new("upright", 10.0, joints, members).unwrap();
+    // Heights -3 of -6: the upper bar pulls, the lower pushes, each with 5/3 N along (4, 3)/5.
+    let place = |cos: f64, sin: f64| {
+        let mut answer = lamp().1;
+        let out = [4.0 * cos, 4.0 * sin];
+        answer.joints_m =
+            vec![[1.0, 2.0, 0.0], [1.0, 2.0, -6.0], [1.0 + out[0], 2.0 + out[1], -3.0]];
+        let upper = [-out[0] / 3.0, -out[1] / 3.0, 1.0];
+        let lower = [out[0] / 3.0, out[1] / 3.0, 1.0];
+        answer.start_forces_n = vec![upper, lower.map(|x| -x)];
+        answer.end_forces_n = vec![upper.map(|x| -x), lower];
+        answer.reactions_n = vec![upper, lower, [0.0; 3]];
+        answer.axial_n = vec![5.0 / 3.0, -5.0 / 3.0];
+        answer.energy_j = -6.0;
+        answer
+    };
+    let mut both = [place(1.0, 0.0), place(0.6, 0.8)];
+    both[1].solver = SolverName::ENERGY;
+    let agreement = compare(&system, &mut both, &Tolerances::project());
+    assert!(agreement.agrees() && agreement.joints_m < 1e-14, "{agreement:?}");
+    // Singular by the turn: nothing is claimed.
+    assert!(certify(&system, &both[0]).is_err());
+}
