@@ -27,13 +27,20 @@ const DENSITY_STEPS: usize = 30;
 const FIRST_ROUNDING: f64 = 0.1;
 /// Each rounding is this fraction of the last one.
 const ROUNDING_FALL: f64 = 0.2;
-/// At the last rounding a taut member is longer than `l (1 - 5e-7)`: near enough for the final
-/// iteration to see which members are taut.
-const LAST_ROUNDING: f64 = 1e-3;
+/// At this rounding it may end, if the forces say clearly which members are taut; at the last one
+/// it does, where the stiffness along a taut member is 10^9 times that across and rounding sets in.
+const FIRST_END: f64 = 1e-3;
+const LAST_END: f64 = 2e-5;
+/// A member with this many times its rounding is clearly taut: `|d| > l (1 - 5e-5)`; at the end one
+/// with the second number counts as taut.
+const CLEARLY_TAUT: f64 = 100.0;
+const TAUT: f64 = 10.0;
 /// A member has at least this fraction of the mean starting force in its rounding.
 const LEAST_SCALE: f64 = 0.1;
 /// Next rounding when the step would gain less than this fraction of the rounding's own energy.
 const GAIN: f64 = 0.1;
+/// A step that would gain less than this fraction is rounding, however far it may go.
+const NO_GAIN: f64 = 1e-12;
 /// A step is halved while the slope at its end rises steeper than this fraction of the first slope.
 const SLOPE: f64 = 0.5;
 /// Newton steps in all; nets of 20,000 members take some 15.
@@ -62,8 +69,11 @@ pub(super) fn hang(framework: &Framework, stiffness: &mut Stiffness) -> Result<H
         let done = shape.step(framework, stiffness, &scales, rounding);
         steps += 1;
         if done {
-            settled = rounding <= LAST_ROUNDING;
-            rounding *= ROUNDING_FALL;
+            let clear = || shape.clearly_taut(framework, &scales, rounding);
+            settled = rounding <= LAST_END || (rounding <= FIRST_END && clear());
+            if !settled {
+                rounding *= ROUNDING_FALL;
+            }
         }
     }
     let state = shape.state(framework, &scales, rounding);
@@ -167,18 +177,27 @@ impl Shape {
         }
         let energy: f64 =
             framework.links.iter().enumerate().map(|(k, link)| mu(k) * link.length).sum();
-        t >= 1.0 && first.abs() < GAIN * energy
+        first.abs() < if t >= 1.0 { GAIN } else { NO_GAIN } * energy
     }
 
-    /// Axial forces, and which members are taut: those with more force than their rounding.
+    /// Whether every member that can pull is far from slack.
+    fn clearly_taut(&self, framework: &Framework, scales: &[f64], rounding: f64) -> bool {
+        let mut links = framework.links.iter().zip(&self.forces).zip(scales);
+        links.all(|((link, force), scale)| {
+            !pulls(framework, link) || force.norm() > CLEARLY_TAUT * rounding * scale
+        })
+    }
+
+    /// Axial forces, and which members are taut: those with far more force than their rounding.
     fn state(self, framework: &Framework, scales: &[f64], rounding: f64) -> State {
-        let axial: Vec<f64> = self.forces.iter().map(Vector3::norm).collect();
-        let taut = framework
-            .links
-            .iter()
-            .enumerate()
-            .map(|(k, link)| link.kind != Kind::Strut && axial[k] > rounding * scales[k])
-            .collect();
+        let mut axial: Vec<f64> = self.forces.iter().map(Vector3::norm).collect();
+        let mut taut = vec![false; axial.len()];
+        for (k, link) in framework.links.iter().enumerate() {
+            taut[k] = link.kind != Kind::Strut && axial[k] > TAUT * rounding * scales[k];
+            if !taut[k] {
+                axial[k] = 0.0;
+            }
+        }
         State { places: self.places, axial, taut }
     }
 }

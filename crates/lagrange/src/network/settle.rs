@@ -20,11 +20,15 @@ const FIRST_PENALTY: f64 = 30.0;
 /// Growth of $\rho$ when the lengths get better too slowly, and what is too slowly.
 const PENALTY_GROWTH: f64 = 5.0;
 const SLOW: f64 = 0.25;
+/// Lengths are better when their misfit has fallen to this part of the best one.
+const BETTER: f64 = 0.9;
 /// $\rho$ grows to this multiple of the first one at most: rounding of lengths becomes forces
 /// beyond.
 const LARGEST_GROWTH: f64 = 1e6;
 /// Updates of the forces.
 const ROUNDS: usize = 60;
+/// Rounds without better lengths after which the members do not fit from here.
+const STUCK: usize = 5;
 /// Newton steps between two updates.
 const STEPS: usize = 100;
 /// Lengths right to this part: the final iteration takes over.
@@ -34,34 +38,49 @@ const BALANCED: f64 = 1e-3;
 /// A step is accepted when the energy falls by this part of what the slope promises.
 const ARMIJO: f64 = 1e-4;
 const HALVINGS: usize = 40;
-/// Stiffness given to every joint where the matrix is not definite, in units of the mean $|N|/l$.
-const SHIFT: f64 = 1e-2;
+/// Stiffness given to every joint where the matrix is not definite, in units of the mean $|N|/l$:
+/// the first one, and how it grows until the matrix is definite and falls from step to step.
+const SHIFT: f64 = 1e-3;
+const SHIFT_GROWTH: f64 = 8.0;
+const SHIFT_FALL: f64 = 0.25;
+/// Shifts tried; then the negative pivots are left out.
+const TRIES: usize = 20;
 
-/// A rest near a state: places, forces, and the factorisations it took.
-pub(super) fn settle(
-    framework: &Framework,
-    stiffness: &mut Stiffness,
-    mut state: State,
-) -> (State, usize) {
+/// A rest near a state.
+pub(super) struct Rest {
+    pub state: State,
+    pub factorisations: usize,
+    /// Whether the lengths fit.
+    pub fits: bool,
+}
+
+/// Settle from a state.
+pub(super) fn settle(framework: &Framework, stiffness: &mut Stiffness, mut state: State) -> Rest {
     let mut penalty = Penalty::new(framework, &state);
-    let (mut steps, mut last) = (0, f64::INFINITY);
+    let (mut factorisations, mut best, mut since, mut fits) = (0, f64::INFINITY, 0, false);
     for _ in 0..ROUNDS {
-        steps += penalty.rest(framework, stiffness, &mut state);
+        let (steps, balanced) = penalty.rest(framework, stiffness, &mut state);
+        factorisations += steps;
         let axial = penalty.forces(framework, &state.places);
         let misfit = penalty.misfit(framework, &axial);
         penalty.offsets = axial;
-        if misfit <= CLOSE {
+        fits = misfit <= CLOSE;
+        if fits && balanced {
             break;
         }
-        if misfit > SLOW * last && penalty.rho < LARGEST_GROWTH * penalty.first {
+        if misfit > SLOW * best && penalty.rho < LARGEST_GROWTH * penalty.first {
             penalty.rho *= PENALTY_GROWTH;
         }
-        last = misfit;
+        since = if misfit < BETTER * best { 0 } else { since + 1 };
+        best = best.min(misfit);
+        if since >= STUCK && !fits {
+            break;
+        }
     }
     state.axial = penalty.offsets;
     let links = framework.links.iter().zip(&state.axial);
     state.taut = links.map(|(link, axial)| link.kind == Kind::Bar || link.bears(*axial)).collect();
-    (state, steps)
+    Rest { state, factorisations, fits }
 }
 
 struct Penalty {
@@ -112,41 +131,81 @@ impl Penalty {
         stored.sum::<f64>() + loads.sum::<f64>()
     }
 
-    /// Newton's method on the energy; the number of factorisations.
-    fn rest(&self, framework: &Framework, stiffness: &mut Stiffness, state: &mut State) -> usize {
-        for step in 0..STEPS {
+    /// Newton's method on the energy; the number of factorisations, and whether it ended in
+    /// balance.
+    fn rest(
+        &self,
+        framework: &Framework,
+        stiffness: &mut Stiffness,
+        state: &mut State,
+    ) -> (usize, bool) {
+        let (mut shift, mut factorisations) = (0.0, 0);
+        for _ in 0..STEPS {
             state.axial = self.forces(framework, &state.places);
             let directions = state.directions(framework);
             let pulls = directions.iter().zip(&state.axial).map(|((u, _), axial)| u * *axial);
-            let unbalance = framework.unbalance(pulls);
-            let gradient = stiffness.gather(framework, &unbalance);
+            let gradient = stiffness.gather(framework, &framework.unbalance(pulls));
             let largest = gradient.iter().fold(0.0_f64, |most, g| most.max(g.abs()));
             if largest <= BALANCED * state.largest_force(framework) * self.accuracy() {
-                return step;
+                return (factorisations, true);
             }
-            self.assemble(framework, stiffness, state, &directions, true);
-            if !stiffness.factorise_indefinite() || stiffness.negative_pivots() > 0 {
-                self.assemble(framework, stiffness, state, &directions, false);
-                stiffness.shift(SHIFT * self.mean);
-                stiffness.factorise_definite();
-            }
+            let (tries, used) = self.factorise(framework, stiffness, state, &directions, shift);
+            (factorisations, shift) = (factorisations + tries, used * SHIFT_FALL);
             let mut moves = gradient.clone();
             stiffness.solve(&mut moves);
             let slope: f64 = gradient.iter().zip(&moves).map(|(g, s)| g * s).sum();
             let moves = stiffness.scatter(framework, &moves);
-            let before = self.energy(framework, &state.places);
-            let mut t = 1.0;
-            let found = (0..HALVINGS).find_map(|_| {
-                let places: Vec<_> =
-                    state.places.iter().zip(&moves).map(|(place, step)| place + step * t).collect();
-                let falls = self.energy(framework, &places) <= before - ARMIJO * t * slope;
-                t *= 0.5;
-                falls.then_some(places)
-            });
-            let Some(places) = found else { return step + 1 };
+            let Some(places) = self.lower(framework, &state.places, &moves, slope) else {
+                return (factorisations, false);
+            };
             state.places = places;
         }
-        STEPS
+        (factorisations, false)
+    }
+
+    /// The places of the longest of the halved steps that lowers the energy.
+    fn lower(
+        &self,
+        framework: &Framework,
+        from: &[Vector3<f64>],
+        moves: &[Vector3<f64>],
+        slope: f64,
+    ) -> Option<Vec<Vector3<f64>>> {
+        let before = self.energy(framework, from);
+        let mut t = 1.0;
+        (0..HALVINGS).find_map(|_| {
+            let places: Vec<_> = from.iter().zip(moves).map(|(p, step)| p + step * t).collect();
+            let falls = self.energy(framework, &places) <= before - ARMIJO * t * slope;
+            t *= 0.5;
+            falls.then_some(places)
+        })
+    }
+
+    /// Factorise the second derivative of the energy, shifted until it is definite: the number of
+    /// factorisations and the shift.
+    fn factorise(
+        &self,
+        framework: &Framework,
+        stiffness: &mut Stiffness,
+        state: &State,
+        directions: &[(Vector3<f64>, f64)],
+        first: f64,
+    ) -> (usize, f64) {
+        let least = SHIFT * self.mean;
+        let mut shift = if first < least { 0.0 } else { first };
+        for tries in 1.. {
+            self.assemble(framework, stiffness, state, directions);
+            stiffness.shift(shift);
+            if stiffness.factorise_indefinite() && stiffness.negative_pivots() == 0 {
+                return (tries, shift);
+            }
+            shift = (shift * SHIFT_GROWTH).max(least);
+            if tries >= TRIES {
+                break;
+            }
+        }
+        stiffness.factorise_definite();
+        (TRIES, shift)
     }
 
     /// Balance is asked for in step with the lengths.
@@ -154,15 +213,13 @@ impl Penalty {
         self.first / self.rho
     }
 
-    /// The second derivative of the energy; without `full` the parts that may be negative are left
-    /// out.
+    /// The second derivative of the energy.
     fn assemble(
         &self,
         framework: &Framework,
         stiffness: &mut Stiffness,
         state: &State,
         directions: &[(Vector3<f64>, f64)],
-        full: bool,
     ) {
         let links = framework.links.iter().zip(directions).zip(&state.axial);
         let blocks = links.map(|((link, (u, length)), axial)| {
@@ -170,8 +227,7 @@ impl Penalty {
                 return Matrix3::zeros();
             }
             let works = link.kind == Kind::Bar || *axial != 0.0;
-            let across = if full { axial / length } else { axial.max(0.0) / length };
-            by_direction(u, across, if works { self.stiffness(link) } else { 0.0 })
+            by_direction(u, axial / length, if works { self.stiffness(link) } else { 0.0 })
         });
         stiffness.assemble(framework, blocks);
     }

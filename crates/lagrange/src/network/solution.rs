@@ -5,6 +5,7 @@ use model::{Evidence, InSpace, SolverName, Vector};
 use nalgebra::Vector3;
 
 use super::framework::Framework;
+use super::residual::Residual;
 use super::second_order::SecondOrder;
 use super::state::State;
 
@@ -17,7 +18,8 @@ pub enum Forces {
     /// axial forces times lengths: the limit of equally stiff members.
     LeastNorm,
     /// Self-stresses can be added, and the member with the least norm would ask a cable to push or
-    /// a strut to pull. Shown is the one that the iteration found.
+    /// a strut to pull, or would not be in balance because the joints are so near to a line or a
+    /// plane. Shown is the one that the iteration found.
     Found,
     /// The system is too large to count self-stresses (see
     /// [`Settings::dense_freedoms`](super::Settings::dense_freedoms)).
@@ -68,7 +70,8 @@ pub(super) struct Found {
 impl Solution {
     pub(super) fn new(framework: &Framework, found: Found) -> Self {
         let Found { mut state, residual, tolerance, factorisations, second_order, solve_s } = found;
-        let forces = choose(framework, &mut state, second_order.self_stresses.as_deref());
+        let forces =
+            choose(framework, &mut state, second_order.self_stresses.as_deref(), tolerance);
         let mut evidence = Evidence::new(
             "balance of joints in units of the largest force, and lengths in units of the length",
             residual,
@@ -104,7 +107,12 @@ impl Solution {
 }
 
 /// The member of the family of forces that is shown: least $\sum N^2 l$.
-fn choose(framework: &Framework, state: &mut State, basis: Option<&[Vec<f64>]>) -> Forces {
+fn choose(
+    framework: &Framework,
+    state: &mut State,
+    basis: Option<&[Vec<f64>]>,
+    tolerance: f64,
+) -> Forces {
     let Some(basis) = basis else { return Forces::Uncounted };
     if basis.is_empty() {
         return Forces::Unique;
@@ -142,7 +150,11 @@ fn choose(framework: &Framework, state: &mut State, basis: Option<&[Vec<f64>]>) 
     if !allowed {
         return Forces::Found;
     }
-    state.axial = least;
+    let found = std::mem::replace(&mut state.axial, least);
+    if Residual::new(framework, state).balance.0 > tolerance {
+        state.axial = found;
+        return Forces::Found;
+    }
     Forces::LeastNorm
 }
 

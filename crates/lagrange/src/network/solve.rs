@@ -24,9 +24,9 @@ const SIGN_CHANGES: usize = 30;
 /// A cable shorter than this part of its length is slack at the start.
 const SLACK_LENGTH: f64 = 1e-3;
 /// Tries to leave an unstable equilibrium, each by a small move of every joint.
-const KICKS: usize = 4;
-/// Size of such a kick, in units of the mean length.
-const KICK: f64 = 1e-2;
+const ESCAPES: usize = 4;
+/// Such moves, in units of the mean length: the next one where the last one led nowhere.
+const KICKS: [f64; 5] = [0.01, 0.1, 0.5, 1.0, 2.0];
 /// Ridge of the least squares for the forces of a seed, in units of the stiffness.
 const RIDGE: f64 = 1e-9;
 
@@ -53,7 +53,7 @@ pub fn solve(system: &System, settings: &Settings) -> Result<Solution, Error> {
     if let Some(error) = too_short(system, &solver.framework) {
         return Err(error);
     }
-    let run = solver.settled(start, 0)?;
+    let run = solver.settled(&start, 0)?;
     solver.stable(run)
 }
 
@@ -128,26 +128,37 @@ impl<'a> Solver<'a> {
         changed.then_some(state)
     }
 
-    /// A rest of the true members near a state, moved a little: the shape as cables is often a saddle
-    /// of the bars', with bars that have no length in it or lie in one line.
-    fn settled(&mut self, mut state: State, kick: usize) -> Result<Run, Error> {
-        let joints = state.places.iter_mut().zip(&self.framework.nodes).enumerate();
-        for (joint, (place, node)) in joints {
-            *place += node.axes * (node.axes.tr_mul(&scatter(joint, kick)) * KICK);
+    /// A rest of the true members near a state, moved a little: the shape as cables is often a
+    /// saddle of the bars', with bars that have no length in it or lie in one line. Where the
+    /// members do not fit from there, it is moved further.
+    fn settled(&mut self, from: &State, kick: usize) -> Result<Run, Error> {
+        let mut result = Err(Error::Unloaded);
+        for (tries, size) in KICKS.into_iter().enumerate() {
+            let mut state = from.clone();
+            let joints = state.places.iter_mut().zip(&self.framework.nodes).enumerate();
+            for (joint, (place, node)) in joints {
+                let aside = scatter(joint, kick + tries) * size;
+                *place += node.axes * node.axes.tr_mul(&aside);
+            }
+            let rest = settle(&self.framework, &mut self.stiffness, state);
+            self.factorisations += rest.factorisations;
+            let fits = rest.fits;
+            result = self.with_signs(rest.state);
+            if fits && result.is_ok() {
+                break;
+            }
         }
-        let (state, steps) = settle(&self.framework, &mut self.stiffness, state);
-        self.factorisations += steps;
-        self.with_signs(state)
+        result
     }
 
     /// Leave unstable equilibria.
     fn stable(mut self, mut run: Run) -> Result<Solution, Error> {
         let mut second_order = self.second_order(&run.state);
-        for kick in 1..=KICKS {
+        for kick in 1..=ESCAPES {
             if second_order.index == 0 {
                 return Ok(self.solution(run, second_order));
             }
-            run = self.settled(run.state, kick)?;
+            run = self.settled(&run.state, kick * KICKS.len())?;
             second_order = self.second_order(&run.state);
         }
         if second_order.index == 0 {
