@@ -6,6 +6,7 @@
 //! has to be listed, and no energy may lie outside the bounds by semidefinite programming, between which
 //! the first and the last of the list have to fit exactly.
 
+#[cfg(feature = "bounds")]
 use bounds::{BoundError, BoundSettings, Sense, semidefinite};
 use census::{Census, Interval};
 use lagrange::{Seed, Settings, SolveError, Solver};
@@ -150,6 +151,7 @@ pub fn statics(problem: &Problem, census: &Census) -> f64 {
 /// # Errors
 ///
 /// [`BoundError`] when a programme is not solved.
+#[cfg(feature = "bounds")]
 pub fn gaps(problem: &Problem, census: &Census) -> Result<[f64; 2], BoundError> {
     let chain = problem.chain();
     let unit_j = chain.total_mass_kg() * chain.gravity_m_s2() * chain.total_length_m();

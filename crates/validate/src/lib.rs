@@ -6,6 +6,8 @@
 //! equilibria ([`completeness`]). [`independence`] proves from the dependency graph that the agreement of the
 //! two is worth something.
 
+pub mod answer;
+#[cfg(feature = "bounds")]
 pub mod cables;
 pub mod census_checks;
 pub mod certificate;

@@ -7,7 +7,8 @@ use model::{Equilibrium, Problem, Rung};
 use rayon::prelude::*;
 use serde::Serialize;
 
-use crate::compare::{Agreement, compare};
+use crate::answer::{Equations, Question, UseCensus, ask_within};
+use crate::compare::Agreement;
 use crate::tolerances::Tolerances;
 use crate::units::Units;
 
@@ -69,16 +70,17 @@ pub fn both(
     problem: &Problem,
     tolerances: &Tolerances,
 ) -> Result<([Equilibrium; 2], Agreement), String> {
-    let mut answers = [
-        lagrange::solve(problem, &lagrange::Settings::default())
-            .map_err(|error| format!("lagrange: {error}"))?
-            .equilibrium,
-        energy::minimise(problem, &energy::Settings::default())
-            .map_err(|error| format!("energy: {error}"))?
-            .equilibrium,
-    ];
-    let agreement = compare(problem, &mut answers, tolerances);
-    Ok((answers, agreement))
+    let question =
+        Question { equations: Equations::Full, census: UseCensus::Never, ..Question::default() };
+    let answer = ask_within(problem, &question, tolerances, &|_| {});
+    if let Some(failure) = answer.failures.first() {
+        return Err(failure.to_string());
+    }
+    match (<[Equilibrium; 2]>::try_from(answer.equilibria), answer.agreement) {
+        (Ok(answers), Some(agreement)) => Ok((answers, agreement)),
+        // Both were asked and neither failed.
+        _ => Err("the answers are not two".to_owned()),
+    }
 }
 
 /// Both solvers on the given cases, in parallel; the order of the results is that of the cases.

@@ -3,29 +3,35 @@
 use std::cmp::Ordering;
 use std::fmt::Write as _;
 
-use model::{Equilibrium, SystemSummary};
+use funicular::SolveAnswer;
+use model::Equilibrium;
 use validate::Agreement;
 
-use crate::tables::{duration, long, numbers_from, rung, short, system_line, table, vector, word};
+use crate::tables::{
+    duration, long, numbers_from, rung, short, system_line, table, vector, word, wrapped,
+};
 
 /// Chains up to this many bars are printed joint by joint; longer ones by their ends (`--csv` and
 /// `--json` have all).
 const PRINTED_BARS: usize = 40;
 
+/// Where the sentences of the ladder begin.
+const LADDER_INDENT: usize = 15;
+
 /// The whole answer.
-pub fn answer(
-    system: &SystemSummary,
-    equilibria: &[Equilibrium],
-    agreement: Option<&Agreement>,
-    summary: bool,
-) -> String {
+pub fn answer(answer: &SolveAnswer, summary: bool) -> String {
+    let (system, equilibria) = (answer.system(), answer.equilibria());
     let mut text = system_line(system);
     text += &overview(equilibria);
     if !summary && let Some(first) = equilibria.first() {
         text += &shape(first, system.bars);
     }
     text += &ladder(equilibria);
-    if let Some(agreement) = agreement {
+    for failure in answer.failures() {
+        // Writing to a String cannot fail.
+        let _ = writeln!(text, "No answer of {failure}");
+    }
+    if let Some(agreement) = answer.agreement() {
         text += &self::agreement(agreement);
     }
     text
@@ -111,13 +117,10 @@ fn ladder(equilibria: &[Equilibrium]) -> String {
         // Writing to a String cannot fail.
         let _ = writeln!(text, "Evidence for the answer of {}: {}", e.solver, rung(&e.evidence));
         for s in e.evidence.ladder.statements() {
-            let _ = writeln!(
-                text,
-                "  {} {:<10} {}",
-                if s.reached { "+" } else { "-" },
-                s.rung.to_string(),
-                s.how
-            );
+            let mark = if s.reached { "+" } else { "-" };
+            let line = format!("  {mark} {:<10} {}", s.rung.to_string(), s.how);
+            text += &wrapped(&line, LADDER_INDENT);
+            text.push('\n');
         }
     }
     text + "\n"

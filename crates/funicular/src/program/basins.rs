@@ -9,10 +9,11 @@ use miette::miette;
 use rayon::prelude::*;
 
 use crate::exit::{Exit, Failure};
-use crate::input::{self, Input};
+use crate::input;
 use crate::interrupt::end_on_interrupt;
 use crate::output;
 use crate::progress::Progress;
+use crate::threads;
 
 const NOTES: &str = "\
 Each pixel is a start: the angles of two bars from the descending vertical, 0 to 360 degrees; all other bars start
@@ -66,8 +67,10 @@ pub struct Arguments {
 /// Run the command.
 pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
     end_on_interrupt()?;
-    let Input { problem, files } =
-        input::problem(arguments.file.as_deref(), arguments.case.as_deref())?;
+    threads::install(0)?;
+    let input = input::problem(arguments.file.as_deref(), arguments.case.as_deref())?;
+    let files = input.files.clone();
+    let problem = input.into_chain("basins")?;
     let bars = problem.chain().bars().len();
     let [i, j] = axes(arguments, bars)?;
     output::make_folder(&arguments.out)?;

@@ -1,7 +1,6 @@
 //! `funicular cases`: the registry of named cases.
 
 use clap::Args;
-use miette::miette;
 use model::cases;
 
 use crate::exit::{Exit, Failure};
@@ -19,19 +18,8 @@ pub struct Cases {
 /// Run the command.
 pub fn run(arguments: &Cases) -> Result<Exit, Failure> {
     match &arguments.name {
-        Some(name) => output::print(find(name)?.text)?,
+        Some(name) => output::print(funicular::case(name)?.text)?,
         None => output::print(&tables::cases(cases::all()))?,
     }
     Ok(Exit::Done)
-}
-
-/// The case of this name, or an error that lists the names.
-pub fn find(name: &str) -> Result<&'static cases::Case, Failure> {
-    cases::get(name).ok_or_else(|| {
-        let names: Vec<_> = cases::all().iter().map(|case| case.name).collect();
-        Failure::bad_input(miette!(
-            help = format!("the cases are: {}", names.join(", ")),
-            "there is no case named `{name}`"
-        ))
-    })
 }

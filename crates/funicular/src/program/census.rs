@@ -1,6 +1,5 @@
 //! `funicular census`: every equilibrium of a chain, with proof.
 
-mod answer;
 mod csv;
 mod table;
 
@@ -8,6 +7,7 @@ use std::path::PathBuf;
 
 use census::{CensusError, Settings, rough_time};
 use clap::Args;
+use funicular::Error;
 use miette::miette;
 
 use crate::exit::{Exit, Failure};
@@ -15,12 +15,10 @@ use crate::input::{self, Input};
 use crate::interrupt::end_on_interrupt;
 use crate::output;
 use crate::progress::Progress;
+use crate::threads;
 
 /// At most so many shapes in the figure: ten rows of seven fit a screen or a page. The help of `--svg` says so.
 const SHAPES: usize = 70;
-
-/// More threads than this are a mistake.
-const MOST_THREADS: i64 = 1024;
 
 /// `funicular census`.
 #[derive(Debug, Args)]
@@ -43,59 +41,49 @@ pub struct Census {
     /// Write joints and forces, a line per equilibrium and joint, to this CSV file
     #[arg(long, value_name = "FILE")]
     pub csv: Option<PathBuf>,
-    /// How many threads share the work; the answer does not depend on it [default: all processors]
-    #[arg(long, value_name = "T", value_parser = clap::value_parser!(u64).range(1..=MOST_THREADS.cast_unsigned()))]
-    pub threads: Option<u64>,
+    /// How many threads; 0 means one per processor. The answer does not depend on it
+    #[arg(long, value_name = "T", default_value_t = 0, value_parser = threads::parse, allow_negative_numbers = true)]
+    pub threads: usize,
 }
 
 /// Run the command.
 pub fn run(arguments: &Census) -> Result<Exit, Failure> {
     end_on_interrupt()?;
     let settings = Settings { max_bars: arguments.max_bars, ..Settings::default() };
-    settings.validate().map_err(|error| Failure::bad_input(miette!("{error}")))?;
-    if let Some(threads) = arguments.threads {
-        rayon::ThreadPoolBuilder::new()
-            .num_threads(usize::try_from(threads).unwrap_or(1))
-            .build_global()
-            .map_err(|error| Failure::bad_input(miette!("no {threads} threads: {error}")))?;
-    }
+    settings.validate().map_err(Error::from)?;
+    threads::install(arguments.threads)?;
     let progress = Progress::start();
     progress.say("reading");
     let Input { problem, files } =
         input::problem(arguments.file.as_deref(), arguments.case.as_deref())?;
     let outputs = [&arguments.svg, &arguments.csv];
     output::check(outputs.into_iter().flatten().map(PathBuf::as_path), &files)?;
-    let census = census::Census::take_watched(&problem, &settings, &|now| {
-        progress.say(&format!(
-            "{} cells done, {} waiting, {} undecided, {} zeros proved",
-            now.done, now.waiting, now.undecided, now.proved
-        ));
-    })
-    .map_err(|error| refuse(&error))?;
-    progress.say("the check of the census");
-    let verdict = census.check(&problem);
-    let name = problem.chain().name();
-    let answer = answer::Answer::new(&problem, &census, verdict);
+    let answer = funicular::Census::new()
+        .settings(settings)
+        .run_watched(&problem, &|now| {
+            progress.say(&format!(
+                "{} cells done, {} waiting, {} undecided, {} zeros proved",
+                now.done, now.waiting, now.undecided, now.proved
+            ));
+        })
+        .map_err(refuse)?;
 
     if let Some(path) = &arguments.svg {
-        output::write_whole(path, &census.figure(name, SHAPES))?;
+        output::write_whole(path, &answer.proven.figure(problem.name(), SHAPES))?;
     }
     if let Some(path) = &arguments.csv {
         output::write_whole(path, &csv::joints(&answer))?;
     }
     drop(progress);
     if arguments.json {
-        let json = serde_json::to_string_pretty(&answer).map_err(|error| {
-            Failure::undecided(miette!("the answer cannot be written as JSON: {error}"))
-        })?;
-        output::print(&(json + "\n"))?;
+        output::print_json(&answer)?;
     } else {
-        output::print(&table::text(&problem, &answer))?;
+        output::print(&table::text(&answer))?;
     }
     let check = &answer.census.check;
     Ok(if check.refuted {
         Exit::CheckFailed
-    } else if check.passed && census.complete {
+    } else if check.passed && answer.census.complete {
         Exit::Done
     } else {
         Exit::Undecided
@@ -103,22 +91,22 @@ pub fn run(arguments: &Census) -> Result<Exit, Failure> {
 }
 
 /// Why there is no census, and how to go on.
-fn refuse(error: &CensusError) -> Failure {
-    let CensusError::TooManyBars { bars, estimate_s, .. } = error else {
-        return Failure::bad_input(miette!("{error}"));
+fn refuse(error: Error) -> Failure {
+    let Error::Census(CensusError::TooManyBars { bars, estimate_s, .. }) = error else {
+        return error.into();
     };
-    let help = if *bars <= Settings::MAX_BARS {
+    let help = if bars <= Settings::MAX_BARS {
         format!(
             "--max-bars {bars} takes it all the same, in about {} (good to a factor of ten: the cost doubles with each \
              bar, as the number of equilibria does)",
-            rough_time(*estimate_s)
+            rough_time(estimate_s)
         )
     } else {
         format!(
             "no census goes beyond {} bars, --max-bars or not: the cost doubles with each bar, and this one would \
              take about {}. `funicular solve` finds the hanging equilibrium of a chain of any length",
             Settings::MAX_BARS,
-            rough_time(*estimate_s)
+            rough_time(estimate_s)
         )
     };
     Failure::bad_input(miette!(help = help, "{error}"))

@@ -1,6 +1,9 @@
 //! How the program ends.
 
-use crate::diagnostics::tell;
+use funicular::Error;
+use miette::miette;
+
+use crate::diagnostics::{SystemFileReport, tell};
 
 /// A way to end, with its exit code (0 agreed, 1 a check failed, 2 bad input, 3 undecided).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -54,9 +57,36 @@ impl Failure {
         Self { report: report.into(), exit: Exit::Undecided }
     }
 
+    /// What the library refuses is bad input; what its solvers do not reach is undecided.
+    fn of(error: Error) -> Self {
+        match error {
+            Error::File(error) => Self::bad_input(SystemFileReport::from(error)),
+            Error::UnknownCase { suggestion, .. } => {
+                let names: Vec<_> = model::cases::all().iter().map(|case| case.name).collect();
+                let all = format!("the cases are: {}", names.join(", "));
+                let help = match suggestion {
+                    Some(name) => format!("did you mean `{name}`? {all}"),
+                    None => all,
+                };
+                Self::bad_input(miette!(help = help, "{error}"))
+            }
+            Error::Unsolved { .. }
+            | Error::Lagrange(_)
+            | Error::Condensed(_)
+            | Error::Energy(_) => Self::undecided(miette!("{error}")),
+            _ => Self::bad_input(miette!("{error}")),
+        }
+    }
+
     /// Print the report to standard error and say how to end.
     pub fn report(self) -> Exit {
         tell(format_args!("{:?}", self.report));
         self.exit
+    }
+}
+
+impl From<Error> for Failure {
+    fn from(error: Error) -> Self {
+        Self::of(error)
     }
 }

@@ -1,15 +1,12 @@
-//! Systems from files.
+//! Systems from files, standard input, and the registry of cases.
 
-use std::cell::RefCell;
-use std::fs::{self, File};
-use std::io::Read;
+use std::io::Read as _;
 use std::path::{Path, PathBuf};
 
+use funicular::{Error, Problem};
 use miette::miette;
-use model::{Problem, system_file};
+use model::system_file::MAX_FILE_BYTES;
 
-use crate::cases;
-use crate::diagnostics::SystemFileReport;
 use crate::exit::Failure;
 
 /// A system and where it comes from.
@@ -20,34 +17,44 @@ pub struct Input {
     pub files: Vec<PathBuf>,
 }
 
-/// The problem of a system file or of a named case.
-pub fn problem(file: Option<&Path>, case: Option<&str>) -> Result<Input, Failure> {
-    match (file, case) {
-        (Some(file), _) => read(file),
-        (None, Some(name)) => {
-            cases::find(name).map(|case| Input { problem: case.problem(), files: Vec::new() })
-        }
-        // clap asks for one of them.
-        (None, None) => Err(Failure::bad_input(miette!("name a system file or a case"))),
+impl Input {
+    /// The chain, for commands that work for chains alone.
+    pub fn into_chain(self, command: &str) -> Result<model::Problem, Failure> {
+        self.problem.as_chain().cloned().ok_or_else(|| {
+            Failure::bad_input(miette!("`{command}` is for chains between two anchors"))
+        })
     }
 }
 
-/// Bars in a file of their own may be CSV or Parquet.
-fn read(path: &Path) -> Result<Input, Failure> {
-    let files = RefCell::new(vec![path.to_owned()]);
-    let problem = system_file::read_problem_with(path, &|bars| {
-        files.borrow_mut().push(bars.to_owned());
-        is_parquet(bars).then(|| columns::read_bars(bars).map_err(Into::into))
-    })
-    .map_err(|error| Failure::bad_input(SystemFileReport::from(error)))?;
-    Ok(Input { problem, files: files.into_inner() })
+/// The problem of a system file (`-` is standard input) or of a named case.
+pub fn problem(file: Option<&Path>, case: Option<&str>) -> Result<Input, Failure> {
+    let (problem, files) = match (file, case) {
+        (Some(file), _) if file == Path::new("-") => (standard_input()?, vec![]),
+        (Some(file), _) => Problem::read_with_files(file)?,
+        (None, Some(name)) => (Problem::case(name)?, vec![]),
+        // clap asks for one of them.
+        (None, None) => return Err(Failure::bad_input(miette!("name a system file or a case"))),
+    };
+    Ok(Input { problem, files })
 }
 
-/// Whether a file is named or begins like Parquet. What is read from a pipe is gone: only a file is tasted.
-fn is_parquet(path: &Path) -> bool {
-    let mut magic = [0; 4];
-    path.extension().is_some_and(|e| e.eq_ignore_ascii_case("parquet"))
-        || fs::metadata(path).is_ok_and(|about| about.is_file())
-            && File::open(path)
-                .is_ok_and(|mut file| file.read_exact(&mut magic).is_ok() && magic == *b"PAR1")
+fn standard_input() -> Result<Problem, Failure> {
+    /// Stands for the file in errors.
+    const NAME: &str = "standard input";
+    let unreadable = |error: &dyn std::fmt::Display| {
+        Failure::bad_input(miette!("{NAME} cannot be read: {error}"))
+    };
+    let mut text = vec![];
+    // One byte more than is allowed shows that it is too long.
+    let limit = MAX_FILE_BYTES.saturating_add(1);
+    std::io::stdin()
+        .lock()
+        .take(limit)
+        .read_to_end(&mut text)
+        .map_err(|error| unreadable(&error))?;
+    if text.len() as u64 > MAX_FILE_BYTES {
+        return Err(unreadable(&format_args!("it is longer than {MAX_FILE_BYTES} bytes")));
+    }
+    let text = String::from_utf8(text).map_err(|error| unreadable(&error))?;
+    Problem::parse(&text, NAME).map_err(|error: Error| error.into())
 }

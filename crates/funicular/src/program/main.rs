@@ -19,6 +19,7 @@ mod reproduce;
 mod solve;
 mod sweep;
 mod tables;
+mod threads;
 mod trace;
 mod verdicts;
 mod which;

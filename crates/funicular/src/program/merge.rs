@@ -9,8 +9,9 @@ use crate::exit::{Exit, Failure};
 use crate::interrupt::on_interrupt;
 use crate::output;
 use crate::sweep::{
-    json_object, print_json, seeds_bar, store_failure, summary_tables, threads, verdict, written,
+    json_object, print_json, seeds_bar, store_failure, summary_tables, verdict, written,
 };
+use crate::threads;
 
 /// How it ends, for its help.
 const EXIT_CODES: &str = "\
@@ -30,7 +31,7 @@ pub struct Merge {
     #[arg(value_name = "DIR", required = true)]
     pub folders: Vec<PathBuf>,
     /// How many threads; 0 means one per processor. The result does not depend on it
-    #[arg(long, value_name = "T", default_value_t = 0, value_parser = threads)]
+    #[arg(long, value_name = "T", default_value_t = 0, value_parser = threads::parse)]
     pub threads: usize,
     /// Print one JSON object (schema_version 1) instead of tables
     #[arg(long)]
@@ -46,7 +47,8 @@ pub fn run(arguments: &Merge) -> Result<Exit, Failure> {
     let seeds = arguments.folders.first().and_then(|folder| ::sweep::Manifest::read(folder).ok());
     let bar = seeds_bar(seeds.map_or(0, |manifest| manifest.seeds));
     let done = |seeds| bar.inc(seeds);
-    let merged = ::sweep::merge(&arguments.folders, &arguments.out, arguments.threads, stop, &done);
+    let threads = threads::resolve(arguments.threads)?;
+    let merged = ::sweep::merge(&arguments.folders, &arguments.out, threads, stop, &done);
     bar.finish_and_clear();
     let Some(summary) = merged.map_err(|error| store_failure(&error))? else {
         tell("Stopped. The same command goes on.");

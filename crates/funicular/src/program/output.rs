@@ -7,11 +7,9 @@ use std::path::{Path, PathBuf};
 
 use columns::AtomicFile;
 use miette::miette;
+use serde::Serialize;
 
 use crate::exit::Failure;
-
-/// Version of the JSON objects; raised when a key that others rely on changes its meaning.
-pub const SCHEMA_VERSION: u32 = 2;
 
 /// Print to standard output. A reader that has gone away (`| head`) is no error.
 pub fn print(text: &str) -> Result<(), Failure> {
@@ -29,6 +27,19 @@ pub fn print_stream(
         }
         _ => Ok(()),
     }
+}
+
+/// Print a JSON object.
+pub fn print_json(object: &impl Serialize) -> Result<(), Failure> {
+    print_stream(|out| {
+        serde_json::to_writer_pretty(&mut *out, object)?;
+        out.write_all(b"\n")
+    })
+}
+
+/// What cannot be said in JSON: a number that is none, which no answer has.
+pub fn no_json(error: &serde_json::Error) -> Failure {
+    Failure::undecided(miette!("the answer cannot be written as JSON: {error}"))
 }
 
 /// Refuse, before the work, what cannot be written after it, and what would overwrite a file that is read

@@ -11,6 +11,7 @@ use crate::exit::{Exit, Failure};
 use crate::interrupt::end_on_interrupt;
 use crate::output;
 use crate::progress::Progress;
+use crate::threads;
 use crate::verdicts;
 
 const FILES: [&str; 4] = ["report.html", "report.md", "results.json", "comparison.csv"];
@@ -29,6 +30,7 @@ pub struct Reproduce {
 /// Run the command.
 pub fn run(arguments: &Reproduce) -> Result<Exit, Failure> {
     end_on_interrupt()?;
+    threads::install(0)?;
     if let Some(folder) = &arguments.out {
         // Before the work, not after it.
         output::make_folder(folder)?;

@@ -17,13 +17,13 @@ use serde_json::{Value, json};
 
 use self::arguments::Spread;
 pub use self::arguments::Sweep;
-pub(crate) use self::arguments::threads;
 use crate::diagnostics::tell;
 use crate::exit::{Exit, Failure};
-use crate::input::{self, Input};
+use crate::input;
 use crate::interrupt::on_interrupt;
 use crate::output;
 use crate::progress::Progress;
+use crate::threads;
 use crate::which::Which;
 
 /// How often the progress bar is drawn while nothing is reported.
@@ -31,8 +31,10 @@ const TICK: Duration = Duration::from_millis(200);
 
 /// Run the command.
 pub fn run(arguments: &Sweep) -> Result<Exit, Failure> {
-    let Input { problem, .. } =
-        input::problem(arguments.file.as_deref(), arguments.case.as_deref())?;
+    let threads = threads::resolve(arguments.threads)?;
+    threads::install(threads)?;
+    let problem = input::problem(arguments.file.as_deref(), arguments.case.as_deref())?
+        .into_chain("sweep")?;
     let settings = settings(arguments, problem.chain().bars().len())?;
     let progress = Progress::start();
     progress.say("the list of equilibria");
@@ -48,12 +50,7 @@ pub fn run(arguments: &Sweep) -> Result<Exit, Failure> {
         &arguments.out,
         &manifest,
         &sweep,
-        &RunSettings {
-            threads: arguments.threads,
-            resume: arguments.resume,
-            stop,
-            done: &|seeds| bar.inc(seeds),
-        },
+        &RunSettings { threads, resume: arguments.resume, stop, done: &|seeds| bar.inc(seeds) },
     );
     bar.finish_and_clear();
     let run = run.map_err(|error| store_failure(&error))?;

@@ -87,6 +87,27 @@ pub fn vector(v: Vector) -> String {
     format!("({})", v.map(short).join(", "))
 }
 
+/// A paragraph in lines that fit a terminal of 80 columns, all but the first indented. A longer word stays whole.
+pub fn wrapped(paragraph: &str, indent: usize) -> String {
+    const COLUMNS: usize = 80;
+    let mut lines = String::new();
+    let mut column = 0;
+    for word in paragraph.split(' ') {
+        let length = word.chars().count();
+        if column > 0 && column + 1 + length > COLUMNS {
+            lines.push('\n');
+            lines.extend(std::iter::repeat_n(' ', indent));
+            column = indent;
+        } else if column > 0 || !lines.is_empty() {
+            lines.push(' ');
+            column += 1;
+        }
+        lines.push_str(word);
+        column += length;
+    }
+    lines
+}
+
 /// The highest rung that an answer has reached.
 pub fn rung(evidence: &Evidence) -> String {
     evidence.rung().map_or_else(|| "none".to_owned(), |rung| rung.to_string())
@@ -109,7 +130,19 @@ pub fn duration(seconds: f64) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::significant;
+    use super::{significant, wrapped};
+
+    #[test]
+    fn paragraphs_fit_eighty_columns_and_lose_nothing() {
+        let paragraph = format!("  + verified  {}", "interval ".repeat(40).trim_end());
+        let lines = wrapped(&paragraph, 14);
+        assert!(lines.starts_with("  + verified  interval interval "));
+        assert!(lines.lines().count() > 4 && lines.lines().all(|line| line.len() <= 80));
+        assert!(lines.lines().skip(1).all(|line| line.starts_with("              interval")));
+        let words = |text: &str| text.split_whitespace().map(str::to_owned).collect::<Vec<_>>();
+        assert_eq!(words(&lines), words(&paragraph));
+        assert_eq!(wrapped("short", 4), "short");
+    }
 
     #[test]
     fn numbers_keep_their_digits_and_drop_their_zeros() {

@@ -14,11 +14,12 @@ use model::SystemSummary;
 use serde::Serialize;
 
 use crate::exit::{Exit, Failure};
-use crate::input::{self, Input};
+use crate::input;
 use crate::interrupt::end_on_interrupt;
 use crate::output;
 use crate::progress::Progress;
 use crate::tables;
+use crate::threads;
 
 /// What `--csv` writes, in `--help`; the head of [`write_csv`] is tested against it.
 const CSV: &str = "\
@@ -110,9 +111,10 @@ struct Answer<'a> {
 /// Run the command.
 pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
     end_on_interrupt()?;
-    let Input { problem, files } =
-        input::problem(arguments.file.as_deref(), arguments.case.as_deref())?;
-    let chain = problem.into_chain();
+    threads::install(0)?;
+    let input = input::problem(arguments.file.as_deref(), arguments.case.as_deref())?;
+    let files = input.files.clone();
+    let chain = input.into_chain("trace")?.into_chain();
     let system = chain.summary();
     if !(1..=system.bars).contains(&arguments.bar) {
         let bars = system.bars;
@@ -141,11 +143,8 @@ pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
     }
     let exit = verdict(&traces)?;
     if arguments.json {
-        let answer = Answer { schema_version: output::SCHEMA_VERSION, system, traces: &traces };
-        output::print_stream(|out| {
-            serde_json::to_writer_pretty(&mut *out, &answer)?;
-            out.write_all(b"\n")
-        })?;
+        let answer = Answer { schema_version: funicular::SCHEMA_VERSION, system, traces: &traces };
+        output::print_json(&answer)?;
     } else {
         let many = traces.len() > 1;
         output::print(&traces.iter().map(|one| text(one, many)).collect::<Vec<_>>().join("\n"))?;

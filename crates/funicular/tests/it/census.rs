@@ -67,7 +67,7 @@ fn json(arguments: &[&str], code: i32) -> Value {
     let output = funicular(&[arguments, &["--json"]].concat());
     assert_eq!(output.status.code(), Some(code), "{}", stderr(&output));
     let value: Value = serde_json::from_slice(&output.stdout).unwrap();
-    assert_eq!(value["schema_version"], 1);
+    assert_eq!(value["schema_version"], 2);
     let census = &value["census"];
     assert_eq!(
         census["count"].as_u64().unwrap(),
@@ -82,7 +82,7 @@ fn json(arguments: &[&str], code: i32) -> Value {
     assert_eq!(complete, code == 0);
     for equilibrium in value["equilibria"].as_array().unwrap() {
         // Neither a NaN nor an infinity, which would come out as null.
-        assert_no_null(equilibrium, &["circle"]);
+        assert_no_null(equilibrium, &["circle", "force_uncertainty", "tolerance", "gap"]);
         let reached = |rung: &str| {
             let ladder = equilibrium["evidence"]["ladder"].as_array().unwrap();
             ladder.iter().find(|s| s["rung"] == rung).unwrap()["reached"].as_bool().unwrap()
@@ -408,7 +408,7 @@ fn bad_input_is_refused_with_its_reason() {
         (vec!["--case", "two-bars", "--max-bars", "0"], "max_bars must be from 1 to 24"),
         (vec!["--case", "two-bars", "--max-bars", "25"], "max_bars must be from 1 to 24"),
         (vec!["--case", "two-bars", "--max-bars", "many"], "invalid value"),
-        (vec!["--case", "two-bars", "--threads", "0"], "invalid value"),
+        (vec!["--case", "two-bars", "--threads", "1025"], "up to 1024 is wanted"),
         (vec!["--case", "two-bars", "--svg", nowhere.to_str().unwrap()], "there is no folder"),
         (vec!["--case", "two-bars", "--csv", directory.to_str().unwrap()], "it is a folder"),
     ] {

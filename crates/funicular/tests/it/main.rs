@@ -2,6 +2,7 @@
 
 mod census;
 mod files;
+mod library;
 mod program;
 mod sweep;
 mod trace;

@@ -59,7 +59,7 @@ fn reproduce_finds_what_is_expected_and_writes_it() {
     }
     let json: Value =
         serde_json::from_str(&std::fs::read_to_string(out.join("results.json")).unwrap()).unwrap();
-    assert_eq!(json["schema_version"], 1);
+    assert_eq!(json["schema_version"], 2);
     assert_eq!(json["all_as_expected"], true);
     assert!(json["figures"]["closure_curve"].as_array().unwrap().len() > 100);
     let report = std::fs::read_to_string(out.join("report.md")).unwrap();
@@ -85,8 +85,8 @@ fn solve_prints_the_keys_that_others_rely_on() {
     let output = funicular(&["solve", "--case", "three-equal-bars", "--json"]);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     let json: Value = serde_json::from_slice(&output.stdout).unwrap();
-    assert_no_null(&json, &["turned_rad"]);
-    assert_eq!(json["schema_version"], 1);
+    assert_no_null(&json, &["turned_rad", "force_uncertainty"]);
+    assert_eq!(json["schema_version"], 2);
     for key in ["name", "bars", "span_m", "total_length_m", "total_mass_kg", "gravity_m_s2"] {
         assert!(!json["system"][key].is_null(), "system.{key}");
     }

@@ -2,11 +2,13 @@
 
 use std::fmt::Write as _;
 
-use model::{Problem, Rung};
+use funicular::CensusAnswer;
+use funicular::census::{Found, Summary};
+use model::Rung;
 
-use super::answer::{Answer, Found, Summary};
 use crate::tables::{
     duration, long, numbers_from, rung, short, significant, system_line, table, vector, word,
+    wrapped,
 };
 
 /// So many equilibria are printed; `--json` and `--csv` have all.
@@ -21,12 +23,15 @@ const PRINTED_BARS: usize = 80;
 /// So many undecided boxes and slack families are printed.
 const PRINTED_OPEN: usize = 12;
 
+/// Where the sentences of the ladder begin.
+const LADDER_INDENT: usize = 14;
+
 /// The whole answer.
-pub fn text(problem: &Problem, answer: &Answer) -> String {
+pub fn text(answer: &CensusAnswer) -> String {
     let mut text = system_line(&answer.system);
     text += &headline(&answer.census);
     if !answer.equilibria.is_empty() {
-        text += &overview(problem, answer);
+        text += &overview(answer);
         text += &reactions(answer);
         text += &bars(answer);
         text += &evidence(answer);
@@ -63,10 +68,10 @@ fn headline(census: &Summary) -> String {
     text + if census.complete { ": proved to be all.\n\n" } else { ": NOT proved to be all.\n\n" }
 }
 
-fn overview(problem: &Problem, answer: &Answer) -> String {
+fn overview(answer: &CensusAnswer) -> String {
     let mut head = vec!["#", "energy / J"];
     // The paper counts the energy of its example from the last anchor, 2 l below the first.
-    let [start, end] = [problem.chain().anchors().start_m[2], problem.chain().anchors().end_m[2]];
+    let [start, end] = [answer.anchors.start_m[2], answer.anchors.end_m[2]];
     let shift_j = answer.system.total_mass_kg * answer.system.gravity_m_s2 * (start - end);
     let shift = shift_j / answer.census.energy_unit_j;
     let unit = answer.census.energy_symbol;
@@ -155,7 +160,7 @@ fn left_out(text: &mut String, all: usize, printed: usize, what: &str) {
 }
 
 /// The forces of the ground.
-fn reactions(answer: &Answer) -> String {
+fn reactions(answer: &CensusAnswer) -> String {
     let mut rows = table(["#", "force at start / N", "force at end / N"]);
     for found in answer.equilibria.iter().take(PRINTED) {
         let reactions = &found.equilibrium.reactions_n;
@@ -168,7 +173,7 @@ fn reactions(answer: &Answer) -> String {
 }
 
 /// Angles and forces, bar by bar.
-fn bars(answer: &Answer) -> String {
+fn bars(answer: &CensusAnswer) -> String {
     let printed = (PRINTED_BARS / answer.system.bars.max(1)).clamp(1, PRINTED);
     let mut rows = table(["#", "bar", "angle / deg", "signed / deg", "known to", "axial / N", ""]);
     for found in answer.equilibria.iter().take(printed) {
@@ -200,7 +205,7 @@ fn bars(answer: &Answer) -> String {
 }
 
 /// How far the equilibria are proved, rung by rung: every reason once, with the equilibria it holds for.
-fn evidence(answer: &Answer) -> String {
+fn evidence(answer: &CensusAnswer) -> String {
     let all = answer.equilibria.len();
     let mut text = "Evidence:\n".to_owned();
     for step in Rung::ALL.into_iter().filter(|rung| *rung != Rung::Converged) {
@@ -211,14 +216,15 @@ fn evidence(answer: &Answer) -> String {
         };
         let missed = answer.equilibria.iter().find(|found| !reached(found));
         let mark = if there.is_empty() { '-' } else { '+' };
-        let _ = write!(text, "  {mark} {:<9} {} of {all}", step.to_string(), there.len());
+        let mut line = format!("  {mark} {:<9} {} of {all}", step.to_string(), there.len());
         // Of many, the one with the widest box speaks for all.
         if let Some(widest) = there.iter().max_by(|a, b| a.box_width.total_cmp(&b.box_width)) {
-            let _ = write!(text, ": {}", how(Some(widest)));
+            line = format!("{line}: {}", how(Some(widest)));
         }
         if let Some(missed) = missed {
-            let _ = write!(text, "; not {}: {}", missed.label, how(Some(missed)));
+            line = format!("{line}; not {}: {}", missed.label, how(Some(missed)));
         }
+        text += &wrapped(&line, LADDER_INDENT);
         text.push('\n');
     }
     text + "\n"
@@ -336,7 +342,8 @@ mod tests {
     fn a_proof_that_fails_is_not_told_as_a_refutation() {
         let problem = model::cases::paper();
         let census = Census::take(&problem, &Settings::default()).unwrap();
-        let line = |verdict| check_line(&Answer::new(&problem, &census, verdict).census);
+        let line =
+            |verdict| check_line(&CensusAnswer::new(&problem, census.clone(), verdict).census);
         assert!(
             line(Ok(())).contains("is proved anew") && line(Ok(())).contains("rests on the search")
         );

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use ::sweep::Shard;
 use clap::{Args, ValueEnum};
 
+use crate::threads;
 use crate::which::Which;
 
 /// Most seeds of a sweep: at a few million a second, half a week.
@@ -59,7 +60,7 @@ pub struct Sweep {
     #[arg(long, value_enum, default_value_t = Which::Both)]
     pub solver: Which,
     /// How many threads; 0 means one per processor. The result does not depend on it
-    #[arg(long, value_name = "T", default_value_t = 0, value_parser = threads, allow_negative_numbers = true)]
+    #[arg(long, value_name = "T", default_value_t = 0, value_parser = threads::parse, allow_negative_numbers = true)]
     pub threads: usize,
     /// Only the K-th of N parts, to be joined by `funicular merge`
     #[arg(long, value_name = "K/N", default_value_t = Shard::WHOLE)]
@@ -117,16 +118,6 @@ impl std::fmt::Display for Format {
             Self::Parquet => "parquet",
             Self::Csv => "csv",
         })
-    }
-}
-
-/// Most threads that may be asked for.
-const MOST_THREADS: usize = 4096;
-
-pub(crate) fn threads(text: &str) -> Result<usize, String> {
-    match text.parse() {
-        Ok(threads) if threads <= MOST_THREADS => Ok(threads),
-        _ => Err(format!("a whole number up to {MOST_THREADS} is wanted")),
     }
 }
 

@@ -1,39 +1,51 @@
-//! What `census --json` prints. Tables and CSV are written from the same.
+//! What a census says, as `funicular census --json` prints it. Tables and CSV are written from the same.
 
 use census::{
     CheckError, Interval, Position, ProvenEquilibrium, SlackFamily, Statistics, Undecided,
 };
-use model::{Equilibrium, Problem, Reason, SolverName, Status, SystemSummary};
+use model::{Anchors, Equilibrium, Problem, Reason, SolverName, Status, SystemSummary};
 use serde::Serialize;
 use validate::statics::judge;
 
-use crate::output::SCHEMA_VERSION;
+use crate::solve::SCHEMA_VERSION;
 
 /// Both ends of an enclosure.
-type Ends = [f64; 2];
+pub type Ends = [f64; 2];
 
-/// The object.
-#[derive(Debug, Serialize)]
-pub struct Answer {
+/// All equilibria with their proofs, and what is known of the list.
+#[derive(Debug, Clone, Serialize)]
+pub struct CensusAnswer {
+    /// Version of this object as JSON.
     pub schema_version: u32,
+    /// What was asked about.
     pub system: SystemSummary,
     /// The equilibria in one vertical plane, by energy; circles by both their mirror images.
     pub equilibria: Vec<Found>,
+    /// The census as a whole.
     pub census: Summary,
+    /// The census itself, to draw and to ask further.
+    #[serde(skip)]
+    pub proven: census::Census,
+    /// The anchors of the chain.
+    #[serde(skip)]
+    pub anchors: Anchors,
 }
 
 /// One equilibrium: the same keys as those of `solve`, and what only a census knows.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Clone, Serialize)]
 pub struct Found {
+    /// As every solver gives it, from the middles of the enclosures.
     #[serde(flatten)]
     pub equilibrium: Equilibrium,
     /// `1`, or `1'` for the mirror image of 1 on the same circle.
     pub label: String,
     /// The number of the circle, from 1.
     pub circle: Option<usize>,
+    /// Whether this is the mirror image.
     pub mirrored: bool,
-    /// Angle of each bar from the descending vertical, [0, 360) and (-180, 180].
+    /// Angle of each bar from the descending vertical, [0, 360).
     pub angles_deg: Vec<f64>,
+    /// The same, (-180, 180].
     pub angles_signed_deg: Vec<f64>,
     /// +1 for each bar in tension, -1 in compression, 0 for one that carries next to nothing.
     pub signs: Vec<i8>,
@@ -41,22 +53,29 @@ pub struct Found {
     pub energy_scaled: f64,
     /// Largest relative width of the enclosures.
     pub box_width: f64,
+    /// Intervals that hold the exact values.
     pub enclosures: Enclosures,
 }
 
 /// Intervals that hold the exact values.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Clone, Serialize)]
 pub struct Enclosures {
+    /// Pull of the chain on the first anchor, level and upright.
     pub pull_n: [Ends; 2],
+    /// Energy above the height of joint 0.
     pub energy_j: Ends,
+    /// Angle of each bar from the descending vertical.
     pub angles_rad: Vec<Ends>,
+    /// Place of each joint.
     pub joints_m: Vec<[Ends; 3]>,
+    /// Force at each joint.
     pub multipliers_n: Vec<[Ends; 3]>,
+    /// Axial force of each bar.
     pub axial_n: Vec<Ends>,
 }
 
 /// The census as a whole.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Clone, Serialize)]
 pub struct Summary {
     /// Whether every equilibrium is in `equilibria` or `slack_families`.
     pub complete: bool,
@@ -72,51 +91,74 @@ pub struct Summary {
     pub alternating_sum: i64,
     /// Of the planar configuration space, from the lengths alone; `None` if it is no manifold.
     pub euler_characteristic: Option<i64>,
+    /// Its Betti numbers.
     pub betti: Option<Vec<u64>>,
     /// Why `euler_characteristic` is not known.
     pub topology_unknown: Option<String>,
+    /// How many boxes could not be decided.
     pub undecided_boxes: usize,
+    /// Those boxes.
     pub undecided: Vec<Open>,
+    /// Sets of equilibria with bars that carry nothing.
     pub slack_families: Vec<Slack>,
-    /// What `energy_scaled` is a multiple of, and what it is.
+    /// What `energy_scaled` is a multiple of.
     pub energy_unit_j: f64,
+    /// What that is, in words.
     pub energy_unit: &'static str,
+    /// Its symbol.
     pub energy_symbol: &'static str,
+    /// The list judged again, without the search.
     pub check: Check,
+    /// What it took.
     pub statistics: Statistics,
 }
 
 /// What could not be decided.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Clone, Serialize)]
 pub struct Open {
+    /// Name of the reason.
     pub reason: String,
+    /// The reason in words.
     pub why: String,
-    /// How many patterns of tension and compression are in question, and the first of them.
+    /// How many patterns of tension and compression are in question.
     pub pattern_count: usize,
+    /// The first of them.
     pub patterns: Vec<Vec<i8>>,
+    /// The face of the half cube of pulls where the box is.
     pub chart: serde_json::Value,
+    /// The box in the coordinates of that face.
     pub at: [Ends; 2],
+    /// The pulls in it, if they are bounded.
     pub pull_n: Option<[Ends; 2]>,
 }
 
 /// A set of equilibria with bars that carry nothing.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Clone, Serialize)]
 pub struct Slack {
+    /// +1 for each bar in tension, -1 in compression, 0 for a slack one.
     pub signs: Vec<i8>,
+    /// Energy above the height of joint 0.
     pub energy_j: Ends,
+    /// The gap that the slack bars bridge.
     pub gap_m: Ends,
+    /// Pull of the chain on the first anchor, level and upright.
     pub pull_n: [Ends; 2],
+    /// Directions in the plane in which the energy falls.
     pub index_in_plane: usize,
+    /// Directions in space in which the energy falls.
     pub index_in_space: usize,
+    /// Dimension of the set in the plane.
     pub dimension_in_plane: usize,
 }
 
 /// The census judged again, without the search.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Clone, Serialize)]
 pub struct Check {
+    /// Whether every equilibrium is proved anew.
     pub passed: bool,
     /// Whether something is shown to be wrong; else what failed is a proof, which shows nothing.
     pub refuted: bool,
+    /// What failed.
     pub failure: Option<String>,
 }
 
@@ -125,6 +167,7 @@ const PATTERNS: usize = 64;
 
 impl Check {
     /// From the verdict.
+    #[must_use]
     pub fn of(verdict: Result<(), CheckError>) -> Self {
         Self {
             passed: verdict.is_ok(),
@@ -134,17 +177,14 @@ impl Check {
     }
 }
 
-impl Answer {
-    /// Put together.
-    pub fn new(
-        problem: &Problem,
-        census: &census::Census,
-        verdict: Result<(), CheckError>,
-    ) -> Self {
+impl CensusAnswer {
+    /// Put together from a census and the verdict of its check.
+    #[must_use]
+    pub fn new(problem: &Problem, census: census::Census, verdict: Result<(), CheckError>) -> Self {
         let (energy_unit_j, energy_symbol, energy_unit) = energy_unit(problem);
         let equilibria: Vec<Found> = census
             .positions()
-            .map(|position| found(problem, census, &position, energy_unit_j))
+            .map(|position| found(problem, &census, &position, energy_unit_j))
             .collect();
         let topology = census.topology.as_ref();
         Self {
@@ -170,6 +210,8 @@ impl Answer {
                 statistics: census.statistics,
             },
             equilibria,
+            proven: census,
+            anchors: *problem.chain().anchors(),
         }
     }
 }
@@ -263,7 +305,7 @@ impl Enclosures {
 
 fn open(undecided: &Undecided) -> Open {
     Open {
-        reason: crate::tables::word(&undecided.reason),
+        reason: name(undecided.reason),
         why: undecided.reason.to_string(),
         pattern_count: undecided.signs.len(),
         patterns: undecided.signs.iter().take(PATTERNS).cloned().collect(),
@@ -271,6 +313,12 @@ fn open(undecided: &Undecided) -> Open {
         at: undecided.at.map(ends),
         pull_n: undecided.pull_n.and_then(finite),
     }
+}
+
+/// The serialised name of a reason.
+fn name(reason: census::Reason) -> String {
+    let value = serde_json::to_value(reason).ok();
+    value.and_then(|name| name.as_str().map(str::to_owned)).unwrap_or_default()
 }
 
 fn slack(family: &SlackFamily) -> Slack {

@@ -1,0 +1,85 @@
+//! What can go wrong.
+
+use validate::answer::SolverFailure;
+
+use crate::threads::MOST_THREADS;
+
+/// Why there is no answer.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// Occurs when a system file cannot be read, or describes no problem.
+    #[error(transparent)]
+    File(#[from] model::system_file::SystemFileError),
+    /// Occurs when a number of a bar is out of range.
+    #[error(transparent)]
+    Bar(#[from] model::BarError),
+    /// Occurs when a number of a chain is out of range.
+    #[error(transparent)]
+    Chain(#[from] model::ChainError),
+    /// Occurs when a number of a system is out of range, or a member names a joint that is not there.
+    #[error(transparent)]
+    System(#[from] model::system::SystemError),
+    /// Occurs when a chain is no equilibrium problem: out of reach, straight, without mass.
+    #[error(transparent)]
+    Refused(#[from] model::Refusal),
+    /// Occurs when there is no case of this name.
+    #[error("there is no case named `{name}`")]
+    UnknownCase {
+        /// The name as given.
+        name: String,
+        /// The name that is nearest, if one is near.
+        suggestion: Option<&'static str>,
+    },
+    /// Occurs when what was asked for is possible for chains between two anchors alone, and the problem is another
+    /// system.
+    #[error("{what} is for chains between two anchors")]
+    ChainsOnly {
+        /// What was asked for.
+        what: &'static str,
+    },
+    /// Occurs when every solver that was asked gave up.
+    #[error("{}", reasons(failures))]
+    Unsolved {
+        /// The reasons, one of each solver.
+        failures: Vec<SolverFailure>,
+    },
+    /// Occurs when `lagrange`, asked alone, has no answer.
+    #[error(transparent)]
+    Lagrange(#[from] lagrange::SolveError),
+    /// Occurs when `lagrange`, asked alone for the condensed system, has no answer.
+    #[error(transparent)]
+    Condensed(#[from] lagrange::condensed::CondensedError),
+    /// Occurs when `energy`, asked alone, has no answer.
+    #[error(transparent)]
+    Energy(#[from] energy::Error),
+    /// Occurs when a census is not taken: the chain is too long, or every position is an equilibrium.
+    #[error(transparent)]
+    Census(#[from] census::CensusError),
+    /// Occurs when more threads are asked for than make sense.
+    #[error("{threads} threads are too many: at most {MOST_THREADS}")]
+    TooManyThreads {
+        /// The number as given.
+        threads: usize,
+    },
+    /// Occurs when the system does not start the threads.
+    #[error("{threads} threads cannot be started: {reason}")]
+    Threads {
+        /// The number as given.
+        threads: usize,
+        /// What the system says.
+        reason: String,
+    },
+}
+
+impl Error {
+    pub(crate) fn unknown_case(name: &str) -> Self {
+        let names: Vec<_> = model::cases::all().iter().map(|case| case.name).collect();
+        let suggestion = model::system_file::nearest(name, &names);
+        Self::UnknownCase { name: name.to_owned(), suggestion }
+    }
+}
+
+fn reasons(failures: &[SolverFailure]) -> String {
+    failures.iter().map(ToString::to_string).collect::<Vec<_>>().join("; ")
+}

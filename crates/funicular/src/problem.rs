@@ -1,0 +1,164 @@
+//! What is asked about.
+
+use std::cell::RefCell;
+use std::path::{Path, PathBuf};
+
+use model::system::System;
+use model::system_file::{self, Described};
+
+use crate::error::Error;
+
+/// A system of bars for which the question "where does it come to rest?" has an answer: a chain between two anchors,
+/// or joints with members between them.
+///
+/// ```
+/// use funicular::prelude::*;
+/// let anchors = Anchors { start_m: [0.0; 3], end_m: [1.0, 0.0, 0.0] };
+/// let chain = Chain::new("two bars", 9.81, anchors, vec![Bar::homogeneous(1.0, 2.0)?; 2])?;
+/// assert_eq!(Problem::try_from(chain)?.name(), "two bars");
+/// # Ok::<(), Error>(())
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct Problem(Kind);
+
+#[derive(Debug, Clone, PartialEq)]
+enum Kind {
+    Chain(model::Problem),
+    System(System),
+}
+
+impl Problem {
+    /// The problem of a system file. Bars in a file of their own may be CSV, or with the feature `columns` Parquet.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::File`], with the line and what is allowed there.
+    pub fn read(path: impl AsRef<Path>) -> Result<Self, Error> {
+        Self::read_with_files(path).map(|(problem, _)| problem)
+    }
+
+    /// The same, and all files that were read for it.
+    ///
+    /// # Errors
+    ///
+    /// As [`read`](Self::read).
+    pub fn read_with_files(path: impl AsRef<Path>) -> Result<(Self, Vec<PathBuf>), Error> {
+        let path = path.as_ref();
+        let files = RefCell::new(vec![path.to_owned()]);
+        let described = system_file::read_with(path, &|bars| {
+            files.borrow_mut().push(bars.to_owned());
+            parquet(bars)
+        })?;
+        Ok((described.into(), files.into_inner()))
+    }
+
+    /// The problem of the text of a system file; `name` stands for the file in errors.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::File`], with the line and what is allowed there.
+    pub fn parse(text: &str, name: &str) -> Result<Self, Error> {
+        Ok(system_file::parse(text, name)?.into())
+    }
+
+    /// A named case, such as `three-equal-bars`, the example of the paper; [`model::cases`] has all.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::UnknownCase`], with the name that is nearest.
+    pub fn case(name: &str) -> Result<Self, Error> {
+        Ok(case(name)?.problem().into())
+    }
+
+    /// The name, for people.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        match &self.0 {
+            Kind::Chain(problem) => problem.chain().name(),
+            Kind::System(system) => system.name(),
+        }
+    }
+
+    /// The chain, if it is one.
+    #[must_use]
+    pub fn as_chain(&self) -> Option<&model::Problem> {
+        match &self.0 {
+            Kind::Chain(problem) => Some(problem),
+            Kind::System(_) => None,
+        }
+    }
+
+    /// The system of joints and members, if it is one.
+    #[must_use]
+    pub fn as_system(&self) -> Option<&System> {
+        match &self.0 {
+            Kind::Chain(_) => None,
+            Kind::System(system) => Some(system),
+        }
+    }
+
+    /// The chain, for what is possible with chains alone.
+    pub(crate) fn chain_for(&self, what: &'static str) -> Result<&model::Problem, Error> {
+        self.as_chain().ok_or(Error::ChainsOnly { what })
+    }
+}
+
+/// The named case, with its system file; [`model::cases::all`] lists them.
+///
+/// # Errors
+///
+/// [`Error::UnknownCase`], with the name that is nearest.
+pub fn case(name: &str) -> Result<&'static model::cases::Case, Error> {
+    model::cases::get(name).ok_or_else(|| Error::unknown_case(name))
+}
+
+impl From<model::Problem> for Problem {
+    fn from(problem: model::Problem) -> Self {
+        Self(Kind::Chain(problem))
+    }
+}
+
+impl TryFrom<model::Chain> for Problem {
+    type Error = Error;
+
+    fn try_from(chain: model::Chain) -> Result<Self, Error> {
+        Ok(model::Problem::new(chain)?.into())
+    }
+}
+
+impl From<Described> for Problem {
+    fn from(described: Described) -> Self {
+        match described {
+            Described::Chain(problem) => problem.into(),
+            Described::System(system) => system.into(),
+        }
+    }
+}
+
+impl From<System> for Problem {
+    fn from(system: System) -> Self {
+        Self(Kind::System(system))
+    }
+}
+
+/// What becomes of a file of bars.
+type BarsRead = Result<Vec<model::Bar>, Box<dyn std::error::Error + Send + Sync>>;
+
+/// Bars read from a file that is named or begins like Parquet; nothing of other files.
+#[cfg(feature = "columns")]
+fn parquet(bars: &Path) -> Option<BarsRead> {
+    use std::io::Read as _;
+    let mut magic = [0; 4];
+    // What is read from a pipe is gone: only a file is tasted.
+    let is_parquet = bars.extension().is_some_and(|e| e.eq_ignore_ascii_case("parquet"))
+        || std::fs::metadata(bars).is_ok_and(|about| about.is_file())
+            && std::fs::File::open(bars)
+                .is_ok_and(|mut file| file.read_exact(&mut magic).is_ok() && magic == *b"PAR1");
+    is_parquet.then(|| columns::read_bars(bars).map_err(Into::into))
+}
+
+/// Bars are read from CSV alone.
+#[cfg(not(feature = "columns"))]
+fn parquet(_: &Path) -> Option<BarsRead> {
+    None
+}

@@ -1,0 +1,276 @@
+//! The hanging equilibrium, by both solvers.
+
+use std::io::{self, Write};
+use std::num::NonZeroUsize;
+
+use model::{Equilibrium, Rung, SolverName, SystemSummary};
+use rayon::prelude::*;
+use serde::Serialize;
+use serde_json::Value;
+use validate::Agreement;
+use validate::answer::{Answer, Equations, Question, SolverFailure, Solvers, UseCensus, ask};
+
+use crate::error::Error;
+use crate::problem::Problem;
+use crate::threads;
+
+/// Version of the JSON objects; raised when a key that others rely on changes its meaning.
+pub const SCHEMA_VERSION: u32 = 2;
+
+/// Finds the hanging equilibrium by both solvers, compares, judges and certifies their answers, and looks short chains
+/// up in their census.
+///
+/// ```
+/// use funicular::prelude::*;
+/// let problem = Problem::case("two-bars")?;
+/// let answer = Solve::new().census(UseCensus::Never).run(&problem)?;
+/// let [lagrange, energy] = answer.equilibria() else { panic!("both have an answer") };
+/// assert!((lagrange.energy_j - energy.energy_j).abs() < 1e-12);
+/// assert!(answer.agrees());
+/// # Ok::<(), Error>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Solve {
+    solvers: Solvers,
+    equations: Equations,
+    census: UseCensus,
+    threads: usize,
+}
+
+impl Solve {
+    /// Both solvers, a census where that is quick, and all processors.
+    #[must_use]
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Which solvers to ask; one alone gets no comparison.
+    #[must_use]
+    pub fn solvers(self, solvers: Solvers) -> Self {
+        Self { solvers, ..self }
+    }
+
+    /// Which equations `lagrange` solves.
+    #[must_use]
+    pub fn equations(self, equations: Equations) -> Self {
+        Self { equations, ..self }
+    }
+
+    /// Whether to look the answers up in a census.
+    #[must_use]
+    pub fn census(self, census: UseCensus) -> Self {
+        Self { census, ..self }
+    }
+
+    /// How many threads share the work, 0 (the default) for those of the pool that it is called from. No answer
+    /// depends on it.
+    #[must_use]
+    pub fn threads(self, threads: usize) -> Self {
+        Self { threads, ..self }
+    }
+
+    /// Solve.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Unsolved`] when no solver has an answer; if one has, [`SolveAnswer::failures`] says why the other has
+    /// none.
+    pub fn run(&self, problem: &Problem) -> Result<SolveAnswer, Error> {
+        self.run_watched(problem, &|_| {})
+    }
+
+    /// The same, with `watch` told what is being done.
+    ///
+    /// # Errors
+    ///
+    /// As [`run`](Self::run).
+    pub fn run_watched(
+        &self,
+        problem: &Problem,
+        watch: &(dyn Fn(&str) + Sync),
+    ) -> Result<SolveAnswer, Error> {
+        threads::on(self.threads, || {
+            let threads = NonZeroUsize::new(rayon::current_num_threads());
+            self.one(problem, threads.unwrap_or(NonZeroUsize::MIN), watch)
+        })?
+    }
+
+    /// Solve many problems in parallel. The answers are in the order of the problems, and each is that of
+    /// [`run`](Self::run) but for the times.
+    ///
+    /// ```
+    /// use funicular::prelude::*;
+    /// let problems = [Problem::case("two-bars")?, Problem::case("three-equal-bars")?];
+    /// let answers = Solve::new().run_all(&problems)?;
+    /// assert!(answers.iter().all(|answer| answer.as_ref().is_ok_and(|answer| answer.agrees())));
+    /// # Ok::<(), Error>(())
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// [`Error::TooManyThreads`] and [`Error::Threads`]; what becomes of a problem stands in its place.
+    pub fn run_all(&self, problems: &[Problem]) -> Result<Vec<Result<SolveAnswer, Error>>, Error> {
+        threads::on(self.threads, || {
+            let one = |problem| self.one(problem, NonZeroUsize::MIN, &|_| {});
+            problems.par_iter().map(one).collect()
+        })
+    }
+
+    fn one(
+        &self,
+        problem: &Problem,
+        threads: NonZeroUsize,
+        watch: &dyn Fn(&str),
+    ) -> Result<SolveAnswer, Error> {
+        let chain = problem.chain_for("solving")?;
+        let Self { solvers, equations, census, .. } = *self;
+        let answer = ask(chain, &Question { solvers, equations, census, threads }, watch);
+        if answer.equilibria.is_empty() {
+            return Err(Error::Unsolved { failures: answer.failures });
+        }
+        Ok(SolveAnswer { system: chain.chain().summary(), answer })
+    }
+}
+
+/// What the solvers found, and how far it is proved.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SolveAnswer {
+    system: SystemSummary,
+    answer: Answer,
+}
+
+impl SolveAnswer {
+    /// What was solved.
+    #[must_use]
+    pub fn system(&self) -> &SystemSummary {
+        &self.system
+    }
+
+    /// One equilibrium for each solver that has an answer, with its evidence: `lagrange` first.
+    #[must_use]
+    pub fn equilibria(&self) -> &[Equilibrium] {
+        &self.answer.equilibria
+    }
+
+    /// The answer of one solver, if it has one.
+    #[must_use]
+    pub fn by(&self, solver: &SolverName) -> Option<&Equilibrium> {
+        self.answer.by(solver)
+    }
+
+    /// Why solvers that were asked have no answer.
+    #[must_use]
+    pub fn failures(&self) -> &[SolverFailure] {
+        &self.answer.failures
+    }
+
+    /// The comparison, and the judge's findings, if there are two answers.
+    #[must_use]
+    pub fn agreement(&self) -> Option<&Agreement> {
+        self.answer.agreement.as_ref()
+    }
+
+    /// Whether both solvers answered and agree, and the judge finds both in balance.
+    #[must_use]
+    pub fn agrees(&self) -> bool {
+        self.answer.agrees()
+    }
+
+    /// The highest rung that an answer has reached.
+    #[must_use]
+    pub fn rung(&self) -> Option<Rung> {
+        self.equilibria().iter().filter_map(|equilibrium| equilibrium.evidence.rung()).max()
+    }
+
+    /// The JSON object without the arrays over joints and bars.
+    ///
+    /// # Errors
+    ///
+    /// When a number is none, which an answer does not have.
+    pub fn summary(&self) -> serde_json::Result<Value> {
+        let bare = |e: &Equilibrium| Equilibrium {
+            joints_m: vec![],
+            multipliers_n: vec![],
+            axial_n: vec![],
+            reactions_n: e.reactions_n,
+            solver: e.solver.clone(),
+            energy_j: e.energy_j,
+            stability: e.stability,
+            evidence: e.evidence.clone(),
+        };
+        let equilibria: Vec<Equilibrium> = self.equilibria().iter().map(bare).collect();
+        let mut value = serde_json::to_value(self.object(&equilibria))?;
+        if let Some(equilibria) = value["equilibria"].as_array_mut() {
+            for equilibrium in equilibria.iter_mut().filter_map(Value::as_object_mut) {
+                for key in ["joints_m", "multipliers_n", "axial_n"] {
+                    equilibrium.remove(key);
+                }
+            }
+        }
+        Ok(value)
+    }
+
+    /// A line per solver and joint as CSV: position, force of bar k+1 on bar k (at joint 0 of the ground on bar 1, at
+    /// joint n of the ground on bar n), and the axial force of the bar that ends there.
+    ///
+    /// # Errors
+    ///
+    /// When `to` cannot be written.
+    pub fn write_csv(&self, mut to: impl Write) -> io::Result<()> {
+        writeln!(to, "solver,joint,x_m,y_m,z_m,force_x_n,force_y_n,force_z_n,axial_n")?;
+        for e in self.equilibria() {
+            let joints = e.joints_m.iter().zip(&e.multipliers_n).enumerate();
+            for (k, ([x, y, z], [fx, fy, fz])) in joints {
+                write!(to, "{},{k},{x:?},{y:?},{z:?},{fx:?},{fy:?},{fz:?},", e.solver)?;
+                match k.checked_sub(1).and_then(|bar| e.axial_n.get(bar)) {
+                    Some(axial) => writeln!(to, "{axial:?}")?,
+                    None => writeln!(to)?,
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn object<'a>(&'a self, equilibria: &'a [Equilibrium]) -> Object<'a> {
+        Object {
+            schema_version: SCHEMA_VERSION,
+            system: &self.system,
+            equilibria,
+            agreement: self.agreement(),
+            failures: self.failures().iter().map(Failure::of).collect(),
+        }
+    }
+}
+
+/// As `funicular solve --json` prints it.
+impl Serialize for SolveAnswer {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        self.object(self.equilibria()).serialize(serializer)
+    }
+}
+
+#[derive(Serialize)]
+struct Object<'a> {
+    schema_version: u32,
+    system: &'a SystemSummary,
+    equilibria: &'a [Equilibrium],
+    agreement: Option<&'a Agreement>,
+    failures: Vec<Failure>,
+}
+
+/// A solver without an answer.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct Failure {
+    /// Its name.
+    pub solver: SolverName,
+    /// Why it has none.
+    pub reason: String,
+}
+
+impl Failure {
+    /// As JSON has it.
+    #[must_use]
+    pub fn of(failure: &SolverFailure) -> Self {
+        Self { solver: failure.solver(), reason: failure.to_string() }
+    }
+}

@@ -1,0 +1,111 @@
+//! The library as its users meet it.
+
+#![expect(clippy::unwrap_used, reason = "helpers of tests")]
+
+use funicular::prelude::*;
+
+fn cases() -> Vec<Problem> {
+    ["two-bars", "three-equal-bars", "propped", "hundred-bars", "massless-links"]
+        .map(|name| Problem::case(name).unwrap())
+        .into()
+}
+
+/// What an answer says but for the times.
+fn without_times(answer: &funicular::SolveAnswer) -> Vec<Equilibrium> {
+    let mut equilibria = answer.equilibria().to_vec();
+    for equilibrium in &mut equilibria {
+        equilibrium.evidence.solve_s = 0.0;
+    }
+    equilibria
+}
+
+#[test]
+fn a_batch_keeps_the_order_and_is_what_each_run_says_whatever_the_threads() {
+    let problems = cases();
+    let single: Vec<_> =
+        problems.iter().map(|problem| Solve::new().run(problem).unwrap()).collect();
+    for threads in [1, 3] {
+        let batch = Solve::new().threads(threads).run_all(&problems).unwrap();
+        assert_eq!(batch.len(), problems.len());
+        for ((problem, alone), together) in problems.iter().zip(&single).zip(&batch) {
+            let together = together.as_ref().unwrap();
+            assert_eq!(together.system().name, problem.name());
+            assert_eq!(without_times(alone), without_times(together), "{}", problem.name());
+            assert_eq!(alone.agreement(), together.agreement());
+        }
+    }
+}
+
+#[test]
+fn a_solver_alone_has_no_comparison_and_says_so() {
+    for (solvers, name) in
+        [(Solvers::Lagrange, SolverName::LAGRANGE), (Solvers::Energy, SolverName::ENERGY)]
+    {
+        let answer = Solve::new().solvers(solvers).run(&cases()[0]).unwrap();
+        assert!(answer.agreement().is_none() && !answer.agrees() && answer.failures().is_empty());
+        assert_eq!(answer.equilibria().len(), 1);
+        assert_eq!(answer.by(&name), answer.equilibria().first());
+    }
+}
+
+#[test]
+fn the_full_and_the_condensed_equations_have_the_same_answer() {
+    let problem = Problem::case("five-in-space").unwrap();
+    let by = |equations| {
+        let answer = Solve::new().equations(equations).solvers(Solvers::Lagrange).run(&problem);
+        answer.unwrap().equilibria()[0].clone()
+    };
+    let [condensed, full] = [by(Equations::Condensed), by(Equations::Full)];
+    for (a, b) in condensed.joints_m.iter().flatten().zip(full.joints_m.iter().flatten()) {
+        assert!((a - b).abs() < 1e-12, "{a} {b}");
+    }
+}
+
+/// What `solve` looks up in a census only where it is asked to.
+#[test]
+fn a_census_is_taken_where_it_is_asked_for() {
+    let rung = |name, census| {
+        Solve::new().census(census).run(&Problem::case(name).unwrap()).unwrap().rung()
+    };
+    let reached = |name: &str, census| {
+        let answer = Solve::new().census(census).run(&Problem::case(name).unwrap()).unwrap();
+        answer.equilibria()[0].evidence.ladder.is_reached(Rung::Complete)
+    };
+    assert!(reached("two-bars", UseCensus::Auto) && !reached("two-bars", UseCensus::Never));
+    assert!(!reached("ten-equal-bars", UseCensus::Auto));
+    assert_eq!(rung("two-bars", UseCensus::Never), Some(Rung::Optimal));
+}
+
+#[test]
+fn errors_are_joined_and_say_what_they_said() {
+    let unknown = Problem::case("three-equal-bar").unwrap_err();
+    assert!(
+        matches!(&unknown, Error::UnknownCase { suggestion: Some("three-equal-bars"), .. }),
+        "{unknown:?}"
+    );
+    let anchors = Anchors { start_m: [0.0; 3], end_m: [3.0, 0.0, 0.0] };
+    let chain = Chain::new("short", 9.81, anchors, vec![Bar::homogeneous(1.0, 1.0).unwrap(); 2]);
+    let refused = Problem::try_from(chain.unwrap()).unwrap_err();
+    assert!(matches!(refused, Error::Refused(model::Refusal::OutOfReach { .. })), "{refused:?}");
+    let file = Problem::parse("name = 1", "chain.toml").unwrap_err();
+    assert!(file.to_string().starts_with("chain.toml:1:"), "{file}");
+    let long = Census::new().max_bars(3).run(&Problem::case("ten-equal-bars").unwrap());
+    assert!(matches!(long, Err(Error::Census(_))));
+    let threads = Solve::new().threads(funicular::MOST_THREADS + 1).run(&cases()[0]);
+    assert!(matches!(threads, Err(Error::TooManyThreads { threads: 1025 })), "{threads:?}");
+}
+
+#[test]
+fn a_system_of_joints_is_told_apart_from_a_chain() {
+    use model::system::{Joint, Member, System};
+    let joints = vec![
+        Joint::anchor("A", [0.0; 3]),
+        Joint::anchor("B", [1.0, 0.0, 0.0]),
+        Joint::free("P").with_mass(1.0),
+    ];
+    let bar = Bar::homogeneous(1.0, 1.0).unwrap();
+    let members = vec![Member::bar(0, 2, bar), Member::bar(2, 1, bar)];
+    let problem = Problem::from(System::new("a lamp", 9.81, joints, members).unwrap());
+    assert!(problem.as_chain().is_none() && problem.as_system().is_some());
+    assert!(matches!(Census::new().run(&problem), Err(Error::ChainsOnly { what: "a census" })));
+}

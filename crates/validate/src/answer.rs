@@ -1,0 +1,250 @@
+//! One question to both solvers: their answers compared, judged, certified, and looked up in the census.
+//!
+//! Whoever wants the hanging equilibrium of a chain with all its evidence asks here; what each part proves is said in
+//! [`compare`](mod@crate::compare), [`statics`](crate::statics), [`certificate`](crate::certificate) and
+//! [`completeness`](crate::completeness).
+//!
+//! ```
+//! use validate::answer::{Question, ask};
+//! let answer = ask(&model::cases::paper(), &Question::default(), &|_| {});
+//! assert!(answer.agreement.is_some_and(|agreement| agreement.agrees()));
+//! assert!(answer.equilibria.iter().all(|e| e.evidence.rung() == Some(model::Rung::Optimal)));
+//! ```
+
+use std::num::NonZeroUsize;
+
+use census::{Census, Topology, TopologyError};
+use model::{Equilibrium, NoAnswer, Problem, Reason, SolverName, Status};
+
+use crate::compare::{Agreement, compare, judge_alone};
+use crate::completeness::{certify_by_census, without_census};
+use crate::tolerances::Tolerances;
+
+/// Chains up to this many bars are looked up in their census without being asked to.
+const CENSUS_BARS: usize = 8;
+
+/// Tests per pattern for that: several times what generic chains need, and a second or so at most. A degenerate chain
+/// is left undecided; a census that is asked for takes its time.
+const CENSUS_TESTS: u64 = 2_000;
+
+/// The same where the lengths fit into a straight line, so that the census cannot be complete: what generic chains need
+/// for each of their equilibria.
+const CENSUS_TESTS_STRAIGHT: u64 = 400;
+
+/// What is asked, and of whom.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Question {
+    /// Which solvers. Default both.
+    pub solvers: Solvers,
+    /// Which equations `lagrange` solves. Default the condensed ones.
+    pub equations: Equations,
+    /// Whether the answers are looked up in a census. Default where that is quick.
+    pub census: UseCensus,
+    /// How many threads `lagrange` uses for one long chain; the answer does not depend on it. Default one. (A census
+    /// runs on the threads of rayon's pool.)
+    pub threads: NonZeroUsize,
+}
+
+impl Default for Question {
+    fn default() -> Self {
+        Self {
+            solvers: Solvers::Both,
+            equations: Equations::Condensed,
+            census: UseCensus::Auto,
+            threads: NonZeroUsize::MIN,
+        }
+    }
+}
+
+/// Which solvers are asked.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Solvers {
+    /// Forces first: constraints and multipliers. Alone it gets no comparison.
+    Lagrange,
+    /// Energy first: minimisation. Alone it gets no comparison.
+    Energy,
+    /// Both, and the comparison.
+    #[default]
+    Both,
+}
+
+/// Which of the systems of equations `lagrange` solves.
+///
+/// They have the same solutions; a test compares them. The angles of the full one lose digits where strands hang
+/// side by side or a chain is nearly straight, and its cost grows faster than the number of bars.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Equations {
+    /// Three equations for the pull on the first anchor, whatever the number of bars.
+    #[default]
+    Condensed,
+    /// The paper's: all coordinates and all multipliers at once; for some 30 bars.
+    Full,
+}
+
+/// Whether answers are looked up in a census: whether they are proved to be equilibria, and with which others.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum UseCensus {
+    /// No census.
+    Never,
+    /// Where it takes a second at most: chains of up to 8 bars.
+    #[default]
+    Auto,
+    /// Wherever there can be one: chains of up to 12 bars, in seconds.
+    Always,
+}
+
+/// Both answers with what is known of them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Answer {
+    /// One for each solver that has an answer, with its evidence: `lagrange` first.
+    pub equilibria: Vec<Equilibrium>,
+    /// Why the other solvers that were asked have none.
+    pub failures: Vec<SolverFailure>,
+    /// The comparison, if there are two to compare.
+    pub agreement: Option<Agreement>,
+}
+
+/// Why a solver has no answer.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum SolverFailure {
+    /// Occurs when `lagrange` does not converge on the full system.
+    #[error("lagrange: {0}")]
+    Full(#[from] lagrange::SolveError),
+    /// Occurs when `lagrange` does not converge on the condensed system.
+    #[error("lagrange: {0}")]
+    Condensed(#[from] lagrange::condensed::CondensedError),
+    /// Occurs when `energy` does not converge.
+    #[error("energy: {0}")]
+    Energy(#[from] energy::Error),
+}
+
+impl SolverFailure {
+    /// The solver that has no answer.
+    #[must_use]
+    pub fn solver(&self) -> SolverName {
+        match self {
+            Self::Full(_) | Self::Condensed(_) => SolverName::LAGRANGE,
+            Self::Energy(_) => SolverName::ENERGY,
+        }
+    }
+}
+
+impl Answer {
+    /// The answer of one solver, if it has one.
+    #[must_use]
+    pub fn by(&self, solver: &SolverName) -> Option<&Equilibrium> {
+        self.equilibria.iter().find(|equilibrium| equilibrium.solver == *solver)
+    }
+
+    /// Whether both solvers answered and agree, and the judge finds both in balance.
+    #[must_use]
+    pub fn agrees(&self) -> bool {
+        self.agreement.as_ref().is_some_and(Agreement::agrees)
+    }
+}
+
+/// Ask. `watch` is told what is being done.
+///
+/// A solver that has no answer does not take the other's away: see [`Answer::failures`].
+#[must_use]
+pub fn ask(problem: &Problem, question: &Question, watch: &dyn Fn(&str)) -> Answer {
+    ask_within(problem, question, &Tolerances::project(), watch)
+}
+
+/// The same, judged by other tolerances.
+pub(crate) fn ask_within(
+    problem: &Problem,
+    question: &Question,
+    tolerances: &Tolerances,
+    watch: &dyn Fn(&str),
+) -> Answer {
+    let bars = problem.chain().bars().len();
+    let mut answers = vec![];
+    if question.solvers != Solvers::Energy {
+        watch(&format!("lagrange: constraints and multipliers of {bars} bars"));
+        answers.push(by_lagrange(problem, question));
+    }
+    if question.solvers != Solvers::Lagrange {
+        watch(&format!("energy: minimisation over the directions of {bars} bars"));
+        let found = energy::minimise(problem, &energy::Settings::default());
+        answers.push(found.map(|found| found.equilibrium).map_err(SolverFailure::from));
+    }
+    watch("the judges");
+    let (mut equilibria, mut failures) = (vec![], vec![]);
+    for answer in answers {
+        match answer {
+            Ok(equilibrium) => equilibria.push(equilibrium),
+            Err(failure) => failures.push(failure),
+        }
+    }
+    let agreement = judge(problem, &mut equilibria, &failures, tolerances);
+    if let Some(settings) = census_settings(problem, question.census)
+        && !equilibria.is_empty()
+    {
+        watch("the census");
+        look_up(problem, &settings, &mut equilibria);
+    }
+    Answer { equilibria, failures, agreement }
+}
+
+fn by_lagrange(problem: &Problem, question: &Question) -> Result<Equilibrium, SolverFailure> {
+    match question.equations {
+        Equations::Full => {
+            let found = lagrange::solve(problem, &lagrange::Settings::default())?;
+            Ok(found.equilibrium)
+        }
+        Equations::Condensed => {
+            // The bits of the answer do not depend on how many share the work.
+            let found = lagrange::condensed::Solver::with_processors(question.threads)
+                .solve(problem, &lagrange::condensed::Settings::default())?;
+            Ok(found.equilibrium)
+        }
+    }
+}
+
+/// Answers are compared; a single one is only judged by Newton's laws.
+fn judge(
+    problem: &Problem,
+    equilibria: &mut [Equilibrium],
+    failures: &[SolverFailure],
+    tolerances: &Tolerances,
+) -> Option<Agreement> {
+    match equilibria {
+        [] => None,
+        [answer] => {
+            let statics = judge_alone(problem, answer).largest();
+            if let Some(failure) = failures.first() {
+                let (solver, because) = (failure.solver(), NoAnswer::Refused);
+                let reason = Reason::OtherSolverWithoutAnswer { solver, because, statics };
+                answer.evidence.ladder.agreed = Status::Open(reason);
+            }
+            None
+        }
+        several => Some(compare(problem, several, tolerances)),
+    }
+}
+
+/// How far to go for a census, if at all.
+fn census_settings(problem: &Problem, census: UseCensus) -> Option<census::Settings> {
+    let bars = problem.chain().bars().len();
+    match census {
+        UseCensus::Auto if bars <= CENSUS_BARS => {
+            let straight = matches!(Topology::of(problem), Err(TopologyError::Straight { .. }));
+            let max_tests_per_pattern = if straight { CENSUS_TESTS_STRAIGHT } else { CENSUS_TESTS };
+            Some(census::Settings { max_tests_per_pattern, ..census::Settings::default() })
+        }
+        UseCensus::Always => Some(census::Settings::default()),
+        UseCensus::Never | UseCensus::Auto => None,
+    }
+}
+
+fn look_up(problem: &Problem, settings: &census::Settings, equilibria: &mut [Equilibrium]) {
+    let census = Census::take(problem, settings);
+    for answer in equilibria {
+        match &census {
+            Ok(census) => certify_by_census(problem, census, answer),
+            Err(error) => without_census(error, answer),
+        }
+    }
+}
