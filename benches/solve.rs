@@ -49,7 +49,7 @@ fn hanging(criterion: &mut Criterion) {
         let settings = lagrange::Settings::default();
         let mut solver = Solver::new(&problem, &settings).expect("default settings");
         group.bench_function(BenchmarkId::new("lagrange", n), |b| {
-            b.iter(|| solver.hang().map(|found| found.residual()));
+            b.iter(|| solver.solve_stable().map(|found| found.residual()));
         });
         let settings = energy::Settings::default();
         group.bench_function(BenchmarkId::new("energy", n), |b| {

@@ -8,7 +8,7 @@ use nalgebra::{DMatrix, DVector, Vector3};
 use crate::constraints::{PER_BAR, bar_coordinates};
 use crate::mechanism::Mechanism;
 use crate::multipliers::all_multipliers;
-use crate::newton::Model;
+use crate::newton::Equations;
 use crate::point::Point;
 use crate::system::{jacobian_of, residual_of};
 
@@ -47,7 +47,7 @@ impl<'a> Dense<'a> {
     }
 }
 
-impl Model for Dense<'_> {
+impl Equations for Dense<'_> {
     fn norm(&self) -> f64 {
         self.residual.norm()
     }
@@ -122,7 +122,7 @@ pub(crate) fn coordinates(mechanism: &Mechanism, angles: &[[f64; 3]]) -> DVector
     let mut q = DVector::zeros(mechanism.coordinates());
     let mut joint = mechanism.start;
     for (bar, &[psi, theta, phi]) in angles.iter().enumerate() {
-        let u = crate::direction(psi, theta, phi);
+        let u = crate::rotation::direction(psi, theta, phi);
         let centre = joint + u * mechanism.centres[bar];
         joint += u * mechanism.lengths[bar];
         let part = [centre.x, centre.y, centre.z, psi, theta, phi];

@@ -16,6 +16,8 @@ pub(crate) struct Mechanism {
     pub start: Vector3<f64>,
     /// Joint n.
     pub end: Vector3<f64>,
+    /// Whether the anchors are on one vertical.
+    pub on_one_vertical: bool,
 }
 
 /// The units of a chain: with them every equation is free of dimensions.
@@ -53,6 +55,7 @@ impl Mechanism {
             weights: chain.bars().iter().map(|b| b.mass_kg() * chain.gravity_m_s2()).collect(),
             start: anchors.start_m.into(),
             end: anchors.end_m.into(),
+            on_one_vertical: chain.anchors_on_one_vertical(),
         }
     }
 

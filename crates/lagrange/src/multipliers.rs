@@ -7,7 +7,7 @@ use crate::point::Point;
 
 /// Weight of the preference for equal shares in the estimate: small against the lengths (their sum is
 /// 1), large against rounding. It decides only when all bars are parallel.
-const SHARE: f64 = 1e-10;
+const REGULARISATION: f64 = 1e-10;
 
 /// The pull of the first anchor for which the moments are least,
 /// $\sum l_i |(1 - u_i u_i^T)(p_0 + c_i e_z)|^2 \to \min$: linear in three unknowns, and in the world
@@ -21,8 +21,10 @@ pub(crate) fn estimate_pull(mechanism: &Mechanism, carried: &[f64], point: &Poin
         matrix += across;
         right -= across.column(2) * *weight;
     }
-    let Some(factor) = (matrix + Matrix3::identity() * SHARE).cholesky() else { return half };
-    let first = factor.solve(&(right + half * SHARE));
+    let Some(factor) = (matrix + Matrix3::identity() * REGULARISATION).cholesky() else {
+        return half;
+    };
+    let first = factor.solve(&(right + half * REGULARISATION));
     // One refinement takes the preference out again wherever the bars have a say.
     first + factor.solve(&(right - matrix * first))
 }

@@ -1,9 +1,9 @@
 //! Newton's method made global and safe at singular solutions: Levenberg and Marquardt's.
 
-use crate::Settings;
+use crate::settings::Settings;
 
 /// A system of equations at a point, with a damped step to the next.
-pub(crate) trait Model {
+pub(crate) trait Equations {
     /// Norm of the residual at the point.
     fn norm(&self) -> f64;
     /// Largest equation, in the units of [`Settings::tolerance`].
@@ -18,7 +18,7 @@ pub(crate) trait Model {
 
 /// How a run ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Finish {
+pub(crate) enum Ending {
     /// The largest equation is below the tolerance.
     Converged,
     /// The residual no longer falls, or the steps ran out.
@@ -47,32 +47,32 @@ const PROGRESS: f64 = 0.02;
 /// Steps after convergence, each of which must halve the residual: they reach the rounding error.
 const POLISH: usize = 3;
 
-/// One run from the model's point. Appends the norm of the residual at each step to `history`.
+/// One run from the point of the equations. Appends the norm of the residual at each step to `history`.
 pub(crate) fn newton(
-    model: &mut impl Model,
+    equations: &mut impl Equations,
     settings: &Settings,
     history: &mut Vec<f64>,
-) -> Finish {
+) -> Ending {
     let start = history.len();
     let mut factor = FIRST_DAMPING;
-    let mut norm = model.norm();
+    let mut norm = equations.norm();
     for iteration in 0..settings.max_iterations {
-        if model.largest() <= settings.tolerance {
-            polish(model, factor, history);
-            return Finish::Converged;
+        if equations.largest() <= settings.tolerance {
+            polish(equations, factor, history);
+            return Ending::Converged;
         }
         history.push(norm);
         if iteration >= PATIENCE && norm > (1.0 - PROGRESS) * history[start + iteration - PATIENCE]
         {
-            return Finish::Stagnated;
+            return Ending::Stagnated;
         }
         // Damping of the order of the residual: quadratic convergence without a regular Jacobian.
-        let predicted = model.step((factor * norm).max(LEAST_DAMPING));
-        let trial = model.attempt();
+        let predicted = equations.step((factor * norm).max(LEAST_DAMPING));
+        let trial = equations.attempt();
         let gain = (norm * norm - trial * trial) / (norm * norm - predicted * predicted);
         if gain > ACCEPT {
-            model.accept();
-            norm = model.norm();
+            equations.accept();
+            norm = equations.norm();
         }
         if gain > GOOD {
             factor = (factor / FACTOR).max(LEAST_FACTOR);
@@ -83,19 +83,19 @@ pub(crate) fn newton(
             factor *= FACTOR;
         }
     }
-    if model.largest() <= settings.tolerance { Finish::Converged } else { Finish::Stagnated }
+    if equations.largest() <= settings.tolerance { Ending::Converged } else { Ending::Stagnated }
 }
 
 /// Steps on while each halves the residual.
-fn polish(model: &mut impl Model, factor: f64, history: &mut Vec<f64>) {
+fn polish(equations: &mut impl Equations, factor: f64, history: &mut Vec<f64>) {
     for _ in 0..POLISH {
-        let norm = model.norm();
-        model.step((factor * norm).max(LEAST_DAMPING));
-        let trial = model.attempt();
+        let norm = equations.norm();
+        equations.step((factor * norm).max(LEAST_DAMPING));
+        let trial = equations.attempt();
         if trial.is_nan() || trial > 0.5 * norm {
             return;
         }
         history.push(norm);
-        model.accept();
+        equations.accept();
     }
 }

@@ -4,7 +4,7 @@ use nalgebra::{Complex, Vector3};
 
 use crate::mechanism::Mechanism;
 use crate::multipliers::estimate_pull;
-use crate::newton::Model;
+use crate::newton::Equations;
 use crate::point::{Metric, Point};
 use crate::spin::regular_angles;
 use crate::step::Matrix;
@@ -116,7 +116,7 @@ impl Reduced {
     }
 
     /// The bar on which the largest moment acts, from 0, and that moment in units of the largest
-    /// force times the mean length. [`Model::largest`] sees only what the paper's equations see.
+    /// force times the mean length. [`Equations::largest`] sees only what the paper's equations see.
     pub fn largest_moment(&self) -> (usize, f64) {
         let unit = self.here.largest_force(&self.carried) / self.carried.len() as f64;
         let bars = self.here.bars.iter().zip(&self.mechanism.lengths);
@@ -126,7 +126,7 @@ impl Reduced {
     }
 }
 
-impl Model for Reduced {
+impl Equations for Reduced {
     fn norm(&self) -> f64 {
         self.here.norm(&self.mechanism, &self.metric)
     }

@@ -1,5 +1,5 @@
-//! Letting the chain sink: what is done when Newton's method stops at a local minimum of the
-//! residual.
+//! Relaxation: viscous motion of the chain, where Newton's method has stopped at a local minimum of
+//! the residual.
 //!
 //! Such minima exist (all bars on one straight line, for one: to first order no turn changes the
 //! distance of the ends), and no damping helps there. On the paper's chain 4 % of random planar seeds
@@ -8,9 +8,9 @@
 //!
 //! $$ \dot\alpha = \mathbf{B}^T\lambda + \mathbf{T}, \qquad f = 0, $$
 //!
-//! it sinks until it rests. Large implicit steps of this motion with a step length τ that grows as
-//! the residual falls (pseudo-transient continuation), the multipliers estimated anew in each, bring
-//! it near enough for Newton's method. A step counts if the weights do work, or the gap at the
+//! it falls until it rests. Large implicit steps of this motion with a step length τ that grows as
+//! the residual falls (pseudo-transient continuation), the multipliers estimated in each, bring it
+//! near enough for Newton's method. A step counts if the weights do work, or the gap at the
 //! last anchor closes: an exact penalty function, so that the motion cannot run in circles.
 //!
 //! # References
@@ -21,7 +21,7 @@
 
 use nalgebra::{Complex, Vector3};
 
-use crate::newton::Model;
+use crate::newton::Equations;
 use crate::reduced::Reduced;
 
 /// First step of the motion, in units in which weight, length and friction are one.
@@ -45,7 +45,7 @@ const ROUNDING: f64 = 1e-15;
 /// Bars leave gimbal lock early: the motion has no preference for any angles.
 const LOCK_MARGIN: f64 = 0.1;
 
-/// Sink from where `chain` is until the norm of the residual is below `handover`, at most `limit`
+/// Relax from where `chain` is until the norm of the residual is below `handover`, at most `limit`
 /// steps; how many it took.
 pub(crate) fn relax(chain: &mut Reduced, handover: f64, limit: usize) -> usize {
     let (mut tau, mut penalty) = (FIRST_TAU, 1.0_f64);

@@ -5,7 +5,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use model::Problem;
 use nalgebra::Vector3;
 
-use crate::SolveError;
+use crate::error::SolveError;
 use crate::spin::regular_angles;
 
 /// Angles ψ, θ, φ of each bar, rad.
@@ -107,9 +107,9 @@ fn half_angle(ratio: f64) -> f64 {
     0.5 * (low + high)
 }
 
-/// A jolt for the given round: every angle of bar i turned by up to half a radian, in a sequence that
+/// A perturbation for the given round: every angle of bar i turned by up to half a radian, in a sequence that
 /// has no pattern and needs no random numbers (multiples of the golden ratio, modulo 1).
-pub(crate) fn jolt(angles: &mut [[f64; 3]], round: usize) {
+pub(crate) fn perturb(angles: &mut [[f64; 3]], round: usize) {
     let golden = 0.5 * (5.0_f64.sqrt() - 1.0);
     for (index, angle) in angles.iter_mut().flatten().enumerate() {
         *angle += ((index + 1) as f64 * round as f64 * golden).fract() - 0.5;
@@ -128,7 +128,7 @@ mod tests {
         let ends: Vector3<f64> = Seed::arc(&problem)
             .angles()
             .iter()
-            .map(|[psi, theta, phi]| crate::direction(*psi, *theta, *phi) * 0.05)
+            .map(|[psi, theta, phi]| crate::rotation::direction(*psi, *theta, *phi) * 0.05)
             .sum();
         // The polygon differs from its arc by a part in n².
         assert!((ends - Vector3::new(1.0, 2.0, -1.0)).norm() < 1e-3, "{ends}");
@@ -140,7 +140,10 @@ mod tests {
         let paper = Seed::planar(&phi);
         let turned = Seed::planar_towards(FRAC_PI_2, &phi);
         for (a, b) in paper.angles().iter().zip(turned.angles()) {
-            let (a, b) = (crate::direction(a[0], a[1], a[2]), crate::direction(b[0], b[1], b[2]));
+            let (a, b) = (
+                crate::rotation::direction(a[0], a[1], a[2]),
+                crate::rotation::direction(b[0], b[1], b[2]),
+            );
             assert!((a - b).norm() < 1e-15);
         }
     }

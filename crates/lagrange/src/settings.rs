@@ -32,13 +32,13 @@ pub struct Settings {
     ///
     /// Default 200; from good seeds it takes 5, from random ones of three bars about 15. At least 1.
     pub max_iterations: usize,
-    /// How many times the chain is let sink from the seed towards a rest, when Newton's method has
+    /// How many times the chain is relaxed from the seed, in viscous motion, when Newton's method has
     /// stopped at a local minimum of the residual that is no root; each time another run of Newton's
-    /// method follows. With 0 the seed has the only say.
+    /// method follows. With 0 Newton's method from the seed is all.
     ///
     /// Default 8. Range 0 to 1000.
     pub relaxations: usize,
-    /// Steps of one such sinking.
+    /// Steps of one such relaxation.
     ///
     /// Default 500. At least 1.
     pub max_relaxation_steps: usize,

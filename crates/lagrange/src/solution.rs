@@ -5,12 +5,14 @@ use nalgebra::{DVector, Vector3};
 
 use crate::dense::coordinates;
 use crate::effort::Effort;
+use crate::error::SolveError;
 use crate::mechanism::{Mechanism, Units};
 use crate::multipliers::all_multipliers;
 use crate::reduced::Reduced;
+use crate::settings::Settings;
 use crate::spectrum::{LARGEST_DECOMPOSED, Spectrum, spectrum};
 use crate::stability::stability;
-use crate::{Settings, SolveError, relative_residual};
+use crate::system::relative_residual;
 
 /// An equilibrium of the full system. That it exists means converged.
 #[derive(Debug, Clone, PartialEq)]

@@ -6,19 +6,18 @@ use model::{InSpace, Problem, Stability};
 
 use crate::dense::Dense;
 use crate::effort::Effort;
+use crate::error::SolveError;
+use crate::indeterminate;
 use crate::mechanism::{Mechanism, Units};
-use crate::meeting::share;
-use crate::newton::{Finish, Model, newton};
+use crate::newton::{Ending, Equations, newton};
 use crate::reduced::Reduced;
 use crate::relax::relax;
-use crate::seed::jolt;
-use crate::solution::{energy, first_offset};
+use crate::seed::{Seed, perturb};
+use crate::settings::{Settings, StepMethod};
+use crate::solution::{Solution, energy, first_offset};
 use crate::stability::stability;
-use crate::{Seed, Settings, Solution, SolveError, StepMethod};
+use crate::thresholds::UNSEEN_MOMENT;
 
-/// A moment this large, in units of the largest force times the mean length, on a state that solves
-/// the paper's equations is no rounding error: it is one that the equations do not see.
-const UNSEEN_MOMENT: f64 = 1e-9;
 /// False roots left in one run: with other angles a bar has no false root near by.
 const ESCAPES: usize = 16;
 /// The first relaxation hands over to Newton's method at this norm of the residual, ...
@@ -47,14 +46,24 @@ pub struct Solver<'p> {
     settings: Settings,
     units: Units,
     reduced: Reduced,
-    jolted: Vec<[f64; 3]>,
+    perturbed: Vec<[f64; 3]>,
     history: Vec<f64>,
     effort: Effort,
 }
 
+/// What one run of Newton's method has led to.
+enum Attempt {
+    /// A root of the paper's equations at which every bar is in balance.
+    Equilibrium,
+    /// A root at which this bar (from 0) is not, and the moment on it.
+    FalseRoot { bar: usize, moment: f64 },
+    /// No root.
+    Stagnated,
+}
+
 /// A converged state in the memory of its solver.
 #[derive(Debug, Clone, Copy)]
-pub struct Outcome<'s> {
+pub struct Converged<'s> {
     solver: &'s Solver<'s>,
 }
 
@@ -73,37 +82,37 @@ impl<'p> Solver<'p> {
             settings: *settings,
             units,
             reduced: Reduced::new(Mechanism::scaled(chain, units), settings.lock_margin),
-            jolted: vec![[0.0; 3]; chain.bars().len()],
+            perturbed: vec![[0.0; 3]; chain.bars().len()],
             history: Vec::with_capacity(2 * settings.max_iterations.min(1000)),
             effort: Effort::default(),
         })
     }
 
     /// The equilibrium that the seed leads to, whatever its stability: Newton's method from the seed,
-    /// and if that stops at a local minimum of the residual, from where the chain has sunk to.
+    /// and if that stops at a local minimum of the residual, from where the chain has relaxed to.
     ///
     /// # Errors
     ///
     /// [`SolveError`]: a seed that does not fit, or no convergence.
-    pub fn solve(&mut self, seed: &Seed) -> Result<Outcome<'_>, SolveError> {
+    pub fn solve(&mut self, seed: &Seed) -> Result<Converged<'_>, SolveError> {
         let clock = Instant::now();
         seed.check(self.reduced.carried.len())?;
         self.reset();
         self.reduced.start(seed.angles());
-        let mut finish = self.newton()?;
-        while finish == Finish::Stagnated && self.effort.relaxations < self.settings.relaxations {
-            self.sink(seed);
-            finish = self.newton()?;
+        let mut ending = self.newton()?;
+        while ending == Ending::Stagnated && self.effort.relaxations < self.settings.relaxations {
+            self.relax_from(seed);
+            ending = self.newton()?;
         }
         self.effort.solve_s = clock.elapsed().as_secs_f64();
-        match finish {
-            Finish::Converged => Ok(Outcome { solver: self }),
-            Finish::Stagnated => Err(self.stagnated()),
+        match ending {
+            Ending::Converged => Ok(Converged { solver: self }),
+            Ending::Stagnated => Err(self.stagnated()),
         }
     }
 
-    /// The stable equilibrium, from no guess: an arc between the anchors is let sink and then solved,
-    /// again with a jolt while the result is unstable.
+    /// The stable equilibrium, from no guess: an arc between the anchors is relaxed and then solved,
+    /// again from a perturbed arc while the result is unstable.
     ///
     /// For a chain, stable in space means that no configuration has less energy: the stress matrix of
     /// a stable equilibrium is positive semidefinite.
@@ -111,20 +120,20 @@ impl<'p> Solver<'p> {
     /// # Errors
     ///
     /// [`SolveError::Unstable`] or [`SolveError::Stagnated`] when nothing stable is found.
-    pub fn hang(&mut self) -> Result<Outcome<'_>, SolveError> {
+    pub fn solve_stable(&mut self) -> Result<Converged<'_>, SolveError> {
         let clock = Instant::now();
         let seed = Seed::arc(self.problem);
         self.reset();
         let (mut found, mut last) = (0, None);
         loop {
-            self.sink(&seed);
-            let finish = self.newton()?;
+            self.relax_from(&seed);
+            let ending = self.newton()?;
             self.effort.solve_s = clock.elapsed().as_secs_f64();
-            if finish == Finish::Converged {
-                share(&mut self.reduced, self.problem, &self.settings);
+            if ending == Ending::Converged {
+                indeterminate::resolve(&mut self.reduced, self.problem, &self.settings);
                 let stability = stability(&self.reduced.mechanism, &self.reduced.here);
                 if stability.in_space == InSpace::Stable {
-                    return Ok(Outcome { solver: self });
+                    return Ok(Converged { solver: self });
                 }
                 found += 1;
                 last = Some(stability.index_in_space);
@@ -142,52 +151,64 @@ impl<'p> Solver<'p> {
         self.reduced.reparametrisations = 0;
     }
 
-    /// One run of Newton's method, past false roots.
-    fn newton(&mut self) -> Result<Finish, SolveError> {
+    /// Runs of Newton's method until one ends at no false root.
+    fn newton(&mut self) -> Result<Ending, SolveError> {
         for _ in 0..ESCAPES {
-            let before = self.history.len();
-            self.reduced.choose_unit();
-            let finish = match self.settings.method {
-                StepMethod::Reduced => newton(&mut self.reduced, &self.settings, &mut self.history),
-                StepMethod::Dense => self.newton_dense(),
-            };
-            self.effort.iterations += self.history.len() - before;
-            self.effort.reparametrisations = self.reduced.reparametrisations;
-            if finish == Finish::Stagnated {
-                return Ok(finish);
+            match self.attempt() {
+                Attempt::Equilibrium => return Ok(Ending::Converged),
+                Attempt::Stagnated => return Ok(Ending::Stagnated),
+                Attempt::FalseRoot { bar, moment } if self.settings.lock_margin <= 0.0 => {
+                    return Err(SolveError::FalseRoot { bar: bar + 1, moment });
+                }
+                Attempt::FalseRoot { .. } => {
+                    self.effort.false_roots += 1;
+                    self.reduced.leave_gimbal_lock(EVERY_BAR);
+                }
             }
-            // The equations hold. Do the moments?
-            let (bar, moment) = self.reduced.largest_moment();
-            if moment <= UNSEEN_MOMENT {
-                return Ok(finish);
-            }
-            if self.settings.lock_margin <= 0.0 {
-                return Err(SolveError::FalseRoot { bar: bar + 1, moment });
-            }
-            self.effort.false_roots += 1;
-            self.reduced.leave_gimbal_lock(EVERY_BAR);
         }
-        Ok(Finish::Stagnated)
+        Ok(Ending::Stagnated)
+    }
+
+    /// One run of Newton's method.
+    fn attempt(&mut self) -> Attempt {
+        let before = self.history.len();
+        self.reduced.choose_unit();
+        let ending = match self.settings.method {
+            StepMethod::Reduced => newton(&mut self.reduced, &self.settings, &mut self.history),
+            StepMethod::Dense => self.newton_dense(),
+        };
+        self.effort.iterations += self.history.len() - before;
+        self.effort.reparametrisations = self.reduced.reparametrisations;
+        if ending == Ending::Stagnated {
+            return Attempt::Stagnated;
+        }
+        // The equations hold. Do the moments?
+        let (bar, moment) = self.reduced.largest_moment();
+        if moment <= UNSEEN_MOMENT {
+            Attempt::Equilibrium
+        } else {
+            Attempt::FalseRoot { bar, moment }
+        }
     }
 
     /// One run on the full system, from the reduced one's point and back to it.
-    fn newton_dense(&mut self) -> Finish {
+    fn newton_dense(&mut self) -> Ending {
         let mechanism = self.reduced.mechanism.clone();
         let mut dense = Dense::new(&mechanism, &self.reduced.here);
-        let finish = newton(&mut dense, &self.settings, &mut self.history);
+        let ending = newton(&mut dense, &self.settings, &mut self.history);
         let pull = dense.pull();
         self.reduced.resume(dense.angles().into_iter(), pull);
-        finish
+        ending
     }
 
-    /// Let the chain sink from the seed, jolted when this is not the first time.
-    fn sink(&mut self, seed: &Seed) {
+    /// Relax the chain from the seed, perturbed when this is not the first time.
+    fn relax_from(&mut self, seed: &Seed) {
         let round = self.effort.relaxations;
-        self.jolted.copy_from_slice(seed.angles());
+        self.perturbed.copy_from_slice(seed.angles());
         if round > 0 {
-            jolt(&mut self.jolted, round);
+            perturb(&mut self.perturbed, round);
         }
-        self.reduced.start(&self.jolted);
+        self.reduced.start(&self.perturbed);
         let power = i32::try_from(round).unwrap_or(i32::MAX);
         let handover = (FIRST_HANDOVER * LATER_HANDOVER.powi(power)).max(LAST_HANDOVER);
         let steps = relax(&mut self.reduced, handover, self.settings.max_relaxation_steps);
@@ -208,7 +229,7 @@ impl<'p> Solver<'p> {
 /// A margin that every bar off its best angles falls below.
 const EVERY_BAR: f64 = 1.0;
 
-impl Outcome<'_> {
+impl Converged<'_> {
     /// Potential energy from the height of joint 0, J.
     #[must_use]
     pub fn energy_j(&self) -> f64 {
@@ -290,5 +311,5 @@ pub fn solve_from(
 /// # Ok::<(), lagrange::SolveError>(())
 /// ```
 pub fn solve(problem: &Problem, settings: &Settings) -> Result<Solution, SolveError> {
-    Solver::new(problem, settings)?.hang()?.solution()
+    Solver::new(problem, settings)?.solve_stable()?.solution()
 }

@@ -3,17 +3,15 @@
 use model::Chain;
 use nalgebra::{DMatrix, DVector};
 
-use crate::SolveError;
 use crate::constraints::PER_BAR;
+use crate::error::SolveError;
 use crate::mechanism::{Mechanism, Units};
 use crate::point::{Metric, Point};
 use crate::stability::neutral_motions;
 use crate::step::Matrix;
 use crate::system::jacobian_of;
+use crate::thresholds::ZERO_SINGULAR_VALUE;
 
-/// Singular values below this part of the largest are zero. At a state converged to 1e-13 the zero
-/// ones come out at 1e-16 to 1e-13 and the smallest of the others, up to a hundred bars, above 1e-7.
-const ZERO: f64 = 1e-10;
 /// Steps of the iteration behind a singular value decomposition, per row; a few are usual.
 const SVD_STEPS: usize = 100;
 
@@ -78,7 +76,8 @@ impl Spectrum {
         let singular_values = svd.ok_or(SolveError::Spectrum { size })?.singular_values;
         let singular_values: Vec<f64> = singular_values.iter().copied().collect();
         let largest = singular_values.first().copied().unwrap_or(0.0);
-        let regular = singular_values.iter().filter(|value| **value > ZERO * largest).count();
+        let regular =
+            singular_values.iter().filter(|value| **value > ZERO_SINGULAR_VALUE * largest).count();
         let smallest = if regular > 0 { singular_values[regular - 1] } else { largest };
         Ok(Self { nullity: size - regular, condition: largest / smallest, singular_values })
     }
@@ -115,7 +114,9 @@ impl Spectrum {
 mod tests {
     use super::*;
     use crate::reduced::Reduced;
-    use crate::{Seed, Settings, solve_from};
+    use crate::seed::Seed;
+    use crate::settings::Settings;
+    use crate::solve::solve_from;
 
     /// The estimate against the decomposition, at an equilibrium of each kind of anchors.
     #[test]

@@ -28,37 +28,30 @@ use nalgebra::{Matrix2, Vector2, Vector3};
 
 use crate::mechanism::Mechanism;
 use crate::point::Point;
-
-/// An eigenvalue of $S_\text{in}$ this small beside $\sum l_i/|T_i|$ is zero: the state is known to
-/// about 1e-13, divided by the smallest axial forces met (1e-3 of the largest).
-const ZERO: f64 = 1e-9;
-/// An axial force this small beside the largest is none: forces are known to about 1e-13.
-const NO_FORCE: f64 = 1e-12;
-/// Anchors this near to one vertical, relative to the total length, are on it.
-const ON_ONE_VERTICAL: f64 = 1e-12;
+use crate::thresholds::{NO_FORCE, ZERO_EIGENVALUE};
 
 /// Stability of the equilibrium at `point`, a root of the reduced system.
 pub(crate) fn stability(mechanism: &Mechanism, point: &Point) -> Stability {
     let span = Vector2::new(mechanism.end.x, mechanism.end.y);
     let pull = Vector2::new(point.pull.x, point.pull.y);
-    let normal = plane_normal(&span, &pull);
+    let normal = plane_normal(mechanism, &span, &pull);
     let level = Vector3::new(-normal.y, normal.x, 0.0);
-    let none = NO_FORCE * point.largest_force(&mechanism.carried_weights());
+    let least = NO_FORCE * point.largest_force(&mechanism.carried_weights());
 
     let mut compressed = 0;
     let (mut sum, mut size) = (Matrix2::zeros(), 0.0);
-    let (mut idle, mut idle_sum) = (0, Matrix2::zeros());
+    let (mut unloaded, mut unloaded_sum) = (0, Matrix2::zeros());
     for (bar, length) in point.bars.iter().zip(&mechanism.lengths) {
         let across = normal.cross(&bar.u);
         let across = Vector2::new(across.dot(&level), across.z);
         let outer = across * across.transpose();
         let mut force = bar.force.dot(&bar.u);
-        if force.abs() <= none {
+        if force.abs() <= least {
             // Counts as barely stretched: with barely compressed the index is the same, since one
             // more negative term meets one less positive eigenvalue.
-            force = none;
-            idle += 1;
-            idle_sum += outer;
+            force = least;
+            unloaded += 1;
+            unloaded_sum += outer;
         }
         compressed += usize::from(force < 0.0);
         sum += outer * (length / force);
@@ -72,14 +65,14 @@ pub(crate) fn stability(mechanism: &Mechanism, point: &Point) -> Stability {
     let (positive, zero) = if compressed == 0 {
         (2, 0)
     } else {
-        let positive = count(&sum, ZERO * size);
-        (positive, 2 - positive - count(&-sum, ZERO * size))
+        let positive = count(&sum, ZERO_EIGENVALUE * size);
+        (positive, 2 - positive - count(&-sum, ZERO_EIGENVALUE * size))
     };
-    // Idle bars that can move with the others at rest do so at no cost.
-    let degenerate = zero > 0 || idle > count(&idle_sum, ZERO);
+    // Unloaded bars that can move with the others at rest do so at no cost.
+    let degenerate = zero > 0 || unloaded > count(&unloaded_sum, ZERO_EIGENVALUE);
     let index_in_plane = (compressed + positive).saturating_sub(2);
 
-    let towards = span.norm() > ON_ONE_VERTICAL && span.dot(&pull) > 0.0;
+    let towards = !mechanism.on_one_vertical && span.dot(&pull) > 0.0;
     let index_out_of_plane = (compressed + usize::from(towards)).saturating_sub(1);
 
     let index_in_space = index_in_plane + index_out_of_plane;
@@ -98,10 +91,10 @@ pub(crate) fn stability(mechanism: &Mechanism, point: &Point) -> Stability {
 }
 
 /// Unit normal of the vertical plane, horizontal.
-fn plane_normal(span: &Vector2<f64>, pull: &Vector2<f64>) -> Vector3<f64> {
+fn plane_normal(mechanism: &Mechanism, span: &Vector2<f64>, pull: &Vector2<f64>) -> Vector3<f64> {
     // The pull lies in the plane too, and serves when the anchors are on one vertical. With neither,
     // all bars are vertical, and any plane is as good as another: the paper's, OYZ.
-    let level = if span.norm() > ON_ONE_VERTICAL { span } else { pull };
+    let level = if mechanism.on_one_vertical { pull } else { span };
     let level = level.try_normalize(f64::EPSILON).unwrap_or_else(Vector2::y);
     Vector3::new(level.y, -level.x, 0.0)
 }
@@ -109,7 +102,6 @@ fn plane_normal(span: &Vector2<f64>, pull: &Vector2<f64>) -> Vector3<f64> {
 /// Dimension of the motions that cost nothing to second order, spins apart: the turn about vertical
 /// anchors, and one in the plane when the equilibrium is degenerate there.
 pub(crate) fn neutral_motions(mechanism: &Mechanism, point: &Point) -> usize {
-    let vertical = mechanism.end.x.hypot(mechanism.end.y) <= ON_ONE_VERTICAL;
     let degenerate = stability(mechanism, point).in_plane == InPlane::Degenerate;
-    usize::from(vertical) + usize::from(degenerate)
+    usize::from(mechanism.on_one_vertical) + usize::from(degenerate)
 }

@@ -43,6 +43,21 @@ pub(crate) const UPRIGHT: f64 = 1e-6;
 /// leaves half of the digits of a force.
 pub(crate) const SLACK_ROUNDINGS: f64 = 1e7;
 
+/// A moment this large on a bar, in units of the largest force times the mean length, in a state that
+/// solves the paper's equations to 1e-13 is no rounding error: the equations do not see it.
+pub(crate) const UNSEEN_MOMENT: f64 = 1e-9;
+
+/// Axial forces this small beside the largest are zero: forces are known to some 1e-13.
+pub(crate) const NO_FORCE: f64 = 1e-12;
+
+/// Eigenvalues of the small matrix of the index this small beside $\sum l_i/|T_i|$ are zero: the state
+/// is known to 1e-13, divided by the smallest axial forces met, 1e-3 of the largest and less.
+pub(crate) const ZERO_EIGENVALUE: f64 = 1e-9;
+
+/// Singular values below this part of the largest are zero. At a state converged to 1e-13 the zero
+/// ones come out at 1e-16 to 1e-13 and the smallest of the others, up to a hundred bars, above 1e-7.
+pub(crate) const ZERO_SINGULAR_VALUE: f64 = 1e-10;
+
 /// An error of the forces, as a part of the largest, above which the evidence speaks of it: what two
 /// solvers are asked to agree to.
 pub(crate) const REPORTED_FORCE_ERROR: f64 = 1e-9;

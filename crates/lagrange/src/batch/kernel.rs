@@ -44,7 +44,7 @@ pub(crate) struct Common {
     pub far: [bool; LANES],
 }
 
-/// Every how many steps the plain Newton step is taken, and the multipliers are estimated anew while the
+/// Every how many steps the plain Newton step is taken, and the multipliers are estimated again while the
 /// residual is large.
 pub const PLAIN_EVERY: u32 = 8;
 
@@ -80,13 +80,13 @@ pub(crate) const MOST_STEPS: u32 = 60_000;
 const _: () = assert!(MOST_STEPS as f64 * PLAIN < LARGEST_ANGLE);
 
 /// Weight of the preference for equal shares in the estimate of the pull, as in `multipliers`.
-const SHARE: f64 = 1e-10;
+const REGULARISATION: f64 = 1e-10;
 
 /// An axial force smaller than this is taken for this one: it keeps the quotients finite.
 const LEAST_AXIAL: f64 = 1e-30;
 
 /// Turn of bar i, in multiples of i + 1, where the Newton step is undefined, rad.
-const JOLT: f64 = 0.01;
+const PERTURBATION: f64 = 0.01;
 
 /// What the residual is at the start of a step.
 #[derive(Debug, Clone, Copy)]
@@ -115,13 +115,13 @@ pub(crate) fn step(
     for state in states.iter_mut() {
         (state.sin, state.cos) = state.angle.sin_cos();
     }
-    let anew: [bool; LANES] = std::array::from_fn(|k| {
+    let estimated: [bool; LANES] = std::array::from_fn(|k| {
         common.count[k] == 0 || (common.far[k] && common.count[k].is_multiple_of(PLAIN_EVERY))
     });
-    if anew.contains(&true) {
+    if estimated.contains(&true) {
         let estimate = estimate(bars, states);
         for (pull, estimate) in common.pull.iter_mut().zip(estimate) {
-            *pull = Lanes::select(anew, estimate, *pull);
+            *pull = Lanes::select(estimated, estimate, *pull);
         }
     }
     let [across, up] = common.pull;
@@ -161,8 +161,8 @@ pub(crate) fn step(
     // A sum keeps what is no number; infinite turns are as undefined.
     let defined = sum.at_most(Lanes::all(f64::MAX));
     for (k, state) in states.iter_mut().enumerate() {
-        let jolt = Lanes::all(JOLT * (k + 1) as f64);
-        state.angle = state.angle + Lanes::select(defined, shorter * state.moment, jolt);
+        let perturbation = Lanes::all(PERTURBATION * (k + 1) as f64);
+        state.angle = state.angle + Lanes::select(defined, shorter * state.moment, perturbation);
     }
     common.pull_before = common.pull;
     for (pull, change) in common.pull.iter_mut().zip(change) {
@@ -207,9 +207,9 @@ fn judge(
 /// for equal shares of the anchors: that of `solve_from`, in the plane.
 #[inline(always)]
 fn estimate(bars: &[Bar], states: &[State]) -> [Lanes; 2] {
-    let share = Lanes::all(SHARE);
-    let mut matrix = [share, Lanes::ZERO, share];
-    let mut right = [Lanes::ZERO, Lanes::all(0.5) * share];
+    let regularisation = Lanes::all(REGULARISATION);
+    let mut matrix = [regularisation, Lanes::ZERO, regularisation];
+    let mut right = [Lanes::ZERO, Lanes::all(0.5) * regularisation];
     for (bar, state) in bars.iter().zip(states) {
         let along = Lanes::all(bar.length) * state.cos;
         let lift = Lanes::all(bar.length) * state.sin;

@@ -9,7 +9,7 @@ use model::Problem;
 use super::kernel::{Common, MOST_STEPS, State, step};
 use super::lanes::{LANES, Lanes};
 use super::numbers::{Bar, Numbers};
-use crate::SettingsError;
+use crate::settings::SettingsError;
 
 /// What can be chosen.
 #[derive(Debug, Clone, Copy, PartialEq)]

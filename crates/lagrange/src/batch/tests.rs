@@ -13,7 +13,9 @@ use super::numbers::Numbers;
 use super::{Batch, BatchSettings, Ends, Finish};
 use crate::mechanism::{Mechanism, Units};
 use crate::multipliers::all_multipliers;
-use crate::{Seed, Settings, Solver};
+use crate::seed::Seed;
+use crate::settings::Settings;
+use crate::solve::Solver;
 
 /// A chain of random bars with its anchors in the plane OYZ.
 fn random_problem(rng: &mut ChaCha8Rng, bars: usize) -> Problem {

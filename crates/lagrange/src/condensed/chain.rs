@@ -41,6 +41,7 @@ pub struct Condensed {
     pub(super) bottom: Bottom,
     pub(super) units: Units,
     pub(super) start_m: Vector,
+    on_one_vertical: bool,
     processors: NonZeroUsize,
 }
 
@@ -101,9 +102,9 @@ impl Condensed {
         Workers::new(self.processors, self.bars())
     }
 
-    /// Whether the anchors lie on one vertical: their horizontal distance is a rounding error.
+    /// Whether the anchors lie on one vertical, to rounding.
     pub(super) fn on_one_vertical(&self) -> bool {
-        self.span.across <= f64::EPSILON * self.bars.total_length
+        self.on_one_vertical
     }
 
     /// Horizontal distance of the anchors, seen along the plane of an equilibrium.
@@ -157,8 +158,8 @@ impl Condensed {
         moments.clear(chain.bars().len());
         count_from(bottom, &bars.lengths, &mut bars.loads, &mut moments, workers);
         let bottom = Bottom::new(bottom, &bars, span.rise);
-        let start_m = chain.anchors().start_m;
-        Self { bars, moments, span, bottom, units, start_m, processors }
+        let (start_m, on_one_vertical) = (chain.anchors().start_m, chain.anchors_on_one_vertical());
+        Self { bars, moments, span, bottom, units, start_m, on_one_vertical, processors }
     }
 }
 

@@ -1,6 +1,6 @@
 //! What can go wrong in a condensed solve.
 
-use crate::SettingsError;
+use crate::settings::SettingsError;
 
 /// Why no equilibrium was returned. `Ok` always means converged.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]

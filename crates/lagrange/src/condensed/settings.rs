@@ -1,6 +1,6 @@
 //! Settings of the condensed solve.
 
-use crate::SettingsError;
+use crate::settings::SettingsError;
 
 /// Settings of [`solve`](super::solve()) and [`Condensed::pull`](super::Condensed::pull).
 ///

@@ -9,11 +9,11 @@
 //!
 //! a monotone function of the force at the bottom, with a pole at either end of its range.
 
-use super::super::bottom::Bottom;
-use super::super::bracket::Bracket;
-use super::super::chain::Condensed;
-use super::super::newton::Budget;
-use super::super::pull::{Pull, Signs};
+use crate::condensed::bottom::Bottom;
+use crate::condensed::bracket::Bracket;
+use crate::condensed::chain::Condensed;
+use crate::condensed::newton::Budget;
+use crate::condensed::pull::{Pull, Signs};
 
 /// The force that strands a little apart tend to.
 pub(super) fn solve(chain: &Condensed, budget: &mut Budget) -> Option<Pull> {

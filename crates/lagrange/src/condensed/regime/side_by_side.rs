@@ -1,12 +1,12 @@
 //! Every bar in tension, in two nearly vertical strands: the closure along the vertical, down one
 //! strand and up the other.
 
-use super::super::axis::Axis;
-use super::super::chain::Condensed;
-use super::super::newton::{Budget, minimise, within_a_few_passes};
-use super::super::pull::{Pull, Signs};
-use super::super::system::System;
 use super::indeterminate::balanced;
+use crate::condensed::axis::Axis;
+use crate::condensed::chain::Condensed;
+use crate::condensed::newton::{Budget, minimise, within_a_few_passes};
+use crate::condensed::pull::{Pull, Signs};
+use crate::condensed::system::System;
 
 /// Newton's method along the vertical, from strands that are just not vertical.
 pub(super) fn solve(chain: &Condensed, budget: &mut Budget) -> Option<Pull> {

@@ -2,14 +2,14 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use super::super::axis::Axis;
-use super::super::bottom::Bottom;
-use super::super::bracket::Bracket;
-use super::super::chain::Condensed;
-use super::super::compression::Strut;
-use super::super::newton::{Budget, Root};
-use super::super::pull::{Pull, Signs};
-use super::super::span::Span;
+use crate::condensed::axis::Axis;
+use crate::condensed::bottom::Bottom;
+use crate::condensed::bracket::Bracket;
+use crate::condensed::chain::Condensed;
+use crate::condensed::compression::Strut;
+use crate::condensed::newton::{Budget, Root};
+use crate::condensed::pull::{Pull, Signs};
+use crate::condensed::span::Span;
 
 /// Newton's method for compression and slope of the bar, nested searches in reserve.
 pub(super) fn solve(chain: &Condensed, budget: &mut Budget) -> Option<Pull> {

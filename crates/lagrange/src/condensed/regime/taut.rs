@@ -1,12 +1,12 @@
 //! Every bar in tension, nearly straight: the closure along the line of the anchors.
 
-use super::super::axis::Axis;
-use super::super::catenary::Catenary;
-use super::super::chain::Condensed;
-use super::super::newton::{Budget, minimise, polish, within_a_few_passes};
-use super::super::pull::{Pull, Signs};
-use super::super::system::System;
 use super::tension::nested;
+use crate::condensed::axis::Axis;
+use crate::condensed::catenary::Catenary;
+use crate::condensed::chain::Condensed;
+use crate::condensed::newton::{Budget, minimise, polish, within_a_few_passes};
+use crate::condensed::pull::{Pull, Signs};
+use crate::condensed::system::System;
 
 /// Newton's method in the axes of the line; in reserve the nested searches in upright axes, their
 /// root polished along the line.

@@ -2,15 +2,15 @@
 
 use std::num::NonZeroUsize;
 
-use super::super::bracket::Bracket;
-use super::super::catenary::Catenary;
-use super::super::chain::Condensed;
-use super::super::kernel::Bars;
-use super::super::loads::Arrays;
-use super::super::newton::{Budget, NEWTON_PASSES, Root, minimise, within_a_few_passes};
-use super::super::parallel::Workers;
-use super::super::pull::{Pull, Signs};
-use super::super::system::{Frame, System};
+use crate::condensed::bracket::Bracket;
+use crate::condensed::catenary::Catenary;
+use crate::condensed::chain::Condensed;
+use crate::condensed::kernel::Bars;
+use crate::condensed::loads::Arrays;
+use crate::condensed::newton::{Budget, NEWTON_PASSES, Root, minimise, within_a_few_passes};
+use crate::condensed::parallel::Workers;
+use crate::condensed::pull::{Pull, Signs};
+use crate::condensed::system::{Frame, System};
 
 /// Newton's method from the minimum of the coarse chain; the nested searches in reserve.
 pub(super) fn solve(chain: &Condensed, budget: &mut Budget) -> Option<Pull> {

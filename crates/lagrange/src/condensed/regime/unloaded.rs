@@ -1,7 +1,7 @@
 //! Bars without force between two vertical strands: any shape that fits is an equilibrium; this is one.
 
-use super::super::chain::Condensed;
-use super::super::pull::{Pull, Signs};
+use crate::condensed::chain::Condensed;
+use crate::condensed::pull::{Pull, Signs};
 
 /// No force at the bottom: every other bar carries the weights below it, straight up.
 pub(super) fn solve(chain: &Condensed) -> Pull {

@@ -1,4 +1,5 @@
-//! Two strands that hang straight down and just meet: the one equilibrium whose multipliers are not determined.
+//! Two strands that hang straight down and just meet: the one equilibrium whose multipliers are not
+//! determined.
 //!
 //! With the anchors on one vertical and lengths that fit, the chain of least energy is straight. Its two
 //! strands then share the weight of the joint where they meet in any way that leaves no bar pushed: the
@@ -9,20 +10,19 @@
 use model::Problem;
 use nalgebra::Vector3;
 
-use crate::Settings;
 use crate::condensed::Condensed;
 use crate::mechanism::Units;
-use crate::newton::Model;
+use crate::newton::Equations;
 use crate::reduced::Reduced;
+use crate::settings::Settings;
 use crate::spin::regular_angles;
+use crate::thresholds::UPRIGHT;
 
-/// Bars nearer to the vertical than this are upright: the root of a rounding, summed over many bars.
-const UPRIGHT: f64 = 1e-6;
-
-/// Where the strands of a converged chain just meet, straighten them and let them share as they do when the
-/// anchors are a little apart, which is determined (see [`condensed`](crate::condensed)). The equations must
-/// hold there as they did before, else nothing is changed.
-pub(crate) fn share(reduced: &mut Reduced, problem: &Problem, settings: &Settings) {
+/// Where the strands of a converged chain just meet, straighten them and give them the forces that they
+/// have when the anchors are a little apart, which are determined (see
+/// [`condensed`](crate::condensed)). The equations must hold there as they did before, else nothing is
+/// changed.
+pub(crate) fn resolve(reduced: &mut Reduced, problem: &Problem, settings: &Settings) {
     let upright = |u: &Vector3<f64>| u.x.hypot(u.y) <= UPRIGHT;
     if !reduced.here.bars.iter().all(|bar| upright(&bar.u)) {
         return;
@@ -46,7 +46,9 @@ pub(crate) fn share(reduced: &mut Reduced, problem: &Problem, settings: &Setting
 mod tests {
     use model::{Anchors, Bar, Chain, Problem};
 
-    use crate::{Settings, condensed, solve};
+    use crate::condensed;
+    use crate::settings::Settings;
+    use crate::solve::solve;
 
     fn problem(masses: &[f64], end_m: [f64; 3]) -> Problem {
         let bars = masses.iter().map(|mass| Bar::homogeneous(1.0, *mass).unwrap()).collect();
