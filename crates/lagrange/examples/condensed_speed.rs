@@ -1,16 +1,16 @@
-//! Time of the condensed solver for equal bars, 1.5 times as long as the span, anchors (0, 0, 0) and
-//! (1, 0, -0.2):
+//! Time of the condensed solver for equal bars, 1.5 times as long as the span, anchors (0, 0, 0)
+//! and (1, 0, -0.2):
 //!
 //! ```text
 //! cargo run --release -p lagrange --example condensed_speed
 //! ```
 //!
-//! For each number of bars the median and the least of many runs of each part: reading the bars into
-//! arrays, the pull alone, joints and forces as arrays, and as vectors; then `solve`, which does all but
-//! the arrays. "Fresh" asks the system for memory in each run, "again" uses that of the run before: for
-//! a million bars most of the time of a fresh run goes into the first touch of 80 MB. "On two" is
-//! "solve again" on two processors. Medians are
-//! disturbed by whatever else the machine does; the least are what it can do.
+//! For each number of bars the median and the least of many runs of each part: reading the bars
+//! into arrays, the pull alone, joints and forces as arrays, and as vectors; then `solve`, which
+//! does all but the arrays. "Fresh" asks the system for memory in each run, "again" uses that of
+//! the run before: for a million bars most of the time of a fresh run goes into the first touch of
+//! 80 MB. "On two" is "solve again" on two processors. Medians are disturbed by whatever else the
+//! machine does; the least are what it can do.
 
 use std::hint::black_box;
 use std::num::NonZeroUsize;

@@ -21,10 +21,10 @@ pub(crate) fn bar_coordinates<T: RealField + Copy>(
 
 /// Constraint functions $f_1 \dots f_{3(n+1)}$ of n bars at the coordinates `q` (6n, eq. 21), m.
 ///
-/// Rows 0..3 hold the first bar at joint 0, eqs. (7)-(9); rows 3k..3k+3 hold bars k and k+1 together
-/// at joint k, eqs. (12)-(17); the last three hold bar n at joint n. There the paper prints the
-/// second bar in (18)-(20) ($C_2, l_2, r_2$ and its angles); the last bar is meant, since the
-/// equations are those of the point $A_3$.
+/// Rows 0..3 hold the first bar at joint 0, eqs. (7)-(9); rows 3k..3k+3 hold bars k and k+1
+/// together at joint k, eqs. (12)-(17); the last three hold bar n at joint n. There the paper
+/// prints the second bar in (18)-(20) ($C_2, l_2, r_2$ and its angles); the last bar is meant,
+/// since the equations are those of the point $A_3$.
 ///
 /// # Panics
 ///
@@ -33,6 +33,16 @@ pub(crate) fn bar_coordinates<T: RealField + Copy>(
 /// # References
 ///
 /// Paper, eqs. (6)-(20).
+///
+/// ```
+/// use nalgebra::DVector;
+/// // All bars of the paper's chain straight down from the first anchor: the last joint is off.
+/// let half_pi = std::f64::consts::FRAC_PI_2;
+/// let straight = (0..3).flat_map(|i| [0.0, 0.0, -0.5 - f64::from(i), 0.0, half_pi, 0.0]);
+/// let q = DVector::from_iterator(18, straight);
+/// let f = lagrange::constraint_functions(model::cases::paper().chain(), &q);
+/// assert!(f.rows(0, 11).amax() < 1e-15 && (f[11] + 1.0).abs() < 1e-15);
+/// ```
 #[must_use]
 pub fn constraint_functions<T: RealField + Copy>(chain: &Chain, q: &DVector<T>) -> DVector<T> {
     constraint_functions_of(&Mechanism::si(chain), q)
@@ -96,7 +106,8 @@ pub(crate) fn entries(mechanism: &Mechanism, bar: usize) -> [Entry; 2] {
 
 /// Matrix of constraints $b_{i,j} = \partial f_i / \partial q_j$, size 3(n+1) × 6n, analytic.
 ///
-/// Entries are 1 or −1 in the columns of the centres and metres (per radian) in those of the angles.
+/// Entries are 1 or −1 in the columns of the centres and metres (per radian) in those of the
+/// angles.
 ///
 /// # Panics
 ///
@@ -105,6 +116,14 @@ pub(crate) fn entries(mechanism: &Mechanism, bar: usize) -> [Entry; 2] {
 /// # References
 ///
 /// Paper, eq. (22), and eqs. (xi)-(xxii) for its example.
+///
+/// ```
+/// let q = nalgebra::DVector::zeros(18);
+/// let b = lagrange::constraint_matrix(model::cases::paper().chain(), &q);
+/// // Twelve constraint functions of eighteen coordinates; row 1 holds the centre of bar 1.
+/// assert_eq!(b.shape(), (12, 18));
+/// assert_eq!((b[(0, 0)], b[(0, 6)], b[(3, 6)]), (1.0, 0.0, -1.0));
+/// ```
 #[must_use]
 pub fn constraint_matrix<T: RealField + Copy>(chain: &Chain, q: &DVector<T>) -> DMatrix<T> {
     constraint_matrix_of(&Mechanism::si(chain), q)
@@ -131,8 +150,8 @@ pub(crate) fn constraint_matrix_of<T: RealField + Copy>(
     B
 }
 
-/// Generalised forces of the constraints, $\mathbf{B}^T\\{\lambda\\}$, bar by bar and without forming
-/// the matrix, which is almost empty.
+/// Generalised forces of the constraints, $\mathbf{B}^T\\{\lambda\\}$, bar by bar and without
+/// forming the matrix, which is almost empty.
 pub(crate) fn constraint_forces_of<T: RealField + Copy>(
     mechanism: &Mechanism,
     q: &DVector<T>,

@@ -98,9 +98,9 @@ impl Equations for Dense<'_> {
     }
 }
 
-/// $d = -(J^T J + s^2)^{-1} J^T r = -\sum_i v_i\\,\frac{\sigma_i}{\sigma_i^2 + s^2}\\,(u_i \cdot r)$ from the
-/// singular values of J; with s = 0 and the zero ones left out it would be the minimum-norm step.
-/// `None` when the decomposition does not converge.
+/// $d = -(J^T J + s^2)^{-1} J^T r = -\sum_i v_i\\,\frac{\sigma_i}{\sigma_i^2 + s^2}\\,(u_i \cdot r)$
+/// from the singular values of J; with s = 0 and the zero ones left out it would be the
+/// minimum-norm step. `None` when the decomposition does not converge.
 pub(crate) fn damped_step(
     jacobian: &DMatrix<f64>,
     residual: &DVector<f64>,
@@ -116,8 +116,8 @@ pub(crate) fn damped_step(
     Some(v_t.tr_mul(&parts))
 }
 
-/// The coordinates `q` of eq. (21): the centres follow from the angles along the chain, so that every
-/// constraint but the last three holds.
+/// The coordinates `q` of eq. (21): the centres follow from the angles along the chain, so that
+/// every constraint but the last three holds.
 pub(crate) fn coordinates(mechanism: &Mechanism, angles: &[[f64; 3]]) -> DVector<f64> {
     let mut q = DVector::zeros(mechanism.coordinates());
     let mut joint = mechanism.start;

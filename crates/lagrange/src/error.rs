@@ -3,6 +3,13 @@
 use crate::settings::SettingsError;
 
 /// Why no equilibrium was returned. `Ok` always means converged.
+///
+/// ```
+/// use lagrange::{Seed, Settings, SolveError, solve_from};
+/// let four = Seed::planar(&[0.0; 4]);
+/// let error = solve_from(&model::cases::paper(), &four, &Settings::default()).unwrap_err();
+/// assert_eq!(error, SolveError::SeedLength { expected: 3, got: 4 });
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SolveError {

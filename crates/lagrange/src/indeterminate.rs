@@ -1,11 +1,12 @@
 //! Two strands that hang straight down and just meet: the one equilibrium whose multipliers are not
 //! determined.
 //!
-//! With the anchors on one vertical and lengths that fit, the chain of least energy is straight. Its two
-//! strands then share the weight of the joint where they meet in any way that leaves no bar pushed: the
-//! Jacobian of the full system has one null vector more, a change of all multipliers along the vertical,
-//! and Newton's method ends at multipliers that depend on the seed. The shape it ends at is straight to the
-//! root of a rounding only, because the closure along the vertical is of second order there.
+//! With the anchors on one vertical and lengths that fit, the chain of least energy is straight.
+//! Its two strands then share the weight of the joint where they meet in any way that leaves no bar
+//! pushed: the Jacobian of the full system has one null vector more, a change of all multipliers
+//! along the vertical, and Newton's method ends at multipliers that depend on the seed. The shape
+//! it ends at is straight to the root of a rounding only, because the closure along the vertical is
+//! of second order there.
 
 use model::Problem;
 use nalgebra::Vector3;
@@ -18,10 +19,10 @@ use crate::settings::Settings;
 use crate::spin::regular_angles;
 use crate::thresholds::UPRIGHT;
 
-/// Where the strands of a converged chain just meet, straighten them and give them the forces that they
-/// have when the anchors are a little apart, which are determined (see
-/// [`condensed`](crate::condensed)). The equations must hold there as they did before, else nothing is
-/// changed.
+/// Where the strands of a converged chain just meet, straighten them and give them the forces that
+/// they have when the anchors are a little apart, which are determined (see
+/// [`condensed`](crate::condensed)). The equations must hold there as they did before, else nothing
+/// is changed.
 pub(crate) fn resolve(reduced: &mut Reduced, problem: &Problem, settings: &Settings) {
     let upright = |u: &Vector3<f64>| u.x.hypot(u.y) <= UPRIGHT;
     if !reduced.here.bars.iter().all(|bar| upright(&bar.u)) {
@@ -57,7 +58,8 @@ mod tests {
     }
 
     /// The strand of bar 1 and that of bars 2 and 3 share 3.5 kg at the lowest joint: by hand, from
-    /// 1/(a)² = 1/(3.5 - a)² + 1/(6.5 - a)², a the mass that hangs on bar 1 (half of its own included).
+    /// 1/(a)² = 1/(3.5 - a)² + 1/(6.5 - a)², a the mass that hangs on bar 1 (half of its own
+    /// included).
     #[test]
     fn strands_share_as_they_do_a_little_apart() {
         let found = solve(&problem(&[2.0, 5.0, 1.0], [0.0, 0.0, 1.0]), &Settings::default());

@@ -77,9 +77,9 @@ impl Mechanism {
     /// $1/\sqrt{s}$ times as finely as across, with s the part of the length that the span does not
     /// need.
     ///
-    /// A nearly straight chain has slopes of order $\sqrt s$ and a pull of order $1/\sqrt s$, and only a
-    /// gap of order s can be closed along the chord, one of order $\sqrt s$ across. In this metric its
-    /// equations are as well conditioned as those of a slack one.
+    /// A nearly straight chain has slopes of order $\sqrt s$ and a pull of order $1/\sqrt s$, and
+    /// only a gap of order s can be closed along the chord, one of order $\sqrt s$ across. In this
+    /// metric its equations are as well conditioned as those of a slack one.
     pub fn chord_metric(&self) -> Matrix3<f64> {
         let chord = self.end - self.start;
         let slack = 1.0 - chord.norm() / self.lengths.iter().sum::<f64>();

@@ -38,8 +38,8 @@ const FACTOR: f64 = 4.0;
 /// Least damping in units of the residual: keeps quadratic convergence and bounds the way back up.
 const LEAST_FACTOR: f64 = 1e-3;
 /// Least damping of all: the square of its ratio to the smallest non-zero singular values (1e-3 and
-/// more) is at the rounding error, and beside the zero ones, known to 1e-16, it is large, so that the
-/// solution does not drift along them.
+/// more) is at the rounding error, and beside the zero ones, known to 1e-16, it is large, so that
+/// the solution does not drift along them.
 const LEAST_DAMPING: f64 = 1e-9;
 /// A run has stagnated when the residual has lost less than `PROGRESS` in `PATIENCE` steps.
 const PATIENCE: usize = 15;
@@ -47,7 +47,8 @@ const PROGRESS: f64 = 0.02;
 /// Steps after convergence, each of which must halve the residual: they reach the rounding error.
 const POLISH: usize = 3;
 
-/// One run from the point of the equations. Appends the norm of the residual at each step to `history`.
+/// One run from the point of the equations. Appends the norm of the residual at each step to
+/// `history`.
 pub(crate) fn newton(
     equations: &mut impl Equations,
     settings: &Settings,

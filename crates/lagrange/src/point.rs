@@ -1,7 +1,7 @@
 //! A point of the reduced system: 3n angles and the pull of the first anchor.
 //!
-//! The rows of the centres in (40) and the constraint functions are affine in the centres and in all
-//! multipliers but the first three. Solved exactly (static condensation), they leave
+//! The rows of the centres in (40) and the constraint functions are affine in the centres and in
+//! all multipliers but the first three. Solved exactly (static condensation), they leave
 //!
 //! $$ g_i = l_i \left[\frac{\partial u_i}{\partial(\psi_i,\theta_i,\varphi_i)}\right]^T F_i = 0,
 //! \qquad h = \sum_i l_i u_i - D = 0, \qquad F_i = p_0 + c_i e_z, $$
@@ -96,9 +96,9 @@ impl Point {
         }
     }
 
-    /// Norm of the residual: $\sum l_i |g_i/l_i|^2 + |M h|^2$ in units of the total length and of the
-    /// given force, with the metric M of the gap; a measure that does not depend on how finely a chain
-    /// is divided.
+    /// Norm of the residual: $\sum l_i |g_i/l_i|^2 + |M h|^2$ in units of the total length and of
+    /// the given force, with the metric M of the gap; a measure that does not depend on how finely
+    /// a chain is divided.
     pub fn norm(&self, mechanism: &Mechanism, metric: &Metric) -> f64 {
         let bars = self.bars.iter().zip(&mechanism.lengths);
         let moments: f64 = bars.map(|(bar, length)| length * bar.moment.norm_squared()).sum();
@@ -112,8 +112,8 @@ impl Point {
         self.pull.norm().max(last.norm()).max(1.0 / carried.len() as f64)
     }
 
-    /// The largest equation: moment rows in units of the largest force times the mean length, rows of
-    /// the closure in units of the total length. NaN when any is NaN.
+    /// The largest equation: moment rows in units of the largest force times the mean length, rows
+    /// of the closure in units of the total length. NaN when any is NaN.
     pub fn largest(&self, mechanism: &Mechanism, carried: &[f64]) -> f64 {
         let unit = self.largest_force(carried) / carried.len() as f64;
         let closure = largest_entry(0.0, &self.closure);

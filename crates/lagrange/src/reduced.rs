@@ -55,9 +55,9 @@ impl Reduced {
         self.leave_gimbal_lock(self.lock_margin);
     }
 
-    /// Choose the unit of force for the run that begins here: the largest force, at least the weight.
-    /// In a nearly taut chain it is large, and moments in units of the weight would be out of
-    /// proportion.
+    /// Choose the unit of force for the run that begins here: the largest force, at least the
+    /// weight. In a nearly taut chain it is large, and moments in units of the weight would be out
+    /// of proportion.
     pub fn choose_unit(&mut self) {
         self.metric.force = self.here.largest_force(&self.carried).max(1.0);
         self.assembled = false;
@@ -116,7 +116,8 @@ impl Reduced {
     }
 
     /// The bar on which the largest moment acts, from 0, and that moment in units of the largest
-    /// force times the mean length. [`Equations::largest`] sees only what the paper's equations see.
+    /// force times the mean length. [`Equations::largest`] sees only what the paper's equations
+    /// see.
     pub fn largest_moment(&self) -> (usize, f64) {
         let unit = self.here.largest_force(&self.carried) / self.carried.len() as f64;
         let bars = self.here.bars.iter().zip(&self.mechanism.lengths);

@@ -2,9 +2,9 @@
 //! the residual.
 //!
 //! Such minima exist (all bars on one straight line, for one: to first order no turn changes the
-//! distance of the ends), and no damping helps there. On the paper's chain 4 % of random planar seeds
-//! end so, nine in ten of them with all bars vertical, and 2 % of spatial ones. A chain does not mind
-//! them. With the inertia in the equation of motion (33) replaced by friction,
+//! distance of the ends), and no damping helps there. On the paper's chain 4 % of random planar
+//! seeds end so, nine in ten of them with all bars vertical, and 2 % of spatial ones. A chain does
+//! not mind them. With the inertia in the equation of motion (33) replaced by friction,
 //!
 //! $$ \dot\alpha = \mathbf{B}^T\lambda + \mathbf{T}, \qquad f = 0, $$
 //!

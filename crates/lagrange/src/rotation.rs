@@ -2,8 +2,9 @@
 
 use nalgebra::{Matrix3, RealField, Vector3};
 
-/// Matrix of rotation of a bar, $\mathbf{A}_i = \boldsymbol\psi_i\\,\boldsymbol\theta_i\\,\boldsymbol\varphi_i$, from the
-/// axes of the bar to the world frame; angles in rad.
+/// Matrix of rotation of a bar,
+/// $\mathbf{A}_i = \boldsymbol\psi_i\\,\boldsymbol\theta_i\\,\boldsymbol\varphi_i$, from the axes
+/// of the bar to the world frame; angles in rad.
 ///
 /// The paper prints two of the entries of (5) with slips: entry (3,1) ends in
 /// $s\psi\\,s\varphi$ (printed $s\psi\\,s\theta$), entry (3,3) is $c\psi\\,c\theta$ (printed
@@ -24,7 +25,14 @@ pub fn rotation<T: RealField + Copy>(psi: T, theta: T, phi: T) -> Matrix3<T> {
     Frame::new([psi, theta, phi]).rotation()
 }
 
-/// Direction $u_i = \mathbf{A}_i e_x$ of a bar, from its first joint to its last: the first column of (5).
+/// Direction $u_i = \mathbf{A}_i e_x$ of a bar, from its first joint to its last: the first column
+/// of (5).
+///
+/// ```
+/// // The paper's psi = 0, theta = pi/2: phi counts from the descending vertical towards +Y.
+/// let u = lagrange::direction(0.0, std::f64::consts::FRAC_PI_2, 0.5_f64);
+/// assert!((u.y - 0.5_f64.sin()).abs() < 1e-15 && (u.z + 0.5_f64.cos()).abs() < 1e-15);
+/// ```
 #[must_use]
 pub fn direction<T: RealField + Copy>(psi: T, theta: T, phi: T) -> Vector3<T> {
     Frame::new([psi, theta, phi]).direction()
@@ -34,6 +42,13 @@ pub fn direction<T: RealField + Copy>(psi: T, theta: T, phi: T) -> Vector3<T> {
 /// $\partial u/\partial\psi,\ \partial u/\partial\theta,\ \partial u/\partial\varphi$.
 ///
 /// Its kernel is the spin of the bar about its own axis; see [`spin`](crate::spin()).
+///
+/// ```
+/// // Along e_x psi turns nothing, theta turns the bar down, phi towards +Y.
+/// let gradient = lagrange::direction_gradient(0.0, 0.0, 0.0_f64);
+/// assert_eq!(gradient.column(0).norm(), 0.0);
+/// assert_eq!((gradient[(2, 1)], gradient[(1, 2)]), (-1.0, 1.0));
+/// ```
 #[must_use]
 pub fn direction_gradient<T: RealField + Copy>(psi: T, theta: T, phi: T) -> Matrix3<T> {
     let frame = Frame::new([psi, theta, phi]);

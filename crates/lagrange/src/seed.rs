@@ -9,6 +9,14 @@ use crate::error::SolveError;
 use crate::spin::regular_angles;
 
 /// Angles ψ, θ, φ of each bar, rad.
+///
+/// ```
+/// use lagrange::{Seed, Settings, solve_from};
+/// let near_e2 = Seed::planar(&[1.3, -0.7, -0.3]);
+/// let found = solve_from(&model::cases::paper(), &near_e2, &Settings::default())?;
+/// assert_eq!(found.equilibrium.stability.index_in_space, 2);
+/// # Ok::<(), lagrange::SolveError>(())
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Seed {
     angles: Vec<[f64; 3]>,
@@ -16,6 +24,11 @@ pub struct Seed {
 
 impl Seed {
     /// Any angles ψ, θ, φ, rad: the bars may point anywhere in space.
+    ///
+    /// ```
+    /// let seed = lagrange::Seed::spatial(vec![[0.1, 1.2, -0.3]; 3]);
+    /// assert_eq!(seed.angles()[2], [0.1, 1.2, -0.3]);
+    /// ```
     #[must_use]
     pub fn spatial(angles: Vec<[f64; 3]>) -> Self {
         Self { angles }
@@ -23,6 +36,11 @@ impl Seed {
 
     /// The paper's choice: ψ = 0, θ = π/2, in the plane *OYZ*, with φ measured from the descending
     /// vertical towards +Y, rad.
+    ///
+    /// ```
+    /// let seed = lagrange::Seed::planar(&[0.3, 0.7, -1.3]);
+    /// assert_eq!(seed.angles()[1], [0.0, std::f64::consts::FRAC_PI_2, 0.7]);
+    /// ```
     #[must_use]
     pub fn planar(phi: &[f64]) -> Self {
         Self { angles: phi.iter().map(|phi| [0.0, FRAC_PI_2, *phi]).collect() }
@@ -31,8 +49,15 @@ impl Seed {
     /// In the vertical plane turned by `heading` from *OXZ* about +Z, with `phi` measured from the
     /// descending vertical towards the heading, rad.
     ///
-    /// At heading π/2 the directions are those of [`Seed::planar`]; the angles are not, since those of
-    /// every bar are chosen away from gimbal lock.
+    /// At heading π/2 the directions are those of [`Seed::planar`]; the angles are not, since those
+    /// of every bar are chosen away from gimbal lock.
+    ///
+    /// ```
+    /// // A level bar towards +X.
+    /// let seed = lagrange::Seed::planar_towards(0.0, &[std::f64::consts::FRAC_PI_2]);
+    /// let [psi, theta, phi] = seed.angles()[0];
+    /// assert!((lagrange::direction(psi, theta, phi).x - 1.0).abs() < 1e-15);
+    /// ```
     #[must_use]
     pub fn planar_towards(heading: f64, phi: &[f64]) -> Self {
         let (sin, cos) = heading.sin_cos();
@@ -44,13 +69,26 @@ impl Seed {
     }
 
     /// Any directions of the bars, from first to last joint; their lengths do not matter.
+    ///
+    /// ```
+    /// let seed = lagrange::Seed::directions(&[[0.0, 3.0, -4.0]]);
+    /// let [psi, theta, phi] = seed.angles()[0];
+    /// assert!((lagrange::direction(psi, theta, phi).z + 0.8).abs() < 1e-15);
+    /// ```
     #[must_use]
     pub fn directions(directions: &[model::Vector]) -> Self {
         Self { angles: directions.iter().map(|u| regular_angles(&Vector3::from(*u))).collect() }
     }
 
-    /// A circular arc that hangs from anchor to anchor with the length of the chain: a seed that needs
-    /// no guess. With the anchors on one vertical it lies in the plane *OYZ*.
+    /// A circular arc that hangs from anchor to anchor with the length of the chain: a seed that
+    /// needs no guess. With the anchors on one vertical it lies in the plane *OYZ*.
+    ///
+    /// ```
+    /// let seed = lagrange::Seed::arc(&model::cases::paper());
+    /// let ends = seed.angles().iter().map(|[a, b, c]| lagrange::direction(*a, *b, *c));
+    /// // Three bars of 1 m from anchor to anchor, 2 m straight down, to a few percent.
+    /// assert!((ends.sum::<nalgebra::Vector3<f64>>().z + 2.0).abs() < 0.1);
+    /// ```
     #[must_use]
     pub fn arc(problem: &Problem) -> Self {
         let chain = problem.chain();
@@ -73,6 +111,10 @@ impl Seed {
     }
 
     /// The angles ψ, θ, φ of each bar, rad.
+    ///
+    /// ```
+    /// assert_eq!(lagrange::Seed::planar(&[0.3, 0.7]).angles().len(), 2);
+    /// ```
     #[must_use]
     pub fn angles(&self) -> &[[f64; 3]] {
         &self.angles
@@ -107,8 +149,9 @@ fn half_angle(ratio: f64) -> f64 {
     0.5 * (low + high)
 }
 
-/// A perturbation for the given round: every angle of bar i turned by up to half a radian, in a sequence that
-/// has no pattern and needs no random numbers (multiples of the golden ratio, modulo 1).
+/// A perturbation for the given round: every angle of bar i turned by up to half a radian, in a
+/// sequence that has no pattern and needs no random numbers (multiples of the golden ratio, modulo
+/// 1).
 pub(crate) fn perturb(angles: &mut [[f64; 3]], round: usize) {
     let golden = 0.5 * (5.0_f64.sqrt() - 1.0);
     for (index, angle) in angles.iter_mut().flatten().enumerate() {

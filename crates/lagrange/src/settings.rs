@@ -1,6 +1,14 @@
 //! Settings of the solve.
 
 /// How a step is computed.
+///
+/// ```
+/// use lagrange::{Settings, StepMethod, solve};
+/// let readable = Settings { method: StepMethod::Dense, ..Default::default() };
+/// let found = solve(&model::cases::paper(), &readable)?;
+/// assert!((found.equilibrium.energy_j / 9.80665 + 6.0 - 2.335468651999305).abs() < 1e-13);
+/// # Ok::<(), lagrange::SolveError>(())
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 #[non_exhaustive]
 pub enum StepMethod {
@@ -23,18 +31,19 @@ pub enum StepMethod {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Settings {
     /// A state has converged when its largest equation is at most this: moment rows relative to the
-    /// largest force times the mean length, constraint rows relative to the total length; the rows of
-    /// the centres are solved exactly.
+    /// largest force times the mean length, constraint rows relative to the total length; the rows
+    /// of the centres are solved exactly.
     ///
     /// Default 1e-13, some hundred rounding errors. Range 1e-15 to 1e-3.
     pub tolerance: f64,
     /// Steps of one run of Newton's method.
     ///
-    /// Default 200; from good seeds it takes 5, from random ones of three bars about 15. At least 1.
+    /// Default 200; from good seeds it takes 5, from random ones of three bars about 15. At least
+    /// 1.
     pub max_iterations: usize,
-    /// How many times the chain is relaxed from the seed, in viscous motion, when Newton's method has
-    /// stopped at a local minimum of the residual that is no root; each time another run of Newton's
-    /// method follows. With 0 Newton's method from the seed is all.
+    /// How many times the chain is relaxed from the seed, in viscous motion, when Newton's method
+    /// has stopped at a local minimum of the residual that is no root; each time another run of
+    /// Newton's method follows. With 0 Newton's method from the seed is all.
     ///
     /// Default 8. Range 0 to 1000.
     pub relaxations: usize,
@@ -42,16 +51,16 @@ pub struct Settings {
     ///
     /// Default 500. At least 1.
     pub max_relaxation_steps: usize,
-    /// A bar is described by other angles when the length of its [`spin`](crate::spin()) falls below
-    /// this, near gimbal lock. With 0 the paper's angles are kept whatever happens, and its false
-    /// roots are met: they end in [`SolveError::FalseRoot`](crate::SolveError::FalseRoot).
+    /// A bar is described by other angles when the length of its [`spin`](crate::spin()) falls
+    /// below this, near gimbal lock. With 0 the paper's angles are kept whatever happens, and its
+    /// false roots are met: they end in [`SolveError::FalseRoot`](crate::SolveError::FalseRoot).
     ///
     /// Default 0.1. Range 0 to 0.9.
     pub lock_margin: f64,
-    /// Up to this number of bars nullity and condition of a [`Solution`](crate::Solution) are those of
-    /// the full Jacobian, above of the reduced one, which has the same nullity and is smaller; both by
-    /// a decomposition, cubic in n. Above 300 bars neither is decomposed: the nullity is counted from
-    /// the geometry and the condition estimated.
+    /// Up to this number of bars nullity and condition of a [`Solution`](crate::Solution) are those
+    /// of the full Jacobian, above of the reduced one, which has the same nullity and is smaller;
+    /// both by a decomposition, cubic in n. Above 300 bars neither is decomposed: the nullity is
+    /// counted from the geometry and the condition estimated.
     ///
     /// Default 30.
     pub full_spectrum_bars: usize,
@@ -74,6 +83,12 @@ impl Default for Settings {
 }
 
 /// Why settings cannot be used.
+///
+/// ```
+/// let settings = lagrange::Settings { tolerance: 1.0, ..Default::default() };
+/// let error = settings.validate().unwrap_err();
+/// assert_eq!((error.name, error.value, error.high), ("tolerance", 1.0, 1e-3));
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[error("setting {name} = {value} is outside its range, {low} to {high}")]
 pub struct SettingsError {
@@ -93,6 +108,10 @@ impl Settings {
     /// # Errors
     ///
     /// [`SettingsError`] with the first field that is out of range; NaN is out of every range.
+    ///
+    /// ```
+    /// assert!(lagrange::Settings { lock_margin: 1.0, ..Default::default() }.validate().is_err());
+    /// ```
     pub fn validate(&self) -> Result<(), SettingsError> {
         const STEPS: f64 = 1e9;
         for (name, value, low, high) in [

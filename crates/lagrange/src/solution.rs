@@ -15,6 +15,14 @@ use crate::stability::stability;
 use crate::system::relative_residual;
 
 /// An equilibrium of the full system. That it exists means converged.
+///
+/// ```
+/// let found = lagrange::solve(&model::cases::paper(), &Default::default())?;
+/// assert_eq!((found.q.len(), found.lambda.len(), found.nullity), (18, 12, 4));
+/// // lambda_3, the vertical reaction at the first anchor, mg.
+/// assert!((found.lambda[2] / 9.80665 - 2.312944292241838).abs() < 1e-13);
+/// # Ok::<(), lagrange::SolveError>(())
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Solution {
     /// The equilibrium as everyone reads it.
@@ -94,8 +102,9 @@ impl Solution {
     }
 }
 
-/// What the tolerance of the reduced equations is in units of the full ones: those measure moments in the largest
-/// force times the mean length and closure in the total length, these in *mgl* and *l*.
+/// What the tolerance of the reduced equations is in units of the full ones: those measure moments
+/// in the largest force times the mean length and closure in the total length, these in *mgl* and
+/// *l*.
 fn tolerance_unit(chain: &model::Chain, lambda: &DVector<f64>) -> f64 {
     let bars = chain.bars().len() as f64;
     let mean_weight_n = chain.total_mass_kg() * chain.gravity_m_s2() / bars;
@@ -104,7 +113,8 @@ fn tolerance_unit(chain: &model::Chain, lambda: &DVector<f64>) -> f64 {
     bars.max(largest_n / mean_weight_n)
 }
 
-/// Potential energy from joint 0, $V = \sum m_i g\\,Z_{C_i}$, in units of the total weight and length.
+/// Potential energy from joint 0, $V = \sum m_i g\\,Z_{C_i}$, in units of the total weight and
+/// length.
 pub(crate) fn energy(reduced: &Reduced) -> f64 {
     let mechanism = &reduced.mechanism;
     let mut height = 0.0;
@@ -127,8 +137,8 @@ fn joints(mechanism: &Mechanism, reduced: &Reduced) -> Vec<Vector> {
     std::iter::once(Vector::from(mechanism.start)).chain(ends).collect()
 }
 
-/// Horizontal position of joint 1 beside joint 0, in units of the total length: tells an equilibrium
-/// from its mirror image.
+/// Horizontal position of joint 1 beside joint 0, in units of the total length: tells an
+/// equilibrium from its mirror image.
 pub(crate) fn first_offset(reduced: &Reduced) -> Vector3<f64> {
     let first = reduced.here.bars[0].u * reduced.mechanism.lengths[0];
     Vector3::new(first.x, first.y, 0.0)

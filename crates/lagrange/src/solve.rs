@@ -62,6 +62,16 @@ enum Attempt {
 }
 
 /// A converged state in the memory of its solver.
+///
+/// ```
+/// use lagrange::{Seed, Settings, Solver};
+/// let problem = model::cases::paper();
+/// let mut solver = Solver::new(&problem, &Settings::default())?;
+/// let found = solver.solve(&Seed::planar(&[0.3, 0.7, -1.3]))?;
+/// assert!(found.residual() <= 1e-13);
+/// assert_eq!(found.solution()?.nullity, 4);
+/// # Ok::<(), lagrange::SolveError>(())
+/// ```
 #[derive(Debug, Clone, Copy)]
 pub struct Converged<'s> {
     solver: &'s Solver<'s>,
@@ -73,6 +83,12 @@ impl<'p> Solver<'p> {
     /// # Errors
     ///
     /// [`SolveError::Settings`] when a setting is out of range.
+    ///
+    /// ```
+    /// use lagrange::{Settings, Solver};
+    /// let unusable = Settings { max_iterations: 0, ..Default::default() };
+    /// assert!(Solver::new(&model::cases::paper(), &unusable).is_err());
+    /// ```
     pub fn new(problem: &'p Problem, settings: &Settings) -> Result<Self, SolveError> {
         settings.validate()?;
         let chain = problem.chain();
@@ -88,12 +104,24 @@ impl<'p> Solver<'p> {
         })
     }
 
-    /// The equilibrium that the seed leads to, whatever its stability: Newton's method from the seed,
-    /// and if that stops at a local minimum of the residual, from where the chain has relaxed to.
+    /// The equilibrium that the seed leads to, whatever its stability: Newton's method from the
+    /// seed, and if that stops at a local minimum of the residual, from where the chain has relaxed
+    /// to.
     ///
     /// # Errors
     ///
     /// [`SolveError`]: a seed that does not fit, or no convergence.
+    ///
+    /// ```
+    /// use lagrange::{Seed, Settings, Solver};
+    /// let problem = model::cases::paper();
+    /// let mut solver = Solver::new(&problem, &Settings::default())?;
+    /// // E1 and its mirror image: one energy.
+    /// let one = solver.solve(&Seed::planar(&[0.3, 0.7, -1.3]))?.energy_j();
+    /// let other = solver.solve(&Seed::planar(&[-0.3, -0.7, 1.3]))?.energy_j();
+    /// assert!((one - other).abs() < 1e-13);
+    /// # Ok::<(), lagrange::SolveError>(())
+    /// ```
     pub fn solve(&mut self, seed: &Seed) -> Result<Converged<'_>, SolveError> {
         let clock = Instant::now();
         seed.check(self.reduced.carried.len())?;
@@ -111,15 +139,23 @@ impl<'p> Solver<'p> {
         }
     }
 
-    /// The stable equilibrium, from no guess: an arc between the anchors is relaxed and then solved,
-    /// again from a perturbed arc while the result is unstable.
+    /// The stable equilibrium, from no guess: an arc between the anchors is relaxed and then
+    /// solved, again from a perturbed arc while the result is unstable.
     ///
-    /// For a chain, stable in space means that no configuration has less energy: the stress matrix of
-    /// a stable equilibrium is positive semidefinite.
+    /// For a chain, stable in space means that no configuration has less energy: the stress matrix
+    /// of a stable equilibrium is positive semidefinite.
     ///
     /// # Errors
     ///
     /// [`SolveError::Unstable`] or [`SolveError::Stagnated`] when nothing stable is found.
+    ///
+    /// ```
+    /// use lagrange::{Settings, Solver};
+    /// let problem = model::cases::paper();
+    /// let mut solver = Solver::new(&problem, &Settings::default())?;
+    /// assert_eq!(solver.solve_stable()?.stability().index_in_space, 0);
+    /// # Ok::<(), lagrange::SolveError>(())
+    /// ```
     pub fn solve_stable(&mut self) -> Result<Converged<'_>, SolveError> {
         let clock = Instant::now();
         let seed = Seed::arc(self.problem);
@@ -231,42 +267,98 @@ const EVERY_BAR: f64 = 1.0;
 
 impl Converged<'_> {
     /// Potential energy from the height of joint 0, J.
+    ///
+    /// ```
+    /// use lagrange::{Seed, Settings, Solver};
+    /// let problem = model::cases::paper();
+    /// let mut solver = Solver::new(&problem, &Settings::default())?;
+    /// let found = solver.solve(&Seed::planar(&[0.3, 0.7, -1.3]))?;
+    /// assert!((found.energy_j() / 9.80665 + 3.664531348000695).abs() < 1e-12);
+    /// # Ok::<(), lagrange::SolveError>(())
+    /// ```
     #[must_use]
     pub fn energy_j(&self) -> f64 {
         energy(&self.solver.reduced) * self.solver.units.weight * self.solver.units.length
     }
 
     /// The largest equation, in the units of [`Settings::tolerance`].
+    ///
+    /// ```
+    /// use lagrange::{Seed, Settings, Solver};
+    /// let problem = model::cases::paper();
+    /// let mut solver = Solver::new(&problem, &Settings::default())?;
+    /// let found = solver.solve(&Seed::planar(&[0.3, 0.7, -1.3]))?;
+    /// assert!(found.residual() <= Settings::default().tolerance);
+    /// # Ok::<(), lagrange::SolveError>(())
+    /// ```
     #[must_use]
     pub fn residual(&self) -> f64 {
         self.solver.reduced.largest()
     }
 
     /// What it took.
+    ///
+    /// ```
+    /// use lagrange::{Seed, Settings, Solver};
+    /// let problem = model::cases::paper();
+    /// let mut solver = Solver::new(&problem, &Settings::default())?;
+    /// let found = solver.solve(&Seed::planar(&[0.3, 0.7, -1.3]))?;
+    /// assert_eq!(found.effort().relaxations, 0);
+    /// # Ok::<(), lagrange::SolveError>(())
+    /// ```
     #[must_use]
     pub fn effort(&self) -> Effort {
         self.solver.effort
     }
 
     /// Second-order behaviour.
+    ///
+    /// ```
+    /// use lagrange::{Seed, Settings, Solver};
+    /// let problem = model::cases::paper();
+    /// let mut solver = Solver::new(&problem, &Settings::default())?;
+    /// let found = solver.solve(&Seed::planar(&[0.3, 0.7, -1.3]))?;
+    /// assert_eq!(found.stability().in_plane, model::InPlane::Minimum);
+    /// # Ok::<(), lagrange::SolveError>(())
+    /// ```
     #[must_use]
     pub fn stability(&self) -> Stability {
         stability(&self.solver.reduced.mechanism, &self.solver.reduced.here)
     }
 
-    /// Horizontal vector from joint 0 to joint 1, m, which tells an equilibrium from its mirror image.
+    /// Horizontal vector from joint 0 to joint 1, m, which tells an equilibrium from its mirror
+    /// image.
+    ///
+    /// ```
+    /// use lagrange::{Seed, Settings, Solver};
+    /// let problem = model::cases::paper();
+    /// let mut solver = Solver::new(&problem, &Settings::default())?;
+    /// let found = solver.solve(&Seed::planar(&[0.3, 0.7, -1.3]))?;
+    /// let [x, y] = found.first_offset_m();
+    /// assert!(x.abs() < 1e-14 && (y - 19.694867976133019_f64.to_radians().sin()).abs() < 1e-13);
+    /// # Ok::<(), lagrange::SolveError>(())
+    /// ```
     #[must_use]
     pub fn first_offset_m(&self) -> [f64; 2] {
         let offset = first_offset(&self.solver.reduced) * self.solver.units.length;
         [offset.x, offset.y]
     }
 
-    /// The whole answer. The singular values behind its nullity and condition cost far more than the
-    /// solve.
+    /// The whole answer. The singular values behind its nullity and condition cost far more than
+    /// the solve.
     ///
     /// # Errors
     ///
     /// [`SolveError::Spectrum`] when their iteration does not converge.
+    ///
+    /// ```
+    /// use lagrange::{Seed, Settings, Solver};
+    /// let problem = model::cases::paper();
+    /// let mut solver = Solver::new(&problem, &Settings::default())?;
+    /// let found = solver.solve(&Seed::planar(&[0.3, 0.7, -1.3]))?;
+    /// assert_eq!(found.solution()?.angles_rad.len(), 3);
+    /// # Ok::<(), lagrange::SolveError>(())
+    /// ```
     pub fn solution(&self) -> Result<Solution, SolveError> {
         let Solver { problem, settings, reduced, effort, history, .. } = self.solver;
         Solution::new(problem, settings, reduced, *effort, history.clone())

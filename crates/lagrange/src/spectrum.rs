@@ -17,11 +17,20 @@ const SVD_STEPS: usize = 100;
 
 /// Up to this number of bars the reduced Jacobian is decomposed (half a second), above it is not.
 pub(crate) const LARGEST_DECOMPOSED: usize = 300;
-/// Damping of the estimate: what is smaller stays hidden, above all the zero ones, which come out at
-/// 1e-16 divided by its square.
+/// Damping of the estimate: what is smaller stays hidden, above all the zero ones, which come out
+/// at 1e-16 divided by its square.
 const ESTIMATE_DAMPING: f64 = 1e-7;
 
 /// Singular values of a Jacobian.
+///
+/// ```
+/// let problem = model::cases::paper();
+/// let found = lagrange::solve(&problem, &Default::default())?;
+/// let spectrum = lagrange::spectrum(problem.chain(), &found.q, &found.lambda)?;
+/// // Three spins and the turn about the vertical: four of thirty.
+/// assert_eq!(spectrum.singular_values.iter().filter(|value| **value < 1e-12).count(), 4);
+/// # Ok::<(), lagrange::SolveError>(())
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Spectrum {
     /// All of them, the largest first.
@@ -32,12 +41,12 @@ pub struct Spectrum {
     pub condition: f64,
 }
 
-/// Singular values of the full [`jacobian`](crate::jacobian()) at `q`, `lambda` (SI), measured in *l*
-/// and *mg* (mean length and weight of the bars) so that they are pure numbers.
+/// Singular values of the full [`jacobian`](crate::jacobian()) at `q`, `lambda` (SI), measured in
+/// *l* and *mg* (mean length and weight of the bars) so that they are pure numbers.
 ///
-/// At an equilibrium the nullity is n, one for the spin of each bar about its own axis, plus one when
-/// the anchors are on one vertical, for the turn of the chain about it, plus the degeneracy of the
-/// equilibrium itself, if any.
+/// At an equilibrium the nullity is n, one for the spin of each bar about its own axis, plus one
+/// when the anchors are on one vertical, for the turn of the chain about it, plus the degeneracy of
+/// the equilibrium itself, if any.
 ///
 /// # Errors
 ///
@@ -97,8 +106,8 @@ impl Spectrum {
         Self::of(jacobian)
     }
 
-    /// Nullity by geometry and condition by estimate, without any singular value: for chains so long
-    /// that a decomposition is out of reach.
+    /// Nullity by geometry and condition by estimate, without any singular value: for chains so
+    /// long that a decomposition is out of reach.
     pub(crate) fn estimated(mechanism: &Mechanism, point: &Point) -> Self {
         let mut matrix = Matrix::new(mechanism);
         matrix.assemble(point, &Metric::plain());
@@ -136,8 +145,8 @@ mod tests {
             let estimate = Spectrum::estimated(&reduced.mechanism, &reduced.here);
             assert_eq!(exact.nullity, estimate.nullity);
             assert_eq!(exact.nullity, found.nullity);
-            // A bound on the largest and, from 50 steps, nearly the smallest singular value; without
-            // the spins the latter may be a little larger.
+            // A bound on the largest and, from 50 steps, nearly the smallest singular value;
+            // without the spins the latter may be a little larger.
             let ratio = estimate.condition / exact.condition;
             assert!((0.5..4.0).contains(&ratio), "{ratio}");
         }

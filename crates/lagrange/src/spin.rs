@@ -7,16 +7,16 @@
 //!
 //! $$ v = (\cos\varphi,\ \cos\theta\sin\varphi,\ -\sin\theta\cos\varphi), $$
 //!
-//! the solution of $\mathbf{Q}\\,v \parallel e_x$ with $\mathbf{Q}$ of eq. (23). No moment row of (40) has a
-//! component along it and no equation of the system changes with it, so it is a *gauge*: the solver
-//! takes no step along it.
+//! the solution of $\mathbf{Q}\\,v \parallel e_x$ with $\mathbf{Q}$ of eq. (23). No moment row of
+//! (40) has a component along it and no equation of the system changes with it, so it is a *gauge*:
+//! the solver takes no step along it.
 //!
-//! Where $\cos\theta = \cos\varphi = 0$ the vector vanishes. Two angles then turn the bar in the same
-//! way and the third does not turn it at all: the paper's equations lose one of the two moment
-//! balances of that bar and admit **false roots**, states that satisfy all 6n + 3(n+1) equations and
-//! are no equilibria. They are isolated, and Newton's method converges to them like to any other
-//! root: on the paper's chain from 4 % of random spatial seeds. The cure is to describe the bar by
-//! other angles ([`regular_angles`]): the same direction, another spin.
+//! Where $\cos\theta = \cos\varphi = 0$ the vector vanishes. Two angles then turn the bar in the
+//! same way and the third does not turn it at all: the paper's equations lose one of the two moment
+//! balances of that bar and admit **false roots**, states that satisfy all 6n + 3(n+1) equations
+//! and are no equilibria. They are isolated, and Newton's method converges to them like to any
+//! other root: on the paper's chain from 4 % of random spatial seeds. The cure is to describe the
+//! bar by other angles ([`regular_angles`]): the same direction, another spin.
 
 use nalgebra::Vector3;
 
@@ -71,17 +71,12 @@ mod tests {
 
     #[test]
     fn regular_angles_have_their_direction_and_a_long_spin() {
-        for k in 0..200 {
-            let k = f64::from(k);
-            // All around, the poles of each axis among them.
-            let u = match k as u8 {
-                0 => Vector3::x(),
-                1 => -Vector3::x(),
-                // Here the paper's psi = 0, theta = pi/2 loses a moment balance.
-                2 => Vector3::y(),
-                3 => -Vector3::z(),
-                _ => Vector3::new(k.sin(), (2.0 * k).cos(), (3.0 * k).sin()).normalize(),
-            };
+        // The axes, +Y where the paper's psi = 0, theta = pi/2 loses a moment balance, and all around.
+        let axes = [Vector3::x(), -Vector3::x(), Vector3::y(), -Vector3::z()];
+        let around = (0..200)
+            .map(f64::from)
+            .map(|k| Vector3::new(k.sin(), (2.0 * k).cos(), (3.0 * k).sin()).normalize());
+        for u in axes.into_iter().chain(around) {
             let angles = regular_angles(&u);
             assert!((Frame::new(angles).direction() - u).norm() < 1e-15);
             assert!(spin(angles[1], angles[2]).norm() >= 1.0 - 1e-15);

@@ -2,19 +2,19 @@
 //!
 //! Turn bar i by a small angle in any direction: its vector $l_i u_i$ moves across itself, and the
 //! second derivative of the Lagrangian is $l_i T_i$ with the axial force $T_i = F_i \cdot u_i$,
-//! whichever the direction. In its vertical plane (every equilibrium of a hanging chain has one, see
-//! below) the motions split into those in the plane, $\sum l_i a_i t_i = 0$ with $t_i \perp u_i$ in
-//! the plane, and those out of it, $\sum l_i b_i = 0$. On each, the quadratic form
-//! $\sum l_i T_i a_i^2$ is diagonal under m linear conditions (m = 2 and 1), and Haynsworth's inertia
-//! additivity for its bordered matrix gives the index:
+//! whichever the direction. In its vertical plane (every equilibrium of a hanging chain has one,
+//! see below) the motions split into those in the plane, $\sum l_i a_i t_i = 0$ with
+//! $t_i \perp u_i$ in the plane, and those out of it, $\sum l_i b_i = 0$. On each, the quadratic
+//! form $\sum l_i T_i a_i^2$ is diagonal under m linear conditions (m = 2 and 1), and Haynsworth's
+//! inertia additivity for its bordered matrix gives the index:
 //!
 //! $$ \mathrm{index} = \\#\\{T_i < 0\\} + \\#\\{\text{positive eigenvalues of } S\\} - m, \qquad
 //!    S_\text{in} = \sum \frac{l_i}{T_i} t_i t_i^T, \quad S_\text{out} = \sum \frac{l_i}{T_i}. $$
 //!
 //! Since $u_i = F_i/T_i$ and all $F_i$ have the horizontal part H of the pull,
-//! $S_\text{out} = D_h / H$ with the horizontal span $D_h$: no sum, no cancellation. It is positive when
-//! the pull on the first anchor points towards the other, and with vertical anchors it is zero, the
-//! neutral turn about them.
+//! $S_\text{out} = D_h / H$ with the horizontal span $D_h$: no sum, no cancellation. It is positive
+//! when the pull on the first anchor points towards the other, and with vertical anchors it is
+//! zero, the neutral turn about them.
 //!
 //! The plane: bar i is parallel to $F_i = p_0 + c_i e_z$, so all bars lie in the plane of $p_0$ and
 //! $e_z$.
@@ -92,8 +92,8 @@ pub(crate) fn stability(mechanism: &Mechanism, point: &Point) -> Stability {
 
 /// Unit normal of the vertical plane, horizontal.
 fn plane_normal(mechanism: &Mechanism, span: &Vector2<f64>, pull: &Vector2<f64>) -> Vector3<f64> {
-    // The pull lies in the plane too, and serves when the anchors are on one vertical. With neither,
-    // all bars are vertical, and any plane is as good as another: the paper's, OYZ.
+    // The pull lies in the plane too, and serves when the anchors are on one vertical. With
+    // neither, all bars are vertical, and any plane is as good as another: the paper's, OYZ.
     let level = if mechanism.on_one_vertical { pull } else { span };
     let level = level.try_normalize(f64::EPSILON).unwrap_or_else(Vector2::y);
     Vector3::new(level.y, -level.x, 0.0)

@@ -9,24 +9,25 @@
 //!
 //! *No spin.* The step is taken in the two directions of each bar's angles across its
 //! [spin](crate::spin()). That removes n null directions by geometry, exactly, and no threshold
-//! decides what is singular. (Zeng's rank-r Newton step finds the same directions by a decomposition.)
+//! decides what is singular. (Zeng's rank-r Newton step finds the same directions by a
+//! decomposition.)
 //!
 //! *Damping.* Whatever else is singular, such as the turn about vertical anchors or a degenerate
-//! equilibrium, is met by the step of Levenberg and Marquardt, $d = -(J^2 + s^2)^{-1} J r$. Since J is
-//! symmetric,
+//! equilibrium, is met by the step of Levenberg and Marquardt, $d = -(J^2 + s^2)^{-1} J r$. Since J
+//! is symmetric,
 //!
 //! $$ d = -\mathrm{Re}\left[(J + \mathrm{i}\\,s)^{-1}\right] r, $$
 //!
-//! one complex solve with the same blocks, $2\times2$ for each bar and $3\times3$ for the pull: O(n),
-//! and no product $J^2$ that would square the condition. With s of the order of the residual the step
-//! tends to the minimum-norm Newton step, and the convergence is quadratic also to solutions that are
-//! not isolated.
+//! one complex solve with the same blocks, $2\times2$ for each bar and $3\times3$ for the pull:
+//! O(n), and no product $J^2$ that would square the condition. With s of the order of the residual
+//! the step tends to the minimum-norm Newton step, and the convergence is quadratic also to
+//! solutions that are not isolated.
 //!
 //! # References
 //!
-//! N. Yamashita, M. Fukushima, Computing Suppl. 15 (2001) 239-249, doi:10.1007/978-3-7091-6217-0_18;
-//! J. Fan, Y. Yuan, Computing 74 (2005) 23-39, doi:10.1007/s00607-004-0083-1;
-//! Z. Zeng, arXiv:2101.09180
+//! N. Yamashita, M. Fukushima, Computing Suppl. 15 (2001) 239-249,
+//! doi:10.1007/978-3-7091-6217-0_18; J. Fan, Y. Yuan, Computing 74 (2005) 23-39,
+//! doi:10.1007/s00607-004-0083-1; Z. Zeng, arXiv:2101.09180
 
 use nalgebra::{Complex, Matrix3, Vector3};
 
@@ -117,8 +118,8 @@ impl Matrix {
         }
     }
 
-    /// Solve $(J + \mathrm{diag}(s_1, s_2))\\,d = -r$ for the real part of d, with the shift $s_1$ on
-    /// the moment rows and $s_2$ on the closure.
+    /// Solve $(J + \mathrm{diag}(s_1, s_2))\\,d = -r$ for the real part of d, with the shift $s_1$
+    /// on the moment rows and $s_2$ on the closure.
     pub fn solve_shifted(&mut self, moments: Complex<f64>, closure: Complex<f64>) {
         let mut schur = Matrix3::from_diagonal_element(closure);
         let mut right = self.closure.map(|h| Complex::new(-h, 0.0));
@@ -333,7 +334,8 @@ mod tests {
             matrix.solve_shifted(tiny, tiny);
             let q = coordinates(&mechanism, &point.angles);
             let lambda = all_multipliers(&mechanism, &point.pull);
-            // The step of the centres follows along the chain; that of every multiplier from the pull.
+            // The step of the centres follows along the chain; that of every multiplier from the
+            // pull.
             let mut step = DVector::zeros(30);
             let mut joint = Vector3::zeros();
             for (bar, (turn, moved)) in matrix.turns().zip(matrix.moves()).enumerate() {

@@ -27,6 +27,14 @@ use crate::rotation::direction_hessian;
 /// # References
 ///
 /// Paper, eq. (40) with (7)-(20).
+///
+/// ```
+/// let problem = model::cases::paper();
+/// let found = lagrange::solve(&problem, &Default::default())?;
+/// let residual = lagrange::residual(problem.chain(), &found.q, &found.lambda);
+/// assert!(residual.len() == 30 && residual.amax() < 1e-13);
+/// # Ok::<(), lagrange::SolveError>(())
+/// ```
 #[must_use]
 pub fn residual<T: RealField + Copy>(
     chain: &Chain,
@@ -56,12 +64,21 @@ pub(crate) fn residual_of<T: RealField + Copy>(
 ///
 /// $$ \begin{bmatrix} -\sum_i \lambda_i\\, \partial^2 f_i/\partial q^2 & -\mathbf{B}^T \\\\ \mathbf{B} & 0 \end{bmatrix}. $$
 ///
-/// It is singular at every equilibrium, because a bar can spin about its own axis without any effect
-/// ("three of them being useless", section III); see [`spectrum`](crate::spectrum()).
+/// It is singular at every equilibrium, because a bar can spin about its own axis without any
+/// effect ("three of them being useless", section III); see [`spectrum`](crate::spectrum()).
 ///
 /// # Panics
 ///
 /// When `q` has not 6n entries or `lambda` not 3(n+1).
+///
+/// ```
+/// let problem = model::cases::paper();
+/// let (q, lambda) = (nalgebra::DVector::zeros(18), nalgebra::DVector::zeros(12));
+/// let jacobian = lagrange::jacobian(problem.chain(), &q, &lambda);
+/// // [K, -B^T; B, 0]
+/// assert_eq!(jacobian.shape(), (30, 30));
+/// assert_eq!(jacobian[(18, 0)], -jacobian[(0, 18)]);
+/// ```
 #[must_use]
 pub fn jacobian(chain: &Chain, q: &DVector<f64>, lambda: &DVector<f64>) -> DMatrix<f64> {
     jacobian_of(&Mechanism::si(chain), q, lambda)
@@ -99,6 +116,14 @@ pub(crate) fn jacobian_of(
 /// # Panics
 ///
 /// When `q` has not 6n entries or `lambda` not 3(n+1).
+///
+/// ```
+/// let problem = model::cases::paper();
+/// // Everything at the first anchor, without force: the weights stand alone, the end is 2 l off.
+/// let (q, lambda) = (nalgebra::DVector::zeros(18), nalgebra::DVector::zeros(12));
+/// let at_rest = lagrange::relative_residual(problem.chain(), &q, &lambda);
+/// assert!(at_rest >= 1.0 && at_rest < 3.0);
+/// ```
 #[must_use]
 pub fn relative_residual(chain: &Chain, q: &DVector<f64>, lambda: &DVector<f64>) -> f64 {
     let units = Units::mean(chain);

@@ -12,16 +12,17 @@ pub(crate) const UNIT_ROUNDOFF: f64 = 0.5 * f64::EPSILON;
 /// product and sum. Compensated sums keep it there for any number of bars.
 pub(crate) const CLOSURE_ROUNDING: f64 = 8.0 * UNIT_ROUNDOFF;
 
-/// Lengths, sums of lengths and distances that differ by less than this part of the total length are
-/// equal: both carry the rounding of a closure.
+/// Lengths, sums of lengths and distances that differ by less than this part of the total length
+/// are equal: both carry the rounding of a closure.
 pub(crate) const EQUAL_LENGTHS: f64 = CLOSURE_ROUNDING;
 
-/// Slack, in total lengths, below which a chain is nearly straight and its closure is balanced along
-/// an axis: with a closure known to $8u$, upright axes would leave less than 12 digits of the slack.
+/// Slack, in total lengths, below which a chain is nearly straight and its closure is balanced
+/// along an axis: with a closure known to $8u$, upright axes would leave less than 12 digits of the
+/// slack.
 pub(crate) const NEARLY_STRAIGHT: f64 = 1e-3;
 
-/// Tilt of a bottom bar, rad, below which it counts as one of two strands that hang side by side: its
-/// versine, 1.25e-3, is then of the size of [`NEARLY_STRAIGHT`].
+/// Tilt of a bottom bar, rad, below which it counts as one of two strands that hang side by side:
+/// its versine, 1.25e-3, is then of the size of [`NEARLY_STRAIGHT`].
 pub(crate) const STEEP: f64 = 0.05;
 
 /// A gap this near to the length of the bottom bar, in total lengths, is summed again to twice the
@@ -43,23 +44,24 @@ pub(crate) const UPRIGHT: f64 = 1e-6;
 /// leaves half of the digits of a force.
 pub(crate) const SLACK_ROUNDINGS: f64 = 1e7;
 
-/// A moment this large on a bar, in units of the largest force times the mean length, in a state that
-/// solves the paper's equations to 1e-13 is no rounding error: the equations do not see it.
+/// A moment this large on a bar, in units of the largest force times the mean length, in a state
+/// that solves the paper's equations to 1e-13 is no rounding error: the equations do not see it.
 pub(crate) const UNSEEN_MOMENT: f64 = 1e-9;
 
 /// Axial forces this small beside the largest are zero: forces are known to some 1e-13.
 pub(crate) const NO_FORCE: f64 = 1e-12;
 
-/// Eigenvalues of the small matrix of the index this small beside $\sum l_i/|T_i|$ are zero: the state
-/// is known to 1e-13, divided by the smallest axial forces met, 1e-3 of the largest and less.
+/// Eigenvalues of the small matrix of the index this small beside $\sum l_i/|T_i|$ are zero: the
+/// state is known to 1e-13, divided by the smallest axial forces met, 1e-3 of the largest and less.
 pub(crate) const ZERO_EIGENVALUE: f64 = 1e-9;
 
 /// Singular values below this part of the largest are zero. At a state converged to 1e-13 the zero
-/// ones come out at 1e-16 to 1e-13 and the smallest of the others, up to a hundred bars, above 1e-7.
+/// ones come out at 1e-16 to 1e-13 and the smallest of the others, up to a hundred bars, above
+/// 1e-7.
 pub(crate) const ZERO_SINGULAR_VALUE: f64 = 1e-10;
 
-/// An error of the forces, as a part of the largest, above which the evidence speaks of it: what two
-/// solvers are asked to agree to.
+/// An error of the forces, as a part of the largest, above which the evidence speaks of it: what
+/// two solvers are asked to agree to.
 pub(crate) const REPORTED_FORCE_ERROR: f64 = 1e-9;
 
 /// A pivot of the closure's derivative this small beside the terms of which it is the difference is

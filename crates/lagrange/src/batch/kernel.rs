@@ -44,17 +44,23 @@ pub(crate) struct Common {
     pub far: [bool; LANES],
 }
 
-/// Every how many steps the plain Newton step is taken, and the multipliers are estimated again while the
-/// residual is large.
+/// Every how many steps the plain Newton step is taken, and the multipliers are estimated again
+/// while the residual is large.
+///
+/// ```
+/// assert_eq!(lagrange::batch::PLAIN_EVERY, 8);
+/// ```
 pub const PLAIN_EVERY: u32 = 8;
 
-/// Largest turn of a bar in a step, rad, in turn. On random chains of 2 to 8 bars a limit of 1.5 with
-/// plain steps in between needed the fewest steps of those tried (0.5 to infinity); it is varied, by the
-/// fractions of multiples of the golden ratio, since with a constant limit some seeds circle for ever.
+/// Largest turn of a bar in a step, rad, in turn. On random chains of 2 to 8 bars a limit of 1.5
+/// with plain steps in between needed the fewest steps of those tried (0.5 to infinity); it is
+/// varied, by the fractions of multiples of the golden ratio, since with a constant limit some
+/// seeds circle for ever.
 const LIMITS: [f64; 32] = limits();
 
-/// A plain step turns no bar further than this, rad: it keeps the angles, after as many steps as there may
-/// be, within the range of the sine. Farther than a turn a step leads nowhere in particular anyway.
+/// A plain step turns no bar further than this, rad: it keeps the angles, after as many steps as
+/// there may be, within the range of the sine. Farther than a turn a step leads nowhere in
+/// particular anyway.
 const PLAIN: f64 = 8.0;
 
 const fn limits() -> [f64; 32] {
@@ -174,8 +180,8 @@ pub(crate) fn step(
     judged
 }
 
-/// Compare the residual with the tolerance, in squares: moments against the largest force times the mean
-/// length, the gap against the total length.
+/// Compare the residual with the tolerance, in squares: moments against the largest force times the
+/// mean length, the gap against the total length.
 #[inline(always)]
 fn judge(
     bars: usize,
@@ -203,8 +209,8 @@ fn judge(
     Judged { converged: below(tolerance) }
 }
 
-/// The pull for which the moments are least, $\sum l_i (t_i\cdot F_i)^2 \to \min$, with a faint preference
-/// for equal shares of the anchors: that of `solve_from`, in the plane.
+/// The pull for which the moments are least, $\sum l_i (t_i\cdot F_i)^2 \to \min$, with a faint
+/// preference for equal shares of the anchors: that of `solve_from`, in the plane.
 #[inline(always)]
 fn estimate(bars: &[Bar], states: &[State]) -> [Lanes; 2] {
     let regularisation = Lanes::all(REGULARISATION);

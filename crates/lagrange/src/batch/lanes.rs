@@ -1,9 +1,9 @@
 //! Several numbers side by side, and their sines and cosines.
 //!
-//! Plain arrays with loops of fixed length: the compiler turns them into vector instructions, of whatever
-//! width the machine has. Every operation works entry by entry and is one that IEEE 754 rounds exactly
-//! (no library function, no fused product), so an entry depends neither on its neighbours nor on
-//! the machine.
+//! Plain arrays with loops of fixed length: the compiler turns them into vector instructions, of
+//! whatever width the machine has. Every operation works entry by entry and is one that IEEE 754
+//! rounds exactly (no library function, no fused product), so an entry depends neither on its
+//! neighbours nor on the machine.
 #![expect(
     clippy::inline_always,
     reason = "a pass over the bars is fast only as one loop of vector instructions"
@@ -80,12 +80,13 @@ impl Lanes {
         std::array::from_fn(|k| self.0[k] <= other.0[k])
     }
 
-    /// Sine and cosine, to about one unit in the last place of 1, for arguments up to [`LARGEST_ANGLE`].
+    /// Sine and cosine, to about one unit in the last place of 1, for arguments up to
+    /// [`LARGEST_ANGLE`].
     ///
-    /// The nearest multiple of $\pi/2$ is taken off in three parts, the first two with so few digits
-    /// that their products are exact (W. J. Cody and W. Waite, "Software Manual for the Elementary
-    /// Functions", 1980); what remains is at most $\pi/4$, where Taylor's polynomials of degree 15 and
-    /// 16 are exact to $5\cdot10^{-17}$.
+    /// The nearest multiple of $\pi/2$ is taken off in three parts, the first two with so few
+    /// digits that their products are exact (W. J. Cody and W. Waite, "Software Manual for the
+    /// Elementary Functions", 1980); what remains is at most $\pi/4$, where Taylor's polynomials of
+    /// degree 15 and 16 are exact to $5\cdot10^{-17}$.
     #[inline(always)]
     pub(crate) fn sin_cos(self) -> (Self, Self) {
         let shifted = self * Self::all(FRAC_2_PI) + Self::all(ROUND);

@@ -17,8 +17,8 @@ pub(crate) struct Numbers {
     pub bars: Vec<Bar>,
     /// From the first to the last anchor: along the heading and up.
     pub span: [f64; 2],
-    /// Unit vector (X, Y) of the plane, from the first anchor towards the last; +Y if they are on one
-    /// vertical.
+    /// Unit vector (X, Y) of the plane, from the first anchor towards the last; +Y if they are on
+    /// one vertical.
     pub heading: [f64; 2],
     /// Total weight times total length, J.
     pub unit_j: f64,
@@ -47,18 +47,21 @@ impl Numbers {
         Self { bars, span: [level, z], heading, unit_j: weight_n * total_m }
     }
 
-    /// $V = \sum_i (1 - c_i)\, l_i u_i \cdot e_z$: each bar lifts what hangs after it. J above joint 0.
+    /// $V = \sum_i (1 - c_i)\, l_i u_i \cdot e_z$: each bar lifts what hangs after it. J above
+    /// joint 0.
     pub fn energy_j(&self, directions: &[[f64; 2]]) -> f64 {
         let bars = self.bars.iter().zip(directions);
         self.unit_j * bars.map(|(bar, u)| (1.0 - bar.carried) * bar.length * u[1]).sum::<f64>()
     }
 
-    /// The largest equation, as [`Settings::tolerance`](crate::Settings::tolerance) means it: moment rows
-    /// in units of the largest force times the mean length, closure in units of the total length.
+    /// The largest equation, as [`Settings::tolerance`](crate::Settings::tolerance) means it:
+    /// moment rows in units of the largest force times the mean length, closure in units of the
+    /// total length.
     pub fn largest(&self, directions: &[[f64; 2]], pull: [f64; 2]) -> f64 {
         let mut gap = [-self.span[0], -self.span[1]];
         let mut largest = 0.0_f64;
-        // In these units no square that matters leaves the range, and a root is the same everywhere.
+        // In these units no square that matters leaves the range, and a root is the same
+        // everywhere.
         let size = |up: f64| (pull[0] * pull[0] + up * up).sqrt();
         let mean = 1.0 / self.bars.len() as f64;
         let unit = size(pull[1]).max(size(pull[1] + 1.0)).max(mean) * mean;

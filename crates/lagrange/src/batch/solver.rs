@@ -12,10 +12,16 @@ use super::numbers::{Bar, Numbers};
 use crate::settings::SettingsError;
 
 /// What can be chosen.
+///
+/// ```
+/// let settings = lagrange::batch::BatchSettings { max_iterations: 100, ..Default::default() };
+/// assert_eq!((settings.tolerance, settings.max_iterations), (1e-13, 100));
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BatchSettings {
-    /// A seed has converged when no equation is larger than this: moment rows in units of the largest force
-    /// times the mean length, closure in units of the total length. Default 1e-13, from 1e-15 to 1e-3.
+    /// A seed has converged when no equation is larger than this: moment rows in units of the
+    /// largest force times the mean length, closure in units of the total length. Default 1e-13,
+    /// from 1e-15 to 1e-3.
     pub tolerance: f64,
     /// Newton steps after which a seed is given up. Default 1000, from 1 to 60,000.
     pub max_iterations: u32,
@@ -33,6 +39,11 @@ impl BatchSettings {
     /// # Errors
     ///
     /// [`SettingsError`] with the first field that is out of range.
+    ///
+    /// ```
+    /// let settings = lagrange::batch::BatchSettings { tolerance: 0.0, ..Default::default() };
+    /// assert_eq!(settings.validate().unwrap_err().low, 1e-15);
+    /// ```
     pub fn validate(&self) -> Result<(), SettingsError> {
         for (name, value, low, high) in [
             ("tolerance", self.tolerance, 1e-15, 1e-3),
@@ -47,6 +58,16 @@ impl BatchSettings {
 }
 
 /// How the iteration ended for one seed.
+///
+/// ```
+/// use lagrange::batch::{Batch, BatchSettings, Ends, Finish};
+/// let hasty = BatchSettings { max_iterations: 1, ..Default::default() };
+/// let mut ends = Ends::default();
+/// let batch = Batch::new(&model::cases::paper(), hasty)?;
+/// batch.solve(&[0.3, 0.7, -1.3, f64::NAN, 0.0, 0.0], &mut ends);
+/// assert_eq!(ends.finish, [Finish::IterationLimit, Finish::NonFinite]);
+/// # Ok::<(), lagrange::SettingsError>(())
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Finish {
     /// Every equation is below the tolerance.
@@ -58,6 +79,18 @@ pub enum Finish {
 }
 
 /// Where many seeds ended: one entry per seed, n directions per seed.
+///
+/// ```
+/// use lagrange::batch::{Batch, BatchSettings, Ends};
+/// let batch = Batch::new(&model::cases::paper(), BatchSettings::default())?;
+/// let mut ends = Ends::default();
+/// batch.solve(&[0.3, 0.7, -1.3], &mut ends);
+/// assert!(ends.iterations[0] < 10 && ends.residual[0] <= 1e-13);
+/// // The first bar hangs 19.69 degrees off the vertical.
+/// let [along, up] = ends.directions[0];
+/// assert!((along.atan2(-up).to_degrees() - 19.694867976133019).abs() < 1e-11);
+/// # Ok::<(), lagrange::SettingsError>(())
+/// ```
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Ends {
     /// How.
@@ -106,30 +139,62 @@ impl Batch {
     /// # Errors
     ///
     /// [`SettingsError`] when a setting is out of range.
+    ///
+    /// ```
+    /// use lagrange::batch::{Batch, BatchSettings};
+    /// let problem = model::cases::paper();
+    /// let unusable = BatchSettings { max_iterations: 0, ..Default::default() };
+    /// assert_eq!(Batch::new(&problem, unusable).unwrap_err().name, "max_iterations");
+    /// ```
     pub fn new(problem: &Problem, settings: BatchSettings) -> Result<Self, SettingsError> {
         settings.validate()?;
         Ok(Self { numbers: Numbers::of(problem), settings })
     }
 
     /// Number of bars n.
+    ///
+    /// ```
+    /// use lagrange::batch::{Batch, BatchSettings};
+    /// let batch = Batch::new(&model::cases::paper(), BatchSettings::default())?;
+    /// assert_eq!(batch.bars(), 3);
+    /// # Ok::<(), lagrange::SettingsError>(())
+    /// ```
     #[must_use]
     pub fn bars(&self) -> usize {
         self.numbers.bars.len()
     }
 
-    /// Unit vector (X, Y) of the plane: from the first anchor towards the last, +Y if they are on one
-    /// vertical.
+    /// Unit vector (X, Y) of the plane: from the first anchor towards the last, +Y if they are on
+    /// one vertical.
+    ///
+    /// ```
+    /// use lagrange::batch::{Batch, BatchSettings};
+    /// // The paper's anchors are on one vertical, and its plane is OYZ.
+    /// let batch = Batch::new(&model::cases::paper(), BatchSettings::default())?;
+    /// assert_eq!(batch.heading(), [0.0, 1.0]);
+    /// # Ok::<(), lagrange::SettingsError>(())
+    /// ```
     #[must_use]
     pub fn heading(&self) -> [f64; 2] {
         self.numbers.heading
     }
 
-    /// Solve all seeds: `angles` holds n angles from the descending vertical, rad, for each of them. What
-    /// was in `ends` is replaced, its memory used again.
+    /// Solve all seeds: `angles` holds n angles from the descending vertical, rad, for each of
+    /// them. What was in `ends` is replaced, its memory used again.
     ///
     /// # Panics
     ///
     /// When `angles` does not hold a multiple of n numbers.
+    ///
+    /// ```
+    /// use lagrange::batch::{Batch, BatchSettings, Ends};
+    /// let batch = Batch::new(&model::cases::paper(), BatchSettings::default())?;
+    /// let mut ends = Ends::default();
+    /// // E1 and E2: two seeds of three angles.
+    /// batch.solve(&[0.3, 0.7, -1.3, 1.3, -0.7, -0.3], &mut ends);
+    /// assert!((ends.energy_j[1] / 9.80665 + 6.0 - 3.664531348000695).abs() < 1e-12);
+    /// # Ok::<(), lagrange::SettingsError>(())
+    /// ```
     pub fn solve(&self, angles: &[f64], ends: &mut Ends) {
         let bars = self.bars();
         assert!(angles.len().is_multiple_of(bars), "{bars} angles for every seed");
@@ -227,8 +292,8 @@ impl Batch {
     }
 }
 
-/// The same loop compiled for the widest vectors that the processor has: the operations are the same, entry by
-/// entry, and so are the bits.
+/// The same loop compiled for the widest vectors that the processor has: the operations are the
+/// same, entry by entry, and so are the bits.
 struct Widest<'a, const N: usize> {
     batch: &'a Batch,
     bars: &'a [Bar; N],

@@ -36,8 +36,8 @@ fn random_problem(rng: &mut ChaCha8Rng, bars: usize) -> Problem {
     }
 }
 
-/// The rows and columns of the full system that a chain in the plane OYZ has: Y, Z and φ of each bar, the
-/// second and third multiplier of each joint.
+/// The rows and columns of the full system that a chain in the plane OYZ has: Y, Z and φ of each
+/// bar, the second and third multiplier of each joint.
 fn planar(bars: usize) -> Vec<usize> {
     let coordinates = (0..bars).flat_map(|bar| [6 * bar + 1, 6 * bar + 2, 6 * bar + 5]);
     let joints =

@@ -20,8 +20,8 @@ pub(super) struct Axis {
 }
 
 impl Axis {
-    /// The vertical, for two strands that hang side by side, all bars in tension; and the first bar of
-    /// the strand that goes up. The bottom bars, steep too, belong to either.
+    /// The vertical, for two strands that hang side by side, all bars in tension; and the first bar
+    /// of the strand that goes up. The bottom bars, steep too, belong to either.
     pub fn down_and_up(chain: &Condensed) -> (Self, usize) {
         let (span, bottom) = (&chain.span, &chain.bottom);
         let split = if bottom.gap > 0.0 { bottom.group.start } else { bottom.group.end };
@@ -62,9 +62,9 @@ impl Axis {
         Self { direction: [0.0, 1.0], side, frame, slack, tilt }
     }
 
-    /// Along the line of the anchors (`side` +1) or against it (-1), for a chain whose bar in compression,
-    /// if there is one, has the length `strut`. What the bars reach along the axis,
-    /// r, and the anchors' distance d along it are nearly equal: r - d is (r² - d²)/(r + d), with the
+    /// Along the line of the anchors (`side` +1) or against it (-1), for a chain whose bar in
+    /// compression, if there is one, has the length `strut`. What the bars reach along the axis, r,
+    /// and the anchors' distance d along it are nearly equal: r - d is (r² - d²)/(r + d), with the
     /// squares to twice the digits.
     pub fn through_the_anchors(chain: &Condensed, strut: f64, side: f64) -> Self {
         let span = &chain.span;

@@ -126,8 +126,8 @@ impl Part<'_> {
     }
 }
 
-/// Give an array another length. What it holds is written over, so fresh memory is asked for zeroed,
-/// which costs nothing before it is touched.
+/// Give an array another length. What it holds is written over, so fresh memory is asked for
+/// zeroed, which costs nothing before it is touched.
 pub(super) fn resize<T: Clone + Default>(array: &mut Vec<T>, n: usize) {
     if array.capacity() < n {
         *array = vec![T::default(); n];

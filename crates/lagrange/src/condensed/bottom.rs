@@ -6,11 +6,11 @@
 //! $$ G_k = D + \Bigl(\sum_{i<k} l_i - \sum_{i>k} l_i\Bigr) e_z. $$
 //!
 //! Its height grows by $l_k + l_{k+1}$ from one bar to the next, so there is one bar with
-//! $|e_z \cdot G_k| \le l_k$: the bottom bar. If $|G_k| > l_k$ the strands are pulled in_parallel, and
-//! the convex function $\Phi(q) = \sum l_i |q + b_i e_z| - q \cdot D$ has its minimum where no force
-//! vanishes: all bars are in tension. If $|G_k| \le l_k$ the minimum is the kink $q = 0$ (there
-//! $D - \sum_{i \ne k} l_i u_i = G_k$ must not be longer than $l_k$): as a cable the bar would be
-//! slack, as a bar it pushes the strands apart. No iteration is needed to know.
+//! $|e_z \cdot G_k| \le l_k$: the bottom bar. If $|G_k| > l_k$ the strands are pulled together,
+//! and the convex function $\Phi(q) = \sum l_i |q + b_i e_z| - q \cdot D$ has its minimum where no
+//! force vanishes: all bars are in tension. If $|G_k| \le l_k$ the minimum is the kink $q = 0$
+//! (there $D - \sum_{i \ne k} l_i u_i = G_k$ must not be longer than $l_k$): as a cable the bar
+//! would be slack, as a bar it pushes the strands apart. No iteration is needed to know.
 //!
 //! Bars that share the force q with bar k, because no joint between them carries weight, belong to
 //! the bottom too.
@@ -87,8 +87,8 @@ impl Bottom {
         Self { group, length, longest, shortest_reach, gap, over }
     }
 
-    /// How far the group is from straight when its ends are `gap` apart: from stretched out, or from
-    /// folded on its longest bar. Negative when it cannot be.
+    /// How far the group is from straight when its ends are `gap` apart: from stretched out, or
+    /// from folded on its longest bar. Negative when it cannot be.
     pub fn room(&self, gap: f64) -> f64 {
         (self.length - gap).min(gap - self.shortest_reach)
     }

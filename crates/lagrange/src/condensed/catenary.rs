@@ -1,9 +1,10 @@
 //! Where Newton's method begins: the catenary of the same length with the same moments of the load.
 //!
 //! A rope of weight W spread evenly over its length L has a closed form. The chain's load is spread
-//! otherwise; the rope takes the mean of the loads and, in place of W, $\sqrt{12}$ of their standard
-//! deviation. That is exact for the rope itself, and for every chain in the limit of the taut one:
-//! there the pull is $\sqrt{\mathrm{var}\\,b/(2\\,\mathrm{slack})}$ whatever the distribution.
+//! otherwise; the rope takes the mean of the loads and, in place of W, $\sqrt{12}$ of their
+//! standard deviation. That is exact for the rope itself, and for every chain in the limit of the
+//! taut one: there the pull is $\sqrt{\mathrm{var}\\,b/(2\\,\mathrm{slack})}$ whatever the
+//! distribution.
 
 use super::chain::Condensed;
 use super::span::Span;
@@ -44,8 +45,9 @@ impl Catenary {
 
     /// Force at load 0, horizontal and vertical.
     ///
-    /// With $\sinh x/x = \rho = \sqrt{L^2 - D_z^2}/D_h$ the horizontal pull is $W D_h/(2 x L)$, and the
-    /// force at the mean load points along the tangent whose slope is $\sinh(\mathrm{artanh}(D_z/L)) \cosh x$.
+    /// With $\sinh x/x = \rho = \sqrt{L^2 - D_z^2}/D_h$ the horizontal pull is $W D_h/(2 x L)$, and
+    /// the force at the mean load points along the tangent whose slope is
+    /// $\sinh(\mathrm{artanh}(D_z/L)) \cosh x$.
     pub fn force(&self) -> [f64; 2] {
         let excess_squared = self.slack_squared / (self.across * self.across);
         let ratio = (1.0 + excess_squared).sqrt();

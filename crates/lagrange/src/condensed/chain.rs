@@ -22,14 +22,23 @@ const COMFORTABLE: Range<f64> = 1e-60..1e60;
 /// A chain prepared for its condensed equations.
 ///
 /// The weight of each bar is lumped to its joints by the lever rule, which changes neither the
-/// energy nor an equilibrium. What remains of the chain is two numbers per bar: its length $l_i$ and
-/// the weight $b_i$ between it and the bottom bar, so that with the force $q$ in the bottom bar
+/// energy nor an equilibrium. What remains of the chain is two numbers per bar: its length $l_i$
+/// and the weight $b_i$ between it and the bottom bar, so that with the force $q$ in the bottom bar
 ///
 /// $$ F_i = q + b_i e_z. $$
 ///
-/// The bottom bar is the one at which two strands hanging straight down from the anchors would meet;
-/// it follows from the lengths alone. Counting the weights from there keeps all digits of the small
-/// forces at the bottom.
+/// The bottom bar is the one at which two strands hanging straight down from the anchors would
+/// meet; it follows from the lengths alone. Counting the weights from there keeps all digits of the
+/// small forces at the bottom.
+///
+/// ```
+/// use lagrange::condensed::{Condensed, Settings};
+/// let chain = Condensed::new(&model::cases::paper());
+/// // The chain carries 2.3129 of its three weights on the first anchor.
+/// let ground_n = chain.pull(&Settings::default())?.ground_n();
+/// assert!((ground_n[2] / 9.80665 - 2.312944292241838).abs() < 1e-14);
+/// # Ok::<(), lagrange::condensed::CondensedError>(())
+/// ```
 #[derive(Debug, Clone)]
 pub struct Condensed {
     /// Lengths, loads and totals, in units of the chain. The loads are counted from the bottom bar:
@@ -47,13 +56,18 @@ pub struct Condensed {
 
 impl Condensed {
     /// Prepare a chain: one pass over its bars.
+    ///
+    /// ```
+    /// assert_eq!(lagrange::condensed::Condensed::new(&model::cases::paper()).bars(), 3);
+    /// ```
     #[must_use]
     pub fn new(problem: &Problem) -> Self {
         Self::with_processors(problem, NonZeroUsize::MIN)
     }
 
-    /// Prepare a chain, and let so many processors share this and all other work on it. Each wants some
-    /// 65,000 bars, or it is not asked. The bits of all results are the same for any number of them.
+    /// Prepare a chain, and let so many processors share this and all other work on it. Each wants
+    /// some 65,000 bars, or it is not asked. The bits of all results are the same for any number of
+    /// them.
     ///
     /// ```
     /// use lagrange::condensed::Condensed;
@@ -65,8 +79,15 @@ impl Condensed {
         Self::prepare(problem, processors, BarData::default(), Moments::default())
     }
 
-    /// Prepare another chain in the memory of this one: for a million bars, fresh memory costs more than
-    /// all computing.
+    /// Prepare another chain in the memory of this one: for a million bars, fresh memory costs more
+    /// than all computing.
+    ///
+    /// ```
+    /// use lagrange::condensed::Condensed;
+    /// let chain = Condensed::new(&model::cases::get("thirty-bars").unwrap().problem());
+    /// assert_eq!(chain.bars(), 30);
+    /// assert_eq!(chain.again(&model::cases::paper()).bars(), 3);
+    /// ```
     #[must_use]
     pub fn again(self, problem: &Problem) -> Self {
         Self::prepare(problem, self.processors, self.bars, self.moments)
@@ -92,6 +113,12 @@ impl Condensed {
     }
 
     /// Number of bars.
+    ///
+    /// ```
+    /// use lagrange::condensed::Condensed;
+    /// let problem = model::cases::get("hundred-bars").unwrap().problem();
+    /// assert_eq!(Condensed::new(&problem).bars(), 100);
+    /// ```
     #[must_use]
     pub fn bars(&self) -> usize {
         self.bars.lengths.len()

@@ -1,8 +1,8 @@
 //! The bottom bar in compression, all others in tension.
 //!
-//! Bar k, of length l, is too long for the gap $G$ between the straight strands and pushes them apart.
-//! Let $u = (\cos\varphi, \sin\varphi)$ be its direction and $\varrho$ its compression: $q = -\varrho u$.
-//! At every other bar $F_i = b_i e_z - \varrho u$, and the horizontal closure is
+//! Bar k, of length l, is too long for the gap $G$ between the straight strands and pushes them
+//! apart. Let $u = (\cos\varphi, \sin\varphi)$ be its direction and $\varrho$ its compression:
+//! $q = -\varrho u$. At every other bar $F_i = b_i e_z - \varrho u$, and the horizontal closure is
 //!
 //! $$ -\varrho\cos\varphi \sum_{i \ne k} \frac{l_i}{|F_i|} + l\cos\varphi - D_h = 0. $$
 //!
@@ -10,16 +10,17 @@
 //! $\cos\varphi > 0$ it is not positive, so the stress matrix is positive semidefinite and the
 //! equilibrium is a global minimum of the energy; for $D_h > 0$ it is even definite, and the
 //! minimum unique. So there is exactly one root with $\cos\varphi > 0$, and to find it is to have
-//! proved it the lowest. (A negative $\cos\varphi$ is the higher equilibrium on the other side, with
-//! the pull towards the other anchor.)
+//! proved it the lowest. (A negative $\cos\varphi$ is the higher equilibrium on the other side,
+//! with the pull towards the other anchor.)
 //!
-//! Newton's method in $(\ln\varrho, \varphi)$, with one equation divided by $\cos\varphi$, which removes
-//! the false root of vertical anchors, q vertical. If it fails: for given $\varphi$ the closure along u
-//! falls as $\varrho$ grows (the tension of the others is convex), so one search gives
-//! $\varrho(\varphi)$, and the closure across u, negative near $-\pi/2$ and positive near $\pi/2$,
-//! changes its sign only at the root: another search gives $\varphi$.
+//! Newton's method in $(\ln\varrho, \varphi)$, with one equation divided by $\cos\varphi$, which
+//! removes the false root of vertical anchors, q vertical. If it fails: for given $\varphi$ the
+//! closure along u falls as $\varrho$ grows (the tension of the others is convex), so one search
+//! gives $\varrho(\varphi)$, and the closure across u, negative near $-\pi/2$ and positive near
+//! $\pi/2$, changes its sign only at the root: another search gives $\varphi$.
 //!
-//! For a nearly straight chain all this happens in the axes of its line, and the angle counts from it.
+//! For a nearly straight chain all this happens in the axes of its line, and the angle counts from
+//! it.
 
 use super::axis::Axis;
 use super::bracket::Bracket;
@@ -33,8 +34,8 @@ const LARGEST_LOG_STEP: f64 = 2.0;
 const TO_THE_END: f64 = 0.9;
 /// Shortest part of a step that is tried.
 const SHORTEST: f64 = 1e-3;
-/// Where the compression would have to be larger than the loads by this factor, the other bars do not
-/// reach: the direction is too far from the line of the anchors.
+/// Where the compression would have to be larger than the loads by this factor, the other bars do
+/// not reach: the direction is too far from the line of the anchors.
 const NO_REACH: f64 = 1e17;
 
 /// The equations of a chain with a bar in compression, and where to start.
@@ -42,7 +43,8 @@ const NO_REACH: f64 = 1e17;
 pub(super) struct Strut<'a> {
     /// Bars, and the axes in which forces are written.
     pub system: System<'a>,
-    /// For a folded chain: the axes at each point are those of the bar there, and these are upright.
+    /// For a folded chain: the axes at each point are those of the bar there, and these are
+    /// upright.
     pub folded: Option<Folded>,
     /// The bar at angle 0 points along the first axis (+1) or against it (-1).
     pub side: f64,
@@ -93,7 +95,8 @@ impl Strut<'_> {
     #[must_use]
     pub fn along(&self, axis: &Axis) -> Self {
         let [h, z] = axis.bar();
-        // Straight down and straight up, and whether the bar would hang below the axis if it hung loose.
+        // Straight down and straight up, and whether the bar would hang below the axis if it hung
+        // loose.
         let (low, high) = (-h.atan2(-z), h.atan2(z));
         let below = self.angle < z.atan2(h);
         let below = if axis.tilt < high.min(-low) { below } else { -low > high };
@@ -108,8 +111,8 @@ impl Strut<'_> {
         }
     }
 
-    /// Find the equilibrium. `None` when the passes ran out, or rounding errors prevent a closure within
-    /// the budget.
+    /// Find the equilibrium. `None` when the passes ran out, or rounding errors prevent a closure
+    /// within the budget.
     pub fn solve(&self, budget: &mut Budget) -> Option<Root> {
         let direct = within_a_few_passes(budget, |few| {
             let log = self.compression(self.angle, self.load.ln(), few)?;
@@ -143,8 +146,8 @@ impl Strut<'_> {
         Equations { closure, force, along, across, by_log, by_angle, cosine, cosine_by_angle }
     }
 
-    /// Newton's method with the step shortened until the equations, in units of their rounding errors,
-    /// are nearer to zero.
+    /// Newton's method with the step shortened until the equations, in units of their rounding
+    /// errors, are nearer to zero.
     fn newton(&self, start: Point, budget: &mut Budget) -> Option<Root> {
         let (mut at, mut here) = (start, self.equations(start));
         budget.spend();
@@ -199,7 +202,8 @@ impl Strut<'_> {
         }
     }
 
-    /// $\ln\varrho$ that closes the chain along the bar for a given direction; `None` when none does.
+    /// $\ln\varrho$ that closes the chain along the bar for a given direction; `None` when none
+    /// does.
     fn compression(&self, angle: f64, start: f64, budget: &mut Budget) -> Option<f64> {
         let limit = (NO_REACH * self.largest_load).ln();
         Bracket::LINE.root(start, 1.0, 1.0, |log| {

@@ -3,6 +3,13 @@
 use crate::settings::SettingsError;
 
 /// Why no equilibrium was returned. `Ok` always means converged.
+///
+/// ```
+/// use lagrange::condensed::{CondensedError, Settings, solve};
+/// let hasty = Settings { max_passes: 1, ..Default::default() };
+/// let error = solve(&model::cases::paper(), &hasty).unwrap_err();
+/// assert!(matches!(error, CondensedError::NotClosed { .. }));
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum CondensedError {

@@ -1,7 +1,7 @@
 //! The one pass over the bars: sums that make the closure and its derivative.
 //!
-//! All loops run over fixed-size lanes, which the compiler turns into vector instructions; blocks of
-//! lanes are summed plainly and blocks among each other with compensation.
+//! All loops run over fixed-size lanes, which the compiler turns into vector instructions; blocks
+//! of lanes are summed plainly and blocks among each other with compensation.
 
 use std::ops::Range;
 
@@ -189,8 +189,8 @@ fn aligned_block(
     }
 }
 
-/// Show all bars to `step`, [`LANES`] at a time. The last ones are filled up with bars of no length,
-/// which add nothing; their load is that of a bar whose force does not vanish.
+/// Show all bars to `step`, [`LANES`] at a time. The last ones are filled up with bars of no
+/// length, which add nothing; their load is that of a bar whose force does not vanish.
 #[inline]
 fn lanes(lengths: &[f64], loads: &[f64], mut step: impl FnMut(&[f64; LANES], &[f64; LANES])) {
     let (lengths, last_lengths) = lengths.as_chunks::<LANES>();
@@ -211,7 +211,8 @@ fn add_lanes(lanes: [f64; LANES]) -> f64 {
     (lanes[0] + lanes[1]) + (lanes[2] + lanes[3])
 }
 
-/// $1 - \cos\alpha$ of a unit vector $(\cos\alpha, \sin\alpha)$, with all its digits where it is small.
+/// $1 - \cos\alpha$ of a unit vector $(\cos\alpha, \sin\alpha)$, with all its digits where it is
+/// small.
 #[inline]
 pub(super) fn versine_of(cosine: f64, sine: f64) -> f64 {
     let nearer = sine * sine / (1.0 + cosine.abs());

@@ -20,8 +20,8 @@ pub(super) struct Arrays {
 /// Replace the weights of the joints (entry i: the joint before bar i) by the loads $b_i$ counted
 /// from bar `bottom`, and take their moments while they are in the cache.
 ///
-/// Blocks count outwards from the bottom, each from zero, and are then shifted by an offset of twice the digits:
-/// no rounding grows with n, and next to the bottom there is no offset at all.
+/// Blocks count outwards from the bottom, each from zero, and are then shifted by an offset of
+/// twice the digits: no rounding grows with n, and next to the bottom there is no offset at all.
 pub(super) fn count_from(
     bottom: usize,
     lengths: &[f64],
@@ -57,8 +57,8 @@ fn count_up(lengths: &[f64], loads: &mut [f64], moments: &mut Moments) {
     }
 }
 
-/// The bottom, last, and the bars before it: the load falls by the joint after each, whose weight stands
-/// with the next bar.
+/// The bottom, last, and the bars before it: the load falls by the joint after each, whose weight
+/// stands with the next bar.
 fn count_down(lengths: &[f64], loads: &mut [f64], moments: &mut Moments) {
     let mut offset = DoubleDouble::default();
     let mut after = 0.0;

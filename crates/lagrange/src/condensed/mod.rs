@@ -1,14 +1,14 @@
 //! The condensed equations: three unknowns for any number of bars.
 //!
-//! Translations and inner multipliers of the full system are linear in the pull $p_0$ of the chain on
-//! its first anchor, and the moment balance of bar i says that it is parallel to the average of its
-//! joint forces, weighted with the lever arms,
+//! Translations and inner multipliers of the full system are linear in the pull $p_0$ of the chain
+//! on its first anchor, and the moment balance of bar i says that it is parallel to the average of
+//! its joint forces, weighted with the lever arms,
 //!
 //! $$ F_i = p_0 + W_i e_z, \qquad u_i = s_i F_i/|F_i|, \qquad \sum l_i u_i = D, $$
 //!
 //! with the weight $W_i$ between joint 0 and the bar, and $s_i = +1$ in tension, $-1$ in
-//! compression. Three equations in three unknowns, two in the vertical plane of the anchors; residual
-//! and derivative take one pass over the bars.
+//! compression. Three equations in three unknowns, two in the vertical plane of the anchors;
+//! residual and derivative take one pass over the bars.
 //!
 //! | symbol | code | unit |
 //! |---|---|---|
@@ -23,15 +23,16 @@
 //!
 //! # The method
 //!
-//! Module `bottom` decides from the lengths alone whether one bar is compressed, and which. With all
-//! bars in tension the pull is the minimum of a convex function (`newton`, from the catenary of
-//! `start`; for many bars first over a coarser chain of their moments, `loads`); with one compressed it
-//! is the only root of its kind (`compression`). Both have a nested search in reserve that cannot
-//! fail. Nearly straight chains are balanced along the line of the anchors (`axis`). What comes out
-//! is the global minimum of the energy, for every chain that [`model::Problem`] accepts.
+//! Module `bottom` decides from the lengths alone whether one bar is compressed, and which; module
+//! `regime` says which way the chain is solved ([the table](crate#regimes)). With all bars in
+//! tension the pull is the minimum of a convex function (`newton`, from the catenary; for many bars
+//! first over a coarser chain of their moments, `loads`); with one compressed it is the only root
+//! of its kind (`compression`). Both have a nested search in reserve that cannot fail. Nearly
+//! straight chains are balanced along their line (`axis`). What comes out is the global minimum of
+//! the energy, for every chain that [`model::Problem`] accepts.
 //!
-//! From the pull one more pass makes all joints and all $3(n+1)$ multipliers ([`Condensed::reconstruct`],
-//! [`Condensed::equilibrium`]).
+//! From the pull one more pass makes all joints and all $3(n+1)$ multipliers
+//! ([`Condensed::reconstruct`], [`Condensed::equilibrium`]).
 //!
 //! ```
 //! use lagrange::condensed::{Condensed, Settings};

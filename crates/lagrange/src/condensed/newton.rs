@@ -1,4 +1,5 @@
-//! Newton's method on the condensed equations of a chain in tension: the minimum of a convex function.
+//! Newton's method on the condensed equations of a chain in tension: the minimum of a convex
+//! function.
 
 use super::settings::Settings;
 use super::system::{Closure, System};
@@ -9,11 +10,11 @@ const GOOD_SLOPE: f64 = 0.9;
 const EXPANSION: f64 = 4.0;
 /// Secants stay away from the ends of their interval by this part of it.
 const MARGIN: f64 = 0.1;
-/// Conditions up to this let the residual after a step be predicted; beyond, a tiny residual may still
-/// ask for a long step.
+/// Conditions up to this let the residual after a step be predicted; beyond, a tiny residual may
+/// still ask for a long step.
 const WELL_CONDITIONED: f64 = 1e4;
-/// A step is small when it changes the horizontal force, and the vertical one beside the whole, by less
-/// than this part.
+/// A step is small when it changes the horizontal force, and the vertical one beside the whole, by
+/// less than this part.
 const SMALL_STEP: f64 = 1e-3;
 /// Residuals below this, in roundings, say nothing of the contraction.
 const NOISE: f64 = 1e3;
@@ -31,7 +32,8 @@ pub(super) struct Root {
     pub force: [f64; 2],
     /// The last closure computed, at this force or one quadratically small step before it.
     pub closure: Closure,
-    /// Largest quotient of a residual and the square of the one before, in roundings, among full steps.
+    /// Largest quotient of a residual and the square of the one before, in roundings, among full
+    /// steps.
     pub contraction: f64,
 }
 
@@ -90,9 +92,9 @@ pub(super) fn polish(system: &System<'_>, force: [f64; 2], budget: &mut Budget) 
 /// Minimise $\Phi$ from `force` on.
 ///
 /// `contraction` of the same chain made coarser lets the last pass be saved: the residual after the
-/// next step is then predicted, not computed, by that or by its own, whichever is worse. `None` when the
-/// passes ran out or rounding errors are larger than [`Closure::floor`] says and prevent a closure
-/// within the budget, too.
+/// next step is then predicted, not computed, by that or by its own, whichever is worse. `None`
+/// when the passes ran out or rounding errors are larger than [`Closure::floor`] says and prevent a
+/// closure within the budget, too.
 pub(super) fn minimise(
     system: &System<'_>,
     force: [f64; 2],
@@ -140,8 +142,8 @@ fn advance(from: [f64; 2], step: [f64; 2], part: f64) -> [f64; 2] {
     [from[0] + part * step[0], from[1] + part * step[1]]
 }
 
-/// Go along the step until the slope of $\Phi$, which rises from negative on, is near zero: no values
-/// of $\Phi$ are compared, so no digits are lost next to the minimum.
+/// Go along the step until the slope of $\Phi$, which rises from negative on, is near zero: no
+/// values of $\Phi$ are compared, so no digits are lost next to the minimum.
 fn along(
     system: &System<'_>,
     root: &Root,

@@ -3,9 +3,10 @@
 use std::num::NonZeroUsize;
 use std::ops::Range;
 
-/// Bars of one chunk. Whatever adds up is added up chunk by chunk from zero, and the chunks in order,
-/// so that the bits of an answer do not depend on how many processors there are. Whole blocks; and about
-/// the fewest bars for which one more processor pays: below, starting it takes as long as what it saves.
+/// Bars of one chunk. Whatever adds up is added up chunk by chunk from zero, and the chunks in
+/// order, so that the bits of an answer do not depend on how many processors there are. Whole
+/// blocks; and about the fewest bars for which one more processor pays: below, starting it takes as
+/// long as what it saves.
 pub(super) const CHUNK: usize = 64 * 1024;
 
 /// How many processors work on a chain.

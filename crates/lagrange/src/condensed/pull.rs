@@ -43,7 +43,8 @@ pub struct Pull {
     /// Force in the bottom bar, horizontal and vertical, in units of the chain.
     pub(super) force: [f64; 2],
     pub(super) signs: Signs,
-    /// Derivative of the closure by the force: largest pivot, and what elimination leaves of the other.
+    /// Derivative of the closure by the force: largest pivot, and what elimination leaves of the
+    /// other.
     pub(super) pivots: [f64; 2],
     /// Size of the terms of which that remainder is the difference.
     pub(super) remainder_of: f64,
@@ -93,12 +94,30 @@ impl Pull {
 
     /// Force of the ground on bar 1 at joint 0, world frame, N: the paper's λ₁, λ₂, λ₃. The chain
     /// pulls the anchor with the opposite of it.
+    ///
+    /// ```
+    /// use lagrange::condensed::{Condensed, Settings};
+    /// let chain = Condensed::new(&model::cases::paper());
+    /// let [x, y, z] = chain.pull(&Settings::default())?.ground_n();
+    /// let weight = model::STANDARD_GRAVITY_M_S2;
+    /// assert!(x.abs() < 1e-15 && (y / weight + 0.648944835933934).abs() < 1e-14);
+    /// assert!((z / weight - 2.312944292241838).abs() < 1e-14);
+    /// # Ok::<(), lagrange::condensed::CondensedError>(())
+    /// ```
     #[must_use]
     pub fn ground_n(&self) -> Vector {
         self.ground_n
     }
 
     /// The compressed bars, numbered from 0.
+    ///
+    /// ```
+    /// use lagrange::condensed::{Condensed, Settings};
+    /// // The third bar props the chain up.
+    /// let chain = Condensed::new(&model::cases::paper());
+    /// assert_eq!(chain.pull(&Settings::default())?.compressed(), [2]);
+    /// # Ok::<(), lagrange::condensed::CondensedError>(())
+    /// ```
     #[must_use]
     pub fn compressed(&self) -> Vec<usize> {
         match &self.signs {
@@ -108,6 +127,13 @@ impl Pull {
     }
 
     /// Passes over all bars that it took.
+    ///
+    /// ```
+    /// use lagrange::condensed::{Condensed, Settings};
+    /// let chain = Condensed::new(&model::cases::get("hundred-bars").unwrap().problem());
+    /// assert!(chain.pull(&Settings::default())?.passes() < 12);
+    /// # Ok::<(), lagrange::condensed::CondensedError>(())
+    /// ```
     #[must_use]
     pub fn passes(&self) -> usize {
         self.passes
@@ -117,15 +143,27 @@ impl Pull {
 impl Condensed {
     /// The pull of the hanging equilibrium: the global minimum of the energy.
     ///
-    /// No guess is needed. Whether a bar is compressed, and which, follows from the lengths; with all
-    /// bars in tension the pull is the minimum of a convex function, with one compressed the only
-    /// root of its kind. With the anchors on one vertical every vertical plane is as good as any
-    /// other; the answer lies in OYZ and the bars in tension lean towards +Y.
+    /// No guess is needed. Whether a bar is compressed, and which, follows from the lengths; with
+    /// all bars in tension the pull is the minimum of a convex function, with one compressed the
+    /// only root of its kind. With the anchors on one vertical every vertical plane is as good as
+    /// any other; the answer lies in OYZ and the bars in tension lean towards +Y.
     ///
     /// # Errors
     ///
     /// [`CondensedError::Settings`] for settings out of range, [`CondensedError::NotClosed`] when
     /// the passes over the bars run out.
+    ///
+    /// ```
+    /// use lagrange::condensed::{Condensed, Settings};
+    /// let problem = model::cases::get("two-bars").unwrap().problem();
+    /// let chain = Condensed::new(&problem);
+    /// let pull = chain.pull(&Settings::default())?;
+    /// // The ground carries the part of the weight that the other anchor does not.
+    /// let end = chain.equilibrium(&pull, &Settings::default())?.reactions_n.end;
+    /// let weight = problem.chain().total_mass_kg() * problem.chain().gravity_m_s2();
+    /// assert!(((pull.ground_n()[2] + end[2]) / weight - 1.0).abs() < 1e-14);
+    /// # Ok::<(), lagrange::condensed::CondensedError>(())
+    /// ```
     pub fn pull(&self, settings: &Settings) -> Result<Pull, CondensedError> {
         settings.validate()?;
         let mut budget = Budget::of(settings);
@@ -146,8 +184,8 @@ impl Condensed {
     /// How far rounding may have moved the force of a pull, as a part of the largest force.
     pub(super) fn force_error(&self, pull: &Pull) -> f64 {
         let largest = pull.force[0].hypot(pull.force[1]) + self.largest_load();
-        // Between anchors on one vertical a chain that is straight, one of its bars pushed, shares the
-        // weight along the vertical in any way.
+        // Between anchors on one vertical a chain that is straight, one of its bars pushed, shares
+        // the weight along the vertical in any way.
         let upright = self.span.across <= 0.0 && pull.force[0].abs() <= UPRIGHT * largest;
         if upright && matches!(pull.signs, Signs::Compressed(_)) {
             return 1.0;

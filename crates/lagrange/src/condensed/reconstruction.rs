@@ -35,9 +35,9 @@ pub(super) struct Ends {
     pub energy: f64,
 }
 
-/// Follow the chain from joint 0 to joint n and hand every segment of it to `write`, with the output of
-/// its bars. With several threads there are several outputs, made by `split`, for ranges of the bars in
-/// order.
+/// Follow the chain from joint 0 to joint n and hand every segment of it to `write`, with the
+/// output of its bars. With several threads there are several outputs, made by `split`, for ranges
+/// of the bars in order.
 pub(super) fn reconstruct<S: Send>(
     chain: &Condensed,
     pull: &Pull,
@@ -76,7 +76,8 @@ pub(super) fn reconstruct<S: Send>(
         ends.last().copied().unwrap_or_default()
     };
     let last = [end.along.value(), end.height.value()];
-    // V = (W - W_before) D_z - sum b_i l_i u_iz, with the weight W_before between joint 0 and the bottom.
+    // V = (W - W_before) D_z - sum b_i l_i u_iz, with the weight W_before between joint 0 and the
+    // bottom.
     let before = chain.bars.at_start - chain.bars.loads[0];
     let energy = (chain.bars.total_mass - before) * last[1] - end.moment.value();
     Ends { last, energy }

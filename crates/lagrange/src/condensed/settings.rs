@@ -35,6 +35,12 @@ impl Settings {
     /// # Errors
     ///
     /// [`SettingsError`] with the first field that is out of range; NaN is out of every range.
+    ///
+    /// ```
+    /// let settings = lagrange::condensed::Settings { max_passes: 0, ..Default::default() };
+    /// let error = settings.validate().unwrap_err();
+    /// assert_eq!((error.name, error.low), ("max_passes", 1.0));
+    /// ```
     pub fn validate(&self) -> Result<(), SettingsError> {
         for (name, value, low, high) in [
             ("closure", self.closure, 1e-15, 1e-3),

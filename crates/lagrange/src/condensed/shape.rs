@@ -12,8 +12,18 @@ use super::reconstruction::reconstruct;
 
 /// A shape in its vertical plane, one array per quantity; SI units.
 ///
-/// Joint k is at `start_m` + `along_m[k]` × level + `height_m[k]` × up; the horizontal part of every
-/// multiplier but the first is `horizontal_n` × level.
+/// Joint k is at `start_m` + `along_m[k]` × level + `height_m[k]` × up; the horizontal part of
+/// every multiplier but the first is `horizontal_n` × level.
+///
+/// ```
+/// use lagrange::condensed::{Condensed, Settings};
+/// let chain = Condensed::new(&model::cases::paper());
+/// let shape = chain.reconstruct(&chain.pull(&Settings::default())?);
+/// // E1: V counts from 6 mgl lower in the paper.
+/// assert!((shape.energy_j / 9.80665 + 6.0 - 2.335468651999305).abs() < 1e-14);
+/// assert!(shape.closure < 1e-15);
+/// # Ok::<(), lagrange::condensed::CondensedError>(())
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Shape {
     /// Joint 0, m.
@@ -39,6 +49,17 @@ pub struct Shape {
 
 impl Shape {
     /// Position of a joint, world frame, m; `None` beyond the last.
+    ///
+    /// ```
+    /// use lagrange::condensed::{Condensed, Settings};
+    /// let chain = Condensed::new(&model::cases::paper());
+    /// let shape = chain.reconstruct(&chain.pull(&Settings::default())?);
+    /// // Joint 1 is cos 19.69° below the first anchor; there is no joint 4.
+    /// let [_, _, z] = shape.joint_m(1).unwrap();
+    /// assert!((z + 19.694867976133019_f64.to_radians().cos()).abs() < 1e-14);
+    /// assert_eq!(shape.joint_m(4), None);
+    /// # Ok::<(), lagrange::condensed::CondensedError>(())
+    /// ```
     #[must_use]
     pub fn joint_m(&self, k: usize) -> Option<Vector> {
         let (s, z) = (*self.along_m.get(k)?, *self.height_m.get(k)?);
@@ -48,6 +69,16 @@ impl Shape {
 
     /// A multiplier, world frame, N, in the meaning of
     /// [`multipliers_n`](model::Equilibrium::multipliers_n); `None` beyond the last.
+    ///
+    /// ```
+    /// use lagrange::condensed::{Condensed, Settings};
+    /// let chain = Condensed::new(&model::cases::paper());
+    /// let shape = chain.reconstruct(&chain.pull(&Settings::default())?);
+    /// // The paper's lambda_6: the vertical force of bar 2 on bar 1.
+    /// let [_, _, lambda_6] = shape.multiplier_n(1).unwrap();
+    /// assert!((lambda_6 / 9.80665 + 1.312944292241838).abs() < 1e-14);
+    /// # Ok::<(), lagrange::condensed::CondensedError>(())
+    /// ```
     #[must_use]
     pub fn multiplier_n(&self, k: usize) -> Option<Vector> {
         let h = if k == 0 { -self.horizontal_n } else { self.horizontal_n };
@@ -57,6 +88,15 @@ impl Shape {
 
 impl Condensed {
     /// All joints and forces that belong to a pull of this chain, as arrays.
+    ///
+    /// ```
+    /// use lagrange::condensed::{Condensed, Settings};
+    /// let chain = Condensed::new(&model::cases::paper());
+    /// let shape = chain.reconstruct(&chain.pull(&Settings::default())?);
+    /// // Back at the last anchor, 2 m below the first.
+    /// assert!((shape.height_m[3] + 2.0).abs() < 1e-15 && shape.along_m[3].abs() < 1e-15);
+    /// # Ok::<(), lagrange::condensed::CondensedError>(())
+    /// ```
     #[must_use]
     pub fn reconstruct(&self, pull: &Pull) -> Shape {
         let mut shape = Shape {
@@ -75,6 +115,16 @@ impl Condensed {
     }
 
     /// The same in the memory of another shape.
+    ///
+    /// ```
+    /// use lagrange::condensed::{Condensed, Settings};
+    /// let long = Condensed::new(&model::cases::get("thirty-bars").unwrap().problem());
+    /// let mut shape = long.reconstruct(&long.pull(&Settings::default())?);
+    /// let chain = Condensed::new(&model::cases::paper());
+    /// chain.reconstruct_into(&chain.pull(&Settings::default())?, &mut shape);
+    /// assert_eq!(shape.axial_n.len(), 3);
+    /// # Ok::<(), lagrange::condensed::CondensedError>(())
+    /// ```
     pub fn reconstruct_into(&self, pull: &Pull, shape: &mut Shape) {
         let n = self.bars();
         let (length, force) = (self.units.length, self.units.force());

@@ -17,6 +17,13 @@ use crate::thresholds::REPORTED_FORCE_ERROR;
 const RESIDUAL_OF: &str = "distance of the last joint from its anchor, in total lengths";
 
 /// An equilibrium from the condensed equations. That it exists means converged.
+///
+/// ```
+/// let found = lagrange::condensed::solve(&model::cases::paper(), &Default::default())?;
+/// assert_eq!(found.equilibrium.stability.index_in_space, 0);
+/// assert_eq!(found.pull.compressed(), [2]);
+/// # Ok::<(), lagrange::condensed::CondensedError>(())
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Solution {
     /// The equilibrium as everyone reads it.
@@ -49,8 +56,8 @@ pub fn solve(problem: &Problem, settings: &Settings) -> Result<Solution, Condens
 
 /// Memory for one chain after another.
 ///
-/// Fresh memory is the largest part of the time that a million bars take: the system hands it out page
-/// by page. A solver keeps that of its last chain, and of the solutions that are given back.
+/// Fresh memory is the largest part of the time that a million bars take: the system hands it out
+/// page by page. A solver keeps that of its last chain, and of the solutions that are given back.
 ///
 /// ```
 /// use lagrange::condensed::{Settings, Solver};
@@ -77,6 +84,15 @@ impl Default for Solver {
 
 impl Solver {
     /// A solver that shares large chains among so many processors; by default there is one.
+    ///
+    /// ```
+    /// use lagrange::condensed::{Settings, Solver};
+    /// let two = std::num::NonZeroUsize::MIN.saturating_add(1);
+    /// let mut solver = Solver::with_processors(two);
+    /// let found = solver.solve(&model::cases::paper(), &Settings::default())?;
+    /// assert!((found.equilibrium.energy_j / 9.80665 + 3.664531348000695).abs() < 1e-14);
+    /// # Ok::<(), lagrange::condensed::CondensedError>(())
+    /// ```
     #[must_use]
     pub fn with_processors(processors: NonZeroUsize) -> Self {
         Self { processors, chain: None, spare: Vectors::default() }
@@ -87,6 +103,16 @@ impl Solver {
     /// # Errors
     ///
     /// Those of [`solve`](solve()).
+    ///
+    /// ```
+    /// use lagrange::condensed::{Settings, Solver};
+    /// let mut solver = Solver::default();
+    /// for case in model::cases::all() {
+    ///     let found = solver.solve(&case.problem(), &Settings::default())?;
+    ///     assert!(found.equilibrium.evidence.residual <= 1e-13);
+    /// }
+    /// # Ok::<(), lagrange::condensed::CondensedError>(())
+    /// ```
     pub fn solve(
         &mut self,
         problem: &Problem,
@@ -106,6 +132,17 @@ impl Solver {
     }
 
     /// Use the memory of a solution that is not needed any more for the next one.
+    ///
+    /// ```
+    /// use lagrange::condensed::{Settings, Solver};
+    /// let mut solver = Solver::default();
+    /// let found = solver.solve(&model::cases::paper(), &Settings::default())?;
+    /// let joints = found.equilibrium.joints_m.as_ptr();
+    /// solver.take_back(found);
+    /// let again = solver.solve(&model::cases::paper(), &Settings::default())?;
+    /// assert_eq!(again.equilibrium.joints_m.as_ptr(), joints);
+    /// # Ok::<(), lagrange::condensed::CondensedError>(())
+    /// ```
     pub fn take_back(&mut self, solution: Solution) {
         let Equilibrium { joints_m, multipliers_n, axial_n, .. } = solution.equilibrium;
         self.spare = Vectors { joints_m, multipliers_n, axial_n };
@@ -119,6 +156,17 @@ impl Condensed {
     ///
     /// [`CondensedError::NotClosed`] when the last joint misses its anchor by more than
     /// [`Settings::closure`], [`CondensedError::Overflow`] when a force or the energy is infinite.
+    ///
+    /// ```
+    /// use lagrange::condensed::{Condensed, Settings};
+    /// let chain = Condensed::new(&model::cases::paper());
+    /// let pull = chain.pull(&Settings::default())?;
+    /// let found = chain.equilibrium(&pull, &Settings::default())?;
+    /// // Both anchors carry the three weights together.
+    /// let sum = found.reactions_n.start[2] + found.reactions_n.end[2];
+    /// assert!((sum / 9.80665 - 3.0).abs() < 1e-14);
+    /// # Ok::<(), lagrange::condensed::CondensedError>(())
+    /// ```
     pub fn equilibrium(
         &self,
         pull: &Pull,

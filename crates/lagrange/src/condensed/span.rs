@@ -43,7 +43,8 @@ impl Span {
         }
     }
 
-    /// Unit vector from the start towards the end anchor, horizontal and vertical; they must be apart.
+    /// Unit vector from the start towards the end anchor, horizontal and vertical; they must be
+    /// apart.
     pub fn direction(&self) -> [f64; 2] {
         [self.across / self.distance, self.rise / self.distance]
     }

@@ -6,9 +6,10 @@
 //!
 //! $$ \mathrm{index} = \\#\\{s_i = -1\\} + \\#\\{\text{positive eigenvalues of } S\\} - m, $$
 //!
-//! in the plane with $m = 2$ and S the derivative of the closure by the pull, which Newton's method has
-//! at hand; out of it with $m = 1$ and $S = \sum s_i l_i/|F_i| = D_h/H$, the horizontal closure divided
-//! by the horizontal pull. It is the inertia of the whole stress matrix for the price of three pivots.
+//! in the plane with $m = 2$ and S the derivative of the closure by the pull, which Newton's method
+//! has at hand; out of it with $m = 1$ and $S = \sum s_i l_i/|F_i| = D_h/H$, the horizontal closure
+//! divided by the horizontal pull. It is the inertia of the whole stress matrix for the price of
+//! three pivots.
 //!
 //! # References
 //!
@@ -76,8 +77,8 @@ pub(super) fn second_order(chain: &Condensed, pull: &Pull) -> SecondOrder {
 }
 
 /// Bars without force, all others in tension: the least energy, and not only here. What moves at no
-/// cost moves the unloaded bars alone, as far as they keep their ends where they are: two conditions in
-/// the plane (one where they are straight) and one out of it.
+/// cost moves the unloaded bars alone, as far as they keep their ends where they are: two
+/// conditions in the plane (one where they are straight) and one out of it.
 fn unloaded(chain: &Condensed, bars: usize) -> SecondOrder {
     let gap = chain.span.across.hypot(chain.bottom.gap);
     let room = chain.bottom.room(gap);

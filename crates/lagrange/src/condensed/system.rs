@@ -63,8 +63,8 @@ pub(super) struct Closure {
 }
 
 impl System<'_> {
-    /// Whether an iteration that gets no further may stop here: the chain closes to `enough`, in units
-    /// of its total length, and a slack is met to many of its digits.
+    /// Whether an iteration that gets no further may stop here: the chain closes to `enough`, in
+    /// units of its total length, and a slack is met to many of its digits.
     pub fn settled(&self, closure: &Closure, enough: f64) -> bool {
         let [r, s] = closure.residual;
         let met = match self.frame {
@@ -141,14 +141,15 @@ impl Closure {
         if a >= b || a.is_nan() { a } else { b }
     }
 
-    /// Condition of the derivative of a chain in tension, by its trace and determinant, within a factor 2.
+    /// Condition of the derivative of a chain in tension, by its trace and determinant, within a
+    /// factor 2.
     pub fn condition(&self) -> f64 {
         let [a, b, c] = self.jacobian;
         (a + c) * (a + c) / (a * c - b * b)
     }
 
-    /// How far the force may be from the true one: what the derivative makes of the residual, or of its rounding
-    /// errors where they are larger.
+    /// How far the force may be from the true one: what the derivative makes of the residual, or of
+    /// its rounding errors where they are larger.
     pub fn force_error(&self) -> f64 {
         let [a, b, c] = self.jacobian.map(f64::abs);
         let [r, s] = [0, 1].map(|k| self.residual[k].abs().max(self.floor[k]));
@@ -192,8 +193,8 @@ mod tests {
     /// Worst measured: 3e-10 of the largest entry.
     const DIFFERENCES: f64 = 1e-8;
 
-    /// The derivative of the closure has a twin by central differences, in both frames, with a bar in
-    /// compression and without.
+    /// The derivative of the closure has a twin by central differences, in both frames, with a bar
+    /// in compression and without.
     #[test]
     fn derivative_of_the_closure_has_a_twin() {
         let lengths = [0.7, 1.2, 0.5, 0.9, 1.1];

@@ -1,4 +1,5 @@
-//! The units in which a chain is solved: of its own size, so that no length, mass or gravity overflows.
+//! The units in which a chain is solved: of its own size, so that no length, mass or gravity
+//! overflows.
 
 /// What one is, in SI units.
 #[derive(Debug, Clone, Copy)]

@@ -1,5 +1,5 @@
-//! The condensed solver against closed forms, the reference values of the paper's example, brute force
-//! and the catenary.
+//! The condensed solver against closed forms, the reference values of the paper's example, brute
+//! force and the catenary.
 
 #![expect(clippy::excessive_precision, reason = "reference digits stand as they were published")]
 
@@ -13,7 +13,7 @@ use rand_chacha::ChaCha8Rng;
 
 use crate::judge::judge;
 
-fn hang(bars: Vec<Bar>, gravity: f64, end_m: Vector) -> Solution {
+fn solved(bars: Vec<Bar>, gravity: f64, end_m: Vector) -> Solution {
     let problem = problem(bars, gravity, end_m);
     let solution = solve(&problem, &Settings::default()).unwrap();
     let found = judge(&problem, &solution.equilibrium);
@@ -90,14 +90,14 @@ fn two_bars_are_a_triangle() {
             Bar::new(b, second, b * s, [0.0; 3]).unwrap(),
         ];
         let (across, rise) = (span * slope.cos(), span * slope.sin());
-        let solution = hang(bars, 10.0, [across, 0.0, rise]);
+        let solution = solved(bars, 10.0, [across, 0.0, rise]);
         // The apex below the line of the anchors.
         let cosine = (a * a + span * span - b * b) / (2.0 * a * span);
         let angle = slope - cosine.acos();
         let apex = [a * angle.cos(), 0.0, a * angle.sin()];
         near(solution.equilibrium.joints_m[1], apex, 1e-13 * (a + b) / (1.0 - cosine * cosine));
-        // The apex carries its parts of both weights; the pulls along the bars have the same horizontal
-        // part H, and their slopes at the apex differ by the load over H.
+        // The apex carries its parts of both weights; the pulls along the bars have the same
+        // horizontal part H, and their slopes at the apex differ by the load over H.
         let load = 10.0 * (first * r + second * (1.0 - s));
         let (left, right) = (-apex[2] / -apex[0], (rise - apex[2]) / (across - apex[0]));
         let horizontal = load / (right - left);
@@ -129,7 +129,7 @@ fn many_equal_bars_approach_the_catenary_with_order_two() {
     let energy = (integral(to) - integral(from)) / length - c * from.cosh();
     let mut last: Option<[f64; 3]> = None;
     for n in [20, 40, 80, 160, 320, 640, 1280] {
-        let solution = hang(equal(n, length), 1.0, [across, 0.0, rise]);
+        let solution = solved(equal(n, length), 1.0, [across, 0.0, rise]);
         let found = &solution.equilibrium;
         let difference = |a: Vector, b: Vector| (a[0] - b[0]).hypot(a[2] - b[2]);
         let off = [
@@ -147,8 +147,8 @@ fn many_equal_bars_approach_the_catenary_with_order_two() {
     }
 }
 
-/// For few bars: of the equilibria that the full system reaches from many seeds none lies lower, and
-/// those stable in space lie no higher.
+/// For few bars: of the equilibria that the full system reaches from many seeds none lies lower,
+/// and those stable in space lie no higher.
 #[test]
 fn brute_force_finds_nothing_lower() {
     const SEEDS: usize = 60;
@@ -198,14 +198,15 @@ fn brute_force_finds_nothing_lower() {
 #[test]
 fn special_shapes() {
     // Even number of equal bars at one point: two strands; they share the lowest joint evenly.
-    let found = hang(equal(4, 4.0), 1.0, [0.0; 3]);
+    let found = solved(equal(4, 4.0), 1.0, [0.0; 3]);
     near(found.equilibrium.joints_m[2], [0.0, 0.0, -2.0], 1e-15);
-    // Whatever part of the lowest joint each strand carries, every bar is in tension: a strict minimum.
+    // Whatever part of the lowest joint each strand carries, every bar is in tension: a strict
+    // minimum.
     assert_eq!(found.equilibrium.stability.in_plane, InPlane::Minimum);
     near(found.equilibrium.reactions_n.start, [0.0, 0.0, 0.5], 1e-15);
     near(found.equilibrium.reactions_n.end, [0.0, 0.0, 0.5], 1e-15);
     // Three: an equilateral triangle, hanging from a corner, its lower side compressed.
-    let found = hang(equal(3, 3.0), 1.0, [0.0; 3]);
+    let found = solved(equal(3, 3.0), 1.0, [0.0; 3]);
     assert_eq!(found.pull.compressed(), [1]);
     near(found.equilibrium.joints_m[1], [0.0, 0.5, -0.75_f64.sqrt()], 1e-15);
     // Massless bars at the bottom: loose between straight strands.
@@ -213,7 +214,7 @@ fn special_shapes() {
     for bar in &mut bars[2..4] {
         *bar = Bar::homogeneous(1.0, 0.0).unwrap();
     }
-    let found = hang(bars, 1.0, [1.0, 0.0, 0.0]);
+    let found = solved(bars, 1.0, [1.0, 0.0, 0.0]);
     assert!(found.equilibrium.axial_n[2..4].iter().all(|force| force.abs() < 1e-15));
     near(found.equilibrium.joints_m[2], [0.0, 0.0, -2.0], 1e-15);
     near(found.equilibrium.joints_m[4], [1.0, 0.0, -2.0], 1e-15);
@@ -223,18 +224,19 @@ fn special_shapes() {
         Bar::new(1.0, 0.0, 0.5, [0.0; 3]).unwrap(),
         Bar::new(1.0, 1.0, 1.0, [0.0; 3]).unwrap(),
     ];
-    let found = hang(bars, 1.0, [0.5, 1.0, 1.0]);
+    let found = solved(bars, 1.0, [0.5, 1.0, 1.0]);
     near(found.equilibrium.reactions_n.start, [0.0, 0.0, 1.0], 1e-15);
 }
 
-/// Nearly straight chains: the pull follows $\sqrt{\mathrm{var}\,b/(2\,\mathrm{slack})}$ with all its digits.
+/// Nearly straight chains: the pull follows $\sqrt{\mathrm{var}\,b/(2\,\mathrm{slack})}$ with all
+/// its digits.
 #[test]
 fn nearly_taut_chains_keep_their_digits() {
     for exponent in [1, 3, 6, 9, 12, 13] {
         // The doubles of this span, not the decimal, define the slack.
         let span = 1.0 - 10.0_f64.powi(-exponent);
         let slack = 1.0 - span;
-        let found = hang(vec![Bar::homogeneous(0.25, 0.25).unwrap(); 4], 1.0, [span, 0.0, 0.0]);
+        let found = solved(vec![Bar::homogeneous(0.25, 0.25).unwrap(); 4], 1.0, [span, 0.0, 0.0]);
         let pull = -found.equilibrium.multipliers_n[0][0];
         // b = -3/8, -1/8, 1/8, 3/8; the next term is of the order of the slack.
         let expected = (5.0 / 64.0 / (2.0 * slack)).sqrt();
@@ -252,7 +254,7 @@ fn units_change_nothing_but_units() {
     let shape = |length: f64, mass: f64, gravity: f64| {
         let bars =
             [1.0, 0.3, 2.0, 0.7, 1.1].map(|l| Bar::homogeneous(l * length, l * mass).unwrap());
-        hang(bars.to_vec(), gravity, [2.0 * length, length, -0.5 * length]).equilibrium
+        solved(bars.to_vec(), gravity, [2.0 * length, length, -0.5 * length]).equilibrium
     };
     let one = shape(1.0, 1.0, 1.0);
     for (length, mass, gravity) in [
@@ -319,8 +321,9 @@ fn failures_are_typed() {
     assert!(matches!(solve(&problem, &bad), Err(CondensedError::Settings(_))));
 }
 
-/// Anchors a hair apart over a chain much longer: two strands side by side. By symmetry equal strands carry alike;
-/// different ones bend by $H/F_i$ and must lose the same height, $\sum l_i/F_i^2$ in each, however small H is.
+/// Anchors a hair apart over a chain much longer: two strands side by side. By symmetry equal
+/// strands carry alike; different ones bend by $H/F_i$ and must lose the same height,
+/// $\sum l_i/F_i^2$ in each, however small H is.
 #[test]
 fn strands_that_hang_side_by_side_share_the_weight() {
     let g = 9.81;
@@ -351,9 +354,10 @@ fn strands_that_hang_side_by_side_share_the_weight() {
     }
 }
 
-/// A weight on two massless bars drawn ever tighter, three parts across to four down: its place is where two circles
-/// meet, and the forces follow. Reference digits: that formula with 60 digits (kind "external"). A rounding of
-/// the way between the anchors would change the third digit of the last of them.
+/// A weight on two massless bars drawn ever tighter, three parts across to four down: its place is
+/// where two circles meet, and the forces follow. Reference digits: that formula with 60 digits
+/// (kind "external"). A rounding of the way between the anchors would change the third digit of the
+/// last of them.
 #[test]
 fn a_weight_on_a_line_ever_tighter_keeps_all_digits() {
     for (height_m, expected) in [
@@ -364,7 +368,7 @@ fn a_weight_on_a_line_ever_tighter_keeps_all_digits() {
     ] {
         let bars =
             vec![Bar::new(1.0, 1.0, 1.0, [0.0; 3]).unwrap(), Bar::homogeneous(1.0, 0.0).unwrap()];
-        let found = hang(bars, 9.81, [1.2, 0.0, height_m]);
+        let found = solved(bars, 9.81, [1.2, 0.0, height_m]);
         for (axial, expected) in found.equilibrium.axial_n.iter().zip(expected) {
             assert!((axial / expected - 1.0).abs() < 1e-15, "{height_m}: {axial} {expected}");
         }

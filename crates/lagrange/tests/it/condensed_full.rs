@@ -1,5 +1,5 @@
-//! The condensed equations give the hanging equilibria that the full system of the paper gives. For 2 to
-//! 30 bars: a single bar is refused as a problem, it cannot move and the force along it is
+//! The condensed equations give the hanging equilibria that the full system of the paper gives. For
+//! 2 to 30 bars: a single bar is refused as a problem, it cannot move and the force along it is
 //! indeterminate.
 
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -9,8 +9,8 @@ use model::{Anchors, Bar, Chain, Equilibrium, Problem, Vector};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-/// Agreement of joints, in total lengths, and of forces, in units of the largest. The full system is
-/// solved to 1e-13. Measured: 2e-14.
+/// Agreement of joints, in total lengths, and of forces, in units of the largest. The full system
+/// is solved to 1e-13. Measured: 2e-14.
 const AGREED: f64 = 1e-12;
 /// Bars of the largest chain.
 const LARGEST: usize = 30;
@@ -55,7 +55,8 @@ fn difference(problem: &Problem, a: &Equilibrium, b: &Equilibrium) -> f64 {
         .max(axial / largest)
 }
 
-/// Turn an equilibrium about the vertical through joint 0, so that joint 1 gets the azimuth of another.
+/// Turn an equilibrium about the vertical through joint 0, so that joint 1 gets the azimuth of
+/// another.
 fn turned(from: &Equilibrium, like: &Equilibrium) -> Equilibrium {
     let azimuth = |e: &Equilibrium| {
         let h: Vector = std::array::from_fn(|k| e.joints_m[1][k] - e.joints_m[0][k]);

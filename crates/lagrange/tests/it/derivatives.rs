@@ -1,4 +1,5 @@
-//! Every analytic derivative has two twins, dual numbers and central differences, over random states.
+//! Every analytic derivative has two twins, dual numbers and central differences, over random
+//! states.
 
 use lagrange::{
     constraint_functions, constraint_matrix, direction, direction_gradient, direction_hessian,

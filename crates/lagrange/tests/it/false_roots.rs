@@ -1,5 +1,5 @@
-//! The paper's equations have roots that are no equilibria: where cos θ = cos φ = 0 they lose a moment
-//! balance. Shown by building one, from the equations alone.
+//! The paper's equations have roots that are no equilibria: where cos θ = cos φ = 0 they lose a
+//! moment balance. Shown by building one, from the equations alone.
 
 use lagrange::{Seed, Settings, SolveError, StepMethod, relative_residual, solve_from};
 use model::cases;
@@ -10,8 +10,8 @@ use std::f64::consts::FRAC_PI_2;
 use crate::common::{spatial_seed, stream};
 use crate::survey::survey;
 
-/// Directions of the three bars of the example for a pull on the first anchor (units of mg), when the
-/// first bar, in the plane OYZ, does not feel the force across that plane.
+/// Directions of the three bars of the example for a pull on the first anchor (units of mg), when
+/// the first bar, in the plane OYZ, does not feel the force across that plane.
 fn directions(pull: &Vector3<f64>, signs: [f64; 3]) -> [Vector3<f64>; 3] {
     std::array::from_fn(|bar| {
         let carried = [0.5, 1.5, 2.5][bar];

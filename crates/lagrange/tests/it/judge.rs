@@ -3,7 +3,8 @@
 
 use model::{Equilibrium, Problem, Vector};
 
-/// What is wrong with an answer: largest errors, in units of the largest force and the total length.
+/// What is wrong with an answer: largest errors, in units of the largest force and the total
+/// length.
 #[derive(Debug, Clone, Copy)]
 pub struct Judgement {
     /// Lengths of the bars.
@@ -76,7 +77,8 @@ pub fn judge(problem: &Problem, answer: &Equilibrium) -> Judgement {
     for (i, bar) in bars.iter().enumerate() {
         let way = minus(joints[i + 1], joints[i]);
         keep(&mut found.length, (norm(way) - bar.length_m()).abs() / place);
-        // On bar 1 the ground acts at joint 0; on others the bar before, with the opposite of its multiplier.
+        // On bar 1 the ground acts at joint 0; on others the bar before, with the opposite of its
+        // multiplier.
         let at_first = if i == 0 { multipliers[0] } else { multipliers[i].map(|x| -x) };
         let at_second = multipliers[i + 1];
         let bar_weight = bar.mass_kg() * gravity;
@@ -97,32 +99,32 @@ pub fn judge(problem: &Problem, answer: &Equilibrium) -> Judgement {
     found
 }
 
-/// Whether the stress matrix, tridiagonal with $\tau_i + \tau_{i+1}$ on and $-\tau_{i+1}$ beside the
-/// diagonal, has no negative pivot beyond rounding. The part of a pivot that comes from the left is the
-/// stiffness of springs $\tau_1, \tau_2, \ldots$ in a row.
+/// Whether the stress matrix, tridiagonal with $\tau_i + \tau_{i+1}$ on and $-\tau_{i+1}$ beside
+/// the diagonal, has no negative pivot beyond rounding. The part of a pivot that comes from the
+/// left is the stiffness of the bars $\tau_1, \tau_2, \ldots$ in series.
 fn positive_semidefinite(problem: &Problem, answer: &Equilibrium) -> bool {
     /// Axial forces are known to this part of the largest one.
     const KNOWN: f64 = 1e-12;
     let bars = problem.chain().bars();
     let largest = answer.axial_n.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
-    let springs: Vec<f64> =
+    let stiffness: Vec<f64> =
         answer.axial_n.iter().zip(bars).map(|(force, bar)| force / bar.length_m()).collect();
     let error: Vec<f64> = bars.iter().map(|bar| KNOWN * largest / bar.length_m()).collect();
-    let mut left = springs[0];
+    let mut left = stiffness[0];
     let mut left_error = error[0];
-    for i in 1..springs.len() {
-        let pivot = left + springs[i];
+    for i in 1..stiffness.len() {
+        let pivot = left + stiffness[i];
         let pivot_error = left_error + error[i];
         if pivot < -pivot_error {
             return false;
         }
         if pivot <= pivot_error {
             // Zero: allowed only at the end, or where no force acts at all beside it.
-            let rest = &springs[i + 1..];
-            return rest.iter().zip(&error[i + 1..]).all(|(spring, error)| *spring >= -error);
+            let rest = &stiffness[i + 1..];
+            return rest.iter().zip(&error[i + 1..]).all(|(next, error)| *next >= -error);
         }
-        // 1/left' = 1/left + 1/spring, and how errors go through it.
-        let (a, b) = (springs[i] / pivot, left / pivot);
+        // 1/left' = 1/left + 1/next, and how errors go through it.
+        let (a, b) = (stiffness[i] / pivot, left / pivot);
         left *= a;
         left_error = a * a * left_error + b * b * error[i];
     }

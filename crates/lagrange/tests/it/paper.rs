@@ -32,8 +32,9 @@ const ENERGY: f64 = 4e-15;
 /// Largest of the 30 equations, mg, mgl, l.
 const RESIDUAL: f64 = 4e-15;
 
-/// Angles from the descending vertical in the vertical plane of the bars, positive towards the heading,
-/// rad. With anchors on one vertical the plane is any plane: only *OYZ* and *OXZ* stay what they are.
+/// Angles from the descending vertical in the vertical plane of the bars, positive towards the
+/// heading, rad. With anchors on one vertical the plane is any plane: only *OYZ* and *OXZ* stay
+/// what they are.
 fn planar_angles(found: &Solution, heading: f64) -> Vec<f64> {
     let joints = &found.equilibrium.joints_m;
     let first = joints[1][0].hypot(joints[1][1]);
@@ -117,8 +118,8 @@ fn stability_of_the_four() {
     }
 }
 
-/// Nullity 4: three spins (or locked angles), and the turn about OD. At gimbal lock, theta = pi/2, and
-/// away from it; in OYZ, in OXZ and in any vertical plane between.
+/// Nullity 4: three spins (or locked angles), and the turn about OD. At gimbal lock, theta = pi/2,
+/// and away from it; in OYZ, in OXZ and in any vertical plane between.
 #[test]
 fn nullity_is_four_at_gimbal_lock_and_away_from_it() {
     let problem = cases::paper();

@@ -9,8 +9,8 @@ use proptest::prelude::*;
 
 use crate::common::{distance, problem, stream};
 
-/// Two solves of the same physics agree to a few rounding errors of the data times the condition of the
-/// system. Worst of 12,000 cases measured: less than a tenth of this.
+/// Two solves of the same physics agree to a few rounding errors of the data times the condition of
+/// the system. Worst of 12,000 cases measured: less than a tenth of this.
 const ROUNDING: f64 = 1e-15;
 
 fn solved(problem: &Problem) -> Solution {
@@ -69,8 +69,8 @@ proptest! {
         assert_same(&mirrored, &b, &mapped(&a.joints_m, mirror), &mapped(&a.multipliers_n, mirror));
     }
 
-    /// Read from the other end: the joints in reverse, the inner forces with it and, as reactions to
-    /// what they were, with the other sign; the reactions change places.
+    /// Read from the other end: the joints in reverse, the inner forces with it and, as reactions
+    /// to what they were, with the other sign; the reactions change places.
     #[test]
     fn reversal(index in 0..10_000_usize, bars in 2..8_usize) {
         let problem = problem(&mut stream(33, index), bars, false);

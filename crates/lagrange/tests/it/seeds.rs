@@ -53,8 +53,9 @@ fn every_seed_of_random_chains_converges() {
     }
 }
 
-/// The same seed does not lead both forms to the same equilibrium always (their steps differ far from a
-/// solution), but both know the same equilibria, and started at one's answer the other stays.
+/// The same seed does not lead both forms to the same equilibrium always (their steps differ far
+/// from a solution), but both know the same equilibria, and started at one's answer the other
+/// stays.
 #[test]
 fn dense_and_reduced_know_the_same_equilibria() {
     let dense = Settings { method: StepMethod::Dense, ..Default::default() };

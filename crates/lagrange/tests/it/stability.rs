@@ -1,5 +1,5 @@
-//! Stability, nullity and balance of equilibria of random chains, judged by means that the crate does
-//! not use: eigenvalues of the bordered matrix, and cross products in the world frame.
+//! Stability, nullity and balance of equilibria of random chains, judged by means that the crate
+//! does not use: eigenvalues of the bordered matrix, and cross products in the world frame.
 
 use lagrange::{Settings, Solution, jacobian, solve, solve_from};
 use model::{InSpace, Problem};
@@ -10,8 +10,8 @@ use crate::common::{problem, spatial_seed, stream};
 /// Eigenvalues of the bordered matrix below this are zero; the smallest others met are above 1e-7.
 const ZERO: f64 = 1e-9;
 
-/// Equilibria of random chains of 2 to 6 bars from random seeds, stable and unstable, anchors on one
-/// vertical and not.
+/// Equilibria of random chains of 2 to 6 bars from random seeds, stable and unstable, anchors on
+/// one vertical and not.
 fn equilibria() -> impl Iterator<Item = (Problem, Solution)> {
     (2..=6_usize).flat_map(|bars| (0..20).map(move |index| (bars, index))).map(|(bars, index)| {
         let mut random = stream(41, 100 * bars + index);
@@ -22,15 +22,16 @@ fn equilibria() -> impl Iterator<Item = (Problem, Solution)> {
     })
 }
 
-/// The Hessian of the Lagrangian bordered by the constraints has as many negative eigenvalues as there
-/// are constraints, plus the index; as many zero ones as the nullity.
+/// The Hessian of the Lagrangian bordered by the constraints has as many negative eigenvalues as
+/// there are constraints, plus the index; as many zero ones as the nullity.
 #[test]
 fn index_and_nullity_are_those_of_the_bordered_matrix() {
     let mut unstable = 0;
     for (problem, found) in equilibria() {
         let chain = problem.chain();
         // In the equations the sign of the rows of (40) is such that they are −∂/∂q of the
-        // Lagrangian's constraint part: [K −Bᵀ; B 0] becomes symmetric by the sign of its last rows.
+        // Lagrangian's constraint part: [K −Bᵀ; B 0] becomes symmetric by the sign of its last
+        // rows.
         let mut bordered = jacobian(chain, &found.q, &(&found.lambda / 9.81));
         let (size, rows) = (found.q.len(), found.lambda.len());
         let flipped = -bordered.rows(size, rows).into_owned();
@@ -50,8 +51,8 @@ fn index_and_nullity_are_those_of_the_bordered_matrix() {
     assert!((20..80).contains(&unstable), "{unstable} of 100 unstable");
 }
 
-/// In the plane: the energy as a function of the angles of the bars, differentiated numerically on the
-/// motions that keep both ends.
+/// In the plane: the energy as a function of the angles of the bars, differentiated numerically on
+/// the motions that keep both ends.
 #[test]
 fn index_in_the_plane_is_that_of_a_numerical_hessian() {
     for (problem, found) in equilibria() {
@@ -109,7 +110,8 @@ fn index_in_the_plane_is_that_of_a_numerical_hessian() {
             };
             (at(1.0) - at(-1.0)) / (2.0 * step)
         });
-        // Motions that keep the end: eigenvectors of closureᵀ·closure to its n − 2 zero eigenvalues.
+        // Motions that keep the end: eigenvectors of closureᵀ·closure to its n − 2 zero
+        // eigenvalues.
         let normal = (closure.transpose() * &closure).symmetric_eigen();
         let mut order: Vec<usize> = (0..n).collect();
         order.sort_by(|a, b| normal.eigenvalues[*a].total_cmp(&normal.eigenvalues[*b]));

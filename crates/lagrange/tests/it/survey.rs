@@ -38,8 +38,8 @@ pub struct Group {
     pub energy_j: f64,
     /// Seeds.
     pub count: usize,
-    /// Of these, with joint 1 on the side of +Y of joint 0: tells the two mirror images in the plane
-    /// *OYZ* apart.
+    /// Of these, with joint 1 on the side of +Y of joint 0: tells the two mirror images in the
+    /// plane *OYZ* apart.
     pub towards_y: usize,
 }
 

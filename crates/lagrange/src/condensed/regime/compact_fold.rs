@@ -1,5 +1,5 @@
-//! A fold whose anchors are too near to each other to say along which line it lies: the axes turn with
-//! the compressed bar.
+//! A fold whose anchors are too near to each other to say along which line it lies: the axes turn
+//! with the compressed bar.
 
 use super::strut;
 use crate::condensed::chain::Condensed;

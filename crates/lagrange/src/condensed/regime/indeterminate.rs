@@ -1,9 +1,9 @@
 //! Two vertical strands that just meet: they share the weight of the joint where they do in any way
 //! they like.
 //!
-//! The answer is the limit of anchors that are moved apart a little: a horizontal pull H turns bar i
-//! off the vertical by $H/|F_i|$, which takes $l_i H^2/(2 F_i^2)$ off its height, and both strands must
-//! lose the same,
+//! The answer is the limit of anchors that are moved apart a little: a horizontal pull H turns bar
+//! i off the vertical by $H/|F_i|$, which takes $l_i H^2/(2 F_i^2)$ off its height, and both
+//! strands must lose the same,
 //!
 //! $$ \sum_i l_i\, \mathrm{sign}(F_i)/F_i^2 = 0, $$
 //!

@@ -1,8 +1,8 @@
 //! Which way a chain is solved: decided from its data alone, before any iteration.
 //!
 //! The table stands in [the crate](crate#regimes). Two questions lead to a regime: what holds the
-//! lowest bar (the lemma of the module `bottom`), and whether the chain is so nearly straight, folded
-//! or doubled that its closure must be written along an axis to keep its digits.
+//! lowest bar (the lemma of the module `bottom`), and whether the chain is so nearly straight,
+//! folded or doubled that its closure must be written along an axis to keep its digits.
 
 mod compact_fold;
 mod folded;
@@ -45,8 +45,8 @@ pub(super) enum Regime {
     VerticalStrut,
     /// The lowest bars carry no force and fill the gap between two vertical strands.
     Unloaded,
-    /// Anchors on one vertical and two vertical strands that just meet: how they share the weight of
-    /// the joint between them is indeterminate.
+    /// Anchors on one vertical and two vertical strands that just meet: how they share the weight
+    /// of the joint between them is indeterminate.
     Indeterminate,
 }
 
@@ -56,8 +56,8 @@ impl Regime {
         let (bottom, across) = (&chain.bottom, chain.span.across);
         let gap = across.hypot(bottom.gap);
         let rounding = EQUAL_LENGTHS * chain.bars.total_length;
-        // |G|² less the square of the length. Anchors that are a little apart pull strands of equal depth
-        // together, though the gap is no longer than the bar in any of its digits.
+        // |G|² less the square of the length. Anchors that are a little apart pull strands of equal
+        // depth together, though the gap is no longer than the bar in any of its digits.
         let terms = [across * across, bottom.over * (bottom.gap.abs() + bottom.length)];
         let excess = terms[0] + terms[1];
         if across <= rounding && bottom.over.abs() <= rounding {

@@ -19,8 +19,8 @@ pub(super) fn solve(chain: &Condensed, budget: &mut Budget) -> Option<Pull> {
     Some(Pull::at(chain, Signs::Tension, axis.leave(root.force), &root, budget))
 }
 
-/// The force at the bottom of strands whose anchors are a little apart: to first order in H they turn
-/// as far as that asks for, $H \sum_i l_i/|F_i| = $ the way across.
+/// The force at the bottom of strands whose anchors are a little apart: to first order in H they
+/// turn as far as that asks for, $H \sum_i l_i/|F_i| = $ the way across.
 fn little_apart(chain: &Condensed, budget: &mut Budget) -> Option<[f64; 2]> {
     let vertical = balanced(chain, budget)?;
     let bars = chain.bars.lengths.iter().zip(&chain.bars.loads);

@@ -39,10 +39,11 @@ fn over_the_coarse(chain: &Condensed, start: [f64; 2]) -> ([f64; 2], Option<f64>
     root.map_or((start, None), |root| (root.force, measured(&root)))
 }
 
-/// Solve by two nested searches on monotone functions: for each horizontal pull H the vertical force
-/// that closes the height, and with it the H that closes the width. Both exist and are unique: the
-/// height grows with the force from below $-L$ to above L, and the width, the derivative of the convex
-/// $\min_v \Phi$, grows with H. Slower than Newton's method and not to be stopped; in upright axes.
+/// Solve by two nested searches on monotone functions: for each horizontal pull H the vertical
+/// force that closes the height, and with it the H that closes the width. Both exist and are
+/// unique: the height grows with the force from below $-L$ to above L, and the width, the
+/// derivative of the convex $\min_v \Phi$, grows with H. Slower than Newton's method and not to be
+/// stopped; in upright axes.
 pub(super) fn nested(system: &System<'_>, start: [f64; 2], budget: &mut Budget) -> Option<Root> {
     let Frame::Upright { .. } = system.frame else { return None };
     let mut force = start;

@@ -1,4 +1,5 @@
-//! Bars without force between two vertical strands: any shape that fits is an equilibrium; this is one.
+//! Bars without force between two vertical strands: any shape that fits is an equilibrium; this is
+//! one.
 
 use crate::condensed::chain::Condensed;
 use crate::condensed::pull::{Pull, Signs};
@@ -10,9 +11,10 @@ pub(super) fn solve(chain: &Condensed) -> Pull {
 
 /// Vectors of bars of the given lengths that lead along `gap` together.
 ///
-/// The bar in the middle of the length and the straight pieces before and after it make a quadrangle
-/// with the gap; of its shapes the one is taken whose diagonal is in the middle of its range, hanging
-/// below the gap. The lengths must be able to fill the gap; what rounding errors leave open stays open.
+/// The bar in the middle of the length and the straight pieces before and after it make a
+/// quadrangle with the gap; of its shapes the one is taken whose diagonal is in the middle of its
+/// range, hanging below the gap. The lengths must be able to fill the gap; what rounding errors
+/// leave open stays open.
 pub(in super::super) fn fill(lengths: &[f64], gap: [f64; 2]) -> Vec<[f64; 2]> {
     let way = gap[0].hypot(gap[1]);
     let along = if way > 0.0 { [gap[0] / way, gap[1] / way] } else { [1.0, 0.0] };
@@ -58,7 +60,8 @@ fn middle_bar(lengths: &[f64], total: f64) -> (usize, f64) {
 /// Corner of a triangle over the base `base` along `along`, at the distances `from` and `to` of its
 /// two ends, on the side that lies lower.
 ///
-/// The angle at the end of the shorter side is computed: from there an error of it moves the corner least.
+/// The angle at the end of the shorter side is computed: from there an error of it moves the corner
+/// least.
 fn third_corner(along: [f64; 2], base: f64, from: f64, to: f64) -> [f64; 2] {
     if to < from {
         let back = third_corner(along.map(|x| -x), base, to, from);

@@ -1,5 +1,5 @@
-//! The lowest bar in compression between anchors on one vertical: the closure along the vertical, down
-//! one strand and up the other.
+//! The lowest bar in compression between anchors on one vertical: the closure along the vertical,
+//! down one strand and up the other.
 
 use super::strut;
 use crate::condensed::axis::Axis;
