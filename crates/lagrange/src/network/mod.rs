@@ -22,6 +22,7 @@ mod framework;
 mod hanging;
 mod law;
 mod newton;
+mod paper;
 mod possible;
 mod residual;
 mod second_order;
@@ -34,6 +35,7 @@ mod state;
 mod stiffness;
 
 pub use error::Error;
+pub use paper::{PaperUnknowns, paper_residual};
 pub use seed::Seed;
 pub use settings::{Settings, SettingsError};
 pub use solution::{Forces, Solution};

@@ -1,6 +1,6 @@
 //! Random systems of members: every answer against Newton's laws.
 
-use lagrange::network::{Error, Settings, solve};
+use lagrange::network::{Error, PaperUnknowns, Settings, paper_residual, solve};
 use model::system::{Joint, Kind, Member, System};
 use model::{Bar, InSpace};
 use nalgebra::Vector3;
@@ -76,6 +76,10 @@ fn overdetermined(system: &System) -> bool {
     system.members().iter().filter(rigid).count() > 3 * free
 }
 
+fn f64_max(most: f64, axial: &f64) -> f64 {
+    most.max(axial.abs())
+}
+
 /// Solve and judge; the seeds that fail, with the reason.
 fn failures(seeds: std::ops::Range<u64>, kinds: &[Kind], elastic: bool) -> Vec<String> {
     let solved = seeds.map(|seed| (seed, random(seed, kinds, elastic)));
@@ -84,6 +88,13 @@ fn failures(seeds: std::ops::Range<u64>, kinds: &[Kind], elastic: bool) -> Vec<S
         match solve(&system, &Settings::default()) {
             Ok(solution) => {
                 let mut faults = faults(&system, &solution);
+                if let Some(unknowns) = PaperUnknowns::of(&system, &solution.equilibrium) {
+                    let largest = solution.equilibrium.axial_n.iter().fold(1.0, f64_max);
+                    let residual = paper_residual(&system, &unknowns).amax() / largest;
+                    if residual.is_nan() || residual > 1e-11 {
+                        faults.push(format!("the paper's system: {residual:e}"));
+                    }
+                }
                 if solution.equilibrium.stability.in_space != InSpace::Stable {
                     faults.push("unstable".to_owned());
                 }
