@@ -1,7 +1,9 @@
-//! Time of one solve of square nets of rigid bars hung from their four corners, against their size.
+//! Time of one solve against the size of a system of rigid bars.
 //!
-//! `cargo run --release -p lagrange --example network_speed -- 32 100` prints a line for each number
-//! of joints a side: members, time, factorisations, residual, and whether every bar pulls.
+//! `cargo run --release -p lagrange --example network_speed -- net 32 100` takes square nets hung
+//! from their four corners, by their joints a side; `bridle 1000` takes three chains of so many
+//! bars that meet in a joint. Each prints a line: members, time, factorisations, residual, and
+//! whether every bar pulls.
 
 use std::error::Error;
 use std::time::Instant;
@@ -14,14 +16,16 @@ use model::system::{Joint, Member, System};
 const SPAN: f64 = 0.8;
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let sizes: Vec<String> = std::env::args().skip(1).collect();
-    let sizes = if sizes.is_empty() { vec!["32".to_owned()] } else { sizes };
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let Some((shape, sizes)) = arguments.split_first() else {
+        return Err("say `net` or `bridle`, and sizes".into());
+    };
     println!(
         "{:>8} {:>10} {:>15} {:>10} {:>9}",
         "members", "time s", "factorisations", "residual", "all pull"
     );
     for size in sizes {
-        let system = net(size.parse()?)?;
+        let system = if shape == "net" { net(size.parse()?)? } else { bridle(size.parse()?)? };
         let began = Instant::now();
         let solution = solve(&system, &Settings::default())?;
         let seconds = began.elapsed().as_secs_f64();
@@ -34,6 +38,29 @@ fn main() -> Result<(), Box<dyn Error>> {
         );
     }
     Ok(())
+}
+
+/// Three chains of `n` bars of 1 m and 1 kg from anchors on a circle to one joint.
+fn bridle(n: usize) -> Result<System, Box<dyn Error>> {
+    let bar = Bar::homogeneous(1.0, 1.0)?;
+    let mut joints = vec![Joint::free("middle").with_mass(n as f64)];
+    let mut members = Vec::new();
+    for strand in 0..3 {
+        let angle = std::f64::consts::TAU * f64::from(strand) / 3.0;
+        let radius = SPAN * n as f64;
+        joints.push(Joint::anchor(
+            format!("{strand}"),
+            [radius * angle.cos(), radius * angle.sin(), 0.0],
+        ));
+        for k in 1..=n {
+            let to = if k == n { 0 } else { joints.len() };
+            members.push(Member::bar(joints.len() - 1, to, bar));
+            if k < n {
+                joints.push(Joint::free(format!("{strand} {k}")));
+            }
+        }
+    }
+    Ok(System::new("bridle", 9.806_65, joints, members)?)
 }
 
 /// A net of `n` by `n` joints, bars of 1 m and 1 kg between neighbours.

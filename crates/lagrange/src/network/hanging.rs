@@ -20,9 +20,9 @@ use super::stiffness::Stiffness;
 use model::system::Kind;
 
 /// Force-density iterations before Newton's method. Each costs a scalar factorisation, a tenth of a
-/// Newton step; thirty save about as many Newton steps as they cost and start it inside the region
+/// Newton step; twenty save about as many Newton steps as they cost and start it inside the region
 /// where full steps are taken.
-const DENSITY_STEPS: usize = 30;
+const DENSITY_STEPS: usize = 20;
 /// First rounding, relative to the starting force of each member.
 const FIRST_ROUNDING: f64 = 0.1;
 /// Each rounding is this fraction of the last one.
@@ -180,11 +180,11 @@ impl Shape {
         first.abs() < if t >= 1.0 { GAIN } else { NO_GAIN } * energy
     }
 
-    /// Whether every member that can pull is far from slack.
+    /// Whether every cable is far from slack. Bars keep their lengths whatever their forces are.
     fn clearly_taut(&self, framework: &Framework, scales: &[f64], rounding: f64) -> bool {
         let mut links = framework.links.iter().zip(&self.forces).zip(scales);
         links.all(|((link, force), scale)| {
-            !pulls(framework, link) || force.norm() > CLEARLY_TAUT * rounding * scale
+            link.kind != Kind::Cable || force.norm() > CLEARLY_TAUT * rounding * scale
         })
     }
 
@@ -193,12 +193,13 @@ impl Shape {
         let mut axial: Vec<f64> = self.forces.iter().map(Vector3::norm).collect();
         let mut taut = vec![false; axial.len()];
         for (k, link) in framework.links.iter().enumerate() {
-            taut[k] = link.kind != Kind::Strut && axial[k] > TAUT * rounding * scales[k];
-            if !taut[k] {
+            let pulls = axial[k] > TAUT * rounding * scales[k];
+            taut[k] = link.kind == Kind::Bar || (link.kind == Kind::Cable && pulls);
+            if !pulls {
                 axial[k] = 0.0;
             }
         }
-        State { places: self.places, axial, taut }
+        State::new(self.places, axial, taut)
     }
 }
 

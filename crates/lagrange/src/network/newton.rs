@@ -180,11 +180,11 @@ impl Step {
     }
 
     fn applied(&self, state: &State, t: f64) -> State {
-        State {
-            places: state.places.iter().zip(&self.places).map(|(p, step)| p + step * t).collect(),
-            axial: state.axial.iter().zip(&self.axial).map(|(a, step)| a + step * t).collect(),
-            taut: state.taut.clone(),
+        let mut next = state.moved(&self.places, t);
+        for (axial, step) in next.axial.iter_mut().zip(&self.axial) {
+            *axial += step * t;
         }
+        next
     }
 }
 

@@ -7,9 +7,6 @@ use super::framework::Framework;
 use super::state::State;
 use model::system::System;
 
-/// Rounding of a coordinate in a length, in units in the last place of the largest coordinate.
-const ROUNDING_UNITS: f64 = 8.0;
-
 /// Balance of the joints and lengths of the members that keep one.
 pub(super) struct Residual {
     /// Unbalanced force at each joint.
@@ -23,7 +20,7 @@ pub(super) struct Residual {
     /// Largest unbalanced force along a free direction, in units of the largest force, and its
     /// joint.
     pub balance: (f64, usize),
-    /// Largest error of a length, in units of the length or its rounding, and its member.
+    /// Largest error of a length, in units of the length, and its member.
     pub length: (f64, usize),
     /// Sum of squares, for the search along a step.
     pub merit: f64,
@@ -45,10 +42,8 @@ impl Residual {
             .collect();
         let free =
             framework.nodes.iter().zip(&forces).map(|(node, f)| node.axes.tr_mul(f).norm() / unit);
-        let extent = state.places.iter().map(Vector3::amax).fold(0.0, f64::max);
-        let relative = framework.links.iter().zip(&lengths).map(|(link, misfit)| {
-            misfit.abs() / link.length.max(extent * ROUNDING_UNITS * f64::EPSILON / ROUNDED_AWAY)
-        });
+        let links = framework.links.iter().zip(&lengths);
+        let relative = links.map(|(link, misfit)| misfit.abs() / link.length);
         let squares = free.clone().chain(lengths.iter().copied()).map(|r| r * r);
         let merit = squares.sum();
         let (balance, length) = (largest(free), largest(relative));
@@ -78,9 +73,6 @@ impl Residual {
         }
     }
 }
-
-/// The tolerance whose part the rounding of coordinates may take.
-const ROUNDED_AWAY: f64 = 1e-12;
 
 /// Largest value and its place; a NaN is the largest.
 fn largest(values: impl Iterator<Item = f64>) -> (f64, usize) {

@@ -10,9 +10,8 @@
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Settings {
     /// An answer has converged when every joint is in balance to this part of the largest force and
-    /// every length is right to this part of it. Where the places are so large that rounding a
-    /// coordinate changes a length by more, that rounding (eight units in the last place) takes its
-    /// part.
+    /// every length is right to this part of it. (Places of far joints are rounded to doubles after
+    /// that.)
     ///
     /// Default 1e-12. Range 1e-14 to 1e-3.
     pub tolerance: f64,

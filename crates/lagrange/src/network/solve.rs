@@ -42,13 +42,13 @@ pub fn solve(system: &System, settings: &Settings) -> Result<Solution, Error> {
     let hanging = hang(&solver.framework, &mut solver.stiffness)?;
     solver.factorisations += hanging.steps;
     let start = hanging.state;
-    let all_pull = solver.framework.links.iter().zip(&start.taut);
-    let all_pull = all_pull.filter(|(link, _)| link.kind != Kind::Cable).all(|(_, taut)| *taut);
     if hanging.settled
-        && all_pull
         && let Ok(run) = solver.with_signs(start.clone())
     {
-        return solver.stable(run);
+        let second_order = solver.second_order(&run.state);
+        if second_order.index == 0 {
+            return Ok(solver.solution(run, second_order));
+        }
     }
     if let Some(error) = too_short(system, &solver.framework) {
         return Err(error);
@@ -134,7 +134,8 @@ impl<'a> Solver<'a> {
     fn settled(&mut self, from: &State, kick: usize) -> Result<Run, Error> {
         let mut result = Err(Error::Unloaded);
         for (tries, size) in KICKS.into_iter().enumerate() {
-            let mut state = from.clone();
+            let (axial, taut) = (from.axial.clone(), from.taut.clone());
+            let mut state = State::new(from.places.clone(), axial, taut);
             let joints = state.places.iter_mut().zip(&self.framework.nodes).enumerate();
             for (joint, (place, node)) in joints {
                 let aside = scatter(joint, kick + tries) * size;
@@ -192,11 +193,7 @@ impl<'a> Solver<'a> {
             node.base + node.axes * node.axes.tr_mul(&(given - node.base))
         });
         let members = self.framework.links.len();
-        let mut state = State {
-            places: places.collect(),
-            axial: vec![0.0; members],
-            taut: vec![true; members],
-        };
+        let mut state = State::new(places.collect(), vec![0.0; members], vec![true; members]);
         state.axial = match &seed.axial_n {
             Some(axial_n) => axial_n.iter().map(|axial| axial / units.force_n).collect(),
             None => self.best_forces(&state),

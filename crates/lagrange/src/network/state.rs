@@ -8,15 +8,37 @@ use super::framework::Framework;
 #[derive(Debug, Clone)]
 pub(super) struct State {
     pub places: Vec<Vector3<f64>>,
+    /// What rounding has cut off the places: in a long system the span of a short member would lose
+    /// its last digits otherwise.
+    pub rests: Vec<Vector3<f64>>,
     pub axial: Vec<f64>,
     /// Whether a member keeps its law at this length; a slack cable does not.
     pub taut: Vec<bool>,
 }
 
 impl State {
+    /// Places and axial forces, as they are.
+    pub fn new(places: Vec<Vector3<f64>>, axial: Vec<f64>, taut: Vec<bool>) -> Self {
+        Self { rests: vec![Vector3::zeros(); places.len()], places, axial, taut }
+    }
+
+    /// The state with each joint moved by `t` times its step.
+    pub fn moved(&self, steps: &[Vector3<f64>], t: f64) -> Self {
+        let mut next = self.clone();
+        for (k, step) in steps.iter().enumerate() {
+            for axis in 0..3 {
+                let (sum, rest) =
+                    two_sum(self.places[k][axis], self.rests[k][axis] + step[axis] * t);
+                (next.places[k][axis], next.rests[k][axis]) = (sum, rest);
+            }
+        }
+        next
+    }
+
     /// Directions of the members, and their lengths.
     pub fn directions(&self, framework: &Framework) -> Vec<(Vector3<f64>, f64)> {
-        let spans = framework.links.iter().map(|link| link.span(&self.places));
+        let spans =
+            framework.links.iter().map(|link| link.span(&self.places) + link.span(&self.rests));
         spans
             .map(|span| {
                 let length = span.norm();
@@ -30,4 +52,11 @@ impl State {
         let loads = framework.nodes.iter().map(|node| node.load.norm());
         self.axial.iter().map(|axial| axial.abs()).chain(loads).fold(0.0, f64::max)
     }
+}
+
+/// The rounded sum, and what rounding cut off (Knuth).
+fn two_sum(a: f64, b: f64) -> (f64, f64) {
+    let sum = a + b;
+    let part = sum - a;
+    (sum, (a - (sum - part)) + (b - part))
 }

@@ -76,10 +76,6 @@ fn overdetermined(system: &System) -> bool {
     system.members().iter().filter(rigid).count() > 3 * free
 }
 
-fn f64_max(most: f64, axial: &f64) -> f64 {
-    most.max(axial.abs())
-}
-
 /// Solve and judge; the seeds that fail, with the reason.
 fn failures(seeds: std::ops::Range<u64>, kinds: &[Kind], elastic: bool) -> Vec<String> {
     let solved = seeds.map(|seed| (seed, random(seed, kinds, elastic)));
@@ -89,7 +85,8 @@ fn failures(seeds: std::ops::Range<u64>, kinds: &[Kind], elastic: bool) -> Vec<S
             Ok(solution) => {
                 let mut faults = faults(&system, &solution);
                 if let Some(unknowns) = PaperUnknowns::of(&system, &solution.equilibrium) {
-                    let largest = solution.equilibrium.axial_n.iter().fold(1.0, f64_max);
+                    let largest = solution.equilibrium.axial_n.iter();
+                    let largest = largest.fold(1.0, |most: f64, axial| most.max(axial.abs()));
                     let residual = paper_residual(&system, &unknowns).amax() / largest;
                     if residual.is_nan() || residual > 1e-11 {
                         faults.push(format!("the paper's system: {residual:e}"));
