@@ -6,9 +6,11 @@
 
 use std::fmt::Write;
 
+use figures::{Anchor, BLUE, Colour, Look, Svg, VERMILION};
 use intervals::Interval;
 
-use crate::{Census, Position};
+use crate::census::Census;
+use crate::position::Position;
 
 /// The longer side of the common frame of all shapes, px, and the least room for the caption.
 const SIDE: f64 = 170.0;
@@ -32,11 +34,17 @@ const LEAST_FIGURE: f64 = 560.0;
 const LINE: f64 = 15.0;
 
 /// Tension: blue, solid. Compression: vermilion with a white core, hollow.
-const TENSION: &str = "stroke=\"#0072B2\" stroke-width=\"3.5\"";
-const UNLOADED: &str = "stroke=\"#777777\" stroke-width=\"2\" stroke-dasharray=\"6 3\"";
-const COMPRESSION: &str = "stroke=\"#D55E00\" stroke-width=\"6.5\"";
-const CORE: &str = "stroke=\"white\" stroke-width=\"2.5\"";
-const DARK: &str = "#222";
+const TENSION: Look<'_> = Look::stroke(BLUE, 3.5).class("bar");
+const UNLOADED: Look<'_> = Look::stroke(Colour::grey(0x77), 2.0).dashed("6 3").class("bar");
+const COMPRESSION: Look<'_> = Look::stroke(VERMILION, 6.5).class("bar");
+const CORE: Look<'_> = Look::stroke(Colour::WHITE, 2.5).class("core");
+const DARK: Colour = Colour::grey(0x22);
+const SPAN: Look<'_> = Look::stroke(Colour::grey(0x99), 1.0).dashed("2 4").class("span");
+const SCALE: Look<'_> = Look::stroke(DARK, 1.5).class("scale");
+const TEXT: Look<'_> = Look::fill(DARK);
+
+/// Size of the letters, px.
+const LETTERS: f64 = 12.0;
 
 impl Census {
     /// The shapes of the first `limit` positions in their vertical plane, each with its energy, its
@@ -66,42 +74,35 @@ impl Census {
         let unloaded = shown.iter().any(|position| position.equilibrium.signs.contains(&0));
         let width = grid.max(LEAST_FIGURE + if unloaded { NO_FORCE_KEY } else { 0.0 });
         let height = HEAD + rows.iter().map(Row::height).sum::<f64>() + FOOT;
-        let [title, subtitle] = [escaped(name), self.subtitle(shown.len())];
-        let mut svg = String::new();
-        // Writing to a string cannot fail.
-        let _ = write!(
-            svg,
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width:.1} {height:.1}\" \
-             width=\"{width:.1}\" height=\"{height:.1}\" font-family=\"Helvetica, Arial, sans-serif\" \
-             font-size=\"12\" fill=\"{DARK}\" role=\"img\" aria-labelledby=\"title description\">\n\
-             <title id=\"title\">Equilibria of {title}</title>\n\
-             <desc id=\"description\">{subtitle} Each panel shows one shape in its vertical plane, with \
-             its energy, its stability and its indices; bars in tension are solid, bars in compression \
-             hollow, bars without force dashed.</desc>\n\
-             <rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n\
-             <text x=\"{MARGIN}\" y=\"24\" font-size=\"16\" font-weight=\"bold\">{title}</text>\n\
-             <text x=\"{MARGIN}\" y=\"43\">{subtitle}</text>\n"
+        let subtitle = self.subtitle(shown.len());
+        let size = [width, height].map(|side| (10.0 * side).round() / 10.0);
+        let mut svg = Svg::new(size, &format!("Equilibria of {name}")).letters(LETTERS).described(
+            &format!(
+                "{subtitle} Each panel shows one shape in its vertical plane, with its energy, its stability \
+                 and its indices; bars in tension are solid, bars in compression hollow, bars without force \
+                 dashed."
+            ),
         );
+        svg.text(TEXT.size(16.0).bold(), [MARGIN, 24.0], Anchor::Start, name);
+        svg.text(TEXT, [MARGIN, 43.0], Anchor::Start, &subtitle);
         let left = 0.5 * (width - grid);
         let mut y = HEAD;
         let panels = shown.chunks(columns).zip(shapes.chunks(columns));
         for (row, (positions, shapes)) in rows.iter().zip(panels) {
             for (k, (position, shape)) in positions.iter().zip(shapes).enumerate() {
                 let x = left + k as f64 * panel_width;
-                let _ = writeln!(
-                    svg,
-                    "<g class=\"shape\" role=\"img\" transform=\"translate({x:.1} {y:.1})\">"
-                );
                 let points: Vec<[f64; 2]> =
                     shape.iter().map(|point| row.place(&frame, panel_width, *point)).collect();
-                panel(&mut svg, position, &points, [panel_width, row.size]);
-                svg.push_str("</g>\n");
+                let caption = Caption::of(position);
+                svg.group("shape", [x, y], Some(&caption.title()), |svg| {
+                    panel(svg, position, &points);
+                    caption.draw(svg, 0.5 * panel_width, row.size + 2.0 * MARGIN + LETTERS);
+                });
             }
             y += row.height();
         }
         key(&mut svg, &frame, unloaded, height - 0.5 * FOOT);
-        svg.push_str("</svg>\n");
-        svg
+        svg.finish()
     }
 
     /// What is shown, and what is not.
@@ -137,22 +138,6 @@ fn columns(panels: usize, width: f64) -> usize {
     let most = ((ROW / width) as usize).max(1);
     let rows = panels.div_ceil(most).max(1);
     panels.div_ceil(rows).max(1)
-}
-
-/// A name between tags.
-fn escaped(text: &str) -> String {
-    let mut safe = String::new();
-    for c in text.chars() {
-        match c {
-            '&' => safe += "&amp;",
-            '<' => safe += "&lt;",
-            '>' => safe += "&gt;",
-            // Neither control characters nor the two non-characters have a place in XML.
-            c if c.is_control() || matches!(c, '\u{fffe}' | '\u{ffff}') => safe.push(' '),
-            c => safe.push(c),
-        }
-    }
-    safe
 }
 
 /// The joints in the plane: along the horizontal from the first to the last anchor (for anchors on one
@@ -239,59 +224,33 @@ impl Row {
     }
 }
 
-fn line(svg: &mut String, class: &str, ends: [[f64; 2]; 2], style: &str) {
-    let [[x, y], [p, q]] = ends;
-    let _ = writeln!(
-        svg,
-        "<line class=\"{class}\" x1=\"{x:.2}\" y1=\"{y:.2}\" x2=\"{p:.2}\" y2=\"{q:.2}\" {style}/>"
-    );
-}
-
 /// A bar between two points.
-fn bar(svg: &mut String, ends: [[f64; 2]; 2], sign: i8) {
+fn bar(svg: &mut Svg, [from, to]: [[f64; 2]; 2], sign: i8) {
     match sign {
         ..0 => {
-            line(svg, "bar", ends, COMPRESSION);
-            line(svg, "core", ends, CORE);
+            svg.line(COMPRESSION, from, to);
+            svg.line(CORE, from, to);
         }
-        0 => line(svg, "bar", ends, UNLOADED),
-        1.. => line(svg, "bar", ends, TENSION),
+        0 => svg.line(UNLOADED, from, to),
+        1.. => svg.line(TENSION, from, to),
     }
 }
 
-fn joint(svg: &mut String, [x, y]: [f64; 2]) {
-    let _ = writeln!(
-        svg,
-        "<circle cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"3.2\" fill=\"white\" stroke=\"{DARK}\" \
-         stroke-width=\"1.4\"/>"
-    );
+fn joint(svg: &mut Svg, at: [f64; 2]) {
+    svg.circle(Look::stroke(DARK, 1.4).filled(Colour::WHITE), at, 3.2);
 }
 
-fn anchor(svg: &mut String, [x, y]: [f64; 2]) {
-    let _ = writeln!(
-        svg,
-        "<rect x=\"{:.2}\" y=\"{:.2}\" width=\"9\" height=\"9\" fill=\"{DARK}\"/>",
-        x - 4.5,
-        y - 4.5
-    );
+fn anchor(svg: &mut Svg, [x, y]: [f64; 2]) {
+    svg.rectangle(Look::fill(DARK), [x - 4.5, y - 4.5], [9.0; 2]);
 }
 
-fn panel(svg: &mut String, position: &Position, points: &[[f64; 2]], [width, size]: [f64; 2]) {
-    let equilibrium = &position.equilibrium;
-    let energy = format!("{} J", short(equilibrium.energy_j.mid()).replace('-', "\u{2212}"));
-    let [stability, indices] = words(position);
-    let label = position.label();
-    let _ = writeln!(svg, "<title>{label}: {energy}, {stability}, {indices}</title>");
+/// A shape: `points` are its joints.
+fn panel(svg: &mut Svg, position: &Position, points: &[[f64; 2]]) {
     let (Some(first), Some(last)) = (points.first(), points.last()) else { return };
-    line(
-        svg,
-        "span",
-        [*first, *last],
-        "stroke=\"#999\" stroke-width=\"1\" stroke-dasharray=\"2 4\"",
-    );
+    svg.line(SPAN, *first, *last);
     // Hollow bars first: where bars cross, the thin solid ones stay visible.
     for compressed in [true, false] {
-        for (ends, sign) in points.windows(2).zip(&equilibrium.signs) {
+        for (ends, sign) in points.windows(2).zip(&position.equilibrium.signs) {
             if (*sign < 0) == compressed {
                 bar(svg, [ends[0], ends[1]], *sign);
             }
@@ -302,73 +261,84 @@ fn panel(svg: &mut String, position: &Position, points: &[[f64; 2]], [width, siz
     }
     anchor(svg, *first);
     anchor(svg, *last);
-    let top = size + 2.0 * MARGIN + 12.0;
-    let middle = 0.5 * width;
-    let _ = write!(
-        svg,
-        "<text x=\"{middle:.1}\" y=\"{top:.1}\" text-anchor=\"middle\"><tspan font-weight=\"bold\">\
-         {label}</tspan>  {energy}</text>\n\
-         <text x=\"{middle:.1}\" y=\"{:.1}\" text-anchor=\"middle\">{stability}</text>\n\
-         <text x=\"{middle:.1}\" y=\"{:.1}\" text-anchor=\"middle\" fill=\"#555\">{indices}</text>\n",
-        top + LINE,
-        top + 2.0 * LINE,
-    );
 }
 
-/// Stability and indices of a position.
-fn words(position: &Position) -> [String; 2] {
-    let equilibrium = &position.equilibrium;
-    let stability = match (equilibrium.optimal, equilibrium.index_in_space()) {
-        (true, _) => "lowest of all".to_owned(),
-        (false, 0) => "stable".to_owned(),
-        (false, _) if equilibrium.index_in_plane == 0 => "stable in the plane only".to_owned(),
-        (false, _) => "unstable".to_owned(),
-    };
-    let indices = format!(
-        "index {} in plane, {} in space",
-        equilibrium.index_in_plane,
-        equilibrium.index_in_space()
-    );
-    [stability, indices]
+/// What stands under a shape: its number, energy, stability and indices.
+struct Caption {
+    label: String,
+    energy: String,
+    stability: &'static str,
+    indices: String,
+}
+
+impl Caption {
+    fn of(position: &Position) -> Self {
+        let equilibrium = &position.equilibrium;
+        let (in_plane, in_space) = (equilibrium.index_in_plane, equilibrium.index_in_space());
+        Self {
+            label: position.label(),
+            energy: format!("{} J", short(equilibrium.energy_j.mid()).replace('-', "\u{2212}")),
+            stability: match (equilibrium.optimal, in_plane, in_space) {
+                (true, ..) => "lowest of all",
+                (false, _, 0) => "stable",
+                (false, 0, _) => "stable in the plane only",
+                (false, ..) => "unstable",
+            },
+            indices: format!("index {in_plane} in plane, {in_space} in space"),
+        }
+    }
+
+    fn title(&self) -> String {
+        let Self { label, energy, stability, indices } = self;
+        format!("{label}: {energy}, {stability}, {indices}")
+    }
+
+    /// Three lines, centred, the first one at `top`.
+    fn draw(&self, svg: &mut Svg, middle: f64, top: f64) {
+        let energy = format!("  {}", self.energy);
+        let first = [(TEXT.bold(), self.label.as_str()), (TEXT, energy.as_str())];
+        svg.pieces([middle, top], Anchor::Middle, &first);
+        svg.text(TEXT, [middle, top + LINE], Anchor::Middle, self.stability);
+        let grey = Look::fill(Colour::grey(0x55));
+        svg.text(grey, [middle, top + 2.0 * LINE], Anchor::Middle, &self.indices);
+    }
 }
 
 /// What the key is longer where some bar carries no force.
 const NO_FORCE_KEY: f64 = 112.0;
 
 /// The key, and the scale.
-fn key(svg: &mut String, frame: &Frame, unloaded: bool, y: f64) {
-    let text = |svg: &mut String, x: f64, text: &str| {
-        let _ = writeln!(svg, "<text x=\"{x:.1}\" y=\"{:.1}\">{text}</text>", y + 4.0);
-    };
-    svg.push_str("<g class=\"key\">\n");
-    let swatch = |x: f64| [[x, y], [x + 36.0, y]];
-    bar(svg, swatch(MARGIN), 1);
-    text(svg, MARGIN + 44.0, "tension");
-    bar(svg, swatch(MARGIN + 104.0), -1);
-    text(svg, MARGIN + 148.0, "compression");
-    let mut left = MARGIN + 244.0;
-    if unloaded {
-        bar(svg, swatch(left), 0);
-        text(svg, left + 44.0, "no force");
-        left += NO_FORCE_KEY;
-    }
-    anchor(svg, [left, y]);
-    text(svg, left + 12.0, "anchor");
-    joint(svg, [left + 72.0, y]);
-    text(svg, left + 82.0, "joint");
-    if frame.scale > 0.0 {
-        let length = round_below(0.5 * SIDE / frame.scale);
-        let [x, end] = [left + 132.0, left + 132.0 + length * frame.scale];
-        let style = format!("stroke=\"{DARK}\" stroke-width=\"1.5\"");
-        line(svg, "scale", [[x, y], [end, y]], &style);
-        for x in [x, end] {
-            line(svg, "scale", [[x, y - 4.0], [x, y + 4.0]], &style);
+fn key(svg: &mut Svg, frame: &Frame, unloaded: bool, y: f64) {
+    let text =
+        |svg: &mut Svg, x: f64, text: &str| svg.text(TEXT, [x, y + 4.0], Anchor::Start, text);
+    svg.group("key", [0.0; 2], None, |svg| {
+        let swatch = |x: f64| [[x, y], [x + 36.0, y]];
+        bar(svg, swatch(MARGIN), 1);
+        text(svg, MARGIN + 44.0, "tension");
+        bar(svg, swatch(MARGIN + 104.0), -1);
+        text(svg, MARGIN + 148.0, "compression");
+        let mut left = MARGIN + 244.0;
+        if unloaded {
+            bar(svg, swatch(left), 0);
+            text(svg, left + 44.0, "no force");
+            left += NO_FORCE_KEY;
         }
-        let plain = (1e-3..1e5).contains(&length);
-        let words = if plain { format!("{length} m") } else { format!("{length:e} m") };
-        text(svg, end + 8.0, &words);
-    }
-    svg.push_str("</g>\n");
+        anchor(svg, [left, y]);
+        text(svg, left + 12.0, "anchor");
+        joint(svg, [left + 72.0, y]);
+        text(svg, left + 82.0, "joint");
+        if frame.scale > 0.0 {
+            let length = round_below(0.5 * SIDE / frame.scale);
+            let [x, end] = [left + 132.0, left + 132.0 + length * frame.scale];
+            svg.line(SCALE, [x, y], [end, y]);
+            for x in [x, end] {
+                svg.line(SCALE, [x, y - 4.0], [x, y + 4.0]);
+            }
+            let plain = (1e-3..1e5).contains(&length);
+            let words = if plain { format!("{length} m") } else { format!("{length:e} m") };
+            text(svg, end + 8.0, &words);
+        }
+    });
 }
 
 /// The largest of 1, 2, 5 times a power of ten that is not above a positive number.

@@ -1,18 +1,22 @@
 //! Axes: ranges, round ticks, frames.
 
-use crate::svg::{Anchor, Svg, escape};
+use crate::look::{Colour, Look};
+use crate::svg::{Anchor, Svg};
 
 /// A range of values on a stretch of the picture.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Axis {
     /// Its ends.
     pub values: [f64; 2],
-    /// Where they stand in the picture.
+    /// Where they stand in the picture, px.
     pub pixels: [f64; 2],
 }
 
 /// Ticks on an axis, about.
 const TICKS: f64 = 7.0;
+
+/// Equal values, to this part of their size, need a range too.
+const EQUAL: f64 = 1e-9;
 
 impl Axis {
     /// An axis that holds all values with a margin of this part.
@@ -23,8 +27,8 @@ impl Axis {
             .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
         let (low, high) = if low <= high { (low, high) } else { (0.0, 1.0) };
         let size = high - low;
-        // Equal values need a range too.
-        let size = if size > 1e-9 * high.abs().max(low.abs()) { size } else { high.abs().max(1.0) };
+        let size =
+            if size > EQUAL * high.abs().max(low.abs()) { size } else { high.abs().max(1.0) };
         Self { values: [low - margin * size, high + margin * size], pixels }
     }
 
@@ -33,15 +37,15 @@ impl Axis {
     pub fn at(&self, value: f64) -> f64 {
         let [low, high] = self.values;
         let [from, to] = self.pixels;
-        from + (value - low) / (high - low) * (to - from)
+        from + (to - from) * (value - low) / (high - low)
     }
 
     /// Round values at round distances; the digits they need behind the point.
     #[must_use]
-    pub fn ticks(&self, degrees: bool) -> (Vec<f64>, usize) {
+    pub fn ticks(&self, unit: Unit) -> (Vec<f64>, usize) {
         let [low, high] = self.values;
         let rough = (high - low) / TICKS;
-        let step = if degrees && rough > 5.0 {
+        let step = if unit == Unit::Degrees && rough > 5.0 {
             [10.0, 15.0, 30.0, 45.0, 60.0, 90.0].into_iter().find(|s| *s >= rough).unwrap_or(180.0)
         } else {
             let ten = 10_f64.powf(rough.log10().floor());
@@ -57,34 +61,121 @@ impl Axis {
     }
 }
 
-/// The frame of a panel with ticks, numbers and labels.
-pub fn frame(svg: &mut Svg, x: &Axis, y: &Axis, labels: [&str; 2], degrees: [bool; 2]) {
-    let [left, right] = x.pixels;
-    let [bottom, top] = y.pixels;
-    svg.push(format_args!(
-        "<rect x=\"{left}\" y=\"{top}\" width=\"{}\" height=\"{}\" fill=\"none\" stroke=\"#000\"/>",
-        right - left,
-        bottom - top
-    ));
-    let number = |value: f64, digits: usize| format!("{value:.digits$}").replace('-', "\u{2212}");
-    let (ticks, digits) = x.ticks(degrees[0]);
-    for tick in ticks {
-        let at = x.at(tick);
-        svg.push(format_args!("<path d=\"M{at:.2} {bottom}v6\" stroke=\"#000\" fill=\"none\"/>"));
-        svg.text([at, bottom + 22.0], Anchor::Middle, &number(tick + 0.0, digits));
+/// What an axis counts in: what its round numbers are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Unit {
+    /// Powers of ten and their halves and fifths.
+    Decimal,
+    /// Parts of a full turn.
+    Degrees,
+}
+
+/// Room for the texts of a panel: left, right, above, below, px.
+const MARGIN: [f64; 4] = [58.0, 14.0, 30.0, 48.0];
+
+/// Length of a tick and what its number stands off, px.
+const TICK: f64 = 6.0;
+
+/// Two axes with what they are called.
+#[derive(Debug, Clone, Copy)]
+pub struct Axes<'a> {
+    /// From left to right.
+    pub x: Axis,
+    /// From the bottom up.
+    pub y: Axis,
+    /// Names with units; an empty one is not drawn.
+    pub names: [&'a str; 2],
+}
+
+impl<'a> Axes<'a> {
+    /// The axes of a panel of this size in a page, with room for their texts, over these ranges.
+    #[must_use]
+    pub fn panel([width, height]: [f64; 2], x: [f64; 2], y: [f64; 2], names: [&'a str; 2]) -> Self {
+        let [left, right, above, below] = MARGIN;
+        let x = Axis { values: x, pixels: [left, width - right] };
+        let y = Axis { values: y, pixels: [height - below, above] };
+        Self { x, y, names }
     }
-    let (ticks, digits) = y.ticks(degrees[1]);
-    for tick in ticks {
-        let at = y.at(tick);
-        svg.push(format_args!("<path d=\"M{left} {at:.2}h-6\" stroke=\"#000\" fill=\"none\"/>"));
-        svg.text([left - 10.0, at + 5.0], Anchor::End, &number(tick + 0.0, digits));
+
+    /// Where a point of the data lies in the picture.
+    #[must_use]
+    pub fn at(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+        [self.x.at(x), self.y.at(y)]
     }
-    svg.text([0.5 * (left + right), bottom + 46.0], Anchor::Middle, labels[0]);
-    let middle = 0.5 * (top + bottom);
-    let beside = left - 64.0;
-    svg.push(format_args!(
-        "<text x=\"{beside:.2}\" y=\"{middle:.2}\" text-anchor=\"middle\" \
-         transform=\"rotate(-90 {beside:.2} {middle:.2})\">{}</text>",
-        escape(labels[1])
-    ));
+
+    /// In a file of its own: a frame with round ticks, numbers and names.
+    pub fn frame(&self, svg: &mut Svg, units: [Unit; 2]) {
+        let line = Look::stroke(Colour::BLACK, 1.0);
+        let [left, right] = self.x.pixels;
+        let [bottom, top] = self.y.pixels;
+        svg.rectangle(line, [left, top], [right - left, bottom - top]);
+        let number =
+            |value: f64, digits: usize| format!("{value:.digits$}").replace('-', "\u{2212}");
+        let (ticks, digits) = self.x.ticks(units[0]);
+        for tick in ticks {
+            let at = self.x.at(tick);
+            svg.line(line, [at, bottom], [at, bottom + TICK]);
+            // Zero has no sign.
+            let number = number(tick + 0.0, digits);
+            svg.text(Look::PLAIN, [at, bottom + 22.0], Anchor::Middle, &number);
+        }
+        let (ticks, digits) = self.y.ticks(units[1]);
+        for tick in ticks {
+            let at = self.y.at(tick);
+            svg.line(line, [left - TICK, at], [left, at]);
+            let number = number(tick + 0.0, digits);
+            svg.text(Look::PLAIN, [left - 10.0, at + 5.0], Anchor::End, &number);
+        }
+        let [x_name, y_name] = self.names;
+        if !x_name.is_empty() {
+            let below = [f64::midpoint(left, right), bottom + 46.0];
+            svg.text(Look::PLAIN, below, Anchor::Middle, x_name);
+        }
+        if !y_name.is_empty() {
+            svg.text_upwards(Look::PLAIN, [left - 64.0, f64::midpoint(top, bottom)], y_name);
+        }
+    }
+
+    /// In a page: a grid of these ticks with their texts, in the classes `grid`, `axis`, `tick` and `label`.
+    pub fn grid(&self, svg: &mut Svg, [x_ticks, y_ticks]: [&[(f64, String)]; 2]) {
+        /// Length of a tick, px.
+        const TICK: f64 = 5.0;
+        let [left, right] = self.x.pixels;
+        let [bottom, top] = self.y.pixels;
+        for (x, text) in x_ticks {
+            let at = self.x.at(*x);
+            svg.line("grid", [at, bottom], [at, top]);
+            svg.line("axis", [at, bottom], [at, bottom + TICK]);
+            svg.indexed("tick", [at, bottom + 18.0], Anchor::Middle, text);
+        }
+        for (y, text) in y_ticks {
+            let at = self.y.at(*y);
+            svg.line("grid", [left, at], [right, at]);
+            svg.line("axis", [left - TICK, at], [left, at]);
+            svg.indexed("tick", [left - 8.0, at + 4.0], Anchor::End, text);
+        }
+        svg.line("axis", [left, bottom], [right, bottom]);
+        svg.line("axis", [left, bottom], [left, top]);
+        let [x_name, y_name] = self.names;
+        let below = [f64::midpoint(left, right), bottom + 40.0];
+        svg.indexed("label", below, Anchor::Middle, x_name);
+        svg.indexed("label", [left - 40.0, top - 12.0], Anchor::Start, y_name);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ticks_are_round_and_within() {
+        let axis = |low, high| Axis { values: [low, high], pixels: [0.0, 100.0] };
+        let (ticks, digits) = axis(-0.13, 0.71).ticks(Unit::Decimal);
+        assert_eq!(digits, 1);
+        assert_eq!(ticks.len(), 4);
+        let (ticks, _) = axis(0.0, 360.0).ticks(Unit::Degrees);
+        assert!(ticks.iter().zip([0.0, 60.0, 120.0, 180.0]).all(|(a, b)| (a - b).abs() < 1e-12));
+        let same = Axis::around([3.0, 3.0, f64::NAN].into_iter(), 0.1, [0.0, 1.0]);
+        assert!(same.values[0] < 3.0 && 3.0 < same.values[1]);
+    }
 }

@@ -1,22 +1,31 @@
-//! Colours.
+//! Colours: those of Okabe and Ito, regions beyond them, and a ramp.
+
+use crate::look::Colour;
+
+/// Okabe and Ito's blue.
+pub const BLUE: Colour = Colour([0x00, 0x72, 0xb2]);
+/// Okabe and Ito's orange.
+pub const ORANGE: Colour = Colour([0xe6, 0x9f, 0x00]);
+/// Okabe and Ito's bluish green.
+pub const GREEN: Colour = Colour([0x00, 0x9e, 0x73]);
+/// Okabe and Ito's reddish purple.
+pub const PURPLE: Colour = Colour([0xcc, 0x79, 0xa7]);
+/// Okabe and Ito's sky blue.
+pub const SKY_BLUE: Colour = Colour([0x56, 0xb4, 0xe9]);
+/// Okabe and Ito's vermilion.
+pub const VERMILION: Colour = Colour([0xd5, 0x5e, 0x00]);
+/// Okabe and Ito's yellow.
+pub const YELLOW: Colour = Colour([0xf0, 0xe4, 0x42]);
 
 /// Okabe and Ito's colours without black, and a grey.
-const REGIONS: [[u8; 3]; 8] = [
-    [0x00, 0x72, 0xb2], // blue
-    [0xe6, 0x9f, 0x00], // orange
-    [0x00, 0x9e, 0x73], // bluish green
-    [0xcc, 0x79, 0xa7], // reddish purple
-    [0x56, 0xb4, 0xe9], // sky blue
-    [0xd5, 0x5e, 0x00], // vermilion
-    [0xf0, 0xe4, 0x42], // yellow
-    [0x8a, 0x8a, 0x8a], // grey
-];
+const REGIONS: [Colour; 8] =
+    [BLUE, ORANGE, GREEN, PURPLE, SKY_BLUE, VERMILION, YELLOW, Colour::grey(0x8a)];
 
 /// What leads nowhere.
-pub const FAILURE: [u8; 3] = [0, 0, 0];
+pub const FAILURE: Colour = Colour::BLACK;
 
 /// What leads to an equilibrium without a colour of its own.
-pub const OTHER: [u8; 3] = [0xff, 0xff, 0xff];
+pub const OTHER: Colour = Colour::WHITE;
 
 /// Most colours of regions: with the two above, as many as a byte can number.
 pub const MOST_REGIONS: usize = 254;
@@ -30,16 +39,16 @@ const LEVELS: [u8; 9] = [0, 32, 64, 96, 128, 160, 192, 224, 255];
 /// Different colours, up to [`MOST_REGIONS`]: those of Okabe and Ito as far as they go, then always the one that is
 /// farthest from all before it, and from black and white. The first ones do not depend on how many are asked for.
 #[must_use]
-pub fn regions(count: usize) -> Vec<[u8; 3]> {
-    let mut colours: Vec<[u8; 3]> = REGIONS.into_iter().take(count).collect();
-    let mut candidates: Vec<([u8; 3], f64)> = vec![];
+pub fn regions(count: usize) -> Vec<Colour> {
+    let mut colours: Vec<Colour> = REGIONS.into_iter().take(count).collect();
+    let mut candidates: Vec<(Colour, f64)> = vec![];
     for r in LEVELS {
         for g in LEVELS {
-            candidates.extend(LEVELS.map(|b| ([r, g, b], f64::INFINITY)));
+            candidates.extend(LEVELS.map(|b| (Colour([r, g, b]), f64::INFINITY)));
         }
     }
     candidates.retain(|(colour, _)| oklab(*colour)[0] > DARKEST);
-    let narrow = |candidates: &mut Vec<([u8; 3], f64)>, taken: [u8; 3]| {
+    let narrow = |candidates: &mut Vec<(Colour, f64)>, taken: Colour| {
         for (colour, distance) in candidates {
             *distance = distance.min(difference(*colour, taken));
         }
@@ -61,12 +70,12 @@ pub fn regions(count: usize) -> Vec<[u8; 3]> {
 /// # References
 ///
 /// B. Ottosson, "A perceptual color space for image processing" (2020).
-fn difference(one: [u8; 3], other: [u8; 3]) -> f64 {
+fn difference(one: Colour, other: Colour) -> f64 {
     let (one, other) = (oklab(one), oklab(other));
     (0..3).map(|k| (one[k] - other[k]).powi(2)).sum()
 }
 
-fn oklab(colour: [u8; 3]) -> [f64; 3] {
+fn oklab(colour: Colour) -> [f64; 3] {
     const CONES: [[f64; 3]; 3] = [
         [0.412_221_470_8, 0.536_332_536_3, 0.051_445_992_9],
         [0.211_903_498_2, 0.680_699_545_1, 0.107_396_956_6],
@@ -78,7 +87,7 @@ fn oklab(colour: [u8; 3]) -> [f64; 3] {
         [0.025_904_037_1, 0.782_771_766_2, -0.808_675_766_0],
     ];
     // The curve of sRGB (IEC 61966-2-1).
-    let linear = colour.map(|byte| {
+    let linear = colour.0.map(|byte| {
         let x = f64::from(byte) / 255.0;
         if x <= 0.040_45 { x / 12.92 } else { ((x + 0.055) / 1.055).powf(2.4) }
     });
@@ -86,16 +95,10 @@ fn oklab(colour: [u8; 3]) -> [f64; 3] {
     times(AXES, times(CONES, linear).map(f64::cbrt))
 }
 
-/// The colour as SVG has it.
-#[must_use]
-pub fn hex([r, g, b]: [u8; 3]) -> String {
-    format!("#{r:02x}{g:02x}{b:02x}")
-}
-
 /// From light (0) to dark (1), even in grey: between four colours of the ramp cividis (Nuñez, Anderton and
 /// Renslow, 2018, doi:10.1371/journal.pone.0199239), reversed.
 #[must_use]
-pub fn ramp(part: f64) -> [u8; 3] {
+pub fn ramp(part: f64) -> Colour {
     const STOPS: [[f64; 3]; 5] = [
         [253.0, 231.0, 55.0],
         [187.0, 173.0, 108.0],
@@ -108,12 +111,12 @@ pub fn ramp(part: f64) -> [u8; 3] {
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "from 0 to 4")]
     let k = (at as usize).min(last - 1);
     let part = at - k as f64;
-    std::array::from_fn(|c| {
+    Colour(std::array::from_fn(|c| {
         let mixed = STOPS[k][c] * (1.0 - part) + STOPS[k + 1][c] * part;
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 255")]
         let byte = mixed.round() as u8;
         byte
-    })
+    }))
 }
 
 #[cfg(test)]
@@ -141,8 +144,8 @@ mod tests {
     #[test]
     fn oklab_is_the_published_one() {
         // White and grey have no colour; the lightness of pure red is 0.62796.
-        let white = oklab([255; 3]);
+        let white = oklab(Colour::WHITE);
         assert!((white[0] - 1.0).abs() < 1e-6 && white[1].abs() < 1e-6 && white[2].abs() < 1e-6);
-        assert!((oklab([255, 0, 0])[0] - 0.627_96).abs() < 1e-5);
+        assert!((oklab(Colour([255, 0, 0]))[0] - 0.627_96).abs() < 1e-5);
     }
 }

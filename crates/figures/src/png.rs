@@ -1,32 +1,59 @@
-//! PNG with a palette, without compression: a raster inside an SVG needs no more.
+//! Rasters as PNG.
 //!
 //! # References
 //!
-//! PNG specification, third edition (W3C 2025), sections 5, 10 and 11; zlib and deflate (RFC 1950, RFC 1951),
-//! stored blocks; base64 (RFC 4648).
+//! PNG specification, third edition (W3C 2025), sections 5, 10 and 11.
 
-/// Most bytes of a stored block.
-const BLOCK: usize = 0xffff;
+use base64::Engine as _;
+use base64::prelude::BASE64_STANDARD;
+use miniz_oxide::deflate::compress_to_vec_zlib;
 
-/// A raster of indices into a palette of at most 256 colours, rows from the top, as PNG.
-#[must_use]
-pub fn png(width: u32, height: u32, pixels: &[u8], palette: &[[u8; 3]]) -> Vec<u8> {
-    let mut file = b"\x89PNG\r\n\x1a\n".to_vec();
-    let mut head = vec![];
-    head.extend(width.to_be_bytes());
-    head.extend(height.to_be_bytes());
-    // Depth 8, colour type 3 (palette), and the only compression, filter and order there are.
-    head.extend([8, 3, 0, 0, 0]);
-    chunk(&mut file, *b"IHDR", &head);
-    chunk(&mut file, *b"PLTE", palette.as_flattened());
-    let mut raw = Vec::with_capacity(pixels.len() + height as usize);
-    for row in pixels.chunks(width.max(1) as usize) {
-        raw.push(0);
-        raw.extend(row);
+use crate::look::Colour;
+
+/// A raster of indices into a palette of at most 256 colours, rows from the top.
+#[derive(Debug, Clone, Copy)]
+pub struct Raster<'a> {
+    /// Pixels along the upper edge.
+    pub width: u32,
+    /// Pixels along the left edge.
+    pub height: u32,
+    /// For each pixel, row by row, the number of its colour.
+    pub pixels: &'a [u8],
+    /// The colours.
+    pub palette: &'a [Colour],
+}
+
+/// Effort of the compression, from 0 to 10: that of zlib's default.
+const EFFORT: u8 = 6;
+
+impl Raster<'_> {
+    /// The file.
+    #[must_use]
+    pub fn png(&self) -> Vec<u8> {
+        let mut file = b"\x89PNG\r\n\x1a\n".to_vec();
+        let mut head = vec![];
+        head.extend(self.width.to_be_bytes());
+        head.extend(self.height.to_be_bytes());
+        // Depth 8, colour type 3 (palette), and the only compression, filter and order there are.
+        head.extend([8, 3, 0, 0, 0]);
+        chunk(&mut file, *b"IHDR", &head);
+        let palette: Vec<u8> = self.palette.iter().flat_map(|colour| colour.0).collect();
+        chunk(&mut file, *b"PLTE", &palette);
+        let mut raw = Vec::with_capacity(self.pixels.len() + self.height as usize);
+        for row in self.pixels.chunks(self.width.max(1) as usize) {
+            // Each row begins with the number of its filter: none.
+            raw.push(0);
+            raw.extend(row);
+        }
+        chunk(&mut file, *b"IDAT", &compress_to_vec_zlib(&raw, EFFORT));
+        chunk(&mut file, *b"IEND", &[]);
+        file
     }
-    chunk(&mut file, *b"IDAT", &stored(&raw));
-    chunk(&mut file, *b"IEND", &[]);
-    file
+
+    /// The file as text.
+    pub(crate) fn base64(&self) -> String {
+        BASE64_STANDARD.encode(self.png())
+    }
 }
 
 fn chunk(file: &mut Vec<u8>, name: [u8; 4], data: &[u8]) {
@@ -40,22 +67,6 @@ fn chunk(file: &mut Vec<u8>, name: [u8; 4], data: &[u8]) {
     file.extend(sum.to_be_bytes());
 }
 
-/// A zlib stream of stored blocks.
-fn stored(raw: &[u8]) -> Vec<u8> {
-    let mut stream = vec![0x78, 0x01];
-    let blocks = raw.len().div_ceil(BLOCK).max(1);
-    for k in 0..blocks {
-        let block = &raw[k * BLOCK..raw.len().min((k + 1) * BLOCK)];
-        let length = u16::try_from(block.len()).unwrap_or(u16::MAX);
-        stream.push(u8::from(k + 1 == blocks));
-        stream.extend(length.to_le_bytes());
-        stream.extend((!length).to_le_bytes());
-        stream.extend(block);
-    }
-    stream.extend(adler32(raw).to_be_bytes());
-    stream
-}
-
 fn crc32(bytes: &[u8]) -> u32 {
     /// The polynomial of ISO 3309, reversed.
     const POLYNOMIAL: u32 = 0xedb8_8320;
@@ -66,54 +77,30 @@ fn crc32(bytes: &[u8]) -> u32 {
     })
 }
 
-fn adler32(bytes: &[u8]) -> u32 {
-    /// The largest prime below 2^16.
-    const MODULUS: u32 = 65_521;
-    let (a, b) = bytes.iter().fold((1_u32, 0_u32), |(a, b), byte| {
-        let a = (a + u32::from(*byte)) % MODULUS;
-        (a, (b + a) % MODULUS)
-    });
-    (b << 16) | a
-}
-
-/// Bytes as base64.
-#[must_use]
-pub fn base64(bytes: &[u8]) -> String {
-    const DIGITS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    let mut text = String::with_capacity(bytes.len().div_ceil(3) * 4);
-    for three in bytes.chunks(3) {
-        let bits =
-            (0..3).fold(0, |bits, k| (bits << 8) | u32::from(three.get(k).copied().unwrap_or(0)));
-        for k in 0..4 {
-            let digit = DIGITS[(bits >> (18 - 6 * k)) as usize & 63];
-            text.push(if k <= three.len() { char::from(digit) } else { '=' });
-        }
-    }
-    text
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
-    fn sums_and_digits_are_the_published_ones() {
-        // The check value of CRC-32/ISO-HDLC, the example of RFC 1950's checksum, test vectors of RFC 4648.
+    fn sums_are_the_published_ones() {
+        // The check value of CRC-32/ISO-HDLC, and the sum of every last chunk of a PNG.
         assert_eq!(crc32(b"123456789"), 0xcbf4_3926);
         assert_eq!(crc32(b"IEND"), 0xae42_6082);
-        assert_eq!(adler32(b"Wikipedia"), 0x11e6_0398);
-        for (bytes, text) in
-            [("", ""), ("f", "Zg=="), ("fo", "Zm8="), ("foo", "Zm9v"), ("foobar", "Zm9vYmFy")]
-        {
-            assert_eq!(base64(bytes.as_bytes()), text);
-        }
     }
 
     #[test]
-    fn long_rasters_take_several_blocks() {
-        let raw = vec![7; 2 * BLOCK + 5];
-        let stream = stored(&raw);
-        assert_eq!(stream.len(), 2 + 3 * 5 + raw.len() + 4);
-        assert_eq!((stream[2], stream[2 + 2 * (5 + BLOCK)]), (0, 1));
+    fn a_raster_is_read_back() {
+        let pixels: Vec<u8> = (0..70 * 30).map(|k| u8::try_from(k % 3).unwrap()).collect();
+        let palette = [Colour::BLACK, Colour::WHITE, Colour([1, 2, 3])];
+        let file = Raster { width: 70, height: 30, pixels: &pixels, palette: &palette }.png();
+        assert_eq!(file[16..24], [0, 0, 0, 70, 0, 0, 0, 30]);
+        let at = file.windows(4).position(|name| name == b"IDAT").unwrap();
+        let length = u32::from_be_bytes(file[at - 4..at].try_into().unwrap()) as usize;
+        let data = &file[at + 4..at + 4 + length];
+        let raw = miniz_oxide::inflate::decompress_to_vec_zlib(data).unwrap();
+        assert_eq!(raw.len(), 71 * 30);
+        let rows = raw.chunks(71).zip(pixels.chunks(70));
+        assert!(rows.into_iter().all(|(row, wanted)| row[0] == 0 && &row[1..] == wanted));
+        assert!(length < pixels.len() / 4, "{length} bytes");
     }
 }

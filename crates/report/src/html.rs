@@ -2,6 +2,7 @@
 
 use std::fmt::Write as _;
 
+use figures::Escaped;
 use paper::equations::Verdict;
 
 use crate::block::{Block, Table, audit_cells};
@@ -9,7 +10,6 @@ use crate::equations::{Judged, verdict_word};
 use crate::figures::Figure;
 use crate::markdown::instead;
 use crate::math::mathml;
-use crate::svg::escape;
 
 /// The style of the page.
 const STYLE: &str = include_str!("style.css");
@@ -42,7 +42,7 @@ pub fn page(title: &str, blocks: &[Block], run: &[Block]) -> String {
          <a class=\"skip\" href=\"#content\">Skip to the content</a>\n\
          {}<main id=\"content\">\n{body}</main>\n\
          <footer class=\"run\" aria-label=\"This run\">\n{run}</footer>\n</body>\n</html>\n",
-        escape(title),
+        Escaped(title),
         contents(blocks),
     )
 }
@@ -90,7 +90,7 @@ fn html(block: &Block) -> String {
         Block::Figure(figure) => drawn(figure),
         Block::Slot { html, .. } => html.clone(),
         Block::Code(_, text) => {
-            format!("<pre tabindex=\"0\"><code>{}</code></pre>\n", escape(text.trim_end()))
+            format!("<pre tabindex=\"0\"><code>{}</code></pre>\n", Escaped(text.trim_end()))
         }
     }
 }
@@ -116,7 +116,7 @@ fn rows(table: &Table) -> String {
     let _ = write!(
         text,
         "<div class=\"scroll\" role=\"region\" tabindex=\"0\" aria-label=\"{}\">\n<table>\n",
-        escape(&label)
+        Escaped(&label)
     );
     if !table.caption.is_empty() {
         let _ = writeln!(text, "<caption><span>{}</span></caption>", inline(&table.caption));
@@ -244,7 +244,7 @@ fn capital(text: &str) -> String {
 
 /// A text with its few marks: `code`, **strong**, [text](#anchor), `J_x`, `s^2`.
 fn inline(text: &str) -> String {
-    let pieces = escape(text);
+    let pieces = Escaped(text).to_string();
     // Names in code keep their underscores.
     let pieces = pieces.split('`').enumerate();
     let text: Vec<_> = pieces

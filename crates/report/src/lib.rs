@@ -8,7 +8,7 @@
 //! |---|---|
 //! | [`document`] | what the report says, chapter by chapter |
 //! | [`equations`] | the equations in LaTeX, as printed and as corrected |
-//! | [`figures`], [`svg`] | the pictures |
+//! | [`figures`] | the pictures |
 //! | [`math`] | LaTeX to MathML |
 //! | [`numbers`] | numbers as text, the same on every machine |
 //! | [`html`], [`markdown`] | the blocks as text |
@@ -25,7 +25,6 @@ pub mod html;
 pub mod markdown;
 pub mod math;
 pub mod numbers;
-pub mod svg;
 pub mod view;
 
 pub use document::Report;

@@ -81,7 +81,7 @@ fn page_and_markdown_tell_the_same_numbers() {
     for claim in &REPORT.reproduction().claims {
         let says = report::numbers::signs(&claim.printed.says);
         let page = html.replace("<sub>", "_").replace("</sub>", "");
-        assert!(page.contains(&report::svg::escape(&says)), "{says}");
+        assert!(page.contains(&figures::Escaped(&says).to_string()), "{says}");
     }
 }
 

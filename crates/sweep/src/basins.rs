@@ -1,7 +1,8 @@
 //! Basins of attraction on a grid of two angles.
 
 use figures::{
-    Anchor, Axis, FAILURE, MOST_REGIONS, OTHER, Svg, base64, frame, hex, png, ramp, regions,
+    Anchor, Axes, Axis, Colour, FAILURE, Look, MOST_REGIONS, OTHER, Raster, Svg, Unit, ramp,
+    regions,
 };
 
 use crate::record::{Failure, Outcomes};
@@ -65,7 +66,7 @@ const COLUMNS: usize = 3;
 
 /// Colours with their names and the numbers of starts.
 #[derive(Default)]
-struct Legend(Vec<([u8; 3], String, usize)>);
+struct Legend(Vec<(Colour, String, usize)>);
 
 impl Legend {
     /// Columns and lines in each.
@@ -96,25 +97,21 @@ impl Legend {
             let (left, line) = (LEFT + SIDE + 24.0, if roomy { 44.0 } else { LINE });
             let (column, row) = ((k / lines) as f64, (k % lines) as f64);
             let at = [left + COLUMN * column, TOP + 12.0 + line * row];
-            svg.push(format_args!(
-                "<rect x=\"{:.2}\" y=\"{:.2}\" width=\"18\" height=\"18\" fill=\"{}\" stroke=\"#000\"/>",
-                at[0],
-                at[1] - 9.0,
-                hex(*colour)
-            ));
-            svg.text([at[0] + 28.0, at[1] + 4.0], Anchor::Start, name);
-            svg.push("<g fill=\"#555\" font-size=\"12\">");
+            let swatch = Look::stroke(Colour::BLACK, 1.0).filled(*colour).class("swatch");
+            svg.rectangle(swatch, [at[0], at[1] - 9.0], [18.0; 2]);
+            svg.text(Look::PLAIN, [at[0] + 28.0, at[1] + 4.0], Anchor::Start, name);
+            let small = Look::fill(Colour::grey(0x55)).size(12.0);
             if roomy {
                 let share = format!("{share:.2} % of the starts");
-                svg.text([at[0] + 28.0, at[1] + 20.0], Anchor::Start, &share);
+                svg.text(small, [at[0] + 28.0, at[1] + 20.0], Anchor::Start, &share);
             } else {
                 let end = [at[0] + COLUMN - 30.0, at[1] + 4.0];
-                svg.text(end, Anchor::End, &format!("{share:.2} %"));
+                svg.text(small, end, Anchor::End, &format!("{share:.2} %"));
             }
-            svg.push("</g>");
         }
     }
 }
+
 /// Colours of the ramp of iterations; the next index of the palette is that of failures.
 const SHADES: usize = 64;
 
@@ -136,11 +133,9 @@ impl Basins<'_> {
             Field::Iterations => Legend::default(),
         };
         let [width, height] = legend.size();
-        let mut svg = Svg::new(width, height, self.title);
-        svg.push("<g font-size=\"17\" font-weight=\"bold\">");
-        svg.text([LEFT, 34.0], Anchor::Start, self.title);
-        svg.push("</g>");
-        svg.text([LEFT, 58.0], Anchor::Start, self.note);
+        let mut svg = Svg::new([width, height], self.title);
+        svg.text(Look::PLAIN.size(17.0).bold(), [LEFT, 34.0], Anchor::Start, self.title);
+        svg.text(Look::PLAIN, [LEFT, 58.0], Anchor::Start, self.note);
         let (pixels, palette) = match field {
             Field::Outcome => {
                 legend.draw(&mut svg, outcomes);
@@ -150,20 +145,17 @@ impl Basins<'_> {
         };
         // The first row of a PNG is the top one, the largest second angle.
         let rows: Vec<u8> = pixels.chunks(side).rev().flatten().copied().collect();
-        let image = base64(&png(self.size, self.size, &rows, &palette));
-        svg.push(format_args!(
-            "<image x=\"{LEFT}\" y=\"{TOP}\" width=\"{SIDE}\" height=\"{SIDE}\" \
-             preserveAspectRatio=\"none\" style=\"image-rendering:pixelated\" \
-             href=\"data:image/png;base64,{image}\"/>"
-        ));
+        let (width, height) = (self.size, self.size);
+        let raster = Raster { width, height, pixels: &rows, palette: &palette };
+        svg.raster([LEFT, TOP], [SIDE; 2], &raster);
         let x = Axis { values: [0.0, 360.0], pixels: [LEFT, LEFT + SIDE] };
         let y = Axis { values: [0.0, 360.0], pixels: [TOP + SIDE, TOP] };
-        frame(&mut svg, &x, &y, self.labels, [true, true]);
+        Axes { x, y, names: self.labels }.frame(&mut svg, [Unit::Degrees; 2]);
         Ok(svg.finish())
     }
 
     /// One colour per equilibrium, white for others, black for failures.
-    fn regions(&self) -> (Vec<u8>, Vec<[u8; 3]>) {
+    fn regions(&self) -> (Vec<u8>, Vec<Colour>) {
         let mut palette = regions(self.names.len());
         let colours = palette.len();
         palette.extend([OTHER, FAILURE]);
@@ -207,7 +199,7 @@ impl Basins<'_> {
 
     /// Light for few iterations, dark for many, black for failures; with the scale, which ends at the
     /// 99th percentile so that a few slow starts do not hide the rest.
-    fn shades(&self, svg: &mut Svg) -> (Vec<u8>, Vec<[u8; 3]>) {
+    fn shades(&self, svg: &mut Svg) -> (Vec<u8>, Vec<Colour>) {
         let Outcomes { outcome, iterations, .. } = self.outcomes;
         let reached = || iterations.iter().zip(outcome).filter(|(_, o)| **o >= 0).map(|(i, _)| *i);
         let mut sorted: Vec<u16> = reached().collect();
@@ -215,7 +207,7 @@ impl Basins<'_> {
         let least = sorted.first().copied().unwrap_or(0);
         let most = sorted.get(sorted.len() * 99 / 100).copied().unwrap_or(1).max(least + 1);
         let range = f64::from(most - least);
-        let mut palette: Vec<[u8; 3]> =
+        let mut palette: Vec<Colour> =
             (0..SHADES).map(|k| ramp(k as f64 / (SHADES - 1) as f64)).collect();
         palette.push(FAILURE);
         let pixel = |(iterations, outcome): (&u16, &i16)| {
@@ -230,33 +222,31 @@ impl Basins<'_> {
         let pixels = iterations.iter().zip(outcome).map(pixel).collect();
         let left = LEFT + SIDE + 24.0;
         let height = 300.0;
-        svg.text([left, TOP + 10.0], Anchor::Start, "iterations");
+        svg.text(Look::PLAIN, [left, TOP + 10.0], Anchor::Start, "iterations");
         let step = height / SHADES as f64;
         for (k, colour) in palette[..SHADES].iter().enumerate() {
             let top = TOP + 28.0 + height - (k + 1) as f64 * step;
-            svg.push(format_args!(
-                "<rect x=\"{left}\" y=\"{top:.2}\" width=\"20\" height=\"{:.2}\" fill=\"{}\"/>",
-                step + 0.5,
-                hex(*colour)
-            ));
+            // Neighbours overlap, so that no white line is left between them.
+            svg.rectangle(Look::fill(*colour), [left, top], [20.0, step + 0.5]);
         }
         let scale = Axis {
             values: [f64::from(least), f64::from(most)],
             pixels: [TOP + 28.0 + height, TOP + 28.0],
         };
-        let whole = scale.ticks(false).0.into_iter().filter(|t| (t - t.round()).abs() < 1e-9);
-        for tick in whole {
+        let ticks = scale.ticks(Unit::Decimal).0;
+        for tick in ticks.into_iter().filter(|tick| (tick - tick.round()).abs() < 1e-9) {
             let at = scale.at(tick);
-            svg.push(format_args!("<path d=\"M{} {at:.2}h6\" stroke=\"#000\"/>", left + 20.0));
+            let line = Look::stroke(Colour::BLACK, 1.0);
+            svg.line(line, [left + 20.0, at], [left + 26.0, at]);
             let more = if tick >= f64::from(most) { " or more" } else { "" };
-            svg.text([left + 32.0, at + 5.0], Anchor::Start, &format!("{tick:.0}{more}"));
+            let text = format!("{tick:.0}{more}");
+            svg.text(Look::PLAIN, [left + 32.0, at + 5.0], Anchor::Start, &text);
         }
         if sorted.len() < outcome.len() {
             let top = TOP + 28.0 + height + 24.0;
-            svg.push(format_args!(
-                "<rect x=\"{left}\" y=\"{top}\" width=\"20\" height=\"18\" fill=\"#000\"/>"
-            ));
-            svg.text([left + 32.0, top + 14.0], Anchor::Start, "no equilibrium reached");
+            svg.rectangle(Look::fill(FAILURE), [left, top], [20.0, 18.0]);
+            let at = [left + 32.0, top + 14.0];
+            svg.text(Look::PLAIN, at, Anchor::Start, "no equilibrium reached");
         }
         (pixels, palette)
     }
@@ -285,7 +275,8 @@ mod tests {
                 let value = text.split(&format!("{name}=\"")).nth(1).unwrap();
                 value.split('"').next().unwrap().parse().unwrap()
             };
-            let boxes: Vec<_> = svg.lines().filter(|line| line.contains("width=\"18\"")).collect();
+            let boxes: Vec<_> =
+                svg.lines().filter(|line| line.contains("class=\"swatch\"")).collect();
             let fill = |line: &str| line.split("fill=\"").nth(1).unwrap()[..7].to_owned();
             let colours: std::collections::BTreeSet<_> =
                 boxes.iter().map(|line| fill(line)).collect();

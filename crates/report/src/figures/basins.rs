@@ -1,11 +1,10 @@
 //! Which start leads where: a slice through the planar starts.
 
+use ::figures::{Anchor, Axes, Svg};
 use paper::Reproduction;
 use paper::basins::Basins;
 
 use super::Figure;
-use super::axes::Axes;
-use crate::svg::{Anchor, Svg};
 
 /// Letter in the rows, class, name.
 const PLACES: [(char, &str, &str); 5] = [
@@ -33,8 +32,9 @@ pub fn basins(r: &Reproduction) -> Figure {
 
 fn panel(basins: &Basins) -> String {
     let size = [430.0, 470.0];
-    let axes = Axes::new([430.0, 420.0], [-180.0, 180.0], [-180.0, 180.0]);
     let name = basins.solver.as_str();
+    let names = ["θ at the start, degrees", &format!("{name}: α at the start, degrees")];
+    let axes = Axes::panel([430.0, 420.0], [-180.0, 180.0], [-180.0, 180.0], names);
     let shares: Vec<String> = PLACES
         .iter()
         .filter(|(letter, ..)| basins.count(*letter) > 0)
@@ -43,7 +43,7 @@ fn panel(basins: &Basins) -> String {
             format!("{place} from {} of 100 starts", (100 * basins.count(*letter) + all / 2) / all)
         })
         .collect();
-    let mut svg = Svg::new(
+    let mut svg = Svg::in_page(
         &format!("basins-{name}"),
         size,
         &format!("Basins of {name}"),
@@ -51,11 +51,7 @@ fn panel(basins: &Basins) -> String {
     );
     let ticks =
         [-180.0, -90.0, 0.0, 90.0, 180.0].map(|a: f64| (a, format!("{a}").replace('-', "−")));
-    axes.draw(
-        &mut svg,
-        [&ticks, &ticks],
-        ["θ at the start, degrees", &format!("{name}: α at the start, degrees")],
-    );
+    axes.grid(&mut svg, [&ticks, &ticks]);
     let rows = basins.rows.len().max(2) as f64;
     let step = 360.0 / (rows - 1.0);
     for (letter, class, _) in PLACES {
@@ -74,7 +70,7 @@ fn panel(basins: &Basins) -> String {
     for (k, (_, class, place)) in shown.enumerate() {
         let x = 58.0 + 72.0 * k as f64;
         svg.boxes(&format!("basin key {class}"), [[[x, 446.0], [x + 18.0, 462.0]]]);
-        svg.text("label", [x + 24.0, 459.0], Anchor::Start, place);
+        svg.indexed("label", [x + 24.0, 459.0], Anchor::Start, place);
     }
     svg.finish()
 }

@@ -1,11 +1,11 @@
 //! Every equilibrium of the example, as the census proves them.
 
 use ::census::{Census, Interval, ProvenEquilibrium};
+use ::figures::{Anchor, Svg};
 use model::Problem;
 
 use super::{Figure, moved};
 use crate::numbers::fixed;
-use crate::svg::{Anchor, Svg};
 
 /// Size of a panel; length of a bar, px; where O lies.
 const SIZE: [f64; 2] = [190.0, 300.0];
@@ -46,13 +46,13 @@ fn panel(k: usize, e: &ProvenEquilibrium, weight_j: f64) -> String {
         e.signs.iter().map(|s| if *s < 0 { "compression" } else { "tension" }).collect();
     let index = e.index_in_space();
     let heading = format!("{}. {}", k + 1, if index == 0 { "stable" } else { "unstable" });
-    let mut svg = Svg::new(
+    let mut svg = Svg::in_page(
         &format!("census-{k}"),
         SIZE,
         &format!("Equilibrium {} of the census", k + 1),
         &format!("Bars in {}. {index} directions in which the energy falls.", signs.join(", ")),
     );
-    svg.text("heading", [SIZE[0] / 2.0, 20.0], Anchor::Middle, &heading);
+    svg.indexed("heading", [SIZE[0] / 2.0, 20.0], Anchor::Middle, &heading);
     let origin = e.joints_m.first().map_or([0.0; 3], |j| j.map(Interval::mid));
     let flat = |side: f64| -> Vec<[f64; 2]> {
         e.joints_m
@@ -81,13 +81,13 @@ fn panel(k: usize, e: &ProvenEquilibrium, weight_j: f64) -> String {
     for (k, joint) in at.iter().enumerate() {
         svg.circle(if k == 0 || k + 1 == at.len() { "anchor" } else { "joint" }, *joint, 4.5);
     }
-    svg.text(
+    svg.indexed(
         "label small",
         [SIZE[0] / 2.0, SIZE[1] - 28.0],
         Anchor::Middle,
         &format!("index {index} in space, {} in plane", e.index_in_plane),
     );
-    svg.text(
+    svg.indexed(
         "label small",
         [SIZE[0] / 2.0, SIZE[1] - 10.0],
         Anchor::Middle,

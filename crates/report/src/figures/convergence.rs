@@ -1,12 +1,11 @@
 //! Residual against iteration for both solvers.
 
+use ::figures::{Anchor, Axes, Svg};
 use paper::Reproduction;
 use paper::figures::History;
 
 use super::Figure;
-use super::axes::Axes;
 use crate::numbers::fixed;
-use crate::svg::{Anchor, Svg};
 
 /// Smallest decade that is drawn: below it there is only rounding.
 const FLOOR: f64 = -17.0;
@@ -41,9 +40,10 @@ fn last(history: &History) -> usize {
 
 fn panel(k: usize, start: &str, histories: &[&History], longest: usize) -> String {
     let size = [440.0, 360.0];
-    let axes = Axes::new(size, [0.0, longest as f64 + 0.4], [FLOOR, 1.0]);
+    let names = ["iteration", &format!("residual, {start}")];
+    let axes = Axes::panel(size, [0.0, longest as f64 + 0.4], [FLOOR, 1.0], names);
     let angles = histories.first().map_or([f64::NAN; 3], |h| h.start_deg).map(|a| fixed(a, 1));
-    let mut svg = Svg::new(
+    let mut svg = Svg::in_page(
         &format!("convergence-{k}"),
         size,
         &format!("Convergence from a start: {start}"),
@@ -58,7 +58,7 @@ fn panel(k: usize, start: &str, histories: &[&History], longest: usize) -> Strin
         .map(|d: f64| (d, if d < 0.0 { format!("1e−{}", fixed(-d, 0)) } else { "1".to_owned() }))
         .collect();
     let steps: Vec<_> = (0..=longest).map(|k| (k as f64, k.to_string())).collect();
-    axes.draw(&mut svg, [&steps, &decades], ["iteration", &format!("residual, {start}")]);
+    axes.grid(&mut svg, [&steps, &decades]);
     for history in histories {
         let points: Vec<[f64; 2]> = history
             .residuals
@@ -91,7 +91,7 @@ fn panel(k: usize, start: &str, histories: &[&History], longest: usize) -> Strin
         if let Some([x, y]) = points.get(1) {
             let (anchor, dx) =
                 if class == "lagrange" { (Anchor::Start, 9.0) } else { (Anchor::End, -8.0) };
-            svg.text(
+            svg.indexed(
                 "label",
                 [x + dx, y + if class == "lagrange" { -4.0 } else { 14.0 }],
                 anchor,

@@ -1,11 +1,11 @@
 //! The positions to scale with their forces: the paper's Figs. 3 and 4, and what Fig. 4 should have been.
 
+use ::figures::{Anchor, Svg};
 use paper::Reproduction;
 use paper::reproduction::Position;
 
 use super::{Figure, joints, moved};
 use crate::numbers::fixed;
-use crate::svg::{Anchor, Svg};
 
 /// Length of a bar and of a force as large as a bar's weight, px.
 const LENGTH: f64 = 118.0;
@@ -71,8 +71,8 @@ fn equilibrium(p: &Position, id: &str, heading: &str) -> String {
         states[2],
         fixed(p.lagrange_mgl, 5),
     );
-    let mut svg = Svg::new(id, SIZE, heading, &description);
-    svg.text("heading", [SIZE[0] / 2.0, 20.0], Anchor::Middle, heading);
+    let mut svg = Svg::in_page(id, SIZE, heading, &description);
+    svg.indexed("heading", [SIZE[0] / 2.0, 20.0], Anchor::Middle, heading);
     let at = joints(p.lagrange_deg).map(place);
     svg.line("reference", at[0], at[3]);
     for (bar, state) in states.into_iter().enumerate() {
@@ -87,20 +87,20 @@ fn equilibrium(p: &Position, id: &str, heading: &str) -> String {
         svg.arrow("force reaction", at[joint], tip);
         let size = format!("{} mg at {name}", fixed(across.hypot(up), 3));
         if joint == 0 {
-            svg.text("label small", moved(tip, 1.0, [-8.0, 4.0]), Anchor::End, &size);
+            svg.indexed("label small", moved(tip, 1.0, [-8.0, 4.0]), Anchor::End, &size);
         } else {
-            svg.text("label small", moved(at[joint], 1.0, [0.0, 30.0]), Anchor::Middle, &size);
+            svg.indexed("label small", moved(at[joint], 1.0, [0.0, 30.0]), Anchor::Middle, &size);
         }
     }
     names(&mut svg, &at);
     let bottom = SIZE[1] - 34.0;
-    svg.text(
+    svg.indexed(
         "label small",
         [SIZE[0] / 2.0, bottom],
         Anchor::Middle,
         &format!("θ = {theta}°, α = {alpha}°, β = {beta}°"),
     );
-    svg.text(
+    svg.indexed(
         "label small",
         [SIZE[0] / 2.0, bottom + 20.0],
         Anchor::Middle,
@@ -117,7 +117,7 @@ fn equilibrium(p: &Position, id: &str, heading: &str) -> String {
 fn printed(r: &Reproduction) -> String {
     let [theta, alpha, beta, energy] = r.figures.scan_results[1];
     let heading = "(x): Fig. 4 as printed, no equilibrium";
-    let mut svg = Svg::new(
+    let mut svg = Svg::in_page(
         "equilibrium-x",
         SIZE,
         heading,
@@ -127,7 +127,7 @@ fn printed(r: &Reproduction) -> String {
             fixed(energy, 5)
         ),
     );
-    svg.text("heading", [SIZE[0] / 2.0, 20.0], Anchor::Middle, heading);
+    svg.indexed("heading", [SIZE[0] / 2.0, 20.0], Anchor::Middle, heading);
     let at = joints([theta, alpha, beta]).map(place);
     for bar in 0..3 {
         svg.line("bar refuted", at[bar], at[bar + 1]);
@@ -135,8 +135,13 @@ fn printed(r: &Reproduction) -> String {
     weights(&mut svg, &at);
     // V falls towards smaller theta: A moves to the left.
     svg.arrow("force falls", moved(at[1], 1.0, [-10.0, 0.0]), moved(at[1], 1.0, [-46.0, 0.0]));
-    svg.text("label small", moved(at[1], 1.0, [16.0, 14.0]), Anchor::Start, "V falls to the left:");
-    svg.text(
+    svg.indexed(
+        "label small",
+        moved(at[1], 1.0, [16.0, 14.0]),
+        Anchor::Start,
+        "V falls to the left:",
+    );
+    svg.indexed(
         "label small",
         moved(at[1], 1.0, [16.0, 31.0]),
         Anchor::Start,
@@ -144,7 +149,7 @@ fn printed(r: &Reproduction) -> String {
     );
     names(&mut svg, &at);
     let bottom = SIZE[1] - 34.0;
-    svg.text(
+    svg.indexed(
         "label small",
         [SIZE[0] / 2.0, bottom],
         Anchor::Middle,
@@ -155,7 +160,7 @@ fn printed(r: &Reproduction) -> String {
             fixed(beta, 2)
         ),
     );
-    svg.text(
+    svg.indexed(
         "label small",
         [SIZE[0] / 2.0, bottom + 20.0],
         Anchor::Middle,
@@ -179,6 +184,6 @@ fn names(svg: &mut Svg, at: &[[f64; 2]; 4]) {
     let offsets = [[-14.0, 4.0], [lean(1), -6.0], [lean(2), 6.0], [-14.0, 8.0]];
     for (k, name) in ["O", "A", "B", "D"].into_iter().enumerate() {
         svg.circle(if k == 0 || k == 3 { "anchor" } else { "joint" }, at[k], 5.0);
-        svg.text("label strong", moved(at[k], 1.0, offsets[k]), Anchor::Middle, name);
+        svg.indexed("label strong", moved(at[k], 1.0, offsets[k]), Anchor::Middle, name);
     }
 }

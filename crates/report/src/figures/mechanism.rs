@@ -1,7 +1,7 @@
 //! The mechanism with its symbols: the paper's Figs. 1 and 2.
 
 use super::{Figure, direction, joints, moved};
-use crate::svg::{Anchor, Svg};
+use ::figures::{Anchor, Svg};
 
 /// Both models side by side.
 #[must_use]
@@ -20,7 +20,7 @@ pub fn mechanism() -> Figure {
 
 /// Fig. 1.
 fn in_space() -> String {
-    let mut svg = Svg::new(
+    let mut svg = Svg::in_page(
         "mechanism-space",
         [400.0, 340.0],
         "Mechanical model, Fig. 1",
@@ -35,7 +35,7 @@ fn in_space() -> String {
         ([96.0, 18.0], "Z", [12.0, 8.0]),
     ] {
         svg.arrow("axis-arrow", o, end);
-        svg.text("label", moved(end, 1.0, offset), Anchor::Middle, name);
+        svg.indexed("label", moved(end, 1.0, offset), Anchor::Middle, name);
     }
     // Where the centre of each bar lies along it, for drawing: anywhere but in the middle.
     let shares = [0.44, 0.55, 0.42];
@@ -48,7 +48,7 @@ fn in_space() -> String {
         svg.line("bar", from, to);
         let centre = moved(from, share, along);
         svg.circle("centre", centre, 4.5);
-        svg.text(
+        svg.indexed(
             "label",
             moved(moved(centre, 17.0, aside), 1.0, [0.0, 5.0]),
             Anchor::Middle,
@@ -58,12 +58,12 @@ fn in_space() -> String {
         svg.arrow("dimension", near, far);
         svg.arrow("dimension", far, near);
         let at = moved(moved(from, 0.62, along), -47.0, aside);
-        svg.text("label", [at[0], at[1] + 5.0], Anchor::Middle, &format!("l_{}", bar + 1));
+        svg.indexed("label", [at[0], at[1] + 5.0], Anchor::Middle, &format!("l_{}", bar + 1));
         let [near, far] = [moved(from, -10.0, aside), moved(centre, -10.0, aside)];
         svg.arrow("dimension", near, far);
         svg.arrow("dimension", far, near);
         let at = moved(moved(from, share * 0.5, along), -21.0, aside);
-        svg.text("label small", [at[0], at[1] + 4.0], Anchor::Middle, &format!("r_{}", bar + 1));
+        svg.indexed("label small", [at[0], at[1] + 4.0], Anchor::Middle, &format!("r_{}", bar + 1));
     }
     for (k, (name, offset)) in [
         ("O", [-14.0, -6.0]),
@@ -76,10 +76,10 @@ fn in_space() -> String {
     {
         let fixed = k == 0 || k == 3;
         svg.circle(if fixed { "anchor" } else { "joint" }, joints[k], 6.0);
-        svg.text("label strong", moved(joints[k], 1.0, offset), Anchor::Middle, name);
+        svg.indexed("label strong", moved(joints[k], 1.0, offset), Anchor::Middle, name);
     }
     svg.arrow("force", [376.0, 40.0], [376.0, 84.0]);
-    svg.text("label", [366.0, 66.0], Anchor::End, "g");
+    svg.indexed("label", [366.0, 66.0], Anchor::End, "g");
     svg.finish()
 }
 
@@ -89,7 +89,7 @@ fn in_the_plane() -> String {
     const LENGTH: f64 = 130.0;
     const RADIUS: f64 = 44.0;
     let angles = [30.0, 47.0, -83.5];
-    let mut svg = Svg::new(
+    let mut svg = Svg::in_page(
         "mechanism-plane",
         [300.0, 340.0],
         "The example, Fig. 2",
@@ -101,7 +101,7 @@ fn in_the_plane() -> String {
         joints(angles).iter().map(|joint| moved(origin, LENGTH, *joint)).collect();
     let (o, d) = (at[0], moved(origin, 2.0 * LENGTH, [0.0, 1.0]));
     svg.arrow("axis-arrow", o, moved(d, 36.0, [0.0, 1.0]));
-    svg.text("label", moved(d, 1.0, [12.0, 36.0]), Anchor::Middle, "x");
+    svg.indexed("label", moved(d, 1.0, [12.0, 36.0]), Anchor::Middle, "x");
     let names = ["θ", "α", "β"];
     for (bar, angle) in angles.into_iter().enumerate() {
         let from = at[bar];
@@ -110,7 +110,7 @@ fn in_the_plane() -> String {
         svg.line("reference", from, moved(from, RADIUS + 12.0, [0.0, 1.0]));
         svg.arc("dimension", from, RADIUS, 0.0, angle);
         let half = direction(angle / 2.0);
-        svg.text(
+        svg.indexed(
             "label",
             moved(moved(from, RADIUS + 12.0, half), 1.0, [0.0, 5.0]),
             Anchor::Middle,
@@ -118,12 +118,12 @@ fn in_the_plane() -> String {
         );
         let middle = [f64::midpoint(from[0], to[0]), f64::midpoint(from[1], to[1])];
         let offset = [[12.0, -4.0], [12.0, -6.0], [0.0, 20.0]][bar];
-        svg.text("label", moved(middle, 1.0, offset), Anchor::Middle, "l");
+        svg.indexed("label", moved(middle, 1.0, offset), Anchor::Middle, "l");
     }
     let [left, right] = [[28.0, o[1]], [28.0, d[1]]];
     svg.arrow("dimension", left, right);
     svg.arrow("dimension", right, left);
-    svg.text("label", [20.0, f64::midpoint(o[1], d[1])], Anchor::End, "2l");
+    svg.indexed("label", [20.0, f64::midpoint(o[1], d[1])], Anchor::End, "2l");
     for (joint, name, class, offset) in [
         (o, "O", "anchor", [-14.0, -8.0]),
         (at[1], "A", "joint", [12.0, -8.0]),
@@ -131,7 +131,7 @@ fn in_the_plane() -> String {
         (d, "D", "anchor", [-16.0, 16.0]),
     ] {
         svg.circle(class, joint, 6.0);
-        svg.text("label strong", moved(joint, 1.0, offset), Anchor::Middle, name);
+        svg.indexed("label strong", moved(joint, 1.0, offset), Anchor::Middle, name);
     }
     svg.finish()
 }

@@ -4,7 +4,6 @@
 //! one set for light and one for dark screens, both taken from Okabe and Ito's palette for the
 //! colour-blind; whatever a colour says, a dash, a shape or a word says too.
 
-mod axes;
 mod basins;
 mod census;
 mod convergence;

@@ -1,12 +1,11 @@
 //! The energy along the closure curve, with the paper's scan on it.
 
+use ::figures::{Anchor, Axes, Svg};
 use paper::Reproduction;
 use paper::figures::NEAR_DEG;
 
 use super::Figure;
-use super::axes::Axes;
 use crate::numbers::fixed;
-use crate::svg::{Anchor, Svg};
 
 /// Every how many-th point of the scan is drawn: all of them would be a line.
 const EVERY: usize = 40;
@@ -38,8 +37,8 @@ fn ticks(values: impl IntoIterator<Item = f64>, decimals: usize) -> Vec<(f64, St
 
 fn whole(r: &Reproduction) -> String {
     let size = [520.0, 400.0];
-    let axes = Axes::new(size, [-80.0, 80.0], [2.2, 3.8]);
-    let mut svg = Svg::new(
+    let axes = Axes::panel(size, [-80.0, 80.0], [2.2, 3.8], ["θ in degrees", "V in mgl"]);
+    let mut svg = Svg::in_page(
         "valley-whole",
         size,
         "Energy along the closure curve",
@@ -47,10 +46,9 @@ fn whole(r: &Reproduction) -> String {
          minus 73.9 degrees. The result (ix) of the scan lies beside the right minimum, the result (x) at theta = 0.06 degrees \
          on a slope.",
     );
-    axes.draw(
+    axes.grid(
         &mut svg,
         [&ticks([-75.0, -50.0, -25.0, 0.0, 25.0, 50.0, 75.0], 0), &ticks([2.5, 3.0, 3.5], 1)],
-        ["θ in degrees", "V in mgl"],
     );
     let curve = &r.figures.closure_curve;
     let ring = curve.iter().chain(curve.first()).map(|p| axes.at([p[0], p[3]]));
@@ -75,13 +73,13 @@ fn whole(r: &Reproduction) -> String {
         }
         let name = p.name.replace('\'', "′");
         let offset = if minimum { 24.0 } else { -13.0 };
-        svg.text("label strong", [at[0], at[1] + offset], Anchor::Middle, &name);
+        svg.indexed("label strong", [at[0], at[1] + offset], Anchor::Middle, &name);
     }
     let at = axes.at([x[0], x[3]]);
     svg.cross("wrong-mark", at, 6.0);
-    svg.text("label strong", [at[0] - 10.0, at[1] - 8.0], Anchor::End, "(x)");
+    svg.indexed("label strong", [at[0] - 10.0, at[1] - 8.0], Anchor::End, "(x)");
     let at = axes.at([ix[0], ix[3]]);
-    svg.text("label", [at[0] + 12.0, at[1] + 16.0], Anchor::Start, "(ix)");
+    svg.indexed("label", [at[0] + 12.0, at[1] + 16.0], Anchor::Start, "(ix)");
     svg.finish()
 }
 
@@ -91,9 +89,13 @@ fn near(r: &Reproduction) -> String {
     let e1 = r.equilibria.first().map_or([f64::NAN; 2], |p| [p.lagrange_deg[0], p.lagrange_mgl]);
     let above = |point: &[f64; 2]| [point[0], (point[1] - e1[1]) * TINY];
     let highest = r.figures.near_minimum.iter().map(|p| above(p)[1]).fold(0.0, f64::max);
-    let axes =
-        Axes::new(size, [ix[0] - NEAR_DEG, ix[0] + NEAR_DEG], [-0.12 * highest, 1.08 * highest]);
-    let mut svg = Svg::new(
+    let axes = Axes::panel(
+        size,
+        [ix[0] - NEAR_DEG, ix[0] + NEAR_DEG],
+        [-0.12 * highest, 1.08 * highest],
+        ["θ in degrees", "V − V(E1) in 10⁻⁷ mgl"],
+    );
+    let mut svg = Svg::in_page(
         "valley-near",
         size,
         "The minimum between two points of the scan",
@@ -102,13 +104,12 @@ fn near(r: &Reproduction) -> String {
     );
     // Four or five ticks of a round size.
     let step = 10_f64.powf((highest / 2.0).log10().floor()) * 2.0;
-    axes.draw(
+    axes.grid(
         &mut svg,
         [
             &ticks([19.6, 19.7, 19.8], 1),
             &ticks((0..=12).map(|k| f64::from(k) * step).filter(|v| *v <= highest), 0),
         ],
-        ["θ in degrees", "V − V(E1) in 10⁻⁷ mgl"],
     );
     svg.polyline(
         "curve",
@@ -121,8 +122,8 @@ fn near(r: &Reproduction) -> String {
     }
     let at = axes.at(above(&e1));
     svg.circle("minimum", at, 6.0);
-    svg.text("label strong", [at[0] - 10.0, at[1] - 12.0], Anchor::Middle, "E1");
+    svg.indexed("label strong", [at[0] - 10.0, at[1] - 12.0], Anchor::Middle, "E1");
     let at = axes.at(above(&[ix[0], ix[3]]));
-    svg.text("label", [at[0] + 6.0, at[1] + 18.0], Anchor::Start, "(ix)");
+    svg.indexed("label", [at[0] + 6.0, at[1] + 18.0], Anchor::Start, "(ix)");
     svg.finish()
 }

@@ -1,0 +1,98 @@
+//! Where things stand in the picture.
+
+use crate::structure::Structure;
+use crate::structure::view::View;
+
+/// Room at the sides, px: for arrows and their labels.
+pub(crate) const SIDE: f64 = 96.0;
+/// Room above, for the title too, and below, for the key too.
+const ABOVE: f64 = 158.0;
+const BELOW: f64 = 176.0;
+
+/// Largest extent of the structure, px.
+const WIDTH: f64 = 860.0;
+const HEIGHT: f64 = 620.0;
+
+/// Least width, px: the key must fit.
+const LEAST_WIDTH: f64 = 620.0;
+
+/// Length of the arrow of the largest force, px.
+pub(crate) const LONGEST_ARROW: f64 = 70.0;
+
+/// Members of at least this length in the middle are drawn with all marks.
+const ROOMY: f64 = 24.0;
+
+/// The structure projected.
+pub(crate) struct Scene {
+    pub(crate) size: [f64; 2],
+    pub(crate) view: View,
+    /// Pixels per metre.
+    pub(crate) scale: f64,
+    /// Pixels per newton.
+    pub(crate) force_scale: f64,
+    /// The joints, px.
+    pub(crate) joints: Vec<[f64; 2]>,
+    /// How much smaller marks and lines are than in a roomy drawing, from 0 to 1.
+    pub(crate) detail: f64,
+}
+
+impl Scene {
+    pub(crate) fn new(structure: &Structure<'_>) -> Self {
+        let points: Vec<[f64; 3]> = structure.joints.iter().map(|joint| joint.at_m).collect();
+        let forces: Vec<[f64; 3]> =
+            structure.joints.iter().flat_map(|joint| [joint.load_n, joint.reaction_n]).collect();
+        let view = View::of(&points, &forces);
+        let seen: Vec<[f64; 2]> = points.iter().map(|point| view.seen(*point)).collect();
+        let bound = |start: f64, best: fn(f64, f64) -> f64, k: usize| {
+            seen.iter().fold(start, |bound, point| best(bound, point[k]))
+        };
+        let low = [0, 1].map(|k| bound(f64::INFINITY, f64::min, k));
+        let high = [0, 1].map(|k| bound(f64::NEG_INFINITY, f64::max, k));
+        let [width, height] = [high[0] - low[0], high[1] - low[1]];
+        let fits = (WIDTH / width).min(HEIGHT / height);
+        // Joints all in one place have no scale.
+        let scale = if fits.is_finite() { fits } else { 0.0 };
+        let size = [
+            (width * scale + 2.0 * SIDE).max(LEAST_WIDTH).round(),
+            (height * scale + ABOVE + BELOW).round(),
+        ];
+        let left = 0.5 * (size[0] - width * scale);
+        let place = |[x, y]: [f64; 2]| [left + scale * (x - low[0]), ABOVE + scale * (high[1] - y)];
+        let joints: Vec<[f64; 2]> = seen.into_iter().map(place).collect();
+        let largest = forces.iter().map(|force| length(view.seen(*force))).fold(0.0, f64::max);
+        let force_scale = if largest > 0.0 { LONGEST_ARROW / largest } else { 0.0 };
+        let detail = (median_length(structure, &joints) / ROOMY).min(1.0);
+        Self { size, view, scale, force_scale, joints, detail }
+    }
+
+    /// The ends of a member, px.
+    pub(crate) fn ends(&self, joints: [usize; 2]) -> [[f64; 2]; 2] {
+        joints.map(|joint| self.joints[joint])
+    }
+
+    /// A force as an arrow, px.
+    pub(crate) fn arrow(&self, force_n: [f64; 3]) -> [f64; 2] {
+        let [x, y] = self.view.seen(force_n);
+        [self.force_scale * x, -self.force_scale * y]
+    }
+
+    /// The unit direction of a vector, px; none if it is seen end on.
+    pub(crate) fn direction(&self, vector: [f64; 3]) -> Option<[f64; 2]> {
+        let [x, y] = self.view.seen(vector);
+        let size = length([x, y]);
+        (size > 1e-3).then(|| [x / size, -y / size])
+    }
+}
+
+pub(crate) fn length([x, y]: [f64; 2]) -> f64 {
+    x.hypot(y)
+}
+
+/// Length of the member in the middle, px.
+fn median_length(structure: &Structure<'_>, joints: &[[f64; 2]]) -> f64 {
+    let length = |[a, b]: [usize; 2]| length([0, 1].map(|k| joints[a][k] - joints[b][k]));
+    let mut lengths: Vec<f64> =
+        structure.members.iter().map(|member| length(member.joints)).collect();
+    let middle = lengths.len() / 2;
+    *lengths.select_nth_unstable_by(middle, f64::total_cmp).1
+}

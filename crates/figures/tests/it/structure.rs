@@ -1,0 +1,140 @@
+//! Structures to scale, of two members and of a million.
+
+use figures::{Joint, Member, Structure, StructureError, Support};
+
+/// A tripod: three legs pushed down by a load on top.
+fn tripod() -> (Vec<Joint<'static>>, Vec<Member>) {
+    let foot = |name, x: f64, y: f64| Joint {
+        support: Some(Support::Fixed),
+        reaction_n: [-x, -y, 3.0],
+        ..Joint::free(name, [x, y, 0.0])
+    };
+    let root = 0.75_f64.sqrt();
+    let joints = vec![
+        foot("A <1>", 1.0, 0.0),
+        foot("B", -0.5, root),
+        foot("C", -0.5, -root),
+        Joint { load_n: [0.0, 0.0, -9.0], ..Joint::free("top", [0.0, 0.0, 3.0]) },
+    ];
+    let leg = |foot| Member { joints: [foot, 3], axial_n: Some(-10.0_f64.sqrt()) };
+    (joints, (0..3).map(leg).collect())
+}
+
+/// A chain of many short bars between two anchors: a parabola, all in tension, or all in compression.
+fn chain(bars: usize, sign: f64) -> (Vec<Joint<'static>>, Vec<Member>) {
+    let joints = (0..=bars).map(|k| {
+        let x = 2.0 * k as f64 / bars as f64 - 1.0;
+        let support = (k == 0 || k == bars).then_some(Support::Fixed);
+        Joint { support, ..Joint::free("", [x, 0.0, x * x]) }
+    });
+    let member = |k| Member { joints: [k, k + 1], axial_n: Some(sign * (1.0 + k as f64)) };
+    (joints.collect(), (0..bars).map(member).collect())
+}
+
+fn draw(joints: &[Joint<'_>], members: &[Member]) -> String {
+    Structure { title: "a & b", note: "note", joints, members }.svg().unwrap()
+}
+
+/// The lines of a path in a drawing, by its class.
+fn lines(svg: &str, class: &str) -> Vec<[[f64; 2]; 2]> {
+    let paths = svg.lines().filter(|line| line.starts_with(&format!("<path class=\"{class}\"")));
+    let mut found = vec![];
+    for path in paths {
+        let data = path.split(" d=\"").nth(1).unwrap().split('"').next().unwrap();
+        for line in data.split('M').skip(1) {
+            let ends: Vec<[f64; 2]> = line
+                .split('L')
+                .map(|point| {
+                    let mut parts = point.split(' ').map(|x| x.parse().unwrap());
+                    [parts.next().unwrap(), parts.next().unwrap()]
+                })
+                .collect();
+            found.push([ends[0], ends[1]]);
+        }
+    }
+    found
+}
+
+#[test]
+fn a_planar_structure_is_to_scale_with_all_its_marks() {
+    let joints = [
+        Joint {
+            support: Some(Support::Fixed),
+            reaction_n: [0.0, -3.0, 4.0],
+            ..Joint::free("A", [5.0, 0.0, 1.0])
+        },
+        Joint { load_n: [0.0, 0.0, -8.0], ..Joint::free("P", [5.0, 3.0, -3.0]) },
+        Joint {
+            support: Some(Support::Line([0.0, 1.0, 0.0])),
+            reaction_n: [0.0, 0.0, 4.0],
+            ..Joint::free("B", [5.0, 6.0, 1.0])
+        },
+    ];
+    let members = [([0, 1], 5.0), ([1, 2], 5.0), ([0, 2], -3.0)]
+        .map(|(joints, axial_n)| Member { joints, axial_n: Some(axial_n) });
+    let svg = draw(&joints, &members);
+    assert!(svg.contains("a &amp; b") && svg.contains("in their plane"));
+    assert!(svg.contains("largest tension 5 N, largest compression 3 N"));
+    // Two members of 5 m and one of 6 m; each kind once more in the key.
+    let size = |[a, b]: [[f64; 2]; 2]| (a[0] - b[0]).hypot(a[1] - b[1]);
+    let tension = lines(&svg, "tension");
+    let compression = lines(&svg, "compression");
+    assert_eq!((tension.len(), compression.len()), (3, 2));
+    let scale = size(tension[0]) / 5.0;
+    assert!((size(tension[1]) / 5.0 - scale).abs() < 0.01);
+    assert!((size(compression[0]) / 6.0 - scale).abs() < 0.01);
+    // The upright plane is seen with the vertical up: P is below A and B.
+    assert!(tension[0][1][1] > tension[0][0][1]);
+    for wanted in [">A</text>", ">P</text>", ">B</text>", ">8 N</text>", ">5 N</text>", ">tension<"]
+    {
+        assert!(svg.contains(wanted), "{wanted}");
+    }
+    assert_eq!(svg.matches("class=\"load\"").count(), 2);
+    assert_eq!(svg.matches("class=\"reaction\"").count(), 3);
+    assert!(!svg.contains("NaN") && !svg.contains("inf"));
+}
+
+#[test]
+fn a_spatial_structure_is_seen_from_above_with_the_axes_of_the_world() {
+    let (joints, members) = tripod();
+    let svg = draw(&joints, &members);
+    assert!(svg.contains("in space") && svg.contains("A &lt;1&gt;"));
+    assert_eq!(svg.matches("class=\"axis\"").count(), 3);
+    assert_eq!(lines(&svg, "compression").len(), 4);
+}
+
+/// Each thing that the eye could tell apart is drawn once, however many there are.
+#[test]
+fn a_million_members_make_a_small_picture() {
+    let (joints, members) = chain(1_000_000, 1.0);
+    let svg = draw(&joints, &members);
+    assert!(svg.len() < 300_000, "{} bytes", svg.len());
+    let mut drawn = lines(&svg, "tension");
+    // Without the key, one line without gaps from anchor to anchor.
+    drawn.pop();
+    let mut ends: Vec<_> = drawn.iter().flatten().map(|p| p.map(|x| (2.0 * x).round())).collect();
+    ends.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
+    let lonely = ends.chunk_by(|a, b| a == b).filter(|equal| equal.len() == 1).count();
+    assert_eq!(lonely, 2);
+    // What is too short to be hollow is told apart by its lightness.
+    let (joints, members) = chain(10_000, -1.0);
+    let light = draw(&joints, &members);
+    assert!(light.contains("#e69f00") && !light.contains("#d55e00"));
+}
+
+#[test]
+fn what_cannot_be_drawn_is_refused() {
+    let (mut joints, members) = tripod();
+    let refused = |joints: &[Joint<'_>], members: &[Member]| {
+        Structure { title: "", note: "", joints, members }.svg().unwrap_err()
+    };
+    assert_eq!(refused(&joints, &[]), StructureError::Empty);
+    let error = StructureError::NoJoint { member: 0, joint: 3, joints: 2 };
+    assert_eq!(refused(&joints[..2], &members), error);
+    joints[1].at_m[2] = f64::NAN;
+    assert_eq!(refused(&joints, &members), StructureError::NotFinite { joint: 1 });
+    // All in one place, and a force that is no number: drawn, without nonsense.
+    let joints = [Joint { load_n: [f64::NAN; 3], ..Joint::free("", [1.0; 3]) }; 2];
+    let member = Member { joints: [0, 1], axial_n: Some(f64::NAN) };
+    assert!(!draw(&joints, &[member]).contains("NaN"));
+}
