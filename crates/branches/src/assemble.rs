@@ -12,12 +12,12 @@ use crate::path::Path;
 use crate::segment::distance;
 
 /// The arcs between two census points.
-#[derive(Debug, Clone)]
-pub(crate) struct Link {
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Link<'a> {
     /// Numbers of the census points.
     pub(crate) census_points: [usize; 2],
     /// The curves.
-    pub(crate) curves: Vec<Arcs>,
+    pub(crate) curves: &'a [Arcs],
 }
 
 /// A pull this near to infinite (its homogeneous weight) is not shown: it is a straight chain.
@@ -43,7 +43,7 @@ impl<'a> Assembly<'a> {
     pub(crate) fn new(
         path: &'a Path<'a>,
         census_points: &'a [CensusPoint],
-        links: &[Link],
+        links: impl Iterator<Item = Link<'a>>,
     ) -> Self {
         let count = |census_point: &CensusPoint| census_point.nodes.as_ref().map_or(0, Vec::len);
         let mut assembly = Self {
@@ -59,10 +59,10 @@ impl<'a> Assembly<'a> {
         };
         for link in links {
             assembly.begin(link.census_points[0]);
-            for curve in &link.curves {
+            for curve in link.curves {
                 let turns = assembly.turns(&curve.parts, &curve.turns);
                 for arc in &curve.parts {
-                    assembly.add(link, arc, &turns);
+                    assembly.add(&link, arc, &turns);
                 }
             }
         }
@@ -124,7 +124,7 @@ impl<'a> Assembly<'a> {
     }
 
     /// Put an arc at the end of its branch, or begin one with it.
-    fn add(&mut self, link: &Link, arc: &Arc, turns: &[usize]) {
+    fn add(&mut self, link: &Link<'_>, arc: &Arc, turns: &[usize]) {
         let [low, high] = link.census_points;
         let branch = match arc.ends[0] {
             ArcEnd::Low(node) => self.open[low][node],

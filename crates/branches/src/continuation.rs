@@ -17,10 +17,25 @@ use crate::segment::Segment;
 use crate::study::Study;
 
 /// What can be chosen.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ContinuationSettings {
     /// Settings of the censuses.
     pub census: census::Settings,
+    /// Most points of a path: everything that is found along it is held in memory, some
+    /// [`BYTES`](Self::BYTES) for each equilibrium of a chain of few bars at each point. Default 100,000.
+    pub max_points: usize,
+}
+
+impl ContinuationSettings {
+    /// Memory that a continuation takes for each equilibrium at each point, bytes, for up to ten bars: as
+    /// measured, rounded up.
+    pub const BYTES: usize = 4_000;
+}
+
+impl Default for ContinuationSettings {
+    fn default() -> Self {
+        Self { census: census::Settings::default(), max_points: 100_000 }
+    }
 }
 
 /// How far a continuation has come.
@@ -97,6 +112,10 @@ impl Continuation {
         let paths = study.paths();
         let values =
             paths.get(path).ok_or(ContinuationError::NoPath { path, paths: paths.len() })?;
+        let (points, most) = (values.len(), settings.max_points);
+        if points > most {
+            return Err(ContinuationError::TooManyPoints { points, most });
+        }
         let path = Path::new(study, values);
         let grid: Vec<_> = (0..values.len()).map(|k| (path.position(k), Some(k))).collect();
         let mut work = Work {
@@ -199,10 +218,10 @@ impl Work<'_> {
         self.known.extend(fresh.into_iter().map(key).zip(found));
         let link = |pair: &[usize; 2]| Link {
             census_points: *pair,
-            curves: self.known[&key(*pair)].curves.clone(),
+            curves: &self.known[&key(*pair)].curves,
         };
-        let links: Vec<Link> = segments.iter().map(link).collect();
-        let Assembly { branches, events, .. } = Assembly::new(self.path, census_points, &links);
+        let links = segments.iter().map(link);
+        let Assembly { branches, events, .. } = Assembly::new(self.path, census_points, links);
         (branches, events)
     }
 

@@ -7,6 +7,17 @@ pub enum ContinuationError {
     /// Occurs when a setting of the census is out of range, or the chain is too long for one.
     #[error(transparent)]
     Census(#[from] census::CensusError),
+    /// Occurs when a path has more points than the settings allow.
+    #[error(
+        "{points} points are more than the {most} allowed: all that is found is held in memory, about {} kB for \
+         each equilibrium at each point", crate::continuation::ContinuationSettings::BYTES / 1000
+    )]
+    TooManyPoints {
+        /// Points of the path.
+        points: usize,
+        /// Most.
+        most: usize,
+    },
     /// Occurs when the path of the study that was asked for does not exist.
     #[error("the study has {paths} paths, there is no path {path}")]
     NoPath {

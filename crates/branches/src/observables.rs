@@ -49,11 +49,11 @@ impl Observables {
         // F_i · u_i, times w.
         let along: Vec<f64> =
             (0..n).map(|i| h * units[i][0] + (v + w * plane.weight[i]) * units[i][1]).collect();
-        let hanging: f64 = (0..n).map(|i| plane.weight[i] * plane.length[i] * units[i][1]).sum();
+        let moment_sum: f64 = (0..n).map(|i| plane.weight[i] * plane.length[i] * units[i][1]).sum();
         let newton = plane.force_unit_n;
         let joule = plane.length_unit_m;
         let energy_j =
-            joule * ((plane.total_n - plane.offset_n) * plane.span[1] - newton * hanging);
+            joule * ((plane.total_n - plane.offset_n) * plane.span[1] - newton * moment_sum);
 
         let (index_in_plane, plane_test, singular) = in_plane(plane, &units, &along);
         let (index_out_of_plane, space_test) = out_of_plane(plane, &along);

@@ -6,16 +6,17 @@ use model::Problem;
 use serde::{Deserialize, Serialize};
 
 use crate::equilibrium::ProvenEquilibrium;
+use crate::error::CensusError;
 use crate::families::{SlackFamily, families};
 use crate::merge::merge;
 use crate::morse::{self, MorseError};
 use crate::polish::{PreciseSystem, polish};
 use crate::search::{Progress, search};
+use crate::settings::Settings;
 use crate::system::System;
 use crate::topology::{Topology, TopologyError};
 use crate::undecided::{Reason, Undecided, gather};
 use crate::unloaded::unloaded;
-use crate::{CensusError, Settings};
 
 /// All equilibria of a chain, and how far that is proved.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

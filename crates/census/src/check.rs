@@ -18,15 +18,16 @@ use intervals::Interval;
 use model::Problem;
 
 use crate::cell::Cell;
+use crate::census::Census;
 use crate::census::by_energy_and_angles;
 use crate::equilibrium::ProvenEquilibrium;
+use crate::error::CensusError;
 use crate::face::Face;
 use crate::krawczyk::{Zero, inside, krawczyk_about_zero, narrow};
 use crate::morse::MorseError;
 use crate::polish::{PreciseSystem, polish};
 use crate::system::System;
 use crate::unloaded::with_signs;
-use crate::{Census, CensusError};
 
 /// A stated enclosure may be that much wider than the one computed anew, both being at the level of
 /// rounding errors; measured: below 4 on thousands of equilibria.

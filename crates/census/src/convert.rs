@@ -6,8 +6,10 @@ use model::{
     SolverName, Stability, Status, Vector, Verified,
 };
 
+use crate::census::Census;
+use crate::equilibrium::ProvenEquilibrium;
+use crate::position::Position;
 use crate::topology::TopologyError;
-use crate::{Census, Position, ProvenEquilibrium};
 
 impl Census {
     /// The isolated equilibria as answers of a solver, in the order of the census: middles of the

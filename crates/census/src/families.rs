@@ -139,7 +139,9 @@ fn family(system: &System, signs: &[i8], group: u8) -> Existence {
 mod tests {
     use model::{Anchors, Bar, Chain, Problem};
 
-    use crate::{Census, Reason, Settings};
+    use crate::census::Census;
+    use crate::settings::Settings;
+    use crate::undecided::Reason;
 
     /// Bars as (length, mass, centre).
     fn census(bars: &[(f64, f64, f64)], end_m: [f64; 3]) -> Census {

@@ -295,7 +295,8 @@ impl Caption {
 
     /// Three lines, centred, the first one at `top`.
     fn draw(&self, svg: &mut Svg, middle: f64, top: f64) {
-        let energy = format!("  {}", self.energy);
+        // No-break spaces: plain ones are lost between pieces.
+        let energy = format!("\u{a0} {}", self.energy);
         let first = [(TEXT.bold(), self.label.as_str()), (TEXT, energy.as_str())];
         svg.pieces([middle, top], Anchor::Middle, &first);
         svg.text(TEXT, [middle, top + LINE], Anchor::Middle, self.stability);
@@ -365,7 +366,7 @@ fn short(x: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Settings;
+    use crate::settings::Settings;
 
     fn take(problem: &model::Problem) -> Census {
         Census::take(problem, &Settings::default()).unwrap()

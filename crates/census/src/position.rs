@@ -2,8 +2,9 @@
 
 use intervals::Interval;
 
+use crate::census::Census;
 use crate::equilibrium::Neighbourhood;
-use crate::{Census, ProvenEquilibrium};
+use crate::equilibrium::ProvenEquilibrium;
 
 /// An equilibrium in one vertical plane through the anchors.
 ///
@@ -79,7 +80,7 @@ impl Neighbourhood {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Settings;
+    use crate::settings::Settings;
 
     fn census(case: &str) -> Census {
         let problem = model::cases::get(case).unwrap().problem();

@@ -6,11 +6,11 @@
 
 use rayon::prelude::*;
 
-use crate::Settings;
 use crate::cell::Cell;
 use crate::closure::Pattern;
 use crate::family::Family;
 use crate::krawczyk::{Finding, Zero, examine};
+use crate::settings::Settings;
 use crate::slack;
 use crate::system::System;
 use crate::unloaded::Unloaded;

@@ -1,6 +1,6 @@
 //! What can be chosen.
 
-use crate::CensusError;
+use crate::error::CensusError;
 
 /// How far a census goes before it calls a cell undecided or a chain too long.
 ///

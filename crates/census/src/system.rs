@@ -5,7 +5,7 @@ use std::ops::Range;
 use intervals::Interval;
 use model::{Bar, Problem, Vector};
 
-use crate::CensusError;
+use crate::error::CensusError;
 use crate::face::Face;
 
 /// A chain in units in which the total length and the spread of the weights are of order one. Units

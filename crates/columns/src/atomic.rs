@@ -12,8 +12,9 @@ const BUFFER: usize = 1 << 18;
 const MOST_LINKS: usize = 40;
 
 /// A file that appears under its name when it is complete: until then it grows beside it, and when it is
-/// dropped before it goes away. A process that is killed leaves `.NAME.PROCESS.part` behind, which
-/// [`remove_unfinished`] clears; one that is asked to end leaves nothing if it ends by [`abandon`].
+/// dropped before it goes away. A process that is killed leaves `.NAME.RANDOM.part` behind, which
+/// [`unfinished`] tells from other files; one that is asked to end leaves nothing if it ends by [`abandon`].
+/// Nothing that is there under such a name is ever opened.
 ///
 /// Where the name is a symbolic link, the file that it leads to is replaced, and the link stays. What is
 /// there and is no regular file, such as a pipe or a device, cannot be replaced by one: it is written into
@@ -165,12 +166,24 @@ struct Part {
     target: PathBuf,
 }
 
+/// Random letters and digits in the name of an unfinished file.
+const RANDOM: usize = 12;
+
+/// What the name of an unfinished file ends in.
+const UNFINISHED: &str = ".part";
+
 impl Part {
     fn begin(target: PathBuf) -> io::Result<(Self, File)> {
         let name = target.file_name().unwrap_or_default().to_string_lossy();
-        let path = target.with_file_name(format!(".{name}.{}{UNFINISHED}", std::process::id()));
+        let folder = target.parent().filter(|folder| !folder.as_os_str().is_empty());
+        let prefix = format!(".{name}.");
+        let mut builder = tempfile::Builder::new();
+        builder.prefix(&prefix).suffix(UNFINISHED).rand_bytes(RANDOM);
+        with_usual_permissions(&mut builder);
         let mut growing = growing();
-        let file = File::create(&path)?;
+        let made = builder.tempfile_in(folder.unwrap_or(Path::new(".")))?;
+        // `drop` and `abandon` see to its end.
+        let (file, path) = made.keep().map_err(|error| error.error)?;
         growing.push(path.clone());
         Ok((Self { path, target }, file))
     }
@@ -199,24 +212,30 @@ impl Drop for Part {
     }
 }
 
-/// What the name of an unfinished file ends in.
-const UNFINISHED: &str = ".part";
+/// Those that every file has that a program makes, less what the user takes away; a temporary file could be read by
+/// its owner alone.
+#[cfg(unix)]
+fn with_usual_permissions(builder: &mut tempfile::Builder<'_, '_>) {
+    use std::os::unix::fs::PermissionsExt as _;
+    builder.permissions(fs::Permissions::from_mode(0o666));
+}
 
-/// Remove what killed processes left unfinished in a folder. Nobody else may be writing there.
+#[cfg(not(unix))]
+fn with_usual_permissions(_: &mut tempfile::Builder<'_, '_>) {}
+
+/// Of which file this is what a killed process left unfinished, by its name: `a.csv` for `.a.csv.RANDOM.part`; none
+/// if it is no such name.
 ///
-/// # Errors
-///
-/// Those of the file system.
-pub fn remove_unfinished(folder: &Path) -> io::Result<()> {
-    for entry in fs::read_dir(folder)? {
-        let entry = entry?;
-        let name = entry.file_name();
-        let name = name.to_string_lossy();
-        if name.starts_with('.') && name.ends_with(UNFINISHED) {
-            fs::remove_file(entry.path())?;
-        }
-    }
-    Ok(())
+/// ```
+/// assert_eq!(columns::unfinished(".a.csv.0123456789ab.part"), Some("a.csv"));
+/// assert_eq!(columns::unfinished(".mine.part"), None);
+/// ```
+#[must_use]
+pub fn unfinished(name: &str) -> Option<&str> {
+    let inner = name.strip_prefix('.')?.strip_suffix(UNFINISHED)?;
+    let (target, random) = inner.rsplit_once('.')?;
+    let ours = random.len() == RANDOM && random.bytes().all(|byte| byte.is_ascii_alphanumeric());
+    (ours && !target.is_empty()).then_some(target)
 }
 
 /// Write a whole file, so that an interruption leaves the old one or the new one.

@@ -13,8 +13,8 @@ mod parquet;
 mod table;
 mod writer;
 
-pub use atomic::{AtomicFile, abandon, remove_unfinished, write_whole};
+pub use atomic::{AtomicFile, abandon, unfinished, write_whole};
 pub use bars::read_bars;
 pub use error::ColumnsError;
 pub use table::{Column, Data, Kind, Mismatch, Schema, Spread};
-pub use writer::{Format, TableWriter, read_table};
+pub use writer::{Format, TableWriter, read_notes, read_table};

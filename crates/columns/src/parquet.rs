@@ -154,6 +154,17 @@ fn data(array: &ArrayRef) -> Option<Data> {
     })
 }
 
+/// The notes kept with a table, in order; what the format itself keeps there too.
+pub fn notes(path: &Path) -> Result<Vec<(String, String)>, ColumnsError> {
+    let file = open(path)?;
+    guarded(path, || {
+        let metadata = footer(path, &file)?;
+        let pairs = metadata.metadata().file_metadata().key_value_metadata();
+        let pair = |pair: &KeyValue| (pair.key.clone(), pair.value.clone().unwrap_or_default());
+        Ok(pairs.into_iter().flatten().map(pair).collect())
+    })
+}
+
 pub fn read(
     path: &Path,
     schema: &Schema,

@@ -331,28 +331,26 @@ impl Svg {
     pub fn finish(self) -> String {
         let Self { id, size: [width, height], title, description, letters_px, body } = self;
         let (title, description) = (Escaped(&title), Escaped(&description));
-        match id {
-            Some(id) => format!(
+        if let Some(id) = id {
+            let id = Escaped(&id);
+            return format!(
                 "<svg viewBox=\"0 0 {width} {height}\" width=\"{width}\" height=\"{height}\" \
                  role=\"img\" aria-labelledby=\"{id}-title {id}-desc\">\n\
                  <title id=\"{id}-title\">{title}</title>\n\
-                 <desc id=\"{id}-desc\">{description}</desc>\n{body}</svg>\n",
-                id = Escaped(&id)
-            ),
-            None => {
-                let about = match description.0 {
-                    "" => String::new(),
-                    _ => format!("<desc>{description}</desc>\n"),
-                };
-                format!(
-                    "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" \
-                     height=\"{height}\" viewBox=\"0 0 {width} {height}\" \
-                     font-family=\"Helvetica, Arial, sans-serif\" font-size=\"{letters_px}\" \
-                     stroke-linejoin=\"round\" role=\"img\">\n<title>{title}</title>\n{about}\
-                     <rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n{body}</svg>\n"
-                )
-            }
+                 <desc id=\"{id}-desc\">{description}</desc>\n{body}</svg>\n"
+            );
         }
+        let about = match description.0 {
+            "" => String::new(),
+            _ => format!("<desc>{description}</desc>\n"),
+        };
+        format!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
+             viewBox=\"0 0 {width} {height}\" font-family=\"Helvetica, Arial, sans-serif\" \
+             font-size=\"{letters_px}\" stroke-linejoin=\"round\" role=\"img\">\n\
+             <title>{title}</title>\n{about}\
+             <rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n{body}</svg>\n"
+        )
     }
 }
 

@@ -39,6 +39,8 @@ pub mod census;
 mod error;
 mod problem;
 mod solve;
+#[cfg(feature = "sweep")]
+pub mod starts;
 mod threads;
 
 pub mod prelude;

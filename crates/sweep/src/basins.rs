@@ -93,7 +93,7 @@ impl Legend {
         let (_, lines) = self.shape();
         let roomy = self.0.len() <= ROOMY;
         for (k, (colour, name, count)) in self.0.iter().enumerate() {
-            let share = 100.0 * *count as f64 / all as f64;
+            let percent = 100.0 * *count as f64 / all as f64;
             let (left, line) = (LEFT + SIDE + 24.0, if roomy { 44.0 } else { LINE });
             let (column, row) = ((k / lines) as f64, (k % lines) as f64);
             let at = [left + COLUMN * column, TOP + 12.0 + line * row];
@@ -102,11 +102,11 @@ impl Legend {
             svg.text(Look::PLAIN, [at[0] + 28.0, at[1] + 4.0], Anchor::Start, name);
             let small = Look::fill(Colour::grey(0x55)).size(12.0);
             if roomy {
-                let share = format!("{share:.2} % of the starts");
-                svg.text(small, [at[0] + 28.0, at[1] + 20.0], Anchor::Start, &share);
+                let percent = format!("{percent:.2} % of the starts");
+                svg.text(small, [at[0] + 28.0, at[1] + 20.0], Anchor::Start, &percent);
             } else {
                 let end = [at[0] + COLUMN - 30.0, at[1] + 4.0];
-                svg.text(small, end, Anchor::End, &format!("{share:.2} %"));
+                svg.text(small, end, Anchor::End, &format!("{percent:.2} %"));
             }
         }
     }

@@ -23,7 +23,9 @@ pub enum SweepError {
         axes: usize,
     },
     /// Occurs when an axis of a grid has no point, or an end that is no finite number.
-    #[error("axis {axis} of the grid, {points} points from {from_rad} to {to_rad} rad, is none")]
+    #[error(
+        "axis {axis} of the grid, {points} points from {from_rad} to {to_rad} rad, has no finite points"
+    )]
     GridAxis {
         /// Number of the axis, from 1.
         axis: usize,
@@ -53,12 +55,21 @@ pub enum SweepError {
         /// Largest number.
         most: usize,
     },
-    /// Occurs when a setting of the first solver is out of range.
-    #[error("lagrange: {0}")]
-    Lagrange(#[from] lagrange::SettingsError),
-    /// Occurs when a setting of the second solver is out of range.
-    #[error("energy: {0}")]
-    Energy(#[from] energy::Error),
+    /// Occurs when no solver is asked.
+    #[error("a sweep needs a solver")]
+    NoSolver,
+    /// Occurs when the name of a solver cannot be that of columns.
+    #[error("`{name}` cannot be the name of columns: letters, digits and underscores are allowed")]
+    SolverName {
+        /// The name.
+        name: String,
+    },
+    /// Occurs when two solvers have one name.
+    #[error("two solvers are called `{name}`")]
+    SolverTwice {
+        /// The name.
+        name: String,
+    },
     /// Occurs when no census can be taken and nothing can be discovered either.
     #[error("census: {0}")]
     Census(#[from] census::CensusError),

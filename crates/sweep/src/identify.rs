@@ -10,7 +10,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::error::SweepError;
 use crate::settings::Settings;
-use crate::source::Source;
+use crate::solver::{Ends, Finds, Finish, Solvers};
+use crate::starts::Source;
 
 /// An outcome is an equilibrium of the list when no joint is farther from it than this, in total lengths.
 /// A converged seed is within its residual (1e-13) times the condition of the equilibrium; equilibria
@@ -63,7 +64,7 @@ pub struct Member {
 ///
 /// It is the list of the census when that is complete. When the census leaves something undecided, or the
 /// chain is too long for one, what [`Settings::discover`] random seeds (always the same) reach through
-/// both solvers is added: the [`DISCOVERED`] equilibria that most of them reach. A seed that later converges to something else is
+/// all solvers is added: the [`DISCOVERED`] equilibria that most of them reach. A seed that later converges to something else is
 /// [`Failure::Unlisted`](crate::Failure::Unlisted), and stays in the count.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Members {
@@ -93,7 +94,11 @@ impl Members {
     ///
     /// [`SweepError::Census`] when every position is an equilibrium, [`SweepError::TooManyEquilibria`] when
     /// the columns cannot number them.
-    pub fn of(problem: &Problem, settings: &Settings) -> Result<Self, SweepError> {
+    pub fn of(
+        problem: &Problem,
+        settings: &Settings,
+        solvers: &Solvers,
+    ) -> Result<Self, SweepError> {
         let (mut list, complete) = match Census::take(problem, &settings.census) {
             Ok(census) => (proven(&census, problem), census.complete),
             Err(CensusError::TooManyBars { .. }) => (vec![], false),
@@ -106,7 +111,7 @@ impl Members {
         let lookup = Lookup::new(problem, &list);
         let mut members = Self { list, complete, left_out: 0, lookup };
         if !complete {
-            members.discover(problem, settings)?;
+            members.discover(problem, settings, solvers)?;
         }
         Ok(members)
     }
@@ -151,33 +156,30 @@ impl Members {
     }
 
     /// Add what the fixed random seeds reach.
-    fn discover(&mut self, problem: &Problem, settings: &Settings) -> Result<(), SweepError> {
+    fn discover(
+        &mut self,
+        problem: &Problem,
+        settings: &Settings,
+        solvers: &Solvers,
+    ) -> Result<(), SweepError> {
         const RUN: u64 = 1000;
         let bars = problem.chain().bars().len();
-        let spring = Source::Uniform.ready(DISCOVERY, bars)?;
-        let newton = lagrange::batch::Batch::new(problem, settings.lagrange)?;
-        let descent = energy::batch::Batch::new(problem, settings.energy)?;
+        let starts = Source::Uniform.ready(DISCOVERY, bars)?;
         let mut angles = vec![];
-        let mut points = lagrange::batch::Ends::default();
-        let mut minima = energy::batch::Ends::default();
+        let mut ends = Ends::default();
         let all = u64::from(settings.discover);
         // Seeds that reached each entry.
         let mut seeds = vec![0; self.list.len()];
         for start in (0..all).step_by(usize::try_from(RUN).unwrap_or(1)) {
-            spring.fill(start..all.min(start + RUN), bars, &mut angles);
-            // Minima first: their index is known.
-            descent.minimise(&angles, &mut minima);
-            for (k, finish) in minima.finish.iter().enumerate() {
-                if *finish == energy::batch::Finish::Minimum {
-                    let u = &minima.directions[k * bars..(k + 1) * bars];
-                    self.add(u, minima.energy_j[k], Some(0), &mut seeds);
-                }
-            }
-            newton.solve(&angles, &mut points);
-            for (k, finish) in points.finish.iter().enumerate() {
-                if *finish == lagrange::batch::Finish::Converged {
-                    let u = &points.directions[k * bars..(k + 1) * bars];
-                    self.add(u, points.energy_j[k], None, &mut seeds);
+            starts.fill(start..all.min(start + RUN), bars, &mut angles);
+            for solver in &solvers.discover {
+                let index = (solver.finds() == Finds::Minima).then_some(0);
+                solver.solve(&angles, &mut ends);
+                for (k, finish) in ends.finish.iter().enumerate() {
+                    if *finish == Finish::Converged {
+                        let u = &ends.directions[k * bars..(k + 1) * bars];
+                        self.add(u, ends.energy_j[k], index, &mut seeds);
+                    }
                 }
             }
         }

@@ -1,4 +1,6 @@
-//! Many seeds and many parameters in parallel: which start leads where.
+//! Many starts in parallel: which start leads where.
+//!
+//! A sweep depends on no solver: it is handed those that it runs ([`BatchSolver`]). Two are compared seed by seed.
 //!
 //! # The folder of a sweep
 //!
@@ -29,43 +31,36 @@
 //! the names alone.
 
 mod basins;
-mod compute;
-mod description;
 mod error;
 mod identify;
-mod manifest;
-mod merge;
 mod record;
 mod seeds;
 mod settings;
-mod shard;
 mod sobol;
-mod source;
+mod solver;
+mod starts;
 mod store;
-mod store_digests;
-mod store_error;
-mod store_footer;
-mod store_lock;
-mod store_part;
-mod store_tally;
 mod summary;
 mod sweep;
+mod tally;
 
 pub use basins::{Basins, BasinsError, Field};
-pub use compute::Compute;
-pub use description::SCHEMA_VERSION;
 pub use error::SweepError;
 pub use identify::{DISCOVERED, JOINT_TOLERANCE, Member, Members, Origin};
-pub use manifest::{Manifest, SystemText};
-pub use merge::merge;
 pub use record::{Chunk, Failure, Outcomes};
 pub use seeds::Stream;
-pub use settings::{Settings, Solvers};
-pub use shard::{Shard, ShardError, part_seeds};
-pub use source::{Axis, Source};
-pub use store::{Run, RunSettings, StoreSummary, run};
-pub use store_error::StoreError;
-pub use store_part::{PartRecord, schema};
-pub use store_tally::{OutcomeTally, SolverTally, Tally, rate_interval};
-pub use summary::{Comparison, Disagreement, KEPT, Summary};
+pub use settings::Settings;
+pub use solver::{BatchSolver, Ends, Finds, Finish, Solvers};
+pub use starts::{Axis, Source};
+pub use store::compute::Compute;
+pub use store::description::SCHEMA_VERSION;
+pub use store::error::StoreError;
+pub use store::finished::{PartRecord, StoreSummary};
+pub use store::manifest::{Manifest, SystemText};
+pub use store::merge::merge;
+pub use store::part::schema;
+pub use store::run::{Run, RunSettings, run};
+pub use store::shard::{MOST_SEEDS, Shard, ShardError, part_seeds};
+pub use summary::{Comparison, Disagreement, KEPT, Named, Summary};
 pub use sweep::Sweep;
+pub use tally::{OutcomeTally, SolverTally, Tally, rate_interval};

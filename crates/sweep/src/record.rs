@@ -5,6 +5,8 @@ use std::ops::Range;
 /// What one solver made of a run of consecutive seeds: one entry per seed in every column.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Outcomes {
+    /// Its name.
+    pub solver: String,
     /// The equilibrium reached, as its number in the list of the sweep, or a negative [`Failure`] code.
     pub outcome: Vec<i16>,
     /// Iterations spent.
@@ -29,13 +31,19 @@ pub enum Failure {
     Unlisted = -4,
 }
 
-/// A run of consecutive seeds through one or both solvers.
+/// A run of consecutive seeds through the solvers of a sweep.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Chunk {
     /// Which seeds.
     pub seeds: Range<u64>,
-    /// What `lagrange` made of them, if it was asked.
-    pub lagrange: Option<Outcomes>,
-    /// What `energy` made of them, if it was asked.
-    pub energy: Option<Outcomes>,
+    /// What each solver made of them, in the order of the sweep.
+    pub outcomes: Vec<Outcomes>,
+}
+
+impl Chunk {
+    /// What the solver of this name made of them, if it was asked.
+    #[must_use]
+    pub fn of(&self, solver: &str) -> Option<&Outcomes> {
+        self.outcomes.iter().find(|outcomes| outcomes.solver == solver)
+    }
 }

@@ -1,19 +1,7 @@
 //! What can be chosen for a sweep over seeds.
 
 use crate::error::SweepError;
-use crate::source::Source;
-
-/// Which solvers are asked.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Solvers {
-    /// The paper's Newton iteration, which finds every kind of equilibrium.
-    Lagrange,
-    /// The minimisation of the energy.
-    Energy,
-    /// Both, from the same seeds.
-    #[default]
-    Both,
-}
+use crate::starts::Source;
 
 /// A sweep over seeds.
 #[derive(Debug, Clone, PartialEq)]
@@ -22,18 +10,12 @@ pub struct Settings {
     pub number: u64,
     /// How the seeds are spread. Default uniform.
     pub source: Source,
-    /// Which solvers. Default both.
-    pub solvers: Solvers,
     /// Seeds in a chunk of [`Sweep::run`](crate::Sweep::run). Default 16,384, from 1 to 2²⁴: small enough for
     /// the memory of a processor core, large enough to cost nothing.
     pub chunk: u64,
-    /// Of the first solver.
-    pub lagrange: lagrange::batch::BatchSettings,
-    /// Of the second.
-    pub energy: energy::batch::BatchSettings,
     /// Of the census that the outcomes are identified against. Default: that of the crate.
     pub census: census::Settings,
-    /// Random seeds through both solvers that make the list where the census does not: see
+    /// Random seeds through all solvers that make the list where the census does not: see
     /// [`Members`](crate::Members); of what they reach at most [`DISCOVERED`](crate::DISCOVERED) are listed.
     /// Default 20,000; 0 for none.
     pub discover: u32,
@@ -44,10 +26,7 @@ impl Default for Settings {
         Self {
             number: 1,
             source: Source::Uniform,
-            solvers: Solvers::Both,
             chunk: 1 << 14,
-            lagrange: lagrange::batch::BatchSettings::default(),
-            energy: energy::batch::BatchSettings::default(),
             census: census::Settings::default(),
             discover: 20_000,
         }
@@ -67,8 +46,6 @@ impl Settings {
         if !(1..=Self::LARGEST_CHUNK).contains(&self.chunk) {
             return Err(SweepError::Chunk { seeds: self.chunk, most: Self::LARGEST_CHUNK });
         }
-        self.lagrange.validate()?;
-        self.energy.validate()?;
         self.census.validate()?;
         Ok(())
     }

@@ -1,28 +1,32 @@
 //! What a sweep says in the end: counts, and where the solvers disagree.
 
-use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+
+use serde::ser::SerializeMap as _;
+use serde::{Deserialize, Serialize, Serializer};
 
 use crate::identify::Member;
-use crate::record::Chunk;
-use crate::store_tally::Tally;
+use crate::record::{Chunk, Failure};
+use crate::tally::Tally;
 
-/// How the outcomes of one seed compare. The first solver finds equilibria of every kind and the second
-/// only minima, and each has its own way down, so that most differences are as they should be.
+/// How the outcomes of one seed compare, by two solvers: in a sweep of `lagrange` and `energy` the first finds
+/// equilibria of every kind and the second only minima, and each has its own way down, so that most differences are
+/// as they should be.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Comparison {
     /// Both reached the same entry of the list.
     Same,
-    /// `lagrange` reached an equilibrium that is no minimum, `energy` a minimum: as it should be.
+    /// The first reached an equilibrium that is no minimum, the second a minimum: as it should be.
     NoMinimum,
     /// Both reached minima, different ones: the seed is in another basin for each. As it should be.
     OtherBasin,
-    /// Both reached entries, and of the one of `lagrange` it is not known whether it is a minimum.
+    /// Both reached entries, and of that of the first it is not known whether it is a minimum.
     Unclassified,
     /// One or both failed, by the limit of iterations, by stalling or by an undefined number: no answer, and
     /// so no disagreement.
     Failed,
-    /// `energy` reached an entry that is no minimum by the list. Should never be.
+    /// The second reached an entry that is no minimum by the list. Should never be.
     EnergyAtNoMinimum,
     /// Both reached the same entry, with different energies. Should never be.
     EnergiesDiffer,
@@ -51,21 +55,41 @@ impl Comparison {
     }
 }
 
-/// A seed on which the solvers disagree where they should not.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+/// A seed on which the first two solvers disagree where they should not.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Disagreement {
     /// Its number.
     pub seed: u64,
     /// In which way.
     pub comparison: Comparison,
-    /// Outcome of `lagrange`.
-    pub lagrange: i16,
-    /// Outcome of `energy`.
-    pub energy: i16,
+    /// Outcomes of the two.
+    pub outcomes: [i16; 2],
+}
+
+/// A disagreement with the names of the solvers, as it stands in JSON: `seed`, `comparison`, and the outcome of each
+/// under its name.
+#[derive(Debug, Clone, Copy)]
+pub struct Named<'a> {
+    disagreement: Disagreement,
+    solvers: [&'a str; 2],
+}
+
+impl Serialize for Named<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let Disagreement { seed, comparison, outcomes } = self.disagreement;
+        let mut map = serializer.serialize_map(None)?;
+        map.serialize_entry("seed", &seed)?;
+        map.serialize_entry("comparison", &comparison)?;
+        for (solver, outcome) in self.solvers.iter().zip(outcomes) {
+            map.serialize_entry(solver, &outcome)?;
+        }
+        map.end()
+    }
 }
 
 /// Counts of a sweep; exact, and the same in whatever order they are added.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
+#[serde(try_from = "Stored")]
 pub struct Summary {
     tally: Tally,
     /// Seeds by comparison, in the order of [`Comparison::ALL`].
@@ -107,19 +131,15 @@ impl Summary {
     /// Count a chunk.
     pub fn add(&mut self, chunk: &Chunk) {
         self.tally.add_chunk(chunk);
-        let (Some(lagrange), Some(energy)) = (&chunk.lagrange, &chunk.energy) else { return };
-        let energies = lagrange.energy_j.iter().zip(&energy.energy_j);
-        let outcomes = lagrange.outcome.iter().zip(&energy.outcome);
+        let [first, second, ..] = chunk.outcomes.as_slice() else { return };
+        let energies = first.energy_j.iter().zip(&second.energy_j);
+        let outcomes = first.outcome.iter().zip(&second.outcome);
         for ((seed, (a, b)), (v, w)) in chunk.seeds.clone().zip(outcomes).zip(energies) {
             let comparison = self.compare(*a, *b, v - w);
             self.comparisons[comparison as usize] += 1;
             if comparison.should_not_be() {
-                self.disagreements.push(Disagreement {
-                    seed,
-                    comparison,
-                    lagrange: *a,
-                    energy: *b,
-                });
+                let outcomes = [*a, *b];
+                self.disagreements.push(Disagreement { seed, comparison, outcomes });
             }
         }
         self.keep();
@@ -142,12 +162,12 @@ impl Summary {
         self.disagreements.truncate(KEPT);
     }
 
-    fn compare(&self, lagrange: i16, energy: i16, difference_j: f64) -> Comparison {
-        let unlisted = crate::Failure::Unlisted as i16;
-        if lagrange == unlisted || energy == unlisted {
+    fn compare(&self, first: i16, second: i16, difference_j: f64) -> Comparison {
+        let unlisted = Failure::Unlisted as i16;
+        if first == unlisted || second == unlisted {
             return Comparison::NotListed;
         }
-        let (Ok(a), Ok(b)) = (usize::try_from(lagrange), usize::try_from(energy)) else {
+        let (Ok(a), Ok(b)) = (usize::try_from(first), usize::try_from(second)) else {
             return Comparison::Failed;
         };
         if self.index[b] > 0 {
@@ -176,7 +196,7 @@ impl Summary {
         self.tally.seeds
     }
 
-    /// Seeds by comparison of the two solvers.
+    /// Seeds by comparison of the first two solvers.
     pub fn comparisons(&self) -> impl Iterator<Item = (Comparison, u64)> + '_ {
         Comparison::ALL.into_iter().zip(self.comparisons)
     }
@@ -186,5 +206,63 @@ impl Summary {
     #[must_use]
     pub fn disagreements(&self) -> &[Disagreement] {
         &self.disagreements
+    }
+
+    /// The same with the names of the solvers, for JSON.
+    pub fn named_disagreements(&self) -> impl Iterator<Item = Named<'_>> {
+        let mut names = self.tally.names();
+        let solvers = [(); 2].map(|()| names.next().unwrap_or_default());
+        self.disagreements.iter().map(move |one| Named { disagreement: *one, solvers })
+    }
+}
+
+impl Serialize for Summary {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut map = serializer.serialize_map(None)?;
+        map.serialize_entry("tally", &self.tally)?;
+        map.serialize_entry("comparisons", &self.comparisons)?;
+        let disagreements: Vec<_> = self.named_disagreements().collect();
+        map.serialize_entry("disagreements", &disagreements)?;
+        map.serialize_entry("index", &self.index)?;
+        map.serialize_entry("scale", &self.scale)?;
+        map.end()
+    }
+}
+
+/// As it is stored.
+#[derive(Deserialize)]
+struct Stored {
+    tally: Tally,
+    comparisons: [u64; 8],
+    disagreements: Vec<StoredDisagreement>,
+    index: Vec<i32>,
+    scale: u64,
+}
+
+#[derive(Deserialize)]
+struct StoredDisagreement {
+    seed: u64,
+    comparison: Comparison,
+    /// By solver.
+    #[serde(flatten)]
+    outcomes: BTreeMap<String, i16>,
+}
+
+impl TryFrom<Stored> for Summary {
+    type Error = String;
+
+    fn try_from(stored: Stored) -> Result<Self, String> {
+        let Stored { tally, comparisons, disagreements, index, scale } = stored;
+        let solvers: Vec<&str> = tally.names().take(2).collect();
+        let read = |one: StoredDisagreement| {
+            let outcome = |k: usize| solvers.get(k).and_then(|name| one.outcomes.get(*name));
+            let (Some(first), Some(second)) = (outcome(0), outcome(1)) else {
+                return Err(format!("the disagreement of seed {} lacks an outcome", one.seed));
+            };
+            let (seed, comparison) = (one.seed, one.comparison);
+            Ok(Disagreement { seed, comparison, outcomes: [*first, *second] })
+        };
+        let disagreements = disagreements.into_iter().map(read).collect::<Result<_, _>>()?;
+        Ok(Self { tally, comparisons, disagreements, index, scale })
     }
 }

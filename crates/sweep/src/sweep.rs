@@ -5,37 +5,26 @@ use std::ops::Range;
 use model::Problem;
 use rayon::prelude::*;
 
-use crate::compute::Compute;
 use crate::error::SweepError;
 use crate::identify::Members;
 use crate::record::{Chunk, Failure, Outcomes};
-use crate::settings::{Settings, Solvers};
-use crate::source::Spring;
+use crate::settings::Settings;
+use crate::solver::{Ends, Finish, Solvers};
+use crate::starts::Starts;
+use crate::store::compute::Compute;
 use crate::summary::Summary;
 
-/// Many seeds of one problem through one or both solvers.
+/// Many seeds of one problem through one or several solvers.
 ///
 /// What becomes of a seed depends on the problem, the settings and its number alone: not on the other seeds
-/// of a chunk, the threads, or the machine.
-///
-/// ```
-/// use sweep::{Settings, Sweep};
-/// let sweep = Sweep::new(&model::cases::paper(), Settings::default())?;
-/// let summary = sweep.run(0..2000, 2)?;
-/// let lagrange = summary.tally().lagrange.as_ref().ok_or("not asked")?;
-/// // The four equilibria of the census, and nothing else.
-/// assert_eq!(lagrange.0.keys().copied().collect::<Vec<_>>(), [0, 1, 2, 3]);
-/// assert_eq!(lagrange.0.values().map(|row| row.count).sum::<u64>(), 2000);
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
+/// of a chunk, the threads, or the machine. For an example see [`BatchSolver`](crate::BatchSolver).
 #[derive(Debug, Clone)]
 pub struct Sweep {
     settings: Settings,
     bars: usize,
     members: Members,
-    spring: Spring,
-    newton: Option<lagrange::batch::Batch>,
-    descent: Option<energy::batch::Batch>,
+    starts: Starts,
+    solvers: Solvers,
 }
 
 /// Seeds solved at a time, in the memory of one chunk: results do not depend on it.
@@ -47,26 +36,29 @@ impl Sweep {
     /// # Errors
     ///
     /// [`SweepError`].
-    pub fn new(problem: &Problem, settings: Settings) -> Result<Self, SweepError> {
+    pub fn new(
+        problem: &Problem,
+        settings: Settings,
+        solvers: Solvers,
+    ) -> Result<Self, SweepError> {
         settings.validate()?;
+        solvers.check()?;
         let bars = problem.chain().bars().len();
-        let spring = settings.source.ready(settings.number, bars)?;
-        let members = Members::of(problem, &settings)?;
-        let newton = match settings.solvers {
-            Solvers::Energy => None,
-            _ => Some(lagrange::batch::Batch::new(problem, settings.lagrange)?),
-        };
-        let descent = match settings.solvers {
-            Solvers::Lagrange => None,
-            _ => Some(energy::batch::Batch::new(problem, settings.energy)?),
-        };
-        Ok(Self { settings, bars, members, spring, newton, descent })
+        let starts = settings.source.ready(settings.number, bars)?;
+        let members = Members::of(problem, &settings, &solvers)?;
+        Ok(Self { settings, bars, members, starts, solvers })
     }
 
     /// The settings.
     #[must_use]
     pub fn settings(&self) -> &Settings {
         &self.settings
+    }
+
+    /// The solvers.
+    #[must_use]
+    pub fn solvers(&self) -> &Solvers {
+        &self.solvers
     }
 
     /// The list by which outcomes are numbered.
@@ -79,7 +71,7 @@ impl Sweep {
     #[must_use]
     pub fn angles_rad(&self, seeds: Range<u64>) -> Vec<f64> {
         let mut angles = vec![];
-        self.spring.fill(seeds, self.bars, &mut angles);
+        self.starts.fill(seeds, self.bars, &mut angles);
         angles
     }
 
@@ -87,51 +79,35 @@ impl Sweep {
     #[must_use]
     pub fn run_chunk(&self, seeds: Range<u64>) -> Chunk {
         let mut angles = vec![];
-        let mut points = lagrange::batch::Ends::default();
-        let mut minima = energy::batch::Ends::default();
-        let mut chunk = Chunk {
-            seeds: seeds.clone(),
-            lagrange: self.newton.is_some().then(Outcomes::default),
-            energy: self.descent.is_some().then(Outcomes::default),
-        };
+        let mut ends = Ends::default();
+        let named = |solver: &str| Outcomes { solver: solver.to_owned(), ..Outcomes::default() };
+        let outcomes = self.solvers.names().map(named).collect();
+        let mut chunk = Chunk { seeds: seeds.clone(), outcomes };
         let mut start = seeds.start;
         while start < seeds.end {
             let end = seeds.end.min(start.saturating_add(BLOCK));
-            self.spring.fill(start..end, self.bars, &mut angles);
-            if let (Some(batch), Some(outcomes)) = (&self.newton, &mut chunk.lagrange) {
-                batch.solve(&angles, &mut points);
-                outcomes.iterations.extend_from_slice(&points.iterations);
-                outcomes.residual.extend_from_slice(&points.residual);
-                outcomes.energy_j.extend_from_slice(&points.energy_j);
-                for (seed, finish) in points.finish.iter().enumerate() {
-                    use lagrange::batch::Finish;
-                    let u = &points.directions[seed * self.bars..(seed + 1) * self.bars];
-                    outcomes.outcome.push(match finish {
-                        Finish::Converged => self.identified(u, points.energy_j[seed]),
-                        Finish::IterationLimit => Failure::IterationLimit as i16,
-                        Finish::NonFinite => Failure::NonFinite as i16,
-                    });
-                }
-            }
-            if let (Some(batch), Some(outcomes)) = (&self.descent, &mut chunk.energy) {
-                batch.minimise(&angles, &mut minima);
-                outcomes.iterations.extend_from_slice(&minima.iterations);
-                outcomes.residual.extend_from_slice(&minima.residual);
-                outcomes.energy_j.extend_from_slice(&minima.energy_j);
-                for (seed, finish) in minima.finish.iter().enumerate() {
-                    use energy::batch::Finish;
-                    let u = &minima.directions[seed * self.bars..(seed + 1) * self.bars];
-                    outcomes.outcome.push(match finish {
-                        Finish::Minimum => self.identified(u, minima.energy_j[seed]),
-                        Finish::IterationLimit => Failure::IterationLimit as i16,
-                        Finish::Stalled => Failure::Stalled as i16,
-                        Finish::NonFinite => Failure::NonFinite as i16,
-                    });
-                }
+            self.starts.fill(start..end, self.bars, &mut angles);
+            for (solver, outcomes) in self.solvers.asked.iter().zip(&mut chunk.outcomes) {
+                solver.solve(&angles, &mut ends);
+                self.record(&ends, outcomes);
             }
             start = end;
         }
         chunk
+    }
+
+    /// Add where a block of seeds ended.
+    fn record(&self, ends: &Ends, outcomes: &mut Outcomes) {
+        outcomes.iterations.extend_from_slice(&ends.iterations);
+        outcomes.residual.extend_from_slice(&ends.residual);
+        outcomes.energy_j.extend_from_slice(&ends.energy_j);
+        let ends = ends.finish.iter().zip(&ends.energy_j).zip(ends.directions.chunks(self.bars));
+        outcomes.outcome.extend(ends.map(|((finish, energy_j), directions)| match finish {
+            Finish::Converged => self.identified(directions, *energy_j),
+            Finish::IterationLimit => Failure::IterationLimit as i16,
+            Finish::Stalled => Failure::Stalled as i16,
+            Finish::NonFinite => Failure::NonFinite as i16,
+        }));
     }
 
     fn identified(&self, directions: &[[f64; 2]], energy_j: f64) -> i16 {

@@ -23,7 +23,10 @@ const LINEAR_ALGEBRA: &[&str] = &[
 
 /// Packages of the workspace that may reach both solvers: the judge, what shows its verdicts, and what measures or
 /// sweeps both side by side.
-const MEETING_PLACES: &[&str] = &["validate", "paper", "report", "sweep", "benches", "funicular"];
+const MEETING_PLACES: &[&str] = &["validate", "paper", "report", "benches", "funicular"];
+
+/// Packages that are handed the solvers they run, or need none.
+const WITHOUT_SOLVERS: &[&str] = &["sweep", "branches", "census", "columns", "figures"];
 
 /// Why the graph could not be read.
 #[derive(Debug, thiserror::Error)]
@@ -159,6 +162,11 @@ impl Graph {
         forbid("energy", "lagrange", "the solvers must not know each other");
         for package in LINEAR_ALGEBRA {
             forbid("model", package, "model is data, no mechanics");
+        }
+        for package in WITHOUT_SOLVERS {
+            for solver in ["lagrange", "energy"] {
+                forbid(package, solver, "no solver is reached from here");
+            }
         }
         for package in &self.workspace {
             forbid(package, "funicular", "nothing uses the program");

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-/// Why the text of a parameter is none: what, where, and what would be allowed.
+/// Why a text describes no parameter: what is wrong, where, and what would be allowed.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("`{text}`, character {}: {what}", self.column())]
 pub struct ParameterError {

@@ -1,6 +1,9 @@
 //! `--vary`: what is accepted, what it does, and every error with its place.
 
-use branches::{Combine, Parameter, ParameterError, Study};
+use branches::{
+    Combine, Continuation, ContinuationError, ContinuationSettings, Parameter, ParameterError,
+    Study,
+};
 use model::Chain;
 
 fn vary(text: &str) -> Parameter {
@@ -137,4 +140,14 @@ fn random_bytes_never_panic() {
         }
     }
     assert!(accepted > 100, "{accepted}");
+}
+
+/// Before a census is taken.
+#[test]
+fn more_points_than_memory_are_refused() {
+    let study = Study::new(paper(), &[vary("anchors.end_m.z=-2.5..-0.5:101")], Combine::Product);
+    let settings = ContinuationSettings { max_points: 100, ..ContinuationSettings::default() };
+    let watched = |_| panic!("a census was taken");
+    let error = Continuation::follow(&study.unwrap(), 0, &settings, &watched).unwrap_err();
+    assert_eq!(error, ContinuationError::TooManyPoints { points: 101, most: 100 });
 }

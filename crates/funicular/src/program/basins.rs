@@ -92,8 +92,10 @@ pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
         Settings { source: Source::Grid((1..=bars).map(axis).collect()), ..Settings::default() };
     let progress = Progress::start();
     progress.say("the list of equilibria");
-    let sweep =
-        Sweep::new(&problem, settings).map_err(|error| Failure::bad_input(miette!("{error}")))?;
+    let solvers = funicular::starts::solvers(&problem)
+        .map_err(|error| Failure::bad_input(miette!("{error}")))?;
+    let sweep = Sweep::new(&problem, settings, solvers)
+        .map_err(|error| Failure::bad_input(miette!("{error}")))?;
     let size = u64::from(arguments.size);
     progress.say(&format!("{} starts", size * size));
     let rows: Vec<_> = (0..size)
@@ -112,8 +114,7 @@ pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
     for solver in SOLVERS {
         let mut all = Outcomes::default();
         for chunk in &rows {
-            let part = if solver == "lagrange" { &chunk.lagrange } else { &chunk.energy };
-            let Some(part) = part else { continue };
+            let Some(part) = chunk.of(solver) else { continue };
             all.outcome.extend(&part.outcome);
             all.iterations.extend(&part.iterations);
         }

@@ -38,10 +38,12 @@ pub fn run(arguments: &Sweep) -> Result<Exit, Failure> {
     let settings = settings(arguments, problem.chain().bars().len())?;
     let progress = Progress::start();
     progress.say("the list of equilibria");
-    let sweep = ::sweep::Sweep::new(&problem, settings)
+    let solvers = solvers(arguments, &problem)?;
+    let sweep = ::sweep::Sweep::new(&problem, settings, solvers)
         .map_err(|error| Failure::bad_input(miette!("{error}")))?;
     drop(progress);
     let manifest = manifest(arguments, &problem, &sweep);
+    tell_cost(&manifest);
     let stop = on_interrupt()?;
     let all = manifest.range.end - manifest.range.start;
     let bar = seeds_bar(all);
@@ -80,18 +82,41 @@ pub fn run(arguments: &Sweep) -> Result<Exit, Failure> {
     Ok(verdict(&manifest, summary))
 }
 
+/// Seeds from which on the cost is told beforehand.
+const MANY_SEEDS: u64 = 100_000_000;
+
+/// What a large sweep needs: rows of 6 to 20 bytes for each solver, as those of the named cases have.
+fn tell_cost(manifest: &Manifest) {
+    let seeds = manifest.range.end - manifest.range.start;
+    if seeds >= MANY_SEEDS {
+        let rows = seeds * manifest.solvers.len() as u64;
+        let gigabytes = |bytes: u64| (rows * bytes).div_ceil(1_000_000_000);
+        let parts = seeds.div_ceil(manifest.part_seeds.max(1));
+        let (least, most) = (gigabytes(6), gigabytes(20));
+        tell(format_args!(
+            "{seeds} seeds: {parts} files, {least} to {most} GB in all. It may be stopped; --resume goes on."
+        ));
+    }
+}
+
 fn settings(arguments: &Sweep, bars: usize) -> Result<Settings, Failure> {
     let source = match arguments.source {
         Spread::Uniform => Source::Uniform,
         Spread::Sobol => Source::Sobol,
         Spread::Grid => Source::Grid(vec![Axis::full(grid_points(arguments.seeds, bars)?); bars]),
     };
-    let solvers = match arguments.solver {
-        Which::Lagrange => Solvers::Lagrange,
-        Which::Energy => Solvers::Energy,
-        Which::Both => Solvers::Both,
-    };
-    Ok(Settings { number: arguments.seed, source, solvers, ..Settings::default() })
+    Ok(Settings { number: arguments.seed, source, ..Settings::default() })
+}
+
+/// The solvers that are asked.
+fn solvers(arguments: &Sweep, problem: &Problem) -> Result<Solvers, Failure> {
+    let both = funicular::starts::solvers(problem)
+        .map_err(|error| Failure::bad_input(miette!("{error}")))?;
+    Ok(match arguments.solver {
+        Which::Lagrange => both.only(&["lagrange"]),
+        Which::Energy => both.only(&["energy"]),
+        Which::Both => both,
+    })
 }
 
 /// Points on each axis of a regular grid with this many points in all.
@@ -122,11 +147,6 @@ fn grid_points(seeds: u64, bars: usize) -> Result<u64, Failure> {
 
 fn manifest(arguments: &Sweep, problem: &Problem, sweep: &::sweep::Sweep) -> Manifest {
     let bars = problem.chain().bars().len();
-    let solvers: &[&str] = match arguments.solver {
-        Which::Lagrange => &["lagrange"],
-        Which::Energy => &["energy"],
-        Which::Both => &["lagrange", "energy"],
-    };
     let angles = if arguments.angles { bars } else { 0 };
     Manifest {
         schema_version: SCHEMA_VERSION,
@@ -135,7 +155,7 @@ fn manifest(arguments: &Sweep, problem: &Problem, sweep: &::sweep::Sweep) -> Man
         seeds: arguments.seeds,
         seed_number: arguments.seed,
         source: arguments.source.to_string(),
-        solvers: solvers.iter().map(|&solver| solver.to_owned()).collect(),
+        solvers: sweep.solvers().names().map(str::to_owned).collect(),
         angles: (1..=angles).map(|bar| format!("theta_{bar}_rad")).collect(),
         equilibria: sweep.members().list().to_vec(),
         equilibria_complete: sweep.members().complete(),
@@ -194,7 +214,7 @@ pub(crate) fn json_object(manifest: &Manifest, summary: &StoreSummary, out: &Pat
         "equilibria_left_out": manifest.equilibria_left_out,
         "solvers": tables::solvers_json(summary),
         "comparisons": tables::comparisons_json(summary),
-        "disagreements": summary.outcomes.disagreements(),
+        "disagreements": summary.outcomes.named_disagreements().collect::<Vec<_>>(),
         "parts": summary.parts.len(),
     })
 }
@@ -223,7 +243,7 @@ pub(crate) fn verdict(manifest: &Manifest, summary: &StoreSummary) -> Exit {
     });
     let unlisted = ::sweep::Failure::Unlisted as i16;
     let tally = summary.outcomes.tally();
-    let invented = [&tally.lagrange, &tally.energy].into_iter().flatten();
-    let invented = invented.flat_map(|solver| &solver.0).any(|(outcome, _)| *outcome == unlisted);
+    let mut outcomes = tally.solvers.iter().flat_map(|(_, solver)| solver.0.keys());
+    let invented = outcomes.any(|outcome| *outcome == unlisted);
     if wrong || (invented && manifest.equilibria_complete) { Exit::CheckFailed } else { Exit::Done }
 }

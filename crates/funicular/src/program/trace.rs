@@ -92,6 +92,10 @@ pub struct Arguments {
     /// Write the bifurcation diagram to this SVG file (with several paths: FILE-1.svg, FILE-2.svg, ...)
     #[arg(long, value_name = "FILE")]
     pub svg: Option<PathBuf>,
+    /// Most points of all paths together: all that is found is held in memory, some 4 kB for each equilibrium at
+    /// each point
+    #[arg(long, value_name = "N", default_value_t = 100_000)]
+    pub max_points: usize,
     /// Draw the diagram over the distance of the anchors instead of the parameter
     #[arg(long)]
     pub over_span: bool,
@@ -130,10 +134,22 @@ pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
         .collect::<Result<_, _>>()?;
     let combine = if arguments.zip { Combine::Zip } else { Combine::Product };
     let study = Study::new(chain, &vary, combine).map_err(|error| vary_failure(&error))?;
+    let points = study.paths().iter().map(Vec::len).sum::<usize>();
+    if points > arguments.max_points {
+        let kilobytes = ContinuationSettings::BYTES / 1000;
+        return Err(Failure::bad_input(miette!(
+            help = format!("with --max-points {points} it is done all the same"),
+            "{points} points are more than the {} allowed: all that is found is held in memory, about {kilobytes} kB \
+             for each equilibrium at each point",
+            arguments.max_points
+        )));
+    }
     let diagrams = diagrams(arguments.svg.as_deref(), study.paths().len());
     let outputs = arguments.csv.iter().chain(&diagrams).map(PathBuf::as_path);
     output::check(outputs, &files)?;
-    let traces = follow(&study)?;
+    let traces = follow(&study, points)?;
+    // Before anything is written: a file is replaced by results only.
+    let exit = verdict(&traces)?;
     if let Some(path) = &arguments.csv {
         output::write_stream(path, |file| write_csv(file, &traces))?;
     }
@@ -141,7 +157,6 @@ pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
     for (path, one) in diagrams.iter().zip(&traces) {
         output::write_whole(path, &diagram(one, &system.name, abscissa, arguments.bar))?;
     }
-    let exit = verdict(&traces)?;
     if arguments.json {
         let answer = Answer { schema_version: funicular::SCHEMA_VERSION, system, traces: &traces };
         output::print_json(&answer)?;
@@ -152,9 +167,10 @@ pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
     Ok(exit)
 }
 
-fn follow(study: &Study) -> Result<Vec<Continuation>, Failure> {
+fn follow(study: &Study, max_points: usize) -> Result<Vec<Continuation>, Failure> {
     let progress = Progress::start();
     let paths = study.paths().len();
+    let settings = ContinuationSettings { max_points, ..ContinuationSettings::default() };
     let mut traces = vec![];
     for path in 0..paths {
         let which =
@@ -162,7 +178,7 @@ fn follow(study: &Study) -> Result<Vec<Continuation>, Failure> {
         let watch = |branches::Progress { done, total }: branches::Progress| {
             progress.say(&format!("{which}census {done} of {total}"));
         };
-        let found = Continuation::follow(study, path, &ContinuationSettings::default(), &watch);
+        let found = Continuation::follow(study, path, &settings, &watch);
         traces.push(found.map_err(|error| Failure::bad_input(miette!("{error}")))?);
     }
     Ok(traces)

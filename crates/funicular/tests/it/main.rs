@@ -4,5 +4,6 @@ mod census;
 mod files;
 mod library;
 mod program;
+mod starts;
 mod sweep;
 mod trace;

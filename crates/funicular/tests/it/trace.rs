@@ -182,6 +182,39 @@ fn errors_point_at_what_is_wrong() {
     assert!(text(&output.stderr).contains("30 bars"));
 }
 
+/// Results are replaced by results only.
+#[test]
+fn a_path_that_is_refused_replaces_no_file() {
+    let out = folder("refused");
+    let [csv, svg] = ["good.csv", "good.svg"].map(|name| out.join(name));
+    for path in [&csv, &svg] {
+        std::fs::write(path, "good").unwrap();
+    }
+    // Three bars of 1 m do not reach 5 m.
+    let files = ["--csv", csv.to_str().unwrap(), "--svg", svg.to_str().unwrap()];
+    let vary = ["trace", "--case", "three-equal-bars", "--vary", "anchors.end_m.z=-6,-5"];
+    let output = funicular(&[&vary[..], &files[..]].concat());
+    assert_eq!(output.status.code(), Some(2), "{}", text(&output.stderr));
+    for path in [&csv, &svg] {
+        assert_eq!(std::fs::read(path).unwrap(), b"good", "{}", path.display());
+    }
+}
+
+/// Before a census is taken: the million points of this would take minutes.
+#[test]
+fn more_points_than_memory_are_refused_beforehand() {
+    let start = std::time::Instant::now();
+    let vary = ["trace", "--case", "two-bars", "--vary", "gravity_m_s2=1..2:1000000"];
+    let output = funicular(&vary);
+    assert_eq!(output.status.code(), Some(2));
+    let error = text(&output.stderr);
+    // Without the frame and the breaks of the lines.
+    let words = error.split(|c: char| c.is_whitespace() || c == '│');
+    let error = words.filter(|word| !word.is_empty()).collect::<Vec<_>>().join(" ");
+    assert!(error.contains("100000 allowed") && error.contains("--max-points"), "{error}");
+    assert!(start.elapsed().as_secs() < 20);
+}
+
 #[test]
 fn basins_are_drawn_for_both_solvers() {
     let out = folder("basins");

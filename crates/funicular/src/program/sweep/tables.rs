@@ -37,10 +37,8 @@ pub fn summary(manifest: &Manifest, summary: &StoreSummary) -> String {
     let listed = manifest.equilibria.len();
     let _ = writeln!(text, "{listed} equilibria in the list{left_out}; {proof}\n");
     let tally = summary.outcomes.tally();
-    for (name, solver) in [("lagrange", &tally.lagrange), ("energy", &tally.energy)] {
-        if let Some(solver) = solver {
-            let _ = writeln!(text, "{name}:\n{}\n", outcomes(manifest, solver, all));
-        }
+    for (name, solver) in &tally.solvers {
+        let _ = writeln!(text, "{name}:\n{}\n", outcomes(manifest, solver, all));
     }
     if tally.both.is_some() {
         text += &comparisons(manifest, summary);
@@ -129,15 +127,12 @@ fn comparisons(manifest: &Manifest, summary: &StoreSummary) -> String {
     // A seed for which the list has no entry is no contradiction.
     let listed = summary.outcomes.disagreements().iter();
     let listed: Vec<_> = listed.filter(|seed| !is_gap(manifest, seed.comparison)).collect();
+    let solvers: Vec<&str> = summary.outcomes.tally().names().collect();
     for disagreement in listed.iter().take(NAMED) {
-        let _ = writeln!(
-            text,
-            "seed {}: {} (lagrange: {}; energy: {})",
-            disagreement.seed,
-            words(disagreement.comparison),
-            outcome(disagreement.lagrange),
-            outcome(disagreement.energy)
-        );
+        let said = solvers.iter().zip(disagreement.outcomes);
+        let said: Vec<_> = said.map(|(name, code)| format!("{name}: {}", outcome(code))).collect();
+        let (seed, what) = (disagreement.seed, words(disagreement.comparison));
+        let _ = writeln!(text, "seed {seed}: {what} ({})", said.join("; "));
     }
     if listed.len() > NAMED {
         let _ = writeln!(text, "... summary.json lists {} of them", listed.len());
@@ -176,13 +171,7 @@ pub fn solvers_json(summary: &StoreSummary) -> Value {
         };
         Value::from(solver.0.iter().map(row).collect::<Vec<_>>())
     };
-    let mut object = serde_json::Map::new();
-    for (name, solver) in [("lagrange", &tally.lagrange), ("energy", &tally.energy)] {
-        if let Some(solver) = solver {
-            object.insert(name.to_owned(), rows(solver));
-        }
-    }
-    object.into()
+    Value::Object(tally.solvers.iter().map(|(name, solver)| (name.clone(), rows(solver))).collect())
 }
 
 /// Seeds by comparison, if both solvers were asked.

@@ -26,6 +26,12 @@ pub fn part_seeds(seeds: u64) -> u64 {
     wanted.next_power_of_two().min(PART_SEEDS.end)
 }
 
+/// Most parts of a sweep: so many records are what a summary may be long.
+pub(crate) const MOST_PARTS: u64 = 150_000;
+
+/// Most seeds of a sweep: the summary lists every part, and must not be too long to be read.
+pub const MOST_SEEDS: u64 = MOST_PARTS * PART_SEEDS.end;
+
 /// The `number`-th of `of` shards.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Shard {
@@ -130,6 +136,22 @@ mod tests {
         for text in ["0/7", "8/7", "0/0", "1/0"] {
             assert!(matches!(text.parse::<Shard>(), Err(ShardError::Range { .. })), "{text}");
         }
+    }
+
+    /// Every record as long as one can be.
+    #[test]
+    fn the_longest_summary_is_not_too_long_to_be_read() {
+        let record = crate::store::finished::PartRecord {
+            file: format!("part-{MOST_PARTS:06}.parquet"),
+            seeds: MOST_SEEDS..MOST_SEEDS,
+            bytes: 99_999_999_999,
+            sha256: "f".repeat(64),
+        };
+        let list = serde_json::json!({ "parts": [record] });
+        let text = serde_json::to_string_pretty(&list).unwrap();
+        let parts = text.len() as u64 * MOST_PARTS;
+        // A quarter is left for the counts of outcomes.
+        assert!(parts < crate::store::description::MAX_DESCRIPTION / 4 * 3, "{parts} bytes");
     }
 
     #[test]

@@ -6,15 +6,10 @@ use std::io::{ErrorKind, Write as _};
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 
-use crate::description::{MANIFEST, SUMMARY, read_json};
-use crate::manifest::{Manifest, digest};
-use crate::store::StoreSummary;
-use crate::store_error::StoreError;
-use crate::store_part::PartRecord;
-
-/// The list of an unfinished sweep, in the form of `sha256sum`: the manifest first, then a part a line, in the order
-/// in which they were finished.
-const DIGESTS: &str = ".digests";
+use crate::store::description::{DIGESTS, MANIFEST, SUMMARY, read_json};
+use crate::store::error::{StoreError, regular};
+use crate::store::finished::{PartRecord, StoreSummary};
+use crate::store::manifest::{Manifest, digest};
 
 /// Hexadecimal digits of a SHA-256.
 const DIGITS: usize = 64;
@@ -40,6 +35,7 @@ impl Digests {
             return Ok(Self { known, path, list: None });
         }
         let io = |error| StoreError::file(&path, error);
+        regular(&path)?;
         let text = match fs::read(&path) {
             Ok(bytes) => String::from_utf8_lossy(&bytes).into_owned(),
             Err(error) if error.kind() == ErrorKind::NotFound => String::new(),
@@ -51,7 +47,7 @@ impl Digests {
             .strip_prefix(&head)
             .map(|rest| rest.lines().filter_map(entry).collect())
             .unwrap_or_default();
-        // Anew, for its last line may have been cut off.
+        // Written again: its last line may have been cut off.
         let lines = known.iter().map(|(file, sha256)| line(sha256, file));
         let text: String = std::iter::once(head).chain(lines).collect();
         columns::write_whole(&path, text.as_bytes()).map_err(io)?;

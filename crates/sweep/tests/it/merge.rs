@@ -1,13 +1,9 @@
 //! Shards joined.
 
-#![expect(clippy::unwrap_used, reason = "helpers of tests")]
-
-mod store_common;
-
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use store_common::{NEVER, SEEDS, files, manifest, run, stop_after};
+use crate::made_up::{NEVER, SEEDS, files, manifest, run, stop_after};
 use sweep::{Manifest, Shard, StoreError, StoreSummary};
 
 fn shards(folder: &Path, manifest: &Manifest, of: u64) -> Vec<PathBuf> {
@@ -128,7 +124,9 @@ fn damage_is_found() {
     // Nothing was copied before all was proved.
     assert_eq!(files(&out).into_keys().collect::<Vec<_>>(), ["manifest.json"]);
     fs::remove_file(&part).unwrap();
-    assert!(error(&shards, &out).to_string().ends_with("part-000003.parquet: it is not there"));
+    let missing = error(&shards, &out);
+    assert!(missing.to_string().ends_with("part-000003.parquet: it is not there"));
+    assert!(missing.help().unwrap().contains("computes the part again"), "{:?}", missing.help());
     // Another part's rows under this name.
     fs::copy(shards[1].join("part-000002.parquet"), &part).unwrap();
     assert!(error(&shards, &out).to_string().contains("seed 2048 stands where 3072 should"));
@@ -140,7 +138,7 @@ fn damage_is_found() {
     assert!(told.ends_with("`funicular.seed_number` at its end is 8, not 7"), "{told}");
     // Other rows that say that they are of this one.
     let false_rows = folder.path().join("false");
-    sweep::run(&false_rows, &manifest(), &store_common::Shifted, &store_common::settings(1))
+    sweep::run(&false_rows, &manifest(), &crate::made_up::Shifted, &crate::made_up::settings(1))
         .unwrap();
     fs::copy(false_rows.join("part-000003.parquet"), &part).unwrap();
     assert!(error(&shards, &out).to_string().contains("its SHA-256 is"));

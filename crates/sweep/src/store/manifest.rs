@@ -7,11 +7,11 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use sha2::{Digest, Sha256};
 
-use crate::description::{MANIFEST, read_json};
 use crate::identify::{Member, energy_unit_j};
-use crate::shard::{Shard, part_seeds};
+use crate::store::description::{MANIFEST, read_json};
+use crate::store::shard::{Shard, part_seeds};
 
-use crate::store_error::StoreError;
+use crate::store::error::StoreError;
 use crate::summary::Summary;
 
 /// Everything that the rows of a sweep depend on, and which of them are here: `manifest.json`.

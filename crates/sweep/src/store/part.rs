@@ -6,15 +6,14 @@ use std::ops::Range;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use columns::{Column, Data, Format, Kind, Schema, Spread, TableWriter, read_table};
-use serde::{Deserialize, Serialize};
+use columns::{Column, Data, Format, Kind, Schema, Spread, TableWriter, read_notes, read_table};
 use sha2::{Digest as _, Sha256};
 
-use crate::compute::Compute;
-use crate::manifest::{Manifest, hexadecimal};
 use crate::record::{Chunk, Failure, Outcomes};
-use crate::store_error::StoreError;
-use crate::store_footer::{footer, note};
+use crate::store::compute::Compute;
+use crate::store::error::StoreError;
+use crate::store::finished::PartRecord;
+use crate::store::manifest::{Manifest, hexadecimal};
 use crate::summary::Summary;
 
 /// Seeds computed at a time: some milliseconds of work, so that an interruption is heard soon.
@@ -22,19 +21,6 @@ const CHUNK_SEEDS: u64 = 1 << 13;
 
 /// Rows of a row group: some megabytes of columns, held per thread until they are encoded.
 const GROUP_SEEDS: u64 = 1 << 17;
-
-/// What `summary.json` says of a part.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-pub struct PartRecord {
-    /// The name of its file.
-    pub file: String,
-    /// Its seeds.
-    pub seeds: Range<u64>,
-    /// Length of the file, bytes.
-    pub bytes: u64,
-    /// SHA-256 of the file.
-    pub sha256: String,
-}
 
 const OUTCOME: &str = "the equilibrium reached, as its number in `equilibria` of the manifest; or -1: \
     the iteration limit was reached, -2: stalled, -3: a number overflowed or was undefined, -4: \
@@ -134,19 +120,15 @@ fn steps(range: &Range<u64>, step: u64) -> impl Iterator<Item = Range<u64>> + us
         .map(move |start| start..end.min(start.saturating_add(step)))
 }
 
+/// Whether a chunk has all rows of all solvers that were asked.
 fn fits(chunk: &Chunk, range: &Range<u64>, manifest: &Manifest) -> bool {
-    let asked = |name: &str| manifest.solvers.iter().any(|solver| solver == name);
     let rows = range.end - range.start;
-    let whole = |outcomes: &Option<Outcomes>, asked: bool| match outcomes {
-        Some(o) => {
-            let lengths = [o.outcome.len(), o.iterations.len(), o.residual.len(), o.energy_j.len()];
-            asked && lengths.iter().all(|length| *length as u64 == rows)
-        }
-        None => !asked,
+    let whole = |o: &Outcomes| {
+        let lengths = [o.outcome.len(), o.iterations.len(), o.residual.len(), o.energy_j.len()];
+        lengths.iter().all(|length| *length as u64 == rows)
     };
-    chunk.seeds == *range
-        && whole(&chunk.lagrange, asked("lagrange"))
-        && whole(&chunk.energy, asked("energy"))
+    let names = chunk.outcomes.iter().map(|outcomes| &outcomes.solver);
+    chunk.seeds == *range && names.eq(&manifest.solvers) && chunk.outcomes.iter().all(whole)
 }
 
 /// An outcome that is no entry of the list and no [`Failure`].
@@ -156,14 +138,14 @@ fn unknown_outcome(chunk: &Chunk, manifest: &Manifest) -> Option<i16> {
         Ok(entry) => entry < entries,
         Err(_) => outcome >= Failure::Unlisted as i16,
     };
-    let outcomes = [&chunk.lagrange, &chunk.energy].into_iter().flatten();
-    outcomes.flat_map(|o| &o.outcome).copied().find(|outcome| !known(*outcome))
+    let mut outcomes = chunk.outcomes.iter().flat_map(|o| &o.outcome).copied();
+    outcomes.find(|outcome| !known(*outcome))
 }
 
 fn columns_of(chunk: Chunk, angles: Vec<Vec<f64>>) -> Vec<Data> {
     let mut columns = vec![Data::U64(chunk.seeds.collect())];
     columns.extend(angles.into_iter().map(Data::F64));
-    for outcomes in [chunk.lagrange, chunk.energy].into_iter().flatten() {
+    for outcomes in chunk.outcomes {
         columns.push(Data::I16(outcomes.outcome));
         columns.push(Data::U16(outcomes.iterations));
         columns.push(Data::F64(outcomes.residual));
@@ -210,11 +192,11 @@ pub fn read(
         return Err(StoreError::part(&path, format!("there are {rows} seeds of {all}")));
     }
     if format(manifest) == Format::Parquet {
-        let footer = footer(&path).map_err(|error| StoreError::file(&path, error))?;
+        let notes = read_notes(&path)?;
         for (key, wanted) in schema(manifest).notes {
-            let found = note(&footer, &key);
-            if found.as_ref() != Some(&wanted) {
-                let found = found.unwrap_or_else(|| "missing".to_owned());
+            let found = notes.iter().find(|note| note.0 == key).map(|note| &note.1);
+            if found != Some(&wanted) {
+                let found = found.map_or("missing", String::as_str);
                 let reason = format!("`{key}` at its end is {found}, not {wanted}");
                 return Err(StoreError::part(&path, reason));
             }
@@ -225,8 +207,8 @@ pub fn read(
 
 /// Rows read back, as they were computed. The schema was checked: every column is there.
 fn chunk_of(columns: &[Data], seed: u64, manifest: &Manifest) -> Chunk {
-    let mut lagrange = None;
-    let mut energy = None;
+    let seeds = seed..seed + columns[0].len() as u64;
+    let mut outcomes = vec![];
     let before = 1 + manifest.angles.len();
     for (solver, columns) in manifest.solvers.iter().zip(columns[before..].chunks_exact(4)) {
         if let [
@@ -236,17 +218,16 @@ fn chunk_of(columns: &[Data], seed: u64, manifest: &Manifest) -> Chunk {
             Data::F64(energy_j),
         ] = columns
         {
-            let (outcome, iterations) = (outcome.clone(), iterations.clone());
-            let (residual, energy_j) = (residual.clone(), energy_j.clone());
-            let outcomes = Outcomes { outcome, iterations, residual, energy_j };
-            if solver == "lagrange" {
-                lagrange = Some(outcomes);
-            } else {
-                energy = Some(outcomes);
-            }
+            outcomes.push(Outcomes {
+                solver: solver.clone(),
+                outcome: outcome.clone(),
+                iterations: iterations.clone(),
+                residual: residual.clone(),
+                energy_j: energy_j.clone(),
+            });
         }
     }
-    Chunk { seeds: seed..seed + columns[0].len() as u64, lagrange, energy }
+    Chunk { seeds, outcomes }
 }
 
 /// Length and digest of a part's file.

@@ -1,10 +1,14 @@
 //! Counts of outcomes, as rows go by.
 
 use std::collections::BTreeMap;
+use std::fmt;
 
-use serde::{Deserialize, Serialize};
+use serde::de::{MapAccess, Visitor};
+use serde::ser::SerializeMap as _;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use crate::record::{Chunk, Outcomes};
+use crate::solver::FIRST;
 
 /// How often each outcome came, after how many iterations: a row of the final table.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -49,32 +53,49 @@ impl OutcomeTally {
 pub struct SolverTally(pub BTreeMap<i16, OutcomeTally>);
 
 /// Outcomes of all rows.
-#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
+///
+/// In JSON: `seeds`, a key for each solver, and `both`. The keys `lagrange` and `energy` are always there, null if
+/// they were not asked.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Tally {
     /// Rows.
     pub seeds: u64,
-    /// Of `lagrange`, if it was asked.
-    pub lagrange: Option<SolverTally>,
-    /// Of `energy`, if it was asked.
-    pub energy: Option<SolverTally>,
-    /// With both: seeds by outcome of `lagrange`, then of `energy`.
+    /// By solver, in the order of the sweep.
+    pub solvers: Vec<(String, SolverTally)>,
+    /// With two solvers or more: seeds by outcome of the first, then of the second.
     pub both: Option<BTreeMap<i16, BTreeMap<i16, u64>>>,
 }
 
 impl Tally {
+    /// Outcomes of the solver of this name, if it was asked.
+    #[must_use]
+    pub fn of(&self, solver: &str) -> Option<&SolverTally> {
+        self.solvers.iter().find(|(name, _)| name == solver).map(|(_, tally)| tally)
+    }
+
+    /// The names of the solvers, in the order of the sweep.
+    pub fn names(&self) -> impl Iterator<Item = &str> {
+        self.solvers.iter().map(|(name, _)| name.as_str())
+    }
+
+    fn row(&mut self, solver: &str) -> &mut SolverTally {
+        let at = self.solvers.iter().position(|(name, _)| name == solver);
+        let at = at.unwrap_or_else(|| {
+            self.solvers.push((solver.to_owned(), SolverTally::default()));
+            self.solvers.len() - 1
+        });
+        &mut self.solvers[at].1
+    }
+
     /// Count a run of seeds.
     pub fn add_chunk(&mut self, chunk: &Chunk) {
         self.seeds += chunk.seeds.end - chunk.seeds.start;
-        for (tally, outcomes) in
-            [(&mut self.lagrange, &chunk.lagrange), (&mut self.energy, &chunk.energy)]
-        {
-            if let Some(outcomes) = outcomes {
-                add_outcomes(tally.get_or_insert_default(), outcomes);
-            }
+        for outcomes in &chunk.outcomes {
+            add_outcomes(self.row(&outcomes.solver), outcomes);
         }
-        if let (Some(lagrange), Some(energy)) = (&chunk.lagrange, &chunk.energy) {
+        if let [first, second, ..] = chunk.outcomes.as_slice() {
             let both = self.both.get_or_insert_default();
-            let pairs = lagrange.outcome.iter().copied().zip(energy.outcome.iter().copied());
+            let pairs = first.outcome.iter().copied().zip(second.outcome.iter().copied());
             for (pair, count) in counts(pairs) {
                 *both.entry(pair.0).or_default().entry(pair.1).or_default() += count;
             }
@@ -84,19 +105,68 @@ impl Tally {
     /// Count what was counted elsewhere.
     pub fn add(&mut self, other: &Self) {
         self.seeds += other.seeds;
-        for (tally, other) in
-            [(&mut self.lagrange, &other.lagrange), (&mut self.energy, &other.energy)]
-        {
-            for (outcome, other) in other.iter().flat_map(|other| &other.0) {
-                tally.get_or_insert_default().0.entry(*outcome).or_default().add(other);
+        for (solver, rows) in &other.solvers {
+            let tally = self.row(solver);
+            for (outcome, other) in &rows.0 {
+                tally.0.entry(*outcome).or_default().add(other);
             }
         }
-        for (lagrange, row) in other.both.iter().flatten() {
-            let both = self.both.get_or_insert_default().entry(*lagrange).or_default();
-            for (energy, count) in row {
-                *both.entry(*energy).or_default() += count;
+        for (first, row) in other.both.iter().flatten() {
+            let both = self.both.get_or_insert_default().entry(*first).or_default();
+            for (second, count) in row {
+                *both.entry(*second).or_default() += count;
             }
         }
+    }
+}
+
+impl Serialize for Tally {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut map = serializer.serialize_map(None)?;
+        map.serialize_entry("seeds", &self.seeds)?;
+        for name in FIRST {
+            map.serialize_entry(name, &self.of(name))?;
+        }
+        for (name, tally) in &self.solvers {
+            if !FIRST.contains(&name.as_str()) {
+                map.serialize_entry(name, tally)?;
+            }
+        }
+        map.serialize_entry("both", &self.both)?;
+        map.end()
+    }
+}
+
+impl<'de> Deserialize<'de> for Tally {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_map(Entries)
+    }
+}
+
+/// Reads the keys of a tally.
+struct Entries;
+
+impl<'de> Visitor<'de> for Entries {
+    type Value = Tally;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("counts of outcomes by solver")
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Tally, A::Error> {
+        let mut tally = Tally::default();
+        while let Some(key) = map.next_key::<String>()? {
+            match key.as_str() {
+                "seeds" => tally.seeds = map.next_value()?,
+                "both" => tally.both = map.next_value()?,
+                _ => {
+                    if let Some(rows) = map.next_value::<Option<SolverTally>>()? {
+                        tally.solvers.push((key, rows));
+                    }
+                }
+            }
+        }
+        Ok(tally)
     }
 }
 
@@ -154,15 +224,17 @@ mod tests {
     use super::*;
 
     fn chunk() -> Chunk {
-        let outcomes = |outcome: Vec<i16>, iterations: Vec<u16>| {
+        let outcomes = |solver: &str, outcome: Vec<i16>, iterations: Vec<u16>| {
             let rows = outcome.len();
             let (residual, energy_j) = (vec![0.0; rows], vec![0.0; rows]);
-            Some(Outcomes { outcome, iterations, residual, energy_j })
+            Outcomes { solver: solver.to_owned(), outcome, iterations, residual, energy_j }
         };
         Chunk {
             seeds: 10..14,
-            lagrange: outcomes(vec![0, 1, 0, -2], vec![3, 4, 9, 50]),
-            energy: outcomes(vec![0, 0, 0, 0], vec![7, 7, 8, 8]),
+            outcomes: vec![
+                outcomes("lagrange", vec![0, 1, 0, -2], vec![3, 4, 9, 50]),
+                outcomes("energy", vec![0, 0, 0, 0], vec![7, 7, 8, 8]),
+            ],
         }
     }
 
@@ -170,11 +242,11 @@ mod tests {
     fn rows_are_counted_once_in_every_table() {
         let mut tally = Tally::default();
         tally.add_chunk(&chunk());
-        let lagrange = tally.lagrange.clone().unwrap().0;
+        let lagrange = tally.of("lagrange").unwrap().0.clone();
         assert_eq!(lagrange[&0].count, 2);
         assert_eq!((lagrange[&0].median_iterations(), lagrange[&0].max_iterations()), (3, 9));
         assert_eq!(lagrange[&-2].iterations, BTreeMap::from([(50, 1)]));
-        assert_eq!(tally.energy.as_ref().unwrap().0[&0].count, 4);
+        assert_eq!(tally.of("energy").unwrap().0[&0].count, 4);
         assert_eq!(tally.both.as_ref().unwrap()[&1], BTreeMap::from([(0, 1)]));
         let mut twice = tally.clone();
         twice.add(&tally);
@@ -183,6 +255,19 @@ mod tests {
         assert_eq!(twice, again);
         let text = serde_json::to_string(&twice).unwrap();
         assert_eq!(serde_json::from_str::<Tally>(&text).unwrap(), twice);
+    }
+
+    #[test]
+    fn any_solver_has_its_key_and_two_are_always_there() {
+        let mut tally = Tally::default();
+        let mut chunk = chunk();
+        chunk.outcomes.remove(1);
+        chunk.outcomes[0].solver = "third".to_owned();
+        tally.add_chunk(&chunk);
+        let text = serde_json::to_string(&tally).unwrap();
+        assert!(text.starts_with(r#"{"seeds":4,"lagrange":null,"energy":null,"third":{"-2""#));
+        assert!(text.ends_with(r#""both":null}"#));
+        assert_eq!(serde_json::from_str::<Tally>(&text).unwrap(), tally);
     }
 
     #[test]

@@ -1,13 +1,9 @@
 //! Sweeps that were interrupted, and end with the same bytes.
 
-#![expect(clippy::unwrap_used, reason = "helpers of tests")]
-
-mod store_common;
-
 use std::fs;
 use std::path::Path;
 
-use store_common::{SEEDS, files, manifest, resume, run, stop_after};
+use crate::made_up::{SEEDS, files, manifest, resume, run, stop_after};
 use sweep::{Manifest, Shard, StoreError, SystemText};
 
 fn whole(folder: &Path) -> std::collections::BTreeMap<String, Vec<u8>> {
@@ -41,8 +37,8 @@ fn what_a_killed_process_leaves_is_cleared() {
     let wanted = whole(&folder.path().join("whole"));
     let out = folder.path().join("out");
     stop_after(&out, &manifest(), 1);
-    fs::write(out.join(".part-000003.parquet.123.part"), "PAR1 and half").unwrap();
-    fs::write(out.join(".summary.json.123.part"), "{").unwrap();
+    fs::write(out.join(".part-000003.parquet.0123456789ab.part"), "PAR1 and half").unwrap();
+    fs::write(out.join(".summary.json.CDEFGHijklmn.part"), "{").unwrap();
     fs::write(out.join(".lock"), "").unwrap();
     resume(&out, &manifest()).unwrap();
     assert_eq!(files(&out), wanted);
@@ -50,9 +46,50 @@ fn what_a_killed_process_leaves_is_cleared() {
     let early = folder.path().join("early");
     fs::create_dir(&early).unwrap();
     fs::write(early.join(".lock"), "").unwrap();
-    fs::write(early.join(".manifest.json.99.part"), "{").unwrap();
+    fs::write(early.join(".manifest.json.0123456789ab.part"), "{").unwrap();
     run(&early, &manifest(), 1).unwrap();
     assert_eq!(files(&early), wanted);
+}
+
+#[test]
+fn what_is_not_of_the_sweep_stays() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out");
+    stop_after(&out, &manifest(), 1);
+    let others = [
+        ".mine.part",
+        ".notes.csv.0123456789ab.part",
+        ".part-000003.csv.0123456789ab.part",
+        ".part-3.parquet.0123456789ab.part",
+    ];
+    for name in others {
+        fs::write(out.join(name), "mine").unwrap();
+    }
+    resume(&out, &manifest()).unwrap();
+    for name in others {
+        assert_eq!(fs::read(out.join(name)).unwrap(), b"mine", "{name}");
+    }
+}
+
+/// Nobody writes into the pipe: opened, it would be waited for without end.
+#[cfg(unix)]
+#[test]
+fn a_pipe_in_the_place_of_a_file_is_told() {
+    for name in ["part-000001.parquet", "summary.json", ".digests", ".lock", "manifest.json"] {
+        let folder = tempfile::tempdir().unwrap();
+        let out = folder.path().join("out");
+        stop_after(&out, &manifest(), 2);
+        let pipe = out.join(name);
+        let _ = fs::remove_file(&pipe);
+        let made = std::process::Command::new("mkfifo").arg(&pipe).status().unwrap();
+        assert!(made.success());
+        let (told, heard) = std::sync::mpsc::channel();
+        // Not joined: if it waits for the pipe, it waits for ever.
+        std::thread::spawn(move || told.send(resume(&out, &manifest()).unwrap_err()));
+        let error = heard.recv_timeout(std::time::Duration::from_secs(20));
+        let error = error.unwrap_or_else(|_| panic!("{name} is waited for"));
+        assert!(matches!(&error, StoreError::NotRegular { path } if *path == pipe), "{error}");
+    }
 }
 
 #[test]
@@ -87,7 +124,7 @@ fn what_is_there_is_trusted_by_its_digest_alone() {
     let seed_8 = Manifest { seed_number: 8, ..manifest() };
     run(&other, &seed_8, 1).unwrap();
     let false_rows = folder.path().join("false");
-    sweep::run(&false_rows, &manifest(), &store_common::Shifted, &store_common::settings(1))
+    sweep::run(&false_rows, &manifest(), &crate::made_up::Shifted, &crate::made_up::settings(1))
         .unwrap();
     for format in ["parquet", "csv"] {
         let manifest = Manifest { format: format.to_owned(), ..manifest() };

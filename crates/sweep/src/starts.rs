@@ -63,20 +63,20 @@ impl Axis {
 
 /// A source made ready for a chain.
 #[derive(Debug, Clone)]
-pub(crate) enum Spring {
+pub(crate) enum Starts {
     Uniform { stream: Stream },
     Sobol { sobol: Sobol, shift: Vec<u64> },
     Grid { axes: Vec<Axis>, points: u64 },
 }
 
 impl Source {
-    pub(crate) fn ready(&self, number: u64, bars: usize) -> Result<Spring, SweepError> {
+    pub(crate) fn ready(&self, number: u64, bars: usize) -> Result<Starts, SweepError> {
         let stream = Stream::new(number);
         match self {
-            Self::Uniform => Ok(Spring::Uniform { stream }),
+            Self::Uniform => Ok(Starts::Uniform { stream }),
             Self::Sobol => {
                 let shift = (0..bars as u64).map(|k| if number == 0 { 0 } else { stream.at(k) });
-                Ok(Spring::Sobol { sobol: Sobol::new(bars)?, shift: shift.collect() })
+                Ok(Starts::Sobol { sobol: Sobol::new(bars)?, shift: shift.collect() })
             }
             Self::Grid(axes) => {
                 if axes.len() != bars {
@@ -92,13 +92,13 @@ impl Source {
                 for axis in axes {
                     points = points.checked_mul(axis.points).ok_or(SweepError::GridSize)?;
                 }
-                Ok(Spring::Grid { axes: axes.clone(), points })
+                Ok(Starts::Grid { axes: axes.clone(), points })
             }
         }
     }
 }
 
-impl Spring {
+impl Starts {
     /// The angles of a run of seeds, bar by bar and seed by seed, in place of what is in `angles`.
     pub(crate) fn fill(&self, seeds: Range<u64>, bars: usize, angles: &mut Vec<f64>) {
         angles.clear();
@@ -138,10 +138,10 @@ mod tests {
     fn a_seed_does_not_depend_on_where_a_run_begins() {
         let grid = Source::Grid(vec![Axis::full(7), Axis::fixed(0.3), Axis::full(5)]);
         for source in [Source::Uniform, Source::Sobol, grid] {
-            let spring = source.ready(9, 3).unwrap();
+            let starts = source.ready(9, 3).unwrap();
             let (mut all, mut part) = (vec![], vec![]);
-            spring.fill(0..100, 3, &mut all);
-            spring.fill(37..100, 3, &mut part);
+            starts.fill(0..100, 3, &mut all);
+            starts.fill(37..100, 3, &mut part);
             let bits = |x: &[f64]| x.iter().map(|x| x.to_bits()).collect::<Vec<_>>();
             assert_eq!(bits(&all[3 * 37..]), bits(&part));
             assert!(all.iter().all(|x| (0.0..std::f64::consts::TAU).contains(x)));
@@ -150,9 +150,9 @@ mod tests {
 
     #[test]
     fn a_grid_has_each_point_once_and_then_begins_again() {
-        let spring = Source::Grid(vec![Axis::full(2), Axis::fixed(0.25)]).ready(0, 2).unwrap();
+        let starts = Source::Grid(vec![Axis::full(2), Axis::fixed(0.25)]).ready(0, 2).unwrap();
         let mut angles = vec![];
-        spring.fill(0..3, 2, &mut angles);
+        starts.fill(0..3, 2, &mut angles);
         let half = std::f64::consts::FRAC_PI_2;
         for (x, y) in angles.iter().zip([half, 0.25, 3.0 * half, 0.25, half, 0.25]) {
             assert!((x - y).abs() < 1e-15);

@@ -1,16 +1,14 @@
 //! How many seeds a second are computed and written: the paper's chain, to a temporary folder.
 //!
 //! ```text
-//! cargo run --release -p sweep --example store_speed [SEEDS [lagrange|energy|both [parquet|csv]]]
+//! cargo run --release -p funicular --example store_speed [SEEDS [lagrange|energy|both [parquet|csv]]]
 //! ```
 
 use std::error::Error;
 use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
-use sweep::{
-    Manifest, RunSettings, SCHEMA_VERSION, Settings, Shard, Solvers, Sweep, SystemText, run,
-};
+use sweep::{Manifest, RunSettings, SCHEMA_VERSION, Settings, Shard, Sweep, SystemText, run};
 
 /// Runs of each kind; the fastest counts, being the least disturbed.
 const RUNS: usize = 3;
@@ -20,13 +18,10 @@ fn main() -> Result<(), Box<dyn Error>> {
     let seeds: u64 = arguments.next().as_deref().unwrap_or("4000000").parse()?;
     let solver = arguments.next().unwrap_or_else(|| "lagrange".to_owned());
     let format = arguments.next().unwrap_or_else(|| "parquet".to_owned());
-    let (solvers, names) = match solver.as_str() {
-        "lagrange" => (Solvers::Lagrange, vec!["lagrange"]),
-        "energy" => (Solvers::Energy, vec!["energy"]),
-        _ => (Solvers::Both, vec!["lagrange", "energy"]),
-    };
     let problem = model::cases::paper();
-    let sweep = Sweep::new(&problem, Settings { solvers, ..Settings::default() })?;
+    let both = funicular::starts::solvers(&problem)?;
+    let solvers = if solver == "both" { both } else { both.only(&[&solver]) };
+    let sweep = Sweep::new(&problem, Settings::default(), solvers)?;
     let manifest = Manifest {
         schema_version: SCHEMA_VERSION,
         program: "store_speed".to_owned(),
@@ -34,7 +29,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         seeds,
         seed_number: 1,
         source: "uniform".to_owned(),
-        solvers: names.into_iter().map(str::to_owned).collect(),
+        solvers: sweep.solvers().names().map(str::to_owned).collect(),
         angles: Vec::new(),
         equilibria: sweep.members().list().to_vec(),
         equilibria_complete: sweep.members().complete(),

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use columns::ColumnsError;
 
-use crate::shard::Shard;
+use crate::store::shard::{MOST_PARTS, MOST_SEEDS, Shard};
 
 /// Why a sweep cannot be written, continued or joined.
 #[derive(Debug, thiserror::Error)]
@@ -87,6 +87,28 @@ pub enum StoreError {
         /// What is wrong.
         reason: String,
     },
+    /// Occurs when a part of a finished sweep is missing.
+    #[error("{}: it is not there", path.display())]
+    NoPart {
+        /// The file.
+        path: PathBuf,
+    },
+    /// Occurs when a pipe, a device or a folder stands where a file of the sweep should.
+    #[error("{} is no regular file", path.display())]
+    NotRegular {
+        /// What is there.
+        path: PathBuf,
+    },
+    /// Occurs when a sweep has more seeds than its summary can list parts of.
+    #[error(
+        "{seeds} seeds are {parts} parts, and a summary lists at most {MOST_PARTS}: {MOST_SEEDS} seeds"
+    )]
+    TooManySeeds {
+        /// Seeds asked for.
+        seeds: u64,
+        /// Parts that they would be.
+        parts: u64,
+    },
     /// Occurs when shards of different cuts are joined.
     #[error("{} is shard {found}, and the others are of {wanted}", path.display())]
     OtherCut {
@@ -134,6 +156,16 @@ pub enum StoreError {
 
 /// Most numbers named one by one in an error.
 pub(crate) const NAMED: usize = 10;
+
+/// See that what stands under a name is a regular file, or nothing: a pipe would wait for somebody at its other end.
+pub(crate) fn regular(path: &Path) -> Result<(), StoreError> {
+    match std::fs::metadata(path) {
+        Ok(about) if !about.is_file() => Err(StoreError::NotRegular { path: path.to_owned() }),
+        Ok(_) => Ok(()),
+        Err(error) if error.kind() == ErrorKind::NotFound => Ok(()),
+        Err(error) => Err(StoreError::file(path, error)),
+    }
+}
 
 fn list(numbers: &[u64]) -> String {
     let named: Vec<_> = numbers.iter().take(NAMED).map(u64::to_string).collect();
@@ -186,6 +218,13 @@ impl StoreError {
                 Some(
                     "what is done stays; the same command goes on when there is room (sweep: with --resume)",
                 )
+            }
+            Self::NoPart { .. } => {
+                Some("run the same sweep with --resume: it computes the part again")
+            }
+            Self::NotRegular { .. } => Some("remove it, and run the same sweep with --resume"),
+            Self::TooManySeeds { .. } => {
+                Some("split them over several sweeps, each with a --seed of its own")
             }
             Self::Part { .. } => Some("remove the file and run the same sweep with --resume"),
             _ => None,

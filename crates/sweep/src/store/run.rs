@@ -14,15 +14,15 @@ use std::path::Path;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
-use serde::{Deserialize, Serialize};
-
-use crate::compute::Compute;
-use crate::description::{SCHEMA_VERSION, SUMMARY, write_json};
-use crate::manifest::Manifest;
-use crate::store_digests::Digests;
-use crate::store_error::StoreError;
-use crate::store_lock::Lock;
-use crate::store_part::{self, PartRecord};
+use crate::store::compute::Compute;
+use crate::store::description::{SUMMARY, write_json};
+use crate::store::digests::Digests;
+use crate::store::error::{StoreError, regular};
+use crate::store::finished::{PartRecord, StoreSummary};
+use crate::store::lock::Lock;
+use crate::store::manifest::Manifest;
+use crate::store::part;
+use crate::store::shard::MOST_PARTS;
 use crate::summary::Summary;
 
 /// How a sweep is run; nothing of it changes the result.
@@ -36,17 +36,6 @@ pub struct RunSettings<'a> {
     pub stop: &'a AtomicBool,
     /// Told of every few thousand seeds that are done.
     pub done: &'a (dyn Fn(u64) + Sync),
-}
-
-/// `summary.json`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct StoreSummary {
-    /// [`SCHEMA_VERSION`].
-    pub schema_version: u32,
-    /// What became of the seeds.
-    pub outcomes: Summary,
-    /// The parts, in order.
-    pub parts: Vec<PartRecord>,
 }
 
 /// How a run ended.
@@ -76,6 +65,10 @@ pub fn run(
     if manifest.seeds == 0 {
         return Err(StoreError::NoSeeds);
     }
+    if manifest.parts() > MOST_PARTS {
+        let (seeds, parts) = (manifest.seeds, manifest.parts());
+        return Err(StoreError::TooManySeeds { seeds, parts });
+    }
     let _lock = Lock::take(folder, manifest, settings.resume)?;
     let digests = Digests::open(folder, manifest)?;
     let parts = manifest.shard.parts(manifest.parts());
@@ -85,8 +78,9 @@ pub fn run(
         let seeds = manifest.seeds_of(part);
         let mut damage = None;
         let mut result = None;
+        regular(&path)?;
         if path.exists() {
-            let read = store_part::read(folder, manifest, part);
+            let read = part::read(folder, manifest, part);
             let read = read.and_then(|read| digests.check(folder, &read.0).map(|()| read));
             match read {
                 Ok(read) => {
@@ -99,7 +93,7 @@ pub fn run(
         let before = result.is_some();
         if !before {
             let (stop, done) = (settings.stop, settings.done);
-            result = store_part::write(folder, manifest, part, compute, stop, done)?;
+            result = part::write(folder, manifest, part, compute, stop, done)?;
             if let Some((record, _)) = &result {
                 digests.add(record)?;
             }
@@ -138,23 +132,6 @@ struct Found {
     parts: BTreeMap<u64, (PartRecord, Summary)>,
     seeds_before: u64,
     repaired: Vec<(String, String)>,
-}
-
-impl StoreSummary {
-    /// Of parts in order.
-    pub(crate) fn of(
-        manifest: &Manifest,
-        parts: impl Iterator<Item = (PartRecord, Summary)>,
-    ) -> Self {
-        let mut outcomes = manifest.summary();
-        let parts = parts
-            .map(|(record, summary)| {
-                outcomes.merge(&summary);
-                record
-            })
-            .collect();
-        Self { schema_version: SCHEMA_VERSION, outcomes, parts }
-    }
 }
 
 /// Do something for every part, the next free thread taking the next part; the first error ends it.

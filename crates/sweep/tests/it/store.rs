@@ -1,12 +1,10 @@
 //! A sweep on disk: the same bytes always, and nothing overwritten.
 
-mod store_common;
-
 use std::fs;
 use std::ops::Range;
 
+use crate::made_up::{MadeUp, QUICK, SEEDS, files, manifest, run, settings};
 use columns::{Data, Format, read_table};
-use store_common::{MadeUp, QUICK, SEEDS, files, manifest, run, settings};
 use sweep::{Chunk, Compute, Manifest, Outcomes, Shard, StoreError, StoreSummary};
 
 #[test]
@@ -18,7 +16,7 @@ fn threads_do_not_show_in_the_bytes() {
         run(&one, &manifest, 1).unwrap();
         run(&two, &manifest, 2).unwrap();
         let files = files(&one);
-        assert_eq!(files, store_common::files(&two));
+        assert_eq!(files, crate::made_up::files(&two));
         let names: Vec<_> = files.keys().cloned().collect();
         let mut wanted = vec!["manifest.json".to_owned()];
         wanted.extend((0..5).map(|part| format!("part-00000{part}.{format}")));
@@ -60,8 +58,8 @@ fn the_rows_are_those_that_were_computed() {
         })
         .unwrap();
     }
-    let Chunk { lagrange, energy, .. } = QUICK.chunk(0..SEEDS);
-    let (lagrange, energy) = (lagrange.unwrap(), energy.unwrap());
+    let chunk = QUICK.chunk(0..SEEDS);
+    let (lagrange, energy) = (chunk.of("lagrange").unwrap(), chunk.of("energy").unwrap());
     let bits = |data: &Data| match data {
         Data::F64(cells) => cells.iter().map(|x| x.to_bits()).collect::<Vec<_>>(),
         _ => panic!("doubles"),
@@ -70,7 +68,7 @@ fn the_rows_are_those_that_were_computed() {
     assert_eq!(all[0], Data::U64((0..SEEDS).collect()));
     assert_eq!(bits(&all[2]), doubles(&QUICK.angles(0..SEEDS)[1]));
     assert_eq!(all[3], Data::I16(lagrange.outcome.clone()));
-    assert_eq!(all[4], Data::U16(lagrange.iterations));
+    assert_eq!(all[4], Data::U16(lagrange.iterations.clone()));
     assert_eq!(bits(&all[6]), doubles(&lagrange.energy_j));
     assert_eq!(all[7], Data::I16(energy.outcome.clone()));
     assert_eq!(bits(&all[9]), doubles(&energy.residual));
@@ -81,10 +79,7 @@ fn the_rows_are_those_that_were_computed() {
     assert_eq!(summary.outcomes.seeds(), SEEDS);
     for code in -4..2_i16 {
         let wanted = lagrange.outcome.iter().filter(|outcome| **outcome == code).count();
-        assert_eq!(
-            summary.outcomes.tally().lagrange.as_ref().unwrap().0[&code].count,
-            wanted as u64
-        );
+        assert_eq!(summary.outcomes.tally().of("lagrange").unwrap().0[&code].count, wanted as u64);
         let wanted = lagrange
             .outcome
             .iter()
@@ -109,7 +104,7 @@ fn nothing_is_overwritten() {
     let thesis = folder.path().join("thesis");
     fs::create_dir(&thesis).unwrap();
     fs::write(thesis.join("chapter-1.tex"), "text").unwrap();
-    for result in [run(&thesis, &manifest(), 1), store_common::resume(&thesis, &manifest())] {
+    for result in [run(&thesis, &manifest(), 1), crate::made_up::resume(&thesis, &manifest())] {
         let error = result.unwrap_err();
         assert!(matches!(&error, StoreError::NotEmpty { found, .. } if found == "chapter-1.tex"));
     }
@@ -130,7 +125,7 @@ fn a_folder_that_is_being_written_is_left_alone() {
         while !folder.path().join("part-000000.parquet").exists() {
             std::thread::sleep(std::time::Duration::from_millis(5));
         }
-        let error = store_common::resume(folder.path(), &manifest()).unwrap_err();
+        let error = crate::made_up::resume(folder.path(), &manifest()).unwrap_err();
         assert!(matches!(error, StoreError::Busy { .. }), "{error}");
         assert!(first.join().unwrap().unwrap().summary.is_some());
     });
@@ -186,13 +181,27 @@ fn of_sweeps_that_race_for_a_folder_one_gets_it() {
 
 #[test]
 fn an_incomplete_answer_of_a_solver_is_an_error() {
-    let short =
-        |seeds: Range<u64>| Chunk { seeds, lagrange: Some(Outcomes::default()), energy: None };
+    let short = |seeds: Range<u64>| {
+        let solver = |name: &str| Outcomes { solver: name.to_owned(), ..Outcomes::default() };
+        Chunk { seeds, outcomes: ["lagrange", "energy"].map(solver).into() }
+    };
     let folder = tempfile::tempdir().unwrap();
     let manifest = Manifest { angles: Vec::new(), ..manifest() };
     let error = sweep::run(folder.path(), &manifest, &short, &settings(2)).unwrap_err();
     assert!(matches!(error, StoreError::Part { .. }), "{error}");
     assert_eq!(files(folder.path()).keys().collect::<Vec<_>>(), [".digests", "manifest.json"]);
+}
+
+/// The manifest is not written: nothing is promised that cannot be kept.
+#[test]
+fn more_seeds_than_a_summary_can_list_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let manifest = Manifest { seeds: 1_000_000_000_000, ..manifest() };
+    let manifest = manifest.with_shard(Shard { number: 1, of: 953_675 });
+    let out = folder.path().join("out");
+    let error = run(&out, &manifest, 1).unwrap_err();
+    assert!(matches!(error, StoreError::TooManySeeds { parts: 953_675, .. }), "{error}");
+    assert!(error.help().is_some() && !out.exists());
 }
 
 #[test]

@@ -9,14 +9,16 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
 use sha2::{Digest as _, Sha256};
 
-use crate::description::{SUMMARY, read_json, write_json};
-use crate::manifest::{Manifest, hexadecimal};
-use crate::shard::Shard;
-use crate::store::{StoreSummary, for_each_part};
-use crate::store_digests::Digests;
-use crate::store_error::{NAMED, StoreError};
-use crate::store_lock::Lock;
-use crate::store_part;
+use crate::store::description::{SUMMARY, read_json, write_json};
+use crate::store::digests::Digests;
+use crate::store::error::{NAMED, StoreError, regular};
+use crate::store::finished::{PartRecord, StoreSummary};
+use crate::store::lock::Lock;
+use crate::store::manifest::{Manifest, hexadecimal};
+use crate::store::part;
+use crate::store::run::for_each_part;
+use crate::store::shard::Shard;
+use crate::summary::Summary;
 
 /// A folder to be joined.
 struct Input {
@@ -160,15 +162,13 @@ impl Input {
     }
 
     /// Read a part, and see that it is the one that the summary speaks of.
-    fn prove(
-        &self,
-        part: u64,
-    ) -> Result<(store_part::PartRecord, crate::summary::Summary), StoreError> {
+    fn prove(&self, part: u64) -> Result<(PartRecord, Summary), StoreError> {
         let path = self.folder.join(self.manifest.file_of(part));
         if !path.exists() {
-            return Err(StoreError::part(&path, "it is not there"));
+            return Err(StoreError::NoPart { path });
         }
-        let result = store_part::read(&self.folder, &self.manifest, part)?;
+        regular(&path)?;
+        let result = part::read(&self.folder, &self.manifest, part)?;
         let index = usize::try_from(part - self.parts().start).unwrap_or(usize::MAX);
         match self.summary.parts.get(index) {
             Some(said) if *said == result.0 => Ok(result),

@@ -1,9 +1,7 @@
 //! Sweeps over seeds: the same bits however they are cut, every seed accounted for, and the equilibria
 //! those of the census and of the scalar solvers.
-#![expect(clippy::unwrap_used, reason = "tests")]
-
 use model::{Anchors, Bar, Chain, Problem};
-use sweep::{Axis, Chunk, Comparison, Failure, Settings, Solvers, Source, Summary, Sweep};
+use sweep::{Axis, Chunk, Comparison, Failure, Settings, Source, Summary, Sweep};
 
 /// A chain between anchors at different heights, its bars all different: four planar equilibria at least.
 fn uneven(bars: usize) -> Problem {
@@ -17,10 +15,14 @@ fn uneven(bars: usize) -> Problem {
     Problem::new(Chain::new("uneven", 9.81, anchors, list).unwrap()).unwrap()
 }
 
+fn sweep_of(problem: &Problem, settings: Settings) -> Result<Sweep, sweep::SweepError> {
+    Sweep::new(problem, settings, funicular::starts::solvers(problem).unwrap())
+}
+
 /// All bits of a chunk, columns one after the other.
 fn bits(chunks: &[Chunk]) -> Vec<u64> {
     let mut all = vec![];
-    for outcomes in chunks.iter().flat_map(|chunk| [&chunk.lagrange, &chunk.energy]).flatten() {
+    for outcomes in chunks.iter().flat_map(|chunk| &chunk.outcomes) {
         all.extend(outcomes.outcome.iter().map(|x| u64::from(x.cast_unsigned())));
         all.extend(outcomes.iterations.iter().map(|x| u64::from(*x)));
         all.extend(outcomes.residual.iter().chain(&outcomes.energy_j).map(|x| x.to_bits()));
@@ -33,7 +35,7 @@ fn a_run_of_seeds_has_the_same_bits_however_it_is_cut() {
     let grid = Source::Grid(vec![Axis::full(40), Axis::full(30), Axis::fixed(0.3)]);
     for source in [Source::Uniform, Source::Sobol, grid] {
         let settings = Settings { number: 5, source, ..Settings::default() };
-        let sweep = Sweep::new(&model::cases::paper(), settings).unwrap();
+        let sweep = sweep_of(&model::cases::paper(), settings).unwrap();
         let whole = sweep.run_chunk(100..3100);
         let mut start = 100;
         // Lengths below, at and above a group of lanes and a block.
@@ -41,9 +43,8 @@ fn a_run_of_seeds_has_the_same_bits_however_it_is_cut() {
             let part = sweep.run_chunk(start..start + length);
             let at = usize::try_from(start - 100).unwrap();
             let end = at + usize::try_from(length).unwrap();
-            for (part, whole) in [(&part.lagrange, &whole.lagrange), (&part.energy, &whole.energy)]
-            {
-                let (part, whole) = (part.as_ref().unwrap(), whole.as_ref().unwrap());
+            assert_eq!((part.outcomes.len(), whole.outcomes.len()), (2, 2));
+            for (part, whole) in part.outcomes.iter().zip(&whole.outcomes) {
                 assert_eq!(part.outcome, whole.outcome[at..end]);
                 assert_eq!(part.iterations, whole.iterations[at..end]);
                 let same =
@@ -62,14 +63,14 @@ fn a_summary_is_the_same_for_any_threads_and_chunks() {
     let problem = uneven(4);
     let run = |threads: usize, chunk: u64| {
         let settings = Settings { chunk, ..Settings::default() };
-        Sweep::new(&problem, settings).unwrap().run(11..6011, threads).unwrap()
+        sweep_of(&problem, settings).unwrap().run(11..6011, threads).unwrap()
     };
     let one = run(1, 6000);
     for (threads, chunk) in [(2, 1000), (3, 7), (2, 1), (1, 16_384)] {
         assert_eq!(one, run(threads, chunk));
     }
     // Folded by hand, in another order.
-    let sweep = Sweep::new(&problem, Settings::default()).unwrap();
+    let sweep = sweep_of(&problem, Settings::default()).unwrap();
     let nothing = || Summary::new(sweep.members().list(), sweep.members().energy_unit_j());
     let mut last = nothing();
     last.add(&sweep.run_chunk(5000..6011));
@@ -81,11 +82,11 @@ fn a_summary_is_the_same_for_any_threads_and_chunks() {
 
 #[test]
 fn every_seed_of_the_paper_is_accounted_for_and_listed() {
-    let sweep = Sweep::new(&model::cases::paper(), Settings::default()).unwrap();
+    let sweep = sweep_of(&model::cases::paper(), Settings::default()).unwrap();
     assert!(sweep.members().complete());
     let summary = sweep.run(0..100_000, 2).unwrap();
     let tally = summary.tally();
-    let (lagrange, energy) = (tally.lagrange.as_ref().unwrap(), tally.energy.as_ref().unwrap());
+    let (lagrange, energy) = (tally.of("lagrange").unwrap(), tally.of("energy").unwrap());
     let counts = |rows: &sweep::SolverTally| {
         rows.0.iter().map(|(outcome, row)| (*outcome, row.count)).collect::<Vec<_>>()
     };
@@ -113,13 +114,13 @@ fn every_seed_of_the_paper_is_accounted_for_and_listed() {
 fn the_scalar_solver_reaches_the_same_equilibria() {
     for problem in [model::cases::paper(), uneven(3)] {
         let bars = problem.chain().bars().len();
-        let sweep = Sweep::new(&problem, Settings::default()).unwrap();
+        let sweep = sweep_of(&problem, Settings::default()).unwrap();
         assert!(sweep.members().complete());
         let chunk = sweep.run_chunk(0..2000);
         let mut batch = std::collections::BTreeSet::new();
-        for outcome in chunk.lagrange.unwrap().outcome {
-            assert!(outcome >= 0, "{outcome}");
-            batch.insert(outcome);
+        for outcome in &chunk.of("lagrange").unwrap().outcome {
+            assert!(*outcome >= 0, "{outcome}");
+            batch.insert(*outcome);
         }
         let difference = problem.chain().anchors().difference_m();
         let heading = difference[1].atan2(difference[0]);
@@ -152,22 +153,22 @@ fn the_scalar_solver_reaches_the_same_equilibria() {
 fn longer_chains_are_identified_against_the_census() {
     for bars in [5, 6, 8] {
         let settings = Settings::default();
-        let sweep = Sweep::new(&uneven(bars), settings).unwrap();
+        let sweep = sweep_of(&uneven(bars), settings).unwrap();
         assert!(sweep.members().complete());
         let summary = sweep.run(0..3000, 2).unwrap();
         let tally = summary.tally();
         // Nothing converges to what the census does not have, and every minimum is a minimum there.
         assert!(summary.disagreements().is_empty(), "{:?}", summary.disagreements());
-        for rows in [&tally.lagrange, &tally.energy] {
-            let rows = &rows.as_ref().unwrap().0;
+        assert_eq!(tally.names().collect::<Vec<_>>(), ["lagrange", "energy"]);
+        for (_, sweep::SolverTally(rows)) in &tally.solvers {
             assert!(!rows.contains_key(&(Failure::Unlisted as i16)));
             assert_eq!(rows.values().map(|row| row.count).sum::<u64>(), 3000);
         }
         let failed = |rows: &sweep::SolverTally| -> u64 {
             rows.0.iter().filter(|row| *row.0 < 0).map(|row| row.1.count).sum()
         };
-        assert_eq!(failed(tally.energy.as_ref().unwrap()), 0);
-        assert!(failed(tally.lagrange.as_ref().unwrap()) < 30);
+        assert_eq!(failed(tally.of("energy").unwrap()), 0);
+        assert!(failed(tally.of("lagrange").unwrap()) < 30);
     }
 }
 
@@ -175,7 +176,7 @@ fn longer_chains_are_identified_against_the_census() {
 #[test]
 fn the_energies_of_a_taut_chain_agree() {
     let problem = model::cases::get("nearly-taut").unwrap().problem();
-    let sweep = Sweep::new(&problem, Settings::default()).unwrap();
+    let sweep = sweep_of(&problem, Settings::default()).unwrap();
     let summary = sweep.run(0..3000, 2).unwrap();
     assert!(summary.disagreements().is_empty(), "{:?}", summary.disagreements().first());
     let same = summary.comparisons().find(|row| row.0 == Comparison::Same).unwrap().1;
@@ -187,10 +188,10 @@ fn the_energies_of_a_taut_chain_agree() {
 fn a_discovered_list_is_a_part_of_the_census() {
     let problem = uneven(4);
     let census = census::Settings { max_bars: 3, ..census::Settings::default() };
-    let full = Sweep::new(&problem, Settings::default()).unwrap();
+    let full = sweep_of(&problem, Settings::default()).unwrap();
     let make = |number| {
         let settings = Settings { number, census, discover: 5000, ..Settings::default() };
-        Sweep::new(&problem, settings).unwrap()
+        sweep_of(&problem, settings).unwrap()
     };
     let (one, other) = (make(1), make(2));
     assert!(full.members().complete() && !one.members().complete());
@@ -208,7 +209,7 @@ fn a_discovered_list_is_a_part_of_the_census() {
 fn a_discovered_list_holds_what_is_reached_most() {
     let problem = model::cases::get("thirty-bars").unwrap().problem();
     let settings = Settings { discover: 3000, ..Settings::default() };
-    let sweep = Sweep::new(&problem, settings).unwrap();
+    let sweep = sweep_of(&problem, settings).unwrap();
     let members = sweep.members();
     assert_eq!(members.list().len(), sweep::DISCOVERED);
     assert!(members.left_out() > 1000, "{}", members.left_out());
@@ -216,7 +217,7 @@ fn a_discovered_list_holds_what_is_reached_most() {
     // All descents end in the one minimum: it is there, and they are still identified.
     let chunk = sweep.run_chunk(0..200);
     let minima = members.list().iter().filter(|member| member.index_in_plane == Some(0)).count();
-    let descents = chunk.energy.unwrap().outcome;
+    let descents = &chunk.of("energy").unwrap().outcome;
     assert!(minima >= 1 && descents.iter().all(|outcome| *outcome >= 0), "{descents:?}");
 }
 
@@ -225,7 +226,7 @@ fn what_is_not_in_the_list_is_said() {
     // A list of nothing: no census, no discovery.
     let census = census::Settings { max_bars: 2, ..census::Settings::default() };
     let settings = Settings { census, discover: 0, ..Settings::default() };
-    let sweep = Sweep::new(&model::cases::paper(), settings).unwrap();
+    let sweep = sweep_of(&model::cases::paper(), settings).unwrap();
     let summary = sweep.run(0..50, 1).unwrap();
     assert_eq!(summary.disagreements().len(), 50);
     assert!(summary.disagreements().iter().all(|d| d.comparison == Comparison::NotListed));
@@ -233,15 +234,18 @@ fn what_is_not_in_the_list_is_said() {
 
 #[test]
 fn one_solver_alone_and_settings_out_of_range() {
-    let only = |solvers| {
-        let settings = Settings { solvers, ..Settings::default() };
-        Sweep::new(&model::cases::paper(), settings).unwrap().run_chunk(3..40)
+    let problem = model::cases::paper();
+    let only = |names: &[&str]| {
+        let solvers = funicular::starts::solvers(&problem).unwrap().only(names);
+        Sweep::new(&problem, Settings::default(), solvers).map(|sweep| sweep.run_chunk(3..40))
     };
-    assert!(only(Solvers::Lagrange).energy.is_none() && only(Solvers::Energy).lagrange.is_none());
-    assert_eq!(only(Solvers::Lagrange).lagrange, only(Solvers::Both).lagrange);
+    let (one, both) = (only(&["lagrange"]).unwrap(), only(&["energy", "lagrange"]).unwrap());
+    assert!(one.of("energy").is_none() && one.outcomes.len() == 1);
+    assert_eq!(one.outcomes[0], both.outcomes[0]);
+    assert_eq!(only(&["neither"]).unwrap_err(), sweep::SweepError::NoSolver);
     let refused = Settings { chunk: 0, ..Settings::default() };
-    assert!(Sweep::new(&model::cases::paper(), refused).is_err());
+    assert!(sweep_of(&model::cases::paper(), refused).is_err());
     let axes = Source::Grid(vec![Axis::full(3)]);
     let refused = Settings { source: axes, ..Settings::default() };
-    assert!(Sweep::new(&model::cases::paper(), refused).is_err());
+    assert!(sweep_of(&model::cases::paper(), refused).is_err());
 }

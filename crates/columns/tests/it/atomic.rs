@@ -1,8 +1,5 @@
 //! Files that are whole or not there, and names that are no files.
 
-#![cfg(unix)]
-#![expect(clippy::unwrap_used, reason = "helpers of tests")]
-
 use std::fs;
 use std::io::Write as _;
 use std::os::unix::fs::{FileTypeExt as _, PermissionsExt as _, symlink};
@@ -89,4 +86,22 @@ fn a_check_leaves_everything_as_it_is() {
     assert_eq!(names(folder.path()), ["file"]);
     assert!(AtomicFile::check(folder.path()).is_err(), "a folder");
     assert!(AtomicFile::check(&folder.path().join("none").join("file")).is_err());
+}
+
+/// Somebody else may make links in the folder, but cannot know the name of the temporary file.
+#[test]
+fn nothing_is_written_through_a_link_with_a_temporary_name() {
+    let folder = tempfile::tempdir().unwrap();
+    let victim = folder.path().join("victim");
+    fs::write(&victim, "precious").unwrap();
+    let process = std::process::id();
+    symlink("victim", folder.path().join(format!(".file.{process}.part"))).unwrap();
+    let path = folder.path().join("file");
+    write_whole(&path, b"new").unwrap();
+    assert_eq!(fs::read(&victim).unwrap(), b"precious");
+    assert_eq!(fs::read(&path).unwrap(), b"new");
+    // What is written is readable to whom the user allows it, and no link.
+    let about = fs::symlink_metadata(&path).unwrap();
+    let usual = fs::metadata(&victim).unwrap().permissions().mode();
+    assert!(about.is_file() && about.permissions().mode() == usual);
 }

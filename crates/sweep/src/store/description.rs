@@ -6,7 +6,7 @@ use std::path::Path;
 
 use serde::Serialize;
 
-use crate::store_error::StoreError;
+use crate::store::error::{StoreError, regular};
 
 /// Version of the folder's form; raised when a key or a column changes its meaning.
 pub const SCHEMA_VERSION: u32 = 1;
@@ -14,8 +14,12 @@ pub const SCHEMA_VERSION: u32 = 1;
 pub(crate) const MANIFEST: &str = "manifest.json";
 pub(crate) const SUMMARY: &str = "summary.json";
 
-/// Longest description that is read, bytes: the digests of a hundred thousand parts.
-const MAX_DESCRIPTION: u64 = 64 << 20;
+/// The list of an unfinished sweep, in the form of `sha256sum`: the manifest first, then a part a line, in the order
+/// in which they were finished.
+pub(crate) const DIGESTS: &str = ".digests";
+
+/// Longest description that is read, bytes: the records of [`MOST_PARTS`](crate::store::shard::MOST_PARTS) parts.
+pub(crate) const MAX_DESCRIPTION: u64 = 64 << 20;
 
 pub(crate) fn write_json(path: &Path, value: &impl Serialize) -> Result<(), StoreError> {
     let description = |reason: String| StoreError::Description { path: path.to_owned(), reason };
@@ -30,6 +34,7 @@ pub(crate) fn read_json<T: serde::de::DeserializeOwned>(path: &Path) -> Result<T
         ErrorKind::InvalidData => fail("it is not UTF-8 text".to_owned()),
         _ => StoreError::file(path, error),
     };
+    regular(path)?;
     let length = fs::metadata(path).map_err(io)?.len();
     if length > MAX_DESCRIPTION {
         return Err(fail(format!("{length} bytes are too many for a description")));

@@ -1,7 +1,7 @@
 //! Seeds per second of both solvers on the paper's chain, in memory, identified and counted, on one thread
 //! and on two.
 //!
-//! `cargo run --release -p sweep --example throughput`
+//! `cargo run --release -p funicular --example throughput`
 //!
 //! The best of several runs, and the middle one: one thread, two threads, and two runs of one thread each that know
 //! nothing of each other, in turn, so that other work on the machine falls on all. The last is what two of the
@@ -10,7 +10,7 @@
 use std::ops::Range;
 use std::time::Instant;
 
-use sweep::{Settings, Solvers, Summary, Sweep, SweepError};
+use sweep::{Settings, Summary, Sweep, SweepError};
 
 /// Seeds in a run.
 const SEEDS: u64 = 1 << 20;
@@ -33,12 +33,13 @@ fn run(sweep: &Sweep, kind: usize, seeds: Range<u64>) -> Result<Vec<Summary>, Sw
     })
 }
 
-fn main() -> Result<(), SweepError> {
+fn main() -> Result<(), Box<dyn std::error::Error>> {
     let problem = model::cases::paper();
     println!("{SEEDS} uniform seeds a run, {RUNS} runs of each kind; million seeds/s");
     println!("                          best  middle  times one thread");
-    for (name, solvers) in [("lagrange", Solvers::Lagrange), ("energy", Solvers::Energy)] {
-        let sweep = Sweep::new(&problem, Settings { solvers, ..Settings::default() })?;
+    for name in ["lagrange", "energy"] {
+        let solvers = funicular::starts::solvers(&problem)?.only(&[name]);
+        let sweep = Sweep::new(&problem, Settings::default(), solvers)?;
         let mut rates = [const { Vec::new() }; KINDS.len()];
         let (mut found, mut seeds) = (0, 0);
         for round in 0..RUNS {
@@ -49,9 +50,8 @@ fn main() -> Result<(), SweepError> {
                 rates.push(SEEDS as f64 / clock.elapsed().as_secs_f64() / 1e6);
                 for summary in &summaries {
                     let tally = summary.tally();
-                    let rows = [&tally.lagrange, &tally.energy].into_iter().flatten();
-                    let listed =
-                        rows.flat_map(|rows| &rows.0).filter(|(outcome, _)| **outcome >= 0);
+                    let rows = tally.solvers.iter().flat_map(|(_, rows)| &rows.0);
+                    let listed = rows.filter(|(outcome, _)| **outcome >= 0);
                     found += listed.map(|(_, row)| row.count).sum::<u64>();
                 }
                 seeds += SEEDS;

@@ -1,7 +1,5 @@
 //! Bars from Parquet files, good and bad. The files are written by the `parquet` crate's own writer.
 
-#![expect(clippy::unwrap_used, reason = "helpers of tests")]
-
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;

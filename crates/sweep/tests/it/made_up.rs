@@ -1,7 +1,5 @@
 //! A made-up sweep: what the store does with rows does not depend on what they mean.
 
-#![allow(dead_code, clippy::unwrap_used, reason = "every test file uses some of it")]
-
 use std::collections::BTreeMap;
 use std::fs;
 use std::ops::Range;
@@ -64,9 +62,10 @@ fn double(seed: u64) -> f64 {
     }
 }
 
-fn outcomes(seeds: Range<u64>, salt: u64) -> Outcomes {
+fn outcomes(solver: &str, seeds: Range<u64>, salt: u64) -> Outcomes {
     let pick = |seed: u64, among: u64| u16::try_from(hash(seed ^ salt) % among).unwrap_or(0);
     Outcomes {
+        solver: solver.to_owned(),
         outcome: seeds.clone().map(|s| pick(s, 6).cast_signed() - 4).collect(),
         iterations: seeds.clone().map(|s| pick(s + 1, 40)).collect(),
         residual: seeds.clone().map(|s| double(s ^ salt)).collect(),
@@ -74,12 +73,16 @@ fn outcomes(seeds: Range<u64>, salt: u64) -> Outcomes {
     }
 }
 
+fn both(seeds: Range<u64>, salts: [u64; 2]) -> Chunk {
+    let named = ["lagrange", "energy"].into_iter().zip(salts);
+    let outcomes = named.map(|(solver, salt)| outcomes(solver, seeds.clone(), salt)).collect();
+    Chunk { seeds, outcomes }
+}
+
 impl Compute for MadeUp {
     fn chunk(&self, seeds: Range<u64>) -> Chunk {
         std::thread::sleep(self.delay);
-        let (lagrange, energy) =
-            (outcomes(seeds.clone(), 1 << 40), outcomes(seeds.clone(), 1 << 41));
-        Chunk { seeds, lagrange: Some(lagrange), energy: Some(energy) }
+        both(seeds, [1 << 40, 1 << 41])
     }
 
     fn angles(&self, seeds: Range<u64>) -> Vec<Vec<f64>> {
@@ -92,8 +95,7 @@ pub struct Shifted;
 
 impl Compute for Shifted {
     fn chunk(&self, seeds: Range<u64>) -> Chunk {
-        let (lagrange, energy) = (outcomes(seeds.clone(), 1), outcomes(seeds.clone(), 2));
-        Chunk { seeds, lagrange: Some(lagrange), energy: Some(energy) }
+        both(seeds, [1, 2])
     }
 
     fn angles(&self, seeds: Range<u64>) -> Vec<Vec<f64>> {

@@ -4,9 +4,9 @@ use std::fs::{self, File, TryLockError};
 use std::io;
 use std::path::{Path, PathBuf};
 
-use crate::description::{MANIFEST, read_json};
-use crate::manifest::Manifest;
-use crate::store_error::StoreError;
+use crate::store::description::{DIGESTS, MANIFEST, SUMMARY, read_json};
+use crate::store::error::{StoreError, regular};
+use crate::store::manifest::Manifest;
 
 const LOCK: &str = ".lock";
 
@@ -36,7 +36,7 @@ impl Lock {
         if !there && let Some(found) = foreign(folder)? {
             return Err(StoreError::NotEmpty { path: folder.to_owned(), found });
         }
-        columns::remove_unfinished(folder).map_err(io)?;
+        remove_unfinished(folder, manifest)?;
         if there {
             let held: Manifest = read_json(&held)?;
             if let Some((key, wanted, found)) = manifest.difference(&held) {
@@ -55,6 +55,7 @@ impl Lock {
         let path = folder.join(LOCK);
         let io = |error| StoreError::file(&path, error);
         loop {
+            regular(&path)?;
             // Not truncated: another process may hold it.
             let file = File::options().create(true).append(true).open(&path).map_err(io)?;
             match file.try_lock() {
@@ -105,12 +106,36 @@ fn is_at(_: &File, _: &Path) -> io::Result<bool> {
     Ok(true)
 }
 
+/// Remove what killed processes left unfinished of this sweep, and nothing else.
+fn remove_unfinished(folder: &Path, manifest: &Manifest) -> Result<(), StoreError> {
+    for entry in fs::read_dir(folder).map_err(|error| StoreError::file(folder, error))? {
+        let entry = entry.map_err(|error| StoreError::file(folder, error))?;
+        let name = entry.file_name();
+        let ours =
+            columns::unfinished(&name.to_string_lossy()).is_some_and(|of| is_ours(of, manifest));
+        let path = entry.path();
+        if ours && entry.file_type().is_ok_and(|kind| kind.is_file()) {
+            fs::remove_file(&path).map_err(|error| StoreError::file(&path, error))?;
+        }
+    }
+    Ok(())
+}
+
+/// Whether a file of this name belongs to the sweep.
+fn is_ours(name: &str, manifest: &Manifest) -> bool {
+    let part = || {
+        let number = name.strip_prefix("part-")?.split('.').next()?.parse().ok()?;
+        Some(name == manifest.file_of(number))
+    };
+    [MANIFEST, SUMMARY, DIGESTS].contains(&name) || part() == Some(true)
+}
+
 /// Something in a folder that no unfinished sweep leaves there.
 fn foreign(folder: &Path) -> Result<Option<String>, StoreError> {
     for entry in fs::read_dir(folder).map_err(|error| StoreError::file(folder, error))? {
         let name = entry.map_err(|error| StoreError::file(folder, error))?.file_name();
         let name = name.to_string_lossy();
-        if name != LOCK && !(name.starts_with(&format!(".{MANIFEST}."))) {
+        if name != LOCK && columns::unfinished(&name) != Some(MANIFEST) {
             return Ok(Some(name.into_owned()));
         }
     }

@@ -1,0 +1,8 @@
+//! Columns on disk, seen from outside.
+
+#![expect(clippy::unwrap_used, reason = "helpers of tests")]
+
+#[cfg(unix)]
+mod atomic;
+mod bars;
+mod tables;
