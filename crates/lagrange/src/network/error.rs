@@ -54,6 +54,17 @@ pub enum Error {
         /// Length of the shortest path of members between them, m.
         reach_m: f64,
     },
+    /// Occurs when an inextensible member between two anchors has not the length of their distance,
+    /// or, as a cable, is shorter, or, as a strut, longer.
+    #[error("member {member} of {length_m} m is held at both ends, {distance_m} m apart")]
+    HeldMisfit {
+        /// Number of the member, from 0.
+        member: usize,
+        /// Its length, m.
+        length_m: f64,
+        /// Distance of its ends, m.
+        distance_m: f64,
+    },
     /// Occurs when no load acts and no member is stretched: every shape is in equilibrium.
     #[error("no load acts on any joint that can move: nothing decides the shape")]
     Unloaded,

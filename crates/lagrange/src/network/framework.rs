@@ -102,6 +102,16 @@ impl Framework {
         self.nodes[link.from].freedom + self.nodes[link.to].freedom > 0
     }
 
+    /// Axial force of an elastic member between two anchors; nothing for any other.
+    pub fn held_force(&self, link: &Link) -> Option<f64> {
+        if self.moves(link) || link.compliance <= 0.0 {
+            return None;
+        }
+        let distance = (self.nodes[link.to].base - self.nodes[link.from].base).norm();
+        let force = (distance - link.length) / link.compliance;
+        Some(if link.bears(force) { force } else { 0.0 })
+    }
+
     /// Sum of the pulls of all members and of the load at each joint; `pulls` are the forces with
     /// which the members pull their first joint towards their last.
     pub fn unbalance(&self, pulls: impl Iterator<Item = Vector3<f64>>) -> Vec<Vector3<f64>> {

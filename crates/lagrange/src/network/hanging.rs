@@ -27,10 +27,11 @@ const DENSITY_STEPS: usize = 20;
 const FIRST_ROUNDING: f64 = 0.1;
 /// Each rounding is this fraction of the last one.
 const ROUNDING_FALL: f64 = 0.2;
-/// At this rounding it may end, if the forces say clearly which members are taut; at the last one
-/// it does, where the stiffness along a taut member is 10^9 times that across and rounding sets in.
-const FIRST_END: f64 = 1e-3;
-const LAST_END: f64 = 2e-5;
+/// At this rounding the lengths of taut bars are right to 5e-7: often near enough for the final
+/// iteration.
+pub(super) const FIRST_END: f64 = 1e-3;
+/// Here the stiffness along a taut member is 10^9 times that across, and rounding sets in.
+pub(super) const LAST_END: f64 = 2e-5;
 /// A member with this many times its rounding is clearly taut: `|d| > l (1 - 5e-5)`; at the end one
 /// with the second number counts as taut.
 const CLEARLY_TAUT: f64 = 100.0;
@@ -46,38 +47,55 @@ const SLOPE: f64 = 0.5;
 /// Newton steps in all; nets of 20,000 members take some 15.
 const MOST_STEPS: usize = 200;
 
-/// Forces and places, and what it took.
+/// The hanging shape with all bars taken as cables, as far as it has come.
 pub(super) struct Hanging {
-    pub state: State,
+    shape: Shape,
+    /// Starting force of each member.
+    scales: Vec<f64>,
+    rounding: f64,
+    /// Newton steps so far.
     pub steps: usize,
-    /// Whether the last rounding was reached.
-    pub settled: bool,
+    /// Whether the shape belongs to its rounding.
+    settled: bool,
 }
 
-/// The hanging shape with all bars taken as cables.
-///
-/// # Errors
-///
-/// [`Error::Memory`] when the factor cannot be held.
-pub(super) fn hang(framework: &Framework, stiffness: &mut Stiffness) -> Result<Hanging, Error> {
-    let mut shape = Shape::by_densities(framework)?;
-    let mean = mean_force(&shape.forces);
-    let scales: Vec<f64> =
-        shape.forces.iter().map(|force| force.norm().max(LEAST_SCALE * mean)).collect();
-    let (mut rounding, mut steps, mut settled) = (FIRST_ROUNDING, 0, mean == 0.0);
-    while !settled && steps < MOST_STEPS {
-        let done = shape.step(framework, stiffness, &scales, rounding);
-        steps += 1;
-        if done {
-            let clear = || shape.clearly_taut(framework, &scales, rounding);
-            settled = rounding <= LAST_END || (rounding <= FIRST_END && clear());
-            if !settled {
-                rounding *= ROUNDING_FALL;
-            }
-        }
+impl Hanging {
+    /// The start, by force densities.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Memory`] when the factor cannot be held.
+    pub fn new(framework: &Framework) -> Result<Self, Error> {
+        let shape = Shape::by_densities(framework)?;
+        let mean = mean_force(&shape.forces);
+        let scales =
+            shape.forces.iter().map(|force| force.norm().max(LEAST_SCALE * mean)).collect();
+        // Without any force there is nothing to round off.
+        let (rounding, settled) = if mean > 0.0 { (FIRST_ROUNDING, false) } else { (0.0, true) };
+        Ok(Self { shape, scales, rounding, steps: 0, settled })
     }
-    let state = shape.state(framework, &scales, rounding);
-    Ok(Hanging { state, steps, settled })
+
+    /// Go on to a rounding below `end`; whether it was reached.
+    pub fn advance(&mut self, framework: &Framework, stiffness: &mut Stiffness, end: f64) -> bool {
+        while self.steps < MOST_STEPS && !(self.settled && self.rounding <= end) {
+            if self.settled {
+                self.rounding *= ROUNDING_FALL;
+            }
+            self.settled = self.shape.step(framework, stiffness, &self.scales, self.rounding);
+            self.steps += 1;
+        }
+        self.settled && self.rounding <= end
+    }
+
+    /// Whether every cable is far from slack. Bars keep their lengths whatever their forces are.
+    pub fn clear(&self, framework: &Framework) -> bool {
+        self.shape.clearly_taut(framework, &self.scales, self.rounding)
+    }
+
+    /// Places, axial forces, and which members are taut.
+    pub fn state(&self, framework: &Framework) -> State {
+        self.shape.state(framework, &self.scales, self.rounding)
+    }
 }
 
 /// Whether a member takes part: one that cannot pull does not.
@@ -189,7 +207,7 @@ impl Shape {
     }
 
     /// Axial forces, and which members are taut: those with far more force than their rounding.
-    fn state(self, framework: &Framework, scales: &[f64], rounding: f64) -> State {
+    fn state(&self, framework: &Framework, scales: &[f64], rounding: f64) -> State {
         let mut axial: Vec<f64> = self.forces.iter().map(Vector3::norm).collect();
         let mut taut = vec![false; axial.len()];
         for (k, link) in framework.links.iter().enumerate() {
@@ -199,7 +217,7 @@ impl Shape {
                 axial[k] = 0.0;
             }
         }
-        State::new(self.places, axial, taut)
+        State::new(self.places.clone(), axial, taut)
     }
 }
 

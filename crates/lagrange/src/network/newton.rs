@@ -46,6 +46,16 @@ impl Run {
     }
 }
 
+/// The state with the forces of elastic members between anchors, which nothing else changes.
+fn with_held(framework: &Framework, mut state: State) -> State {
+    for (k, link) in framework.links.iter().enumerate() {
+        if let Some(force) = framework.held_force(link) {
+            (state.axial[k], state.taut[k]) = (force, link.bears(force));
+        }
+    }
+    state
+}
+
 /// Improve a state until it is in equilibrium to rounding, or no step helps.
 pub(super) fn polish(
     framework: &Framework,
@@ -53,7 +63,7 @@ pub(super) fn polish(
     settings: &Settings,
     state: State,
 ) -> Run {
-    let mut run = Run::at(framework, state);
+    let mut run = Run::at(framework, with_held(framework, state));
     while run.steps < settings.max_iterations {
         let done = run.residual.size() <= settings.tolerance;
         let Some(step) = Step::new(framework, stiffness, &run) else { break };

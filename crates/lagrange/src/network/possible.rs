@@ -15,8 +15,13 @@ const UNHELD: f64 = 1e-12;
 /// this.
 const HELD: f64 = 1e-18;
 
-/// Refuse systems that no support holds, and systems without any load.
+/// A member between two anchors fits to this part of its length.
+const HELD_MISFIT: f64 = 1e-12;
+
+/// Refuse members between anchors that do not fit, systems that no support holds, and systems
+/// without any load.
 pub(super) fn check(system: &System, framework: &Framework) -> Result<(), Error> {
+    check_held(framework)?;
     let component = components(framework);
     let count = component.iter().max().map_or(0, |last| last + 1);
     let mut held = vec![Matrix3::<f64>::zeros(); count];
@@ -41,6 +46,28 @@ pub(super) fn check(system: &System, framework: &Framework) -> Result<(), Error>
     let loaded = framework.nodes.iter().any(|node| node.axes.tr_mul(&node.load).norm() > 0.0);
     let elastic = framework.links.iter().any(|link| link.compliance > 0.0);
     if loaded || elastic || framework.freedoms() == 0 { Ok(()) } else { Err(Error::Unloaded) }
+}
+
+/// Refuse inextensible members between anchors that do not fit there.
+fn check_held(framework: &Framework) -> Result<(), Error> {
+    for (member, link) in framework.links.iter().enumerate() {
+        if framework.moves(link) || link.compliance > 0.0 {
+            continue;
+        }
+        let distance = (framework.nodes[link.to].base - framework.nodes[link.from].base).norm();
+        let excess = distance - link.length;
+        let misfit = match link.kind {
+            Kind::Bar => excess.abs(),
+            Kind::Cable => excess,
+            Kind::Strut => -excess,
+        };
+        if misfit > HELD_MISFIT * link.length {
+            let unit = framework.units.length_m;
+            let (length_m, distance_m) = (link.length * unit, distance * unit);
+            return Err(Error::HeldMisfit { member, length_m, distance_m });
+        }
+    }
+    Ok(())
 }
 
 /// The part of a vector in the range of a positive semidefinite matrix.

@@ -83,7 +83,7 @@ fn links(framework: &Framework, state: &State) -> Vec<Link> {
             u,
             across: if length > 0.0 { state.axial[k] / length } else { 0.0 },
             along: (link.compliance > 0.0).then(|| link.compliance.recip()),
-            taut: state.taut[k] && framework.moves(link),
+            taut: state.taut[k],
         })
         .collect()
 }

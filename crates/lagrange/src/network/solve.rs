@@ -7,7 +7,7 @@ use nalgebra::Vector3;
 
 use super::error::Error;
 use super::framework::Framework;
-use super::hanging::hang;
+use super::hanging::{FIRST_END, Hanging, LAST_END};
 use super::law::by_direction;
 use super::newton::{Run, polish};
 use super::possible::{check, too_short};
@@ -27,6 +27,8 @@ const SLACK_LENGTH: f64 = 1e-3;
 const ESCAPES: usize = 4;
 /// Such moves, in units of the mean length: the next one where the last one led nowhere.
 const KICKS: [f64; 5] = [0.01, 0.1, 0.5, 1.0, 2.0];
+/// Newton steps of the final iteration from a shape that may not be near enough.
+const FIRST_PATIENCE: usize = 12;
 /// Ridge of the least squares for the forces of a seed, in units of the stiffness.
 const RIDGE: f64 = 1e-9;
 
@@ -39,20 +41,28 @@ const RIDGE: f64 = 1e-9;
 pub fn solve(system: &System, settings: &Settings) -> Result<Solution, Error> {
     settings.validate()?;
     let mut solver = Solver::new(system, *settings)?;
-    let hanging = hang(&solver.framework, &mut solver.stiffness)?;
-    solver.factorisations += hanging.steps;
-    let start = hanging.state;
-    if hanging.settled
-        && let Ok(run) = solver.with_signs(start.clone())
-    {
-        let second_order = solver.second_order(&run.state);
-        if second_order.index == 0 {
-            return Ok(solver.solution(run, second_order));
+    let mut hanging = Hanging::new(&solver.framework)?;
+    for (end, patience) in [(FIRST_END, FIRST_PATIENCE), (LAST_END, settings.max_iterations)] {
+        let before = hanging.steps;
+        let reached = hanging.advance(&solver.framework, &mut solver.stiffness, end);
+        solver.factorisations += hanging.steps - before;
+        if !reached {
+            break;
+        }
+        if end > LAST_END && !hanging.clear(&solver.framework) {
+            continue;
+        }
+        if let Ok(run) = solver.with_signs(hanging.state(&solver.framework), patience) {
+            let second_order = solver.second_order(&run.state);
+            if second_order.index == 0 {
+                return Ok(solver.solution(run, second_order));
+            }
         }
     }
     if let Some(error) = too_short(system, &solver.framework) {
         return Err(error);
     }
+    let start = hanging.state(&solver.framework);
     let run = solver.settled(&start, 0)?;
     solver.stable(run)
 }
@@ -67,7 +77,7 @@ pub fn solve_from(system: &System, seed: &Seed, settings: &Settings) -> Result<S
     seed.check(system)?;
     let mut solver = Solver::new(system, *settings)?;
     let start = solver.start(seed);
-    let run = solver.with_signs(start)?;
+    let run = solver.with_signs(start, settings.max_iterations)?;
     let second_order = solver.second_order(&run.state);
     Ok(solver.solution(run, second_order))
 }
@@ -91,9 +101,13 @@ impl<'a> Solver<'a> {
     }
 
     /// Newton's method, with the set of taut members changed until all signs are right.
-    fn with_signs(&mut self, mut state: State) -> Result<Run, Error> {
+    fn with_signs(&mut self, mut state: State, patience: usize) -> Result<Run, Error> {
+        let settings = Settings {
+            max_iterations: self.settings.max_iterations.min(patience),
+            ..self.settings
+        };
         for _ in 0..SIGN_CHANGES {
-            let run = polish(&self.framework, &mut self.stiffness, &self.settings, state);
+            let run = polish(&self.framework, &mut self.stiffness, &settings, state);
             self.factorisations += run.steps;
             if run.residual.size().is_nan() || run.residual.size() > self.settings.tolerance {
                 let (system, framework) = (self.system, &self.framework);
@@ -144,7 +158,7 @@ impl<'a> Solver<'a> {
             let rest = settle(&self.framework, &mut self.stiffness, state);
             self.factorisations += rest.factorisations;
             let fits = rest.fits;
-            result = self.with_signs(rest.state);
+            result = self.with_signs(rest.state, self.settings.max_iterations);
             if fits && result.is_ok() {
                 break;
             }

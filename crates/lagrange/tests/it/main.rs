@@ -12,6 +12,7 @@ mod extremes;
 mod false_roots;
 mod judge;
 mod network;
+mod network_members;
 mod network_random;
 mod paper;
 mod properties;

@@ -2,38 +2,38 @@
 
 use lagrange::network::{Error, Forces, Seed, Settings, Solution, solve, solve_from};
 use model::system::{Joint, Kind, Member, Support, System};
-use model::{Bar, InSpace, Vector};
+use model::{Anchors, Bar, Chain, InSpace, Problem, Vector};
 use nalgebra::Vector3;
 
 /// Twice the tolerance of the solver, relative to the number or to one.
 const EXACT: f64 = 2e-12;
 
-fn bar(from: usize, to: usize, length_m: f64, mass_kg: f64) -> Member {
+pub(crate) fn bar(from: usize, to: usize, length_m: f64, mass_kg: f64) -> Member {
     Member::bar(from, to, Bar::homogeneous(length_m, mass_kg).unwrap())
 }
 
-fn cable(from: usize, to: usize, length_m: f64, mass_kg: f64) -> Member {
+pub(crate) fn cable(from: usize, to: usize, length_m: f64, mass_kg: f64) -> Member {
     Member { kind: Kind::Cable, ..bar(from, to, length_m, mass_kg) }
 }
 
 /// Gravity 1 m/s²: weights in N are masses in kg.
-fn system(joints: Vec<Joint>, members: Vec<Member>) -> System {
+pub(crate) fn system(joints: Vec<Joint>, members: Vec<Member>) -> System {
     System::new("test", 1.0, joints, members).unwrap()
 }
 
-fn hang(system: &System) -> Solution {
+pub(crate) fn hang(system: &System) -> Solution {
     let solution = solve(system, &Settings::default()).unwrap();
     judge(system, &solution);
     solution
 }
 
 #[track_caller]
-fn close(got: f64, expected: f64) {
+pub(crate) fn close(got: f64, expected: f64) {
     assert!((got - expected).abs() <= EXACT * expected.abs().max(1.0), "{got} is not {expected}");
 }
 
 #[track_caller]
-fn near(got: Vector, expected: Vector) {
+pub(crate) fn near(got: Vector, expected: Vector) {
     for axis in 0..3 {
         close(got[axis], expected[axis]);
     }
@@ -227,60 +227,6 @@ fn loaded_string() {
     near(answer.reactions_n[0], [-tension, 0.0, first]);
 }
 
-/// A V of two springs, built from the angle at which it hangs.
-#[test]
-fn elastic_v_hanger() {
-    let (half, angle, weight, stiffness) = (2.0_f64, 0.4_f64, 50.0_f64, 1000.0_f64);
-    let axial = weight / (2.0 * angle.sin());
-    let length = half / angle.cos() / (1.0 + axial / stiffness);
-    let spring = |from, to| Member { stiffness_n: Some(stiffness), ..bar(from, to, length, 0.0) };
-    let joints = vec![
-        Joint::anchor("A", [-half, 0.0, 0.0]),
-        Joint::anchor("B", [half, 0.0, 0.0]),
-        Joint::free("P").with_mass(weight),
-    ];
-    let solution = hang(&system(joints, vec![spring(0, 2), spring(2, 1)]));
-    let answer = &solution.equilibrium;
-    near(answer.joints_m[2], [0.0, 0.0, -half * angle.tan()]);
-    close(answer.axial_n[0], axial);
-    // Energies from joint A, and what the springs hold.
-    close(answer.energy_j, -weight * half * angle.tan() + axial * axial * length / stiffness);
-    assert_eq!(solution.mechanisms, Some(3));
-}
-
-/// The case of MoorPy's own test that expects equal vertical forces at both ends. The elastic
-/// catenary has H 58377.241422650 N and V 63044.412955917 and 61931.004442948 N; a run of n elastic
-/// cables with their weights comes near as 1/n².
-#[test]
-fn elastic_catenary_as_limit() {
-    const END: Vector = [246.224_209_400_329_47, 0.0, 263.557_663_308_431_64];
-    const LENGTH: f64 = 360.635_662_623_969_27;
-    const EXPECTED: [f64; 3] = [58_377.241_422_650, 63_044.412_955_917, 61_931.004_442_948];
-    let run = |n: usize| -> [f64; 3] {
-        let mut joints = vec![Joint::anchor("low", [0.0; 3])];
-        joints.extend((1..n).map(|k| Joint::free(format!("{k}"))));
-        joints.push(Joint::anchor("high", END));
-        let part = LENGTH / n as f64;
-        let member =
-            |k| Member { stiffness_n: Some(700e6), ..cable(k, k + 1, part, 3.08735 * part) };
-        let system = System::new("line", 1.0, joints, (0..n).map(member).collect()).unwrap();
-        let answer = hang(&system).equilibrium;
-        [answer.reactions_n[n][0], answer.reactions_n[n][2], -answer.reactions_n[0][2]]
-    };
-    let errors = |n: usize| {
-        let got = run(n);
-        [0, 1, 2].map(|k| got[k] - EXPECTED[k])
-    };
-    let (coarse, fine) = (errors(20), errors(40));
-    for k in 0..3 {
-        let order = (coarse[k] / fine[k]).log2();
-        assert!((order - 2.0).abs() < 0.02, "order {order}");
-        // Richardson's extrapolation takes the leading error out.
-        let limit = fine[k] + (fine[k] - coarse[k]) / 3.0;
-        assert!(limit.abs() < 1e-6 * EXPECTED[k], "{limit}");
-    }
-}
-
 /// The paper's chain, E1 and E2: three bars between anchors at 2 l on one vertical.
 #[test]
 fn the_papers_chain() {
@@ -314,66 +260,6 @@ fn the_papers_chain() {
     assert_eq!((second.stability.index_in_space, second.stability.neutral), (2, 1));
     assert_eq!(second.stability.index_in_plane, Some(1));
     assert_eq!(second.stability.in_space, InSpace::Unstable);
-}
-
-/// A cable that is longer than needed is slack; one that just reaches bears nothing.
-#[test]
-fn slack_and_just_taut_cables() {
-    let joints = vec![
-        Joint::anchor("A", [0.0; 3]),
-        Joint::anchor("B", [5.0, 0.0, 0.0]),
-        Joint::anchor("C", [1.8, 3.0, -2.4]),
-        Joint::free("P").with_mass(10.0),
-    ];
-    let with = |length| {
-        let members = vec![cable(0, 3, 3.0, 0.0), bar(1, 3, 4.0, 0.0), cable(2, 3, length, 0.0)];
-        hang(&system(joints.clone(), members))
-    };
-    let slack = with(3.5);
-    assert_eq!((slack.slack.as_slice(), slack.limp.as_slice()), (&[2][..], &[][..]));
-    near(slack.equilibrium.joints_m[3], [1.8, 0.0, -2.4]);
-    close(slack.equilibrium.axial_n[0], 8.0);
-    let taut = with(3.0);
-    assert_eq!(taut.limp, [2]);
-    near(taut.equilibrium.joints_m[3], [1.8, 0.0, -2.4]);
-    close(taut.equilibrium.axial_n[1], 6.0);
-}
-
-/// A bar from an anchor to a slider on a vertical line, and to one in a vertical plane: the bar of 2 m
-/// at 1 m from the anchor hangs at 30 degrees.
-#[test]
-fn sliders() {
-    let line = Support::Line { at_m: [1.0, 0.0, 7.0], direction: [0.0, 0.0, 1.0] };
-    let plane = Support::Plane { at_m: [1.0, 7.0, 7.0], normal: [1.0, 0.0, 0.0] };
-    for support in [line, plane] {
-        let slider = Joint { support, ..Joint::free("S").with_mass(3.0) };
-        let system = system(vec![Joint::anchor("A", [0.0; 3]), slider], vec![bar(0, 1, 2.0, 2.0)]);
-        let answer = hang(&system).equilibrium;
-        near(answer.joints_m[1], [1.0, 0.0, -(3.0_f64.sqrt())]);
-        // 4 N at the slider.
-        close(answer.axial_n[0], 8.0 / 3.0_f64.sqrt());
-        near(answer.reactions_n[1], [4.0 / 3.0_f64.sqrt(), 0.0, 0.0]);
-        near(answer.reactions_n[0], [-4.0 / 3.0_f64.sqrt(), 0.0, 5.0]);
-    }
-}
-
-/// A point on three bars in one plane: one self-stress. With axial forces a, b, a under the weight 1,
-/// `sqrt 2 a + b = 1` and least `2 sqrt 2 a^2 + b^2` give `b = 2 a`, `a = 1/(2 + sqrt 2)`.
-#[test]
-fn indeterminate_forces() {
-    let root = 2.0_f64.sqrt();
-    let mut joints: Vec<_> = [-1.0, 0.0, 1.0]
-        .into_iter()
-        .map(|x| Joint::anchor(format!("{x}"), [x, 0.0, 0.0]))
-        .collect();
-    joints.push(Joint::free("P").with_mass(1.0));
-    let members = [root, 1.0, root].into_iter().enumerate().map(|(k, l)| bar(k, 3, l, 0.0));
-    let solution = hang(&system(joints, members.collect()));
-    assert_eq!(solution.forces, Forces::LeastNorm);
-    assert_eq!(solution.self_stresses.as_ref().map(Vec::len), Some(1));
-    let least = 1.0 / (2.0 + root);
-    close(solution.equilibrium.axial_n[0], least);
-    close(solution.equilibrium.axial_n[1], 2.0 * least);
 }
 
 /// A square net from its four corners: every bar pulls, and the answer has the net's symmetry.
@@ -442,4 +328,69 @@ fn refusals_name_their_numbers() {
     let still = vec![Joint::anchor("A", [0.0; 3]), Joint::free("P")];
     let unloaded = solve(&system(still, vec![bar(0, 1, 1.0, 0.0)]), &Settings::default());
     assert_eq!(unloaded, Err(Error::Unloaded));
+}
+
+/// A chain of thirty unequal bars as a network, against the solver for chains.
+#[test]
+fn chain_as_network_against_condensed() {
+    let bars: Vec<Bar> = (0..30)
+        .map(|k| {
+            let (length, mass) = (1.0 + 0.3 * f64::from(k % 4), 0.5 + f64::from(k % 3));
+            Bar::new(length, mass, 0.4 * length, [0.0; 3]).unwrap()
+        })
+        .collect();
+    let end = [20.0, 3.0, 1.0];
+    let chain =
+        Chain::new("chain", 9.806_65, Anchors { start_m: [0.0; 3], end_m: end }, bars.clone());
+    let problem = Problem::new(chain.unwrap()).unwrap();
+    let expected = lagrange::condensed::solve(&problem, &lagrange::condensed::Settings::default());
+    let expected = expected.unwrap().equilibrium;
+    let mut joints = vec![Joint::anchor("0", [0.0; 3])];
+    joints.extend((1..30).map(|k| Joint::free(format!("{k}"))));
+    joints.push(Joint::anchor("30", end));
+    let members = bars.iter().enumerate().map(|(k, bar)| Member::bar(k, k + 1, *bar)).collect();
+    let system = System::new("chain", 9.806_65, joints, members).unwrap();
+    let answer = hang(&system).equilibrium;
+    for (got, expected) in answer.joints_m.iter().zip(&expected.joints_m) {
+        near(*got, *expected);
+    }
+    for (got, expected) in answer.axial_n.iter().zip(&expected.axial_n) {
+        close(*got, *expected);
+    }
+    close(answer.energy_j, expected.energy_j);
+}
+
+/// The pivots of the sparse factors count what the dense decompositions count, stable or not.
+#[test]
+fn sparse_and_dense_indices_agree() {
+    let joints = (0..9).map(|k| match k {
+        0 => Joint::anchor("0", [0.0; 3]),
+        8 => Joint::anchor("8", [5.0, 0.0, 1.0]),
+        _ => Joint::free(format!("{k}")),
+    });
+    let members = (0..8).map(|k| bar(k, k + 1, 1.0, 1.0)).collect();
+    let system = system(joints.collect(), members);
+    let (dense, sparse) =
+        (Settings::default(), Settings { dense_freedoms: 0, ..Settings::default() });
+    let mut indices = std::collections::BTreeSet::new();
+    for start in 0..60_u32 {
+        // Zigzags of the numbers' bits: rough guesses of equilibria with bars in compression.
+        let mut places: Vec<Vector> = (0..9).map(|k| [0.625 * f64::from(k), 0.0, 0.0]).collect();
+        for (k, place) in places.iter_mut().enumerate() {
+            place[2] = if start >> (k % 6) & 1 == 1 { 1.0 } else { -1.0 };
+            place[1] = 0.1 * f64::from(start % 7);
+        }
+        let seed = Seed::at(places);
+        let (Ok(a), Ok(b)) =
+            (solve_from(&system, &seed, &dense), solve_from(&system, &seed, &sparse))
+        else {
+            continue;
+        };
+        judge(&system, &a);
+        let (a, b) = (a.equilibrium.stability, b.equilibrium.stability);
+        assert_eq!((a.index_in_space, a.neutral), (b.index_in_space, b.neutral));
+        assert_eq!(a.index_in_plane, b.index_in_plane);
+        indices.insert(a.index_in_space);
+    }
+    assert!(indices.len() >= 3, "{indices:?}");
 }
