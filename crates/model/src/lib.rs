@@ -20,6 +20,7 @@ pub mod cases;
 mod chain;
 mod equilibrium;
 pub mod evidence;
+pub mod number;
 mod problem;
 mod readable;
 mod solver_name;

@@ -4,7 +4,8 @@
 //! the same line of print: a product of matrices, a configuration that is closed by construction, a numeric
 //! derivative, Newton's law, or the equilibrium of lowest energy. Where the fault is in the notation (a
 //! bracket that is missing, a number used twice, a citation that leads nowhere) the number is a count. No
-//! verdict is written down: each follows from the two numbers of its row.
+//! verdict is written down: each follows from the two numbers of its row. What is no error of the argument but
+//! of the print, or of the copy of it that was typed in, is told apart as a fault of form ([`Fault`]).
 //!
 //! | module | section of the paper | equations |
 //! |---|---|---|
@@ -52,7 +53,7 @@ pub const SOLVED: f64 = 1e-9;
 /// What the numbers say of an equation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Verdict {
+pub enum Validity {
     /// It holds as printed.
     Holds,
     /// It fails as printed and holds as corrected.
@@ -61,6 +62,21 @@ pub enum Verdict {
     Refuted,
     /// It names something; there is nothing to fail.
     Definition,
+    /// It holds as printed; the number is worth knowing and no fault.
+    Remark,
+}
+
+/// What kind of fault a failing row shows, from the lightest.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Fault {
+    /// Layout and notation: brackets, line breaks, dots, rows and numbers lost or out of place. "As printed" is
+    /// what the copy at hand has, whose formulas are scrambled in places; such a fault may be the copy's.
+    Form,
+    /// Right to the step of the paper's scan, and not to all digits printed.
+    Digits,
+    /// The formula or the statement is wrong, however it is laid out.
+    Substance,
 }
 
 /// One equation, or one statement of the text, and the numbers that judge it.
@@ -86,7 +102,9 @@ pub struct EquationAudit {
     /// The corrected form; empty if there is nothing to correct.
     pub corrected: &'static str,
     /// The judgement.
-    pub verdict: Verdict,
+    pub verdict: Validity,
+    /// What kind of fault it is, if the row fails as printed.
+    pub fault: Option<Fault>,
 }
 
 impl EquationAudit {
@@ -101,7 +119,8 @@ impl EquationAudit {
             as_printed: 0.0,
             as_corrected: None,
             corrected: "",
-            verdict: Verdict::Definition,
+            verdict: Validity::Definition,
+            fault: None,
         }
     }
 
@@ -109,8 +128,11 @@ impl EquationAudit {
     fn measured(mut self, measure: &'static str, as_printed: f64, tolerance: f64) -> Self {
         self.measure = measure;
         self.as_printed = as_printed;
-        self.verdict =
-            if as_printed.abs() <= tolerance { Verdict::Holds } else { Verdict::Refuted };
+        (self.verdict, self.fault) = if as_printed.abs() <= tolerance {
+            (Validity::Holds, None)
+        } else {
+            (Validity::Refuted, Some(Fault::Substance))
+        };
         self
     }
 
@@ -121,17 +143,37 @@ impl EquationAudit {
 
     /// A definition that the program uses as it is printed, to the number just measured.
     fn definition(mut self) -> Self {
-        if self.verdict == Verdict::Holds {
-            self.verdict = Verdict::Definition;
+        if self.verdict == Validity::Holds {
+            self.verdict = Validity::Definition;
         }
         self
+    }
+
+    /// If it fails, it fails so.
+    fn fault(mut self, fault: Fault) -> Self {
+        self.fault = self.fault.map(|_| fault);
+        self
+    }
+
+    /// A number that is worth knowing and no fault of the print. A NaN stays refuted.
+    fn remark(mut self) -> Self {
+        if self.as_printed.is_finite() {
+            (self.verdict, self.fault) = (Validity::Remark, None);
+        }
+        self
+    }
+
+    /// Whether it judges an equation with a number, not a statement of the text between them.
+    #[must_use]
+    pub fn is_numbered(&self) -> bool {
+        self.number.starts_with('(') && self.number.matches('(').count() == 1
     }
 
     /// The residual of the corrected form. What holds as printed keeps its verdict.
     fn corrected(mut self, corrected: &'static str, as_corrected: f64, tolerance: f64) -> Self {
         self = self.replaced(corrected, as_corrected);
-        if self.verdict == Verdict::Refuted && as_corrected.abs() <= tolerance {
-            self.verdict = Verdict::Corrected;
+        if self.verdict == Validity::Refuted && as_corrected.abs() <= tolerance {
+            self.verdict = Validity::Corrected;
         }
         self
     }
@@ -141,6 +183,42 @@ impl EquationAudit {
         self.corrected = truth;
         self.as_corrected = Some(its_residual);
         self
+    }
+}
+
+/// The numbered equations that fail as printed, each by its gravest fault.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct FaultyEquations {
+    /// Numbered equations of the paper.
+    pub numbered: usize,
+    /// Wrong in substance.
+    pub substance: Vec<&'static str>,
+    /// Right to the step of the scan, and not to all digits printed.
+    pub digits: Vec<&'static str>,
+    /// Wrong in form alone.
+    pub form: Vec<&'static str>,
+}
+
+impl FaultyEquations {
+    /// Sort the numbered equations of an audit.
+    #[must_use]
+    pub fn of(audit: &[EquationAudit]) -> Self {
+        let mut numbers: Vec<&str> =
+            audit.iter().filter(|row| row.is_numbered()).map(|row| row.number).collect();
+        numbers.dedup();
+        let gravest = |number| {
+            audit.iter().filter(|row| row.number == number).filter_map(|row| row.fault).max()
+        };
+        let with = |fault| {
+            let equations = numbers.iter().copied();
+            equations.filter(|number| gravest(*number) == Some(fault)).collect()
+        };
+        Self {
+            numbered: numbers.len(),
+            substance: with(Fault::Substance),
+            digits: with(Fault::Digits),
+            form: with(Fault::Form),
+        }
     }
 }
 

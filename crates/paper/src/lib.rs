@@ -25,6 +25,7 @@ pub mod figures;
 pub mod printed;
 pub mod reproduction;
 pub mod seeds;
+pub mod sentence;
 pub mod sextic;
 mod slope;
 

@@ -109,6 +109,8 @@ pub struct FailingEquations {
     pub corrected: Vec<String>,
     /// False, and no correction of the print would save it.
     pub refuted: Vec<String>,
+    /// Of the corrected ones those with a fault of form alone.
+    pub form: Vec<String>,
 }
 
 /// One reference number.

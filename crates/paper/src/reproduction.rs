@@ -12,7 +12,7 @@ use validate::tolerances::Tolerances;
 use crate::bounds::Bounds;
 use crate::claims::{Claim, Verdict, claims};
 use crate::completeness::Completeness;
-use crate::equations::{self, E1State, EquationAudit, audit};
+use crate::equations::{E1State, EquationAudit, Fault, FaultyEquations, Validity, audit};
 use crate::example::{Example, ExampleError};
 use crate::figures::Figures;
 use crate::printed::Paper;
@@ -111,6 +111,8 @@ pub struct Summary {
     pub equations_refuted: usize,
     /// Whether exactly those equations fail that `validation/paper.toml` lists.
     pub equations_as_expected: bool,
+    /// The numbered equations that fail, by the kind of fault.
+    pub faulty_equations: FaultyEquations,
     /// Cases of the registry.
     pub cases: usize,
     /// Of these, both solvers agree and the statics judge passes both.
@@ -245,12 +247,12 @@ impl Summary {
         cases: &[CaseResult],
     ) -> Self {
         let with = |verdict| claims.iter().filter(|claim| claim.verdict == verdict).count();
-        let failing = |verdict| -> Vec<&str> {
-            let rows = equations.iter().filter(|row| row.verdict == verdict);
-            rows.map(|row| row.number).collect()
+        let numbers = |pick: &dyn Fn(&EquationAudit) -> bool| -> Vec<&str> {
+            equations.iter().filter(|row| pick(row)).map(|row| row.number).collect()
         };
-        let corrected = failing(equations::Verdict::Corrected);
-        let refuted = failing(equations::Verdict::Refuted);
+        let corrected = numbers(&|row| row.verdict == Validity::Corrected);
+        let refuted = numbers(&|row| row.verdict == Validity::Refuted);
+        let form = numbers(&|row| row.fault == Some(Fault::Form));
         let rows = cases.iter().flat_map(|case| &case.rows);
         Self {
             claims: claims.len(),
@@ -268,7 +270,9 @@ impl Summary {
             equations_corrected: corrected.len(),
             equations_refuted: refuted.len(),
             equations_as_expected: corrected == paper.equations.corrected
-                && refuted == paper.equations.refuted,
+                && refuted == paper.equations.refuted
+                && form == paper.equations.form,
+            faulty_equations: FaultyEquations::of(equations),
             cases: cases.len(),
             cases_agreed: cases.iter().filter(|case| case.agrees()).count(),
             largest_difference: rows.max_by(|a, b| a.difference.total_cmp(&b.difference)).cloned(),

@@ -1,10 +1,14 @@
 //! What a report is made of: the same blocks become Markdown and HTML.
 
+use model::number::Number;
 use paper::equations::EquationAudit;
+use paper::sentence::Sentence;
 
+use crate::badge::Badge;
+use crate::cell::Cell;
 use crate::equations::Judged;
 use crate::figures::Figure;
-use crate::numbers::signs;
+use crate::symbols::signs;
 
 /// A piece of the report. Texts may hold `code`, **strong** and links `[text](#anchor)`.
 #[derive(Debug, Clone)]
@@ -35,16 +39,14 @@ pub enum Block<'a> {
 }
 
 /// A table. The first column names the row.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct Table {
     /// What it shows.
     pub caption: String,
     /// Names of the columns.
     pub head: Vec<&'static str>,
     /// As many cells each as the head has.
-    pub rows: Vec<Vec<String>>,
-    /// Column whose cells are verdicts, if any.
-    pub verdicts: Option<usize>,
+    pub rows: Vec<Vec<Cell>>,
 }
 
 /// A heading.
@@ -57,21 +59,50 @@ pub(crate) fn text<'a>(text: impl Into<String>) -> Block<'a> {
     Block::Text(text.into())
 }
 
+/// A residual of the audit, or a count.
+#[must_use]
+pub fn residual(row: &EquationAudit, value: f64) -> Number {
+    /// Significant digits of a residual.
+    const DIGITS: usize = 4;
+    if row.counts { Number::count(value) } else { Number::significant(value, DIGITS) }
+}
+
 /// What an audited row says in cells: what, measured, as printed, as corrected, verdict.
 #[must_use]
-pub fn audit_cells(row: &EquationAudit) -> [String; 5] {
-    let number = |x: f64| {
-        if row.counts { crate::numbers::counted(x) } else { crate::numbers::measured(x, 4) }
-    };
+pub fn audit_cells(row: &EquationAudit) -> [Cell; 5] {
+    let corrected = row.as_corrected.map(|value| {
+        let number = residual(row, value);
+        if row.corrected.is_empty() {
+            Cell::number(number)
+        } else {
+            let form = signs(row.corrected);
+            Sentence::from([number.into(), ": ".into(), form.into()]).into()
+        }
+    });
     [
-        signs(row.what),
-        signs(row.measure),
-        number(row.as_printed),
-        match (row.as_corrected, row.corrected) {
-            (None, _) => "-".to_owned(),
-            (Some(value), "") => number(value),
-            (Some(value), form) => format!("{}: {}", number(value), signs(form)),
-        },
-        crate::equations::verdict_word(row.verdict).to_owned(),
+        signs(row.what).into(),
+        signs(row.measure).into(),
+        residual(row, row.as_printed).into(),
+        corrected.unwrap_or(Cell::Nothing),
+        Badge::of_row(row).into(),
     ]
+}
+
+/// The head of a table of statements, and its rows.
+pub(crate) fn statements(audit: &[&EquationAudit]) -> Table {
+    let row = |row: &&EquationAudit| {
+        [Cell::from(row.number)].into_iter().chain(audit_cells(row)).collect()
+    };
+    Table {
+        caption: "Statements of the text between the equations.".to_owned(),
+        head: vec![
+            "where",
+            "what it says, or what is wrong",
+            "measured",
+            "as printed",
+            "as corrected",
+            "verdict",
+        ],
+        rows: audit.iter().map(row).collect(),
+    }
 }

@@ -3,13 +3,15 @@
 use std::fmt::Write as _;
 
 use figures::Escaped;
-use paper::equations::Verdict;
+use paper::equations::Validity;
 
-use crate::block::{Block, Table, audit_cells};
-use crate::equations::{Judged, verdict_word};
+use crate::badge::{Badge, Tone};
+use crate::block::{self, Block, Table, residual};
+use crate::cell::Cell;
+use crate::equations::Judged;
 use crate::figures::Figure;
-use crate::markdown::instead;
 use crate::math::mathml;
+use crate::symbols::signs;
 
 /// The style of the page.
 const STYLE: &str = include_str!("style.css");
@@ -71,22 +73,7 @@ fn html(block: &Block) -> String {
         }
         Block::Table(table) => rows(table),
         Block::Equation(judged) => equation(judged),
-        Block::Statements(audit) => rows(&Table {
-            caption: "Statements of the text between the equations".to_owned(),
-            head: vec![
-                "where",
-                "what it says, or what is wrong",
-                "measured",
-                "as printed",
-                "as corrected",
-                "verdict",
-            ],
-            rows: audit
-                .iter()
-                .map(|row| [row.number.to_owned()].into_iter().chain(audit_cells(row)).collect())
-                .collect(),
-            verdicts: Some(5),
-        }),
+        Block::Statements(audit) => rows(&block::statements(audit)),
         Block::Figure(figure) => drawn(figure),
         Block::Slot { html, .. } => html.clone(),
         Block::Code(_, text) => {
@@ -123,7 +110,7 @@ fn rows(table: &Table) -> String {
     }
     // A column of numbers alone stands right; one with words among them stands left, all of it.
     let numeric: Vec<bool> = (0..table.head.len())
-        .map(|k| k > 0 && table.rows.iter().all(|row| row.get(k).is_some_and(|c| is_number(c))))
+        .map(|k| k > 0 && table.rows.iter().all(|row| row.get(k).is_some_and(Cell::is_number)))
         .collect();
     text.push_str("<thead><tr>");
     for (cell, &number) in table.head.iter().zip(&numeric) {
@@ -134,11 +121,14 @@ fn rows(table: &Table) -> String {
     for row in &table.rows {
         text.push_str("<tr>");
         for (k, cell) in row.iter().enumerate() {
-            let content = if table.verdicts == Some(k) { verdict(cell) } else { inline(cell) };
-            let class = match cell {
-                _ if numeric.get(k) == Some(&true) => " class=\"number\"",
-                cell if cell.chars().count() > LONG => " class=\"long\"",
-                _ => "",
+            let plain = cell.text();
+            let content = if let Cell::Badge(badge) = cell { shown(badge) } else { inline(&plain) };
+            let class = if numeric.get(k) == Some(&true) {
+                " class=\"number\""
+            } else if plain.chars().count() > LONG {
+                " class=\"long\""
+            } else {
+                ""
             };
             if k == 0 {
                 let _ = write!(text, "<th scope=\"row\"{class}>{content}</th>");
@@ -152,44 +142,29 @@ fn rows(table: &Table) -> String {
     text
 }
 
-/// Whether a cell is a number, with its unit or none.
-fn is_number(cell: &str) -> bool {
-    /// Longest number with its unit; what is longer is a sentence that begins with one.
-    const LONGEST: usize = 24;
-    /// Longest unit, `(E1)` or `mgl/rad`.
-    const UNIT: usize = 7;
-    let mut words = cell.split(' ');
-    let first = words.next().unwrap_or_default();
-    let units = words.all(|word| word.len() <= UNIT);
-    let digit = first.trim_start_matches(['-', '<', '\u{a0}']).chars().next();
-    let number = digit.is_some_and(|c| c.is_ascii_digit());
-    cell == "-" || (cell.len() <= LONGEST && number && units)
-}
-
 /// A verdict with a sign for those who see no colour.
-fn verdict(word: &str) -> String {
-    let (class, sign) = match word.split(' ').next().unwrap_or_default() {
-        "confirmed" | "holds" if !word.contains("correction") => ("good", "✓"),
-        "agreed" | "reached" => ("good", "✓"),
-        "explained" | "corrected" | "holds" => ("mended", "✎"),
-        "definition" => ("neutral", "≔"),
-        "not" => ("neutral", "–"),
-        _ => ("bad", "✗"),
+fn shown(badge: &Badge) -> String {
+    let class = match badge.tone {
+        Tone::Good => "good",
+        Tone::Mended => "mended",
+        Tone::Neutral | Tone::Given => "neutral",
+        Tone::Bad => "bad",
     };
     format!(
-        "<span class=\"verdict {class}\"><span aria-hidden=\"true\">{sign}</span> {}</span>",
-        inline(word)
+        "<span class=\"verdict {class}\"><span aria-hidden=\"true\">{}</span> {}</span>",
+        badge.sign(),
+        inline(&badge.word)
     )
 }
 
 fn equation(judged: &Judged) -> String {
-    let Judged { equation, section, rows: audit, verdict: whole } = judged;
+    let Judged { equation, section, rows: audit, .. } = judged;
     let name = equation.number.trim_matches(['(', ')']);
     let mut text = format!(
         "<article class=\"equation\" aria-labelledby=\"eq-{name}\">\n<h3 id=\"eq-{name}\">{} {}</h3>\n\
          <p>{} <span class=\"where\">Section {section}.</span></p>\n",
         equation.number,
-        verdict(verdict_word(*whole)),
+        shown(&judged.badge()),
         inline(equation.says)
     );
     let formula = |label: &str, latex: &str| {
@@ -203,33 +178,34 @@ fn equation(judged: &Judged) -> String {
     };
     text.push_str(&formula("As printed", equation.printed));
     if let Some(corrected) = equation.corrected {
-        text.push_str(&formula(instead(*whole), corrected));
+        text.push_str(&formula(judged.instead(), corrected));
     }
     text.push_str("<ul class=\"numbers\">\n");
     for row in audit {
-        let [what, measure, printed, corrected, word] = audit_cells(row);
-        let part = if audit.len() > 1 || row.verdict != Verdict::Holds {
-            format!("{what}. ")
+        // What the only part of an equation that holds says, the equation says.
+        let part = if audit.len() > 1 || row.verdict != Validity::Holds {
+            format!("{}. ", signs(row.what))
         } else {
             String::new()
         };
+        let number = |value| inline(&Cell::number(residual(row, value)).text());
         let _ = write!(
             text,
             "<li>{}<span class=\"measure\">{}:</span> <strong>{}</strong>",
             inline(&part),
-            inline(&capital(&measure)),
-            inline(&printed)
+            inline(&capital(&signs(row.measure))),
+            number(row.as_printed)
         );
-        if row.as_corrected.is_some() {
+        if let Some(value) = row.as_corrected {
             let _ = write!(
                 text,
                 " as printed, <strong>{}</strong> {}",
-                inline(corrected.split(": ").next().unwrap_or_default()),
-                instead(*whole).to_lowercase()
+                number(value),
+                judged.instead().to_lowercase()
             );
         }
         if audit.len() > 1 {
-            let _ = write!(text, " {}", verdict(&word));
+            let _ = write!(text, " {}", shown(&Badge::of_row(row)));
         }
         text.push_str("</li>\n");
     }

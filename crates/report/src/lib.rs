@@ -6,16 +6,18 @@
 //!
 //! | module | what it does |
 //! |---|---|
-//! | [`document`] | what the report says, chapter by chapter |
+//! | [`document`], `chapters` | what the report says, chapter by chapter |
 //! | [`equations`] | the equations in LaTeX, as printed and as corrected |
+//! | [`block`], [`cell`], [`badge`] | what it is made of: headings, texts, tables of numbers and verdicts, figures |
 //! | [`figures`] | the pictures |
-//! | [`math`] | LaTeX to MathML |
-//! | [`numbers`] | numbers as text, the same on every machine |
+//! | [`math`], [`symbols`] | LaTeX to MathML, names of symbols to signs |
 //! | [`html`], [`markdown`] | the blocks as text |
 //! | [`environment`] | where and with what |
 
+pub mod badge;
 pub mod bibliography;
 pub mod block;
+pub mod cell;
 mod chapters;
 pub mod document;
 pub mod environment;
@@ -24,7 +26,8 @@ pub mod figures;
 pub mod html;
 pub mod markdown;
 pub mod math;
-pub mod numbers;
+mod numbers;
+pub mod symbols;
 pub mod view;
 
 pub use document::Report;

@@ -46,7 +46,7 @@ fn wrong(r: &Reproduction) -> String {
             format!("{} [{}]", claim.printed.says, claim.printed.place),
             claim.verdict.to_string(),
             claim.number.map_or_else(|| "-".to_owned(), |n| significant(n, 4)),
-            claim.number_is.clone(),
+            claim.number_is.to_string(),
         ]);
     }
     table.to_string()
@@ -143,14 +143,20 @@ fn bounds(r: &Reproduction) -> String {
 
 fn summary(r: &Reproduction) -> String {
     let s = &r.summary;
+    let faulty = &s.faulty_equations;
     let mut lines = vec![
         format!(
             "{} claims: {} confirmed, {} explained, {} corrected, {} refuted.",
             s.claims, s.confirmed, s.explained, s.corrected, s.refuted
         ),
         format!(
-            "{} parts of equations and statements: {} hold only as corrected, {} not at all (--out DIR lists them).",
-            s.equations, s.equations_corrected, s.equations_refuted
+            "{} numbered equations: {} wrong in substance ({}), {} in form alone ({}), {} right to the step of a scan (--out DIR lists them).",
+            faulty.numbered,
+            faulty.substance.len(),
+            faulty.substance.join(", "),
+            faulty.form.len(),
+            faulty.form.join(", "),
+            faulty.digits.join(", "),
         ),
         format!(
             "Both solvers agree on {} of {} cases, and the third judge finds every bar in balance.",

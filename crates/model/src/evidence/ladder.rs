@@ -58,17 +58,23 @@ impl Ladder {
         }
     }
 
-    /// How a rung was reached, or why not, in a sentence.
+    /// How a rung was reached, or why not: a sentence once it is formatted. The alternate form, `{:#}`, tells what
+    /// is only rounding as a bound.
     #[must_use]
-    pub fn how(&self, rung: Rung) -> String {
-        let status: &dyn Display = match rung {
+    pub fn status(&self, rung: Rung) -> &dyn Display {
+        match rung {
             Rung::Converged => &self.converged,
             Rung::Agreed => &self.agreed,
             Rung::Verified => &self.verified,
             Rung::Complete => &self.complete,
             Rung::Optimal => &self.optimal,
-        };
-        status.to_string()
+        }
+    }
+
+    /// How a rung was reached, or why not, in a sentence.
+    #[must_use]
+    pub fn how(&self, rung: Rung) -> String {
+        self.status(rung).to_string()
     }
 
     /// The highest rung reached, if any is.

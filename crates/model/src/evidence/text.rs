@@ -1,4 +1,6 @@
 //! The words of the evidence, all of them.
+//!
+//! The alternate form, `{:#}`, tells what is only rounding as a bound, the same on every machine.
 
 use std::fmt::{self, Display, Formatter};
 
@@ -10,6 +12,7 @@ use super::reason::{NoAnswer, Reason};
 use super::rung::Rung;
 use super::status::Status;
 use super::verified::Verified;
+use crate::number::Number;
 
 impl Display for Rung {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
@@ -32,13 +35,20 @@ impl<P: Display> Display for Status<P> {
     }
 }
 
+/// What may be only rounding, in the form that is asked for.
+fn size(f: &Formatter<'_>, value: f64) -> String {
+    let number = Number::size(value, 1);
+    if f.alternate() { format!("{number:#}") } else { number.to_string() }
+}
+
 impl Display for Convergence {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        let Self { residual_of, residual, iterations, .. } = self;
-        write!(f, "{residual_of}: {residual:.1e} after {iterations} iterations")?;
+        let Self { residual_of, iterations, .. } = self;
+        let residual = size(f, self.residual);
+        write!(f, "{residual_of}: {residual} after {iterations} iterations")?;
         match self.tolerance {
             // Also where the residual is not a number.
-            Some(tolerance) if !matches!(residual.partial_cmp(&tolerance), Some(order) if order.is_le()) =>
+            Some(tolerance) if !matches!(self.residual.partial_cmp(&tolerance), Some(order) if order.is_le()) =>
             {
                 write!(f, ", above the tolerance of {tolerance:.0e}")?;
             }
@@ -73,10 +83,11 @@ impl Display for Agreed {
             write!(f, "{before}{solver}")?;
         }
         let Self { joints_m, forces_n, energy_j, statics, .. } = self;
+        let [joints, forces, energy, statics] =
+            [joints_m, forces_n, energy_j, statics].map(|value| size(f, *value));
         write!(
             f,
-            " differ by {joints_m:.1e} m, {forces_n:.1e} N, {energy_j:.1e} J; the statics judge finds every bar in \
-             balance to {statics:.1e}"
+            " differ by {joints} m, {forces} N, {energy} J; the statics judge finds every bar in balance to {statics}"
         )
     }
 }
@@ -134,13 +145,12 @@ impl Display for Disagreement {
 
 impl Display for Verified {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let [width, distance] = [self.box_width, self.distance].map(|value| size(f, value));
         write!(
             f,
-            "Krawczyk's test in intervals: exactly one equilibrium{} in a box of relative width {:.1e}, and this \
-             answer within {:.1e} of the total length of it",
+            "Krawczyk's test in intervals: exactly one equilibrium{} in a box of relative width {width}, and this \
+             answer within {distance} of the total length of it",
             if self.circle { " (a circle of them, turned about the anchors)" } else { "" },
-            self.box_width,
-            self.distance,
         )
     }
 }
@@ -170,17 +180,21 @@ impl Display for Optimal {
         }
         match self.gap {
             None => f.write_str(", by factorisation in intervals"),
-            Some(gap) => write!(
-                f,
-                ": no configuration has less energy than {gap:.1e} of weight times length below this one"
-            ),
+            Some(gap) => {
+                let gap = size(f, gap);
+                write!(
+                    f,
+                    ": no configuration has less energy than {gap} of weight times length below this one"
+                )
+            }
         }
     }
 }
 
 /// What the judge of balance found of an answer that stands alone.
 fn balance(f: &mut Formatter<'_>, statics: f64) -> fmt::Result {
-    write!(f, "; the statics judge finds every bar in balance to {statics:.1e}")
+    let statics = size(f, statics);
+    write!(f, "; the statics judge finds every bar in balance to {statics}")
 }
 
 impl Display for Reason {

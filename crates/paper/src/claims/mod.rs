@@ -25,6 +25,7 @@ use crate::example::Example;
 pub use crate::printed::Verdict;
 use crate::printed::{Paper, Printed};
 use crate::seeds::Survey;
+use crate::sentence::Sentence;
 pub use multiplier_system::{Misfit, misfit};
 
 /// Both solvers' angles agree with each other and with the reference digits to this, rad: the
@@ -50,7 +51,7 @@ pub struct Claim {
     /// The number behind the verdict.
     pub number: Option<f64>,
     /// What that number is.
-    pub number_is: String,
+    pub number_is: Sentence,
     /// Whether the verdict is the expected one.
     pub as_expected: bool,
 }
@@ -62,12 +63,12 @@ struct Finding {
     energy: Option<f64>,
     verdict: Verdict,
     number: f64,
-    number_is: String,
+    number_is: Sentence,
 }
 
 impl Finding {
     /// A finding with the number behind it.
-    fn new(verdict: Verdict, number: f64, number_is: impl Into<String>) -> Self {
+    fn new(verdict: Verdict, number: f64, number_is: impl Into<Sentence>) -> Self {
         Self { lagrange: None, energy: None, verdict, number, number_is: number_is.into() }
     }
 

@@ -9,6 +9,8 @@ use super::{ANGLE_RAD, FORCE_MG, Facts, Finding, largest, smallest};
 use crate::example::Planar;
 use crate::printed::{Printed, Verdict};
 use crate::seeds::Kind;
+use crate::sentence::Sentence;
+use model::number::Number;
 
 pub(super) fn judge(facts: &Facts, printed: &Printed) -> Option<Finding> {
     let reaction = |joint, axis, number| Some(reaction(facts, joint, axis, number));
@@ -65,14 +67,17 @@ fn four(facts: &Facts, printed: &Printed) -> Finding {
     let verdict =
         if (exact - printed.value()).abs() < 0.5 { Verdict::Confirmed } else { Verdict::Corrected };
     let proof = &facts.completeness;
-    let what = format!(
-        "equilibria, proved: the census encloses {} and excludes all others (indices {}, Euler characteristic {}), and \
-         the sextic in cos(theta) has {} roots, each with its mirror image (they are not those of (x))",
-        proof.planar,
-        proof.indices(),
-        proof.alternating_sum,
-        roots.len(),
-    );
+    let what = Sentence::from([
+        "equilibria, proved: the census encloses ".into(),
+        proof.planar.into(),
+        " and excludes all others (indices ".into(),
+        proof.indices().into(),
+        ", Euler characteristic ".into(),
+        Number::count(proof.alternating_sum as f64).into(),
+        "), and the sextic in cos(theta) has ".into(),
+        roots.len().into(),
+        " roots, each with its mirror image (they are not those of (x))".into(),
+    ]);
     Finding::new(verdict.if_shown(met), proof.planar as f64, what).lagrange(found)
 }
 
@@ -97,10 +102,15 @@ fn psi(facts: &Facts) -> Finding {
         |psi, phi| constraint_functions(chain, &state(psi, phi)).amax() / facts.example.units.l_m;
     let (alone, together) = (open(TURN, 0.0), open(TURN, -TURN));
     let shown = largest([columns, together]) <= ANGLE_RAD && alone > ANGLE_RAD;
-    let what = format!(
-        "largest difference of columns 4 and 6 of B: gimbal lock. All psi_i turned by {TURN} rad alone \
-         break the constraints by {alone:.2} l, with phi_i turned back by {together:.0e} l"
-    );
+    let what = Sentence::from([
+        "largest difference of columns 4 and 6 of B: gimbal lock. All psi_i turned by ".into(),
+        Number::decimals(TURN, 1).into(),
+        " rad alone break the constraints by ".into(),
+        Number::decimals(alone, 2).into(),
+        " l, with phi_i turned back by ".into(),
+        Number::size(together, 0).into(),
+        " l".into(),
+    ]);
     Finding::new(Verdict::Explained.if_shown(shown), columns, what).lagrange(columns)
 }
 

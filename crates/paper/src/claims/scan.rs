@@ -2,16 +2,22 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use energy::example::{Branch, LARGEST_THETA_COSINE, PAPER_STEP_RAD, ScanMinimum, alpha};
+use energy::example::{
+    Branch, LARGEST_THETA_COSINE, PAPER_STEP_RAD, ScanMinimum, alpha, candidates,
+};
 use model::{Anchors, Chain, InPlane, InSpace, Problem};
 
 use super::{ANGLE_RAD, ENERGY_MGL, Facts, Finding, largest, printed_degrees};
 use crate::printed::{Paper, Printed, Verdict};
+use crate::sentence::Sentence;
+use model::number::Number;
 
 pub(super) fn judge(facts: &Facts, printed: &Printed) -> Option<Finding> {
     let scan = &facts.example.energy.scan;
     match printed.id.as_str() {
+        "vertical" => Some(vertical(facts)),
         "span" => Some(span(facts)),
+        "solutions" => Some(solutions(facts, printed)),
         "branches" => Some(branches()),
         "minima" => Some(minima(facts)),
         "scan-ix" => Some(scanned(facts.paper, "ix", &scan.first)),
@@ -47,10 +53,15 @@ fn scanned(paper: &Paper, position: &str, found: &ScanMinimum) -> Finding {
     let same = numbers.iter().filter(|(claim, value)| claim.is_some_and(|c| c.rounds_to(*value)));
     let same = same.count();
     let verdict = if same == numbers.len() { Verdict::Confirmed } else { Verdict::Refuted };
-    let what = format!(
-        "of the four printed numbers to the last digit; point {} of {}, theta = {:.3} rad",
-        found.point, found.points, found.theta_rad
-    );
+    let what = Sentence::from([
+        "of the four printed numbers to the last digit; point ".into(),
+        found.point.into(),
+        " of ".into(),
+        found.points.into(),
+        ", theta = ".into(),
+        Number::decimals(found.theta_rad, 3).into(),
+        " rad".into(),
+    ]);
     Finding::new(verdict, same as f64, what).energy(same as f64)
 }
 
@@ -75,10 +86,12 @@ fn angle(facts: &Facts, printed: &Printed, bar: usize) -> Finding {
     } else {
         Verdict::Refuted
     };
-    let what = format!(
-        "printed less true, in steps of the scan (0.001 rad), whose point this is; solvers and \
-         reference agree to {spread:.0e} rad"
-    );
+    let what = Sentence::from([
+        "printed less true, in steps of the scan (0.001 rad), whose point this is; solvers and reference agree to "
+            .into(),
+        Number::size(spread, 0).into(),
+        " rad".into(),
+    ]);
     Finding::new(verdict.if_shown(agreed), steps, what)
         .lagrange(printed_degrees(lagrange))
         .energy(printed_degrees(energy))
@@ -114,11 +127,15 @@ fn span(facts: &Facts) -> Finding {
     let rounding = 3.0 * 0.5e-5_f64.to_radians();
     let shown =
         largest([lagrange - 2.0, energy - 2.0]) <= ANGLE_RAD && (printed - 2.0).abs() <= rounding;
+    let sum = "l: the sum of the cosines of the printed angles (ix)";
     let what = match theta_with_half_the_span(facts) {
-        Some(theta) => format!(
-            "l: the sum of the cosines of the printed angles (ix); with OD = l theta would be {theta:.5} deg"
-        ),
-        None => "l: the sum of the cosines of the printed angles (ix)".to_owned(),
+        Some(theta) => Sentence::from([
+            sum.into(),
+            "; with OD = l theta would be ".into(),
+            Number::decimals(theta, 5).into(),
+            " deg".into(),
+        ]),
+        None => sum.into(),
     };
     Finding::new(Verdict::Corrected.if_shown(shown), printed, what)
         .lagrange(lagrange)
@@ -142,6 +159,47 @@ fn theta_with_half_the_span(facts: &Facts) -> Option<f64> {
     let energy = energy::minimise(&problem, &energy::Settings::default()).ok()?.equilibrium;
     let [a, b] = [theta(&lagrange.joints_m), theta(&energy.joints_m)];
     ((a - b).abs() <= ANGLE_RAD).then_some(a.to_degrees())
+}
+
+/// The angles are said to be from a vertical axis Ox, while the weights of (35) act along -Z.
+fn vertical(facts: &Facts) -> Finding {
+    let weight =
+        lagrange::load_vector(facts.example.problem.chain()).fixed_rows::<3>(0).normalize();
+    let [from_x, from_down] = [weight.x, -weight.z].map(|cos| cos.acos().to_degrees());
+    let verdict = if from_x <= f64::EPSILON { Verdict::Confirmed } else { Verdict::Corrected };
+    let what =
+        "deg between Ox and the weights, which (35) has along -Z: the angles are from the axis -OZ";
+    Finding::new(verdict.if_shown(from_down <= f64::EPSILON), from_x, what).lagrange(from_x)
+}
+
+/// Squared twice to be rid of the sines, (viii) does not know their signs: besides the two alpha that close the
+/// chain it has two that do not.
+fn solutions(facts: &Facts, printed: &Printed) -> Finding {
+    let theta = facts.example.energy.scan.first.theta_rad;
+    let all = candidates(theta);
+    // None of the four is nearly another.
+    let shown = all.iter().all(|found| (found.closure.abs() <= ANGLE_RAD) == found.closes);
+    let degrees = |closes: bool, k: usize| {
+        let mut of = all.iter().filter(|found| found.closes == closes);
+        Number::decimals(of.nth(k).map_or(f64::NAN, |found| found.alpha_rad.to_degrees()), 3)
+    };
+    let what = Sentence::from([
+        "solutions at theta = ".into(),
+        Number::decimals(theta, 3).into(),
+        " rad: alpha = ".into(),
+        degrees(true, 0).into(),
+        " and ".into(),
+        degrees(true, 1).into(),
+        " deg close the chain, ".into(),
+        degrees(false, 0).into(),
+        " and ".into(),
+        degrees(false, 1).into(),
+        " deg, added by squaring, do not".into(),
+    ]);
+    let count = all.len() as f64;
+    let verdict =
+        if (count - printed.value()).abs() < 0.5 { Verdict::Confirmed } else { Verdict::Corrected };
+    Finding::new(verdict.if_shown(shown), count, what).energy(count)
 }
 
 /// Points of the closure curve at which the quadrants are looked up.
@@ -170,10 +228,11 @@ fn branches() -> Finding {
         (true, false, true) => Verdict::Refuted,
         _ => Verdict::Undecided,
     };
-    let what = format!(
-        "deg: from this theta on, up to {:.1} deg, both alpha lie in the fourth quadrant",
-        largest.to_degrees()
-    );
+    let what = Sentence::from([
+        "deg: from this theta on, up to ".into(),
+        Number::decimals(largest.to_degrees(), 1).into(),
+        " deg, both alpha lie in the fourth quadrant".into(),
+    ]);
     Finding::new(verdict, low.to_degrees(), what).energy(low.to_degrees())
 }
 

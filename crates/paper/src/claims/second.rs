@@ -7,6 +7,8 @@ use super::multiplier_system::{Misfit, misfit};
 use super::{ANGLE_RAD, ENERGY_MGL, Facts, Finding, largest, printed_degrees, smallest};
 use crate::example::Planar;
 use crate::printed::{Printed, Verdict};
+use crate::sentence::Sentence;
+use model::number::Number;
 
 /// A slope or a misfit below this, mgl/rad or mg, would be that of an equilibrium printed with five
 /// decimals of a degree: 1e-7 rad times curvatures of some mgl. Well above that, far below what is found.
@@ -92,9 +94,11 @@ fn slope_at_x(facts: &Facts) -> Finding {
     let minimum = &facts.example.energy.minimum;
     let control = slope(minimum.theta_rad, Branch::FirstQuadrant).abs() <= FLAT;
     let verdict = if found.abs() <= FLAT { Verdict::Confirmed } else { Verdict::Refuted };
-    let what = format!(
-        "mgl/rad ({at_zero:.4} at theta = 0): V falls on through theta < 0 (at E1 the slope is zero)"
-    );
+    let what = Sentence::from([
+        "mgl/rad (".into(),
+        Number::decimals(at_zero, 4).into(),
+        " at theta = 0): V falls on through theta < 0 (at E1 the slope is zero)".into(),
+    ]);
     Finding::new(verdict.if_shown(met && control), found, what).energy(found)
 }
 
@@ -107,10 +111,11 @@ fn multipliers(facts: &Facts) -> Finding {
     let e1 = planar_equilibria(facts)[0].angles_rad;
     let control = misfit(&facts.example.problem, facts.example.units, &e1).norm <= ANGLE_RAD;
     let verdict = if found.norm <= FLAT { Verdict::Confirmed } else { Verdict::Refuted };
-    let what = format!(
-        "mg: what the best multipliers leave of (40), norm; the largest component is {:.4} (at E1 nothing is left)",
-        found.largest
-    );
+    let what = Sentence::from([
+        "mg: what the best multipliers leave of (40), norm; the largest component is ".into(),
+        Number::decimals(found.largest, 4).into(),
+        " (at E1 nothing is left)".into(),
+    ]);
     Finding::new(verdict.if_shown(met && control), found.norm, what).lagrange(found.norm)
 }
 
@@ -120,12 +125,17 @@ fn listed(facts: &Facts) -> Finding {
     let proof = &facts.completeness;
     let x = &proof.second;
     let shown = proof.is_closed() && proof.first.nearest_deg < PAPER_STEP_RAD.to_degrees();
-    let what = format!(
+    let what = Sentence::from([
         "mgl/rad: the slope of V is at least that wherever the angles round to the printed ones, rounded \
-         outward; the nearest of all {} equilibria, proved complete by the census, is {:.2} deg away \
-         ((ix): {:.4} deg)",
-        proof.planar, x.nearest_deg, proof.first.nearest_deg,
-    );
+         outward; the nearest of all "
+            .into(),
+        proof.planar.into(),
+        " equilibria, proved complete by the census, is ".into(),
+        Number::decimals(x.nearest_deg, 2).into(),
+        " deg away ((ix): ".into(),
+        Number::decimals(proof.first.nearest_deg, 4).into(),
+        " deg)".into(),
+    ]);
     let verdict = if x.is_refuted() { Verdict::Refuted } else { Verdict::Confirmed };
     Finding::new(verdict.if_shown(shown), x.least_slope_mgl(), what)
 }
@@ -138,10 +148,11 @@ fn first_point(facts: &Facts, printed: &Printed) -> Finding {
     // Before it, the energy is lower still.
     let falls = slope(second.theta_rad, Branch::FourthQuadrant) > FLAT
         && slope(-PAPER_STEP_RAD, Branch::FourthQuadrant) > FLAT;
-    let what = format!(
-        "number of the scan point that it is: the first, theta = 0.001 rad, of {}; before it V is lower",
-        second.points
-    );
+    let what = Sentence::from([
+        "number of the scan point that it is: the first, theta = 0.001 rad, of ".into(),
+        second.points.into(),
+        "; before it V is lower".into(),
+    ]);
     Finding::new(Verdict::Explained.if_shown(shown && falls), second.point as f64, what)
         .energy(step_deg)
 }
@@ -202,8 +213,9 @@ fn identical(facts: &Facts) -> Finding {
         (true, false) => Verdict::Refuted,
         (false, _) => Verdict::Undecided,
     };
-    let what = format!(
-        "mg: what (x) leaves of the equations of the other method, (40); (ix) leaves {first:.4}"
-    );
+    let what = Sentence::from([
+        "mg: what (x) leaves of the equations of the other method, (40); (ix) leaves ".into(),
+        Number::decimals(first, 4).into(),
+    ]);
     Finding::new(verdict, second, what).lagrange(second)
 }

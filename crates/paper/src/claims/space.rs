@@ -8,6 +8,7 @@ use validate::statics;
 use super::{ANGLE_RAD, Facts, Finding, largest};
 use crate::printed::{Printed, Verdict};
 use crate::seeds::Kind;
+use crate::sentence::Sentence;
 
 pub(super) fn judge(facts: &Facts, printed: &Printed) -> Option<Finding> {
     match printed.id.as_str() {
@@ -55,11 +56,12 @@ fn turned(facts: &Facts) -> Finding {
     }
     let most = largest([multipliers, gradient, newton]);
     let verdict = if most <= ANGLE_RAD { Verdict::Confirmed } else { Verdict::Refuted };
-    let what = format!(
-        "largest residual of E1 turned by {} angles: the 30 equations (lagrange), the gradient of the energy \
-         (energy), Newton's laws",
-        TURNS.len()
-    );
+    let what = Sentence::from([
+        "largest residual of E1 turned by ".into(),
+        TURNS.len().into(),
+        " angles: the 30 equations (lagrange), the gradient of the energy (energy), Newton's laws"
+            .into(),
+    ]);
     Finding::new(verdict, most, what).lagrange(multipliers).energy(gradient)
 }
 
@@ -88,12 +90,13 @@ fn infinity(facts: &Facts) -> Finding {
     let proof = &facts.completeness;
     // The census: so many circles, and each of them a single curve.
     let double = proof.is_closed() && proof.circles == 2;
-    let what = format!(
+    let what = Sentence::from([
         "dimension of the family through E1 (and through E2): nullity less one spin per bar. The census proves \
-         that there are {} circles of equilibria and nothing else: the infinity is double in number, not in \
-         dimension",
-        proof.circles
-    );
+         that there are "
+            .into(),
+        proof.circles.into(),
+        " circles of equilibria and nothing else: the infinity is double in number, not in dimension".into(),
+    ]);
     let shown = nullity && single && double;
     Finding::new(Verdict::Explained.if_shown(shown), dimensions[0], what)
         .lagrange(dimensions[0])

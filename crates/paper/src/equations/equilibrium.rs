@@ -6,7 +6,7 @@ use nalgebra::{DVector, Vector3};
 
 use super::inertia::velocity_matrix;
 use super::sample::{LargestEntry, largest};
-use super::{E1State, EquationAudit, ROUNDING, SOLVED};
+use super::{E1State, EquationAudit, Fault, ROUNDING, SOLVED};
 
 /// Multipliers of three bars.
 const MULTIPLIERS: usize = 12;
@@ -88,11 +88,29 @@ pub(super) fn rows(e1: &E1State) -> Vec<EquationAudit> {
     let unknowns = (MULTIPLIERS + angles) as f64 - 21.0;
     let all = (COORDINATES + MULTIPLIERS) as f64 - size;
     vec![
-        EquationAudit::new("(40)", "VII", "the multipliers balance the load, with (41) corrected")
+        EquationAudit::new("(40)", "VII", "the multipliers balance the load")
             .measured("largest entry at E1, mg", unbalanced(e1, true), SOLVED),
-        EquationAudit::new("(41)", "VII", "the load leaves out the weight of bar 2")
-            .measured("largest entry of (40) at E1, mg", unbalanced(e1, false), SOLVED)
-            .corrected("-m_2 g in the ninth place", unbalanced(e1, true), SOLVED),
+        EquationAudit::new(
+            "(41)",
+            "VII",
+            "the load; its dots pass over bar 2, as those of (21) do",
+        )
+        .measured(
+            "largest entry of (40) at E1 with the weight of bar 2 where the dots are, mg",
+            unbalanced(e1, true),
+            SOLVED,
+        ),
+        EquationAudit::new(
+            "(41)",
+            "VII",
+            "with zeros for the dots the weight of bar 2 would be missing, which (xxiii) has: lambda_6 - lambda_9 = -mg",
+        )
+        .measured(
+            "largest entry of (40) at E1 with zeros for the dots, mg",
+            unbalanced(e1, false),
+            SOLVED,
+        )
+        .remark(),
         EquationAudit::new(
             "after (41)",
             "VII",
@@ -113,23 +131,45 @@ pub(super) fn citations(last_number: u32) -> [EquationAudit; 2] {
             "cites the moving equation as (45), which does not exist",
         )
         .counted(measure, beyond(45))
-        .corrected("(33)", beyond(33), ROUNDING),
+        .corrected("(33)", beyond(33), ROUNDING)
+        .fault(Fault::Form),
         EquationAudit::new(
             "after (41)",
             "VII",
             "cites the system of equations as (52), which does not exist",
         )
         .counted(measure, beyond(52))
-        .corrected("(40)", beyond(40), ROUNDING),
+        .corrected("(40)", beyond(40), ROUNDING)
+        .fault(Fault::Form),
     ]
 }
 
-/// The coordinates that section VIII chooses.
-pub(super) fn coordinates(e1: &E1State) -> EquationAudit {
+/// The coordinates that section VIII chooses: right, and at gimbal lock.
+pub(super) fn coordinates(e1: &E1State) -> [EquationAudit; 2] {
+    let out_of_plane = e1.angles().map(|phi| lagrange::direction(0.0, FRAC_PI_2, phi).x);
     let in_oyz = e1.angles().map(|phi| [0.0, FRAC_PI_2, phi]);
     // In the plane OXZ, theta alone tells the direction: u = (cos(theta), 0, -sin(theta)).
     let in_oxz = e1.angles().map(|angle| [0.0, FRAC_PI_2 - angle, 0.0]);
-    EquationAudit::new("before (xi)", "VIII", "psi_i = 0, theta_i = pi/2 in the plane OYZ is gimbal lock: psi_i and phi_i turn about one axis")
-        .counted("singular matrices [Q_i] at E1, and with them a singular matrix of (33)", singular(in_oyz))
-        .corrected("the plane OXZ: psi_i = phi_i = 0, theta_i the angle from the level", singular(in_oxz), ROUNDING)
+    [
+        EquationAudit::new(
+            "before (xi)",
+            "VIII",
+            "psi_i = 0, theta_i = pi/2: the bars lie in the plane OYZ",
+        )
+        .measured("largest X of a bar's direction at E1", largest(out_of_plane), ROUNDING),
+        EquationAudit::new(
+            "before (xi)",
+            "VIII",
+            "these coordinates are at gimbal lock: psi_i and phi_i turn about one axis",
+        )
+        .counted(
+            "singular matrices [Q_i] at E1, and with them a singular matrix of (33)",
+            singular(in_oyz),
+        )
+        .replaced(
+            "none in the plane OXZ, with psi_i = phi_i = 0 and theta_i the angle from the level",
+            singular(in_oxz),
+        )
+        .remark(),
+    ]
 }

@@ -8,7 +8,7 @@ use super::sample::{
     LargestEntry, angles, at, derivative, dynamic, largest, positive, rotation, signed,
     three_by_three, worst,
 };
-use super::{EquationAudit, NUMERIC, ROUNDING};
+use super::{EquationAudit, Fault, NUMERIC, ROUNDING};
 
 const SPIN: &str = "largest difference from A^T dA/dt, numeric, along 1000 random motions with rates up to 1, rad/s";
 const ENTRY: &str =
@@ -216,7 +216,8 @@ fn velocities() -> Vec<EquationAudit> {
             "[Q] = [[phi]^T[theta]^T{u_psi}, [phi]^T{u_theta}, {u_phi}], three columns",
             columns_error(each_turned),
             ROUNDING,
-        ),
+        )
+        .fault(Fault::Form),
         EquationAudit::new(
             "(23)",
             "V",
@@ -317,7 +318,8 @@ fn inertias() -> Vec<EquationAudit> {
             "entry (2,2): a line break puts J_z s(phi) under it",
             (1, 1),
             "J_x s^2(phi) + J_y c^2(phi)",
-        ),
+        )
+        .fault(Fault::Form),
         entry("entry (3,1): s(phi) for s(theta)", (2, 0), "J_z s(theta), the entry (1,3)"),
         EquationAudit::new(
             "(32)",
@@ -332,7 +334,8 @@ fn inertias() -> Vec<EquationAudit> {
             "one matrix of 6 rows with the blocks [diag(m_i)] and [Q_i]^T[J_Ci][Q_i]",
             rows_too_many(true),
             ROUNDING,
-        ),
+        )
+        .fault(Fault::Form),
         EquationAudit::new(
             "(32)",
             "V",

@@ -1,14 +1,14 @@
 //! Section VIII, solution 1: eqs. (i)-(x).
 
-use std::f64::consts::FRAC_PI_2;
+use std::f64::consts::{FRAC_PI_2, TAU};
 
-use nalgebra::DVector;
+use nalgebra::{DVector, Vector3};
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 
 use super::equilibrium::{load, planar, reactions};
-use super::sample::{angles, largest, worst};
-use super::{E1State, EquationAudit, ROUNDING, SOLVED};
+use super::sample::{LargestEntry, angles, largest, worst};
+use super::{E1State, EquationAudit, Fault, ROUNDING, SOLVED};
 
 /// Half a unit of the last digit that (ix) and (x) print, with room for the rounding of a tie.
 const LAST_DIGIT: f64 = 5.01e-6;
@@ -59,6 +59,30 @@ fn quadratic(theta: f64, alpha: f64) -> f64 {
     (20.0 - 16.0 * c) * x * x + 2.0 * (26.0 * c - 20.0 - 8.0 * c * c) * x + 16.0 * c * c + 25.0
         - 40.0 * c
         - 4.0 * theta.sin().powi(2)
+}
+
+/// theta of (ix), rad: a point of the paper's scan.
+const THETA_IX: f64 = 0.344;
+
+/// Intervals of a turn in which the changes of sign are counted.
+const INTERVALS: i32 = 3600;
+
+/// Zeros of a function of an angle, by its changes of sign over a whole turn.
+fn roots(f: impl Fn(f64) -> f64) -> f64 {
+    let at = |k: i32| f(TAU * (f64::from(k) + 0.5) / f64::from(INTERVALS));
+    (0..INTERVALS).filter(|k| at(*k) * at(k + 1) < 0.0).count() as f64
+}
+
+/// What the sides of (vii), squared and summed, leave of 1: bar 3 reaches D where it vanishes.
+fn open(theta: f64, alpha: f64) -> f64 {
+    (2.0 - theta.cos() - alpha.cos()).powi(2) + (theta.sin() + alpha.sin()).powi(2) - 1.0
+}
+
+/// Difference of an axis from the direction of the weights in the load vector.
+fn down_from(axis: Vector3<f64>) -> f64 {
+    let paper = model::cases::paper();
+    let weight = lagrange::load_vector(paper.chain()).fixed_rows::<3>(0).normalize();
+    (weight - axis).largest_entry()
 }
 
 /// Steps of the iteration behind the singular values; a few dozen are usual for 18 x 12.
@@ -128,6 +152,9 @@ fn relations(e1: &E1State) -> Vec<EquationAudit> {
     let no_first = nearer(outside_first_quadrant(e2[1]), outside_first_quadrant(e2[2]));
     let both = largest([quadratic(e2[0], e2[1]), quadratic(e2[0], e2[2])]);
     vec![
+        EquationAudit::new("before (i)", "VIII", "the angles are measured from the vertical descending axis Ox, where (35) has the weight along -Z")
+            .measured("difference of the axis from the direction of the weights", down_from(Vector3::x()), ROUNDING)
+            .corrected("from the axis -OZ", down_from(-Vector3::z()), ROUNDING),
         EquationAudit::new("before (i)", "VIII", "OD = l, where (i) needs OD = 2l")
             .measured("residual of (i) at E1 with this OD, l", closure(e1.angles(), 1.0)[0], SOLVED)
             .corrected("OD = 2l", down, SOLVED),
@@ -155,13 +182,17 @@ fn relations(e1: &E1State) -> Vec<EquationAudit> {
         EquationAudit::new("(vii)", "VIII", "(iii) and (iv) solved for beta").measured(configurations, squared, ROUNDING),
         EquationAudit::new("(vii)", "VIII", "is printed with the number (viii), which the next equation has too")
             .counted("equations numbered (viii) less one", repeated(&["(viii)", "(viii)"]))
-            .corrected("(vii)", repeated(&["(vii)", "(viii)"]), ROUNDING),
+            .corrected("(vii)", repeated(&["(vii)", "(viii)"]), ROUNDING)
+            .fault(Fault::Form),
         EquationAudit::new("(viii)", "VIII", "(vii) squared and summed, squared once more to be rid of sin(alpha)")
             .measured(
                 "largest left-hand side, 1000 random closed configurations",
                 at_closed(|[theta, alpha, _]| quadratic(theta, alpha)),
                 ROUNDING,
             ),
+        EquationAudit::new("after (viii)", "VIII", "two solutions alpha: squared, (viii) has four, and two of them do not close the chain")
+            .counted("solutions at theta = 0.344 rad less two", roots(|alpha| quadratic(THETA_IX, alpha)) - 2.0)
+            .corrected("two where (vii) holds besides: its sides squared sum to 1", roots(|alpha| open(THETA_IX, alpha)) - 2.0, ROUNDING),
         EquationAudit::new("after (viii)", "VIII", "one solution alpha is always in the first quadrant: not at theta of E2, where both are in the fourth")
             .measured("how far the nearer solution is from the first quadrant, deg", no_first, ROUNDING)
             .replaced("the two solutions are alpha and beta in either order; value: largest residual of (viii) at both", both),
@@ -191,7 +222,8 @@ fn results(e1: &E1State) -> Vec<EquationAudit> {
                 "theta = 19.69487, alpha = 38.59914, beta = 286.07941 deg",
                 from_e1(CORRECTED_IX),
                 LAST_DIGIT,
-            ),
+            )
+            .fault(Fault::Digits),
         EquationAudit::new("(ix)", "VIII", "the energy V = 2.33547 mgl")
             .measured("difference from E1, mgl", 2.335_47 - heights(e1.angles()), LAST_DIGIT),
         EquationAudit::new("(x)", "VIII", "the energy V = 2.50087 mgl belongs to the angles")

@@ -211,7 +211,7 @@ fn reduced(e1: &E1State) -> Vec<EquationAudit> {
 pub(super) fn rows(e1: &E1State) -> Vec<EquationAudit> {
     let [down, aside] = closure(e1.angles(), 2.0);
     let rows_of_40 = "largest difference of a row from (40), random angles and multipliers up to 2 mg, 1000 states, mg";
-    let mut rows = vec![coordinates(e1)];
+    let mut rows = coordinates(e1).to_vec();
     rows.extend(entries());
     rows.extend([
         EquationAudit::new("(xxiii)", "VIII", "the rows other than that of theta_1").measured(

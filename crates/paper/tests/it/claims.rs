@@ -143,7 +143,7 @@ fn nan_is_never_a_verdict() {
 fn every_claim_has_a_judge() {
     let (example, surveys) = solved();
     for claim in claims(&Paper::project(), example, surveys) {
-        assert_ne!(claim.number_is, "nobody judges this claim", "{}", claim.printed.id);
+        assert_ne!(claim.number_is.to_string(), "nobody judges this claim", "{}", claim.printed.id);
     }
     let mut paper = Paper::project();
     paper.claims[0].id = "a claim that nobody knows".to_owned();

@@ -1,27 +1,25 @@
 //! Both solvers on every case of the registry.
 
+use model::number::Number;
 use paper::Reproduction;
 
+use crate::badge::{Badge, Tone};
 use crate::block::{Block, Table, heading, text};
-use crate::numbers::measured;
+use crate::cell::Cell;
 
 pub(crate) fn blocks(r: &Reproduction) -> Vec<Block<'_>> {
     let rows = r.cases.iter().map(|case| {
-        let numbers = case.scaled.map_or_else(
-            || [(); 4].map(|()| "-".to_owned()),
-            |scaled| scaled.map(|x| measured(x, 2)),
-        );
-        [case.case.clone(), case.bars.to_string()]
+        let numbers: [Cell; 4] = std::array::from_fn(|k| {
+            case.scaled.map(|scaled| Number::significant(scaled[k], 2)).into()
+        });
+        let verdict = match &case.failure {
+            Some(failure) => Badge::new(Tone::Bad, failure.clone()),
+            None => Badge::of_agreement(case.agrees()),
+        };
+        [Cell::from(case.case.as_str()), Cell::count(case.bars)]
             .into_iter()
             .chain(numbers)
-            .chain([
-                case.rung.map_or_else(|| "-".to_owned(), |rung| rung.to_string()),
-                match &case.failure {
-                    Some(failure) => failure.clone(),
-                    None if case.agrees() => "agreed".to_owned(),
-                    None => "disagreed".to_owned(),
-                },
-            ])
+            .chain([case.rung.map(|rung| rung.to_string()).into(), verdict.into()])
             .collect()
     });
     vec![
@@ -37,7 +35,6 @@ pub(crate) fn blocks(r: &Reproduction) -> Vec<Block<'_>> {
                 "case", "bars", "joints", "forces", "energy", "statics", "evidence", "verdict",
             ],
             rows: rows.collect(),
-            verdicts: Some(7),
         }),
     ]
 }

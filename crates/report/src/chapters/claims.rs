@@ -1,10 +1,14 @@
 //! Every printed number and statement, judged.
 
+use model::number::Number;
 use paper::Reproduction;
 use paper::claims::Claim;
+use paper::sentence::Sentence;
 
+use crate::badge::Badge;
 use crate::block::{Block, Table, heading, text};
-use crate::numbers::{counted, fixed, measured, signs, stable};
+use crate::cell::Cell;
+use crate::symbols::signs;
 
 pub(crate) fn blocks(r: &Reproduction) -> Vec<Block<'_>> {
     vec![
@@ -27,52 +31,58 @@ pub(crate) fn blocks(r: &Reproduction) -> Vec<Block<'_>> {
                 "the number behind it",
             ],
             rows: r.claims.iter().map(row).collect(),
-            verdicts: Some(5),
         }),
     ]
 }
 
-fn row(claim: &Claim) -> Vec<String> {
+fn row(claim: &Claim) -> Vec<Cell> {
     let p = &claim.printed;
-    let difference = match (claim.lagrange, claim.energy) {
-        (Some(lagrange), Some(energy)) if claim.printed.is_count() => {
-            counted((lagrange - energy).abs())
-        }
-        (Some(lagrange), Some(energy)) => measured((lagrange - energy).abs(), 4),
-        _ => "-".to_owned(),
-    };
+    let both = claim.lagrange.zip(claim.energy);
+    let difference = both.map(|(lagrange, energy)| behind(claim, (lagrange - energy).abs()));
     vec![
-        signs(&format!("{} ({})", p.says, p.place)),
+        signs(&format!("{} ({})", p.says, p.place)).into(),
         match &p.unit {
             Some(unit) if p.digits.is_some() => format!("{} {unit}", p.printed),
             _ => signs(&p.printed),
-        },
-        value(claim, claim.lagrange),
-        value(claim, claim.energy),
-        difference,
-        format!("{}{}", claim.verdict, if claim.as_expected { "" } else { " (not expected)" }),
-        number(claim),
+        }
+        .into(),
+        value(claim, claim.lagrange).into(),
+        value(claim, claim.energy).into(),
+        difference.into(),
+        Badge::of_claim(claim.verdict, claim.as_expected).into(),
+        number(claim).into(),
     ]
 }
 
 /// A solver's value with three decimals more than are printed.
-fn value(claim: &Claim, value: Option<f64>) -> String {
+fn value(claim: &Claim, value: Option<f64>) -> Option<Number> {
     /// Decimals more than printed.
     const MORE: usize = 3;
-    match (value, claim.printed.digits) {
-        (None, _) => "-".to_owned(),
-        (Some(value), _) if claim.printed.is_count() => counted(value),
-        (Some(value), Some(digits)) => fixed(value, digits + MORE),
-        (Some(value), None) => measured(value, 6),
+    /// Significant digits where none are printed.
+    const DIGITS: usize = 6;
+    value.map(|value| match claim.printed.digits {
+        _ if claim.printed.is_count() => Number::count(value),
+        Some(digits) => Number::decimals(value, digits + MORE),
+        None => Number::significant(value, DIGITS),
+    })
+}
+
+/// A number behind a verdict.
+fn behind(claim: &Claim, number: f64) -> Number {
+    /// Significant digits.
+    const DIGITS: usize = 4;
+    if claim.printed.is_count() {
+        Number::count(number)
+    } else {
+        Number::significant(number, DIGITS)
     }
 }
 
 /// What the verdict rests on.
-fn number(claim: &Claim) -> String {
-    let what = signs(&stable(&claim.number_is));
+fn number(claim: &Claim) -> Sentence {
+    let what = claim.number_is.clone().with_words(signs);
     match claim.number {
         None => what,
-        Some(number) if claim.printed.is_count() => format!("{}: {what}", counted(number)),
-        Some(number) => format!("{}: {what}", measured(number, 4)),
+        Some(number) => what.after([behind(claim, number).into(), ": ".into()]),
     }
 }

@@ -1,17 +1,18 @@
 //! The method in short.
 
+use model::number::Number;
 use paper::Reproduction;
 
 use super::run::word;
 use crate::block::{Block, Table, heading, text};
+use crate::cell::Cell;
 use crate::figures;
-use crate::numbers::fixed;
 
 pub(crate) fn blocks(r: &Reproduction) -> Vec<Block<'_>> {
     vec![
         heading(2, "method", "The method in short"),
         Block::List(vec![
-            "**`lagrange`** solves the paper's equations of rest: (40) with (41) corrected, and the constraint functions (7)-(20), \
+            "**`lagrange`** solves the paper's equations of rest: (40) with (41), and the constraint functions (7)-(20), \
              30 equations for 30 unknowns, reduced exactly to the moments of the bars and the closure, by Newton's method. The \
              multipliers are unknowns; energy is never looked at. It finds minima, saddles and maxima alike."
                 .to_owned(),
@@ -45,15 +46,14 @@ pub(crate) fn blocks(r: &Reproduction) -> Vec<Block<'_>> {
                     let reached: Vec<_> =
                         s.reached.iter().filter(|e| e.seeds > 0).map(|e| e.equilibrium.replace('\'', "′")).collect();
                     vec![
-                        s.solver.to_string(),
-                        format!("{} {}", s.seeds, word(&s.kind)),
-                        format!("{} %", fixed(100.0 * s.rate(), 1)),
-                        reached.join(", "),
-                        (s.seeds - s.converged + s.elsewhere).to_string(),
+                        s.solver.to_string().into(),
+                        format!("{} {}", s.seeds, word(&s.kind)).into(),
+                        Cell::Number(Number::decimals(100.0 * s.rate(), 1), "%"),
+                        reached.join(", ").into(),
+                        Cell::count(s.seeds - s.converged + s.elsewhere),
                     ]
                 })
                 .collect(),
-            verdicts: None,
         }),
     ]
 }

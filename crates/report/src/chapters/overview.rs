@@ -1,14 +1,15 @@
 //! The first page: what came out.
 
 use paper::Reproduction;
-use paper::equations::Verdict;
+use paper::equations::Fault;
 
 use crate::block::{Block, heading, text};
 use crate::figures;
-use crate::numbers::{fixed, in_words, measured};
+use crate::numbers::{fixed, in_words};
 
 pub(crate) fn blocks(r: &Reproduction) -> Vec<Block<'_>> {
     let s = &r.summary;
+    let of_form = r.equations.iter().filter(|row| row.fault == Some(Fault::Form)).count();
     let outcome = if r.all_as_expected {
         "Every verdict is the expected one."
     } else {
@@ -25,7 +26,7 @@ pub(crate) fn blocks(r: &Reproduction) -> Vec<Block<'_>> {
         heading(2, "outcome", "What came out"),
         text(format!(
             "{} claims: {} confirmed, {} explained, {} corrected, {} refuted. {} parts of equations and statements \
-             of the text: {} hold only as corrected, {} not at all. Both solvers agree on {} of {} cases. {outcome}",
+             of the text: {} hold only as corrected ({} of them in form alone), {} not at all. Both solvers agree on {} of {} cases. {outcome}",
             s.claims,
             s.confirmed,
             s.explained,
@@ -33,6 +34,7 @@ pub(crate) fn blocks(r: &Reproduction) -> Vec<Block<'_>> {
             s.refuted,
             s.equations,
             s.equations_corrected,
+            of_form,
             s.equations_refuted,
             s.cases_agreed,
             s.cases,
@@ -47,7 +49,8 @@ pub(crate) fn blocks(r: &Reproduction) -> Vec<Block<'_>> {
 fn findings(r: &Reproduction) -> Vec<String> {
     let number = |id: &str| {
         let claim = r.claims.iter().find(|claim| claim.printed.id == id);
-        claim.and_then(|claim| claim.number).map_or_else(|| "?".to_owned(), |x| measured(x, 4))
+        let number = claim.and_then(|claim| claim.number);
+        number.map_or_else(|| "?".to_owned(), |x| in_words(x, 4))
     };
     let mut items = Vec::new();
     if let Some(e1) = r.equilibria.first() {
@@ -62,7 +65,7 @@ fn findings(r: &Reproduction) -> Vec<String> {
     items.push(format!(
         "**The second position is no equilibrium.** It is the first point of the same scan on another branch, on a slope of \
          {} mgl/rad; the best multipliers leave {} mg of its equations.",
-        measured(r.figures.slope_at_x, 4),
+        in_words(r.figures.slope_at_x, 4),
         number("x-multipliers")
     ));
     if let Some(e2) = r.equilibria.iter().find(|p| p.name == "E2") {
@@ -73,15 +76,16 @@ fn findings(r: &Reproduction) -> Vec<String> {
             fixed(e2.lagrange_mgl, 8)
         ));
     }
-    let judged = crate::equations::judged(&r.equations);
-    let with = |verdict| judged.iter().filter(|j| j.verdict == verdict).count();
+    let faulty = &r.summary.faulty_equations;
     items.push(format!(
-        "**Of {} equations, [{} need a correction](#equations)**, from a wrong index to a lost weight, and {}, the second \
-         position, cannot be saved. With the corrections all others hold to rounding, and the system has 30 equations for 30 \
-         unknowns, not 18.",
-        judged.len(),
-        with(Verdict::Corrected),
-        with(Verdict::Refuted),
+        "**Of {} equations, [{} are wrong in substance](#equations)**, from the rotation matrix (5) to the moments of bar 3 in \
+         (xxiv); one of them, the second position (x), cannot be saved. {} more are wrong in form alone (a number used twice, \
+         brackets and dots, some of which the copy at hand may have lost), and {} is right to the step of its scan. With the \
+         corrections all others hold to rounding, and the system has 30 equations for 30 unknowns, not 18.",
+        faulty.numbered,
+        faulty.substance.len(),
+        faulty.form.len(),
+        faulty.digits.join(", "),
     ));
     items.push(format!(
         "**There are exactly {} equilibria in the plane**, and {} circles of them in space, and the second position is none of \

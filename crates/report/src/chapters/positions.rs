@@ -1,12 +1,16 @@
 //! The equilibria: angles, energies, forces, and how far each is proved.
 
 use census::Census;
+use model::Rung;
+use model::number::Number;
 use paper::Reproduction;
 
 use super::run::word;
+use crate::badge::Badge;
 use crate::block::{Block, Table, heading, text};
+use crate::cell::Cell;
 use crate::figures;
-use crate::numbers::{fixed, in_words, measured, stable};
+use crate::numbers::{fixed, in_words};
 
 pub(crate) fn blocks<'a>(r: &'a Reproduction, census: &Census) -> Vec<Block<'a>> {
     let b = &r.bounds;
@@ -71,19 +75,22 @@ fn angles(r: &Reproduction) -> Table {
             let of = energy.iter().zip(p.lagrange_deg).map(|(e, l)| (e - l).abs());
             of.fold(0.0, |most: f64, d| if d <= most { most } else { d })
         });
-        let [theta, alpha, beta] = p.lagrange_deg.map(|angle| fixed(angle, 9));
-        let minima_only = || "finds minima only".to_owned();
+        let [theta, alpha, beta] = p.lagrange_deg.map(|angle| Number::decimals(angle, 9).into());
+        let or_none = |difference: Option<f64>| match difference {
+            Some(difference) => Number::significant(difference, 2).into(),
+            None => "finds minima only".into(),
+        };
         vec![
-            p.name.replace('\'', "′"),
+            p.name.replace('\'', "′").into(),
             theta,
             alpha,
             beta,
-            difference.map_or_else(minima_only, |d| measured(d, 2)),
-            fixed(p.lagrange_mgl, 11),
-            p.energy_mgl.map_or_else(minima_only, |v| measured((v - p.lagrange_mgl).abs(), 2)),
-            format!("{} ({})", word(&p.stability.in_plane), p.stability.index_in_plane),
-            format!("{} ({})", word(&p.stability.in_space), p.stability.index_in_space),
-            p.nullity.to_string(),
+            or_none(difference),
+            Number::decimals(p.lagrange_mgl, 11).into(),
+            or_none(p.energy_mgl.map(|v| (v - p.lagrange_mgl).abs())),
+            format!("{} ({})", word(&p.stability.in_plane), p.stability.index_in_plane).into(),
+            format!("{} ({})", word(&p.stability.in_space), p.stability.index_in_space).into(),
+            Cell::count(p.nullity),
         ]
     });
     Table {
@@ -95,17 +102,18 @@ fn angles(r: &Reproduction) -> Table {
             "", "θ", "α", "β", "energy differs by, deg", "V", "energy differs by, mgl", "in the plane", "in space", "nullity",
         ],
         rows: rows.collect(),
-        verdicts: None,
     }
 }
 
 fn forces(r: &Reproduction) -> Table {
     let rows = r.equilibria.iter().map(|p| {
-        let joint = |[across, up]: [f64; 2]| format!("{}, {}", fixed(across, 8), fixed(up, 8));
-        [p.name.replace('\'', "′")]
+        let numbers = |values: &[f64], decimals| {
+            Cell::Numbers(values.iter().map(|value| Number::decimals(*value, decimals)).collect())
+        };
+        [p.name.replace('\'', "′").into()]
             .into_iter()
-            .chain(p.forces_mg.map(joint))
-            .chain([p.axial_mg.map(|f| fixed(f, 6)).join(", ")])
+            .chain(p.forces_mg.iter().map(|force| numbers(force, 8)))
+            .chain([numbers(&p.axial_mg, 6)])
             .collect()
     });
     Table {
@@ -114,19 +122,18 @@ fn forces(r: &Reproduction) -> Table {
             .to_owned(),
         head: vec!["", "at O (λ₂, λ₃)", "at A (λ₅, λ₆)", "at B (λ₈, λ₉)", "at D (λ₁₁, λ₁₂)", "axial"],
         rows: rows.collect(),
-        verdicts: None,
     }
 }
 
 /// One row for each rung of each equilibrium; the mirror images stand on the same rungs.
 fn ladder(r: &Reproduction) -> Table {
     let rows = r.equilibria.iter().filter(|p| !p.name.ends_with('\'')).flat_map(|p| {
-        p.ladder.statements().into_iter().map(|statement| {
+        Rung::ALL.into_iter().map(|rung| {
             vec![
-                p.name.to_owned(),
-                statement.rung.to_string(),
-                if statement.reached { "reached" } else { "not reached" }.to_owned(),
-                stable(&statement.how),
+                p.name.into(),
+                rung.to_string().into(),
+                Badge::of_rung(p.ladder.is_reached(rung)).into(),
+                format!("{:#}", p.ladder.status(rung)).into(),
             ]
         })
     });
@@ -134,6 +141,5 @@ fn ladder(r: &Reproduction) -> Table {
         caption: "The rungs of each equilibrium, lowest first.".to_owned(),
         head: vec!["", "rung", "", "how, or why not"],
         rows: rows.collect(),
-        verdicts: Some(2),
     }
 }

@@ -1,9 +1,11 @@
 //! What differs from run to run: where, with what, how long, and the counts that hang on the last bit.
 
+use model::number::Number;
 use paper::Reproduction;
 use paper::seeds::Survey;
 
 use crate::block::{Block, Table, heading, text};
+use crate::cell::Cell;
 use crate::environment::Environment;
 use crate::numbers::fixed;
 
@@ -18,16 +20,17 @@ pub(crate) fn blocks<'a>(r: &'a Reproduction, environment: &Environment) -> Vec<
         Block::Table(Table {
             caption: String::new(),
             head: vec!["what", "which"],
-            rows: vec![
-                vec!["command".to_owned(), format!("`{}`", e.command)],
-                vec!["version".to_owned(), format!("funicular {}", e.version)],
-                vec!["compiler".to_owned(), e.compiler.to_owned()],
-                vec!["packages".to_owned(), e.packages.join(", ")],
-                vec!["system".to_owned(), e.system.clone()],
-                vec!["processor".to_owned(), format!("{}, {} threads", e.processor, e.threads)],
-                vec!["time".to_owned(), format!("{} s", fixed(r.seconds, 1))],
-            ],
-            verdicts: None,
+            rows: [
+                ("command", format!("`{}`", e.command)),
+                ("version", format!("funicular {}", e.version)),
+                ("compiler", e.compiler.to_owned()),
+                ("packages", e.packages.join(", ")),
+                ("system", e.system.clone()),
+                ("processor", format!("{}, {} threads", e.processor, e.threads)),
+                ("time", format!("{} s", fixed(r.seconds, 1))),
+            ]
+            .map(|(what, which)| vec![what.into(), which.into()])
+            .to_vec(),
         }),
         text(
             "Where random starts end. A start on the border of two basins may go either way with the last bit of a sine, which \
@@ -37,12 +40,11 @@ pub(crate) fn blocks<'a>(r: &'a Reproduction, environment: &Environment) -> Vec<
             caption: String::new(),
             head: vec!["solver", "starts", "where to", "without help", "steps: median, 95 %, most"],
             rows: r.seeds.iter().map(survey).collect(),
-            verdicts: None,
         }),
     ]
 }
 
-fn survey(s: &Survey) -> Vec<String> {
+fn survey(s: &Survey) -> Vec<Cell> {
     let mut reached: Vec<_> = s
         .reached
         .iter()
@@ -53,15 +55,13 @@ fn survey(s: &Survey) -> Vec<String> {
         reached.push(format!("{} elsewhere", s.elsewhere));
     }
     reached.extend(s.lost.iter().map(|l| format!("{} lost: {}", l.seeds, l.why)));
+    let steps = [s.median_iterations, s.most_iterations_of_95_percent, s.most_iterations];
     vec![
-        s.solver.to_string(),
-        format!("{} {}", s.seeds, word(&s.kind)),
-        reached.join(", "),
-        s.direct.map_or_else(|| "-".to_owned(), |d| d.to_string()),
-        format!(
-            "{}, {}, {}",
-            s.median_iterations, s.most_iterations_of_95_percent, s.most_iterations
-        ),
+        s.solver.to_string().into(),
+        format!("{} {}", s.seeds, word(&s.kind)).into(),
+        reached.join(", ").into(),
+        s.direct.map(|count| Number::count(count as f64)).into(),
+        Cell::Numbers(steps.map(|count| Number::count(count as f64)).to_vec()),
     ]
 }
 

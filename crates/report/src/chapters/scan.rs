@@ -1,10 +1,11 @@
 //! How the paper obtained its numbers.
 
+use model::number::Number;
 use paper::Reproduction;
 
 use crate::block::{Block, Table, heading, text};
+use crate::cell::Cell;
 use crate::figures;
-use crate::numbers::{fixed, measured};
 
 /// `view` is the interactive picture, a piece of HTML.
 pub(crate) fn blocks(r: &Reproduction, view: String) -> Vec<Block<'_>> {
@@ -37,7 +38,7 @@ fn nearer(difference: f64) -> f64 {
 fn returned(r: &Reproduction) -> Table {
     let printed = |id: String| {
         let claim = r.claims.iter().find(|claim| claim.printed.id == id);
-        claim.map_or_else(|| "-".to_owned(), |claim| claim.printed.printed.clone())
+        claim.and_then(|claim| Some(Number::decimals(claim.printed.value(), claim.printed.digits?)))
     };
     let truth = |name: &str, quantity: usize| {
         r.equilibria.iter().find(|p| p.name == name).map_or(f64::NAN, |p| match quantity {
@@ -47,18 +48,19 @@ fn returned(r: &Reproduction) -> Table {
     };
     let quantities =
         [("theta", "θ, deg"), ("alpha", "α, deg"), ("beta", "β, deg"), ("energy", "V, mgl")];
-    let positions = [("ix", "(ix)", "E1", 0), ("x", "(x)", "E2", 1)];
-    let rows = positions.into_iter().flat_map(|(id, number, name, result)| {
+    let positions = [("ix", "(ix)", "E1", "(E1)", 0), ("x", "(x)", "E2", "(E2)", 1)];
+    let rows = positions.into_iter().flat_map(|(id, number, name, equilibrium, result)| {
         quantities.into_iter().enumerate().map(move |(k, (quantity, symbol))| {
             let found = r.figures.scan_results[result][k];
             let found = if k < 3 { found.rem_euclid(360.0) } else { found };
             let true_value = truth(name, k);
+            let off = if k < 3 { nearer(found - true_value) } else { found - true_value };
             vec![
-                format!("{number} {symbol}"),
-                printed(format!("{id}-{quantity}")),
-                fixed(found, 5),
-                format!("{} ({name})", fixed(true_value, 8)),
-                measured(if k < 3 { nearer(found - true_value) } else { found - true_value }, 3),
+                format!("{number} {symbol}").into(),
+                printed(format!("{id}-{quantity}")).into(),
+                Number::decimals(found, 5).into(),
+                Cell::Number(Number::decimals(true_value, 8), equilibrium),
+                Number::significant(off, 3).into(),
             ]
         })
     });
@@ -72,6 +74,5 @@ fn returned(r: &Reproduction) -> Table {
             "scan less equilibrium",
         ],
         rows: rows.collect(),
-        verdicts: None,
     }
 }

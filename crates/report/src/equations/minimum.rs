@@ -52,7 +52,7 @@ pub(super) const EQUATIONS: &[Equation] = &[
         number: "(viii)",
         printed: r"(20 - 16\cos\theta){\cos}^2\,\alpha + 2(26\cos\theta - 20 - 8{\cos}^2\,\theta)\cos\alpha + 16{\cos}^2\,\theta + 25 - 40\cos\theta - 4{\sin}^2\,\theta = 0",
         corrected: None,
-        says: "For a given θ a quadratic in cos α: (vii) squared and summed, and squared once more to be rid of sin α.",
+        says: "For a given θ a quadratic in cos α: (vii) squared and summed, and squared once more to be rid of sin α. So it has four solutions α, of which two close the chain.",
     },
     Equation {
         number: "(ix)",

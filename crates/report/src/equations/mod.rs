@@ -20,7 +20,9 @@ mod motion;
 mod multipliers;
 mod rotations;
 
-use paper::equations::{EquationAudit, Verdict};
+use paper::equations::{EquationAudit, Fault, Validity};
+
+use crate::badge::Badge;
 
 /// One numbered equation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -59,7 +61,23 @@ pub struct Judged<'a> {
     /// The rows of the audit, at least one.
     pub rows: Vec<&'a EquationAudit>,
     /// The severest of their verdicts.
-    pub verdict: Verdict,
+    pub verdict: Validity,
+    /// The gravest of their faults.
+    pub fault: Option<Fault>,
+}
+
+impl Judged<'_> {
+    /// The verdict for the eye.
+    #[must_use]
+    pub fn badge(&self) -> Badge {
+        Badge::of_equation(self.verdict, self.fault)
+    }
+
+    /// What the second form of the equation is.
+    #[must_use]
+    pub fn instead(&self) -> &'static str {
+        if self.verdict == Validity::Refuted { "What is true instead" } else { "As corrected" }
+    }
 }
 
 /// All equations with their rows, in the order of the paper.
@@ -72,6 +90,7 @@ pub fn judged(audit: &[EquationAudit]) -> Vec<Judged<'_>> {
                 equation,
                 section: rows.first().map_or("", |row| row.section),
                 verdict: severest(&rows),
+                fault: rows.iter().filter_map(|row| row.fault).max(),
                 rows,
             }
         })
@@ -83,24 +102,13 @@ pub fn statements(audit: &[EquationAudit]) -> impl Iterator<Item = &EquationAudi
     audit.iter().filter(|row| all().all(|equation| equation.number != row.number))
 }
 
-/// Refuted before corrected before holding; a definition only if nothing else is said.
-fn severest(rows: &[&EquationAudit]) -> Verdict {
+/// Refuted before corrected before holding; a remark or a definition only if nothing else is said.
+fn severest(rows: &[&EquationAudit]) -> Validity {
     let any = |verdict| rows.iter().any(|row| row.verdict == verdict);
-    [Verdict::Refuted, Verdict::Corrected, Verdict::Holds]
+    [Validity::Refuted, Validity::Corrected, Validity::Holds]
         .into_iter()
         .find(|&verdict| any(verdict))
-        .unwrap_or(Verdict::Definition)
-}
-
-/// A verdict in words.
-#[must_use]
-pub fn verdict_word(verdict: Verdict) -> &'static str {
-    match verdict {
-        Verdict::Holds => "holds",
-        Verdict::Corrected => "holds after correction",
-        Verdict::Refuted => "refuted",
-        Verdict::Definition => "definition",
-    }
+        .unwrap_or(Validity::Definition)
 }
 
 #[cfg(test)]

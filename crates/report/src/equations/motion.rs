@@ -10,7 +10,7 @@ pub(super) const EQUATIONS: &[Equation] = &[
         corrected: Some(
             r"\begin{bmatrix} [\mathbf{M}_1] & [\mathbf{0}_{6,6}] & [\mathbf{0}_{6,6}] &  \\ {}[\mathbf{0}_{6,6}] & [\mathbf{M}_2] & [\mathbf{0}_{6,6}] & -[\mathbf{B}]^T \\ {}[\mathbf{0}_{6,6}] & [\mathbf{0}_{6,6}] & [\mathbf{M}_3] &  \\ & \fixed{[\mathbf{B}]} & & \fixed{[\mathbf{0}_{12,12}]} \end{bmatrix} \begin{bmatrix} \{\ddot{\mathbf{q}}\} \\ \{\boldsymbol{\lambda}\} \end{bmatrix} = \begin{bmatrix} \{\mathbf{F}_{q_1}\} + \{\tilde{\mathbf{F}}_{q_1}\} \\ \{\mathbf{F}_{q_2}\} + \{\tilde{\mathbf{F}}_{q_2}\} \\ \{\mathbf{F}_{q_3}\} + \{\tilde{\mathbf{F}}_{q_3}\} \\ \fixed{-[\dot{\mathbf{B}}] \{\dot{\mathbf{q}}\}} \end{bmatrix}",
         ),
-        says: "The equation of motion: inertia and multipliers against the forces, and the constraints differentiated twice. Printed without the bracket that joins its matrix, without the lower rows of that, and with [B]{q}, which is no derivative of the constraints.",
+        says: "The equation of motion: inertia and multipliers against the forces, and the constraints differentiated twice. Printed without the bracket that joins its matrix, without the lower rows of that, and with [B]{q}, which without its two dots is no derivative of the constraints.",
     },
     Equation {
         number: "(34)",
@@ -60,10 +60,8 @@ pub(super) const EQUATIONS: &[Equation] = &[
     },
     Equation {
         number: "(41)",
-        printed: r"[\mathbf{T}] = [0 \;\; 0 \;\; -m_1 g \;\; 0 \;\; \wrong{\dots} \;\; 0 \;\; -m_3 g \;\; 0 \;\; 0 \;\; 0]^T",
-        corrected: Some(
-            r"[\mathbf{T}] = [0 \;\; 0 \;\; -m_1 g \;\; 0 \;\; 0 \;\; 0 \;\; 0 \;\; 0 \;\; \fixed{-m_2 g} \;\; 0 \;\; 0 \;\; 0 \;\; 0 \;\; 0 \;\; -m_3 g \;\; 0 \;\; 0 \;\; 0]^T",
-        ),
-        says: "The load: three weights. Read as printed, zeros between the first and the last, the weight of bar 2 is missing.",
+        printed: r"[\mathbf{T}] = [0 \;\; 0 \;\; -m_1 g \;\; 0 \;\; \dots \;\; 0 \;\; -m_3 g \;\; 0 \;\; 0 \;\; 0]^T",
+        corrected: None,
+        says: "The load: three weights. The dots pass over bar 2, as those of (21) do; written out in (xxiii), no weight is missing.",
     },
 ];

@@ -1,0 +1,199 @@
+//! Numbers as they are told to a reader: the value, and how many of its digits mean something.
+//!
+//! What differs from processor to processor is the rounding of sines and cosines, a few units of the last
+//! place. A page that is to be the same on every machine tells numbers of that size as a bound, and all
+//! others with no more digits than are stable: that is what the alternate form, `{:#}`, does.
+
+use std::fmt::{self, Display, Formatter};
+
+/// A number with the digits that it is told with.
+///
+/// ```
+/// use model::number::Number;
+/// assert_eq!(Number::decimals(-0.6489, 3).to_string(), "-0.649");
+/// assert_eq!(Number::significant(0.522_916_3, 4).to_string(), "0.5229");
+/// // Rounding, in full for those who look, as a bound for those who compare.
+/// let rounding = Number::size(3.1e-16, 0);
+/// assert_eq!((format!("{rounding}"), format!("{rounding:#}")), ("3e-16".into(), "<\u{a0}10⁻¹²".into()));
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Number {
+    /// The value.
+    pub value: f64,
+    /// How it is told.
+    pub digits: Digits,
+}
+
+/// How a number is told.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Digits {
+    /// So many decimals.
+    Decimals(usize),
+    /// So many significant digits; below 1e-6 a bound.
+    Significant(usize),
+    /// An integer as it is; anything else with four significant digits.
+    Count,
+    /// The order of magnitude of a rounding: so many decimals and a power of ten.
+    Size(usize),
+}
+
+impl Number {
+    /// A fixed number of decimals.
+    #[must_use]
+    pub const fn decimals(value: f64, decimals: usize) -> Self {
+        Self { value, digits: Digits::Decimals(decimals) }
+    }
+
+    /// Significant digits, or a bound where the number is rounding.
+    #[must_use]
+    pub const fn significant(value: f64, digits: usize) -> Self {
+        Self { value, digits: Digits::Significant(digits) }
+    }
+
+    /// A number that counts something.
+    #[must_use]
+    pub const fn count(value: f64) -> Self {
+        Self { value, digits: Digits::Count }
+    }
+
+    /// An order of magnitude, with so many decimals.
+    #[must_use]
+    pub const fn size(value: f64, decimals: usize) -> Self {
+        Self { value, digits: Digits::Size(decimals) }
+    }
+
+    /// The stable form within a sentence: `less than` where a cell of a table has a sign.
+    ///
+    /// ```
+    /// assert_eq!(model::number::Number::significant(1e-15, 2).in_words(), "less than 10⁻¹²");
+    /// ```
+    #[must_use]
+    pub fn in_words(self) -> String {
+        match bound(self.value) {
+            Some(bound) if self.is_told_as_bound() => format!("less than {bound}"),
+            _ => format!("{self:#}"),
+        }
+    }
+
+    /// Whether the stable form of small values is a bound.
+    fn is_told_as_bound(self) -> bool {
+        match self.digits {
+            Digits::Decimals(_) => false,
+            Digits::Significant(_) | Digits::Size(_) => true,
+            Digits::Count => self.value.fract().abs() > 0.0,
+        }
+    }
+}
+
+impl Display for Number {
+    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
+        let x = self.value;
+        match self.digits {
+            Digits::Decimals(decimals) => f.write_str(&fixed(x, decimals)),
+            Digits::Significant(digits) => f.write_str(&measured(x, digits)),
+            Digits::Count if x.fract().abs() > 0.0 => f.write_str(&measured(x, COUNTED)),
+            Digits::Count => f.write_str(&fixed(x, 0)),
+            Digits::Size(decimals) if f.alternate() => f.write_str(&measured(x, decimals + 1)),
+            Digits::Size(decimals) => write!(f, "{x:.decimals$e}"),
+        }
+    }
+}
+
+/// Significant digits of a count that is none.
+const COUNTED: usize = 4;
+
+/// Bounds for what is only rounding, largest first: value and text. A number is told as the
+/// smallest of them that it stays below.
+const BOUNDS: [(f64, &str); 3] = [(1e-6, "10⁻⁶"), (1e-9, "10⁻⁹"), (1e-12, "10⁻¹²")];
+
+/// The smallest bound that a number stays below.
+fn bound(x: f64) -> Option<&'static str> {
+    BOUNDS.iter().rfind(|(bound, _)| x.abs() < *bound).map(|(_, text)| *text)
+}
+
+/// `digits` significant digits in plain notation, or a bound where the number is rounding.
+fn measured(x: f64, digits: usize) -> String {
+    if !x.is_finite() {
+        return "not a number".to_owned();
+    }
+    match bound(x) {
+        Some(bound) => format!("<\u{a0}{bound}"),
+        None if x.abs() < SMALL => powered(x, digits),
+        None => significant(x, digits),
+    }
+}
+
+/// Below this zeros would hide the digits.
+const SMALL: f64 = 1e-3;
+
+/// Digits and a power of ten.
+fn powered(x: f64, digits: usize) -> String {
+    let text = format!("{x:.*e}", digits.saturating_sub(1));
+    let (digits, exponent) = text.split_once('e').unwrap_or((&text, "0"));
+    let raised = exponent.chars().filter_map(|c| match c {
+        '-' => Some('⁻'),
+        digit => RAISED.get(digit.to_digit(10)? as usize).copied(),
+    });
+    format!("{digits}×10{}", raised.collect::<String>())
+}
+
+/// Digits as exponents.
+const RAISED: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
+
+/// A fixed number of decimals, never a negative zero.
+fn fixed(x: f64, decimals: usize) -> String {
+    let text = format!("{x:.decimals$}");
+    match text.strip_prefix('-') {
+        Some(positive) if positive.bytes().all(|b| matches!(b, b'0' | b'.')) => positive.to_owned(),
+        _ => text,
+    }
+}
+
+/// `digits` significant digits without trailing zeros.
+fn significant(x: f64, digits: usize) -> String {
+    let exponent = x.abs().log10().floor();
+    // A double has exponents of three digits at most, and `digits` is small.
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "small and not negative"
+    )]
+    let decimals = (digits as f64 - 1.0 - exponent).max(0.0) as usize;
+    let text = fixed(x, decimals);
+    if text.contains('.') {
+        text.trim_end_matches('0').trim_end_matches('.').to_owned()
+    } else {
+        text
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn significant_digits_are_told_in_the_form_that_shows_them() {
+        for (x, digits, text) in [
+            (0.522_916_3, 4, "0.5229"),
+            (-13.0, 4, "-13"),
+            (-3.816e-6, 3, "-3.82×10⁻⁶"),
+            (4.1e-13, 4, "<\u{a0}10⁻¹²"),
+            (0.0, 4, "<\u{a0}10⁻¹²"),
+            (2.5e-10, 4, "<\u{a0}10⁻⁹"),
+            (f64::NAN, 4, "not a number"),
+        ] {
+            assert_eq!(Number::significant(x, digits).to_string(), text);
+        }
+    }
+
+    #[test]
+    fn counts_decimals_and_sizes() {
+        assert_eq!(Number::count(12.0).to_string(), "12");
+        assert_eq!(Number::count(0.0).in_words(), "0");
+        assert_eq!(Number::count(0.25).to_string(), "0.25");
+        assert_eq!(Number::decimals(-1e-17, 3).to_string(), "0.000");
+        assert_eq!(Number::decimals(1e-17, 3).in_words(), "0.000");
+        assert_eq!(format!("{:#}", Number::size(2e-3, 0)), "0.002");
+        assert_eq!(format!("{:#}", Number::size(2e-5, 0)), "2×10⁻⁵");
+    }
+}
