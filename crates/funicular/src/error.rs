@@ -1,6 +1,7 @@
 //! What can go wrong.
 
 use validate::answer::SolverFailure;
+use validate::systems::SystemFailure;
 
 use crate::threads::MOST_THREADS;
 
@@ -44,6 +45,15 @@ pub enum Error {
         /// The reasons, one of each solver.
         failures: Vec<SolverFailure>,
     },
+    /// Occurs when every solver that was asked about a system gave up.
+    #[error("{}", system_reasons(failures))]
+    UnsolvedSystem {
+        /// The reasons, one of each solver.
+        failures: Vec<SystemFailure>,
+    },
+    /// Occurs when a system is no equilibrium problem: a part falls, lengths cannot close a loop.
+    #[error(transparent)]
+    SystemRefused(#[from] model::system::SystemRefusal),
     /// Occurs when `lagrange`, asked alone, has no answer.
     #[error(transparent)]
     Lagrange(#[from] lagrange::SolveError),
@@ -81,5 +91,9 @@ impl Error {
 }
 
 fn reasons(failures: &[SolverFailure]) -> String {
+    failures.iter().map(ToString::to_string).collect::<Vec<_>>().join("; ")
+}
+
+fn system_reasons(failures: &[SystemFailure]) -> String {
     failures.iter().map(ToString::to_string).collect::<Vec<_>>().join("; ")
 }

@@ -25,6 +25,7 @@
 //! | to do | with |
 //! |---|---|
 //! | the hanging equilibrium, by both solvers, judged and proved | [`Solve`] |
+//! | the same of any system of bars, cables and struts, elastic or not | [`Solve::run_system`] |
 //! | every equilibrium, stable or not, and the proof that there is no other | [`Census`] |
 //!
 //! Each is a builder: `new`, what differs from the defaults, `run`. The program `funicular` does nothing but read its
@@ -37,10 +38,12 @@
 
 pub mod census;
 mod error;
+pub mod picture;
 mod problem;
 mod solve;
 #[cfg(feature = "sweep")]
 pub mod starts;
+mod system;
 mod threads;
 
 pub mod prelude;
@@ -49,4 +52,5 @@ pub use self::census::{Census, CensusAnswer};
 pub use error::Error;
 pub use problem::{Problem, case};
 pub use solve::{Failure, SCHEMA_VERSION, Solve, SolveAnswer};
+pub use system::SystemSolution;
 pub use threads::MOST_THREADS;

@@ -9,6 +9,7 @@ use serde::Serialize;
 use serde_json::Value;
 use validate::Agreement;
 use validate::answer::{Answer, Equations, Question, SolverFailure, Solvers, UseCensus, ask};
+use validate::systems::SystemFailure;
 
 use crate::error::Error;
 use crate::problem::Problem;
@@ -114,6 +115,14 @@ impl Solve {
             let one = |problem| self.one(problem, NonZeroUsize::MIN, &|_| {});
             problems.par_iter().map(one).collect()
         })
+    }
+
+    pub(crate) fn threads_asked(&self) -> usize {
+        self.threads
+    }
+
+    pub(crate) fn solvers_asked(&self) -> Solvers {
+        self.solvers
     }
 
     fn one(
@@ -271,6 +280,12 @@ impl Failure {
     /// As JSON has it.
     #[must_use]
     pub fn of(failure: &SolverFailure) -> Self {
+        Self { solver: failure.solver(), reason: failure.to_string() }
+    }
+
+    /// The same for a system.
+    #[must_use]
+    pub fn of_system(failure: &SystemFailure) -> Self {
         Self { solver: failure.solver(), reason: failure.to_string() }
     }
 }

@@ -4,7 +4,7 @@ use std::cmp::Ordering;
 use std::fmt::Write as _;
 
 use funicular::SolveAnswer;
-use model::Equilibrium;
+use model::{Equilibrium, Evidence, SolverName};
 use validate::Agreement;
 
 use crate::tables::{
@@ -26,7 +26,7 @@ pub fn answer(answer: &SolveAnswer, summary: bool) -> String {
     if !summary && let Some(first) = equilibria.first() {
         text += &shape(first, system.bars);
     }
-    text += &ladder(equilibria);
+    text += &ladder(equilibria.iter().map(|e| (&e.solver, &e.evidence)));
     for failure in answer.failures() {
         // Writing to a String cannot fail.
         let _ = writeln!(text, "No answer of {failure}");
@@ -111,12 +111,12 @@ fn shape(e: &Equilibrium, bars: usize) -> String {
 }
 
 /// How far each equilibrium is proved, rung by rung.
-fn ladder(equilibria: &[Equilibrium]) -> String {
+pub fn ladder<'a>(answers: impl Iterator<Item = (&'a SolverName, &'a Evidence)>) -> String {
     let mut text = String::new();
-    for e in equilibria {
+    for (solver, evidence) in answers {
         // Writing to a String cannot fail.
-        let _ = writeln!(text, "Evidence for the answer of {}: {}", e.solver, rung(&e.evidence));
-        for s in e.evidence.ladder.statements() {
+        let _ = writeln!(text, "Evidence for the answer of {solver}: {}", rung(evidence));
+        for s in evidence.ladder.statements() {
             let mark = if s.reached { "+" } else { "-" };
             let line = format!("  {mark} {:<10} {}", s.rung.to_string(), s.how);
             text += &wrapped(&line, LADDER_INDENT);

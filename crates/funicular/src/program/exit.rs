@@ -71,6 +71,7 @@ impl Failure {
                 Self::bad_input(miette!(help = help, "{error}"))
             }
             Error::Unsolved { .. }
+            | Error::UnsolvedSystem { .. }
             | Error::Lagrange(_)
             | Error::Condensed(_)
             | Error::Energy(_) => Self::undecided(miette!("{error}")),

@@ -18,6 +18,7 @@ mod progress;
 mod reproduce;
 mod solve;
 mod sweep;
+mod system;
 mod tables;
 mod threads;
 mod trace;

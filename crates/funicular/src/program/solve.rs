@@ -3,8 +3,11 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-use funicular::SolveAnswer;
+use funicular::{SolveAnswer, SystemSolution, picture};
+use miette::miette;
+use validate::Agreement;
 use validate::answer::{Equations, Solvers};
+use validate::systems::SystemAgreement;
 
 use crate::answer;
 use crate::exit::{Exit, Failure};
@@ -12,13 +15,14 @@ use crate::input::{self, Input};
 use crate::interrupt::end_on_interrupt;
 use crate::output;
 use crate::progress::Progress;
+use crate::system;
 use crate::threads;
 use crate::which::Which;
 
 /// `funicular solve`.
 #[derive(Debug, Args)]
 pub struct Solve {
-    /// The system file (TOML); see `funicular cases three-equal-bars` for one
+    /// The system file (TOML or JSON, - for standard input); see `funicular cases three-equal-bars` for one
     #[arg(value_name = "FILE", required_unless_present = "case")]
     pub file: Option<PathBuf>,
     /// Solve a named case instead of a file
@@ -36,9 +40,18 @@ pub struct Solve {
     /// Leave out the arrays over joints and bars
     #[arg(long)]
     pub summary: bool,
-    /// Write joints and forces, a line per joint, to this CSV file
+    /// Write joints and forces, a line per joint, to this CSV file: solver, joint, place in m, and for a chain the
+    /// force on the bar before the joint and the axial force of that bar in N, for another system the force of
+    /// the ground on the joint in N
     #[arg(long, value_name = "FILE")]
     pub csv: Option<PathBuf>,
+    /// Write the bars of a system of bars, a line per bar, to this CSV file: solver, bar, its joints, axial force and
+    /// the forces on it at both joints in N
+    #[arg(long, value_name = "FILE")]
+    pub bars_csv: Option<PathBuf>,
+    /// Draw the system to scale with loads, reactions and axial forces into this SVG file
+    #[arg(long, value_name = "FILE")]
+    pub svg: Option<PathBuf>,
 }
 
 /// Which of the systems of equations `lagrange` solves.
@@ -61,30 +74,85 @@ pub fn run(arguments: &Solve) -> Result<Exit, Failure> {
     progress.say("reading");
     let Input { problem, files } =
         input::problem(arguments.file.as_deref(), arguments.case.as_deref())?;
-    output::check(arguments.csv.as_deref(), &files)?;
+    let outputs = [&arguments.csv, &arguments.bars_csv, &arguments.svg];
+    output::check(outputs.into_iter().flatten().map(PathBuf::as_path), &files)?;
     let solve =
         funicular::Solve::new().solvers(arguments.solver.into()).equations(arguments.system.into());
-    let answer = solve.run_watched(&problem, &|what| progress.say(what))?;
+    match problem.as_system() {
+        Some(system) => {
+            let answer = solve.run_system_watched(system, &|what| progress.say(what))?;
+            system_answer(arguments, &answer, progress)
+        }
+        None => {
+            let answer = solve.run_watched(&problem, &|what| progress.say(what))?;
+            chain_answer(arguments, &problem, &answer, progress)
+        }
+    }
+}
+
+fn chain_answer(
+    arguments: &Solve,
+    problem: &funicular::Problem,
+    answer: &SolveAnswer,
+    progress: Progress,
+) -> Result<Exit, Failure> {
+    if arguments.bars_csv.is_some() {
+        return Err(Failure::bad_input(miette!(
+            "--bars-csv is for systems of bars by name; --csv has the bars of a chain"
+        )));
+    }
     if let Some(path) = &arguments.csv {
         progress.say(&format!("writing {}", path.display()));
         output::write_stream(path, |file| answer.write_csv(file))?;
+    }
+    if let (Some(path), Some(chain), [first, ..]) =
+        (&arguments.svg, problem.as_chain(), answer.equilibria())
+    {
+        let drawn = picture::of_chain(chain.chain(), first);
+        output::write_whole(path, &drawn.map_err(|error| Failure::undecided(miette!("{error}")))?)?;
     }
     drop(progress);
     if arguments.json && arguments.summary {
         output::print_json(&answer.summary().map_err(|error| output::no_json(&error))?)?;
     } else if arguments.json {
-        output::print_json(&answer)?;
+        output::print_json(answer)?;
     } else {
-        output::print(&answer::answer(&answer, arguments.summary))?;
+        output::print(&answer::answer(answer, arguments.summary))?;
     }
-    Ok(verdict(&answer))
+    Ok(verdict(answer.agreement().map(Agreement::agrees), answer.failures().is_empty()))
+}
+
+fn system_answer(
+    arguments: &Solve,
+    answer: &SystemSolution,
+    progress: Progress,
+) -> Result<Exit, Failure> {
+    if let Some(path) = &arguments.csv {
+        output::write_stream(path, |file| answer.write_joints_csv(file))?;
+    }
+    if let Some(path) = &arguments.bars_csv {
+        output::write_stream(path, |file| answer.write_bars_csv(file))?;
+    }
+    if let (Some(path), [first, ..]) = (&arguments.svg, answer.equilibria()) {
+        let drawn = picture::of_system(answer.system(), first);
+        output::write_whole(path, &drawn.map_err(|error| Failure::undecided(miette!("{error}")))?)?;
+    }
+    drop(progress);
+    if arguments.json && arguments.summary {
+        output::print_json(&answer.summary())?;
+    } else if arguments.json {
+        output::print_json(answer)?;
+    } else {
+        output::print(&system::answer(answer, arguments.summary))?;
+    }
+    Ok(verdict(answer.agreement().map(SystemAgreement::agrees), answer.failures().is_empty()))
 }
 
 /// A solver that has no answer leaves the question undecided, whatever the other found.
-fn verdict(answer: &SolveAnswer) -> Exit {
-    if answer.agreement().is_some_and(|agreement| !agreement.agrees()) {
+fn verdict(agreed: Option<bool>, complete: bool) -> Exit {
+    if agreed == Some(false) {
         Exit::CheckFailed
-    } else if answer.failures().is_empty() {
+    } else if complete {
         Exit::Done
     } else {
         Exit::Undecided

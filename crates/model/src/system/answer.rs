@@ -30,7 +30,7 @@ pub struct SystemEquilibrium {
 }
 
 /// Second-order behaviour of an equilibrium of a system among all motions.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
 pub struct SystemStability {
     /// Whether the energy falls in some direction.
     pub in_space: InSpace,

@@ -1,12 +1,14 @@
 //! The judge of systems of bars: answers held against each other, against Newton's laws and the laws of the
 //! members, and against a proof that no configuration has less energy; from the observables alone.
 
+mod ask;
 mod certificate;
 mod compare;
 mod statics;
 #[cfg(test)]
 mod tests;
 
+pub use ask::{SystemAnswer, SystemFailure, ask};
 pub use certificate::certify;
 pub use compare::{SystemAgreement, compare, judge_alone};
 pub use statics::{SystemStatics, judge};

@@ -1,0 +1,116 @@
+//! One question to both solvers about a system: their answers compared, judged and certified.
+
+use model::system::{System, SystemEquilibrium};
+use model::{NoAnswer, Reason, SolverName, Status};
+
+use super::compare::{SystemAgreement, compare, judge_alone};
+use crate::answer::Solvers;
+use crate::tolerances::Tolerances;
+
+/// Both answers for a system with what is known of them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SystemAnswer {
+    /// One for each solver that has an answer, with its evidence: `lagrange` first.
+    pub equilibria: Vec<SystemEquilibrium>,
+    /// Why the other solvers that were asked have none.
+    pub failures: Vec<SystemFailure>,
+    /// The comparison, if there are two to compare.
+    pub agreement: Option<SystemAgreement>,
+}
+
+/// Why a solver has no answer for a system.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum SystemFailure {
+    /// Occurs when `lagrange` has no answer.
+    #[error("lagrange: {0}")]
+    Lagrange(#[from] lagrange::network::Error),
+    /// Occurs when `energy` has no answer.
+    #[error("energy: {0}")]
+    Energy(#[from] energy::network::Error),
+}
+
+impl SystemFailure {
+    /// The solver that has no answer.
+    #[must_use]
+    pub fn solver(&self) -> SolverName {
+        match self {
+            Self::Lagrange(_) => SolverName::LAGRANGE,
+            Self::Energy(_) => SolverName::ENERGY,
+        }
+    }
+}
+
+impl SystemAnswer {
+    /// The answer of one solver, if it has one.
+    #[must_use]
+    pub fn by(&self, solver: &SolverName) -> Option<&SystemEquilibrium> {
+        self.equilibria.iter().find(|equilibrium| equilibrium.solver == *solver)
+    }
+
+    /// Whether both solvers answered and agree, and the judge finds both in balance.
+    #[must_use]
+    pub fn agrees(&self) -> bool {
+        self.agreement.as_ref().is_some_and(SystemAgreement::agrees)
+    }
+}
+
+/// Ask. `watch` is told what is being done.
+///
+/// A solver that has no answer does not take the other's away: see [`SystemAnswer::failures`].
+///
+/// ```
+/// use validate::{answer::Solvers, systems::ask};
+/// // The paper's chain as a system of joints and members: its hanging shape has V = 2.33546865 mgl above
+/// // three lengths below joint 0, 2.33546865 - 6 from joint 0 itself.
+/// let chain = model::cases::paper().into_chain();
+/// let answer = ask(&(&chain).into(), Solvers::Both, &|_| {});
+/// let energy_mgl = answer.equilibria[0].energy_j / chain.gravity_m_s2();
+/// assert!(answer.agrees() && (energy_mgl + 6.0 - 2.335_468_652).abs() < 1e-9);
+/// ```
+#[must_use]
+pub fn ask(system: &System, solvers: Solvers, watch: &dyn Fn(&str)) -> SystemAnswer {
+    let members = system.members().len();
+    let mut answers: Vec<Result<SystemEquilibrium, SystemFailure>> = vec![];
+    if solvers != Solvers::Energy {
+        watch(&format!("lagrange: forces and closures of {members} members"));
+        let found = lagrange::network::solve(system, &lagrange::network::Settings::default());
+        answers.push(found.map(|found| found.equilibrium).map_err(Into::into));
+    }
+    if solvers != Solvers::Lagrange {
+        watch(&format!("energy: minimisation over the places of {} joints", system.joints().len()));
+        let found = energy::network::minimise(system, &energy::network::Settings::default());
+        answers.push(found.map(|found| found.equilibrium).map_err(Into::into));
+    }
+    watch("the judges");
+    let (mut equilibria, mut failures) = (vec![], vec![]);
+    for answer in answers {
+        match answer {
+            Ok(equilibrium) => equilibria.push(equilibrium),
+            Err(failure) => failures.push(failure),
+        }
+    }
+    let agreement = judged(system, &mut equilibria, &failures);
+    SystemAnswer { equilibria, failures, agreement }
+}
+
+/// Answers are compared; a single one is only judged by Newton's laws.
+fn judged(
+    system: &System,
+    equilibria: &mut [SystemEquilibrium],
+    failures: &[SystemFailure],
+) -> Option<SystemAgreement> {
+    match equilibria {
+        [] => None,
+        [answer] => {
+            let statics = judge_alone(system, answer).largest();
+            if let Some(failure) = failures.first() {
+                let (solver, because) = (failure.solver(), NoAnswer::Refused);
+                let reason = Reason::OtherSolverWithoutAnswer { solver, because, statics };
+                answer.evidence.ladder.agreed = Status::Open(reason);
+            }
+            None
+        }
+        several => Some(compare(system, several, &Tolerances::project())),
+    }
+}
