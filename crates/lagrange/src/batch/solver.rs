@@ -9,7 +9,15 @@ use model::Problem;
 use super::kernel::{Common, MOST_STEPS, State, step};
 use super::lanes::{LANES, Lanes};
 use super::numbers::{Bar, Numbers};
+use super::signs::Signs;
 use crate::settings::SettingsError;
+
+/// Passes over the bars that a solve by signs may take for each Newton step that was allowed before:
+/// none of the chains tried took more than the 1,000 of the default.
+const PASSES_PER_STEP: usize = 2;
+/// Part of the tolerance to which a solve by signs closes: the largest component and the rounding of
+/// the directions stay below the whole.
+const CLOSURE: f64 = 0.5;
 
 /// What can be chosen.
 ///
@@ -23,7 +31,8 @@ pub struct BatchSettings {
     /// largest force times the mean length, closure in units of the total length. Default 1e-13,
     /// from 1e-15 to 1e-3.
     pub tolerance: f64,
-    /// Newton steps after which a seed is given up. Default 1000, from 1 to 60,000.
+    /// Newton steps after which a seed is solved by the signs of its bars, which may take twice as many
+    /// passes over the bars. Default 1000, from 1 to 60,000.
     pub max_iterations: u32,
 }
 
@@ -95,7 +104,7 @@ pub enum Finish {
 pub struct Ends {
     /// How.
     pub finish: Vec<Finish>,
-    /// Newton steps spent.
+    /// Newton steps spent, and passes over the bars by which signs were solved for.
     pub iterations: Vec<u16>,
     /// The largest equation, in the units of [`BatchSettings::tolerance`].
     pub residual: Vec<f64>,
@@ -206,6 +215,32 @@ impl Batch {
             5 => self.unrolled::<5>(angles, ends),
             6 => self.unrolled::<6>(angles, ends),
             _ => self.run(&self.numbers.bars, &mut vec![State::ZERO; bars], angles, ends),
+        }
+        self.solve_by_signs(angles, ends);
+    }
+
+    /// Solve the seeds that the iteration has not brought to an end.
+    fn solve_by_signs(&self, angles: &[f64], ends: &mut Ends) {
+        let Numbers { bars, span, .. } = &self.numbers;
+        let n = bars.len();
+        let limit = PASSES_PER_STEP * self.settings.max_iterations as usize;
+        let mut signs = Signs::new(bars, *span, CLOSURE * self.settings.tolerance);
+        for seed in 0..ends.finish.len() {
+            if ends.finish[seed] != Finish::IterationLimit {
+                continue;
+            }
+            let directions = &mut ends.directions[seed * n..(seed + 1) * n];
+            let Some(root) = signs.solve(&angles[seed * n..(seed + 1) * n], limit, directions)
+            else {
+                continue;
+            };
+            ends.residual[seed] = self.numbers.largest(directions, root.pull);
+            ends.energy_j[seed] = self.numbers.energy_j(directions);
+            let spent = usize::from(ends.iterations[seed]) + root.passes;
+            ends.iterations[seed] = u16::try_from(spent).unwrap_or(u16::MAX);
+            if ends.residual[seed] <= self.settings.tolerance {
+                ends.finish[seed] = Finish::Converged;
+            }
         }
     }
 

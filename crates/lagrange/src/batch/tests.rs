@@ -187,6 +187,45 @@ fn all_random_seeds_of_the_paper_lead_to_its_four_equilibria() {
     assert_eq!((list.len(), failed), (4, 0));
 }
 
+/// Seeds of long chains, most of which Newton's method alone does not bring to an end: all lead to
+/// equilibria, by the paper's own equations, and to many different ones.
+#[test]
+fn seeds_of_long_chains_lead_to_equilibria() {
+    const SEEDS: usize = 100;
+    let mut rng = ChaCha8Rng::seed_from_u64(5);
+    for (bars, end_m, different) in [
+        (15, [0.0, 0.88, 0.0], 2),
+        (30, [0.0, 0.88, 0.0], 10),
+        (60, [0.0, 0.88, 0.0], 40),
+        (60, [0.0, 0.5, -0.3], 90),
+        (200, [0.0, 0.7, 0.1], 90),
+    ] {
+        let bar = Bar::homogeneous(1.0 / f64::from(bars), 1.0).unwrap();
+        let n = usize::try_from(bars).unwrap();
+        let anchors = Anchors { start_m: [0.0; 3], end_m };
+        let chain = Chain::new("long", 9.81, anchors, vec![bar; n]).unwrap();
+        let problem = Problem::new(chain).unwrap();
+        let batch = Batch::new(&problem, BatchSettings::default()).unwrap();
+        let angles: Vec<f64> = (0..SEEDS * n).map(|_| rng.random_range(0.0..TAU)).collect();
+        let mut ends = Ends::default();
+        batch.solve(&angles, &mut ends);
+        let converged = ends.finish.iter().filter(|finish| **finish == Finish::Converged).count();
+        assert_eq!(converged, SEEDS, "{bars} bars");
+        assert!(ends.residual.iter().all(|residual| *residual <= 1e-13), "{bars} bars");
+        let mut patterns: Vec<u64> = ends.energy_j.iter().map(|v| (v * 1e9).to_bits()).collect();
+        patterns.sort_unstable();
+        patterns.dedup_by_key(|bits| (f64::from_bits(*bits) / 10.0).round().to_bits());
+        assert!(patterns.len() >= different, "{bars} bars: {} energies", patterns.len());
+        // In space, three angles a bar, from where the batch ended: the solver stays.
+        let mut solver = Solver::new(&problem, &Settings::default()).unwrap();
+        for u in ends.directions.chunks(n).take(5) {
+            let directions: Vec<[f64; 3]> = u.iter().map(|u| [0.0, u[0], u[1]]).collect();
+            let found = solver.solve(&Seed::directions(&directions)).unwrap();
+            assert!(found.effort().iterations <= 4, "{:?}", found.effort());
+        }
+    }
+}
+
 #[test]
 fn a_seed_that_is_no_number_fails_alone() {
     let batch = Batch::new(&model::cases::paper(), BatchSettings::default()).unwrap();
