@@ -40,6 +40,17 @@ pub enum Error {
         /// The part of the load that no support resists, N.
         load_n: f64,
     },
+    /// Occurs when a joint moves on without end and the energy falls: only struts, which cannot
+    /// pull, connect it with the joints that are held.
+    #[error(
+        "joint {joint} moves on without end: it was {distance_m:.3e} m away when it was given up"
+    )]
+    Escapes {
+        /// Name of the joint.
+        joint: String,
+        /// Its last distance from the first supported joint, m.
+        distance_m: f64,
+    },
     /// Occurs when two held joints are further apart than the members between them reach.
     #[error(
         "{distance_m} m between {from} and {to}, and the members between them reach {reach_m} m"

@@ -29,6 +29,10 @@ const LARGEST_GROWTH: f64 = 1e6;
 const ROUNDS: usize = 60;
 /// Rounds without better lengths after which the members do not fit from here.
 const STUCK: usize = 5;
+/// Rounds on end without balance after which none is expected.
+const RESTLESS: usize = 5;
+/// A joint at this multiple of all lengths and supports together is on its way to infinity.
+const FAR: f64 = 1e3;
 /// Newton steps between two updates.
 const STEPS: usize = 100;
 /// Lengths right to this part: the final iteration takes over.
@@ -43,6 +47,8 @@ const HALVINGS: usize = 40;
 const SHIFT: f64 = 1e-3;
 const SHIFT_GROWTH: f64 = 8.0;
 const SHIFT_FALL: f64 = 0.25;
+/// The shift where none is needed: a joint that nothing holds in some direction follows its load.
+const FLAT: f64 = 1e-6;
 /// Shifts tried; then the negative pivots are left out.
 const TRIES: usize = 20;
 
@@ -52,15 +58,23 @@ pub(super) struct Rest {
     pub factorisations: usize,
     /// Whether the lengths fit.
     pub fits: bool,
+    /// A joint that has left every bound, if there is one.
+    pub lost: Option<usize>,
 }
 
 /// Settle from a state.
 pub(super) fn settle(framework: &Framework, stiffness: &mut Stiffness, mut state: State) -> Rest {
     let mut penalty = Penalty::new(framework, &state);
     let (mut factorisations, mut best, mut since, mut fits) = (0, f64::INFINITY, 0, false);
+    let (mut lost, mut restless) = (None, 0);
     for _ in 0..ROUNDS {
         let (steps, balanced) = penalty.rest(framework, stiffness, &mut state);
         factorisations += steps;
+        lost = penalty.lost(&state.places);
+        restless = if balanced { 0 } else { restless + 1 };
+        if lost.is_some() || restless > RESTLESS {
+            break;
+        }
         let axial = penalty.forces(framework, &state.places);
         let misfit = penalty.misfit(framework, &axial);
         penalty.offsets = axial;
@@ -80,7 +94,7 @@ pub(super) fn settle(framework: &Framework, stiffness: &mut Stiffness, mut state
     state.axial = penalty.offsets;
     let links = framework.links.iter().zip(&state.axial);
     state.taut = links.map(|(link, axial)| link.kind == Kind::Bar || link.bears(*axial)).collect();
-    Rest { state, factorisations, fits }
+    Rest { state, factorisations, fits, lost }
 }
 
 struct Penalty {
@@ -88,6 +102,8 @@ struct Penalty {
     first: f64,
     mean: f64,
     offsets: Vec<f64>,
+    /// No joint of a system that hangs together gets further from the origin.
+    reach: f64,
 }
 
 impl Penalty {
@@ -97,7 +113,14 @@ impl Penalty {
         let mean = densities.sum::<f64>() / framework.links.len().max(1) as f64;
         let mean = if mean > 0.0 { mean } else { 1.0 };
         let offsets = state.axial.clone();
-        Self { rho: FIRST_PENALTY * mean, first: FIRST_PENALTY * mean, mean, offsets }
+        let bases = framework.nodes.iter().map(|node| node.base.amax()).fold(0.0, f64::max);
+        let lengths: f64 = framework.links.iter().map(|link| link.length).sum();
+        let reach = FAR * (bases + lengths);
+        Self { rho: FIRST_PENALTY * mean, first: FIRST_PENALTY * mean, mean, offsets, reach }
+    }
+
+    fn lost(&self, places: &[Vector3<f64>]) -> Option<usize> {
+        places.iter().position(|place| place.amax() > self.reach)
     }
 
     fn stiffness(&self, link: &Link) -> f64 {
@@ -159,6 +182,9 @@ impl Penalty {
                 return (factorisations, false);
             };
             state.places = places;
+            if self.lost(&state.places).is_some() {
+                break;
+            }
         }
         (factorisations, false)
     }
@@ -192,7 +218,7 @@ impl Penalty {
         first: f64,
     ) -> (usize, f64) {
         let least = SHIFT * self.mean;
-        let mut shift = if first < least { 0.0 } else { first };
+        let mut shift = if first < least { FLAT * self.mean } else { first };
         for tries in 1.. {
             self.assemble(framework, stiffness, state, directions);
             stiffness.shift(shift);

@@ -21,6 +21,9 @@ use super::stiffness::Stiffness;
 
 /// Changes of the set of taut members before the iteration counts as failed.
 const SIGN_CHANGES: usize = 30;
+/// Residual at which signs are looked at for the first time: far above rounding, so that a wrong
+/// one costs few steps, and far below the forces that are likely.
+const SIGNS_SEEN: f64 = 1e-6;
 /// A cable shorter than this part of its length is slack at the start.
 const SLACK_LENGTH: f64 = 1e-3;
 /// Tries to leave an unstable equilibrium, each by a small move of every joint.
@@ -106,15 +109,26 @@ impl<'a> Solver<'a> {
             max_iterations: self.settings.max_iterations.min(patience),
             ..self.settings
         };
+        let one_sided = self.framework.links.iter().any(|link| link.kind != Kind::Bar);
+        let mut tight = !one_sided;
         for _ in 0..SIGN_CHANGES {
+            let tolerance =
+                if tight { settings.tolerance } else { settings.tolerance.max(SIGNS_SEEN) };
+            let settings = Settings { tolerance, ..settings };
             let run = polish(&self.framework, &mut self.stiffness, &settings, state);
             self.factorisations += run.steps;
-            if run.residual.size().is_nan() || run.residual.size() > self.settings.tolerance {
+            if run.residual.size().is_nan() || run.residual.size() > tolerance {
                 let (system, framework) = (self.system, &self.framework);
                 return Err(run.residual.not_converged(system, framework, self.factorisations));
             }
-            let Some(next) = self.signs_mended(&run) else { return Ok(run) };
-            state = next;
+            state = match self.signs_mended(&run) {
+                Some(next) => next,
+                None if tight => return Ok(run),
+                None => {
+                    tight = true;
+                    run.state
+                }
+            };
         }
         let run = Run::at(&self.framework, state);
         Err(run.residual.not_converged(self.system, &self.framework, self.factorisations))
@@ -125,7 +139,8 @@ impl<'a> Solver<'a> {
     fn signs_mended(&self, run: &Run) -> Option<State> {
         let mut state = run.state.clone();
         let mut changed = false;
-        let least = NO_FORCE * run.residual.unit;
+        let least = NO_FORCE.max(run.residual.size()) * run.residual.unit;
+        let longer = self.settings.tolerance.max(run.residual.size());
         for (k, link) in self.framework.links.iter().enumerate() {
             if link.kind == Kind::Bar {
                 continue;
@@ -135,7 +150,7 @@ impl<'a> Solver<'a> {
             let outside = if link.kind == Kind::Cable { excess } else { -excess };
             if state.taut[k] && axial.abs() > least && !link.bears(axial) {
                 (state.taut[k], state.axial[k], changed) = (false, 0.0, true);
-            } else if !state.taut[k] && outside > self.settings.tolerance * link.length {
+            } else if !state.taut[k] && outside > longer * link.length {
                 (state.taut[k], changed) = (true, true);
             }
         }
@@ -157,6 +172,11 @@ impl<'a> Solver<'a> {
             }
             let rest = settle(&self.framework, &mut self.stiffness, state);
             self.factorisations += rest.factorisations;
+            if let Some(joint) = rest.lost {
+                let distance_m = rest.state.places[joint].norm() * self.framework.units.length_m;
+                let joint = self.system.joints()[joint].name.clone();
+                return Err(Error::Escapes { joint, distance_m });
+            }
             let fits = rest.fits;
             result = self.with_signs(rest.state, self.settings.max_iterations);
             if fits && result.is_ok() {

@@ -83,8 +83,8 @@ fn slack_and_just_taut_cables() {
     close(taut.equilibrium.axial_n[1], 6.0);
 }
 
-/// A bar from an anchor to a slider on a vertical line, and to one in a vertical plane: the bar of 2 m
-/// at 1 m from the anchor hangs at 30 degrees.
+/// A bar from an anchor to a slider on a vertical line, and to one in a vertical plane: the bar of
+/// 2 m at 1 m from the anchor hangs at 30 degrees.
 #[test]
 fn sliders() {
     let line = Support::Line { at_m: [1.0, 0.0, 7.0], direction: [0.0, 0.0, 1.0] };
@@ -101,7 +101,8 @@ fn sliders() {
     }
 }
 
-/// A point on three bars in one plane: one self-stress. With axial forces a, b, a under the weight 1,
+/// A point on three bars in one plane: one self-stress. With axial forces a, b, a under the weight
+/// 1,
 /// `sqrt 2 a + b = 1` and least `2 sqrt 2 a^2 + b^2` give `b = 2 a`, `a = 1/(2 + sqrt 2)`.
 #[test]
 fn indeterminate_forces() {
@@ -120,8 +121,8 @@ fn indeterminate_forces() {
     close(solution.equilibrium.axial_n[1], 2.0 * least);
 }
 
-/// Constant forces at points of a member act by the lever rule: a bar between two anchors' cables with
-/// a load at a quarter pulls the nearer one three times as hard.
+/// Constant forces at points of a member act by the lever rule: a bar between two anchors' cables
+/// with a load at a quarter pulls the nearer one three times as hard.
 #[test]
 fn load_at_a_quarter() {
     let load = PointLoad { at_m: 0.5, force_n: [0.0, 0.0, -8.0] };
@@ -168,9 +169,9 @@ fn members_between_anchors() {
     near(hang(&held).equilibrium.reactions_n[1], [0.0, 0.0, 2.0]);
 }
 
-/// A strut that is given shorter than the place it has bears nothing; one that is longer pushes. Two
-/// cables of 5 m from anchors 6 m apart to the ends of a spreader: with 2 m between the ends the
-/// cables would have to end 2 m apart.
+/// A strut that is given shorter than the place it has bears nothing; one that is longer pushes.
+/// Two cables of 5 m from anchors 6 m apart to the ends of a spreader: with 2 m between the ends
+/// the cables would have to end 2 m apart.
 #[test]
 fn spreader() {
     let joints = vec![
@@ -194,8 +195,8 @@ fn spreader() {
     close(pushing.equilibrium.axial_n[2], -3.0);
 }
 
-/// A massless bar below a lamp and a cable without load: neither has a force, and both are said to be
-/// limp; the lamp hangs as without them.
+/// A massless bar below a lamp and a cable without load: neither has a force, and both are said to
+/// be limp; the lamp hangs as without them.
 #[test]
 fn limp_members() {
     let joints = vec![
