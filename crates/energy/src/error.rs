@@ -51,23 +51,30 @@ pub enum Error {
         iterations: usize,
     },
     /// Occurs when the iterations are used up.
-    #[error("not converged after {iterations} iterations: projected gradient {gradient:e}")]
+    #[error("not converged after {iterations} iterations: projected gradient {gradient:.1e}")]
     IterationLimit {
         /// Iterations made.
         iterations: u64,
         /// Projected gradient reached, in the unit of its tolerance.
         gradient: f64,
     },
-    /// Occurs when no step lowers the energy and the gradient is still above its tolerance.
+    /// Occurs when no step lowers the energy any further, and the place is not a minimum to the
+    /// tolerances: the projected gradient or the closure is above its tolerance, or the energy falls in
+    /// some directions by less than its rounding, so that a saddle cannot be told from a minimum.
     #[error(
         "no step lowers the energy any further after {iterations} iterations: projected gradient \
-         {gradient:e}"
+         {gradient:.1e}, closure {gap:.1e} of the total length, negative curvature in {directions} \
+         directions"
     )]
     Stalled {
         /// Iterations made.
         iterations: u64,
         /// Projected gradient reached, in the unit of its tolerance.
         gradient: f64,
+        /// Distance of the last joint from the end anchor, in units of the total length.
+        gap: f64,
+        /// Directions in which the second derivative is negative.
+        directions: usize,
     },
     /// Occurs when all bars lie on one line as far as double precision tells, and the anchors do not: a chain folded
     /// to a fraction of 1e-7 of its length, whose least energy hangs on angles that are lost.

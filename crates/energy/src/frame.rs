@@ -68,6 +68,16 @@ impl Frame {
         [[across, 0.0, up], [0.0; 3]]
     }
 
+    /// Whether the first axis is the line of the anchors.
+    pub(crate) fn along_span(&self) -> bool {
+        self.drawn_out
+    }
+
+    /// The frame with these axes, given in this one.
+    pub(crate) fn turned(&self, axes: [Vector; 3]) -> Self {
+        Self { axis: axes.map(|axis| self.into_world(axis)), ..*self }
+    }
+
     /// World to frame.
     pub(crate) fn into_frame(self, v: Vector) -> Vector {
         self.axis.map(|axis| dot(axis, v))

@@ -60,6 +60,7 @@
 mod bend;
 mod closure;
 mod coarse;
+mod convergence;
 mod curvature;
 mod error;
 mod folded;
@@ -70,6 +71,7 @@ mod objective;
 mod plane;
 mod potential;
 mod reaction;
+mod refine;
 mod regime;
 mod seed;
 mod settings;

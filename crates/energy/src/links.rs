@@ -43,6 +43,25 @@ pub(crate) struct Units {
     /// Unit of force: the total weight, N.
     pub(crate) weight_n: f64,
     pub(crate) frame: Frame,
+    /// From where the weights are counted, if not from the middle.
+    pub(crate) origin: Option<Origin>,
+}
+
+/// A bar from which the weights are counted: its own `h` is zero.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Origin {
+    /// Its index, from 0.
+    pub(crate) bar: usize,
+    /// What it carries less one half, in units of the total weight.
+    pub(crate) carried: f64,
+}
+
+impl Units {
+    /// What to add to the energy `sum l_i h_i up . u_i` of a closed chain to measure it from the
+    /// height of joint 0 rather than from half way between the anchors (or from where the origin has it).
+    pub(crate) fn datum(&self, links: &Links) -> f64 {
+        (0.5 + self.origin.map_or(0.0, |origin| origin.carried)) * dot(links.up, links.span[0])
+    }
 }
 
 impl Links {
@@ -78,7 +97,10 @@ impl Links {
         // Zero by the choice of the frame; rounding must not push a plane chain out of its plane.
         up[1] = 0.0;
         let vertical = chain.anchors_on_one_vertical();
-        (Self { length, hang, span, up, vertical, motion }, Units { length_m, weight_n, frame })
+        (
+            Self { length, hang, span, up, vertical, motion },
+            Units { length_m, weight_n, frame, origin: None },
+        )
     }
 
     /// Number of bars.
@@ -111,11 +133,5 @@ impl Links {
     /// Gradient of the Lagrangian by the direction of bar `i`, over its length: `h_i up + mu`.
     pub(crate) fn load(&self, i: usize, multiplier: Vector) -> Vector {
         along(multiplier, self.hang[i], self.up)
-    }
-
-    /// What to add to the energy `sum l_i h_i up . u_i` of a closed chain to measure it from the
-    /// height of joint 0 rather than from half way between the anchors.
-    pub(crate) fn datum(&self) -> f64 {
-        0.5 * dot(self.up, self.span[0])
     }
 }

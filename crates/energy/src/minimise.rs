@@ -9,13 +9,14 @@ use model::{Problem, Vector};
 use crate::closure::Shape;
 use crate::curvature::Curvature;
 use crate::error::Error;
-use crate::links::Links;
+use crate::links::{Links, Units};
 use crate::objective::Objective;
+use crate::refine::{Refinement, refine};
 use crate::seed::Seed;
 use crate::settings::Settings;
 use crate::slope::Slope;
 use crate::solution::Solution;
-use crate::solver::{FeasibleNewton, Iterate};
+use crate::solver::{FeasibleNewton, Run};
 use crate::vector::norm;
 
 /// Corrections of the closure from a seed, which may be anywhere.
@@ -53,8 +54,8 @@ pub fn minimise(problem: &Problem, settings: &Settings) -> Result<Solution, Erro
     let clock = Instant::now();
     let (links, units) = Links::new(problem, settings.motion);
     let start = first_guess(&links, settings)?;
-    let minimum = descend(links, start, settings)?;
-    Ok(Solution::new(problem, &units, minimum, settings, clock))
+    let minimum = descend_to_line(links, start, settings)?;
+    answer(problem, units, minimum, settings, clock)
 }
 
 /// Find the local minimum below a seed.
@@ -74,8 +75,32 @@ pub fn minimise_from(
     let clock = Instant::now();
     let (links, units) = Links::new(problem, settings.motion);
     let start = seed.in_frame(&links, &units)?;
-    let minimum = descend(links, start, settings)?;
-    Ok(Solution::new(problem, &units, minimum, settings, clock))
+    let minimum = descend_to_line(links, start, settings)?;
+    answer(problem, units, minimum, settings, clock)
+}
+
+/// The answer of a run, with more digits where some bars need them.
+fn answer(
+    problem: &Problem,
+    units: Units,
+    minimum: Minimum,
+    settings: &Settings,
+    clock: Instant,
+) -> Result<Solution, Error> {
+    match refine(problem, &units, &minimum) {
+        Refinement::Refined(refined, turn) => {
+            let (minimum, units) = *refined;
+            Ok(Solution::new(problem, &units, minimum, Some(turn), settings, clock))
+        }
+        Refinement::Failed(turn) => {
+            let minimum = minimum.settled()?;
+            Ok(Solution::new(problem, &units, minimum, Some(turn), settings, clock))
+        }
+        Refinement::NotNeeded => {
+            let minimum = minimum.settled()?;
+            Ok(Solution::new(problem, &units, minimum, None, settings, clock))
+        }
+    }
 }
 
 /// What a run of the minimiser ends with.
@@ -87,9 +112,21 @@ pub(crate) struct Minimum {
     pub(crate) iterations: u64,
     /// Calls of energy, gradient and Hessian, as argmin counts them.
     pub(crate) evaluations: u64,
+    /// Why it is not known to be a minimum, if it is not.
+    pub(crate) unsettled: Option<Error>,
 }
 
 impl Minimum {
+    /// An error if it is not known to be a minimum, or if all bars lie on one line and what decides
+    /// between such positions is lost.
+    fn settled(self) -> Result<Self, Error> {
+        match (self.unsettled, self.slope.lost(&self.links)) {
+            (Some(error), _) => Err(error),
+            (None, Some(across)) => Err(Error::NearlyFolded { across }),
+            (None, None) => Ok(Self { unsettled: None, ..self }),
+        }
+    }
+
     /// The second derivative at the minimum.
     pub(crate) fn curvature(&self) -> Curvature {
         Curvature {
@@ -132,6 +169,15 @@ pub(crate) fn descend(
     start: Vec<Vector>,
     settings: &Settings,
 ) -> Result<Minimum, Error> {
+    descend_to_line(links, start, settings)?.settled()
+}
+
+/// The same; all bars may end on one line.
+fn descend_to_line(
+    links: Links,
+    start: Vec<Vector>,
+    settings: &Settings,
+) -> Result<Minimum, Error> {
     let links = Arc::new(links);
     let start = links.unfolded(start);
     let moments = links.measure(&start);
@@ -140,7 +186,7 @@ pub(crate) fn descend(
         .map_err(|(gap, iterations)| Error::NotClosed { gap: gap / links.total(), iterations })?;
     let state =
         Executor::new(Objective { links: Arc::clone(&links) }, FeasibleNewton::new(*settings))
-            .configure(|state: Iterate| {
+            .configure(|state: Run| {
                 state.param(Arc::new(closed)).max_iters(settings.max_iterations)
             })
             .ctrlc(false)
@@ -148,13 +194,10 @@ pub(crate) fn descend(
             .run()
             .map_err(ended)?;
     let evaluations = state.problem.counts.values().sum();
-    let mut state = state.state;
+    let (mut state, unsettled) = (state.state, state.solver.unsettled);
     outcome(&state)?;
     match (state.take_param(), state.take_gradient()) {
         (Some(shape), Some(slope)) => {
-            if let Some(across) = slope.lost(&links) {
-                return Err(Error::NearlyFolded { across });
-            }
             let gap = norm(shape.moments.gap);
             if gap > OPEN_PART * links.spare() {
                 return Err(Error::NotClosed {
@@ -162,7 +205,14 @@ pub(crate) fn descend(
                     iterations: SEED_CORRECTIONS,
                 });
             }
-            Ok(Minimum { links, shape, slope, iterations: state.get_iter(), evaluations })
+            Ok(Minimum {
+                links,
+                shape,
+                slope,
+                iterations: state.get_iter(),
+                evaluations,
+                unsettled,
+            })
         }
         _ => Err(Error::NotFinite { quantity: "last iterate" }),
     }
@@ -174,7 +224,7 @@ pub(crate) fn ended(error: argmin::core::Error) -> Error {
 }
 
 /// argmin's reasons, all of them: only one of them is a success, whatever `Ok` it came in.
-fn outcome(state: &Iterate) -> Result<(), Error> {
+fn outcome(state: &Run) -> Result<(), Error> {
     let iterations = state.get_iter();
     let gradient = state.get_gradient().map_or(f64::NAN, |slope| slope.residual());
     verdict(state.get_termination_status(), iterations, gradient)

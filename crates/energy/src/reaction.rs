@@ -24,12 +24,24 @@ use crate::vector::{Sum, along, norm, scaled};
 /// At *k* = *n* this is the reaction `dV*/dD` of the end anchor; entry 0 is the force of the ground
 /// on the first bar, which carries what the end does not.
 pub(crate) fn joint_forces(problem: &Problem, units: &Units, slope: &Slope) -> Vec<Vector> {
-    let chain = problem.chain();
-    let bars = chain.bars();
-    let mass_kg = chain.total_mass_kg();
-    // The multiplier of the shifted energy (see `Links`) is mu + up / 2, in units of the weight:
-    // half the weight before the cut, less half the weight after it, is what remains to be added.
     let mu = units.frame.into_world(slope.multiplier);
+    let lift = match units.origin {
+        Some(origin) => lift_from(problem, origin.bar),
+        None => lift_from_middle(problem),
+    };
+    let mut forces: Vec<Vector> = lift
+        .iter()
+        .map(|&w| scaled(units.weight_n, along(scaled(-1.0, mu), w, WORLD_UP)))
+        .collect();
+    forces[0] = scaled(units.weight_n, along(mu, -lift[0], WORLD_UP));
+    forces
+}
+
+/// What to add to minus the multiplier at each joint, in units of the weight: the multiplier of the
+/// shifted energy (see `Links`) is mu + up / 2, so half the weight before the cut, less half the weight
+/// after it.
+fn lift_from_middle(problem: &Problem) -> Vec<f64> {
+    let (bars, mass_kg) = (problem.chain().bars(), problem.chain().total_mass_kg());
     let mut lift = vec![0.0; bars.len() + 1];
     let mut before = Sum::default();
     for (k, bar) in bars.iter().enumerate() {
@@ -41,12 +53,30 @@ pub(crate) fn joint_forces(problem: &Problem, units: &Units, slope: &Slope) -> V
         lift[k + 1] -= 0.5 * after.value();
         after.add(bar.mass_kg() / mass_kg);
     }
-    let mut forces: Vec<Vector> = lift
-        .iter()
-        .map(|&w| scaled(units.weight_n, along(scaled(-1.0, mu), w, WORLD_UP)))
-        .collect();
-    forces[0] = scaled(units.weight_n, along(mu, 0.5, WORLD_UP));
-    forces
+    lift[0] = -0.5;
+    lift
+}
+
+/// The same where the weights are counted from a bar: what of them is between it and the joint.
+fn lift_from(problem: &Problem, origin: usize) -> Vec<f64> {
+    let (bars, mass_kg) = (problem.chain().bars(), problem.chain().total_mass_kg());
+    let at_end = bars[origin].centre_m() / bars[origin].length_m();
+    let share = bars[origin].mass_kg() / mass_kg;
+    let mut lift = vec![0.0; bars.len() + 1];
+    let (before, after) = lift.split_at_mut(origin + 1);
+    let mut between = Sum::default();
+    between.add(share * at_end);
+    for (k, lift) in after.iter_mut().enumerate() {
+        *lift = between.value();
+        between.add(bars.get(origin + 1 + k).map_or(0.0, |bar| bar.mass_kg() / mass_kg));
+    }
+    let mut between = Sum::default();
+    between.add(share * (1.0 - at_end));
+    for (joint, lift) in before.iter_mut().enumerate().rev() {
+        *lift = -between.value();
+        between.add(joint.checked_sub(1).map_or(0.0, |bar| bars[bar].mass_kg() / mass_kg));
+    }
+    lift
 }
 
 /// The axial forces, N.
@@ -115,7 +145,7 @@ pub fn reaction_by_differences(
         let least_energy = |h: f64| -> Result<f64, Error> {
             let mut displaced = Links { motion, vertical: false, ..links.clone() };
             displaced.span[0][axis] += h;
-            let datum = displaced.datum();
+            let datum = units.datum(&displaced);
             let settings = Settings { motion, ..*settings };
             let minimum = descend(displaced, start.clone(), &settings)?;
             Ok(minimum.shape.moments.value + datum)

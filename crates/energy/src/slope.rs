@@ -7,6 +7,10 @@ use crate::links::Links;
 use crate::strands::{line, off_the_line, opening_multiplier};
 use crate::vector::{dot, norm, scaled, tangent};
 
+/// Eigenvalues above minus this, in units of the largest force, are zero: the rounding of the axial
+/// forces and of the sums behind the count.
+const ZERO_CURVATURE: f64 = 1e-10;
+
 /// The projected gradient and what comes with it.
 ///
 /// On the closed chains, with the metric `sum l_i |du_i|²`, the gradient of the energy has the parts
@@ -27,10 +31,14 @@ pub(crate) struct Slope {
     pub(crate) mean: f64,
     /// Smallest `N_i`.
     pub(crate) lowest: f64,
+    /// Smallest `|N_i|`.
+    pub(crate) softest: f64,
     /// Largest `|N_i|`.
     pub(crate) highest: f64,
     /// Largest `|h_i up + mu|`, at least one: the size of the forces that `t_i` is a difference of.
     pub(crate) pull: f64,
+    /// Curvatures below minus this are negative, those above it positive; in between they are zero.
+    pub(crate) zero: f64,
     /// The direction of the bars if all are on one straight line: the closure then leaves this part
     /// of the multiplier free, and the row of the closure along it is none.
     pub(crate) line: Option<Vector>,
@@ -48,10 +56,20 @@ impl Slope {
         Self { line, opened: opening.is_some(), ..slope }
     }
 
+    /// At a refined minimum: weights counted from the bar with the least load, so that small ones near it
+    /// say how small a curvature still says something.
+    pub(crate) fn refined(links: &Links, u: &[Vector], multiplier: Vector) -> Self {
+        let slope = Self::with_multiplier(links, u, multiplier);
+        let sizes = links.hang.iter().map(|h| h.abs()).filter(|h| *h > 0.0);
+        let near = sizes.fold(slope.pull, f64::min);
+        Self { zero: ZERO_CURVATURE * near, ..slope }
+    }
+
     fn with_multiplier(links: &Links, u: &[Vector], multiplier: Vector) -> Self {
         let mut axial = Vec::with_capacity(u.len());
         let (mut across, mut sum, mut pull) = (0.0_f64, 0.0, 1.0_f64);
         let (mut lowest, mut highest) = (f64::INFINITY, 0.0_f64);
+        let mut softest = f64::INFINITY;
         for (i, &u) in u.iter().enumerate() {
             let a = links.load(i, multiplier);
             let t = tangent(u, a);
@@ -62,6 +80,7 @@ impl Slope {
             pull = pull.max(dot(a, a));
             lowest = lowest.min(n);
             highest = highest.max(n.abs());
+            softest = softest.min(n.abs());
             axial.push(n);
         }
         Self {
@@ -71,8 +90,10 @@ impl Slope {
             across: if sum.is_finite() { across.sqrt() } else { f64::NAN },
             mean: f64::sqrt(sum),
             lowest,
+            softest,
             highest,
             pull: pull.sqrt(),
+            zero: ZERO_CURVATURE * pull.sqrt(),
             line: None,
             opened: false,
         }

@@ -10,7 +10,7 @@ use crate::links::Units;
 use crate::minimise::Minimum;
 use crate::reaction::{axial_forces, joint_forces, reactions};
 use crate::settings::Settings;
-use crate::solver::doubt;
+use crate::solver::force_uncertainty;
 use crate::stability::SecondOrder;
 use crate::vector::{VectorSum, scaled};
 
@@ -42,7 +42,14 @@ pub struct Work {
 const RESIDUAL_OF: &str =
     "projected gradient: largest force across a bar, over the largest force of the chain";
 
-/// Doubt of the forces, as a part of the largest, from which on the evidence speaks of it: what two solvers are
+/// What it means where bars that carry next to nothing are not known well enough.
+const TURN_LEFT: &str = "turn of a bar that the next step of Newton's method asks for, rad, where bars carry next to nothing";
+
+/// How well the direction of every bar is known where the answer counts as converged, rad: what two
+/// solvers are asked to agree to.
+const KNOWN_RAD: f64 = 1e-9;
+
+/// Uncertainty of the forces, as a part of the largest, above which the evidence speaks of it: what two solvers are
 /// asked to agree to.
 const WORTH_SAYING: f64 = 1e-9;
 
@@ -51,20 +58,28 @@ impl Solution {
         problem: &Problem,
         units: &Units,
         minimum: Minimum,
+        unknown_rad: Option<f64>,
         settings: &Settings,
         clock: Instant,
     ) -> Self {
         let second = SecondOrder::of(&minimum);
-        let Minimum { links, shape, slope, iterations, evaluations } = minimum;
+        let Minimum { links, shape, slope, iterations, evaluations, .. } = minimum;
         let directions: Vec<Vector> = shape.u.iter().map(|&u| units.frame.into_world(u)).collect();
         let multipliers_n = joint_forces(problem, units, &slope);
-        let energy = shape.moments.value + links.datum();
+        let energy = shape.moments.value + units.datum(&links);
 
         let residual = slope.residual();
         let iterations_usize = usize::try_from(iterations).unwrap_or(usize::MAX);
         let tolerance = settings.gradient_tolerance;
-        let mut evidence = Evidence::new(RESIDUAL_OF, residual, tolerance, iterations_usize);
-        let relative = doubt(&links, &shape, &slope);
+        let mut evidence = match unknown_rad.filter(|turn| *turn > KNOWN_RAD) {
+            Some(turn) => Evidence::new(TURN_LEFT, turn, KNOWN_RAD, iterations_usize),
+            None => Evidence::new(RESIDUAL_OF, residual, tolerance, iterations_usize),
+        };
+        // A refined minimum has its own digits.
+        let relative = match units.origin {
+            Some(_) => 0.0,
+            None => force_uncertainty(&links, &shape, &slope),
+        };
         if relative > WORTH_SAYING {
             let cause = UncertaintyCause::ParallelBars;
             evidence = evidence.with_force_uncertainty(ForceUncertainty { relative, cause });

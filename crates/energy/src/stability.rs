@@ -13,7 +13,6 @@ use crate::plane::Turn;
 use crate::seed::Seed;
 use crate::settings::Motion;
 use crate::slope::Slope;
-use crate::solver::ZERO_CURVATURE;
 
 /// Second-order behaviour, and how well it is decided.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -85,7 +84,7 @@ impl SecondOrder {
             }
         };
         let plane = in_plane(&space);
-        let zero = ZERO_CURVATURE * place.slope.pull;
+        let zero = place.slope.zero;
 
         let index_in_plane = plane.index(zero);
         let in_plane = if plane.index(-zero) + plane.undecided(-zero) > index_in_plane {

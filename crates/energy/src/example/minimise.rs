@@ -296,7 +296,13 @@ impl Solver<Example, Iterate> for CurveNewton {
                 return Ok((state.param(place).gradient(along.gradient).cost(value), None));
             }
         }
-        Err(Error::Stalled { iterations: state.get_iter(), gradient: size }.into())
+        Err(Error::Stalled {
+            iterations: state.get_iter(),
+            gradient: size,
+            gap: closure(place[0], place[1]).abs(),
+            directions: usize::from(along.curvature < 0.0),
+        }
+        .into())
     }
 
     fn terminate(&mut self, _state: &Iterate) -> TerminationStatus {

@@ -1,0 +1,299 @@
+//! The last digits where some bars carry next to nothing, or all lie nearly along one line.
+//!
+//! The minimiser holds forces against the largest force of the chain, and that is where double
+//! precision ends: a rest `t` of the gradient turns a bar with the axial force `N` by `t / N`, and along
+//! a line to which the bars are nearly parallel the closure divides by their angles. The equations
+//! have more digits to give in another frame. The energy may be counted from any bar (a multiple of the
+//! closure is taken off, see [`Links`]) and the axes may be turned in the plane of the chain. So, where
+//! it matters,
+//!
+//! 1. the weights are counted from the bar with the least load, as sums of the weights in between: what
+//!    the bars near it carry is then a sum of small numbers, not a difference of large ones;
+//! 2. an axis is laid along the line to which the bars are nearly parallel;
+//! 3. Newton's method is applied to stationarity and closure at once (`P_i = I - u_i u_iᵀ`):
+//!
+//! ```text
+//! [ l N   Jᵀ ] [ du  ]   [ -l t ]
+//! [  J    0  ] [ dmu ] = [ -gap ]      J = [ l_1 P_1 ... l_n P_n ]
+//! ```
+//!
+//! Every equilibrium lies in a vertical plane, so the closure has two rows here. The size of the last
+//! step is how far the shape is known.
+
+use std::sync::Arc;
+
+use model::{Bar, Problem, Vector};
+
+use crate::closure::Shape;
+use crate::links::{Links, Origin, Units};
+use crate::minimise::Minimum;
+use crate::plane::Turn;
+use crate::slope::Slope;
+use crate::solver::force_uncertainty;
+use crate::strands::off_the_line;
+use crate::vector::{Sum, along, dot, norm, scaled, tangent};
+
+/// Turn of a bar, rad, above which the minimiser's digits are not enough: what two solvers are asked to
+/// agree to.
+const WORTH_REFINING: f64 = 1e-9;
+
+/// Uncertainty of the forces, as a part of the largest, above which the minimiser's digits are not
+/// enough: a quarter of what two solvers are asked to agree to, since it is an estimate.
+const UNCERTAIN: f64 = 2.5e-10;
+
+/// Newton steps at most: quadratic convergence takes five, and where a bar without force makes the
+/// minimum degenerate each step halves the error.
+const STEPS: usize = 60;
+
+/// A step that turns a bar by more than this, rad, leaves the neighbourhood of the minimum.
+const LARGEST_TURN: f64 = 0.5;
+
+/// Turns of this size, rad, are rounding.
+const EXACT: f64 = 4.0 * f64::EPSILON;
+
+/// Once steps are this small, rad, one that does not halve is rounding.
+const SMALL: f64 = 1e-9;
+
+/// Axial forces below this part of the largest force are rounding.
+const NO_FORCE: f64 = 64.0 * f64::EPSILON;
+
+/// An axis within this angle, rad, of the line of the bars is on it: the small components keep all but
+/// three of their digits.
+const ALIGNED: f64 = 1e-3;
+
+/// Bars are nearly parallel when the smallest eigenvalue of their spread, a squared angle, is below this.
+const NEARLY_PARALLEL: f64 = 1e-4;
+
+/// What the refinement says of a minimum.
+pub(crate) enum Refinement {
+    /// The minimiser's digits are enough.
+    NotNeeded,
+    /// A minimum with more digits, in its own frame; and the last turn of a bar, rad.
+    Refined(Box<(Minimum, Units)>, f64),
+    /// Newton's method does not converge from there; the turn, rad, by which a bar is not known.
+    Failed(f64),
+}
+
+/// Refine a minimum if that is needed.
+pub(crate) fn refine(problem: &Problem, units: &Units, minimum: &Minimum) -> Refinement {
+    let Minimum { links, shape, slope, unsettled, .. } = minimum;
+    let parallel = match slope.line {
+        Some(e) => off_the_line(links, e).is_some(),
+        None => force_uncertainty(links, shape, slope) > UNCERTAIN,
+    };
+    // Bars without any load have no direction of their own.
+    let light = slope.across / slope.softest > WORTH_REFINING;
+    if !(parallel || light || unsettled.is_some()) {
+        return Refinement::NotNeeded;
+    }
+    let mut point = Point::new(problem, units, minimum);
+    let first = point.step().map_or(f64::NAN, |step| step.largest);
+    if !parallel && unsettled.is_none() && first <= WORTH_REFINING {
+        return Refinement::NotNeeded;
+    }
+    // Bars without force to rounding hang free: any direction of theirs is an equilibrium as far as
+    // doubles tell, and the answer is one of them.
+    let failed = if slope.softest <= NO_FORCE * slope.pull {
+        Refinement::NotNeeded
+    } else {
+        Refinement::Failed(first)
+    };
+    let Some(last) = point.newton() else {
+        return failed;
+    };
+    let (refined, units) = point.into_minimum(minimum);
+    // Newton's method finds any stationary point; what was not known to be a minimum must prove it.
+    let curvature = refined.curvature();
+    if unsettled.is_some() && curvature.index(curvature.slope.zero) > 0 {
+        return failed;
+    }
+    Refinement::Refined(Box::new((refined, units)), last)
+}
+
+/// A point of the unknowns: directions in the plane, and the multiplier.
+struct Point {
+    links: Links,
+    units: Units,
+    shape: Shape,
+    multiplier: Vector,
+}
+
+/// A step of Newton's method.
+struct Step {
+    turns: Vec<Vector>,
+    multiplier: Vector,
+    /// Largest turn of a bar, rad.
+    largest: f64,
+}
+
+impl Point {
+    fn new(problem: &Problem, units: &Units, minimum: &Minimum) -> Self {
+        let Minimum { links, shape, slope, .. } = minimum;
+        let size = |i: usize| norm(links.load(i, slope.multiplier));
+        let bar = (0..links.bars()).min_by(|&a, &b| size(a).total_cmp(&size(b))).unwrap_or(0);
+        let turn = Turn::into_plane(links, &shape.u);
+        let u = turn.flattened(&shape.u);
+        let multiplier = turn.of(&[slope.multiplier])[0];
+        let (cosine, sine) = quarter_turn_to_line(&u, links, units);
+        let rotated = |[x, _, z]: Vector| [cosine * x + sine * z, 0.0, cosine * z - sine * x];
+        let axes = [[cosine, 0.0, sine], [0.0, 1.0, 0.0], [-sine, 0.0, cosine]];
+        let multiplier = along(multiplier, links.hang[bar], links.up);
+        let links = Links {
+            hang: counted_from(problem, bar),
+            span: rotated_sum(links.span, cosine, sine),
+            up: rotated(links.up),
+            ..(**links).clone()
+        };
+        let units = Units {
+            frame: units.frame.turned(axes.map(|axis| turn.back(axis))),
+            origin: Some(Origin { bar, carried: minimum.links.hang[bar] }),
+            ..*units
+        };
+        let u: Vec<Vector> = u.into_iter().map(rotated).collect();
+        let moments = links.measure(&u);
+        Self { links, units, shape: Shape { u, moments }, multiplier: rotated(multiplier) }
+    }
+
+    /// Newton's step; `None` if a number is not finite.
+    fn step(&self) -> Option<Step> {
+        let links = &self.links;
+        let (mut xx, mut xz, mut zz, mut rest) = (0.0, 0.0, 0.0, [0.0; 3]);
+        let at: Vec<(Vector, f64)> = (self.shape.u.iter().enumerate())
+            .map(|(i, &u)| {
+                let load = links.load(i, self.multiplier);
+                let (t, axial) = (tangent(u, load), -dot(load, u));
+                let w = links.length[i] / axial;
+                xx += w * (u[2] * u[2]);
+                xz -= w * (u[0] * u[2]);
+                zz += w * (u[0] * u[0]);
+                rest = along(rest, w, t);
+                (t, axial)
+            })
+            .collect();
+        let gap = along(self.shape.moments.gap, -1.0, rest);
+        let determinant = xx * zz - xz * xz;
+        let multiplier = [
+            (zz * gap[0] - xz * gap[2]) / determinant,
+            0.0,
+            (xx * gap[2] - xz * gap[0]) / determinant,
+        ];
+        let turns: Vec<Vector> = (self.shape.u.iter().zip(at))
+            .map(|(&u, (t, axial))| scaled(-1.0 / axial, along(t, 1.0, tangent(u, multiplier))))
+            .collect();
+        let sum: f64 = turns.iter().map(|turn| dot(*turn, *turn)).sum();
+        let largest = turns.iter().fold(0.0_f64, |most, turn| most.max(norm(*turn)));
+        (sum.is_finite() && norm(multiplier).is_finite()).then_some(Step {
+            turns,
+            multiplier,
+            largest,
+        })
+    }
+
+    /// Newton's method; the smallest step made, rad, or `None` if it leaves the neighbourhood.
+    fn newton(&mut self) -> Option<f64> {
+        let (mut turn, mut last) = (f64::INFINITY, f64::INFINITY);
+        for _ in 0..STEPS {
+            let step = self.step()?;
+            // A bar without any force answers rounding by any turn, once all others are right.
+            if turn <= SMALL && step.largest > SMALL {
+                break;
+            }
+            if step.largest > LARGEST_TURN {
+                return None;
+            }
+            let size = step.largest.max(norm(step.multiplier) / norm(self.multiplier));
+            self.shape = self.links.moved(&self.shape.u, |i, _| step.turns[i]);
+            self.multiplier = along(self.multiplier, 1.0, step.multiplier);
+            turn = turn.min(step.largest);
+            if size <= EXACT || (last <= SMALL && size > 0.5 * last) {
+                break;
+            }
+            last = size;
+        }
+        Some(turn)
+    }
+
+    fn into_minimum(self, minimum: &Minimum) -> (Minimum, Units) {
+        let Self { links, units, shape, multiplier } = self;
+        let slope = Slope::refined(&links, &shape.u, multiplier);
+        let refined = Minimum {
+            links: Arc::new(links),
+            shape: Arc::new(shape),
+            slope: Arc::new(slope),
+            iterations: minimum.iterations,
+            evaluations: minimum.evaluations,
+            unsettled: None,
+        };
+        (refined, units)
+    }
+}
+
+/// Cosine and sine of the turn in the plane that lays the first axis along the line to which the bars
+/// are nearly parallel. No turn if they are not, or an axis is there already.
+fn quarter_turn_to_line(u: &[Vector], links: &Links, units: &Units) -> (f64, f64) {
+    const STAY: (f64, f64) = (1.0, 0.0);
+    // Σ l (x² - z²), Σ 2 l x z, and their size: 1 - the smallest eigenvalue of the spread twice.
+    let (mut even, mut odd) = (0.0, 0.0);
+    for (l, [x, _, z]) in links.length.iter().zip(u) {
+        even += l * (x * x - z * z);
+        odd += l * (2.0 * x * z);
+    }
+    let angle = 0.5 * f64::atan2(odd, even);
+    let (sine, cosine) = angle.sin_cos();
+    let across: f64 = (links.length.iter().zip(u))
+        .map(|(l, [x, _, z])| l * (cosine * z - sine * x).powi(2))
+        .sum();
+    let aligned = sine.abs().min(cosine.abs()) < ALIGNED;
+    if units.frame.along_span() || aligned || across > NEARLY_PARALLEL * links.total() {
+        return STAY;
+    }
+    (cosine, sine)
+}
+
+/// A sum of two vectors in the plane, turned, to twice the digits.
+fn rotated_sum(span: [Vector; 2], cosine: f64, sine: f64) -> [Vector; 2] {
+    let product_sum = |a: f64, x: f64, b: f64, z: f64| {
+        let mut sum = Sum::default();
+        for (factor, value) in [(a, x), (b, z)] {
+            let product = factor * value;
+            sum.add(product);
+            sum.add(factor.mul_add(value, -product));
+        }
+        let value = sum.value();
+        sum.add(-value);
+        (value, sum.value())
+    };
+    let [[x, _, z], [x_rest, _, z_rest]] = span;
+    let (first, first_rest) = product_sum(cosine, x, sine, z);
+    let (second, second_rest) = product_sum(cosine, z, -sine, x);
+    [
+        [first, 0.0, second],
+        [
+            first_rest + (cosine * x_rest + sine * z_rest),
+            0.0,
+            second_rest + (cosine * z_rest - sine * x_rest),
+        ],
+    ]
+}
+
+/// What each bar carries less what `bar` carries, in units of the total weight: the weights in between.
+fn counted_from(problem: &Problem, bar: usize) -> Vec<f64> {
+    let (bars, total_kg) = (problem.chain().bars(), problem.chain().total_mass_kg());
+    let at_end = |bar: &Bar| bar.mass_kg() / total_kg * (bar.centre_m() / bar.length_m());
+    let at_start =
+        |bar: &Bar| bar.mass_kg() / total_kg * ((bar.length_m() - bar.centre_m()) / bar.length_m());
+    let mut carried = vec![0.0; bars.len()];
+    let mut between = Sum::default();
+    between.add(at_end(&bars[bar]));
+    for i in bar + 1..bars.len() {
+        carried[i] = -(between.value() + at_start(&bars[i]));
+        between.add(bars[i].mass_kg() / total_kg);
+    }
+    let mut between = Sum::default();
+    between.add(at_start(&bars[bar]));
+    for i in (0..bar).rev() {
+        carried[i] = between.value() + at_end(&bars[i]);
+        between.add(bars[i].mass_kg() / total_kg);
+    }
+    carried
+}
