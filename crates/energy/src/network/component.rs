@@ -2,7 +2,7 @@
 
 use model::Vector;
 
-use crate::network::Error;
+use crate::network::error::Error;
 use crate::network::frame::{Frame, Spot};
 use crate::vector::{along, dot, norm, scaled, unit};
 

@@ -86,6 +86,14 @@ pub enum Error {
         /// Largest misfit of a length over the length.
         misfit: f64,
     },
+    /// Occurs when the configuration found is no minimum: the energy falls in some directions.
+    #[error(
+        "the configuration found is no minimum: the energy falls in {index} independent directions"
+    )]
+    NoMinimum {
+        /// Number of independent directions in which the energy falls.
+        index: usize,
+    },
     /// Occurs when a number of the computation is infinite or not a number.
     #[error("the {quantity} is not a finite number")]
     NotFinite {
@@ -120,6 +128,7 @@ impl Error {
             Self::NotClosed { .. } => "not closed",
             Self::IterationLimit { .. } => "iteration limit",
             Self::Stalled { .. } => "stalled",
+            Self::NoMinimum { .. } => "no minimum",
             Self::NotFinite { .. } => "not finite",
             Self::Memory { .. } => "out of memory",
             Self::Ended { .. } => "ended by argmin",

@@ -13,7 +13,7 @@ use faer::sparse::{SparseColMatRef, SymbolicSparseColMat};
 use faer::{Conj, MatMut, Par, Side, Spec};
 use model::Vector;
 
-use crate::network::Error;
+use crate::network::error::Error;
 use crate::network::frame::{Rod, Spot};
 use crate::vector::dot;
 

@@ -3,7 +3,7 @@
 use model::Vector;
 use model::system::{Joint, Kind, Member, Support, System};
 
-use crate::network::Error;
+use crate::network::error::Error;
 use crate::vector::{along, cross, dot, norm, scaled, unit};
 
 /// A joint with the directions in which it can move.

@@ -19,7 +19,7 @@ use std::sync::Arc;
 use argmin::core::{KV, Problem, Solver, TerminationReason, TerminationStatus};
 use model::system::Kind;
 
-use crate::network::Error;
+use crate::network::error::Error;
 use crate::network::factor::Factor;
 use crate::network::frame::Frame;
 use crate::network::law::Excess;
@@ -171,12 +171,13 @@ impl Interior {
         Some((Shape { x, force: force.collect() }, part_x.min(part_f)))
     }
 
-    /// The shape with the forces of slack members taken for zero.
+    /// The shape with the forces of slack cables taken for zero. Bars keep theirs: small or not, they have to
+    /// keep their lengths.
     pub(super) fn settled(&self, shape: &Shape) -> Shape {
         let mean = shape.force.iter().sum::<f64>() / shape.force.len() as f64;
         let force = self.frame.rods.iter().enumerate().map(|(e, rod)| {
             let slack = self.slack[e] / rod.length > shape.force[e] / mean;
-            if slack { 0.0 } else { shape.force[e] }
+            if slack && rod.kind == Kind::Cable { 0.0 } else { shape.force[e] }
         });
         Shape { x: shape.x.clone(), force: force.collect() }
     }

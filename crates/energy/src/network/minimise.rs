@@ -8,16 +8,24 @@ use model::Vector;
 use model::system::System;
 
 use crate::network::component::check_held;
+use crate::network::error::Error;
 use crate::network::factor::Factor;
 use crate::network::frame::Frame;
 use crate::network::interior::{ITERATIONS, Interior, relaxable};
-use crate::network::newton::{Newton, finite};
+use crate::network::newton::{FIRST_STRAIN, Newton, finite};
 use crate::network::potential::{Iterate, Potential};
+use crate::network::settings::Settings;
 use crate::network::shape::{Shape, Slope};
 use crate::network::solution::Solution;
 use crate::network::start::hanging;
-use crate::network::{Error, Settings};
 use crate::vector::{along, dot, scaled};
+
+/// Starts elsewhere where the lengths could not be kept from the first one: a loop that closes may have places
+/// where it nearly closes.
+const RESTARTS: u32 = 4;
+
+/// The golden section: its multiples are spread evenly.
+const GOLDEN: f64 = 0.618_033_988_75;
 
 /// Find a configuration of least energy from no guess.
 ///
@@ -55,10 +63,31 @@ pub fn minimise(system: &System, settings: &Settings) -> Result<Solution, Error>
     let start = hanging(&frame)?;
     let factor = Factor::new(&frame.spots, &frame.rods)?;
     let mut work = Effort::default();
-    let (start, factor) =
-        if relaxable(&frame) { relax(&frame, factor, start, &mut work)? } else { (start, factor) };
-    let minimum = descend(&frame, factor, start, true, settings, work)?;
-    Ok(Solution::new(system, &frame, minimum, settings, clock))
+    let (relaxed, factor) = if relaxable(&frame) {
+        relax(&frame, factor, start.clone(), &mut work)?
+    } else {
+        (start.clone(), factor)
+    };
+    let mut found = descend(&frame, factor, relaxed, Way::Relaxed, settings, work);
+    for attempt in 1..=RESTARTS {
+        match found {
+            Err(Error::NotClosed { .. } | Error::Stalled { .. }) => {
+                let factor = Factor::new(&frame.spots, &frame.rods)?;
+                let elsewhere = displaced(&frame, &start, attempt);
+                found = descend(&frame, factor, elsewhere, Way::Stiff, settings, work).or(found);
+            }
+            _ => break,
+        }
+    }
+    Solution::new(system, &frame, found?, settings, clock)
+}
+
+/// The start with each joint moved by up to the length of the longest member, without any symmetry.
+fn displaced(frame: &Frame, start: &Shape, attempt: u32) -> Shape {
+    let step: Vec<f64> = (0..frame.freedom)
+        .map(|k| (f64::from(attempt) * (1.0 + GOLDEN * k as f64)).sin())
+        .collect();
+    Shape { x: frame.moved(&start.x, 1.0, &step), force: vec![0.0; start.force.len()] }
 }
 
 /// Find a local minimum from places of the joints, m.
@@ -79,8 +108,8 @@ pub fn minimise_from(
     check_held(&frame)?;
     let start = seeded(&frame, seed_m)?;
     let factor = Factor::new(&frame.spots, &frame.rods)?;
-    let minimum = descend(&frame, factor, start, false, settings, Effort::default())?;
-    Ok(Solution::new(system, &frame, minimum, settings, clock))
+    let minimum = descend(&frame, factor, start, Way::Free, settings, Effort::default())?;
+    Solution::new(system, &frame, minimum, settings, clock)
 }
 
 /// The seed in the solver's units, on the supports; no forces.
@@ -141,16 +170,32 @@ fn relax(
     Ok((ended.solver.settled(&shape), ended.solver.factor))
 }
 
+/// How a start was found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Way {
+    /// As the solution of the relaxation: most members are right.
+    Relaxed,
+    /// Anywhere.
+    Free,
+    /// Anywhere, for lengths that are hard to keep: they come before the loads.
+    Stiff,
+}
+
+/// First strain of the springs where the lengths come before the loads.
+const STIFF_STRAIN: f64 = 1e-3;
+
 /// Down to a local minimum.
 fn descend(
     frame: &Arc<Frame>,
     factor: Factor,
     start: Shape,
-    relaxed: bool,
+    way: Way,
     settings: &Settings,
     mut effort: Effort,
 ) -> Result<Minimum, Error> {
-    let solver = Newton::new(Arc::clone(frame), factor, *settings, &start.force, relaxed);
+    let strain = if way == Way::Stiff { STIFF_STRAIN } else { FIRST_STRAIN };
+    let relaxed = way == Way::Relaxed;
+    let solver = Newton::new(Arc::clone(frame), factor, *settings, &start.force, relaxed, strain);
     let mut ended = Executor::new(Potential { frame: Arc::clone(frame) }, solver)
         .configure(|state: Iterate| state.param(Arc::new(start)).max_iters(settings.max_iterations))
         .ctrlc(false)

@@ -39,6 +39,7 @@ mod interior;
 mod law;
 mod minimise;
 mod newton;
+mod polish;
 mod potential;
 mod settings;
 mod shape;

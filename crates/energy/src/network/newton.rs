@@ -20,16 +20,20 @@ use std::sync::Arc;
 
 use argmin::core::{KV, Problem, Solver, TerminationReason, TerminationStatus};
 
+use model::system::Kind;
+
+use crate::network::error::Error;
 use crate::network::factor::Factor;
 use crate::network::frame::Frame;
 use crate::network::law::{Excess, Softened};
+use crate::network::polish::NEUTRAL;
 use crate::network::potential::{Iterate, Potential};
+use crate::network::settings::Settings;
 use crate::network::shape::{Shape, Slope, largest};
-use crate::network::{Error, Settings};
-use crate::vector::{dot, norm, scaled};
+use crate::vector::{norm, scaled};
 
 /// First strain of the springs under the largest force.
-const FIRST_STRAIN: f64 = 0.1;
+pub(super) const FIRST_STRAIN: f64 = 0.1;
 
 /// The springs become stiffer by this factor
 const STIFFEN: f64 = 5.0;
@@ -41,23 +45,10 @@ const ENOUGH: f64 = 0.2;
 const LAST_STRAIN: f64 = 1e-9;
 
 /// Misfit below which Newton's method for places and forces is tried.
-const NEAR: f64 = 1e-3;
+pub(super) const NEAR: f64 = 1e-3;
 
 /// Misfit from a relaxation, which is right for most members: it is tried in any case.
 const RELAXED: f64 = 0.5;
-
-/// Strain of the springs in Newton's method for places and forces: what a step leaves of the error.
-const STIFF_STRAIN: f64 = 1e-6;
-
-/// Diagonal added there, over the size of the matrix: where a motion is neutral the step has no part of it.
-pub(super) const NEUTRAL: f64 = 1e-10;
-
-/// Steps of Newton's method for places and forces, and with one factorisation.
-const POLISH: usize = 12;
-const CHORDS: usize = 6;
-
-/// A chord step must leave at most this part of the residual.
-const CHORD_PROGRESS: f64 = 0.3;
 
 /// First shift and smallest one, over the size of the matrix.
 const FIRST_SHIFT: f64 = 1e-3;
@@ -72,11 +63,19 @@ const FAIR: f64 = 1e-4;
 /// Rounding of the energy, over its size.
 const NOISE: f64 = 64.0 * f64::EPSILON;
 
+/// Largest relative displacement of the ends of a member in one step, over its length; of a strut, which must not
+/// be turned inside out: its energy falls for ever on the other side.
+const STEP: f64 = 2.0;
+const STRUT_STEP: f64 = 0.3;
+
 /// Halvings of a step before the shift grows.
 const HALVINGS: usize = 5;
 
 /// Solutions of a linear system that show the lowest mode.
 const MODE_STEPS: usize = 12;
+
+/// Gradient at a stationary point, over the mean force.
+const STATIONARY: f64 = 1e-3;
 
 /// Largest displacement of a joint in the first step off a saddle, over the unit of length.
 const OFF_SADDLE: f64 = 0.3;
@@ -90,9 +89,9 @@ enum Ended {
 
 /// Newton's method as a solver for argmin.
 pub(super) struct Newton {
-    frame: Arc<Frame>,
+    pub(super) frame: Arc<Frame>,
     pub(super) factor: Factor,
-    settings: Settings,
+    pub(super) settings: Settings,
     /// Force at which a spring is as long again as its member.
     stiffness: f64,
     /// Misfit after the last update of the forces.
@@ -122,16 +121,18 @@ impl Local {
 }
 
 impl Newton {
-    /// From a start that is `relaxed` (the solution of the relaxation) or anything else.
+    /// From a start that is `relaxed` (the solution of the relaxation) or anything else, with springs of
+    /// some strain under the largest force.
     pub(super) fn new(
         frame: Arc<Frame>,
         factor: Factor,
         settings: Settings,
         force: &[f64],
         relaxed: bool,
+        strain: f64,
     ) -> Self {
         Self {
-            stiffness: frame.largest_force(force) / FIRST_STRAIN,
+            stiffness: frame.largest_force(force) / strain,
             frame,
             factor,
             settings,
@@ -181,7 +182,7 @@ impl Newton {
                 let mut step: Vec<f64> = local.gradient.iter().map(|g| -g).collect();
                 self.factor.solve(&mut step);
                 let slope: f64 = step.iter().zip(&local.gradient).map(|(s, g)| s * g).sum();
-                let mut part = 1.0;
+                let mut part = self.longest_part(&step);
                 for _ in 0..HALVINGS {
                     let x = self.frame.moved(&shape.x, part, &step);
                     let (_, _, value) = self.value(&x, &shape.force);
@@ -198,6 +199,15 @@ impl Newton {
                 return Err(self.stalled(shape));
             }
         }
+    }
+
+    /// The part of a step, at most one, that turns no member too far.
+    fn longest_part(&self, step: &[f64]) -> f64 {
+        let rods = self.frame.rods.iter().enumerate();
+        rods.fold(1.0, |part, (e, rod)| {
+            let most = if rod.kind == Kind::Strut { STRUT_STEP } else { STEP } * rod.length;
+            part.min(most / norm(self.frame.relative(step, e)).max(f64::MIN_POSITIVE))
+        })
     }
 
     /// The next shift after a step of which this part was made.
@@ -223,12 +233,9 @@ impl Newton {
         Error::Stalled { unbalance: slope.unbalance, misfit: slope.misfit }
     }
 
-    /// At a stationary point of the augmented Lagrangian: a step along its lowest mode where its second
-    /// derivative is indefinite.
+    /// At a stationary point of the augmented Lagrangian whose second derivative is indefinite: a step along
+    /// its lowest mode.
     fn leave_saddle(&mut self, shape: &Shape, local: &Local) -> Option<Shape> {
-        if self.factorise(local, NEUTRAL) {
-            return None;
-        }
         let mut shift = FIRST_SHIFT;
         while !self.factorise(local, shift) {
             shift *= 4.0;
@@ -262,85 +269,6 @@ impl Newton {
         None
     }
 
-    /// Newton's method for places and forces. Nothing where it does not converge, or not to a minimum.
-    fn polish(&mut self, shape: &Shape) -> Option<Shape> {
-        let frame = Arc::clone(&self.frame);
-        let (mut shape, mut slope) = (shape.clone(), frame.slope(shape));
-        let stiffness = frame.largest_force(&shape.force) / STIFF_STRAIN;
-        for _ in 0..POLISH {
-            let start = slope.residual();
-            let active = self.factorise_stiff(&shape, stiffness)?;
-            for _ in 0..CHORDS {
-                let Some(next) = self.chord(&shape, stiffness, &active) else { break };
-                let there = frame.slope(&next);
-                let (before, after) = (slope.residual(), there.residual());
-                if !after.is_finite() {
-                    return None;
-                }
-                if after >= before && before <= self.tolerance(&shape) {
-                    return Some(shape);
-                }
-                (shape, slope) = (next, there);
-                if after > CHORD_PROGRESS * before {
-                    break;
-                }
-            }
-            if slope.residual() <= self.tolerance(&shape) {
-                return Some(shape);
-            }
-            if slope.residual() > 2.0 * start.max(NEAR) {
-                return None;
-            }
-        }
-        None
-    }
-
-    /// Which members resist, with stiff springs; the matrix is factorised. Nothing where it is not positive
-    /// definite.
-    fn factorise_stiff(&mut self, shape: &Shape, stiffness: f64) -> Option<Vec<bool>> {
-        let frame = Arc::clone(&self.frame);
-        let excess = frame.excesses(&shape.x);
-        let active: Vec<bool> = (0..frame.rods.len())
-            .map(|e| stiff(&frame, &excess[e], shape.force[e], e, stiffness).stiffness > 0.0)
-            .collect();
-        let largest = frame.largest_force(&shape.force);
-        let sizes = frame.sizes(|e| if active[e] { largest } else { 0.0 });
-        let block = |e: usize| {
-            let spring = stiff(&frame, &excess[e], shape.force[e], e, stiffness);
-            excess[e].block(if active[e] { shape.force[e] } else { 0.0 }, spring.stiffness)
-        };
-        frame.fill(&mut self.factor, block, |joint| {
-            NEUTRAL * if sizes[joint] > 0.0 { sizes[joint] } else { largest }
-        });
-        self.factor.cholesky().then_some(active)
-    }
-
-    /// One step with the factorisation at hand; nothing where other members resist than in it.
-    fn chord(&mut self, shape: &Shape, stiffness: f64, active: &[bool]) -> Option<Shape> {
-        let frame = Arc::clone(&self.frame);
-        let excess = frame.excesses(&shape.x);
-        let soft: Vec<Softened> = (0..frame.rods.len())
-            .map(|e| stiff(&frame, &excess[e], shape.force[e], e, stiffness))
-            .collect();
-        if soft.iter().zip(active).any(|(soft, active)| (soft.stiffness > 0.0) != *active) {
-            return None;
-        }
-        let mut step = frame.gradient(|e| scaled(soft[e].force, excess[e].gradient));
-        for value in &mut step {
-            *value = -*value;
-        }
-        self.factor.solve(&mut step);
-        let force = (0..frame.rods.len()).map(|e| {
-            soft[e].force + soft[e].stiffness * excess[e].change(frame.relative(&step, e))
-        });
-        Some(Shape { force: force.collect(), x: frame.moved(&shape.x, 1.0, &step) })
-    }
-
-    /// The tolerance, or what rounding of the places leaves where that is more.
-    fn tolerance(&self, shape: &Shape) -> f64 {
-        self.settings.tolerance.max(rounding_floor(&self.frame, shape))
-    }
-
     /// One iteration far from the solution.
     fn approach(&mut self, shape: &Shape, slope: &Slope) -> Result<Shape, Error> {
         let local = self.local(shape);
@@ -350,10 +278,14 @@ impl Newton {
         if largest(&local.gradient) > enough {
             return self.descend(shape, &local);
         }
-        if !self.definite
-            && let Some(next) = self.leave_saddle(shape, &local)
-        {
-            return Ok(next);
+        if !self.definite && !self.factorise(&local, NEUTRAL) {
+            // The lowest mode is worth a step where little else is left.
+            if largest(&local.gradient) > STATIONARY * local.typical() {
+                return self.descend(shape, &local);
+            }
+            if let Some(next) = self.leave_saddle(shape, &local) {
+                return Ok(next);
+            }
         }
         (self.shift, self.definite) = (0.0, false);
         let force: Vec<f64> = local.soft.iter().map(|soft| soft.force).collect();
@@ -377,20 +309,6 @@ impl Newton {
         let change = local.soft.iter().zip(&shape.force).map(|(soft, force)| soft.force - force);
         change.fold(0.0, |most: f64, change| most.max(change.abs())) / self.stiffness
     }
-}
-
-/// A member with a spring of strain [`STIFF_STRAIN`] under the largest force.
-fn stiff(frame: &Frame, excess: &Excess, force: f64, rod: usize, stiffness: f64) -> Softened {
-    let rod = &frame.rods[rod];
-    rod.softened(excess.value, force, stiffness / rod.length)
-}
-
-/// What roundings of the places leave of the lengths: some units in the last place of the largest
-/// coordinate over the length of a member.
-pub(super) fn rounding_floor(frame: &Frame, shape: &Shape) -> f64 {
-    let extent = shape.x.iter().map(|x| dot(*x, *x)).fold(0.0, f64::max).sqrt();
-    let shortest = frame.rods.iter().map(|rod| rod.length).fold(f64::INFINITY, f64::min);
-    8.0 * f64::EPSILON * (1.0 + extent / shortest)
 }
 
 impl Solver<Potential, Iterate> for Newton {

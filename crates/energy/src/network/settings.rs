@@ -1,6 +1,6 @@
 //! What the caller may choose.
 
-use crate::network::Error;
+use crate::network::error::Error;
 
 /// How to minimise. Valid settings come from [`Default`] and pass [`Settings::validate`].
 ///

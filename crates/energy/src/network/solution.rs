@@ -6,9 +6,10 @@ use std::time::Instant;
 use model::system::{System, SystemEquilibrium, SystemStability};
 use model::{Evidence, InSpace, SolverName, Vector};
 
+use crate::network::error::Error;
 use crate::network::frame::{Frame, shares_n};
 use crate::network::minimise::Minimum;
-use crate::network::newton::rounding_floor;
+use crate::network::polish::rounding_floor;
 use crate::network::settings::Settings;
 use crate::network::shape::Shape;
 use crate::network::stability::{Rigidity, SecondOrder, second_order};
@@ -69,10 +70,13 @@ impl Solution {
         minimum: Minimum,
         settings: &Settings,
         clock: Instant,
-    ) -> Self {
+    ) -> Result<Self, Error> {
         let Minimum { shape, mut slope, mut factor, effort } = minimum;
         let mut shape = Arc::unwrap_or_clone(shape);
         let second = second_order(frame, &shape, &mut factor);
+        if second.index > 0 {
+            return Err(Error::NoMinimum { index: second.index });
+        }
         let forces = match second.rigidity {
             Some(rigidity) if rigidity.self_stresses == 0 => Forces::Unique(rigidity),
             Some(rigidity) => Forces::Family { rigidity, least: second.least.is_some() },
@@ -98,7 +102,7 @@ impl Solution {
         };
         let mut solution = Self { equilibrium, forces, work };
         solution.equilibrium.evidence.solve_s = clock.elapsed().as_secs_f64();
-        solution
+        Ok(solution)
     }
 }
 

@@ -68,9 +68,10 @@ pub(super) fn second_order(frame: &Frame, shape: &Shape, factor: &mut Factor) ->
             condition,
         }
     } else {
-        let (index, neutral) = sparse_count(frame, shape, factor);
+        // A run ends with a positive definite matrix alone: no negative eigenvalue is left to count.
+        let neutral = below(frame, shape, factor, -ZERO);
         SecondOrder {
-            index,
+            index: 0,
             neutral,
             index_in_plane: None,
             rigidity: None,
@@ -104,7 +105,7 @@ fn index_in_plane(frame: &Frame, shape: &Shape) -> Option<usize> {
         return Some(Dense::new(&flat, shape).count().0);
     }
     let mut factor = Factor::new(&flat.spots, &flat.rods).ok()?;
-    Some(sparse_count(&flat, shape, &mut factor).0)
+    Some(below(&flat, shape, &mut factor, ZERO))
 }
 
 /// The joints with their motions in the vertical plane that holds places, loads and supports.
@@ -159,8 +160,8 @@ fn in_plane(spot: &Spot, direction: Vector, up: Vector, normal: Vector) -> Optio
     Some(Spot { first: 0, freedom, axes })
 }
 
-/// Negative and vanishing eigenvalues by the signs of pivots.
-fn sparse_count(frame: &Frame, shape: &Shape, factor: &mut Factor) -> (usize, usize) {
+/// Number of eigenvalues below minus a shift, over the size of the matrix, by the signs of pivots.
+fn below(frame: &Frame, shape: &Shape, factor: &mut Factor, shift: f64) -> usize {
     let excess = frame.excesses(&shape.x);
     let force = frame.largest_force(&shape.force);
     let block = |e: usize| {
@@ -171,12 +172,8 @@ fn sparse_count(frame: &Frame, shape: &Shape, factor: &mut Factor) -> (usize, us
         excess[e].block(shape.force[e], stiffness)
     };
     let sizes = frame.sizes(|_| force);
-    let mut below = |shift: f64| {
-        frame.fill(factor, block, |joint| shift * sizes[joint]);
-        factor.negative_pivots().unwrap_or(0)
-    };
-    let index = below(ZERO);
-    (index, below(-ZERO).saturating_sub(index))
+    frame.fill(factor, block, |joint| shift * sizes[joint]);
+    factor.negative_pivots().unwrap_or(0)
 }
 
 /// Dense matrices at an equilibrium.

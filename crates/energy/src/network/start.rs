@@ -9,7 +9,7 @@
 
 use model::Vector;
 
-use crate::network::Error;
+use crate::network::error::Error;
 use crate::network::factor::{Block, Factor};
 use crate::network::frame::{Frame, Spot};
 use crate::network::shape::Shape;

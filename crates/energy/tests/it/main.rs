@@ -3,6 +3,8 @@
 mod chains;
 mod little_force;
 mod network;
+mod network_members;
+mod network_random;
 mod network_support;
 mod paper;
 mod physics;
