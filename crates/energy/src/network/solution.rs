@@ -77,18 +77,22 @@ impl Solution {
         if second.index > 0 {
             return Err(Error::NoMinimum { index: second.index });
         }
+        let tolerance = settings.tolerance.max(rounding_floor(frame, &shape));
+        let mut least = false;
+        if let Some(force) = second.least.clone() {
+            let other = Shape { x: shape.x.clone(), force };
+            let there = frame.slope(&other);
+            if there.residual() <= tolerance {
+                (shape, slope, least) = (other, Arc::new(there), true);
+            }
+        }
         let forces = match second.rigidity {
             Some(rigidity) if rigidity.self_stresses == 0 => Forces::Unique(rigidity),
-            Some(rigidity) => Forces::Family { rigidity, least: second.least.is_some() },
+            Some(rigidity) => Forces::Family { rigidity, least },
             None => Forces::NotCounted,
         };
-        if let Some(least) = &second.least {
-            shape.force.clone_from(least);
-            slope = Arc::new(frame.slope(&shape));
-        }
         let iterations = usize::try_from(effort.relaxation + effort.iterations);
         let iterations = iterations.unwrap_or(usize::MAX);
-        let tolerance = settings.tolerance.max(rounding_floor(frame, &shape));
         let mut evidence = Evidence::new(RESIDUAL_OF, slope.residual(), tolerance, iterations);
         evidence.nullity = second.neutral;
         evidence.condition = second.condition;
