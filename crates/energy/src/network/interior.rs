@@ -29,9 +29,11 @@ use crate::network::shape::Shape;
 /// First slack of a member that is as long as it may be or longer, over its length.
 const FIRST_SLACK: f64 = 0.05;
 
-/// The mean of `F s` over that of `F l` at which the active members are known: Newton's method does the
-/// rest.
+/// The mean of `F s` over that of `F l` at which Newton's method does the rest: all bars are active.
 const GAP: f64 = 1e-7;
+
+/// The same where cables may be slack: so small that forces and slacks tell which are.
+const CABLE_GAP: f64 = 1e-12;
 
 /// Part of the way to the boundary that a step may go.
 const INSIDE: f64 = 0.99;
@@ -91,7 +93,9 @@ impl Interior {
     /// Whether the active members are known.
     fn centred(&self, force: &[f64], misfit: f64) -> bool {
         let products = force.iter().zip(&self.frame.rods).map(|(force, rod)| force * rod.length);
-        self.gap(force) <= GAP * products.sum::<f64>() / force.len() as f64 && misfit < GAP.sqrt()
+        let cables = self.frame.rods.iter().any(|rod| rod.kind == Kind::Cable);
+        let gap = if cables { CABLE_GAP } else { GAP };
+        self.gap(force) <= gap * products.sum::<f64>() / force.len() as f64 && misfit < GAP.sqrt()
     }
 
     /// The linear system with right sides `target` for `F s` and `curved` for the excess.

@@ -68,7 +68,10 @@ pub fn minimise(system: &System, settings: &Settings) -> Result<Solution, Error>
     } else {
         (start.clone(), factor)
     };
-    let mut found = descend(&frame, factor, relaxed, Way::Relaxed, settings, work);
+    // A relaxation that went astray is no start.
+    let astray = frame.slope(&relaxed).residual() > frame.slope(&start).residual().max(1.0);
+    let (first, way) = if astray { (start.clone(), Way::Free) } else { (relaxed, Way::Relaxed) };
+    let mut found = descend(&frame, factor, first, way, settings, work);
     for attempt in 1..=RESTARTS {
         match found {
             Err(Error::NotClosed { .. } | Error::Stalled { .. }) => {

@@ -125,3 +125,55 @@ fn random_nets_hang() {
     all_found(|rng| net(rng, 0.3), 20);
     all_found(|rng| net(rng, 1.0), 40);
 }
+
+#[test]
+fn cables_of_random_nets_pull_or_are_slack_and_hang_lower_than_bars() {
+    let mut slack = 0;
+    for stream in 0..30 {
+        let mut rng = ChaCha8Rng::seed_from_u64(stream);
+        let bars = net(&mut rng, 1.0);
+        let members = bars.members().iter().map(|bar| Member::cable(bar.from, bar.to, bar.body));
+        let cables =
+            System::new("cables", G, bars.joints().to_vec(), members.collect()).expect("a system");
+        let solution = minimise(&cables, &Settings::default()).expect("a minimum");
+        let found = &solution.equilibrium;
+        let loose: Vec<usize> =
+            (0..found.axial_n.len()).filter(|&e| found.axial_n[e] <= 0.0).collect();
+        check_but(&cables, &solution, &loose, 1e-11);
+        slack += loose.len();
+        for &e in &loose {
+            let (member, joints) = (&cables.members()[e], &found.joints_m);
+            let span = (0..3).map(|k| (joints[member.from][k] - joints[member.to][k]).powi(2));
+            assert_eq!(found.axial_n[e].to_bits(), 0.0_f64.to_bits());
+            assert!(span.sum::<f64>().sqrt() <= member.body.length_m() * (1.0 + 1e-11));
+        }
+        // Whatever bars can do cables can.
+        let stiff = minimise(&bars, &Settings::default()).expect("a minimum").equilibrium.energy_j;
+        assert!(found.energy_j <= stiff + 1e-11 * stiff.abs(), "{stream}");
+    }
+    assert!(slack > 100, "{slack}");
+}
+
+#[test]
+fn springs_tend_to_bars_as_they_stiffen() {
+    // The difference of the energies is half that of the first order in the flexibility: F² l / 2 EA summed.
+    let mut rng = ChaCha8Rng::seed_from_u64(4);
+    let bars = net(&mut rng, 0.1);
+    let rigid = minimise(&bars, &Settings::default()).expect("a minimum").equilibrium;
+    let first_order: f64 = rigid
+        .axial_n
+        .iter()
+        .zip(bars.members())
+        .map(|(force, member)| 0.5 * force * force * member.body.length_m())
+        .sum();
+    for stiffness in [1e7, 1e8] {
+        let members = bars.members().iter().map(|bar| bar.clone().with_stiffness(stiffness));
+        let springs =
+            System::new("springs", G, bars.joints().to_vec(), members.collect()).expect("a system");
+        let soft = minimise(&springs, &Settings::default()).expect("a minimum").equilibrium;
+        let ratio = (rigid.energy_j - soft.energy_j) * stiffness / first_order;
+        // The second order is a part F / EA of it, times the softness of the net; differences of energies of 1e2 J
+        // are known to 1e-13 of them.
+        assert!((ratio - 1.0).abs() < 1e-2, "{stiffness:e}: {ratio}");
+    }
+}
