@@ -30,8 +30,6 @@ const SLACK_LENGTH: f64 = 1e-3;
 const ESCAPES: usize = 4;
 /// Such moves, in units of the mean length: the next one where the last one led nowhere.
 const KICKS: [f64; 5] = [0.01, 0.1, 0.5, 1.0, 2.0];
-/// Newton steps of the final iteration from a shape that may not be near enough.
-const FIRST_PATIENCE: usize = 12;
 /// Ridge of the least squares for the forces of a seed, in units of the stiffness.
 const RIDGE: f64 = 1e-9;
 
@@ -45,7 +43,7 @@ pub fn solve(system: &System, settings: &Settings) -> Result<Solution, Error> {
     settings.validate()?;
     let mut solver = Solver::new(system, *settings)?;
     let mut hanging = Hanging::new(&solver.framework)?;
-    for (end, patience) in [(FIRST_END, FIRST_PATIENCE), (LAST_END, settings.max_iterations)] {
+    for end in [FIRST_END, LAST_END] {
         let before = hanging.steps;
         let reached = hanging.advance(&solver.framework, &mut solver.stiffness, end);
         solver.factorisations += hanging.steps - before;
@@ -55,7 +53,7 @@ pub fn solve(system: &System, settings: &Settings) -> Result<Solution, Error> {
         if end > LAST_END && !hanging.clear(&solver.framework) {
             continue;
         }
-        if let Ok(run) = solver.with_signs(hanging.state(&solver.framework), patience) {
+        if let Ok(run) = solver.with_signs(hanging.state(&solver.framework)) {
             let second_order = solver.second_order(&run.state);
             if second_order.index == 0 {
                 return Ok(solver.solution(run, second_order));
@@ -80,7 +78,7 @@ pub fn solve_from(system: &System, seed: &Seed, settings: &Settings) -> Result<S
     seed.check(system)?;
     let mut solver = Solver::new(system, *settings)?;
     let start = solver.start(seed);
-    let run = solver.with_signs(start, settings.max_iterations)?;
+    let run = solver.with_signs(start)?;
     let second_order = solver.second_order(&run.state);
     Ok(solver.solution(run, second_order))
 }
@@ -104,11 +102,8 @@ impl<'a> Solver<'a> {
     }
 
     /// Newton's method, with the set of taut members changed until all signs are right.
-    fn with_signs(&mut self, mut state: State, patience: usize) -> Result<Run, Error> {
-        let settings = Settings {
-            max_iterations: self.settings.max_iterations.min(patience),
-            ..self.settings
-        };
+    fn with_signs(&mut self, mut state: State) -> Result<Run, Error> {
+        let settings = self.settings;
         let one_sided = self.framework.links.iter().any(|link| link.kind != Kind::Bar);
         let mut tight = !one_sided;
         for _ in 0..SIGN_CHANGES {
@@ -178,7 +173,7 @@ impl<'a> Solver<'a> {
                 return Err(Error::Escapes { joint, distance_m });
             }
             let fits = rest.fits;
-            result = self.with_signs(rest.state, self.settings.max_iterations);
+            result = self.with_signs(rest.state);
             if fits && result.is_ok() {
                 break;
             }
