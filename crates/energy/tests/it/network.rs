@@ -52,6 +52,26 @@ fn a_tripod_hangs_from_three_anchors() {
 }
 
 #[test]
+fn four_legs_share_a_load_as_equally_stiff_ones_would() {
+    // One leg too many: its forces are a family with one parameter, +1 -1 +1 -1 around the square. The member with
+    // the least sum of F² l has none of it: a quarter of the load each, on legs of 5 with feet 3 out and 4 up.
+    let mut joints: Vec<Joint> = [[3.0, 0.0], [0.0, 3.0], [-3.0, 0.0], [0.0, -3.0]]
+        .iter()
+        .enumerate()
+        .map(|(k, [x, y])| Joint::anchor(format!("A{k}"), [*x, *y, 0.0]))
+        .collect();
+    joints.push(Joint::free("apex").with_mass(8.0));
+    let (_, solution) = solve(joints, (0..4).map(|k| bar(k, 4, 5.0, 0.0)).collect());
+    let Forces::Family { rigidity, least: true } = solution.forces else {
+        panic!("{:?}", solution.forces)
+    };
+    assert_eq!((rigidity.rank, rigidity.self_stresses, rigidity.mechanisms), (3, 1, 0));
+    for axial in &solution.equilibrium.axial_n {
+        close(*axial, 20.0 * 5.0 / 4.0);
+    }
+}
+
+#[test]
 fn a_tripod_stands_where_its_seed_stands() {
     let joints = vec![
         Joint::anchor("A", [3.0, 0.0, 0.0]),
