@@ -179,10 +179,22 @@ impl SolveAnswer {
         self.answer.agreement.as_ref()
     }
 
-    /// Whether both solvers answered and agree, and the judge finds both in balance.
+    /// Whether both solvers answered and agree, the judge finds both in balance, and no census refutes them.
     #[must_use]
     pub fn agrees(&self) -> bool {
         self.answer.agrees()
+    }
+
+    /// Whether a check has failed: the answers disagree, the judge refuses one, or a complete census refutes one.
+    #[must_use]
+    pub fn check_failed(&self) -> bool {
+        self.answer.check_failed()
+    }
+
+    /// Whether every solver that was asked has an answer, and each has converged or is proved to be an equilibrium.
+    #[must_use]
+    pub fn is_decided(&self) -> bool {
+        self.answer.is_decided()
     }
 
     /// The highest rung that an answer has reached.

@@ -2,9 +2,9 @@
 
 use std::time::Instant;
 
-use model::{Equilibrium, Ladder, NoAnswer, Reason, Rung, SolverName, Stability, Status, cases};
+use model::{Equilibrium, Ladder, NoAnswer, Rung, SolverName, Stability, cases};
 use serde::Serialize;
-use validate::compare::{compare, judge_alone};
+use validate::compare::{compare, judge_without};
 use validate::completeness::certify_by_census;
 use validate::table::{CaseResult, Row, table};
 use validate::tolerances::Tolerances;
@@ -229,12 +229,7 @@ fn ladder(example: &Example, found: &Equilibrium, answer: Option<&energy::Soluti
         certify_by_census(&example.problem, &example.census, &mut judged);
         return judged.evidence.ladder;
     }
-    let statics = judge_alone(&example.problem, &mut found).largest();
-    found.evidence.ladder.agreed = Status::Open(Reason::OtherSolverWithoutAnswer {
-        solver: SolverName::ENERGY,
-        because: NoAnswer::MinimaOnly,
-        statics,
-    });
+    judge_without(&example.problem, &mut found, SolverName::ENERGY, NoAnswer::MinimaOnly);
     certify_by_census(&example.problem, &example.census, &mut found);
     found.evidence.ladder
 }

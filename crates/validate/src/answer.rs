@@ -14,9 +14,9 @@
 use std::num::NonZeroUsize;
 
 use census::{Census, Topology, TopologyError};
-use model::{Equilibrium, NoAnswer, Problem, Reason, SolverName, Status};
+use model::{Equilibrium, NoAnswer, Problem, SolverName};
 
-use crate::compare::{Agreement, compare, judge_alone};
+use crate::compare::{Agreement, compare, judge_alone, judge_without};
 use crate::completeness::{certify_by_census, without_census};
 use crate::tolerances::Tolerances;
 
@@ -137,10 +137,27 @@ impl Answer {
         self.equilibria.iter().find(|equilibrium| equilibrium.solver == *solver)
     }
 
-    /// Whether both solvers answered and agree, and the judge finds both in balance.
+    /// Whether both solvers answered and agree, the judge finds both in balance, and no census refutes them.
     #[must_use]
     pub fn agrees(&self) -> bool {
-        self.agreement.as_ref().is_some_and(Agreement::agrees)
+        self.agreement.as_ref().is_some_and(Agreement::agrees) && !self.check_failed()
+    }
+
+    /// Whether a check has failed: the answers disagree, the judge refuses one, or a complete census refutes one.
+    #[must_use]
+    pub fn check_failed(&self) -> bool {
+        self.equilibria.iter().any(|answer| answer.evidence.ladder.failed())
+    }
+
+    /// Whether every solver that was asked has an answer, and each has converged or is proved to be an equilibrium.
+    #[must_use]
+    pub fn is_decided(&self) -> bool {
+        let known = |answer: &Equilibrium| {
+            let ladder = &answer.evidence.ladder;
+            // A box around the answer proves more than a residual.
+            ladder.converged.is_reached() || ladder.verified.is_reached()
+        };
+        self.failures.is_empty() && self.equilibria.iter().all(known)
     }
 }
 
@@ -213,11 +230,13 @@ fn judge(
     match equilibria {
         [] => None,
         [answer] => {
-            let statics = judge_alone(problem, answer).largest();
-            if let Some(failure) = failures.first() {
-                let (solver, because) = (failure.solver(), NoAnswer::Refused);
-                let reason = Reason::OtherSolverWithoutAnswer { solver, because, statics };
-                answer.evidence.ladder.agreed = Status::Open(reason);
+            match failures.first() {
+                Some(failure) => {
+                    judge_without(problem, answer, failure.solver(), NoAnswer::Refused);
+                }
+                None => {
+                    judge_alone(problem, answer);
+                }
             }
             None
         }

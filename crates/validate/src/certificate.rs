@@ -40,6 +40,7 @@
 //! minima); S. M. Rump, Acta Numerica 19 (2010) 287-449, doi:10.1017/S096249291000005X (rounding error
 //! bounds).
 
+use crate::lever::{carried_kg, far_kg};
 use crate::statics::stored_rounding_m;
 use model::{Bar, Chain, Equilibrium, NoCertificate, Optimal, Problem, Vector, sum};
 
@@ -165,12 +166,8 @@ fn closed(chain: &Chain, found: &Equilibrium) -> Result<(), NoCertificate> {
 
 /// The weight of the joints between the anchors, N; all of it where nothing hangs there.
 fn hanging_n(chain: &Chain) -> f64 {
-    let bars = chain.bars();
-    let far = |bar: &Bar| bar.mass_kg() * (bar.centre_m() / bar.length_m());
-    let near = |bar: &Bar| bar.mass_kg() * ((bar.length_m() - bar.centre_m()) / bar.length_m());
     // No difference: what rests on an anchor may be the largest weight by far.
-    let joints = bars.windows(2).map(|pair| far(&pair[0]) + near(&pair[1]));
-    let mass_kg = sum(joints);
+    let mass_kg = sum(carried_kg(chain));
     let mass_kg = if mass_kg > 0.0 { mass_kg } else { chain.total_mass_kg() };
     mass_kg * chain.gravity_m_s2()
 }
@@ -188,7 +185,7 @@ fn the_compressed_bar(axial_n: &[f64], force_n: f64) -> Result<Option<usize>, No
 
 /// The mass that the lever rule leaves at the far end of the last bar, on the anchor, kg.
 fn last_share(bars: &[Bar]) -> f64 {
-    bars.last().map_or(0.0, |bar| bar.mass_kg() * (bar.centre_m() / bar.length_m()))
+    bars.last().map_or(0.0, far_kg)
 }
 
 /// The force `G_i / l_i` along each bar, N: the end reaction without what the last bar leaves on the anchor, less the
@@ -197,7 +194,7 @@ fn bar_forces(bars: &[Bar], gravity: f64, pull: Vector) -> Vec<Vector> {
     let mut forces = vec![pull; bars.len()];
     let (mut beyond, mut lost) = (0.0 - last_share(bars), 0.0_f64);
     for (bar, force) in bars.iter().zip(&mut forces).rev() {
-        let lever = bar.mass_kg() * (bar.centre_m() / bar.length_m());
+        let lever = far_kg(bar);
         force[2] -= gravity * (beyond + lost + lever);
         // Two-sum: the suffix mass stays good to the last place for any number of bars.
         let next = beyond + bar.mass_kg();

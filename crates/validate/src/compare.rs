@@ -1,14 +1,16 @@
 //! Answers held against each other, and each against Newton's laws.
 
 use model::{
-    Agreed, Chain, Disagreement, Equilibrium, Excess, NoCensus, Problem, Quantity, Reason,
-    SolverName, StabilityDifference, Status,
+    Agreed, Chain, Disagreement, Equilibrium, Excess, ForceFamily, FreeJoints, NoAnswer, NoCensus,
+    Problem, Quantity, Reason, SolverName, StabilityDifference, Status,
 };
 use serde::{Serialize, Serializer};
 
 use crate::certificate::certify;
 use crate::consistency::{Consistency, consistency};
-use crate::differences::{Differences, free_joints, worst};
+use crate::differences::{Differences, worst};
+use crate::force_family::force_family;
+use crate::free::free_joints;
 use crate::statics::{Statics, judge};
 use crate::tolerances::Tolerances;
 use crate::units::Units;
@@ -26,9 +28,16 @@ pub struct Agreement {
     /// With both anchors on one vertical every turn about it is an equilibrium too: the angle by
     /// which the second answer was turned onto the first before the comparison, rad.
     pub turned_rad: Option<f64>,
-    /// Joints without load between bars without force, in all answers: they may be anywhere that
-    /// the lengths of the bars allow, so their places are judged by Newton's laws alone.
+    /// Number of joints that are proved to be free, in all answers: they may be anywhere that the lengths of their
+    /// bars allow, so their places are judged by Newton's laws alone.
     pub free_joints: usize,
+    /// The same, which ones.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub free: Option<FreeJoints>,
+    /// Where equilibrium does not determine the forces: the family of those of the first answer. Then agreement is
+    /// evidence for the shape alone.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub force_family: Option<ForceFamily>,
     /// Violations of Newton's laws by each answer.
     pub statics: Vec<Statics>,
     /// Whether the other numbers of each answer follow from its joints and forces.
@@ -89,6 +98,8 @@ impl Agreement {
             forces_n: self.forces_n,
             energy_j: self.energy_j,
             statics: worst(self.statics.iter().map(Statics::largest)),
+            free_joints: self.free,
+            shape_only: self.force_family.is_some(),
         })
     }
 }
@@ -118,18 +129,44 @@ pub fn compare(
 
 /// Judge one answer that has no second to compare with.
 pub fn judge_alone(problem: &Problem, answer: &mut Equilibrium) -> Statics {
-    let statics = judge(problem.chain(), &answer.joints_m, &answer.multipliers_n);
-    answer.evidence.ladder.agreed = Status::Open(Reason::OneSolverOnly {
-        solver: answer.solver.clone(),
-        statics: statics.largest(),
+    let (chain, tolerances) = (problem.chain(), Tolerances::project());
+    let statics = judge(chain, &answer.joints_m, &answer.multipliers_n);
+    let units = Units::new(chain, &answer.multipliers_n);
+    let mut judgement =
+        Judgement { tolerances: &tolerances, units, found: Disagreement::default() };
+    judgement.alone(&answer.solver, &statics, &consistency(chain, answer));
+    let excesses = judgement.found.excesses;
+    answer.evidence.ladder.agreed = Status::Open(if excesses.is_empty() {
+        Reason::OneSolverOnly { solver: answer.solver.clone(), statics: statics.largest() }
+    } else {
+        Reason::JudgeRefuses { excesses }
     });
     certify_rung(problem, answer);
     statics
 }
 
+/// Judge one answer where another solver was asked and has none.
+pub fn judge_without(
+    problem: &Problem,
+    answer: &mut Equilibrium,
+    other: SolverName,
+    because: NoAnswer,
+) -> Statics {
+    let judged = judge_alone(problem, answer);
+    let agreed = &mut answer.evidence.ladder.agreed;
+    // What the judge refuses stays refused.
+    if let Some(Reason::OneSolverOnly { statics, .. }) = agreed.reason() {
+        let statics = *statics;
+        *agreed =
+            Status::Open(Reason::OtherSolverWithoutAnswer { solver: other, because, statics });
+    }
+    judged
+}
+
 /// The rungs above `agreed`.
 fn certify_rung(problem: &Problem, answer: &mut Equilibrium) {
     let proof = certify(problem, answer);
+    answer.evidence.force_family = force_family(problem.chain(), answer);
     let ladder = &mut answer.evidence.ladder;
     ladder.verified = Status::Open(Reason::NoCensus(NoCensus::NotAsked));
     ladder.complete = Status::Open(Reason::NoCensus(NoCensus::NotAsked));
@@ -204,11 +241,17 @@ impl Judgement<'_> {
 fn agreement(chain: &Chain, answers: &[Equilibrium], tolerances: &Tolerances) -> Agreement {
     let units = Units::new(chain, &answers[0].multipliers_n);
     let mut judgement = Judgement { tolerances, units, found: Disagreement::default() };
-    let free = free_joints(chain, answers, tolerances.forces.value * units.force_n);
+    let free = common(
+        answers.iter().map(|answer| free_joints(chain, &answer.joints_m).map(|(_, joints)| joints)),
+    );
+    // Answers of one family name the same line; where one is none of a family, forces are compared as they are.
+    let families: Vec<_> = answers.iter().map(|answer| force_family(chain, answer)).collect();
+    let all = families.iter().all(Option::is_some);
+    let family = families.into_iter().next().flatten().filter(|_| all);
     let mut differences = Vec::new();
     for (k, first) in answers.iter().enumerate() {
         for second in &answers[k + 1..] {
-            let found = Differences::of(chain, [first, second], &free);
+            let found = Differences::of(chain, [first, second], free, family.as_ref());
             judgement.pair([first, second], &found);
             differences.push(found);
         }
@@ -225,10 +268,18 @@ fn agreement(chain: &Chain, answers: &[Equilibrium], tolerances: &Tolerances) ->
         forces_n: worst(differences.iter().map(|d| d.forces_n)),
         energy_j: worst(differences.iter().map(|d| d.energy_j)),
         turned_rad: differences.first().and_then(|d| d.turned_rad),
-        free_joints: free.iter().filter(|free| **free).count(),
+        free_joints: free.map_or(0, |free| free.count()),
+        free,
+        force_family: family,
         statics,
         consistency,
         verdict,
         disagreement: judgement.found,
     }
+}
+
+/// What all have in common; nothing if they differ.
+fn common<T: PartialEq>(mut all: impl Iterator<Item = Option<T>>) -> Option<T> {
+    let first = all.next()??;
+    all.all(|other| other.as_ref() == Some(&first)).then_some(first)
 }

@@ -4,8 +4,10 @@ use census::{Census, CensusError, SlackFamily};
 use model::{Chain, Equilibrium, NoCensus, Problem, Reason, Status, Verified};
 
 use crate::census_checks::{Nearest, nearest, placed};
+use crate::tolerances::Tolerances;
 
-/// Say on an answer of a solver how far the census carries it: the rungs `verified` and `complete`.
+/// Say on an answer of a solver how far the census carries it: the rungs `verified` and `complete`. An answer that a
+/// complete census refutes loses what it had reached above `converged`.
 pub fn certify_by_census(problem: &Problem, census: &Census, answer: &mut Equilibrium) {
     let chain = problem.chain();
     let ladder = &mut answer.evidence.ladder;
@@ -19,9 +21,13 @@ pub fn certify_by_census(problem: &Problem, census: &Census, answer: &mut Equili
         });
         ladder.complete = census.completeness();
     } else {
-        let reason = not_listed(chain, census, place, answer.energy_j);
-        ladder.verified = Status::Open(reason.clone());
-        ladder.complete = Status::Open(reason);
+        match not_listed(chain, census, place, answer.energy_j) {
+            Reason::RefutedByCensus { distance } => ladder.refute(distance),
+            reason => {
+                ladder.verified = Status::Open(reason.clone());
+                ladder.complete = Status::Open(reason);
+            }
+        }
     }
 }
 
@@ -45,10 +51,18 @@ fn not_listed(chain: &Chain, census: &Census, place: Option<Nearest>, energy_j: 
         return Reason::SlackFamily;
     }
     match (census.undecided.len(), place) {
+        (0, Some(place)) if census.complete && refutes(chain, place.beyond) => {
+            Reason::RefutedByCensus { distance: place.beyond }
+        }
         (0, Some(place)) => Reason::Elsewhere { distance: place.beyond },
         (0, None) => Reason::NothingListed,
         (cells, _) => Reason::NotAmongDecided { cells },
     }
+}
+
+/// Whether an answer at this distance of all equilibria is none, to the accuracy that answers are asked to agree to.
+fn refutes(chain: &Chain, distance: f64) -> bool {
+    distance > Tolerances::project().joints.value + placed(chain)
 }
 
 /// Whether a family of equilibria with slack bars has this energy, to the rounding of a solver.

@@ -4,6 +4,7 @@
 use model::{Chain, Equilibrium, Vector, sum};
 use serde::Serialize;
 
+use crate::lever::{centre_part, far_kg};
 use crate::statics::stored_rounding_m;
 
 /// Largest differences between what an answer says and what follows from its joints and forces.
@@ -41,7 +42,7 @@ pub fn consistency(chain: &Chain, answer: &Equilibrium) -> Consistency {
     let unit_n = forces.iter().map(|force| norm(*force)).fold(weight_n, worse);
 
     let heights = bars.iter().enumerate().map(|(i, bar)| {
-        let part = bar.centre_m() / bar.length_m();
+        let part = centre_part(bar);
         let from = joints[i][2] - joints[0][2];
         bar.mass_kg() * chain.gravity_m_s2() * (from + part * (joints[i + 1][2] - joints[i][2]))
     });
@@ -55,7 +56,7 @@ pub fn consistency(chain: &Chain, answer: &Equilibrium) -> Consistency {
         let along = difference(joints[i + 1], joints[i]);
         let mut force = forces[i + 1];
         // The part of the weight that the lever rule gives to the far joint.
-        force[2] -= bar.mass_kg() * chain.gravity_m_s2() * (bar.centre_m() / bar.length_m());
+        force[2] -= far_kg(bar) * chain.gravity_m_s2();
         let found = (0..3).map(|k| force[k] * (along[k] / norm(along))).sum::<f64>();
         // Rounded coordinates turn a short bar, and a force along it loses by the square of the angle.
         let turn = 2.0 * stored_m / bar.length_m();

@@ -11,22 +11,26 @@
 use model::{Chain, Vector, sum};
 use serde::Serialize;
 
+use crate::free::free_joints;
+use crate::lever::centre_part;
+
 /// Largest violations of geometry and of Newton's laws, dimensionless.
 ///
-/// Forces are measured in units of the larger of the total weight and the largest joint force: a
-/// nearly taut chain carries many times its weight, and its forces are differences of large ones.
-/// Of lengths and moments counts what the rounding of the stored coordinates ([`stored_rounding_m`])
-/// leaves unexplained: it turns a short bar, far from the origin, by more than any solver could help.
+/// A bar's balance is measured against its own forces, those of its two ends and its weight: the least of the bars
+/// has to be in balance, whatever the others carry. The chain as a whole is measured against the larger of the
+/// total weight and the largest joint force, and so are bars that are proved to carry nothing. Of forces counts
+/// what the rounding of the largest leaves unexplained, for they are differences of it; of lengths and moments
+/// what that and the rounding of the stored coordinates ([`stored_rounding_m`]) leave unexplained: it
+/// turns a short bar, far from the origin, by more than any solver could help.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Statics {
     /// Largest distance of an end joint from its anchor, in units of the total length.
     pub closure: f64,
     /// Largest change of length of a bar, in units of the total length.
     pub length: f64,
-    /// Largest force left over on a bar.
+    /// Largest force left over on a bar, in units of its own forces.
     pub force: f64,
-    /// Largest moment about its centre of weight left over on a bar, in units of force × the length
-    /// of that bar.
+    /// Largest moment about its centre of weight left over on a bar, in units of its own forces × its length.
     pub moment: f64,
     /// Force left over on the whole chain: both ground reactions and the total weight.
     pub balance: f64,
@@ -41,6 +45,9 @@ pub struct Statics {
 /// A coordinate is rounded when it is stored, and two of them are subtracted: a few units in the
 /// last place of the largest.
 const STORED_ULPS: f64 = 8.0;
+
+/// A joint force is a sum of weights and of the force at an anchor: a few units in the last place of the largest.
+const FORCE_ULPS: f64 = 8.0;
 
 /// Rounding of the joints' coordinates, m: they are stored in the world frame, however far from its
 /// origin the anchors are.
@@ -95,33 +102,93 @@ pub fn judge(chain: &Chain, joints_m: &[Vector], multipliers_n: &[Vector]) -> St
         turn: beyond(whole_turn(chain, joints_m, multipliers_n) / unit_n, rounding_m) / length_m,
         worst_bar: 1,
     };
+    let rounding = Rounding { place_m: rounding_m, force_n: FORCE_ULPS * f64::EPSILON * unit_n };
+    let idle = free_joints(chain, joints_m).map_or(0..0, |(bars, _)| bars);
     let mut worst = 0.0;
-    for (i, bar) in bars.iter().enumerate() {
-        let along = minus(joints_m[i + 1], joints_m[i]);
-        let before = if i == 0 { multipliers_n[0] } else { minus([0.0; 3], multipliers_n[i]) };
-        let after = multipliers_n[i + 1];
-        let weight = bar.mass_kg() * chain.gravity_m_s2();
-        let left: Vector =
-            [before[0] + after[0], before[1] + after[1], before[2] + after[2] - weight];
-        let part = bar.centre_m() / bar.length_m();
-        let turn = minus(
-            cross(along.map(|x| x * (1.0 - part)), after),
-            cross(along.map(|x| x * part), before),
-        );
-        let stretch = (norm(along) - bar.length_m()).abs();
-        let bar_length = beyond(stretch, rounding_m) / length_m;
-        let force = norm(left) / unit_n;
-        // A displaced end of the bar turns it: force times displacement.
-        let moment = beyond(norm(turn) / unit_n, rounding_m) / bar.length_m();
-        found.length = worse(found.length, bar_length);
+    for i in 0..bars.len() {
+        let bar = LoadedBar::new(chain, i, joints_m, multipliers_n);
+        let scale_n = if idle.contains(&i) { unit_n } else { bar.largest_n() };
+        let length = bar.stretch(&rounding) / length_m;
+        let force = part(bar.force_left(&rounding), scale_n);
+        let moment = part(bar.moment_left(&rounding), scale_n * bar.length_m);
+        found.length = worse(found.length, length);
         found.force = worse(found.force, force);
         found.moment = worse(found.moment, moment);
-        let here = [bar_length, force, moment].into_iter().fold(0.0, worse);
+        let here = [length, force, moment].into_iter().fold(0.0, worse);
         if worse(worst, here).to_bits() != f64::to_bits(worst) {
             (worst, found.worst_bar) = (here, i + 1);
         }
     }
     found
+}
+
+/// What roundings explain.
+struct Rounding {
+    /// Of a coordinate, m.
+    place_m: f64,
+    /// Of a joint force, N.
+    force_n: f64,
+}
+
+/// A bar with the forces on it.
+struct LoadedBar {
+    length_m: f64,
+    /// From its first to its second joint, m.
+    along: Vector,
+    /// Where its weight is, as a part of the length.
+    centre_part: f64,
+    weight_n: f64,
+    /// On it at its first joint, N.
+    before: Vector,
+    /// On it at its second joint, N.
+    after: Vector,
+}
+
+impl LoadedBar {
+    fn new(chain: &Chain, i: usize, joints_m: &[Vector], multipliers_n: &[Vector]) -> Self {
+        let bar = &chain.bars()[i];
+        let before = multipliers_n[i];
+        Self {
+            length_m: bar.length_m(),
+            along: minus(joints_m[i + 1], joints_m[i]),
+            centre_part: centre_part(bar),
+            weight_n: bar.mass_kg() * chain.gravity_m_s2(),
+            before: if i == 0 { before } else { before.map(|x| -x) },
+            after: multipliers_n[i + 1],
+        }
+    }
+
+    /// Its largest force, N.
+    fn largest_n(&self) -> f64 {
+        [norm(self.before), norm(self.after)].into_iter().fold(self.weight_n, worse)
+    }
+
+    /// Change of its length, m.
+    fn stretch(&self, rounding: &Rounding) -> f64 {
+        beyond((norm(self.along) - self.length_m).abs(), rounding.place_m)
+    }
+
+    /// Sum of its forces, N.
+    fn force_left(&self, rounding: &Rounding) -> f64 {
+        let sum: [f64; 3] = std::array::from_fn(|k| self.before[k] + self.after[k]);
+        beyond(norm([sum[0], sum[1], sum[2] - self.weight_n]), rounding.force_n)
+    }
+
+    /// Sum of their moments about its centre of weight, N m.
+    fn moment_left(&self, rounding: &Rounding) -> f64 {
+        let turn = minus(
+            cross(self.along.map(|x| x * (1.0 - self.centre_part)), self.after),
+            cross(self.along.map(|x| x * self.centre_part), self.before),
+        );
+        // A displaced end of the bar turns it: force times displacement.
+        let explained = rounding.place_m * self.largest_n() + rounding.force_n * self.length_m;
+        beyond(norm(turn), explained)
+    }
+}
+
+/// What a violation is of its unit; nothing is no part of nothing.
+fn part(violation: f64, unit: f64) -> f64 {
+    if violation <= 0.0 { 0.0 } else { violation / unit }
 }
 
 /// Force left over on the chain as a whole.
@@ -137,7 +204,7 @@ fn whole_turn(chain: &Chain, joints_m: &[Vector], multipliers_n: &[Vector]) -> f
     let end = cross(minus(joints_m[last], origin), multipliers_n[last]);
     let weights = |axis: usize| {
         chain.bars().iter().enumerate().map(move |(i, bar)| {
-            let part = bar.centre_m() / bar.length_m();
+            let part = centre_part(bar);
             let from = joints_m[i][axis] - origin[axis];
             let along = joints_m[i + 1][axis] - joints_m[i][axis];
             bar.mass_kg() * chain.gravity_m_s2() * (from + part * along)

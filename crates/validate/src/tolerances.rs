@@ -1,5 +1,7 @@
 //! The budgets of `validation/tolerances.toml`.
 
+use std::sync::LazyLock;
+
 use serde::Deserialize;
 
 /// One budget.
@@ -38,8 +40,11 @@ impl Tolerances {
     /// Never: a test reads the file that is compiled in.
     #[must_use]
     pub fn project() -> Self {
-        toml::from_str(include_str!("../data/tolerances.toml"))
-            .expect("validation/tolerances.toml is read by a test")
+        static PROJECT: LazyLock<Tolerances> = LazyLock::new(|| {
+            toml::from_str(include_str!("../data/tolerances.toml"))
+                .expect("data/tolerances.toml is read by a test")
+        });
+        PROJECT.clone()
     }
 }
 

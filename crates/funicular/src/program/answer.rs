@@ -122,13 +122,24 @@ pub fn ladder<'a>(answers: impl Iterator<Item = (&'a SolverName, &'a Evidence)>)
             text += &wrapped(&line, LADDER_INDENT);
             text.push('\n');
         }
+        if let Some(family) = evidence.force_family {
+            text += &wrapped(&format!("  ! {:<10} {family}", "forces"), LADDER_INDENT);
+            text.push('\n');
+        }
     }
     text + "\n"
 }
 
 fn agreement(agreement: &Agreement) -> String {
-    format!(
-        "Agreement: {} (joints {:.1e} m, forces {:.1e} N, energy {:.1e} J)\n",
+    let mut text = format!(
+        "Agreement: {} (joints {:.1e} m, forces {:.1e} N, energy {:.1e} J)",
         agreement.verdict, agreement.joints_m, agreement.forces_n, agreement.energy_j
-    )
+    );
+    if agreement.force_family.is_some() {
+        text += " of the shape alone: the forces are indeterminate";
+    }
+    if let Some(free) = agreement.free {
+        let _ = write!(text, "; not compared: {free}");
+    }
+    text + "\n"
 }

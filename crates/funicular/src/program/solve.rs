@@ -5,9 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 use funicular::{SolveAnswer, SystemSolution, picture};
 use miette::miette;
-use validate::Agreement;
 use validate::answer::{Equations, Solvers};
-use validate::systems::SystemAgreement;
 
 use crate::answer;
 use crate::exit::{Exit, Failure};
@@ -119,7 +117,7 @@ fn chain_answer(
     } else {
         output::print(&answer::answer(answer, arguments.summary))?;
     }
-    Ok(verdict(answer.agreement().map(Agreement::agrees), answer.failures().is_empty()))
+    Ok(verdict(answer.check_failed(), answer.is_decided()))
 }
 
 fn system_answer(
@@ -145,14 +143,15 @@ fn system_answer(
     } else {
         output::print(&system::answer(answer, arguments.summary))?;
     }
-    Ok(verdict(answer.agreement().map(SystemAgreement::agrees), answer.failures().is_empty()))
+    let disagree = answer.agreement().is_some_and(|agreement| !agreement.agrees());
+    Ok(verdict(disagree, answer.failures().is_empty()))
 }
 
-/// A solver that has no answer leaves the question undecided, whatever the other found.
-fn verdict(agreed: Option<bool>, complete: bool) -> Exit {
-    if agreed == Some(false) {
+/// A failed check is worse than an answer that is missing or has not converged.
+fn verdict(check_failed: bool, decided: bool) -> Exit {
+    if check_failed {
         Exit::CheckFailed
-    } else if complete {
+    } else if decided {
         Exit::Done
     } else {
         Exit::Undecided

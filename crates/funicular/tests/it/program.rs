@@ -129,6 +129,102 @@ fn summary_and_a_single_solver() {
     assert_eq!(ladder[1]["reached"], false);
 }
 
+fn solved(folder: &str, text: &str, arguments: &[&str]) -> (Option<i32>, Value) {
+    let path = file(folder, text);
+    let output = funicular(&[&["solve", &path, "--json"], arguments].concat());
+    let json = serde_json::from_slice(&output.stdout)
+        .unwrap_or_else(|error| panic!("{folder}: {error}\n{}", stderr(&output)));
+    (output.status.code(), json)
+}
+
+/// Two bars without mass just fail to reach between two that hang plumb.
+const JUST_BRIDGED: &str = "
+[anchors]
+start_m = [0, 0, 0]
+end_m = [2.00000001, 0, 0]
+[[bars]]
+length_m = 1
+mass_kg = 1
+[[bars]]
+length_m = 1
+mass_kg = 0
+count = 2
+[[bars]]
+length_m = 1
+mass_kg = 1
+";
+
+/// Exit 0 means that nothing that was tried speaks against the answer; here a complete census is taken.
+#[test]
+fn an_answer_that_the_census_refutes_is_no_success() {
+    let heavy = JUST_BRIDGED.replace("2.00000001, 0, 0", "1.5, 0, -0.5").replace(
+        "mass_kg = 1\n[[bars]]\nlength_m = 1\nmass_kg = 0\ncount = 2",
+        "mass_kg = 1e12\n[[bars]]\nlength_m = 1\nmass_kg = 1\ncount = 2",
+    );
+    assert!(heavy.contains("1e12"));
+    for (name, text) in [("refuted", JUST_BRIDGED), ("refuted-heavy", &heavy)] {
+        for arguments in [&["--solver", "energy"][..], &["--solver", "lagrange"], &[]] {
+            let (code, json) = solved(name, text, arguments);
+            for answer in json["equilibria"].as_array().unwrap() {
+                let ladder = &answer["evidence"]["ladder"];
+                let refuted = ladder[3]["reason"]["kind"] == "refuted_by_census";
+                assert!(refuted || ladder[3]["reached"] == true, "{name} {ladder:#}");
+                assert!(code == Some(1) || !refuted, "{name} {arguments:?} {code:?} {ladder:#}");
+            }
+        }
+    }
+}
+
+/// What one solver finds is shown, whatever the other does.
+#[test]
+fn the_answer_of_one_solver_is_kept_where_the_other_has_none() {
+    let text = "
+[anchors]
+start_m = [0.0, 0.0, 0.0]
+end_m = [7.988872883551471e-14, 0.0, -2.344069907932715]
+[[bars]]
+length_m = 1.8977526430056555
+mass_kg = 1.4445710758355859
+centre_m = 1.2723967321422471
+[[bars]]
+length_m = 0.9662752964852226
+mass_kg = 1.3033106945140618
+centre_m = 0.12310672070929912
+[[bars]]
+length_m = 0.5199585828249038
+mass_kg = 2.208322628172228
+centre_m = 0.23910237774903406
+";
+    let (code, json) = solved("refused", text, &[]);
+    let answers = json["equilibria"].as_array().unwrap();
+    let failures = json["failures"].as_array().unwrap();
+    assert_eq!(answers.len() + failures.len(), 2);
+    assert!(!answers.is_empty());
+    if let [failure] = &failures[..] {
+        assert!(code == Some(3) && json["agreement"].is_null());
+        assert!(!failure["reason"].as_str().unwrap().is_empty());
+        let agreed = &answers[0]["evidence"]["ladder"][1];
+        assert_eq!(agreed["reason"]["kind"], "other_solver_without_answer");
+        assert_eq!(agreed["reason"]["solver"], failure["solver"]);
+    }
+}
+
+/// Three equal bars with anchors one length apart: the forces are one of a family, and the output says so.
+#[test]
+fn indeterminate_forces_are_told() {
+    let bar = "[[bars]]\nlength_m = 1\nmass_kg = 1\ncount = 3\n";
+    let text = format!("[anchors]\nstart_m = [0, 0, 0]\nend_m = [0, 0, -1]\n{bar}");
+    let (code, json) = solved("indeterminate", &text, &[]);
+    assert_eq!(code, Some(0));
+    assert_eq!(json["agreement"]["force_family"]["dimension"], 1);
+    for answer in json["equilibria"].as_array().unwrap() {
+        assert_eq!(answer["evidence"]["force_family"]["choice"], "anchors_moved_apart");
+        assert_eq!(answer["evidence"]["ladder"][1]["proof"]["shape_only"], true);
+    }
+    let text = stdout(&funicular(&["solve", &file("indeterminate-text", &text)]));
+    assert!(text.contains("indeterminate: all bars are") && text.contains("of the shape alone"));
+}
+
 #[test]
 fn a_case_solves_alike_as_a_file_and_by_name() {
     let text = stdout(&funicular(&["cases", "two-bars"]));

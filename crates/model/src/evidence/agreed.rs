@@ -23,6 +23,36 @@ pub struct Agreed {
     /// Largest violation of geometry and of Newton's laws by any of the answers, dimensionless.
     #[serde(with = "finite")]
     pub statics: f64,
+    /// Joints that an equilibrium leaves free, which are not compared: see [`FreeJoints`].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub free_joints: Option<FreeJoints>,
+    /// Whether agreement is evidence for the shape alone: the forces are one of a family, chosen by convention (see
+    /// [`ForceFamily`](super::ForceFamily)).
+    pub shape_only: bool,
+}
+
+/// The joints between bars that are proved to carry no force: all else hangs plumb from the two anchors, and the
+/// lengths of these bars leave more than one way to bridge what is left.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub struct FreeJoints {
+    /// The first of them.
+    pub first: usize,
+    /// The last of them.
+    pub last: usize,
+}
+
+impl FreeJoints {
+    /// How many.
+    #[must_use]
+    pub fn count(&self) -> usize {
+        self.last + 1 - self.first
+    }
+
+    /// Whether a joint is one of them.
+    #[must_use]
+    pub fn contains(&self, joint: usize) -> bool {
+        (self.first..=self.last).contains(&joint)
+    }
 }
 
 /// A number that is over its budget.

@@ -9,6 +9,7 @@ use super::finite;
 pub struct Optimal {
     /// The energy less a proved lower bound of all energies, in units of the weight between the anchors times the
     /// total length; nothing where a factorisation in intervals proves it of the exact equilibrium.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub gap: Option<f64>,
     /// Whether the stress matrix is singular as far as doubles can tell: the free turn about the vertical through
     /// both anchors.

@@ -17,10 +17,12 @@ pub struct Convergence {
     #[serde(with = "finite")]
     pub residual: f64,
     /// What the residual may be; nothing for a proof by enclosure, which needs none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tolerance: Option<f64>,
     /// Iterations of the solver.
     pub iterations: usize,
     /// How far the solver's arithmetic leaves the forces open, where that is worth saying.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub force_uncertainty: Option<ForceUncertainty>,
 }
 

@@ -83,6 +83,32 @@ impl Ladder {
         Rung::ALL.into_iter().rev().find(|rung| self.is_reached(*rung))
     }
 
+    /// Take back what was reached above `converged`: a complete census proves that the answer is at this distance of
+    /// every equilibrium, in units of the total length.
+    pub fn refute(&mut self, distance: f64) {
+        let reason = || Reason::RefutedByCensus { distance };
+        self.agreed = Status::Open(reason());
+        self.verified = Status::Open(reason());
+        self.complete = Status::Open(reason());
+        self.optimal = Status::Open(reason());
+    }
+
+    /// Whether a check that was made of this answer has failed: solvers disagree, the judge refuses it, or a census
+    /// refutes it. That something was not tried or not decided is no failure.
+    #[must_use]
+    pub fn failed(&self) -> bool {
+        Rung::ALL.into_iter().any(|rung| {
+            matches!(
+                self.reason(rung),
+                Some(
+                    Reason::SolversDisagree(_)
+                        | Reason::JudgeRefuses { .. }
+                        | Reason::RefutedByCensus { .. }
+                )
+            )
+        })
+    }
+
     /// One statement for each rung, lowest first.
     #[must_use]
     pub fn statements(&self) -> [Statement; 5] {

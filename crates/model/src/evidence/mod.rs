@@ -23,6 +23,7 @@ mod certificate;
 mod complete;
 mod convergence;
 mod finite;
+mod force_family;
 mod ladder;
 mod reason;
 mod rung;
@@ -34,10 +35,11 @@ use std::borrow::Cow;
 
 use serde::{Deserialize, Serialize};
 
-pub use agreed::{Agreed, Disagreement, Excess, Place, Quantity, StabilityDifference};
+pub use agreed::{Agreed, Disagreement, Excess, FreeJoints, Place, Quantity, StabilityDifference};
 pub use certificate::{NoCertificate, Optimal};
 pub use complete::{Complete, NoCensus};
 pub use convergence::{Convergence, ForceUncertainty, UncertaintyCause};
+pub use force_family::{ForceChoice, ForceFamily};
 pub use ladder::{Ladder, Statement};
 pub use reason::{NoAnswer, Reason};
 pub use rung::Rung;
@@ -63,6 +65,9 @@ pub struct Evidence {
     /// Time of the solver alone, s.
     #[serde(with = "finite")]
     pub solve_s: f64,
+    /// Where equilibrium does not determine the forces: the family that they belong to.
+    #[serde(default)]
+    pub force_family: Option<ForceFamily>,
     /// The five rungs.
     pub ladder: Ladder,
 }
@@ -98,6 +103,7 @@ impl Evidence {
             nullity: 0,
             condition: 1.0,
             solve_s: 0.0,
+            force_family: None,
             ladder: Ladder { converged: convergence.judged(), ..Ladder::default() },
         }
     }
@@ -137,6 +143,8 @@ struct Keys<'a> {
     condition: f64,
     #[serde(with = "finite")]
     solve_s: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    force_family: Option<ForceFamily>,
     ladder: &'a Ladder,
 }
 
@@ -150,6 +158,7 @@ impl Serialize for Evidence {
             nullity: self.nullity,
             condition: self.condition,
             solve_s: self.solve_s,
+            force_family: self.force_family,
             ladder: &self.ladder,
         }
         .serialize(serializer)

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::agreed::Disagreement;
+use super::agreed::{Disagreement, Excess};
 use super::certificate::NoCertificate;
 use super::complete::NoCensus;
 use super::convergence::Convergence;
@@ -38,6 +38,17 @@ pub enum Reason {
     },
     /// Solvers were compared and disagree.
     SolversDisagree(Disagreement),
+    /// An answer that stands alone violates geometry or Newton's laws, or its numbers contradict each other.
+    JudgeRefuses {
+        /// What is over its budget.
+        excesses: Vec<Excess>,
+    },
+    /// A complete census proves that the answer is no equilibrium, to the accuracy that is asked of answers.
+    RefutedByCensus {
+        /// Distance of the nearest one, in units of the total length.
+        #[serde(with = "finite")]
+        distance: f64,
+    },
     /// There is no census.
     NoCensus(NoCensus),
     /// The answer is one of a family with slack bars, which the census lists as a whole.
@@ -47,7 +58,8 @@ pub enum Reason {
         /// How many.
         cells: usize,
     },
-    /// The census lists other equilibria.
+    /// The census lists other equilibria, not so far away, or not proved to be all, that they would refute the
+    /// answer.
     Elsewhere {
         /// Distance of the nearest one, in units of the total length.
         #[serde(with = "finite")]

@@ -4,10 +4,13 @@
 
 use std::fmt::{self, Display, Formatter};
 
-use super::agreed::{Agreed, Disagreement, Excess, Place, Quantity, StabilityDifference};
+use super::agreed::{
+    Agreed, Disagreement, Excess, FreeJoints, Place, Quantity, StabilityDifference,
+};
 use super::certificate::{NoCertificate, Optimal};
 use super::complete::{Complete, NoCensus};
 use super::convergence::{Convergence, ForceUncertainty, UncertaintyCause};
+use super::force_family::{ForceChoice, ForceFamily};
 use super::reason::{NoAnswer, Reason};
 use super::rung::Rung;
 use super::status::Status;
@@ -88,7 +91,59 @@ impl Display for Agreed {
         write!(
             f,
             " differ by {joints} m, {forces} N, {energy} J; the statics judge finds every bar in balance to {statics}"
-        )
+        )?;
+        if let Some(free) = self.free_joints {
+            write!(f, "; {free}, and they are not compared")?;
+        }
+        if self.shape_only {
+            f.write_str(
+                "; of the shape alone: the forces are one of a family, chosen by convention",
+            )?;
+        }
+        Ok(())
+    }
+}
+
+impl Display for FreeJoints {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let Self { first, last } = self;
+        if first == last {
+            write!(f, "joint {first} is free")?;
+        } else {
+            write!(f, "joints {first} to {last} are free")?;
+        }
+        f.write_str(" (its bars carry no force, and their lengths leave room)")
+    }
+}
+
+impl Display for ForceFamily {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let [x, y, z] = self.direction;
+        write!(
+            f,
+            "indeterminate: all bars are parallel, and a force along ({x:.3}, {y:.3}, {z:.3}) may be added \
+             between all of them without a change of shape ({} self-stress)",
+            self.dimension
+        )?;
+        match self.start_force_n {
+            Some([least, most]) => write!(
+                f,
+                "; all bars are in tension for {least:.6e} to {most:.6e} N of the ground at joint 0 along it"
+            )?,
+            None => f.write_str("; some bar is pushed in any case")?,
+        }
+        write!(f, "; the forces told are {}", self.choice)
+    }
+}
+
+impl Display for ForceChoice {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::AnchorsMovedApart => {
+                "the limit for anchors moved apart level, by convention, which is no evidence for them"
+            }
+            Self::Unknown => "the solver's own choice, which is no evidence for them",
+        })
     }
 }
 
@@ -191,6 +246,11 @@ impl Display for Optimal {
     }
 }
 
+/// Each part in a sentence.
+fn sentences(parts: &[impl Display]) -> Vec<String> {
+    parts.iter().map(ToString::to_string).collect()
+}
+
 /// What the judge of balance found of an answer that stands alone.
 fn balance(f: &mut Formatter<'_>, statics: f64) -> fmt::Result {
     let statics = size(f, statics);
@@ -211,6 +271,14 @@ impl Display for Reason {
                 balance(f, *statics)
             }
             Self::SolversDisagree(disagreement) => disagreement.fmt(f),
+            Self::JudgeRefuses { excesses } => {
+                write!(f, "the judge refuses this answer: {}", sentences(excesses).join("; "))
+            }
+            Self::RefutedByCensus { distance } => write!(
+                f,
+                "refuted: the census lists all equilibria with proof, and the nearest lies {distance:.1e} of the total \
+                 length away"
+            ),
             Self::NoCensus(because) => because.fmt(f),
             Self::SlackFamily => f.write_str(
                 "the answer is one of a family with slack bars, which the census lists as a whole: it is not alone in \

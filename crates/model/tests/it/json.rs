@@ -1,20 +1,35 @@
 //! The JSON of an answer: the keys that other programs rely on, and no more than they are told of.
 
 use model::{
-    Agreed, Disagreement, Equilibrium, Evidence, Excess, ForceUncertainty, InPlane, InSpace,
-    NoCensus, NoCertificate, Optimal, Quantity, Reactions, Reason, Rung, SolverName, Stability,
-    StabilityDifference, Status, UncertaintyCause, Verified,
+    Agreed, Disagreement, Equilibrium, Evidence, Excess, ForceChoice, ForceFamily,
+    ForceUncertainty, FreeJoints, InPlane, InSpace, NoCensus, NoCertificate, Optimal, Quantity,
+    Reactions, Reason, Rung, SolverName, Stability, StabilityDifference, Status, UncertaintyCause,
+    Verified,
 };
 use serde_json::Value;
 
 fn agreed() -> Agreed {
     let solvers = vec![SolverName::LAGRANGE, SolverName::ENERGY, SolverName::new("a third")];
-    Agreed { solvers, joints_m: 1e-13, forces_n: 2e-12, energy_j: 0.0, statics: 3e-16 }
+    Agreed {
+        solvers,
+        joints_m: 1e-13,
+        forces_n: 2e-12,
+        energy_j: 0.0,
+        statics: 3e-16,
+        free_joints: Some(FreeJoints { first: 2, last: 3 }),
+        shape_only: true,
+    }
 }
 
 fn equilibrium() -> Equilibrium {
     let mut evidence = Evidence::new("residual", 1e-15, 1e-13, 4);
     evidence.ladder.agreed = Status::Reached(agreed());
+    evidence.force_family = Some(ForceFamily {
+        dimension: 1,
+        direction: [0.0, 0.0, 1.0],
+        start_force_n: Some([1.5, 2.5]),
+        choice: ForceChoice::AnchorsMovedApart,
+    });
     evidence.ladder.optimal =
         Status::Open(Reason::NoCertificate(NoCertificate::Indefinite { bar: 2, excess: 0.25 }));
     Equilibrium {
@@ -66,6 +81,7 @@ fn the_keys_of_an_equilibrium_are_those_of_the_design() {
         keys(&json["evidence"]),
         [
             "condition",
+            "force_family",
             "iterations",
             "ladder",
             "nullity",
@@ -77,13 +93,10 @@ fn the_keys_of_an_equilibrium_are_those_of_the_design() {
     );
     let ladder = &json["evidence"]["ladder"];
     assert_eq!(keys(&ladder[0]), ["how", "proof", "reached", "rung"]);
-    assert_eq!(
-        keys(&ladder[0]["proof"]),
-        ["force_uncertainty", "iterations", "residual", "residual_of", "tolerance"]
-    );
+    assert_eq!(keys(&ladder[0]["proof"]), ["iterations", "residual", "residual_of", "tolerance"]);
     assert_eq!(
         keys(&ladder[1]["proof"]),
-        ["energy_j", "forces_n", "joints_m", "solvers", "statics"]
+        ["energy_j", "forces_n", "free_joints", "joints_m", "shape_only", "solvers", "statics"]
     );
     assert_eq!(keys(&ladder[2]), ["how", "reached", "reason", "rung"]);
     assert_eq!(ladder[2]["reason"]["kind"], "not_tried");

@@ -74,6 +74,8 @@ pub fn compare(
             forces_n: agreement.forces_n,
             energy_j: agreement.energy_j,
             statics: agreement.statics.iter().map(SystemStatics::largest).fold(0.0, worse),
+            free_joints: None,
+            shape_only: false,
         })
     } else {
         Status::Open(Reason::SolversDisagree(agreement.disagreement.clone()))

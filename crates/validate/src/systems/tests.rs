@@ -65,7 +65,7 @@ fn every_number_of_an_answer_counts() {
     seen(|a| a.reactions_n[1][0] += OFF);
     seen(|a| a.reactions_n[2][1] += OFF);
     seen(|a| a.energy_j += OFF);
-    seen(|a| drop(a.joints_m.pop()));
+    seen(|a| a.joints_m.truncate(1));
     assert!(changed(|a| a.joints_m[2][0] = f64::NAN).0.is_nan());
     assert!(changed(|a| a.axial_n[0] = f64::NAN).0.is_nan());
     assert!(changed(|a| a.energy_j = f64::NAN).0.is_nan());

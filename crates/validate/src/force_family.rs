@@ -1,0 +1,107 @@
+//! Whether equilibrium determines the forces: the self-stress of parallel bars.
+//!
+//! A self-stress is a set of axial forces that balance at every joint without any load. In a chain the force of
+//! one bar is passed on to the next, so it is one vector `p` all along, and every bar is parallel to it: the
+//! rigidity matrix of n bars with 3(n−1) free coordinates has rank n, but for a chain whose bars are all parallel to
+//! one line, where it has rank n − 1. There any multiple of the unit vector of the line may be added to the forces
+//! between all bars.
+
+use model::{Chain, Equilibrium, ForceChoice, ForceFamily, STRAIGHT_TOLERANCE, SolverName, Vector};
+
+use crate::statics::stored_rounding_m;
+
+/// The family of forces that an answer is one of, or nothing where equilibrium determines them.
+///
+/// Bars count as parallel where they lose, by all their angles to the line, less of their reach than the rounding of
+/// lengths ([`STRAIGHT_TOLERANCE`]): of lengths that differ by so much some lie on the line.
+#[must_use]
+pub fn force_family(chain: &Chain, answer: &Equilibrium) -> Option<ForceFamily> {
+    let bars = chain.bars().len();
+    if answer.joints_m.len() != bars + 1 || answer.axial_n.len() != bars {
+        return None;
+    }
+    let direction = common_line(chain, &answer.joints_m)?;
+    let [mut least, mut most] = [f64::NEG_INFINITY, f64::INFINITY];
+    for (ends, axial_n) in answer.joints_m.windows(2).zip(&answer.axial_n) {
+        // A force added along the line pulls the bars that run with it and pushes those that run against it.
+        if dot(minus(ends[1], ends[0]), direction) > 0.0 {
+            least = least.max(-axial_n);
+        } else {
+            most = most.min(*axial_n);
+        }
+    }
+    let told_n = dot(answer.reactions_n.start, direction);
+    // What is added to the bars is taken from the ground at joint 0.
+    let range = [told_n - most, told_n - least];
+    let pulled = least <= most && range.iter().all(|end| end.is_finite());
+    let ours = [SolverName::LAGRANGE, SolverName::ENERGY].contains(&answer.solver);
+    let limit = ours && pulled && chain.anchors_on_one_vertical();
+    Some(ForceFamily {
+        dimension: 1,
+        direction,
+        start_force_n: pulled.then_some(range),
+        choice: if limit { ForceChoice::AnchorsMovedApart } else { ForceChoice::Unknown },
+    })
+}
+
+/// The unit vector of the line to which all bars are parallel, upwards; nothing if they are not.
+fn common_line(chain: &Chain, joints_m: &[Vector]) -> Option<Vector> {
+    let bars = || joints_m.windows(2).map(|ends| minus(ends[1], ends[0]));
+    let longest = bars().fold([0.0; 3], |a, b| if norm(b) > norm(a) { b } else { a });
+    let along = |sum: Vector, bar: Vector| {
+        let sign = if dot(bar, longest) < 0.0 { -1.0 } else { 1.0 };
+        std::array::from_fn(|k| sum[k] + sign * bar[k])
+    };
+    let sum = bars().fold([0.0; 3], along);
+    let size = norm(sum);
+    let unit = if upwards(sum) { 1.0 } else { -1.0 } / size;
+    // No negative zeros.
+    let line = sum.map(|x| x * unit + 0.0);
+    let room_m = STRAIGHT_TOLERANCE * chain.total_length_m() + stored_rounding_m(chain);
+    let mut lost_m = 0.0;
+    for bar in bars() {
+        // l (1 - cos a) = l sin^2 a / (1 + cos a), which loses no digits.
+        let (length, across) = (norm(bar), norm(cross(bar, line)));
+        lost_m += across * across / (length + dot(bar, line).abs());
+        // NaN is not parallel.
+        if lost_m.is_nan() || lost_m > room_m {
+            return None;
+        }
+    }
+    Some(line)
+}
+
+/// Whether a vector points up; of level ones, whether it points along the first axis that it has a part along.
+fn upwards([x, y, z]: Vector) -> bool {
+    [z, x, y].into_iter().find(|part| part.abs() > 0.0).is_some_and(|part| part > 0.0)
+}
+
+/// What two answers of a family differ by beyond a force added along its line: the differences of their joint forces
+/// with its mean taken away.
+pub(crate) fn beside_the_family(family: &ForceFamily, differences_n: &mut [Vector]) {
+    // Joint 0 has the force of the ground on bar 1, all others that of what comes after on the bar before.
+    let sign = |k: usize| if k == 0 { -1.0 } else { 1.0 };
+    let parts = differences_n.iter().enumerate().map(|(k, d)| sign(k) * dot(*d, family.direction));
+    let mean = parts.sum::<f64>() / differences_n.len() as f64;
+    for (k, difference) in differences_n.iter_mut().enumerate() {
+        for (part, along) in difference.iter_mut().zip(family.direction) {
+            *part -= sign(k) * mean * along;
+        }
+    }
+}
+
+fn minus(a: Vector, b: Vector) -> Vector {
+    std::array::from_fn(|k| a[k] - b[k])
+}
+
+fn dot(a: Vector, b: Vector) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+fn cross(a: Vector, b: Vector) -> Vector {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+fn norm([x, y, z]: Vector) -> f64 {
+    x.hypot(y).hypot(z)
+}

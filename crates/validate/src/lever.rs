@@ -1,0 +1,38 @@
+//! The lever rule, the one place of it outside the two solvers and the census.
+//!
+//! A bar's weight is linear in the places of its two ends, so a bar weighs on its joints as two point
+//! masses do: with the centre of weight at the distance `r` from its first end, `(1 − r/l) m` there and
+//! `(r/l) m` at its second end.
+
+use model::{Bar, Chain};
+
+/// Where the centre of weight is, as a part of the length from the first end: `r/l`.
+///
+/// ```
+/// use validate::lever;
+/// let bar = model::Bar::new(2.0, 8.0, 0.5, [0.0; 3])?;
+/// assert_eq!(lever::centre_part(&bar), 0.25);
+/// assert_eq!([lever::near_kg(&bar), lever::far_kg(&bar)], [6.0, 2.0]);
+/// # Ok::<(), model::BarError>(())
+/// ```
+#[must_use]
+pub fn centre_part(bar: &Bar) -> f64 {
+    bar.centre_m() / bar.length_m()
+}
+
+/// What of its mass the first end of a bar carries, kg; exactly none where the centre of weight is at the second.
+#[must_use]
+pub fn near_kg(bar: &Bar) -> f64 {
+    bar.mass_kg() * ((bar.length_m() - bar.centre_m()) / bar.length_m())
+}
+
+/// What of its mass the second end of a bar carries, kg.
+#[must_use]
+pub fn far_kg(bar: &Bar) -> f64 {
+    bar.mass_kg() * centre_part(bar)
+}
+
+/// The mass that each joint between the anchors carries, kg.
+pub fn carried_kg(chain: &Chain) -> impl Iterator<Item = f64> + '_ {
+    chain.bars().windows(2).map(|pair| far_kg(&pair[0]) + near_kg(&pair[1]))
+}
