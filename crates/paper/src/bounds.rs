@@ -19,7 +19,7 @@ pub struct Bounds {
     pub upper_mgl: f64,
     /// That bound less V(E2) by `lagrange`.
     pub gap_to_e2_mgl: f64,
-    /// The lower bound with bars as cables: second-order cones. Not tight, since bar 3 is pressed.
+    /// The lower bound with bars as cables: second-order cones. Not tight, since bar 3 is in compression.
     pub cables_mgl: f64,
 }
 

@@ -111,8 +111,8 @@ fn result(m: &ScanMinimum) -> [f64; 4] {
 fn near(found: &ScanMinimum) -> Vec<[f64; 2]> {
     (0..NEAR_POINTS)
         .filter_map(|k| {
-            let share = 2.0 * f64::from(k) / f64::from(NEAR_POINTS - 1) - 1.0;
-            let theta = found.theta_rad + share * NEAR_DEG.to_radians();
+            let fraction = 2.0 * f64::from(k) / f64::from(NEAR_POINTS - 1) - 1.0;
+            let theta = found.theta_rad + fraction * NEAR_DEG.to_radians();
             let alpha = energy::example::alpha(theta, found.branch)?;
             Some([theta.to_degrees(), energy::example::potential(theta, alpha)])
         })

@@ -1,4 +1,4 @@
-//! What the paper prints, with its birth certificates: `validation/paper.toml`.
+//! What the paper prints, with the place of each claim: `validation/paper.toml`.
 
 use serde::{Deserialize, Serialize};
 
@@ -159,7 +159,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_number_has_its_birth_certificate() {
+    fn every_number_has_its_source() {
         let paper = Paper::project();
         let mut ids = Vec::new();
         for claim in &paper.claims {

@@ -52,8 +52,8 @@ pub struct Survey {
     pub reached: Vec<Reached>,
     /// Seeds that converged to something else.
     pub elsewhere: usize,
-    /// Converged seeds of `lagrange` that Newton's method alone brought there, without letting the
-    /// chain sink first.
+    /// Converged seeds of `lagrange` that Newton's method alone brought there, without relaxing the
+    /// chain first.
     pub direct: Option<usize>,
     /// Steps of the converged seeds: half of them took at most this many.
     pub median_iterations: usize,

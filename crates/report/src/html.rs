@@ -49,12 +49,13 @@ pub fn page(title: &str, blocks: &[Block], run: &[Block]) -> String {
     )
 }
 
-/// The chapters, to jump to.
+/// The chapters and their parts, to jump to.
 fn contents(blocks: &[Block]) -> String {
     let mut items = String::new();
     for block in blocks {
-        if let Block::Heading(2, id, text) = block {
-            let _ = writeln!(items, "<li><a href=\"#{id}\">{}</a></li>", inline(text));
+        if let Block::Heading(level @ 2..=3, id, text) = block {
+            let class = if *level == 3 { " class=\"part\"" } else { "" };
+            let _ = writeln!(items, "<li{class}><a href=\"#{id}\">{}</a></li>", inline(text));
         }
     }
     items.push_str("<li><a href=\"#this-run\">This run</a></li>\n");
@@ -95,15 +96,20 @@ fn drawn(figure: &Figure) -> String {
 const LONG: usize = 32;
 
 /// A table in a box that scrolls on its own, so that the page does not.
+///
+/// Where there is no room for columns, one with verdicts becomes a list of rows with the verdict on top, so that none
+/// is out of sight. Its parts say what they are, since browsers take no table for one that is laid out otherwise.
 fn rows(table: &Table) -> String {
     let mut text = String::new();
     let label =
         if table.caption.is_empty() { table.head.join(", ") } else { table.caption.clone() };
+    let judged = table.rows.iter().flatten().any(|cell| matches!(cell, Cell::Badge(_)));
     // Writing to a String cannot fail.
     let _ = write!(
         text,
-        "<div class=\"scroll\" role=\"region\" tabindex=\"0\" aria-label=\"{}\">\n<table>\n",
-        Escaped(&label)
+        "<div class=\"scroll\" role=\"region\" tabindex=\"0\" aria-label=\"{}\">\n<table{}>\n",
+        Escaped(&label),
+        if judged { " class=\"judged\" role=\"table\"" } else { "" }
     );
     if !table.caption.is_empty() {
         let _ = writeln!(text, "<caption><span>{}</span></caption>", inline(&table.caption));
@@ -112,29 +118,32 @@ fn rows(table: &Table) -> String {
     let numeric: Vec<bool> = (0..table.head.len())
         .map(|k| k > 0 && table.rows.iter().all(|row| row.get(k).is_some_and(Cell::is_number)))
         .collect();
-    text.push_str("<thead><tr>");
-    for (cell, &number) in table.head.iter().zip(&numeric) {
+    let role = |name: &str| if judged { format!(" role=\"{name}\"") } else { String::new() };
+    let _ = write!(text, "<thead{}><tr{}>", role("rowgroup"), role("row"));
+    for (name, &number) in table.head.iter().zip(&numeric) {
         let class = if number { " class=\"number\"" } else { "" };
-        let _ = write!(text, "<th scope=\"col\"{class}>{}</th>", inline(cell));
+        let _ =
+            write!(text, "<th scope=\"col\"{class}{}>{}</th>", role("columnheader"), inline(name));
     }
-    text.push_str("</tr></thead>\n<tbody>\n");
+    let _ = write!(text, "</tr></thead>\n<tbody{}>\n", role("rowgroup"));
     for row in &table.rows {
-        text.push_str("<tr>");
-        for (k, cell) in row.iter().enumerate() {
+        let _ = write!(text, "<tr{}>", role("row"));
+        for (k, (cell, name)) in row.iter().zip(&table.head).enumerate() {
             let plain = cell.text();
             let content = if let Cell::Badge(badge) = cell { shown(badge) } else { inline(&plain) };
-            let class = if numeric.get(k) == Some(&true) {
-                " class=\"number\""
-            } else if plain.chars().count() > LONG {
-                " class=\"long\""
-            } else {
-                ""
+            let class = match cell {
+                Cell::Badge(_) => " class=\"verdicts\"",
+                _ if numeric.get(k) == Some(&true) => " class=\"number\"",
+                _ if plain.chars().count() > LONG => " class=\"long\"",
+                _ => "",
             };
-            if k == 0 {
-                let _ = write!(text, "<th scope=\"row\"{class}>{content}</th>");
+            let column =
+                if judged { format!(" data-column=\"{}\"", Escaped(name)) } else { String::new() };
+            let _ = if k == 0 {
+                write!(text, "<th scope=\"row\"{class}{}>{content}</th>", role("rowheader"))
             } else {
-                let _ = write!(text, "<td{class}>{content}</td>");
-            }
+                write!(text, "<td{class}{}{column}>{content}</td>", role("cell"))
+            };
         }
         text.push_str("</tr>\n");
     }

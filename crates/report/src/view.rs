@@ -112,7 +112,7 @@ impl View {
         places.push(Place::scanned(
             "(x)",
             Kind::False,
-            "the paper\u{2019}s second equilibrium, which is none: the first point of its scan, on a slope \
+            "the paper\u{2019}s second equilibrium, which is no equilibrium: the first point of its scan, on a slope \
              that goes down to E1\u{2032}"
                 .to_owned(),
             x,
@@ -188,11 +188,11 @@ impl Place {
         let minimum = found.stability.index_in_plane == 0;
         let [o, _, _, d] = found.forces_mg;
         let axial = found.axial_mg;
-        let pushed = axial.iter().filter(|&&n| n < 0.0).count();
-        let bars = match pushed {
-            0 => "every bar is pulled".to_owned(),
-            3 => "every bar is pushed".to_owned(),
-            _ => format!("{pushed} of 3 bars pushed"),
+        let compressed = axial.iter().filter(|&&n| n < 0.0).count();
+        let bars = match compressed {
+            0 => "every bar is in tension".to_owned(),
+            3 => "every bar is in compression".to_owned(),
+            _ => format!("{compressed} of 3 bars in compression"),
         };
         let says = format!(
             "an equilibrium, {} of V; the ground bears {:.4} mg at O and {:.4} mg at D, {bars}",

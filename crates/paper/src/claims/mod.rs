@@ -7,7 +7,7 @@
 //! |---|---|
 //! | `counts` | how many equations, unknowns, freedoms |
 //! | `scan` | section VIII, Solution 1: the search and the position (ix) |
-//! | `second` | the position (x), which is none, and E2, which is |
+//! | `second` | the position (x), which is no equilibrium, and E2, which is one |
 //! | `plane` | section VIII, Solution 2: multipliers and reactions |
 //! | `space` | conclusions: turns, infinities, initial conditions |
 
@@ -110,7 +110,7 @@ pub fn claims(paper: &Paper, example: &Example, surveys: &[Survey]) -> Vec<Claim
 
 impl Claim {
     fn new(printed: Printed, finding: Finding) -> Self {
-        // A number that is none supports nothing, and has no place in a file.
+        // NaN and infinity support nothing, and have no place in a file.
         let finite = |x: &f64| x.is_finite();
         let number = Some(finding.number).filter(finite);
         let verdict = finding.verdict.if_shown(number.is_some());

@@ -93,7 +93,7 @@ fn the_multipliers_are_the_reactions() {
             }
         }
     }
-    // Bars 1 and 2 pulled, bar 3 pressed; the anchors carry 3 mg.
+    // Bars 1 and 2 in tension, bar 3 in compression; the anchors carry 3 mg.
     let e1 = &reproduction().equilibria[0];
     assert!((e1.forces_mg[0][1] + e1.forces_mg[3][1] - 3.0).abs() <= 1e-12);
 }

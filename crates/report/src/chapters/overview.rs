@@ -20,7 +20,7 @@ pub(crate) fn blocks(r: &Reproduction) -> Vec<Block<'_>> {
         text(
             "The paper finds where three bars, hung between two points, come to rest under their own weight: once by \
              searching for the least potential energy, once by Lagrange multipliers. Here both ways are \
-             programmed anew and independently (`energy`, `lagrange`), held against each other, against Newton's laws, and against \
+             programmed again, independently of each other (`energy`, `lagrange`), held against each other, against Newton's laws, and against \
              everything the paper prints. Every verdict below rests on a number worked out when this report was made.",
         ),
         heading(2, "outcome", "What came out"),

@@ -68,6 +68,6 @@ pub(super) const EQUATIONS: &[Equation] = &[
         corrected: Some(
             r"\fixed{\theta = 73.92059^\circ, \quad \alpha = 321.40086^\circ, \quad \beta = 340.30513^\circ, \quad V = 3.66453\,mgl}",
         ),
-        says: "The second position. It is none: the first point of the same grid on the other branch of (viii), on a slope. What there is instead is the first position upside down, which no search for minima finds.",
+        says: "The second position. It is no equilibrium but the first point of the same grid on the other branch of (viii), on a slope. What there is instead is the first position upside down, which no search for minima finds.",
     },
 ];

@@ -35,7 +35,7 @@ fn panel(basins: &Basins) -> String {
     let name = basins.solver.as_str();
     let names = ["θ at the start, degrees", &format!("{name}: α at the start, degrees")];
     let axes = Axes::panel([430.0, 420.0], [-180.0, 180.0], [-180.0, 180.0], names);
-    let shares: Vec<String> = PLACES
+    let fractions: Vec<String> = PLACES
         .iter()
         .filter(|(letter, ..)| basins.count(*letter) > 0)
         .map(|(letter, _, place)| {
@@ -47,7 +47,7 @@ fn panel(basins: &Basins) -> String {
         &format!("basins-{name}"),
         size,
         &format!("Basins of {name}"),
-        &format!("A map of starts by theta and alpha. {}.", shares.join(", ")),
+        &format!("A map of starts by theta and alpha. {}.", fractions.join(", ")),
     );
     let ticks =
         [-180.0, -90.0, 0.0, 90.0, 180.0].map(|a: f64| (a, format!("{a}").replace('-', "−")));

@@ -38,15 +38,15 @@ fn in_space() -> String {
         svg.indexed("label", moved(end, 1.0, offset), Anchor::Middle, name);
     }
     // Where the centre of each bar lies along it, for drawing: anywhere but in the middle.
-    let shares = [0.44, 0.55, 0.42];
-    for (bar, share) in shares.into_iter().enumerate() {
+    let fractions = [0.44, 0.55, 0.42];
+    for (bar, fraction) in fractions.into_iter().enumerate() {
         let (from, to) = (joints[bar], joints[bar + 1]);
         let along = [to[0] - from[0], to[1] - from[1]];
         let length = along[0].hypot(along[1]);
         // To the left of the bar's direction for r, to the right for l.
         let aside = [along[1] / length, -along[0] / length];
         svg.line("bar", from, to);
-        let centre = moved(from, share, along);
+        let centre = moved(from, fraction, along);
         svg.circle("centre", centre, 4.5);
         svg.indexed(
             "label",
@@ -62,7 +62,7 @@ fn in_space() -> String {
         let [near, far] = [moved(from, -10.0, aside), moved(centre, -10.0, aside)];
         svg.arrow("dimension", near, far);
         svg.arrow("dimension", far, near);
-        let at = moved(moved(from, share * 0.5, along), -21.0, aside);
+        let at = moved(moved(from, fraction * 0.5, along), -21.0, aside);
         svg.indexed("label small", [at[0], at[1] + 4.0], Anchor::Middle, &format!("r_{}", bar + 1));
     }
     for (k, (name, offset)) in [

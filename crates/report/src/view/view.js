@@ -191,13 +191,13 @@
     const way = wrap(goal - from + COUNT / 2) - COUNT / 2;
     const began = performance.now();
     const step = (now) => {
-      const share = Math.min(1, Math.max(0, (now - began) / TRAVEL_MS));
-      const eased = share * share * (3 - 2 * share);
-      state.at = share < 1 ? wrap(Math.round(from + way * eased)) : goal;
+      const done = Math.min(1, Math.max(0, (now - began) / TRAVEL_MS));
+      const eased = done * done * (3 - 2 * done);
+      state.at = done < 1 ? wrap(Math.round(from + way * eased)) : goal;
       // Only the end of the way is read aloud.
-      readout.setAttribute("aria-busy", String(share < 1));
+      readout.setAttribute("aria-busy", String(done < 1));
       show();
-      if (share < 1) state.travel = requestAnimationFrame(step);
+      if (done < 1) state.travel = requestAnimationFrame(step);
     };
     state.travel = requestAnimationFrame(step);
   };

@@ -113,6 +113,8 @@ await look("dark", { colorScheme: "dark" }, async (page) => {
 for (const viewport of PHONES) {
   await look(`phone ${viewport.width}`, { viewport, hasTouch: true, isMobile: true }, async (page) => {
     none(`nothing wider than ${viewport.width} px`, await page.evaluate(inside.overflow));
+    none(`every verdict is in sight at ${viewport.width} px`, await page.evaluate(inside.verdictsOutOfSight));
+    none(`what scrolls sideways shows it at ${viewport.width} px`, await page.evaluate(inside.unsignedScrollers));
     await shot(page, `phone-${viewport.width}`);
     await shot(page, `view-phone-${viewport.width}`, VIEW);
   });
@@ -130,7 +132,7 @@ await look("by hand", { reducedMotion: "reduce" }, async (page) => {
   };
   check("the readout is announced", (await readout.getAttribute("aria-live")) === "polite");
 
-  await changed("button (x)", () => page.getByRole("button", { name: "(x)", exact: true }).click(), /\(x\): .* none/);
+  await changed("button (x)", () => page.getByRole("button", { name: "(x)", exact: true }).click(), /\(x\): .* no equilibrium/);
   check("V has a slope at (x)", Math.abs(await slope()) > 0.8, String(await slope()));
   for (const name of ["E1", "E1'", "E2", "E2'"]) {
     await changed(`button ${name}`, () => page.getByRole("button", { name, exact: true }).click(), new RegExp(`${name}: an equilibrium`));

@@ -50,6 +50,24 @@ export function ids() {
   return wrong;
 }
 
+// Verdicts that cannot be seen without scrolling sideways.
+export function verdictsOutOfSight() {
+  const room = document.documentElement.clientWidth;
+  return [...document.querySelectorAll(".verdict")]
+    .filter((node) => {
+      const { left, right, width } = node.getBoundingClientRect();
+      return width === 0 || left < 0 || right > room;
+    })
+    .map((node) => `${node.textContent.trim()} in ${node.closest("tr, article")?.textContent.trim().slice(0, 60)}`);
+}
+
+// Boxes that go on beyond their edge without a sign of it.
+export function unsignedScrollers() {
+  return [...document.querySelectorAll(".scroll, pre")]
+    .filter((node) => node.scrollWidth > node.clientWidth + 1 && !getComputedStyle(node).backgroundAttachment.includes("local"))
+    .map((node) => node.getAttribute("aria-label") ?? node.textContent.trim().slice(0, 60));
+}
+
 export function tables() {
   return [...document.querySelectorAll("table")]
     .filter((table) => table.querySelector("th") === null)

@@ -95,6 +95,8 @@ fn the_page_needs_nothing_else() {
         assert_eq!(found, expected, "the page asks for something by {wanted}");
     }
     assert!(html.starts_with("<!DOCTYPE html>\n<html lang=\"en\">"));
+    // For a look at it, and for the checks in a browser.
+    std::fs::write(Path::new(env!("CARGO_TARGET_TMPDIR")).join("report.html"), &html).unwrap();
     // A few hundred kilobytes: it goes by mail.
     assert!(html.len() < 1_500_000, "{}", html.len());
 }
@@ -121,6 +123,36 @@ fn headings_go_down_one_level_at_a_time_and_every_anchor_is_there_once() {
     once.sort_unstable();
     once.dedup();
     assert_eq!(once.len(), ids.len(), "an id stands twice");
+}
+
+/// The menu leads to every chapter and to every part of one that has a heading of its own.
+#[test]
+fn the_menu_leads_to_the_parts_as_well() {
+    let html = REPORT.html();
+    let (_, menu) = html.split_once("<nav").unwrap();
+    let (menu, _) = menu.split_once("</nav>").unwrap();
+    for anchor in ["outcome", "scan", "view", "claims", "equations", "statements", "this-run"] {
+        assert!(menu.contains(&format!("href=\"#{anchor}\"")), "{anchor} is not in the menu");
+    }
+    assert!(menu.contains(">To try it</a>"));
+}
+
+/// A table with verdicts names the column at each cell, for screens without room for columns.
+#[test]
+fn cells_beside_a_verdict_name_their_column() {
+    let html = REPORT.html();
+    let mut tables = 0;
+    for table in html.split("<table class=\"judged\"").skip(1) {
+        let (table, _) = table.split_once("</table>").unwrap();
+        assert_eq!(table.matches("<td").count(), table.matches(" data-column=\"").count());
+        assert!(
+            table.contains("<td class=\"verdicts\"")
+                || table.contains("<th scope=\"row\" class=\"verdicts\"")
+        );
+        tables += 1;
+    }
+    // Rungs, claims, the equations by verdict, statements, cases.
+    assert_eq!(tables, 5);
 }
 
 #[test]
