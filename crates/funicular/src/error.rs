@@ -39,6 +39,12 @@ pub enum Error {
         /// What was asked for.
         what: &'static str,
     },
+    /// Occurs when fewer than two answers are to be compared.
+    #[error("two answers can be compared, {answers} cannot")]
+    NothingToCompare {
+        /// Number of answers.
+        answers: usize,
+    },
     /// Occurs when every solver that was asked gave up.
     #[error("{}", reasons(failures))]
     Unsolved {
@@ -66,6 +72,67 @@ pub enum Error {
     /// Occurs when a census is not taken: the chain is too long, or every position is an equilibrium.
     #[error(transparent)]
     Census(#[from] census::CensusError),
+    /// Occurs when a solver cannot be made ready for a sweep.
+    #[cfg(feature = "sweep")]
+    #[error(transparent)]
+    Solvers(#[from] crate::starts::SolversError),
+    /// Occurs when a sweep cannot be prepared.
+    #[cfg(feature = "sweep")]
+    #[error(transparent)]
+    Sweep(#[from] sweep::SweepError),
+    /// Occurs when the folder of a sweep cannot be read or written, or holds something else.
+    #[cfg(feature = "sweep")]
+    #[error(transparent)]
+    Store(#[from] sweep::StoreError),
+    /// Occurs when a regular grid over the angles of the bars cannot have so many points.
+    #[cfg(feature = "sweep")]
+    #[error(
+        "a regular grid over the angles of {bars} bars has as many points on each: it cannot have {seeds}"
+    )]
+    GridSeeds {
+        /// The number as given.
+        seeds: u64,
+        /// Number of bars.
+        bars: usize,
+        /// Points on each angle and in all of the nearest grids.
+        nearest: Vec<(u64, u64)>,
+    },
+    /// Occurs when the axes of a picture of basins are not two bars of the chain.
+    #[cfg(feature = "sweep")]
+    #[error("axes {},{}: two different bars are needed, and the chain has bars 1 to {bars}", axes[0], axes[1])]
+    BasinsBars {
+        /// The bars as given, from 1.
+        axes: [usize; 2],
+        /// Number of bars.
+        bars: usize,
+    },
+    /// Occurs when the starting angle of the bars that are no axis is infinite or not a number.
+    #[cfg(feature = "sweep")]
+    #[error("the starting angle of the other bars must be finite, got {others_deg} degrees")]
+    BasinsAngle {
+        /// The angle as given.
+        others_deg: f64,
+    },
+    /// Occurs when a picture of basins cannot be drawn.
+    #[cfg(feature = "sweep")]
+    #[error(transparent)]
+    Basins(#[from] sweep::BasinsError),
+    /// Occurs when a parameter is written wrongly, or does not fit the chain.
+    #[cfg(feature = "branches")]
+    #[error(transparent)]
+    Parameter(#[from] branches::ParameterError),
+    /// Occurs when no equilibrium can be followed.
+    #[cfg(feature = "branches")]
+    #[error(transparent)]
+    Continuation(#[from] branches::ContinuationError),
+    /// Occurs when a solver has no answer to the paper's example.
+    #[cfg(feature = "paper")]
+    #[error(transparent)]
+    Reproduction(#[from] paper::example::ExampleError),
+    /// Occurs when the report of the paper cannot be written.
+    #[cfg(feature = "paper")]
+    #[error(transparent)]
+    Report(#[from] report::document::ReportError),
     /// Occurs when more threads are asked for than make sense.
     #[error("{threads} threads are too many: at most {MOST_THREADS}")]
     TooManyThreads {

@@ -27,28 +27,71 @@
 //! | the hanging equilibrium, by both solvers, judged and proved | [`Solve`] |
 //! | the same of any system of bars, cables and struts, elastic or not | [`Solve::run_system`] |
 //! | every equilibrium, stable or not, and the proof that there is no other | [`Census`] |
+//! | all equilibria over a parameter: branches, folds, exchanges of stability | [`Trace`] |
+//! | which start leads where, by millions | [`Sweep`] |
+//! | the same as a picture | [`Basins`] |
+//! | the paper, judged | [`Reproduce`] |
 //!
 //! Each is a builder: `new`, what differs from the defaults, `run`. The program `funicular` does nothing but read its
 //! arguments, call these, and print.
+//!
+//! A solver of one's own is held against ours by [`compare()`].
+//!
+//! # Features
+//!
+//! All are on by default. A program that solves chains takes `default-features = false` and few dependencies.
+//!
+//! | feature | what |
+//! |---|---|
+//! | `columns` | bars from Parquet |
+//! | `sweep` | [`Sweep`], [`Basins`] |
+//! | `branches` | [`Trace`] |
+//! | `paper` | [`Reproduce`] |
+//! | `program` | the program `funicular` |
 //!
 //! # Conventions
 //!
 //! World frame *OXYZ*, *Z* up, gravity along −*Z*; SI units, named in every field. Joint 0 is the start anchor, joint
 //! *n* the end anchor; bar *i* = 1..n runs from joint *i*−1 to joint *i*.
 
+#[cfg(feature = "sweep")]
+mod basins;
 pub mod census;
+mod compare;
 mod error;
 pub mod picture;
 mod problem;
+#[cfg(feature = "paper")]
+mod reproduce;
 mod solve;
 #[cfg(feature = "sweep")]
 pub mod starts;
+#[cfg(feature = "sweep")]
+mod sweep;
 mod system;
 mod threads;
+#[cfg(feature = "branches")]
+mod trace;
 
 pub mod prelude;
 
+/// The Rust of the README is run with the tests of the documentation.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
+
+#[cfg(feature = "sweep")]
+pub use self::basins::{Basins, BasinsAnswer};
 pub use self::census::{Census, CensusAnswer};
+#[cfg(feature = "paper")]
+pub use self::reproduce::Reproduce;
+#[cfg(feature = "sweep")]
+pub use self::sweep::{Format, PreparedSweep, Spread, Sweep, SweepAnswer};
+#[cfg(feature = "branches")]
+pub use self::trace::{Trace, TraceAnswer};
+#[cfg(feature = "sweep")]
+pub use ::sweep::Field;
+pub use compare::compare;
 pub use error::Error;
 pub use problem::{Problem, case};
 pub use solve::{Failure, SCHEMA_VERSION, Solve, SolveAnswer};

@@ -1,10 +1,9 @@
 //! The answer of `solve`, for people.
 
-use std::cmp::Ordering;
 use std::fmt::Write as _;
 
 use funicular::SolveAnswer;
-use model::{Equilibrium, Evidence, SolverName};
+use model::{Equilibrium, Evidence, SolverName, Vector};
 use validate::Agreement;
 
 use crate::tables::{
@@ -22,7 +21,7 @@ const LADDER_INDENT: usize = 15;
 pub fn answer(answer: &SolveAnswer, summary: bool) -> String {
     let (system, equilibria) = (answer.system(), answer.equilibria());
     let mut text = system_line(system);
-    text += &overview(equilibria);
+    text += &overview(equilibria, answer.agreement().and_then(|agreement| agreement.turned_rad));
     if !summary && let Some(first) = equilibria.first() {
         text += &shape(first, system.bars);
     }
@@ -37,33 +36,47 @@ pub fn answer(answer: &SolveAnswer, summary: bool) -> String {
     text
 }
 
-fn overview(equilibria: &[Equilibrium]) -> String {
-    let mut table = table([
-        "solver",
-        "energy / J",
-        "force at start / N",
-        "force at end / N",
-        "in plane",
-        "in space",
-        "residual",
-        "steps",
-        "time",
-    ]);
-    for e in equilibria {
-        table.add_row([
-            e.solver.to_string(),
-            long(e.energy_j),
-            vector(e.reactions_n.start),
-            vector(e.reactions_n.end),
-            format!("{} ({})", word(&e.stability.in_plane), e.stability.index_in_plane),
-            format!("{} ({})", word(&e.stability.in_space), e.stability.index_in_space),
-            format!("{:.1e}", e.evidence.residual),
-            e.evidence.iterations.to_string(),
-            duration(e.evidence.solve_s),
-        ]);
-    }
-    numbers_from(&mut table, 1);
-    format!("{table}\n(in brackets: the number of directions in which the energy falls)\n\n")
+/// A column for each solver. Where the chain turns freely, the second answer is shown turned onto the first.
+fn overview(equilibria: &[Equilibrium], turned_rad: Option<f64>) -> String {
+    let head = [String::new()].into_iter().chain(equilibria.iter().map(|e| e.solver.to_string()));
+    let mut table = table([""; 0]);
+    table.set_header(head);
+    let mut row = |what: &str, cell: &dyn Fn(usize, &Equilibrium) -> String| {
+        let cells = equilibria.iter().enumerate().map(|(k, e)| cell(k, e));
+        table.add_row([what.to_owned()].into_iter().chain(cells));
+    };
+    let force = |k: usize, f: Vector| vector(if k == 1 { turn(f, turned_rad) } else { f });
+    row("energy / J", &|_, e| long(e.energy_j));
+    row("force at start / N", &|k, e| force(k, e.reactions_n.start));
+    row("force at end / N", &|k, e| force(k, e.reactions_n.end));
+    row("in the plane", &|_, e| {
+        format!("{} ({})", word(&e.stability.in_plane), e.stability.index_in_plane)
+    });
+    row("in space", &|_, e| {
+        format!("{} ({})", word(&e.stability.in_space), e.stability.index_in_space)
+    });
+    row("residual", &|_, e| format!("{:.1e}", e.evidence.residual));
+    row("steps", &|_, e| e.evidence.iterations.to_string());
+    row("time", &|_, e| duration(e.evidence.solve_s));
+    let turned = turned_rad.map_or_else(String::new, |angle| {
+        format!(
+            "(the chain turns freely about the vertical through its anchors: energy is shown turned by {} degrees)\n",
+            short(angle.to_degrees())
+        )
+    });
+    let turned = wrapped(&turned, 1);
+    format!(
+        "{table}\n(in brackets: the number of directions in which the energy falls)\n{turned}\n"
+    )
+}
+
+/// A force turned about the vertical. What the rounding of the turn leaves of a component is none.
+fn turn(force @ [x, y, z]: Vector, angle_rad: Option<f64>) -> Vector {
+    let Some(angle_rad) = angle_rad else { return force };
+    let (sin, cos) = angle_rad.sin_cos();
+    let rounding = f64::EPSILON * x.hypot(y).hypot(z);
+    let turned = [cos * x - sin * y, sin * x + cos * y, z];
+    turned.map(|component: f64| if component.abs() <= rounding { 0.0 } else { component })
 }
 
 /// Joints and forces of one equilibrium; the other solver's agree with it or the verdict says so.
@@ -71,41 +84,20 @@ fn shape(e: &Equilibrium, bars: usize) -> String {
     if bars > PRINTED_BARS {
         return format!("{bars} bars are not printed: --csv FILE or --json have them all.\n\n");
     }
-    let mut table = table([
-        "joint",
-        "x / m",
-        "y / m",
-        "z / m",
-        "force x / N",
-        "force y / N",
-        "force z / N",
-        "bar to the next",
-        "axial / N",
-    ]);
+    let mut table =
+        table(["joint", "x / m", "y / m", "z / m", "Fx / N", "Fy / N", "Fz / N", "axial / N"]);
+    for column in table.column_iter_mut() {
+        column.set_padding((0, 1));
+    }
     for (k, (joint, force)) in e.joints_m.iter().zip(&e.multipliers_n).enumerate() {
-        let axial = e.axial_n.get(k);
-        table.add_row([
-            k.to_string(),
-            short(joint[0]),
-            short(joint[1]),
-            short(joint[2]),
-            short(force[0]),
-            short(force[1]),
-            short(force[2]),
-            axial.map_or_else(String::new, |a| {
-                match a.partial_cmp(&0.0) {
-                    Some(Ordering::Less) => "compression",
-                    Some(Ordering::Greater) => "tension",
-                    _ => "nothing",
-                }
-                .to_owned()
-            }),
-            axial.map_or_else(String::new, |a| short(*a)),
-        ]);
+        let numbers = joint.iter().chain(force).copied().map(short);
+        let axial = e.axial_n.get(k).map_or_else(String::new, |a| short(*a));
+        table.add_row([k.to_string()].into_iter().chain(numbers).chain([axial]));
     }
     numbers_from(&mut table, 1);
     format!(
-        "Joints, and the forces at them (on the bar before the joint; at joint 0 on bar 1), by {}:\n{table}\n\n",
+        "Joints, the forces at them (on the bar before; at joint 0 on bar 1), and the\naxial force of the bar to \
+         the next joint (tension positive), by {}:\n{table}\n\n",
         e.solver
     )
 }

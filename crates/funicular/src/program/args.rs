@@ -11,7 +11,7 @@ macro_rules! exit_codes {
                0  done, and every check agreed\n  \
                1  a check failed: the solvers disagree, or a claim came out otherwise than expected\n  \
                2  bad input or usage\n  \
-               3  not converged, or not decided\n\
+               3  not converged, not decided, or not written (the disk is full)\n\
              130  interrupted; ",
             $interrupted
         )
@@ -29,6 +29,7 @@ const EXAMPLES: &str = "\
 Examples:
   funicular reproduce                        the paper, judged, in the terminal
   funicular reproduce --out report           the same as report/report.html, report.md and results.json
+  funicular new > chain.toml                 a system file to start from
   funicular solve chain.toml                 the shape and the forces of a chain of your own
   funicular solve --case ten-equal-bars --json | jq .agreement
   funicular census chain.toml --svg shapes.svg   every equilibrium, and the proof that there is no other
@@ -40,6 +41,10 @@ Examples:
 ///
 /// Every equilibrium is found twice, by two solvers that share no mechanics (Lagrange multipliers;
 /// potential energy), and judged by a third party that knows only Newton's laws.
+///
+/// Scope: bars, cables and struts between joints without friction, rigid or with a stiffness, in space, at rest under
+/// their weight, masses at joints and constant forces; no friction, contact, bending or motion. All but `solve` is for
+/// chains of rigid bars between two anchors.
 #[derive(Debug, Parser)]
 #[command(name = "funicular", version, after_help = EXIT_CODES, after_long_help = format!("{EXAMPLES}\n\n{EXIT_CODES}"))]
 pub struct Cli {
@@ -70,6 +75,8 @@ pub enum Command {
     Trace(crate::trace::Arguments),
     /// Draw which start leads where, by both solvers
     Basins(crate::basins::Arguments),
+    /// Print a system file with comments, to start from
+    New,
     /// List the named cases, or print the system file of one (a start for a file of your own)
     Cases(crate::cases::Cases),
     /// Print a completion script for a shell

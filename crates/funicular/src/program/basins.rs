@@ -3,13 +3,13 @@
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
-use ::sweep::{Axis, Basins, Field, Outcomes, Settings, Source, Sweep};
 use clap::Args;
+use funicular::{Basins, Field};
 use miette::miette;
-use rayon::prelude::*;
+use model::SolverName;
 
 use crate::exit::{Exit, Failure};
-use crate::input;
+use crate::input::{self, Input};
 use crate::interrupt::end_on_interrupt;
 use crate::output;
 use crate::progress::Progress;
@@ -32,13 +32,8 @@ Exit codes:
 /// Largest picture: 16 million starts for each solver.
 const LARGEST: u32 = 4096;
 
-const SOLVERS: [&str; 2] = ["lagrange", "energy"];
-
-/// What is drawn, in words, and what the name of the file ends in.
-const FIELDS: [(Field, &str, &str); 2] = [
-    (Field::Outcome, "equilibrium reached", ""),
-    (Field::Iterations, "iterations spent", "-iterations"),
-];
+/// What is drawn, and what the name of the file ends in.
+const FIELDS: [(Field, &str); 2] = [(Field::Outcome, ""), (Field::Iterations, "-iterations")];
 
 /// `funicular basins`.
 #[derive(Debug, Args)]
@@ -68,115 +63,48 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
     end_on_interrupt()?;
     threads::install(0)?;
-    let input = input::problem(arguments.file.as_deref(), arguments.case.as_deref())?;
-    let files = input.files.clone();
-    let problem = input.into_chain("basins")?;
-    let bars = problem.chain().bars().len();
-    let [i, j] = axes(arguments, bars)?;
+    let Input { problem, files } =
+        input::problem(arguments.file.as_deref(), arguments.case.as_deref())?;
+    let [i, j] = arguments.bars[..] else {
+        return Err(Failure::bad_input(miette!("--bars wants two bars, as in --bars 1,2")));
+    };
+    let basins = Basins::new().size(arguments.size).bars([i, j]).others_deg(arguments.others);
+    basins.check(&problem)?;
     output::make_folder(&arguments.out)?;
-    let picture = |solver: &str, suffix: &str| arguments.out.join(format!("{solver}{suffix}.svg"));
-    let pictures: Vec<_> = SOLVERS
+    let solvers = [SolverName::LAGRANGE, SolverName::ENERGY];
+    let picture =
+        |solver: &SolverName, suffix: &str| arguments.out.join(format!("{solver}{suffix}.svg"));
+    let pictures: Vec<_> = solvers
         .iter()
-        .flat_map(|solver| FIELDS.iter().map(|(_, _, suffix)| picture(solver, suffix)))
+        .flat_map(|solver| FIELDS.iter().map(|(_, suffix)| picture(solver, suffix)))
         .collect();
     output::check(pictures.iter().map(PathBuf::as_path), &files)?;
-    let others = arguments.others.to_radians();
-    let axis = |bar: usize| {
-        if bar == i || bar == j {
-            Axis::full(u64::from(arguments.size))
-        } else {
-            Axis::fixed(others)
-        }
-    };
-    let settings =
-        Settings { source: Source::Grid((1..=bars).map(axis).collect()), ..Settings::default() };
     let progress = Progress::start();
-    progress.say("the list of equilibria");
-    let solvers = funicular::starts::solvers(&problem)
-        .map_err(|error| Failure::bad_input(miette!("{error}")))?;
-    let sweep = Sweep::new(&problem, settings, solvers)
-        .map_err(|error| Failure::bad_input(miette!("{error}")))?;
-    let size = u64::from(arguments.size);
-    progress.say(&format!("{} starts", size * size));
-    let rows: Vec<_> = (0..size)
-        .into_par_iter()
-        .map(|row| sweep.run_chunk(row * size..(row + 1) * size))
-        .collect();
-    let names: Vec<String> = sweep.members().list().iter().enumerate().map(name).collect();
-    let fixed = if bars > 2 {
-        format!("; all other bars start at {}\u{b0}", arguments.others)
-    } else {
-        String::new()
-    };
-    let title = problem.chain().name();
-    let labels = [i, j].map(|bar| format!("start of bar {bar} from the vertical / \u{b0}"));
+    progress.say(&format!("{} starts", u64::from(arguments.size).pow(2)));
+    let found = basins.run(&problem)?;
     let mut said = String::new();
-    for solver in SOLVERS {
-        let mut all = Outcomes::default();
-        for chunk in &rows {
-            let Some(part) = chunk.of(solver) else { continue };
-            all.outcome.extend(&part.outcome);
-            all.iterations.extend(&part.iterations);
-        }
-        let note =
-            |field: &str| format!("{field} by {solver} from {size} \u{d7} {size} starts{fixed}");
-        for (field, what, suffix) in FIELDS {
-            let note = note(what);
-            let basins = Basins {
-                size: arguments.size,
-                outcomes: &all,
-                names: &names,
-                title,
-                note: &note,
-                labels: [&labels[0], &labels[1]],
-            };
-            let drawn = basins.svg(field).map_err(|e| Failure::undecided(miette!("{e}")))?;
+    for solver in &solvers {
+        for (field, suffix) in FIELDS {
             let path = picture(solver, suffix);
-            output::write_whole(&path, &drawn)?;
+            output::write_whole(&path, &found.svg(solver, field)?)?;
             said += &path.display().to_string();
             said.push('\n');
         }
-        let unlisted = ::sweep::Failure::Unlisted as i16;
-        let others = all.outcome.iter().filter(|outcome| **outcome == unlisted).count();
-        let failed = all.outcome.iter().filter(|outcome| **outcome < 0).count() - others;
-        let starts = size * size;
+        let starts = found.starts();
         // Writing to a String cannot fail.
-        let _ = writeln!(said, "{solver}: {failed} of {starts} starts reached no equilibrium");
-        if others > 0 {
+        let _ = match found.failed(solver) {
+            0 => writeln!(said, "{solver}: each of {starts} starts reached an equilibrium"),
+            failed => writeln!(said, "{solver}: {failed} of {starts} starts reached none"),
+        };
+        let unlisted = found.unlisted(solver);
+        if unlisted > 0 {
             let _ = writeln!(
                 said,
-                "{solver}: {others} of {starts} starts reached one that is in no list"
+                "{solver}: {unlisted} of {starts} starts reached one that is in no list"
             );
         }
     }
     drop(progress);
     output::print(&said)?;
     Ok(Exit::Done)
-}
-
-/// The two bars of the axes, the lower first: the grid runs along it.
-fn axes(arguments: &Arguments, bars: usize) -> Result<[usize; 2], Failure> {
-    let [i, j] = arguments.bars[..] else {
-        return Err(Failure::bad_input(miette!("--bars wants two bars, as in --bars 1,2")));
-    };
-    if i == j || ![i, j].iter().all(|bar| (1..=bars).contains(bar)) {
-        return Err(Failure::bad_input(miette!(
-            "--bars {i},{j}: two different bars are needed, and the chain has bars 1 to {bars}"
-        )));
-    }
-    if !arguments.others.is_finite() {
-        return Err(Failure::bad_input(miette!("--others must be a finite angle in degrees")));
-    }
-    Ok([i.min(j), i.max(j)])
-}
-
-/// An equilibrium in the legend: its number, energy and kind.
-fn name((number, member): (usize, &::sweep::Member)) -> String {
-    let kind = match member.index_in_plane {
-        Some(0) => ", minimum",
-        Some(_) => ", no minimum",
-        None => "",
-    };
-    let mirrored = if member.mirrored { " (mirror image)" } else { "" };
-    format!("{number}: {:.4} J{kind}{mirrored}", member.energy_j)
 }

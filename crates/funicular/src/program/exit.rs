@@ -1,7 +1,8 @@
 //! How the program ends.
 
+use branches::ParameterError;
 use funicular::Error;
-use miette::miette;
+use miette::{LabeledSpan, miette};
 
 use crate::diagnostics::{SystemFileReport, tell};
 
@@ -75,8 +76,41 @@ impl Failure {
             | Error::Lagrange(_)
             | Error::Condensed(_)
             | Error::Energy(_) => Self::undecided(miette!("{error}")),
+            // A disk that fails says nothing about the input, and those who run many may try again.
+            Error::Store(error) => {
+                let message = error.to_string();
+                let report = match error.help() {
+                    Some(help) => miette!(help = help, "{message}"),
+                    None => miette!("{message}"),
+                };
+                if error.may_pass() { Self::undecided(report) } else { Self::bad_input(report) }
+            }
+            Error::GridSeeds { ref nearest, bars, .. } => {
+                let near = nearest.iter().map(|(side, all)| format!("{all} = {side}^{bars}"));
+                let near = near.collect::<Vec<_>>().join(" and ");
+                let help = format!("the nearest are --seeds {near}");
+                Self::bad_input(miette!(help = help, "{error}"))
+            }
+            Error::Parameter(error) => Self::parameter(&error),
+            Error::Basins(_) | Error::Reproduction(_) | Error::Report(_) => {
+                Self::undecided(miette!("{error}"))
+            }
             _ => Self::bad_input(miette!("{error}")),
         }
+    }
+
+    /// The error with the place in the text of the parameter.
+    fn parameter(error: &ParameterError) -> Self {
+        let label = LabeledSpan::new_with_span(Some(error.what.clone()), error.span.clone());
+        let report = miette!(
+            labels = vec![label],
+            help = error.help.clone(),
+            "--vary {}, character {}: {}",
+            error.text,
+            error.column(),
+            error.what
+        );
+        Self::bad_input(report.with_source_code(error.text.clone()))
     }
 
     /// Print the report to standard error and say how to end.

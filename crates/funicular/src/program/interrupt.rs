@@ -7,17 +7,33 @@ use miette::miette;
 
 use crate::exit::{Exit, Failure};
 
+/// Set by the first Ctrl-C while something is done that can be gone on with.
 static STOP: AtomicBool = AtomicBool::new(false);
 
-/// A flag that is set by the first Ctrl-C. The second one ends the program at once, which loses no more than
-/// the first.
-pub fn on_interrupt() -> Result<&'static AtomicBool, Failure> {
+/// Whether there is something to keep.
+static KEEPING: AtomicBool = AtomicBool::new(false);
+
+/// That Ctrl-C is watched for.
+#[derive(Debug)]
+pub struct Interrupt(&'static AtomicBool);
+
+impl Interrupt {
+    /// From here on the first Ctrl-C only sets a flag, so that what is done is kept. The second one ends the program at
+    /// once, which loses no more than the first.
+    pub fn keep_what_is_done(self) -> &'static AtomicBool {
+        KEEPING.store(true, Ordering::SeqCst);
+        self.0
+    }
+}
+
+/// Ctrl-C ends the program, until there is something to keep.
+pub fn on_interrupt() -> Result<Interrupt, Failure> {
     watch(|| {
-        if STOP.swap(true, Ordering::SeqCst) {
+        if !KEEPING.load(Ordering::SeqCst) || STOP.swap(true, Ordering::SeqCst) {
             end();
         }
     })?;
-    Ok(&STOP)
+    Ok(Interrupt(&STOP))
 }
 
 /// For commands that keep nothing to go on from: the first Ctrl-C ends the program, and no file is left half

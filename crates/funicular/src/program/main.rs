@@ -13,6 +13,7 @@ mod exit;
 mod input;
 mod interrupt;
 mod merge;
+mod new;
 mod output;
 mod progress;
 mod reproduce;
@@ -40,6 +41,7 @@ fn main() -> std::process::ExitCode {
         Command::Merge(arguments) => merge::run(&arguments),
         Command::Trace(arguments) => trace::run(&arguments),
         Command::Basins(arguments) => basins::run(&arguments),
+        Command::New => new::run(),
         Command::Cases(arguments) => cases::run(&arguments),
         Command::Completions { shell } => {
             let mut script = Vec::new();

@@ -3,14 +3,13 @@
 use std::path::PathBuf;
 
 use clap::Args;
+use funicular::Error;
 
 use crate::diagnostics::tell;
 use crate::exit::{Exit, Failure};
 use crate::interrupt::on_interrupt;
 use crate::output;
-use crate::sweep::{
-    json_object, print_json, seeds_bar, store_failure, summary_tables, verdict, written,
-};
+use crate::sweep::{json_object, print_json, seeds_bar, summary_tables, verdict, written};
 use crate::threads;
 
 /// How it ends, for its help.
@@ -43,19 +42,18 @@ pub struct Merge {
 
 /// Run the command.
 pub fn run(arguments: &Merge) -> Result<Exit, Failure> {
-    let stop = on_interrupt()?;
+    let stop = on_interrupt()?.keep_what_is_done();
     let seeds = arguments.folders.first().and_then(|folder| ::sweep::Manifest::read(folder).ok());
     let bar = seeds_bar(seeds.map_or(0, |manifest| manifest.seeds));
     let done = |seeds| bar.inc(seeds);
     let threads = threads::resolve(arguments.threads)?;
     let merged = ::sweep::merge(&arguments.folders, &arguments.out, threads, stop, &done);
     bar.finish_and_clear();
-    let Some(summary) = merged.map_err(|error| store_failure(&error))? else {
+    let Some(summary) = merged.map_err(Error::from)? else {
         tell("Stopped. The same command goes on.");
         return Ok(Exit::Interrupted);
     };
-    let manifest =
-        ::sweep::Manifest::read(&arguments.out).map_err(|error| store_failure(&error))?;
+    let manifest = ::sweep::Manifest::read(&arguments.out).map_err(Error::from)?;
     if arguments.json {
         print_json(&json_object(&manifest, &summary, &arguments.out))?;
     } else {

@@ -23,7 +23,7 @@ pub fn print_stream(
     let mut out = BufWriter::new(io::stdout().lock());
     match content(&mut out).and_then(|()| out.flush()) {
         Err(error) if error.kind() != ErrorKind::BrokenPipe => {
-            Err(Failure::bad_input(miette!("cannot write to standard output: {error}")))
+            Err(not_written("to standard output", &error))
         }
         _ => Ok(()),
     }
@@ -98,6 +98,17 @@ fn cannot_write(path: &Path, why: impl Display) -> Failure {
     Failure::bad_input(miette!("cannot write {}: {why}", path.display()))
 }
 
+/// A disk that is full says nothing about the input: what was asked is undecided, and may be asked again.
+fn not_written(what: &str, error: &io::Error) -> Failure {
+    let report = miette!("cannot write {what}: {error}");
+    match error.kind() {
+        ErrorKind::StorageFull | ErrorKind::QuotaExceeded | ErrorKind::FileTooLarge => {
+            Failure::undecided(report)
+        }
+        _ => Failure::bad_input(report),
+    }
+}
+
 /// Write a file, so that an interruption leaves the old file or the new one and never half of either.
 pub fn write_whole(path: &Path, text: &str) -> Result<(), Failure> {
     write_stream(path, |file| file.write_all(text.as_bytes()))
@@ -114,7 +125,9 @@ pub fn write_stream(
     });
     match written {
         // Of a pipe, as above.
-        Err(error) if error.kind() != ErrorKind::BrokenPipe => Err(cannot_write(path, error)),
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => {
+            Err(not_written(&path.display().to_string(), &error))
+        }
         _ => Ok(()),
     }
 }

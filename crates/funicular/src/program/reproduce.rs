@@ -4,7 +4,6 @@ use std::path::PathBuf;
 
 use clap::Args;
 use miette::miette;
-use report::{Environment, Report};
 use validate::table::csv;
 
 use crate::exit::{Exit, Failure};
@@ -38,11 +37,8 @@ pub fn run(arguments: &Reproduce) -> Result<Exit, Failure> {
         output::check(files.iter().map(PathBuf::as_path), &[])?;
     }
     let progress = Progress::start();
-    let reproduction = paper::reproduce(|what| progress.say(what))
-        .map_err(|error| Failure::undecided(miette!("{error}")))?;
+    let report = funicular::Reproduce::new().run_watched(|what| progress.say(what))?;
     drop(progress);
-    let report = Report::new(reproduction, Environment::here(std::env::args()))
-        .map_err(|error| Failure::undecided(miette!("{error}")))?;
     let reproduction = report.reproduction();
     let json = || report.json().map_err(|error| Failure::undecided(miette!("{error}")));
     if let Some(folder) = &arguments.out {

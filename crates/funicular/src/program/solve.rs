@@ -76,16 +76,12 @@ pub fn run(arguments: &Solve) -> Result<Exit, Failure> {
     output::check(outputs.into_iter().flatten().map(PathBuf::as_path), &files)?;
     let solve =
         funicular::Solve::new().solvers(arguments.solver.into()).equations(arguments.system.into());
-    match problem.as_system() {
-        Some(system) => {
-            let answer = solve.run_system_watched(system, &|what| progress.say(what))?;
-            system_answer(arguments, &answer, progress)
-        }
-        None => {
-            let answer = solve.run_watched(&problem, &|what| progress.say(what))?;
-            chain_answer(arguments, &problem, &answer, progress)
-        }
+    if let Some(system) = problem.as_system() {
+        let answer = solve.run_system_watched(system, &|what| progress.say(what))?;
+        return system_answer(arguments, &answer, progress);
     }
+    let answer = solve.run_watched(&problem, &|what| progress.say(what))?;
+    chain_answer(arguments, &problem, &answer, progress)
 }
 
 fn chain_answer(

@@ -6,16 +6,11 @@ mod tables;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use ::sweep::{
-    Axis, Comparison, Manifest, RunSettings, SCHEMA_VERSION, Settings, Shard, Solvers, Source,
-    StoreError, StoreSummary, SystemText,
-};
+use ::sweep::{Comparison, Manifest, RunSettings, SCHEMA_VERSION, StoreSummary};
 use indicatif::{HumanCount, ProgressBar, ProgressState, ProgressStyle};
 use miette::miette;
-use model::Problem;
 use serde_json::{Value, json};
 
-use self::arguments::Spread;
 pub use self::arguments::Sweep;
 use crate::diagnostics::tell;
 use crate::exit::{Exit, Failure};
@@ -24,7 +19,6 @@ use crate::interrupt::on_interrupt;
 use crate::output;
 use crate::progress::Progress;
 use crate::threads;
-use crate::which::Which;
 
 /// How often the progress bar is drawn while nothing is reported.
 const TICK: Duration = Duration::from_millis(200);
@@ -33,29 +27,30 @@ const TICK: Duration = Duration::from_millis(200);
 pub fn run(arguments: &Sweep) -> Result<Exit, Failure> {
     let threads = threads::resolve(arguments.threads)?;
     threads::install(threads)?;
-    let problem = input::problem(arguments.file.as_deref(), arguments.case.as_deref())?
-        .into_chain("sweep")?;
-    let settings = settings(arguments, problem.chain().bars().len())?;
+    let interrupt = on_interrupt()?;
+    let problem = input::problem(arguments.file.as_deref(), arguments.case.as_deref())?.problem;
     let progress = Progress::start();
     progress.say("the list of equilibria");
-    let solvers = solvers(arguments, &problem)?;
-    let sweep = ::sweep::Sweep::new(&problem, settings, solvers)
-        .map_err(|error| Failure::bad_input(miette!("{error}")))?;
+    let sweep = funicular::Sweep::new(arguments.seeds)
+        .number(arguments.seed)
+        .spread(arguments.source.into())
+        .solvers(arguments.solver.into())
+        .shard(arguments.shard)
+        .angles(arguments.angles)
+        .format(arguments.format.into())
+        .prepare(&problem)?;
     drop(progress);
-    let manifest = manifest(arguments, &problem, &sweep);
-    tell_cost(&manifest);
-    let stop = on_interrupt()?;
-    let all = manifest.range.end - manifest.range.start;
+    let manifest = sweep.manifest();
+    tell_cost(manifest);
+    let stop = interrupt.keep_what_is_done();
+    let all = sweep.range().end - sweep.range().start;
     let bar = seeds_bar(all);
     let start = Instant::now();
-    let run = ::sweep::run(
-        &arguments.out,
-        &manifest,
-        &sweep,
-        &RunSettings { threads, resume: arguments.resume, stop, done: &|seeds| bar.inc(seeds) },
-    );
+    let done = |seeds| bar.inc(seeds);
+    let settings = RunSettings { threads, resume: arguments.resume, stop, done: &done };
+    let run = sweep.write(&arguments.out, &settings);
     bar.finish_and_clear();
-    let run = run.map_err(|error| store_failure(&error))?;
+    let run = run?;
     let seconds = start.elapsed().as_secs_f64();
     for (file, damage) in &run.repaired {
         tell(format_args!("{file} could not be trusted and has been computed again: {damage}"));
@@ -70,16 +65,16 @@ pub fn run(arguments: &Sweep) -> Result<Exit, Failure> {
     };
     let computed = run.seeds - run.seeds_before;
     if arguments.json {
-        let mut object = json_object(&manifest, summary, &arguments.out);
-        object["system"] = json!(problem.chain().summary());
+        let mut object = json_object(manifest, summary, &arguments.out);
+        object["system"] = json!(sweep.system());
         object["seeds_before"] = json!(run.seeds_before);
         object["seconds"] = json!(seconds);
         print_json(&object)?;
     } else {
         let rate = tables::rate(computed, run.seeds, seconds);
-        output::print(&(tables::summary(&manifest, summary) + &rate + &written(&arguments.out)))?;
+        output::print(&(tables::summary(manifest, summary) + &rate + &written(&arguments.out)))?;
     }
-    Ok(verdict(&manifest, summary))
+    Ok(verdict(manifest, summary))
 }
 
 /// Seeds from which on the cost is told beforehand.
@@ -99,75 +94,6 @@ fn tell_cost(manifest: &Manifest) {
     }
 }
 
-fn settings(arguments: &Sweep, bars: usize) -> Result<Settings, Failure> {
-    let source = match arguments.source {
-        Spread::Uniform => Source::Uniform,
-        Spread::Sobol => Source::Sobol,
-        Spread::Grid => Source::Grid(vec![Axis::full(grid_points(arguments.seeds, bars)?); bars]),
-    };
-    Ok(Settings { number: arguments.seed, source, ..Settings::default() })
-}
-
-/// The solvers that are asked.
-fn solvers(arguments: &Sweep, problem: &Problem) -> Result<Solvers, Failure> {
-    let both = funicular::starts::solvers(problem)
-        .map_err(|error| Failure::bad_input(miette!("{error}")))?;
-    Ok(match arguments.solver {
-        Which::Lagrange => both.only(&["lagrange"]),
-        Which::Energy => both.only(&["energy"]),
-        Which::Both => both,
-    })
-}
-
-/// Points on each axis of a regular grid with this many points in all.
-fn grid_points(seeds: u64, bars: usize) -> Result<u64, Failure> {
-    let power = u32::try_from(bars).unwrap_or(u32::MAX);
-    let points = |side: u64| side.checked_pow(power);
-    // The largest grid that is not larger; a side of two is too much for 64 bars.
-    let mut side = 1;
-    let mut step = 1_u64 << 40;
-    while step > 0 {
-        if points(side + step).is_some_and(|points| points <= seeds) {
-            side += step;
-        }
-        step /= 2;
-    }
-    if points(side) == Some(seeds) {
-        return Ok(side);
-    }
-    let near: Vec<_> = [side, side + 1]
-        .into_iter()
-        .filter_map(|side| Some(format!("{} = {side}^{bars}", points(side)?)))
-        .collect();
-    Err(Failure::bad_input(miette!(
-        help = format!("the nearest are --seeds {}", near.join(" and ")),
-        "a regular grid over the angles of {bars} bars has as many points on each: it cannot have {seeds}"
-    )))
-}
-
-fn manifest(arguments: &Sweep, problem: &Problem, sweep: &::sweep::Sweep) -> Manifest {
-    let bars = problem.chain().bars().len();
-    let angles = if arguments.angles { bars } else { 0 };
-    Manifest {
-        schema_version: SCHEMA_VERSION,
-        program: concat!("funicular ", env!("CARGO_PKG_VERSION")).to_owned(),
-        system: SystemText::of(problem.chain()),
-        seeds: arguments.seeds,
-        seed_number: arguments.seed,
-        source: arguments.source.to_string(),
-        solvers: sweep.solvers().names().map(str::to_owned).collect(),
-        angles: (1..=angles).map(|bar| format!("theta_{bar}_rad")).collect(),
-        equilibria: sweep.members().list().to_vec(),
-        equilibria_complete: sweep.members().complete(),
-        equilibria_left_out: sweep.members().left_out(),
-        format: arguments.format.to_string(),
-        part_seeds: 0,
-        shard: Shard::WHOLE,
-        range: 0..0,
-    }
-    .with_shard(arguments.shard)
-}
-
 /// A bar that counts seeds, with rate and time left; silent where standard error is no terminal.
 pub(crate) fn seeds_bar(seeds: u64) -> ProgressBar {
     let bar = ProgressBar::new(seeds);
@@ -185,17 +111,6 @@ fn whole_rate(state: &ProgressState, out: &mut dyn std::fmt::Write) {
     let rate = state.per_sec().round() as u64;
     // Nobody to tell, as for every part of the bar.
     let _ = write!(out, "{}/s", HumanCount(rate));
-}
-
-/// An error of the folder, with what to do about it. A disk that fails says nothing about the input: the sweep is
-/// undecided, and those who run many may try again.
-pub(crate) fn store_failure(error: &StoreError) -> Failure {
-    let message = error.to_string();
-    let report = match error.help() {
-        Some(help) => miette!(help = help, "{message}"),
-        None => miette!("{message}"),
-    };
-    if error.may_pass() { Failure::undecided(report) } else { Failure::bad_input(report) }
 }
 
 /// Whether a comparison says something of the list rather than of the solvers.

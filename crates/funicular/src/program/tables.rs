@@ -39,7 +39,7 @@ pub fn cases(cases: &[Case]) -> String {
 /// What is solved, in a line of its own.
 pub fn system_line(system: &SystemSummary) -> String {
     format!(
-        "{}: {} bars, {} m long, {} kg, anchors {} m apart, g = {} m/s^2\n\n",
+        "{}: {} bars, {} m long, {} kg,\nanchors {} m apart, g = {} m/s^2\n\n",
         system.name,
         system.bars,
         short(system.total_length_m),
@@ -92,13 +92,13 @@ pub fn wrapped(paragraph: &str, indent: usize) -> String {
     const COLUMNS: usize = 80;
     let mut lines = String::new();
     let mut column = 0;
-    for word in paragraph.split(' ') {
+    for (k, word) in paragraph.split(' ').enumerate() {
         let length = word.chars().count();
-        if column > 0 && column + 1 + length > COLUMNS {
+        if k > 0 && column + 1 + length > COLUMNS {
             lines.push('\n');
             lines.extend(std::iter::repeat_n(' ', indent));
             column = indent;
-        } else if column > 0 || !lines.is_empty() {
+        } else if k > 0 {
             lines.push(' ');
             column += 1;
         }

@@ -1,15 +1,12 @@
 //! `funicular trace`: all equilibria over a parameter.
 
 use std::fmt::Write as _;
-use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-use branches::{
-    Abscissa, Combine, Continuation, ContinuationSettings, EventKind, Parameter, ParameterError,
-    PointStatus, Study, diagram,
-};
+use branches::{Abscissa, Combine, Continuation, ContinuationSettings, EventKind, PointStatus};
 use clap::Args;
-use miette::{LabeledSpan, miette};
+use funicular::{Problem, Trace, TraceAnswer};
+use miette::miette;
 use model::SystemSummary;
 use serde::Serialize;
 
@@ -21,7 +18,7 @@ use crate::progress::Progress;
 use crate::tables;
 use crate::threads;
 
-/// What `--csv` writes, in `--help`; the head of [`write_csv`] is tested against it.
+/// What `--csv` writes, in `--help`; the head of the file is tested against it.
 const CSV: &str = "\
 Write all points of all branches, a line each, to this CSV file
 
@@ -118,8 +115,9 @@ pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
     threads::install(0)?;
     let input = input::problem(arguments.file.as_deref(), arguments.case.as_deref())?;
     let files = input.files.clone();
-    let chain = input.into_chain("trace")?.into_chain();
-    let system = chain.summary();
+    let chain = input.into_chain("trace")?;
+    let system = chain.chain().summary();
+    let problem = Problem::from(chain);
     if !(1..=system.bars).contains(&arguments.bar) {
         let bars = system.bars;
         return Err(Failure::bad_input(miette!(
@@ -127,14 +125,13 @@ pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
             arguments.bar
         )));
     }
-    let vary: Vec<Parameter> = arguments
-        .vary
-        .iter()
-        .map(|text| text.parse().map_err(|error| vary_failure(&error)))
-        .collect::<Result<_, _>>()?;
     let combine = if arguments.zip { Combine::Zip } else { Combine::Product };
-    let study = Study::new(chain, &vary, combine).map_err(|error| vary_failure(&error))?;
-    let points = study.paths().iter().map(Vec::len).sum::<usize>();
+    let mut trace = Trace::new().combine(combine);
+    for text in &arguments.vary {
+        trace = trace.vary(text)?;
+    }
+    let study = trace.study(&problem)?;
+    let (paths, points) = (study.paths().len(), study.paths().iter().map(Vec::len).sum::<usize>());
     if points > arguments.max_points {
         let kilobytes = ContinuationSettings::BYTES / 1000;
         return Err(Failure::bad_input(miette!(
@@ -144,21 +141,31 @@ pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
             arguments.max_points
         )));
     }
-    let diagrams = diagrams(arguments.svg.as_deref(), study.paths().len());
+    let trace = trace.max_points(points);
+    let diagrams = diagrams(arguments.svg.as_deref(), paths);
     let outputs = arguments.csv.iter().chain(&diagrams).map(PathBuf::as_path);
     output::check(outputs, &files)?;
-    let traces = follow(&study, points)?;
-    // Before anything is written: a file is replaced by results only.
-    let exit = verdict(&traces)?;
+    let progress = Progress::start();
+    let found = trace.run_watched(&problem, &|path, branches::Progress { done, total }| {
+        let which =
+            if paths > 1 { format!("path {} of {paths}: ", path + 1) } else { String::new() };
+        progress.say(&format!("{which}census {done} of {total}"));
+    })?;
+    drop(progress);
+    // Results are replaced by results alone: a refusal comes before any file.
+    let exit = verdict(&found)?;
     if let Some(path) = &arguments.csv {
-        output::write_stream(path, |file| write_csv(file, &traces))?;
+        output::write_stream(path, |file| found.write_csv(file))?;
     }
     let abscissa = if arguments.over_span { Abscissa::Span } else { Abscissa::Parameter };
-    for (path, one) in diagrams.iter().zip(&traces) {
-        output::write_whole(path, &diagram(one, &system.name, abscissa, arguments.bar))?;
+    for (path, file) in diagrams.iter().enumerate() {
+        if let Some(drawn) = found.diagram(path, abscissa, arguments.bar) {
+            output::write_whole(file, &drawn)?;
+        }
     }
+    let traces = found.paths();
     if arguments.json {
-        let answer = Answer { schema_version: funicular::SCHEMA_VERSION, system, traces: &traces };
+        let answer = Answer { schema_version: funicular::SCHEMA_VERSION, system, traces };
         output::print_json(&answer)?;
     } else {
         let many = traces.len() > 1;
@@ -167,58 +174,19 @@ pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
     Ok(exit)
 }
 
-fn follow(study: &Study, max_points: usize) -> Result<Vec<Continuation>, Failure> {
-    let progress = Progress::start();
-    let paths = study.paths().len();
-    let settings = ContinuationSettings { max_points, ..ContinuationSettings::default() };
-    let mut traces = vec![];
-    for path in 0..paths {
-        let which =
-            if paths > 1 { format!("path {} of {paths}: ", path + 1) } else { String::new() };
-        let watch = |branches::Progress { done, total }: branches::Progress| {
-            progress.say(&format!("{which}census {done} of {total}"));
-        };
-        let found = Continuation::follow(study, path, &settings, &watch);
-        traces.push(found.map_err(|error| Failure::bad_input(miette!("{error}")))?);
-    }
-    Ok(traces)
-}
-
-/// The error with the place in the text of the parameter.
-fn vary_failure(error: &ParameterError) -> Failure {
-    let label = LabeledSpan::new_with_span(Some(error.what.clone()), error.span.clone());
-    let report = miette!(
-        labels = vec![label],
-        help = error.help.clone(),
-        "--vary {}, character {}: {}",
-        error.text,
-        error.column(),
-        error.what
-    );
-    Failure::bad_input(report.with_source_code(error.text.clone()))
-}
-
-fn verdict(traces: &[Continuation]) -> Result<Exit, Failure> {
-    let points = || traces.iter().flat_map(|trace| &trace.points);
-    let reason = points().next().and_then(|point| match &point.status {
-        PointStatus::Refused { reason } => Some(reason),
-        _ => None,
-    });
-    if let Some(reason) = reason
-        && points().all(|point| matches!(point.status, PointStatus::Refused { .. }))
-    {
+fn verdict(found: &TraceAnswer) -> Result<Exit, Failure> {
+    if let Some(reason) = found.refused_everywhere() {
         return Err(Failure::bad_input(miette!(
             "no value of the parameters describes a chain that can hang; the first: {reason}"
         )));
     }
-    let checks = || traces.iter().map(|trace| &trace.checks);
-    if checks().all(branches::Checks::agree) {
-        Ok(Exit::Done)
-    } else if checks().all(branches::Checks::decided) {
-        Ok(Exit::CheckFailed)
+    Ok(if found.checks_agree() {
+        Exit::Done
+    } else if found.checks_decided() {
+        Exit::CheckFailed
     } else {
-        Ok(Exit::Undecided)
-    }
+        Exit::Undecided
+    })
 }
 
 /// Where the diagrams go, one for each path.
@@ -238,49 +206,6 @@ fn numbered(path: &Path, number: usize) -> PathBuf {
         None => format!("{stem}-{number}"),
     };
     path.with_file_name(name)
-}
-
-/// A line per point of a branch: units in the names of the columns, nothing where a force is infinite.
-fn write_csv(to: &mut impl Write, traces: &[Continuation]) -> io::Result<()> {
-    let Some(first) = traces.first() else { return Ok(()) };
-    let bars = first
-        .branches
-        .iter()
-        .chain(traces.iter().flat_map(|trace| &trace.branches))
-        .find_map(|branch| branch.points.first())
-        .map_or(0, |point| point.angles_rad.len());
-    write!(to, "path,branch,position,{},span_m,grid,proved,event", first.parameters.join(","))?;
-    write!(to, ",pull_horizontal_n,pull_vertical_n,energy_j,index_in_plane,index_in_space")?;
-    for bar in 1..=bars {
-        write!(to, ",angle_{bar}_rad,axial_{bar}_n")?;
-    }
-    writeln!(to)?;
-    for (path, trace) in traces.iter().enumerate() {
-        for branch in &trace.branches {
-            for p in &branch.points {
-                write!(to, "{},{},{:?}", path + 1, branch.id, p.position)?;
-                for value in &p.values {
-                    write!(to, ",{value:?}")?;
-                }
-                let number =
-                    |number: Option<usize>| number.map_or(String::new(), |k| k.to_string());
-                write!(to, ",{:?},{},{},{}", p.span_m, number(p.grid), p.proved, number(p.event))?;
-                match p.pull_n {
-                    Some([h, v]) => write!(to, ",{h:?},{v:?}")?,
-                    None => write!(to, ",,")?,
-                }
-                write!(to, ",{:?},{},{}", p.energy_j, p.index_in_plane, p.index_in_space)?;
-                for (bar, angle) in p.angles_rad.iter().enumerate() {
-                    write!(to, ",{angle:?},")?;
-                    if let Some(axial) = p.axial_n.get(bar) {
-                        write!(to, "{axial:?}")?;
-                    }
-                }
-                writeln!(to)?;
-            }
-        }
-    }
-    Ok(())
 }
 
 /// What stays the same along a path, with its values; nothing if that is nothing.

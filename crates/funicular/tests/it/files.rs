@@ -349,3 +349,17 @@ fn the_help_says_what_an_interruption_leaves() {
         assert!(help(command).contains(goes_on), "{command}");
     }
 }
+
+/// A full disk is no bad input: the same command may be given again.
+#[test]
+#[cfg(target_os = "linux")]
+fn a_full_disk_is_undecided() {
+    let out = folder("full");
+    let output = funicular(&out, &["solve", "--case", "two-bars", "--csv", "/dev/full"]);
+    assert_eq!(output.status.code(), Some(3), "{}", stderr(&output));
+    assert!(stderr(&output).contains("cannot write /dev/full"), "{}", stderr(&output));
+    let full = fs::OpenOptions::new().write(true).open("/dev/full").unwrap();
+    let mut command = Command::new(cargo_bin("funicular"));
+    let output = command.args(["solve", "--case", "two-bars"]).stdout(full).output().unwrap();
+    assert_eq!(output.status.code(), Some(3), "{}", stderr(&output));
+}

@@ -1,6 +1,7 @@
 //! The program as its users meet it.
 
 mod census;
+mod examples;
 mod files;
 mod library;
 mod program;

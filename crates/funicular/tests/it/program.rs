@@ -325,3 +325,55 @@ fn a_closed_standard_error_changes_no_exit_code() {
         .unwrap();
     assert_eq!(status.code(), Some(2));
 }
+
+#[test]
+fn a_new_file_can_be_solved_as_it_is_and_from_standard_input() {
+    let new = funicular(&["new"]);
+    assert_eq!(new.status.code(), Some(0));
+    let mut solve = Command::cargo_bin("funicular").unwrap();
+    let output =
+        solve.env("NO_COLOR", "1").args(["solve", "-"]).write_stdin(new.stdout).output().unwrap();
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let text = stdout(&output);
+    // The weight between the anchors, 3.4 kg, and the forces of README.md.
+    assert!(
+        text.contains("(-8.09867, 0, 25.6669)") && text.contains("(8.09867, 0, 7.67575)"),
+        "{text}"
+    );
+    assert!(text.contains("Agreement: agreed"), "{text}");
+    assert!(text.lines().all(|line| line.chars().count() <= 80), "{text}");
+}
+
+#[test]
+fn where_the_chain_turns_freely_both_answers_are_shown_in_one_plane() {
+    let text = stdout(&funicular(&["solve", "--case", "three-equal-bars"]));
+    let row = text.lines().find(|line| line.contains("force at start")).unwrap();
+    let forces: Vec<&str> = row.split('(').skip(1).map(str::trim).collect();
+    assert_eq!(forces.len(), 2, "{row}");
+    assert_eq!(forces[0], forces[1], "{row}");
+}
+
+#[test]
+fn the_nearest_case_is_named() {
+    let output = funicular(&["solve", "--case", "three-equal-bar"]);
+    assert_eq!(output.status.code(), Some(2));
+    let said = stderr(&output).split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(said.contains("did you mean `three-equal-bars`?"), "{said}");
+}
+
+#[test]
+fn threads_are_capped_wherever_they_are_asked_for() {
+    let mut many = Command::cargo_bin("funicular").unwrap();
+    let many = many.env("NO_COLOR", "1").env("RAYON_NUM_THREADS", "5000");
+    let output = many.args(["solve", "--case", "two-bars"]).output().unwrap();
+    assert_eq!(output.status.code(), Some(2));
+    let said = stderr(&output);
+    assert!(said.contains("RAYON_NUM_THREADS") && said.contains("1024"), "{said}");
+    for command in ["census", "sweep", "merge"] {
+        let output = funicular(&[command, "--threads", "1025"]);
+        assert_eq!(output.status.code(), Some(2), "{command}");
+        assert!(stderr(&output).contains("up to 1024 is wanted"), "{command}");
+    }
+    let none = funicular(&["census", "--case", "two-bars", "--threads", "0"]);
+    assert_eq!(none.status.code(), Some(0), "{}", stderr(&none));
+}

@@ -90,13 +90,13 @@ pub enum Spread {
     Grid,
 }
 
-impl std::fmt::Display for Spread {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(match self {
-            Self::Uniform => "uniform",
-            Self::Sobol => "sobol",
-            Self::Grid => "grid",
-        })
+impl From<Spread> for funicular::Spread {
+    fn from(spread: Spread) -> Self {
+        match spread {
+            Spread::Uniform => Self::Uniform,
+            Spread::Sobol => Self::Sobol,
+            Spread::Grid => Self::Grid,
+        }
     }
 }
 
@@ -109,12 +109,12 @@ pub enum Format {
     Csv,
 }
 
-impl std::fmt::Display for Format {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(match self {
-            Self::Parquet => "parquet",
-            Self::Csv => "csv",
-        })
+impl From<Format> for funicular::Format {
+    fn from(format: Format) -> Self {
+        match format {
+            Format::Parquet => Self::Parquet,
+            Format::Csv => Self::Csv,
+        }
     }
 }
 

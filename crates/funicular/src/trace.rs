@@ -1,0 +1,213 @@
+//! All equilibria over a parameter.
+
+use std::io::{self, Write};
+
+use branches::{
+    Abscissa, Checks, Combine, Continuation, ContinuationSettings, Parameter, PointStatus,
+    Progress, Study,
+};
+
+use crate::error::Error;
+use crate::problem::Problem;
+use crate::threads;
+
+/// Follows all equilibria over a number of the system file: branches, folds, exchanges of stability.
+///
+/// ```
+/// use funicular::prelude::*;
+/// // Two bars of 1 m have two positions, which meet where the anchors are 2 m apart.
+/// let problem = Problem::parse(
+///     "anchors = { start_m = [0, 0, 0], end_m = [1, 0, 0] }\n\
+///      bars = [{ length_m = 1, mass_kg = 1, count = 2 }]",
+///     "two.toml",
+/// )?;
+/// let found = Trace::new().vary("anchors.end_m.x=1.5..2.1:7")?.run(&problem)?;
+/// assert!(found.checks_agree());
+/// let [event] = &found.paths()[0].events[..] else { panic!("one event") };
+/// assert!((event.values[0] - 2.0).abs() < 1e-12);
+/// # Ok::<(), Error>(())
+/// ```
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Trace {
+    parameters: Vec<Parameter>,
+    combine: Combine,
+    settings: ContinuationSettings,
+    threads: usize,
+}
+
+impl Trace {
+    /// Over no parameter yet.
+    #[must_use]
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// A number of the system file and its values, as `anchors.end_m.z=-2.9..-0.1:500`. Branches are followed along
+    /// the last one; each combination of the others is a path of its own.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Parameter`] with the place in the text.
+    pub fn vary(mut self, text: &str) -> Result<Self, Error> {
+        self.parameters.push(text.parse()?);
+        Ok(self)
+    }
+
+    /// How several parameters are combined.
+    #[must_use]
+    pub fn combine(self, combine: Combine) -> Self {
+        Self { combine, ..self }
+    }
+
+    /// Most points of all paths together: all that is found is held in memory.
+    #[must_use]
+    pub fn max_points(mut self, max_points: usize) -> Self {
+        self.settings.max_points = max_points;
+        self
+    }
+
+    /// How many threads share the work, 0 (the default) for those of the pool that it is called from.
+    #[must_use]
+    pub fn threads(self, threads: usize) -> Self {
+        Self { threads, ..self }
+    }
+
+    /// The paths, before any of them is followed.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Parameter`] when a parameter does not fit the chain.
+    pub fn study(&self, problem: &Problem) -> Result<Study, Error> {
+        let chain = problem.chain_for("a trace")?.chain().clone();
+        Ok(Study::new(chain, &self.parameters, self.combine)?)
+    }
+
+    /// Follow all equilibria.
+    ///
+    /// # Errors
+    ///
+    /// As [`study`](Self::study), and [`Error::Continuation`] when the chain is too long for a census. A point that is
+    /// refused or undecided is no error: it says so.
+    pub fn run(&self, problem: &Problem) -> Result<TraceAnswer, Error> {
+        self.run_watched(problem, &|_, _| {})
+    }
+
+    /// The same, with `watch` told the number of the path and how far it is.
+    ///
+    /// # Errors
+    ///
+    /// As [`run`](Self::run).
+    pub fn run_watched(
+        &self,
+        problem: &Problem,
+        watch: &(dyn Fn(usize, Progress) + Sync),
+    ) -> Result<TraceAnswer, Error> {
+        let study = self.study(problem)?;
+        threads::on(self.threads, || {
+            let follow = |path| {
+                let watch = |progress| watch(path, progress);
+                Continuation::follow(&study, path, &self.settings, &watch)
+            };
+            let paths = (0..study.paths().len()).map(follow).collect::<Result<_, _>>()?;
+            Ok(TraceAnswer { title: problem.name().to_owned(), paths })
+        })?
+    }
+}
+
+/// All equilibria along every path.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TraceAnswer {
+    title: String,
+    paths: Vec<Continuation>,
+}
+
+impl TraceAnswer {
+    /// The paths.
+    #[must_use]
+    pub fn paths(&self) -> &[Continuation] {
+        &self.paths
+    }
+
+    /// Whether every census between the points and events finds exactly the branches there.
+    #[must_use]
+    pub fn checks_agree(&self) -> bool {
+        self.paths.iter().all(|path| path.checks.agree())
+    }
+
+    /// Whether all that the checks ask is decided, one way or the other.
+    #[must_use]
+    pub fn checks_decided(&self) -> bool {
+        self.paths.iter().map(|path| &path.checks).all(Checks::decided)
+    }
+
+    /// Why no value of the parameters describes a chain that can hang, if none does.
+    #[must_use]
+    pub fn refused_everywhere(&self) -> Option<String> {
+        let mut reasons =
+            self.paths.iter().flat_map(|path| &path.points).map(|point| match &point.status {
+                PointStatus::Refused { reason } => Some(reason.clone()),
+                _ => None,
+            });
+        let first = reasons.next()??;
+        reasons.all(|reason| reason.is_some()).then_some(first)
+    }
+
+    /// The bifurcation diagram of a path as SVG: energy, and the angle of a bar, from 1.
+    #[must_use]
+    pub fn diagram(&self, path: usize, abscissa: Abscissa, bar: usize) -> Option<String> {
+        let path = self.paths.get(path)?;
+        Some(branches::diagram(path, &self.title, abscissa, bar))
+    }
+
+    /// A line per point of a branch as CSV: units in the names of the columns, nothing where a force is infinite.
+    ///
+    /// # Errors
+    ///
+    /// When `to` cannot be written.
+    pub fn write_csv(&self, mut to: impl Write) -> io::Result<()> {
+        let Some(first) = self.paths.first() else { return Ok(()) };
+        let branches = self.paths.iter().flat_map(|path| &path.branches);
+        let bars = branches
+            .clone()
+            .find_map(|branch| branch.points.first())
+            .map_or(0, |point| point.angles_rad.len());
+        write!(to, "path,branch,position,{},span_m,grid,proved,event", first.parameters.join(","))?;
+        write!(to, ",pull_horizontal_n,pull_vertical_n,energy_j,index_in_plane,index_in_space")?;
+        for bar in 1..=bars {
+            write!(to, ",angle_{bar}_rad,axial_{bar}_n")?;
+        }
+        writeln!(to)?;
+        let number = |number: Option<usize>| number.map_or(String::new(), |k| k.to_string());
+        for (path, trace) in self.paths.iter().enumerate() {
+            for branch in &trace.branches {
+                for p in &branch.points {
+                    write!(to, "{},{},{:?}", path + 1, branch.id, p.position)?;
+                    for value in &p.values {
+                        write!(to, ",{value:?}")?;
+                    }
+                    write!(
+                        to,
+                        ",{:?},{},{},{}",
+                        p.span_m,
+                        number(p.grid),
+                        p.proved,
+                        number(p.event)
+                    )?;
+                    match p.pull_n {
+                        Some([h, v]) => write!(to, ",{h:?},{v:?}")?,
+                        None => write!(to, ",,")?,
+                    }
+                    write!(to, ",{:?},{},{}", p.energy_j, p.index_in_plane, p.index_in_space)?;
+                    for (bar, angle) in p.angles_rad.iter().enumerate() {
+                        write!(to, ",{angle:?},")?;
+                        if let Some(axial) = p.axial_n.get(bar) {
+                            write!(to, "{axial:?}")?;
+                        }
+                    }
+                    writeln!(to)?;
+                }
+            }
+        }
+        Ok(())
+    }
+}

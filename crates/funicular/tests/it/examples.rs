@@ -1,0 +1,108 @@
+//! The examples, run as their readers run them.
+
+#![expect(clippy::unwrap_used, reason = "helpers of tests")]
+
+use std::process::Command;
+
+/// Standard output and standard error of an example.
+fn run(name: &str) -> (String, String) {
+    let arguments = ["run", "--quiet", "--locked", "--package", "funicular", "--example", name];
+    let output = Command::new(env!("CARGO")).args(arguments).output().unwrap();
+    let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
+    let (stdout, stderr) = (text(output.stdout), text(output.stderr));
+    assert!(output.status.success(), "{name}: {stderr}");
+    (stdout, stderr)
+}
+
+/// The cells of a table of comma-separated values, without its head.
+fn rows(csv: &str) -> Vec<Vec<&str>> {
+    csv.lines().skip(1).map(|line| line.split(',').collect()).collect()
+}
+
+fn number(cell: &str) -> f64 {
+    cell.parse().unwrap()
+}
+
+#[test]
+fn examples_are_short() {
+    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("examples");
+    for name in ["solve", "census", "batch", "third_solver", "sweep", "trace"] {
+        let text = std::fs::read_to_string(folder.join(name).with_extension("rs")).unwrap();
+        let lines = text.lines().count();
+        assert!(lines <= 40, "{name} has {lines} lines");
+    }
+}
+
+#[test]
+fn solve() {
+    let (csv, said) = run("solve");
+    let rows = rows(&csv);
+    // Two solvers, six joints.
+    assert_eq!(rows.len(), 12);
+    for (lagrange, energy) in rows[..6].iter().zip(&rows[6..]) {
+        assert_eq!([lagrange[0], energy[0]], ["lagrange", "energy"]);
+        for (a, b) in lagrange[2..8].iter().zip(&energy[2..8]) {
+            assert!((number(a) - number(b)).abs() < 1e-12, "{a} {b}");
+        }
+    }
+    // The anchors carry the weight, 3.4 kg.
+    let weight_n = number(rows[0][7]) + number(rows[5][7]);
+    assert!((weight_n - 3.4 * 9.80665).abs() < 1e-12, "{weight_n}");
+    assert!(said.ends_with("agreed: true\n"), "{said}");
+}
+
+#[test]
+fn census() {
+    let (text, _) = run("census");
+    assert!(text.starts_with("2 equilibria, complete: true\n"), "{text}");
+    assert_eq!(text.lines().count(), 3);
+    assert!(
+        text.lines().nth(1).unwrap().contains(" 0 directions in which the energy falls"),
+        "{text}"
+    );
+}
+
+/// The horizontal pull of a chain of ten bars that is nearly straight is that of a string with the same weight:
+/// w L / (8 d) for small sag d.
+#[test]
+fn batch() {
+    let (csv, said) = run("batch");
+    assert_eq!(said, "1000 of 1000 agree\n");
+    let rows = rows(&csv);
+    assert_eq!(rows.len(), 1000);
+    let pulls: Vec<f64> = rows.iter().map(|row| number(row[1])).collect();
+    assert!(pulls.windows(2).all(|pair| pair[0] < pair[1]), "the pull grows with the span");
+    let [span_m, pull_n, sag_m] = [0, 1, 2].map(|k| number(rows[999][k]));
+    let string_n = 10.0 * 0.2 * 9.80665 * span_m / (8.0 * sag_m);
+    assert!((pull_n / string_n - 1.0).abs() < 0.02, "{pull_n} {string_n}");
+}
+
+#[test]
+fn third_solver() {
+    let (text, _) = run("third_solver");
+    assert!(text.starts_with("agreed: to "), "{text}");
+}
+
+#[test]
+fn sweep() {
+    let (csv, _) = run("sweep");
+    let rows = rows(&csv);
+    let starts = |solver: &str| -> u64 {
+        rows.iter().filter(|row| row[0] == solver).map(|row| row[3].parse::<u64>().unwrap()).sum()
+    };
+    assert_eq!([starts("lagrange"), starts("energy")], [10_000, 10_000]);
+    // E1 and E2 of the paper, from the height of joint 0.
+    let lagrange: Vec<f64> =
+        rows.iter().filter(|row| row[0] == "lagrange").map(|row| number(row[2])).collect();
+    assert_eq!(lagrange.len(), 4);
+    assert!((lagrange[0] / 9.80665 + 3.664_531_348_000_695).abs() < 1e-12);
+    assert!((lagrange[3] / 9.80665 + 2.335_468_651_999_305).abs() < 1e-12);
+}
+
+#[test]
+fn trace() {
+    let (text, _) = run("trace");
+    assert!(text.ends_with("every census between agrees: true\n"), "{text}");
+    // The chain is straight where the anchors are as far apart as its bars reach.
+    assert!(text.contains("straight at x = 2.500000000 m"), "{text}");
+}
