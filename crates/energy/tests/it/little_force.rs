@@ -1,6 +1,8 @@
 //! Chains some of whose bars carry next to nothing, or that are folded to a millionth of their length:
 //! each bar is held against the force that it carries itself, not against the largest of the chain.
 
+#![expect(clippy::unwrap_used, reason = "helpers of tests")]
+
 use energy::{Error, Settings, Solution, minimise};
 use model::{Problem, Rung, Vector};
 

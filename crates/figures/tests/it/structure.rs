@@ -112,7 +112,7 @@ fn a_million_members_make_a_small_picture() {
     let mut drawn = lines(&svg, "tension");
     // Without the key, one line without gaps from anchor to anchor.
     drawn.pop();
-    let mut ends: Vec<_> = drawn.iter().flatten().map(|p| p.map(|x| x.to_bits())).collect();
+    let mut ends: Vec<_> = drawn.iter().flatten().map(|p| p.map(f64::to_bits)).collect();
     ends.sort_unstable();
     let lonely = ends.chunk_by(|a, b| a == b).filter(|equal| equal.len() == 1).count();
     assert_eq!(lonely, 2);
