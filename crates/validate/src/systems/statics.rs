@@ -19,7 +19,7 @@ use crate::vector::{beyond, cross, dot, minus, norm, plus, times, worse};
 /// Largest violations of geometry and of Newton's laws by an answer, dimensionless.
 ///
 /// Every member and joint is measured by its own forces and its own length. What counts is beyond the
-/// rounding of the stored numbers: [`STORED_ULPS`] units in the last place of the largest coordinate or length,
+/// rounding of the stored numbers: eight units in the last place of the largest coordinate or length,
 /// and of the largest force.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct SystemStatics {
