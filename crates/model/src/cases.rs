@@ -36,7 +36,7 @@ macro_rules! registry {
         &[$(Case {
             name: $name,
             about: $about,
-            text: include_str!(concat!("../../../validation/cases/", $name, ".toml")),
+            text: include_str!(concat!("../data/cases/", $name, ".toml")),
         },)*]
     };
 }

@@ -15,7 +15,7 @@ const PACKAGES: [&str; 8] = [
 ];
 
 /// The versions that the program is built from.
-const LOCK: &str = include_str!("../../../Cargo.lock");
+const LOCK: &str = include_str!(concat!(env!("OUT_DIR"), "/Cargo.lock"));
 
 /// Where and with what.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]

@@ -92,7 +92,7 @@ struct CopsOptimum {
 }
 
 fn cops() -> Cops {
-    toml::from_str(include_str!("../../../validation/external/cops-hanging-chain.toml")).unwrap()
+    toml::from_str(include_str!("../data/external/cops-hanging-chain.toml")).unwrap()
 }
 
 /// Rounding of the closed form in doubles, relative.
@@ -203,7 +203,7 @@ const CATENA_VIOLATION: f64 = 3e-8;
 #[test]
 fn cutest_catena_is_half_of_a_chain_between_level_anchors() {
     let catena: Catena =
-        toml::from_str(include_str!("../../../validation/external/cutest-catena.toml")).unwrap();
+        toml::from_str(include_str!("../data/external/cutest-catena.toml")).unwrap();
     for optimum in &catena.published {
         let beams = optimum.beams as f64;
         let problem = equal_bars(
