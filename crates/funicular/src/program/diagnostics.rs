@@ -5,6 +5,8 @@ use std::io::Write as _;
 use miette::{Diagnostic, LabeledSpan, NamedSource, SourceCode};
 use model::system_file::SystemFileError;
 
+use crate::printable::{Printable, filtered};
+
 /// Show errors with their source lines, and without a backtrace of the program's inside.
 pub fn install() {
     // The hook can be set once per process; a second call would come from a test and is harmless.
@@ -90,14 +92,14 @@ impl Diagnostic for SystemFileReport {
     fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
         self.source_code()?;
         let span = self.error.span()?;
-        let label = self.error.key().unwrap_or("here").to_owned();
+        let label = Printable(self.error.key().unwrap_or("here")).to_string();
         Some(Box::new(std::iter::once(LabeledSpan::new_with_span(Some(label), span))))
     }
 }
 
 /// Tell something on standard error. Nobody may be reading there, and then there is nobody to tell that.
 pub fn tell(text: impl std::fmt::Display) {
-    let _ = writeln!(std::io::stderr(), "{text}");
+    let _ = writeln!(std::io::stderr(), "{}", filtered(&text.to_string(), true));
 }
 
 #[cfg(test)]

@@ -15,6 +15,7 @@ mod interrupt;
 mod merge;
 mod new;
 mod output;
+mod printable;
 mod progress;
 mod reproduce;
 mod solve;

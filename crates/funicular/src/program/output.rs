@@ -10,10 +10,11 @@ use miette::miette;
 use serde::Serialize;
 
 use crate::exit::Failure;
+use crate::printable::filtered;
 
 /// Print to standard output. A reader that has gone away (`| head`) is no error.
 pub fn print(text: &str) -> Result<(), Failure> {
-    print_stream(|out| out.write_all(text.as_bytes()))
+    print_stream(|out| out.write_all(filtered(text, false).as_bytes()))
 }
 
 /// The same for what is too long to be held as one text.

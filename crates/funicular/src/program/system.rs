@@ -6,6 +6,7 @@ use funicular::SystemSolution;
 use model::system::{System, SystemEquilibrium};
 
 use crate::answer::ladder;
+use crate::printable::Printable;
 use crate::tables::{duration, long, numbers_from, short, table, vector, word};
 
 /// Joints and members up to this many are printed one by one; of more the extremes.
@@ -16,7 +17,7 @@ pub fn answer(solution: &SystemSolution, summary: bool) -> String {
     let system = solution.system();
     let mut text = format!(
         "{}: {} members, {} m long, {} joints, {} kg, g = {} m/s^2\n\n",
-        system.name(),
+        Printable(system.name()),
         system.members().len(),
         short(system.total_length_m()),
         system.joints().len(),
@@ -67,7 +68,7 @@ fn joints(system: &System, e: &SystemEquilibrium) -> String {
     for (k, joint) in system.joints().iter().enumerate() {
         let held = joint.support.at_m().map(|_| vector(e.reactions_n[k]));
         let [x, y, z] = e.joints_m[k].map(short);
-        table.add_row([joint.name.clone(), x, y, z, held.unwrap_or_default()]);
+        table.add_row([Printable(&joint.name).to_string(), x, y, z, held.unwrap_or_default()]);
     }
     numbers_from(&mut table, 1);
     format!("Joints, by {}:\n{table}\n\n", e.solver)
@@ -76,7 +77,7 @@ fn joints(system: &System, e: &SystemEquilibrium) -> String {
 fn members(system: &System, e: &SystemEquilibrium) -> String {
     let mut table = table(["from", "to", "axial force / N", ""]);
     for (member, axial) in system.members().iter().zip(&e.axial_n) {
-        let name = |joint: usize| system.joints()[joint].name.clone();
+        let name = |joint: usize| Printable(&system.joints()[joint].name).to_string();
         let what = match axial {
             n if *n > 0.0 => "tension",
             n if *n < 0.0 => "compression",
@@ -93,7 +94,7 @@ fn extremes(system: &System, e: &SystemEquilibrium) -> String {
     let mut text = String::new();
     let joints = system.joints().iter().zip(&e.joints_m);
     if let Some((joint, at)) = joints.min_by(|(_, a), (_, b)| a[2].total_cmp(&b[2])) {
-        let _ = writeln!(text, "Lowest joint: {}, at {} m.", joint.name, vector(*at));
+        let _ = writeln!(text, "Lowest joint: {}, at {} m.", Printable(&joint.name), vector(*at));
     }
     let axial = || system.members().iter().zip(&e.axial_n);
     let most = axial().max_by(|(_, a), (_, b)| a.total_cmp(b));
@@ -101,7 +102,7 @@ fn extremes(system: &System, e: &SystemEquilibrium) -> String {
     for (what, extreme) in [("tension", most), ("compression", least)] {
         let Some((member, axial)) = extreme else { continue };
         if (*axial > 0.0) == (what == "tension") && axial.abs() > 0.0 {
-            let name = |joint: usize| &system.joints()[joint].name;
+            let name = |joint: usize| Printable(&system.joints()[joint].name);
             let (from, to) = (name(member.from), name(member.to));
             let size = short(axial.abs());
             let _ = writeln!(text, "Largest {what}: {size} N, in the member from {from} to {to}.");

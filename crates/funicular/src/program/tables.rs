@@ -4,6 +4,8 @@ use comfy_table::{CellAlignment, ContentArrangement, LineStyle, Table, presets};
 use model::cases::Case;
 use model::{Evidence, SystemSummary, Vector};
 
+use crate::printable::Printable;
+
 /// Width of tables where no terminal says its own.
 const WIDTH: u16 = 120;
 
@@ -40,7 +42,7 @@ pub fn cases(cases: &[Case]) -> String {
 pub fn system_line(system: &SystemSummary) -> String {
     format!(
         "{}: {} bars, {} m long, {} kg,\nanchors {} m apart, g = {} m/s^2\n\n",
-        system.name,
+        Printable(&system.name),
         system.bars,
         short(system.total_length_m),
         short(system.total_mass_kg),

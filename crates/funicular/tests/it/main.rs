@@ -1,10 +1,12 @@
 //! The program as its users meet it.
 
 mod census;
+mod escapes;
 mod examples;
 mod files;
 mod library;
 mod program;
 mod starts;
 mod sweep;
+mod systems;
 mod trace;

@@ -6,6 +6,7 @@ use ::sweep::{Comparison, Failure, Manifest, SolverTally, StoreSummary, rate_int
 use serde_json::{Value, json};
 
 use super::is_gap;
+use crate::printable::Printable;
 use crate::tables::{numbers_from, short, table, word};
 
 /// Seeds named one by one in the terminal; `summary.json` has more.
@@ -21,7 +22,9 @@ pub fn summary(manifest: &Manifest, summary: &StoreSummary) -> String {
     };
     let mut text = format!(
         "{}: {all} {} seeds of number {}{shard}\n",
-        manifest.system.name, manifest.source, manifest.seed_number
+        Printable(&manifest.system.name),
+        manifest.source,
+        manifest.seed_number
     );
     let proof = if manifest.equilibria_complete {
         "the census proves that there are no others"

@@ -1,0 +1,65 @@
+//! Text from files reaches the terminal as text: it steers nothing, and no line of it looks like the program's.
+
+#![expect(clippy::unwrap_used, reason = "helpers of tests")]
+
+use std::path::PathBuf;
+use std::process::Output;
+
+use assert_cmd::Command;
+
+/// A name that would set the title, clear the screen, and pass for a verdict.
+const NAME: &str = r#"name = "\u001b]0;X\u0007\u001b[2J\nAgreement: agreed by nobody""#;
+
+fn folder(name: &str) -> PathBuf {
+    let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(name);
+    let _ = std::fs::remove_dir_all(&path);
+    std::fs::create_dir_all(&path).unwrap();
+    path
+}
+
+fn run(folder: &PathBuf, arguments: &[&str]) -> Output {
+    let mut command = Command::cargo_bin("funicular").unwrap();
+    command.current_dir(folder).env("NO_COLOR", "1").args(arguments).output().unwrap()
+}
+
+/// Neither stream has a control character but ends of lines, nor a line that the name wrote.
+fn assert_plain(output: &Output) {
+    for stream in [&output.stdout, &output.stderr] {
+        let text = std::str::from_utf8(stream).unwrap();
+        let bad = text.chars().find(|c| c.is_control() && *c != '\n');
+        assert_eq!(bad, None, "{text}");
+        assert!(
+            text.lines().all(|line| !line.starts_with("Agreement: agreed by nobody")),
+            "{text}"
+        );
+    }
+    assert!(!output.stdout.is_empty() || !output.stderr.is_empty());
+}
+
+#[test]
+fn names_of_systems_do_not_steer_the_terminal() {
+    let folder = folder("escapes-names");
+    let chain = "\n[anchors]\nstart_m = [0, 0, 0]\nend_m = [1, 0, 0]\n[[bars]]\nlength_m = 0.7\nmass_kg = 1\ncount = 2\n";
+    std::fs::write(folder.join("chain.toml"), format!("{NAME}{chain}")).unwrap();
+    let loads = "[[loads]]\njoint = 1\nmass_kg = 2\n";
+    std::fs::write(folder.join("loaded.toml"), format!("{NAME}{chain}{loads}")).unwrap();
+    for arguments in [
+        &["solve", "chain.toml"][..],
+        &["solve", "loaded.toml"],
+        &["census", "chain.toml"],
+        &["sweep", "chain.toml", "--seeds", "100", "--out", "s"],
+    ] {
+        let output = run(&folder, arguments);
+        assert_eq!(output.status.code(), Some(0), "{arguments:?}");
+        assert_plain(&output);
+    }
+}
+
+#[test]
+fn keys_in_errors_do_not_steer_the_terminal() {
+    let folder = folder("escapes-keys");
+    std::fs::write(folder.join("chain.toml"), "\"\\u001b[2J\\u0007\" = 1\n").unwrap();
+    let output = run(&folder, &["solve", "chain.toml"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert_plain(&output);
+}

@@ -1,0 +1,145 @@
+//! Systems of bars by name, as users meet them: tables, JSON, CSV, pictures, exit codes.
+
+#![expect(clippy::unwrap_used, reason = "helpers of tests")]
+
+use std::path::PathBuf;
+use std::process::Output;
+
+use assert_cmd::Command;
+use serde_json::Value;
+
+/// A mass of 2 kg on two massless cables of 5 m between anchors 6 m apart: by the triangle 3, 4, 5 it hangs 4 m
+/// deep, and each cable pulls with 5/4 of 10 N.
+const LAMP: &str = "name = \"lamp\"\ngravity_m_s2 = 10\n[joints]\nA = { at_m = [-3, 0, 0] }\n\
+    B = { at_m = [3, 0, 0] }\n\"the, lamp\" = { mass_kg = 2 }\n\
+    [[bars]]\nfrom = \"A\"\nto = \"the, lamp\"\nlength_m = 5\nmass_kg = 0\nkind = \"cable\"\n\
+    [[bars]]\nfrom = \"the, lamp\"\nto = \"B\"\nlength_m = 5\nmass_kg = 0\nkind = \"cable\"\n";
+
+fn folder(name: &str) -> PathBuf {
+    let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(name);
+    let _ = std::fs::remove_dir_all(&path);
+    std::fs::create_dir_all(&path).unwrap();
+    std::fs::write(path.join("lamp.toml"), LAMP).unwrap();
+    path
+}
+
+fn run(folder: &PathBuf, arguments: &[&str]) -> Output {
+    let mut command = Command::cargo_bin("funicular").unwrap();
+    command.current_dir(folder).env("NO_COLOR", "1").args(arguments).output().unwrap()
+}
+
+fn number(value: &Value) -> f64 {
+    value.as_f64().unwrap()
+}
+
+#[test]
+fn the_json_of_a_system_names_joints_bars_and_reactions() {
+    let folder = folder("systems-json");
+    let output = run(&folder, &["solve", "lamp.toml", "--json"]);
+    assert_eq!(output.status.code(), Some(0));
+    let answer: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(answer["schema_version"], 2);
+    let system = &answer["system"];
+    assert_eq!((&system["bars"], &system["joints"]), (&2.into(), &3.into()));
+    assert_eq!(system["total_length_m"], 10.0);
+    assert_eq!(system["total_mass_kg"], 2.0);
+    assert_eq!(system["gravity_m_s2"], 10.0);
+    assert_eq!(system["name"], "lamp");
+    assert_eq!(answer["agreement"]["verdict"], "agreed");
+    let solvers: Vec<_> =
+        answer["equilibria"].as_array().unwrap().iter().map(|e| &e["solver"]).collect();
+    assert_eq!(solvers, ["lagrange", "energy"]);
+    for e in answer["equilibria"].as_array().unwrap() {
+        let close =
+            |value: &Value, wanted: f64| assert!((number(value) - wanted).abs() < 1e-9, "{value}");
+        // 20 N four metres below the anchors.
+        close(&e["energy_j"], -80.0);
+        assert_eq!(e["joints"][2]["name"], "the, lamp");
+        close(&e["joints"][2]["at_m"][2], -4.0);
+        let bar = &e["bars"][1];
+        assert_eq!((&bar["from"], &bar["to"]), (&"the, lamp".into(), &"B".into()));
+        close(&bar["axial_n"], 12.5);
+        close(&bar["force_at_start_n"][0], -7.5);
+        close(&bar["force_at_end_n"][2], 10.0);
+        close(&e["reactions_n"]["A"][0], -7.5);
+        assert!(e["reactions_n"].get("the, lamp").is_none());
+        assert_eq!(e["stability"]["in_space"], "stable");
+        assert_eq!(e["stability"]["index_in_space"], 0);
+        assert_eq!(e["evidence"]["rung"], "optimal");
+    }
+    let summary = run(&folder, &["solve", "lamp.toml", "--json", "--summary"]);
+    let summary: Value = serde_json::from_slice(&summary.stdout).unwrap();
+    for key in ["joints", "bars", "reactions_n"] {
+        assert!(summary["equilibria"][0].get(key).is_none(), "{key}");
+    }
+}
+
+#[test]
+fn tables_csv_and_picture_of_a_system() {
+    let folder = folder("systems-files");
+    let arguments =
+        ["solve", "lamp.toml", "--csv", "j.csv", "--bars-csv", "b.csv", "--svg", "p.svg"];
+    let output = run(&folder, &arguments);
+    assert_eq!(output.status.code(), Some(0));
+    let text = String::from_utf8(output.stdout).unwrap();
+    assert!(text.contains("Largest tension: 12.5 N, in the member from"), "{text}");
+    assert!(
+        text.contains("Lowest joint: the, lamp, at (0, 0, -4) m.") || text.contains("-4) m."),
+        "{text}"
+    );
+    let read = |name: &str| std::fs::read_to_string(folder.join(name)).unwrap();
+    let joints = read("j.csv");
+    let mut lines = joints.lines();
+    assert_eq!(
+        lines.next(),
+        Some("solver,joint,x_m,y_m,z_m,reaction_x_n,reaction_y_n,reaction_z_n")
+    );
+    assert_eq!(lines.count(), 6);
+    assert!(joints.contains("\nlagrange,\"the, lamp\","), "{joints}");
+    let bars = read("b.csv");
+    let first: Vec<&str> = bars.lines().nth(1).unwrap().split(',').collect();
+    assert_eq!(first[..3], ["lagrange", "1", "A"]);
+    let picture = read("p.svg");
+    let document = roxmltree::Document::parse(&picture).unwrap();
+    let said: String = document.descendants().filter_map(|node| node.text()).collect();
+    assert!(said.contains("12.5 N") && said.contains("the, lamp"), "{said}");
+}
+
+#[test]
+fn a_chain_with_loads_is_solved_and_drawn() {
+    let folder = folder("systems-loads");
+    let chain = "[anchors]\nstart_m = [0, 0, 0]\nend_m = [2, 0, 0]\n[[bars]]\nlength_m = 0.5\nmass_kg = 1\ncount = 6\n";
+    std::fs::write(
+        folder.join("chain.toml"),
+        format!("{chain}[[loads]]\njoint = 3\nmass_kg = 5\n"),
+    )
+    .unwrap();
+    let output = run(&folder, &["solve", "chain.toml", "--json"]);
+    assert_eq!(output.status.code(), Some(0));
+    let answer: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let e = &answer["equilibria"][0];
+    // Half of 11 kg at each anchor, by symmetry.
+    let up = number(&e["reactions_n"]["0"][2]);
+    assert!((up - 5.5 * 9.806_65).abs() < 1e-9, "{up}");
+    std::fs::write(folder.join("plain.toml"), chain).unwrap();
+    let output = run(&folder, &["solve", "plain.toml", "--svg", "p.svg"]);
+    assert_eq!(output.status.code(), Some(0));
+    assert!(std::fs::read_to_string(folder.join("p.svg")).unwrap().contains("largest tension"));
+}
+
+#[test]
+fn other_commands_say_that_they_are_for_chains() {
+    let folder = folder("systems-others");
+    for command in ["census", "trace"] {
+        let mut arguments = vec![command, "lamp.toml"];
+        if command == "trace" {
+            arguments.extend(["--vary", "anchors.end_m.x=1..2:3"]);
+        }
+        let output = run(&folder, &arguments);
+        assert_eq!(output.status.code(), Some(2), "{command}");
+        let said = String::from_utf8(output.stderr).unwrap();
+        assert!(said.contains("chain"), "{said}");
+    }
+    let output = run(&folder, &["solve", "-"]);
+    assert_eq!(output.status.code(), Some(2));
+}
