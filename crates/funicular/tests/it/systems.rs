@@ -143,3 +143,20 @@ fn other_commands_say_that_they_are_for_chains() {
     let output = run(&folder, &["solve", "-"]);
     assert_eq!(output.status.code(), Some(2));
 }
+
+/// The files that the README shows are what it says they are.
+#[test]
+fn the_files_of_the_readme_are_solved() {
+    let folder = folder("systems-readme");
+    let readme = include_str!("../../README.md");
+    for name in ["lamp.toml", "bridle.toml"] {
+        let after = readme.split_once(&format!("`{name}`")).unwrap().1;
+        let text = after.split_once("```toml\n").unwrap().1.split_once("```").unwrap().0;
+        std::fs::write(folder.join(name), text).unwrap();
+        let output = run(&folder, &["solve", name, "--json"]);
+        assert_eq!(output.status.code(), Some(0), "{name}");
+        let answer: Value = serde_json::from_slice(&output.stdout).unwrap();
+        assert_eq!(answer["agreement"]["verdict"], "agreed", "{name}");
+        assert_eq!(answer["equilibria"][0]["evidence"]["rung"], "optimal", "{name}");
+    }
+}

@@ -1,7 +1,7 @@
 //! Answers for one system held against each other, and each against Newton's laws.
 
 use model::system::{Part, System, SystemEquilibrium};
-use model::{Agreed, Disagreement, Excess, NoCensus, Quantity, Reason, SolverName, Status, Vector};
+use model::{Agreed, Disagreement, Excess, Quantity, Reason, SolverName, Status, Vector};
 use serde::Serialize;
 
 use super::certificate::{certify, largest_force_n, size_m, total_load_n};
@@ -105,8 +105,9 @@ fn certify_rung(system: &System, answer: &mut SystemEquilibrium) {
         Err(because) => Status::Open(Reason::NoCertificate(because)),
     };
     let ladder = &mut answer.evidence.ladder;
-    ladder.verified = Status::Open(Reason::NoCensus(NoCensus::NotAsked));
-    ladder.complete = Status::Open(Reason::NoCensus(NoCensus::NotAsked));
+    // No proof by intervals is known for systems of more than one chain.
+    ladder.verified = Status::Open(Reason::NotTried);
+    ladder.complete = Status::Open(Reason::NotTried);
     ladder.optimal = optimal;
 }
 
