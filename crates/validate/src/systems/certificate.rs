@@ -157,46 +157,68 @@ fn largest_degree(system: &System) -> usize {
     degrees.into_iter().max().unwrap_or(0)
 }
 
-/// A lower bound of the energy of every configuration, J.
+/// Units in the last place that the operations of one term come to: fewer than 16 roundings of half a unit each,
+/// and as many again for those of the bound itself.
+const TERM_ULPS: f64 = 16.0;
+
+/// A lower bound of the energy of every configuration, J. What is added is paired with the size of all that was
+/// rounded on the way: of differences, with the size of what was subtracted.
 fn bound_j(system: &System, answer: &SystemEquilibrium, densities: &[f64], least: f64) -> f64 {
     let origin = system.reference_m();
     let place = |k: usize| minus(answer.joints_m[k], origin);
     let loads = joint_loads(system);
     let mut gradient: Vec<Vector> = loads.iter().map(|load| times(-1.0, *load)).collect();
-    let mut terms = Vec::with_capacity(2 * densities.len() + loads.len());
+    let mut sizes_n: Vec<f64> = loads.iter().map(|load| norm(*load)).collect();
+    let mut terms = Vec::with_capacity(densities.len() + loads.len());
     for (member, density) in system.members().iter().zip(densities) {
         let along = minus(place(member.to), place(member.from));
         let pull = times(*density, along);
         gradient[member.to] = plus(gradient[member.to], pull);
         gradient[member.from] = minus(gradient[member.from], pull);
+        for joint in [member.from, member.to] {
+            sizes_n[joint] += norm(pull);
+        }
         terms.push(tangent_j(member, *density, dot(along, along)));
     }
-    terms.extend(loads.iter().enumerate().map(|(k, load)| -dot(*load, place(k))));
-    // Each term carries a few roundings, and so does each component of the gradient.
-    let rounding_j = 16.0 * f64::EPSILON * sum(terms.iter().map(|term| term.abs()));
-    let slope = sum(gradient.iter().enumerate().map(|(k, force)| {
+    let works = loads.iter().enumerate().map(|(k, load)| {
+        let at = place(k);
+        (-dot(*load, at), norm(*load) * norm(at))
+    });
+    terms.extend(works);
+    let ulps = TERM_ULPS * f64::EPSILON;
+    let rounding_j = ulps * sum(terms.iter().map(|(_, size)| *size));
+    // As many additions as members meet in a joint, each rounded.
+    let ulps = ulps + f64::EPSILON * largest_degree(system) as f64;
+    let slope = sum(gradient.iter().zip(sizes_n).enumerate().map(|(k, (force, size))| {
         let moving = match system.joints()[k].support {
-            Support::Fixed { .. } => [0.0; 3],
+            Support::Fixed { .. } => return 0.0,
             Support::Free => *force,
             Support::Line { direction, .. } => times(dot(*force, direction), direction),
             Support::Plane { normal, .. } => minus(*force, times(dot(*force, normal), normal)),
         };
-        dot(moving, moving)
+        let most = norm(moving) + ulps * size;
+        most * most
     }));
-    sum(terms) - rounding_j - slope / (2.0 * least)
+    sum(terms.iter().map(|(term, _)| *term)) - rounding_j - slope / (2.0 * least)
 }
 
-/// The tangent to a member's potential with the slope `w/2`, at the squared distance `t`, J.
-fn tangent_j(member: &Member, density: f64, squared_m2: f64) -> f64 {
+/// The tangent to a member's potential with the slope `w/2`, at the squared distance `t`, and the size of what is
+/// rounded in it, J.
+fn tangent_j(member: &Member, density: f64, squared_m2: f64) -> (f64, f64) {
     let length_m = member.body.length_m();
     let Some(stiffness_n) = member.stiffness_n else {
-        return 0.5 * density * (squared_m2 - length_m * length_m);
+        let kept_m2 = length_m * length_m;
+        let size = 0.5 * density.abs() * (squared_m2 + kept_m2);
+        return (0.5 * density * (squared_m2 - kept_m2), size);
     };
     // With the distance d* of this slope, k/2 (d* - l)^2 + w/2 (t - d*^2).
     let rate = stiffness_n / length_m;
     let stretched_m = length_m / (1.0 - density / rate);
     let stretch_m = stretched_m - length_m;
-    0.5 * rate * stretch_m * stretch_m + 0.5 * density * (squared_m2 - stretched_m * stretched_m)
+    let kept_m2 = stretched_m * stretched_m;
+    let size = rate * stretch_m.abs() * (length_m + stretched_m.abs())
+        + 0.5 * density.abs() * (squared_m2 + kept_m2);
+    (0.5 * rate * stretch_m * stretch_m + 0.5 * density * (squared_m2 - kept_m2), size)
 }
 
 /// Weights and forces at the joints, those of members by the lever rule, N.
