@@ -1,12 +1,13 @@
 //! Are the bars cleared? `cargo run --release -p benches --example bars`
 //!
-//! Equal bars, together 1.5 times as long as the span, anchors (0, 0, 0) and (1, 0, -0.2). Nobody solves the same
-//! chain twice: the solvers of chains that are long get a copy of it that no cache holds. All is measured again
-//! and again, one after the other, for half a minute (or as many seconds as the first argument says), and of
-//! each the least time counts: what else the machine does can only add. On a busy machine even the least of some
-//! ten milliseconds has other programs in it; on Linux the mean time that the thread itself had a processor
-//! is shown beside it, which has not (but the misses of a cache that others fill). Exits with 1 when a bar
-//! is not cleared by the clock.
+//! Equal bars, together 1.5 times as long as the span, anchors (0, 0, 0) and (1, 0, -0.2). Nobody
+//! solves the same chain twice: the solvers of chains that are long get a copy of it that no cache
+//! holds. All is measured again and again, one after the other, for half a minute (or as many
+//! seconds as the first argument says), and of each the least time counts: what else the machine
+//! does can only add. On a busy machine even the least of some ten milliseconds has other programs
+//! in it; on Linux the mean time that the thread itself had a processor is shown beside it, which
+//! has not (but the misses of a cache that others fill). Exits with 1 when a bar is not cleared by
+//! the clock.
 
 use std::hint::black_box;
 use std::num::NonZeroUsize;

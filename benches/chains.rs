@@ -1,8 +1,9 @@
 //! Chains of any size: the condensed solver and the minimiser, from ten bars to a million.
 //!
-//! `cargo bench -p benches --bench chains` runs all; `-- pull` what has `pull` in its name. Each size is solved again
-//! and again, so a hundred thousand bars stay in the cache and a million do not. `cargo run --release -p benches
-//! --example bars` reads every chain from memory, tells both ratios, and says whether the bars that were set are cleared.
+//! `cargo bench -p benches --bench chains` runs all; `-- pull` what has `pull` in its name. Each
+//! size is solved again and again, so a hundred thousand bars stay in the cache and a million do
+//! not. `cargo run --release -p benches --example bars` reads every chain from memory, tells both
+//! ratios, and says whether the bars that were set are cleared.
 
 use std::hint::black_box;
 use std::num::NonZeroUsize;
@@ -41,7 +42,8 @@ fn pull(criterion: &mut Criterion) {
     group.finish();
 }
 
-/// From the bars to all joints, all multipliers, energy and stability, in memory that is used again.
+/// From the bars to all joints, all multipliers, energy and stability, in memory that is used
+/// again.
 fn solve(criterion: &mut Criterion) {
     let two = NonZeroUsize::MIN.saturating_add(1);
     for (name, processors, sizes) in [

@@ -1,6 +1,7 @@
 //! One solve of each crate, seed to answer, and one evaluation of the full system.
 //!
-//! `cargo bench -p benches` runs all; `cargo bench -p benches -- seeds` what has `seeds` in its name.
+//! `cargo bench -p benches` runs all; `cargo bench -p benches -- seeds` what has `seeds` in its
+//! name.
 
 use std::f64::consts::PI;
 use std::hint::black_box;

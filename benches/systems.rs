@@ -2,8 +2,8 @@
 
 use model::{Anchors, Bar, Chain, Problem};
 
-/// The chain of the benches: n equal bars of total mass 1 kg, together 1.5 times as long as the span,
-/// between (0, 0, 0) and (1, 0, -0.2), in standard gravity.
+/// The chain of the benches: n equal bars of total mass 1 kg, together 1.5 times as long as the
+/// span, between (0, 0, 0) and (1, 0, -0.2), in standard gravity.
 ///
 /// # Panics
 ///

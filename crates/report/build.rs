@@ -1,4 +1,5 @@
-//! Remembers what the program is built with: the report names the compiler and the versions of the packages.
+//! Remembers what the program is built with: the report names the compiler and the versions of the
+//! packages.
 
 use std::env;
 use std::error::Error;
@@ -22,7 +23,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(fs::write(out.join("Cargo.lock"), lock)?)
 }
 
-/// The versions that are built: of the workspace, or of the package by itself. A dependency of another program has none.
+/// The versions that are built: of the workspace, or of the package by itself. A dependency of
+/// another program has none.
 fn lock_file() -> Option<PathBuf> {
     ["../../Cargo.lock", "Cargo.lock"]
         .map(Path::new)

@@ -7,8 +7,8 @@ use std::time::Instant;
 use bounds::{BoundSettings, Sense, cable_bound, semidefinite};
 use model::{Anchors, Bar, Chain, Problem};
 
-/// Largest chain for which the semidefinite programme is shown; it is solved in fractions of a second
-/// there, and its solver loses its digits beyond.
+/// Largest chain for which the semidefinite programme is shown; it is solved in fractions of a
+/// second there, and its solver loses its digits beyond.
 const LARGEST_SEMIDEFINITE: u32 = 1_000;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {

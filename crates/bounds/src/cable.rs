@@ -10,8 +10,8 @@ use crate::program::{Affine, ConeEvidence, Program};
 use crate::pull::lower_bound;
 use crate::settings::BoundSettings;
 
-/// A bar of a chain that is not taut is called slack when it is shorter than its length by more than
-/// this fraction, a thousand times the solver's tolerance.
+/// A bar of a chain that is not taut is called slack when it is shorter than its length by more
+/// than this fraction, a thousand times the solver's tolerance.
 const SLACK: f64 = 1e-6;
 
 /// What the second-order cone programme says.
@@ -24,9 +24,9 @@ pub struct CableBound {
     pub rigorous_j: f64,
     /// The chain of cables that attains the bound, with its axial forces, none negative.
     pub cables: Configuration,
-    /// Numbers, from 1, of the bars that are shorter than they ought to be, and carry no force. When
-    /// there is none the cables are the chain: its equilibrium of least energy. (Whether they are is
-    /// decided to full accuracy, which of them are slack to the solver's.)
+    /// Numbers, from 1, of the bars that are shorter than they ought to be, and carry no force.
+    /// When there is none the cables are the chain: its equilibrium of least energy. (Whether they
+    /// are is decided to full accuracy, which of them are slack to the solver's.)
     pub slack: Vec<usize>,
     /// How the programme was solved.
     pub evidence: ConeEvidence,

@@ -132,8 +132,8 @@ impl Data {
     /// The vertical plane of the anchors; OYZ, the paper's choice, when they are on one vertical.
     #[cfg(feature = "cones")]
     pub(crate) fn plane(&self, problem: &Problem) -> Plane {
-        /// Of the total length; a span this small (or subnormal) has no direction worth keeping, and
-        /// no effect on an energy. What is proved takes the anchors as they are.
+        /// Of the total length; a span this small (or subnormal) has no direction worth keeping,
+        /// and no effect on an energy. What is proved takes the anchors as they are.
         const ON_ONE_VERTICAL: f64 = f64::EPSILON * f64::EPSILON;
         let [x, y, z] = problem.chain().anchors().difference_m().map(|x| x / self.scale.length);
         let span = x.hypot(y);
@@ -185,7 +185,8 @@ mod tests {
         assert!(power_of_two_below(f64::MAX).is_finite());
     }
 
-    /// Three equal bars: the joints carry mg, mg and mg/2, in units of 2 mg (a power of two below 3).
+    /// Three equal bars: the joints carry mg, mg and mg/2, in units of 2 mg (a power of two below
+    /// 3).
     #[test]
     fn lumped_weights_of_the_paper() {
         let mut data = Data::new(&model::cases::paper(), Sense::Lower);

@@ -1,7 +1,7 @@
 //! Why there is no bound.
 
-/// What clarabel says at its end. Only [`Solved`](Self::Solved) is a solution; every other one is an
-/// error here.
+/// What clarabel says at its end. Only [`Solved`](Self::Solved) is a solution; every other one is
+/// an error here.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum ConeStatus {

@@ -33,15 +33,16 @@
 //! first column of Y only: it holds on average, while Y may spread the bars as it likes. For any
 //! vectors $\bar d_i$ that close and are not too long, $\bar d \bar d^T$ plus
 //! $l_i^2 - |\bar d_i|^2$ spread over the diagonal block of bar i is feasible. So without more the
-//! relaxation is the chain of *cables*, $|d_i| \le l_i$: 2.0 mgl in the paper's terms for its example.
-//! The rows $\sum_j d_j d_i^T = D d_i^T$ for every i (the closure multiplied by every variable, a
-//! step of the reformulation-linearisation technique) say that Y maps the closure's vector to zero:
-//! the spread is among chains that close. That is what makes it tight: 2.33546865 mgl.
+//! relaxation is the chain of *cables*, $|d_i| \le l_i$: 2.0 mgl in the paper's terms for its
+//! example. The rows $\sum_j d_j d_i^T = D d_i^T$ for every i (the closure multiplied by every
+//! variable, a step of the reformulation-linearisation technique) say that Y maps the closure's
+//! vector to zero: the spread is among chains that close. That is what makes it tight: 2.33546865
+//! mgl.
 //!
-//! A matrix with a known null space is a smaller matrix. The rows are therefore not written down but
-//! used up (which also gives the programme the interior that it otherwise lacks, and that the solver
-//! needs): with the joints x_k for variables every chain closes by construction, and of the lifted
-//! programme remains, for the moments X of the joints between the anchors,
+//! A matrix with a known null space is a smaller matrix. The rows are therefore not written down
+//! but used up (which also gives the programme the interior that it otherwise lacks, and that the
+//! solver needs): with the joints x_k for variables every chain closes by construction, and of the
+//! lifted programme remains, for the moments X of the joints between the anchors,
 //!
 //! $$ \min \sum W_k z_k \quad\text{with}\quad \langle |x_i - x_{i-1}|^2 \rangle = l_i^2 . $$
 //!
@@ -50,16 +51,17 @@
 //! number of dimensions has the same value, and a bound found in the plane is one for space.
 //!
 //! **The dual** has one multiplier τ_i / 2 per bar, and one matrix that must be positive
-//! semidefinite, the stress matrix bordered by the weights: see [`stress_bound`]. It is tight exactly
-//! when the optimum has a positive semidefinite stress matrix. A minimum in space lies in a vertical
-//! plane, and displacing its joints out of the plane shows that its stress matrix is: so it always is
-//! tight, unless a bar carries no force at all, and then too on all chains tried. (With anchors on one
-//! vertical the stress matrix is singular: the turn about it.)
+//! semidefinite, the stress matrix bordered by the weights: see [`stress_bound`]. It is tight
+//! exactly when the optimum has a positive semidefinite stress matrix. A minimum in space lies in a
+//! vertical plane, and displacing its joints out of the plane shows that its stress matrix is: so
+//! it always is tight, unless a bar carries no force at all, and then too on all chains tried.
+//! (With anchors on one vertical the stress matrix is singular: the turn about it.)
 //!
-//! **Springs in a row.** The stress matrix of a chain is tridiagonal. Eliminating one joint after the
-//! other splits the one large semidefinite cone into n − 2 of size 3 × 3 that overlap in three numbers
-//! (the stiffness u_k, the weight g_k and the energy e_k that the eliminated part shows to joint k). It
-//! is solved in this form: no dense matrix, and work that grows with n, not n³ and more.
+//! **Springs in a row.** The stress matrix of a chain is tridiagonal. Eliminating one joint after
+//! the other splits the one large semidefinite cone into n − 2 of size 3 × 3 that overlap in three
+//! numbers (the stiffness u_k, the weight g_k and the energy e_k that the eliminated part shows to
+//! joint k). It is solved in this form: no dense matrix, and work that grows with n, not n³ and
+//! more.
 //!
 //! **Upper bounds.** The greatest energy is the least one with gravity reversed.
 //!
@@ -67,8 +69,8 @@
 //!
 //! A cone solver is good to about 1e-9. Its signs of the axial forces are right, though, and with
 //! these the chain closes by Newton's method to the last digit. Whatever comes of that, the bound
-//! returned as rigorous is [`stress_bound`] (or [`pull_bound`]) of the result: evaluated in interval
-//! arithmetic from the numbers of the chain as they are, it owes nothing to the solver.
+//! returned as rigorous is [`stress_bound`] (or [`pull_bound`]) of the result: evaluated in
+//! interval arithmetic from the numbers of the chain as they are, it owes nothing to the solver.
 //!
 //! # References
 //!

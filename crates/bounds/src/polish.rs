@@ -1,11 +1,11 @@
 //! From the accuracy of a cone solver to that of the numbers themselves.
 //!
 //! With the signs of the axial forces known (+1 tension, −1 compression) the bars of an equilibrium
-//! are $d_i = s_i\, l_i F_i / |F_i|$ with $F_i = q - c_i e_Z$, and closing the chain, $\sum d_i = D$,
-//! is two equations for the pull q in the vertical plane of the anchors. They are the stationarity
-//! of the dual function $q \cdot D - \sum s_i l_i |F_i|$, and Newton's method on them adds the digits
-//! that an interior point method leaves out. Nothing that is proved rests on it: the bounds hold
-//! for every q, and a polished q is used only where it gives the better one.
+//! are $d_i = s_i\, l_i F_i / |F_i|$ with $F_i = q - c_i e_Z$, and closing the chain,
+//! $\sum d_i = D$, is two equations for the pull q in the vertical plane of the anchors. They are
+//! the stationarity of the dual function $q \cdot D - \sum s_i l_i |F_i|$, and Newton's method on
+//! them adds the digits that an interior point method leaves out. Nothing that is proved rests on
+//! it: the bounds hold for every q, and a polished q is used only where it gives the better one.
 
 use intervals::CompensatedSum;
 
@@ -17,8 +17,8 @@ const MAX_STEPS: usize = 20;
 const MAX_HALVINGS: usize = 20;
 
 /// How far bars may miss the last anchor, of the unit of length (within a factor two of the total
-/// length), to count as a configuration. Newton's method leaves 1e-16, and 1e-13 where the forces are
-/// a thousand times the weight; what does not converge leaves the solver's 1e-9 or more.
+/// length), to count as a configuration. Newton's method leaves 1e-16, and 1e-13 where the forces
+/// are a thousand times the weight; what does not converge leaves the solver's 1e-9 or more.
 pub(crate) const CLOSED: f64 = 1e-12;
 
 /// The pull of a chain, in its plane (across, up), and how well it closes.

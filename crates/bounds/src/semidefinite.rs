@@ -14,8 +14,9 @@ use crate::stress::{Proof, certify};
 use dense_lapack as _;
 
 /// Gap between the energy of a configuration and a rigorous bound below which the configuration is
-/// taken for the optimum, of the largest force (or the total weight) times the total length, within a
-/// factor four. Far above the rounding of either (1e-14), far below what another equilibrium leaves.
+/// taken for the optimum, of the largest force (or the total weight) times the total length, within
+/// a factor four. Far above the rounding of either (1e-14), far below what another equilibrium
+/// leaves.
 const PROVED: f64 = 1e-12;
 
 /// What the semidefinite programme says.
@@ -32,8 +33,8 @@ pub struct SemidefiniteBound {
     /// where the stress matrix of the optimum is singular.
     pub raised: f64,
     /// The configuration that attains the bound, without any guess, when the solution is one: its
-    /// bars fit between the anchors with the axial forces of the dual. `None` when the solution is a
-    /// mixture of configurations, or no nearby one closes.
+    /// bars fit between the anchors with the axial forces of the dual. `None` when the solution is
+    /// a mixture of configurations, or no nearby one closes.
     pub optimiser: Option<Configuration>,
     /// How the programme was solved.
     pub evidence: ConeEvidence,
@@ -48,12 +49,12 @@ impl SemidefiniteBound {
     }
 }
 
-/// Bound the energy of all configurations in space by a semidefinite programme, without a guess, and
-/// find the configuration that attains the bound. See the [crate documentation](crate) for the programme and why
-/// it is tight.
+/// Bound the energy of all configurations in space by a semidefinite programme, without a guess,
+/// and find the configuration that attains the bound. See the [crate documentation](crate) for the
+/// programme and why it is tight.
 ///
-/// The work grows with the number of bars, and so does the solver's loss of digits: up to a thousand
-/// bars or so it knows the signs of the forces, which is all that the rest needs.
+/// The work grows with the number of bars, and so does the solver's loss of digits: up to a
+/// thousand bars or so it knows the signs of the forces, which is all that the rest needs.
 ///
 /// The solver's judgement of itself is not what the answer rests on. If it ends without a solution
 /// (almost solved is not solved) there is an answer all the same when its last iterate leads to a
@@ -179,8 +180,8 @@ impl Stress {
     }
 }
 
-/// Where the variables are: the axial forces, then u, g, e of joints 2..n−1, then what the last joint
-/// costs along Z and across.
+/// Where the variables are: the axial forces, then u, g, e of joints 2..n−1, then what the last
+/// joint costs along Z and across.
 struct Variables {
     bars: usize,
 }
@@ -202,7 +203,8 @@ impl Variables {
     }
 }
 
-/// Set up and solve the programme in the form of springs in a row; see the [crate documentation](crate).
+/// Set up and solve the programme in the form of springs in a row; see the
+/// [crate documentation](crate).
 ///
 /// With joints 1..k−1 eliminated, what is left of the Lagrangian is a function of joint k,
 /// $\tfrac12 u_k |x|^2 + g_k z + e_k$: a spring u_k to the first anchor, a weight g_k. Eliminating
@@ -211,8 +213,8 @@ impl Variables {
 /// $$ \tfrac12 u_k |x|^2 + (g_k + W_k) x_Z + e_k + \tfrac12 \tau_{k+1} |y - x|^2
 ///    \;\ge\; \tfrac12 u_{k+1} |y|^2 + g_{k+1} y_Z + e_{k+1} , $$
 ///
-/// which for the coordinate Z is a semidefinite 3 × 3 matrix in (x, y, 1), and for the others follows
-/// from it. With y = D the last joint is eliminated for each coordinate by itself.
+/// which for the coordinate Z is a semidefinite 3 × 3 matrix in (x, y, 1), and for the others
+/// follows from it. With y = D the last joint is eliminated for each coordinate by itself.
 fn solve(
     data: &Data,
     plane: &Plane,

@@ -11,7 +11,8 @@ pub struct StressBound {
     /// No configuration in space has less energy, J (more, for an upper bound).
     pub rigorous_j: f64,
     /// By what fraction the force densities had to be raised for the proof: 0, or a few roundings
-    /// where the stress matrix of the optimum is singular. Not small where there is nothing to prove.
+    /// where the stress matrix of the optimum is singular. Not small where there is nothing to
+    /// prove.
     pub raised: f64,
 }
 
@@ -31,22 +32,22 @@ pub struct StressBound {
 ///
 /// The second term is of the order of the squared errors of $\hat x$. Eliminating the joints one
 /// after the other, $u_1 = \tau_1$, $u_{k+1} = u_k \tau_{k+1} / (u_k + \tau_{k+1})$ (springs in a
-/// row), proves the definiteness (every pivot $u_k + \tau_{k+1} > 0$) and evaluates the bound in one
-/// pass over the bars. All of it is done in interval arithmetic, from the doubles of the chain: no
-/// configuration in space has less energy than what is returned, whatever the rounding.
+/// row), proves the definiteness (every pivot $u_k + \tau_{k+1} > 0$) and evaluates the bound in
+/// one pass over the bars. All of it is done in interval arithmetic, from the doubles of the chain:
+/// no configuration in space has less energy than what is returned, whatever the rounding.
 ///
-/// On one vertical the stress matrix of the minimum is singular (the chain can turn about it). Then,
-/// and when rounding hides the sign of a pivot, the force densities are raised a little until the
-/// proof goes through; the bound falls short by as much as they were raised.
+/// On one vertical the stress matrix of the minimum is singular (the chain can turn about it).
+/// Then, and when rounding hides the sign of a pivot, the force densities are raised a little until
+/// the proof goes through; the bound falls short by as much as they were raised.
 ///
 /// `joints_m`: n + 1 positions, world frame, m; the first and the last are taken to be the anchors.
 /// `force_density_n_m`: axial force over length of each bar, N/m, tension positive; for
 /// [`Sense::Upper`] as well (at a maximum every bar but one is compressed).
 ///
-/// `None` when the lengths of the lists are not those of the chain, when a number is not finite, and
-/// when the stress matrix is not positive semidefinite (negative, for an upper bound) even after
-/// raising: then this configuration is not certified, and if it is an equilibrium, it is not the
-/// global optimum.
+/// `None` when the lengths of the lists are not those of the chain, when a number is not finite,
+/// and when the stress matrix is not positive semidefinite (negative, for an upper bound) even
+/// after raising: then this configuration is not certified, and if it is an equilibrium, it is not
+/// the global optimum.
 ///
 /// ```
 /// use bounds::{Sense, stress_bound};

@@ -9,7 +9,8 @@ use crate::locate::{crossing_on_chord, on_chord};
 use crate::observables::{Observables, STRAIGHT};
 use crate::path::Path;
 
-/// Halvings of a piece of a curve on which several indices change; what is left is below all tolerances.
+/// Halvings of a piece of a curve on which several indices change; what is left is below all
+/// tolerances.
 const HALVINGS: usize = 40;
 
 /// At a border with a chain more singular than this the indices are those of the points before it.
@@ -83,8 +84,8 @@ pub(crate) fn arcs(path: &Path<'_>, curve: &Curve) -> Arcs {
     Arcs { parts: found, turns: kinds, sure }
 }
 
-/// In a turn the index in the plane is that of the arc; where the chain is straight, in space too. So it is
-/// at a border with a degenerate chain.
+/// In a turn the index in the plane is that of the arc; where the chain is straight, in space too.
+/// So it is at a border with a degenerate chain.
 fn borrow_indices(along: &mut [ArcPoint], ends: [ArcEnd; 2]) {
     let count = along.len();
     for (k, neighbour, end) in
@@ -135,8 +136,8 @@ fn turn_kind(turn: Turn) -> EventKind {
     }
 }
 
-/// The points of an arc with those in between at which an index or a sign changes; `sure` becomes false if
-/// one cannot be located.
+/// The points of an arc with those in between at which an index or a sign changes; `sure` becomes
+/// false if one cannot be located.
 fn happenings(path: &Path<'_>, along: Vec<ArcPoint>, sure: &mut bool) -> Vec<ArcPoint> {
     let mut all: Vec<ArcPoint> = vec![];
     for point in along {
@@ -183,8 +184,8 @@ fn between_points(
     sure
 }
 
-/// Whether the indices out of the plane of two points mean the same: on one vertical the turn about it is
-/// none of them.
+/// Whether the indices out of the plane of two points mean the same: on one vertical the turn about
+/// it is none of them.
 fn comparable(path: &Path<'_>, a: &ArcPoint, b: &ArcPoint) -> bool {
     let vertical = |p: &ArcPoint| path.plane(p.y[p.y.len() - 1]).span[0].abs() <= 0.0;
     path.frames.always_vertical || !(vertical(a) || vertical(b))
@@ -197,7 +198,8 @@ fn changes(path: &Path<'_>, a: &ArcPoint, b: &ArcPoint) -> (Vec<ArcPoint>, bool)
     let mut found = vec![];
     let mut sure = true;
     let mut add = |y: Option<DVector<f64>>, kind: EventKind| {
-        // What cannot be located, or is no equilibrium, is no event: nothing is known of this piece.
+        // What cannot be located, or is no equilibrium, is no event: nothing is known of this
+        // piece.
         let Some(y) = y.filter(|y| left(path, y) <= RESIDUAL) else {
             sure = false;
             return;
@@ -222,7 +224,8 @@ fn changes(path: &Path<'_>, a: &ArcPoint, b: &ArcPoint) -> (Vec<ArcPoint>, bool)
             EventKind::SpaceExchange { from: a.seen.index_in_space(), to: b.seen.index_in_space() };
         add(whole(out_of_plane).or_else(|| locate(&|seen| seen.space_test)), kind);
     }
-    // On one line the chain carries forces that are infinite or indeterminate: their signs say nothing.
+    // On one line the chain carries forces that are infinite or indeterminate: their signs say
+    // nothing.
     let straight = a.seen.bent.min(b.seen.bent) <= STRAIGHT;
     for bar in 0..a.seen.along.len() {
         if !straight && a.seen.along[bar] * b.seen.along[bar] < 0.0 {

@@ -23,8 +23,8 @@ pub(crate) struct Link<'a> {
 /// A pull this near to infinite (its homogeneous weight) is not shown: it is a straight chain.
 const INFINITE: f64 = 1e-7;
 
-/// Two sightings of one branch point: by the change of the index and by the turn of the twins, which is
-/// located to the square root of rounding only.
+/// Two sightings of one branch point: by the change of the index and by the turn of the twins,
+/// which is located to the square root of rounding only.
 const SAME_POSITION: f64 = 1e-6;
 const SAME_SHAPE: f64 = 1e-2;
 
@@ -226,8 +226,8 @@ impl<'a> Assembly<'a> {
         }
     }
 
-    /// Where the anchors pass one vertical exactly at a census point, the index in space on both sides is
-    /// compared across it.
+    /// Where the anchors pass one vertical exactly at a census point, the index in space on both
+    /// sides is compared across it.
     fn vertical_exchanges(&mut self) {
         if self.path.frames.always_vertical {
             return;

@@ -41,26 +41,29 @@ pub struct BranchPoint {
     /// Number of the point on the grid; none between its points.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub grid: Option<usize>,
-    /// Whether a census proves it (the middles of its enclosures are shown); else it comes from the curve.
+    /// Whether a census proves it (the middles of its enclosures are shown); else it comes from the
+    /// curve.
     pub proved: bool,
     /// The event that happens here.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub event: Option<usize>,
-    /// Pull of the chain on the first anchor along the plane's horizontal direction and along Z, N; none
-    /// where it is infinite.
+    /// Pull of the chain on the first anchor along the plane's horizontal direction and along Z, N;
+    /// none where it is infinite.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub pull_n: Option<[f64; 2]>,
-    /// Angle of each bar from the descending vertical, towards the plane's horizontal direction, rad.
+    /// Angle of each bar from the descending vertical, towards the plane's horizontal direction,
+    /// rad.
     pub angles_rad: Vec<f64>,
     /// Energy above joint 0, J.
     pub energy_j: f64,
     /// Axial force of each bar, tension positive, N; empty where it is infinite.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub axial_n: Vec<f64>,
-    /// Number of directions in the plane in which the energy falls; in an event, of the branch next to
-    /// it.
+    /// Number of directions in the plane in which the energy falls; in an event, of the branch next
+    /// to it.
     pub index_in_plane: usize,
-    /// Number of directions in space in which the energy falls; in an event, of the branch next to it.
+    /// Number of directions in space in which the energy falls; in an event, of the branch next to
+    /// it.
     pub index_in_space: usize,
 }
 

@@ -35,8 +35,8 @@ pub enum PointStatus {
         alternating_sum: i64,
         /// The Euler characteristic of the configurations in the plane, from the lengths alone.
         euler_characteristic: Option<i64>,
-        /// Whether the anchors stand on one vertical: every equilibrium stands for a circle of them, which
-        /// meets the plane twice.
+        /// Whether the anchors stand on one vertical: every equilibrium stands for a circle of
+        /// them, which meets the plane twice.
         circles: bool,
         /// Families of equilibria with slack bars; they are not followed.
         families: usize,
@@ -79,7 +79,8 @@ pub(crate) struct CensusPoint {
     pub(crate) vertical: bool,
 }
 
-/// Relative difference of energies that both come from the same equilibrium; rounding is a thousandth.
+/// Relative difference of energies that both come from the same equilibrium; rounding is a
+/// thousandth.
 const SAME_ENERGY: f64 = 1e-11;
 
 impl CensusPoint {

@@ -14,11 +14,11 @@ const ARMS: usize = 4;
 pub struct Checks {
     /// Censuses taken between neighbouring points, to compare with the branches there.
     pub between: usize,
-    /// Positions of those whose equilibria differ from the branches in number or in indices, after all
-    /// rounds of refinement.
+    /// Positions of those whose equilibria differ from the branches in number or in indices, after
+    /// all rounds of refinement.
     pub mismatches: Vec<f64>,
-    /// Positions between two points or events at which no census could be decided, nor near by: nothing
-    /// is known there. If no census of the path is complete, all its positions.
+    /// Positions between two points or events at which no census could be decided, nor near by:
+    /// nothing is known there. If no census of the path is complete, all its positions.
     pub undecided: Vec<f64>,
     /// Points that were added on the way, where branches and census differed at first.
     pub added: usize,
@@ -26,7 +26,8 @@ pub struct Checks {
     pub disagreements: usize,
     /// Intervals in which not every equilibrium could be followed.
     pub unfollowed: Vec<[f64; 2]>,
-    /// Positions of branch points whose other branches were not found, after all rounds of refinement.
+    /// Positions of branch points whose other branches were not found, after all rounds of
+    /// refinement.
     pub incomplete: Vec<f64>,
     /// Points at which the alternating sum of the indices is not the Euler characteristic.
     pub euler_violations: usize,
@@ -42,8 +43,8 @@ impl Checks {
             && self.euler_violations == 0
     }
 
-    /// Whether every branch was followed, every branch point has its branches, and no stretch of the path
-    /// is without a complete census.
+    /// Whether every branch was followed, every branch point has its branches, and no stretch of
+    /// the path is without a complete census.
     #[must_use]
     pub fn decided(&self) -> bool {
         self.unfollowed.is_empty() && self.incomplete.is_empty() && self.undecided.is_empty()

@@ -22,13 +22,14 @@ pub struct ContinuationSettings {
     /// Settings of the censuses.
     pub census: census::Settings,
     /// Most points of a path: everything that is found along it is held in memory, some
-    /// [`BYTES`](Self::BYTES) for each equilibrium of a chain of few bars at each point. Default 100,000.
+    /// [`BYTES`](Self::BYTES) for each equilibrium of a chain of few bars at each point. Default
+    /// 100,000.
     pub max_points: usize,
 }
 
 impl ContinuationSettings {
-    /// Memory that a continuation takes for each equilibrium at each point, bytes, for up to ten bars: as
-    /// measured, rounded up.
+    /// Memory that a continuation takes for each equilibrium at each point, bytes, for up to ten
+    /// bars: as measured, rounded up.
     pub const BYTES: usize = 4_000;
 }
 
@@ -66,19 +67,19 @@ pub struct Continuation {
     pub checks: Checks,
 }
 
-/// Where between two census points or events the checks look. Not half way: a symmetric path has something
-/// special there. Where the census is undecided they look at the next.
+/// Where between two census points or events the checks look. Not half way: a symmetric path has
+/// something special there. Where the census is undecided they look at the next.
 const BETWEEN: [f64; 3] = [0.436_332_3, 0.701_356_1, 0.223_606_7];
 
-/// Between events nearer to each other than this part of the path nothing is counted: a census as near
-/// to both has nothing to tell from rounding.
+/// Between events nearer to each other than this part of the path nothing is counted: a census as
+/// near to both has nothing to tell from rounding.
 const NARROWEST: f64 = 1e-8;
 
 /// Rounds of adding points where branches and census differ.
 const ROUNDS: usize = 6;
 
-/// How much nearer to a branch point of which branches are missing each round looks than the one before:
-/// what branches off may end soon.
+/// How much nearer to a branch point of which branches are missing each round looks than the one
+/// before: what branches off may end soon.
 const NEARER: f64 = 0.125;
 
 impl Continuation {
@@ -86,8 +87,8 @@ impl Continuation {
     ///
     /// # Errors
     ///
-    /// [`ContinuationError`] when the chain is too long for a census or there is no such path. A point that is
-    /// refused or undecided is no error: it says so.
+    /// [`ContinuationError`] when the chain is too long for a census or there is no such path. A
+    /// point that is refused or undecided is no error: it says so.
     ///
     /// ```
     /// use branches::{Combine, Continuation, ContinuationSettings, EventKind, Study};
@@ -225,8 +226,8 @@ impl Work<'_> {
         (branches, events)
     }
 
-    /// Count again between the census points and events; the censuses that differ from the branches, or lie
-    /// where not all could be followed.
+    /// Count again between the census points and events; the censuses that differ from the
+    /// branches, or lie where not all could be followed.
     fn look_between(
         &mut self,
         census_points: &[CensusPoint],
@@ -267,8 +268,8 @@ impl Work<'_> {
         Ok(differ)
     }
 
-    /// Count on both sides of branch points that lack branches, nearer in each round; the censuses that
-    /// differ.
+    /// Count on both sides of branch points that lack branches, nearer in each round; the censuses
+    /// that differ.
     fn look_beside(
         &mut self,
         gaps: &[[f64; 2]],
@@ -292,7 +293,8 @@ impl Work<'_> {
         Ok(looks.filter(|look| agrees(branches, look) == Some(false)).cloned().collect())
     }
 
-    /// Take censuses: of each list up to the first that is decided. Where that was, or the last of the list.
+    /// Take censuses: of each list up to the first that is decided. Where that was, or the last of
+    /// the list.
     fn decide(&mut self, lists: &[Vec<f64>]) -> Result<Vec<f64>, ContinuationError> {
         let mut at = vec![0; lists.len()];
         loop {
@@ -339,8 +341,8 @@ fn gaps(census_points: &[CensusPoint], events: &[Event]) -> Vec<[f64; 2]> {
     gaps.filter(|[low, high]| high - low > NARROWEST).collect()
 }
 
-/// The intervals in which to follow curves: between neighbouring complete censuses, past undecided ones
-/// (but not where the path has a corner there), and up to where the chain is refused.
+/// The intervals in which to follow curves: between neighbouring complete censuses, past undecided
+/// ones (but not where the path has a corner there), and up to where the chain is refused.
 fn segments(path: &Path<'_>, census_points: &[CensusPoint]) -> Vec<[usize; 2]> {
     let barrier = |census_point: &CensusPoint| {
         census_point.is_refused() || census_point.grid.is_some_and(|grid| path.bends(grid))

@@ -10,8 +10,8 @@ use crate::path::Path;
 /// Cosine of the largest turn of the tangent in one step, about 14 degrees.
 const STRAIGHT_ENOUGH: f64 = 0.97;
 
-/// A corrector that moves a point further than this part of the step has found another curve. A step that
-/// turns as far as it may leaves its tangent by half of that angle, 0.12.
+/// A corrector that moves a point further than this part of the step has found another curve. A
+/// step that turns as far as it may leaves its tangent by half of that angle, 0.12.
 const CORRECTION: f64 = 0.2;
 
 /// Steps shorter than this are none.
@@ -27,8 +27,8 @@ const MOST_STEPS: usize = 5_000;
 /// there: the turn is that position.
 const BORDER_SLACK: f64 = 1e-9;
 
-/// Where the side of the tangent changes within so short a step, curves cross. Within a longer one the step
-/// may have changed from one curve to another that does not cross it but comes near.
+/// Where the side of the tangent changes within so short a step, curves cross. Within a longer one
+/// the step may have changed from one curve to another that does not cross it but comes near.
 const CROSSING: f64 = 1e-5;
 
 /// The end of a walk past a crossing is this near to the end of the step that it checks.
@@ -138,8 +138,8 @@ pub(crate) fn follow(
     for _ in 0..MOST_STEPS {
         let slope = here.tangent.t[last];
         let (border, exit) = ahead(slope);
-        // The whole way to the border in one step, if that is not too long. Next to a closed border the
-        // curve may just turn.
+        // The whole way to the border in one step, if that is not too long. Next to a closed border
+        // the curve may just turn.
         let way = (border.position - here.y[last]) / slope;
         let landing = way <= length && border.gate != Gate::Closed;
         let long = if landing { way.max(0.0) } else { length };
@@ -183,8 +183,8 @@ pub(crate) fn follow(
     (points, Exit::Lost)
 }
 
-/// A step of this length, corrected across the tangent or in another `row`; `None` if it is too long to say
-/// what happens on it.
+/// A step of this length, corrected across the tangent or in another `row`; `None` if it is too
+/// long to say what happens on it.
 fn step(path: &Path<'_>, here: &Here, length: f64, row: Option<&DVector<f64>>) -> Option<Step> {
     let (a, t) = (&here.y, &here.tangent.t);
     let last = a.len() - 1;
@@ -198,14 +198,16 @@ fn step(path: &Path<'_>, here: &Here, length: f64, row: Option<&DVector<f64>>) -
         return None;
     }
     let crosses = next.side * here.tangent.side < 0.0;
-    // Where the pull passes infinity the chain is straight, and the curve turns there and only there.
+    // Where the pull passes infinity the chain is straight, and the curve turns there and only
+    // there.
     let straightens = a[last - 1] * b[last - 1] < 0.0;
     let slopes = [t[last], next.t[last]];
     let turn = if slopes[0] * slopes[1] < 0.0 {
         let slope =
             |y: &DVector<f64>, chord: &DVector<f64>| tangent(path, y, chord).map(|t| t.t[last]);
         let y = on_chord(path, a, &b, slope)?;
-        // Hanging straight down a chain can carry any force: there the curve crosses that of these forces.
+        // Hanging straight down a chain can carry any force: there the curve crosses that of these
+        // forces.
         let straight = (straightens || crosses) && is_straight(&y);
         if (straightens && !straight)
             || dips(a, &y, [slopes[0], 0.0])
@@ -228,9 +230,9 @@ fn step(path: &Path<'_>, here: &Here, length: f64, row: Option<&DVector<f64>>) -
     Some(Step { end: Here { y: b, tangent: next }, turn, crosses })
 }
 
-/// Whether the position may turn twice, back and forth, between two points with these slopes of the same
-/// sign, of which one may be 0: the parabola through the slopes that has their mean changes its sign, or
-/// nearly.
+/// Whether the position may turn twice, back and forth, between two points with these slopes of the
+/// same sign, of which one may be 0: the parabola through the slopes that has their mean changes
+/// its sign, or nearly.
 fn dips(a: &DVector<f64>, b: &DVector<f64>, [first, second]: [f64; 2]) -> bool {
     let last = a.len() - 1;
     let length = (b - a).norm();
@@ -248,8 +250,8 @@ fn dips(a: &DVector<f64>, b: &DVector<f64>, [first, second]: [f64; 2]) -> bool {
     inside && first - linear * linear / (4.0 * square) < DIP * first.min(second)
 }
 
-/// Whether the curve itself leads across a crossing to the end of a long step: walked in steps so short that
-/// none changes to another curve.
+/// Whether the curve itself leads across a crossing to the end of a long step: walked in steps so
+/// short that none changes to another curve.
 fn passes(path: &Path<'_>, from: &Here, end: &DVector<f64>, long: f64) -> bool {
     if long <= CROSSING {
         return true;

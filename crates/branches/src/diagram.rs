@@ -60,8 +60,8 @@ struct Panel<'a> {
     angles: bool,
 }
 
-/// The bifurcation diagram as SVG: energy, and the angle of one bar (from 1), over the parameter or the
-/// distance of the anchors.
+/// The bifurcation diagram as SVG: energy, and the angle of one bar (from 1), over the parameter or
+/// the distance of the anchors.
 #[must_use]
 pub fn diagram(found: &Continuation, title: &str, abscissa: Abscissa, bar: usize) -> String {
     let bar = bar.max(1);

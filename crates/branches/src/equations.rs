@@ -34,8 +34,8 @@ pub(crate) fn residual(plane: &PlanarChain, y: &DVector<f64>) -> DVector<f64> {
     f
 }
 
-/// The residual's derivatives by the n + 3 unknowns, and in the last column by the position; one row
-/// is left free.
+/// The residual's derivatives by the n + 3 unknowns, and in the last column by the position; one
+/// row is left free.
 fn jacobian(path: &Path<'_>, plane: &PlanarChain, y: &DVector<f64>) -> DMatrix<f64> {
     let n = plane.length.len();
     let [h, v, w] = [y[n], y[n + 1], y[n + 2]];
@@ -62,7 +62,8 @@ fn jacobian(path: &Path<'_>, plane: &PlanarChain, y: &DVector<f64>) -> DMatrix<f
     j
 }
 
-/// Solve the equations with one more, `row · (y − y₀) = offset`, from `y₀` on; `None` if that fails.
+/// Solve the equations with one more, `row · (y − y₀) = offset`, from `y₀` on; `None` if that
+/// fails.
 pub(crate) fn correct(
     path: &Path<'_>,
     mut y: DVector<f64>,
@@ -98,8 +99,9 @@ pub(crate) fn correct(
 #[derive(Debug, Clone)]
 pub(crate) struct Tangent {
     pub(crate) t: DVector<f64>,
-    /// Sign of the determinant of the derivatives with t as their last row. Along one curve it changes where
-    /// another crosses, and nowhere else: not in folds, not where the chain is straight.
+    /// Sign of the determinant of the derivatives with t as their last row. Along one curve it
+    /// changes where another crosses, and nowhere else: not in folds, not where the chain is
+    /// straight.
     pub(crate) side: f64,
 }
 

@@ -24,8 +24,8 @@ pub struct Event {
     pub energy_j: f64,
     /// Largest residual of the equations of equilibrium there, without unit.
     pub residual: f64,
-    /// Smallest over largest eigenvalue of the second derivative in the plane, bordered by the closure: 0
-    /// in folds and branch points.
+    /// Smallest over largest eigenvalue of the second derivative in the plane, bordered by the
+    /// closure: 0 in folds and branch points.
     pub singular: f64,
 }
 
@@ -40,8 +40,8 @@ pub enum EventKind {
     Straight,
     /// A branch changes its index in the plane: others branch off it.
     BranchPoint,
-    /// A branch changes its index in space only: it gains or loses stability against motions out of the
-    /// plane.
+    /// A branch changes its index in space only: it gains or loses stability against motions out of
+    /// the plane.
     SpaceExchange {
         /// Index in space before and after.
         from: usize,

@@ -1,7 +1,8 @@
 //! The horizontal direction of the plane along a path, without jumps.
 //!
-//! The census measures along the horizontal direction from the first to the last anchor, which flips where
-//! the anchors pass each other on one vertical. Here it does not: the horizontal span becomes negative.
+//! The census measures along the horizontal direction from the first to the last anchor, which
+//! flips where the anchors pass each other on one vertical. Here it does not: the horizontal span
+//! becomes negative.
 
 /// Unit vector (X, Y) of the plane at each point of a path, and how it goes on to the next.
 #[derive(Debug, Clone)]

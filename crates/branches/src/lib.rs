@@ -1,41 +1,46 @@
-//! Continuation of equilibria over a parameter: branches, folds, branch points, exchanges of stability.
+//! Continuation of equilibria over a parameter: branches, folds, branch points, exchanges of
+//! stability.
 //!
-//! At every point of a path a census lists all equilibria in the vertical plane of the anchors, with
-//! proof. Between neighbouring points every one of them is followed along its curve (module `curve`), which
-//! ends at exactly one other: of the next point, or, having turned back, of the same. Where a curve turns
-//! back, two branches meet in a fold. So the census at the points proves what is there, and the curves say
-//! what belongs together; a census between neighbouring points and events counts again. Where it differs, or a
-//! branch point lacks its branches, points are added.
+//! At every point of a path a census lists all equilibria in the vertical plane of the anchors,
+//! with proof. Between neighbouring points every one of them is followed along its curve (module
+//! `curve`), which ends at exactly one other: of the next point, or, having turned back, of the
+//! same. Where a curve turns back, two branches meet in a fold. So the census at the points proves
+//! what is there, and the curves say what belongs together; a census between neighbouring points
+//! and events counts again. Where it differs, or a branch point lacks its branches, points are
+//! added.
 //!
 //! # Limits
 //!
-//! What begins and ends between two censuses and touches no other branch (two branches that meet in two folds,
-//! a closed curve) is not seen: a finer grid sees it. Curves end where a number leaves its range, and at
-//! degenerate points at an end of the path or in a corner of it.
+//! What begins and ends between two censuses and touches no other branch (two branches that meet in
+//! two folds, a closed curve) is not seen: a finer grid sees it. Curves end where a number leaves
+//! its range, and at degenerate points at an end of the path or in a corner of it.
 //!
 //! # Steps
 //!
-//! Along one curve the sign of det (derivatives; tangent) changes where another curve crosses and nowhere else,
-//! the slope of the position where the curve turns, and $w$ where the chain is straight, which is a turn. A step
-//! is halved until the signs at its ends say one such thing at most, and the slopes leave no room for two turns.
+//! Along one curve the sign of det (derivatives; tangent) changes where another curve crosses and
+//! nowhere else, the slope of the position where the curve turns, and $w$ where the chain is
+//! straight, which is a turn. A step is halved until the signs at its ends say one such thing at
+//! most, and the slopes leave no room for two turns.
 //!
 //! # Columns
 //!
-//! `funicular trace --csv` writes the points of the branches, one line each: `path` (from 1), `branch`,
-//! `position`, a column for each parameter, `span_m`, `grid` (empty between the points), `proved`, `event` (its
-//! number, or empty), `pull_horizontal_n`, `pull_vertical_n`, `energy_j`, `index_in_plane`, `index_in_space`, and
-//! for each bar `angle_1_rad`, `axial_1_n`, ...: the fields of [`BranchPoint`].
+//! `funicular trace --csv` writes the points of the branches, one line each: `path` (from 1),
+//! `branch`, `position`, a column for each parameter, `span_m`, `grid` (empty between the points),
+//! `proved`, `event` (its number, or empty), `pull_horizontal_n`, `pull_vertical_n`, `energy_j`,
+//! `index_in_plane`, `index_in_space`, and for each bar `angle_1_rad`, `axial_1_n`, ...: the fields
+//! of [`BranchPoint`].
 //!
 //! # The equations
 //!
-//! $\varphi_i$ is the angle of bar i from the descending vertical, $u_i = (\sin\varphi_i, -\cos\varphi_i)$, $(H, V)/w$ the
-//! pull of the chain on the first anchor in homogeneous coordinates and $F_i = (H, V + w c_i)$. Equilibria are
+//! $\varphi_i$ is the angle of bar i from the descending vertical,
+//! $u_i = (\sin\varphi_i, -\cos\varphi_i)$, $(H, V)/w$ the pull of the chain on the first anchor in
+//! homogeneous coordinates and $F_i = (H, V + w c_i)$. Equilibria are
 //!
 //! $$ F_i \cdot u_i' = 0, \qquad \sum_i l_i u_i = D, \qquad H^2 + V^2 + w^2 = 1: $$
 //!
-//! n + 3 equations in n + 3 unknowns and the parameter. In this form nothing is singular where a bar changes
-//! from tension to compression ($F_i = 0$), nor where the chain becomes straight and its pull infinite
-//! ($w = 0$): there the curve turns back as in a fold.
+//! n + 3 equations in n + 3 unknowns and the parameter. In this form nothing is singular where a
+//! bar changes from tension to compression ($F_i = 0$), nor where the chain becomes straight and
+//! its pull infinite ($w = 0$): there the curve turns back as in a fold.
 //!
 //! | meaning | code | shape | unit |
 //! |---|---|---|---|
@@ -46,8 +51,8 @@
 //!
 //! # References
 //!
-//! H. B. Keller, "Numerical solution of bifurcation and nonlinear eigenvalue problems", in: Applications of
-//! bifurcation theory, Academic Press 1977 (pseudo-arclength).
+//! H. B. Keller, "Numerical solution of bifurcation and nonlinear eigenvalue problems", in:
+//! Applications of bifurcation theory, Academic Press 1977 (pseudo-arclength).
 
 mod arc;
 mod assemble;

@@ -11,10 +11,12 @@ const MOST: usize = 80;
 /// The bracket, as a part of the chord, below which there is nothing left to refine.
 const NARROW: f64 = 1e-14;
 
-/// The point on the curve between `a` and `b`, near to each other, where `test` changes its sign: points
-/// are named by their foot on the chord, and found by regula falsi (the Illinois rule) with bisection.
+/// The point on the curve between `a` and `b`, near to each other, where `test` changes its sign:
+/// points are named by their foot on the chord, and found by regula falsi (the Illinois rule) with
+/// bisection.
 ///
-/// `test` sees the point and the chord. `None` if it does not change its sign, or the curve is lost.
+/// `test` sees the point and the chord. `None` if it does not change its sign, or the curve is
+/// lost.
 pub(crate) fn on_chord(
     path: &Path<'_>,
     a: &DVector<f64>,
@@ -71,15 +73,16 @@ pub(crate) fn on_chord(
     Some(best)
 }
 
-/// Half the width, as a part of the chord, of the neighbourhood from which a crossing is interpolated:
-/// the sixth power of it is below rounding, and its nearest point still far from singular.
+/// Half the width, as a part of the chord, of the neighbourhood from which a crossing is
+/// interpolated: the sixth power of it is below rounding, and its nearest point still far from
+/// singular.
 const AROUND: f64 = 0.02;
 
 /// Points of the interpolation, as parts of that.
 const SAMPLES: [f64; 6] = [-1.0, -2.0 / 3.0, -1.0 / 3.0, 1.0 / 3.0, 2.0 / 3.0, 1.0];
 
-/// The same where curves cross. There the corrector is singular, so the point is interpolated from its
-/// neighbours on the curve, as a function of `test` (Neville's scheme at 0).
+/// The same where curves cross. There the corrector is singular, so the point is interpolated from
+/// its neighbours on the curve, as a function of `test` (Neville's scheme at 0).
 pub(crate) fn crossing_on_chord(
     path: &Path<'_>,
     a: &DVector<f64>,

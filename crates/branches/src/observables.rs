@@ -4,8 +4,9 @@ use nalgebra::{DMatrix, DVector};
 
 use crate::path::PlanarChain;
 
-/// A chain whose bars agree in direction to this (sine) where its curve turns lies on one line. Turns are
-/// located to the square root of rounding or better, but where curves cross, of the largest residual.
+/// A chain whose bars agree in direction to this (sine) where its curve turns lies on one line.
+/// Turns are located to the square root of rounding or better, but where curves cross, of the
+/// largest residual.
 pub(crate) const STRAIGHT: f64 = 1e-4;
 
 /// Whether the chain lies on one line.
@@ -24,7 +25,8 @@ pub(crate) struct Observables {
     pub(crate) along: Vec<f64>,
     pub(crate) index_in_plane: usize,
     pub(crate) index_out_of_plane: usize,
-    /// Determinant of the second derivative in the plane, bordered by the closure; sign and zeros count.
+    /// Determinant of the second derivative in the plane, bordered by the closure; sign and zeros
+    /// count.
     pub(crate) plane_test: f64,
     /// Determinant of the second derivative out of the plane; sign and zeros count.
     pub(crate) space_test: f64,
@@ -81,8 +83,8 @@ impl Observables {
 }
 
 /// Index, determinant and smallest eigenvalue of the second derivative of the Lagrangian
-/// $-\sum l_i F_i \cdot u_i + p \cdot D$ by angles and pull. Each of the two equations of the closure adds one
-/// negative eigenvalue to those of the second derivative along the closure.
+/// $-\sum l_i F_i \cdot u_i + p \cdot D$ by angles and pull. Each of the two equations of the
+/// closure adds one negative eigenvalue to those of the second derivative along the closure.
 fn in_plane(plane: &PlanarChain, units: &[[f64; 2]], along: &[f64]) -> (usize, f64, f64) {
     let n = units.len();
     let mut k = DMatrix::zeros(n + 2, n + 2);

@@ -18,7 +18,8 @@ pub(crate) struct Path<'a> {
     only: Option<usize>,
 }
 
-/// A chain in its vertical plane: lengths in its total length, weights centred and in half their spread.
+/// A chain in its vertical plane: lengths in its total length, weights centred and in half their
+/// spread.
 #[derive(Debug, Clone)]
 pub(crate) struct PlanarChain {
     /// $l_i$.
@@ -59,8 +60,9 @@ impl<'a> Path<'a> {
         Self { study, values, frames: Arc::new(Frames::new(&spans)), only: None }
     }
 
-    /// The path between two positions, going on straight beyond them: what comes after a bend says nothing
-    /// about the curves before it. The path itself if there are points between the positions.
+    /// The path between two positions, going on straight beyond them: what comes after a bend says
+    /// nothing about the curves before it. The path itself if there are points between the
+    /// positions.
     pub(crate) fn within(&self, low: f64, high: f64) -> Self {
         let (interval, _) = self.interval(0.5 * (low + high));
         let inside = self.position(interval) <= low && high <= self.position(interval + 1);

@@ -7,8 +7,8 @@ use crate::census_point::{CensusPoint, Node};
 use crate::curve::{Border, Curve, CurveEnd, Exit, Gate, follow};
 use crate::path::Path;
 
-/// Longest steps, in radians and parts of the path; each try with shorter ones follows curves that lie
-/// closer together.
+/// Longest steps, in radians and parts of the path; each try with shorter ones follows curves that
+/// lie closer together.
 const LONGEST: [f64; 4] = [0.2, 0.05, 0.0125, 0.003];
 
 /// A curve that ends this near to an equilibrium of the census ends there.
@@ -22,8 +22,8 @@ const NEAR_ENOUGH: f64 = 1e-3;
 #[derive(Debug, Clone)]
 pub(crate) struct Segment {
     pub(crate) curves: Vec<Arcs>,
-    /// Whether every equilibrium of both census points is on exactly one curve, none is lost, and all that
-    /// happens on them is located.
+    /// Whether every equilibrium of both census points is on exactly one curve, none is lost, and
+    /// all that happens on them is located.
     pub(crate) sure: bool,
 }
 
@@ -49,12 +49,12 @@ impl Segment {
     }
 }
 
-/// Halvings that find where a number leaves its range; and how far before that curves end, as part of the
-/// interval: a bar without length has no equations.
+/// Halvings that find where a number leaves its range; and how far before that curves end, as part
+/// of the interval: a bar without length has no equations.
 const EDGE_HALVINGS: i32 = 30;
 
-/// An interval that is left of one between census points, if it is shorter than this part, is none: what the
-/// halvings leave, twice.
+/// An interval that is left of one between census points, if it is shorter than this part, is none:
+/// what the halvings leave, twice.
 const NOWHERE: f64 = 2e-9;
 
 /// How far curves are followed towards a census point from another.

@@ -19,8 +19,8 @@ pub enum Combine {
 
 /// A chain with parameters: a list of paths, each a row of points.
 ///
-/// Along a path the branches of equilibria are followed. In a product the last parameter runs along the
-/// path, and each combination of the others has a path of its own; in step there is one path.
+/// Along a path the branches of equilibria are followed. In a product the last parameter runs along
+/// the path, and each combination of the others has a path of its own; in step there is one path.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Study {
     base: Chain,
@@ -34,8 +34,8 @@ impl Study {
     ///
     /// # Errors
     ///
-    /// [`ParameterError`] when a bar is missing, a number is named twice, lists to be taken in step differ in
-    /// length, or there are more than [`MAX_POINTS`] points.
+    /// [`ParameterError`] when a bar is missing, a number is named twice, lists to be taken in step
+    /// differ in length, or there are more than [`MAX_POINTS`] points.
     ///
     /// ```
     /// use branches::{Combine, Study};

@@ -8,17 +8,18 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 /// Bytes collected before they go to the system.
 const BUFFER: usize = 1 << 18;
 
-/// Symbolic links followed before they are taken for a ring; the kernel of Linux has the same number.
+/// Symbolic links followed before they are taken for a ring; the kernel of Linux has the same
+/// number.
 const MOST_LINKS: usize = 40;
 
-/// A file that appears under its name when it is complete: until then it grows beside it, and when it is
-/// dropped before it goes away. A process that is killed leaves `.NAME.RANDOM.part` behind, which
-/// [`unfinished`] tells from other files; one that is asked to end leaves nothing if it ends by [`abandon`].
-/// Nothing that is there under such a name is ever opened.
+/// A file that appears under its name when it is complete: until then it grows beside it, and when
+/// it is dropped before it goes away. A process that is killed leaves `.NAME.RANDOM.part` behind,
+/// which [`unfinished`] tells from other files; one that is asked to end leaves nothing if it ends
+/// by [`abandon`]. Nothing that is there under such a name is ever opened.
 ///
-/// Where the name is a symbolic link, the file that it leads to is replaced, and the link stays. What is
-/// there and is no regular file, such as a pipe or a device, cannot be replaced by one: it is written into
-/// as the bytes come. So is standard output under another name (`/dev/stdout`).
+/// Where the name is a symbolic link, the file that it leads to is replaced, and the link stays.
+/// What is there and is no regular file, such as a pipe or a device, cannot be replaced by one: it
+/// is written into as the bytes come. So is standard output under another name (`/dev/stdout`).
 #[derive(Debug)]
 pub struct AtomicFile {
     // Before the part: closed when that goes away.
@@ -39,7 +40,8 @@ impl AtomicFile {
             Standing::Special => (OpenOptions::new().write(true).open(path)?, None),
             Standing::Regular(about) => {
                 let (part, file) = Part::begin(end_of_links(path)?)?;
-                // What nobody else could read stays so. Best effort: not every file system has permissions.
+                // What nobody else could read stays so. Best effort: not every file system has
+                // permissions.
                 let _ = file.set_permissions(about.permissions());
                 (file, Some(part))
             }
@@ -65,7 +67,8 @@ impl AtomicFile {
         }
     }
 
-    /// Give the file its name; what was there under it is replaced. The bytes are on the disk before.
+    /// Give the file its name; what was there under it is replaced. The bytes are on the disk
+    /// before.
     ///
     /// # Errors
     ///
@@ -148,8 +151,9 @@ fn growing() -> MutexGuard<'static, Vec<PathBuf>> {
     GROWING.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Remove all files that this process has begun, and end it: `end` should not return. Until it does no file
-/// can be begun or get its name, so that nothing is left behind and nothing complete is lost.
+/// Remove all files that this process has begun, and end it: `end` should not return. Until it does
+/// no file can be begun or get its name, so that nothing is left behind and nothing complete is
+/// lost.
 pub fn abandon<T>(end: impl FnOnce() -> T) -> T {
     let growing = growing();
     for part in growing.iter() {
@@ -212,8 +216,8 @@ impl Drop for Part {
     }
 }
 
-/// Those that every file has that a program makes, less what the user takes away; a temporary file could be read by
-/// its owner alone.
+/// Those that every file has that a program makes, less what the user takes away; a temporary file
+/// could be read by its owner alone.
 #[cfg(unix)]
 fn with_usual_permissions(builder: &mut tempfile::Builder<'_, '_>) {
     use std::os::unix::fs::PermissionsExt as _;
@@ -223,8 +227,8 @@ fn with_usual_permissions(builder: &mut tempfile::Builder<'_, '_>) {
 #[cfg(not(unix))]
 fn with_usual_permissions(_: &mut tempfile::Builder<'_, '_>) {}
 
-/// Of which file this is what a killed process left unfinished, by its name: `a.csv` for `.a.csv.RANDOM.part`; none
-/// if it is no such name.
+/// Of which file this is what a killed process left unfinished, by its name: `a.csv` for
+/// `.a.csv.RANDOM.part`; none if it is no such name.
 ///
 /// ```
 /// assert_eq!(columns::unfinished(".a.csv.0123456789ab.part"), Some("a.csv"));

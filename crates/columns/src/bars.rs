@@ -33,14 +33,14 @@ const COMPRESSIONS: &str = "Snappy, Zstandard, LZ4 and no compression";
 /// Rows decoded at a time: three columns of them stay in the second-level cache.
 pub const BATCH_ROWS: usize = 1 << 14;
 
-/// Read the bars of a Parquet file: the columns `length_m` and `mass_kg`, and if need be `centre_m`, in
-/// any order; a row is a bar, from the start anchor to the end anchor.
+/// Read the bars of a Parquet file: the columns `length_m` and `mass_kg`, and if need be
+/// `centre_m`, in any order; a row is a bar, from the start anchor to the end anchor.
 ///
-/// The rules are those of [`model::system_file::columns`]: a missing `centre_m` means half the length,
-/// the moments of inertia are those of a homogeneous slender bar, there are at most
+/// The rules are those of [`model::system_file::columns`]: a missing `centre_m` means half the
+/// length, the moments of inertia are those of a homogeneous slender bar, there are at most
 /// [`MAX_BARS`](model::system_file::MAX_BARS) rows, and a column of another name is an error.
-/// Numbers may be floating point or whole, of any width; pages may be plain or compressed by Snappy,
-/// Zstandard or LZ4.
+/// Numbers may be floating point or whole, of any width; pages may be plain or compressed by
+/// Snappy, Zstandard or LZ4.
 ///
 /// # Errors
 ///
@@ -94,8 +94,8 @@ pub fn open(path: &Path) -> Result<File, ColumnsError> {
     Ok(file)
 }
 
-/// The description at the end of the file. What a writer says about its own types (`ARROW:schema`) is
-/// left aside: the types of the format itself are enough for numbers.
+/// The description at the end of the file. What a writer says about its own types (`ARROW:schema`)
+/// is left aside: the types of the format itself are enough for numbers.
 pub fn footer(path: &Path, file: &File) -> Result<ArrowReaderMetadata, ColumnsError> {
     let not = |reason: String| ColumnsError::NotParquet { path: path.to_owned(), reason };
     let length = file.metadata().map_err(|error| ColumnsError::file(path, error))?.len();

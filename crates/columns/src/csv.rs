@@ -1,8 +1,8 @@
 //! Tables as comma-separated values.
 //!
-//! The first line names the columns; doubles have the fewest digits that read back to the same bits, and
-//! are `NaN`, `inf` or `-inf` where they are no numbers. Text with a comma, a quote or a line end stands in
-//! quotes, as RFC 4180 has it.
+//! The first line names the columns; doubles have the fewest digits that read back to the same
+//! bits, and are `NaN`, `inf` or `-inf` where they are no numbers. Text with a comma, a quote or a
+//! line end stands in quotes, as RFC 4180 has it.
 
 use std::fmt::Write as _;
 use std::fs::File;

@@ -15,9 +15,9 @@ thread_local! {
 
 /// Run a decoder of foreign bytes; a panic in it is an error of the file.
 ///
-/// The `parquet` crate returns errors for most damage, and panics on some: a flag of a page header turned
-/// so that levels run past their buffer, for one (found by turning every byte of a file). The panic hook
-/// stays silent about those, and is what it was for every other panic.
+/// The `parquet` crate returns errors for most damage, and panics on some: a flag of a page header
+/// turned so that levels run past their buffer, for one (found by turning every byte of a file).
+/// The panic hook stays silent about those, and is what it was for every other panic.
 pub fn guarded<T>(
     path: &Path,
     decode: impl FnOnce() -> Result<T, ColumnsError>,

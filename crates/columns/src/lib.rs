@@ -1,8 +1,8 @@
 //! Columns on disk: bars read from Parquet, and tables written as Parquet or CSV.
 //!
-//! [`read_bars`] is for chains of a million different bars. [`TableWriter`] and [`read_table`] are for what
-//! the program makes itself: every column with its unit and a description, row group after row group in
-//! bounded memory, in files that are whole or not there.
+//! [`read_bars`] is for chains of a million different bars. [`TableWriter`] and [`read_table`] are
+//! for what the program makes itself: every column with its unit and a description, row group after
+//! row group in bounded memory, in files that are whole or not there.
 
 mod atomic;
 mod bars;

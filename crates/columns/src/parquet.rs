@@ -23,11 +23,13 @@ use crate::error::ColumnsError;
 use crate::guard::guarded;
 use crate::table::{Column, Data, Kind, Schema, Spread};
 
-/// What the files say wrote them. Without a version: the same rows and notes give the same bytes after an update of
-/// this crate, as long as the encoders do. Who writes a table may note a version (a sweep does: `funicular.program`).
+/// What the files say wrote them. Without a version: the same rows and notes give the same bytes
+/// after an update of this crate, as long as the encoders do. Who writes a table may note a version
+/// (a sweep does: `funicular.program`).
 const CREATED_BY: &str = "funicular";
 
-/// Largest dictionary of a column of few values, bytes; one that grows beyond it goes on as plain numbers.
+/// Largest dictionary of a column of few values, bytes; one that grows beyond it goes on as plain
+/// numbers.
 const DICTIONARY: usize = 1 << 16;
 
 /// Rows of one page: enough for the compressor, little enough to read some rows without all.

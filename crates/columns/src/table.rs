@@ -15,7 +15,8 @@ pub enum Kind {
     Utf8,
 }
 
-/// How the numbers of a column are spread: what its encoding on disk rests on, and never its content.
+/// How the numbers of a column are spread: what its encoding on disk rests on, and never its
+/// content.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Spread {
     /// Each is a little more than the one before.
@@ -135,7 +136,8 @@ impl Schema {
     ///
     /// # Errors
     ///
-    /// What is wrong with them, if they are not the columns of this schema or not all of one length.
+    /// What is wrong with them, if they are not the columns of this schema or not all of one
+    /// length.
     pub(crate) fn rows(&self, data: &[Data]) -> Result<usize, Mismatch> {
         if data.len() != self.columns.len() {
             return Err(Mismatch::Count { wanted: self.columns.len(), found: data.len() });

@@ -13,8 +13,8 @@ use crate::table::{Data, Schema};
 pub enum Format {
     /// Apache Parquet: units and descriptions in the metadata, compressed by Zstandard.
     Parquet,
-    /// Comma-separated values: names in the first line, doubles in the shortest digits that read back to the
-    /// same bits.
+    /// Comma-separated values: names in the first line, doubles in the shortest digits that read
+    /// back to the same bits.
     Csv,
 }
 

@@ -44,7 +44,8 @@ fn potrf<T: Scalar>(uplo: Triangle, a: &mut ViewMut<T>) -> c_int {
 /// Solve L Lᵀ X = B, or Uᵀ U X = B, in place.
 fn potrs<T: Scalar>(uplo: Triangle, a: &DMatrix<T>, b: &mut ViewMut<T>) {
     let mut x = b.clone_owned();
-    // A zero pivot would be the caller's: potrf leaves none. As in the reference it goes unreported.
+    // A zero pivot would be the caller's: potrf leaves none. As in the reference it goes
+    // unreported.
     let _ = match uplo {
         Triangle::Lower => {
             a.solve_lower_triangular_mut(&mut x) && a.tr_solve_lower_triangular_mut(&mut x)

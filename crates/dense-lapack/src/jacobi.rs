@@ -1,9 +1,9 @@
 //! Eigenvalues and singular values by plane rotations.
 //!
-//! *Symmetric matrices*: rotations from both sides annihilate one off-diagonal pair after the other,
-//! $V^T A V \to \mathrm{diag}(\lambda)$. *All others*: rotations from the right make the columns
-//! orthogonal, $A V = U\,\mathrm{diag}(s)$. Jacobi's method is slower than the reduction to a
-//! tridiagonal or bidiagonal form, by a factor that does not matter below a hundred columns, and
+//! *Symmetric matrices*: rotations from both sides annihilate one off-diagonal pair after the
+//! other, $V^T A V \to \mathrm{diag}(\lambda)$. *All others*: rotations from the right make the
+//! columns orthogonal, $A V = U\,\mathrm{diag}(s)$. Jacobi's method is slower than the reduction to
+//! a tridiagonal or bidiagonal form, by a factor that does not matter below a hundred columns, and
 //! accurate where it counts: the late iterations of an interior point method hand over matrices
 //! whose columns differ by many orders of magnitude.
 //!
@@ -14,8 +14,8 @@
 //! # References
 //!
 //! C. G. J. Jacobi, J. reine angew. Math. 30 (1846) 51-94, doi:10.1515/crll.1846.30.51; M. R.
-//! Hestenes, J. SIAM 6 (1958) 51-90, doi:10.1137/0106005 (one-sided); J. Demmel, K. Veselić, SIAM J.
-//! Matrix Anal. Appl. 13 (1992) 1204-1245, doi:10.1137/0613074 (accuracy).
+//! Hestenes, J. SIAM 6 (1958) 51-90, doi:10.1137/0106005 (one-sided); J. Demmel, K. Veselić, SIAM
+//! J. Matrix Anal. Appl. 13 (1992) 1204-1245, doi:10.1137/0613074 (accuracy).
 
 use nalgebra::{DMatrix, DVector};
 

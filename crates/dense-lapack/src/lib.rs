@@ -40,9 +40,9 @@
 //! # Safety
 //!
 //! All `unsafe` of the workspace is here, and all of it is one step: the raw arguments of a call
-//! become values, copies of matrices, and the places of the results (module `raw`); what follows is safe code. The caller
-//! keeps the BLAS contract: every pointer is valid, arrays are as long as their dimensions say, and
-//! an output overlaps nothing else.
+//! become values, copies of matrices, and the places of the results (module `raw`); what follows is
+//! safe code. The caller keeps the BLAS contract: every pointer is valid, arrays are as long as
+//! their dimensions say, and an output overlaps nothing else.
 //!
 //! # References
 //!

@@ -1,5 +1,5 @@
-//! potrf, potrs and gesv, called as clarabel calls them (through the crate `lapack`): the factors multiply
-//! back and solve, in both precisions.
+//! potrf, potrs and gesv, called as clarabel calls them (through the crate `lapack`): the factors
+//! multiply back and solve, in both precisions.
 
 #[macro_use]
 mod support;

@@ -1,5 +1,5 @@
-//! gemm, gemv, symv, syrk and syr2k, called as clarabel calls them (through the crate `blas`), against
-//! products of nalgebra on random matrices, in both precisions.
+//! gemm, gemv, symv, syrk and syr2k, called as clarabel calls them (through the crate `blas`),
+//! against products of nalgebra on random matrices, in both precisions.
 
 #[macro_use]
 mod support;

@@ -1,5 +1,6 @@
-//! syevr, gesdd and gesvd, called as clarabel calls them (through the crate `lapack`): the factors are
-//! orthonormal and multiply back, on random, graded and rank-deficient matrices, in both precisions.
+//! syevr, gesdd and gesvd, called as clarabel calls them (through the crate `lapack`): the factors
+//! are orthonormal and multiply back, on random, graded and rank-deficient matrices, in both
+//! precisions.
 
 #[macro_use]
 mod support;
@@ -173,7 +174,8 @@ macro_rules! precision {
                     close(&(u.transpose() * &u), &DMatrix::identity(k, k), "U orthonormal");
                     close(&(&vt * vt.transpose()), &DMatrix::identity(k, k), "V orthonormal");
                     let back = &u * DMatrix::from_diagonal(&s) * &vt;
-                    // With orthonormal factors this bounds the error of every singular value (Weyl).
+                    // With orthonormal factors this bounds the error of every singular value
+                    // (Weyl).
                     close(&(back / scale), &(a / scale), "A = U S V'");
                     let (alone, u, vt) = singular(divide, b'N', a);
                     assert!((alone - s).amax() <= TOLERANCE * scale);

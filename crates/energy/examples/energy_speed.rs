@@ -1,8 +1,8 @@
 //! How fast the minimiser is: `cargo run --release -p energy --example energy_speed`.
 //!
-//! Every figure is the least of several runs: what the machine does besides only adds. The chains are
-//! those of the bars to clear: equal bars, total length 1.5 times the span, anchors (0, 0, 0) and
-//! (1, 0, -0.2); and deep ones, bars of 1 m from anchors a metre and a half apart.
+//! Every figure is the least of several runs: what the machine does besides only adds. The chains
+//! are those of the bars to clear: equal bars, total length 1.5 times the span, anchors (0, 0, 0)
+//! and (1, 0, -0.2); and deep ones, bars of 1 m from anchors a metre and a half apart.
 
 use std::hint::black_box;
 use std::time::Instant;

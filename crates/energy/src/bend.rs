@@ -9,15 +9,18 @@ use crate::links::Links;
 use crate::plane::Turn;
 use crate::vector::{VectorSum, along, dot, norm, scaled};
 
-/// Neighbouring groups of bars that turn by more than this cosine are too long to follow the chain there.
+/// Neighbouring groups of bars that turn by more than this cosine are too long to follow the chain
+/// there.
 const SHARP: f64 = 0.5;
 
-/// Groups on either side of the bend that are solved anew: the bend of a hanging chain is a few bars wide where a group is
-/// too long for it, and what is left of it four groups up is a nearly straight strand.
+/// Groups on either side of the bend that are solved anew: the bend of a hanging chain is a few
+/// bars wide where a group is too long for it, and what is left of it four groups up is a nearly
+/// straight strand.
 const SIDE: usize = 4;
 
 impl Grouped {
-    /// The bars around the sharpest bend of the chain of groups, if it is sharp and they are less than half of all.
+    /// The bars around the sharpest bend of the chain of groups, if it is sharp and they are less
+    /// than half of all.
     pub(crate) fn bend(&self, u: &[Vector]) -> Option<Range<usize>> {
         let cosines = u.windows(2).map(|pair| dot(pair[0], pair[1]));
         let (k, sharpest) = cosines.enumerate().min_by(|a, b| a.1.total_cmp(&b.1))?;
@@ -34,11 +37,12 @@ impl Grouped {
 }
 
 impl Links {
-    /// Some of the bars as a chain of its own between the places where the directions `u` have its ends, in its own units
-    /// and turned into the plane of the frame; with the turn. `None` if nothing hangs between them.
+    /// Some of the bars as a chain of its own between the places where the directions `u` have its
+    /// ends, in its own units and turned into the plane of the frame; with the turn. `None` if
+    /// nothing hangs between them.
     ///
-    /// With its ends held, what the part has to lose is what the whole has to lose by it: a multiple of `l_i` taken off
-    /// all of its `l_i h_i` is worth a constant.
+    /// With its ends held, what the part has to lose is what the whole has to lose by it: a
+    /// multiple of `l_i` taken off all of its `l_i h_i` is worth a constant.
     pub(crate) fn part(&self, bars: Range<usize>, u: &[Vector]) -> Option<(Self, Turn)> {
         let (length, hang) = (&self.length[bars.clone()], &self.hang[bars.clone()]);
         let (highest, lowest) = (*hang.first()?, *hang.last()?);

@@ -20,7 +20,8 @@ pub(crate) struct Shape {
 pub(crate) struct Moments {
     /// `sum l_i u_i - D`.
     pub(crate) gap: Vector,
-    /// Size of the terms that each component of the gap is the difference of: it holds no more digits.
+    /// Size of the terms that each component of the gap is the difference of: it holds no more
+    /// digits.
     pub(crate) terms: Vector,
     /// `sum l_i (I - u_i u_iᵀ)`: how far the last joint moves for a pull on it.
     pub(crate) spread: Symmetric,
@@ -47,17 +48,17 @@ const FIRST_DAMPING: f64 = 0.1;
 const DAMPING_FACTOR: f64 = 10.0;
 
 /// Eigenvalues of `spread` below this part of the largest are zero: no pull moves the last joint
-/// that way. Sums of squares of angles in a frame along the line of the bars keep their digits; what
-/// is cut is what the rounding of the lengths can bend a straight chain by. Angles `a_i` take
-/// `sum l_i a_i²/2` off its length, so this must be at most twice the slack of the tautest chain that
-/// is a problem.
+/// that way. Sums of squares of angles in a frame along the line of the bars keep their digits;
+/// what is cut is what the rounding of the lengths can bend a straight chain by. Angles `a_i` take
+/// `sum l_i a_i²/2` off its length, so this must be at most twice the slack of the tautest chain
+/// that is a problem.
 pub(crate) const LOST_SPREAD: f64 = model::STRAIGHT_TOLERANCE;
 
 /// Angle by which bars on one straight line are turned off it, alternately, rad.
 const NUDGE: f64 = 0.05;
 
-/// Where the gap as a whole is rounding, a component that shrinks to this part still says something: a chain drawn
-/// out along an axis holds that component to more digits than the others.
+/// Where the gap as a whole is rounding, a component that shrinks to this part still says
+/// something: a chain drawn out along an axis holds that component to more digits than the others.
 const FINER: f64 = 0.5;
 
 /// How often a straight chain is nudged.
@@ -94,8 +95,8 @@ impl Links {
         Shape { u, moments: pass.moments(self) }
     }
 
-    /// Close the chain: Gauss-Newton with damping on half the squared gap, over the directions, each
-    /// correction the least one in the metric `sum l_i |du_i|²`.
+    /// Close the chain: Gauss-Newton with damping on half the squared gap, over the directions,
+    /// each correction the least one in the metric `sum l_i |du_i|²`.
     ///
     /// The only directions at which the squared gap is stationary and not zero are those on one
     /// straight line along the gap. None of them is a local minimum for a chain that can close:
@@ -264,10 +265,11 @@ impl Pass {
     }
 }
 
-/// The axis nearest to a unit vector, either way, and what the vector is less a unit step along it. That keeps its
-/// digits however small it is: along the axis $-(1 - \cos\alpha) = -\sin^2\alpha/(1 + \cos\alpha)$. So the
-/// closure of a chain that is drawn out along an axis is a balance of small terms, its slack against what the
-/// bars lose by their angles.
+/// The axis nearest to a unit vector, either way, and what the vector is less a unit step along it.
+/// That keeps its digits however small it is: along the axis
+/// $-(1 - \cos\alpha) = -\sin^2\alpha/(1 + \cos\alpha)$. So the closure of a chain that is drawn
+/// out along an axis is a balance of small terms, its slack against what the bars lose by their
+/// angles.
 #[inline]
 fn parted(u: Vector) -> (usize, Vector) {
     let [x, y, z] = u.map(f64::abs);
@@ -284,8 +286,8 @@ fn parted(u: Vector) -> (usize, Vector) {
     (axis, rest)
 }
 
-/// Add `w (I - u uᵀ)` to a packed sum `[xx, yy, zz, xy, xz, yz]`. The diagonal is written as sums of
-/// squares: `1 - x²` would lose what a nearly straight chain needs.
+/// Add `w (I - u uᵀ)` to a packed sum `[xx, yy, zz, xy, xz, yz]`. The diagonal is written as sums
+/// of squares: `1 - x²` would lose what a nearly straight chain needs.
 #[inline]
 pub(crate) fn add_projector(packed: &mut [f64; 6], w: f64, [x, y, z]: Vector) {
     let (xx, yy, zz) = (x * x, y * y, z * z);

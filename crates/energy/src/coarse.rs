@@ -25,8 +25,8 @@ pub(crate) struct Grouped {
 impl Links {
     /// The chain with neighbouring bars held parallel; `None` if it is short already.
     ///
-    /// The energy and the closure are linear in the directions, so the restricted problem is again a
-    /// chain: lengths add, and `l h` adds. A closed chain of groups is a closed chain of bars.
+    /// The energy and the closure are linear in the directions, so the restricted problem is again
+    /// a chain: lengths add, and `l h` adds. A closed chain of groups is a closed chain of bars.
     pub(crate) fn grouped(&self) -> Option<Grouped> {
         if self.bars() <= FEW {
             return None;

@@ -7,8 +7,8 @@ use crate::slope::Slope;
 use crate::vector::norm;
 
 /// How often the whole chain may turn towards its plane when the energy it wins is below its noise:
-/// Newton's method mends what each turn does to the gradient, and each brings the plane nearer by the
-/// distance of the verticals.
+/// Newton's method mends what each turn does to the gradient, and each brings the plane nearer by
+/// the distance of the verticals.
 const BLIND_TURNS: usize = 16;
 
 /// Factors of the shift after a good step and after a failure.
@@ -33,8 +33,8 @@ pub(crate) enum Iterate {
     Sloping,
     /// Stationary, and the energy falls along some motion: a saddle or a maximum.
     Saddle,
-    /// A minimum within the tolerances, worth one more step: it brings the digits that the tolerances
-    /// leave out.
+    /// A minimum within the tolerances, worth one more step: it brings the digits that the
+    /// tolerances leave out.
     Near,
     /// A minimum to rounding, or one that has had its last step.
     Minimum,

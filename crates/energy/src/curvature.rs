@@ -15,8 +15,8 @@ use crate::vector::{along, cross, dot, norm, scaled, tangent};
 /// The Hessian of the Lagrangian on the motions that keep the chain closed.
 ///
 /// Each bar adds its axial force `N_i` times the identity of its tangent plane (metric
-/// `sum l_i |du_i|²`): the Hessian is diagonal, and the closure adds three rows. Eliminating the bars
-/// from
+/// `sum l_i |du_i|²`): the Hessian is diagonal, and the closure adds three rows. Eliminating the
+/// bars from
 ///
 /// ```text
 /// [ l (N + s)   Jᵀ ] [ du ]   [ -l t ]
@@ -25,7 +25,8 @@ use crate::vector::{along, cross, dot, norm, scaled, tangent};
 ///
 /// leaves the matrix `S = sum l_i / (N_i + s) P_i` of size three. One pass over the bars builds it
 /// for any shift `s`, and by Sylvester's law the number of eigenvalues below `-s` is the number
-/// of negative `N_i + s` (twice, in space) plus the number of positive eigenvalues of `S` less three.
+/// of negative `N_i + s` (twice, in space) plus the number of positive eigenvalues of `S` less
+/// three.
 ///
 /// About anchors on one vertical the whole chain turns freely. This motion is no direction of the
 /// minimisation; it is taken out by a fourth row, `sum l_i du_i . (up × u_i) = 0`.
@@ -200,8 +201,8 @@ impl Curvature {
         (schur.negative + positive).saturating_sub(self.rank())
     }
 
-    /// Number of eigenvalues of which rounding does not tell whether they are below `-shift`: bars without
-    /// force that nearly lie on one line leave such.
+    /// Number of eigenvalues of which rounding does not tell whether they are below `-shift`: bars
+    /// without force that nearly lie on one line leave such.
     pub(crate) fn undecided(&self, shift: f64) -> usize {
         if shift > -self.slope.lowest {
             return 0;
@@ -372,8 +373,8 @@ const CONDITION_PART: f64 = 0.2;
 /// How closely the lowest eigenvalue is enclosed, relative.
 const ENCLOSURE: f64 = 0.02;
 
-/// Each one multiplies the part along the lowest mode by the ratio of the shifted eigenvalues, about
-/// `1 / ENCLOSURE`.
+/// Each one multiplies the part along the lowest mode by the ratio of the shifted eigenvalues,
+/// about `1 / ENCLOSURE`.
 const INVERSE_ITERATIONS: usize = 4;
 
 impl Operator for Curvature {

@@ -59,8 +59,9 @@ pub enum Error {
         gradient: f64,
     },
     /// Occurs when no step lowers the energy any further, and the place is not a minimum to the
-    /// tolerances: the projected gradient or the closure is above its tolerance, or the energy falls in
-    /// some directions by less than its rounding, so that a saddle cannot be told from a minimum.
+    /// tolerances: the projected gradient or the closure is above its tolerance, or the energy
+    /// falls in some directions by less than its rounding, so that a saddle cannot be told from a
+    /// minimum.
     #[error(
         "no step lowers the energy any further after {iterations} iterations: projected gradient \
          {gradient:.1e}, closure {gap:.1e} of the total length, negative curvature in {directions} \
@@ -76,8 +77,9 @@ pub enum Error {
         /// Directions in which the second derivative is negative.
         directions: usize,
     },
-    /// Occurs when all bars lie on one line as far as double precision tells, and the anchors do not: a chain folded
-    /// to a fraction of 1e-7 of its length, whose least energy hangs on angles that are lost.
+    /// Occurs when all bars lie on one line as far as double precision tells, and the anchors do
+    /// not: a chain folded to a fraction of 1e-7 of its length, whose least energy hangs on angles
+    /// that are lost.
     #[error(
         "the bars lie on one line to rounding and the anchors {across:e} of the total length off it: what decides \
          between the positions of such a folded chain is lost in double precision"

@@ -8,13 +8,14 @@ use crate::regime::Regime;
 use crate::vector::{along, dot, unit};
 
 impl Links {
-    /// Bring the directions of a nearly folded chain near to a closed shape; those of other chains are
-    /// left as they are.
+    /// Bring the directions of a nearly folded chain near to a closed shape; those of other chains
+    /// are left as they are.
     ///
     /// A nearly folded chain closes only with its longest bar nearly along the span and the others
-    /// nearly drawn out along the way back. The corrections of the closure would have to turn it as a
-    /// whole, which they do only in steps as small as what it has to spare. So the chain is turned
-    /// first, and the other bars are closed on the way back, where they are a nearly taut chain.
+    /// nearly drawn out along the way back. The corrections of the closure would have to turn it as
+    /// a whole, which they do only in steps as small as what it has to spare. So the chain is
+    /// turned first, and the other bars are closed on the way back, where they are a nearly taut
+    /// chain.
     pub(crate) fn unfolded(&self, u: Vec<Vector>) -> Vec<Vector> {
         if !Regime::of(self).reach.starts_unfolded() {
             return u;

@@ -11,8 +11,8 @@ pub(crate) const WORLD_UP: Vector = [0.0, 0.0, 1.0];
 /// An orthonormal frame whose second axis is normal to the vertical plane of the anchors.
 ///
 /// Where all bars are nearly parallel, squares of small angles decide, and they keep their digits
-/// only if the common line is an axis: the span of a chain that is nearly taut or nearly folded, the
-/// vertical of a chain whose two strands hang side by side. In between any axes will do.
+/// only if the common line is an axis: the span of a chain that is nearly taut or nearly folded,
+/// the vertical of a chain whose two strands hang side by side. In between any axes will do.
 ///
 /// For anchors on one vertical the plane is *OYZ*, the paper's choice.
 #[derive(Debug, Clone, Copy)]
@@ -36,8 +36,8 @@ impl Frame {
         }
     }
 
-    /// Horizontal unit vector in the vertical plane of the anchors, towards the end anchor; *Y* when
-    /// the anchors lie on one vertical.
+    /// Horizontal unit vector in the vertical plane of the anchors, towards the end anchor; *Y*
+    /// when the anchors lie on one vertical.
     pub(crate) fn horizontal(chain: &Chain) -> Vector {
         if chain.anchors_on_one_vertical() {
             return [0.0, 1.0, 0.0];
@@ -49,11 +49,12 @@ impl Frame {
         unit(flat).unwrap_or([0.0, 1.0, 0.0])
     }
 
-    /// The way between the anchors in the frame, as a sum to twice the digits; it has no part along the
-    /// second axis, by the choice of the frame.
+    /// The way between the anchors in the frame, as a sum to twice the digits; it has no part along
+    /// the second axis, by the choice of the frame.
     pub(crate) fn span(&self, difference: Vector) -> [Vector; 2] {
         if self.drawn_out {
-            // The root of a square known to twice the digits: one step of Newton's method from the rounded one.
+            // The root of a square known to twice the digits: one step of Newton's method from the
+            // rounded one.
             let length = norm(difference);
             let mut square = Sum::default();
             for x in difference {

@@ -1,10 +1,10 @@
-//! Equilibria of hanging chains of bars, energy first: section VIII, Solution 1 of the paper, for any
-//! number of bars in space.
+//! Equilibria of hanging chains of bars, energy first: section VIII, Solution 1 of the paper, for
+//! any number of bars in space.
 //!
-//! A chain comes to rest where its potential energy is least. The energy is linear in the directions
-//! `u_i` of the bars; that the chain ends at its anchor is one vector equation, the closure. This crate
-//! minimises the one subject to the other, and gets every force from the energy: the reaction of an
-//! anchor is the derivative of the least energy by its place.
+//! A chain comes to rest where its potential energy is least. The energy is linear in the
+//! directions `u_i` of the bars; that the chain ends at its anchor is one vector equation, the
+//! closure. This crate minimises the one subject to the other, and gets every force from the
+//! energy: the reaction of an anchor is the derivative of the least energy by its place.
 //!
 //! | paper | code | unit | equation |
 //! |---|---|---|---|
@@ -24,32 +24,35 @@
 //! # The method
 //!
 //! On the closed chains, with the metric `sum l_i |du_i|²`, the projected gradient has the parts
-//! `t_i = (I - u_i u_iᵀ)(h_i up + mu)` and the Hessian is the axial force `N_i` times the identity, bar
-//! by bar, projected on the three rows of the closure. One pass over the bars eliminates them; what
-//! remains has size three (four about vertical anchors, where the turn of the whole chain is taken
-//! out). So an iteration costs O(n), and so do the inertia, the Morse index, and the way out of a
-//! saddle. Iterates are closed chains, the energy never rises beyond its rounding, and the stop is on the projected gradient
-//! and the closure alone. `Ok` means converged to a local minimum; in space that is the global one.
+//! `t_i = (I - u_i u_iᵀ)(h_i up + mu)` and the Hessian is the axial force `N_i` times the identity,
+//! bar by bar, projected on the three rows of the closure. One pass over the bars eliminates them;
+//! what remains has size three (four about vertical anchors, where the turn of the whole chain is
+//! taken out). So an iteration costs O(n), and so do the inertia, the Morse index, and the way out
+//! of a saddle. Iterates are closed chains, the energy never rises beyond its rounding, and the
+//! stop is on the projected gradient and the closure alone. `Ok` means converged to a local
+//! minimum; in space that is the global one.
 //!
-//! From no guess a long chain is first solved with its bars held parallel in groups of eight, and so on
-//! down to two dozen bars that start from a circular arc: restricted to such shapes the energy and the
-//! closure are those of a shorter chain. Three or four iterations on the chain itself are left. Where a deep
-//! chain bends within a few bars the bars around the bend are minimised by themselves first, their ends held.
+//! From no guess a long chain is first solved with its bars held parallel in groups of eight, and
+//! so on down to two dozen bars that start from a circular arc: restricted to such shapes the
+//! energy and the closure are those of a shorter chain. Three or four iterations on the chain
+//! itself are left. Where a deep chain bends within a few bars the bars around the bend are
+//! minimised by themselves first, their ends held.
 //!
-//! argmin (`Executor`, `CostFunction`, `Gradient`, `Hessian`, `Operator`, `Solver`, `IterState`) runs the
-//! minimisation. The `Solver` is ours: argmin has none for constrained problems, and its unconstrained
-//! ones cannot use a Hessian that is diagonal plus three rows.
+//! argmin (`Executor`, `CostFunction`, `Gradient`, `Hessian`, `Operator`, `Solver`, `IterState`)
+//! runs the minimisation. The `Solver` is ours: argmin has none for constrained problems, and its
+//! unconstrained ones cannot use a Hessian that is diagonal plus three rows.
 //!
-//! Up to which *n* does it keep up? The time is linear in *n* as far as memory goes: nothing is stored
-//! but a few vectors of length *n*, and the number of iterations on the chain itself does not grow.
-//! `cargo run --release -p energy --example energy_speed` shows it up to a million bars. A pass over the
-//! bars costs a square root and a division per bar, and an iteration takes about five passes (system,
-//! step, two or three corrections of the closure); a method with three unknowns instead of 2 n needs one
-//! pass and stays ahead by that factor and by the coarser chains. A chain drawn out along one line, nearly
-//! taut or hanging as two strands side by side, is closed by the balance of its slack with what the bars
-//! lose by their angles to that line, and keeps its digits down to the slack of the tautest chain that is a
-//! problem; the forces along the line then hold to a rounding over those angles, and the evidence
-//! says so where that is much. See [`SecondOrder::condition`] and [`Evidence`](model::Evidence)`::nullity`.
+//! Up to which *n* does it keep up? The time is linear in *n* as far as memory goes: nothing is
+//! stored but a few vectors of length *n*, and the number of iterations on the chain itself does
+//! not grow. `cargo run --release -p energy --example energy_speed` shows it up to a million bars.
+//! A pass over the bars costs a square root and a division per bar, and an iteration takes about
+//! five passes (system, step, two or three corrections of the closure); a method with three
+//! unknowns instead of 2 n needs one pass and stays ahead by that factor and by the coarser chains.
+//! A chain drawn out along one line, nearly taut or hanging as two strands side by side, is closed
+//! by the balance of its slack with what the bars lose by their angles to that line, and keeps its
+//! digits down to the slack of the tautest chain that is a problem; the forces along the line then
+//! hold to a rounding over those angles, and the evidence says so where that is much. See
+//! [`SecondOrder::condition`] and [`Evidence`](model::Evidence)`::nullity`.
 //!
 //! # Why some formulas are also in `lagrange`
 //!

@@ -19,13 +19,13 @@ use crate::vector::{Sum, along, dot, norm};
 /// digits and turns into its negative when the chain is read from its other end.
 #[derive(Debug, Clone)]
 pub(crate) struct Links {
-    /// Lengths `l_i`; their sum is from 1 to 2. The unit is a power of two, so that all digits of the lengths
-    /// are there: a nearly taut chain hangs on the last of them.
+    /// Lengths `l_i`; their sum is from 1 to 2. The unit is a power of two, so that all digits of
+    /// the lengths are there: a nearly taut chain hangs on the last of them.
     pub(crate) length: Vec<f64>,
     /// Weight hanging on each bar less one half, `h_i`; never increasing along the chain.
     pub(crate) hang: Vec<f64>,
-    /// The end anchor seen from the start anchor, `D`, as a sum to twice the digits; no component along the
-    /// second axis.
+    /// The end anchor seen from the start anchor, `D`, as a sum to twice the digits; no component
+    /// along the second axis.
     pub(crate) span: [Vector; 2],
     /// World up; no component along the second axis.
     pub(crate) up: Vector,
@@ -58,7 +58,8 @@ pub(crate) struct Origin {
 
 impl Units {
     /// What to add to the energy `sum l_i h_i up . u_i` of a closed chain to measure it from the
-    /// height of joint 0 rather than from half way between the anchors (or from where the origin has it).
+    /// height of joint 0 rather than from half way between the anchors (or from where the origin
+    /// has it).
     pub(crate) fn datum(&self, links: &Links) -> f64 {
         (0.5 + self.origin.map_or(0.0, |origin| origin.carried)) * dot(links.up, links.span[0])
     }
@@ -108,8 +109,8 @@ impl Links {
         self.length.len()
     }
 
-    /// What the bars can spare before they lie on one line: drawn out along the span, or the longest against all
-    /// others.
+    /// What the bars can spare before they lie on one line: drawn out along the span, or the
+    /// longest against all others.
     pub(crate) fn spare(&self) -> f64 {
         let [span, rest] = self.span;
         let span = norm(std::array::from_fn(|k| span[k] + rest[k]));

@@ -137,8 +137,9 @@ impl Minimum {
     }
 }
 
-/// Directions to start from: the minimum of the coarser chain, or the arc. Where the coarser chain bends too sharply for
-/// its groups the bars around the bend are minimised by themselves, their ends held.
+/// Directions to start from: the minimum of the coarser chain, or the arc. Where the coarser chain
+/// bends too sharply for its groups the bars around the bend are minimised by themselves, their
+/// ends held.
 fn first_guess(links: &Links, settings: &Settings) -> Result<Vec<Vector>, Error> {
     let Some(grouped) = links.grouped() else { return Ok(links.arc()) };
     let start = first_guess(&grouped.links, settings)?;
@@ -159,8 +160,8 @@ fn first_guess(links: &Links, settings: &Settings) -> Result<Vec<Vector>, Error>
     Ok(u)
 }
 
-/// Largest gap that is a closed chain's, as a part of the length it can spare: with more, it may be that no chain of
-/// these bars is near.
+/// Largest gap that is a closed chain's, as a part of the length it can spare: with more, it may be
+/// that no chain of these bars is near.
 const OPEN_PART: f64 = 0.1;
 
 /// Close the start and let argmin run the solver.

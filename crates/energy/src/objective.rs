@@ -12,7 +12,8 @@ use crate::slope::Slope;
 /// Energy, projected gradient and projected Hessian of closed chains.
 ///
 /// The parameter is a closed [`Shape`], shared and never changed: argmin keeps copies of the
-/// current, the previous and the best one, and a chain of a million bars is copied for none of them.
+/// current, the previous and the best one, and a chain of a million bars is copied for none of
+/// them.
 #[derive(Debug, Clone)]
 pub(crate) struct Objective {
     pub(crate) links: Arc<Links>,

@@ -7,19 +7,21 @@ use crate::regime::Turning;
 use crate::slope::Slope;
 use crate::vector::{dot, unit};
 
-/// A step by the angle `phi` along straight lines distorts the chain by `phi²`, against a gradient of
-/// the distance of the verticals times `phi`: up to this part of the distance Newton's method turns
-/// well.
+/// A step by the angle `phi` along straight lines distorts the chain by `phi²`, against a gradient
+/// of the distance of the verticals times `phi`: up to this part of the distance Newton's method
+/// turns well.
 const WITHIN_REACH: f64 = 0.1;
 
-/// The direction of a horizontal pull this many times the mean gradient is known to a tenth of a radian.
+/// The direction of a horizontal pull this many times the mean gradient is known to a tenth of a
+/// radian.
 const CERTAIN: f64 = 10.0;
 
-/// The turn about the vertical that takes an equilibrium into the first and third axis of the frame.
+/// The turn about the vertical that takes an equilibrium into the first and third axis of the
+/// frame.
 ///
 /// Every equilibrium lies in a vertical plane: each bar is parallel to `h_i up + mu`. The plane is
-/// that of the anchors, which is where the frame has its first and third axis, unless the anchors lie
-/// on one vertical: then every plane through it will do, and only the shape knows which.
+/// that of the anchors, which is where the frame has its first and third axis, unless the anchors
+/// lie on one vertical: then every plane through it will do, and only the shape knows which.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Turn {
     up: Vector,
@@ -47,7 +49,8 @@ impl Turn {
         Self { up, level, cosine, sine }
     }
 
-    /// The turn that takes a vector into the plane of the frame, its horizontal part along the level axis.
+    /// The turn that takes a vector into the plane of the frame, its horizontal part along the
+    /// level axis.
     pub(crate) fn heading(links: &Links, v: Vector) -> Self {
         let up = links.up;
         let level = [up[2], 0.0, -up[0]];
@@ -55,15 +58,17 @@ impl Turn {
         Self { up, level, cosine, sine }
     }
 
-    /// When the anchors lie almost on one vertical: the turn that takes the horizontal part of `mu` to
-    /// where the end anchor lies, with the fall of the energy that comes with it.
+    /// When the anchors lie almost on one vertical: the turn that takes the horizontal part of `mu`
+    /// to where the end anchor lies, with the fall of the energy that comes with it.
     ///
     /// A turn `R` takes the last joint from `D` to `R D`, and closing the chain again costs
-    /// `-R mu . (D - R D)`, `-mu` being the derivative of the energy by the place of the last joint.
+    /// `-R mu . (D - R D)`, `-mu` being the derivative of the energy by the place of the last
+    /// joint.
     ///
-    /// `None` if the plane of the chain is near enough for Newton's method, or if it is not known yet: the horizontal part
-    /// of `mu` is uncertain by the gradient that is left. (It may be none at all: with a level bar that carries no force
-    /// at its bottom a chain hangs straight down and up again.)
+    /// `None` if the plane of the chain is near enough for Newton's method, or if it is not known
+    /// yet: the horizontal part of `mu` is uncertain by the gradient that is left. (It may be none
+    /// at all: with a level bar that carries no force at its bottom a chain hangs straight down and
+    /// up again.)
     pub(crate) fn towards_anchor(links: &Links, slope: &Slope) -> Option<(Self, f64)> {
         let (up, multiplier) = (links.up, slope.multiplier);
         let level = [up[2], 0.0, -up[0]];

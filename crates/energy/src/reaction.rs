@@ -14,10 +14,11 @@ use crate::vector::{Sum, along, norm, scaled};
 
 /// The force at every joint, world frame, N, in the order of the paper's multipliers.
 ///
-/// Virtual work. Cut the chain at joint *k* and hold the part before it there: its least energy as a
-/// function of the place of the cut has the derivative `F_k`, the force that the rest of the chain
-/// exerts on it. The energy of the part is that of the whole with the weight `W_k` of the bars after
-/// the cut taken off every bar, so its multiplier is that of the whole plus `W_k up`, and
+/// Virtual work. Cut the chain at joint *k* and hold the part before it there: its least energy as
+/// a function of the place of the cut has the derivative `F_k`, the force that the rest of the
+/// chain exerts on it. The energy of the part is that of the whole with the weight `W_k` of the
+/// bars after the cut taken off every bar, so its multiplier is that of the whole plus `W_k up`,
+/// and
 ///
 /// $$F_k = \frac{\partial V_k^\*}{\partial P_k} = -\mu - W_k\\, \hat z .$$
 ///
@@ -38,8 +39,8 @@ pub(crate) fn joint_forces(problem: &Problem, units: &Units, slope: &Slope) -> V
 }
 
 /// What to add to minus the multiplier at each joint, in units of the weight: the multiplier of the
-/// shifted energy (see `Links`) is mu + up / 2, so half the weight before the cut, less half the weight
-/// after it.
+/// shifted energy (see `Links`) is mu + up / 2, so half the weight before the cut, less half the
+/// weight after it.
 fn lift_from_middle(problem: &Problem) -> Vec<f64> {
     let (bars, mass_kg) = (problem.chain().bars(), problem.chain().total_mass_kg());
     let mut lift = vec![0.0; bars.len() + 1];
@@ -110,8 +111,8 @@ const LEVELS: usize = 3;
 /// since the work of the force of the ground is what the chain gains; the force of the chain on the
 /// ground is `-dV*/dD`. The branch of the given equilibrium is followed: displacements in its own
 /// vertical plane are minimised in that plane. (About anchors on one vertical the least energy *in
-/// space* has a ridge: with the anchor displaced to the wrong side the chain turns round to the lower
-/// one.) Across the plane the chain is minimised in space.
+/// space* has a ridge: with the anchor displaced to the wrong side the chain turns round to the
+/// lower one.) Across the plane the chain is minimised in space.
 ///
 /// # Errors
 ///
@@ -174,8 +175,8 @@ fn extrapolated(step: f64, value: impl Fn(f64) -> Result<f64, Error>) -> Result<
     Ok(table[LEVELS - 1])
 }
 
-/// How far the anchor can move, at least, before the chain cannot close any more: what is left of the
-/// total length over the span, or of the other bars and the span over the longest bar.
+/// How far the anchor can move, at least, before the chain cannot close any more: what is left of
+/// the total length over the span, or of the other bars and the span over the longest bar.
 fn spare_length(links: &Links) -> f64 {
     let (total, span) = (links.total(), norm(links.span[0]));
     let longest = links.length.iter().fold(0.0_f64, |m, l| m.max(*l));

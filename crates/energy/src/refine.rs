@@ -1,14 +1,14 @@
 //! The last digits where some bars carry next to nothing, or all lie nearly along one line.
 //!
 //! The minimiser holds forces against the largest force of the chain, and that is where double
-//! precision ends: a rest `t` of the gradient turns a bar with the axial force `N` by `t / N`, and along
-//! a line to which the bars are nearly parallel the closure divides by their angles. The equations
-//! have more digits to give in another frame. The energy may be counted from any bar (a multiple of the
-//! closure is taken off, see [`Links`]) and the axes may be turned in the plane of the chain. So, where
-//! it matters,
+//! precision ends: a rest `t` of the gradient turns a bar with the axial force `N` by `t / N`, and
+//! along a line to which the bars are nearly parallel the closure divides by their angles. The
+//! equations have more digits to give in another frame. The energy may be counted from any bar (a
+//! multiple of the closure is taken off, see [`Links`]) and the axes may be turned in the plane of
+//! the chain. So, where it matters,
 //!
-//! 1. the weights are counted from the bar with the least load, as sums of the weights in between: what
-//!    the bars near it carry is then a sum of small numbers, not a difference of large ones;
+//! 1. the weights are counted from the bar with the least load, as sums of the weights in between:
+//!    what the bars near it carry is then a sum of small numbers, not a difference of large ones;
 //! 2. an axis is laid along the line to which the bars are nearly parallel;
 //! 3. Newton's method is applied to stationarity and closure at once (`P_i = I - u_i u_iᵀ`):
 //!
@@ -17,8 +17,8 @@
 //! [  J    0  ] [ dmu ] = [ -gap ]      J = [ l_1 P_1 ... l_n P_n ]
 //! ```
 //!
-//! Every equilibrium lies in a vertical plane, so the closure has two rows here. The size of the last
-//! step is how far the shape is known.
+//! Every equilibrium lies in a vertical plane, so the closure has two rows here. The size of the
+//! last step is how far the shape is known.
 
 use std::sync::Arc;
 
@@ -33,8 +33,8 @@ use crate::solver::force_uncertainty;
 use crate::strands::off_the_line;
 use crate::vector::{Sum, along, dot, norm, scaled, tangent};
 
-/// Turn of a bar, rad, above which the minimiser's digits are not enough: what two solvers are asked to
-/// agree to.
+/// Turn of a bar, rad, above which the minimiser's digits are not enough: what two solvers are
+/// asked to agree to.
 const WORTH_REFINING: f64 = 1e-9;
 
 /// Uncertainty of the forces, as a part of the largest, above which the minimiser's digits are not
@@ -57,11 +57,12 @@ const SMALL: f64 = 1e-9;
 /// Axial forces below this part of the largest force are rounding.
 const NO_FORCE: f64 = 64.0 * f64::EPSILON;
 
-/// An axis within this angle, rad, of the line of the bars is on it: the small components keep all but
-/// three of their digits.
+/// An axis within this angle, rad, of the line of the bars is on it: the small components keep all
+/// but three of their digits.
 const ALIGNED: f64 = 1e-3;
 
-/// Bars are nearly parallel when the smallest eigenvalue of their spread, a squared angle, is below this.
+/// Bars are nearly parallel when the smallest eigenvalue of their spread, a squared angle, is below
+/// this.
 const NEARLY_PARALLEL: f64 = 1e-4;
 
 /// What the refinement says of a minimum.
@@ -228,8 +229,8 @@ impl Point {
     }
 }
 
-/// Cosine and sine of the turn in the plane that lays the first axis along the line to which the bars
-/// are nearly parallel. No turn if they are not, or an axis is there already.
+/// Cosine and sine of the turn in the plane that lays the first axis along the line to which the
+/// bars are nearly parallel. No turn if they are not, or an axis is there already.
 fn quarter_turn_to_line(u: &[Vector], links: &Links, units: &Units) -> (f64, f64) {
     const STAY: (f64, f64) = (1.0, 0.0);
     // Σ l (x² - z²), Σ 2 l x z, and their size: 1 - the smallest eigenvalue of the spread twice.
@@ -276,7 +277,8 @@ fn rotated_sum(span: [Vector; 2], cosine: f64, sine: f64) -> [Vector; 2] {
     ]
 }
 
-/// What each bar carries less what `bar` carries, in units of the total weight: the weights in between.
+/// What each bar carries less what `bar` carries, in units of the total weight: the weights in
+/// between.
 fn counted_from(problem: &Problem, bar: usize) -> Vec<f64> {
     let (bars, total_kg) = (problem.chain().bars(), problem.chain().total_mass_kg());
     let at_end = |bar: &Bar| bar.mass_kg() / total_kg * (bar.centre_m() / bar.length_m());

@@ -1,9 +1,9 @@
 //! How a chain lies between its anchors, decided before anything is solved.
 //!
-//! Two questions decide which way a chain is solved, and they are independent of each other: how much
-//! length the chain can spare ([`Reach`]), and what holds its vertical plane ([`Turning`]). Both are
-//! answered by the lengths and the anchors alone. What only a solution can tell (bars on one line, a
-//! sharp bend) is an outcome of the attempt: modules `strands` and `bend`.
+//! Two questions decide which way a chain is solved, and they are independent of each other: how
+//! much length the chain can spare ([`Reach`]), and what holds its vertical plane ([`Turning`]).
+//! Both are answered by the lengths and the anchors alone. What only a solution can tell (bars on
+//! one line, a sharp bend) is an outcome of the attempt: modules `strands` and `bend`.
 
 use model::Problem;
 
@@ -32,23 +32,26 @@ pub struct Regime {
 pub enum Reach {
     /// A good part of its length: any axes and any start will do.
     Slack,
-    /// Little, before it is taut or its longest bar folds on the others along the span: an axis of the
-    /// frame lies along the span, where squares of small angles keep their digits.
+    /// Little, before it is taut or its longest bar folds on the others along the span: an axis of
+    /// the frame lies along the span, where squares of small angles keep their digits.
     DrawnOut,
-    /// Very little before its longest bar folds on the others: it starts with that bar along the span.
+    /// Very little before its longest bar folds on the others: it starts with that bar along the
+    /// span.
     NearlyFolded,
-    /// Very little, its longest bar as long as all others together: the span does not say along which
-    /// line the chain folds. It starts like a folded one, in a frame of level and vertical axes.
+    /// Very little, its longest bar as long as all others together: the span does not say along
+    /// which line the chain folds. It starts like a folded one, in a frame of level and vertical
+    /// axes.
     FoldedAnyway,
 }
 
 /// What holds the vertical plane of a chain.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Turning {
-    /// Nothing: the anchors are on one vertical and the turn about it is taken out of the Newton system.
+    /// Nothing: the anchors are on one vertical and the turn about it is taken out of the Newton
+    /// system.
     Free,
-    /// Little: the anchors are nearly on one vertical. The chain is turned as a whole before Newton's
-    /// steps, which only turn well by a part of the small angle between the verticals.
+    /// Little: the anchors are nearly on one vertical. The chain is turned as a whole before
+    /// Newton's steps, which only turn well by a part of the small angle between the verticals.
     Soft,
     /// The anchors, or a motion that is confined to the plane.
     Held,
@@ -63,8 +66,9 @@ const NEARLY_FOLDED: f64 = 0.05;
 /// Bars of a chain whose others, without the longest, can be closed on anything.
 const FEWEST_TO_UNFOLD: usize = 3;
 
-/// Level distance of the anchors, in units of the length (a part between 1 and 1/2 of the total), below
-/// which the turn of the whole chain is soft: steps along straight lines distort it more than they win.
+/// Level distance of the anchors, in units of the length (a part between 1 and 1/2 of the total),
+/// below which the turn of the whole chain is soft: steps along straight lines distort it more than
+/// they win.
 const NEARLY_VERTICAL: f64 = 0.01;
 
 impl Regime {

@@ -30,8 +30,9 @@ pub struct Settings {
     /// says so in the residual: bars at an angle `a` to one common line hold the closure no better
     /// than a rounding over `a`. Default 1e-12; from 1e-15 to 1e-3.
     pub gradient_tolerance: f64,
-    /// Largest distance of the last joint from the end anchor, in units of the total length, or of the power of
-    /// two below it in metres, in which the solver works. Default 1e-13; from 1e-15 to 1e-6.
+    /// Largest distance of the last joint from the end anchor, in units of the total length, or of
+    /// the power of two below it in metres, in which the solver works. Default 1e-13; from 1e-15 to
+    /// 1e-6.
     pub closure_tolerance: f64,
     /// Iterations of one run of the minimiser. Default 500; at least 1.
     pub max_iterations: u64,

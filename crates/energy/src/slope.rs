@@ -13,17 +13,17 @@ const ZERO_CURVATURE: f64 = 1e-10;
 
 /// The projected gradient and what comes with it.
 ///
-/// On the closed chains, with the metric `sum l_i |du_i|²`, the gradient of the energy has the parts
-/// `t_i = (I - u_i u_iᵀ)(h_i up + mu)`: the force across bar *i* in units of the total weight. The
-/// multiplier `mu` of the closure is the one that makes the gradient smallest (least squares); at an
-/// equilibrium it is the Lagrange multiplier, and `-mu` the derivative of the least energy by the
-/// position of the end anchor.
+/// On the closed chains, with the metric `sum l_i |du_i|²`, the gradient of the energy has the
+/// parts `t_i = (I - u_i u_iᵀ)(h_i up + mu)`: the force across bar *i* in units of the total
+/// weight. The multiplier `mu` of the closure is the one that makes the gradient smallest (least
+/// squares); at an equilibrium it is the Lagrange multiplier, and `-mu` the derivative of the least
+/// energy by the position of the end anchor.
 #[derive(Debug, Clone)]
 pub(crate) struct Slope {
     /// Multiplier `mu` of the closure.
     pub(crate) multiplier: Vector,
-    /// `N_i = -(h_i up + mu) . u_i`: the force along each bar, tension positive, and at the same time
-    /// the second derivative of the Lagrangian by a turn of the bar.
+    /// `N_i = -(h_i up + mu) . u_i`: the force along each bar, tension positive, and at the same
+    /// time the second derivative of the Lagrangian by a turn of the bar.
     pub(crate) axial: Vec<f64>,
     /// Largest `|t_i|`.
     pub(crate) across: f64,
@@ -56,8 +56,8 @@ impl Slope {
         Self { line, opened: opening.is_some(), ..slope }
     }
 
-    /// At a refined minimum: weights counted from the bar with the least load, so that small ones near it
-    /// say how small a curvature still says something.
+    /// At a refined minimum: weights counted from the bar with the least load, so that small ones
+    /// near it say how small a curvature still says something.
     pub(crate) fn refined(links: &Links, u: &[Vector], multiplier: Vector) -> Self {
         let slope = Self::with_multiplier(links, u, multiplier);
         let sizes = links.hang.iter().map(|h| h.abs()).filter(|h| *h > 0.0);
@@ -99,15 +99,15 @@ impl Slope {
         }
     }
 
-    /// What the gradient tolerance is compared with: the largest force across a bar over the largest
-    /// force (or the weight, if that is more).
+    /// What the gradient tolerance is compared with: the largest force across a bar over the
+    /// largest force (or the weight, if that is more).
     pub(crate) fn residual(&self) -> f64 {
         self.across / self.pull
     }
 
-    /// How far off the common line of the bars the end anchor lies, in total lengths, where all bars are on
-    /// a line and one is compressed: what tells the positions of such a chain apart is lost. With all bars
-    /// in tension there is nothing to tell: no configuration has less energy.
+    /// How far off the common line of the bars the end anchor lies, in total lengths, where all
+    /// bars are on a line and one is compressed: what tells the positions of such a chain apart is
+    /// lost. With all bars in tension there is nothing to tell: no configuration has less energy.
     pub(crate) fn lost(&self, links: &Links) -> Option<f64> {
         off_the_line(links, self.line.filter(|_| !self.opened)?)
     }

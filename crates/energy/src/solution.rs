@@ -49,8 +49,8 @@ const TURN_LEFT: &str = "turn of a bar that the next step of Newton's method ask
 /// solvers are asked to agree to.
 const KNOWN_RAD: f64 = 1e-9;
 
-/// Uncertainty of the forces, as a part of the largest, above which the evidence speaks of it: what two solvers are
-/// asked to agree to.
+/// Uncertainty of the forces, as a part of the largest, above which the evidence speaks of it: what
+/// two solvers are asked to agree to.
 const WORTH_SAYING: f64 = 1e-9;
 
 impl Solution {

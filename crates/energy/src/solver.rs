@@ -22,8 +22,8 @@ pub(crate) type Run = IterState<Arc<Shape>, Arc<Slope>, (), Curvature, (), f64>;
 
 /// Feasible Newton with a shift.
 ///
-/// argmin has no solver for constrained problems, so this one is ours; argmin runs it. Every iterate
-/// is a closed chain. One iteration:
+/// argmin has no solver for constrained problems, so this one is ours; argmin runs it. Every
+/// iterate is a closed chain. One iteration:
 ///
 /// 1. judge the iterate: a minimum ends the run, a saddle is left along its lowest mode;
 /// 2. about nearly vertical anchors, turn the whole chain towards its plane;
@@ -248,8 +248,8 @@ fn accept(
     Ok((run.param(shape).gradient(slope).cost(value), None))
 }
 
-/// Smallest eigenvalue of the spread of the directions: the square of their angle to the line to which
-/// they are most nearly parallel.
+/// Smallest eigenvalue of the spread of the directions: the square of their angle to the line to
+/// which they are most nearly parallel.
 fn smallest_spread(shape: &Shape) -> f64 {
     let eigen = shape.moments.spread.eigen();
     let smallest = eigen.value[..eigen.size].iter().copied().fold(f64::INFINITY, f64::min);
@@ -259,17 +259,18 @@ fn smallest_spread(shape: &Shape) -> f64 {
 /// The smallest residual that directions in double precision can have.
 ///
 /// A unit vector in double precision leaves the closure uncertain by a rounding. Along a line to
-/// which all bars are nearly parallel, at an angle of the size `a`, closing that gap turns them by a
-/// rounding over `a`; `a²` is the smallest eigenvalue of the spread.
+/// which all bars are nearly parallel, at an angle of the size `a`, closing that gap turns them by
+/// a rounding over `a`; `a²` is the smallest eigenvalue of the spread.
 fn rounding_floor(shape: &Shape) -> f64 {
     FLOOR * f64::EPSILON / smallest_spread(shape).sqrt()
 }
 
-/// How far directions in double precision leave the forces open, as a part of the largest: of bars at an
-/// angle `a` to a common line they hold the forces along the line to a rounding, and what is left of the
-/// gradient, over `a`. On the line itself the forces are those of the limit (module `strands`), exact if
-/// the anchors are on it; by as much as they are off it the bars have room to turn by the root of that.
-/// With a bar compressed on the line nothing is known of the forces along it.
+/// How far directions in double precision leave the forces open, as a part of the largest: of bars
+/// at an angle `a` to a common line they hold the forces along the line to a rounding, and what is
+/// left of the gradient, over `a`. On the line itself the forces are those of the limit (module
+/// `strands`), exact if the anchors are on it; by as much as they are off it the bars have room to
+/// turn by the root of that. With a bar compressed on the line nothing is known of the forces along
+/// it.
 pub(crate) fn force_uncertainty(links: &Links, shape: &Shape, slope: &Slope) -> f64 {
     if let Some(e) = slope.line {
         let known = if slope.opened { 0.0 } else { 1.0 };

@@ -9,11 +9,11 @@ use crate::vector::{norm, scaled, unit};
 const BISECTIONS: u32 = 60;
 
 impl Links {
-    /// Directions along a circular arc of the chain's length through both anchors, hanging below their chord
-    /// (beside it when the chord is vertical), one for the middle of each bar.
+    /// Directions along a circular arc of the chain's length through both anchors, hanging below
+    /// their chord (beside it when the chord is vertical), one for the middle of each bar.
     ///
-    /// The arc turns from `-gamma` to `+gamma` about the chord, `sin(gamma) / gamma` being the span over the length.
-    /// A polygon on it closes nearly; the closure does the rest.
+    /// The arc turns from `-gamma` to `+gamma` about the chord, `sin(gamma) / gamma` being the span
+    /// over the length. A polygon on it closes nearly; the closure does the rest.
     pub(crate) fn arc(&self) -> Vec<Vector> {
         let total = self.total();
         let half = half_opening(norm(self.span[0]) / total);

@@ -6,8 +6,8 @@ use crate::closure::{LOST_SPREAD, Shape};
 use crate::links::Links;
 use crate::vector::{along, cross, dot, norm};
 
-/// Only below this ratio of diagonal entries is a look at the eigenvalues worth while: the frame has
-/// an axis along the line.
+/// Only below this ratio of diagonal entries is a look at the eigenvalues worth while: the frame
+/// has an axis along the line.
 const NEARLY_STRAIGHT: f64 = 1e-6;
 
 /// Bisections of the interval of multipliers: all digits of a double.
@@ -34,8 +34,8 @@ pub(crate) fn line(shape: &Shape) -> Option<Vector> {
     Some([eigen.vector[k][0], eigen.vector[k][1], eigen.vector[k][2]])
 }
 
-/// How far the end anchor lies off the line through the first along the unit vector `e`, in total lengths, if that is
-/// more than rounding.
+/// How far the end anchor lies off the line through the first along the unit vector `e`, in total
+/// lengths, if that is more than rounding.
 pub(crate) fn off_the_line(links: &Links, e: Vector) -> Option<f64> {
     let [span, rest] = links.span;
     let span: Vector = std::array::from_fn(|k| span[k] + rest[k]);
@@ -103,8 +103,8 @@ mod tests {
     use super::*;
     use crate::settings::Motion;
 
-    /// Nothing hangs at the fold: the two bars there are slack, whatever multiplier it starts from, and the
-    /// rounding of its loads pushes neither.
+    /// Nothing hangs at the fold: the two bars there are slack, whatever multiplier it starts from,
+    /// and the rounding of its loads pushes neither.
     #[test]
     fn strands_that_meet_without_a_load_leave_the_last_bars_slack() {
         let (down, up) = ([0.0, 0.0, -1.0], [0.0, 0.0, 1.0]);

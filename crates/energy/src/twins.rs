@@ -177,7 +177,8 @@ fn a_newton_step_solves_its_system() {
     }
 }
 
-/// Eigenvalues of the Hessian on an orthonormal basis of the closed motions, the free turn left out.
+/// Eigenvalues of the Hessian on an orthonormal basis of the closed motions, the free turn left
+/// out.
 fn dense(at: &Curvature) -> Vec<f64> {
     let n = at.links.bars();
     let mut rng = ChaCha8Rng::seed_from_u64(9);

@@ -136,7 +136,8 @@ impl<'a> Axes<'a> {
         }
     }
 
-    /// In a page: a grid of these ticks with their texts, in the classes `grid`, `axis`, `tick` and `label`.
+    /// In a page: a grid of these ticks with their texts, in the classes `grid`, `axis`, `tick` and
+    /// `label`.
     pub fn grid(&self, svg: &mut Svg, [x_ticks, y_ticks]: [&[(f64, String)]; 2]) {
         /// Length of a tick, px.
         const TICK: f64 = 5.0;

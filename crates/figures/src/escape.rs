@@ -29,8 +29,8 @@ impl fmt::Display for Escaped<'_> {
     }
 }
 
-/// Whether a character cannot stand as it is. XML has a place for neither control characters, but for the
-/// ends of lines and tabulators, nor the two non-characters, not even as a reference.
+/// Whether a character cannot stand as it is. XML has a place for neither control characters, but
+/// for the ends of lines and tabulators, nor the two non-characters, not even as a reference.
 fn special(c: char) -> bool {
     let white = matches!(c, '\n' | '\t');
     matches!(c, '&' | '<' | '>' | '"' | '\u{fffe}' | '\u{ffff}') || (c.is_control() && !white)

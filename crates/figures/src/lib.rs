@@ -1,4 +1,5 @@
-//! Pictures: one writer of SVG and PNG, one palette, one set of axes, and the drawing of a structure.
+//! Pictures: one writer of SVG and PNG, one palette, one set of axes, and the drawing of a
+//! structure.
 //!
 //! ```
 //! use figures::{Anchor, Axes, Axis, BLUE, Look, Svg, Unit};
@@ -15,8 +16,9 @@
 //!
 //! No text of a caller reaches a picture but through [`Escaped`].
 //!
-//! Colours are those of M. Okabe and K. Ito (Color Universal Design, 2008), told apart by the colour-blind;
-//! lines differ in width and dashes and marks in shape too, so that nothing is lost in grey.
+//! Colours are those of M. Okabe and K. Ito (Color Universal Design, 2008), told apart by the
+//! colour-blind; lines differ in width and dashes and marks in shape too, so that nothing is lost
+//! in grey.
 
 mod axis;
 mod escape;

@@ -30,14 +30,17 @@ pub const OTHER: Colour = Colour::WHITE;
 /// Most colours of regions: with the two above, as many as a byte can number.
 pub const MOST_REGIONS: usize = 254;
 
-/// Least lightness of a colour in Oklab: darker ones are far from black by their numbers and look like it.
+/// Least lightness of a colour in Oklab: darker ones are far from black by their numbers and look
+/// like it.
 const DARKEST: f64 = 0.3;
 
-/// Levels of red, green and blue that colours are chosen from: about three times [`MOST_REGIONS`] colours.
+/// Levels of red, green and blue that colours are chosen from: about three times [`MOST_REGIONS`]
+/// colours.
 const LEVELS: [u8; 9] = [0, 32, 64, 96, 128, 160, 192, 224, 255];
 
-/// Different colours, up to [`MOST_REGIONS`]: those of Okabe and Ito as far as they go, then always the one that is
-/// farthest from all before it, and from black and white. The first ones do not depend on how many are asked for.
+/// Different colours, up to [`MOST_REGIONS`]: those of Okabe and Ito as far as they go, then always
+/// the one that is farthest from all before it, and from black and white. The first ones do not
+/// depend on how many are asked for.
 #[must_use]
 pub fn regions(count: usize) -> Vec<Colour> {
     let mut colours: Vec<Colour> = REGIONS.into_iter().take(count).collect();
@@ -95,8 +98,8 @@ fn oklab(colour: Colour) -> [f64; 3] {
     times(AXES, times(CONES, linear).map(f64::cbrt))
 }
 
-/// From light (0) to dark (1), even in grey: between four colours of the ramp cividis (Nuñez, Anderton and
-/// Renslow, 2018, doi:10.1371/journal.pone.0199239), reversed.
+/// From light (0) to dark (1), even in grey: between four colours of the ramp cividis (Nuñez,
+/// Anderton and Renslow, 2018, doi:10.1371/journal.pone.0199239), reversed.
 #[must_use]
 pub fn ramp(part: f64) -> Colour {
     const STOPS: [[f64; 3]; 5] = [

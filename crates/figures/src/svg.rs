@@ -55,8 +55,8 @@ const HEAD: [f64; 2] = [9.0, 3.6];
 const LETTERS: f64 = 14.0;
 
 impl Svg {
-    /// A picture of this size that is a file of its own: on white, with letters that every system has. Its
-    /// shapes need colours.
+    /// A picture of this size that is a file of its own: on white, with letters that every system
+    /// has. Its shapes need colours.
     #[must_use]
     pub fn new(size: [f64; 2], title: &str) -> Self {
         Self {
@@ -69,8 +69,8 @@ impl Svg {
         }
     }
 
-    /// A picture of this size for a page, whose style knows the classes of its shapes. `id` is unique in the
-    /// page; title and description are for those who do not see it.
+    /// A picture of this size for a page, whose style knows the classes of its shapes. `id` is
+    /// unique in the page; title and description are for those who do not see it.
     #[must_use]
     pub fn in_page(id: &str, size: [f64; 2], title: &str, description: &str) -> Self {
         let id = Some(id.to_owned());
@@ -89,8 +89,8 @@ impl Svg {
         Self { letters_px, ..self }
     }
 
-    /// Digits behind the point of coordinates: in a page a tenth of a pixel is below what is seen; a file is
-    /// printed and enlarged.
+    /// Digits behind the point of coordinates: in a page a tenth of a pixel is below what is seen;
+    /// a file is printed and enlarged.
     fn digits(&self) -> usize {
         if self.id.is_some() { 1 } else { 2 }
     }
@@ -216,8 +216,8 @@ impl Svg {
         self.polygon(look.head().class(class.trim_start()), &[to, side(1.0), side(-1.0)]);
     }
 
-    /// An arc about a centre from one direction to another, in degrees from straight down towards the
-    /// right.
+    /// An arc about a centre from one direction to another, in degrees from straight down towards
+    /// the right.
     pub fn arc<'a>(
         &mut self,
         look: impl Into<Look<'a>>,
@@ -304,8 +304,8 @@ impl Svg {
         );
     }
 
-    /// Shapes that belong together, moved by this much; a title is read aloud and shown by browsers where
-    /// the pointer rests.
+    /// Shapes that belong together, moved by this much; a title is read aloud and shown by browsers
+    /// where the pointer rests.
     pub fn group(
         &mut self,
         class: &str,

@@ -5,7 +5,8 @@
 use funicular::prelude::*;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    // A lamp on a cord of four links, drawn aside: `Problem::read("lamp.toml")` takes it from a file.
+    // A lamp on a cord of four links, drawn aside: `Problem::read("lamp.toml")` takes it from a
+    // file.
     let anchors = Anchors { start_m: [0.0, 0.0, 0.0], end_m: [1.0, 0.0, -0.4] };
     let link = Bar::homogeneous(0.4, 0.1)?;
     let lamp = Bar::new(0.2, 3.0, 0.1, Bar::slender_inertia(0.2, 3.0))?;

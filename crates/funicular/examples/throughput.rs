@@ -1,11 +1,12 @@
-//! Seeds per second of both solvers on the paper's chain, in memory, identified and counted, on one thread
-//! and on two.
+//! Seeds per second of both solvers on the paper's chain, in memory, identified and counted, on one
+//! thread and on two.
 //!
 //! `cargo run --release -p funicular --example throughput`
 //!
-//! The best of several runs, and the middle one: one thread, two threads, and two runs of one thread each that know
-//! nothing of each other, in turn, so that other work on the machine falls on all. The last is what two of the
-//! machine's processors give at all: they share memory, clock and host.
+//! The best of several runs, and the middle one: one thread, two threads, and two runs of one
+//! thread each that know nothing of each other, in turn, so that other work on the machine falls on
+//! all. The last is what two of the machine's processors give at all: they share memory, clock and
+//! host.
 
 use std::ops::Range;
 use std::time::Instant;

@@ -9,7 +9,8 @@ use crate::problem::Problem;
 use crate::starts::solvers;
 use crate::threads;
 
-/// Draws which equilibrium each start leads to, by both solvers, over the starting angles of two bars.
+/// Draws which equilibrium each start leads to, by both solvers, over the starting angles of two
+/// bars.
 ///
 /// ```
 /// use funicular::prelude::*;
@@ -34,7 +35,8 @@ impl Default for Basins {
 }
 
 impl Basins {
-    /// 300 starts along each side, over the angles of the first two bars; all other bars start hanging down.
+    /// 300 starts along each side, over the angles of the first two bars; all other bars start
+    /// hanging down.
     #[must_use]
     pub fn new() -> Self {
         Self::default()
@@ -58,7 +60,8 @@ impl Basins {
         Self { others_deg, ..self }
     }
 
-    /// How many threads share the work, 0 (the default) for those of the pool that it is called from.
+    /// How many threads share the work, 0 (the default) for those of the pool that it is called
+    /// from.
     #[must_use]
     pub fn threads(self, threads: usize) -> Self {
         Self { threads, ..self }
@@ -78,8 +81,8 @@ impl Basins {
     ///
     /// # Errors
     ///
-    /// [`Error::BasinsBars`] and [`Error::BasinsAngle`] for settings out of range, [`Error::Sweep`] for chains without
-    /// a list of equilibria.
+    /// [`Error::BasinsBars`] and [`Error::BasinsAngle`] for settings out of range, [`Error::Sweep`]
+    /// for chains without a list of equilibria.
     pub fn run(&self, problem: &Problem) -> Result<BasinsAnswer, Error> {
         let chain = problem.chain_for("a picture of basins")?;
         let bars = chain.chain().bars().len();

@@ -6,8 +6,9 @@ use validate::{Agreement, Tolerances};
 use crate::error::Error;
 use crate::problem::Problem;
 
-/// Hold answers against each other, every two of them, and each against Newton's laws; what that proves is written into
-/// their evidence. The budgets are those that our own two solvers are held to.
+/// Hold answers against each other, every two of them, and each against Newton's laws; what that
+/// proves is written into their evidence. The budgets are those that our own two solvers are held
+/// to.
 ///
 /// # Errors
 ///

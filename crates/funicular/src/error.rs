@@ -18,7 +18,8 @@ pub enum Error {
     /// Occurs when a number of a chain is out of range.
     #[error(transparent)]
     Chain(#[from] model::ChainError),
-    /// Occurs when a number of a system is out of range, or a member names a joint that is not there.
+    /// Occurs when a number of a system is out of range, or a member names a joint that is not
+    /// there.
     #[error(transparent)]
     System(#[from] model::system::SystemError),
     /// Occurs when a chain is no equilibrium problem: out of reach, straight, without mass.
@@ -32,8 +33,8 @@ pub enum Error {
         /// The name that is nearest, if one is near.
         suggestion: Option<&'static str>,
     },
-    /// Occurs when what was asked for is possible for chains between two anchors alone, and the problem is another
-    /// system.
+    /// Occurs when what was asked for is possible for chains between two anchors alone, and the
+    /// problem is another system.
     #[error("{what} is for chains between two anchors")]
     ChainsOnly {
         /// What was asked for.
@@ -69,7 +70,8 @@ pub enum Error {
     /// Occurs when `energy`, asked alone, has no answer.
     #[error(transparent)]
     Energy(#[from] energy::Error),
-    /// Occurs when a census is not taken: the chain is too long, or every position is an equilibrium.
+    /// Occurs when a census is not taken: the chain is too long, or every position is an
+    /// equilibrium.
     #[error(transparent)]
     Census(#[from] census::CensusError),
     /// Occurs when a solver cannot be made ready for a sweep.

@@ -1,7 +1,7 @@
 //! Where do bars that hang from their anchors come to rest, and how sure can we be?
 //!
-//! Every equilibrium is found twice, by two solvers that share no mechanics; a third judge checks both from Newton's
-//! laws; and every answer says how far it is proved.
+//! Every equilibrium is found twice, by two solvers that share no mechanics; a third judge checks
+//! both from Newton's laws; and every answer says how far it is proved.
 //!
 //! ```
 //! use funicular::prelude::*;
@@ -33,14 +33,15 @@
 //! | the same as a picture | [`Basins`] |
 //! | the paper, judged | [`Reproduce`] |
 //!
-//! Each is a builder: `new`, what differs from the defaults, `run`. The program `funicular` does nothing but read its
-//! arguments, call these, and print.
+//! Each is a builder: `new`, what differs from the defaults, `run`. The program `funicular` does
+//! nothing but read its arguments, call these, and print.
 //!
 //! A solver of one's own is held against ours by [`compare()`].
 //!
 //! # Features
 //!
-//! All are on by default. A program that solves chains takes `default-features = false` and few dependencies.
+//! All are on by default. A program that solves chains takes `default-features = false` and few
+//! dependencies.
 //!
 //! | feature | what |
 //! |---|---|
@@ -52,8 +53,8 @@
 //!
 //! # Conventions
 //!
-//! World frame *OXYZ*, *Z* up, gravity along −*Z*; SI units, named in every field. Joint 0 is the start anchor, joint
-//! *n* the end anchor; bar *i* = 1..n runs from joint *i*−1 to joint *i*.
+//! World frame *OXYZ*, *Z* up, gravity along −*Z*; SI units, named in every field. Joint 0 is the
+//! start anchor, joint *n* the end anchor; bar *i* = 1..n runs from joint *i*−1 to joint *i*.
 
 #[cfg(feature = "sweep")]
 mod basins;

@@ -8,8 +8,8 @@ use model::system_file::{self, Described};
 
 use crate::error::Error;
 
-/// A system of bars for which the question "where does it come to rest?" has an answer: a chain between two anchors,
-/// or joints with members between them.
+/// A system of bars for which the question "where does it come to rest?" has an answer: a chain
+/// between two anchors, or joints with members between them.
 ///
 /// ```
 /// use funicular::prelude::*;
@@ -28,7 +28,8 @@ enum Kind {
 }
 
 impl Problem {
-    /// The problem of a system file. Bars in a file of their own may be CSV, or with the feature `columns` Parquet.
+    /// The problem of a system file. Bars in a file of their own may be CSV, or with the feature
+    /// `columns` Parquet.
     ///
     /// # Errors
     ///
@@ -61,7 +62,8 @@ impl Problem {
         Ok(system_file::parse(text, name)?.into())
     }
 
-    /// A named case, such as `three-equal-bars`, the example of the paper; [`model::cases`] has all.
+    /// A named case, such as `three-equal-bars`, the example of the paper; [`model::cases`] has
+    /// all.
     ///
     /// # Errors
     ///

@@ -27,8 +27,8 @@ impl Reproduce {
     ///
     /// # Errors
     ///
-    /// [`Error::Reproduction`] when a solver has no answer to the paper's example, [`Error::Report`] when it cannot be
-    /// told.
+    /// [`Error::Reproduction`] when a solver has no answer to the paper's example,
+    /// [`Error::Report`] when it cannot be told.
     pub fn run(&self) -> Result<Report, Error> {
         self.run_watched(|_| {})
     }

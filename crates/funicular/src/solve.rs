@@ -18,8 +18,8 @@ use crate::threads;
 /// Version of the JSON objects; raised when a key that others rely on changes its meaning.
 pub const SCHEMA_VERSION: u32 = 2;
 
-/// Finds the hanging equilibrium by both solvers, compares, judges and certifies their answers, and looks short chains
-/// up in their census.
+/// Finds the hanging equilibrium by both solvers, compares, judges and certifies their answers, and
+/// looks short chains up in their census.
 ///
 /// ```
 /// use funicular::prelude::*;
@@ -63,8 +63,8 @@ impl Solve {
         Self { census, ..self }
     }
 
-    /// How many threads share the work, 0 (the default) for those of the pool that it is called from. No answer
-    /// depends on it.
+    /// How many threads share the work, 0 (the default) for those of the pool that it is called
+    /// from. No answer depends on it.
     #[must_use]
     pub fn threads(self, threads: usize) -> Self {
         Self { threads, ..self }
@@ -74,8 +74,8 @@ impl Solve {
     ///
     /// # Errors
     ///
-    /// [`Error::Unsolved`] when no solver has an answer; if one has, [`SolveAnswer::failures`] says why the other has
-    /// none.
+    /// [`Error::Unsolved`] when no solver has an answer; if one has, [`SolveAnswer::failures`] says
+    /// why the other has none.
     pub fn run(&self, problem: &Problem) -> Result<SolveAnswer, Error> {
         self.run_watched(problem, &|_| {})
     }
@@ -96,8 +96,8 @@ impl Solve {
         })?
     }
 
-    /// Solve many problems in parallel. The answers are in the order of the problems, and each is that of
-    /// [`run`](Self::run) but for the times.
+    /// Solve many problems in parallel. The answers are in the order of the problems, and each is
+    /// that of [`run`](Self::run) but for the times.
     ///
     /// ```
     /// use funicular::prelude::*;
@@ -109,7 +109,8 @@ impl Solve {
     ///
     /// # Errors
     ///
-    /// [`Error::TooManyThreads`] and [`Error::Threads`]; what becomes of a problem stands in its place.
+    /// [`Error::TooManyThreads`] and [`Error::Threads`]; what becomes of a problem stands in its
+    /// place.
     pub fn run_all(&self, problems: &[Problem]) -> Result<Vec<Result<SolveAnswer, Error>>, Error> {
         threads::on(self.threads, || {
             let one = |problem| self.one(problem, NonZeroUsize::MIN, &|_| {});
@@ -179,19 +180,22 @@ impl SolveAnswer {
         self.answer.agreement.as_ref()
     }
 
-    /// Whether both solvers answered and agree, the judge finds both in balance, and no census refutes them.
+    /// Whether both solvers answered and agree, the judge finds both in balance, and no census
+    /// refutes them.
     #[must_use]
     pub fn agrees(&self) -> bool {
         self.answer.agrees()
     }
 
-    /// Whether a check has failed: the answers disagree, the judge refuses one, or a complete census refutes one.
+    /// Whether a check has failed: the answers disagree, the judge refuses one, or a complete
+    /// census refutes one.
     #[must_use]
     pub fn check_failed(&self) -> bool {
         self.answer.check_failed()
     }
 
-    /// Whether every solver that was asked has an answer, and each has converged or is proved to be an equilibrium.
+    /// Whether every solver that was asked has an answer, and each has converged or is proved to be
+    /// an equilibrium.
     #[must_use]
     pub fn is_decided(&self) -> bool {
         self.answer.is_decided()
@@ -231,8 +235,9 @@ impl SolveAnswer {
         Ok(value)
     }
 
-    /// A line per solver and joint as CSV: position, force of bar k+1 on bar k (at joint 0 of the ground on bar 1, at
-    /// joint n of the ground on bar n), and the axial force of the bar that ends there.
+    /// A line per solver and joint as CSV: position, force of bar k+1 on bar k (at joint 0 of the
+    /// ground on bar 1, at joint n of the ground on bar n), and the axial force of the bar that
+    /// ends there.
     ///
     /// # Errors
     ///

@@ -123,7 +123,8 @@ impl Sweep {
         Self { threads, ..self }
     }
 
-    /// Only one of several parts, to be joined by [`merge`](sweep::merge); for [`PreparedSweep::write`].
+    /// Only one of several parts, to be joined by [`merge`](sweep::merge); for
+    /// [`PreparedSweep::write`].
     #[must_use]
     pub fn shard(self, shard: Shard) -> Self {
         Self { shard, ..self }
@@ -162,8 +163,8 @@ impl Sweep {
     ///
     /// # Errors
     ///
-    /// [`Error::GridSeeds`] when a grid cannot have so many points, [`Error::Sweep`] for settings out of range and
-    /// chains without a list, [`Error::TooManyThreads`].
+    /// [`Error::GridSeeds`] when a grid cannot have so many points, [`Error::Sweep`] for settings
+    /// out of range and chains without a list, [`Error::TooManyThreads`].
     pub fn prepare(&self, problem: &Problem) -> Result<PreparedSweep, Error> {
         let chain = problem.chain_for("a sweep")?;
         if self.threads > MOST_THREADS {
@@ -283,7 +284,8 @@ pub struct SweepAnswer {
     pub equilibria: Vec<Member>,
     /// Whether it is proved that there are no others.
     pub complete: bool,
-    /// Equilibria that were reached when the list was made, and are not in it: too many, each from few starts.
+    /// Equilibria that were reached when the list was made, and are not in it: too many, each from
+    /// few starts.
     pub left_out: u64,
     /// The counts.
     pub summary: Summary,

@@ -14,8 +14,8 @@ use crate::solve::{Failure, SCHEMA_VERSION, Solve};
 use crate::threads;
 
 impl Solve {
-    /// Solve a system of joints and members: any network of bars, cables and struts, rigid or elastic, under
-    /// weights and constant forces.
+    /// Solve a system of joints and members: any network of bars, cables and struts, rigid or
+    /// elastic, under weights and constant forces.
     ///
     /// ```
     /// use funicular::prelude::*;
@@ -39,8 +39,9 @@ impl Solve {
     ///
     /// # Errors
     ///
-    /// [`Error::SystemRefused`] when the system has no equilibrium, [`Error::UnsolvedSystem`] when no solver has
-    /// an answer; if one has, [`SystemSolution::failures`] says why the other has none.
+    /// [`Error::SystemRefused`] when the system has no equilibrium, [`Error::UnsolvedSystem`] when
+    /// no solver has an answer; if one has, [`SystemSolution::failures`] says why the other has
+    /// none.
     pub fn run_system(&self, system: &System) -> Result<SystemSolution, Error> {
         self.run_system_watched(system, &|_| {})
     }
@@ -139,7 +140,8 @@ impl SystemSolution {
         Ok(())
     }
 
-    /// Members as CSV, a line per solver and member: its joints, axial force, and the forces on it at both.
+    /// Members as CSV, a line per solver and member: its joints, axial force, and the forces on it
+    /// at both.
     ///
     /// # Errors
     ///

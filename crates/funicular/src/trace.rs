@@ -11,7 +11,8 @@ use crate::error::Error;
 use crate::problem::Problem;
 use crate::threads;
 
-/// Follows all equilibria over a number of the system file: branches, folds, exchanges of stability.
+/// Follows all equilibria over a number of the system file: branches, folds, exchanges of
+/// stability.
 ///
 /// ```
 /// use funicular::prelude::*;
@@ -42,8 +43,8 @@ impl Trace {
         Self::default()
     }
 
-    /// A number of the system file and its values, as `anchors.end_m.z=-2.9..-0.1:500`. Branches are followed along
-    /// the last one; each combination of the others is a path of its own.
+    /// A number of the system file and its values, as `anchors.end_m.z=-2.9..-0.1:500`. Branches
+    /// are followed along the last one; each combination of the others is a path of its own.
     ///
     /// # Errors
     ///
@@ -66,7 +67,8 @@ impl Trace {
         self
     }
 
-    /// How many threads share the work, 0 (the default) for those of the pool that it is called from.
+    /// How many threads share the work, 0 (the default) for those of the pool that it is called
+    /// from.
     #[must_use]
     pub fn threads(self, threads: usize) -> Self {
         Self { threads, ..self }
@@ -86,8 +88,8 @@ impl Trace {
     ///
     /// # Errors
     ///
-    /// As [`study`](Self::study), and [`Error::Continuation`] when the chain is too long for a census. A point that is
-    /// refused or undecided is no error: it says so.
+    /// As [`study`](Self::study), and [`Error::Continuation`] when the chain is too long for a
+    /// census. A point that is refused or undecided is no error: it says so.
     pub fn run(&self, problem: &Problem) -> Result<TraceAnswer, Error> {
         self.run_watched(problem, &|_, _| {})
     }
@@ -159,7 +161,8 @@ impl TraceAnswer {
         Some(branches::diagram(path, &self.title, abscissa, bar))
     }
 
-    /// A line per point of a branch as CSV: units in the names of the columns, nothing where a force is infinite.
+    /// A line per point of a branch as CSV: units in the names of the columns, nothing where a
+    /// force is infinite.
     ///
     /// # Errors
     ///

@@ -13,12 +13,13 @@ pub const PI: Interval =
 /// How often the angle is halved: then |x| < tan(π/16) < 0.2.
 const HALVINGS: usize = 3;
 
-/// Terms of the series for |x| < 0.2: the first one left out is below 0.2²⁷/27 < 2⁻⁶⁷, far below the
-/// last place of x.
+/// Terms of the series for |x| < 0.2: the first one left out is below 0.2²⁷/27 < 2⁻⁶⁷, far below
+/// the last place of x.
 const TERMS: u32 = 13;
 
-/// The angle of the vector (x, y) from the first axis, rad, in (−π, π]; both ends may lie in (π, 2π) if
-/// the vectors straddle the negative axis. If they contain zero nothing is known: all of [−π, π].
+/// The angle of the vector (x, y) from the first axis, rad, in (−π, π]; both ends may lie in (π,
+/// 2π) if the vectors straddle the negative axis. If they contain zero nothing is known: all of
+/// [−π, π].
 ///
 /// ```
 /// use intervals::{Interval, PI, atan2};
@@ -65,11 +66,11 @@ fn at(x: f64) -> Interval {
 
 /// (atan √s)/√s = 1 − s/3 + s²/5 − ... for the numbers s of 0..1 in the interval.
 ///
-/// With the rests R_k = 1/(2k + 1) − s/(2k + 3) + ... it is R_0, and R_k = 1/(2k + 1) − s R_{k+1}. The
-/// terms of `R_k` alternate in sign and do not grow for s ≤ 1, so `R_k` lies between 0 and its first
-/// term 1/(2k + 1). From that enclosure of the first rest left out, k = `terms`, Horner's scheme goes
-/// down to k = 0; each step multiplies its width by s, and in the end it is s^`terms`/(2 `terms` + 1),
-/// the first term left out.
+/// With the rests R_k = 1/(2k + 1) − s/(2k + 3) + ... it is R_0, and R_k = 1/(2k + 1) − s R_{k+1}.
+/// The terms of `R_k` alternate in sign and do not grow for s ≤ 1, so `R_k` lies between 0 and its
+/// first term 1/(2k + 1). From that enclosure of the first rest left out, k = `terms`, Horner's
+/// scheme goes down to k = 0; each step multiplies its width by s, and in the end it is
+/// s^`terms`/(2 `terms` + 1), the first term left out.
 fn series(square: Interval, terms: u32) -> Interval {
     let first_of_rest =
         |k: u32| Interval::ONE / Interval::point(2.0_f64.mul_add(f64::from(k), 1.0));
@@ -107,8 +108,8 @@ mod tests {
         assert_eq!(atan2(Interval::ZERO, Interval::ZERO), Interval::new(-PI.hi(), PI.hi()));
     }
 
-    /// With few terms the rest that is left out is far above all roundings: the enclosure must hold it,
-    /// and be no wider than the first term left out.
+    /// With few terms the rest that is left out is far above all roundings: the enclosure must hold
+    /// it, and be no wider than the first term left out.
     #[test]
     fn the_rest_of_the_series_is_enclosed() {
         for terms in 1..TERMS {

@@ -1,11 +1,12 @@
-//! Numbers of about 32 digits with a proved error: unevaluated sums of two doubles ("double-double").
+//! Numbers of about 32 digits with a proved error: unevaluated sums of two doubles
+//! ("double-double").
 //!
 //! Where a result is ill-conditioned, its residual is evaluated with these numbers, so that the
 //! enclosures of the result are as narrow as doubles allow.
 //!
-//! A number is `hi + lo ± error`. Sums and products of two doubles are split exactly into their rounded
-//! value and the rounding error; what else is rounded is added to the error. Quotients and roots are
-//! refined once and then judged by their exact residual.
+//! A number is `hi + lo ± error`. Sums and products of two doubles are split exactly into their
+//! rounded value and the rounding error; what else is rounded is added to the error. Quotients and
+//! roots are refined once and then judged by their exact residual.
 //!
 //! # References
 //!

@@ -17,8 +17,8 @@
 //! | [`DoubleDouble`] | two doubles and an error | residuals of ill-conditioned systems |
 //! | [`CompensatedSum`] | a double, without a proof | sums of many terms |
 //!
-//! No mechanics lives here, and the two solvers use none of it: what judges their answers shares nothing
-//! with them.
+//! No mechanics lives here, and the two solvers use none of it: what judges their answers shares
+//! nothing with them.
 
 mod angle;
 mod double_double;

@@ -2,10 +2,10 @@
 //!
 //! # Why it is rigorous
 //!
-//! IEEE 754 rounds +, −, ×, ÷ and √ correctly: the computed value is a neighbour of the exact one, so
-//! the next double below and the next double above it enclose the exact result. Stepping to the next
-//! double is done without branches by the formula of Rump, Zimmermann, Boldo and Melquiond: with
-//! `u` = 2⁻⁵³, `φ = u(1 + 2u)` and the smallest subnormal number `η`,
+//! IEEE 754 rounds +, −, ×, ÷ and √ correctly: the computed value is a neighbour of the exact one,
+//! so the next double below and the next double above it enclose the exact result. Stepping to the
+//! next double is done without branches by the formula of Rump, Zimmermann, Boldo and Melquiond:
+//! with `u` = 2⁻⁵³, `φ = u(1 + 2u)` and the smallest subnormal number `η`,
 //!
 //! $$ \mathrm{fl}(x - \mathrm{fl}(\varphi |x| + \eta)) \le \mathrm{pred}(x), \qquad
 //!    \mathrm{succ}(x) \le \mathrm{fl}(x + \mathrm{fl}(\varphi |x| + \eta)) $$

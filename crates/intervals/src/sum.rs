@@ -2,7 +2,8 @@
 
 use crate::rounding::two_sum;
 
-/// A compensated running sum: as accurate as if it were added with twice the digits and rounded once.
+/// A compensated running sum: as accurate as if it were added with twice the digits and rounded
+/// once.
 ///
 /// ```
 /// use intervals::CompensatedSum;

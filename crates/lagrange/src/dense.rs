@@ -98,8 +98,8 @@ impl Equations for Dense<'_> {
     }
 }
 
-/// $d = -(J^T J + s^2)^{-1} J^T r = -\sum_i v_i\\,\frac{\sigma_i}{\sigma_i^2 + s^2}\\,(u_i \cdot r)$
-/// from the singular values of J; with s = 0 and the zero ones left out it would be the
+/// $d = -(J^T J + s^2)^{-1} J^T r = -\sum_i v_i\\,\frac{\sigma_i}{\sigma_i^2 + s^2}\\,(u_i \cdot
+/// r)$ from the singular values of J; with s = 0 and the zero ones left out it would be the
 /// minimum-norm step. `None` when the decomposition does not converge.
 pub(crate) fn damped_step(
     jacobian: &DMatrix<f64>,

@@ -71,7 +71,8 @@ mod tests {
 
     #[test]
     fn regular_angles_have_their_direction_and_a_long_spin() {
-        // The axes, +Y where the paper's psi = 0, theta = pi/2 loses a moment balance, and all around.
+        // The axes, +Y where the paper's psi = 0, theta = pi/2 loses a moment balance, and all
+        // around.
         let axes = [Vector3::x(), -Vector3::x(), Vector3::y(), -Vector3::z()];
         let around = (0..200)
             .map(f64::from)

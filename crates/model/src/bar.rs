@@ -83,7 +83,8 @@ impl Bar {
     ///
     /// # Errors
     ///
-    /// [`BarError`] when the length or the mass is out of range, or so large that `m l²` is infinite.
+    /// [`BarError`] when the length or the mass is out of range, or so large that `m l²` is
+    /// infinite.
     ///
     /// ```
     /// let bar = model::Bar::homogeneous(2.0, 3.0)?;
@@ -95,8 +96,9 @@ impl Bar {
         Self::new(length_m, mass_kg, 0.5 * length_m, Self::slender_inertia(length_m, mass_kg))
     }
 
-    /// Principal central moments `[0, m l²/12, m l²/12]` of a homogeneous slender bar, kg m²: mass on a
-    /// line has none about that line, and `∫ (s − l/2)² m/l ds` over `0 ≤ s ≤ l` about the others.
+    /// Principal central moments `[0, m l²/12, m l²/12]` of a homogeneous slender bar, kg m²: mass
+    /// on a line has none about that line, and `∫ (s − l/2)² m/l ds` over `0 ≤ s ≤ l` about the
+    /// others.
     ///
     /// This is also what a system file means that gives no moments, wherever it puts the centre of
     /// weight: a stand-in, since no equilibrium depends on them.

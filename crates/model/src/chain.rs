@@ -27,8 +27,8 @@ impl Anchors {
     /// Distance of the anchors, m; free of overflow and underflow in between.
     ///
     /// It is the distance of the coordinates as the doubles they are, to about one unit in its last
-    /// place: the difference of two doubles close to each other is exact. What decimal coordinates far
-    /// from the origin lost when they became doubles is not in it; see
+    /// place: the difference of two doubles close to each other is exact. What decimal coordinates
+    /// far from the origin lost when they became doubles is not in it; see
     /// [`Refusal::Unresolved`](crate::Refusal::Unresolved).
     ///
     /// ```
@@ -97,16 +97,17 @@ pub enum ChainError {
 
 /// Least total length (m), weight (N), and weight times length (J) of a chain.
 ///
-/// Results carry relative errors of about one [`f64::EPSILON`]; below this total such an error would be
-/// less than the smallest normal number, digits would be lost without notice, and products would vanish.
+/// Results carry relative errors of about one [`f64::EPSILON`]; below this total such an error
+/// would be less than the smallest normal number, digits would be lost without notice, and products
+/// would vanish.
 pub const SMALLEST_TOTAL: f64 = f64::MIN_POSITIVE / f64::EPSILON;
 
 /// Largest level distance of anchors on one vertical, relative to the total length.
 ///
-/// The two differences of coordinates and the total length carry a rounding error of about one unit in
-/// the last place each, decimal coordinates half a unit each; sixteen units leave room for them and
-/// for coordinates that were computed in a few steps. The turn of a chain about anchors that are
-/// really so far apart level changes its energy by less than the rounding of the energy.
+/// The two differences of coordinates and the total length carry a rounding error of about one unit
+/// in the last place each, decimal coordinates half a unit each; sixteen units leave room for them
+/// and for coordinates that were computed in a few steps. The turn of a chain about anchors that
+/// are really so far apart level changes its energy by less than the rounding of the energy.
 pub const VERTICAL_TOLERANCE: f64 = 16.0 * f64::EPSILON;
 
 impl Chain {
@@ -116,7 +117,8 @@ impl Chain {
     ///
     /// # Errors
     ///
-    /// [`ChainError`] when there is no bar, a number is out of range, or a total overflows or vanishes.
+    /// [`ChainError`] when there is no bar, a number is out of range, or a total overflows or
+    /// vanishes.
     pub fn new(
         name: impl Into<String>,
         gravity_m_s2: f64,
@@ -191,12 +193,12 @@ impl Chain {
         sum(self.bars.iter().map(Bar::mass_kg))
     }
 
-    /// Whether both anchors stand on one vertical, to rounding ([`VERTICAL_TOLERANCE`]): the chain then
-    /// turns about it freely, and any vertical plane through the anchors is its plane.
+    /// Whether both anchors stand on one vertical, to rounding ([`VERTICAL_TOLERANCE`]): the chain
+    /// then turns about it freely, and any vertical plane through the anchors is its plane.
     ///
-    /// Everything that computes in doubles asks here. The census, which takes the coordinates as exact
-    /// numbers, asks for a level distance of exactly zero: next to it equilibria are proved to be
-    /// isolated where on it there are circles of them.
+    /// Everything that computes in doubles asks here. The census, which takes the coordinates as
+    /// exact numbers, asks for a level distance of exactly zero: next to it equilibria are proved
+    /// to be isolated where on it there are circles of them.
     ///
     /// ```
     /// let paper = model::cases::paper();

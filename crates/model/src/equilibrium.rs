@@ -19,15 +19,15 @@ pub struct Equilibrium {
     pub energy_j: f64,
     /// Positions of the joints 0..=n, world frame, m.
     pub joints_m: Vec<Vector>,
-    /// The 3(n+1) multipliers in the paper's meaning and order, world frame, N: entry 0 is the force
-    /// of the ground on bar 1 at joint 0 (λ₁..₃), entry k = 1..n−1 the force of bar k+1 on bar k at
-    /// joint k, entry n the force of the ground on bar n at joint n.
+    /// The 3(n+1) multipliers in the paper's meaning and order, world frame, N: entry 0 is the
+    /// force of the ground on bar 1 at joint 0 (λ₁..₃), entry k = 1..n−1 the force of bar k+1 on
+    /// bar k at joint k, entry n the force of the ground on bar n at joint n.
     pub multipliers_n: Vec<Vector>,
     /// Forces of the ground on the chain, world frame, N.
     pub reactions_n: Reactions,
     /// Axial force of each bar with its weight lumped to its joints by the lever rule, N, tension
-    /// positive. The axial force varies along a heavy bar; this is its value at the centre of weight
-    /// of a homogeneous bar, and the only one for which the whole force is along the bar.
+    /// positive. The axial force varies along a heavy bar; this is its value at the centre of
+    /// weight of a homogeneous bar, and the only one for which the whole force is along the bar.
     pub axial_n: Vec<f64>,
     /// Second-order behaviour.
     pub stability: Stability,

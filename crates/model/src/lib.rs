@@ -5,9 +5,9 @@
 //! of one solver with its [`Evidence`].
 //!
 //! No mechanics lives here. The two solvers, which must know nothing of each other, both depend on
-//! this crate; a formula of statics in it would be a formula they share. Sums of lengths and masses,
-//! the distance of two anchors and whether they stand on one vertical, and the moments of a slender bar (which no equilibrium depends on) are
-//! all it computes.
+//! this crate; a formula of statics in it would be a formula they share. Sums of lengths and
+//! masses, the distance of two anchors and whether they stand on one vertical, and the moments of a
+//! slender bar (which no equilibrium depends on) are all it computes.
 //!
 //! # Conventions
 //!

@@ -1,8 +1,9 @@
 //! Numbers as they are told to a reader: the value, and how many of its digits mean something.
 //!
-//! What differs from processor to processor is the rounding of sines and cosines, a few units of the last
-//! place. A page that is to be the same on every machine tells numbers of that size as a bound, and all
-//! others with no more digits than are stable: that is what the alternate form, `{:#}`, does.
+//! What differs from processor to processor is the rounding of sines and cosines, a few units of
+//! the last place. A page that is to be the same on every machine tells numbers of that size as a
+//! bound, and all others with no more digits than are stable: that is what the alternate form,
+//! `{:#}`, does.
 
 use std::fmt::{self, Display, Formatter};
 

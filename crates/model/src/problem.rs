@@ -10,8 +10,8 @@ use crate::{Anchors, Bar, Chain};
 /// decimal numbers of a file. A chain this straight cannot be told from a taut one.
 pub const STRAIGHT_TOLERANCE: f64 = 16.0 * f64::EPSILON;
 
-/// What the rounding of the anchors' coordinates can change the span by, relative to the largest of them:
-/// six coordinates, half a unit in the last place each.
+/// What the rounding of the anchors' coordinates can change the span by, relative to the largest of
+/// them: six coordinates, half a unit in the last place each.
 const ANCHOR_ROUNDING: f64 = 3.0 * f64::EPSILON;
 
 /// A chain for which the question "where does it come to rest, with which forces?" has an answer.
@@ -33,8 +33,8 @@ pub struct Problem(Chain);
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Refusal {
-    /// Occurs when the chain is one bar that fits between the anchors: it cannot move, and the anchors
-    /// share the force along it in any way they like.
+    /// Occurs when the chain is one bar that fits between the anchors: it cannot move, and the
+    /// anchors share the force along it in any way they like.
     #[error(
         "a single bar between two fixed points cannot move, and the force along it is indeterminate \
          (length {} m, span {} m)", Readable(*length_m), Readable(*span_m)
@@ -114,8 +114,8 @@ pub enum Refusal {
         coordinate_m: f64,
         /// What its rounding can change the span by.
         rounding_m: f64,
-        /// What is left when the bars are stretched out or folded on one line; negative if they do not
-        /// reach.
+        /// What is left when the bars are stretched out or folded on one line; negative if they do
+        /// not reach.
         margin_m: f64,
     },
     /// Occurs when no bar has mass: nothing hangs.

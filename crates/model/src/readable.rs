@@ -5,8 +5,8 @@ use std::fmt;
 /// Sizes that are written digit by digit; beyond them zeros would have to be counted.
 const PLAIN: std::ops::Range<f64> = 1e-6..1e9;
 
-/// A number as people read it: plain where it is of ordinary size, with a power of ten where it is not. Both
-/// forms have the fewest digits that read back to the same double.
+/// A number as people read it: plain where it is of ordinary size, with a power of ten where it is
+/// not. Both forms have the fewest digits that read back to the same double.
 pub(crate) struct Readable(pub(crate) f64);
 
 impl fmt::Display for Readable {

@@ -6,10 +6,12 @@ use serde::Serialize;
 
 use crate::example::Example;
 
-/// Starts along each of theta and alpha. Odd, so that 0 is one of them and the picture is symmetric.
+/// Starts along each of theta and alpha. Odd, so that 0 is one of them and the picture is
+/// symmetric.
 const SIDE: usize = 73;
 
-/// A slice: the third bar hangs straight down at the start, the other two angles are those of a grid.
+/// A slice: the third bar hangs straight down at the start, the other two angles are those of a
+/// grid.
 const BETA_RAD: f64 = 0.0;
 
 /// How close an end has to come in energy to an equilibrium to be it, mgl.
@@ -26,8 +28,8 @@ const NO_ANSWER: char = '-';
 pub struct Basins {
     /// The solver.
     pub solver: SolverName,
-    /// One string for each alpha from 180 to −180 deg, one letter for each theta from −180 to 180 deg:
-    /// `1`, `2`, `3`, `4` for E1, E1', E2, E2', `-` where the solver gave no answer.
+    /// One string for each alpha from 180 to −180 deg, one letter for each theta from −180 to 180
+    /// deg: `1`, `2`, `3`, `4` for E1, E1', E2, E2', `-` where the solver gave no answer.
     pub rows: Vec<String>,
 }
 
@@ -116,8 +118,8 @@ mod tests {
             assert_eq!(basins.rows.len(), SIDE);
             assert!(basins.rows.iter().all(|row| row.len() == SIDE));
         }
-        // The minimiser: E1 or E1', nearly all starts. A start with all bars on one line has no side to
-        // fall to.
+        // The minimiser: E1 or E1', nearly all starts. A start with all bars on one line has no
+        // side to fall to.
         let minima = energy.count('1') + energy.count('2');
         assert!(
             minima + energy.count(NO_ANSWER) == SIDE * SIDE && energy.count(NO_ANSWER) < 10,

@@ -1,7 +1,7 @@
 //! The energy of all configurations of the paper's example, bounded without any guess.
 //!
-//! Convex programmes, solved by clarabel and rounded to proofs, against the equilibria that the solvers
-//! found: the semidefinite bounds are tight on both sides, the bound by cables is not.
+//! Convex programmes, solved by clarabel and rounded to proofs, against the equilibria that the
+//! solvers found: the semidefinite bounds are tight on both sides, the bound by cables is not.
 
 use bounds::{BoundError, BoundSettings, Sense, cable_bound, semidefinite};
 use serde::Serialize;
@@ -19,12 +19,13 @@ pub struct Bounds {
     pub upper_mgl: f64,
     /// That bound less V(E2) by `lagrange`.
     pub gap_to_e2_mgl: f64,
-    /// The lower bound with bars as cables: second-order cones. Not tight, since bar 3 is in compression.
+    /// The lower bound with bars as cables: second-order cones. Not tight, since bar 3 is in
+    /// compression.
     pub cables_mgl: f64,
 }
 
-/// Largest gap, mgl, at which a bound shows that an equilibrium is the global minimum or maximum: roundings of a
-/// few 1e-15 on either side.
+/// Largest gap, mgl, at which a bound shows that an equilibrium is the global minimum or maximum:
+/// roundings of a few 1e-15 on either side.
 const TIGHT_MGL: f64 = 1e-12;
 
 /// How far below zero a gap may come out: the energies compared are rounded, the bounds are proofs.

@@ -1,9 +1,9 @@
 //! Section VIII closed: all equilibria of the paper's example, with proof, and (x) none of them.
 //!
-//! The census lists them and proves that there is no other. Others confirm it here: exact root counting
-//! on the sextic, the topology of the closure curve, `lagrange` and the statics judge. What the paper
-//! prints as its second position is refuted without any equilibrium at all: over the whole box of
-//! positions whose angles round to the printed ones, the energy has a slope.
+//! The census lists them and proves that there is no other. Others confirm it here: exact root
+//! counting on the sextic, the topology of the closure curve, `lagrange` and the statics judge.
+//! What the paper prints as its second position is refuted without any equilibrium at all: over the
+//! whole box of positions whose angles round to the printed ones, the energy has a slope.
 
 use census::{Census, Interval};
 use model::Chain;
@@ -30,8 +30,8 @@ pub struct Completeness {
     pub alternating_sum: i64,
     /// The Euler characteristic of the closure curve from the lengths alone.
     pub euler: Option<i64>,
-    /// Real roots of the sextic in cos θ between −1 and 1, counted exactly by Sturm's theorem; each stands
-    /// for an equilibrium and its mirror image.
+    /// Real roots of the sextic in cos θ between −1 and 1, counted exactly by Sturm's theorem; each
+    /// stands for an equilibrium and its mirror image.
     pub sextic_roots: Option<usize>,
     /// Patterns of tension and compression that the census goes through.
     pub patterns: u64,
@@ -39,8 +39,8 @@ pub struct Completeness {
     pub cells: u64,
     /// The largest relative width of an enclosure.
     pub width: f64,
-    /// How far outside of its boxes `lagrange` ends, started within them; in units of the total length, the
-    /// worst of all equilibria.
+    /// How far outside of its boxes `lagrange` ends, started within them; in units of the total
+    /// length, the worst of all equilibria.
     pub lagrange: f64,
     /// The largest violation of Newton's laws by the middles of the boxes.
     pub statics: f64,
@@ -52,12 +52,14 @@ pub struct Completeness {
     pub seconds: f64,
 }
 
-/// A position printed by the paper, as the box of all positions whose angles round to the printed ones.
+/// A position printed by the paper, as the box of all positions whose angles round to the printed
+/// ones.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct PrintedPosition {
     /// Enclosure of dV/dθ along the closure curve over this box, mgl/rad.
     pub slope_mgl: [f64; 2],
-    /// The nearest equilibrium of the four: the largest difference of an angle is at least that, deg.
+    /// The nearest equilibrium of the four: the largest difference of an angle is at least that,
+    /// deg.
     pub nearest_deg: f64,
 }
 
@@ -154,8 +156,8 @@ impl Completeness {
         }
     }
 
-    /// Whether the list is proved complete, all that does not need it confirms it, and (x) is proved not to
-    /// be on it.
+    /// Whether the list is proved complete, all that does not need it confirms it, and (x) is
+    /// proved not to be on it.
     #[must_use]
     pub fn is_closed(&self) -> bool {
         self.confirms_the_list(&Tolerances::project())

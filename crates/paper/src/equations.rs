@@ -1,11 +1,12 @@
 //! Every numbered equation of the paper, evaluated as it is printed and as it should be.
 //!
-//! [`audit`] types the equations in once more and measures each against something that does not come from
-//! the same line of print: a product of matrices, a configuration that is closed by construction, a numeric
-//! derivative, Newton's law, or the equilibrium of lowest energy. Where the fault is in the notation (a
-//! bracket that is missing, a number used twice, a citation that leads nowhere) the number is a count. No
-//! verdict is written down: each follows from the two numbers of its row. What is no error of the argument but
-//! of the print, or of the copy of it that was typed in, is told apart as a fault of form ([`Fault`]).
+//! [`audit`] types the equations in once more and measures each against something that does not
+//! come from the same line of print: a product of matrices, a configuration that is closed by
+//! construction, a numeric derivative, Newton's law, or the equilibrium of lowest energy. Where the
+//! fault is in the notation (a bracket that is missing, a number used twice, a citation that leads
+//! nowhere) the number is a count. No verdict is written down: each follows from the two numbers of
+//! its row. What is no error of the argument but of the print, or of the copy of it that was typed
+//! in, is told apart as a fault of form ([`Fault`]).
 //!
 //! | module | section of the paper | equations |
 //! |---|---|---|
@@ -36,8 +37,8 @@ use serde::Serialize;
 
 /// Largest residual of an identity of sines and cosines that is only rounded.
 ///
-/// Entries are of order 1 to 10 (lengths up to 1.5 l, moments of inertia up to 2), a dozen operations each;
-/// measured worst of 1000 states: below 1e-14.
+/// Entries are of order 1 to 10 (lengths up to 1.5 l, moments of inertia up to 2), a dozen
+/// operations each; measured worst of 1000 states: below 1e-14.
 pub const ROUNDING: f64 = 1e-12;
 
 /// Largest residual of an identity that is held against a numeric derivative.
@@ -70,8 +71,9 @@ pub enum Validity {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Fault {
-    /// Layout and notation: brackets, line breaks, dots, rows and numbers lost or out of place. "As printed" is
-    /// what the copy at hand has, whose formulas are scrambled in places; such a fault may be the copy's.
+    /// Layout and notation: brackets, line breaks, dots, rows and numbers lost or out of place. "As
+    /// printed" is what the copy at hand has, whose formulas are scrambled in places; such a fault
+    /// may be the copy's.
     Form,
     /// Right to the step of the paper's scan, and not to all digits printed.
     Digits,
@@ -94,8 +96,8 @@ pub struct EquationAudit {
     pub measure: &'static str,
     /// Whether the residuals count something; otherwise 0 means rounding.
     pub counts: bool,
-    /// Residual of the equation as printed; for a definition what [`measure`](Self::measure) says of
-    /// what it defines.
+    /// Residual of the equation as printed; for a definition what [`measure`](Self::measure) says
+    /// of what it defines.
     pub as_printed: f64,
     /// Residual of the corrected equation.
     pub as_corrected: Option<f64>,

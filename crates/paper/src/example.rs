@@ -89,8 +89,8 @@ impl Planar {
         }
     }
 
-    /// The equilibrium turned about the vertical until joint A lies towards +Y: any solution in space
-    /// in the paper's plane.
+    /// The equilibrium turned about the vertical until joint A lies towards +Y: any solution in
+    /// space in the paper's plane.
     fn turned(units: PaperUnits, found: &Equilibrium) -> Self {
         let [x, y, _] = found.joints_m[1];
         let r = x.hypot(y);

@@ -1,4 +1,5 @@
-//! What there is to draw: the closure curve with the paper's scan on it, and how each solver converges.
+//! What there is to draw: the closure curve with the paper's scan on it, and how each solver
+//! converges.
 
 use energy::example::{Branch, CurvePoint, PAPER_STEP_RAD, ScanMinimum, curve};
 use model::{Problem, SolverName};
@@ -15,8 +16,8 @@ const CURVE_POINTS: usize = 721;
 const STARTS: [(&str, [f64; 3]); 2] =
     [("rough guess near E1", [0.3, 0.7, -1.3]), ("all bars swung out", [1.4, 2.2, -1.0])];
 
-/// How far from the first result of the scan the curve is drawn once more, enlarged, deg; the step of the
-/// scan is 0.0573 deg.
+/// How far from the first result of the scan the curve is drawn once more, enlarged, deg; the step
+/// of the scan is 0.0573 deg.
 pub const NEAR_DEG: f64 = 0.15;
 
 /// Points of the enlarged piece.
@@ -145,8 +146,8 @@ fn by_lagrange(problem: &Problem, start: &'static str, angles: [f64; 3]) -> Opti
     })
 }
 
-/// `energy` is run again and again with one iteration more each time: what is left after k iterations
-/// is what it says when it is stopped there.
+/// `energy` is run again and again with one iteration more each time: what is left after k
+/// iterations is what it says when it is stopped there.
 fn by_energy(problem: &Problem, start: &'static str, angles: [f64; 3]) -> Option<History> {
     let seed = energy::Seed::angles(problem, &angles).ok()?;
     let mut residuals = Vec::new();
@@ -203,8 +204,8 @@ mod tests {
     fn the_scan_lies_on_the_curve_and_its_second_result_on_a_slope() {
         let example = Example::solve().unwrap();
         let figures = Figures::compute(&example);
-        // The secant of the first two points of the scan, half a step further on; the slope changes by
-        // less than 2 mgl/rad per rad.
+        // The secant of the first two points of the scan, half a step further on; the slope changes
+        // by less than 2 mgl/rad per rad.
         let [first, second] = [figures.scan_points[1][0], figures.scan_points[1][1]];
         let secant = (second[1] - first[1]) / (second[0] - first[0]).to_radians();
         assert!((figures.slope_at_x - secant).abs() < 1e-3, "{}", figures.slope_at_x);

@@ -1,8 +1,9 @@
 //! The paper audited: what it prints, what is true, and the numbers that decide.
 //!
-//! What is printed comes from `validation/paper.toml` ([`printed`]). Its example is solved by both solvers and
-//! closed by the census ([`example`], [`completeness`]); each claim ([`claims`]) and each equation ([`equations`]) gets
-//! a verdict that follows from numbers. [`reproduce`] puts all of it into one value, which `report` renders.
+//! What is printed comes from `validation/paper.toml` ([`printed`]). Its example is solved by both
+//! solvers and closed by the census ([`example`], [`completeness`]); each claim ([`claims`]) and
+//! each equation ([`equations`]) gets a verdict that follows from numbers. [`reproduce`] puts all
+//! of it into one value, which `report` renders.
 //!
 //! ```
 //! use paper::example::Example;

@@ -100,8 +100,8 @@ impl std::fmt::Display for Verdict {
     }
 }
 
-/// The rows of the audit of equations that are expected to fail, by the number of the equation, in the
-/// order of the audit; an equation with two faults stands twice.
+/// The rows of the audit of equations that are expected to fail, by the number of the equation, in
+/// the order of the audit; an equation with two faults stands twice.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct FailingEquations {

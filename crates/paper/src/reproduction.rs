@@ -117,8 +117,8 @@ pub struct Summary {
     pub cases: usize,
     /// Of these, both solvers agree and the statics judge passes both.
     pub cases_agreed: usize,
-    /// The largest difference between the solvers, of all observables of all cases, in the unit of its
-    /// budget.
+    /// The largest difference between the solvers, of all observables of all cases, in the unit of
+    /// its budget.
     pub largest_difference: Option<Row>,
 }
 
@@ -176,7 +176,8 @@ pub fn reproduce_with(
     })
 }
 
-/// E1 as the audit of the equations takes it: angles by the search for the least energy, forces by virtual work.
+/// E1 as the audit of the equations takes it: angles by the search for the least energy, forces by
+/// virtual work.
 ///
 /// The audit uses the matrices of `lagrange`, so that "(40) holds" is no solver's own residual.
 fn e1_state(example: &Example) -> E1State {
@@ -218,8 +219,8 @@ fn positions(example: &Example) -> Vec<Position> {
         .collect()
 }
 
-/// How far an equilibrium is proved by both solvers, the statics judge, the census and the certificate; without
-/// `energy` where that, looking for minima, has no answer.
+/// How far an equilibrium is proved by both solvers, the statics judge, the census and the
+/// certificate; without `energy` where that, looking for minima, has no answer.
 fn ladder(example: &Example, found: &Equilibrium, answer: Option<&energy::Solution>) -> Ladder {
     let mut found = found.clone();
     if let Some(answer) = answer {

@@ -21,16 +21,16 @@ const GENERATOR: u64 = 2026;
 /// Seeds that one worker solves with the memory of one solver.
 const CHUNK: usize = 250;
 
-/// Energies closer than this, mgl, are those of one equilibrium: solutions agree to 1e-12, E1 and E2 are
-/// 1.3 apart.
+/// Energies closer than this, mgl, are those of one equilibrium: solutions agree to 1e-12, E1 and
+/// E2 are 1.3 apart.
 const SAME_ENERGY_MGL: f64 = 1e-9;
 
 /// The two kinds of seeds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Kind {
-    /// The paper's choice: psi = 0, theta = pi/2, in the plane *OYZ*; phi uniform. `energy` minimises in
-    /// this plane.
+    /// The paper's choice: psi = 0, theta = pi/2, in the plane *OYZ*; phi uniform. `energy`
+    /// minimises in this plane.
     Planar,
     /// All three angles of each bar uniform. `energy` starts from the directions they give and
     /// minimises in space.
@@ -63,8 +63,8 @@ pub struct Survey {
     pub most_iterations: usize,
     /// What became of the rest, counted by what the solver said.
     pub lost: Vec<Lost>,
-    /// Wall-clock time on all cores of this machine, s. The only number here that is not the same in
-    /// every run.
+    /// Wall-clock time on all cores of this machine, s. The only number here that is not the same
+    /// in every run.
     pub seconds: f64,
 }
 
@@ -259,8 +259,8 @@ fn counted(
     survey
 }
 
-/// The equilibria to count by, and the side on which joint A lies (planar seeds only: in space a turn
-/// makes the mirror images one).
+/// The equilibria to count by, and the side on which joint A lies (planar seeds only: in space a
+/// turn makes the mirror images one).
 fn equilibria(example: &Example, kind: Kind) -> Vec<(Reached, Option<bool>)> {
     let solutions = example.lagrange.all();
     let place = |name: &str, which: usize, side| {

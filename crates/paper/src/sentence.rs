@@ -15,8 +15,8 @@ pub enum Part {
     Number(Number),
 }
 
-/// A sentence in parts. Whoever shows it decides how its numbers look: `{}` as they are, `{:#}` the same on
-/// every machine. In JSON it is its text.
+/// A sentence in parts. Whoever shows it decides how its numbers look: `{}` as they are, `{:#}` the
+/// same on every machine. In JSON it is its text.
 ///
 /// ```
 /// use model::number::Number;

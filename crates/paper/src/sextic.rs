@@ -1,7 +1,7 @@
 //! A third way to the planar equilibria of the example: the roots of a polynomial.
 //!
-//! With everything but $c = \cos\theta$ eliminated from "critical point of (vi) on the closure curve
-//! $5 - 4\cos\theta - 4\cos\alpha + 2\cos(\alpha - \theta) = 0$" there remains
+//! With everything but $c = \cos\theta$ eliminated from "critical point of (vi) on the closure
+//! curve $5 - 4\cos\theta - 4\cos\alpha + 2\cos(\alpha - \theta) = 0$" there remains
 //!
 //! $$ p(c) = 2048 c^6 - 8192 c^5 + 9472 c^4 + 2080 c^3 - 11348 c^2 + 7120 c - 1189 = 0 . $$
 //!
@@ -95,9 +95,9 @@ fn bisected(mut low: f64, mut high: f64) -> f64 {
 mod tests {
     use super::*;
 
-    /// At a critical point of (vi) on the curve the gradients are parallel. With theta given, the closure
-    /// gives alpha, and the determinant of the two gradients vanishes exactly where p does: both change
-    /// sign at the same cosines and nowhere else.
+    /// At a critical point of (vi) on the curve the gradients are parallel. With theta given, the
+    /// closure gives alpha, and the determinant of the two gradients vanishes exactly where p does:
+    /// both change sign at the same cosines and nowhere else.
     #[test]
     fn the_roots_are_the_critical_points_of_vi_on_the_closure_curve() {
         let determinant = |theta: f64, alpha: f64| {

@@ -40,15 +40,16 @@ pub(crate) fn sin_cos(x: Interval) -> [Interval; 2] {
     [within(x * series(2)), within(series(1))]
 }
 
-/// dV/dφ₁ of a closed chain of three bars in a vertical plane, in units of the first bar's weight times
-/// its length: φ₁ turns, and the two other bars follow so that the closure holds to first order,
+/// dV/dφ₁ of a closed chain of three bars in a vertical plane, in units of the first bar's weight
+/// times its length: φ₁ turns, and the two other bars follow so that the closure holds to first
+/// order,
 ///
 /// $$ \frac{dV}{d\varphi_1} = \sum_i W_i \sin\varphi_i \frac{t_i}{t_1}, \qquad
 ///    W_i = \Big(m_i r_i + l_i \sum_{j > i} m_j\Big) g, \qquad
 ///    t_1 = l_2 l_3 \sin(\varphi_3 - \varphi_2), \ldots $$
 ///
-/// Where it does not vanish there is no equilibrium, neither in the plane nor in space. `None` for other
-/// numbers of bars.
+/// Where it does not vanish there is no equilibrium, neither in the plane nor in space. `None` for
+/// other numbers of bars.
 pub(crate) fn slope(chain: &Chain, angles_rad: [Interval; 3]) -> Option<Interval> {
     let [a, b, c] = chain.bars() else { return None };
     let bars = [a, b, c];

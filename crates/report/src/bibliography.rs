@@ -1,7 +1,7 @@
 //! How to cite.
 
-/// BibTeX of the paper. Its authors and its venue are not in the copy of the text that this work rests
-/// on, so they are not here.
+/// BibTeX of the paper. Its authors and its venue are not in the copy of the text that this work
+/// rests on, so they are not here.
 pub const PAPER: &str = r"@unpublished{bars-multibody,
   title = {Equilibrium of a System of Bars Using a Multibody Type Method},
   note  = {Authors and venue are not named in the copy of the text used here}

@@ -44,8 +44,8 @@ impl Report {
     ///
     /// # Errors
     ///
-    /// [`ReportError::Census`] when the equilibria of the example cannot be listed, [`ReportError::Json`] when
-    /// a number is none.
+    /// [`ReportError::Census`] when the equilibria of the example cannot be listed,
+    /// [`ReportError::Json`] when a number is none.
     pub fn new(reproduction: Reproduction, environment: Environment) -> Result<Self, ReportError> {
         let census = Census::take(&model::cases::paper(), &census::Settings::default())?;
         let view = View::new(&reproduction).fragment()?;
@@ -70,7 +70,8 @@ impl Report {
         self.golden() + "\n" + &markdown::markdown(&self.run())
     }
 
-    /// `report.md` without what differs from run to run and from machine to machine: `validation/REPORT.md`.
+    /// `report.md` without what differs from run to run and from machine to machine:
+    /// `validation/REPORT.md`.
     #[must_use]
     pub fn golden(&self) -> String {
         markdown::markdown(&self.chapters())

@@ -97,8 +97,9 @@ const LONG: usize = 32;
 
 /// A table in a box that scrolls on its own, so that the page does not.
 ///
-/// Where there is no room for columns, one with verdicts becomes a list of rows with the verdict on top, so that none
-/// is out of sight. Its parts say what they are, since browsers take no table for one that is laid out otherwise.
+/// Where there is no room for columns, one with verdicts becomes a list of rows with the verdict on
+/// top, so that none is out of sight. Its parts say what they are, since browsers take no table for
+/// one that is laid out otherwise.
 fn rows(table: &Table) -> String {
     let mut text = String::new();
     let label =
@@ -240,8 +241,8 @@ fn inline(text: &str) -> String {
     links(&code)
 }
 
-/// `J_x`, `b_{1,5}` and `[Q]^T` lowered and raised: an index after a letter that stands by itself, a power after
-/// anything.
+/// `J_x`, `b_{1,5}` and `[Q]^T` lowered and raised: an index after a letter that stands by itself,
+/// a power after anything.
 fn scripts(text: &str) -> String {
     /// Longest index or power without braces: `Ci`, `12`.
     const LONGEST: usize = 2;

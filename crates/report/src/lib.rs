@@ -1,8 +1,8 @@
 //! What people read: the reproduction report and its figures.
 //!
 //! A [`Report`] is made from one [`Reproduction`](paper::Reproduction) and written as a page
-//! ([`Report::html`]: one file that needs nothing else), as Markdown ([`Report::markdown`]) and as JSON
-//! ([`Report::json`]). The first two are made of the same [`block`]s, so they say the same.
+//! ([`Report::html`]: one file that needs nothing else), as Markdown ([`Report::markdown`]) and as
+//! JSON ([`Report::json`]). The first two are made of the same [`block`]s, so they say the same.
 //!
 //! | module | what it does |
 //! |---|---|

@@ -64,8 +64,8 @@ pub fn mathml(latex: &str) -> String {
     BRACKETED.iter().fold(marked, |text, (from, to)| text.replace(from, to))
 }
 
-/// Brackets about a matrix stretch only in a font made for mathematics. The style of the page draws them
-/// as borders of the matrix instead; the signs stay for those who listen.
+/// Brackets about a matrix stretch only in a font made for mathematics. The style of the page draws
+/// them as borders of the matrix instead; the signs stay for those who listen.
 const BRACKETED: [(&str, &str); 2] = [
     (
         "<mo stretchy=\"true\">[</mo><mtable class=\"menv-arraylike\">",

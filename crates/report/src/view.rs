@@ -1,12 +1,13 @@
 //! The interactive view: the paper's chain in space, and its energy along the closure curve.
 //!
 //! [`View::new`] collects the numbers from a [`Reproduction`] and from [`energy::example`], and
-//! [`View::fragment`] puts them into a piece of HTML that brings its own style and script, asks no network
-//! and says the same in a table where scripts are off. The drawing is in `view/view.js`.
+//! [`View::fragment`] puts them into a piece of HTML that brings its own style and script, asks no
+//! network and says the same in a table where scripts are off. The drawing is in `view/view.js`.
 //!
-//! What can be seen: the chain turned about *OD*, with the weights and the forces of the ground; its shape,
-//! `V` and the slope of `V` while theta goes along the closed chains. E1, E2 and their mirror images, (ix)
-//! and (x) are samples of that curve themselves, so that one comes to rest on them exactly.
+//! What can be seen: the chain turned about *OD*, with the weights and the forces of the ground;
+//! its shape, `V` and the slope of `V` while theta goes along the closed chains. E1, E2 and their
+//! mirror images, (ix) and (x) are samples of that curve themselves, so that one comes to rest on
+//! them exactly.
 
 use std::fmt::Write as _;
 
@@ -58,8 +59,8 @@ pub struct State {
     pub axial_mg: Option<[f64; 3]>,
 }
 
-/// A closed chain: theta, alpha, beta in degrees, V in mgl, and dV/dtheta in mgl/rad, which is none where
-/// the curve turns back in theta.
+/// A closed chain: theta, alpha, beta in degrees, V in mgl, and dV/dtheta in mgl/rad, which is none
+/// where the curve turns back in theta.
 pub type Sample = (f64, f64, f64, f64, Option<f64>);
 
 /// The numbers of the interactive view.
@@ -95,8 +96,8 @@ impl View {
         )
     }
 
-    /// The same from its parts: equilibria, (ix) and (x) as theta, alpha, beta in degrees and V, and the
-    /// points of the scan to mark.
+    /// The same from its parts: equilibria, (ix) and (x) as theta, alpha, beta in degrees and V,
+    /// and the points of the scan to mark.
     fn of(equilibria: &[Position], [ix, x]: [[f64; 4]; 2], scan: Vec<[f64; 2]>) -> Self {
         let mut places: Vec<Place> = equilibria.iter().map(Place::equilibrium).collect();
         let away = equilibria.iter().map(|e| (e.lagrange_deg[0] - ix[0]).abs());
@@ -152,8 +153,8 @@ impl View {
     ///
     /// Occurs when the numbers cannot be written as JSON.
     pub fn fragment(&self) -> serde_json::Result<String> {
-        // `<` only ever stands inside a string, where JSON lets it be written like this; then nothing
-        // can end the script element early.
+        // `<` only ever stands inside a string, where JSON lets it be written like this; then
+        // nothing can end the script element early.
         let data = serde_json::to_string(self)?.replace('<', "\\u003c");
         let html = HTML
             .replace("@every@", &EVERY.to_string())

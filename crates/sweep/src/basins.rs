@@ -7,8 +7,8 @@ use figures::{
 
 use crate::record::{Failure, Outcomes};
 
-/// What became of the seeds of a regular grid over two angles, from 0° to 360° each, the first varying
-/// fastest: each seed stands for the square around it.
+/// What became of the seeds of a regular grid over two angles, from 0° to 360° each, the first
+/// varying fastest: each seed stands for the square around it.
 #[derive(Debug, Clone, Copy)]
 pub struct Basins<'a> {
     /// Seeds along each side.
@@ -197,8 +197,8 @@ impl Basins<'_> {
         Legend(entries)
     }
 
-    /// Light for few iterations, dark for many, black for failures; with the scale, which ends at the
-    /// 99th percentile so that a few slow starts do not hide the rest.
+    /// Light for few iterations, dark for many, black for failures; with the scale, which ends at
+    /// the 99th percentile so that a few slow starts do not hide the rest.
     fn shades(&self, svg: &mut Svg) -> (Vec<u8>, Vec<Colour>) {
         let Outcomes { outcome, iterations, .. } = self.outcomes;
         let reached = || iterations.iter().zip(outcome).filter(|(_, o)| **o >= 0).map(|(i, _)| *i);

@@ -13,17 +13,18 @@ use crate::settings::Settings;
 use crate::solver::{Ends, Finds, Finish, Solvers};
 use crate::starts::Source;
 
-/// An outcome is an equilibrium of the list when no joint is farther from it than this, in total lengths.
-/// A converged seed is within its residual (1e-13) times the condition of the equilibrium; equilibria
-/// nearer to each other than four times this narrow it to a quarter of their distance.
+/// An outcome is an equilibrium of the list when no joint is farther from it than this, in total
+/// lengths. A converged seed is within its residual (1e-13) times the condition of the equilibrium;
+/// equilibria nearer to each other than four times this narrow it to a quarter of their distance.
 pub const JOINT_TOLERANCE: f64 = 1e-6;
 
-/// Energies of one equilibrium differ by less than this, in total weight times total length: near an
-/// equilibrium the energy changes with the square of the distance, and with the gap.
+/// Energies of one equilibrium differ by less than this, in total weight times total length: near
+/// an equilibrium the energy changes with the square of the distance, and with the gap.
 const ENERGY_TOLERANCE: f64 = 1e-9;
 
-/// Most discovered equilibria in a list. In a long chain nearly every seed of the first solver reaches another one: a
-/// list of those identifies nothing, and each costs as much text as a thousand rows.
+/// Most discovered equilibria in a list. In a long chain nearly every seed of the first solver
+/// reaches another one: a list of those identifies nothing, and each costs as much text as a
+/// thousand rows.
 pub const DISCOVERED: usize = 1000;
 
 /// Seed number of the seeds that discover equilibria: always the same, whatever the sweep.
@@ -35,7 +36,8 @@ const DISCOVERY: u64 = 0x0066_756e_6963_756c;
 pub enum Origin {
     /// Proved by the census.
     Proven,
-    /// A family of equilibria with slack bars, proved by the census; one number for the whole of it.
+    /// A family of equilibria with slack bars, proved by the census; one number for the whole of
+    /// it.
     Family,
     /// Reached by a seed, where the census is not complete.
     Discovered,
@@ -48,24 +50,25 @@ pub struct Member {
     pub origin: Origin,
     /// Potential energy above the height of joint 0, J.
     pub energy_j: f64,
-    /// Angles of the bars from the descending vertical towards the last anchor, rad. Of a family, those
-    /// of one shape for the bars that carry force, and none for the slack ones.
+    /// Angles of the bars from the descending vertical towards the last anchor, rad. Of a family,
+    /// those of one shape for the bars that carry force, and none for the slack ones.
     pub angles_rad: Vec<Option<f64>>,
-    /// Negative directions of the second derivative of the energy in the plane; 0 is a minimum. None if
-    /// it is not known.
+    /// Negative directions of the second derivative of the energy in the plane; 0 is a minimum.
+    /// None if it is not known.
     pub index_in_plane: Option<usize>,
-    /// With the anchors on one vertical: whether this is the mirror image of the entry that the census
-    /// shows, half a turn away on the same circle of equilibria.
+    /// With the anchors on one vertical: whether this is the mirror image of the entry that the
+    /// census shows, half a turn away on the same circle of equilibria.
     pub mirrored: bool,
 }
 
-/// All entries, by energy and then by angles, and what it takes to find one. Equal for equal problems and
-/// settings: it depends on no seed of the sweep, no thread, no shard.
+/// All entries, by energy and then by angles, and what it takes to find one. Equal for equal
+/// problems and settings: it depends on no seed of the sweep, no thread, no shard.
 ///
-/// It is the list of the census when that is complete. When the census leaves something undecided, or the
-/// chain is too long for one, what [`Settings::discover`] random seeds (always the same) reach through
-/// all solvers is added: the [`DISCOVERED`] equilibria that most of them reach. A seed that later converges to something else is
-/// [`Failure::Unlisted`](crate::Failure::Unlisted), and stays in the count.
+/// It is the list of the census when that is complete. When the census leaves something undecided,
+/// or the chain is too long for one, what [`Settings::discover`] random seeds (always the same)
+/// reach through all solvers is added: the [`DISCOVERED`] equilibria that most of them reach. A
+/// seed that later converges to something else is [`Failure::Unlisted`](crate::Failure::Unlisted),
+/// and stays in the count.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Members {
     list: Vec<Member>,
@@ -92,8 +95,8 @@ impl Members {
     ///
     /// # Errors
     ///
-    /// [`SweepError::Census`] when every position is an equilibrium, [`SweepError::TooManyEquilibria`] when
-    /// the columns cannot number them.
+    /// [`SweepError::Census`] when every position is an equilibrium,
+    /// [`SweepError::TooManyEquilibria`] when the columns cannot number them.
     pub fn of(
         problem: &Problem,
         settings: &Settings,
@@ -119,8 +122,8 @@ impl Members {
     /// Largest number of entries: as many as there are codes that are not negative.
     const MOST: usize = i16::MAX as usize;
 
-    /// Most entries held while they are discovered, to bound the time of keeping them in order; a seed that
-    /// reaches something else then is counted as one more left out.
+    /// Most entries held while they are discovered, to bound the time of keeping them in order; a
+    /// seed that reaches something else then is counted as one more left out.
     const HELD: usize = 2 * Self::MOST;
 
     /// The entries; the number of one is its place.
@@ -135,7 +138,8 @@ impl Members {
         self.complete
     }
 
-    /// How many equilibria were discovered and left out of the list, because the seeds reached others more often.
+    /// How many equilibria were discovered and left out of the list, because the seeds reached
+    /// others more often.
     #[must_use]
     pub fn left_out(&self) -> u64 {
         self.left_out
@@ -147,8 +151,8 @@ impl Members {
         self.lookup.unit_j
     }
 
-    /// The number of the nearest entry within the tolerance, for unit directions (along the heading, up)
-    /// of the bars.
+    /// The number of the nearest entry within the tolerance, for unit directions (along the
+    /// heading, up) of the bars.
     #[must_use]
     pub fn identify(&self, directions: &[[f64; 2]], energy_j: f64) -> Option<i16> {
         let entry = self.lookup.nearest(directions, energy_j)?;
@@ -295,8 +299,8 @@ impl Lookup {
         best.1
     }
 
-    /// Largest distance of a joint, in total lengths; for a family, largest part of a joint's distance that
-    /// the bars in force make.
+    /// Largest distance of a joint, in total lengths; for a family, largest part of a joint's
+    /// distance that the bars in force make.
     #[inline]
     fn distance(&self, entry: usize, u: &[[f64; 2]]) -> f64 {
         let bars = self.lengths.len();
@@ -337,8 +341,8 @@ fn isolated(equilibrium: &ProvenEquilibrium, mirrored: bool) -> Member {
     }
 }
 
-/// The bars in force of a family stand upright: without a horizontal pull nothing else is in balance. Bar i
-/// points the way of its force, the pull and the weight before it, times its sign.
+/// The bars in force of a family stand upright: without a horizontal pull nothing else is in
+/// balance. Bar i points the way of its force, the pull and the weight before it, times its sign.
 fn family(slack: &SlackFamily, problem: &Problem) -> Member {
     let chain = problem.chain();
     let mut before = slack.pull_n[1].mid();

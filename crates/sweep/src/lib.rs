@@ -1,6 +1,7 @@
 //! Many starts in parallel: which start leads where.
 //!
-//! A sweep depends on no solver: it is handed those that it runs ([`BatchSolver`]). Two are compared seed by seed.
+//! A sweep depends on no solver: it is handed those that it runs ([`BatchSolver`]). Two are
+//! compared seed by seed.
 //!
 //! # The folder of a sweep
 //!
@@ -12,8 +13,8 @@
 //! | `part-000000.parquet`, ... | the rows, [`part_seeds`] of them in each |
 //! | `summary.json` | [`StoreSummary`]: counts of the outcomes, and the digest of every part; written last |
 //!
-//! and, until they are finished, `.digests`: the digests so far, as `sha256sum --check` reads them. The columns of a
-//! part ([`schema`]) are
+//! and, until they are finished, `.digests`: the digests so far, as `sha256sum --check` reads them.
+//! The columns of a part ([`schema`]) are
 //!
 //! | column | type | unit | what |
 //! |---|---|---|---|
@@ -25,10 +26,10 @@
 //! | `lagrange_energy_j` | f64 | J | energy where it stopped, above joint 0 |
 //! | `energy_outcome`, ..., `energy_energy_j` | | | the same of `energy` |
 //!
-//! and the codes of [`Failure`]s are −1 (iteration limit), −2 (stalled), −3 (a number overflowed or was undefined) and
-//! −4 (converged to something that is in no list). Unit and description of each column stand in its metadata in
-//! Parquet, and in the footer `funicular.program`, `.system`, `.system_sha256`, `.seed_number` and `.source`; CSV has
-//! the names alone.
+//! and the codes of [`Failure`]s are −1 (iteration limit), −2 (stalled), −3 (a number overflowed or
+//! was undefined) and −4 (converged to something that is in no list). Unit and description of each
+//! column stand in its metadata in Parquet, and in the footer `funicular.program`, `.system`,
+//! `.system_sha256`, `.seed_number` and `.source`; CSV has the names alone.
 
 mod basins;
 mod error;

@@ -7,7 +7,8 @@ use std::ops::Range;
 pub struct Outcomes {
     /// Its name.
     pub solver: String,
-    /// The equilibrium reached, as its number in the list of the sweep, or a negative [`Failure`] code.
+    /// The equilibrium reached, as its number in the list of the sweep, or a negative [`Failure`]
+    /// code.
     pub outcome: Vec<i16>,
     /// Iterations spent.
     pub iterations: Vec<u16>,

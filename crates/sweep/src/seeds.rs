@@ -1,12 +1,12 @@
 //! Random numbers by their index: number k of a stream is computed from k alone.
 
-/// The stream of SplitMix64 for one seed number: number k is a mix of `key + (k + 1) γ`, so that any
-/// number can be had without those before it.
+/// The stream of SplitMix64 for one seed number: number k is a mix of `key + (k + 1) γ`, so that
+/// any number can be had without those before it.
 ///
 /// # References
 ///
-/// G. L. Steele, D. Lea, C. H. Flood, "Fast splittable pseudorandom number generators", OOPSLA 2014,
-/// doi:10.1145/2660193.2660195.
+/// G. L. Steele, D. Lea, C. H. Flood, "Fast splittable pseudorandom number generators", OOPSLA
+/// 2014, doi:10.1145/2660193.2660195.
 ///
 /// ```
 /// // The first number of the published generator (java.util.SplittableRandom) seeded with 0.
@@ -21,8 +21,8 @@ pub struct Stream {
 const GAMMA: u64 = 0x9e37_79b9_7f4a_7c15;
 
 impl Stream {
-    /// The stream of a seed number. The number is mixed first: neighbouring numbers have streams that do
-    /// not overlap by a shift of one.
+    /// The stream of a seed number. The number is mixed first: neighbouring numbers have streams
+    /// that do not overlap by a shift of one.
     #[must_use]
     pub fn new(number: u64) -> Self {
         Self { key: Self::raw(number ^ GAMMA).at(0) }

@@ -10,14 +10,14 @@ pub struct Settings {
     pub number: u64,
     /// How the seeds are spread. Default uniform.
     pub source: Source,
-    /// Seeds in a chunk of [`Sweep::run`](crate::Sweep::run). Default 16,384, from 1 to 2²⁴: small enough for
-    /// the memory of a processor core, large enough to cost nothing.
+    /// Seeds in a chunk of [`Sweep::run`](crate::Sweep::run). Default 16,384, from 1 to 2²⁴: small
+    /// enough for the memory of a processor core, large enough to cost nothing.
     pub chunk: u64,
     /// Of the census that the outcomes are identified against. Default: that of the crate.
     pub census: census::Settings,
     /// Random seeds through all solvers that make the list where the census does not: see
-    /// [`Members`](crate::Members); of what they reach at most [`DISCOVERED`](crate::DISCOVERED) are listed.
-    /// Default 20,000; 0 for none.
+    /// [`Members`](crate::Members); of what they reach at most [`DISCOVERED`](crate::DISCOVERED)
+    /// are listed. Default 20,000; 0 for none.
     pub discover: u32,
 }
 

@@ -9,8 +9,8 @@ const BITS: usize = 64;
 ///
 /// # References
 ///
-/// S. Joe, F. Y. Kuo, "Constructing Sobol sequences with better two-dimensional projections", SIAM J. Sci.
-/// Comput. 30, 2008, doi:10.1137/070709359; their table new-joe-kuo-6.
+/// S. Joe, F. Y. Kuo, "Constructing Sobol sequences with better two-dimensional projections", SIAM
+/// J. Sci. Comput. 30, 2008, doi:10.1137/070709359; their table new-joe-kuo-6.
 #[derive(Debug, Clone)]
 pub(crate) struct Sobol {
     /// Direction numbers of each dimension.
@@ -43,9 +43,9 @@ impl Sobol {
     }
 }
 
-/// Direction numbers $v_j = m_j/2^j$ from the first ones and a primitive polynomial of the same degree s,
-/// whose inner coefficients are the bits of `a`:
-/// $v_j = a_1 v_{j-1} \oplus \dots \oplus a_{s-1} v_{j-s+1} \oplus v_{j-s} \oplus (v_{j-s}/2^s)$.
+/// Direction numbers $v_j = m_j/2^j$ from the first ones and a primitive polynomial of the same
+/// degree s, whose inner coefficients are the bits of `a`: $v_j = a_1 v_{j-1} \oplus \dots \oplus
+/// a_{s-1} v_{j-s+1} \oplus v_{j-s} \oplus (v_{j-s}/2^s)$.
 fn recurrence(a: u32, start: &[u32]) -> [u64; BITS] {
     let degree = start.len();
     let mut v = [0_u64; BITS];

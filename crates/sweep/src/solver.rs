@@ -7,8 +7,9 @@ use crate::error::SweepError;
 
 /// A solver of one problem for many starts in the vertical plane of its anchors.
 ///
-/// A sweep depends on no solver: it is handed those that it runs. What becomes of a start must depend on the
-/// start alone, not on its neighbours: a sweep is cut into runs of starts in many ways, and has the same bits.
+/// A sweep depends on no solver: it is handed those that it runs. What becomes of a start must
+/// depend on the start alone, not on its neighbours: a sweep is cut into runs of starts in many
+/// ways, and has the same bits.
 ///
 /// ```
 /// use sweep::{BatchSolver, Ends, Finds, Finish};
@@ -52,8 +53,8 @@ pub trait BatchSolver: Debug + Send + Sync {
     /// What it looks for.
     fn finds(&self) -> Finds;
 
-    /// Solve from all starts: n angles for each of them, rad, from the descending vertical towards the last
-    /// anchor. What was in `ends` is replaced; its memory may be used again.
+    /// Solve from all starts: n angles for each of them, rad, from the descending vertical towards
+    /// the last anchor. What was in `ends` is replaced; its memory may be used again.
     fn solve(&self, starts_rad: &[f64], ends: &mut Ends);
 }
 
@@ -104,8 +105,8 @@ pub struct Solvers {
 }
 
 impl Solvers {
-    /// All of these are asked, and make the list where the census does not. The order of their columns is
-    /// `lagrange`, `energy`, and the others as they stand here.
+    /// All of these are asked, and make the list where the census does not. The order of their
+    /// columns is `lagrange`, `energy`, and the others as they stand here.
     #[must_use]
     pub fn new(mut solvers: Vec<Arc<dyn BatchSolver>>) -> Self {
         let place = |name: &str| FIRST.iter().position(|first| *first == name);

@@ -18,16 +18,16 @@ pub enum Source {
     /// Each angle uniform on [0, 2π), independent of the others.
     #[default]
     Uniform,
-    /// Sobol's sequence on [0, 2π) in all angles; seed number 0 takes it as published, any other turns
-    /// on a fixed random set of its binary digits in each dimension (a digital shift), which keeps it as
-    /// even. Up to 32 bars.
+    /// Sobol's sequence on [0, 2π) in all angles; seed number 0 takes it as published, any other
+    /// turns on a fixed random set of its binary digits in each dimension (a digital shift), which
+    /// keeps it as even. Up to 32 bars.
     Sobol,
     /// A regular grid, the first bar varying fastest; seeds beyond its last point begin again.
     Grid(Vec<Axis>),
 }
 
-/// One angle of a grid: the middles of `points` equal parts of an interval. With one point it is fixed at
-/// the middle.
+/// One angle of a grid: the middles of `points` equal parts of an interval. With one point it is
+/// fixed at the middle.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Axis {

@@ -9,9 +9,9 @@ use crate::identify::Member;
 use crate::record::{Chunk, Failure};
 use crate::tally::Tally;
 
-/// How the outcomes of one seed compare, by two solvers: in a sweep of `lagrange` and `energy` the first finds
-/// equilibria of every kind and the second only minima, and each has its own way down, so that most differences are
-/// as they should be.
+/// How the outcomes of one seed compare, by two solvers: in a sweep of `lagrange` and `energy` the
+/// first finds equilibria of every kind and the second only minima, and each has its own way down,
+/// so that most differences are as they should be.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Comparison {
@@ -23,8 +23,8 @@ pub enum Comparison {
     OtherBasin,
     /// Both reached entries, and of that of the first it is not known whether it is a minimum.
     Unclassified,
-    /// One or both failed, by the limit of iterations, by stalling or by an undefined number: no answer, and
-    /// so no disagreement.
+    /// One or both failed, by the limit of iterations, by stalling or by an undefined number: no
+    /// answer, and so no disagreement.
     Failed,
     /// The second reached an entry that is no minimum by the list. Should never be.
     EnergyAtNoMinimum,
@@ -66,8 +66,8 @@ pub struct Disagreement {
     pub outcomes: [i16; 2],
 }
 
-/// A disagreement with the names of the solvers, as it stands in JSON: `seed`, `comparison`, and the outcome of each
-/// under its name.
+/// A disagreement with the names of the solvers, as it stands in JSON: `seed`, `comparison`, and
+/// the outcome of each under its name.
 #[derive(Debug, Clone, Copy)]
 pub struct Named<'a> {
     disagreement: Disagreement,
@@ -105,10 +105,11 @@ pub struct Summary {
 /// Disagreements kept: the first by seed number, those in no list last. All are counted.
 pub const KEPT: usize = 1000;
 
-/// Energies of the same equilibrium agree to this, in total weights times total lengths, as the list is identified
-/// by: the energies themselves say nothing of their errors, being near zero where a chain is taut. Both solvers
-/// stop where the energy has settled to its rounding, and to what is left of the gaps times the forces: at worst
-/// 2.2e-12 among the named cases (nearly-taut, whose forces are several hundred weights).
+/// Energies of the same equilibrium agree to this, in total weights times total lengths, as the
+/// list is identified by: the energies themselves say nothing of their errors, being near zero
+/// where a chain is taut. Both solvers stop where the energy has settled to its rounding, and to
+/// what is left of the gaps times the forces: at worst 2.2e-12 among the named cases (nearly-taut,
+/// whose forces are several hundred weights).
 const SAME_ENERGY: f64 = 1e-10;
 
 impl Summary {
@@ -201,8 +202,8 @@ impl Summary {
         Comparison::ALL.into_iter().zip(self.comparisons)
     }
 
-    /// The seeds on which the solvers disagree where they should not, by number, and then those in no list,
-    /// by number: the first [`KEPT`] of them.
+    /// The seeds on which the solvers disagree where they should not, by number, and then those in
+    /// no list, by number: the first [`KEPT`] of them.
     #[must_use]
     pub fn disagreements(&self) -> &[Disagreement] {
         &self.disagreements

@@ -16,8 +16,9 @@ use crate::summary::Summary;
 
 /// Many seeds of one problem through one or several solvers.
 ///
-/// What becomes of a seed depends on the problem, the settings and its number alone: not on the other seeds
-/// of a chunk, the threads, or the machine. For an example see [`BatchSolver`](crate::BatchSolver).
+/// What becomes of a seed depends on the problem, the settings and its number alone: not on the
+/// other seeds of a chunk, the threads, or the machine. For an example see
+/// [`BatchSolver`](crate::BatchSolver).
 #[derive(Debug, Clone)]
 pub struct Sweep {
     settings: Settings,
@@ -75,7 +76,8 @@ impl Sweep {
         angles
     }
 
-    /// What becomes of a run of seeds. All columns are in memory: about 20 bytes per seed and solver.
+    /// What becomes of a run of seeds. All columns are in memory: about 20 bytes per seed and
+    /// solver.
     #[must_use]
     pub fn run_chunk(&self, seeds: Range<u64>) -> Chunk {
         let mut angles = vec![];
@@ -114,8 +116,8 @@ impl Sweep {
         self.members.identify(directions, energy_j).unwrap_or(Failure::Unlisted as i16)
     }
 
-    /// Run all seeds of a range on the given number of threads (0: one per processor) and sum up. Memory does
-    /// not grow with the number of seeds.
+    /// Run all seeds of a range on the given number of threads (0: one per processor) and sum up.
+    /// Memory does not grow with the number of seeds.
     ///
     /// # Errors
     ///

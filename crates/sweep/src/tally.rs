@@ -54,8 +54,8 @@ pub struct SolverTally(pub BTreeMap<i16, OutcomeTally>);
 
 /// Outcomes of all rows.
 ///
-/// In JSON: `seeds`, a key for each solver, and `both`. The keys `lagrange` and `energy` are always there, null if
-/// they were not asked.
+/// In JSON: `seeds`, a key for each solver, and `both`. The keys `lagrange` and `energy` are always
+/// there, null if they were not asked.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Tally {
     /// Rows.
@@ -179,8 +179,8 @@ fn add_outcomes(tally: &mut SolverTally, outcomes: &Outcomes) {
     }
 }
 
-/// How often each pair comes, in some order. Few are different: sorting them takes some nanoseconds a row, and
-/// no memory beyond them however many outcomes there are.
+/// How often each pair comes, in some order. Few are different: sorting them takes some nanoseconds
+/// a row, and no memory beyond them however many outcomes there are.
 fn counts<B: Copy + Ord>(pairs: impl Iterator<Item = (i16, B)>) -> Vec<((i16, B), u64)> {
     let mut pairs: Vec<(i16, B)> = pairs.collect();
     pairs.sort_unstable();
@@ -191,8 +191,8 @@ fn counts<B: Copy + Ord>(pairs: impl Iterator<Item = (i16, B)>) -> Vec<((i16, B)
 const Z_95: f64 = 1.959_963_984_540_054;
 
 /// The 95 % confidence interval of a rate after `count` of `all`, by Wilson's score
-/// (p + z²/2n ± z √(p(1 − p)/n + z²/4n²)) / (1 + z²/n). It holds for random seeds; for the points of a
-/// grid or a Sobol sequence it is wider than need be.
+/// (p + z²/2n ± z √(p(1 − p)/n + z²/4n²)) / (1 + z²/n). It holds for random seeds; for the points
+/// of a grid or a Sobol sequence it is wider than need be.
 ///
 /// # References
 ///

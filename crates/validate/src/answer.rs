@@ -1,8 +1,9 @@
-//! One question to both solvers: their answers compared, judged, certified, and looked up in the census.
+//! One question to both solvers: their answers compared, judged, certified, and looked up in the
+//! census.
 //!
-//! Whoever wants the hanging equilibrium of a chain with all its evidence asks here; what each part proves is said in
-//! [`compare`](mod@crate::compare), [`statics`](crate::statics), [`certificate`](crate::certificate) and
-//! [`completeness`](crate::completeness).
+//! Whoever wants the hanging equilibrium of a chain with all its evidence asks here; what each part
+//! proves is said in [`compare`](mod@crate::compare), [`statics`](crate::statics),
+//! [`certificate`](crate::certificate) and [`completeness`](crate::completeness).
 //!
 //! ```
 //! use validate::answer::{Question, ask};
@@ -23,12 +24,12 @@ use crate::tolerances::Tolerances;
 /// Chains up to this many bars are looked up in their census without being asked to.
 const CENSUS_BARS: usize = 8;
 
-/// Tests per pattern for that: several times what generic chains need, and a second or so at most. A degenerate chain
-/// is left undecided; a census that is asked for takes its time.
+/// Tests per pattern for that: several times what generic chains need, and a second or so at most.
+/// A degenerate chain is left undecided; a census that is asked for takes its time.
 const CENSUS_TESTS: u64 = 2_000;
 
-/// The same where the lengths fit into a straight line, so that the census cannot be complete: what generic chains need
-/// for each of their equilibria.
+/// The same where the lengths fit into a straight line, so that the census cannot be complete: what
+/// generic chains need for each of their equilibria.
 const CENSUS_TESTS_STRAIGHT: u64 = 400;
 
 /// What is asked, and of whom.
@@ -40,8 +41,8 @@ pub struct Question {
     pub equations: Equations,
     /// Whether the answers are looked up in a census. Default where that is quick.
     pub census: UseCensus,
-    /// How many threads `lagrange` uses for one long chain; the answer does not depend on it. Default one. (A census
-    /// runs on the threads of rayon's pool.)
+    /// How many threads `lagrange` uses for one long chain; the answer does not depend on it.
+    /// Default one. (A census runs on the threads of rayon's pool.)
     pub threads: NonZeroUsize,
 }
 
@@ -70,8 +71,9 @@ pub enum Solvers {
 
 /// Which of the systems of equations `lagrange` solves.
 ///
-/// They have the same solutions; a test compares them. The angles of the full one lose digits where strands hang
-/// side by side or a chain is nearly straight, and its cost grows faster than the number of bars.
+/// They have the same solutions; a test compares them. The angles of the full one lose digits where
+/// strands hang side by side or a chain is nearly straight, and its cost grows faster than the
+/// number of bars.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Equations {
     /// Three equations for the pull on the first anchor, whatever the number of bars.
@@ -81,7 +83,8 @@ pub enum Equations {
     Full,
 }
 
-/// Whether answers are looked up in a census: whether they are proved to be equilibria, and with which others.
+/// Whether answers are looked up in a census: whether they are proved to be equilibria, and with
+/// which others.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum UseCensus {
     /// No census.
@@ -137,19 +140,22 @@ impl Answer {
         self.equilibria.iter().find(|equilibrium| equilibrium.solver == *solver)
     }
 
-    /// Whether both solvers answered and agree, the judge finds both in balance, and no census refutes them.
+    /// Whether both solvers answered and agree, the judge finds both in balance, and no census
+    /// refutes them.
     #[must_use]
     pub fn agrees(&self) -> bool {
         self.agreement.as_ref().is_some_and(Agreement::agrees) && !self.check_failed()
     }
 
-    /// Whether a check has failed: the answers disagree, the judge refuses one, or a complete census refutes one.
+    /// Whether a check has failed: the answers disagree, the judge refuses one, or a complete
+    /// census refutes one.
     #[must_use]
     pub fn check_failed(&self) -> bool {
         self.equilibria.iter().any(|answer| answer.evidence.ladder.failed())
     }
 
-    /// Whether every solver that was asked has an answer, and each has converged or is proved to be an equilibrium.
+    /// Whether every solver that was asked has an answer, and each has converged or is proved to be
+    /// an equilibrium.
     #[must_use]
     pub fn is_decided(&self) -> bool {
         let known = |answer: &Equilibrium| {

@@ -1,11 +1,11 @@
 //! A third independent answer: the chain as a conic programme.
 //!
-//! Hang cables instead of bars, $|d_i| \le l_i$, and the least energy is a second-order cone programme,
-//! solved by clarabel's interior point method with neither Newton's laws nor a search among shapes. Where all
-//! cables are taut they are the bars: the optimum is the energy of the equilibrium, the duals of the cones
-//! are the bar vectors and the axial forces (clarabel's optimum is good to its tolerance; from there
-//! [`cable_bound`] goes on to rounding by closing the cables). Where a bar is pressed the programme is below it, and says
-//! which cables are slack.
+//! Hang cables instead of bars, $|d_i| \le l_i$, and the least energy is a second-order cone
+//! programme, solved by clarabel's interior point method with neither Newton's laws nor a search
+//! among shapes. Where all cables are taut they are the bars: the optimum is the energy of the
+//! equilibrium, the duals of the cones are the bar vectors and the axial forces (clarabel's optimum
+//! is good to its tolerance; from there [`cable_bound`] goes on to rounding by closing the cables).
+//! Where a bar is pressed the programme is below it, and says which cables are slack.
 //!
 //! ```
 //! use validate::cables::hold_against_cables;
@@ -24,12 +24,12 @@ use serde::Serialize;
 
 use crate::tolerances::Tolerances;
 
-/// Smallest axial force, in units of the largest joint force, that says that a bar is in tension: below
-/// it the two methods may well differ about which bars carry nothing.
+/// Smallest axial force, in units of the largest joint force, that says that a bar is in tension:
+/// below it the two methods may well differ about which bars carry nothing.
 const TENSION: f64 = 1e-9;
 
-/// Joints within this part of the length of one vertical are on it. A chain that closes to a rounding of
-/// its length bends off a line by the square root of that, 1e-8.
+/// Joints within this part of the length of one vertical are on it. A chain that closes to a
+/// rounding of its length bends off a line by the square root of that, 1e-8.
 const LINE: f64 = 1e-8;
 
 /// An equilibrium held against the cables.
@@ -45,20 +45,20 @@ pub struct Cables {
     pub gap: f64,
     /// The solver's own optimum less the proven bound, the same unit: what its tolerance leaves.
     pub optimum: f64,
-    /// Largest difference of an axial force, in units of the larger of the weight and the largest joint
-    /// force; `None` where all bars hang on one vertical line, and two strands share the weight of the lowest
-    /// joint in any way they like.
+    /// Largest difference of an axial force, in units of the larger of the weight and the largest
+    /// joint force; `None` where all bars hang on one vertical line, and two strands share the
+    /// weight of the lowest joint in any way they like.
     pub axial: Option<f64>,
-    /// Largest distance of a joint, in units of the total length; `None` about anchors on one vertical,
-    /// where the planes need not be the same.
+    /// Largest distance of a joint, in units of the total length; `None` about anchors on one
+    /// vertical, where the planes need not be the same.
     pub joints: Option<f64>,
     /// Iterations of the interior point method.
     pub iterations: usize,
 }
 
 impl Cables {
-    /// Whether the cables confirm the equilibrium: taut with the same energy and the same axial forces,
-    /// or slack and below it. The budgets are those of two solvers that are compared.
+    /// Whether the cables confirm the equilibrium: taut with the same energy and the same axial
+    /// forces, or slack and below it. The budgets are those of two solvers that are compared.
     #[must_use]
     pub fn confirm(&self, tolerances: &Tolerances) -> bool {
         let [energy, axial] = [&tolerances.energy, &tolerances.forces].map(|budget| budget.value);

@@ -1,10 +1,10 @@
 //! A census held against everything else that knows something about equilibria.
 //!
-//! The census proves its list by intervals, from the balance of moments alone. Here others judge it who share
-//! no formula with it: `lagrange` started at every listed equilibrium has to stay there, the
-//! statics judge has to find every bar in balance, whatever random seeds of either solver find
-//! has to be listed, and no energy may lie outside the bounds by semidefinite programming, between which
-//! the first and the last of the list have to fit exactly.
+//! The census proves its list by intervals, from the balance of moments alone. Here others judge it
+//! who share no formula with it: `lagrange` started at every listed equilibrium has to stay there,
+//! the statics judge has to find every bar in balance, whatever random seeds of either solver find
+//! has to be listed, and no energy may lie outside the bounds by semidefinite programming, between
+//! which the first and the last of the list have to fit exactly.
 
 #[cfg(feature = "bounds")]
 use bounds::{BoundError, BoundSettings, Sense, semidefinite};
@@ -19,13 +19,14 @@ use crate::statics::{judge, stored_rounding_m};
 pub struct Nearest {
     /// Number of the equilibrium in the list, from 1.
     pub number: usize,
-    /// How far outside of its boxes the worst coordinate of a joint lies, in units of the total length;
-    /// 0 inside.
+    /// How far outside of its boxes the worst coordinate of a joint lies, in units of the total
+    /// length; 0 inside.
     pub beyond: f64,
 }
 
-/// The listed equilibrium whose boxes are nearest to a position; with the anchors on one vertical the
-/// position is turned about it first. `None` if nothing is listed, or the joints do not fit the chain.
+/// The listed equilibrium whose boxes are nearest to a position; with the anchors on one vertical
+/// the position is turned about it first. `None` if nothing is listed, or the joints do not fit the
+/// chain.
 #[must_use]
 pub fn nearest(chain: &Chain, census: &Census, joints_m: &[Vector]) -> Option<Nearest> {
     let length_m = chain.total_length_m();
@@ -59,8 +60,8 @@ fn worse(a: f64, b: f64) -> f64 {
     if a.is_nan() || b.is_nan() { f64::NAN } else { a.max(b) }
 }
 
-/// The joints turned about the vertical through `origin` so that they come closest to the middles of
-/// the boxes.
+/// The joints turned about the vertical through `origin` so that they come closest to the middles
+/// of the boxes.
 fn turned_onto(origin: Vector, boxes: &[[Interval; 3]], joints_m: &[Vector]) -> Vec<Vector> {
     let (mut along, mut across) = (0.0, 0.0);
     for (target, joint) in boxes.iter().zip(joints_m) {
@@ -85,7 +86,8 @@ pub struct Visit {
     pub number: usize,
     /// Where it ended.
     pub ended: Nearest,
-    /// The 30 equations of the paper, for n bars, have the same index there, in the plane and in space.
+    /// The 30 equations of the paper, for n bars, have the same index there, in the plane and in
+    /// space.
     pub same_stability: bool,
 }
 
@@ -97,8 +99,8 @@ pub struct Visit {
 ///
 /// # Panics
 ///
-/// Never: a converged solution has the joints of its chain, and the census from which it was started has
-/// an entry.
+/// Never: a converged solution has the joints of its chain, and the census from which it was
+/// started has an entry.
 ///
 /// ```
 /// use census::{Census, Settings};
@@ -133,8 +135,8 @@ pub fn visits(problem: &Problem, census: &Census) -> Result<Vec<Visit>, SolveErr
         .collect()
 }
 
-/// The largest violation of Newton's laws by the middles of the boxes, over all equilibria: joints and
-/// multipliers, judged bar by bar.
+/// The largest violation of Newton's laws by the middles of the boxes, over all equilibria: joints
+/// and multipliers, judged bar by bar.
 #[must_use]
 pub fn statics(problem: &Problem, census: &Census) -> f64 {
     let answers = census.to_model();
@@ -145,8 +147,8 @@ pub fn statics(problem: &Problem, census: &Census) -> f64 {
 }
 
 /// The energies of the first and the last of the list less the semidefinite bounds of all
-/// configurations, from within: in units of total weight times total length. Roundings apart neither is
-/// negative, and both vanish if nothing lower and nothing higher exists.
+/// configurations, from within: in units of total weight times total length. Roundings apart
+/// neither is negative, and both vanish if nothing lower and nothing higher exists.
 ///
 /// # Errors
 ///
@@ -167,8 +169,8 @@ pub fn gaps(problem: &Problem, census: &Census) -> Result<[f64; 2], BoundError> 
     Ok([(low - lower) / unit_j, (upper - high) / unit_j])
 }
 
-/// The accuracy to which a solver may place a joint, in units of the total length: what coordinates can
-/// hold besides 1e-12.
+/// The accuracy to which a solver may place a joint, in units of the total length: what coordinates
+/// can hold besides 1e-12.
 #[must_use]
 pub fn placed(chain: &Chain) -> f64 {
     /// Measured on random chains: 2e-14 in general.

@@ -2,27 +2,28 @@
 //!
 //! # The bound
 //!
-//! With $c_i = g\,(l_i \sum_{j>i} m_j + m_i r_i)$ the energy of the chain is linear in the directions
-//! of its bars, $V = \sum_i c_i\, u_{i,z}$, and closure says $\sum_i l_i u_i = D$. So for any vector
-//! $P$ and any numbers $\nu_i \ne 0$, with $G_i = l_i P - c_i e_z$ and $\hat u_i = G_i/\nu_i$, every
-//! configuration has
+//! With $c_i = g\,(l_i \sum_{j>i} m_j + m_i r_i)$ the energy of the chain is linear in the
+//! directions of its bars, $V = \sum_i c_i\, u_{i,z}$, and closure says $\sum_i l_i u_i = D$. So
+//! for any vector $P$ and any numbers $\nu_i \ne 0$, with $G_i = l_i P - c_i e_z$ and
+//! $\hat u_i = G_i/\nu_i$, every configuration has
 //!
 //! $$ V = P\cdot D - \sum_i \Big(\frac{|G_i|^2}{2\nu_i} + \frac{\nu_i}{2}\Big)
 //!        + \frac12 \sum_i \nu_i\,|u_i - \hat u_i|^2 . $$
 //!
 //! If all $\nu_i$ are positive the last sum can be dropped, and what remains is a lower bound; with
-//! $\nu_i = |G_i|$ it is the energy of the chain as cables. If just one is negative, $\nu_k$, the last
-//! sum is still bounded below, because closure ties $u_k$ to the others: with the force densities
-//! $\tau_i = \nu_i / l_i^2$ it is at least $-|\tau_k|\,(|s||e| + |e|^2/2)$ as soon as
-//! $|\tau_k| \sum_{i\ne k} 1/\tau_i \le 1$, where $e = D - \sum_i l_i \hat u_i$ is the closure error of
-//! the directions $\hat u_i$ (nothing but rounding at an equilibrium) and
+//! $\nu_i = |G_i|$ it is the energy of the chain as cables. If just one is negative, $\nu_k$, the
+//! last sum is still bounded below, because closure ties $u_k$ to the others: with the force
+//! densities $\tau_i = \nu_i / l_i^2$ it is at least $-|\tau_k|\,(|s||e| + |e|^2/2)$ as soon as
+//! $|\tau_k| \sum_{i\ne k} 1/\tau_i \le 1$, where $e = D - \sum_i l_i \hat u_i$ is the closure
+//! error of the directions $\hat u_i$ (nothing but rounding at an equilibrium) and
 //! $|s| \le |e| + l_k (1 + |\hat u_k|)$.
 //!
 //! That condition is the positive semidefiniteness of the stress matrix, the tridiagonal
 //! $\Omega = \mathrm{tridiag}(-\tau_k,\ \tau_k + \tau_{k+1},\ -\tau_{k+1})$: its LDLᵀ pivots are
-//! $\delta_k = \tau_{k+1}\,\gamma_{k+1}/\gamma_k$ with the compliances $\gamma_k = \sum_{i\le k} 1/\tau_i$,
-//! so its inertia is read from the signs of the $\tau_i$ and of the running sums, without a
-//! factorisation that could lose them. Connelly's super stability for a chain.
+//! $\delta_k = \tau_{k+1}\,\gamma_{k+1}/\gamma_k$ with the compliances
+//! $\gamma_k = \sum_{i\le k} 1/\tau_i$, so its inertia is read from the signs of the $\tau_i$ and
+//! of the running sums, without a factorisation that could lose them. Connelly's super stability
+//! for a chain.
 //!
 //! Here $P$ is the reaction at the end anchor. Whatever its value, the bound holds; the better the
 //! value, the smaller the gap to the energy found. All rounding errors are bounded and included.
@@ -30,15 +31,15 @@
 //! # The singular turn
 //!
 //! With both anchors on one vertical the whole chain turns freely about it, the stress matrix is
-//! exactly singular, and no floating-point number can show that $\sum 1/\tau_i$ is not positive. The
-//! compressed bar's $|\nu_k|$ is then reduced until it does, by about the rounding error of the sum;
-//! this costs energy of the same size, which the gap contains.
+//! exactly singular, and no floating-point number can show that $\sum 1/\tau_i$ is not positive.
+//! The compressed bar's $|\nu_k|$ is then reduced until it does, by about the rounding error of the
+//! sum; this costs energy of the same size, which the gap contains.
 //!
 //! # References
 //!
 //! R. Connelly, Invent. Math. 66 (1982) 11-33, doi:10.1007/BF01404753 (stress matrices and global
-//! minima); S. M. Rump, Acta Numerica 19 (2010) 287-449, doi:10.1017/S096249291000005X (rounding error
-//! bounds).
+//! minima); S. M. Rump, Acta Numerica 19 (2010) 287-449, doi:10.1017/S096249291000005X (rounding
+//! error bounds).
 
 use crate::lever::{carried_kg, far_kg};
 use crate::statics::stored_rounding_m;
@@ -49,23 +50,24 @@ const U: f64 = 0.5 * f64::EPSILON;
 
 /// Relative error, in units of `U`, allowed to each term of a sum below.
 ///
-/// The longest chain of operations in a term is that of `l²/|G|`: the suffix mass (compensated, 2), its product
-/// with gravity and the sum with the bar's own part (6), the norm (8), square, division and the
-/// summation itself (6). 32 leaves room for second-order terms and for the roundings of the error
-/// bound itself.
+/// The longest chain of operations in a term is that of `l²/|G|`: the suffix mass (compensated, 2),
+/// its product with gravity and the sum with the bar's own part (6), the norm (8), square, division
+/// and the summation itself (6). 32 leaves room for second-order terms and for the roundings of the
+/// error bound itself.
 const TERM_ULPS: f64 = 32.0;
 
 /// Roundings of the energy of what rests on the last anchor: its product, and what it is added to.
 const STORED_ULPS: f64 = 4.0;
 
-/// Largest gap, in units of the weight between the anchors × total length, that still counts as "no configuration has
-/// less energy". Measured: 3e-15 for the paper's chain, below 1e-12 for all cases of the registry
-/// (test below).
+/// Largest gap, in units of the weight between the anchors × total length, that still counts as "no
+/// configuration has less energy". Measured: 3e-15 for the paper's chain, below 1e-12 for all cases
+/// of the registry (test below).
 pub const GAP_TOLERANCE: f64 = 1e-10;
 
-/// A bar pressed by less than this part of the forces carries none: bars that hang loose between others
-/// are left with the solvers' tolerance, of either sign. With such a bar taken for one in tension the bound
-/// holds all the same, and the gap contains what that costs, twice its force times its length.
+/// A bar pressed by less than this part of the forces carries none: bars that hang loose between
+/// others are left with the solvers' tolerance, of either sign. With such a bar taken for one in
+/// tension the bound holds all the same, and the gap contains what that costs, twice its force
+/// times its length.
 const NO_FORCE: f64 = 1e-12;
 
 /// Proof that no configuration of the chain has less energy than `lower_bound_j`.
@@ -75,13 +77,13 @@ pub struct Certificate {
     pub lower_bound_j: f64,
     /// Energy found minus the lower bound, J.
     pub gap_j: f64,
-    /// The same in units of the weight between the anchors (what the lever rule leaves on them does not count) ×
-    /// total length.
+    /// The same in units of the weight between the anchors (what the lever rule leaves on them does
+    /// not count) × total length.
     pub gap: f64,
     /// Number of the bar in compression, from 1, if there is one.
     pub compressed_bar: Option<usize>,
-    /// Whether the stress matrix is singular as far as doubles can tell: the turn about the vertical
-    /// through both anchors.
+    /// Whether the stress matrix is singular as far as doubles can tell: the turn about the
+    /// vertical through both anchors.
     pub singular: bool,
 }
 
@@ -111,7 +113,8 @@ pub fn certify(problem: &Problem, found: &Equilibrium) -> Result<Certificate, No
     }
     let length_m = chain.total_length_m();
     closed(chain, found)?;
-    // What the last bar leaves on its anchor moves nothing: without it the numbers are no larger than what hangs.
+    // What the last bar leaves on its anchor moves nothing: without it the numbers are no larger
+    // than what hangs.
     let resting_n = last_share(bars) * chain.gravity_m_s2();
     let pull = [pull[0], pull[1], pull[2] - resting_n];
     let force_n = norm(pull) + hanging_n(chain);
@@ -188,8 +191,8 @@ fn last_share(bars: &[Bar]) -> f64 {
     bars.last().map_or(0.0, far_kg)
 }
 
-/// The force `G_i / l_i` along each bar, N: the end reaction without what the last bar leaves on the anchor, less the
-/// weight between the bar and the anchor.
+/// The force `G_i / l_i` along each bar, N: the end reaction without what the last bar leaves on
+/// the anchor, less the weight between the bar and the anchor.
 fn bar_forces(bars: &[Bar], gravity: f64, pull: Vector) -> Vec<Vector> {
     let mut forces = vec![pull; bars.len()];
     let (mut beyond, mut lost) = (0.0 - last_share(bars), 0.0_f64);
@@ -311,8 +314,8 @@ mod tests {
         assert_eq!(certificate.compressed_bar, Some(3));
     }
 
-    /// Two bars of length 1 between anchors 1e-14 apart lie level. Hanging straight down they miss the anchor by a
-    /// rounding, and have so much less energy that every bound is far above.
+    /// Two bars of length 1 between anchors 1e-14 apart lie level. Hanging straight down they miss
+    /// the anchor by a rounding, and have so much less energy that every bound is far above.
     #[test]
     fn an_answer_that_is_no_configuration_gets_no_certificate() {
         let anchors = Anchors { start_m: [0.0; 3], end_m: [0.0, 0.0, -1e-14] };
@@ -326,7 +329,8 @@ mod tests {
         assert!(matches!(certify(&problem, &hanging), Err(NoCertificate::NotClosed { .. })));
     }
 
-    /// What rests on the last anchor moves nothing: a certificate is as tight with it as without, and as strict.
+    /// What rests on the last anchor moves nothing: a certificate is as tight with it as without,
+    /// and as strict.
     #[test]
     fn weight_on_the_last_anchor_changes_no_certificate() {
         let heavy = 1e6;

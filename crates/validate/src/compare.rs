@@ -15,8 +15,8 @@ use crate::statics::{Statics, judge};
 use crate::tolerances::Tolerances;
 use crate::units::Units;
 
-/// How far answers agree: the object `agreement` of the JSON. Of more than two, the largest differences of any
-/// two.
+/// How far answers agree: the object `agreement` of the JSON. Of more than two, the largest
+/// differences of any two.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Agreement {
     /// Largest distance of a joint in one answer from the same joint in another, m.
@@ -28,14 +28,14 @@ pub struct Agreement {
     /// With both anchors on one vertical every turn about it is an equilibrium too: the angle by
     /// which the second answer was turned onto the first before the comparison, rad.
     pub turned_rad: Option<f64>,
-    /// Number of joints that are proved to be free, in all answers: they may be anywhere that the lengths of their
-    /// bars allow, so their places are judged by Newton's laws alone.
+    /// Number of joints that are proved to be free, in all answers: they may be anywhere that the
+    /// lengths of their bars allow, so their places are judged by Newton's laws alone.
     pub free_joints: usize,
     /// The same, which ones.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub free: Option<FreeJoints>,
-    /// Where equilibrium does not determine the forces: the family of those of the first answer. Then agreement is
-    /// evidence for the shape alone.
+    /// Where equilibrium does not determine the forces: the family of those of the first answer.
+    /// Then agreement is evidence for the shape alone.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub force_family: Option<ForceFamily>,
     /// Violations of Newton's laws by each answer.
@@ -104,8 +104,8 @@ impl Agreement {
     }
 }
 
-/// Hold answers against each other, every two of them, and each against Newton's laws, and write what that proves
-/// into their evidence: `agreed`, and `optimal` where a certificate exists.
+/// Hold answers against each other, every two of them, and each against Newton's laws, and write
+/// what that proves into their evidence: `agreed`, and `optimal` where a certificate exists.
 ///
 /// # Panics
 ///
@@ -244,7 +244,8 @@ fn agreement(chain: &Chain, answers: &[Equilibrium], tolerances: &Tolerances) ->
     let free = common(
         answers.iter().map(|answer| free_joints(chain, &answer.joints_m).map(|(_, joints)| joints)),
     );
-    // Answers of one family name the same line; where one is none of a family, forces are compared as they are.
+    // Answers of one family name the same line; where one is none of a family, forces are compared
+    // as they are.
     let families: Vec<_> = answers.iter().map(|answer| force_family(chain, answer)).collect();
     let all = families.iter().all(Option::is_some);
     let family = families.into_iter().next().flatten().filter(|_| all);

@@ -1,4 +1,5 @@
-//! How far a census carries the answer of a solver: alone in a proven box, and one of a complete list.
+//! How far a census carries the answer of a solver: alone in a proven box, and one of a complete
+//! list.
 
 use census::{Census, CensusError, SlackFamily};
 use model::{Chain, Equilibrium, NoCensus, Problem, Reason, Status, Verified};
@@ -6,8 +7,8 @@ use model::{Chain, Equilibrium, NoCensus, Problem, Reason, Status, Verified};
 use crate::census_checks::{Nearest, nearest, placed};
 use crate::tolerances::Tolerances;
 
-/// Say on an answer of a solver how far the census carries it: the rungs `verified` and `complete`. An answer that a
-/// complete census refutes loses what it had reached above `converged`.
+/// Say on an answer of a solver how far the census carries it: the rungs `verified` and `complete`.
+/// An answer that a complete census refutes loses what it had reached above `converged`.
 pub fn certify_by_census(problem: &Problem, census: &Census, answer: &mut Equilibrium) {
     let chain = problem.chain();
     let ladder = &mut answer.evidence.ladder;
@@ -60,7 +61,8 @@ fn not_listed(chain: &Chain, census: &Census, place: Option<Nearest>, energy_j: 
     }
 }
 
-/// Whether an answer at this distance of all equilibria is none, to the accuracy that answers are asked to agree to.
+/// Whether an answer at this distance of all equilibria is none, to the accuracy that answers are
+/// asked to agree to.
 fn refutes(chain: &Chain, distance: f64) -> bool {
     distance > Tolerances::project().joints.value + placed(chain)
 }

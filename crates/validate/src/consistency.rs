@@ -1,5 +1,5 @@
-//! Whether the numbers of one answer belong together: its energy, reactions and axial forces follow from
-//! its joints and joint forces.
+//! Whether the numbers of one answer belong together: its energy, reactions and axial forces follow
+//! from its joints and joint forces.
 
 use model::{Chain, Equilibrium, Vector, sum};
 use serde::Serialize;
@@ -26,8 +26,9 @@ impl Consistency {
     }
 }
 
-/// Hold the numbers of an answer against each other. Forces are measured as in [`Statics`](crate::statics::Statics); of the energy and of
-/// the axial forces counts what the rounding of the coordinates leaves unexplained.
+/// Hold the numbers of an answer against each other. Forces are measured as in
+/// [`Statics`](crate::statics::Statics); of the energy and of the axial forces counts what the
+/// rounding of the coordinates leaves unexplained.
 ///
 /// Arrays that do not fit the chain, and numbers that are not finite, give NaN.
 #[must_use]
@@ -58,7 +59,8 @@ pub fn consistency(chain: &Chain, answer: &Equilibrium) -> Consistency {
         // The part of the weight that the lever rule gives to the far joint.
         force[2] -= far_kg(bar) * chain.gravity_m_s2();
         let found = (0..3).map(|k| force[k] * (along[k] / norm(along))).sum::<f64>();
-        // Rounded coordinates turn a short bar, and a force along it loses by the square of the angle.
+        // Rounded coordinates turn a short bar, and a force along it loses by the square of the
+        // angle.
         let turn = 2.0 * stored_m / bar.length_m();
         let off_n = (answer.axial_n[i] - found).abs() - norm(force) * (turn * turn).min(2.0);
         // Not `f64::max`, which would forget a NaN.

@@ -12,7 +12,8 @@ pub(crate) struct Differences {
     pub(crate) forces_n: f64,
     /// Difference of the energies, J.
     pub(crate) energy_j: f64,
-    /// Where the chain turns freely, the angle by which the second answer was turned onto the first, rad.
+    /// Where the chain turns freely, the angle by which the second answer was turned onto the
+    /// first, rad.
     pub(crate) turned_rad: Option<f64>,
 }
 

@@ -1,10 +1,10 @@
 //! Whether equilibrium determines the forces: the self-stress of parallel bars.
 //!
-//! A self-stress is a set of axial forces that balance at every joint without any load. In a chain the force of
-//! one bar is passed on to the next, so it is one vector `p` all along, and every bar is parallel to it: the
-//! rigidity matrix of n bars with 3(n−1) free coordinates has rank n, but for a chain whose bars are all parallel to
-//! one line, where it has rank n − 1. There any multiple of the unit vector of the line may be added to the forces
-//! between all bars.
+//! A self-stress is a set of axial forces that balance at every joint without any load. In a chain
+//! the force of one bar is passed on to the next, so it is one vector `p` all along, and every bar
+//! is parallel to it: the rigidity matrix of n bars with 3(n−1) free coordinates has rank n, but
+//! for a chain whose bars are all parallel to one line, where it has rank n − 1. There any multiple
+//! of the unit vector of the line may be added to the forces between all bars.
 
 use model::{Chain, Equilibrium, ForceChoice, ForceFamily, STRAIGHT_TOLERANCE, SolverName, Vector};
 
@@ -12,8 +12,9 @@ use crate::statics::stored_rounding_m;
 
 /// The family of forces that an answer is one of, or nothing where equilibrium determines them.
 ///
-/// Bars count as parallel where they lose, by all their angles to the line, less of their reach than the rounding of
-/// lengths ([`STRAIGHT_TOLERANCE`]): of lengths that differ by so much some lie on the line.
+/// Bars count as parallel where they lose, by all their angles to the line, less of their reach
+/// than the rounding of lengths ([`STRAIGHT_TOLERANCE`]): of lengths that differ by so much some
+/// lie on the line.
 #[must_use]
 pub fn force_family(chain: &Chain, answer: &Equilibrium) -> Option<ForceFamily> {
     let bars = chain.bars().len();
@@ -23,7 +24,8 @@ pub fn force_family(chain: &Chain, answer: &Equilibrium) -> Option<ForceFamily> 
     let direction = common_line(chain, &answer.joints_m)?;
     let [mut least, mut most] = [f64::NEG_INFINITY, f64::INFINITY];
     for (ends, axial_n) in answer.joints_m.windows(2).zip(&answer.axial_n) {
-        // A force added along the line pulls the bars that run with it and pushes those that run against it.
+        // A force added along the line pulls the bars that run with it and pushes those that run
+        // against it.
         if dot(minus(ends[1], ends[0]), direction) > 0.0 {
             least = least.max(-axial_n);
         } else {
@@ -71,15 +73,17 @@ fn common_line(chain: &Chain, joints_m: &[Vector]) -> Option<Vector> {
     Some(line)
 }
 
-/// Whether a vector points up; of level ones, whether it points along the first axis that it has a part along.
+/// Whether a vector points up; of level ones, whether it points along the first axis that it has a
+/// part along.
 fn upwards([x, y, z]: Vector) -> bool {
     [z, x, y].into_iter().find(|part| part.abs() > 0.0).is_some_and(|part| part > 0.0)
 }
 
-/// What two answers of a family differ by beyond a force added along its line: the differences of their joint forces
-/// with its mean taken away.
+/// What two answers of a family differ by beyond a force added along its line: the differences of
+/// their joint forces with its mean taken away.
 pub(crate) fn beside_the_family(family: &ForceFamily, differences_n: &mut [Vector]) {
-    // Joint 0 has the force of the ground on bar 1, all others that of what comes after on the bar before.
+    // Joint 0 has the force of the ground on bar 1, all others that of what comes after on the bar
+    // before.
     let sign = |k: usize| if k == 0 { -1.0 } else { 1.0 };
     let parts = differences_n.iter().enumerate().map(|(k, d)| sign(k) * dot(*d, family.direction));
     let mean = parts.sum::<f64>() / differences_n.len() as f64;

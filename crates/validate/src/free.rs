@@ -1,11 +1,12 @@
 //! Joints that an equilibrium leaves free, proved.
 //!
-//! Where neighbouring joints carry no load, the bars before, between and behind them carry one force. If it is
-//! zero, each of the two parts of the chain that are left hangs (or stands) plumb from its own anchor, for every
-//! bar of it carries the weight of what is beyond it. So the places of their ends are known from the
-//! lengths alone, and the bars between them are at rest in any position in which they bridge the gap: their joints
-//! are free if the gap is wider than the lengths need folded, and narrower than they reach. Bars that just bridge
-//! their gap, or fall short of it, carry force, however little, and their joints are held.
+//! Where neighbouring joints carry no load, the bars before, between and behind them carry one
+//! force. If it is zero, each of the two parts of the chain that are left hangs (or stands) plumb
+//! from its own anchor, for every bar of it carries the weight of what is beyond it. So the places
+//! of their ends are known from the lengths alone, and the bars between them are at rest in any
+//! position in which they bridge the gap: their joints are free if the gap is wider than the
+//! lengths need folded, and narrower than they reach. Bars that just bridge their gap, or fall
+//! short of it, carry force, however little, and their joints are held.
 
 use std::ops::Range;
 
@@ -14,15 +15,15 @@ use model::{Bar, Chain, FreeJoints, Vector};
 use crate::lever::carried_kg;
 use crate::statics::stored_rounding_m;
 
-/// How far from plumb the joints at the ends of the bars without force may be, in units of the total length: the
-/// budget for joints.
+/// How far from plumb the joints at the ends of the bars without force may be, in units of the
+/// total length: the budget for joints.
 const PLUMB: f64 = 1e-10;
 
 /// Roundings of a sum of lengths, in units of the last place of the total.
 const ROUNDINGS: f64 = 16.0;
 
-/// The bars without force (from 0), and the joints between them, if a position of the chain is one of a family of
-/// equilibria in which these joints are free.
+/// The bars without force (from 0), and the joints between them, if a position of the chain is one
+/// of a family of equilibria in which these joints are free.
 pub(crate) fn free_joints(
     chain: &Chain,
     joints_m: &[Vector],
@@ -57,7 +58,8 @@ fn unloaded_runs(chain: &Chain) -> Vec<Range<usize>> {
     runs
 }
 
-/// Whether both ends of these bars are on the verticals through their anchors, as they are if all other bars are plumb.
+/// Whether both ends of these bars are on the verticals through their anchors, as they are if all
+/// other bars are plumb.
 fn stands_below(chain: &Chain, joints_m: &[Vector], run: &Range<usize>, enough_m: f64) -> bool {
     let off = |joint: Vector, anchor: Vector| (joint[0] - anchor[0]).hypot(joint[1] - anchor[1]);
     let anchors = chain.anchors();
@@ -85,8 +87,8 @@ fn plumb(chain: &Chain, joints_m: &[Vector], run: &Range<usize>) -> [Vector; 2] 
     [start, end]
 }
 
-/// Whether the bars of a run can bridge the gap between the plumb parts, neither straight nor folded on one line,
-/// beyond what roundings can tell.
+/// Whether the bars of a run can bridge the gap between the plumb parts, neither straight nor
+/// folded on one line, beyond what roundings can tell.
 fn has_room(chain: &Chain, joints_m: &[Vector], run: &Range<usize>) -> bool {
     let lengths = || chain.bars()[run.clone()].iter().map(Bar::length_m);
     let reach_m = model::sum(lengths());
@@ -94,7 +96,8 @@ fn has_room(chain: &Chain, joints_m: &[Vector], run: &Range<usize>) -> bool {
     let [start, end] = plumb(chain, joints_m, run);
     let gap_m = distance(start, end);
     let rounding_m = ROUNDINGS * f64::EPSILON * chain.total_length_m() + stored_rounding_m(chain);
-    // How much longer one bar is than the others: with a gap of that the run lies folded on one line.
+    // How much longer one bar is than the others: with a gap of that the run lies folded on one
+    // line.
     let folded_m = 2.0 * longest_m - reach_m;
     if gap_m <= rounding_m {
         // Closed on one point, about which it turns.

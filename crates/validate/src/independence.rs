@@ -21,8 +21,8 @@ const LINEAR_ALGEBRA: &[&str] = &[
     "dense-lapack",
 ];
 
-/// Packages of the workspace that may reach both solvers: the judge, what shows its verdicts, and what measures or
-/// sweeps both side by side.
+/// Packages of the workspace that may reach both solvers: the judge, what shows its verdicts, and
+/// what measures or sweeps both side by side.
 const MEETING_PLACES: &[&str] = &["validate", "paper", "report", "benches", "funicular"];
 
 /// Packages that are handed the solvers they run, or need none.
@@ -59,7 +59,8 @@ impl Graph {
         let host = rustc.lines().find_map(|line| line.strip_prefix("host: "));
         let host = host.ok_or(GraphError::Format("the host of rustc -vV"))?;
         let cargo = std::env::var("CARGO").unwrap_or_else(|_| "cargo".to_owned());
-        // Packages of other platforms are of no use to a build here, and may never have been fetched.
+        // Packages of other platforms are of no use to a build here, and may never have been
+        // fetched.
         let arguments = [
             "metadata",
             "--format-version",

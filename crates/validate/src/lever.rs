@@ -1,8 +1,8 @@
 //! The lever rule, the one place of it outside the two solvers and the census.
 //!
-//! A bar's weight is linear in the places of its two ends, so a bar weighs on its joints as two point
-//! masses do: with the centre of weight at the distance `r` from its first end, `(1 − r/l) m` there and
-//! `(r/l) m` at its second end.
+//! A bar's weight is linear in the places of its two ends, so a bar weighs on its joints as two
+//! point masses do: with the centre of weight at the distance `r` from its first end, `(1 − r/l) m`
+//! there and `(r/l) m` at its second end.
 
 use model::{Bar, Chain};
 
@@ -20,7 +20,8 @@ pub fn centre_part(bar: &Bar) -> f64 {
     bar.centre_m() / bar.length_m()
 }
 
-/// What of its mass the first end of a bar carries, kg; exactly none where the centre of weight is at the second.
+/// What of its mass the first end of a bar carries, kg; exactly none where the centre of weight is
+/// at the second.
 #[must_use]
 pub fn near_kg(bar: &Bar) -> f64 {
     bar.mass_kg() * ((bar.length_m() - bar.centre_m()) / bar.length_m())

@@ -1,10 +1,10 @@
 //! The only place where the two solvers meet.
 //!
-//! `lagrange` and `energy` answer the same question and know nothing of each other. Here their answers
-//! are held against each other ([`compare`](mod@compare)), against a third judge written from Newton's laws
-//! ([`statics`]), against a proof of global minimality ([`certificate`]), and against a list of all
-//! equilibria ([`completeness`]). [`independence`] proves from the dependency graph that the agreement of the
-//! two is worth something.
+//! `lagrange` and `energy` answer the same question and know nothing of each other. Here their
+//! answers are held against each other ([`compare`](mod@compare)), against a third judge written
+//! from Newton's laws ([`statics`]), against a proof of global minimality ([`certificate`]), and
+//! against a list of all equilibria ([`completeness`]). [`independence`] proves from the dependency
+//! graph that the agreement of the two is worth something.
 
 pub mod answer;
 #[cfg(feature = "bounds")]

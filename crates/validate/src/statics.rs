@@ -2,8 +2,8 @@
 //!
 //! It knows nothing of angles, directions, multipliers' equations or energies: a bar is two points
 //! and a weight between them, and the forces at its ends are what the answer says they are. Bar *i*
-//! feels the force `f` of entry *i* at its far joint, and the opposite of entry *i*−1 at its near joint
-//! (for bar 1 entry 0 itself, the force of the ground), and its weight:
+//! feels the force `f` of entry *i* at its far joint, and the opposite of entry *i*−1 at its near
+//! joint (for bar 1 entry 0 itself, the force of the ground), and its weight:
 //!
 //! $$ F_{i-1} + F_i - m_i g\, e_z = 0, \qquad
 //!    (x_{i-1} - x_{C_i}) \times F_{i-1} + (x_i - x_{C_i}) \times F_i = 0 . $$
@@ -16,12 +16,13 @@ use crate::lever::centre_part;
 
 /// Largest violations of geometry and of Newton's laws, dimensionless.
 ///
-/// A bar's balance is measured against its own forces, those of its two ends and its weight: the least of the bars
-/// has to be in balance, whatever the others carry. The chain as a whole is measured against the larger of the
-/// total weight and the largest joint force, and so are bars that are proved to carry nothing. Of forces counts
-/// what the rounding of the largest leaves unexplained, for they are differences of it; of lengths and moments
-/// what that and the rounding of the stored coordinates ([`stored_rounding_m`]) leave unexplained: it
-/// turns a short bar, far from the origin, by more than any solver could help.
+/// A bar's balance is measured against its own forces, those of its two ends and its weight: the
+/// least of the bars has to be in balance, whatever the others carry. The chain as a whole is
+/// measured against the larger of the total weight and the largest joint force, and so are bars
+/// that are proved to carry nothing. Of forces counts what the rounding of the largest leaves
+/// unexplained, for they are differences of it; of lengths and moments what that and the rounding
+/// of the stored coordinates ([`stored_rounding_m`]) leave unexplained: it turns a short bar, far
+/// from the origin, by more than any solver could help.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Statics {
     /// Largest distance of an end joint from its anchor, in units of the total length.
@@ -30,7 +31,8 @@ pub struct Statics {
     pub length: f64,
     /// Largest force left over on a bar, in units of its own forces.
     pub force: f64,
-    /// Largest moment about its centre of weight left over on a bar, in units of its own forces × its length.
+    /// Largest moment about its centre of weight left over on a bar, in units of its own forces ×
+    /// its length.
     pub moment: f64,
     /// Force left over on the whole chain: both ground reactions and the total weight.
     pub balance: f64,
@@ -46,7 +48,8 @@ pub struct Statics {
 /// last place of the largest.
 const STORED_ULPS: f64 = 8.0;
 
-/// A joint force is a sum of weights and of the force at an anchor: a few units in the last place of the largest.
+/// A joint force is a sum of weights and of the force at an anchor: a few units in the last place
+/// of the largest.
 const FORCE_ULPS: f64 = 8.0;
 
 /// Rounding of the joints' coordinates, m: they are stored in the world frame, however far from its

@@ -1,4 +1,5 @@
-//! Both solvers on every case of the registry: the disagreement is stored first and judged afterwards.
+//! Both solvers on every case of the registry: the disagreement is stored first and judged
+//! afterwards.
 
 use std::fmt::Write as _;
 
@@ -12,8 +13,8 @@ use crate::compare::Agreement;
 use crate::tolerances::Tolerances;
 use crate::units::Units;
 
-/// Joints and joint forces are listed one by one up to this many bars; of longer chains the ends, the
-/// energy and the largest differences.
+/// Joints and joint forces are listed one by one up to this many bars; of longer chains the ends,
+/// the energy and the largest differences.
 const LISTED_BARS: usize = 10;
 
 /// One observable of one case by both solvers.

@@ -24,7 +24,8 @@ fn both_solvers_agree_on_every_case_of_the_registry() {
         }
     }
     println!("measured: joints, forces, energy, statics: {measured:?}");
-    // What the file of budgets says of the measured values is not stale. The factor leaves room for other processors.
+    // What the file of budgets says of the measured values is not stale. The factor leaves room for
+    // other processors.
     let Tolerances { joints, forces, energy, statics } = &tolerances;
     for (found, budget) in measured.iter().zip([joints, forces, energy, statics]) {
         assert!(*found <= 10.0 * budget.measured, "measured {found:e}, recorded {budget:?}");
@@ -108,7 +109,8 @@ type Change = fn(&mut Equilibrium, f64);
 /// The value of one budget.
 type Which = fn(&mut Tolerances) -> &mut f64;
 
-/// Half of a budget is allowed, twice the budget is not, in the units that the file of budgets names.
+/// Half of a budget is allowed, twice the budget is not, in the units that the file of budgets
+/// names.
 #[test]
 fn each_budget_is_in_the_unit_that_its_file_says() {
     /// Far above all rounding, far below one.

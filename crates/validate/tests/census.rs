@@ -1,5 +1,5 @@
-//! The census held against all that does not need it: both solvers, Newton's laws, exact algebra, topology and
-//! convex programming.
+//! The census held against all that does not need it: both solvers, Newton's laws, exact algebra,
+//! topology and convex programming.
 
 #![expect(clippy::unwrap_used, reason = "helpers of tests")]
 
@@ -89,8 +89,8 @@ fn seeds(
     seeds: usize,
     solve: impl Fn(&[Vector]) -> Option<Vec<Vector>> + Sync,
 ) -> Found {
-    /// What a solver's tolerance leaves where the equilibrium is ill-conditioned, in total lengths; far
-    /// below the distance of any two of the list.
+    /// What a solver's tolerance leaves where the equilibrium is ill-conditioned, in total lengths;
+    /// far below the distance of any two of the list.
     const SEEDED: f64 = 1e-7;
     let ends: Vec<Option<usize>> = (0..seeds)
         .into_par_iter()
@@ -132,8 +132,9 @@ fn by_energy(problem: &Problem) -> impl Fn(&[Vector]) -> Option<Vec<Vector>> + S
     }
 }
 
-/// [`seeds`] for `lagrange` on the paper's chain in a third of the time: an end is known by its energy and
-/// by the distance of joint 1 from the vertical of the anchors, without the spectrum at the solution.
+/// [`seeds`] for `lagrange` on the paper's chain in a third of the time: an end is known by its
+/// energy and by the distance of joint 1 from the vertical of the anchors, without the spectrum at
+/// the solution.
 fn circles_by_lagrange(problem: &Problem, census: &Census, seeds: usize) -> Found {
     /// As in [`seeds`], in m and in mgl; the two circles are 1.3 mgl apart.
     const SEEDED: f64 = 1e-7;
@@ -215,7 +216,8 @@ fn a_seed_finds_what_was_deleted() {
     circles_by_lagrange(&problem, &census, 8);
 }
 
-/// `lagrange` stays where it is started in the list, with the same stability, and Newton's laws hold.
+/// `lagrange` stays where it is started in the list, with the same stability, and Newton's laws
+/// hold.
 #[test]
 fn every_listed_equilibrium_is_one_for_lagrange_and_for_the_statics_judge() {
     let tolerance = Tolerances::project().statics.value;
@@ -300,7 +302,8 @@ fn the_sextic_and_the_topology_count_the_same() {
     assert_eq!(census.morse(), Ok(()));
 }
 
-/// The rungs of the ladder: `optimal` for E1 alone, `complete` for E2, and neither for what is not listed.
+/// The rungs of the ladder: `optimal` for E1 alone, `complete` for E2, and neither for what is not
+/// listed.
 #[test]
 fn the_ladder_is_honest() {
     let example = Example::solve().unwrap();
@@ -329,8 +332,8 @@ fn the_ladder_is_honest() {
     assert!(reached(&e2, Rung::Verified) && !reached(&e2, Rung::Complete));
 }
 
-/// A slack pair at the bottom is at rest in a family of positions: no box holds one of them alone, and the ladder
-/// says why.
+/// A slack pair at the bottom is at rest in a family of positions: no box holds one of them alone,
+/// and the ladder says why.
 #[test]
 fn an_answer_of_a_slack_family_is_told_as_one() {
     let bar = |length, mass| Bar::homogeneous(length, mass).unwrap();

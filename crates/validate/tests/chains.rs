@@ -1,7 +1,7 @@
 //! A thousand random chains of all hard shapes: both solvers hang each from no guess, and agree.
 //!
-//! `CHAINS=100000 cargo test -p validate --test chains -- --nocapture` asks for more; the chains that come
-//! after the first thousand are no part of the checks.
+//! `CHAINS=100000 cargo test -p validate --test chains -- --nocapture` asks for more; the chains
+//! that come after the first thousand are no part of the checks.
 
 #![expect(
     clippy::unwrap_used,
@@ -124,12 +124,14 @@ fn both_solvers_agree_on_a_thousand_random_chains() {
     assert!(table.get(&Shape::OneCompressed).is_none_or(|row| 2 * row.compressed > row.chains));
 }
 
-/// Condition from which on a residual of rounding leaves joints more in doubt than solvers are asked to agree.
+/// Condition from which on a residual of rounding leaves joints more in doubt than solvers are
+/// asked to agree.
 const NEARLY_FREE: f64 = 1e9;
 
-/// Chains at the edge of what doubles resolve: the solvers agree, or one of them refuses, or says in its evidence that
-/// its forces are in doubt, that the position is degenerate, or by its condition number that the chain turns next to
-/// freely about anchors so close. None is wrong without a word.
+/// Chains at the edge of what doubles resolve: the solvers agree, or one of them refuses, or says
+/// in its evidence that its forces are in doubt, that the position is degenerate, or by its
+/// condition number that the chain turns next to freely about anchors so close. None is wrong
+/// without a word.
 #[test]
 fn chains_all_but_folded_are_right_or_in_doubt() {
     let count = std::env::var("CHAINS").map_or(CHAINS, |count| count.parse().unwrap());
@@ -197,7 +199,8 @@ fn loose_bars_are_compared_by_what_is_determined() {
             assert!((answer.reactions_n.start[2] - 2.0).abs() < 1e-9, "{massless}");
         }
         if free > 0 {
-            // A joint that is held is compared all the same, and the lengths of loose bars are judged.
+            // A joint that is held is compared all the same, and the lengths of loose bars are
+            // judged.
             for k in [2, 3] {
                 let mut moved = answers.clone();
                 moved[1].joints_m[k][0] += 1e-6;
@@ -207,8 +210,9 @@ fn loose_bars_are_compared_by_what_is_determined() {
     }
 }
 
-/// A bar of three metres stands on the lowest joint of a strand and pulls the first anchor up: all bars are upright, and
-/// lengths alone do not say how the ties share the weight. Neither solver's forces are worth anything, and both say so.
+/// A bar of three metres stands on the lowest joint of a strand and pulls the first anchor up: all
+/// bars are upright, and lengths alone do not say how the ties share the weight. Neither solver's
+/// forces are worth anything, and both say so.
 #[test]
 fn upright_chains_with_a_prop_are_told_in_doubt() {
     let bars = [(1.0, 1.0), (3.0, 1.0), (1.0, 1.0), (1.0, 5.0), (1.0, 1.0)]
@@ -227,9 +231,9 @@ fn upright_chains_with_a_prop_are_told_in_doubt() {
     }
 }
 
-/// Two strands that hang straight down and just meet share the weight of the lowest joint in any way they
-/// like. Both solvers answer with the limit of anchors that are moved apart, each by a method of its own;
-/// here the anchors are moved apart.
+/// Two strands that hang straight down and just meet share the weight of the lowest joint in any
+/// way they like. Both solvers answer with the limit of anchors that are moved apart, each by a
+/// method of its own; here the anchors are moved apart.
 #[test]
 fn strands_that_meet_share_the_weight_as_they_do_a_little_apart() {
     let bars: Vec<Bar> =
@@ -242,7 +246,8 @@ fn strands_that_meet_share_the_weight_as_they_do_a_little_apart() {
             assert!(*a > 0.0 && (a - b).abs() < 1e-6, "{} {a} {b}", meeting.solver);
         }
     }
-    // Not simply halves: 2.5 at the lowest joint, of which the strand with the slacker bars takes less.
+    // Not simply halves: 2.5 at the lowest joint, of which the strand with the slacker bars takes
+    // less.
     let share = meeting[0].reactions_n.start[2] - 12.0;
     assert!((share - 0.5 * 1.25).abs() > 0.01, "{share}");
 }

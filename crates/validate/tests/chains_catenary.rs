@@ -1,16 +1,17 @@
-//! Equal bars of a fixed length tend to the catenary: energy, the forces at both ends, and the shape, with
-//! order two, up to tens of thousands of bars, by both solvers.
+//! Equal bars of a fixed length tend to the catenary: energy, the forces at both ends, and the
+//! shape, with order two, up to tens of thousands of bars, by both solvers.
 
 use lagrange::condensed;
 use model::{Anchors, Bar, Chain, Equilibrium, Problem};
 
 /// Numbers of bars, each four times the one before it.
 const SIZES: [usize; 5] = [64, 256, 1024, 4096, 16_384];
-/// Deviation of the last measured order from two. The error has a term of order four as well, some 1e-6 of the
-/// first at 4096 bars; rounding is some 1e-4 of the error at 16,384. Measured: 1.5e-4.
+/// Deviation of the last measured order from two. The error has a term of order four as well, some
+/// 1e-6 of the first at 4096 bars; rounding is some 1e-4 of the error at 16,384. Measured: 1.5e-4.
 const ORDER: f64 = 1e-3;
 
-/// The catenary of unit weight per length from (0, 0) to (across, rise): z = c cosh((x - low) / c) + constant.
+/// The catenary of unit weight per length from (0, 0) to (across, rise): z = c cosh((x - low) /
+/// c) + constant.
 struct Catenary {
     c: f64,
     low: f64,
@@ -48,8 +49,8 @@ impl Catenary {
     }
 }
 
-/// What is compared: energy, horizontal force, vertical forces at the start and at the end, tension at
-/// the end, and how far the joints are from the curve.
+/// What is compared: energy, horizontal force, vertical forces at the start and at the end, tension
+/// at the end, and how far the joints are from the curve.
 const QUANTITIES: [&str; 6] =
     ["energy", "horizontal", "start, vertical", "end, vertical", "end, tension", "shape"];
 

@@ -14,7 +14,8 @@ use validate::{Tolerances, compare};
 
 const MILLION: usize = 1_000_000;
 
-/// Closure in total lengths, force balance in weights: the accuracy asked for at any number of bars.
+/// Closure in total lengths, force balance in weights: the accuracy asked for at any number of
+/// bars.
 const ACCURACY: f64 = 1e-12;
 
 fn equal_bars(n: usize) -> Problem {
@@ -23,8 +24,8 @@ fn equal_bars(n: usize) -> Problem {
     Problem::new(Chain::new("equal", 9.806_65, anchors, vec![bar; n]).unwrap()).unwrap()
 }
 
-/// Lengths and masses over a factor of twenty, a tenth of the bars massless, centres anywhere, between
-/// anchors that are nowhere special.
+/// Lengths and masses over a factor of twenty, a tenth of the bars massless, centres anywhere,
+/// between anchors that are nowhere special.
 fn random_bars(n: usize) -> Problem {
     let mut rng = ChaCha8Rng::seed_from_u64(6);
     let bars: Vec<Bar> = (0..n)
@@ -62,7 +63,8 @@ fn accurate(problem: &Problem, found: &Equilibrium) {
     assert!(open_m <= ACCURACY * chain.total_length_m(), "{}: {open_m:e}", found.solver);
 }
 
-/// Measured: closure 4e-16, forces 4e-16 of the largest on any bar, 2e-15 on the whole, by either solver.
+/// Measured: closure 4e-16, forces 4e-16 of the largest on any bar, 2e-15 on the whole, by either
+/// solver.
 #[test]
 fn a_million_bars_are_as_accurate_as_ten() {
     for problem in [equal_bars(MILLION), random_bars(MILLION)] {

@@ -1,8 +1,8 @@
 //! Morse indices and the certificate, both O(n), against eigenvalues of dense matrices.
 //!
 //! Nothing of a solver is used by the judge here: the second derivative of the Lagrangian in joint
-//! coordinates is the stress matrix of the axial forces, once for each of X, Y and Z, the bars are the
-//! constraints, and the index is counted on their null space.
+//! coordinates is the stress matrix of the axial forces, once for each of X, Y and Z, the bars are
+//! the constraints, and the index is counted on their null space.
 
 #![expect(
     clippy::unwrap_used,
@@ -22,8 +22,9 @@ use validate::certificate::certify;
 const LARGEST: usize = 12;
 /// Seeds for each chain, half of them in the plane of the anchors.
 const SEEDS: usize = 12;
-/// Eigenvalues below this, in units of the largest force density, are zero: the turn about vertical anchors gives 1e-15, and
-/// an equilibrium with one between this and `CLEAR` would be too close to call.
+/// Eigenvalues below this, in units of the largest force density, are zero: the turn about vertical
+/// anchors gives 1e-15, and an equilibrium with one between this and `CLEAR` would be too close to
+/// call.
 const ZERO: f64 = 1e-11;
 const CLEAR: f64 = 1e-8;
 
@@ -49,8 +50,9 @@ fn random_problem(rng: &mut ChaCha8Rng, n: usize, vertical: bool) -> Problem {
     }
 }
 
-/// Negative and zero eigenvalues of the second derivative on the motions that keep the bars whole, the joints
-/// given by `coordinates` numbers each; `None` when an eigenvalue is too close to zero to call.
+/// Negative and zero eigenvalues of the second derivative on the motions that keep the bars whole,
+/// the joints given by `coordinates` numbers each; `None` when an eigenvalue is too close to zero
+/// to call.
 fn inertia(joints: &[Vec<f64>], density: &[f64], coordinates: usize) -> Option<[usize; 2]> {
     let (n, size) = (density.len(), (density.len() - 1) * coordinates);
     let mut hessian = DMatrix::zeros(size, size);
@@ -92,7 +94,8 @@ fn inertia(joints: &[Vec<f64>], density: &[f64], coordinates: usize) -> Option<[
     Some([sizes().filter(|v| *v < -ZERO).count(), sizes().filter(|v| v.abs() <= ZERO).count()])
 }
 
-/// The index in the plane of the equilibrium and in space by dense matrices, and the zero eigenvalues.
+/// The index in the plane of the equilibrium and in space by dense matrices, and the zero
+/// eigenvalues.
 fn dense(problem: &Problem, found: &Equilibrium) -> Option<[[usize; 2]; 2]> {
     let bars = problem.chain().bars();
     let density: Vec<f64> =
@@ -118,9 +121,9 @@ fn directions(problem: &Problem, found: &Equilibrium) -> energy::Seed {
     energy::Seed::directions(problem, &directions).unwrap()
 }
 
-/// The full system and the energy, each by its own O(n) means, count the index of equilibria of all kinds as
-/// the eigenvalues do, and the condensed equations that of the hanging one; and the certificate proves exactly
-/// those that are stable in space.
+/// The full system and the energy, each by its own O(n) means, count the index of equilibria of all
+/// kinds as the eigenvalues do, and the condensed equations that of the hanging one; and the
+/// certificate proves exactly those that are stable in space.
 #[test]
 fn indices_are_those_of_dense_matrices() {
     let mut rng = ChaCha8Rng::seed_from_u64(5);
@@ -187,8 +190,8 @@ fn indices_are_those_of_dense_matrices() {
     assert!(close <= 2, "{close}");
 }
 
-/// The hanging chain turned upside down is the maximum: every bar in compression, no direction that does not
-/// lower the energy, n - 2 in the plane and n - 1 across it.
+/// The hanging chain turned upside down is the maximum: every bar in compression, no direction that
+/// does not lower the energy, n - 2 in the plane and n - 1 across it.
 #[test]
 fn the_highest_equilibrium_of_a_hundred_thousand_bars() {
     let mut rng = ChaCha8Rng::seed_from_u64(8);
@@ -205,8 +208,8 @@ fn the_highest_equilibrium_of_a_hundred_thousand_bars() {
         });
         let settings = condensed::Settings::default();
         let hanging = condensed::solve(&mirrored, &settings).unwrap().equilibrium;
-        // Upside down each bar is pressed as hard as it was pulled: the push of the ground is inwards where the
-        // pull was outwards, and carries the same weight.
+        // Upside down each bar is pressed as hard as it was pulled: the push of the ground is
+        // inwards where the pull was outwards, and carries the same weight.
         let mut arch = hanging;
         for joint in &mut arch.joints_m {
             joint[2] = -joint[2];

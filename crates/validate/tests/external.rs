@@ -132,7 +132,8 @@ fn chains_converge_to_the_catenary_with_order_two() {
     {
         let runs: Vec<_> = [50, 100, 200, 400, 800].map(|n| errors(n, length, a, b)).into();
         for (solver, name) in ["lagrange", "energy"].into_iter().enumerate() {
-            // The energy comes from above: the chain is inscribed in no catenary, its minimum is over fewer shapes.
+            // The energy comes from above: the chain is inscribed in no catenary, its minimum is
+            // over fewer shapes.
             assert!(runs.iter().all(|run| run[solver][0] > 0.0), "{name}: {runs:?}");
             for quantity in 0..3 {
                 let order = |k: usize| {
@@ -144,7 +145,8 @@ fn chains_converge_to_the_catenary_with_order_two() {
                     assert!(runs.iter().all(|run| run[solver][2].abs() < 1e-12));
                     continue;
                 }
-                // The next term of the expansion is of order four: at n = 400 it is 1e-3 of the first or less.
+                // The next term of the expansion is of order four: at n = 400 it is 1e-3 of the
+                // first or less.
                 let last = order(3);
                 assert!((last - 2.0).abs() < 5e-3, "{name}, quantity {quantity}: order {last}");
             }
@@ -162,7 +164,8 @@ fn the_published_optima_of_cops_tend_to_the_same_catenary() {
     let mut previous = f64::INFINITY;
     for optimum in &cops.published {
         let published = distance(optimum.recomputed.as_ref().unwrap_or(&optimum.energy));
-        // COPS's grid is uniform in x; bars of equal length put more of them where the chain is steep.
+        // COPS's grid is uniform in x; bars of equal length put more of them where the chain is
+        // steep.
         let problem = equal_bars(
             optimum.intervals,
             cops.problem.length,
@@ -196,8 +199,8 @@ struct CatenaOptimum {
     energy_j: String,
 }
 
-/// The published optima break their own length constraints a little, and lie lower by this much of their
-/// value (measured: 1.8e-8 to 2.1e-8).
+/// The published optima break their own length constraints a little, and lie lower by this much of
+/// their value (measured: 1.8e-8 to 2.1e-8).
 const CATENA_VIOLATION: f64 = 3e-8;
 
 #[test]

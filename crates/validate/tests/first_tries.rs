@@ -1,5 +1,5 @@
-//! Systems on which the verdict once said more than was known: bars that just bridge their gap, masses over many
-//! orders of magnitude, forces that equilibrium does not determine.
+//! Systems on which the verdict once said more than was known: bars that just bridge their gap,
+//! masses over many orders of magnitude, forces that equilibrium does not determine.
 
 #![expect(
     clippy::unwrap_used,
@@ -51,7 +51,8 @@ fn apart(problem: &Problem, [a, b]: [&Equilibrium; 2]) -> f64 {
     distances.fold(0.0, f64::max) / problem.chain().total_length_m()
 }
 
-/// A joint that is held is compared, however little its bars carry: where answers agree, all their joints do.
+/// A joint that is held is compared, however little its bars carry: where answers agree, all their
+/// joints do.
 #[test]
 fn agreement_leaves_out_no_joint_that_is_held() {
     let tolerances = Tolerances::project();
@@ -66,7 +67,8 @@ fn agreement_leaves_out_no_joint_that_is_held() {
     }
 }
 
-/// An answer that stands alone passes neither the judge nor the census unless it is where the equilibrium is.
+/// An answer that stands alone passes neither the judge nor the census unless it is where the
+/// equilibrium is.
 #[test]
 fn an_answer_alone_is_not_passed_where_it_is_wrong() {
     for name in ["limp2", "limp3", "just-bridged", "mass1e12", "ratios-80"] {
@@ -83,7 +85,8 @@ fn an_answer_alone_is_not_passed_where_it_is_wrong() {
     }
 }
 
-/// What a complete census refutes keeps no rung but the first; a distance within the budget refutes nothing.
+/// What a complete census refutes keeps no rung but the first; a distance within the budget refutes
+/// nothing.
 #[test]
 fn a_complete_census_refutes_an_answer() {
     let problem = cases::get("three-equal-bars-oblique").unwrap().problem();
@@ -113,7 +116,8 @@ fn a_complete_census_refutes_an_answer() {
     }
 }
 
-/// A light bar between heavy ones is judged by its own forces: turned by a thousandth, it is out of balance by that.
+/// A light bar between heavy ones is judged by its own forces: turned by a thousandth, it is out of
+/// balance by that.
 #[test]
 fn a_light_bar_is_judged_by_its_own_forces() {
     let bars = [(1.0, 1e6), (1.0, 1.0), (1.0, 1.0), (1.0, 1e6)]
@@ -138,7 +142,8 @@ fn equal(bars: usize, down_m: f64) -> Problem {
     Problem::new(Chain::new("equal", 1.0, anchors, vec![bar; bars]).unwrap()).unwrap()
 }
 
-/// Self-stresses by the rank of the rigidity matrix: a column for each free coordinate, a row for each bar.
+/// Self-stresses by the rank of the rigidity matrix: a column for each free coordinate, a row for
+/// each bar.
 fn self_stresses(answer: &Equilibrium) -> usize {
     let bars = answer.joints_m.len() - 1;
     let mut rigidity = DMatrix::<f64>::zeros(bars, 3 * (bars - 1));

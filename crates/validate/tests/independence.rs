@@ -1,4 +1,5 @@
-//! The two solvers share no mechanics: the dependency graph proves it, and the guard is proved to see.
+//! The two solvers share no mechanics: the dependency graph proves it, and the guard is proved to
+//! see.
 
 #![expect(clippy::unwrap_used, reason = "helpers of tests")]
 

@@ -1,5 +1,5 @@
-//! Both solvers on the paper's example against its numbers: theta, alpha, beta and V as printed in (ix), and as
-//! established independently.
+//! Both solvers on the paper's example against its numbers: theta, alpha, beta and V as printed in
+//! (ix), and as established independently.
 
 #![expect(clippy::unwrap_used, reason = "helpers of tests")]
 
@@ -60,7 +60,8 @@ fn both_solvers_give_the_reference_numbers() {
     }
 }
 
-/// V to all printed digits; the angles to the step of the paper's scan, 0.001 rad, and not to the printed digits.
+/// V to all printed digits; the angles to the step of the paper's scan, 0.001 rad, and not to the
+/// printed digits.
 #[test]
 fn both_solvers_explain_the_printed_numbers() {
     let paper = Paper::project();

@@ -42,8 +42,8 @@ fn the_reference_digits_of_e1_are_in_balance() {
     assert!(statics.passes(ROUNDING), "{statics:?}");
 }
 
-/// Two bars: a triangle in the vertical plane. The joint lies where the circles meet, below; the forces follow from
-/// the moments of each bar about its anchor.
+/// Two bars: a triangle in the vertical plane. The joint lies where the circles meet, below; the
+/// forces follow from the moments of each bar about its anchor.
 #[test]
 fn the_closed_form_of_two_bars_is_in_balance() {
     let problem = model::cases::get("two-bars").unwrap().problem();
@@ -58,8 +58,8 @@ fn the_closed_form_of_two_bars_is_in_balance() {
     let (x, z) = ((along * a + aside * b) / span, (along * b - aside * a) / span);
     let parts = [0, 1].map(|i| bars[i].centre_m() / bars[i].length_m());
     let weights = [0, 1].map(|i| bars[i].mass_kg() * g);
-    // Force of bar 2 on bar 1 at the joint: moments of bar 1 about joint 0 and of bar 2 about joint 2.
-    //   x fz - z fx = parts[0] x w1;  (x - a) fz - (z - b) fx = -(1 - parts[1]) (x - a) w2
+    // Force of bar 2 on bar 1 at the joint: moments of bar 1 about joint 0 and of bar 2 about joint
+    // 2. x fz - z fx = parts[0] x w1; (x - a) fz - (z - b) fx = -(1 - parts[1]) (x - a) w2
     let right = [parts[0] * x * weights[0], -(1.0 - parts[1]) * (x - a) * weights[1]];
     let determinant = -x * (z - b) + z * (x - a);
     let fz = (-right[0] * (z - b) + z * right[1]) / determinant;
@@ -129,8 +129,8 @@ fn arrays_of_the_wrong_length_pass_nothing() {
     }
 }
 
-/// A million bars, exact by construction: with the pull of the first anchor given, every bar lies along
-/// the force in it, turned by `lean` rad.
+/// A million bars, exact by construction: with the pull of the first anchor given, every bar lies
+/// along the force in it, turned by `lean` rad.
 fn long(lean: f64) -> (Chain, Vec<Vector>, Vec<Vector>) {
     const BARS: usize = 1_000_000;
     let bars = vec![Bar::homogeneous(1e-6, 1e-6).unwrap(); BARS];
@@ -172,8 +172,8 @@ fn a_million_bars_in_balance_pass_and_one_wrong_bar_does_not() {
     assert!([500_000, 500_001].contains(&found.worst_bar), "{found:?}");
 }
 
-/// Every bar of a million leans by less than the rounding of its ends explains; together they do not
-/// escape.
+/// Every bar of a million leans by less than the rounding of its ends explains; together they do
+/// not escape.
 #[test]
 fn errors_too_small_to_see_on_a_bar_are_seen_on_the_chain() {
     let (chain, joints, forces) = long(1e-9);

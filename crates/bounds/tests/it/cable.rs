@@ -8,8 +8,8 @@ use model::{Anchors, Bar, Chain, Problem};
 /// Rounding of the energies compared, of weight times length; measured 4e-15 at most.
 const ROUNDING: f64 = 1e-13;
 
-/// Two cables straight down to the last anchor, the third slack: V = -4 mgl, 2.0 in the paper's terms
-/// (the relaxation without the multiplied closure).
+/// Two cables straight down to the last anchor, the third slack: V = -4 mgl, 2.0 in the paper's
+/// terms (the relaxation without the multiplied closure).
 #[test]
 fn paper() {
     let problem = model::cases::paper();
@@ -26,7 +26,8 @@ fn paper() {
 }
 
 /// Where all bars are in tension the cables are the minimum: energy, joints and axial forces are
-/// those of the minimiser of this crate, which knows nothing of cables. Elsewhere the bound is below.
+/// those of the minimiser of this crate, which knows nothing of cables. Elsewhere the bound is
+/// below.
 #[test]
 fn taut_cables_are_the_equilibrium() {
     let mut rng = rng(3);
@@ -71,8 +72,8 @@ fn taut_cables_are_the_equilibrium() {
     assert!(taut > 20 && slack > 20, "{taut} taut, {slack} slack");
 }
 
-/// Two anchors at one point: the chain hangs double, and is slack in the middle if its number of bars
-/// is odd.
+/// Two anchors at one point: the chain hangs double, and is slack in the middle if its number of
+/// bars is odd.
 #[test]
 fn anchors_at_one_point() {
     for n in [4_usize, 5, 10, 11] {
@@ -80,7 +81,8 @@ fn anchors_at_one_point() {
         let bars = vec![Bar::homogeneous(1.0, 1.0).unwrap(); n];
         let problem = Problem::new(Chain::new("double", 1.0, anchors, bars).unwrap()).unwrap();
         let bound = cable_bound(&problem, &BoundSettings::default()).unwrap();
-        // Pairs of bars at depth 1/2, 3/2, ...; an odd one at the bottom, at depth n/2 rounded down.
+        // Pairs of bars at depth 1/2, 3/2, ...; an odd one at the bottom, at depth n/2 rounded
+        // down.
         let half = f64::from(u32::try_from(n / 2).unwrap());
         let expected = -(half * half + if n % 2 == 1 { half } else { 0.0 });
         assert!((bound.rigorous_j - expected).abs() < 1e-12 * half * half, "{n}");
@@ -105,7 +107,8 @@ fn twenty_thousand_bars() {
     assert!(bound.is_equilibrium());
     assert!(bound.gap_j(bound.cables.energy_j).abs() < ROUNDING);
     assert!(bound.cables.open_m < 1e-15);
-    // 2 c sinh(span / 2c) = total, by bisection; the horizontal pull is c times the weight per length.
+    // 2 c sinh(span / 2c) = total, by bisection; the horizontal pull is c times the weight per
+    // length.
     let (mut low, mut high) = (0.05, 1.0);
     for _ in 0..200 {
         let c: f64 = 0.5 * (low + high);

@@ -14,18 +14,18 @@ const ROUNDING: f64 = 2e-13;
 /// What the interior point method is good for on the paper's chain; measured 3e-8.
 const SOLVER: f64 = 1e-7;
 
-/// What it is good for on the literal lifting of other chains, of weight times length. The multiplied
-/// rows leave the lifted matrix no interior (it has a null space), clarabel calls 5 of the 12
-/// almost solved only, and its own two values differ by up to 4e-7: one more reason for the programme under
-/// test to use the rows up. What is compared differs by 1e-2 where the rows matter.
+/// What it is good for on the literal lifting of other chains, of weight times length. The
+/// multiplied rows leave the lifted matrix no interior (it has a null space), clarabel calls 5 of
+/// the 12 almost solved only, and its own two values differ by up to 4e-7: one more reason for the
+/// programme under test to use the rows up. What is compared differs by 1e-2 where the rows matter.
 const LIFTED: f64 = 2e-6;
 
 fn bound(problem: &Problem, sense: Sense) -> bounds::SemidefiniteBound {
     semidefinite(problem, sense, &BoundSettings::default()).unwrap()
 }
 
-/// Reference digits: V(E1) and V(E2) to thirty digits, E1's angles and the multipliers 10 to 12. In units of
-/// mass, length and gravity 1 all data are exact.
+/// Reference digits: V(E1) and V(E2) to thirty digits, E1's angles and the multipliers 10 to 12. In
+/// units of mass, length and gravity 1 all data are exact.
 #[test]
 fn paper() {
     let anchors = Anchors { start_m: [0.0; 3], end_m: [0.0, 0.0, -2.0] };
@@ -138,7 +138,8 @@ fn lifted(problem: &Problem, coordinates: &[usize], multiplied: bool) -> f64 {
     solution.obj_val
 }
 
-/// 2.33546865 with the multiplied closure, in the plane and in space; 2.0 without (reference digits).
+/// 2.33546865 with the multiplied closure, in the plane and in space; 2.0 without (reference
+/// digits).
 #[test]
 fn the_literal_lifting_of_the_paper() {
     let problem = model::cases::paper();

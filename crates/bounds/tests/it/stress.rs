@@ -9,11 +9,12 @@ use rand::RngExt;
 /// Rounding of the energies compared, of weight times length; measured 3e-15 at most.
 const ROUNDING: f64 = 1e-13;
 
-/// By how much the bound of the paper's chain may fall short: its stress matrix is singular, so that
-/// the roundings of the force densities given count in full; measured 1.0e-14.
+/// By how much the bound of the paper's chain may fall short: its stress matrix is singular, so
+/// that the roundings of the force densities given count in full; measured 1.0e-14.
 const SINGULAR: f64 = 4e-14;
 
-/// Three equal bars of the paper in units of mass, length and gravity 1: its data are exact doubles.
+/// Three equal bars of the paper in units of mass, length and gravity 1: its data are exact
+/// doubles.
 fn paper_in_units() -> Problem {
     let anchors = Anchors { start_m: [0.0; 3], end_m: [0.0, 0.0, -2.0] };
     let bars = vec![Bar::homogeneous(1.0, 1.0).unwrap(); 3];
@@ -29,8 +30,8 @@ fn force_densities(problem: &Problem, equilibrium: &Equilibrium) -> Vec<f64> {
     equilibrium.axial_n.iter().zip(bars).map(|(force, bar)| force / bar.length_m()).collect()
 }
 
-/// The reference digits give V(E1) = 2.33546865199930500930868666574 - 6 and its angles to 25 digits. The bound
-/// is below the exact value, and by no more than rounding.
+/// The reference digits give V(E1) = 2.33546865199930500930868666574 - 6 and its angles to 25
+/// digits. The bound is below the exact value, and by no more than rounding.
 #[test]
 fn paper_to_the_last_digit() {
     let problem = paper_in_units();
@@ -73,8 +74,8 @@ fn minima_are_certified_and_nothing_is_below() {
     }
 }
 
-/// What is proved does not depend on what is given: wrong joints and wrong forces make the bound worse
-/// or none at all, never wrong.
+/// What is proved does not depend on what is given: wrong joints and wrong forces make the bound
+/// worse or none at all, never wrong.
 #[test]
 fn wrong_data_never_give_a_wrong_bound() {
     let mut rng = rng(2);
@@ -121,8 +122,8 @@ fn the_pull_proves_the_minimum_when_all_bars_are_in_tension() {
     assert!(tense > 10);
 }
 
-/// E2 is an equilibrium (reference digits), and not the minimum: its stress matrix certifies nothing. It is
-/// the maximum, and certified as that.
+/// E2 is an equilibrium (reference digits), and not the minimum: its stress matrix certifies
+/// nothing. It is the maximum, and certified as that.
 #[test]
 fn an_equilibrium_that_is_not_optimal_is_not_certified() {
     let problem = paper_in_units();

@@ -29,8 +29,8 @@ pub fn minus(a: Vector, b: Vector) -> Vector {
     std::array::from_fn(|k| a[k] - b[k])
 }
 
-/// A chain of n different bars, anchors anywhere, with a span of at most `slack` of its length; every
-/// third one has its anchors on one vertical.
+/// A chain of n different bars, anchors anywhere, with a span of at most `slack` of its length;
+/// every third one has its anchors on one vertical.
 pub fn chain(n: usize, stream: u64, slack: f64) -> Problem {
     let mut rng = rng(stream);
     loop {

@@ -40,7 +40,8 @@ pub fn apply(base: &Chain, numbers: &[(Number, f64)]) -> Result<Problem, PointEr
     Ok(Problem::new(chain)?)
 }
 
-/// The numbers of a chain, not checked: between two points of a path they need not describe a problem.
+/// The numbers of a chain, not checked: between two points of a path they need not describe a
+/// problem.
 pub(crate) struct UncheckedChain {
     pub(crate) gravity_m_s2: f64,
     pub(crate) anchors: Anchors,
@@ -79,8 +80,8 @@ impl UncheckedChain {
     }
 }
 
-/// A bar whose numbers are not checked yet. A centre and moments that are the defaults of a system file
-/// stay the defaults.
+/// A bar whose numbers are not checked yet. A centre and moments that are the defaults of a system
+/// file stay the defaults.
 pub(crate) struct UncheckedBar {
     pub(crate) length_m: f64,
     pub(crate) mass_kg: f64,

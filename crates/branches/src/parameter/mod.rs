@@ -1,8 +1,8 @@
 //! Numbers of a system file as parameters: which, and which values.
 //!
 //! `anchors.end_m.z=-2.9..-0.1:500`, `bars.2.mass_kg=0.1,1,10`, `gravity_m_s2=1.62,9.80665`,
-//! `bars.*.length_m=0.5..2:31`. Components may also be written as in the error messages of system files,
-//! `anchors.end_m[3]`, `bars[2].mass_kg`.
+//! `bars.*.length_m=0.5..2:31`. Components may also be written as in the error messages of system
+//! files, `anchors.end_m[3]`, `bars[2].mass_kg`.
 
 pub(crate) mod apply;
 pub(crate) mod error;

@@ -30,7 +30,8 @@ pub enum AnchorEnd {
 /// Which bars.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Which {
-    /// The bar of this number, counted from 1 along the chain: a table with `count = 3` is three bars.
+    /// The bar of this number, counted from 1 along the chain: a table with `count = 3` is three
+    /// bars.
     One(usize),
     /// Every bar: `*`.
     All,
@@ -134,7 +135,8 @@ impl fmt::Display for Number {
     }
 }
 
-/// The words of the path up to `end`, as byte ranges: separated by dots, and by brackets around numbers.
+/// The words of the path up to `end`, as byte ranges: separated by dots, and by brackets around
+/// numbers.
 fn words(text: &str, end: usize) -> Result<Vec<Range<usize>>, ParameterError> {
     const HELP: &str = "brackets enclose one number, as in `bars[2].mass_kg`";
     let mut words = vec![];

@@ -122,7 +122,8 @@ fn range(from: f64, to: f64, points: usize) -> Vec<f64> {
             _ => {
                 let part = k as f64 / last as f64;
                 let value = from * (1.0 - part) + to * part;
-                // What differs from zero by rounding only is zero: there, anchors stand on one vertical.
+                // What differs from zero by rounding only is zero: there, anchors stand on one
+                // vertical.
                 let rounding = 4.0 * f64::EPSILON * from.abs().max(to.abs());
                 if value.abs() <= rounding { 0.0 } else { value }
             }

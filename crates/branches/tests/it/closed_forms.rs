@@ -49,8 +49,8 @@ fn places(trace: &Continuation, kind: EventKind, number: usize) -> Vec<f64> {
     trace.events.iter().filter(|e| e.kind == kind).map(|e| e.values[number]).collect()
 }
 
-/// The paper's chain over OD: four equilibria in the plane everywhere but where the chain can be straight,
-/// at OD = l (one bar up, two down) and OD = 3 l.
+/// The paper's chain over OD: four equilibria in the plane everywhere but where the chain can be
+/// straight, at OD = l (one bar up, two down) and OD = 3 l.
 #[test]
 fn the_paper_s_chain_over_the_distance() {
     let trace = run("three-equal-bars", &["anchors.end_m.z=-3.1..-0.1:61"], 0);
@@ -79,10 +79,11 @@ fn the_paper_s_chain_over_the_distance() {
     assert!((e1.angles_rad[0].to_degrees() - 19.694_867_976_133_02).abs() < 1e-12);
 }
 
-/// Three equal bars between anchors on one level, in closed form. With the angles of the outer bars from the
-/// horizontal (σ + δ, σ − δ) the energy is 2 cos σ sin δ and the closure d² − 1 + 4 q = 4 d √q cos σ,
-/// q = cos² δ. Away from σ = 0 the energy is critical where 8 q² − 4 q + d² − 1 = 0: two roots, which meet in a
-/// fold at d² = 3/2, and of which one comes to σ = 0 where 4 q³ = 1: there d = 2^(2/3) − 1.
+/// Three equal bars between anchors on one level, in closed form. With the angles of the outer bars
+/// from the horizontal (σ + δ, σ − δ) the energy is 2 cos σ sin δ and the closure d² − 1 + 4 q = 4
+/// d √q cos σ, q = cos² δ. Away from σ = 0 the energy is critical where 8 q² − 4 q + d² − 1 = 0:
+/// two roots, which meet in a fold at d² = 3/2, and of which one comes to σ = 0 where 4 q³ = 1:
+/// there d = 2^(2/3) − 1.
 #[test]
 fn folds_and_branch_points_of_the_level_chain() {
     let trace = run("three-equal-bars", &["anchors.end_m.z=0", "anchors.end_m.x=0.05..2.9:38"], 0);
@@ -125,7 +126,8 @@ fn folds_and_branch_points_of_the_level_chain() {
         );
         compared += 1;
     }
-    // Of both signs: one root with two mirror images from the branch point on, two from d = 1 to the fold.
+    // Of both signs: one root with two mirror images from the branch point on, two from d = 1 to
+    // the fold.
     let expected = trace.points.iter().map(|point| match point.span_m {
         d if d > 4_f64.cbrt() - 1.0 && d < 1.0 => 4,
         d if d > 1.0 && d * d < 1.5 => 8,
@@ -134,8 +136,8 @@ fn folds_and_branch_points_of_the_level_chain() {
     assert_eq!(compared, expected.sum::<usize>());
 }
 
-/// Two positions on a circle of equal ones differ in space only: passing the vertical they exchange their
-/// stability there, whether or not a point of the grid lies on it.
+/// Two positions on a circle of equal ones differ in space only: passing the vertical they exchange
+/// their stability there, whether or not a point of the grid lies on it.
 #[test]
 fn stability_in_space_is_exchanged_where_the_anchors_pass_one_vertical() {
     for points in ["100", "101"] {
@@ -190,8 +192,8 @@ fn gravity_and_scale_change_no_shape() {
     );
 }
 
-/// Of three points two are next to nothing: the branches that lie in between are found all the same, by
-/// what is missing at the branch points.
+/// Of three points two are next to nothing: the branches that lie in between are found all the
+/// same, by what is missing at the branch points.
 #[test]
 fn a_sparse_grid_has_the_folds_and_branches_of_a_fine_one() {
     for points in [3, 4, 10] {

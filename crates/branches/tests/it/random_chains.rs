@@ -1,4 +1,5 @@
-//! Chains nobody chose: branches against censuses and closed forms, on coarse grids and on fine ones.
+//! Chains nobody chose: branches against censuses and closed forms, on coarse grids and on fine
+//! ones.
 
 use branches::{Combine, Continuation, ContinuationSettings, EventKind, Study};
 use census::{Census, Settings};

@@ -1,4 +1,5 @@
-//! Bars from Parquet files, good and bad. The files are written by the `parquet` crate's own writer.
+//! Bars from Parquet files, good and bad. The files are written by the `parquet` crate's own
+//! writer.
 
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
@@ -94,8 +95,8 @@ fn the_numbers_are_of_any_width_and_any_compression() {
     assert_eq!(read_bars(Folder::new().write(&narrow)).unwrap().len(), 1);
 }
 
-/// The writer of the tests packs no better than the reader unpacks: the description alone says another
-/// compression.
+/// The writer of the tests packs no better than the reader unpacks: the description alone says
+/// another compression.
 #[test]
 fn a_compression_that_cannot_be_read_is_no_damage() {
     let folder = Folder::new();
@@ -257,14 +258,15 @@ fn damage_is_an_error_and_never_a_panic() {
             refused += usize::from(read_bars(&path).is_err());
         }
     }
-    // Without checksums in the file a turned bit of a number is another number; the rest is noticed.
+    // Without checksums in the file a turned bit of a number is another number; the rest is
+    // noticed.
     assert!(refused > whole.len() / 10, "{refused} of {}", 3 * whole.len());
     fs::write(&path, &whole).unwrap();
     assert_eq!(read_bars(&path).unwrap(), good);
 }
 
-/// A million bars, within what a slow machine needs for an unoptimised build: seconds would mean that
-/// something is done per row that should be done per batch.
+/// A million bars, within what a slow machine needs for an unoptimised build: seconds would mean
+/// that something is done per row that should be done per batch.
 #[test]
 fn a_million_rows_are_read() {
     let values: Vec<f64> = (0..1_000_000).map(|k| 1.0 + f64::from(k) * 1e-6).collect();

@@ -1,10 +1,10 @@
-//! What the tests of all routines share, in either precision: matrices in arrays with padded columns,
-//! where a routine that reads or writes what it must not is caught.
+//! What the tests of all routines share, in either precision: matrices in arrays with padded
+//! columns, where a routine that reads or writes what it must not is caught.
 
 /// Declares the helpers for numbers of type `$T`.
 ///
-/// `$tolerance`: a bound on the rounding of sums of up to 40 products of numbers below 1, and on the
-/// backward error of factorisations of that size, some hundred units in the last place.
+/// `$tolerance`: a bound on the rounding of sums of up to 40 products of numbers below 1, and on
+/// the backward error of factorisations of that size, some hundred units in the last place.
 macro_rules! helpers {
     ($T:ty, $tolerance:expr) => {
         use nalgebra::DMatrix;

@@ -14,8 +14,8 @@ const DAMPING: f64 = 0.1;
 const FAIR: f64 = 1e-4;
 /// Roundings in the energy, in units of the total weight times the total length.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
-/// Corrections of a seed, which may be anywhere, before it is jolted: six are usual; bars in parallel turn
-/// together towards the line of the gap, ever more slowly.
+/// Corrections of a seed, which may be anywhere, before it is jolted: six are usual; bars in
+/// parallel turn together towards the line of the gap, ever more slowly.
 const SEED_CORRECTIONS: u32 = 25;
 /// Corrections after a step.
 const STEP_CORRECTIONS: u32 = 12;

@@ -15,13 +15,13 @@ use crate::error::Error;
 /// What can be chosen.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BatchSettings {
-    /// Largest projected slope of a minimum: each bar's, in units of the largest of the closing force and
-    /// the total weight, times the mean length. Default 1e-12, from 1e-14 to 1e-3.
+    /// Largest projected slope of a minimum: each bar's, in units of the largest of the closing
+    /// force and the total weight, times the mean length. Default 1e-12, from 1e-14 to 1e-3.
     pub tolerance: f64,
     /// Largest gap of a closed chain, in total lengths. Default 1e-14, from 1e-15 to 1e-6.
     pub closure: f64,
-    /// Trials (each one pass over the bars: a correction of the closure, or a step) after which a seed is
-    /// given up. Default 2000, from 1 to 60,000.
+    /// Trials (each one pass over the bars: a correction of the closure, or a step) after which a
+    /// seed is given up. Default 2000, from 1 to 60,000.
     pub max_iterations: u32,
 }
 
@@ -72,8 +72,8 @@ pub struct Ends {
     pub finish: Vec<Finish>,
     /// Trials: passes over the bars.
     pub iterations: Vec<u16>,
-    /// Largest projected slope, in the units of [`BatchSettings::tolerance`]; infinite if the chain was
-    /// never closed.
+    /// Largest projected slope, in the units of [`BatchSettings::tolerance`]; infinite if the chain
+    /// was never closed.
     pub residual: Vec<f64>,
     /// Potential energy above the height of joint 0, J.
     pub energy_j: Vec<f64>,
@@ -91,8 +91,8 @@ impl Ends {
     }
 }
 
-/// A minimiser of one problem for many seeds in its vertical plane: that of the anchors, or any if they
-/// are on one vertical.
+/// A minimiser of one problem for many seeds in its vertical plane: that of the anchors, or any if
+/// they are on one vertical.
 ///
 /// ```
 /// use energy::batch::{Batch, BatchSettings, Ends, Finish};
@@ -123,8 +123,8 @@ impl Batch {
         Ok(Self { pieces: Pieces::of(problem), settings })
     }
 
-    /// Minimise from all seeds: `angles` holds n angles from the descending vertical towards the last
-    /// anchor, rad, for each of them. What was in `ends` is replaced, its memory used again.
+    /// Minimise from all seeds: `angles` holds n angles from the descending vertical towards the
+    /// last anchor, rad, for each of them. What was in `ends` is replaced, its memory used again.
     ///
     /// # Panics
     ///

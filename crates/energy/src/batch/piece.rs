@@ -8,7 +8,8 @@ use model::Problem;
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Piece {
     pub(crate) length: f64,
-    /// The weight that rises with its last joint: of all bars after it, and its own by the lever rule.
+    /// The weight that rises with its last joint: of all bars after it, and its own by the lever
+    /// rule.
     pub(crate) lifted: f64,
 }
 
@@ -44,8 +45,8 @@ impl Pieces {
     }
 }
 
-/// The direction (horizontal, up) of a bar at an angle from the descending vertical: a quarter of the
-/// angle by Taylor's polynomials, squared twice as a complex number.
+/// The direction (horizontal, up) of a bar at an angle from the descending vertical: a quarter of
+/// the angle by Taylor's polynomials, squared twice as a complex number.
 pub(crate) fn direction(angle_rad: f64) -> [f64; 2] {
     let turns = angle_rad / TAU;
     let quarter = (turns - turns.round()) * FRAC_PI_2;

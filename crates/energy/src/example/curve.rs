@@ -7,8 +7,8 @@ use super::{closure_gradient, potential, potential_gradient};
 /// The smallest cosine of theta on the curve: beyond it bars 2 and 3, drawn out, do not reach *D*.
 pub const LARGEST_THETA_COSINE: f64 = 0.25;
 
-/// The two solutions of (viii), named after the quadrant of alpha at small positive theta, as in the
-/// paper. They meet where theta is largest (and smallest).
+/// The two solutions of (viii), named after the quadrant of alpha at small positive theta, as in
+/// the paper. They meet where theta is largest (and smallest).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Branch {
     /// The larger alpha: the paper's `alpha_1`.
@@ -25,8 +25,8 @@ impl Branch {
 /// Alpha on a branch, rad, in (-pi, pi); `None` out of reach.
 ///
 /// By geometry, without the squaring of (viii): bars 2 and 3 span the vector from *A* to *D*,
-/// `(2 - cos(theta), -sin(theta))`, of length `rho` and angle `phi`; being equal they lean from it by
-/// `arccos(rho / 2)` to either side.
+/// `(2 - cos(theta), -sin(theta))`, of length `rho` and angle `phi`; being equal they lean from it
+/// by `arccos(rho / 2)` to either side.
 #[must_use]
 pub fn alpha(theta_rad: f64, branch: Branch) -> Option<f64> {
     let (sin, cos) = theta_rad.sin_cos();

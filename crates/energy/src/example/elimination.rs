@@ -32,13 +32,13 @@ pub struct Candidate {
 
 /// All candidates for alpha at a given theta: two roots of (viii), two signs of the sine each.
 ///
-/// Squaring to get rid of `sin(alpha)` made (viii) blind to its sign, so of the two angles that share
-/// a root only one closes the chain. Before the squaring the closure reads
+/// Squaring to get rid of `sin(alpha)` made (viii) blind to its sign, so of the two angles that
+/// share a root only one closes the chain. Before the squaring the closure reads
 ///
 /// $$2 \sin\theta \sin\alpha = 4\cos\theta + 4\cos\alpha - 5 - 2\cos\theta\cos\alpha,$$
 ///
-/// whose right-hand side decides the sign; [`Candidate::closure`] shows what the other sign misses by.
-/// Empty where theta is out of reach, `cos(theta) < 1/4`.
+/// whose right-hand side decides the sign; [`Candidate::closure`] shows what the other sign misses
+/// by. Empty where theta is out of reach, `cos(theta) < 1/4`.
 ///
 /// ```
 /// let [minus, plus, ..] = energy::example::candidates(0.344)[..] else { panic!() };

@@ -67,8 +67,8 @@ pub struct Scan {
     pub second: ScanMinimum,
 }
 
-/// Scan `theta = step, 2 step, ...` as far as (viii) has solutions, solve it for alpha, evaluate (vi), and
-/// keep the smallest value on each branch.
+/// Scan `theta = step, 2 step, ...` as far as (viii) has solutions, solve it for alpha, evaluate
+/// (vi), and keep the smallest value on each branch.
 ///
 /// `None` if the step is not a positive number that leaves at least one point.
 ///

@@ -1,4 +1,5 @@
-//! Chains of every shape: closed, balanced by Newton's laws, minimal, and the same from other seeds.
+//! Chains of every shape: closed, balanced by Newton's laws, minimal, and the same from other
+//! seeds.
 
 use crate::support::{difference, direction, energy_unit, problem, random_seed, rng, unbalanced};
 use energy::{Error, Motion, Seed, Settings, minimise, minimise_from, reaction_by_differences};
@@ -182,9 +183,9 @@ fn long_chains_take_no_more_iterations_than_short_ones() {
     }
 }
 
-/// Bars of unit length from anchors next to each other: the chain hangs straight down, bends within a few bars, and
-/// comes up again. With the second end the bar at the bottom lies level and carries no force, so that there is no
-/// horizontal pull that would say where the plane of the chain is.
+/// Bars of unit length from anchors next to each other: the chain hangs straight down, bends within
+/// a few bars, and comes up again. With the second end the bar at the bottom lies level and carries
+/// no force, so that there is no horizontal pull that would say where the plane of the chain is.
 #[test]
 fn deep_chains_take_few_iterations_however_many_bars_they_have() {
     for end_m in [[1.3, 0.0, -0.7], [1.0, 0.0, -1.0]] {

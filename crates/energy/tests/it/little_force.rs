@@ -1,5 +1,6 @@
-//! Chains some of whose bars carry next to nothing, or that are folded to a millionth of their length:
-//! each bar is held against the force that it carries itself, not against the largest of the chain.
+//! Chains some of whose bars carry next to nothing, or that are folded to a millionth of their
+//! length: each bar is held against the force that it carries itself, not against the largest of
+//! the chain.
 
 #![expect(clippy::unwrap_used, reason = "helpers of tests")]
 
@@ -31,8 +32,8 @@ fn solved(bars: &[(f64, f64, f64)], end_m: Vector) -> (Problem, Solution) {
     (problem, solution)
 }
 
-/// Massless bars that are longer than their gap by a part of 5e-9 or 1e-9 carry that part of the weight.
-/// The joint between them lies on the line of its neighbours.
+/// Massless bars that are longer than their gap by a part of 5e-9 or 1e-9 carry that part of the
+/// weight. The joint between them lies on the line of its neighbours.
 #[test]
 fn massless_bars_that_just_bridge_their_gap() {
     for (over_m, last_kg) in [(1e-8, 1.0), (2e-9, 5.0)] {
@@ -55,8 +56,8 @@ fn massless_bars_that_just_bridge_their_gap() {
     }
 }
 
-/// Masses from 1e12 kg to 1e-12 kg: the light bars hang from the end of the heavy one as if it were an
-/// anchor.
+/// Masses from 1e12 kg to 1e-12 kg: the light bars hang from the end of the heavy one as if it were
+/// an anchor.
 #[test]
 fn light_bars_hang_from_a_heavy_one() {
     let light = [(1.0, 1.0, 0.5), (1.0, 1.0, 0.5), (1.0, 1e-12, 0.5)];
@@ -103,8 +104,9 @@ fn two_bars_over_near_anchors() {
             let (s, c) = slope.sin_cos();
             let bars = [(1.0, 1.0, 0.5), (1.0, second_kg, 0.5)];
             let (_, solution) = solved(&bars, [span * c, 0.0, span * s]);
-            // The joint lies half way along the span, and below it at right angles. Its load is half the
-            // weight, 1.5 W; each bar bears (load along the height / 2 depth -+ load along the span / span).
+            // The joint lies half way along the span, and below it at right angles. Its load is
+            // half the weight, 1.5 W; each bar bears (load along the height / 2 depth -+ load along
+            // the span / span).
             let depth = (1.0 - 0.25 * span * span).sqrt();
             let load = 0.5 * (1.0 + second_kg) * GRAVITY;
             let (down, along) = (0.5 * load * c / depth, load * s / span);
@@ -137,8 +139,9 @@ fn nearly_upright_and_with_free_bars() {
     assert!(solution.equilibrium.evidence.residual < 1e-12);
 }
 
-/// Two massless bars of 6 m together that span exactly 6 m: they carry nothing in the limit, the minimum
-/// is degenerate, and the directions are known to a part only. That is said, not passed over.
+/// Two massless bars of 6 m together that span exactly 6 m: they carry nothing in the limit, the
+/// minimum is degenerate, and the directions are known to a part only. That is said, not passed
+/// over.
 #[test]
 fn what_is_not_known_does_not_count_as_converged() {
     let bars = [(1.0, 3.0, 1.0), (5.0, 2.0, 0.0), (1.0, 0.0, 0.25)];

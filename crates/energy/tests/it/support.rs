@@ -45,9 +45,9 @@ pub fn energy_unit(problem: &Problem) -> f64 {
     chain.total_mass_kg() * chain.gravity_m_s2() * chain.total_length_m()
 }
 
-/// Newton's laws for every bar, from the directions and the joint forces alone: the largest unbalanced
-/// force, and the largest unbalanced moment over the length of its bar, both over the largest force.
-/// Also the largest error of a length and of the end anchor, over the total length.
+/// Newton's laws for every bar, from the directions and the joint forces alone: the largest
+/// unbalanced force, and the largest unbalanced moment over the length of its bar, both over the
+/// largest force. Also the largest error of a length and of the end anchor, over the total length.
 pub fn unbalanced(problem: &Problem, solution: &Solution) -> (f64, f64) {
     let chain = problem.chain();
     let found = &solution.equilibrium;

@@ -103,8 +103,8 @@ pub(crate) fn draw(svg: &mut Svg, structure: &Structure<'_>, scene: &Scene) {
     }
 }
 
-/// A line with its ends on the grid of what the eye tells apart; none if it has no length there, or is one
-/// that was seen before. Members that meet still meet.
+/// A line with its ends on the grid of what the eye tells apart; none if it has no length there, or
+/// is one that was seen before. Members that meet still meet.
 fn grained(line: [[f64; 2]; 2], seen: &mut BTreeSet<[[i32; 2]; 2]>) -> Option<[[f64; 2]; 2]> {
     #[expect(clippy::cast_possible_truncation, reason = "pixels of a picture")]
     let mut cells = line.map(|point| point.map(|x| (x / GRAIN).round() as i32));

@@ -1,9 +1,9 @@
-//! The drawing of a structure: joints, members with their axial forces, supports, loads and reactions, to
-//! scale.
+//! The drawing of a structure: joints, members with their axial forces, supports, loads and
+//! reactions, to scale.
 //!
-//! A planar structure is seen at right angles to its plane, with the vertical up; a spatial one from above
-//! and one side, in parallel projection. Tension and compression differ in form (solid, hollow) or, where
-//! members are too short for that, in lightness: so they do in grey.
+//! A planar structure is seen at right angles to its plane, with the vertical up; a spatial one
+//! from above and one side, in parallel projection. Tension and compression differ in form (solid,
+//! hollow) or, where members are too short for that, in lightness: so they do in grey.
 
 mod forces;
 mod key;

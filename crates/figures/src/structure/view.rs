@@ -10,8 +10,8 @@ pub(crate) struct View {
     pub(crate) spatial: bool,
 }
 
-/// What leaves a plane by less than this part of the whole lies in it: the residual of a solver is a
-/// thousandth of that.
+/// What leaves a plane by less than this part of the whole lies in it: the residual of a solver is
+/// a thousandth of that.
 const FLAT: f64 = 1e-6;
 
 /// From where a spatial structure is seen: to the right of −Y and above, deg.
@@ -60,8 +60,8 @@ impl View {
     }
 }
 
-/// The normal of the plane through the origin that holds all vectors, if there is one; of several (all on
-/// one line) a level one.
+/// The normal of the plane through the origin that holds all vectors, if there is one; of several
+/// (all on one line) a level one.
 fn normal(vectors: &[[f64; 3]]) -> Option<[f64; 3]> {
     let longest = vectors.iter().copied().max_by(|a, b| size(*a).total_cmp(&size(*b)))?;
     let along = unit(longest).unwrap_or([0.0, 0.0, 1.0]);

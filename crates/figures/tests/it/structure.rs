@@ -20,7 +20,8 @@ fn tripod() -> (Vec<Joint<'static>>, Vec<Member>) {
     (joints, (0..3).map(leg).collect())
 }
 
-/// A chain of many short bars between two anchors: a parabola, all in tension, or all in compression.
+/// A chain of many short bars between two anchors: a parabola, all in tension, or all in
+/// compression.
 fn chain(bars: usize, sign: f64) -> (Vec<Joint<'static>>, Vec<Member>) {
     let joints = (0..=bars).map(|k| {
         let x = 2.0 * k as f64 / bars as f64 - 1.0;

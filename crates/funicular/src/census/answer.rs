@@ -1,4 +1,5 @@
-//! What a census says, as `funicular census --json` prints it. Tables and CSV are written from the same.
+//! What a census says, as `funicular census --json` prints it. Tables and CSV are written from the
+//! same.
 
 use census::{
     CheckError, Interval, Position, ProvenEquilibrium, SlackFamily, Statistics, Undecided,
@@ -216,7 +217,8 @@ impl CensusAnswer {
     }
 }
 
-/// mgl of one bar where all bars are equal, as in the paper; else weight times length of the whole chain.
+/// mgl of one bar where all bars are equal, as in the paper; else weight times length of the whole
+/// chain.
 fn energy_unit(problem: &Problem) -> (f64, &'static str, &'static str) {
     let chain = problem.chain();
     let bars = chain.bars();

@@ -33,7 +33,8 @@ impl Census {
         Self::default()
     }
 
-    /// Refuse chains of more bars, with an estimate of what they would cost; at most [`Settings::MAX_BARS`].
+    /// Refuse chains of more bars, with an estimate of what they would cost; at most
+    /// [`Settings::MAX_BARS`].
     #[must_use]
     pub fn max_bars(mut self, max_bars: usize) -> Self {
         self.settings.max_bars = max_bars;
@@ -46,8 +47,8 @@ impl Census {
         Self { settings, ..self }
     }
 
-    /// How many threads share the work, 0 (the default) for those of the pool that it is called from. The answer does
-    /// not depend on it.
+    /// How many threads share the work, 0 (the default) for those of the pool that it is called
+    /// from. The answer does not depend on it.
     #[must_use]
     pub fn threads(self, threads: usize) -> Self {
         Self { threads, ..self }
@@ -57,8 +58,8 @@ impl Census {
     ///
     /// # Errors
     ///
-    /// [`Error::Census`] when the chain is too long or every position is an equilibrium. What cannot be decided is no
-    /// error: it is listed, and the census is not complete.
+    /// [`Error::Census`] when the chain is too long or every position is an equilibrium. What
+    /// cannot be decided is no error: it is listed, and the census is not complete.
     pub fn run(&self, problem: &Problem) -> Result<CensusAnswer, Error> {
         self.run_watched(problem, &|_| {})
     }

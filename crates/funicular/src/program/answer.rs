@@ -36,7 +36,8 @@ pub fn answer(answer: &SolveAnswer, summary: bool) -> String {
     text
 }
 
-/// A column for each solver. Where the chain turns freely, the second answer is shown turned onto the first.
+/// A column for each solver. Where the chain turns freely, the second answer is shown turned onto
+/// the first.
 fn overview(equilibria: &[Equilibrium], turned_rad: Option<f64>) -> String {
     let head = [String::new()].into_iter().chain(equilibria.iter().map(|e| e.solver.to_string()));
     let mut table = table([""; 0]);

@@ -42,9 +42,9 @@ Examples:
 /// Every equilibrium is found twice, by two solvers that share no mechanics (Lagrange multipliers;
 /// potential energy), and judged by a third party that knows only Newton's laws.
 ///
-/// Scope: bars, cables and struts between joints without friction, rigid or with a stiffness, in space, at rest under
-/// their weight, masses at joints and constant forces; no friction, contact, bending or motion. All but `solve` is for
-/// chains of rigid bars between two anchors.
+/// Scope: bars, cables and struts between joints without friction, rigid or with a stiffness, in
+/// space, at rest under their weight, masses at joints and constant forces; no friction, contact,
+/// bending or motion. All but `solve` is for chains of rigid bars between two anchors.
 #[derive(Debug, Parser)]
 #[command(name = "funicular", version, after_help = EXIT_CODES, after_long_help = format!("{EXAMPLES}\n\n{EXIT_CODES}"))]
 pub struct Cli {
@@ -61,7 +61,8 @@ pub enum Command {
     Reproduce(crate::reproduce::Reproduce),
     /// Find the hanging equilibrium of a system file by both solvers, and compare them
     ///
-    /// Time and memory grow with the number of bars: a million of them take about a second, and some 240 bytes each.
+    /// Time and memory grow with the number of bars: a million of them take about a second, and
+    /// some 240 bytes each.
     #[command(after_help = ALL_OR_NOTHING)]
     Solve(crate::solve::Solve),
     /// Find every equilibrium of a chain, stable or not, and prove that there is no other

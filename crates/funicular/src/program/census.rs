@@ -17,7 +17,8 @@ use crate::output;
 use crate::progress::Progress;
 use crate::threads;
 
-/// At most so many shapes in the figure: ten rows of seven fit a screen or a page. The help of `--svg` says so.
+/// At most so many shapes in the figure: ten rows of seven fit a screen or a page. The help of
+/// `--svg` says so.
 const SHAPES: usize = 70;
 
 /// `funicular census`.
@@ -35,7 +36,8 @@ pub struct Census {
     /// Refuse longer chains, with an estimate of what they would cost (at most 24)
     #[arg(long, value_name = "N", default_value_t = Settings::default().max_bars)]
     pub max_bars: usize,
-    /// Draw the shapes side by side into this SVG file: all up to 70, of more the first 70 by energy
+    /// Draw the shapes side by side into this SVG file: all up to 70, of more the first 70 by
+    /// energy
     #[arg(long, value_name = "FILE")]
     pub svg: Option<PathBuf>,
     /// Write joints and forces, a line per equilibrium and joint, to this CSV file

@@ -36,8 +36,8 @@ const WIDEST: usize = 400;
 /// Bytes of a line that are shown after what an error is about, or at all.
 const SHOWN: usize = 200;
 
-/// A text for a terminal: what would steer it, such as escape sequences, becomes question marks, as many as it has
-/// bytes.
+/// A text for a terminal: what would steer it, such as escape sequences, becomes question marks, as
+/// many as it has bytes.
 fn printable(text: &str) -> String {
     text.chars().fold(String::with_capacity(text.len()), |mut out, c| {
         if c.is_control() && !matches!(c, '\n' | '\t' | '\r') {
@@ -49,14 +49,15 @@ fn printable(text: &str) -> String {
     })
 }
 
-/// A text whose lines are no longer than is good to look at, the one with `end` in it not before that. Nothing moves
-/// that stands before `end`.
+/// A text whose lines are no longer than is good to look at, the one with `end` in it not before
+/// that. Nothing moves that stands before `end`.
 fn excerpt(text: &str, end: usize) -> String {
     let mut out = String::new();
     let mut at = 0;
     for line in text.split_inclusive('\n') {
         let content = line.trim_end_matches('\n');
-        // Before the end all stays, so that places stay: only the last line that is shown may be cut.
+        // Before the end all stays, so that places stay: only the last line that is shown may be
+        // cut.
         let keep = if at + line.len() <= end { line.len() } else { end.saturating_sub(at) + SHOWN };
         if content.len() > keep {
             let cut = (keep..content.len()).find(|k| content.is_char_boundary(*k));
@@ -97,7 +98,8 @@ impl Diagnostic for SystemFileReport {
     }
 }
 
-/// Tell something on standard error. Nobody may be reading there, and then there is nobody to tell that.
+/// Tell something on standard error. Nobody may be reading there, and then there is nobody to tell
+/// that.
 pub fn tell(text: impl std::fmt::Display) {
     let _ = writeln!(std::io::stderr(), "{}", filtered(&text.to_string(), true));
 }

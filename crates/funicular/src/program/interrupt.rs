@@ -18,8 +18,8 @@ static KEEPING: AtomicBool = AtomicBool::new(false);
 pub struct Interrupt(&'static AtomicBool);
 
 impl Interrupt {
-    /// From here on the first Ctrl-C only sets a flag, so that what is done is kept. The second one ends the program at
-    /// once, which loses no more than the first.
+    /// From here on the first Ctrl-C only sets a flag, so that what is done is kept. The second one
+    /// ends the program at once, which loses no more than the first.
     pub fn keep_what_is_done(self) -> &'static AtomicBool {
         KEEPING.store(true, Ordering::SeqCst);
         self.0
@@ -36,8 +36,8 @@ pub fn on_interrupt() -> Result<Interrupt, Failure> {
     Ok(Interrupt(&STOP))
 }
 
-/// For commands that keep nothing to go on from: the first Ctrl-C ends the program, and no file is left half
-/// written.
+/// For commands that keep nothing to go on from: the first Ctrl-C ends the program, and no file is
+/// left half written.
 pub fn end_on_interrupt() -> Result<(), Failure> {
     // A hangup would be heard like a Ctrl-C, and a command under `nohup` is to live on.
     if hangups_are_ignored() { Ok(()) } else { watch(end) }

@@ -43,8 +43,8 @@ pub fn no_json(error: &serde_json::Error) -> Failure {
     Failure::undecided(miette!("the answer cannot be written as JSON: {error}"))
 }
 
-/// Refuse, before the work, what cannot be written after it, and what would overwrite a file that is read
-/// or another that is written.
+/// Refuse, before the work, what cannot be written after it, and what would overwrite a file that
+/// is read or another that is written.
 pub fn check<'a>(
     outputs: impl IntoIterator<Item = &'a Path>,
     inputs: &[PathBuf],
@@ -82,7 +82,8 @@ fn check_one(path: &Path) -> Result<(), Failure> {
     }
 }
 
-/// Where a file is, whatever leads to it; `None` for pipes and devices, which any number may read and write.
+/// Where a file is, whatever leads to it; `None` for pipes and devices, which any number may read
+/// and write.
 fn place(path: &Path) -> Option<PathBuf> {
     match fs::metadata(path) {
         Ok(about) if !about.is_file() => None,
@@ -99,7 +100,8 @@ fn cannot_write(path: &Path, why: impl Display) -> Failure {
     Failure::bad_input(miette!("cannot write {}: {why}", path.display()))
 }
 
-/// A disk that is full says nothing about the input: what was asked is undecided, and may be asked again.
+/// A disk that is full says nothing about the input: what was asked is undecided, and may be asked
+/// again.
 fn not_written(what: &str, error: &io::Error) -> Failure {
     let report = miette!("cannot write {what}: {error}");
     match error.kind() {
@@ -110,7 +112,8 @@ fn not_written(what: &str, error: &io::Error) -> Failure {
     }
 }
 
-/// Write a file, so that an interruption leaves the old file or the new one and never half of either.
+/// Write a file, so that an interruption leaves the old file or the new one and never half of
+/// either.
 pub fn write_whole(path: &Path, text: &str) -> Result<(), Failure> {
     write_stream(path, |file| file.write_all(text.as_bytes()))
 }

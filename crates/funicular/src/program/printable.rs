@@ -1,9 +1,10 @@
-//! Text from files on its way to a terminal: nothing in it may steer the terminal or look like a line of ours.
+//! Text from files on its way to a terminal: nothing in it may steer the terminal or look like a
+//! line of ours.
 
 use std::fmt;
 
-/// A text that is not the program's own, such as the name of a system: every control character is shown as its
-/// escape, line ends too, so that it stays within its line.
+/// A text that is not the program's own, such as the name of a system: every control character is
+/// shown as its escape, line ends too, so that it stays within its line.
 pub struct Printable<'a>(pub &'a str);
 
 impl fmt::Display for Printable<'_> {
@@ -19,15 +20,16 @@ impl fmt::Display for Printable<'_> {
     }
 }
 
-/// Whether a character may move the cursor, change the terminal's state, or turn the direction of the text round
-/// (Unicode's explicit directional formatting, UAX #9).
+/// Whether a character may move the cursor, change the terminal's state, or turn the direction of
+/// the text round (Unicode's explicit directional formatting, UAX #9).
 fn steers(c: char) -> bool {
     c.is_control()
         || matches!(c, '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}' | '\u{2028}' | '\u{2029}')
 }
 
-/// Everything that is printed passes here: what still steers becomes a question mark. Line ends stay, and so do
-/// the colours of the program's own errors (`ESC [ numbers m`) where `colours` are asked for.
+/// Everything that is printed passes here: what still steers becomes a question mark. Line ends
+/// stay, and so do the colours of the program's own errors (`ESC [ numbers m`) where `colours` are
+/// asked for.
 pub fn filtered(text: &str, colours: bool) -> String {
     let mut out = String::with_capacity(text.len());
     let mut rest = text;

@@ -18,7 +18,8 @@ const FILES: [&str; 4] = ["report.html", "report.md", "results.json", "compariso
 /// `funicular reproduce`.
 #[derive(Debug, Args)]
 pub struct Reproduce {
-    /// Write report.html, report.md, results.json and comparison.csv into this folder (made if it is not there)
+    /// Write report.html, report.md, results.json and comparison.csv into this folder (made if it
+    /// is not there)
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// Print the results as one JSON object instead of tables

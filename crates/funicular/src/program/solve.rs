@@ -20,7 +20,8 @@ use crate::which::Which;
 /// `funicular solve`.
 #[derive(Debug, Args)]
 pub struct Solve {
-    /// The system file (TOML or JSON, - for standard input); see `funicular cases three-equal-bars` for one
+    /// The system file (TOML or JSON, - for standard input); see `funicular cases three-equal-bars`
+    /// for one
     #[arg(value_name = "FILE", required_unless_present = "case")]
     pub file: Option<PathBuf>,
     /// Solve a named case instead of a file
@@ -38,13 +39,13 @@ pub struct Solve {
     /// Leave out the arrays over joints and bars
     #[arg(long)]
     pub summary: bool,
-    /// Write joints and forces, a line per joint, to this CSV file: solver, joint, place in m, and for a chain the
-    /// force on the bar before the joint and the axial force of that bar in N, for another system the force of
-    /// the ground on the joint in N
+    /// Write joints and forces, a line per joint, to this CSV file: solver, joint, place in m, and
+    /// for a chain the force on the bar before the joint and the axial force of that bar in N, for
+    /// another system the force of the ground on the joint in N
     #[arg(long, value_name = "FILE")]
     pub csv: Option<PathBuf>,
-    /// Write the bars of a system of bars, a line per bar, to this CSV file: solver, bar, its joints, axial force and
-    /// the forces on it at both joints in N
+    /// Write the bars of a system of bars, a line per bar, to this CSV file: solver, bar, its
+    /// joints, axial force and the forces on it at both joints in N
     #[arg(long, value_name = "FILE")]
     pub bars_csv: Option<PathBuf>,
     /// Draw the system to scale with loads, reactions and axial forces into this SVG file
@@ -54,8 +55,9 @@ pub struct Solve {
 
 /// Which of the systems of equations `lagrange` solves.
 ///
-/// They have the same solutions; a test compares them. The angles of the full one lose digits where strands hang
-/// side by side or a chain is nearly straight, and its cost grows faster than the number of bars.
+/// They have the same solutions; a test compares them. The angles of the full one lose digits where
+/// strands hang side by side or a chain is nearly straight, and its cost grows faster than the
+/// number of bars.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum System {
     /// Three equations for the pull on the first anchor, whatever the number of bars

@@ -80,7 +80,8 @@ pub fn run(arguments: &Sweep) -> Result<Exit, Failure> {
 /// Seeds from which on the cost is told beforehand.
 const MANY_SEEDS: u64 = 100_000_000;
 
-/// What a large sweep needs: rows of 6 to 20 bytes for each solver, as those of the named cases have.
+/// What a large sweep needs: rows of 6 to 20 bytes for each solver, as those of the named cases
+/// have.
 fn tell_cost(manifest: &Manifest) {
     let seeds = manifest.range.end - manifest.range.start;
     if seeds >= MANY_SEEDS {
@@ -150,8 +151,9 @@ pub(crate) fn written(out: &Path) -> String {
     format!("Rows, manifest.json and summary.json are in {}\n", out.display())
 }
 
-/// A seed that converged to what is in no complete list, or a minimisation that ended elsewhere than in a
-/// minimum, is a check that failed. Failures to converge are results, and so is a gap in a list that is not complete.
+/// A seed that converged to what is in no complete list, or a minimisation that ended elsewhere
+/// than in a minimum, is a check that failed. Failures to converge are results, and so is a gap in
+/// a list that is not complete.
 pub(crate) fn verdict(manifest: &Manifest, summary: &StoreSummary) -> Exit {
     let wrong = summary.outcomes.comparisons().any(|(comparison, count)| {
         count > 0 && comparison.should_not_be() && !is_gap(manifest, comparison)

@@ -89,7 +89,8 @@ pub fn vector(v: Vector) -> String {
     format!("({})", v.map(short).join(", "))
 }
 
-/// A paragraph in lines that fit a terminal of 80 columns, all but the first indented. A longer word stays whole.
+/// A paragraph in lines that fit a terminal of 80 columns, all but the first indented. A longer
+/// word stays whole.
 pub fn wrapped(paragraph: &str, indent: usize) -> String {
     const COLUMNS: usize = 80;
     let mut lines = String::new();

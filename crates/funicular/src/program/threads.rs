@@ -13,8 +13,8 @@ pub fn parse(text: &str) -> Result<usize, String> {
     }
 }
 
-/// Start the threads of the program: as many as were asked for; for 0 as many as RAYON_NUM_THREADS says, and one per
-/// processor if it says nothing.
+/// Start the threads of the program: as many as were asked for; for 0 as many as RAYON_NUM_THREADS
+/// says, and one per processor if it says nothing.
 pub fn install(threads: usize) -> Result<(), Failure> {
     let threads = resolve(threads)?;
     rayon::ThreadPoolBuilder::new()

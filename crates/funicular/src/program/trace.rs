@@ -86,11 +86,12 @@ pub struct Arguments {
     /// Write all points of all branches, a line each, to this CSV file (columns: --help)
     #[arg(long, value_name = "FILE", long_help = CSV)]
     pub csv: Option<PathBuf>,
-    /// Write the bifurcation diagram to this SVG file (with several paths: FILE-1.svg, FILE-2.svg, ...)
+    /// Write the bifurcation diagram to this SVG file (with several paths: FILE-1.svg, FILE-2.svg,
+    /// ...)
     #[arg(long, value_name = "FILE")]
     pub svg: Option<PathBuf>,
-    /// Most points of all paths together: all that is found is held in memory, some 4 kB for each equilibrium at
-    /// each point
+    /// Most points of all paths together: all that is found is held in memory, some 4 kB for each
+    /// equilibrium at each point
     #[arg(long, value_name = "N", default_value_t = 100_000)]
     pub max_points: usize,
     /// Draw the diagram over the distance of the anchors instead of the parameter

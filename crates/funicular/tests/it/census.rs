@@ -9,8 +9,8 @@ use std::process::Output;
 use assert_cmd::Command;
 use serde_json::Value;
 
-/// Energies of E1 and E2 with the paper's zero, mgl, and the angles of E1, degrees (external: 40-digit
-/// root finding; the energies from a Gröbner basis with real-root counting as well).
+/// Energies of E1 and E2 with the paper's zero, mgl, and the angles of E1, degrees (external:
+/// 40-digit root finding; the energies from a Gröbner basis with real-root counting as well).
 const E1_MGL: f64 = 2.335_468_651_999_305;
 const E2_MGL: f64 = 3.664_531_348_000_695;
 const E1_DEG: [f64; 3] = [19.694_867_976_133_02, 38.599_136_184_451_89, -73.920_588_792_231_34];
@@ -252,7 +252,8 @@ fn the_figure_holds_four_shapes_and_the_csv_all_joints() {
 
 #[test]
 fn a_triangle_has_its_two_positions() {
-    // Sides 3, 4 and 5: the joint is (9/5, ±12/5) from the start, in the vertical plane of the anchors.
+    // Sides 3, 4 and 5: the joint is (9/5, ±12/5) from the start, in the vertical plane of the
+    // anchors.
     let file = chain("triangle", [3.0, 4.0, 0.0], &[(3.0, 2.0), (4.0, 1.0)]);
     let value = json(&[&file], 0);
     assert_eq!(value["census"]["count"], 2);

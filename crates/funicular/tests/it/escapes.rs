@@ -1,4 +1,5 @@
-//! Text from files reaches the terminal as text: it steers nothing, and no line of it looks like the program's.
+//! Text from files reaches the terminal as text: it steers nothing, and no line of it looks like
+//! the program's.
 
 #![expect(clippy::unwrap_used, reason = "helpers of tests")]
 

@@ -62,8 +62,8 @@ fn census() {
     );
 }
 
-/// The horizontal pull of a chain of ten bars that is nearly straight is that of a string with the same weight:
-/// w L / (8 d) for small sag d.
+/// The horizontal pull of a chain of ten bars that is nearly straight is that of a string with the
+/// same weight: w L / (8 d) for small sag d.
 #[test]
 fn batch() {
     let (csv, said) = run("batch");

@@ -1,4 +1,5 @@
-//! Files that commands read and write: links, pipes, what must not be overwritten, and interruptions.
+//! Files that commands read and write: links, pipes, what must not be overwritten, and
+//! interruptions.
 
 #![cfg(unix)]
 #![expect(clippy::unwrap_used, reason = "helpers of tests")]
@@ -272,7 +273,8 @@ impl Drop for Ended {
     }
 }
 
-/// The program, started by an `env` of GNU: a script may have had signals ignored, and its children inherit that.
+/// The program, started by an `env` of GNU: a script may have had signals ignored, and its children
+/// inherit that.
 #[cfg(target_os = "linux")]
 fn started(folder: &Path, signals: &str, arguments: &[&str]) -> Ended {
     let child = Command::new("env")

@@ -104,7 +104,8 @@ fn solve_prints_the_keys_that_others_rely_on() {
     for key in ["joints_m", "forces_n", "energy_j"] {
         assert!(json["agreement"][key].as_f64().unwrap() < 1e-9, "agreement.{key}");
     }
-    // E1's energy from the height of joint O, by the reference digits: 2.33546865199930500... - 6 mgl.
+    // E1's energy from the height of joint O, by the reference digits: 2.33546865199930500... - 6
+    // mgl.
     let energy = equilibria[0]["energy_j"].as_f64().unwrap() / 9.806_65;
     assert!((energy - (2.335_468_651_999_305 - 6.0)).abs() < 1e-12);
 }
@@ -154,7 +155,8 @@ length_m = 1
 mass_kg = 1
 ";
 
-/// Exit 0 means that nothing that was tried speaks against the answer; here a complete census is taken.
+/// Exit 0 means that nothing that was tried speaks against the answer; here a complete census is
+/// taken.
 #[test]
 fn an_answer_that_the_census_refutes_is_no_success() {
     let heavy = JUST_BRIDGED.replace("2.00000001, 0, 0", "1.5, 0, -0.5").replace(
@@ -209,7 +211,8 @@ centre_m = 0.23910237774903406
     }
 }
 
-/// Three equal bars with anchors one length apart: the forces are one of a family, and the output says so.
+/// Three equal bars with anchors one length apart: the forces are one of a family, and the output
+/// says so.
 #[test]
 fn indeterminate_forces_are_told() {
     let bar = "[[bars]]\nlength_m = 1\nmass_kg = 1\ncount = 3\n";

@@ -1,12 +1,13 @@
-//! Sweeps over seeds: the same bits however they are cut, every seed accounted for, and the equilibria
-//! those of the census and of the scalar solvers.
+//! Sweeps over seeds: the same bits however they are cut, every seed accounted for, and the
+//! equilibria those of the census and of the scalar solvers.
 
 #![expect(clippy::unwrap_used, reason = "helpers of tests")]
 
 use model::{Anchors, Bar, Chain, Problem};
 use sweep::{Axis, Chunk, Comparison, Failure, Settings, Source, Summary, Sweep};
 
-/// A chain between anchors at different heights, its bars all different: four planar equilibria at least.
+/// A chain between anchors at different heights, its bars all different: four planar equilibria at
+/// least.
 fn uneven(bars: usize) -> Problem {
     let list = (0..bars)
         .map(|k| {
@@ -186,7 +187,8 @@ fn the_energies_of_a_taut_chain_agree() {
     assert!(same > 1000, "{same}");
 }
 
-/// Without a census the list is what fixed seeds reach: a part of the census, and the same for any sweep.
+/// Without a census the list is what fixed seeds reach: a part of the census, and the same for any
+/// sweep.
 #[test]
 fn a_discovered_list_is_a_part_of_the_census() {
     let problem = uneven(4);

@@ -149,7 +149,8 @@ fn threads_shards_and_forms_do_not_show() {
     }
 }
 
-/// Thirty bars are too many for a census: that most starts lead to what is in no list is told as that.
+/// Thirty bars are too many for a census: that most starts lead to what is in no list is told as
+/// that.
 #[test]
 fn a_list_with_gaps_is_no_check_that_failed() {
     let out = folder("gaps").join("out");

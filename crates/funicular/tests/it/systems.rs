@@ -8,8 +8,8 @@ use std::process::Output;
 use assert_cmd::Command;
 use serde_json::Value;
 
-/// A mass of 2 kg on two massless cables of 5 m between anchors 6 m apart: by the triangle 3, 4, 5 it hangs 4 m
-/// deep, and each cable pulls with 5/4 of 10 N.
+/// A mass of 2 kg on two massless cables of 5 m between anchors 6 m apart: by the triangle 3, 4, 5
+/// it hangs 4 m deep, and each cable pulls with 5/4 of 10 N.
 const LAMP: &str = "name = \"lamp\"\ngravity_m_s2 = 10\n[joints]\nA = { at_m = [-3, 0, 0] }\n\
     B = { at_m = [3, 0, 0] }\n\"the, lamp\" = { mass_kg = 2 }\n\
     [[bars]]\nfrom = \"A\"\nto = \"the, lamp\"\nlength_m = 5\nmass_kg = 0\nkind = \"cable\"\n\

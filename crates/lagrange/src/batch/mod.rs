@@ -32,8 +32,8 @@
 //!
 //! # Where it differs from `solve_from`
 //!
-//! [`solve_from`](crate::solve_from) works in space with three angles per bar, where the Jacobian of
-//! the paper's coordinates is singular at every solution; it damps each step by Levenberg's and
+//! [`solve_from`](crate::solve_from) works in space with three angles per bar, where the Jacobian
+//! of the paper's coordinates is singular at every solution; it damps each step by Levenberg's and
 //! Marquardt's rule, falls from step to step, and relaxes the chain where the residual has a local
 //! minimum. Here the plain Newton step is taken, shortened only in length:
 //!
@@ -52,12 +52,12 @@
 //!
 //! # Seeds of long chains
 //!
-//! The more bars, the farther a random seed is from every equilibrium: a chain that spans 0.88 of its
-//! length is reached from all seeds at 5 equal bars, from 18 % at 15 and from none at 60. What is left
-//! after [`BatchSettings::max_iterations`] steps is solved by signs (module `signs`): the closed shape
-//! nearest to the seed says which bars are compressed, and for given signs two equations in the pull
-//! are left, whatever n is. So every seed leads to an equilibrium that has the signs of its shape as
-//! far as one exists; at 15, 30 and 60 such bars all of 1,000 seeds do.
+//! The more bars, the farther a random seed is from every equilibrium: a chain that spans 0.88 of
+//! its length is reached from all seeds at 5 equal bars, from 18 % at 15 and from none at 60. What
+//! is left after [`BatchSettings::max_iterations`] steps is solved by signs (module `signs`): the
+//! closed shape nearest to the seed says which bars are compressed, and for given signs two
+//! equations in the pull are left, whatever n is. So every seed leads to an equilibrium that has
+//! the signs of its shape as far as one exists; at 15, 30 and 60 such bars all of 1,000 seeds do.
 //!
 //! # Speed and repeatability
 //!

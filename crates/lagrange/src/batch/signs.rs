@@ -1,16 +1,17 @@
 //! Seeds that the iteration does not bring to an end: by the signs of their bars.
 //!
-//! In an equilibrium every bar is parallel to its force, $u_i = s_i F_i/|F_i|$ with $s_i = +1$ in tension
-//! and $-1$ in compression, so that for given signs two equations in two unknowns are left,
+//! In an equilibrium every bar is parallel to its force, $u_i = s_i F_i/|F_i|$ with $s_i = +1$ in
+//! tension and $-1$ in compression, so that for given signs two equations in two unknowns are left,
 //!
 //! $$ r(p) = \sum_i s_i l_i F_i/|F_i| - D = 0, \qquad F_i = p + c_i e_z. $$
 //!
 //! The signs are those of the closed shape nearest to the seed $u_i^0$, which maximises
-//! $\sum l_i u_i \cdot u_i^0$: its bars are parallel to $u_i^0 + \mu$, and the multiplier μ is the minimum of
-//! the convex function $\sum l_i |u_i^0 + \mu| - \mu \cdot D$. Where the equations have no root with these
-//! signs that Newton's method finds, the bars that are compressed least go over to tension, some at a
-//! time. With all bars in tension r is the derivative of a convex function, and a chain whose lowest
-//! bar can hang has a root. Every pass over the bars is O(n), and there are some hundreds.
+//! $\sum l_i u_i \cdot u_i^0$: its bars are parallel to $u_i^0 + \mu$, and the multiplier μ is the
+//! minimum of the convex function $\sum l_i |u_i^0 + \mu| - \mu \cdot D$. Where the equations have
+//! no root with these signs that Newton's method finds, the bars that are compressed least go over
+//! to tension, some at a time. With all bars in tension r is the derivative of a convex function,
+//! and a chain whose lowest bar can hang has a root. Every pass over the bars is O(n), and there
+//! are some hundreds.
 
 use super::lanes::Lanes;
 use super::numbers::Bar;
@@ -80,7 +81,8 @@ impl<'a> Signs<'a> {
         Self { bars, span, tolerance, shape, compressed: Vec::new(), passes: 0 }
     }
 
-    /// Solve a seed with at most `limit` passes and put the directions of the bars into `directions`.
+    /// Solve a seed with at most `limit` passes and put the directions of the bars into
+    /// `directions`.
     pub fn solve(
         &mut self,
         angles: &[f64],

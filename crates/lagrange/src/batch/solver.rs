@@ -12,11 +12,11 @@ use super::numbers::{Bar, Numbers};
 use super::signs::Signs;
 use crate::settings::SettingsError;
 
-/// Passes over the bars that a solve by signs may take for each Newton step that was allowed before:
-/// none of the chains tried took more than the 1,000 of the default.
+/// Passes over the bars that a solve by signs may take for each Newton step that was allowed
+/// before: none of the chains tried took more than the 1,000 of the default.
 const PASSES_PER_STEP: usize = 2;
-/// Part of the tolerance to which a solve by signs closes: the largest component and the rounding of
-/// the directions stay below the whole.
+/// Part of the tolerance to which a solve by signs closes: the largest component and the rounding
+/// of the directions stay below the whole.
 const CLOSURE: f64 = 0.5;
 
 /// What can be chosen.
@@ -31,8 +31,8 @@ pub struct BatchSettings {
     /// largest force times the mean length, closure in units of the total length. Default 1e-13,
     /// from 1e-15 to 1e-3.
     pub tolerance: f64,
-    /// Newton steps after which a seed is solved by the signs of its bars, which may take twice as many
-    /// passes over the bars. Default 1000, from 1 to 60,000.
+    /// Newton steps after which a seed is solved by the signs of its bars, which may take twice as
+    /// many passes over the bars. Default 1000, from 1 to 60,000.
     pub max_iterations: u32,
 }
 

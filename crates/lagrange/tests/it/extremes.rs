@@ -8,8 +8,9 @@ use nalgebra::DVector;
 use crate::common::{problem, stream};
 use crate::judge::judge;
 
-/// Lengths, closure, force, moment and energy, in units of the largest force and the total length: the
-/// tolerance of the solver. Worst measured: 2e-14, the moment on a bar of a nearly straight chain.
+/// Lengths, closure, force, moment and energy, in units of the largest force and the total length:
+/// the tolerance of the solver. Worst measured: 2e-14, the moment on a bar of a nearly straight
+/// chain.
 const BALANCE: f64 = 1e-13;
 
 /// The stable equilibrium between the origin and `end_m`, judged by Newton's laws.

@@ -26,13 +26,13 @@ pub struct Agreed {
     /// Joints that an equilibrium leaves free, which are not compared: see [`FreeJoints`].
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub free_joints: Option<FreeJoints>,
-    /// Whether agreement is evidence for the shape alone: the forces are one of a family, chosen by convention (see
-    /// [`ForceFamily`](super::ForceFamily)).
+    /// Whether agreement is evidence for the shape alone: the forces are one of a family, chosen by
+    /// convention (see [`ForceFamily`](super::ForceFamily)).
     pub shape_only: bool,
 }
 
-/// The joints between bars that are proved to carry no force: all else hangs plumb from the two anchors, and the
-/// lengths of these bars leave more than one way to bridge what is left.
+/// The joints between bars that are proved to carry no force: all else hangs plumb from the two
+/// anchors, and the lengths of these bars leave more than one way to bridge what is left.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct FreeJoints {
     /// The first of them.
@@ -114,7 +114,8 @@ pub enum Quantity {
         /// The solver.
         solver: SolverName,
     },
-    /// Axial forces and reactions that an answer names less those of its joint forces, in units of force.
+    /// Axial forces and reactions that an answer names less those of its joint forces, in units of
+    /// force.
     AxialForcesAndReactions {
         /// The solver.
         solver: SolverName,

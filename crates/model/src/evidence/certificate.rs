@@ -7,12 +7,13 @@ use super::finite;
 /// No configuration has less energy: the stress matrix is positive semidefinite.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Optimal {
-    /// The energy less a proved lower bound of all energies, in units of the weight between the anchors times the
-    /// total length; nothing where a factorisation in intervals proves it of the exact equilibrium.
+    /// The energy less a proved lower bound of all energies, in units of the weight between the
+    /// anchors times the total length; nothing where a factorisation in intervals proves it of the
+    /// exact equilibrium.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub gap: Option<f64>,
-    /// Whether the stress matrix is singular as far as doubles can tell: the free turn about the vertical through
-    /// both anchors.
+    /// Whether the stress matrix is singular as far as doubles can tell: the free turn about the
+    /// vertical through both anchors.
     pub singular: bool,
 }
 
@@ -21,14 +22,14 @@ pub struct Optimal {
 #[serde(tag = "because", rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum NoCertificate {
-    /// Occurs when two or more bars are in compression: the stress matrix has a negative eigenvalue,
-    /// and the equilibrium is unstable in space.
+    /// Occurs when two or more bars are in compression: the stress matrix has a negative
+    /// eigenvalue, and the equilibrium is unstable in space.
     SeveralCompressed {
         /// How many.
         bars: usize,
     },
-    /// Occurs when one bar is in compression and its force is too large for the others to hold it up
-    /// in space: `Σ 1/τ_i > 0`, proven.
+    /// Occurs when one bar is in compression and its force is too large for the others to hold it
+    /// up in space: `Σ 1/τ_i > 0`, proven.
     Indefinite {
         /// The compressed bar, from 1.
         bar: usize,
@@ -42,8 +43,8 @@ pub enum NoCertificate {
         #[serde(with = "finite")]
         gap: f64,
     },
-    /// Occurs when the last joint misses its anchor by so much of what the chain can spare that no configuration of
-    /// it need be near.
+    /// Occurs when the last joint misses its anchor by so much of what the chain can spare that no
+    /// configuration of it need be near.
     NotClosed {
         /// How far the joint is from the anchor, beyond the rounding of coordinates, m.
         #[serde(with = "finite")]
@@ -61,8 +62,8 @@ pub enum NoCertificate {
     PivotsUndecided,
     /// Occurs when the stress matrix of a system is not proved positive definite.
     NotDefinite {
-        /// How many members are compressed; without any only a part that nothing loads or that turns freely
-        /// leaves it singular.
+        /// How many members are compressed; without any only a part that nothing loads or that
+        /// turns freely leaves it singular.
         compressed: usize,
     },
     /// Occurs when a number of the answer is not finite, or the arrays do not fit the chain.

@@ -47,7 +47,8 @@ impl Convergence {
     }
 }
 
-/// How far double precision leaves the forces of an answer open, as the solver knows its own arithmetic.
+/// How far double precision leaves the forces of an answer open, as the solver knows its own
+/// arithmetic.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct ForceUncertainty {
     /// Up to so much of the largest force.
@@ -64,6 +65,7 @@ pub struct ForceUncertainty {
 pub enum UncertaintyCause {
     /// The closure hardly depends on the pull at the anchor.
     WeakClosure,
-    /// The bars are so nearly parallel that a rounding of their directions is large beside their angles.
+    /// The bars are so nearly parallel that a rounding of their directions is large beside their
+    /// angles.
     ParallelBars,
 }

@@ -4,17 +4,18 @@ use serde::{Deserialize, Serialize};
 
 use crate::Vector;
 
-/// The forces in the bars of an equilibrium whose bars are all parallel to one line, as far as the rounding of
-/// lengths can tell: a force along the line may be added to the forces between all bars, and every bar
-/// stays in balance. The chain then has one self-stress; in any other position it has none.
+/// The forces in the bars of an equilibrium whose bars are all parallel to one line, as far as the
+/// rounding of lengths can tell: a force along the line may be added to the forces between all
+/// bars, and every bar stays in balance. The chain then has one self-stress; in any other position
+/// it has none.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct ForceFamily {
     /// Number of independent self-stresses.
     pub dimension: usize,
     /// Unit vector along the line, world frame, upwards (level: towards the last joint).
     pub direction: Vector,
-    /// Force of the ground on the chain at joint 0 along that direction, N: between these ends all bars are in
-    /// tension. Nothing where some bar is pushed whatever is added.
+    /// Force of the ground on the chain at joint 0 along that direction, N: between these ends all
+    /// bars are in tension. Nothing where some bar is pushed whatever is added.
     pub start_force_n: Option<[f64; 2]>,
     /// Which of the forces the answer names.
     pub choice: ForceChoice,

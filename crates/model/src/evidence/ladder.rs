@@ -58,8 +58,8 @@ impl Ladder {
         }
     }
 
-    /// How a rung was reached, or why not: a sentence once it is formatted. The alternate form, `{:#}`, tells what
-    /// is only rounding as a bound.
+    /// How a rung was reached, or why not: a sentence once it is formatted. The alternate form,
+    /// `{:#}`, tells what is only rounding as a bound.
     #[must_use]
     pub fn status(&self, rung: Rung) -> &dyn Display {
         match rung {
@@ -83,8 +83,8 @@ impl Ladder {
         Rung::ALL.into_iter().rev().find(|rung| self.is_reached(*rung))
     }
 
-    /// Take back what was reached above `converged`: a complete census proves that the answer is at this distance of
-    /// every equilibrium, in units of the total length.
+    /// Take back what was reached above `converged`: a complete census proves that the answer is at
+    /// this distance of every equilibrium, in units of the total length.
     pub fn refute(&mut self, distance: f64) {
         let reason = || Reason::RefutedByCensus { distance };
         self.agreed = Status::Open(reason());
@@ -93,8 +93,8 @@ impl Ladder {
         self.optimal = Status::Open(reason());
     }
 
-    /// Whether a check that was made of this answer has failed: solvers disagree, the judge refuses it, or a census
-    /// refutes it. That something was not tried or not decided is no failure.
+    /// Whether a check that was made of this answer has failed: solvers disagree, the judge refuses
+    /// it, or a census refutes it. That something was not tried or not decided is no failure.
     #[must_use]
     pub fn failed(&self) -> bool {
         Rung::ALL.into_iter().any(|rung| {

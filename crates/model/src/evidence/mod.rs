@@ -1,8 +1,9 @@
 //! The evidence ladder: how far an equilibrium is proved.
 //!
-//! Each of the five rungs of a [`Ladder`] is reached with its proof, a struct of numbers, or open with
-//! its [`Reason`], an enum with numbers. Whoever produces evidence hands in numbers; whoever judges
-//! reads numbers; the sentences for people are made in one place, the `Display` of these types.
+//! Each of the five rungs of a [`Ladder`] is reached with its proof, a struct of numbers, or open
+//! with its [`Reason`], an enum with numbers. Whoever produces evidence hands in numbers; whoever
+//! judges reads numbers; the sentences for people are made in one place, the `Display` of these
+//! types.
 //!
 //! ```
 //! use model::{Evidence, Reason, Rung, Status};
@@ -73,8 +74,8 @@ pub struct Evidence {
 }
 
 impl Evidence {
-    /// Evidence of a solver that has ended with a residual: the rung `converged` is reached if the residual is
-    /// not above its tolerance, and no other rung is.
+    /// Evidence of a solver that has ended with a residual: the rung `converged` is reached if the
+    /// residual is not above its tolerance, and no other rung is.
     #[must_use]
     pub fn new(
         residual_of: impl Into<Cow<'static, str>>,
@@ -87,8 +88,8 @@ impl Evidence {
         Self::of(convergence)
     }
 
-    /// Evidence of a proof by enclosure, which has no tolerance: the enclosures of `residual_of` have this
-    /// largest relative width.
+    /// Evidence of a proof by enclosure, which has no tolerance: the enclosures of `residual_of`
+    /// have this largest relative width.
     #[must_use]
     pub fn enclosed(residual_of: impl Into<Cow<'static, str>>, width: f64) -> Self {
         Self::of(Convergence::new(residual_of.into(), width, None, 0))

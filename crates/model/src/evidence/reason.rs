@@ -38,12 +38,14 @@ pub enum Reason {
     },
     /// Solvers were compared and disagree.
     SolversDisagree(Disagreement),
-    /// An answer that stands alone violates geometry or Newton's laws, or its numbers contradict each other.
+    /// An answer that stands alone violates geometry or Newton's laws, or its numbers contradict
+    /// each other.
     JudgeRefuses {
         /// What is over its budget.
         excesses: Vec<Excess>,
     },
-    /// A complete census proves that the answer is no equilibrium, to the accuracy that is asked of answers.
+    /// A complete census proves that the answer is no equilibrium, to the accuracy that is asked of
+    /// answers.
     RefutedByCensus {
         /// Distance of the nearest one, in units of the total length.
         #[serde(with = "finite")]
@@ -58,8 +60,8 @@ pub enum Reason {
         /// How many.
         cells: usize,
     },
-    /// The census lists other equilibria, not so far away, or not proved to be all, that they would refute the
-    /// answer.
+    /// The census lists other equilibria, not so far away, or not proved to be all, that they would
+    /// refute the answer.
     Elsewhere {
         /// Distance of the nearest one, in units of the total length.
         #[serde(with = "finite")]
@@ -72,14 +74,15 @@ pub enum Reason {
         /// How many.
         cells: usize,
     },
-    /// The census lists its equilibria, and the count of them could not be checked: a straight position of the
-    /// chain exists, where the configuration space is no manifold.
+    /// The census lists its equilibria, and the count of them could not be checked: a straight
+    /// position of the chain exists, where the configuration space is no manifold.
     StraightPosition {
-        /// Numbers of the sides that are together as long as the others, from 1; n + 1 is the line between the
-        /// anchors.
+        /// Numbers of the sides that are together as long as the others, from 1; n + 1 is the line
+        /// between the anchors.
         sides: Vec<usize>,
     },
-    /// The census lists its equilibria, and the count of them could not be checked: so many sides are not counted.
+    /// The census lists its equilibria, and the count of them could not be checked: so many sides
+    /// are not counted.
     CountUnchecked {
         /// Number of bars and the line between the anchors.
         sides: usize,

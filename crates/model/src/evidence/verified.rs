@@ -13,6 +13,7 @@ pub struct Verified {
     /// How far outside of the box the answer lies, in units of the total length; 0 inside.
     #[serde(with = "finite")]
     pub distance: f64,
-    /// Whether the box stands for a circle of equilibria, turned about the vertical through both anchors.
+    /// Whether the box stands for a circle of equilibria, turned about the vertical through both
+    /// anchors.
     pub circle: bool,
 }

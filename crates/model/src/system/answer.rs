@@ -36,8 +36,8 @@ pub struct SystemStability {
     pub in_space: InSpace,
     /// Number of independent directions in which the energy falls (Morse index).
     pub index_in_space: usize,
-    /// The same among the motions in the vertical plane that holds all joints, forces and supports; nothing where there is
-    /// no such plane.
+    /// The same among the motions in the vertical plane that holds all joints, forces and supports;
+    /// nothing where there is no such plane.
     pub index_in_plane: Option<usize>,
     /// Independent directions in which the energy neither falls nor rises to second order.
     pub neutral: usize,

@@ -90,7 +90,8 @@ pub enum SystemError {
         /// Name of the joint.
         joint: String,
     },
-    /// Occurs when two members connect the same two joints: how they share a force is indeterminate.
+    /// Occurs when two members connect the same two joints: how they share a force is
+    /// indeterminate.
     #[error(
         "two members connect joint {from:?} with joint {to:?} (numbers {first} and {member}): how \
          they share a force is indeterminate"
@@ -134,7 +135,8 @@ pub enum SystemError {
         /// Which total.
         quantity: &'static str,
     },
-    /// Occurs when a total is less than [`SMALLEST_TOTAL`], so that digits would be lost without notice.
+    /// Occurs when a total is less than [`SMALLEST_TOTAL`], so that digits would be lost without
+    /// notice.
     #[error(
         "the {quantity} of this system, {total:e} in SI units, is too small for double precision (least: {:e})",
         SMALLEST_TOTAL

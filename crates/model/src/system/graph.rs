@@ -90,9 +90,9 @@ impl Graph {
         parts
     }
 
-    /// Shortest ways from a joint (Dijkstra), none longer than `limit_m`. With a member to leave out, the
-    /// ways to its other end are those of the loops through it, and straight lines between anchors belong
-    /// to them; without one, ways run over members alone.
+    /// Shortest ways from a joint (Dijkstra), none longer than `limit_m`. With a member to leave
+    /// out, the ways to its other end are those of the loops through it, and straight lines between
+    /// anchors belong to them; without one, ways run over members alone.
     pub(super) fn distances(
         &self,
         start: usize,

@@ -4,9 +4,9 @@ use crate::{Bar, Vector};
 
 /// A straight member between two joints.
 ///
-/// Its [`body`](Self::body) gives the unstretched length, the mass and where the mass is. Any weight or
-/// constant force at a point of a straight member is linear in the places of its two ends, so a member
-/// that stretches carries its loads at fixed *fractions* of its length.
+/// Its [`body`](Self::body) gives the unstretched length, the mass and where the mass is. Any
+/// weight or constant force at a point of a straight member is linear in the places of its two
+/// ends, so a member that stretches carries its loads at fixed *fractions* of its length.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Member {
     /// The joint where it begins.
@@ -23,7 +23,8 @@ pub struct Member {
     pub loads: Vec<PointLoad>,
 }
 
-/// Which changes of its length a member resists. With `l` the unstretched and `d` the present length:
+/// Which changes of its length a member resists. With `l` the unstretched and `d` the present
+/// length:
 ///
 /// | kind | inextensible | with stiffness `EA`: axial force |
 /// |---|---|---|
@@ -68,8 +69,8 @@ impl Member {
         Self { stiffness_n: Some(stiffness_n), ..self }
     }
 
-    /// The greatest distance of its ends that the member allows, m; infinite where it stretches or does not
-    /// resist tension.
+    /// The greatest distance of its ends that the member allows, m; infinite where it stretches or
+    /// does not resist tension.
     #[must_use]
     pub fn greatest_length_m(&self) -> f64 {
         match (self.kind, self.stiffness_n) {

@@ -1,17 +1,17 @@
 //! Systems of bars: joints, and members between them.
 //!
-//! A [`System`] is any number of joints connected by any number of members: bars, and members of other
-//! kinds with laws of their own. Joints are spherical and without friction; some are held by supports,
-//! the others are free. Gravity acts along −Z on the masses of joints and members, and constant forces
-//! act at joints and at points of members.
+//! A [`System`] is any number of joints connected by any number of members: bars, and members of
+//! other kinds with laws of their own. Joints are spherical and without friction; some are held by
+//! supports, the others are free. Gravity acts along −Z on the masses of joints and members, and
+//! constant forces act at joints and at points of members.
 //!
 //! A chain between two anchors is the special case that [`Chain`](crate::Chain) describes.
 //!
 //! # Conventions
 //!
-//! Joints and members are numbered from 0 in the order in which they are given. A member runs from its
-//! joint [`from`](Member::from) to its joint [`to`](Member::to). Vectors are `[x, y, z]` in the world
-//! frame.
+//! Joints and members are numbered from 0 in the order in which they are given. A member runs from
+//! its joint [`from`](Member::from) to its joint [`to`](Member::to). Vectors are `[x, y, z]` in the
+//! world frame.
 
 mod answer;
 mod convert;

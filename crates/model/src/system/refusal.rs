@@ -55,8 +55,8 @@ pub enum SystemRefusal {
         /// The shortest way from the one to the other over members.
         reach_m: f64,
     },
-    /// Occurs when two anchors are just as far apart as the members between them reach: they lie straight
-    /// and taut, and the force along them is indeterminate.
+    /// Occurs when two anchors are just as far apart as the members between them reach: they lie
+    /// straight and taut, and the force along them is indeterminate.
     #[error(
         "the anchors {from:?} and {to:?} are {} m apart and the members between them reach just as far \
          ({} m): they lie straight and taut, and the force along them is indeterminate",
@@ -91,11 +91,12 @@ pub enum SystemRefusal {
         length_m: f64,
         /// Length of the rest of the loop.
         rest_m: f64,
-        /// Names of the joints of the rest of the loop, shortened in the middle where they are many.
+        /// Names of the joints of the rest of the loop, shortened in the middle where they are
+        /// many.
         way: Vec<String>,
     },
-    /// Occurs when a member is just as long as the rest of a loop through it: the loop closes only folded
-    /// on one line, and the force along it is indeterminate.
+    /// Occurs when a member is just as long as the rest of a loop through it: the loop closes only
+    /// folded on one line, and the force along it is indeterminate.
     #[error(
         "member {member} from {from:?} to {to:?} is {} m long, exactly as long as the rest of a loop \
          through it ({}): the loop closes only folded on one line, and the force along it is indeterminate",
@@ -110,21 +111,22 @@ pub enum SystemRefusal {
         to: String,
         /// Its length.
         length_m: f64,
-        /// Names of the joints of the rest of the loop, shortened in the middle where they are many.
+        /// Names of the joints of the rest of the loop, shortened in the middle where they are
+        /// many.
         way: Vec<String>,
     },
 }
 
-/// Anchors times members up to which all pairs of anchors are held against the members between them:
-/// a tenth of a second. What is not found here the solvers find.
+/// Anchors times members up to which all pairs of anchors are held against the members between
+/// them: a tenth of a second. What is not found here the solvers find.
 const PAIRS: usize = 2_000_000;
 
 impl System {
     /// Accept the system as an equilibrium problem, or say why it has no answer.
     ///
-    /// Lengths are held against every loop of members that is shortest for one of its members, and against
-    /// the shortest ways between anchors (where anchors times members are at most two million): conditions
-    /// that are necessary, and for chains sufficient.
+    /// Lengths are held against every loop of members that is shortest for one of its members, and
+    /// against the shortest ways between anchors (where anchors times members are at most two
+    /// million): conditions that are necessary, and for chains sufficient.
     ///
     /// # Errors
     ///

@@ -3,8 +3,8 @@
 use super::graph::Graph;
 use super::{Support, System};
 
-/// How near to one vertical line points count as on it, relative to the total length: the rounding of
-/// coordinates that were meant to be on it.
+/// How near to one vertical line points count as on it, relative to the total length: the rounding
+/// of coordinates that were meant to be on it.
 const VERTICAL_TOLERANCE: f64 = crate::STRAIGHT_TOLERANCE;
 
 /// Joints that members connect with each other.
@@ -12,8 +12,9 @@ const VERTICAL_TOLERANCE: f64 = crate::STRAIGHT_TOLERANCE;
 pub struct Part {
     /// Their numbers, ascending.
     pub joints: Vec<usize>,
-    /// Place `[x, y]` of the vertical about which the part turns freely, m, if there is one: all its
-    /// supports lie on that vertical or leave every turn about it free, and all its loads are vertical.
+    /// Place `[x, y]` of the vertical about which the part turns freely, m, if there is one: all
+    /// its supports lie on that vertical or leave every turn about it free, and all its loads are
+    /// vertical.
     pub axis_m: Option<[f64; 2]>,
 }
 

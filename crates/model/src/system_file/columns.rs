@@ -6,11 +6,12 @@
 //! 0.5,1e-3,
 //! ```
 //!
-//! The first line names the columns, in any order: `length_m` and `mass_kg`, and if need be `centre_m`
-//! (an empty cell: half the length). Every line after it is a bar, from the start anchor to the end
-//! anchor; the moments of inertia are those of a homogeneous slender bar. Blanks around a cell and empty
-//! lines at the end do not count; a line that is empty, or a comment, before the end is an error, so
-//! that bar *k* is always in line *k* + 1. Cells are plain numbers: quotes are refused.
+//! The first line names the columns, in any order: `length_m` and `mass_kg`, and if need be
+//! `centre_m` (an empty cell: half the length). Every line after it is a bar, from the start anchor
+//! to the end anchor; the moments of inertia are those of a homogeneous slender bar. Blanks around
+//! a cell and empty lines at the end do not count; a line that is empty, or a comment, before the
+//! end is an error, so that bar *k* is always in line *k* + 1. Cells are plain numbers: quotes are
+//! refused.
 
 use std::path::Path;
 

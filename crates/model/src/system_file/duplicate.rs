@@ -14,8 +14,8 @@ pub(super) struct Duplicate {
     pub(super) first: Option<(String, usize)>,
 }
 
-/// Look for the first appearance of the key at `span`. The text before the line of the second is good
-/// TOML, or the parser would have complained of that.
+/// Look for the first appearance of the key at `span`. The text before the line of the second is
+/// good TOML, or the parser would have complained of that.
 pub(super) fn find(text: &str, span: Range<usize>) -> Duplicate {
     let name = text.get(span.clone()).unwrap_or_default().trim_matches(['"', '\'']).to_owned();
     let first = start_of_line(text, span.start).and_then(|start| {
@@ -29,8 +29,8 @@ pub(super) fn find(text: &str, span: Range<usize>) -> Duplicate {
     Duplicate { name, first }
 }
 
-/// Start of the line, if the key is the first thing in it. Keys in inline tables and the later parts of
-/// dotted keys are not, and several of the same name may stand in one line.
+/// Start of the line, if the key is the first thing in it. Keys in inline tables and the later
+/// parts of dotted keys are not, and several of the same name may stand in one line.
 fn start_of_line(text: &str, offset: usize) -> Option<usize> {
     let before = text.get(..offset)?;
     let start = before.rfind('\n').map_or(0, |newline| newline + 1);

@@ -59,8 +59,8 @@ impl SystemFileError {
         &self.0.file
     }
 
-    /// The text of the file as far as it could be read, without a byte order mark; bytes that are not
-    /// UTF-8 are replaced by U+FFFD.
+    /// The text of the file as far as it could be read, without a byte order mark; bytes that are
+    /// not UTF-8 are replaced by U+FFFD.
     #[must_use]
     pub fn text(&self) -> &str {
         &self.0.text
@@ -72,9 +72,9 @@ impl SystemFileError {
         self.0.span.clone()
     }
 
-    /// The key the error is about, as a path such as `bars[2].length_m` or `anchors.end_m[3]`: tables
-    /// of `[[bars]]` and components of vectors are counted from 1, as the lines are. In a bars file,
-    /// the column.
+    /// The key the error is about, as a path such as `bars[2].length_m` or `anchors.end_m[3]`:
+    /// tables of `[[bars]]` and components of vectors are counted from 1, as the lines are. In a
+    /// bars file, the column.
     #[must_use]
     pub fn key(&self) -> Option<&str> {
         self.0.key.as_deref()

@@ -1,9 +1,9 @@
 //! JSON as the TOML that says the same, every value in its place.
 //!
-//! An object of JSON is a table of TOML but for the colons, the braces around it and the commas between its
-//! keys; strings differ in two escapes. So a text of JSON is made one of TOML of the same length, and every
-//! error of the one is in its place in the other. Whether the text is JSON at all is asked of a parser of JSON
-//! first.
+//! An object of JSON is a table of TOML but for the colons, the braces around it and the commas
+//! between its keys; strings differ in two escapes. So a text of JSON is made one of TOML of the
+//! same length, and every error of the one is in its place in the other. Whether the text is JSON
+//! at all is asked of a parser of JSON first.
 
 use std::fmt::Write as _;
 
@@ -47,8 +47,8 @@ pub(super) fn as_toml(text: &str) -> Result<String, (usize, String)> {
     Ok(toml)
 }
 
-/// One string, from its opening quote on: written as TOML with blanks behind where that is shorter. The length
-/// that it has in the text.
+/// One string, from its opening quote on: written as TOML with blanks behind where that is shorter.
+/// The length that it has in the text.
 fn string(text: &str, toml: &mut String) -> usize {
     let begin = toml.len();
     toml.push('"');

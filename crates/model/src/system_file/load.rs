@@ -17,8 +17,8 @@ pub(super) struct Loaded {
     pub(super) text: String,
 }
 
-/// Read a whole file as text: an [`io::Error`] if that fails, an error of the file itself if it is too
-/// long or no text.
+/// Read a whole file as text: an [`io::Error`] if that fails, an error of the file itself if it is
+/// too long or no text.
 ///
 /// The length is counted while reading: pipes and devices do not know theirs.
 pub(super) fn load(path: &Path, limit: u64) -> io::Result<Result<Loaded, SystemFileError>> {

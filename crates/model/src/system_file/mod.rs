@@ -1,4 +1,5 @@
-//! System files: a chain, or any system of bars, as TOML or JSON, read with the place of every error.
+//! System files: a chain, or any system of bars, as TOML or JSON, read with the place of every
+//! error.
 //!
 //! ```
 //! let text = r#"
@@ -38,18 +39,18 @@
 //! | `inertia_kg_m2` of a bar | `[J_x, J_y, J_z]` | kg m² | zero or positive, finite; x along the bar | `[0, m l²/12, m l²/12]` |
 //! | `count` of a bar | whole number | | 1 or more; [`MAX_BARS`] in all | 1 |
 //!
-//! Any other key is an error, and so is a key given twice. A number is the double nearest to it; it may
-//! be written as an integer. `nan` and `inf`, which TOML knows, are refused where they stand, and so is
-//! what a double cannot hold (`1e999`).
+//! Any other key is an error, and so is a key given twice. A number is the double nearest to it; it
+//! may be written as an integer. `nan` and `inf`, which TOML knows, are refused where they stand,
+//! and so is what a double cannot hold (`1e999`).
 //!
 //! The file is UTF-8, with or without a byte order mark, with line ends `\n` or `\r\n`, and at most
 //! [`MAX_FILE_BYTES`] long.
 //!
 //! # Loads on a chain
 //!
-//! `[[loads]]` puts masses and constant forces at the joints between the bars of a chain: `joint` is the
-//! number of a joint, from 1 to the number of bars less 1, and `mass_kg`, `force_n` or both are what acts
-//! there. Several loads at one joint add up.
+//! `[[loads]]` puts masses and constant forces at the joints between the bars of a chain: `joint`
+//! is the number of a joint, from 1 to the number of bars less 1, and `mass_kg`, `force_n` or both
+//! are what acts there. Several loads at one joint add up.
 //!
 //! # Systems of bars by name
 //!
@@ -95,26 +96,27 @@
 //! | `stiffness_n` of a bar | number | N | its axial stiffness EA, positive; `length_m` is then the unstretched length | inextensible |
 //! | `forces` of a bar | tables | | `force_n` in N, and `at_m` from 0 to `length_m` | none; at the middle |
 //!
-//! The other keys of a bar are those of a chain. Two bars between the same two joints, joints that no bar
-//! meets, parts that nothing holds, and lengths that cannot close a loop are refused with their numbers.
+//! The other keys of a bar are those of a chain. Two bars between the same two joints, joints that
+//! no bar meets, parts that nothing holds, and lengths that cannot close a loop are refused with
+//! their numbers.
 //!
 //! # JSON
 //!
-//! A text that begins with a brace is JSON: one object with the keys of the TOML file. Errors have their
-//! places in it all the same.
+//! A text that begins with a brace is JSON: one object with the keys of the TOML file. Errors have
+//! their places in it all the same.
 //!
 //! # A million different bars
 //!
-//! `bars_file = "bars.csv"` takes the bars from a file of [`columns`]; its path is relative to the folder
-//! of the system file. A million rows are read in a fraction of a second, as `[[bars]]` in seconds. Only
-//! [`read_system`] and [`read_problem`] follow it: parsing a text opens no file. A program may bring
-//! readers of its own for other kinds of files ([`read_problem_with`]).
+//! `bars_file = "bars.csv"` takes the bars from a file of [`columns`]; its path is relative to the
+//! folder of the system file. A million rows are read in a fraction of a second, as `[[bars]]` in
+//! seconds. Only [`read_system`] and [`read_problem`] follow it: parsing a text opens no file. A
+//! program may bring readers of its own for other kinds of files ([`read_problem_with`]).
 //!
 //! # Refusals
 //!
 //! [`read_system`] takes every chain that can be described; [`read_problem`] refuses what is no
-//! equilibrium problem, with the numbers of its [`Refusal`](crate::Refusal): at `anchors.end_m` if the
-//! bars do not reach, at the bar that is too long, at `bars` if none has mass.
+//! equilibrium problem, with the numbers of its [`Refusal`](crate::Refusal): at `anchors.end_m` if
+//! the bars do not reach, at the bar that is too long, at `bars` if none has mass.
 //!
 //! # Errors
 //!

@@ -11,19 +11,19 @@ use super::load::{Loaded, load, without_mark};
 use super::source::{BarsReader, Source};
 use crate::{Chain, Problem};
 
-/// Read a system file of any kind: a chain, a chain with loads, or joints by name; TOML, or JSON with the
-/// same keys.
+/// Read a system file of any kind: a chain, a chain with loads, or joints by name; TOML, or JSON
+/// with the same keys.
 ///
 /// # Errors
 ///
-/// [`SystemFileError`] with the place and the reason; why something is no equilibrium problem points at the
-/// number that it rests on.
+/// [`SystemFileError`] with the place and the reason; why something is no equilibrium problem
+/// points at the number that it rests on.
 pub fn read(path: impl AsRef<Path>) -> Result<Described, SystemFileError> {
     read_with(path, &|_| None)
 }
 
-/// [`read()`] for a program that reads bars from more kinds of files than this crate does: `reader` is asked
-/// first for what `bars_file` names.
+/// [`read()`] for a program that reads bars from more kinds of files than this crate does: `reader`
+/// is asked first for what `bars_file` names.
 ///
 /// # Errors
 ///
@@ -37,8 +37,8 @@ pub fn read_with(
     described(&file, without_mark(&text), path.parent(), Some(reader))
 }
 
-/// Parse the text of a system file of any kind; `file` is its name in errors. The bars must stand in the
-/// text: no file is opened.
+/// Parse the text of a system file of any kind; `file` is its name in errors. The bars must stand
+/// in the text: no file is opened.
 ///
 /// # Errors
 ///
@@ -130,8 +130,8 @@ pub fn read_problem_with(
     Source { file: &file, text, folder: path.parent(), reader: Some(reader) }.problem()
 }
 
-/// Parse the text of a system file; `file` is its name in errors. The bars must stand in the text: no
-/// file is opened.
+/// Parse the text of a system file; `file` is its name in errors. The bars must stand in the text:
+/// no file is opened.
 ///
 /// # Errors
 ///

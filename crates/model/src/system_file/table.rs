@@ -48,7 +48,8 @@ impl<'a> Table<'a> {
         self.source.error(kind, Some(self.key(key)), Some(span))
     }
 
-    /// An error about the first component of a vector that is not as it should be, or about the vector.
+    /// An error about the first component of a vector that is not as it should be, or about the
+    /// vector.
     pub(super) fn component_error(
         &self,
         kind: Kind,

@@ -4,8 +4,8 @@ use std::fmt::Write as _;
 
 use crate::{Bar, Chain, Vector};
 
-/// The system file of a chain. Equal bars in a row become one table with `count`; the centre and the
-/// moments of inertia are left out where they are the defaults.
+/// The system file of a chain. Equal bars in a row become one table with `count`; the centre and
+/// the moments of inertia are left out where they are the defaults.
 ///
 /// ```
 /// let chain = model::cases::paper().into_chain();

@@ -205,7 +205,8 @@ fn far_anchors_leave_the_span_uncertain() {
         panic!("{unresolved:?}")
     };
     assert!((coordinate_m - (1e12 + 2.0)).abs() < 0.5);
-    // Six coordinates, each half a unit in the last place off: at most 3 times 2^-52 of the largest.
+    // Six coordinates, each half a unit in the last place off: at most 3 times 2^-52 of the
+    // largest.
     assert!((rounding_m / (3.0 * f64::EPSILON * coordinate_m) - 1.0).abs() < 1e-15);
     assert!((margin_m - 1e-4).abs() < 1e-12);
     assert!(

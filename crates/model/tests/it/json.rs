@@ -171,7 +171,8 @@ fn the_rung_is_the_highest_that_was_reached() {
     assert!(Rung::ALL.is_sorted());
 }
 
-/// A residual above its tolerance, or none at all, is no convergence, and nothing else is lost by it.
+/// A residual above its tolerance, or none at all, is no convergence, and nothing else is lost by
+/// it.
 #[test]
 fn converged_is_not_reached_above_the_tolerance() {
     for residual in [1.000_1e-12, f64::NAN, f64::INFINITY] {

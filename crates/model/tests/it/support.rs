@@ -12,7 +12,8 @@ pub fn barred(head: &str) -> String {
     format!("{head}\n[[bars]]\nlength_m = 1\nmass_kg = 1\ncount = 3\n")
 }
 
-/// The text must be refused with this message (file, line, column, key, reason) and this place marked.
+/// The text must be refused with this message (file, line, column, key, reason) and this place
+/// marked.
 #[track_caller]
 pub fn check(text: &str, message: &str, marked: &str) {
     let error = parse_problem(text, "f").expect_err(text);

@@ -6,11 +6,12 @@ use nalgebra::DVector;
 use super::{Facts, Finding};
 use crate::printed::{Printed, Verdict};
 
-/// The largest number of a displayed equation in the paper's text (before the example's roman ones).
+/// The largest number of a displayed equation in the paper's text (before the example's roman
+/// ones).
 const LAST_EQUATION: f64 = 41.0;
 
-/// Angles of a position without symmetry, rad: counts of non-zero entries and ranks hold there as almost
-/// everywhere.
+/// Angles of a position without symmetry, rad: counts of non-zero entries and ranks hold there as
+/// almost everywhere.
 const GENERIC: [[f64; 3]; 3] = [[0.3, 0.4, -0.7], [1.1, -0.6, 0.2], [-0.5, 0.9, 1.3]];
 
 /// Entries and singular values below this part of the largest are zero.

@@ -33,7 +33,8 @@ pub use multiplier_system::{Misfit, misfit};
 pub const ANGLE_RAD: f64 = 1e-10;
 /// The same for the energy, mgl. Measured: 9e-16.
 pub const ENERGY_MGL: f64 = 1e-12;
-/// The same for joint forces, mg, the difference quotients of the least energy included. Measured: 4e-13.
+/// The same for joint forces, mg, the difference quotients of the least energy included. Measured:
+/// 4e-13.
 pub const FORCE_MG: f64 = 1e-10;
 
 /// A claim of the paper, judged.

@@ -50,8 +50,8 @@ fn symmetric(facts: &Facts) -> Finding {
         .energy(energy)
 }
 
-/// Four planar equilibria: listed and proved complete by the census, counted by the roots of the sextic, and
-/// all that random seeds lead to.
+/// Four planar equilibria: listed and proved complete by the census, counted by the roots of the
+/// sextic, and all that random seeds lead to.
 fn four(facts: &Facts, printed: &Printed) -> Finding {
     let roots = crate::sextic::roots().unwrap_or_default();
     let exact = 2.0 * roots.len() as f64;
@@ -114,8 +114,9 @@ fn psi(facts: &Facts) -> Finding {
     Finding::new(Verdict::Explained.if_shown(shown), columns, what).lagrange(columns)
 }
 
-/// The paper says that Solution 1 proves it, which it does not. The closure does: AB and BD span at most 2l, so
-/// $|D - A|^2 = (5 - 4\cos\theta) l^2 \le 4 l^2$ and $\cos\theta \ge 1/4$ wherever the chain is.
+/// The paper says that Solution 1 proves it, which it does not. The closure does: AB and BD span at
+/// most 2l, so $|D - A|^2 = (5 - 4\cos\theta) l^2 \le 4 l^2$ and $\cos\theta \ge 1/4$ wherever the
+/// chain is.
 fn cosine(facts: &Facts) -> Finding {
     let all = facts.example.lagrange.all();
     let smallest =

@@ -65,7 +65,8 @@ fn scanned(paper: &Paper, position: &str, found: &ScanMinimum) -> Finding {
     Finding::new(verdict, same as f64, what).energy(same as f64)
 }
 
-/// An angle of (ix): what both solvers find, and how far the printed one is from it in steps of the scan.
+/// An angle of (ix): what both solvers find, and how far the printed one is from it in steps of the
+/// scan.
 fn angle(facts: &Facts, printed: &Printed, bar: usize) -> Finding {
     let example = facts.example;
     let lagrange = example.by_lagrange(&example.lagrange.e1).angles_rad[bar];
@@ -123,7 +124,8 @@ fn span(facts: &Facts) -> Finding {
     let printed = numbers(facts.paper, "ix", &example.energy.scan.first);
     let printed =
         reach([0, 1, 2].map(|k| printed[k].0.map_or(f64::NAN, Printed::value).to_radians()));
-    // The printed angles close a span of 2 l to their printed digits: 3 angles, half a unit of 1e-5 deg each.
+    // The printed angles close a span of 2 l to their printed digits: 3 angles, half a unit of 1e-5
+    // deg each.
     let rounding = 3.0 * 0.5e-5_f64.to_radians();
     let shown =
         largest([lagrange - 2.0, energy - 2.0]) <= ANGLE_RAD && (printed - 2.0).abs() <= rounding;
@@ -172,8 +174,8 @@ fn vertical(facts: &Facts) -> Finding {
     Finding::new(verdict.if_shown(from_down <= f64::EPSILON), from_x, what).lagrange(from_x)
 }
 
-/// Squared twice to be rid of the sines, (viii) does not know their signs: besides the two alpha that close the
-/// chain it has two that do not.
+/// Squared twice to be rid of the sines, (viii) does not know their signs: besides the two alpha
+/// that close the chain it has two that do not.
 fn solutions(facts: &Facts, printed: &Printed) -> Finding {
     let theta = facts.example.energy.scan.first.theta_rad;
     let all = candidates(theta);
@@ -205,8 +207,8 @@ fn solutions(facts: &Facts, printed: &Printed) -> Finding {
 /// Points of the closure curve at which the quadrants are looked up.
 const CURVE_POINTS: i32 = 2000;
 
-/// Alpha of (viii): in the first and fourth quadrant as printed, but only up to theta = 60 deg; at the theta of
-/// E2 both are in the fourth.
+/// Alpha of (viii): in the first and fourth quadrant as printed, but only up to theta = 60 deg; at
+/// the theta of E2 both are in the fourth.
 fn branches() -> Finding {
     let first = |theta: f64| alpha(theta, Branch::FirstQuadrant).unwrap_or(f64::NAN);
     let as_printed = |theta: f64| {
@@ -252,5 +254,6 @@ fn minima(facts: &Facts) -> Finding {
         .energy(at_e2.stability.index_in_space as f64)
 }
 
-/// A residual this small is that of an equilibrium, in units of mg and l: both solvers converge to 1e-12.
+/// A residual this small is that of an equilibrium, in units of mg and l: both solvers converge to
+/// 1e-12.
 const FORCE_BALANCE: f64 = 1e-11;

@@ -11,7 +11,8 @@ use crate::sentence::Sentence;
 use model::number::Number;
 
 /// A slope or a misfit below this, mgl/rad or mg, would be that of an equilibrium printed with five
-/// decimals of a degree: 1e-7 rad times curvatures of some mgl. Well above that, far below what is found.
+/// decimals of a degree: 1e-7 rad times curvatures of some mgl. Well above that, far below what is
+/// found.
 const FLAT: f64 = 1e-4;
 
 pub(super) fn judge(facts: &Facts, printed: &Printed) -> Option<Finding> {
@@ -119,8 +120,8 @@ fn multipliers(facts: &Facts) -> Finding {
     Finding::new(verdict.if_shown(met && control), found.norm, what).lagrange(found.norm)
 }
 
-/// Third refutation, and a proof: (x) is not on the complete list, and the energy has a slope all over the
-/// box of positions whose angles round to the printed ones.
+/// Third refutation, and a proof: (x) is not on the complete list, and the energy has a slope all
+/// over the box of positions whose angles round to the printed ones.
 fn listed(facts: &Facts) -> Finding {
     let proof = &facts.completeness;
     let x = &proof.second;

@@ -32,7 +32,8 @@ fn initial_conditions(facts: &Facts) -> Option<Finding> {
 /// Turns about the vertical, rad.
 const TURNS: [f64; 5] = [0.4, 1.1, 2.3, -0.9, 3.0];
 
-/// E1 turned is an equilibrium: by the 30 equations, by the gradient of the energy, and by Newton's laws.
+/// E1 turned is an equilibrium: by the 30 equations, by the gradient of the energy, and by Newton's
+/// laws.
 fn turned(facts: &Facts) -> Finding {
     let problem = &facts.example.problem;
     let e1 = &facts.example.lagrange.e1.equilibrium;

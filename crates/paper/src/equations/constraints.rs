@@ -37,7 +37,8 @@ impl Closed {
     }
 }
 
-/// A bar's letters in (7)-(20): `x`, `y`, `z` of its centre, `l`, `r`, and the sines and cosines of its angles.
+/// A bar's letters in (7)-(20): `x`, `y`, `z` of its centre, `l`, `r`, and the sines and cosines of
+/// its angles.
 #[derive(Clone, Copy)]
 struct Letters {
     x: f64,
@@ -64,8 +65,8 @@ impl Closed {
     }
 }
 
-/// The constraint functions $f_1 \dots f_{12}$ of (7)-(9), (12)-(20) as they are printed, each typed by itself: a
-/// misprint in one is a misprint in one.
+/// The constraint functions $f_1 \dots f_{12}$ of (7)-(9), (12)-(20) as they are printed, each
+/// typed by itself: a misprint in one is a misprint in one.
 fn as_printed(closed: &Closed) -> [f64; 12] {
     let [b1, b2, b3] = closed.letters();
     let [x_3, y_3, z_3]: [f64; 3] = closed.joints[3].into();

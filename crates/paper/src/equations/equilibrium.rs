@@ -14,8 +14,8 @@ const MULTIPLIERS: usize = 12;
 /// Coordinates of three bars.
 const COORDINATES: usize = 18;
 
-/// The coordinates of section VIII: $\psi_i = 0$, $\theta_i = \pi/2$, $\varphi_i$ from the descending
-/// vertical, the bars hung on one another from O, l = 1.
+/// The coordinates of section VIII: $\psi_i = 0$, $\theta_i = \pi/2$, $\varphi_i$ from the
+/// descending vertical, the bars hung on one another from O, l = 1.
 pub(super) fn planar(phi: [f64; 3]) -> DVector<f64> {
     let mut joint = Vector3::zeros();
     let mut q = DVector::zeros(COORDINATES);

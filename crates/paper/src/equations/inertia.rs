@@ -119,7 +119,8 @@ fn columns_error(first_line: fn([f64; 3]) -> Matrix3<f64>) -> f64 {
     })
 }
 
-/// $[\varphi]^T[\theta]^T$ in front of the three unit vectors side by side: no brackets, as printed.
+/// $[\varphi]^T[\theta]^T$ in front of the three unit vectors side by side: no brackets, as
+/// printed.
 fn all_turned([_, theta, phi]: [f64; 3]) -> Matrix3<f64> {
     phi_matrix(phi).transpose() * theta_matrix(theta).transpose()
 }
@@ -130,8 +131,8 @@ fn each_turned([_, theta, phi]: [f64; 3]) -> Matrix3<f64> {
     Matrix3::from_columns(&[by_phi * by_theta * Vector3::x(), by_phi * Vector3::y(), Vector3::z()])
 }
 
-/// Rows of (32) for a bar less those that its place in (33) has: as printed, the matrix of the masses times the
-/// column of three blocks, or with the two as the blocks of one matrix.
+/// Rows of (32) for a bar less those that its place in (33) has: as printed, the matrix of the
+/// masses times the column of three blocks, or with the two as the blocks of one matrix.
 fn rows_too_many(one_matrix: bool) -> f64 {
     let masses = DMatrix::<f64>::identity(3, 3);
     let turning = dynamic(&inertia_product([0.1, 0.2, 0.3], &Vector3::new(1.0, 2.0, 3.0)));

@@ -147,7 +147,8 @@ fn relations(e1: &E1State) -> Vec<EquationAudit> {
         ])
     });
     let configurations = "largest difference, 1000 random closed configurations";
-    // E2 is E1 upside down. For its theta, (viii) has the roots alpha and beta: bars 2 and 3 can be swapped.
+    // E2 is E1 upside down. For its theta, (viii) has the roots alpha and beta: bars 2 and 3 can be
+    // swapped.
     let e2 = upside_down(e1);
     let no_first = nearer(outside_first_quadrant(e2[1]), outside_first_quadrant(e2[2]));
     let both = largest([quadratic(e2[0], e2[1]), quadratic(e2[0], e2[2])]);

@@ -13,8 +13,8 @@ use super::{EquationAudit, Fault, NUMERIC, ROUNDING};
 
 const GYROSCOPIC: &str = "largest difference from Lagrange's equation by numeric derivatives of the kinetic energy, 1000 random motions, J up to 1.5, rates up to 1";
 
-/// A motion of the paper's example (l = 1, O above D by 2) that keeps every joint closed: bar 1 turns at
-/// constant angle rates, bars 2 and 3 span the rest and turn about it.
+/// A motion of the paper's example (l = 1, O above D by 2) that keeps every joint closed: bar 1
+/// turns at constant angle rates, bars 2 and 3 span the rest and turn about it.
 struct ClosedMotion {
     first: [f64; 3],
     first_rates: Vector3<f64>,
@@ -22,16 +22,16 @@ struct ClosedMotion {
     elbow_rate: f64,
 }
 
-/// Fastest rate of a closed motion, rad/s: slow enough for the stencils, since the coordinates of bars 2 and 3
-/// bend more than those of bar 1.
+/// Fastest rate of a closed motion, rad/s: slow enough for the stencils, since the coordinates of
+/// bars 2 and 3 bend more than those of bar 1.
 const FASTEST: f64 = 0.2;
 
 /// Where the third bar ends.
 const D: Vector3<f64> = Vector3::new(0.0, 0.0, -2.0);
 
 impl ClosedMotion {
-    /// A motion that stays clear of the stretched chain and of the gimbal lock, where the coordinates of bars
-    /// 2 and 3 are no smooth functions of time.
+    /// A motion that stays clear of the stretched chain and of the gimbal lock, where the
+    /// coordinates of bars 2 and 3 are no smooth functions of time.
     fn random(rng: &mut ChaCha8Rng) -> Self {
         // Tries until clear. The bound only keeps a broken generator from hanging.
         let mut motion = Self::any(rng);
@@ -110,7 +110,8 @@ fn lower_rows(as_printed: bool) -> f64 {
     })
 }
 
-/// Rows that the matrix on the left of (33) has too few for its unknowns $\{\ddot q\}, \{\lambda\}$.
+/// Rows that the matrix on the left of (33) has too few for its unknowns
+/// $\{\ddot q\}, \{\lambda\}$.
 fn missing_rows(lower_rows: bool) -> f64 {
     let paper = model::cases::paper();
     let matrix = lagrange::constraint_matrix(paper.chain(), &DVector::<f64>::zeros(18));
@@ -119,8 +120,8 @@ fn missing_rows(lower_rows: bool) -> f64 {
     unknowns as f64 - equations as f64
 }
 
-/// Columns that the factor of $\{\ddot q\}, \{\lambda\}$ on the left of (33) has too few: $[B]^T$ alone, or the whole
-/// matrix.
+/// Columns that the factor of $\{\ddot q\}, \{\lambda\}$ on the left of (33) has too few: $[B]^T$
+/// alone, or the whole matrix.
 fn missing_columns(bracket: bool) -> f64 {
     let paper = model::cases::paper();
     let matrix = lagrange::constraint_matrix(paper.chain(), &DVector::<f64>::zeros(18));
@@ -135,8 +136,8 @@ fn kinetic(q: [f64; 3], rates: &Vector3<f64>, j: &Vector3<f64>) -> f64 {
     0.5 * rates.dot(&(inertia_product(q, j) * rates))
 }
 
-/// The generalised force of (39) by Lagrange's equation: $\partial T/\partial\beta$ less the part of the
-/// time derivative of $\partial T/\partial\dot\beta$ without accelerations.
+/// The generalised force of (39) by Lagrange's equation: $\partial T/\partial\beta$ less the part
+/// of the time derivative of $\partial T/\partial\dot\beta$ without accelerations.
 fn gyroscopic(q: [f64; 3], rates: &Vector3<f64>, j: &Vector3<f64>) -> Vector3<f64> {
     let change = derivative(|t| dynamic(&inertia_product(at(q, rates, t), j)));
     let gradient = Vector3::from_fn(|k, _| {
@@ -164,8 +165,8 @@ fn gyroscopic_error(dotted: bool) -> f64 {
     })
 }
 
-/// Columns of the first summand of (38) or (39) less those of the left-hand side: 3 × 3 matrices, times the
-/// column of rates only if a bracket says so.
+/// Columns of the first summand of (38) or (39) less those of the left-hand side: 3 × 3 matrices,
+/// times the column of rates only if a bracket says so.
 fn columns_too_many(bracket: bool) -> f64 {
     let summand = DMatrix::<f64>::zeros(3, 3) * DMatrix::<f64>::zeros(3, 3);
     let rates = DMatrix::<f64>::zeros(3, 1);

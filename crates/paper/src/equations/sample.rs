@@ -12,8 +12,9 @@ const STATES: usize = 1000;
 /// Any fixed number: the audit is to be the same each time.
 const SEED: u64 = 41;
 
-/// Step of the stencils, in units of the time in which an angle changes by at most 1 rad. Truncation (its
-/// sixth power) and rounding (its inverse square, in the second derivative) are both near 1e-11.
+/// Step of the stencils, in units of the time in which an angle changes by at most 1 rad.
+/// Truncation (its sixth power) and rounding (its inverse square, in the second derivative) are
+/// both near 1e-11.
 const STEP: f64 = 1e-2;
 
 /// Largest residual, by magnitude, over the random states; NaN if one is.
@@ -57,8 +58,8 @@ pub(super) fn signed(rng: &mut ChaCha8Rng) -> Vector3<f64> {
     Vector3::from_fn(|_, _| rng.random_range(-1.0..1.0))
 }
 
-/// Rotation by psi about x, then theta about the turned y, then phi about the turned z: nalgebra's own,
-/// for none of the formulas of the paper.
+/// Rotation by psi about x, then theta about the turned y, then phi about the turned z: nalgebra's
+/// own, for none of the formulas of the paper.
 pub(super) fn rotation([psi, theta, phi]: [f64; 3]) -> Matrix3<f64> {
     let turn = |axis, angle| Rotation3::from_axis_angle(&axis, angle);
     (turn(Vector3::x_axis(), psi) * turn(Vector3::y_axis(), theta) * turn(Vector3::z_axis(), phi))

@@ -106,13 +106,15 @@ fn the_second_position_is_refuted_and_the_overturned_first_is_one() {
     assert!(corrected(&x) < 1e-12, "{x:?}");
     let quadrant = row(&ROWS, "after (viii)", "one solution");
     assert_eq!(quadrant.verdict, Validity::Refuted);
-    // beta of E1 is the theta of E2; its roots are the other two angles of E1 with the sign changed.
+    // beta of E1 is the theta of E2; its roots are the other two angles of E1 with the sign
+    // changed.
     assert!((quadrant.as_printed - 19.694_867_976_133_02).abs() < 1e-12, "{quadrant:?}");
     assert!(corrected(&quadrant) < 1e-12, "{quadrant:?}");
     assert_eq!(ROWS.iter().filter(|row| row.verdict == Validity::Refuted).count(), 2);
 }
 
-/// Nine equations and the position (x) are wrong in substance; the rest of what fails is form, or digits.
+/// Nine equations and the position (x) are wrong in substance; the rest of what fails is form, or
+/// digits.
 #[test]
 fn substance_form_and_digits_are_told_apart() {
     let found = FaultyEquations::of(&ROWS);

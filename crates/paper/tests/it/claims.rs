@@ -1,5 +1,5 @@
-//! The judges of the claims can be wrong-footed by no wrong number: altered prints and altered answers
-//! change the verdicts.
+//! The judges of the claims can be wrong-footed by no wrong number: altered prints and altered
+//! answers change the verdicts.
 
 use std::sync::OnceLock;
 

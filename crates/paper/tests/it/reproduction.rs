@@ -200,7 +200,8 @@ fn every_equation_that_is_printed_wrong_is_shown_to_be() {
     assert!((halves[0] + 0.4804).abs() < 5e-5 && (halves[1] - 0.4804).abs() < 5e-5, "{halves:?}");
 }
 
-/// (viii), for the theta of (ix): four solutions, of which two close the chain. Numbers from outside of the project.
+/// (viii), for the theta of (ix): four solutions, of which two close the chain. Numbers from
+/// outside of the project.
 #[test]
 fn squaring_added_two_solutions_to_viii() {
     let solutions = claim("solutions");
@@ -213,7 +214,8 @@ fn squaring_added_two_solutions_to_viii() {
     }
 }
 
-/// The weights act along -Z, a right angle from the axis Ox that the angles are said to be measured from.
+/// The weights act along -Z, a right angle from the axis Ox that the angles are said to be measured
+/// from.
 #[test]
 fn the_vertical_is_z() {
     let vertical = claim("vertical");
@@ -246,8 +248,8 @@ fn random_seeds_lead_to_the_known_equilibria_and_nowhere_else() {
     }
 }
 
-/// The largest entry of the comparison is no disagreement of the solvers: coordinates of 2e6 m have an
-/// ulp of 2.3e-10 m, and the bars are 0.8 m long.
+/// The largest entry of the comparison is no disagreement of the solvers: coordinates of 2e6 m have
+/// an ulp of 2.3e-10 m, and the bars are 0.8 m long.
 #[test]
 fn the_largest_difference_between_the_solvers_is_explained() {
     let row = reproduction().summary.largest_difference.as_ref().unwrap();
@@ -263,7 +265,8 @@ fn the_largest_difference_between_the_solvers_is_explained() {
     assert!(next.difference < 1e-10, "{next:?}");
 }
 
-/// Keys whose value may be missing. Everything else that is `null` was a number that JSON cannot hold.
+/// Keys whose value may be missing. Everything else that is `null` was a number that JSON cannot
+/// hold.
 const MAY_BE_NULL: [&str; 13] = [
     "lagrange",
     "energy",

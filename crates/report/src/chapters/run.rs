@@ -1,4 +1,5 @@
-//! What differs from run to run: where, with what, how long, and the counts that hang on the last bit.
+//! What differs from run to run: where, with what, how long, and the counts that hang on the last
+//! bit.
 
 use model::number::Number;
 use paper::Reproduction;

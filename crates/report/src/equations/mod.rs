@@ -1,8 +1,9 @@
 //! The numbered equations of the paper, typeset: as printed, as corrected, and what they say.
 //!
-//! Two macros mark the difference: `\wrong{...}` around what is printed wrong, `\fixed{...}` around what
-//! belongs there; `\range{1,3}` is the paper's overline for i = 1, 2, 3. The verdict and the numbers behind it are no part of this table: they come from
-//! [`paper::equations`], evaluated at run time.
+//! Two macros mark the difference: `\wrong{...}` around what is printed wrong, `\fixed{...}` around
+//! what belongs there; `\range{1,3}` is the paper's overline for i = 1, 2, 3. The verdict and the
+//! numbers behind it are no part of this table: they come from [`paper::equations`], evaluated at
+//! run time.
 //!
 //! | module | section of the paper | equations |
 //! |---|---|---|

@@ -57,7 +57,8 @@ fn panel(basins: &Basins) -> String {
     for (letter, class, _) in PLACES {
         let boxes = basins.rows.iter().enumerate().flat_map(|(row, letters)| {
             runs(letters, letter).into_iter().map(move |(from, to)| {
-                // A start stands in the middle of its cell; the outermost cells are cut at the frame.
+                // A start stands in the middle of its cell; the outermost cells are cut at the
+                // frame.
                 let x = |k: f64| (-180.0 + step * k).clamp(-180.0, 180.0);
                 let y = |k: f64| (180.0 - step * k).clamp(-180.0, 180.0);
                 let (row, from, to) = (row as f64, from as f64, to as f64);

@@ -1,4 +1,5 @@
-//! The positions to scale with their forces: the paper's Figs. 3 and 4, and what Fig. 4 should have been.
+//! The positions to scale with their forces: the paper's Figs. 3 and 4, and what Fig. 4 should have
+//! been.
 
 use ::figures::{Anchor, Svg};
 use paper::Reproduction;
@@ -11,7 +12,8 @@ use crate::numbers::fixed;
 const LENGTH: f64 = 118.0;
 const FORCE: f64 = 34.0;
 
-/// A bar that leaves the vertical by less hides its weight, which is then drawn this far beside it, px.
+/// A bar that leaves the vertical by less hides its weight, which is then drawn this far beside it,
+/// px.
 const HIDDEN: f64 = 6.0;
 const BESIDE: f64 = 11.0;
 
@@ -169,7 +171,8 @@ fn printed(r: &Reproduction) -> String {
     svg.finish()
 }
 
-/// The three weights at the middles of the bars; beside the bar where it hangs straight down and would hide its own.
+/// The three weights at the middles of the bars; beside the bar where it hangs straight down and
+/// would hide its own.
 fn weights(svg: &mut Svg, at: &[[f64; 2]; 4]) {
     for ends in at.windows(2) {
         let middle = [f64::midpoint(ends[0][0], ends[1][0]), f64::midpoint(ends[0][1], ends[1][1])];

@@ -1,8 +1,8 @@
 //! The pictures of the report: each a few vector graphics side by side, with one caption.
 //!
-//! Colours are left to the style of the page (classes `tension`, `compression`, `force`, ...), which has
-//! one set for light and one for dark screens, both taken from Okabe and Ito's palette for the
-//! colour-blind; whatever a colour says, a dash, a shape or a word says too.
+//! Colours are left to the style of the page (classes `tension`, `compression`, `force`, ...),
+//! which has one set for light and one for dark screens, both taken from Okabe and Ito's palette
+//! for the colour-blind; whatever a colour says, a dash, a shape or a word says too.
 
 mod basins;
 mod census;

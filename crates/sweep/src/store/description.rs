@@ -1,4 +1,5 @@
-//! The descriptions in the folder of a sweep, as JSON: their names, and how they are read and written.
+//! The descriptions in the folder of a sweep, as JSON: their names, and how they are read and
+//! written.
 
 use std::fs;
 use std::io::ErrorKind;
@@ -14,11 +15,12 @@ pub const SCHEMA_VERSION: u32 = 1;
 pub(crate) const MANIFEST: &str = "manifest.json";
 pub(crate) const SUMMARY: &str = "summary.json";
 
-/// The list of an unfinished sweep, in the form of `sha256sum`: the manifest first, then a part a line, in the order
-/// in which they were finished.
+/// The list of an unfinished sweep, in the form of `sha256sum`: the manifest first, then a part a
+/// line, in the order in which they were finished.
 pub(crate) const DIGESTS: &str = ".digests";
 
-/// Longest description that is read, bytes: the records of [`MOST_PARTS`](crate::store::shard::MOST_PARTS) parts.
+/// Longest description that is read, bytes: the records of
+/// [`MOST_PARTS`](crate::store::shard::MOST_PARTS) parts.
 pub(crate) const MAX_DESCRIPTION: u64 = 64 << 20;
 
 pub(crate) fn write_json(path: &Path, value: &impl Serialize) -> Result<(), StoreError> {

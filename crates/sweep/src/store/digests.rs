@@ -1,4 +1,5 @@
-//! The digests of parts that are whole: what is found in a folder is trusted only if it has its own.
+//! The digests of parts that are whole: what is found in a folder is trusted only if it has its
+//! own.
 
 use std::collections::BTreeMap;
 use std::fs::{self, File};
@@ -25,8 +26,8 @@ pub(crate) struct Digests {
 impl Digests {
     /// Those of a folder that nobody else is writing.
     ///
-    /// A summary that cannot be read is an error: without it all parts would be computed again, which is for the
-    /// user to decide.
+    /// A summary that cannot be read is an error: without it all parts would be computed again,
+    /// which is for the user to decide.
     pub(crate) fn open(folder: &Path, manifest: &Manifest) -> Result<Self, StoreError> {
         let path = folder.join(DIGESTS);
         if folder.join(SUMMARY).exists() {

@@ -157,7 +157,8 @@ pub enum StoreError {
 /// Most numbers named one by one in an error.
 pub(crate) const NAMED: usize = 10;
 
-/// See that what stands under a name is a regular file, or nothing: a pipe would wait for somebody at its other end.
+/// See that what stands under a name is a regular file, or nothing: a pipe would wait for somebody
+/// at its other end.
 pub(crate) fn regular(path: &Path) -> Result<(), StoreError> {
     match std::fs::metadata(path) {
         Ok(about) if !about.is_file() => Err(StoreError::NotRegular { path: path.to_owned() }),
@@ -181,8 +182,9 @@ impl StoreError {
         Self::Part { path: path.to_owned(), reason: reason.into() }
     }
 
-    /// Whether it is not the user's to mend: the disk is full or out of reach, the system gives no threads, or another
-    /// process has the folder. The same call may succeed later. A path that leads to no place to write is bad input.
+    /// Whether it is not the user's to mend: the disk is full or out of reach, the system gives no
+    /// threads, or another process has the folder. The same call may succeed later. A path that
+    /// leads to no place to write is bad input.
     #[must_use]
     pub fn may_pass(&self) -> bool {
         match self {

@@ -17,7 +17,8 @@ pub(crate) struct Lock {
 }
 
 impl Lock {
-    /// Make the folder if need be, see that it is fit for this sweep, and clear what a killed process left.
+    /// Make the folder if need be, see that it is fit for this sweep, and clear what a killed
+    /// process left.
     ///
     /// The lock comes first: what is seen before it may be gone or half written a moment later.
     pub(crate) fn take(
@@ -83,8 +84,8 @@ impl Drop for Lock {
     }
 }
 
-/// Whether the file of a lock goes with it: where a file that was opened can be told from the one that has
-/// its name by now.
+/// Whether the file of a lock goes with it: where a file that was opened can be told from the one
+/// that has its name by now.
 const REMOVED: bool = cfg!(unix);
 
 /// Whether an open file is the one that has this name.

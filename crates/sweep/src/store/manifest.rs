@@ -16,9 +16,9 @@ use crate::summary::Summary;
 
 /// Everything that the rows of a sweep depend on, and which of them are here: `manifest.json`.
 ///
-/// Two sweeps with the same manifest have the same rows to the last bit, on whatever machine: the solvers take their
-/// sines from their own kernels. (Of the system's library they use `hypot` alone, once, for the level distance of the
-/// anchors.)
+/// Two sweeps with the same manifest have the same rows to the last bit, on whatever machine: the
+/// solvers take their sines from their own kernels. (Of the system's library they use `hypot`
+/// alone, once, for the level distance of the anchors.)
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Manifest {
     /// [`SCHEMA_VERSION`](crate::SCHEMA_VERSION).
@@ -41,7 +41,8 @@ pub struct Manifest {
     pub equilibria: Vec<Member>,
     /// Whether the census has proved that there are no others.
     pub equilibria_complete: bool,
-    /// Equilibria that were reached when the list was made, and are not in it: too many, each from few seeds.
+    /// Equilibria that were reached when the list was made, and are not in it: too many, each from
+    /// few seeds.
     pub equilibria_left_out: u64,
     /// `parquet` or `csv`.
     pub format: String,
@@ -58,7 +59,8 @@ pub struct Manifest {
 pub struct SystemText {
     /// Its name.
     pub name: String,
-    /// Its system file, as the program writes it: comments and order of the user's file do not matter.
+    /// Its system file, as the program writes it: comments and order of the user's file do not
+    /// matter.
     pub text: String,
     /// SHA-256 of the text.
     pub sha256: String,
@@ -144,7 +146,8 @@ impl Manifest {
         serde_json::to_string_pretty(self).unwrap_or_default() + "\n"
     }
 
-    /// The first thing in which another manifest differs: its key, what stands here, and what there.
+    /// The first thing in which another manifest differs: its key, what stands here, and what
+    /// there.
     pub(crate) fn difference(&self, other: &Self) -> Option<(String, String, String)> {
         // Both through the same reader of numbers.
         let value = |m: &Self| serde_json::from_str::<Value>(&m.json()).unwrap_or_default();

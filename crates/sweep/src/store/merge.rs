@@ -27,13 +27,14 @@ struct Input {
     summary: StoreSummary,
 }
 
-/// Join the shards of one sweep into a folder that is, byte for byte, the one that a single run would have
-/// written.
+/// Join the shards of one sweep into a folder that is, byte for byte, the one that a single run
+/// would have written.
 ///
-/// Proved before any part is copied: the manifests differ in nothing but the shard; every shard is there
-/// once, and has the seeds that it should have; the digest of every part is the one that its shard's
-/// summary says; every part, decoded, holds its seeds each once and in order, and the outcomes that the
-/// summary counts. All parts are therefore read twice. An interrupted merge is completed by the same merge again.
+/// Proved before any part is copied: the manifests differ in nothing but the shard; every shard is
+/// there once, and has the seeds that it should have; the digest of every part is the one that its
+/// shard's summary says; every part, decoded, holds its seeds each once and in order, and the
+/// outcomes that the summary counts. All parts are therefore read twice. An interrupted merge is
+/// completed by the same merge again.
 ///
 /// # Errors
 ///

@@ -65,7 +65,8 @@ pub fn format(manifest: &Manifest) -> Format {
     if manifest.format == Format::Csv.extension() { Format::Csv } else { Format::Parquet }
 }
 
-/// Compute a part and write it; `None` if it was stopped before the end, and then nothing is left of it.
+/// Compute a part and write it; `None` if it was stopped before the end, and then nothing is left
+/// of it.
 pub fn write(
     folder: &Path,
     manifest: &Manifest,
@@ -154,7 +155,8 @@ fn columns_of(chunk: Chunk, angles: Vec<Vec<f64>>) -> Vec<Data> {
     columns
 }
 
-/// Read a part back, and prove that it is of this sweep and holds exactly its seeds, each once and in order.
+/// Read a part back, and prove that it is of this sweep and holds exactly its seeds, each once and
+/// in order.
 pub fn read(
     folder: &Path,
     manifest: &Manifest,

@@ -2,11 +2,11 @@
 //!
 //! What a folder holds stands in the documentation of the crate.
 //!
-//! A part appears under its name when it is complete and not before, so a process may be killed at any
-//! time: a second run computes what is missing. Until the summary is there, the digest of every whole part stands in
-//! `.digests`; a part that does not have the digest that was written down, or none, is computed again. Nothing in the folder depends
-//! on the number of threads, on the time, on the shard that computed it, or on how often it was
-//! interrupted: the final bytes are the same.
+//! A part appears under its name when it is complete and not before, so a process may be killed at
+//! any time: a second run computes what is missing. Until the summary is there, the digest of every
+//! whole part stands in `.digests`; a part that does not have the digest that was written down, or
+//! none, is computed again. Nothing in the folder depends on the number of threads, on the time, on
+//! the shard that computed it, or on how often it was interrupted: the final bytes are the same.
 
 use std::collections::BTreeMap;
 use std::ops::Range;

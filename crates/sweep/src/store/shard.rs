@@ -4,16 +4,17 @@ use std::ops::Range;
 
 use serde::{Deserialize, Serialize};
 
-/// Fewest and most seeds of a part. The most: a part of a slow solver is a quarter of a minute of work,
-/// which is what an interruption can lose, and a file of some ten megabytes. The fewest: below it a file
-/// is more description than content.
+/// Fewest and most seeds of a part. The most: a part of a slow solver is a quarter of a minute of
+/// work, which is what an interruption can lose, and a file of some ten megabytes. The fewest:
+/// below it a file is more description than content.
 const PART_SEEDS: Range<u64> = 1 << 10..1 << 20;
 
-/// Parts that a sweep is cut into if their size allows it: enough for as many shards, few enough to list.
+/// Parts that a sweep is cut into if their size allows it: enough for as many shards, few enough to
+/// list.
 const PARTS: u64 = 64;
 
-/// Seeds of one part of a sweep of so many seeds: a power of two, and a function of their number alone, so
-/// that every shard cuts at the same places.
+/// Seeds of one part of a sweep of so many seeds: a power of two, and a function of their number
+/// alone, so that every shard cuts at the same places.
 ///
 /// ```
 /// assert_eq!(sweep::part_seeds(1_000), 1 << 10);
@@ -65,8 +66,9 @@ impl Shard {
     /// The only one.
     pub const WHOLE: Self = Self { number: 1, of: 1 };
 
-    /// The parts of this shard, of so many in all: every part is in exactly one shard, shards follow one
-    /// another, and none has two parts more than another. With more shards than parts some are empty.
+    /// The parts of this shard, of so many in all: every part is in exactly one shard, shards
+    /// follow one another, and none has two parts more than another. With more shards than parts
+    /// some are empty.
     ///
     /// ```
     /// let shard = |number| sweep::Shard { number, of: 3 }.parts(7);

@@ -115,8 +115,8 @@ fn damaged_parts_are_computed_again_and_told() {
     assert_eq!(files(&out), wanted);
 }
 
-/// A bit that turns in a part without harm to its form, and whole parts of other sweeps: in a finished sweep the
-/// summary tells, in an unfinished one the list of digests.
+/// A bit that turns in a part without harm to its form, and whole parts of other sweeps: in a
+/// finished sweep the summary tells, in an unfinished one the list of digests.
 #[test]
 fn what_is_there_is_trusted_by_its_digest_alone() {
     let folder = tempfile::tempdir().unwrap();

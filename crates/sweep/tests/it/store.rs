@@ -144,8 +144,8 @@ impl Compute for Marked {
     }
 }
 
-/// Every round three different sweeps go for one new folder: one gets it, the others are told why not, and
-/// nothing of them is in it.
+/// Every round three different sweeps go for one new folder: one gets it, the others are told why
+/// not, and nothing of them is in it.
 #[test]
 fn of_sweeps_that_race_for_a_folder_one_gets_it() {
     const ROUNDS: usize = 60;

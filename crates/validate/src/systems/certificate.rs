@@ -2,32 +2,36 @@
 //!
 //! # The bound
 //!
-//! The potential of every kind of member is a convex function $\\varphi_e$ of the squared distance $t_e$ of its
-//! ends, so $\\varphi_e(t) \\ge \\varphi_e(t_e^*) + \\frac{w_e}{2}(t - t_e^*)$ wherever $w_e/2$ is a subgradient at
-//! $t_e^*$: of a bar any number at $t^* = l^2$, of a cable any $w \\ge 0$, of a strut any $w \\le 0$ there, and of an
-//! elastic member with the spring rate $k = EA/l$ any $w < k$ at $\\sqrt{t^*} = l/(1 - w/k)$. Summed over the members
-//! and less the work of the loads,
+//! The potential of every kind of member is a convex function $\\varphi_e$ of the squared distance
+//! $t_e$ of its ends, so $\\varphi_e(t) \\ge \\varphi_e(t_e^*) + \\frac{w_e}{2}(t -
+//! t_e^*)$ wherever $w_e/2$ is a subgradient at $t_e^*$: of a bar any number at $t^* =
+//! l^2$, of a cable any $w \\ge 0$, of a strut any $w \\le
+//! 0$ there, and of an elastic member with the spring rate $k = EA/l$ any $w < k$ at $\\sqrt{t^*} =
+//! l/(1 - w/k)$. Summed over the members and less the work of the loads,
 //!
 //! $$ V(x) \\ge Q(x) = \\sum_e \\Big(\\varphi_e(t_e^*) + \\frac{w_e}{2}(|x_b - x_a|^2 - t_e^*)\\Big) - \\sum_j f_j\\cdot x_j, $$
 //!
-//! a quadratic function with the Hessian $\\Omega \\otimes I_3$, where $\\Omega = C_f^T \\mathrm{diag}(w)\\, C_f$ is the stress
-//! matrix over the joints that can move. If $\\Omega \\ge c > 0$, then with the gradient $r$ of $Q$ at any $\\tilde x$
+//! a quadratic function with the Hessian $\\Omega \\otimes I_3$, where
+//! $\\Omega = C_f^T \\mathrm{diag}(w)\\, C_f$ is the stress matrix over the joints that can move.
+//! If $\\Omega \\ge c > 0$, then with the gradient $r$ of $Q$ at any $\\tilde x$
 //!
 //! $$ V(x) \\ge Q(\\tilde x) - \\frac{|r|^2}{2c} \\quad \\text{for every } x . $$
 //!
-//! The $w_e$ are those of the answer, $N_e/d_e$; whatever their rounding, the bound holds, and the better the answer,
-//! the smaller the gap.
+//! The $w_e$ are those of the answer, $N_e/d_e$; whatever their rounding, the bound holds, and the
+//! better the answer, the smaller the gap.
 //!
 //! # Rounding
 //!
-//! That $\\Omega \\ge c$ is proved by a Cholesky factorisation of $\\Omega - 2c\\, I$ in floating point that runs to its end:
-//! then $\\Omega - 2c I + E \\ge 0$ with $|E| \\le c$, as long as $c$ is above the rounding bound
-//! $\\gamma_{m+2}\\,\\mathrm{tr}(\\Omega)$ of the factorisation and of the entries, with $m$ the number of joints.
+//! That $\\Omega \\ge c$ is proved by a Cholesky factorisation of $\\Omega - 2c\\, I$ in floating
+//! point that runs to its end: then $\\Omega - 2c I + E \\ge 0$ with $|E| \\le c$, as long as $c$
+//! is above the rounding bound $\\gamma_{m+2}\\,\\mathrm{tr}(\\Omega)$ of the factorisation and of
+//! the entries, with $m$ the number of joints.
 //!
 //! # References
 //!
-//! R. Connelly, Invent. Math. 66 (1982) 11-33, doi:10.1007/BF01404753 (stress matrices); S. M. Rump, BIT Numer. Math. 46
-//! (2006) 433-452, doi:10.1007/s10543-006-0056-1 (positive definiteness by floating-point Cholesky).
+//! R. Connelly, Invent. Math. 66 (1982) 11-33, doi:10.1007/BF01404753 (stress matrices); S. M.
+//! Rump, BIT Numer. Math. 46 (2006) 433-452, doi:10.1007/s10543-006-0056-1 (positive definiteness
+//! by floating-point Cholesky).
 
 use faer::Side;
 use faer::sparse::{SparseColMat, Triplet};
@@ -36,8 +40,8 @@ use model::{NoCertificate, Optimal, Vector, sum};
 
 use crate::vector::{dot, minus, norm, plus, times, worse};
 
-/// The largest gap that still counts as none, in units of the loads times the size of the system: what the
-/// solvers' own budget of energies allows.
+/// The largest gap that still counts as none, in units of the loads times the size of the system:
+/// what the solvers' own budget of energies allows.
 const GAP: f64 = 1e-9;
 
 /// Largest distance of a joint from the reference of the energy, or length of a member, m.
@@ -94,7 +98,8 @@ fn elastic_unit_j(system: &System) -> f64 {
     sum(energies.filter_map(|m| Some(0.5 * m.stiffness_n? * m.body.length_m())))
 }
 
-/// Force densities that the members' laws allow as subgradients: the nearest to those of the answer, N/m.
+/// Force densities that the members' laws allow as subgradients: the nearest to those of the
+/// answer, N/m.
 fn densities(system: &System, answer: &SystemEquilibrium) -> Vec<f64> {
     let of_member = |(member, axial_n): (&Member, &f64)| {
         let distance_m = norm(minus(answer.joints_m[member.to], answer.joints_m[member.from]));
@@ -134,8 +139,9 @@ fn least_eigenvalue(system: &System, densities: &[f64]) -> Option<f64> {
             entries.push(Triplet::new(a.max(b), a.min(b), -density));
         }
     }
-    // Rounding of the entries (sums of at most as many terms as members) and of the factorisation, against the
-    // sum of the sizes of all terms on the diagonal: twice the trace of the matrix of |w|.
+    // Rounding of the entries (sums of at most as many terms as members) and of the factorisation,
+    // against the sum of the sizes of all terms on the diagonal: twice the trace of the matrix
+    // of |w|.
     let terms = 2.0 * sum(densities.iter().map(|w| w.abs()));
     let most = largest_degree(system) as f64 + size as f64 + 4.0;
     let unit = 0.5 * f64::EPSILON * most;
@@ -157,12 +163,12 @@ fn largest_degree(system: &System) -> usize {
     degrees.into_iter().max().unwrap_or(0)
 }
 
-/// Units in the last place that the operations of one term come to: fewer than 16 roundings of half a unit each,
-/// and as many again for those of the bound itself.
+/// Units in the last place that the operations of one term come to: fewer than 16 roundings of half
+/// a unit each, and as many again for those of the bound itself.
 const TERM_ULPS: f64 = 16.0;
 
-/// A lower bound of the energy of every configuration, J. What is added is paired with the size of all that was
-/// rounded on the way: of differences, with the size of what was subtracted.
+/// A lower bound of the energy of every configuration, J. What is added is paired with the size of
+/// all that was rounded on the way: of differences, with the size of what was subtracted.
 fn bound_j(system: &System, answer: &SystemEquilibrium, densities: &[f64], least: f64) -> f64 {
     let origin = system.reference_m();
     let place = |k: usize| minus(answer.joints_m[k], origin);
@@ -202,8 +208,8 @@ fn bound_j(system: &System, answer: &SystemEquilibrium, densities: &[f64], least
     sum(terms.iter().map(|(term, _)| *term)) - rounding_j - slope / (2.0 * least)
 }
 
-/// The tangent to a member's potential with the slope `w/2`, at the squared distance `t`, and the size of what is
-/// rounded in it, J.
+/// The tangent to a member's potential with the slope `w/2`, at the squared distance `t`, and the
+/// size of what is rounded in it, J.
 fn tangent_j(member: &Member, density: f64, squared_m2: f64) -> (f64, f64) {
     let length_m = member.body.length_m();
     let Some(stiffness_n) = member.stiffness_n else {

@@ -10,19 +10,19 @@ use crate::compare::{Verdict, with_sentences};
 use crate::tolerances::Tolerances;
 use crate::vector::{minus, norm, worse};
 
-/// How far answers agree: the object `agreement` of the JSON. Of more than two, the largest differences of any
-/// two.
+/// How far answers agree: the object `agreement` of the JSON. Of more than two, the largest
+/// differences of any two.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct SystemAgreement {
-    /// Largest distance of a joint in one answer from the same joint in another, m. Parts that turn freely
-    /// about a vertical are turned onto each other first.
+    /// Largest distance of a joint in one answer from the same joint in another, m. Parts that turn
+    /// freely about a vertical are turned onto each other first.
     pub joints_m: f64,
     /// Largest difference of a force at an end of a member or of a support, N.
     pub forces_n: f64,
     /// Largest difference of the energies, J.
     pub energy_j: f64,
-    /// Joints without load whose members are all slack in every answer, so that they may be anywhere near:
-    /// their places are judged by the members' laws alone.
+    /// Joints without load whose members are all slack in every answer, so that they may be
+    /// anywhere near: their places are judged by the members' laws alone.
     pub free_joints: usize,
     /// Violations of geometry and of Newton's laws by each answer.
     pub statics: Vec<SystemStatics>,
@@ -53,8 +53,8 @@ struct Judgement<'a> {
     agreement: SystemAgreement,
 }
 
-/// Hold answers against each other, every two of them, and each against Newton's laws, and write what that
-/// proves into their evidence: `agreed`, and `optimal` where a certificate exists.
+/// Hold answers against each other, every two of them, and each against Newton's laws, and write
+/// what that proves into their evidence: `agreed`, and `optimal` where a certificate exists.
 ///
 /// # Panics
 ///
@@ -184,8 +184,8 @@ impl<'a> Judgement<'a> {
         self.hold(Quantity::MorseIndex { between }, indices[0].abs_diff(indices[1]) as f64, 0.0);
     }
 
-    /// For every joint the part's turn that brings the second answer closest to the first: cosine, sine, and
-    /// the place of the axis.
+    /// For every joint the part's turn that brings the second answer closest to the first: cosine,
+    /// sine, and the place of the axis.
     fn turns(&self, first: &SystemEquilibrium, second: &SystemEquilibrium) -> Vec<Turn> {
         let mut turns = vec![Turn::NONE; self.system.joints().len()];
         for part in &self.parts {
@@ -270,8 +270,8 @@ impl Turn {
     }
 }
 
-/// Which joints nothing loads and no member holds, because all that meet there are slack in every answer: such
-/// a joint can be moved a little without any change of energy.
+/// Which joints nothing loads and no member holds, because all that meet there are slack in every
+/// answer: such a joint can be moved a little without any change of energy.
 fn free_joints(system: &System, answers: &[SystemEquilibrium]) -> Vec<bool> {
     let still = |force: Vector| force.iter().all(|x| x.abs() <= 0.0);
     let mut free: Vec<bool> = system

@@ -1,5 +1,6 @@
-//! The judge of systems of bars: answers held against each other, against Newton's laws and the laws of the
-//! members, and against a proof that no configuration has less energy; from the observables alone.
+//! The judge of systems of bars: answers held against each other, against Newton's laws and the
+//! laws of the members, and against a proof that no configuration has less energy; from the
+//! observables alone.
 
 mod ask;
 mod certificate;

@@ -1,14 +1,15 @@
 //! Newton's laws for every member and joint of a system, and the law of every member.
 //!
-//! It knows nothing of how an answer was found. A member is two points, the forces on it at both, and the
-//! loads between them, which act at fixed parts `a/l` of its length:
+//! It knows nothing of how an answer was found. A member is two points, the forces on it at both,
+//! and the loads between them, which act at fixed parts `a/l` of its length:
 //!
 //! $$ S + E + \sum P = 0, \qquad d \times E + \sum \frac{a}{l}\, d \times P = 0, \qquad d = x_b - x_a . $$
 //!
-//! A joint feels the opposites of these end forces, its own load and the force of its support. The axial
-//! force is that of the member with its loads lumped to its joints by the lever rule,
+//! A joint feels the opposites of these end forces, its own load and the force of its support. The
+//! axial force is that of the member with its loads lumped to its joints by the lever rule,
 //! $N = (E + \sum \frac{a}{l} P) \cdot d/|d|$, and must obey the member's law
-//! ([`Kind`](model::system::Kind)): its length where it is inextensible, its sign, none where it is slack.
+//! ([`Kind`](model::system::Kind)): its length where it is inextensible, its sign, none where it is
+//! slack.
 
 use model::system::{Kind, Member, Support, System, SystemEquilibrium};
 use model::{Place, Vector, sum};
@@ -18,23 +19,24 @@ use crate::vector::{beyond, cross, dot, minus, norm, plus, times, worse};
 
 /// Largest violations of geometry and of Newton's laws by an answer, dimensionless.
 ///
-/// Every member and joint is measured by its own forces and its own length. What counts is beyond the
-/// rounding of the stored numbers: eight units in the last place of the largest coordinate or length,
-/// and of the largest force.
+/// Every member and joint is measured by its own forces and its own length. What counts is beyond
+/// the rounding of the stored numbers: eight units in the last place of the largest coordinate or
+/// length, and of the largest force.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct SystemStatics {
     /// Largest distance of a supported joint from its support, in units of the size of the system.
     pub support: f64,
     /// Largest violation of the length of an inextensible member, in units of that length.
     pub length: f64,
-    /// Largest violation of a member's law of force: elongation times stiffness, the sign, no force where it
-    /// is slack.
+    /// Largest violation of a member's law of force: elongation times stiffness, the sign, no force
+    /// where it is slack.
     pub law: f64,
     /// Largest force left over on a member.
     pub force: f64,
     /// Largest moment left over on a member, in units of its force times its length.
     pub moment: f64,
-    /// Largest force left over at a joint; the part of a support's force along the motion that it leaves free.
+    /// Largest force left over at a joint; the part of a support's force along the motion that it
+    /// leaves free.
     pub joint: f64,
     /// Force left over on the whole system, in units of its loads.
     pub balance: f64,
@@ -44,8 +46,8 @@ pub struct SystemStatics {
     pub worst: Place,
 }
 
-/// Units in the last place that the rounding of stored numbers may come to: a coordinate is rounded when it is
-/// stored, and two of them are subtracted.
+/// Units in the last place that the rounding of stored numbers may come to: a coordinate is rounded
+/// when it is stored, and two of them are subtracted.
 const STORED_ULPS: f64 = 8.0;
 
 /// What the violations of one answer are measured by.
@@ -86,7 +88,8 @@ impl SystemStatics {
 
 /// Judge an answer.
 ///
-/// Arrays that do not fit the system, and numbers that are not finite, give NaN, which passes no tolerance.
+/// Arrays that do not fit the system, and numbers that are not finite, give NaN, which passes no
+/// tolerance.
 #[must_use]
 pub fn judge(system: &System, answer: &SystemEquilibrium) -> SystemStatics {
     let mut found = SystemStatics {
@@ -140,7 +143,8 @@ impl Units {
         }
     }
 
-    /// What of a force left over the rounding does not explain, in units of the forces that it is left from.
+    /// What of a force left over the rounding does not explain, in units of the forces that it is
+    /// left from.
     fn of_force(&self, left: Vector, forces: impl IntoIterator<Item = Vector>) -> f64 {
         let unit = forces.into_iter().map(norm).fold(0.0, worse);
         let excess = beyond(norm(left), self.rounding_n);
@@ -273,8 +277,8 @@ fn joint_balances(system: &System, answer: &SystemEquilibrium, units: &Units) ->
     left.into_iter().zip(unit_n).map(relative).collect()
 }
 
-/// A supported joint lies on its support, whose force is normal to the motion that it leaves free; a free joint
-/// gets no force.
+/// A supported joint lies on its support, whose force is normal to the motion that it leaves free;
+/// a free joint gets no force.
 fn support(
     system: &System,
     answer: &SystemEquilibrium,

@@ -104,8 +104,8 @@ fn a_cable_that_pushes_is_told() {
     }
 }
 
-/// The lower bound of all energies is the energy itself, -8 J: the only other place of the joint, above,
-/// has +8 J.
+/// The lower bound of all energies is the energy itself, -8 J: the only other place of the joint,
+/// above, has +8 J.
 #[test]
 fn pulling_members_are_a_proof_of_the_global_minimum() {
     let (system, answer) = lamp();

@@ -8,8 +8,9 @@ use rand_chacha::ChaCha8Rng;
 
 use crate::chains_shapes::{Shape, decades, lengths, masses};
 
-/// Chain number `seed` of those all but folded on one line, or with anchors all but in one place: two to six bars, and a
-/// thousandth to a hundred-billionth of the length more span than the least, any slope.
+/// Chain number `seed` of those all but folded on one line, or with anchors all but in one place:
+/// two to six bars, and a thousandth to a hundred-billionth of the length more span than the least,
+/// any slope.
 pub fn folded_chain(seed: u64) -> Problem {
     let mut rng = ChaCha8Rng::seed_from_u64(4);
     rng.set_stream(seed);

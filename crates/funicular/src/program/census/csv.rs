@@ -6,8 +6,9 @@ use funicular::CensusAnswer;
 
 use crate::tables::rung;
 
-/// A line per equilibrium and joint: position, force of bar k+1 on bar k (at joint 0 of the ground on
-/// bar 1, at joint n of the ground on bar n), and angle and axial force of the bar that ends there.
+/// A line per equilibrium and joint: position, force of bar k+1 on bar k (at joint 0 of the ground
+/// on bar 1, at joint n of the ground on bar n), and angle and axial force of the bar that ends
+/// there.
 pub fn joints(answer: &CensusAnswer) -> String {
     let mut text =
         "equilibrium,energy_j,index_in_plane,index_in_space,rung,box_width,joint,x_m,y_m,z_m,\

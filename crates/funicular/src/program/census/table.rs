@@ -204,7 +204,8 @@ fn bars(answer: &CensusAnswer) -> String {
     text + "\n"
 }
 
-/// How far the equilibria are proved, rung by rung: every reason once, with the equilibria it holds for.
+/// How far the equilibria are proved, rung by rung: every reason once, with the equilibria it holds
+/// for.
 fn evidence(answer: &CensusAnswer) -> String {
     let all = answer.equilibria.len();
     let mut text = "Evidence:\n".to_owned();

@@ -49,7 +49,8 @@ pub fn summary(manifest: &Manifest, summary: &StoreSummary) -> String {
     text
 }
 
-/// How fast it was; nothing was computed if everything was there, or if there is nothing to compute.
+/// How fast it was; nothing was computed if everything was there, or if there is nothing to
+/// compute.
 pub fn rate(computed: u64, all: u64, seconds: f64) -> String {
     if all == 0 {
         return "This shard is empty: there are more shards than parts.\n".to_owned();
