@@ -2,11 +2,6 @@
 //! are orthonormal and multiply back, on random, graded and rank-deficient matrices, in both
 //! precisions.
 
-#[macro_use]
-mod support;
-
-use dense_lapack as _;
-
 /// Declares the tests of one precision.
 macro_rules! precision {
     ($module:ident, $T:ty, $tolerance:expr, $syevr:ident, $gesdd:ident, $gesvd:ident) => {

@@ -1,8 +1,6 @@
 //! The census held against all that does not need it: both solvers, Newton's laws, exact algebra,
 //! topology and convex programming.
 
-#![expect(clippy::unwrap_used, reason = "helpers of tests")]
-
 use std::f64::consts::TAU;
 use std::time::Instant;
 

@@ -1,7 +1,5 @@
 //! The statics judge passes what is right and catches what is not.
 
-#![expect(clippy::unwrap_used, reason = "helpers of tests")]
-
 use model::{Anchors, Bar, Chain, Problem, Vector};
 use validate::Tolerances;
 use validate::statics::judge;

@@ -1,8 +1,6 @@
 //! Both solvers on the paper's example against its numbers: theta, alpha, beta and V as printed in
 //! (ix), and as established independently.
 
-#![expect(clippy::unwrap_used, reason = "helpers of tests")]
-
 use energy::example::{ExampleMinimum, minimise};
 use lagrange::Seed;
 use model::{Equilibrium, Problem};

@@ -1,11 +1,6 @@
 //! Systems on which the verdict once said more than was known: bars that just bridge their gap,
 //! masses over many orders of magnitude, forces that equilibrium does not determine.
 
-#![expect(
-    clippy::unwrap_used,
-    reason = "a test fails by panicking; helpers outside #[test] functions are part of it"
-)]
-
 use census::{Census, Settings};
 use model::{
     Anchors, Bar, Chain, Equilibrium, ForceChoice, FreeJoints, Problem, Reason, Vector, cases,

@@ -1,24 +1,17 @@
 //! A thousand random chains of all hard shapes: both solvers hang each from no guess, and agree.
 //!
-//! `CHAINS=100000 cargo test -p validate --test chains -- --nocapture` asks for more; the chains
+//! `CHAINS=100000 cargo test -p validate --test it chains:: -- --nocapture` asks for more; the chains
 //! that come after the first thousand are no part of the checks.
-
-#![expect(
-    clippy::unwrap_used,
-    reason = "a test fails by panicking; helpers outside #[test] functions are part of it"
-)]
-
-mod chains_folded;
-mod chains_shapes;
 
 use std::collections::BTreeMap;
 
-use chains_folded::folded_chain;
-use chains_shapes::{Shape, random_chain};
 use lagrange::condensed;
 use model::{Anchors, Bar, Chain, Equilibrium, InPlane, Problem, Rung};
 use rayon::prelude::*;
 use validate::{Agreement, Tolerances, compare};
+
+use crate::chains_folded::folded_chain;
+use crate::chains_shapes::{Shape, random_chain};
 
 /// Chains of the test.
 const CHAINS: u64 = 1000;

@@ -1,10 +1,5 @@
 //! Accuracy does not drift with the number of bars: a million of them, judged by Newton's laws.
 
-#![expect(
-    clippy::unwrap_used,
-    reason = "a test fails by panicking; helpers outside #[test] functions are part of it"
-)]
-
 use lagrange::condensed;
 use model::{Anchors, Bar, Chain, Equilibrium, Problem};
 use rand::{RngExt, SeedableRng};

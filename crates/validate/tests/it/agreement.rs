@@ -1,7 +1,5 @@
 //! Both solvers on every case of the registry, against the budgets; and the comparison can fail.
 
-#![expect(clippy::unwrap_used, reason = "helpers of tests")]
-
 use model::{Anchors, Bar, Chain, Equilibrium, Problem, Quantity, Rung, SolverName, cases};
 use validate::table::{both, csv, table};
 use validate::{Tolerances, compare};

@@ -1,13 +1,6 @@
 //! potrf, potrs and gesv, called as clarabel calls them (through the crate `lapack`): the factors
 //! multiply back and solve, in both precisions.
 
-#[macro_use]
-mod support;
-#[macro_use]
-mod triangles;
-
-use dense_lapack as _;
-
 /// Declares the tests of one precision.
 macro_rules! precision {
     ($module:ident, $T:ty, $tolerance:expr, $potrf:ident, $potrs:ident, $gesv:ident) => {

@@ -1,8 +1,6 @@
 //! The two solvers share no mechanics: the dependency graph proves it, and the guard is proved to
 //! see.
 
-#![expect(clippy::unwrap_used, reason = "helpers of tests")]
-
 use validate::independence::Graph;
 
 fn graph() -> Graph {

@@ -1,13 +1,5 @@
 //! Both solvers against the chain as a conic programme, up to thousands of bars.
 
-#![expect(
-    clippy::unwrap_used,
-    reason = "a test fails by panicking; helpers outside #[test] functions are part of it"
-)]
-
-mod chains_shapes;
-
-use chains_shapes::random_chain;
 use lagrange::condensed;
 use model::{Anchors, Bar, Chain, Equilibrium, Problem, Vector};
 use rand::{RngExt, SeedableRng};
@@ -15,6 +7,8 @@ use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
 use validate::Tolerances;
 use validate::cables::hold_against_cables;
+
+use crate::chains_shapes::random_chain;
 
 /// Joints in units of the length. Measured, like forces and energies: 7e-16.
 const JOINTS: f64 = 1e-12;

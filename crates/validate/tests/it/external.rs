@@ -2,8 +2,6 @@
 //!
 //! Both solvers must meet each of them.
 
-#![expect(clippy::unwrap_used, reason = "helpers of tests")]
-
 use model::{Anchors, Bar, Chain, Equilibrium, Problem};
 use serde::Deserialize;
 
@@ -92,7 +90,7 @@ struct CopsOptimum {
 }
 
 fn cops() -> Cops {
-    toml::from_str(include_str!("../data/external/cops-hanging-chain.toml")).unwrap()
+    toml::from_str(include_str!("../../data/external/cops-hanging-chain.toml")).unwrap()
 }
 
 /// Rounding of the closed form in doubles, relative.
@@ -206,7 +204,7 @@ const CATENA_VIOLATION: f64 = 3e-8;
 #[test]
 fn cutest_catena_is_half_of_a_chain_between_level_anchors() {
     let catena: Catena =
-        toml::from_str(include_str!("../data/external/cutest-catena.toml")).unwrap();
+        toml::from_str(include_str!("../../data/external/cutest-catena.toml")).unwrap();
     for optimum in &catena.published {
         let beams = optimum.beams as f64;
         let problem = equal_bars(

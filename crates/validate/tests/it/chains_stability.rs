@@ -4,11 +4,6 @@
 //! coordinates is the stress matrix of the axial forces, once for each of X, Y and Z, the bars are
 //! the constraints, and the index is counted on their null space.
 
-#![expect(
-    clippy::unwrap_used,
-    reason = "a test fails by panicking; helpers outside #[test] functions are part of it"
-)]
-
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use lagrange::{Seed, Settings, condensed, solve_from};

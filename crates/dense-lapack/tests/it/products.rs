@@ -1,13 +1,6 @@
 //! gemm, gemv, symv, syrk and syr2k, called as clarabel calls them (through the crate `blas`),
 //! against products of nalgebra on random matrices, in both precisions.
 
-#[macro_use]
-mod support;
-#[macro_use]
-mod triangles;
-
-use dense_lapack as _;
-
 /// Declares the tests of one precision.
 macro_rules! precision {
     ($module:ident, $T:ty, $tolerance:expr, $gemm:ident, $gemv:ident, $symv:ident, $syrk:ident, $syr2k:ident) => {

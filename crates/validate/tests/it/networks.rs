@@ -1,9 +1,7 @@
 //! Random systems of bars, cables and springs: both solvers agree, or the judge or a solver says why not.
 //!
-//! `SYSTEMS=10000 cargo test --release -p validate --test networks -- --nocapture` tries more of them, and lists those
+//! `SYSTEMS=10000 cargo test --release -p validate --test it networks:: -- --nocapture` tries more of them, and lists those
 //! that do not agree: 16 of these, most of them cables with a family of forces of which the solvers show different ones.
-
-#![expect(clippy::unwrap_used, reason = "helpers of tests")]
 
 use model::system::{Joint, Kind, Member, System};
 use model::{Bar, Excess, Quantity};

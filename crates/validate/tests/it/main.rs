@@ -1,0 +1,19 @@
+//! The tests of the judge from outside, in one program.
+
+#![expect(clippy::unwrap_used, reason = "a test fails by panicking; so do its helpers")]
+
+mod agreement;
+mod census;
+mod chains;
+mod chains_cables;
+mod chains_catenary;
+mod chains_folded;
+mod chains_million;
+mod chains_shapes;
+mod chains_stability;
+mod external;
+mod first_tries;
+mod independence;
+mod networks;
+mod paper;
+mod statics;
