@@ -14,7 +14,8 @@ pub enum CensusError {
         /// What is allowed.
         allowed: &'static str,
     },
-    /// Occurs when the chain has more bars than [`Settings::max_bars`](crate::Settings::max_bars).
+    /// Occurs when the chain has more bars than
+    /// [`Settings::max_bars`](crate::settings::Settings::max_bars).
     #[error(
         "{bars} bars have {} patterns of tension and compression; the limit is {max_bars} bars. A census of \
          this chain would take about {} on one core and {} of memory",

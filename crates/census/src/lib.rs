@@ -1,24 +1,25 @@
 //! Every equilibrium of a hanging chain of bars, with proof.
 //!
-//! [`Census::take`] finds all equilibria of a chain, stable or not, encloses each of them in intervals to
-//! full double precision, proves its Morse index, and proves that there is no other. What it cannot
-//! decide it lists ([`Undecided`]) and does not call complete.
+//! [`Census::take`] finds all equilibria of a chain, stable or not, encloses each of them in
+//! intervals to full double precision, proves its Morse index, and proves that there is no other.
+//! What it cannot decide it lists ([`Undecided`]) and does not call complete.
 //!
 //! # The problem
 //!
-//! At rest the force along the chain is the pull $p$ of bar 1 on joint 0 plus the weights in between.
-//! The moment balance of bar i says that it is parallel to $F_i = p + c_i e_z$, where $c_i$ is the
-//! weight carried at the joints 1 to i−1, that of each bar shared by the lever rule. What joint 0
-//! carries, $m_1(1 - r_1/l_1)$, adds to the pull on the first anchor alone. So
-//! $u_i = s_i F_i/|F_i|$ with $s_i = +1$ in tension and −1 in compression, and an equilibrium is a pattern
-//! of signs and a pull that close the chain:
+//! At rest the force along the chain is the pull $p$ of bar 1 on joint 0 plus the weights in
+//! between. The moment balance of bar i says that it is parallel to $F_i = p + c_i e_z$, where
+//! $c_i$ is the weight carried at the joints 1 to i−1, that of each bar divided between its joints by the lever rule.
+//! What joint 0 carries, $m_1(1 - r_1/l_1)$, adds to the pull on the first anchor alone. So
+//! $u_i = s_i F_i/|F_i|$ with $s_i = +1$ in tension and −1 in compression, and an equilibrium is a
+//! pattern of signs and a pull that close the chain:
 //!
 //! $$ \Phi_s(p) = \sum_i s_i l_i \frac{F_i}{|F_i|} - D = 0. $$
 //!
-//! All $F_i$ lie in the vertical plane of $p$, and so does D: two equations in the two unknowns (H, V),
-//! for each of 2ⁿ patterns. With the anchors on one vertical every such plane will do, and each
-//! solution stands for a circle of equilibria. If H = 0, bars whose force vanishes may point anywhere
-//! (modules `slack`, `families`); a bar alone whose force vanishes has its own coordinates (`unloaded`).
+//! All $F_i$ lie in the vertical plane of $p$, and so does D: two equations in the two unknowns (H,
+//! V), for each of 2ⁿ patterns. With the anchors on one vertical every such plane will do, and each
+//! solution stands for a circle of equilibria. If H = 0, bars whose force vanishes may point
+//! anywhere (modules `slack`, `families`); a bar alone whose force vanishes has its own coordinates
+//! (`unloaded`).
 //!
 //! | meaning | code | shape | unit | equation |
 //! |---|---|---|---|---|
@@ -34,57 +35,41 @@
 //!
 //! # The method
 //!
-//! Pulls of any size, infinite ones included, are the points of half a cube (module `cell`), which is
-//! cut into cells (module `search`). On each cell all patterns that are left are excluded together where
-//! possible (module `family`); where the derivative hardly varies, Krawczyk's test proves a zero (module
-//! `krawczyk`). All arithmetic that a proof rests on is rounded outward ([`Interval`]). The indices follow
-//! from signs of small determinants (module `inertia`).
+//! Pulls of any size, infinite ones included, are the points of half a cube (module `cell`), which
+//! is cut into cells (module `search`). On each cell all patterns that are left are excluded
+//! together where possible (module `family`); where the derivative hardly varies, Krawczyk's test
+//! proves a zero (module `krawczyk`). All arithmetic that a proof rests on is rounded outward
+//! ([`Interval`]). The indices follow from signs of small determinants (module `inertia`).
 //!
 //! # What is independent of the search
 //!
-//! [`Topology`] knows from the lengths alone which numbers of equilibria of each index are possible;
-//! [`Census::check`] proves every listed equilibrium anew, and holds the claim that nothing is missing
-//! against what topology and duality say; [`sextic`] counts the equilibria of the paper's
-//! example by exact algebra.
+//! [`Topology`] knows from the lengths alone which numbers of equilibria of each index are
+//! possible; [`Census::check`] proves every listed equilibrium again, and holds the claim that
+//! nothing is missing against what topology and duality say; [`sextic`] counts the equilibria of
+//! the paper's example by exact algebra.
 
-mod bar;
-mod cell;
 mod census;
-mod check;
 mod closure;
-mod convert;
+mod count;
+mod enclosure;
 mod equilibrium;
 mod error;
-mod face;
-mod families;
-mod family;
-mod figure;
-mod inertia;
-mod krawczyk;
-mod merge;
-mod morse;
-mod polish;
-mod position;
+mod plane;
 mod search;
 mod settings;
-pub mod sextic;
 mod slack;
-mod stress;
-mod system;
-mod topology;
-mod undecided;
-mod unloaded;
 
+pub use census::check::CheckError;
+pub use census::position::Position;
 pub use census::{Census, Statistics};
-pub use check::CheckError;
+pub use count::morse::MorseError;
+pub use count::sextic;
+pub use count::topology::{Topology, TopologyError};
 pub use equilibrium::{Neighbourhood, ProvenEquilibrium};
 pub use error::{CensusError, rough_time};
-pub use face::Face;
-pub use families::SlackFamily;
 pub use intervals::Interval;
-pub use morse::MorseError;
-pub use position::Position;
+pub use plane::face::Face;
 pub use search::Progress;
+pub use search::undecided::{Reason, Undecided};
 pub use settings::Settings;
-pub use topology::{Topology, TopologyError};
-pub use undecided::{Reason, Undecided};
+pub use slack::families::SlackFamily;

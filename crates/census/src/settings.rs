@@ -11,12 +11,11 @@ use crate::error::CensusError;
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Settings {
-    /// Chains with more bars are refused with an estimate of the cost. Default 12 (seconds, and some
-    /// thousand equilibria), from 1 to
-    /// [`Settings::MAX_BARS`].
+    /// Chains with more bars are refused with an estimate of the cost. Default 12 (seconds, and
+    /// some thousand equilibria), from 1 to [`Settings::MAX_BARS`].
     pub max_bars: usize,
-    /// A cell narrower than this, on a face of the half cube of pulls (whose edges have length 2), is
-    /// not cut any more but listed as undecided. Default 2⁻⁴⁰, from 2⁻⁴⁸ to 2⁻⁴: below, rounding
+    /// A cell narrower than this, on a face of the half cube of pulls (whose edges have length 2),
+    /// is not cut any more but listed as undecided. Default 2⁻⁴⁰, from 2⁻⁴⁸ to 2⁻⁴: below, rounding
     /// errors decide.
     pub min_width: f64,
     /// Tests of one cell for one pattern, per pattern on average, after which all cells left are

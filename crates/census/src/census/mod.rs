@@ -1,0 +1,245 @@
+//! The census.
+
+pub(crate) mod check;
+mod convert;
+mod figure;
+pub(crate) mod position;
+
+use std::time::Instant;
+
+use model::Problem;
+use serde::{Deserialize, Serialize};
+
+use crate::count::morse::{self, MorseError};
+use crate::count::topology::{Topology, TopologyError};
+use crate::enclosure::polish::{PreciseSystem, polish};
+use crate::equilibrium::ProvenEquilibrium;
+use crate::error::CensusError;
+use crate::plane::system::System;
+use crate::search::merge::merge;
+use crate::search::undecided::{Reason, Undecided, gather};
+use crate::search::{Progress, search};
+use crate::settings::Settings;
+use crate::slack::families::{SlackFamily, families};
+use crate::slack::unloaded::unloaded;
+
+/// All equilibria of a chain, and how far that is proved.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Census {
+    /// The isolated equilibria (for anchors on one vertical: the circles), by energy, then by
+    /// angles.
+    pub equilibria: Vec<ProvenEquilibrium>,
+    /// Sets of equilibria with slack bars; most chains have none.
+    pub families: Vec<SlackFamily>,
+    /// What could not be decided. Neither dropped nor counted.
+    pub undecided: Vec<Undecided>,
+    /// Whether every equilibrium of the chain is in `equilibria` or `families`: nothing is
+    /// undecided, no straight position exists, and the Morse inequalities hold.
+    pub complete: bool,
+    /// Whether each equilibrium stands for a circle, the anchors being on one vertical.
+    pub circles: bool,
+    /// The planar configuration space, from the lengths alone, or why it is not known.
+    pub topology: Result<Topology, TopologyError>,
+    /// What it took.
+    pub statistics: Statistics,
+}
+
+/// What a census took.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Statistics {
+    /// Number of bars.
+    pub bars: usize,
+    /// Cells of pulls looked at.
+    pub cells: u64,
+    /// Tests of one cell for one pattern, those decided in families included.
+    pub tests: u64,
+    /// Proofs of existence tried.
+    pub proofs: u64,
+    /// Levels of the search.
+    pub levels: u32,
+    /// Wall-clock time, s.
+    pub seconds: f64,
+}
+
+impl Census {
+    /// Take the census of a chain.
+    ///
+    /// The result does not depend on the number of threads, but for the time.
+    ///
+    /// # Errors
+    ///
+    /// [`CensusError`] when a setting is out of range, the chain is too long, or all its weight
+    /// rests on the anchors.
+    ///
+    /// ```
+    /// use census::{Census, Settings};
+    /// let census = Census::take(&model::cases::paper(), &Settings::default())?;
+    /// assert!(census.complete && census.circles);
+    /// assert_eq!((census.equilibria.len(), census.count_in_plane()), (2, 4));
+    /// let mgl = 9.80665;
+    /// let energy = census.equilibria[0].energy_j.mid() / mgl + 6.0;
+    /// assert!((energy - 2.335_468_651_999_305).abs() < 1e-14);
+    /// # Ok::<(), census::CensusError>(())
+    /// ```
+    pub fn take(problem: &Problem, settings: &Settings) -> Result<Self, CensusError> {
+        Self::take_watched(problem, settings, &|_| {})
+    }
+
+    /// Take the census of a chain, and tell `watch` of the progress after each level of the search.
+    ///
+    /// # Errors
+    ///
+    /// As [`take`](Self::take).
+    pub fn take_watched(
+        problem: &Problem,
+        settings: &Settings,
+        watch: &dyn Fn(Progress),
+    ) -> Result<Self, CensusError> {
+        let start = Instant::now();
+        settings.validate()?;
+        refuse_long(problem, settings)?;
+        let system = System::new(problem)?;
+        let unloaded = unloaded(&system);
+        let search = search(&system, settings, &unloaded, watch);
+
+        let mut undecided: Vec<Undecided> = vec![];
+        for task in gather(search.undecided) {
+            let reason = if search.exhausted {
+                Reason::Budget
+            } else if task.cell.is_at_unloaded_bar() {
+                Reason::Unloaded
+            } else {
+                Reason::Degenerate
+            };
+            undecided.push(Undecided::new(&system, reason, &task.cell, &task.patterns));
+        }
+        let (zeros, unclear) = merge(&system, search.zeros);
+        for (pattern, zero) in unclear {
+            undecided.push(Undecided::new(&system, Reason::Unclear, &zero.tight, &[pattern]));
+        }
+        let mut equilibria = unloaded.equilibria;
+        let precise = PreciseSystem::new(problem, &system);
+        for (pattern, zero) in zeros {
+            let signs: Vec<i8> = pattern.signs(system.bars()).collect();
+            let zero = polish(&system, &precise, &signs, &zero);
+            if let Some(equilibrium) = ProvenEquilibrium::new(&system, &signs, &zero) {
+                equilibria.push(equilibrium);
+            } else {
+                undecided.push(Undecided::new(&system, Reason::Index, &zero.tight, &[pattern]));
+            }
+        }
+        equilibria.sort_by(by_energy_and_angles);
+        let (families, maybe) = families(&system);
+        undecided.extend(maybe.into_iter().map(|signs| Undecided::slack(&system, signs)));
+
+        let mut census = Self {
+            equilibria,
+            families,
+            undecided,
+            complete: false,
+            circles: system.vertical,
+            topology: Topology::of_system(&system),
+            statistics: Statistics {
+                bars: system.bars(),
+                cells: search.cells,
+                tests: search.tests,
+                proofs: search.proofs,
+                levels: search.levels,
+                seconds: 0.0,
+            },
+        };
+        census.complete =
+            census.undecided.is_empty() && census.topology.is_ok() && census.morse().is_ok();
+        census.statistics.seconds = start.elapsed().as_secs_f64();
+        Ok(census)
+    }
+
+    /// Number of isolated equilibria in a vertical plane: with the anchors on one vertical, each
+    /// circle meets the plane twice.
+    #[must_use]
+    pub fn count_in_plane(&self) -> usize {
+        self.equilibria.len() * if self.circles { 2 } else { 1 }
+    }
+
+    /// Number of equilibria in the plane by index; families of slack bars count with their Betti
+    /// numbers.
+    #[must_use]
+    pub fn count_by_index(&self) -> Vec<i64> {
+        let mut count = vec![0; self.statistics.bars.saturating_sub(1)];
+        let mut add = |index: usize, number: i64| {
+            if index >= count.len() {
+                count.resize(index + 1, 0);
+            }
+            count[index] += number;
+        };
+        for equilibrium in &self.equilibria {
+            add(equilibrium.index_in_plane, if self.circles { 2 } else { 1 });
+        }
+        for family in &self.families {
+            for (k, betti) in family.topology.betti.iter().enumerate() {
+                add(family.index_in_plane + k, i64::try_from(*betti).unwrap_or(i64::MAX));
+            }
+        }
+        count
+    }
+
+    /// Σ (−1)^index over the equilibria in the plane.
+    #[must_use]
+    pub fn alternating_sum(&self) -> i64 {
+        self.count_by_index()
+            .iter()
+            .zip([1, -1].into_iter().cycle())
+            .map(|(count, sign)| sign * count)
+            .sum()
+    }
+
+    /// The Morse inequalities between the equilibria and the topology of the configuration space;
+    /// nothing is said where the topology is not known.
+    ///
+    /// # Errors
+    ///
+    /// [`MorseError`] for the first inequality that fails.
+    pub fn morse(&self) -> Result<(), MorseError> {
+        match &self.topology {
+            Ok(topology) => morse::check(&self.count_by_index(), topology),
+            Err(_) => Ok(()),
+        }
+    }
+}
+
+/// By energy, then by the angles, bar by bar: middles of the enclosures.
+pub(crate) fn by_energy_and_angles(
+    a: &ProvenEquilibrium,
+    b: &ProvenEquilibrium,
+) -> std::cmp::Ordering {
+    let angles = a.angles_rad.iter().zip(&b.angles_rad);
+    angles.fold(a.energy_j.mid().total_cmp(&b.energy_j.mid()), |order, (x, y)| {
+        order.then(x.mid().total_cmp(&y.mid()))
+    })
+}
+
+fn refuse_long(problem: &Problem, settings: &Settings) -> Result<(), CensusError> {
+    /// Processor time of a census of ten bars, and the factor for each bar more: t = 0.3 s · 2.1^(n
+    /// − 10). Measured on random chains of 8 to 16 bars (`examples/census_speed.rs`); good to an
+    /// order of magnitude, chains of one length differing by that. The number of equilibria doubles
+    /// too.
+    const TEN_BARS_S: f64 = 0.3;
+    const FACTOR: f64 = 2.1;
+    /// Memory of a census of sixteen bars (some 100,000 equilibria of 5 kB): 0.5 GB · 2.1^(n − 16).
+    const SIXTEEN_BARS_GB: f64 = 0.5;
+    let bars = problem.chain().bars().len();
+    if bars <= settings.max_bars {
+        return Ok(());
+    }
+    let exponent = |base: f64, shift: f64| {
+        // Beyond this the numbers overflow; the message stays finite.
+        base.powf((bars as f64 - shift).min(600.0))
+    };
+    Err(CensusError::TooManyBars {
+        bars,
+        max_bars: settings.max_bars,
+        patterns: exponent(2.0, 0.0),
+        estimate_s: TEN_BARS_S * exponent(FACTOR, 10.0),
+        estimate_gb: SIXTEEN_BARS_GB * exponent(FACTOR, 16.0),
+    })
+}

@@ -1,0 +1,77 @@
+//! The closure of one pattern of tension and compression: Φ(p) = Σ sᵢ lᵢ Fᵢ/|Fᵢ| − D.
+
+pub(crate) mod bar;
+
+use intervals::Interval;
+
+use crate::closure::bar::BarTerm;
+use crate::plane::cell::Cell;
+use crate::plane::system::System;
+
+/// A pattern of tension (+1) and compression (−1): bit n−1−i set means that bar i, counted from 0,
+/// is compressed. Sorted as numbers, patterns that agree on their first bars stand together.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub(crate) struct Pattern(pub(crate) u32);
+
+impl Pattern {
+    /// The bit of bar i.
+    pub(crate) fn bit(bars: usize, bar: usize) -> u32 {
+        1 << (bars - 1 - bar)
+    }
+
+    /// Whether bar i is compressed.
+    pub(crate) fn compressed(self, bars: usize, bar: usize) -> bool {
+        self.0 & Self::bit(bars, bar) != 0
+    }
+
+    /// The signs of all bars.
+    pub(crate) fn signs(self, bars: usize) -> impl Iterator<Item = i8> {
+        (0..bars).map(move |bar| if self.compressed(bars, bar) { -1 } else { 1 })
+    }
+}
+
+/// `x` with a sign.
+pub(crate) fn signed(sign: i8, x: Interval) -> Interval {
+    if sign < 0 { -x } else { x }
+}
+
+/// Φ and its derivative over a cell.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Closure {
+    pub(crate) gap: [Interval; 2],
+    pub(crate) slope: [[Interval; 2]; 2],
+}
+
+impl Closure {
+    /// Φ and its derivative over a cell, natural extension; `None` where a force vanishes.
+    pub(crate) fn over(system: &System, signs: &[i8], cell: &Cell) -> Option<Self> {
+        let mut gap = system.span.map(|part| -part);
+        let mut slope = [[Interval::ZERO; 2]; 2];
+        for ((sign, length), weight) in
+            signs.iter().zip(&system.length).zip(system.weights(cell.face))
+        {
+            let term = BarTerm::over(cell, *length, *weight)?;
+            for k in 0..2 {
+                gap[k] = gap[k] + signed(*sign, term.value[k]);
+                for (sum, part) in slope[k].iter_mut().zip(term.slope[k]) {
+                    *sum = *sum + signed(*sign, part);
+                }
+            }
+        }
+        Some(Self { gap, slope })
+    }
+
+    /// Φ alone.
+    pub(crate) fn gap_over(system: &System, signs: &[i8], cell: &Cell) -> [Interval; 2] {
+        let mut gap = system.span.map(|part| -part);
+        for ((sign, length), weight) in
+            signs.iter().zip(&system.length).zip(system.weights(cell.face))
+        {
+            let value = BarTerm::value_over(cell, *length, *weight);
+            for k in 0..2 {
+                gap[k] = gap[k] + signed(*sign, value[k]);
+            }
+        }
+        gap
+    }
+}

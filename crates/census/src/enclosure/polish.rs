@@ -1,0 +1,111 @@
+//! Enclosures as narrow as doubles allow, however ill-conditioned the pull.
+
+use intervals::{DoubleDouble, Interval};
+use model::{Bar, Problem};
+
+use crate::closure::Closure;
+use crate::enclosure::krawczyk::{Zero, image, inside, inverse};
+use crate::plane::cell::Cell;
+use crate::plane::face::Face;
+
+use crate::plane::system::System;
+
+/// Newton steps with the precise closure: the first one brings the last place of a double.
+const STEPS: usize = 3;
+
+/// Room around the point for the proof: so many units in the last place and so many last steps.
+const ROOM: f64 = 4.0;
+
+/// The data of the closure to twice the usual precision.
+#[derive(Debug)]
+pub(crate) struct PreciseSystem {
+    length: Vec<DoubleDouble>,
+    /// `c_i`, not centred; exactly 0 for bar 1.
+    weight: Vec<DoubleDouble>,
+    span: [DoubleDouble; 2],
+    offset: f64,
+}
+
+impl PreciseSystem {
+    pub(crate) fn new(problem: &Problem, system: &System) -> Self {
+        let bars = problem.chain().bars();
+        let mass =
+            |bar: &Bar| DoubleDouble::point(bar.mass_kg()).scale(system.mass_unit_kg.recip());
+        let [length, centre] =
+            [Bar::length_m, Bar::centre_m].map(|of| move |bar| DoubleDouble::point(of(bar)));
+        // As in `System`: what joint 0 carries is left out.
+        let mut carried = mass(&bars[0]) * (centre(&bars[0]) / length(&bars[0]));
+        let mut weight = vec![DoubleDouble::ZERO];
+        for bar in &bars[1..] {
+            weight.push(carried + mass(bar) * ((length(bar) - centre(bar)) / length(bar)));
+            carried = carried + mass(bar);
+        }
+        for group in &system.groups {
+            let first = weight[group.start];
+            weight[group.clone()].fill(first);
+        }
+        let shorten = |x: DoubleDouble| x.scale(system.length_unit_m.recip());
+        let anchors = problem.chain().anchors();
+        let [x, y, z] = std::array::from_fn(|k| {
+            shorten(DoubleDouble::point(anchors.end_m[k]) - DoubleDouble::point(anchors.start_m[k]))
+        });
+        let horizontal =
+            if system.vertical { DoubleDouble::ZERO } else { (x.square() + y.square()).sqrt() };
+        Self {
+            length: bars.iter().map(|bar| shorten(DoubleDouble::point(bar.length_m()))).collect(),
+            weight,
+            span: [horizontal, z],
+            offset: system.offset,
+        }
+    }
+
+    /// Φ at a point of a chart.
+    fn gap(&self, system: &System, signs: &[i8], face: Face, at: [f64; 2]) -> [Interval; 2] {
+        let [h, v, w] = Cell::point(face, at).homogeneous().map(|x| DoubleDouble::point(x.mid()));
+        let origin = match face {
+            Face::Around(group) => self.weight[system.groups[usize::from(group)].start],
+            _ => DoubleDouble::point(self.offset),
+        };
+        let mut gap = self.span.map(|part| -part);
+        for ((sign, length), weight) in signs.iter().zip(&self.length).zip(&self.weight) {
+            let force = [h, v + (*weight - origin) * w];
+            let size = (force[0].square() + force[1].square()).sqrt();
+            for k in 0..2 {
+                let term = *length * (force[k] / size);
+                gap[k] = gap[k] + if *sign < 0 { -term } else { term };
+            }
+        }
+        gap.map(DoubleDouble::interval)
+    }
+}
+
+/// The same zero in a narrower cell, if double precision was not reached yet.
+pub(crate) fn polish(system: &System, precise: &PreciseSystem, signs: &[i8], zero: &Zero) -> Zero {
+    refined(system, precise, signs, zero).unwrap_or(*zero)
+}
+
+fn refined(system: &System, precise: &PreciseSystem, signs: &[i8], zero: &Zero) -> Option<Zero> {
+    let face = zero.tight.face;
+    let mut x = zero.tight.middle();
+    let mut step = [0.0; 2];
+    for _ in 0..STEPS {
+        let slope = Closure::over(system, signs, &Cell::point(face, x))?.slope;
+        let inverse = inverse(slope.map(|row| row.map(Interval::mid)))?;
+        let gap = precise.gap(system, signs, face, x).map(Interval::mid);
+        step = std::array::from_fn(|k| inverse[k][0] * gap[0] + inverse[k][1] * gap[1]);
+        x = std::array::from_fn(|k| x[k] - step[k]);
+    }
+    let last_place = f64::EPSILON * Cell::size(face, x);
+    let small = Cell {
+        face,
+        at: std::array::from_fn(|k| Interval::around(x[k], ROOM * (last_place + step[k].abs()))),
+    };
+    let slope = Closure::over(system, signs, &small)?.slope;
+    let image = image(&small, x, slope, precise.gap(system, signs, face, x))?;
+    // The zero in the small cell is the one that was proved only if that holds no other there.
+    if !inside(&image, &small) || !zero.alone_in.encloses(&small) {
+        return None;
+    }
+    let at = [zero.tight.at[0].intersect(image.at[0])?, zero.tight.at[1].intersect(image.at[1])?];
+    Some(Zero { tight: Cell { face, at }, ..*zero })
+}

@@ -1,0 +1,199 @@
+//! Equilibria in which bars carry no force at all.
+//!
+//! Two or more bars in a row whose common joints carry no weight (massless bars, say) can hang
+//! slack: the pull is then vertical and cancels what hangs before them, every other bar is
+//! vertical, and the slack bars bridge the gap that is left in any way they can. That needs no
+//! coincidence of lengths. In the plane, k slack bars do so in a space of dimension k − 2 (two
+//! bars: two points), the polygons with their lengths and the gap as sides; on it the energy is
+//! constant and across it the second derivative is the one of the other bars,
+//! `h_j = s_j l_j |F_j|`.
+
+use intervals::Interval;
+use serde::{Deserialize, Serialize};
+
+use crate::closure::signed;
+use crate::count::topology::Topology;
+use crate::plane::face::Face;
+use crate::plane::system::System;
+
+/// A set of equilibria of one energy, in which some bars carry nothing.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct SlackFamily {
+    /// +1 for each bar in tension, −1 in compression, 0 for the slack bars.
+    pub signs: Vec<i8>,
+    /// The pull of the chain on the first anchor along the horizontal direction and along Z, N; the
+    /// first is zero.
+    pub pull_n: [Interval; 2],
+    /// Distance that the slack bars bridge, m.
+    pub gap_m: Interval,
+    /// Potential energy, measured from the height of joint 0.
+    pub energy_j: Interval,
+    /// Axial force of each bar, N.
+    pub axial_n: Vec<Interval>,
+    /// Directions in the plane, across the family, in which the energy falls.
+    pub index_in_plane: usize,
+    /// The family in the plane; its dimension is the number of slack bars less two.
+    pub topology: Topology,
+}
+
+impl SlackFamily {
+    /// Directions in space, across the family, in which the energy falls: each compressed bar can
+    /// fall in the plane and out of it.
+    #[must_use]
+    pub fn index_in_space(&self) -> usize {
+        2 * self.index_in_plane
+    }
+
+    /// Dimension of the family in the plane.
+    #[must_use]
+    pub fn dimension_in_plane(&self) -> usize {
+        self.topology.betti.len().saturating_sub(1)
+    }
+}
+
+/// All families, sorted by group and pattern, and the signs of those that may or may not exist.
+pub(crate) fn families(system: &System) -> (Vec<SlackFamily>, Vec<Vec<i8>>) {
+    let mut found = vec![];
+    let mut unclear = vec![];
+    for (number, group) in system.groups.iter().enumerate().filter(|(_, group)| group.len() > 1) {
+        let Ok(number) = u8::try_from(number) else { continue };
+        let others: Vec<usize> = (0..system.bars()).filter(|i| !group.contains(i)).collect();
+        for bits in 0..1_u32 << others.len() {
+            let mut signs = vec![0_i8; system.bars()];
+            for (k, i) in others.iter().enumerate() {
+                signs[*i] = if bits >> (others.len() - 1 - k) & 1 == 0 { 1 } else { -1 };
+            }
+            match family(system, &signs, number) {
+                Existence::Proved(family) => found.push(*family),
+                Existence::Refuted => {}
+                Existence::Unclear => unclear.push(signs),
+            }
+        }
+    }
+    (found, unclear)
+}
+
+enum Existence {
+    Proved(Box<SlackFamily>),
+    Refuted,
+    Unclear,
+}
+
+fn family(system: &System, signs: &[i8], group: u8) -> Existence {
+    let at = system.group_weight(group);
+    let mut gap = system.span;
+    let mut hanging = Interval::ZERO;
+    let mut forces = vec![];
+    let mut slack = vec![];
+    for (i, sign) in signs.iter().enumerate() {
+        let (length, weight) = (system.length[i], system.weight[i]);
+        if *sign == 0 {
+            slack.push(length);
+            forces.push(Interval::ZERO);
+            continue;
+        }
+        // F = (0, c_i − c): its direction is up or down.
+        let force = system.weights(Face::Around(group))[i];
+        let Some(up) = force.sign() else { return Existence::Unclear };
+        let rise = signed(sign * up, length);
+        gap[1] = gap[1] - rise;
+        hanging = hanging + weight * rise;
+        forces.push(signed(*sign, force.abs()));
+    }
+    let distance = match gap[0].sign() {
+        Some(0) => gap[1].abs(),
+        _ => (gap[0].square() + gap[1].square()).sqrt(),
+    };
+    let mut sides = slack;
+    sides.push(distance);
+    let total: Interval = sides.iter().copied().sum();
+    // The polygon closes if and only if no side is longer than the others together.
+    let mut strict = distance.lo() > 0.0;
+    for side in &sides {
+        let rest_less_side = total - *side - *side;
+        if rest_less_side.hi() < 0.0 {
+            return Existence::Refuted;
+        }
+        strict &= rest_less_side.lo() > 0.0;
+    }
+    if !strict {
+        return Existence::Unclear;
+    }
+    let Ok(topology) = Topology::polygons(&sides) else { return Existence::Unclear };
+    let newton = system.force_unit_n();
+    let total: Interval = system.added.iter().copied().sum();
+    let offset = Interval::point(system.offset);
+    // The slack bars rise by what the others leave, at the weight of their group.
+    let energy = (total - offset) * system.span[1] - hanging - at * gap[1];
+    Existence::Proved(Box::new(SlackFamily {
+        signs: signs.to_vec(),
+        pull_n: [Interval::ZERO, system.pull_on_anchor_n([Interval::ZERO, -at - offset])[1]],
+        gap_m: distance.scale(system.length_unit_m),
+        energy_j: energy * newton * Interval::point(system.length_unit_m),
+        axial_n: forces.into_iter().map(|force| force * newton).collect(),
+        index_in_plane: signs.iter().filter(|sign| **sign < 0).count(),
+        topology,
+    }))
+}
+
+#[cfg(test)]
+mod tests {
+    use intervals::Interval;
+    use model::{Anchors, Bar, Chain, Problem};
+
+    use crate::census::Census;
+    use crate::search::undecided::Reason;
+    use crate::settings::Settings;
+
+    /// Bars as (length, mass, centre).
+    fn census(bars: &[(f64, f64, f64)], end_m: [f64; 3]) -> Census {
+        let bars = bars.iter().map(|(l, m, r)| Bar::new(*l, *m, *r, [0.0; 3]).unwrap()).collect();
+        let anchors = Anchors { start_m: [0.0; 3], end_m };
+        let problem = Problem::new(Chain::new("slack", 10.0, anchors, bars).unwrap()).unwrap();
+        let census = Census::take(&problem, &Settings::default()).unwrap();
+        assert_eq!(census.check(&problem), Ok(()));
+        census
+    }
+
+    #[test]
+    fn a_family_has_the_energy_and_the_forces_of_its_geometry() {
+        let bars = [(0.9, 2.0, 0.3), (0.5, 0.0, 0.25), (0.6, 0.0, 0.3), (0.7, 1.5, 0.2)];
+        let census = census(&bars, [0.3, 0.0, -0.1]);
+        assert!(census.complete);
+        let hanging = census.families.iter().find(|family| family.signs == [1, 0, 0, 1]).unwrap();
+        // Bar 1 hangs from the start, bar 4 from the end: by hand, with g = 10 m/s².
+        let energy = 10.0 * (2.0 * -0.3 + 1.5 * (-0.1 - 0.7 + 0.2));
+        let gap = (0.3_f64.powi(2) + 0.1_f64.powi(2)).sqrt();
+        let near = |interval: Interval, expected: f64| {
+            (interval.mid() - expected).abs() < 1e-14 && interval.width() < 1e-13
+        };
+        assert!(near(hanging.energy_j, energy), "{:?}", hanging.energy_j);
+        assert!(near(hanging.gap_m, gap));
+        // Each hanging bar carries the part of its weight that falls on its free end.
+        assert!(near(hanging.axial_n[0], 20.0 * 0.3 / 0.9));
+        assert!(near(hanging.axial_n[3], 15.0 * 0.5 / 0.7));
+        assert_eq!((hanging.index_in_plane, hanging.index_in_space()), (0, 0));
+        // No equilibrium is lower.
+        let lowest = census.equilibria.first().map_or(f64::INFINITY, |e| e.energy_j.lo());
+        assert!(hanging.energy_j.hi() < lowest);
+    }
+
+    #[test]
+    fn a_gap_that_may_be_zero_is_not_decided() {
+        // Bar 1 down by 0.9 and bar 4 up by 0.5 leave no gap for two equal slack bars: they can
+        // turn all around, folded, which is no regular family.
+        let bars = [(0.9, 2.0, 0.3), (0.4, 0.0, 0.2), (0.4, 0.0, 0.2), (0.5, 1.5, 0.2)];
+        let census = census(&bars, [0.0, 0.0, -0.4]);
+        assert!(!census.complete);
+        let unclear = census.undecided.iter().filter(|open| open.reason == Reason::Slack);
+        assert!(unclear.flat_map(|open| &open.signs).any(|signs| signs == &[1, 0, 0, 1]));
+    }
+
+    #[test]
+    fn a_gap_out_of_reach_is_no_family() {
+        // 0.4 + 0.4 cannot bridge what two hanging bars leave of a span of 1.5.
+        let bars = [(0.9, 2.0, 0.3), (0.4, 0.0, 0.2), (0.4, 0.0, 0.2), (0.5, 1.5, 0.2)];
+        let census = census(&bars, [1.5, 0.0, 0.0]);
+        assert!(census.complete && census.families.is_empty());
+    }
+}

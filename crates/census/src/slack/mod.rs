@@ -1,0 +1,6 @@
+//! Bars that carry no force, so that the direction of their force says nothing of theirs.
+
+pub(crate) mod axial;
+pub(crate) mod exclusion;
+pub(crate) mod families;
+pub(crate) mod unloaded;

@@ -1,0 +1,188 @@
+//! Equilibria in which one bar carries no force, or next to none.
+//!
+//! There is at most one near the pull at which the force of bar k vanishes, for each pattern of the
+//! others: proved in the coordinates of [`axial`](crate::slack::axial).
+
+use std::borrow::Cow;
+use std::collections::HashMap;
+use std::ops::Range;
+
+use intervals::Interval;
+
+use crate::closure::{Pattern, signed};
+use crate::equilibrium::stress;
+use crate::equilibrium::{Neighbourhood, Observed, ProvenEquilibrium};
+use crate::plane::cell::Cell;
+use crate::plane::face::Face;
+use crate::plane::system::System;
+use crate::slack::axial::AxialClosure;
+
+/// A gap between upright bars that differs from the length of the bar by more than this is not
+/// bridged by it without force, to rounding.
+const NEAR: f64 = 1e-9;
+
+/// A force of less than this, in the unit of the weights, is next to nothing: 2⁻⁴⁰, a 10¹² part.
+/// Its digits are what is left of much larger numbers.
+const NEXT_TO_NOTHING: f64 = f64::from_bits((1023 - 40) << 52);
+
+/// The largest disc of pulls tried, in the unit of the weights, and the factor to the next one.
+const LARGEST_DISC: f64 = 1.0 / 64.0;
+const NEXT_DISC: f64 = 0.125;
+/// Discs tried. The smallest is far above rounding.
+const DISCS: usize = 12;
+
+/// The equilibria with a bar that carries next to nothing, and the pulls that are settled with
+/// them.
+#[derive(Debug, Default)]
+pub(crate) struct Unloaded {
+    pub(crate) equilibria: Vec<ProvenEquilibrium>,
+    settled: Vec<Settled>,
+}
+
+/// Squares of pulls about the one without force in a bar, one for each pattern of the others (the
+/// bit of the bar is 0): with these signs there is no equilibrium in it but the one that is listed,
+/// whatever the sign of the bar.
+#[derive(Debug)]
+struct Settled {
+    face: Face,
+    bit: u32,
+    /// Half a side of the square of each pattern.
+    half: HashMap<u32, f64>,
+    largest: f64,
+}
+
+impl Unloaded {
+    /// The patterns that may have equilibria in a cell besides those listed here.
+    pub(crate) fn left<'a>(
+        &self,
+        system: &System,
+        cell: &Cell,
+        patterns: &'a [Pattern],
+    ) -> Cow<'a, [Pattern]> {
+        let mut left = Cow::Borrowed(patterns);
+        for Settled { face, bit, half, largest } in &self.settled {
+            let Some(cell) = cell.on(*face, system) else { continue };
+            let farthest = cell.at[0].mag().max(cell.at[1].mag());
+            if farthest <= *largest {
+                left.to_mut().retain(|pattern| {
+                    half.get(&(pattern.0 & !bit)).is_none_or(|half| farthest > *half)
+                });
+            }
+        }
+        left
+    }
+}
+
+/// All of them.
+pub(crate) fn unloaded(system: &System) -> Unloaded {
+    let mut all = Unloaded::default();
+    let bars = system.bars();
+    for group in &system.groups {
+        let bit = Pattern::bit(bars, group.start);
+        let mut half = HashMap::new();
+        let mut largest = 0.0_f64;
+        for others in (0..1_u32 << bars).filter(|pattern| pattern & bit == 0) {
+            if let Some(equilibrium) = prove(system, group, Pattern(others)) {
+                // A square about the origin of the chart.
+                let side = equilibrium.alone_in.at[0].hi();
+                largest = largest.max(side);
+                half.insert(others, side);
+                all.equilibria.push(equilibrium);
+            }
+        }
+        if let Some(face) = all.equilibria.last().map(|last| last.alone_in.chart)
+            && !half.is_empty()
+        {
+            all.settled.push(Settled { face, bit, half, largest });
+        }
+    }
+    all
+}
+
+/// The equilibrium with these signs, 0 for the bar without force.
+pub(crate) fn with_signs(system: &System, signs: &[i8]) -> Option<ProvenEquilibrium> {
+    let bars = system.bars();
+    let bar = signs.iter().position(|sign| *sign == 0)?;
+    let compressed = (0..bars).filter(|i| signs[*i] < 0);
+    let others = compressed.map(|i| Pattern::bit(bars, i)).sum();
+    prove(system, system.groups.iter().find(|group| group.contains(&bar))?, Pattern(others))
+}
+
+/// The equilibrium near the pull without force in a bar, if there is exactly one with these signs
+/// of the others and its bar carries next to nothing.
+fn prove(system: &System, group: &Range<usize>, others: Pattern) -> Option<ProvenEquilibrium> {
+    // Between anchors on one vertical such a bar is upright too, and its direction is not
+    // determined.
+    if group.len() > 1 || system.vertical {
+        return None;
+    }
+    let bar = group.start;
+    let number = system.groups.iter().position(|other| other == group)?;
+    let face = Face::Around(u8::try_from(number).ok()?);
+    let signs: Vec<i8> = others
+        .signs(system.bars())
+        .enumerate()
+        .map(|(i, s)| if i == bar { 0 } else { s })
+        .collect();
+    // The gap that upright bars leave.
+    let mut gap = system.span;
+    for (i, sign) in signs.iter().enumerate().filter(|(_, sign)| **sign != 0) {
+        let up = system.weights(face)[i].sign()?;
+        gap[1] = gap[1] - signed(sign * up, system.length[i]);
+    }
+    let distance = (gap[0].square() + gap[1].square()).sqrt();
+    if (distance - system.length[bar]).mig() > NEAR {
+        return None;
+    }
+    let axis = gap.map(|part| Interval::point(part.mid() / system.length[bar].mid()));
+    let closure = AxialClosure { system, bar, face, signs, axis };
+    let mut radius = LARGEST_DISC;
+    let mut found = None;
+    for _ in 0..DISCS {
+        if let Some(tight) = closure.only_one(radius) {
+            found = Some(tight);
+            break;
+        }
+        radius *= NEXT_DISC;
+    }
+    let tight = found?;
+    // Any other the search finds by itself.
+    if tight.at[0].mag() > NEXT_TO_NOTHING {
+        return None;
+    }
+    let bars = closure.bars(tight.at)?;
+    let slope = closure.slope(&bars, tight.at).map(|row| row.map(Interval::mid));
+    let indices = closure.indices(&bars, condition(slope))?;
+    // A square inside the disc.
+    let side = Interval::new(-0.5 * radius, 0.5 * radius);
+    let optimal = stress::proves_optimal(&closure.signs, &system.length, &bars.sizes, false);
+    let observed = Observed {
+        pull: Cell { face, at: bars.forces[bar] }.pull(system),
+        forces: bars.forces,
+        sizes: bars.sizes,
+        directions: bars.directions,
+    };
+    let alone_in = Neighbourhood { chart: face, at: [side, side] };
+    let signs = &closure.signs;
+    Some(ProvenEquilibrium::assemble(system, signs, &observed, alone_in, indices, optimal))
+}
+
+/// Ratio of the singular values of a matrix.
+fn condition([[a, b], [c, d]]: [[f64; 2]; 2]) -> f64 {
+    let squares = a * a + b * b + c * c + d * d;
+    let determinant = a * d - b * c;
+    let rest = (squares * squares - 4.0 * determinant * determinant).max(0.0).sqrt();
+    0.5 * (squares + rest) / determinant.abs()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Singular values 3 and 1, turned.
+    #[test]
+    fn the_condition_is_the_ratio_of_the_singular_values() {
+        let (s, c) = 0.3_f64.sin_cos();
+        assert!((condition([[3.0 * c, -s], [3.0 * s, c]]) - 3.0).abs() < 1e-14);
+    }
+}

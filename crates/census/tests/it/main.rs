@@ -1,0 +1,8 @@
+//! The census from outside, in one program.
+
+mod degenerate;
+mod mutations;
+mod paper;
+mod random;
+mod support;
+mod unloaded;

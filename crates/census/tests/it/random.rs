@@ -1,0 +1,273 @@
+//! Random chains: completeness against topology, and against a search that is written here.
+
+use census::{Census, Settings};
+use model::{Anchors, Bar, Chain, Problem};
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+
+/// A random chain with lengths, masses, centres and anchors in general position; every fifth one
+/// hangs between anchors on one vertical.
+fn random_problem(bars: usize, seed: u64) -> Problem {
+    let mut rng = ChaCha8Rng::seed_from_u64(seed);
+    rng.set_stream(bars as u64);
+    loop {
+        let bars: Vec<Bar> = (0..bars)
+            .filter_map(|_| {
+                let length = rng.random_range(0.3..1.0);
+                let centre = length * rng.random_range(0.1..0.9);
+                Bar::new(length, rng.random_range(0.05..1.0), centre, [0.0; 3]).ok()
+            })
+            .collect();
+        let span = rng.random_range(0.05..0.9) * bars.iter().map(Bar::length_m).sum::<f64>();
+        let angle: f64 = rng.random_range(0.0..std::f64::consts::TAU);
+        let turn: f64 = rng.random_range(0.0..std::f64::consts::TAU);
+        let level = if seed.is_multiple_of(5) { 0.0 } else { span * angle.cos() };
+        let rise =
+            if seed.is_multiple_of(5) { span.copysign(angle.sin()) } else { span * angle.sin() };
+        let end_m = [level * turn.cos(), level * turn.sin(), rise];
+        let anchors = Anchors { start_m: [0.0; 3], end_m };
+        if let Ok(Ok(problem)) = Chain::new("random", 9.81, anchors, bars).map(Problem::new) {
+            return problem;
+        }
+    }
+}
+
+fn census(problem: &Problem) -> Census {
+    match Census::take(problem, &Settings::default()) {
+        Ok(census) => census,
+        Err(error) => panic!("{error}"),
+    }
+}
+
+#[test]
+fn the_euler_characteristic_is_right_on_two_hundred_chains() {
+    for seed in 0..50 {
+        for bars in 3..=6 {
+            let problem = random_problem(bars, seed);
+            let census = census(&problem);
+            assert!(census.complete, "{bars} bars, seed {seed}: {:?}", census.undecided);
+            let topology = census.topology.as_ref().unwrap();
+            assert_eq!(census.alternating_sum(), topology.euler, "{bars} bars, seed {seed}");
+            assert_eq!(census.check(&problem), Ok(()), "{bars} bars, seed {seed}");
+        }
+    }
+}
+
+#[test]
+fn one_equilibrium_at_least_is_optimal_and_it_is_the_first() {
+    for seed in 0..60 {
+        let census = census(&random_problem(3 + usize::try_from(seed % 5).unwrap(), seed));
+        let optimal: Vec<bool> = census.equilibria.iter().map(|e| e.optimal).collect();
+        assert!(optimal[0], "seed {seed}");
+        // Stable in space if and only if globally minimal.
+        for equilibrium in &census.equilibria {
+            assert_eq!(equilibrium.optimal, equilibrium.index_in_space() == 0, "seed {seed}");
+        }
+        assert_eq!(optimal.iter().filter(|optimal| **optimal).count(), 1, "seed {seed}");
+        // All enclosures of energy are apart from each other or the order is by angles.
+        assert!(census.equilibria.is_sorted_by(|a, b| a.energy_j.mid() <= b.energy_j.mid()));
+    }
+}
+
+/// Newton's method from random angles on the Lagrange equations of the plane, in other unknowns
+/// than those of the census: angles and two multipliers. Every equilibrium that it finds must be
+/// listed.
+#[test]
+fn random_newton_starts_find_nothing_that_is_not_listed() {
+    let mut found = 0;
+    let mut listed = 0;
+    for seed in 1..5 {
+        for bars in 3..=6 {
+            let problem = random_problem(bars, seed);
+            let census = census(&problem);
+            let mut hit = vec![false; census.equilibria.len()];
+            let mut rng = ChaCha8Rng::seed_from_u64(1000 + seed);
+            for _ in 0..1500 {
+                let start: Vec<f64> = (0..bars).map(|_| rng.random_range(-3.15..3.15)).collect();
+                let Some(angles) = newton(&problem, start) else { continue };
+                found += 1;
+                let k = census.equilibria.iter().position(|equilibrium| {
+                    equilibrium.angles_rad.iter().zip(&angles).all(|(enclosure, angle)| {
+                        let difference = enclosure.mid() - angle;
+                        // Whole turns do not count; Newton's end is good to about 1e-10.
+                        difference.sin().hypot(1.0 - difference.cos()) < 1e-7
+                    })
+                });
+                let k = k.unwrap_or_else(|| {
+                    panic!("{bars} bars, seed {seed}: {angles:?} is not in the census")
+                });
+                hit[k] = true;
+            }
+            listed += hit.iter().filter(|hit| **hit).count();
+        }
+    }
+    // The search is worth something: thousands of runs end, and nearly all equilibria are hit.
+    assert!(found > 5000 && listed > 150, "{found} {listed}");
+}
+
+/// A chain of the kind that breaks general position: lengths and anchors from a few round numbers,
+/// so that subsets of bars are often equally long, massless bars, coincident anchors.
+fn round_problem(bars: usize, seed: u64) -> Option<Problem> {
+    let mut rng = ChaCha8Rng::seed_from_u64(seed);
+    rng.set_stream(100 + bars as u64);
+    let mut pick = |from: &[f64]| from[rng.random_range(0..from.len())];
+    let bars: Vec<Bar> = (0..bars)
+        .filter_map(|_| {
+            let length = pick(&[0.5, 1.0, 1.5]);
+            let part = pick(&[0.0, 0.25, 0.5, 0.5, 1.0]);
+            Bar::new(length, pick(&[0.0, 1.0, 2.0]), part * length, [0.0; 3]).ok()
+        })
+        .collect();
+    let end_m = [pick(&[0.0, 0.0, 0.25, 1.0]), 0.0, pick(&[0.0, -0.5, 0.75])];
+    let anchors = Anchors { start_m: [0.0; 3], end_m };
+    Chain::new("round", 9.81, anchors, bars).ok().and_then(|chain| Problem::new(chain).ok())
+}
+
+/// Never a wrong "complete": where a census of a degenerate chain says so, random starts find
+/// nothing else, and the check and the Morse inequalities hold.
+#[test]
+fn a_complete_census_of_a_degenerate_chain_misses_nothing() {
+    let (mut complete, mut open, mut found, mut straight) = (0, 0, 0, 0);
+    for (bars, seed) in (3..=5).flat_map(|bars| (0..50).map(move |seed| (bars, seed))) {
+        let Some(problem) = round_problem(bars, seed) else { continue };
+        // All weight on the anchors is refused.
+        let Ok(census) = Census::take(&problem, &Settings::default()) else { continue };
+        assert_eq!(census.check(&problem), Ok(()), "{bars} bars, seed {seed}");
+        straight += u32::from(census.topology.is_err());
+        if !census.complete {
+            // An honest answer: what is open is listed, or a straight position is named.
+            assert!(!census.undecided.is_empty() || census.topology.is_err());
+            open += 1;
+            continue;
+        }
+        complete += 1;
+        assert!(census.topology.is_ok() && census.morse().is_ok(), "{bars} bars, seed {seed}");
+        let mut rng = ChaCha8Rng::seed_from_u64(2000 + seed);
+        for _ in 0..200 {
+            let start: Vec<f64> = (0..bars).map(|_| rng.random_range(-3.15..3.15)).collect();
+            let Some(angles) = newton(&problem, start) else { continue };
+            let near = |a: f64, b: f64| (a - b).sin().hypot(1.0 - (a - b).cos()) < 1e-6;
+            let listed = census.equilibria.iter().any(|equilibrium| {
+                // With the anchors on one vertical the mirror image is the same circle.
+                let sides: &[f64] = if census.circles { &[1.0, -1.0] } else { &[1.0] };
+                sides.iter().any(|side| {
+                    let boxes = equilibrium.angles_rad.iter().zip(&angles);
+                    boxes.into_iter().all(|(a, b)| near(a.mid(), side * b))
+                })
+            });
+            // Bars that hang slack point anywhere; all others are upright.
+            let in_family = census.families.iter().any(|family| {
+                family.signs.iter().zip(&angles).all(|(sign, a)| *sign == 0 || a.sin().abs() < 1e-6)
+            });
+            assert!(listed || in_family, "{bars} bars, seed {seed}: {angles:?} {problem:?}");
+            found += 1;
+        }
+    }
+    println!("{complete} complete, {open} open, {straight} straight, {found} found");
+    assert!(complete > 30 && open > 10 && straight > 10 && found > 3000);
+}
+
+/// Solve the planar equations: with angles φ from the descending vertical and multipliers (H, V),
+/// l_i (F_ix cos φ_i + F_iz sin φ_i) = 0, Σ l_i sin φ_i = D_x, −Σ l_i cos φ_i = D_z.
+fn newton(problem: &Problem, mut angles: Vec<f64>) -> Option<Vec<f64>> {
+    let chain = problem.chain();
+    let bars = chain.bars();
+    let n = bars.len();
+    let difference = chain.anchors().difference_m();
+    let span = [difference[0].hypot(difference[1]), difference[2]];
+    let mut carried = 0.0;
+    let weights: Vec<f64> = bars
+        .iter()
+        .map(|bar| {
+            let weight = carried + bar.mass_kg() * (1.0 - bar.centre_m() / bar.length_m());
+            carried += bar.mass_kg();
+            weight
+        })
+        .collect();
+    // The pull that fits the start best is not worth computing: hang half the weight on each end.
+    let mut pull = [angles[0].sin() * carried, -0.5 * carried];
+    for _ in 0..60 {
+        let mut matrix = vec![vec![0.0; n + 3]; n + 2];
+        let mut gap = [-span[0], -span[1]];
+        let mut worst = 0.0_f64;
+        for i in 0..n {
+            let (sin, cos) = angles[i].sin_cos();
+            let force = [pull[0], pull[1] + weights[i]];
+            matrix[i][i] = -force[0] * sin + force[1] * cos;
+            matrix[i][n] = cos;
+            matrix[i][n + 1] = sin;
+            matrix[i][n + 2] = -(force[0] * cos + force[1] * sin);
+            worst = worst.max(matrix[i][n + 2].abs());
+            let length = bars[i].length_m();
+            matrix[n][i] = length * cos;
+            matrix[n + 1][i] = length * sin;
+            gap[0] += length * sin;
+            gap[1] -= length * cos;
+        }
+        matrix[n][n + 2] = -gap[0];
+        matrix[n + 1][n + 2] = -gap[1];
+        if worst.max(gap[0].abs()).max(gap[1].abs()) < 1e-12 {
+            return Some(angles);
+        }
+        let step = solve(matrix)?;
+        // Long steps are shortened: only where the method ends matters here.
+        let longest = step[..n].iter().fold(0.0_f64, |all, part| all.max(part.abs()));
+        let scale = if longest > 1.0 { 1.0 / longest } else { 1.0 };
+        for (angle, part) in angles.iter_mut().zip(&step) {
+            *angle += scale * part;
+        }
+        pull[0] += scale * step[n];
+        pull[1] += scale * step[n + 1];
+    }
+    None
+}
+
+/// Gaussian elimination with pivoting.
+fn solve(mut matrix: Vec<Vec<f64>>) -> Option<Vec<f64>> {
+    let n = matrix.len();
+    for k in 0..n {
+        let pivot = (k..n).max_by(|a, b| matrix[*a][k].abs().total_cmp(&matrix[*b][k].abs()))?;
+        matrix.swap(k, pivot);
+        if matrix[k][k].abs() < 1e-14 || matrix[k][k].is_nan() {
+            return None;
+        }
+        let row = matrix[k].clone();
+        for (i, other) in matrix.iter_mut().enumerate() {
+            if i != k {
+                let factor = other[k] / row[k];
+                for (entry, part) in other.iter_mut().zip(&row).skip(k) {
+                    *entry -= factor * part;
+                }
+            }
+        }
+    }
+    Some((0..n).map(|k| matrix[k][n] / matrix[k][k]).collect())
+}
+
+#[test]
+fn the_answer_does_not_depend_on_the_number_of_threads() {
+    let problem = random_problem(8, 1);
+    let pools = [1, 2, 3, 5].map(|threads| {
+        rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a thread pool")
+    });
+    // Long enough that the levels of the search are spread over the threads.
+    let [one, two, three, five] = pools.map(|pool| {
+        let mut census = pool.install(|| census(&problem));
+        census.statistics.seconds = 0.0;
+        assert!(census.complete && census.equilibria.len() > 20);
+        // Every bit of every number is in it: JSON is written so that it reads back the same.
+        serde_json::to_string(&census).unwrap()
+    });
+    // Compared without printing: a census is long.
+    assert!(one == two && one == three && one == five);
+}
+
+#[test]
+fn a_census_survives_json() {
+    let problem = random_problem(4, 1);
+    let census = census(&problem);
+    let text = serde_json::to_string(&census).unwrap();
+    let back: Census = serde_json::from_str(&text).unwrap();
+    assert!(back == census, "some number changed on the way");
+    assert_eq!(back.check(&problem), Ok(()));
+}
