@@ -26,7 +26,7 @@ const LINEAR_ALGEBRA: &[&str] = &[
 const MEETING_PLACES: &[&str] = &["validate", "paper", "report", "benches", "funicular"];
 
 /// Packages that are handed the solvers they run, or need none.
-const WITHOUT_SOLVERS: &[&str] = &["sweep", "branches", "census", "columns", "figures"];
+const WITHOUT_SOLVERS: &[&str] = &["sweep", "branches", "census", "columns", "figures", "motion"];
 
 /// Why the graph could not be read.
 #[derive(Debug, thiserror::Error)]

@@ -43,6 +43,7 @@ fn the_guard_fires_on_doctored_graphs() {
         (vec![("model", "geometry"), ("geometry", "faer")], "model -> geometry -> faer"),
         (vec![("energy", "funicular")], "energy -> funicular"),
         (vec![("sweep", "lagrange")], "sweep -> lagrange"),
+        (vec![("motion", "energy")], "motion -> energy"),
         (vec![("figures", "sweep"), ("sweep", "energy")], "figures -> sweep -> energy"),
     ] {
         let mut doctored = graph();

@@ -1,0 +1,101 @@
+//! Why a system does not move here, or a motion ends.
+
+/// Why a system cannot be set in motion, or a step cannot be taken.
+///
+/// Members are counted from 1, joints are named.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum MotionError {
+    /// Occurs when an inextensible cable or strut is part of the system: it goes slack and taut with impacts,
+    /// for which no law is given.
+    #[error(
+        "member {member} is an inextensible {kind}: it becomes taut with an impact, and no law of impact is \
+         given; with a stiffness (stiffness_n) it moves"
+    )]
+    Unilateral {
+        /// Number of the member, from 1.
+        member: usize,
+        /// `cable` or `strut`.
+        kind: &'static str,
+    },
+    /// Occurs when the two moments across a bar differ: its spin then acts on its direction, and the places of
+    /// its ends do not describe its motion.
+    #[error(
+        "the moments of member {member} across it are {jy_kg_m2} and {jz_kg_m2} kg m^2: the motion of its \
+         ends is described only where they are equal"
+    )]
+    UnequalMoments {
+        /// Number of the member, from 1.
+        member: usize,
+        /// `J_y`.
+        jy_kg_m2: f64,
+        /// `J_z`.
+        jz_kg_m2: f64,
+    },
+    /// Occurs when a joint can be moved without moving any mass.
+    #[error(
+        "joint {joint:?} can move without moving any mass (inertia {inertia_kg} kg left there): its \
+         acceleration is indeterminate"
+    )]
+    Massless {
+        /// Name of the joint.
+        joint: String,
+        /// What of its inertia is left when the others move with it, kg.
+        inertia_kg: f64,
+    },
+    /// Occurs when the constraints do not determine their forces: a bar too many, or a taut straight line.
+    #[error(
+        "at joint {joint:?} the rigid bars and supports do not determine their forces (relative pivot \
+         {pivot:e}): a bar too many, or bars on one taut line"
+    )]
+    Redundant {
+        /// Name of the joint where it shows.
+        joint: String,
+        /// The pivot, relative to what it is made of.
+        pivot: f64,
+    },
+    /// Occurs when positions cannot be brought onto the lengths of the bars.
+    #[error(
+        "the constraints are not met: after {iterations} corrections a bar or support is off by {off:e} of its \
+         length"
+    )]
+    NotClosed {
+        /// Corrections made.
+        iterations: usize,
+        /// Largest relative violation left.
+        off: f64,
+    },
+    /// Occurs when the constraints of a step are not met to rounding: the step is too long.
+    #[error(
+        "at t = {time_s} s a step of {step_s} s does not meet the lengths (off by {off:e} after \
+         {iterations} corrections): take a shorter step"
+    )]
+    StepTooLong {
+        /// Time at the beginning of the step.
+        time_s: f64,
+        /// The step.
+        step_s: f64,
+        /// Corrections made.
+        iterations: usize,
+        /// Largest relative violation left.
+        off: f64,
+    },
+    /// Occurs when the number of places or velocities given is not that of the joints, or one is not finite.
+    #[error("{what}: {reason}")]
+    Input {
+        /// What was given.
+        what: &'static str,
+        /// What is wrong with it.
+        reason: String,
+    },
+    /// Occurs when modes are asked for at a position that is not an equilibrium.
+    #[error(
+        "the position is not an equilibrium: {off:e} of the largest force is left over at joint {joint:?}"
+    )]
+    NotInBalance {
+        /// Name of the joint with the largest force left over.
+        joint: String,
+        /// That force, relative to the largest force in the system.
+        off: f64,
+    },
+}

@@ -1,0 +1,83 @@
+//! Forces that depend on places and time, and the potential energy.
+
+use model::Vector;
+use model::system::Kind;
+
+use crate::mechanism::{Mechanism, Spring};
+use crate::state::State;
+use crate::vector::{add_times, dot, norm};
+
+/// A force at a joint as a function of time, N.
+pub type ForceOfTime = Box<dyn Fn(f64) -> Vector + Send + Sync>;
+
+/// Forces on the slots.
+pub(crate) struct Forces {
+    /// Slot and force.
+    pub of_time: Vec<(usize, ForceOfTime)>,
+}
+
+impl Forces {
+    /// All forces at a time by slot, N: loads, springs, and the forces of time.
+    pub(crate) fn at(
+        &self,
+        mechanism: &Mechanism,
+        state: &State,
+        time_s: f64,
+        force: &mut [Vector],
+    ) {
+        if self.of_time.is_empty() && mechanism.springs.is_empty() {
+            return;
+        }
+        force.copy_from_slice(&mechanism.load);
+        for spring in &mechanism.springs {
+            let d = state.between(spring.link.a, spring.link.b);
+            let density = spring.force_density(norm(d));
+            force[spring.link.a] = add_times(force[spring.link.a], density, d);
+            force[spring.link.b] = add_times(force[spring.link.b], -density, d);
+        }
+        for (slot, of_time) in &self.of_time {
+            force[*slot] = add_times(force[*slot], 1.0, of_time(time_s));
+        }
+    }
+}
+
+impl Spring {
+    /// Elongation that the member resists, m.
+    fn elongation(&self, distance_m: f64) -> f64 {
+        let elongation = distance_m - self.link.length_m;
+        match self.kind {
+            Kind::Bar => elongation,
+            Kind::Cable => elongation.max(0.0),
+            Kind::Strut => elongation.min(0.0),
+        }
+    }
+
+    /// Axial force over the distance of the ends, N/m, tension positive.
+    pub(crate) fn force_density(&self, distance_m: f64) -> f64 {
+        self.stiffness_n * self.elongation(distance_m) / self.link.length_m / distance_m
+    }
+
+    /// Elastic energy `EA/(2l) e²`, J.
+    pub(crate) fn energy_j(&self, distance_m: f64) -> f64 {
+        let e = self.elongation(distance_m);
+        0.5 * self.stiffness_n / self.link.length_m * e * e
+    }
+}
+
+/// Kinetic energy, J: `½ vᵀ M v`.
+pub(crate) fn kinetic_j(mechanism: &Mechanism, state: &State) -> f64 {
+    let v = &state.velocity;
+    let own = mechanism.mass.iter().zip(v).map(|(m, v)| 0.5 * m * dot(*v, *v));
+    let between = mechanism.links().map(|link| link.inertia.between * dot(v[link.a], v[link.b]));
+    model::sum(own.chain(between))
+}
+
+/// Potential energy relative to [`System::reference_m`](model::system::System::reference_m), J: that of weights and constant
+/// forces, and the elastic energy.
+pub(crate) fn potential_j(mechanism: &Mechanism, state: &State) -> f64 {
+    let slots = 0..state.at.len();
+    let loads = slots.map(|slot| -dot(mechanism.load[slot], state.at[slot]));
+    let springs = mechanism.springs.iter();
+    let elastic = springs.map(|s| s.energy_j(norm(state.between(s.link.a, s.link.b))));
+    model::sum(loads.chain(elastic))
+}

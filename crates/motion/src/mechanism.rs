@@ -1,0 +1,272 @@
+//! A system of bars as the mechanics of the places of its joints.
+
+use model::Vector;
+use model::system::{Joint, Kind, Member, Support, System};
+
+use crate::error::MotionError;
+use crate::inertia::EndInertia;
+use crate::order::order;
+use crate::vector::{add_times, minus};
+
+/// Largest relative difference of the two moments across a bar that counts as rounding.
+const EQUAL_MOMENTS: f64 = 1e-12;
+
+/// A system of bars as the mechanics of the places of its joints (natural coordinates).
+///
+/// Joints are stored in *slots*: those that move come first, in the order of elimination, then the
+/// anchors. Places are relative to [`System::reference_m`], so that a system far from the origin keeps its
+/// digits.
+#[derive(Debug, Clone)]
+pub struct Mechanism {
+    pub(crate) system: System,
+    /// Slot of each joint, and joint of each slot.
+    pub(crate) slot_of: Vec<usize>,
+    pub(crate) joint_at: Vec<usize>,
+    /// Number of slots that move.
+    pub(crate) moving: usize,
+    /// Whether the joints that move form trees.
+    pub(crate) is_forest: bool,
+    /// Rigid bars; bar *k* has the row *k* of the constraints.
+    pub(crate) bars: Vec<Link>,
+    /// Members with a stiffness.
+    pub(crate) springs: Vec<Spring>,
+    /// Supports of sliders; support *k* has the row `bars.len() + k`.
+    pub(crate) slides: Vec<Slide>,
+    /// Diagonal of the mass matrix by slot, kg, the same for each axis.
+    pub(crate) mass: Vec<f64>,
+    /// Constant force by slot, N: weights and forces lumped by the lever rule.
+    pub(crate) load: Vec<Vector>,
+}
+
+/// A member between two slots.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Link {
+    /// Slots of its ends.
+    pub a: usize,
+    pub b: usize,
+    pub length_m: f64,
+    /// Its number among the members.
+    pub member: usize,
+    pub inertia: EndInertia,
+}
+
+/// A member with a stiffness.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Spring {
+    pub link: Link,
+    pub kind: Kind,
+    /// `EA`, N.
+    pub stiffness_n: f64,
+}
+
+/// A direction in which a support does not let its joint move.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Slide {
+    pub slot: usize,
+    pub normal: Vector,
+    /// A point of the support, relative to the reference, m.
+    pub at: Vector,
+}
+
+impl Mechanism {
+    /// The mechanics of a system.
+    ///
+    /// # Errors
+    ///
+    /// [`MotionError`] when the system has members or joints whose motion is indeterminate: inextensible cables and
+    /// struts, bars with different moments across, joints without inertia.
+    pub fn new(system: &System) -> Result<Self, MotionError> {
+        for (k, member) in system.members().iter().enumerate() {
+            check(k + 1, member)?;
+        }
+        let joints = system.joints();
+        let moves: Vec<bool> = joints.iter().map(|joint| !joint.support.is_fixed()).collect();
+        let edges: Vec<_> = system.members().iter().map(|m| (m.from, m.to)).collect();
+        let between: Vec<_> =
+            edges.iter().copied().filter(|&(a, b)| moves[a] && moves[b]).collect();
+        let ordered = order(&moves, &between);
+        let moving = ordered.joints.len();
+        let mut joint_at = ordered.joints;
+        joint_at.extend((0..joints.len()).filter(|&joint| !moves[joint]));
+        let mut slot_of = vec![0; joints.len()];
+        for (slot, &joint) in joint_at.iter().enumerate() {
+            slot_of[joint] = slot;
+        }
+        let mut found = Self {
+            system: system.clone(),
+            slot_of,
+            joint_at,
+            moving,
+            is_forest: ordered.is_forest,
+            bars: Vec::new(),
+            springs: Vec::new(),
+            slides: Vec::new(),
+            mass: vec![0.0; joints.len()],
+            load: vec![[0.0; 3]; joints.len()],
+        };
+        found.add_joints(joints);
+        found.add_members(system.members());
+        if let Some(link) = found.bars.iter().find(|link| link.a.min(link.b) >= moving) {
+            return Err(MotionError::Redundant { joint: found.name(link.a), pivot: 0.0 });
+        }
+        Ok(found)
+    }
+
+    /// The system.
+    #[must_use]
+    pub fn system(&self) -> &System {
+        &self.system
+    }
+
+    /// Number of constraints: rigid bars, and directions that supports of sliders take.
+    #[must_use]
+    pub fn constraints(&self) -> usize {
+        self.bars.len() + self.slides.len()
+    }
+
+    /// Number of coordinates: three for each joint that is no anchor.
+    #[must_use]
+    pub fn coordinates(&self) -> usize {
+        3 * self.moving
+    }
+
+    fn add_joints(&mut self, joints: &[Joint]) {
+        let gravity = self.system.gravity_m_s2();
+        let reference = self.system.reference_m();
+        for (joint, data) in joints.iter().enumerate() {
+            let slot = self.slot_of[joint];
+            self.mass[slot] += data.mass_kg;
+            let weight = [0.0, 0.0, -data.mass_kg * gravity];
+            self.load[slot] = std::array::from_fn(|k| data.force_n[k] + weight[k]);
+            let (at_m, normals) = match data.support {
+                Support::Free | Support::Fixed { .. } => continue,
+                Support::Plane { at_m, normal } => (at_m, vec![normal]),
+                Support::Line { at_m, direction } => (at_m, across(direction).to_vec()),
+            };
+            let at = minus(at_m, reference);
+            self.slides.extend(normals.into_iter().map(|normal| Slide { slot, normal, at }));
+        }
+    }
+
+    fn add_members(&mut self, members: &[Member]) {
+        for (number, member) in members.iter().enumerate() {
+            let link = Link {
+                a: self.slot_of[member.from],
+                b: self.slot_of[member.to],
+                length_m: member.body.length_m(),
+                member: number,
+                inertia: EndInertia::new(&member.body),
+            };
+            self.mass[link.a] += link.inertia.from;
+            self.mass[link.b] += link.inertia.to;
+            let [at_a, at_b] = end_loads(member, self.system.gravity_m_s2());
+            self.load[link.a] = add_times(self.load[link.a], 1.0, at_a);
+            self.load[link.b] = add_times(self.load[link.b], 1.0, at_b);
+            match member.stiffness_n {
+                None => self.bars.push(link),
+                Some(stiffness_n) => {
+                    self.springs.push(Spring { link, kind: member.kind, stiffness_n });
+                }
+            }
+        }
+        // Bars in the order of their first slots are read one behind the other.
+        self.bars.sort_by_key(|link| link.a.min(link.b));
+    }
+
+    /// Name of the joint in a slot.
+    pub(crate) fn name(&self, slot: usize) -> String {
+        self.system.joints()[self.joint_at[slot]].name.clone()
+    }
+
+    /// All members, rigid ones first.
+    pub(crate) fn links(&self) -> impl Iterator<Item = &Link> {
+        self.bars.iter().chain(self.springs.iter().map(|spring| &spring.link))
+    }
+
+    /// Places by slot, relative to the reference, of places by joint in the world frame.
+    ///
+    /// # Errors
+    ///
+    /// [`MotionError::Input`] when their number is not that of the joints, or one is not finite.
+    pub(crate) fn places(&self, joints_m: &[Vector]) -> Result<Vec<Vector>, MotionError> {
+        let reference = self.system.reference_m();
+        let by_slot = self.by_slot(joints_m, "places of the joints")?;
+        let mut places: Vec<Vector> = by_slot.into_iter().map(|x| minus(x, reference)).collect();
+        let anchors = places.iter_mut().zip(&self.joint_at).skip(self.moving);
+        for (place, &joint) in anchors {
+            if let Some(at_m) = self.system.joints()[joint].support.at_m() {
+                *place = minus(at_m, reference);
+            }
+        }
+        Ok(places)
+    }
+
+    /// Vectors by slot of vectors by joint.
+    pub(crate) fn by_slot(
+        &self,
+        by_joint: &[Vector],
+        what: &'static str,
+    ) -> Result<Vec<Vector>, MotionError> {
+        if by_joint.len() != self.joint_at.len() {
+            let reason = format!("{} given for {} joints", by_joint.len(), self.joint_at.len());
+            return Err(MotionError::Input { what, reason });
+        }
+        if let Some(joint) = by_joint.iter().position(|x| x.iter().any(|x| !x.is_finite())) {
+            let name = &self.system.joints()[joint].name;
+            return Err(MotionError::Input {
+                what,
+                reason: format!("not finite at joint {name:?}"),
+            });
+        }
+        Ok(self.joint_at.iter().map(|&joint| by_joint[joint]).collect())
+    }
+
+    /// Vectors by joint of vectors by slot.
+    pub(crate) fn by_joint(&self, by_slot: &[Vector]) -> Vec<Vector> {
+        self.slot_of.iter().map(|&slot| by_slot[slot]).collect()
+    }
+}
+
+/// Weight and forces of a member at its ends, N, by the lever rule.
+pub(crate) fn end_loads(member: &Member, gravity_m_s2: f64) -> [Vector; 2] {
+    let bar = &member.body;
+    let weight = [0.0, 0.0, -bar.mass_kg() * gravity_m_s2];
+    let own = member.loads.iter().map(|load| (load.at_m, load.force_n));
+    let mut ends = [[0.0; 3]; 2];
+    for (at_m, force_n) in own.chain([(bar.centre_m(), weight)]) {
+        let far = at_m / bar.length_m();
+        ends[0] = add_times(ends[0], (bar.length_m() - at_m) / bar.length_m(), force_n);
+        ends[1] = add_times(ends[1], far, force_n);
+    }
+    ends
+}
+
+fn check(number: usize, member: &Member) -> Result<(), MotionError> {
+    let unilateral = match member.kind {
+        Kind::Bar => None,
+        Kind::Cable => Some("cable"),
+        Kind::Strut => Some("strut"),
+    };
+    if let (Some(kind), None) = (unilateral, member.stiffness_n) {
+        return Err(MotionError::Unilateral { member: number, kind });
+    }
+    let [_, jy_kg_m2, jz_kg_m2] = member.body.inertia_kg_m2();
+    if (jy_kg_m2 - jz_kg_m2).abs() > EQUAL_MOMENTS * jy_kg_m2.max(jz_kg_m2) {
+        return Err(MotionError::UnequalMoments { member: number, jy_kg_m2, jz_kg_m2 });
+    }
+    Ok(())
+}
+
+/// Two unit vectors across a unit vector and each other.
+fn across(direction: Vector) -> [Vector; 2] {
+    let unit = |v: Vector| {
+        let length = crate::vector::norm(v);
+        v.map(|x| x / length)
+    };
+    // The axis that the direction has least of.
+    let least = (0..3).min_by(|&i, &j| direction[i].abs().total_cmp(&direction[j].abs()));
+    let mut axis = [0.0; 3];
+    axis[least.unwrap_or(0)] = 1.0;
+    let first = unit(crate::vector::cross(direction, axis));
+    [first, unit(crate::vector::cross(direction, first))]
+}

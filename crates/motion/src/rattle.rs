@@ -1,0 +1,273 @@
+//! One step of RATTLE.
+//!
+//! $$ M (x_1 - x_0) = h M v_0 + \tfrac{h^2}{2} (f_0 - R_0^T \rho), \quad g(x_1) = 0, $$
+//! $$ v_{1/2} = (x_1 - x_0)/h, \quad
+//!    M v_1 = M v_{1/2} + \tfrac h2 (f_1 - R_1^T \sigma), \quad R_1 v_1 = 0 $$
+//!
+//! (H. C. Andersen, J. Comput. Phys. 52 (1983) 24-34; symplectic and symmetric: B. Leimkuhler, R. Skeel,
+//! J. Comput. Phys. 112 (1994) 117-125). The nonlinear equation is solved by the iteration with the matrix of the beginning
+//! of the step, which is factorised already: each iteration costs one elimination without factorisation and gains the
+//! factor `h |v| / l`.
+
+use model::Vector;
+
+use crate::error::MotionError;
+use crate::force::Forces;
+use crate::mechanism::Mechanism;
+use crate::saddle::{Saddle, Singular};
+use crate::state::{State, half_excess};
+use crate::vector::{dot, minus, plus, worse};
+
+/// Largest relative violation of a length, and of its derivative in units of the largest speed, after any step.
+pub const CONSTRAINT_TOLERANCE: f64 = 1e-12;
+
+/// Violation that is rounding: `d · d` of a vector with its last digits wrong.
+const ROUNDING: f64 = 4.0 * f64::EPSILON;
+
+/// Corrections after which a step is given up: at a gain of ten each, sixteen reach the rounding.
+const MOST_CORRECTIONS: usize = 30;
+
+/// What a step needs and keeps.
+pub(crate) struct Stepper {
+    saddle: Saddle,
+    /// Vectors of the rows at the present places, factorised.
+    pub vectors: Vec<Vector>,
+    /// Forces at the present places and time.
+    pub force: Vec<Vector>,
+    /// Displacement of the step, its correction, right-hand sides of the rows.
+    by: Vec<Vector>,
+    x: Vec<Vector>,
+    rows: Vec<f64>,
+    /// Largest relative violations after the last step: lengths, and their derivatives.
+    pub off: [f64; 2],
+    /// Corrections of the last step.
+    pub corrections: usize,
+}
+
+/// Why a step failed, without the time.
+#[derive(Clone, Copy)]
+pub(crate) enum Failure {
+    Singular(Singular),
+    NotMet { corrections: usize, off: f64 },
+}
+
+impl Stepper {
+    pub(crate) fn new(mechanism: &Mechanism) -> Result<Self, MotionError> {
+        let rows = mechanism.constraints();
+        let slots = mechanism.joint_at.len();
+        Ok(Self {
+            saddle: Saddle::new(mechanism)?,
+            vectors: vec![[0.0; 3]; rows],
+            force: mechanism.load.clone(),
+            by: vec![[0.0; 3]; slots],
+            x: vec![[0.0; 3]; slots],
+            rows: vec![0.0; rows],
+            off: [0.0; 2],
+            corrections: 0,
+        })
+    }
+
+    /// Take over the places: vectors of the rows, their factors, the forces.
+    pub(crate) fn arrive(
+        &mut self,
+        mechanism: &Mechanism,
+        state: &State,
+        forces: &Forces,
+        time_s: f64,
+    ) -> Result<(), Failure> {
+        self.off[0] = state.rows(mechanism, &mut self.vectors);
+        forces.at(mechanism, state, time_s, &mut self.force);
+        self.saddle.factor(&self.vectors).map_err(Failure::Singular)
+    }
+
+    /// A step of the length `h`, of either sign.
+    pub(crate) fn step(
+        &mut self,
+        mechanism: &Mechanism,
+        state: &mut State,
+        forces: &Forces,
+        time_s: f64,
+        h: f64,
+    ) -> Result<(), Failure> {
+        let moving = mechanism.moving;
+        for (by, v) in self.by.iter_mut().zip(&state.velocity) {
+            *by = v.map(|v| h * v);
+        }
+        let mut before = self.excess(mechanism);
+        for (x, f) in self.x[..moving].iter_mut().zip(&self.force) {
+            *x = f.map(|f| 0.5 * h * h * f);
+        }
+        self.correct(moving);
+        for corrections in 2.. {
+            let off = self.excess(mechanism);
+            if off <= ROUNDING {
+                break;
+            }
+            if off.is_nan() || corrections > MOST_CORRECTIONS {
+                return Err(Failure::NotMet { corrections, off });
+            }
+            self.x[..moving].fill([0.0; 3]);
+            self.correct(moving);
+            self.corrections = corrections;
+            // The next violation is this one times the gain: no need to look once that is rounding.
+            if off * off <= ROUNDING * before {
+                break;
+            }
+            before = off;
+        }
+        state.displace(&self.by[..moving]);
+        for (v, by) in state.velocity.iter_mut().zip(&self.by) {
+            *v = by.map(|by| by / h);
+        }
+        self.arrive(mechanism, state, forces, time_s + h)?;
+        for (x, f) in self.x[..moving].iter_mut().zip(&self.force) {
+            *x = f.map(|f| 0.5 * h * f);
+        }
+        self.settle(mechanism, state)?;
+        if self.off[0].is_nan() || self.off[0] > CONSTRAINT_TOLERANCE {
+            return Err(Failure::NotMet { corrections: self.corrections, off: self.off[0] });
+        }
+        Ok(())
+    }
+
+    /// Right-hand sides `−g` at the displaced places; the largest violation.
+    fn excess(&mut self, mechanism: &Mechanism) -> f64 {
+        let mut off = 0.0;
+        let bars = mechanism.bars.iter().zip(&self.vectors).zip(&mut self.rows);
+        for ((link, d), row) in bars {
+            let d = plus(*d, minus(self.by[link.b], self.by[link.a]));
+            let excess = half_excess(dot(d, d), link.length_m);
+            *row = -excess * link.length_m * link.length_m;
+            off = worse(off, excess.abs());
+        }
+        let rows = &mut self.rows[mechanism.bars.len()..];
+        for (slide, row) in mechanism.slides.iter().zip(rows) {
+            *row = -dot(slide.normal, self.by[slide.slot]);
+        }
+        off
+    }
+
+    /// Solve, and add to the displacement.
+    fn correct(&mut self, moving: usize) {
+        self.saddle.solve(&mut self.x[..moving], &mut self.rows);
+        for (by, x) in self.by.iter_mut().zip(&self.x[..moving]) {
+            *by = plus(*by, *x);
+        }
+    }
+
+    /// Add `x` to the velocities as an impulse (its inertia divided out), and take out what changes lengths.
+    pub(crate) fn settle(
+        &mut self,
+        mechanism: &Mechanism,
+        state: &mut State,
+    ) -> Result<(), Failure> {
+        let moving = mechanism.moving;
+        let mut corrections = 0;
+        self.rates(mechanism, state);
+        loop {
+            self.saddle.solve(&mut self.x[..moving], &mut self.rows);
+            for (v, x) in state.velocity.iter_mut().zip(&self.x[..moving]) {
+                *v = plus(*v, *x);
+            }
+            corrections += 1;
+            let rate = self.rates(mechanism, state);
+            let speed = state.largest_speed();
+            self.off[1] = if speed > 0.0 { rate / speed } else { rate };
+            if self.off[1] <= 0.1 * CONSTRAINT_TOLERANCE {
+                return Ok(());
+            }
+            if self.off[1].is_nan() || corrections > MOST_CORRECTIONS {
+                return Err(Failure::NotMet { corrections, off: self.off[1] });
+            }
+            self.x[..moving].fill([0.0; 3]);
+        }
+    }
+
+    /// Right-hand sides `−R v`; the largest `d · w / l`, a speed.
+    fn rates(&mut self, mechanism: &Mechanism, state: &State) -> f64 {
+        let v = &state.velocity;
+        let mut off = 0.0;
+        let bars = mechanism.bars.iter().zip(&self.vectors).zip(&mut self.rows);
+        for ((link, d), row) in bars {
+            let rate = dot(*d, minus(v[link.b], v[link.a]));
+            *row = -rate;
+            off = worse(off, rate.abs() / link.length_m);
+        }
+        let rows = &mut self.rows[mechanism.bars.len()..];
+        for (slide, row) in mechanism.slides.iter().zip(rows) {
+            let rate = dot(slide.normal, v[slide.slot]);
+            *row = -rate;
+            off = worse(off, rate.abs());
+        }
+        off
+    }
+
+    /// Change the velocities by impulses, N s by slot, under the constraints.
+    pub(crate) fn push(
+        &mut self,
+        mechanism: &Mechanism,
+        state: &mut State,
+        impulses: &[Vector],
+    ) -> Result<(), Failure> {
+        let moving = mechanism.moving;
+        self.x[..moving].copy_from_slice(&impulses[..moving]);
+        self.settle(mechanism, state)
+    }
+
+    /// Accelerations by slot, m/s², and multipliers `ρ` of the rows: `M a + Rᵀ ρ = f`, `R a = −Ṙ v`.
+    ///
+    /// For a bar `ρ` is the force density, its axial force over its length, tension positive.
+    pub(crate) fn accelerations(
+        &mut self,
+        mechanism: &Mechanism,
+        state: &State,
+        extra: &[Vector],
+    ) -> (Vec<Vector>, Vec<f64>) {
+        let v = &state.velocity;
+        let mut a: Vec<Vector> =
+            self.force.iter().zip(extra).map(|(force, extra)| plus(*force, *extra)).collect();
+        let mut rho = vec![0.0; self.rows.len()];
+        for (link, row) in mechanism.bars.iter().zip(&mut rho) {
+            let w = minus(v[link.b], v[link.a]);
+            *row = -dot(w, w);
+        }
+        self.saddle.solve(&mut a[..mechanism.moving], &mut rho);
+        a[mechanism.moving..].fill([0.0; 3]);
+        (a, rho)
+    }
+
+    /// Bring places onto the lengths by corrections that are least in the metric of the inertia.
+    pub(crate) fn assemble(
+        &mut self,
+        mechanism: &Mechanism,
+        state: &mut State,
+        most: usize,
+    ) -> Result<(), Failure> {
+        let moving = mechanism.moving;
+        let mut off = f64::NAN;
+        for corrections in 0..=most {
+            let before = off;
+            off = state.rows(mechanism, &mut self.vectors);
+            // Corrections past the rounding would not end.
+            if off <= ROUNDING || (off <= 0.1 * CONSTRAINT_TOLERANCE && off >= 0.5 * before) {
+                return Ok(());
+            }
+            if off.is_nan() || corrections == most {
+                return Err(Failure::NotMet { corrections, off });
+            }
+            self.saddle.factor(&self.vectors).map_err(Failure::Singular)?;
+            let bars = mechanism.bars.iter().zip(&self.vectors).zip(&mut self.rows);
+            for ((link, d), row) in bars {
+                *row = -half_excess(dot(*d, *d), link.length_m) * link.length_m * link.length_m;
+            }
+            let rows = &mut self.rows[mechanism.bars.len()..];
+            for (slide, row) in mechanism.slides.iter().zip(rows) {
+                *row = -dot(slide.normal, minus(state.at[slide.slot], slide.at));
+            }
+            self.x[..moving].fill([0.0; 3]);
+            self.saddle.solve(&mut self.x[..moving], &mut self.rows);
+            state.displace(&self.x[..moving]);
+        }
+        Ok(())
+    }
+}

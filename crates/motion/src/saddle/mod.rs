@@ -1,0 +1,149 @@
+//! The linear system of every step: inertia bordered by the constraints.
+//!
+//! $$ \begin{bmatrix} M & R^T \\ R & 0 \end{bmatrix}
+//!    \begin{bmatrix} x \\ \rho \end{bmatrix} = \begin{bmatrix} f \\ \varphi \end{bmatrix} $$
+//!
+//! `M` has one number for each joint and each member, the same for all three axes; `R` has for each rigid bar the
+//! row `(−d, +d)` with `d` the vector from its first to its second joint, and for each support of a slider
+//! its normal. Since the inverse of `M` is full, nothing is eliminated onto the rows alone.
+
+mod forest;
+mod sparse;
+
+use model::Vector;
+
+use crate::error::MotionError;
+use crate::mechanism::Mechanism;
+use forest::Forest;
+use sparse::Sparse;
+
+/// What the elimination needs to know.
+#[derive(Debug, Clone)]
+pub(crate) struct Layout {
+    /// Diagonal of `M` by slot that moves.
+    pub mass: Vec<f64>,
+    /// Members between two slots that move.
+    pub edges: Vec<Edge>,
+    /// Rows that only one slot that moves has a part in.
+    pub own: Vec<OwnRow>,
+}
+
+/// A member between two slots that move.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Edge {
+    pub a: usize,
+    pub b: usize,
+    /// `M` between the two.
+    pub between: f64,
+    /// Its row, if it is rigid.
+    pub row: Option<usize>,
+}
+
+/// A row that only one slot has a part in: `sign` times its vector.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct OwnRow {
+    pub slot: usize,
+    pub row: usize,
+    pub sign: f64,
+}
+
+/// No factorisation: the slot where it fails, and the pivot.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Singular {
+    pub slot: usize,
+    pub pivot: f64,
+}
+
+impl Layout {
+    /// The layout of a mechanism with inertia on and between its joints.
+    pub(crate) fn new(mechanism: &Mechanism) -> Self {
+        let moving = mechanism.moving;
+        let mut found =
+            Self { mass: mechanism.mass[..moving].to_vec(), edges: Vec::new(), own: Vec::new() };
+        for (row, link) in mechanism.bars.iter().enumerate() {
+            match (link.a < moving, link.b < moving) {
+                (true, true) => found.edges.push(Edge {
+                    a: link.a,
+                    b: link.b,
+                    between: link.inertia.between,
+                    row: Some(row),
+                }),
+                (true, false) => found.own.push(OwnRow { slot: link.a, row, sign: -1.0 }),
+                (false, true) => found.own.push(OwnRow { slot: link.b, row, sign: 1.0 }),
+                (false, false) => {}
+            }
+        }
+        for link in mechanism.springs.iter().map(|spring| &spring.link) {
+            if link.a < moving && link.b < moving {
+                let between = link.inertia.between;
+                found.edges.push(Edge { a: link.a, b: link.b, between, row: None });
+            }
+        }
+        for (k, slide) in mechanism.slides.iter().enumerate() {
+            let row = mechanism.bars.len() + k;
+            found.own.push(OwnRow { slot: slide.slot, row, sign: 1.0 });
+        }
+        found
+    }
+
+    /// Number of rows.
+    fn rows(&self) -> usize {
+        let of_edges = self.edges.iter().filter_map(|edge| edge.row);
+        of_edges.chain(self.own.iter().map(|own| own.row)).max().map_or(0, |row| row + 1)
+    }
+}
+
+/// The factorised system.
+#[derive(Debug, Clone)]
+pub(crate) enum Saddle {
+    Forest(Forest),
+    Sparse(Sparse),
+}
+
+impl Saddle {
+    /// Prepare the elimination of a mechanism.
+    ///
+    /// # Errors
+    ///
+    /// [`MotionError::Massless`] where `M` itself is singular.
+    pub(crate) fn new(mechanism: &Mechanism) -> Result<Self, MotionError> {
+        let layout = Layout::new(mechanism);
+        // Without rows the same elimination tells whether every joint has inertia of its own.
+        let mut edges = layout.edges.clone();
+        for edge in &mut edges {
+            edge.row = None;
+        }
+        let bare = Layout { mass: layout.mass.clone(), edges, own: Vec::new() };
+        Self::of(&bare, mechanism.is_forest).factor(&[]).map_err(|failed| {
+            MotionError::Massless { joint: mechanism.name(failed.slot), inertia_kg: failed.pivot }
+        })?;
+        Ok(Self::of(&layout, mechanism.is_forest))
+    }
+
+    fn of(layout: &Layout, is_forest: bool) -> Self {
+        if is_forest {
+            Self::Forest(Forest::new(layout))
+        } else {
+            Self::Sparse(Sparse::new(layout))
+        }
+    }
+
+    /// Factors for the given vectors of the rows.
+    pub(crate) fn factor(&mut self, vectors: &[Vector]) -> Result<(), Singular> {
+        match self {
+            Self::Forest(forest) => forest.factor(vectors),
+            Self::Sparse(sparse) => sparse.factor(vectors),
+        }
+    }
+
+    /// Solve in place. `x` has a vector for each slot that moves, `rows` a number for each row.
+    pub(crate) fn solve(&mut self, x: &mut [Vector], rows: &mut [f64]) {
+        match self {
+            Self::Forest(forest) => forest.solve(x, rows),
+            Self::Sparse(sparse) => sparse.solve(x, rows),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,104 @@
+//! Both eliminations against each other and against the product with the matrix.
+
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+
+use super::*;
+
+fn random(rng: &mut ChaCha8Rng) -> Vector {
+    std::array::from_fn(|_| rng.random_range(-1.0..1.0))
+}
+
+/// A tree with bars to anchors, a support and a spring.
+fn tree() -> Layout {
+    let edge = |a, b, between, row| Edge { a, b, between, row };
+    let own = |slot, row, sign| OwnRow { slot, row, sign };
+    Layout {
+        mass: vec![1.0, 2.0, 1.5, 1.1, 3.0],
+        edges: vec![
+            edge(0, 2, 0.2, Some(0)),
+            edge(3, 1, -0.3, Some(1)),
+            edge(2, 4, 0.4, None),
+            edge(4, 3, 0.5, Some(2)),
+        ],
+        own: vec![own(0, 3, 1.0), own(1, 4, -1.0), own(3, 5, 1.0), own(2, 6, 1.0)],
+    }
+}
+
+/// `M x + Rᵀ ρ` and `R x`.
+fn apply(
+    layout: &Layout,
+    vectors: &[Vector],
+    x: &[Vector],
+    rho: &[f64],
+) -> (Vec<Vector>, Vec<f64>) {
+    use crate::vector::{add_times, dot};
+    let mut f: Vec<Vector> = x.iter().zip(&layout.mass).map(|(x, m)| x.map(|x| m * x)).collect();
+    let mut phi = vec![0.0; rho.len()];
+    let mut row = |f: &mut Vec<Vector>, slot: usize, row: usize, sign: f64| {
+        f[slot] = add_times(f[slot], sign * rho[row], vectors[row]);
+        phi[row] += sign * dot(vectors[row], x[slot]);
+    };
+    for edge in &layout.edges {
+        f[edge.a] = add_times(f[edge.a], edge.between, x[edge.b]);
+        f[edge.b] = add_times(f[edge.b], edge.between, x[edge.a]);
+        if let Some(k) = edge.row {
+            row(&mut f, edge.a, k, -1.0);
+            row(&mut f, edge.b, k, 1.0);
+        }
+    }
+    for own in &layout.own {
+        row(&mut f, own.slot, own.row, own.sign);
+    }
+    (f, phi)
+}
+
+fn solves(saddle: &mut Saddle, layout: &Layout, rng: &mut ChaCha8Rng) {
+    let vectors: Vec<Vector> = (0..layout.rows()).map(|_| random(rng)).collect();
+    saddle.factor(&vectors).unwrap();
+    let x: Vec<Vector> = layout.mass.iter().map(|_| random(rng)).collect();
+    let rho: Vec<f64> = vectors.iter().map(|_| rng.random_range(-1.0..1.0)).collect();
+    let (mut f, mut phi) = apply(layout, &vectors, &x, &rho);
+    saddle.solve(&mut f, &mut phi);
+    for (found, wanted) in f.iter().zip(&x) {
+        for k in 0..3 {
+            assert!((found[k] - wanted[k]).abs() < 1e-10, "{f:?} {x:?}");
+        }
+    }
+    for (found, wanted) in phi.iter().zip(&rho) {
+        assert!((found - wanted).abs() < 1e-10, "{phi:?} {rho:?}");
+    }
+}
+
+#[test]
+fn trees_are_solved_by_both_eliminations() {
+    let mut rng = ChaCha8Rng::seed_from_u64(1);
+    let layout = tree();
+    for _ in 0..50 {
+        solves(&mut Saddle::Forest(Forest::new(&layout)), &layout, &mut rng);
+        solves(&mut Saddle::Sparse(Sparse::new(&layout)), &layout, &mut rng);
+    }
+}
+
+#[test]
+fn loops_are_solved() {
+    let mut rng = ChaCha8Rng::seed_from_u64(2);
+    let mut layout = tree();
+    layout.edges.push(Edge { a: 0, b: 4, between: 0.1, row: Some(7) });
+    layout.edges.push(Edge { a: 0, b: 3, between: 0.1, row: None });
+    let mut sparse = Saddle::Sparse(Sparse::new(&layout));
+    for _ in 0..50 {
+        solves(&mut sparse, &layout, &mut rng);
+    }
+}
+
+#[test]
+fn a_row_that_stands_twice_is_told() {
+    let mut layout = tree();
+    layout.own.push(OwnRow { slot: 1, row: 7, sign: 1.0 });
+    let mut rng = ChaCha8Rng::seed_from_u64(3);
+    let mut vectors: Vec<Vector> = (0..8).map(|_| random(&mut rng)).collect();
+    vectors[7] = vectors[4];
+    assert_eq!(Forest::new(&layout).factor(&vectors).unwrap_err().slot, 1);
+    assert_eq!(Sparse::new(&layout).factor(&vectors).unwrap_err().slot, 1);
+}

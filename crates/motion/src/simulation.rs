@@ -1,0 +1,266 @@
+//! A motion in time.
+
+use model::Vector;
+use model::system::System;
+
+use crate::damping;
+use crate::error::MotionError;
+use crate::force::{ForceOfTime, Forces, kinetic_j, potential_j};
+use crate::mechanism::Mechanism;
+use crate::rattle::{Failure, Stepper};
+use crate::settings::{Order, Settings};
+use crate::snapshot::Snapshot;
+use crate::state::State;
+
+/// Largest relative violation of a length in places that a motion may begin with; what is less is taken for the
+/// rounding of printed digits, and corrected.
+pub const CLOSED_TOLERANCE: f64 = 1e-5;
+
+/// Corrections of the places at the beginning: the convergence is quadratic.
+const MOST_CORRECTIONS: usize = 20;
+
+/// A system of bars in motion.
+///
+/// ```
+/// use model::Bar;
+/// use model::system::{Joint, Member, System};
+/// use motion::{Settings, Simulation};
+///
+/// // A homogeneous bar of 1 m, held at one end, released level.
+/// let joints = vec![Joint::anchor("O", [0.0; 3]), Joint::free("P")];
+/// let bar = Bar::homogeneous(1.0, 3.0)?;
+/// let system = System::new("pendulum", 9.81, joints, vec![Member::bar(0, 1, bar)])?;
+/// let places = [[0.0; 3], [1.0, 0.0, 0.0]];
+/// let mut pendulum = Simulation::new(&system, &places, Settings::default())?;
+/// let released = pendulum.snapshot();
+/// // Its end falls with 3/2 g (moment of inertia m l²/3 under the moment m g l/2).
+/// assert!((released.accelerations_m_s2[1][2] + 1.5 * 9.81).abs() < 1e-12);
+/// // The anchor carries a quarter of the weight.
+/// assert!((released.reactions_n[0][2] - 0.25 * 3.0 * 9.81).abs() < 1e-12);
+/// for _ in 0..1000 {
+///     pendulum.step(1e-3)?;
+/// }
+/// assert!(pendulum.energy_j().abs() < 1e-4);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub struct Simulation {
+    mechanism: Mechanism,
+    settings: Settings,
+    forces: Forces,
+    state: State,
+    stepper: Stepper,
+    time_s: f64,
+}
+
+impl Simulation {
+    /// A system at rest at the given places of its joints (world frame, m; those of anchors are ignored).
+    ///
+    /// # Errors
+    ///
+    /// [`MotionError`] when the system cannot be moved here, a setting is out of range, the places violate a length by more than
+    /// [`CLOSED_TOLERANCE`], or the constraints do not determine their forces there.
+    pub fn new(
+        system: &System,
+        joints_m: &[Vector],
+        settings: Settings,
+    ) -> Result<Self, MotionError> {
+        settings.validate()?;
+        let mechanism = Mechanism::new(system)?;
+        let mut state = State::at_rest(mechanism.places(joints_m)?);
+        let mut stepper = Stepper::new(&mechanism)?;
+        let off = state.rows(&mechanism, &mut stepper.vectors);
+        if off.is_nan() || off > CLOSED_TOLERANCE {
+            return Err(MotionError::NotClosed { iterations: 0, off });
+        }
+        let begin = |failure| at_the_beginning(&mechanism, failure);
+        stepper.assemble(&mechanism, &mut state, MOST_CORRECTIONS).map_err(begin)?;
+        let forces = Forces { of_time: Vec::new() };
+        stepper.arrive(&mechanism, &state, &forces, 0.0).map_err(begin)?;
+        Ok(Self { mechanism, settings, forces, state, stepper, time_s: 0.0 })
+    }
+
+    /// Add a force at a joint as a function of time, N; with the damping of [`Settings`] and the constant
+    /// loads it acts from the next step on.
+    ///
+    /// # Errors
+    ///
+    /// [`MotionError::Input`] when there is no such joint.
+    pub fn add_force(&mut self, joint: usize, of_time: ForceOfTime) -> Result<(), MotionError> {
+        let Some(&slot) = self.mechanism.slot_of.get(joint) else {
+            let reason = format!("there is no joint number {joint}");
+            return Err(MotionError::Input { what: "a force of time", reason });
+        };
+        self.forces.of_time.push((slot, of_time));
+        self.forces.at(&self.mechanism, &self.state, self.time_s, &mut self.stepper.force);
+        Ok(())
+    }
+
+    /// Give velocities to the joints, m/s; what of them changes lengths is taken out (least change in the
+    /// metric of the inertia).
+    ///
+    /// # Errors
+    ///
+    /// [`MotionError`] when they are not as many as the joints, or not finite.
+    pub fn set_velocities(&mut self, velocities_m_s: &[Vector]) -> Result<(), MotionError> {
+        let mut velocity = self.mechanism.by_slot(velocities_m_s, "velocities of the joints")?;
+        velocity[self.mechanism.moving..].fill([0.0; 3]);
+        self.state.velocity = velocity;
+        let nothing = vec![[0.0; 3]; self.mechanism.joint_at.len()];
+        self.push_slots(&nothing)
+    }
+
+    /// Push joints with impulses, N s.
+    ///
+    /// # Errors
+    ///
+    /// [`MotionError`] when they are not as many as the joints, or not finite.
+    pub fn push(&mut self, impulses_n_s: &[Vector]) -> Result<(), MotionError> {
+        let impulses = self.mechanism.by_slot(impulses_n_s, "impulses on the joints")?;
+        self.push_slots(&impulses)
+    }
+
+    fn push_slots(&mut self, impulses: &[Vector]) -> Result<(), MotionError> {
+        let pushed = self.stepper.push(&self.mechanism, &mut self.state, impulses);
+        pushed.map_err(|failure| self.told(failure, 0.0))
+    }
+
+    /// Take a step of the length `step_s`, s; negative steps go back in time.
+    ///
+    /// # Errors
+    ///
+    /// [`MotionError`] when the constraints cannot be met: the step is too long, or the bars lie on a taut line.
+    pub fn step(&mut self, step_s: f64) -> Result<(), MotionError> {
+        match self.settings.order {
+            Order::Second => self.part(step_s),
+            Order::Fourth => {
+                let p = 1.0 / (4.0 - 4.0_f64.cbrt());
+                for part in [p, p, 1.0 - 4.0 * p, p, p] {
+                    self.part(part * step_s)?;
+                }
+                Ok(())
+            }
+        }
+    }
+
+    /// A symmetric step of order two: half of the damping, RATTLE, half of the damping.
+    fn part(&mut self, h: f64) -> Result<(), MotionError> {
+        self.damp(0.5 * h)?;
+        let stepped =
+            self.stepper.step(&self.mechanism, &mut self.state, &self.forces, self.time_s, h);
+        stepped.map_err(|failure| self.told(failure, h))?;
+        self.time_s += h;
+        self.damp(0.5 * h)
+    }
+
+    fn damp(&mut self, h: f64) -> Result<(), MotionError> {
+        damping::damp(&self.mechanism, &self.settings, &mut self.state, &mut self.stepper, h)
+            .map_err(|failure| self.told(failure, h))
+    }
+
+    fn told(&self, failure: Failure, step_s: f64) -> MotionError {
+        match failure {
+            Failure::Singular(failed) => singular(&self.mechanism, failed),
+            Failure::NotMet { corrections, off } => MotionError::StepTooLong {
+                time_s: self.time_s,
+                step_s,
+                iterations: corrections,
+                off,
+            },
+        }
+    }
+
+    /// The mechanics of the system.
+    #[must_use]
+    pub fn mechanism(&self) -> &Mechanism {
+        &self.mechanism
+    }
+
+    /// Time since the beginning, s.
+    #[must_use]
+    pub fn time_s(&self) -> f64 {
+        self.time_s
+    }
+
+    /// Places of the joints, world frame, m.
+    #[must_use]
+    pub fn joints_m(&self) -> Vec<Vector> {
+        let reference = self.mechanism.system().reference_m();
+        let places = self.mechanism.by_joint(&self.state.at);
+        places.into_iter().map(|x| crate::vector::plus(x, reference)).collect()
+    }
+
+    /// Velocities of the joints, m/s.
+    #[must_use]
+    pub fn velocities_m_s(&self) -> Vec<Vector> {
+        self.mechanism.by_joint(&self.state.velocity)
+    }
+
+    /// Kinetic energy, J.
+    #[must_use]
+    pub fn kinetic_j(&self) -> f64 {
+        kinetic_j(&self.mechanism, &self.state)
+    }
+
+    /// Potential energy relative to [`System::reference_m`], J; the forces of time are not in it.
+    #[must_use]
+    pub fn potential_j(&self) -> f64 {
+        potential_j(&self.mechanism, &self.state)
+    }
+
+    /// Mechanical energy, J.
+    #[must_use]
+    pub fn energy_j(&self) -> f64 {
+        self.kinetic_j() + self.potential_j()
+    }
+
+    /// Largest relative violation of a length, and of its derivative in units of the largest speed, after the last step.
+    #[must_use]
+    pub fn constraints_off(&self) -> [f64; 2] {
+        self.stepper.off
+    }
+
+    /// Corrections of the places that the last step took.
+    #[must_use]
+    pub fn corrections(&self) -> usize {
+        self.stepper.corrections
+    }
+
+    /// Everything at the present time: places, velocities, accelerations, forces, energies.
+    #[must_use]
+    pub fn snapshot(&mut self) -> Snapshot {
+        let damping =
+            damping::forces(&self.mechanism, &self.settings, &self.state, &self.stepper.vectors);
+        let solved = self.stepper.accelerations(&self.mechanism, &self.state, &damping.total());
+        Snapshot::new(self, &solved.0, &solved.1, &damping)
+    }
+
+    pub(crate) fn drag_1_s(&self) -> f64 {
+        self.settings.drag_1_s
+    }
+
+    pub(crate) fn state(&self) -> &State {
+        &self.state
+    }
+
+    /// Forces of time by slot at the present time, N.
+    pub(crate) fn forces_of_time(&self) -> Vec<Vector> {
+        let mut found = vec![[0.0; 3]; self.mechanism.joint_at.len()];
+        for (slot, of_time) in &self.forces.of_time {
+            found[*slot] = crate::vector::plus(found[*slot], of_time(self.time_s));
+        }
+        found
+    }
+}
+
+pub(crate) fn at_the_beginning(mechanism: &Mechanism, failure: Failure) -> MotionError {
+    match failure {
+        Failure::Singular(failed) => singular(mechanism, failed),
+        Failure::NotMet { corrections, off } => {
+            MotionError::NotClosed { iterations: corrections, off }
+        }
+    }
+}
+
+fn singular(mechanism: &Mechanism, failed: crate::saddle::Singular) -> MotionError {
+    MotionError::Redundant { joint: mechanism.name(failed.slot), pivot: failed.pivot }
+}

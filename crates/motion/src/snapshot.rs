@@ -1,0 +1,115 @@
+//! Everything about a motion at one time.
+
+use model::Vector;
+
+use crate::damping::Damping;
+use crate::laws::{self, Laws};
+use crate::mechanism::end_loads;
+use crate::simulation::Simulation;
+use crate::vector::{add_times, minus, norm, plus, times};
+
+/// Everything about a motion at one time. Arrays are by joint, or by member, in the order of the system.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Snapshot {
+    /// Time since the beginning, s.
+    pub time_s: f64,
+    /// Places of the joints, world frame, m.
+    pub joints_m: Vec<Vector>,
+    /// Their velocities, m/s.
+    pub velocities_m_s: Vec<Vector>,
+    /// Their accelerations, m/s².
+    pub accelerations_m_s2: Vec<Vector>,
+    /// Axial force of each member with weights, forces and inertia lumped to its joints, N, tension positive.
+    pub axial_n: Vec<f64>,
+    /// For each member the force on it at the joint where it begins, world frame, N.
+    pub start_forces_n: Vec<Vector>,
+    /// For each member the force on it at the joint where it ends, world frame, N.
+    pub end_forces_n: Vec<Vector>,
+    /// Force of the ground on each joint, world frame, N; of a joint without support the imbalance, which is rounding.
+    pub reactions_n: Vec<Vector>,
+    /// Moments of the joints' pins on both ends of each member, N m: zero without friction.
+    pub pin_moments_n_m: Vec<[Vector; 2]>,
+    /// Kinetic energy, J.
+    pub kinetic_j: f64,
+    /// Potential energy, J, relative to [`System::reference_m`](model::system::System::reference_m).
+    pub potential_j: f64,
+    /// Largest relative violation of a length.
+    pub lengths_off: f64,
+    /// Largest rate of change of a length in units of the largest speed.
+    pub rates_off: f64,
+    /// What is left over in Newton's and Euler's laws.
+    pub laws: Laws,
+}
+
+impl Snapshot {
+    pub(crate) fn new(
+        simulation: &Simulation,
+        accelerations: &[Vector],
+        multipliers: &[f64],
+        damping: &Damping,
+    ) -> Self {
+        let mechanism = simulation.mechanism();
+        let system = mechanism.system();
+        let members = system.members();
+        let state = simulation.state();
+        let mut axial_n = vec![0.0; members.len()];
+        let mut start_forces_n = vec![[0.0; 3]; members.len()];
+        let mut end_forces_n = vec![[0.0; 3]; members.len()];
+        for (k, link) in mechanism.links().enumerate() {
+            let d = state.between(link.a, link.b);
+            let density = multipliers.get(k).filter(|_| k < mechanism.bars.len());
+            let density = density.copied().unwrap_or_else(|| {
+                mechanism.springs[k - mechanism.bars.len()].force_density(norm(d))
+            });
+            let (number, m) = (link.member, link.inertia);
+            let (a, b) = (accelerations[link.a], accelerations[link.b]);
+            let [load_a, load_b] = end_loads(&members[number], system.gravity_m_s2());
+            let [damping_a, damping_b] = damping.on_members[number];
+            axial_n[number] = density * norm(d);
+            let at_a = minus(plus(times(m.from, a), times(m.between, b)), plus(load_a, damping_a));
+            let at_b = minus(plus(times(m.between, a), times(m.to, b)), plus(load_b, damping_b));
+            start_forces_n[number] = add_times(at_a, -density, d);
+            end_forces_n[number] = add_times(at_b, density, d);
+        }
+        let of_time = mechanism.by_joint(&simulation.forces_of_time());
+        let drag = mechanism.by_joint(&damping.on_joints);
+        let accelerations_m_s2 = mechanism.by_joint(accelerations);
+        let mut reactions_n: Vec<Vector> = (0..of_time.len())
+            .map(|joint| {
+                let data = &system.joints()[joint];
+                let weight = [0.0, 0.0, -data.mass_kg * system.gravity_m_s2()];
+                let given = plus(plus(data.force_n, weight), plus(of_time[joint], drag[joint]));
+                minus(times(data.mass_kg, accelerations_m_s2[joint]), given)
+            })
+            .collect();
+        for (number, member) in members.iter().enumerate() {
+            reactions_n[member.from] = plus(reactions_n[member.from], start_forces_n[number]);
+            reactions_n[member.to] = plus(reactions_n[member.to], end_forces_n[number]);
+        }
+        let [lengths_off, rates_off] = simulation.constraints_off();
+        let mut found = Self {
+            time_s: simulation.time_s(),
+            joints_m: simulation.joints_m(),
+            velocities_m_s: simulation.velocities_m_s(),
+            accelerations_m_s2,
+            axial_n,
+            start_forces_n,
+            end_forces_n,
+            reactions_n,
+            pin_moments_n_m: damping.moments.clone(),
+            kinetic_j: simulation.kinetic_j(),
+            potential_j: simulation.potential_j(),
+            lengths_off,
+            rates_off,
+            laws: Laws::default(),
+        };
+        found.laws = laws::judge(system, &found, simulation.drag_1_s(), &of_time);
+        found
+    }
+
+    /// Mechanical energy, J.
+    #[must_use]
+    pub fn energy_j(&self) -> f64 {
+        self.kinetic_j + self.potential_j
+    }
+}

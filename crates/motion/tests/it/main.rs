@@ -1,0 +1,10 @@
+//! The motion of systems of bars against closed forms, series and laws.
+
+#![expect(clippy::unwrap_used, reason = "helpers of tests")]
+
+mod common;
+mod energy;
+mod laws;
+mod order;
+mod pendulum;
+mod refused;

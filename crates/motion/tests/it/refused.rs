@@ -1,0 +1,80 @@
+//! What is refused, and with which numbers.
+
+use model::Bar;
+use model::system::{Joint, Member, System};
+use motion::{Mechanism, MotionError, Settings, Simulation};
+
+use crate::common::{at_rest, hanging, links, rods, string};
+
+fn rod() -> Bar {
+    Bar::homogeneous(1.0, 1.0).unwrap()
+}
+
+#[test]
+fn cables_and_unequal_moments_are_refused() {
+    let joints = || vec![Joint::anchor("O", [0.0; 3]), Joint::free("P")];
+    let cable = System::new("cable", 9.81, joints(), vec![Member::cable(0, 1, rod())]).unwrap();
+    assert_eq!(
+        Mechanism::new(&cable).unwrap_err(),
+        MotionError::Unilateral { member: 1, kind: "cable" }
+    );
+    let flat = Bar::new(1.0, 1.0, 0.5, [0.1, 0.2, 0.3]).unwrap();
+    let flat = System::new("flat", 9.81, joints(), vec![Member::bar(0, 1, flat)]).unwrap();
+    assert!(matches!(Mechanism::new(&flat), Err(MotionError::UnequalMoments { member: 1, .. })));
+}
+
+#[test]
+fn a_joint_without_inertia_is_named() {
+    let system = hanging(&links(2), &[0.0, 1.0]);
+    let at = string(&[1.0, 1.0], &[0.1, 0.2]);
+    let refused = Simulation::new(&system, &at, Settings::default()).err().unwrap();
+    assert!(
+        matches!(refused, MotionError::Massless { ref joint, .. } if joint == "P1"),
+        "{refused}"
+    );
+}
+
+#[test]
+fn a_taut_line_and_a_bar_too_many_are_told() {
+    let joints = vec![
+        Joint::anchor("A", [0.0; 3]),
+        Joint::free("P"),
+        Joint::anchor("B", [2.0, 0.0, 0.0]),
+        Joint::free("Q"),
+    ];
+    let mut members =
+        vec![Member::bar(0, 1, rod()), Member::bar(1, 2, rod()), Member::bar(1, 3, rod())];
+    let taut = System::new("taut", 9.81, joints.clone(), members.clone()).unwrap();
+    let at = [[0.0; 3], [1.0, 0.0, 0.0], [2.0, 0.0, 0.0], [1.0, 0.0, -1.0]];
+    let refused = Simulation::new(&taut, &at, Settings::default()).err().unwrap();
+    assert!(
+        matches!(refused, MotionError::Redundant { ref joint, .. } if joint == "P"),
+        "{refused}"
+    );
+    members.push(Member::bar(0, 2, Bar::homogeneous(2.0, 1.0).unwrap()));
+    let between_anchors = System::new("between", 9.81, joints, members).unwrap();
+    assert!(matches!(Mechanism::new(&between_anchors), Err(MotionError::Redundant { .. })));
+}
+
+#[test]
+fn places_off_the_lengths_are_refused_and_rounded_ones_tidied() {
+    let system = hanging(&rods(1), &[]);
+    let off = Simulation::new(&system, &[[0.0; 3], [1.1, 0.0, 0.0]], Settings::default());
+    assert!(matches!(off, Err(MotionError::NotClosed { .. })));
+    let near = [[0.0; 3], [0.866_025, 0.0, -0.5]];
+    let tidied = Simulation::new(&system, &near, Settings::default()).unwrap();
+    let [x, _, z] = tidied.joints_m()[1];
+    assert!((x.hypot(z) - 1.0).abs() < 1e-15);
+    let few = Simulation::new(&system, &[[0.0; 3]], Settings::default());
+    assert!(matches!(few, Err(MotionError::Input { .. })));
+    let negative = Settings { drag_1_s: -1.0, ..Settings::default() };
+    assert!(matches!(Simulation::new(&system, &near, negative), Err(MotionError::Input { .. })));
+}
+
+#[test]
+fn a_step_that_is_too_long_is_refused_and_not_taken_for_solved() {
+    let system = hanging(&rods(2), &[]);
+    let mut simulation = at_rest(&system, &string(&[1.0, 1.0], &[1.0, 2.0]), motion::Order::Second);
+    let failed = (0..100).find_map(|_| simulation.step(2.0).err());
+    assert!(matches!(failed, Some(MotionError::StepTooLong { .. })), "{failed:?}");
+}
