@@ -5,8 +5,9 @@
 //! $$ D = \frac k2 \sum_j \sum_{e \in j} |P_e (\omega_e - \omega_j)|^2, \qquad
 //!    \omega_e = \frac{d_e \times \dot d_e}{d_e^2}, \qquad P_e = I - u_e u_e^T, $$
 //!
-//! with the pin of joint *j* at rest at anchors; elsewhere it has no inertia and turns so that the moments on it cancel:
-//! `(Σ P_e) ω_j = Σ ω_e`. A member twists in its joints without friction, so its spin stays apart.
+//! with the pin of joint *j* at rest at anchors; elsewhere it has no inertia and turns so that the
+//! moments on it cancel: `(Σ P_e) ω_j = Σ ω_e`. A member twists in its joints without friction, so
+//! its spin stays apart.
 
 use model::Vector;
 use nalgebra::{Matrix3, Vector3};
@@ -116,8 +117,9 @@ struct Pin {
     turning: Vector3<f64>,
 }
 
-/// Added to `Σ P_e`, in units of it: members on one line leave the turn about it open, which moves none of
-/// them (and which the backward error of the factorisation then fills with rounding, alone).
+/// Added to `Σ P_e`, in units of it: members on one line leave the turn about it open, which moves
+/// none of them (and which the backward error of the factorisation then fills with rounding,
+/// alone).
 const OPEN_TURN: f64 = 1e-14;
 
 impl Pin {
@@ -144,8 +146,8 @@ fn vector(state: &State, link: &Link) -> Vector {
 
 /// Let the damping alone act for the time `h`, with the places held.
 ///
-/// The medium is exact. Friction is a linear equation for the velocities, taken to the fourth order; where the energy does
-/// not fall with it the step is too long.
+/// The medium is exact. Friction is a linear equation for the velocities, taken to the fourth
+/// order; where the energy does not fall with it the step is too long.
 pub(crate) fn damp(
     mechanism: &Mechanism,
     settings: &Settings,

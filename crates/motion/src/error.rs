@@ -6,8 +6,8 @@
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum MotionError {
-    /// Occurs when an inextensible cable or strut is part of the system: it goes slack and taut with impacts,
-    /// for which no law is given.
+    /// Occurs when an inextensible cable or strut is part of the system: it goes slack and taut
+    /// with impacts, for which no law is given.
     #[error(
         "member {member} is an inextensible {kind}: it becomes taut with an impact, and no law of impact is \
          given; with a stiffness (stiffness_n) it moves"
@@ -18,8 +18,8 @@ pub enum MotionError {
         /// `cable` or `strut`.
         kind: &'static str,
     },
-    /// Occurs when the two moments across a bar differ: its spin then acts on its direction, and the places of
-    /// its ends do not describe its motion.
+    /// Occurs when the two moments across a bar differ: its spin then acts on its direction, and
+    /// the places of its ends do not describe its motion.
     #[error(
         "the moments of member {member} across it are {jy_kg_m2} and {jz_kg_m2} kg m^2: the motion of its \
          ends is described only where they are equal"
@@ -43,7 +43,8 @@ pub enum MotionError {
         /// What of its inertia is left when the others move with it, kg.
         inertia_kg: f64,
     },
-    /// Occurs when the constraints do not determine their forces: a bar too many, or a taut straight line.
+    /// Occurs when the constraints do not determine their forces: a bar too many, or a taut
+    /// straight line.
     #[error(
         "at joint {joint:?} the rigid bars and supports do not determine their forces (relative pivot \
          {pivot:e}): a bar too many, or bars on one taut line"
@@ -80,7 +81,8 @@ pub enum MotionError {
         /// Largest relative violation left.
         off: f64,
     },
-    /// Occurs when the number of places or velocities given is not that of the joints, or one is not finite.
+    /// Occurs when the number of places or velocities given is not that of the joints, or one is
+    /// not finite.
     #[error("{what}: {reason}")]
     Input {
         /// What was given.

@@ -57,6 +57,12 @@ impl Spring {
         self.stiffness_n * self.elongation(distance_m) / self.link.length_m / distance_m
     }
 
+    /// Derivative of the axial force by the distance of the ends, N/m.
+    pub(crate) fn slope(&self, distance_m: f64) -> f64 {
+        let pulls = self.kind == Kind::Bar || self.elongation(distance_m).abs() > 0.0;
+        if pulls { self.stiffness_n / self.link.length_m } else { 0.0 }
+    }
+
     /// Elastic energy `EA/(2l) e²`, J.
     pub(crate) fn energy_j(&self, distance_m: f64) -> f64 {
         let e = self.elongation(distance_m);
@@ -72,8 +78,8 @@ pub(crate) fn kinetic_j(mechanism: &Mechanism, state: &State) -> f64 {
     model::sum(own.chain(between))
 }
 
-/// Potential energy relative to [`System::reference_m`](model::system::System::reference_m), J: that of weights and constant
-/// forces, and the elastic energy.
+/// Potential energy relative to [`System::reference_m`](model::system::System::reference_m), J:
+/// that of weights and constant forces, and the elastic energy.
 pub(crate) fn potential_j(mechanism: &Mechanism, state: &State) -> f64 {
     let slots = 0..state.at.len();
     let loads = slots.map(|slot| -dot(mechanism.load[slot], state.at[slot]));

@@ -5,14 +5,15 @@ use model::Bar;
 /// Mass matrix of a member for one axis, kg: kinetic energy `½ (a v_a² + 2 b v_a v_b + c v_b²)`,
 /// summed over the three axes.
 ///
-/// A point at the fraction `s` of a straight member moves with `(1 − s) v_a + s v_b`. Its mass `m` with the
-/// centre at the fraction `r/l`, and the moment `J` about the centre across the member, therefore give
+/// A point at the fraction `s` of a straight member moves with `(1 − s) v_a + s v_b`. Its mass `m`
+/// with the centre at the fraction `r/l`, and the moment `J` about the centre across the member,
+/// therefore give
 ///
 /// $$ a = \frac{m (l-r)^2 + J}{l^2}, \qquad b = \frac{m r (l-r) - J}{l^2}, \qquad c = \frac{m r^2 + J}{l^2}. $$
 ///
-/// The matrix is constant: no rotation, no angle, no velocity-dependent force enters. For a rigid bar the
-/// relative velocity of the ends is across the bar, so that `J` counts once for each axis across it; for a
-/// member that stretches, `J = ∫ (s − r)² dm` is what the same formula asks for.
+/// The matrix is constant: no rotation, no angle, no velocity-dependent force enters. For a rigid
+/// bar the relative velocity of the ends is across the bar, so that `J` counts once for each axis
+/// across it; for a member that stretches, `J = ∫ (s − r)² dm` is what the same formula asks for.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct EndInertia {
     /// `a`: first end with itself, kg.

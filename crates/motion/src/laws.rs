@@ -1,15 +1,15 @@
 //! Newton's and Euler's laws for every member and the whole, from observables alone.
 //!
-//! A member is two points `x_a`, `x_b` with their velocities and accelerations, forces `F_a`, `F_b` on its
-//! ends, its weight and its moment of inertia; nothing of mass matrices, multipliers or constraints enters.
-//! With `u` its direction, `x_C` its centre of weight and `ω = u × u̇`:
+//! A member is two points `x_a`, `x_b` with their velocities and accelerations, forces `F_a`, `F_b`
+//! on its ends, its weight and its moment of inertia; nothing of mass matrices, multipliers or
+//! constraints enters. With `u` its direction, `x_C` its centre of weight and `ω = u × u̇`:
 //!
 //! $$ m \ddot x_C = F_a + F_b + \sum F_k - m g e_z - c m \dot x_C, $$
 //! $$ J\, u \times \ddot u = (x_a - x_C) \times F_a + (x_b - x_C) \times F_b +
 //!    \sum (x_k - x_C) \times F_k + M_a + M_b - c J \omega $$
 //!
-//! across the member (its spin is apart), and for the whole system the rates of momentum and of angular momentum about the
-//! reference equal the forces and moments of the ground and the loads.
+//! across the member (its spin is apart), and for the whole system the rates of momentum and of
+//! angular momentum about the reference equal the forces and moments of the ground and the loads.
 
 use model::Vector;
 use model::system::{Member, System};
@@ -17,7 +17,8 @@ use model::system::{Member, System};
 use crate::snapshot::Snapshot;
 use crate::vector::{add_times, cross, dot, minus, norm, plus, times, worse};
 
-/// Largest violations, in units of the largest force (weights and inertia counted), and of it times the total length.
+/// Largest violations, in units of the largest force (weights and inertia counted), and of it times
+/// the total length.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Laws {
     /// Force left over on a member.
@@ -48,12 +49,14 @@ struct Balance {
     force: Vector,
     moment: Vector,
     direction: Vector,
-    /// Rate of momentum less given forces (all but those of its ends), and the same about the reference.
+    /// Rate of momentum less given forces (all but those of its ends), and the same about the
+    /// reference.
     needed: Vector,
     turning: Vector,
 }
 
-/// Judge the laws at one time. `drag_1_s` is the drag of the medium, `of_time` the forces of time by joint, N.
+/// Judge the laws at one time. `drag_1_s` is the drag of the medium, `of_time` the forces of time
+/// by joint, N.
 pub(crate) fn judge(system: &System, at: &Snapshot, drag_1_s: f64, of_time: &[Vector]) -> Laws {
     let reference = system.reference_m();
     let mut unit_n = system.total_mass_kg() * system.gravity_m_s2();

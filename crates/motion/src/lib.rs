@@ -1,16 +1,18 @@
-//! The motion of systems of bars: sections V and VI of the paper, for any system, in coordinates without
-//! gimbal lock.
+//! The motion of systems of bars: sections V and VI of the paper, for any system, in coordinates
+//! without gimbal lock.
 //!
 //! # The equations
 //!
-//! The coordinates are the places of the joints (*natural coordinates*). A bar with ball joints has the kinetic energy of its
-//! end velocities with a constant 2 × 2 matrix for each axis ([`EndInertia`]); its weight and forces are lumped to its ends by the
-//! lever rule, which is exact; that it is rigid is one quadratic constraint. With `d = x_b − x_a`:
+//! The coordinates are the places of the joints (*natural coordinates*). A bar with ball joints has
+//! the kinetic energy of its end velocities with a constant 2 × 2 matrix for each axis
+//! ([`EndInertia`]); its weight and forces are lumped to its ends by the lever rule, which is
+//! exact; that it is rigid is one quadratic constraint. With `d = x_b − x_a`:
 //!
 //! $$ M \ddot x + R(x)^T \rho = f(x, \dot x, t), \qquad g_e = \tfrac12 (d_e^2 - l_e^2) = 0, \qquad
 //!    R \dot x = 0, \qquad R \ddot x = -|\dot d_e|^2 . $$
 //!
-//! The multiplier `ρ_e` is the force density of the bar: its axial force over its length, tension positive.
+//! The multiplier `ρ_e` is the force density of the bar: its axial force over its length, tension
+//! positive.
 //!
 //! | paper | code | shape | unit | equation |
 //! |---|---|---|---|---|
@@ -24,19 +26,22 @@
 //!
 //! # The integrator
 //!
-//! RATTLE: symplectic and symmetric, so that the energy of an undamped motion stays within a band of the order `h²` for any
-//! number of steps, and constraints hold for places and velocities at every step to [`CONSTRAINT_TOLERANCE`]. An
-//! energy-momentum scheme would keep the energy itself at the price of phase errors of the same order and of a nonlinear
-//! system with the springs in it. [`Order::Fourth`] composes five steps.
+//! RATTLE: symplectic and symmetric, so that the energy of an undamped motion stays within a band
+//! of the order `h²` for any number of steps, and constraints hold for places and velocities at
+//! every step to [`CONSTRAINT_TOLERANCE`]. An energy-momentum scheme would keep the energy itself
+//! at the price of phase errors of the same order and of a nonlinear system with the springs in it.
+//! [`Order::Fourth`] composes five steps.
 //!
-//! The linear system of a step is eliminated from the leaves of the system to its root, in O(n) where every loop runs
-//! through an anchor (chains, trees, spiders), by a sparse factorisation elsewhere.
+//! The linear system of a step is eliminated from the leaves of the system to its root, in O(n)
+//! where every loop runs through an anchor (chains, trees, spiders), by a sparse factorisation
+//! elsewhere.
 //!
 //! # What is left out
 //!
-//! Inextensible cables and struts are refused: becoming taut they need a law of impact. Members with a stiffness, unilateral ones
-//! too, move by their potential. Bars whose two moments across differ are refused, and so are joints without any inertia.
-//! The spin of a bar about its own axis is constant and apart, for no moment acts along it.
+//! Inextensible cables and struts are refused: becoming taut they need a law of impact. Members
+//! with a stiffness, unilateral ones too, move by their potential. Bars whose two moments across
+//! differ are refused, and so are joints without any inertia. The spin of a bar about its own axis
+//! is constant and apart, for no moment acts along it.
 
 mod damping;
 mod error;
@@ -44,6 +49,7 @@ mod force;
 mod inertia;
 mod laws;
 mod mechanism;
+mod modes;
 mod order;
 mod rattle;
 mod saddle;
@@ -58,6 +64,7 @@ pub use force::ForceOfTime;
 pub use inertia::EndInertia;
 pub use laws::Laws;
 pub use mechanism::Mechanism;
+pub use modes::{Direction, Mode, Modes, What, modes};
 pub use rattle::CONSTRAINT_TOLERANCE;
 pub use settings::{Order, Settings};
 pub use simulation::{CLOSED_TOLERANCE, Simulation};

@@ -14,8 +14,8 @@ const EQUAL_MOMENTS: f64 = 1e-12;
 /// A system of bars as the mechanics of the places of its joints (natural coordinates).
 ///
 /// Joints are stored in *slots*: those that move come first, in the order of elimination, then the
-/// anchors. Places are relative to [`System::reference_m`], so that a system far from the origin keeps its
-/// digits.
+/// anchors. Places are relative to [`System::reference_m`], so that a system far from the origin
+/// keeps its digits.
 #[derive(Debug, Clone)]
 pub struct Mechanism {
     pub(crate) system: System,
@@ -73,8 +73,8 @@ impl Mechanism {
     ///
     /// # Errors
     ///
-    /// [`MotionError`] when the system has members or joints whose motion is indeterminate: inextensible cables and
-    /// struts, bars with different moments across, joints without inertia.
+    /// [`MotionError`] when the system has members or joints whose motion is indeterminate:
+    /// inextensible cables and struts, bars with different moments across, joints without inertia.
     pub fn new(system: &System) -> Result<Self, MotionError> {
         for (k, member) in system.members().iter().enumerate() {
             check(k + 1, member)?;

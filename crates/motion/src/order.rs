@@ -14,8 +14,8 @@ pub(crate) struct Order {
 
 /// Order the joints of `moves` over the `edges` between them.
 ///
-/// Trees are ordered from their leaves to the root, which causes no fill at all; other graphs by least
-/// degree.
+/// Trees are ordered from their leaves to the root, which causes no fill at all; other graphs by
+/// least degree.
 pub(crate) fn order(moves: &[bool], edges: &[(usize, usize)]) -> Order {
     let mut neighbours = vec![Vec::new(); moves.len()];
     for &(a, b) in edges {
@@ -51,7 +51,8 @@ pub(crate) fn order(moves: &[bool], edges: &[(usize, usize)]) -> Order {
     Order { joints, is_forest }
 }
 
-/// Always the joint with the fewest neighbours next; its neighbours become neighbours of each other.
+/// Always the joint with the fewest neighbours next; its neighbours become neighbours of each
+/// other.
 fn least_degree(joints: &[usize], neighbours: &[Vec<usize>]) -> Vec<usize> {
     let mut around: Vec<BTreeSet<usize>> =
         neighbours.iter().map(|list| list.iter().copied().collect()).collect();

@@ -4,10 +4,10 @@
 //! $$ v_{1/2} = (x_1 - x_0)/h, \quad
 //!    M v_1 = M v_{1/2} + \tfrac h2 (f_1 - R_1^T \sigma), \quad R_1 v_1 = 0 $$
 //!
-//! (H. C. Andersen, J. Comput. Phys. 52 (1983) 24-34; symplectic and symmetric: B. Leimkuhler, R. Skeel,
-//! J. Comput. Phys. 112 (1994) 117-125). The nonlinear equation is solved by the iteration with the matrix of the beginning
-//! of the step, which is factorised already: each iteration costs one elimination without factorisation and gains the
-//! factor `h |v| / l`.
+//! (H. C. Andersen, J. Comput. Phys. 52 (1983) 24-34; symplectic and symmetric: B. Leimkuhler, R.
+//! Skeel, J. Comput. Phys. 112 (1994) 117-125). The nonlinear equation is solved by the iteration
+//! with the matrix of the beginning of the step, which is factorised already: each iteration costs
+//! one elimination without factorisation and gains the factor `h |v| / l`.
 
 use model::Vector;
 
@@ -18,7 +18,8 @@ use crate::saddle::{Saddle, Singular};
 use crate::state::{State, half_excess};
 use crate::vector::{dot, minus, plus, worse};
 
-/// Largest relative violation of a length, and of its derivative in units of the largest speed, after any step.
+/// Largest relative violation of a length, and of its derivative in units of the largest speed,
+/// after any step.
 pub const CONSTRAINT_TOLERANCE: f64 = 1e-12;
 
 /// Violation that is rounding: `d · d` of a vector with its last digits wrong.
@@ -155,7 +156,8 @@ impl Stepper {
         }
     }
 
-    /// Add `x` to the velocities as an impulse (its inertia divided out), and take out what changes lengths.
+    /// Add `x` to the velocities as an impulse (its inertia divided out), and take out what changes
+    /// lengths.
     pub(crate) fn settle(
         &mut self,
         mechanism: &Mechanism,
@@ -214,7 +216,8 @@ impl Stepper {
         self.settle(mechanism, state)
     }
 
-    /// Accelerations by slot, m/s², and multipliers `ρ` of the rows: `M a + Rᵀ ρ = f`, `R a = −Ṙ v`.
+    /// Accelerations by slot, m/s², and multipliers `ρ` of the rows: `M a + Rᵀ ρ = f`, `R a = −Ṙ
+    /// v`.
     ///
     /// For a bar `ρ` is the force density, its axial force over its length, tension positive.
     pub(crate) fn accelerations(

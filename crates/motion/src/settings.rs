@@ -20,9 +20,10 @@ pub struct Settings {
     pub order: Order,
     /// Drag of a medium, 1/s: the force `−c M v` opposes the momentum. At least zero; default zero.
     pub drag_1_s: f64,
-    /// Friction in the joints, N m s: each member turns against a pin with the moment
-    /// `−k (ω_member − ω_pin)`, less its part along the member. The pin of an anchor stands still, the pin of any other
-    /// joint has no inertia and turns so that the moments on it cancel. At least zero; default zero.
+    /// Friction in the joints, N m s: each member turns against a pin with the moment `−k (ω_member
+    /// − ω_pin)`, less its part along the member. The pin of an anchor stands still, the pin of any
+    /// other joint has no inertia and turns so that the moments on it cancel. At least zero;
+    /// default zero.
     pub friction_n_m_s: f64,
 }
 

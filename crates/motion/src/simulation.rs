@@ -12,8 +12,8 @@ use crate::settings::{Order, Settings};
 use crate::snapshot::Snapshot;
 use crate::state::State;
 
-/// Largest relative violation of a length in places that a motion may begin with; what is less is taken for the
-/// rounding of printed digits, and corrected.
+/// Largest relative violation of a length in places that a motion may begin with; what is less is
+/// taken for the rounding of printed digits, and corrected.
 pub const CLOSED_TOLERANCE: f64 = 1e-5;
 
 /// Corrections of the places at the beginning: the convergence is quadratic.
@@ -53,12 +53,14 @@ pub struct Simulation {
 }
 
 impl Simulation {
-    /// A system at rest at the given places of its joints (world frame, m; those of anchors are ignored).
+    /// A system at rest at the given places of its joints (world frame, m; those of anchors are
+    /// ignored).
     ///
     /// # Errors
     ///
-    /// [`MotionError`] when the system cannot be moved here, a setting is out of range, the places violate a length by more than
-    /// [`CLOSED_TOLERANCE`], or the constraints do not determine their forces there.
+    /// [`MotionError`] when the system cannot be moved here, a setting is out of range, the places
+    /// violate a length by more than [`CLOSED_TOLERANCE`], or the constraints do not determine
+    /// their forces there.
     pub fn new(
         system: &System,
         joints_m: &[Vector],
@@ -79,8 +81,8 @@ impl Simulation {
         Ok(Self { mechanism, settings, forces, state, stepper, time_s: 0.0 })
     }
 
-    /// Add a force at a joint as a function of time, N; with the damping of [`Settings`] and the constant
-    /// loads it acts from the next step on.
+    /// Add a force at a joint as a function of time, N; with the damping of [`Settings`] and the
+    /// constant loads it acts from the next step on.
     ///
     /// # Errors
     ///
@@ -95,8 +97,8 @@ impl Simulation {
         Ok(())
     }
 
-    /// Give velocities to the joints, m/s; what of them changes lengths is taken out (least change in the
-    /// metric of the inertia).
+    /// Give velocities to the joints, m/s; what of them changes lengths is taken out (least change
+    /// in the metric of the inertia).
     ///
     /// # Errors
     ///
@@ -128,7 +130,8 @@ impl Simulation {
     ///
     /// # Errors
     ///
-    /// [`MotionError`] when the constraints cannot be met: the step is too long, or the bars lie on a taut line.
+    /// [`MotionError`] when the constraints cannot be met: the step is too long, or the bars lie on
+    /// a taut line.
     pub fn step(&mut self, step_s: f64) -> Result<(), MotionError> {
         match self.settings.order {
             Order::Second => self.part(step_s),
@@ -213,7 +216,8 @@ impl Simulation {
         self.kinetic_j() + self.potential_j()
     }
 
-    /// Largest relative violation of a length, and of its derivative in units of the largest speed, after the last step.
+    /// Largest relative violation of a length, and of its derivative in units of the largest speed,
+    /// after the last step.
     #[must_use]
     pub fn constraints_off(&self) -> [f64; 2] {
         self.stepper.off

@@ -8,7 +8,8 @@ use crate::mechanism::end_loads;
 use crate::simulation::Simulation;
 use crate::vector::{add_times, minus, norm, plus, times};
 
-/// Everything about a motion at one time. Arrays are by joint, or by member, in the order of the system.
+/// Everything about a motion at one time. Arrays are by joint, or by member, in the order of the
+/// system.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Snapshot {
     /// Time since the beginning, s.
@@ -19,19 +20,22 @@ pub struct Snapshot {
     pub velocities_m_s: Vec<Vector>,
     /// Their accelerations, m/s².
     pub accelerations_m_s2: Vec<Vector>,
-    /// Axial force of each member with weights, forces and inertia lumped to its joints, N, tension positive.
+    /// Axial force of each member with weights, forces and inertia lumped to its joints, N, tension
+    /// positive.
     pub axial_n: Vec<f64>,
     /// For each member the force on it at the joint where it begins, world frame, N.
     pub start_forces_n: Vec<Vector>,
     /// For each member the force on it at the joint where it ends, world frame, N.
     pub end_forces_n: Vec<Vector>,
-    /// Force of the ground on each joint, world frame, N; of a joint without support the imbalance, which is rounding.
+    /// Force of the ground on each joint, world frame, N; of a joint without support the imbalance,
+    /// which is rounding.
     pub reactions_n: Vec<Vector>,
     /// Moments of the joints' pins on both ends of each member, N m: zero without friction.
     pub pin_moments_n_m: Vec<[Vector; 2]>,
     /// Kinetic energy, J.
     pub kinetic_j: f64,
-    /// Potential energy, J, relative to [`System::reference_m`](model::system::System::reference_m).
+    /// Potential energy, J, relative to
+    /// [`System::reference_m`](model::system::System::reference_m).
     pub potential_j: f64,
     /// Largest relative violation of a length.
     pub lengths_off: f64,

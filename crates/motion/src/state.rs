@@ -7,8 +7,8 @@ use crate::vector::{dot, minus, plus, worse};
 
 /// Places and velocities by slot.
 ///
-/// A place is the sum of two doubles. The vector of a bar far out in a long chain then keeps its digits, and the
-/// rounding of millions of steps does not add up.
+/// A place is the sum of two doubles. The vector of a bar far out in a long chain then keeps its
+/// digits, and the rounding of millions of steps does not add up.
 #[derive(Debug, Clone)]
 pub(crate) struct State {
     pub at: Vec<Vector>,

@@ -1,18 +1,20 @@
 //! Elimination where every loop runs through an anchor: chains, trees, spiders. O(n), no fill.
 //!
-//! Joints are eliminated from the leaves to the root. A joint *p* is eliminated together with the rows that are
-//! complete with it: those of the bars to its children *c*, of bars to anchors, of its support. With
-//! `A` its 3 × 3 inertia, `W` the columns of its rows and `S` what the children left on them,
+//! Joints are eliminated from the leaves to the root. A joint *p* is eliminated together with the
+//! rows that are complete with it: those of the bars to its children *c*, of bars to anchors, of
+//! its support. With `A` its 3 × 3 inertia, `W` the columns of its rows and `S` what the children
+//! left on them,
 //!
 //! $$ \begin{bmatrix} A & W \\ W^T & -S \end{bmatrix}, \quad T = S + W^T A^{-1} W, \quad
 //!    H = A^{-1} W T^{-1}, \quad P = A^{-1} - H T H^T , $$
 //!
-//! and its parent gets, with `b` the inertia between them and `d` the vector of the bar towards the parent,
+//! and its parent gets, with `b` the inertia between them and `d` the vector of the bar towards the
+//! parent,
 //!
 //! $$ A_q \leftarrow A_q - b^2 P, \qquad w = d + b P d, \qquad s = d^T P d . $$
 //!
-//! A row is eliminated after both of its joints, so `T` is positive definite wherever the constraints are
-//! independent; no pivoting is needed.
+//! A row is eliminated after both of its joints, so `T` is positive definite wherever the
+//! constraints are independent; no pivoting is needed.
 
 use model::Vector;
 
@@ -121,7 +123,8 @@ impl Forest {
         }
     }
 
-    /// Factors for the given vectors of the rows (`+d` at the second joint of a bar, the normal of a support).
+    /// Factors for the given vectors of the rows (`+d` at the second joint of a bar, the normal of
+    /// a support).
     pub(super) fn factor(&mut self, vectors: &[Vector]) -> Result<(), Singular> {
         for (a, &m) in self.a.iter_mut().zip(&self.mass) {
             *a = [m, 0.0, 0.0, m, 0.0, m];
@@ -283,8 +286,8 @@ fn inverse(m: Symmetric) -> Result<Symmetric, f64> {
     ])
 }
 
-/// Invert a symmetric positive definite m × m matrix in place (Gauss-Jordan without pivoting); the relative
-/// pivot that fails otherwise.
+/// Invert a symmetric positive definite m × m matrix in place (Gauss-Jordan without pivoting); the
+/// relative pivot that fails otherwise.
 fn invert(t: &mut [f64], m: usize) -> Result<(), f64> {
     let diagonal: Vec<f64> = (0..m).map(|k| t[k * m + k]).collect();
     for k in 0..m {

@@ -3,9 +3,10 @@
 //! $$ \begin{bmatrix} M & R^T \\ R & 0 \end{bmatrix}
 //!    \begin{bmatrix} x \\ \rho \end{bmatrix} = \begin{bmatrix} f \\ \varphi \end{bmatrix} $$
 //!
-//! `M` has one number for each joint and each member, the same for all three axes; `R` has for each rigid bar the
-//! row `(−d, +d)` with `d` the vector from its first to its second joint, and for each support of a slider
-//! its normal. Since the inverse of `M` is full, nothing is eliminated onto the rows alone.
+//! `M` has one number for each joint and each member, the same for all three axes; `R` has for each
+//! rigid bar the row `(−d, +d)` with `d` the vector from its first to its second joint, and for
+//! each support of a slider its normal. Since the inverse of `M` is full, nothing is eliminated
+//! onto the rows alone.
 
 mod forest;
 mod sparse;

@@ -1,9 +1,10 @@
 //! Elimination for any graph: a sparse `L D Lᵀ` without pivoting.
 //!
-//! The three coordinates of a joint are eliminated together, and the row of a bar right after its second
-//! joint. At that point all columns of the row are eliminated, so its pivot is
-//! `−(R A⁻¹ Rᵀ)` of independent rows: negative wherever the constraints are independent, whatever the order of
-//! the joints. The factorisation is Davis' up-looking one (ACM Trans. Math. Software 31 (2005) 587-591).
+//! The three coordinates of a joint are eliminated together, and the row of a bar right after its
+//! second joint. At that point all columns of the row are eliminated, so its pivot is `−(R A⁻¹ Rᵀ)`
+//! of independent rows: negative wherever the constraints are independent, whatever the order of
+//! the joints. The factorisation is Davis' up-looking one (ACM Trans. Math. Software 31 (2005)
+//! 587-591).
 
 use model::Vector;
 

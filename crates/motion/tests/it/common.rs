@@ -28,7 +28,8 @@ pub fn links(n: usize) -> Vec<Bar> {
     vec![Bar::homogeneous(1.0, 0.0).unwrap(); n]
 }
 
-/// Places of the joints of a string in the plane OXZ, from the angles with the descending vertical, rad.
+/// Places of the joints of a string in the plane OXZ, from the angles with the descending vertical,
+/// rad.
 pub fn string(lengths: &[f64], angles: &[f64]) -> Vec<Vector> {
     let mut at = vec![[0.0; 3]];
     for (l, angle) in lengths.iter().zip(angles) {
@@ -38,13 +39,14 @@ pub fn string(lengths: &[f64], angles: &[f64]) -> Vec<Vector> {
     at
 }
 
-/// The paper's chain between its anchors, from the angle of its first bar alone: the other two close it.
+/// The paper's chain between its anchors, from the angle of its first bar alone: the other two
+/// close it.
 pub fn paper() -> System {
     System::from(model::cases::paper().chain())
 }
 
-/// Closed positions of the paper's chain in OYZ: bar 1 at `theta` from the descending vertical, the other two
-/// folded to the side of `sign`.
+/// Closed positions of the paper's chain in OYZ: bar 1 at `theta` from the descending vertical, the
+/// other two folded to the side of `sign`.
 pub fn closed(theta: f64, sign: f64) -> Vec<Vector> {
     let (y, z) = (theta.sin(), -theta.cos());
     let (to_y, to_z) = (-y, -2.0 - z);

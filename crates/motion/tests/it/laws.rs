@@ -125,7 +125,8 @@ fn damping_takes_energy_at_the_rate_of_its_forces() {
     run(&mut simulation, 2.0, 1e-3);
     let told = before_j * f64::exp(-2.0 * 0.3 * 2.0);
     assert!((simulation.kinetic_j() / told - 1.0).abs() < 1e-12);
-    // Friction alone, at the anchor's pin and at the free end (which turns with the bar): J ω' = -k ω.
+    // Friction alone, at the anchor's pin and at the free end (which turns with the bar): J ω' = -k
+    // ω.
     let settings = Settings { friction_n_m_s: 0.1, ..Settings::default() };
     let mut simulation = Simulation::new(&system, &[[0.0; 3], [0.0, 1.0, 0.0]], settings).unwrap();
     simulation.push(&[[0.0; 3], [0.2, 0.0, 0.0]]).unwrap();

@@ -5,6 +5,7 @@
 mod common;
 mod energy;
 mod laws;
+mod modes;
 mod order;
 mod pendulum;
 mod refused;

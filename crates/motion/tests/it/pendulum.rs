@@ -4,7 +4,8 @@ use motion::Order;
 
 use crate::common::{G, at_rest, hanging, links, run};
 
-/// `sn(u, k)` and the quarter period by arithmetic-geometric means (Abramowitz and Stegun 16.4, 17.6).
+/// `sn(u, k)` and the quarter period by arithmetic-geometric means (Abramowitz and Stegun 16.4,
+/// 17.6).
 fn elliptic(k: f64) -> (f64, impl Fn(f64) -> f64) {
     let (mut a, mut c) = (vec![1.0_f64], vec![k]);
     let mut b = (1.0 - k * k).sqrt();
@@ -36,7 +37,8 @@ fn angle(start: f64, time_s: f64) -> f64 {
 
 #[test]
 fn elliptic_functions_give_the_numbers_of_the_library() {
-    // IFToMM library of computational benchmarks, A01: mass 1, length 1, from (-1, 0) at rest, g 9.81.
+    // IFToMM library of computational benchmarks, A01: mass 1, length 1, from (-1, 0) at rest, g
+    // 9.81.
     for (time_s, x, y) in [
         (5.0, -0.942_305_435_043_8, -0.334_754_338_414),
         (10.0, -0.275_087_462_576_1, -0.961_419_205_099_1),

@@ -1,0 +1,147 @@
+//! Modes with their shapes, and the names of those of `ω² = 0`.
+
+use model::Vector;
+use nalgebra::{DMatrix, DVector};
+
+use super::dense::Solved;
+use super::planes::Sector;
+use super::{Mode, What};
+use crate::mechanism::Mechanism;
+use crate::state::State;
+use crate::vector::{add_times, dot, norm, times};
+
+/// Part of a turn that may lie outside of the modes of `ω² = 0`, relative.
+const IS_A_TURN: f64 = 1e-6;
+
+/// The modes of a sector.
+pub(super) fn modes(
+    mechanism: &Mechanism,
+    state: &State,
+    sector: &Sector,
+    solved: &Solved,
+) -> Vec<Mode> {
+    let is_zero = |omega2: &f64| omega2.abs() <= solved.zero;
+    let mut found = Vec::new();
+    for (k, &omega2_s2) in solved.omega2.iter().enumerate().filter(|(_, o)| !is_zero(o)) {
+        let what = if omega2_s2 > 0.0 { What::Oscillation } else { What::Leaving };
+        let column = solved.shapes.column(k).into_owned();
+        found.push(mode(mechanism, sector, omega2_s2, &column, what));
+    }
+    let zeros: Vec<usize> =
+        (0..solved.omega2.len()).filter(|&k| is_zero(&solved.omega2[k])).collect();
+    if zeros.is_empty() {
+        return found;
+    }
+    let columns: Vec<DVector<f64>> =
+        zeros.iter().map(|&k| solved.shapes.column(k).into_owned()).collect();
+    let zero_shapes = DMatrix::from_columns(&columns);
+    let mut named: Vec<DVector<f64>> = Vec::new();
+    for (axis_m, turn) in turns(mechanism, state, sector) {
+        // Coefficients in the zero modes, which are orthonormal in the metric of the inertia.
+        let inertial = inertia_times(mechanism, sector, &turn);
+        let size = turn.dot(&inertial).sqrt();
+        let coefficients = zero_shapes.transpose() * inertial / size;
+        if (coefficients.norm() - 1.0).abs() <= IS_A_TURN {
+            named.push(coefficients.normalize());
+            found.push(mode(mechanism, sector, 0.0, &turn, What::Turn { axis_m }));
+        }
+    }
+    // What is left of the zero modes when the turns are taken out.
+    let mut others: Vec<DVector<f64>> = Vec::new();
+    for k in 0..zeros.len() {
+        let mut unit = DVector::zeros(zeros.len());
+        unit[k] = 1.0;
+        for b in named.iter().chain(&others).chain(&named) {
+            let part = unit.dot(b);
+            unit.axpy(-part, b, 1.0);
+        }
+        let room = named.len() + others.len() < zeros.len();
+        if room && unit.norm() > 1.0 / (2.0 * zeros.len() as f64).sqrt() {
+            others.push(unit.normalize());
+        }
+    }
+    for other in others {
+        let shape = &zero_shapes * other;
+        found.push(mode(mechanism, sector, 0.0, &shape, What::Neutral));
+    }
+    found
+}
+
+/// Turns of the parts that turn freely about a vertical, in the coordinates of a sector.
+fn turns(mechanism: &Mechanism, state: &State, sector: &Sector) -> Vec<([f64; 2], DVector<f64>)> {
+    let reference = mechanism.system.reference_m();
+    let axes = &sector.axes;
+    let mut found = Vec::new();
+    for part in mechanism.system.parts() {
+        let Some(axis_m) = part.axis_m else { continue };
+        let mut turn = DVector::zeros(mechanism.moving * axes.len());
+        for joint in part.joints {
+            let slot = mechanism.slot_of[joint];
+            if slot < mechanism.moving {
+                let x = state.at[slot][0] + reference[0] - axis_m[0];
+                let y = state.at[slot][1] + reference[1] - axis_m[1];
+                for (k, axis) in axes.iter().enumerate() {
+                    turn[slot * axes.len() + k] = dot(*axis, [-y, x, 0.0]);
+                }
+            }
+        }
+        let length_m = mechanism.system.total_length_m();
+        if turn.amax() > IS_A_TURN * length_m {
+            found.push((axis_m, turn));
+        }
+    }
+    found
+}
+
+fn inertia_times(mechanism: &Mechanism, sector: &Sector, y: &DVector<f64>) -> DVector<f64> {
+    let axes = sector.axes.len();
+    let mut product = DVector::zeros(y.len());
+    for slot in 0..mechanism.moving {
+        for k in 0..axes {
+            product[slot * axes + k] += mechanism.mass[slot] * y[slot * axes + k];
+        }
+    }
+    for link in mechanism.links() {
+        if link.a < mechanism.moving && link.b < mechanism.moving {
+            for k in 0..axes {
+                let (a, b) = (link.a * axes + k, link.b * axes + k);
+                product[a] += link.inertia.between * y[b];
+                product[b] += link.inertia.between * y[a];
+            }
+        }
+    }
+    product
+}
+
+/// A mode with its shape by joint; the largest displacement is 1, its largest component positive.
+fn mode(
+    mechanism: &Mechanism,
+    sector: &Sector,
+    omega2_s2: f64,
+    y: &DVector<f64>,
+    what: What,
+) -> Mode {
+    let axes = &sector.axes;
+    let mut by_slot = vec![[0.0; 3]; mechanism.joint_at.len()];
+    for (slot, x) in by_slot.iter_mut().enumerate().take(mechanism.moving) {
+        for (k, axis) in axes.iter().enumerate() {
+            *x = add_times(*x, y[slot * axes.len() + k], *axis);
+        }
+    }
+    let mut shape: Vec<Vector> = mechanism.by_joint(&by_slot);
+    let mut largest = [0.0; 3];
+    for x in &shape {
+        // Of equal ones the first, whatever their rounding.
+        if norm(*x) > norm(largest) * (1.0 + 1e-9) {
+            largest = *x;
+        }
+    }
+    let lead = largest
+        .into_iter()
+        .fold(0.0, |a: f64, x| if x.abs() > a.abs() * (1.0 + 1e-9) { x } else { a });
+    let scale = lead.signum() / norm(largest);
+    for x in &mut shape {
+        *x = times(scale, *x);
+    }
+    Mode { omega2_s2, shape, what, direction: sector.direction }
+}

@@ -1,0 +1,155 @@
+//! Frequencies in closed form.
+
+use model::Bar;
+use motion::{Direction, What, modes};
+
+use crate::common::{G, hanging, links, paper, rods, string};
+
+/// `ω² l/g` of a string of bars that hangs straight, in its plane.
+fn frequencies(bars: &[Bar], masses: &[f64]) -> Vec<f64> {
+    let lengths: Vec<f64> = bars.iter().map(Bar::length_m).collect();
+    let system = hanging(bars, masses);
+    let at = string(&lengths, &vec![0.0; bars.len()]);
+    let found = modes(&system, &at, None).unwrap();
+    assert_eq!(found.modes.len(), 2 * bars.len());
+    let of = |direction| {
+        let modes = found.modes.iter().filter(move |mode| mode.direction == direction);
+        modes.map(|mode| mode.omega2_s2 / G).collect::<Vec<f64>>()
+    };
+    let (in_plane, across) = (of(Direction::InPlane), of(Direction::Across));
+    for (a, b) in in_plane.iter().zip(&across) {
+        assert!((a - b).abs() < 1e-12 * a.abs().max(1.0), "{in_plane:?} {across:?}");
+    }
+    in_plane
+}
+
+fn near(found: &[f64], told: &[f64], tolerance: f64) {
+    assert_eq!(found.len(), told.len());
+    for (a, b) in found.iter().zip(told) {
+        assert!((a / b - 1.0).abs() < tolerance, "{found:?} {told:?}");
+    }
+}
+
+#[test]
+fn point_masses_on_massless_links_have_the_zeros_of_laguerre() {
+    near(&frequencies(&links(2), &[1.0; 2]), &[2.0 - 2.0_f64.sqrt(), 2.0 + 2.0_f64.sqrt()], 1e-13);
+    // Any number: L_n at the frequencies, by its recurrence.
+    for n in [3, 5, 12] {
+        for x in frequencies(&links(n), &vec![0.7; n]) {
+            let (mut before, mut now) = (1.0, 1.0 - x);
+            let mut largest = 1.0_f64;
+            for k in 1..n {
+                let k = k as f64;
+                let next = ((2.0 * k + 1.0 - x) * now - k * before) / (k + 1.0);
+                (before, now) = (now, next);
+                largest = largest.max(now.abs());
+            }
+            // L_n' = n (L_n - L_{n-1})/x: the distance of the zero.
+            let distance = now / (n as f64 * (now - before) / x);
+            assert!((distance / x).abs() < 1e-12, "{n} {x} {distance:e}");
+        }
+    }
+}
+
+#[test]
+fn slender_rods_have_their_closed_forms() {
+    near(&frequencies(&rods(1), &[]), &[1.5], 1e-14);
+    let r = 6.0 / 7.0_f64.sqrt();
+    near(&frequencies(&rods(2), &[]), &[3.0 - r, 3.0 + r], 1e-13);
+    near(&frequencies(&rods(3), &[]), &[0.484_927_948_435, 3.0, 10.707_379_743_9], 1e-11);
+}
+
+/// `J_0`, by its series (for the arguments here the cancellation costs three digits).
+fn j0(x: f64) -> f64 {
+    let (mut term, mut sum) = (1.0, 1.0);
+    for k in 1..80_u32 {
+        term *= -0.25 * x * x / f64::from(k * k);
+        sum += term;
+    }
+    sum
+}
+
+#[test]
+fn a_hanging_chain_has_the_zeros_of_bessel_as_it_gets_finer() {
+    // ω² = (j_0k / 2)² g/L for a rope of length L: errors fall with the square of the length of a
+    // rod.
+    for (k, start) in [(0, 2.4), (1, 5.5), (2, 8.65)] {
+        let mut zero: f64 = start;
+        for _ in 0..60 {
+            // A secant step with a slope by differences.
+            zero -= j0(zero) * 2e-6 / (j0(zero + 1e-6) - j0(zero - 1e-6));
+        }
+        let rope = 0.25 * zero * zero;
+        let off = |n: usize| {
+            let bars = vec![Bar::homogeneous(1.0 / n as f64, 1.0 / n as f64).unwrap(); n];
+            (frequencies(&bars, &[])[k] / rope - 1.0).abs()
+        };
+        let (coarse, fine) = (off(16), off(32));
+        let order = (coarse / fine).log2();
+        println!("mode {k}: {rope}, off {coarse:e} {fine:e}, order {order}");
+        assert!((order - 2.0).abs() < 0.1, "mode {k}: {order}");
+        assert!(fine < 0.02, "{fine}");
+    }
+}
+
+/// E1 and E2 of the paper's chain in OYZ, from the angles of FACTS: digits enough for the modes to
+/// be found.
+fn equilibrium(angles_deg: [f64; 3]) -> Vec<[f64; 3]> {
+    let mut at = vec![[0.0; 3]];
+    for angle in angles_deg {
+        let [_, y, z] = at[at.len() - 1];
+        let angle = angle.to_radians();
+        at.push([0.0, y + angle.sin(), z - angle.cos()]);
+    }
+    at
+}
+
+/// Kind external: 40-digit root finding.
+const E1: [f64; 3] = [19.694_867_976_133_02, 38.599_136_184_451_89, -73.920_588_792_231_34];
+
+#[test]
+fn the_papers_equilibria_turn_about_their_anchors_and_have_their_index() {
+    let e1 = modes(&paper(), &equilibrium(E1), None).unwrap();
+    assert_eq!((e1.modes.len(), e1.index(), e1.neutral()), (3, 0, 1));
+    assert_eq!(e1.modes[0].what, What::Turn { axis_m: [0.0, 0.0] });
+    assert!(e1.modes[0].omega2_s2.abs() <= 0.0 && e1.modes[0].direction == Direction::Across);
+    let [a, b, c] = E1;
+    let e2 = modes(&paper(), &equilibrium([-c, -b, -a]), None).unwrap();
+    assert_eq!((e2.modes.len(), e2.index(), e2.neutral()), (3, 2, 1));
+    assert!(e2.modes.iter().any(|m| m.what == What::Leaving && m.direction == Direction::InPlane));
+    // Turned upside down, forces change their signs: E2 is E1 with the opposite stiffness.
+    for (one, other) in e1.modes.iter().zip(e2.modes.iter().rev()) {
+        assert!((one.omega2_s2 + other.omega2_s2).abs() < 1e-10, "{e1:?} {e2:?}");
+    }
+    let off = equilibrium([20.0, 38.0, -74.0]);
+    assert!(modes(&paper(), &off, None).is_err());
+}
+
+#[test]
+fn a_frequency_is_that_of_the_motion() {
+    // Released from E1 moved along its mode in the plane: half a period later on the other side.
+    let found = modes(&paper(), &equilibrium(E1), None).unwrap();
+    let in_plane = found.modes.iter().find(|m| m.direction == Direction::InPlane).unwrap();
+    let mut chain = motion::Simulation::new(
+        &paper(),
+        &equilibrium(E1),
+        motion::Settings { order: motion::Order::Fourth, ..motion::Settings::default() },
+    )
+    .unwrap();
+    let speeds: Vec<[f64; 3]> = in_plane.shape.iter().map(|v| v.map(|x| 1e-5 * x)).collect();
+    chain.set_velocities(&speeds).unwrap();
+    let start = chain.joints_m()[1][1];
+    let (mut before, mut crossings) = (0.0, Vec::new());
+    for _ in 0..20_000 {
+        chain.step(1e-3).unwrap();
+        let now = chain.joints_m()[1][1] - start;
+        if before * now < 0.0 {
+            crossings.push(chain.time_s() - 1e-3 * now / (now - before));
+        }
+        before = now;
+    }
+    let n = crossings.len() - 1;
+    let half_period = (crossings[n] - crossings[0]) / n as f64;
+    let omega = std::f64::consts::PI / half_period;
+    assert!((omega * omega / in_plane.omega2_s2 - 1.0).abs() < 1e-6, "{omega}");
+}
