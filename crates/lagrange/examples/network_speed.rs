@@ -2,15 +2,17 @@
 //!
 //! `cargo run --release -p lagrange --example network_speed -- net 32 100` takes square nets hung
 //! from their four corners, by their joints a side; `cables` the same of cables; `bridle 1000`
-//! takes three chains of so many bars that meet in a joint. Each prints a line: members, time,
-//! factorisations, residual, members in compression, slack ones.
+//! takes three chains of so many bars that meet in a joint; `tree 1000` a dangling tree of so many
+//! bars. Each prints a line: members, time, factorisations, residual, members in compression, slack
+//! ones; for a bridle and a tree also the times of one chain of as many bars, by `lagrange::solve`
+//! (the paper's 6n coordinates) and by `lagrange::condensed`.
 
 use std::error::Error;
 use std::time::Instant;
 
 use lagrange::network::{Settings, solve};
-use model::Bar;
 use model::system::{Joint, Kind, Member, System};
+use model::{Anchors, Bar, Chain, Problem};
 
 /// Span of the corners over the length of a side.
 const SPAN: f64 = 0.8;
@@ -18,7 +20,7 @@ const SPAN: f64 = 0.8;
 fn main() -> Result<(), Box<dyn Error>> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let Some((shape, sizes)) = arguments.split_first() else {
-        return Err("say `net`, `cables` or `bridle`, and sizes".into());
+        return Err("say `net`, `cables`, `bridle` or `tree`, and sizes".into());
     };
     println!(
         "{:>8} {:>10} {:>15} {:>10} {:>9} {:>9}",
@@ -30,7 +32,8 @@ fn main() -> Result<(), Box<dyn Error>> {
             "net" => net(size, Kind::Bar)?,
             "cables" => net(size, Kind::Cable)?,
             "bridle" => bridle(size)?,
-            other => return Err(format!("`{other}` is none of net, cables, bridle").into()),
+            "tree" => tree(size)?,
+            other => return Err(format!("`{other}` is none of net, cables, bridle, tree").into()),
         };
         let began = Instant::now();
         let solution = solve(&system, &Settings::default())?;
@@ -43,8 +46,42 @@ fn main() -> Result<(), Box<dyn Error>> {
             solution.residual,
             solution.slack.len(),
         );
+        if shape == "bridle" || shape == "tree" {
+            chain_times(system.members().len())?;
+        }
     }
     Ok(())
+}
+
+/// Times of a chain of `n` bars.
+fn chain_times(n: usize) -> Result<(), Box<dyn Error>> {
+    let anchors = Anchors { start_m: [0.0; 3], end_m: [SPAN * n as f64, 0.0, 0.0] };
+    let bar = Bar::homogeneous(1.0, 1.0)?;
+    let problem = Problem::new(Chain::new("chain", 9.806_65, anchors, vec![bar; n])?)?;
+    let began = Instant::now();
+    lagrange::solve(&problem, &lagrange::Settings::default())?;
+    let full = began.elapsed().as_secs_f64();
+    let began = Instant::now();
+    lagrange::condensed::solve(&problem, &lagrange::condensed::Settings::default())?;
+    let condensed = began.elapsed().as_secs_f64();
+    println!(
+        "{n:>8} {full:>10.3} chain, lagrange::solve\n{n:>8} {condensed:>10.3} chain, lagrange::condensed"
+    );
+    Ok(())
+}
+
+/// A tree of `n` bars below one anchor: each joint carries two more.
+fn tree(n: usize) -> Result<System, Box<dyn Error>> {
+    let bar = Bar::homogeneous(1.0, 1.0)?;
+    let mut joints = vec![Joint::anchor("0", [0.0; 3])];
+    let mut members = Vec::new();
+    for k in 1..=n {
+        // Each joint is pushed aside a little, or all would hang in one line.
+        let aside = [0.1 * (k % 7) as f64, 0.1 * (k % 5) as f64, 0.0];
+        joints.push(Joint::free(format!("{k}")).with_force(aside));
+        members.push(Member::bar((k - 1) / 2, k, bar));
+    }
+    Ok(System::new("tree", 9.806_65, joints, members)?)
 }
 
 /// Three chains of `n` bars of 1 m and 1 kg from anchors on a circle to one joint.

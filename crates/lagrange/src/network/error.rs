@@ -108,4 +108,20 @@ pub enum Error {
         /// Unknowns of the matrix.
         unknowns: usize,
     },
+    /// Occurs when derivatives are asked for where there are none: a motion that meets no stiffness,
+    /// a self-stress, or an inextensible member between the anchors that are to move.
+    #[error(
+        "no derivative here: the equations leave {left:.1e} of a change; a motion without stiffness or a \
+         self-stress does that"
+    )]
+    NoDerivative {
+        /// The part of the change that no step takes away.
+        left: f64,
+    },
+    /// Occurs when the derivative by the place of a joint is asked for that is no anchor.
+    #[error("joint {joint} is no anchor: its place is no parameter")]
+    NotAnAnchor {
+        /// Name of the joint.
+        joint: String,
+    },
 }

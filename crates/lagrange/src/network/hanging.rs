@@ -92,6 +92,16 @@ impl Hanging {
         self.shape.clearly_taut(framework, &self.scales, self.rounding)
     }
 
+    /// Places of the joints at the rounding it has come to.
+    pub fn places(&self) -> &[Vector3<f64>] {
+        &self.shape.places
+    }
+
+    /// Forces of the members there.
+    pub fn forces(&self) -> &[Vector3<f64>] {
+        &self.shape.forces
+    }
+
     /// Places, axial forces, and which members are taut.
     pub fn state(&self, framework: &Framework) -> State {
         self.shape.state(framework, &self.scales, self.rounding)

@@ -5,6 +5,18 @@
 //! the least complementary energy over the forces in balance; Newton's method on places and forces
 //! then brings any equilibrium, stable or not, to rounding.
 //!
+//! What a system has of structure is used first, and decides what a solve costs:
+//!
+//! | part | treated as | cost |
+//! |---|---|---|
+//! | a dangling tree | nothing: each member bears the load below it (`runs`) | O(n) |
+//! | a run of members between branchings | one element, its pull and a 3 x 3 derivative (`elements`) | O(n) a step, a matrix of the branchings alone |
+//! | a net | a sparse matrix over the joints in an order that suits it (`order`) | the factor of a planar graph |
+//!
+//! [`Derivatives`] of an answer by lengths, masses, stiffnesses, loads and anchors come from one
+//! more factorisation; where the forces are one family [`force_ranges`] says how far each of them
+//! is open.
+//!
 //! | symbol | code | meaning |
 //! |---|---|---|
 //! | $x_j$ | `places` | place of joint j |
@@ -15,16 +27,24 @@
 //! | $l_e$ | `length` | unstretched length |
 //! | $c_e = l_e/EA_e$ | `compliance` | elongation by a unit of axial force |
 //! | $\mu_e$ | `mu` | rounding of the law of a member in tension |
+//! | $p$ | `pull` | force with which a run pulls its first joint |
+//! | $D(p)$ | `Law` | span of a run |
 //! | $R$ | `rows` | derivative of the lengths of inextensible taut members by the places |
 
+mod coarse;
+mod derivatives;
+mod elements;
 mod error;
 mod framework;
 mod hanging;
 mod law;
 mod newton;
+mod order;
 mod paper;
 mod possible;
+mod ranges;
 mod residual;
+mod runs;
 mod second_order;
 mod seed;
 mod settings;
@@ -34,8 +54,10 @@ mod solve;
 mod state;
 mod stiffness;
 
+pub use derivatives::{Change, Derivatives, Gradient, Parameter};
 pub use error::Error;
 pub use paper::{PaperUnknowns, paper_residual};
+pub use ranges::{ForceRange, force_ranges};
 pub use seed::Seed;
 pub use settings::{Settings, SettingsError};
 pub use solution::{Forces, Solution};

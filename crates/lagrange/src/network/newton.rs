@@ -25,8 +25,8 @@ use super::stiffness::Stiffness;
 const PENALTY: f64 = 1e5;
 /// Sweeps of refinement in a step.
 const SWEEPS: usize = 8;
-/// Refinement ends when the residual of the linear system has fallen to this.
-const REFINED: f64 = 1e-11;
+/// Refinement of a step ends when the residual of the linear system has fallen to this part.
+const REFINED: f64 = 3e-6;
 /// A step is accepted when the merit falls by this part of what the slope promises.
 const ARMIJO: f64 = 1e-4;
 /// A step is halved at most so many times.
@@ -47,7 +47,7 @@ impl Run {
 }
 
 /// The state with the forces of elastic members between anchors, which nothing else changes.
-fn with_held(framework: &Framework, mut state: State) -> State {
+pub(super) fn with_held(framework: &Framework, mut state: State) -> State {
     for (k, link) in framework.links.iter().enumerate() {
         if let Some(force) = framework.held_force(link) {
             (state.axial[k], state.taut[k]) = (force, link.bears(force));
@@ -66,7 +66,11 @@ pub(super) fn polish(
     let mut run = Run::at(framework, with_held(framework, state));
     while run.steps < settings.max_iterations {
         let done = run.residual.size() <= settings.tolerance;
-        let Some(step) = Step::new(framework, stiffness, &run) else { break };
+        let Residual { forces, lengths, .. } = &run.residual;
+        let derivative = Derivative::new(framework, stiffness, &run.state, &run.residual);
+        let step =
+            derivative.and_then(|d| d.solve(framework, stiffness, (forces, lengths), REFINED));
+        let Some((step, _)) = step else { break };
         run.steps += 1;
         let Some((state, residual)) = search(framework, &run, &step, done) else { break };
         (run.state, run.residual) = (state, residual);
@@ -92,9 +96,10 @@ fn search(framework: &Framework, run: &Run, step: &Step, done: bool) -> Option<(
 }
 
 /// Change of places and of axial forces.
-struct Step {
-    places: Vec<Vector3<f64>>,
-    axial: Vec<f64>,
+#[derive(Debug, Clone)]
+pub(super) struct Step {
+    pub places: Vec<Vector3<f64>>,
+    pub axial: Vec<f64>,
 }
 
 /// One row of the derivative: a member's direction and its stiffnesses.
@@ -109,49 +114,78 @@ struct Row {
     along: f64,
 }
 
-impl Step {
-    fn new(framework: &Framework, stiffness: &mut Stiffness, run: &Run) -> Option<Self> {
-        let rows = rows(framework, run);
+/// The derivative of the equations at a state, whose factor a [`Stiffness`] holds.
+pub(super) struct Derivative {
+    rows: Vec<Row>,
+    /// Largest force, the unit of balance.
+    unit: f64,
+}
+
+impl Derivative {
+    /// Factorise it; nothing when the factor is not finite.
+    pub fn new(
+        framework: &Framework,
+        stiffness: &mut Stiffness,
+        state: &State,
+        residual: &Residual,
+    ) -> Option<Self> {
+        let rows = rows(framework, state, &residual.directions);
         let blocks = rows.iter().map(|row| by_direction(&row.u, row.across, row.along));
         stiffness.assemble(framework, blocks);
-        if !stiffness.factorise_indefinite() {
-            return None;
-        }
-        let residual = &run.residual;
-        let mut step = Self {
+        let finite = stiffness.factorise_indefinite();
+        finite.then_some(Self { rows, unit: residual.unit })
+    }
+
+    /// What concerns taut members; zero for the others.
+    pub fn of_taut(&self, values: &[f64]) -> Vec<f64> {
+        let rows = self.rows.iter().zip(values);
+        rows.map(|(row, value)| if row.taut { *value } else { 0.0 }).collect()
+    }
+
+    /// The step that takes unbalanced forces and misfits of the lengths away to first order, and
+    /// the part of their norm that it leaves, once that is below `enough` or falls no further;
+    /// nothing when it leaves all.
+    pub fn solve(
+        &self,
+        framework: &Framework,
+        stiffness: &mut Stiffness,
+        (forces, lengths): (&[Vector3<f64>], &[f64]),
+        enough: f64,
+    ) -> Option<(Step, f64)> {
+        let mut step = Step {
             places: vec![Vector3::zeros(); framework.nodes.len()],
             axial: vec![0.0; framework.links.len()],
         };
-        let (mut forces, mut lengths) = (residual.forces.clone(), residual.lengths.clone());
-        let first = size(framework, &forces, &lengths, residual.unit);
+        let mut left = (forces.to_vec(), lengths.to_vec());
+        let first = size(framework, forces, lengths, self.unit);
         let mut last = f64::INFINITY;
         for _ in 0..SWEEPS {
-            let better = step.refined(framework, stiffness, &rows, &forces, &lengths);
-            (forces, lengths) = better.left(framework, &rows, residual);
-            let left = size(framework, &forces, &lengths, residual.unit);
-            if left.is_nan() || left >= last {
+            let better = self.refined(&step, framework, stiffness, &left.0, &left.1);
+            left = self.left(&better, framework, forces, lengths);
+            let size = size(framework, &left.0, &left.1, self.unit);
+            if size.is_nan() || size >= last {
                 break;
             }
-            (step, last) = (better, left);
-            if left <= REFINED * first {
+            (step, last) = (better, size);
+            if size <= enough * enough * first {
                 break;
             }
         }
         // A step that leaves all of the residual is none.
-        (last < first).then_some(step)
+        (last < first).then(|| (step, (last / first).sqrt()))
     }
 
     /// The step plus the solution for what is left.
     fn refined(
         &self,
+        step: &Step,
         framework: &Framework,
         stiffness: &mut Stiffness,
-        rows: &[Row],
         forces: &[Vector3<f64>],
         lengths: &[f64],
-    ) -> Self {
+    ) -> Step {
         let mut right = forces.to_vec();
-        for ((link, row), misfit) in framework.links.iter().zip(rows).zip(lengths) {
+        for ((link, row), misfit) in framework.links.iter().zip(&self.rows).zip(lengths) {
             let pull = row.u * (row.along * misfit);
             right[link.from] -= pull;
             right[link.to] += pull;
@@ -159,36 +193,39 @@ impl Step {
         let mut moves = stiffness.gather(framework, &right);
         stiffness.solve(&mut moves);
         let moves = stiffness.scatter(framework, &moves);
-        let links = framework.links.iter().zip(rows).zip(lengths);
+        let links = framework.links.iter().zip(&self.rows).zip(lengths);
         let axial =
             links.map(|((link, row), misfit)| row.along * (row.u.dot(&link.span(&moves)) - misfit));
-        Self {
-            axial: self.axial.iter().zip(axial).map(|(a, more)| a + more).collect(),
-            places: self.places.iter().zip(&moves).map(|(place, more)| place + more).collect(),
+        Step {
+            axial: step.axial.iter().zip(axial).map(|(a, more)| a + more).collect(),
+            places: step.places.iter().zip(&moves).map(|(place, more)| place + more).collect(),
         }
     }
 
-    /// What the linear system leaves of the residual.
-    fn left(
+    /// What a step leaves of unbalanced forces and misfits to first order.
+    pub fn left(
         &self,
+        step: &Step,
         framework: &Framework,
-        rows: &[Row],
-        residual: &Residual,
+        forces: &[Vector3<f64>],
+        lengths: &[f64],
     ) -> (Vec<Vector3<f64>>, Vec<f64>) {
-        let (mut forces, mut lengths) = (residual.forces.clone(), residual.lengths.clone());
-        for (k, (link, row)) in framework.links.iter().zip(rows).enumerate() {
-            let change = link.span(&self.places);
+        let (mut forces, mut lengths) = (forces.to_vec(), lengths.to_vec());
+        for (k, (link, row)) in framework.links.iter().zip(&self.rows).enumerate() {
+            let change = link.span(&step.places);
             let stretch = row.u.dot(&change);
-            let pull = (change - row.u * stretch) * row.across + row.u * self.axial[k];
+            let pull = (change - row.u * stretch) * row.across + row.u * step.axial[k];
             forces[link.from] += pull;
             forces[link.to] -= pull;
             if row.taut {
-                lengths[k] -= stretch - row.compliance * self.axial[k];
+                lengths[k] -= stretch - row.compliance * step.axial[k];
             }
         }
         (forces, lengths)
     }
+}
 
+impl Step {
     fn applied(&self, state: &State, t: f64) -> State {
         let mut next = state.moved(&self.places, t);
         for (axial, step) in next.axial.iter_mut().zip(&self.axial) {
@@ -204,11 +241,10 @@ fn size(framework: &Framework, forces: &[Vector3<f64>], lengths: &[f64], unit: f
     squares.sum::<f64>() / (unit * unit) + lengths.iter().map(|l| l * l).sum::<f64>()
 }
 
-fn rows(framework: &Framework, run: &Run) -> Vec<Row> {
-    let directions = &run.residual.directions;
+fn rows(framework: &Framework, state: &State, directions: &[(Vector3<f64>, f64)]) -> Vec<Row> {
     let across = |k: usize| -> f64 {
         let (_, length) = directions[k];
-        if length > 0.0 { run.state.axial[k] / length } else { 0.0 }
+        if length > 0.0 { state.axial[k] / length } else { 0.0 }
     };
     let links = framework.links.iter();
     let stiffest = (0..directions.len()).map(|k| across(k).abs()).fold(0.0, f64::max);
@@ -216,7 +252,7 @@ fn rows(framework: &Framework, run: &Run) -> Vec<Row> {
     links
         .enumerate()
         .map(|(k, link)| {
-            let taut = run.state.taut[k] && framework.moves(link);
+            let taut = state.taut[k] && framework.moves(link);
             Row {
                 u: directions[k].0,
                 across: across(k),

@@ -22,13 +22,12 @@ const HELD_MISFIT: f64 = 1e-12;
 /// without any load.
 pub(super) fn check(system: &System, framework: &Framework) -> Result<(), Error> {
     check_held(framework)?;
-    let component = components(framework);
-    let count = component.iter().max().map_or(0, |last| last + 1);
-    let mut held = vec![Matrix3::<f64>::zeros(); count];
+    let component = components(framework, |_| true);
+    let held = supports(framework, &component);
+    let count = held.len();
     let mut loads = vec![Vector3::<f64>::zeros(); count];
     let mut sizes = vec![0.0_f64; count];
     for (node, &part) in framework.nodes.iter().zip(&component) {
-        held[part] += Matrix3::identity() - node.axes * node.axes.transpose();
         loads[part] += node.load;
         sizes[part] += node.load.norm();
     }
@@ -81,10 +80,36 @@ fn onto_range(matrix: &Matrix3<f64>, vector: &Vector3<f64>) -> Vector3<f64> {
     .sum()
 }
 
-/// Number of the component of each joint.
-fn components(framework: &Framework) -> Vec<usize> {
+/// Sum of the projections onto what the supports of each component hold.
+fn supports(framework: &Framework, component: &[usize]) -> Vec<Matrix3<f64>> {
+    let count = component.iter().max().map_or(0, |last| last + 1);
+    let mut held = vec![Matrix3::zeros(); count];
+    for (node, &part) in framework.nodes.iter().zip(component) {
+        held[part] += Matrix3::identity() - node.axes * node.axes.transpose();
+    }
+    held
+}
+
+/// Independent translations, of all components that members of a kind join, that the supports
+/// allow.
+pub(super) fn translations(framework: &Framework, joins: impl Fn(usize) -> bool) -> usize {
+    let supports = supports(framework, &components(framework, joins));
+    let free = |held: &Matrix3<f64>| {
+        // Most components have an anchor, which alone holds everything.
+        let anchored = held.diagonal().min() >= 1.0;
+        let values = if anchored { held.diagonal() } else { held.symmetric_eigenvalues() };
+        values.iter().filter(|value| **value <= HELD.sqrt()).count()
+    };
+    supports.iter().map(free).sum()
+}
+
+/// Number of the component of each joint, by the members for which `joins` holds.
+fn components(framework: &Framework, joins: impl Fn(usize) -> bool) -> Vec<usize> {
     let mut parent: Vec<usize> = (0..framework.nodes.len()).collect();
-    for link in &framework.links {
+    for (member, link) in framework.links.iter().enumerate() {
+        if !joins(member) {
+            continue;
+        }
         let (a, b) = (root(&mut parent, link.from), root(&mut parent, link.to));
         parent[a.max(b)] = a.min(b);
     }

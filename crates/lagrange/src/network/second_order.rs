@@ -10,6 +10,8 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::framework::{Framework, Node, across};
 use super::law::by_direction;
+use super::possible::translations;
+use super::solution::NO_FORCE;
 use super::state::State;
 use super::stiffness::Stiffness;
 
@@ -27,6 +29,7 @@ const RIGID: f64 = 1e6;
 const PLANE: f64 = 1e-9;
 
 /// What the second order says.
+#[derive(Default)]
 pub(super) struct SecondOrder {
     /// Directions in which the energy falls.
     pub index: usize,
@@ -37,11 +40,36 @@ pub(super) struct SecondOrder {
     /// Basis of the axial forces that balance without loads, one number a member; where it was
     /// found.
     pub self_stresses: Option<Vec<Vec<f64>>>,
+    /// Smallest singular value of the rows that counts, and the largest that does not, in units of
+    /// the largest; where they were found.
+    pub rank_gap: Option<[f64; 2]>,
     /// The same index among the motions in the vertical plane of the system, if there is one.
     pub index_in_plane: Option<usize>,
 }
 
 impl SecondOrder {
+    /// Of an equilibrium that nothing pushes: with every $N \ge 0$ the second derivative of the
+    /// energy is a sum of squares, and only motions without any of them leave it at zero, the
+    /// translations of what taut members hold together. Nothing where a member pushes, or where it
+    /// is open whether one bears a force.
+    pub fn in_tension(framework: &Framework, state: &State) -> Option<Self> {
+        let least = NO_FORCE * state.largest_force(framework);
+        let open = |k: usize| {
+            let held = !framework.moves(&framework.links[k]);
+            !held && if state.taut[k] { state.axial[k] <= least } else { state.axial[k] != 0.0 }
+        };
+        if (0..framework.links.len()).any(open) {
+            return None;
+        }
+        let neutral = translations(framework, |k| state.axial[k] > least);
+        let plane = plane(framework, state);
+        let planar = plane.is_some_and(|normal| {
+            framework.nodes.iter().all(|node| node_in_plane(node, &normal).is_some())
+        });
+        let index_in_plane = planar.then_some(0);
+        Some(Self { index: 0, neutral, index_in_plane, ..Self::default() })
+    }
+
     /// Of an equilibrium; by dense decompositions where the freedoms are at most `dense`.
     pub fn new(
         framework: &Framework,
@@ -49,20 +77,24 @@ impl SecondOrder {
         state: &State,
         dense: usize,
     ) -> Self {
-        let planar = in_plane(framework, state);
         if framework.freedoms() <= dense {
             let space = Dense::new(framework, state);
             let (index, neutral) = space.count;
+            let planar = in_plane(framework, state);
             let index_in_plane = planar.map(|planar| Dense::new(&planar, state).count.0);
             let (mechanisms, self_stresses) = (Some(space.mechanisms), Some(space.self_stresses));
-            return Self { index, neutral, mechanisms, self_stresses, index_in_plane };
+            let rank_gap = Some(space.rank_gap);
+            return Self { index, neutral, mechanisms, self_stresses, rank_gap, index_in_plane };
+        }
+        if let Some(known) = Self::in_tension(framework, state) {
+            return known;
         }
         let (index, neutral) = sparse(framework, stiffness, state);
-        let index_in_plane = planar.and_then(|planar| {
+        let index_in_plane = in_plane(framework, state).and_then(|planar| {
             let mut stiffness = Stiffness::new(&planar, false).ok()?;
             Some(sparse(&planar, &mut stiffness, state).0)
         });
-        Self { index, neutral, mechanisms: None, self_stresses: None, index_in_plane }
+        Self { index, neutral, index_in_plane, ..Self::default() }
     }
 }
 
@@ -107,11 +139,17 @@ fn sparse(framework: &Framework, stiffness: &mut Stiffness, state: &State) -> (u
     (index, negative(stiffness, -flat).saturating_sub(index))
 }
 
+/// Basis of the axial forces of inextensible taut members that balance without loads.
+pub(super) fn self_stresses(framework: &Framework, state: &State) -> Vec<Vec<f64>> {
+    Dense::new(framework, state).self_stresses
+}
+
 /// Dense decompositions of a small system.
 struct Dense {
     count: (usize, usize),
     mechanisms: usize,
     self_stresses: Vec<Vec<f64>>,
+    rank_gap: [f64; 2],
 }
 
 impl Dense {
@@ -131,7 +169,7 @@ impl Dense {
                 }
             }
         }
-        let (motions, stresses) = kernels(&rows);
+        let Kernels { motions, stresses, gap: rank_gap } = kernels(&rows);
         let mut hessian = Mat::<f64>::zeros(size, size);
         for (k, link) in links.iter().enumerate() {
             let along = if link.taut { link.along.unwrap_or(0.0) } else { 0.0 };
@@ -153,7 +191,7 @@ impl Dense {
                 forces
             })
             .collect();
-        Self { count: (index, neutral), mechanisms: motions.ncols(), self_stresses }
+        Self { count: (index, neutral), mechanisms: motions.ncols(), self_stresses, rank_gap }
     }
 }
 
@@ -170,20 +208,34 @@ fn seats(framework: &Framework) -> Vec<usize> {
 }
 
 /// Kernels of a matrix and of its transpose, as columns.
-fn kernels(rows: &Mat<f64>) -> (Mat<f64>, Mat<f64>) {
+struct Kernels {
+    motions: Mat<f64>,
+    stresses: Mat<f64>,
+    /// The singular values on both sides of the rank, in units of the largest; 1 and 0 where there
+    /// is none.
+    gap: [f64; 2],
+}
+
+fn kernels(rows: &Mat<f64>) -> Kernels {
     let (height, width) = (rows.nrows(), rows.ncols());
+    let none = [1.0, 0.0];
     if height == 0 || width == 0 {
-        return (Mat::identity(width, width), Mat::identity(height, height));
+        let (motions, stresses) = (Mat::identity(width, width), Mat::identity(height, height));
+        return Kernels { motions, stresses, gap: none };
     }
     let Ok(svd) = rows.svd() else {
-        return (Mat::identity(width, width), Mat::zeros(height, 0));
+        let (motions, stresses) = (Mat::identity(width, width), Mat::zeros(height, 0));
+        return Kernels { motions, stresses, gap: none };
     };
     let values = svd.S().column_vector();
     let largest = values[0];
     let rank = (0..values.nrows()).filter(|&k| values[k] > RANK * largest).count();
     let motions = svd.V().subcols(rank, width - rank).to_owned();
     let stresses = svd.U().subcols(rank, height - rank).to_owned();
-    (motions, stresses)
+    let beside = |k: usize| if largest > 0.0 { values[k] / largest } else { 0.0 };
+    let counted = if rank > 0 { beside(rank - 1) } else { none[0] };
+    let left = if rank < values.nrows() { beside(rank) } else { none[1] };
+    Kernels { motions, stresses, gap: [counted, left] }
 }
 
 fn eigenvalues(matrix: &Mat<f64>) -> Vec<f64> {
@@ -219,6 +271,16 @@ fn add(
 
 /// The framework with only the motions in the vertical plane of all joints, loads and supports.
 fn in_plane(framework: &Framework, state: &State) -> Option<Framework> {
+    let normal = plane(framework, state)?;
+    let mut planar = framework.clone();
+    for node in &mut planar.nodes {
+        *node = node_in_plane(node, &normal)?;
+    }
+    Some(planar)
+}
+
+/// Normal of the vertical plane of all joints and loads.
+fn plane(framework: &Framework, state: &State) -> Option<Vector3<f64>> {
     let origin = state.places.first()?;
     let extent = state.places.iter().map(|p| (p - origin).norm()).fold(0.0, f64::max);
     let flat = |v: Vector3<f64>| Vector3::new(v.x, v.y, 0.0);
@@ -238,14 +300,7 @@ fn in_plane(framework: &Framework, state: &State) -> Option<Framework> {
     let normal = Vector3::z().cross(&along).normalize();
     let lies = spread.all(|p| p.dot(&normal).abs() <= PLANE * extent)
         && loads.all(|f| f.dot(&normal).abs() <= PLANE * largest);
-    if !lies {
-        return None;
-    }
-    let mut planar = framework.clone();
-    for node in &mut planar.nodes {
-        *node = node_in_plane(node, &normal)?;
-    }
-    Some(planar)
+    lies.then_some(normal)
 }
 
 /// A joint with only its motions in a plane; nothing when its support is oblique to the plane.

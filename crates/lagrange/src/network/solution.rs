@@ -43,6 +43,10 @@ pub struct Solution {
     /// orthonormal, empty where the forces are unique. Only inextensible taut members take part.
     /// Nothing where they were not counted.
     pub self_stresses: Option<Vec<Vec<f64>>>,
+    /// Where the rank of the members' directions, of which mechanisms and self-stresses are counted,
+    /// was drawn: the smallest singular value that counts and the largest that does not, in units of
+    /// the largest one; 1 and 0 where there is none. Values near each other are a count in doubt.
+    pub rank_gap: Option<[f64; 2]>,
     /// Which of the forces in balance are shown.
     pub forces: Forces,
     /// Members that are slack: cables shorter than their length, struts longer.
@@ -99,6 +103,7 @@ impl Solution {
             factorisations,
             mechanisms: second_order.mechanisms,
             self_stresses: second_order.self_stresses,
+            rank_gap: second_order.rank_gap,
             forces,
             slack,
             limp,

@@ -5,6 +5,7 @@ use std::time::Instant;
 use model::system::{Kind, System};
 use nalgebra::Vector3;
 
+use super::elements;
 use super::error::Error;
 use super::framework::Framework;
 use super::hanging::{FIRST_END, Hanging, LAST_END};
@@ -41,8 +42,15 @@ const RIDGE: f64 = 1e-9;
 /// [`Error`], with numbers: what falls, what does not reach, what did not converge.
 pub fn solve(system: &System, settings: &Settings) -> Result<Solution, Error> {
     settings.validate()?;
-    let mut solver = Solver::new(system, *settings)?;
-    let mut hanging = Hanging::new(&solver.framework)?;
+    let began = Instant::now();
+    let framework = Framework::new(system);
+    check(system, &framework)?;
+    if let Some(solution) = by_runs(&framework, settings, began) {
+        return Ok(solution);
+    }
+    let mut hanging = Hanging::new(&framework)?;
+    let stiffness = Stiffness::at(&framework, hanging.places())?;
+    let mut solver = Solver::new(system, framework, *settings, stiffness, began);
     for end in [FIRST_END, LAST_END] {
         let before = hanging.steps;
         let reached = hanging.advance(&solver.framework, &mut solver.stiffness, end);
@@ -76,11 +84,33 @@ pub fn solve(system: &System, settings: &Settings) -> Result<Solution, Error> {
 pub fn solve_from(system: &System, seed: &Seed, settings: &Settings) -> Result<Solution, Error> {
     settings.validate()?;
     seed.check(system)?;
-    let mut solver = Solver::new(system, *settings)?;
+    let began = Instant::now();
+    let framework = Framework::new(system);
+    check(system, &framework)?;
+    let stiffness = Stiffness::new(&framework, false)?;
+    let mut solver = Solver::new(system, framework, *settings, stiffness, began);
     let start = solver.start(seed);
     let run = solver.with_signs(start)?;
     let second_order = solver.second_order(&run.state);
     Ok(solver.solution(run, second_order))
+}
+
+/// The hanging equilibrium with runs of members as elements, where that pays and every member
+/// pulls. Small systems go without: their self-stresses are counted anyway.
+fn by_runs(framework: &Framework, settings: &Settings, began: Instant) -> Option<Solution> {
+    if framework.freedoms() <= settings.dense_freedoms {
+        return None;
+    }
+    let run = elements::hang(framework)?;
+    if run.residual.size().is_nan()
+        || run.residual.size() > settings.tolerance
+        || signs_mended(framework, settings, &run).is_some()
+    {
+        return None;
+    }
+    let second_order = SecondOrder::in_tension(framework, &run.state)?;
+    let factorisations = run.steps;
+    Some(solution(framework, settings, run, second_order, factorisations, began))
 }
 
 struct Solver<'a> {
@@ -93,12 +123,14 @@ struct Solver<'a> {
 }
 
 impl<'a> Solver<'a> {
-    fn new(system: &'a System, settings: Settings) -> Result<Self, Error> {
-        let began = Instant::now();
-        let framework = Framework::new(system);
-        check(system, &framework)?;
-        let stiffness = Stiffness::new(&framework, false)?;
-        Ok(Self { system, settings, framework, stiffness, factorisations: 0, began })
+    fn new(
+        system: &'a System,
+        framework: Framework,
+        settings: Settings,
+        stiffness: Stiffness,
+        began: Instant,
+    ) -> Self {
+        Self { system, settings, framework, stiffness, factorisations: 0, began }
     }
 
     /// Newton's method, with the set of taut members changed until all signs are right.
@@ -116,7 +148,7 @@ impl<'a> Solver<'a> {
                 let (system, framework) = (self.system, &self.framework);
                 return Err(run.residual.not_converged(system, framework, self.factorisations));
             }
-            state = match self.signs_mended(&run) {
+            state = match signs_mended(&self.framework, &self.settings, &run) {
                 Some(next) => next,
                 None if tight => return Ok(run),
                 None => {
@@ -127,29 +159,6 @@ impl<'a> Solver<'a> {
         }
         let run = Run::at(&self.framework, state);
         Err(run.residual.not_converged(self.system, &self.framework, self.factorisations))
-    }
-
-    /// The state with cables that push made slack and slack ones that are too long made taut,
-    /// struts the other way round; nothing when there are none.
-    fn signs_mended(&self, run: &Run) -> Option<State> {
-        let mut state = run.state.clone();
-        let mut changed = false;
-        let least = NO_FORCE.max(run.residual.size()) * run.residual.unit;
-        let longer = self.settings.tolerance.max(run.residual.size());
-        for (k, link) in self.framework.links.iter().enumerate() {
-            if link.kind == Kind::Bar {
-                continue;
-            }
-            let axial = state.axial[k];
-            let excess = run.residual.directions[k].1 - link.length;
-            let outside = if link.kind == Kind::Cable { excess } else { -excess };
-            if state.taut[k] && axial.abs() > least && !link.bears(axial) {
-                (state.taut[k], state.axial[k], changed) = (false, 0.0, true);
-            } else if !state.taut[k] && outside > longer * link.length {
-                (state.taut[k], changed) = (true, true);
-            }
-        }
-        changed.then_some(state)
     }
 
     /// A rest of the true members near a state, moved a little: the shape as cables is often a
@@ -203,15 +212,8 @@ impl<'a> Solver<'a> {
     }
 
     fn solution(self, run: Run, second_order: SecondOrder) -> Solution {
-        let found = Found {
-            residual: run.residual.size(),
-            tolerance: self.settings.tolerance,
-            state: run.state,
-            factorisations: self.factorisations,
-            second_order,
-            solve_s: self.began.elapsed().as_secs_f64(),
-        };
-        Solution::new(&self.framework, found)
+        let (settings, factorisations) = (&self.settings, self.factorisations);
+        solution(&self.framework, settings, run, second_order, factorisations, self.began)
     }
 
     /// The state of a seed.
@@ -257,6 +259,48 @@ impl<'a> Solver<'a> {
         let links = self.framework.links.iter().zip(&directions);
         links.map(|(link, (u, _))| u.dot(&link.span(&moves))).collect()
     }
+}
+
+/// The state with cables that push made slack and slack ones that are too long made taut,
+/// struts the other way round; nothing when there are none.
+fn signs_mended(framework: &Framework, settings: &Settings, run: &Run) -> Option<State> {
+    let mut state = run.state.clone();
+    let mut changed = false;
+    let least = NO_FORCE.max(run.residual.size()) * run.residual.unit;
+    let longer = settings.tolerance.max(run.residual.size());
+    for (k, link) in framework.links.iter().enumerate() {
+        if link.kind == Kind::Bar {
+            continue;
+        }
+        let axial = state.axial[k];
+        let excess = run.residual.directions[k].1 - link.length;
+        let outside = if link.kind == Kind::Cable { excess } else { -excess };
+        if state.taut[k] && axial.abs() > least && !link.bears(axial) {
+            (state.taut[k], state.axial[k], changed) = (false, 0.0, true);
+        } else if !state.taut[k] && outside > longer * link.length {
+            (state.taut[k], changed) = (true, true);
+        }
+    }
+    changed.then_some(state)
+}
+
+fn solution(
+    framework: &Framework,
+    settings: &Settings,
+    run: Run,
+    second_order: SecondOrder,
+    factorisations: usize,
+    began: Instant,
+) -> Solution {
+    let found = Found {
+        residual: run.residual.size(),
+        tolerance: settings.tolerance,
+        state: run.state,
+        factorisations,
+        second_order,
+        solve_s: began.elapsed().as_secs_f64(),
+    };
+    Solution::new(framework, found)
 }
 
 /// A fixed direction for each joint and each try, spread without pattern (golden ratios).

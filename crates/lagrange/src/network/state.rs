@@ -1,8 +1,10 @@
 //! What the solver improves step by step.
 
+use model::Vector;
 use nalgebra::Vector3;
 
 use super::framework::Framework;
+use super::solution::Solution;
 
 /// Places of the joints and axial forces of the members, tension positive.
 #[derive(Debug, Clone)]
@@ -20,6 +22,19 @@ impl State {
     /// Places and axial forces, as they are.
     pub fn new(places: Vec<Vector3<f64>>, axial: Vec<f64>, taut: Vec<bool>) -> Self {
         Self { rests: vec![Vector3::zeros(); places.len()], places, axial, taut }
+    }
+
+    /// The state of an answer.
+    pub fn of(framework: &Framework, solution: &Solution) -> Self {
+        let (units, answer) = (framework.units, &solution.equilibrium);
+        let place = |at_m: &Vector| (Vector3::from(*at_m) - units.origin_m) / units.length_m;
+        let mut taut = vec![true; framework.links.len()];
+        for &member in &solution.slack {
+            taut[member] = false;
+        }
+        let places = answer.joints_m.iter().map(place).collect();
+        let axial = answer.axial_n.iter().map(|axial| axial / units.force_n).collect();
+        Self::new(places, axial, taut)
     }
 
     /// The state with each joint moved by `t` times its step.
@@ -55,7 +70,7 @@ impl State {
 }
 
 /// The rounded sum, and what rounding cut off (Knuth).
-fn two_sum(a: f64, b: f64) -> (f64, f64) {
+pub(super) fn two_sum(a: f64, b: f64) -> (f64, f64) {
     let sum = a + b;
     let part = sum - a;
     (sum, (a - (sum - part)) + (b - part))

@@ -8,7 +8,6 @@
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::ldlt::factor::LdltRegularization;
 use faer::perm::PermRef;
-use faer::sparse::linalg::amd;
 use faer::sparse::linalg::cholesky::{
     CholeskySymbolicParams, LdltRef, SymbolicCholesky, SymbolicCholeskyRaw, SymmetricOrdering,
     factorize_symbolic_cholesky,
@@ -19,10 +18,15 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::error::Error;
 use super::framework::Framework;
+use super::order::{by_degree, by_dissection};
 
 /// A pivot below this fraction of the largest diagonal entry is no pivot: the direction is left out
 /// of the solve. Some fifty rounding errors.
 const NO_PIVOT: f64 = 1e-14;
+
+/// From this number of unknowns the order by dissection is tried: below, what it may gain is less
+/// than its own time.
+const DISSECTED: usize = 3000;
 
 /// Where the blocks of one member stand.
 #[derive(Debug, Clone, Copy)]
@@ -61,16 +65,37 @@ impl Stiffness {
     ///
     /// [`Error::Memory`] when the factor cannot be held.
     pub fn new(framework: &Framework, scalar: bool) -> Result<Self, Error> {
+        let rank = by_degree(framework).ok_or_else(|| memory(framework))?;
+        Self::in_order(framework, scalar, &rank)
+    }
+
+    /// With an order that suits a net whose joints lie roughly at some places, where that leaves
+    /// less fill.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Memory`] when the factor cannot be held.
+    pub fn at(framework: &Framework, places: &[Vector3<f64>]) -> Result<Self, Error> {
+        let plain = Self::new(framework, false)?;
+        if plain.size() < DISSECTED {
+            return Ok(plain);
+        }
+        let rank = by_dissection(framework, places).ok_or_else(|| memory(framework))?;
+        let dissected = Self::in_order(framework, false, &rank)?;
+        let less = dissected.factor.len() < plain.factor.len();
+        Ok(if less { dissected } else { plain })
+    }
+
+    fn in_order(framework: &Framework, scalar: bool, rank: &[usize]) -> Result<Self, Error> {
         let counts: Vec<usize> = framework
             .nodes
             .iter()
             .map(|node| if scalar { usize::from(node.freedom > 0) } else { node.freedom })
             .collect();
         let size = counts.iter().sum();
-        let lost = || Error::Memory { unknowns: size };
-        let rank = elimination_order(framework).ok_or_else(lost)?;
-        let seats = seats(&counts, &rank);
-        let (places, columns, rows) = pattern(framework, &seats, &rank);
+        let lost = || memory(framework);
+        let seats = seats(&counts, rank);
+        let (places, columns, rows) = pattern(framework, &seats, rank);
         let matrix = SymbolicSparseColMatRef::new_checked(size, size, &columns, None, &rows);
         // The joints are in their order already; this says so to a routine that turns the lower
         // triangle over only where it permutes.
@@ -255,31 +280,8 @@ impl Stiffness {
     }
 }
 
-/// Rank of each joint in the elimination, by approximate minimum degree.
-fn elimination_order(framework: &Framework) -> Option<Vec<usize>> {
-    let joints = framework.nodes.len();
-    let mut neighbours = vec![Vec::new(); joints];
-    for link in &framework.links {
-        if framework.nodes[link.from].freedom > 0 && framework.nodes[link.to].freedom > 0 {
-            let (low, high) = (link.from.min(link.to), link.from.max(link.to));
-            neighbours[high].push(low);
-        }
-    }
-    let (mut columns, mut rows) = (vec![0], Vec::new());
-    for list in &mut neighbours {
-        list.sort_unstable();
-        list.dedup();
-        rows.extend_from_slice(list);
-        columns.push(rows.len());
-    }
-    let graph = SymbolicSparseColMatRef::new_checked(joints, joints, &columns, None, &rows);
-    let (mut order, mut rank) = (vec![0; joints], vec![0; joints]);
-    let mut memory =
-        MemBuffer::try_new(amd::order_maybe_unsorted_scratch::<usize>(joints, rows.len())).ok()?;
-    let stack = MemStack::new(&mut memory);
-    let control = amd::Control::default();
-    amd::order_maybe_unsorted(&mut order, &mut rank, graph, control, stack).ok()?;
-    Some(rank)
+fn memory(framework: &Framework) -> Error {
+    Error::Memory { unknowns: framework.freedoms() }
 }
 
 /// Unknowns of the joints one after another in the order of elimination.

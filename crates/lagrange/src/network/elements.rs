@@ -1,0 +1,275 @@
+//! Newton's method with a whole run of members as one element.
+//!
+//! The span of a run whose first member has the pull $p$ is the sum of its members',
+//!
+//! $$ D(p) = \sum_k (l_k + c_k |F_k|)\,\frac{F_k}{|F_k|}, \qquad F_k = p + s_k, $$
+//!
+//! with the sums $s_k$ of the loads before them, and its derivative, the 3 x 3 matrix
+//!
+//! $$ D'(p) = \sum_k \frac{l_k}{|F_k|} (1 - u_k u_k^T) + c_k 1, $$
+//!
+//! comes out of the same pass over the run. Unknowns are the places of the joints where runs meet
+//! and one pull a run, equations the balance of those joints and $D(p) = x_b - x_a$: the matrix is
+//! that of the branchings. A straight run is stiff along itself; a small part of the compliance
+//! across is added there in the matrix, not in the equations.
+
+use nalgebra::{Matrix3, SymmetricEigen, Vector3};
+
+use super::coarse::{self, Start};
+use super::framework::{Framework, Link};
+use super::newton::{Run, with_held};
+use super::runs::{Runs, Step};
+use super::state::{State, two_sum};
+use super::stiffness::Stiffness;
+use model::system::Kind;
+
+/// The compliance along a member that the matrix has beside its own, in units of that across: each
+/// step gains some five digits where it is all there is.
+const ALONG: f64 = 1e-5;
+/// A force below this part of the largest one in the system has no direction to rely on.
+const CLEAR: f64 = 1e-6;
+/// A step is halved while the slope at its end rises steeper than this part of the first slope.
+const SLOPE: f64 = 0.5;
+/// Newton steps at most, and halvings of one.
+const MOST_STEPS: usize = 40;
+const HALVINGS: usize = 30;
+/// The iteration ends when the error of every span has fallen to this part of the run's length and
+/// does not fall to this part of itself any more.
+const CLOSED: f64 = 1e-12;
+const FALL: f64 = 0.25;
+/// It pays when this part of the members is left, or less.
+const WORTH: f64 = 0.5;
+
+/// The hanging equilibrium in which every member pulls, by runs; nothing when it is none or the
+/// runs are too short to pay. The number of factorisations counts those of the coarse start.
+pub(super) fn hang(framework: &Framework) -> Option<Run> {
+    let runs = Runs::new(framework)?;
+    if coarse::members(&runs) as f64 > WORTH * framework.links.len() as f64 {
+        return None;
+    }
+    let start = coarse::start(framework, &runs)?;
+    let mut steps = start.factorisations;
+    let mut shape = Shape::new(framework, &runs, start);
+    let mut stiffness = Stiffness::new(&shape.skeleton, false).ok()?;
+    let mut error = f64::INFINITY;
+    for _ in 0..MOST_STEPS {
+        shape.step(&mut stiffness, error <= CLOSED);
+        steps += 1;
+        let before = std::mem::replace(&mut error, shape.error());
+        if error.is_nan() || (before <= CLOSED && error > FALL * before) {
+            break;
+        }
+    }
+    if !shape.clear() {
+        return None;
+    }
+    Some(Run { steps, ..Run::at(framework, with_held(framework, shape.state(framework))) })
+}
+
+/// What a run spans at a pull.
+struct Law {
+    span: Vector3<f64>,
+    /// Inverse of its compliance.
+    stiffness: Matrix3<f64>,
+    /// Smallest and largest square of a force.
+    least: f64,
+    most: f64,
+}
+
+impl Law {
+    fn new(steps: &[Step], pull: &Vector3<f64>) -> Self {
+        let (mut span, mut across) = (Vector3::zeros(), 0.0);
+        let mut square = Matrix3::zeros();
+        let (mut least, mut most) = (f64::INFINITY, 0.0_f64);
+        for step in steps {
+            let force = pull + step.offset;
+            let squared = force.norm_squared();
+            let inverse = squared.sqrt().recip();
+            let turn = step.length * inverse;
+            span += force * (turn + step.compliance);
+            across += turn + step.compliance;
+            let part = turn * inverse * inverse;
+            square += force * (force * part).transpose();
+            (least, most) = (least.min(squared), most.max(squared));
+        }
+        let compliance = Matrix3::identity() * across - square * (1.0 - ALONG);
+        Self { span, stiffness: inverse(&compliance), least, most }
+    }
+}
+
+/// The inverse of a positive definite matrix: along a straight run its value is 10^5 times that
+/// across, and an elimination would lose the smaller one to rounding.
+fn inverse(matrix: &Matrix3<f64>) -> Matrix3<f64> {
+    let eigen = SymmetricEigen::new(*matrix);
+    let largest = eigen.eigenvalues.amax();
+    let values = eigen.eigenvalues.map(|value| value.max(ALONG * ALONG * largest).recip());
+    eigen.eigenvectors * Matrix3::from_diagonal(&values) * eigen.eigenvectors.transpose()
+}
+
+/// Pulls of the runs, and the places of the joints where they meet.
+struct Shape<'a> {
+    runs: &'a Runs,
+    /// The joints that stay, with the elements as its members.
+    skeleton: Framework,
+    state: State,
+    pulls: Vec<Vector3<f64>>,
+    laws: Vec<Law>,
+}
+
+impl<'a> Shape<'a> {
+    fn new(framework: &Framework, runs: &'a Runs, start: Start) -> Self {
+        let links = runs.elements.iter().map(|element| Link {
+            from: element.from,
+            to: element.to,
+            length: runs.steps[element.steps.clone()].iter().map(|step| step.length).sum(),
+            compliance: 0.0,
+            kind: Kind::Bar,
+            shares: [Vector3::zeros(); 2],
+        });
+        let (units, nodes) = (framework.units, runs.nodes.clone());
+        let skeleton = Framework { units, nodes, links: links.collect() };
+        let state = State::new(start.places, Vec::new(), Vec::new());
+        let laws = laws(runs, &start.pulls);
+        Self { runs, skeleton, state, pulls: start.pulls, laws }
+    }
+
+    /// One Newton step; the whole of it where the search along it has nothing left to tell.
+    fn step(&mut self, stiffness: &mut Stiffness, whole: bool) {
+        let gaps = self.gaps();
+        stiffness.assemble(&self.skeleton, self.laws.iter().map(|law| law.stiffness));
+        stiffness.factorise_definite();
+        let now = self.pulls.iter().zip(&self.laws).zip(&gaps);
+        let now = now.map(|((pull, law), gap)| pull + law.stiffness * gap);
+        let mut moves = stiffness.gather(&self.skeleton, &self.skeleton.unbalance(now));
+        stiffness.solve(&mut moves);
+        let moves = stiffness.scatter(&self.skeleton, &moves);
+        let links = self.skeleton.links.iter().zip(&self.laws).zip(&gaps);
+        let change: Vec<Vector3<f64>> =
+            links.map(|((link, law), gap)| law.stiffness * (gap + link.span(&moves))).collect();
+        self.state = self.state.moved(&moves, 1.0);
+        let slope = |shape: &Self| -> f64 {
+            change.iter().zip(shape.gaps()).map(|(change, gap)| -change.dot(&gap)).sum()
+        };
+        let first = slope(self);
+        let before = self.pulls.clone();
+        let mut t = 1.0;
+        for _ in 0..HALVINGS {
+            let pulls = before.iter().zip(&change).map(|(pull, change)| pull + change * t);
+            self.pulls = pulls.collect();
+            self.laws = laws(self.runs, &self.pulls);
+            if whole || slope(self) <= SLOPE * first.abs() {
+                break;
+            }
+            t *= 0.5;
+        }
+    }
+
+    /// What each run lacks to the distance of its ends.
+    fn gaps(&self) -> Vec<Vector3<f64>> {
+        let links = self.skeleton.links.iter().zip(&self.laws);
+        links
+            .map(|(link, law)| {
+                link.span(&self.state.places) - law.span + link.span(&self.state.rests)
+            })
+            .collect()
+    }
+
+    /// Largest error of a span, in units of the run's length, or of the balance of a joint, in
+    /// units of the largest force.
+    fn error(&self) -> f64 {
+        let gaps = self.gaps();
+        let spans = self.skeleton.links.iter().zip(&gaps);
+        let spans = spans.map(|(link, gap)| gap.norm() / link.length);
+        let unit = self.laws.iter().map(|law| law.most).fold(0.0, f64::max).sqrt();
+        let left = self.skeleton.unbalance(self.pulls.iter().copied());
+        let nodes = self.skeleton.nodes.iter().zip(&left);
+        let balance = nodes.map(|(node, left)| node.axes.tr_mul(left).norm() / unit);
+        // `f64::max` would lose a NaN.
+        spans.chain(balance).fold(0.0, |most, e| if e > most || e.is_nan() { e } else { most })
+    }
+
+    /// Whether every force is far from none.
+    fn clear(&self) -> bool {
+        let twigs = self.runs.twigs.iter().map(|twig| twig.force.norm_squared());
+        let (least, most) = self
+            .laws
+            .iter()
+            .map(|law| (law.least, law.most))
+            .fold((f64::INFINITY, 0.0_f64), |(least, most), (low, high)| {
+                (least.min(low), most.max(high))
+            });
+        let (least, most) =
+            twigs.fold((least, most), |(least, most), f| (least.min(f), most.max(f)));
+        least > CLEAR * CLEAR * most
+    }
+
+    /// Places of all joints and axial forces of all members.
+    fn state(&self, framework: &Framework) -> State {
+        let places = framework.nodes.iter().map(|node| node.base).collect();
+        let taut = framework.links.iter().map(|link| link.kind == Kind::Bar).collect();
+        let mut state = State::new(places, vec![0.0; framework.links.len()], taut);
+        for (number, &joint) in self.runs.kept.iter().enumerate() {
+            state.places[joint] = self.state.places[number];
+            state.rests[joint] = self.state.rests[number];
+        }
+        for (element, pull) in self.runs.elements.iter().zip(&self.pulls) {
+            let steps = &self.runs.steps[element.steps.clone()];
+            let mut end = Place::of(&state, self.runs.kept[element.from]);
+            for step in steps {
+                let force = pull + step.offset;
+                end.go(&span(step, &force));
+            }
+            // What rounding leaves to the last joint, spread over the members.
+            let to = Place::of(&state, self.runs.kept[element.to]);
+            let left = (to.place - end.place) + (to.rest - end.rest);
+            let length: f64 = steps.iter().map(|step| step.length).sum();
+            let mut at = Place::of(&state, self.runs.kept[element.from]);
+            for (k, step) in steps.iter().enumerate() {
+                let force = pull + step.offset;
+                state.axial[step.member] = force.norm();
+                state.taut[step.member] = true;
+                if k + 1 < steps.len() {
+                    at.go(&(span(step, &force) + left * (step.length / length)));
+                    (state.places[step.joint], state.rests[step.joint]) = (at.place, at.rest);
+                }
+            }
+        }
+        for twig in self.runs.twigs.iter().rev() {
+            let link = &framework.links[twig.member];
+            let axial = twig.force.norm();
+            let mut at = Place::of(&state, twig.root);
+            at.go(&(twig.force * (link.length / axial + link.compliance)));
+            (state.places[twig.tip], state.rests[twig.tip]) = (at.place, at.rest);
+            (state.axial[twig.member], state.taut[twig.member]) = (axial, true);
+        }
+        state
+    }
+}
+
+fn laws(runs: &Runs, pulls: &[Vector3<f64>]) -> Vec<Law> {
+    let elements = runs.elements.iter().zip(pulls);
+    elements.map(|(element, pull)| Law::new(&runs.steps[element.steps.clone()], pull)).collect()
+}
+
+fn span(step: &Step, force: &Vector3<f64>) -> Vector3<f64> {
+    force * (step.length / force.norm() + step.compliance)
+}
+
+/// A place and what rounding has cut off it.
+struct Place {
+    place: Vector3<f64>,
+    rest: Vector3<f64>,
+}
+
+impl Place {
+    fn of(state: &State, joint: usize) -> Self {
+        Self { place: state.places[joint], rest: state.rests[joint] }
+    }
+
+    fn go(&mut self, by: &Vector3<f64>) {
+        for axis in 0..3 {
+            (self.place[axis], self.rest[axis]) =
+                two_sum(self.place[axis], self.rest[axis] + by[axis]);
+        }
+    }
+}

@@ -1,0 +1,208 @@
+//! How far the force of each member is open.
+//!
+//! Where self-stresses exist the forces in balance are $N + B z$, with the basis $B$ and any $z$
+//! that lets no cable push and no strut pull. The least and the largest force of a member are two
+//! linear programmes in as few unknowns as there are self-stresses. They start from forces that
+//! obey all signs, so one table serves them all: every member's force as a linear function of the
+//! unknowns, which an exchange step (Dantzig) replaces one by one by members at their limits.
+
+use model::system::{Kind, System};
+
+use super::framework::Framework;
+use super::second_order::self_stresses;
+use super::solution::{NO_FORCE, Solution};
+use super::state::State;
+
+/// An entry of the table below this is zero: the basis is orthonormal.
+const NO_ENTRY: f64 = 1e-9;
+/// Exchange steps of one programme, in units of its unknowns and conditions together. Some two
+/// are the rule.
+const MOST_EXCHANGES: usize = 50;
+
+/// What balance and signs leave open of the axial force of a member.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum ForceRange {
+    /// The force is what the answer shows, in every member of the family.
+    Unique,
+    /// Any force, pull or push.
+    Free,
+    /// From the least to the largest force, N, each included; without one where there is none.
+    Bounded {
+        /// Least force, N.
+        least_n: Option<f64>,
+        /// Largest force, N.
+        most_n: Option<f64>,
+    },
+}
+
+/// The range of every member's axial force over all forces in balance with the right signs: cables
+/// pull, struts push, bars do either. Nothing where the self-stresses were not counted (see
+/// [`Settings::dense_freedoms`](super::Settings::dense_freedoms)).
+///
+/// Every inextensible member that has its length takes part, also a cable that is just taut and
+/// bears nothing in the answer: the family is at least as large as that of
+/// [`Solution::self_stresses`].
+///
+/// ```
+/// use lagrange::network::{ForceRange, Settings, force_ranges, solve};
+/// use model::Bar;
+/// use model::system::{Joint, Kind, Member, System};
+/// // A weight of 1 N on three cables in a plane, of sqrt 2, 1 and sqrt 2 m:
+/// // sqrt 2 a + b = 1 with a, b >= 0.
+/// let side = 2.0_f64.sqrt();
+/// let mut joints: Vec<_> = [-1.0, 0.0, 1.0].map(|x| Joint::anchor(x.to_string(), [x, 0.0, 0.0])).into();
+/// joints.push(Joint::free("P").with_force([0.0, 0.0, -1.0]));
+/// let cable = |from, length| -> Result<Member, Box<dyn std::error::Error>> {
+///     Ok(Member { kind: Kind::Cable, ..Member::bar(from, 3, Bar::homogeneous(length, 0.0)?) })
+/// };
+/// let members = vec![cable(0, side)?, cable(1, 1.0)?, cable(2, side)?];
+/// let system = System::new("fan", 9.80665, joints, members)?;
+/// let solution = solve(&system, &Settings::default())?;
+/// let ranges = force_ranges(&system, &solution).ok_or("not counted")?;
+/// let ForceRange::Bounded { least_n: Some(least), most_n: Some(most) } = ranges[0] else {
+///     return Err("no range".into());
+/// };
+/// assert!(least.abs() < 1e-9 && (most - 1.0 / side).abs() < 1e-9);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[must_use]
+pub fn force_ranges(system: &System, solution: &Solution) -> Option<Vec<ForceRange>> {
+    solution.self_stresses.as_ref()?;
+    let framework = Framework::new(system);
+    let mut state = State::of(&framework, solution);
+    for &member in &solution.limp {
+        state.taut[member] = true;
+    }
+    let basis = self_stresses(&framework, &state);
+    let mut table = Table::new(system, &solution.equilibrium.axial_n, &basis);
+    (0..system.members().len()).map(|member| table.range(member)).collect()
+}
+
+/// Forces of all members as functions of the unknowns, $N_k = d_k + \sum_j T_{kj} t_j$. An unknown
+/// is free, or the force of a member with a sign, which is then at its limit.
+struct Table {
+    /// 1 where the force must not be negative, -1 where it must not be positive, 0 for bars. Rows
+    /// of negative sign stand negated in the table.
+    signs: Vec<f64>,
+    values: Vec<f64>,
+    rows: Vec<Vec<f64>>,
+    free: Vec<bool>,
+    /// The unit of forces.
+    largest: f64,
+    unique: Vec<bool>,
+}
+
+/// End of one programme.
+enum Extreme {
+    /// The force there, N.
+    At(f64),
+    Unbounded,
+    /// The exchanges came to no end.
+    Undecided,
+}
+
+impl Table {
+    fn new(system: &System, axial_n: &[f64], basis: &[Vec<f64>]) -> Self {
+        let largest = axial_n.iter().fold(0.0_f64, |most, axial| most.max(axial.abs()));
+        let largest = if largest > 0.0 { largest } else { 1.0 };
+        let signs: Vec<f64> = system
+            .members()
+            .iter()
+            .map(|member| match member.kind {
+                Kind::Bar => 0.0,
+                Kind::Cable => 1.0,
+                Kind::Strut => -1.0,
+            })
+            .collect();
+        let turn = |k: usize| if signs[k] < 0.0 { -1.0 } else { 1.0 };
+        let rows: Vec<Vec<f64>> = (0..signs.len())
+            .map(|k| basis.iter().map(|stress| turn(k) * stress[k]).collect())
+            .collect();
+        let unique = rows.iter().map(|row| row.iter().all(|t| t.abs() <= NO_ENTRY)).collect();
+        let value = |k: usize| {
+            let value = turn(k) * axial_n[k] / largest;
+            // A force of the wrong sign by rounding is none.
+            if signs[k] != 0.0 && value < NO_FORCE { 0.0 } else { value }
+        };
+        let values = (0..signs.len()).map(value).collect();
+        Self { values, rows, free: vec![true; basis.len()], largest, unique, signs }
+    }
+
+    /// Nothing when the exchanges come to no end.
+    fn range(&mut self, member: usize) -> Option<ForceRange> {
+        if self.unique[member] {
+            return Some(ForceRange::Unique);
+        }
+        let mut limit = |direction| match self.extreme(member, direction) {
+            Extreme::At(force) => Some(Some(force)),
+            Extreme::Unbounded => Some(None),
+            Extreme::Undecided => None,
+        };
+        let (low, high) = (limit(-1.0)?, limit(1.0)?);
+        let negated = |force: Option<f64>| force.map(|n| -n);
+        let turned = self.signs[member] < 0.0;
+        let (least_n, most_n) = if turned { (negated(high), negated(low)) } else { (low, high) };
+        Some(match (least_n, most_n) {
+            (None, None) => ForceRange::Free,
+            (Some(low), Some(high)) if high - low <= NO_FORCE * self.largest => ForceRange::Unique,
+            _ => ForceRange::Bounded { least_n, most_n },
+        })
+    }
+
+    /// The largest value of a row, or the least for the direction -1.
+    fn extreme(&mut self, member: usize, direction: f64) -> Extreme {
+        for _ in 0..MOST_EXCHANGES * (self.free.len() + self.rows.len()) {
+            let Some((unknown, way)) = self.entering(member, direction) else {
+                return Extreme::At(self.values[member] * self.largest);
+            };
+            let Some(limit) = self.limit(unknown, way) else { return Extreme::Unbounded };
+            self.exchange(limit, unknown);
+        }
+        Extreme::Undecided
+    }
+
+    /// The first unknown whose change improves a row, and which way (Bland's rule, which does not
+    /// cycle).
+    fn entering(&self, member: usize, direction: f64) -> Option<(usize, f64)> {
+        let row = &self.rows[member];
+        (0..row.len()).find_map(|j| {
+            let gain = direction * row[j];
+            let improves = gain > NO_ENTRY || (self.free[j] && gain < -NO_ENTRY);
+            improves.then_some((j, gain.signum()))
+        })
+    }
+
+    /// The first of the members that reach their limit soonest.
+    fn limit(&self, unknown: usize, way: f64) -> Option<usize> {
+        let mut first: Option<(f64, usize)> = None;
+        for (k, row) in self.rows.iter().enumerate() {
+            let fall = -way * row[unknown];
+            if self.signs[k] != 0.0 && fall > NO_ENTRY {
+                let room = self.values[k].max(0.0) / fall;
+                if first.is_none_or(|(least, _)| room < least) {
+                    first = Some((room, k));
+                }
+            }
+        }
+        first.map(|(_, k)| k)
+    }
+
+    /// The force of a member becomes the unknown.
+    fn exchange(&mut self, member: usize, unknown: usize) {
+        let pivot = self.rows[member][unknown];
+        let limiting = self.rows[member].clone();
+        let value = self.values[member];
+        for (row, d) in self.rows.iter_mut().zip(&mut self.values) {
+            let share = row[unknown] / pivot;
+            if share != 0.0 {
+                *d -= share * value;
+                row.iter_mut().zip(&limiting).for_each(|(entry, of)| *entry -= share * of);
+            }
+            row[unknown] = share;
+        }
+        // Exact, and no remainder of rounding.
+        self.rows[member].fill(0.0);
+        (self.rows[member][unknown], self.values[member]) = (1.0, 0.0);
+        self.free[unknown] = false;
+    }
+}

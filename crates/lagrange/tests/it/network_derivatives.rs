@@ -1,0 +1,216 @@
+//! Derivatives of equilibria against central differences.
+
+use lagrange::network::{Change, Derivatives, Error, Parameter, Settings, Solution, solve};
+use model::Bar;
+use model::system::{Joint, Member, PointLoad, Support, System};
+
+use crate::network::{bar, cable, close};
+
+/// Step of the differences, in units of the parameter's size; their error is its square and
+/// the solver's tolerance over it.
+const STEP: f64 = 1e-4;
+/// What they agree to, in units of the largest derivative of a kind.
+const AGREE: f64 = 1e-6;
+
+/// A bridle in space of bars, a cable, springs and a slider, with a load on a bar and a spring
+/// between two anchors.
+fn bridle() -> System {
+    let mut joints = vec![
+        Joint::anchor("A", [-2.0, -1.0, 0.3]),
+        Joint::anchor("B", [2.0, -0.5, 0.0]),
+        Joint::anchor("C", [0.2, 2.0, -0.2]),
+    ];
+    let line = Support::Line { at_m: [0.0, -2.0, -1.0], direction: [0.0, 0.6, -0.8] };
+    joints.push(Joint { support: line, ..Joint::free("S").with_mass(0.5) });
+    joints.push(Joint::free("P").with_mass(2.0).with_force([0.3, 0.1, 0.0]));
+    joints.extend(["Q", "R"].map(|name| Joint::free(name).with_mass(0.7)));
+    let load = PointLoad { at_m: 0.4, force_n: [0.2, 0.0, -0.5] };
+    let members = vec![
+        bar(0, 5, 1.5, 0.8),
+        bar(5, 4, 1.4, 0.5).with_stiffness(300.0),
+        Member { loads: vec![load], ..bar(1, 6, 1.2, 1.0) },
+        cable(6, 4, 1.5, 0.2),
+        cable(2, 4, 2.7, 0.4).with_stiffness(50.0),
+        bar(3, 4, 1.9, 0.6),
+        bar(0, 1, 3.5, 0.3).with_stiffness(20.0),
+    ];
+    System::new("bridle", 9.80665, joints, members).unwrap()
+}
+
+/// The system with one parameter larger by `by`.
+fn with(system: &System, parameter: Parameter, by: f64) -> System {
+    let (mut joints, mut members) = (system.joints().to_vec(), system.members().to_vec());
+    match parameter {
+        Parameter::Length { member } => {
+            let member = &mut members[member];
+            let factor = 1.0 + by / member.body.length_m();
+            let centre_m = member.body.centre_m() * factor;
+            let length_m = member.body.length_m() * factor;
+            member.body = Bar::new(length_m, member.body.mass_kg(), centre_m, [0.0; 3]).unwrap();
+            member.loads.iter_mut().for_each(|load| load.at_m *= factor);
+        }
+        Parameter::Stiffness { member } => {
+            members[member].stiffness_n = members[member].stiffness_n.map(|ea| ea + by);
+        }
+        Parameter::Mass { member } => {
+            let body = &mut members[member].body;
+            let mass_kg = body.mass_kg() + by;
+            *body = Bar::new(body.length_m(), mass_kg, body.centre_m(), [0.0; 3]).unwrap();
+        }
+        Parameter::Force { joint, axis } => joints[joint].force_n[axis] += by,
+        Parameter::Anchor { joint, axis } => {
+            if let Support::Fixed { at_m } = &mut joints[joint].support {
+                at_m[axis] += by;
+            }
+        }
+    }
+    System::new("changed", system.gravity_m_s2(), joints, members).unwrap()
+}
+
+fn hang(system: &System) -> Solution {
+    solve(system, &Settings::default()).unwrap()
+}
+
+/// Places, axial forces and reactions one after another.
+fn flat(change: &Change) -> [Vec<f64>; 3] {
+    [change.joints_m.concat(), change.axial_n.clone(), change.reactions_n.concat()]
+}
+
+fn differences(system: &System, parameter: Parameter) -> [Vec<f64>; 3] {
+    let numbers = |by: f64| {
+        let answer = hang(&with(system, parameter, by)).equilibrium;
+        [answer.joints_m.concat(), answer.axial_n, answer.reactions_n.concat()]
+    };
+    let (more, less) = (numbers(STEP), numbers(-STEP));
+    [0, 1, 2]
+        .map(|of| more[of].iter().zip(&less[of]).map(|(a, b)| (a - b) / (2.0 * STEP)).collect())
+}
+
+fn parameters(system: &System) -> Vec<Parameter> {
+    let mut all = Vec::new();
+    for member in 0..system.members().len() {
+        all.extend([Parameter::Length { member }, Parameter::Mass { member }]);
+        if system.members()[member].stiffness_n.is_some() {
+            all.push(Parameter::Stiffness { member });
+        }
+    }
+    for (joint, given) in system.joints().iter().enumerate() {
+        for axis in 0..3 {
+            all.push(Parameter::Force { joint, axis });
+            if given.support.is_fixed() {
+                all.push(Parameter::Anchor { joint, axis });
+            }
+        }
+    }
+    all
+}
+
+#[test]
+fn by_every_parameter() {
+    let system = bridle();
+    let solution = hang(&system);
+    assert!(solution.slack.is_empty() && solution.limp.is_empty());
+    let mut derivatives = Derivatives::new(&system, &solution).unwrap();
+    for parameter in parameters(&system) {
+        let exact = flat(&derivatives.change(parameter).unwrap());
+        let numeric = differences(&system, parameter);
+        for (exact, numeric) in exact.iter().zip(&numeric) {
+            let largest = exact.iter().fold(1e-3_f64, |most, d| most.max(d.abs()));
+            for (a, b) in exact.iter().zip(numeric) {
+                assert!((a - b).abs() <= AGREE * largest, "{parameter:?}: {a} against {b}");
+            }
+        }
+    }
+}
+
+/// The adjoint gives the same numbers as the changes one by one.
+#[test]
+fn the_gradient_is_the_adjoint_of_the_changes() {
+    let system = bridle();
+    let solution = hang(&system);
+    let mut derivatives = Derivatives::new(&system, &solution).unwrap();
+    // Any weights.
+    let by_joints: Vec<[f64; 3]> = (0..system.joints().len())
+        .map(|k| [0.3, -0.7, 1.1].map(|w| w * (k as f64 + 0.5).sin()))
+        .collect();
+    let by_axial: Vec<f64> =
+        (0..system.members().len()).map(|k| (1.7 * k as f64 + 0.2).cos()).collect();
+    let gradient = derivatives.gradient(&by_joints, &by_axial).unwrap();
+    for parameter in parameters(&system) {
+        let change = derivatives.change(parameter).unwrap();
+        let places = change.joints_m.iter().zip(&by_joints);
+        let places: f64 =
+            places.map(|(d, w)| d.iter().zip(w).map(|(d, w)| d * w).sum::<f64>()).sum();
+        let forces: f64 = change.axial_n.iter().zip(&by_axial).map(|(d, w)| d * w).sum();
+        let adjoint = match parameter {
+            Parameter::Length { member } => gradient.by_length[member],
+            Parameter::Stiffness { member } => gradient.by_stiffness[member],
+            Parameter::Mass { member } => gradient.by_mass[member],
+            Parameter::Force { joint, axis } => gradient.by_force[joint][axis],
+            Parameter::Anchor { joint, axis } => gradient.by_anchor[joint][axis],
+        };
+        let difference = (adjoint - places - forces).abs();
+        assert!(difference <= 1e-10 * adjoint.abs().max(1.0), "{parameter:?}: {difference:e}");
+    }
+}
+
+/// The stiffness matrices of the anchors are symmetric together, and a common translation of all
+/// supports changes nothing.
+#[test]
+fn anchors_as_springs() {
+    let joints = vec![
+        Joint::anchor("A", [-2.0, -1.0, 0.3]),
+        Joint::anchor("B", [2.0, -0.5, 0.0]),
+        Joint::anchor("C", [0.2, 2.0, -0.2]),
+        Joint::free("P").with_mass(2.0),
+        Joint::free("Q").with_mass(1.0),
+    ];
+    let members = vec![
+        bar(0, 4, 1.5, 0.8),
+        bar(4, 3, 1.4, 0.5).with_stiffness(300.0),
+        bar(1, 3, 2.4, 1.0),
+        cable(2, 3, 2.6, 0.4),
+    ];
+    let system = System::new("bridle", 9.80665, joints, members).unwrap();
+    let solution = hang(&system);
+    let mut derivatives = Derivatives::new(&system, &solution).unwrap();
+    for of in 0..3 {
+        let mut sum = [[0.0; 3]; 3];
+        for by in 0..3 {
+            let (one, other) = (
+                derivatives.anchor_stiffness(of, by).unwrap(),
+                derivatives.anchor_stiffness(by, of).unwrap(),
+            );
+            for row in 0..3 {
+                for column in 0..3 {
+                    assert!((one[row][column] - other[column][row]).abs() < 1e-9);
+                    sum[row][column] += one[row][column];
+                }
+            }
+        }
+        assert!(sum.iter().flatten().all(|s| s.abs() < 1e-9), "{sum:?}");
+    }
+    assert!(derivatives.anchor_stiffness(0, 0).unwrap()[0][0] > 0.0);
+}
+
+/// A chain of two bars below one anchor swings freely about the vertical, and its forces are not
+/// differentiable where nothing holds it; a bar between two anchors does not let them move.
+#[test]
+fn refusals() {
+    let joints = vec![
+        Joint::anchor("A", [0.0; 3]),
+        Joint::anchor("B", [1.0, 0.0, 0.0]),
+        Joint::free("P").with_mass(1.0),
+    ];
+    let members = vec![bar(0, 1, 1.0, 1.0), bar(0, 2, 2.0, 0.0)];
+    let system = System::new("held", 9.80665, joints, members).unwrap();
+    let solution = hang(&system);
+    let mut derivatives = Derivatives::new(&system, &solution).unwrap();
+    let moved = derivatives.change(Parameter::Anchor { joint: 1, axis: 0 });
+    assert!(matches!(moved, Err(Error::NoDerivative { .. })), "{moved:?}");
+    let moved = derivatives.change(Parameter::Anchor { joint: 2, axis: 0 });
+    assert_eq!(moved, Err(Error::NotAnAnchor { joint: "P".into() }));
+    // A pendulum: sideways force moves it by l / W.
+    let aside = derivatives.change(Parameter::Force { joint: 2, axis: 1 }).unwrap();
+    close(aside.joints_m[2][1], 2.0 / 9.80665);
+}
