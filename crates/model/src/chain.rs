@@ -50,6 +50,9 @@ pub struct Chain {
     gravity_m_s2: f64,
     anchors: Anchors,
     bars: Vec<Bar>,
+    // Asked for by every part of a solver: a pass over a million bars costs as much as reading them.
+    total_length_m: f64,
+    total_mass_kg: f64,
 }
 
 /// Why a chain cannot be built.
@@ -136,8 +139,8 @@ impl Chain {
                 return Err(ChainError::Anchor { coordinate_m });
             }
         }
-        let chain = Self { name: name.into(), gravity_m_s2, anchors, bars };
-        let (length_m, mass_kg) = (chain.total_length_m(), chain.total_mass_kg());
+        let length_m = sum(bars.iter().map(Bar::length_m));
+        let mass_kg = sum(bars.iter().map(Bar::mass_kg));
         let weight_n = mass_kg * gravity_m_s2;
         let weighs = mass_kg > 0.0;
         for (quantity, total, may_vanish) in [
@@ -154,7 +157,9 @@ impl Chain {
                 return Err(ChainError::Underflow { quantity, total });
             }
         }
-        Ok(chain)
+        let name = name.into();
+        let (total_length_m, total_mass_kg) = (length_m, mass_kg);
+        Ok(Self { name, gravity_m_s2, anchors, bars, total_length_m, total_mass_kg })
     }
 
     /// The name, for people.
@@ -184,13 +189,13 @@ impl Chain {
     /// Sum of the lengths, m.
     #[must_use]
     pub fn total_length_m(&self) -> f64 {
-        sum(self.bars.iter().map(Bar::length_m))
+        self.total_length_m
     }
 
     /// Sum of the masses, kg.
     #[must_use]
     pub fn total_mass_kg(&self) -> f64 {
-        sum(self.bars.iter().map(Bar::mass_kg))
+        self.total_mass_kg
     }
 
     /// Whether both anchors stand on one vertical, to rounding ([`VERTICAL_TOLERANCE`]): the chain
