@@ -130,7 +130,7 @@ fn check_compressions(path: &Path, metadata: &ParquetMetaData) -> Result<(), Col
     Ok(())
 }
 
-fn check_rows(path: &Path, metadata: &ArrowReaderMetadata) -> Result<usize, ColumnsError> {
+pub fn check_rows(path: &Path, metadata: &ArrowReaderMetadata) -> Result<usize, ColumnsError> {
     let said = metadata.metadata().file_metadata().num_rows();
     let rows =
         u64::try_from(said).map_err(|_| ColumnsError::damaged(path, &format!("{said} rows")))?;
@@ -171,7 +171,7 @@ fn check_columns(path: &Path, metadata: &ArrowReaderMetadata) -> Result<(), Colu
     Ok(())
 }
 
-fn is_float(kind: &DataType) -> bool {
+pub fn is_float(kind: &DataType) -> bool {
     matches!(kind, DataType::Float32 | DataType::Float64)
 }
 
@@ -230,20 +230,20 @@ impl Sheet<'_> {
 
 /// A column as doubles; `there` only if something is missing.
 #[derive(Default)]
-struct Numbers {
+pub struct Numbers {
     values: Vec<f64>,
     there: Option<Vec<bool>>,
 }
 
 impl Numbers {
-    fn get(&self, row: usize) -> Option<f64> {
+    pub fn get(&self, row: usize) -> Option<f64> {
         let there = self.there.as_ref().is_none_or(|there| there.get(row).copied() == Some(true));
         self.values.get(row).copied().filter(|_| there)
     }
 }
 
 #[expect(clippy::cast_precision_loss, reason = "a length or a mass is the double nearest to it")]
-fn numbers(array: &ArrayRef) -> Numbers {
+pub fn numbers(array: &ArrayRef) -> Numbers {
     let values = match array.data_type() {
         DataType::Float64 => array.as_primitive::<Float64Type>().values().to_vec(),
         DataType::Float32 => converted::<Float32Type>(array, f64::from),

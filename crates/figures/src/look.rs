@@ -42,6 +42,7 @@ pub struct Look<'a> {
     dashes: &'static str,
     size_px: Option<f64>,
     bold: bool,
+    edge: Option<Colour>,
 }
 
 impl<'a> From<&'a str> for Look<'a> {
@@ -58,8 +59,15 @@ impl<'a> From<&'a String> for Look<'a> {
 
 impl<'a> Look<'a> {
     /// As what is around it looks.
-    pub const PLAIN: Look<'static> =
-        Look { class: "", fill: None, stroke: None, dashes: "", size_px: None, bold: false };
+    pub const PLAIN: Look<'static> = Look {
+        class: "",
+        fill: None,
+        stroke: None,
+        dashes: "",
+        size_px: None,
+        bold: false,
+        edge: None,
+    };
 
     /// A line of a colour and a width in px.
     #[must_use]
@@ -95,6 +103,13 @@ impl<'a> Look<'a> {
     #[must_use]
     pub const fn bold(self) -> Self {
         Self { bold: true, ..self }
+    }
+
+    /// The same text with an edge around its letters, so that it can be read where it crosses a
+    /// line.
+    #[must_use]
+    pub const fn edged(self, colour: Colour) -> Self {
+        Self { edge: Some(colour), ..self }
     }
 
     /// The same with a class, by which scripts and tests find it.
@@ -141,6 +156,9 @@ impl fmt::Display for Style<'_> {
         }
         if let Some(size) = look.size_px {
             write!(f, " font-size=\"{size}\"")?;
+        }
+        if let Some(colour) = look.edge {
+            write!(f, " stroke=\"{colour}\" stroke-width=\"3\" paint-order=\"stroke\"")?;
         }
         if look.bold {
             f.write_str(" font-weight=\"bold\"")?;

@@ -16,7 +16,7 @@ fn main() -> Result<(), Error> {
     let mut agreed = 0;
     println!("span_m,pull_n,sag_m");
     for (span_m, answer) in spans_m.iter().zip(answers) {
-        let answer = answer?;
+        let Solution::Chain(answer) = answer? else { continue };
         agreed += usize::from(answer.agrees());
         let hanging = &answer.equilibria()[0];
         let sag_m = -hanging.joints_m.iter().map(|joint| joint[2]).fold(0.0, f64::min);

@@ -27,6 +27,7 @@
 //! |---|---|
 //! | the hanging equilibrium, by both solvers, judged and proved | [`Solve`] |
 //! | the same of any system of bars, cables and struts, elastic or not | [`Solve::run_system`] |
+//! | the same of many chains and systems in parallel | [`Solve::run_all`] |
 //! | every equilibrium, stable or not, and the proof that there is no other | [`Census`] |
 //! | all equilibria over a parameter: branches, folds, exchanges of stability | [`Trace`] |
 //! | which start leads where, by millions | [`Sweep`] |
@@ -60,11 +61,13 @@
 mod basins;
 pub mod census;
 mod compare;
+mod csv;
 mod error;
 pub mod picture;
 mod problem;
 #[cfg(feature = "paper")]
 mod reproduce;
+mod solution;
 mod solve;
 #[cfg(feature = "sweep")]
 pub mod starts;
@@ -95,7 +98,8 @@ pub use self::trace::{Trace, TraceAnswer};
 pub use ::sweep::Field;
 pub use compare::compare;
 pub use error::Error;
-pub use problem::{Problem, case};
+pub use problem::{Problem, case, case_text};
+pub use solution::Solution;
 pub use solve::{Failure, SCHEMA_VERSION, Solve, SolveAnswer};
 pub use system::SystemSolution;
 pub use threads::MOST_THREADS;

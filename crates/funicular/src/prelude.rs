@@ -12,6 +12,7 @@ pub use crate::error::Error;
 pub use crate::problem::Problem;
 #[cfg(feature = "paper")]
 pub use crate::reproduce::Reproduce;
+pub use crate::solution::Solution;
 pub use crate::solve::Solve;
 #[cfg(feature = "sweep")]
 pub use crate::sweep::{Spread, Sweep};

@@ -4,7 +4,7 @@ use std::cell::RefCell;
 use std::path::{Path, PathBuf};
 
 use model::system::System;
-use model::system_file::{self, Described};
+use model::system_file::{self, Described, Readers, Rows};
 
 use crate::error::Error;
 
@@ -28,8 +28,8 @@ enum Kind {
 }
 
 impl Problem {
-    /// The problem of a system file. Bars in a file of their own may be CSV, or with the feature
-    /// `columns` Parquet.
+    /// The problem of a system file. Joints and bars in files of their own may be CSV, or with the
+    /// feature `columns` Parquet.
     ///
     /// # Errors
     ///
@@ -46,10 +46,16 @@ impl Problem {
     pub fn read_with_files(path: impl AsRef<Path>) -> Result<(Self, Vec<PathBuf>), Error> {
         let path = path.as_ref();
         let files = RefCell::new(vec![path.to_owned()]);
-        let described = system_file::read_with(path, &|bars| {
-            files.borrow_mut().push(bars.to_owned());
-            parquet(bars)
-        })?;
+        let keep = |file: &Path| files.borrow_mut().push(file.to_owned());
+        let bars = |file: &Path| {
+            keep(file);
+            parquet_bars(file)
+        };
+        let rows = |file: &Path, rows: &mut dyn Rows| {
+            keep(file);
+            parquet_rows(file, rows)
+        };
+        let described = system_file::read_with(path, Readers { bars: &bars, rows: &rows })?;
         Ok((described.into(), files.into_inner()))
     }
 
@@ -69,7 +75,10 @@ impl Problem {
     ///
     /// [`Error::UnknownCase`], with the name that is nearest.
     pub fn case(name: &str) -> Result<Self, Error> {
-        Ok(case(name)?.problem().into())
+        match model::cases::exhibit(name) {
+            Some(exhibit) => Ok(exhibit.system().into()),
+            None => Ok(case(name)?.problem().into()),
+        }
     }
 
     /// The name, for people.
@@ -114,6 +123,18 @@ pub fn case(name: &str) -> Result<&'static model::cases::Case, Error> {
     model::cases::get(name).ok_or_else(|| Error::unknown_case(name))
 }
 
+/// The system file of a named case or of a system of the gallery.
+///
+/// # Errors
+///
+/// [`Error::UnknownCase`], with the name that is nearest.
+pub fn case_text(name: &str) -> Result<&'static str, Error> {
+    match model::cases::exhibit(name) {
+        Some(exhibit) => Ok(exhibit.text),
+        None => Ok(case(name)?.text),
+    }
+}
+
 impl From<model::Problem> for Problem {
     fn from(problem: model::Problem) -> Self {
         Self(Kind::Chain(problem))
@@ -143,24 +164,40 @@ impl From<System> for Problem {
     }
 }
 
-/// What becomes of a file of bars.
-type BarsRead = Result<Vec<model::Bar>, Box<dyn std::error::Error + Send + Sync>>;
+/// What becomes of a file of columns.
+type Read<T> = Option<Result<T, Box<dyn std::error::Error + Send + Sync>>>;
 
 /// Bars read from a file that is named or begins like Parquet; nothing of other files.
 #[cfg(feature = "columns")]
-fn parquet(bars: &Path) -> Option<BarsRead> {
+fn parquet_bars(file: &Path) -> Read<Vec<model::Bar>> {
+    is_parquet(file).then(|| columns::read_bars(file).map_err(Into::into))
+}
+
+/// The same for the rows of joints, and of bars between them.
+#[cfg(feature = "columns")]
+fn parquet_rows(file: &Path, rows: &mut dyn Rows) -> Read<()> {
+    is_parquet(file).then(|| columns::read_rows(file, rows).map_err(Into::into))
+}
+
+#[cfg(feature = "columns")]
+fn is_parquet(file: &Path) -> bool {
     use std::io::Read as _;
     let mut magic = [0; 4];
     // What is read from a pipe is gone: only a file is tasted.
-    let is_parquet = bars.extension().is_some_and(|e| e.eq_ignore_ascii_case("parquet"))
-        || std::fs::metadata(bars).is_ok_and(|about| about.is_file())
-            && std::fs::File::open(bars)
-                .is_ok_and(|mut file| file.read_exact(&mut magic).is_ok() && magic == *b"PAR1");
-    is_parquet.then(|| columns::read_bars(bars).map_err(Into::into))
+    file.extension().is_some_and(|e| e.eq_ignore_ascii_case("parquet"))
+        || std::fs::metadata(file).is_ok_and(|about| about.is_file())
+            && std::fs::File::open(file)
+                .is_ok_and(|mut file| file.read_exact(&mut magic).is_ok() && magic == *b"PAR1")
 }
 
 /// Bars are read from CSV alone.
 #[cfg(not(feature = "columns"))]
-fn parquet(_: &Path) -> Option<BarsRead> {
+fn parquet_bars(_: &Path) -> Read<Vec<model::Bar>> {
+    None
+}
+
+/// Rows are read from CSV alone.
+#[cfg(not(feature = "columns"))]
+fn parquet_rows(_: &Path, _: &mut dyn Rows) -> Read<()> {
     None
 }

@@ -4,13 +4,13 @@ use std::io::{self, Write};
 use std::num::NonZeroUsize;
 
 use model::{Equilibrium, Rung, SolverName, SystemSummary};
-use rayon::prelude::*;
 use serde::Serialize;
 use serde_json::Value;
 use validate::Agreement;
 use validate::answer::{Answer, Equations, Question, SolverFailure, Solvers, UseCensus, ask};
 use validate::systems::SystemFailure;
 
+use crate::csv::Numbers;
 use crate::error::Error;
 use crate::problem::Problem;
 use crate::threads;
@@ -96,28 +96,6 @@ impl Solve {
         })?
     }
 
-    /// Solve many problems in parallel. The answers are in the order of the problems, and each is
-    /// that of [`run`](Self::run) but for the times.
-    ///
-    /// ```
-    /// use funicular::prelude::*;
-    /// let problems = [Problem::case("two-bars")?, Problem::case("three-equal-bars")?];
-    /// let answers = Solve::new().run_all(&problems)?;
-    /// assert!(answers.iter().all(|answer| answer.as_ref().is_ok_and(|answer| answer.agrees())));
-    /// # Ok::<(), Error>(())
-    /// ```
-    ///
-    /// # Errors
-    ///
-    /// [`Error::TooManyThreads`] and [`Error::Threads`]; what becomes of a problem stands in its
-    /// place.
-    pub fn run_all(&self, problems: &[Problem]) -> Result<Vec<Result<SolveAnswer, Error>>, Error> {
-        threads::on(self.threads, || {
-            let one = |problem| self.one(problem, NonZeroUsize::MIN, &|_| {});
-            problems.par_iter().map(one).collect()
-        })
-    }
-
     pub(crate) fn threads_asked(&self) -> usize {
         self.threads
     }
@@ -126,7 +104,7 @@ impl Solve {
         self.solvers
     }
 
-    fn one(
+    pub(crate) fn one(
         &self,
         problem: &Problem,
         threads: NonZeroUsize,
@@ -235,23 +213,38 @@ impl SolveAnswer {
         Ok(value)
     }
 
-    /// A line per solver and joint as CSV: position, force of bar k+1 on bar k (at joint 0 of the
-    /// ground on bar 1, at joint n of the ground on bar n), and the axial force of the bar that
-    /// ends there.
+    /// Joints as CSV, a line per solver and joint: position, and force of bar k+1 on bar k (at
+    /// joint 0 of the ground on bar 1, at joint n of the ground on bar n). What is zero but for
+    /// rounding is written as 0.
     ///
     /// # Errors
     ///
     /// When `to` cannot be written.
     pub fn write_csv(&self, mut to: impl Write) -> io::Result<()> {
-        writeln!(to, "solver,joint,x_m,y_m,z_m,force_x_n,force_y_n,force_z_n,axial_n")?;
+        writeln!(to, "solver,joint,x_m,y_m,z_m,force_x_n,force_y_n,force_z_n")?;
         for e in self.equilibria() {
-            let joints = e.joints_m.iter().zip(&e.multipliers_n).enumerate();
-            for (k, ([x, y, z], [fx, fy, fz])) in joints {
-                write!(to, "{},{k},{x:?},{y:?},{z:?},{fx:?},{fy:?},{fz:?},", e.solver)?;
-                match k.checked_sub(1).and_then(|bar| e.axial_n.get(bar)) {
-                    Some(axial) => writeln!(to, "{axial:?}")?,
-                    None => writeln!(to)?,
-                }
+            let places = Numbers::of(e.joints_m.as_flattened());
+            let forces = Numbers::of(e.multipliers_n.as_flattened());
+            for (k, (at_m, force_n)) in e.joints_m.iter().zip(&e.multipliers_n).enumerate() {
+                let (place, force) = (places.cells(*at_m), forces.cells(*force_n));
+                writeln!(to, "{},{k},{place},{force}", e.solver)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Bars as CSV, a line per solver and bar: its joints and its axial force, tension positive.
+    ///
+    /// # Errors
+    ///
+    /// When `to` cannot be written.
+    pub fn write_bars_csv(&self, mut to: impl Write) -> io::Result<()> {
+        writeln!(to, "solver,bar,from,to,axial_n")?;
+        for e in self.equilibria() {
+            let forces = Numbers::of(&e.axial_n);
+            for (k, axial_n) in e.axial_n.iter().enumerate() {
+                let bar = k + 1;
+                writeln!(to, "{},{bar},{k},{bar},{}", e.solver, forces.cell(*axial_n))?;
             }
         }
         Ok(())

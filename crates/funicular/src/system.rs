@@ -9,6 +9,7 @@ use serde::Serialize;
 use serde::ser::SerializeSeq;
 use validate::systems::{SystemAgreement, SystemAnswer, SystemFailure, ask};
 
+use crate::csv::{Numbers, quoted};
 use crate::error::Error;
 use crate::solve::{Failure, SCHEMA_VERSION, Solve};
 use crate::threads;
@@ -111,6 +112,24 @@ impl SystemSolution {
         self.answer.agrees()
     }
 
+    /// Whether a check has failed: the answers disagree, or the judge refuses one.
+    #[must_use]
+    pub fn check_failed(&self) -> bool {
+        let disagree = self.agreement().is_some_and(|agreement| !agreement.agrees());
+        disagree || self.equilibria().iter().any(|answer| answer.evidence.ladder.failed())
+    }
+
+    /// Whether every solver that was asked has an answer, and each has converged or is proved to be
+    /// an equilibrium.
+    #[must_use]
+    pub fn is_decided(&self) -> bool {
+        let known = |answer: &SystemEquilibrium| {
+            let ladder = &answer.evidence.ladder;
+            ladder.converged.is_reached() || ladder.verified.is_reached()
+        };
+        self.failures().is_empty() && self.equilibria().iter().all(known)
+    }
+
     /// The highest rung that an answer has reached.
     #[must_use]
     pub fn rung(&self) -> Option<Rung> {
@@ -124,6 +143,7 @@ impl SystemSolution {
     }
 
     /// Joints as CSV, a line per solver and joint: its place, and the force of the ground on it.
+    /// What is zero but for rounding is written as 0.
     ///
     /// # Errors
     ///
@@ -131,17 +151,19 @@ impl SystemSolution {
     pub fn write_joints_csv(&self, mut to: impl Write) -> io::Result<()> {
         writeln!(to, "solver,joint,x_m,y_m,z_m,reaction_x_n,reaction_y_n,reaction_z_n")?;
         for e in self.equilibria() {
+            let places = Numbers::of(e.joints_m.as_flattened());
+            let forces = Numbers::of(e.reactions_n.as_flattened());
             let joints = self.system.joints().iter().zip(&e.joints_m).zip(&e.reactions_n);
-            for ((joint, [x, y, z]), [fx, fy, fz]) in joints {
-                let name = quoted(&joint.name);
-                writeln!(to, "{},{name},{x:?},{y:?},{z:?},{fx:?},{fy:?},{fz:?}", e.solver)?;
+            for ((joint, at_m), force_n) in joints {
+                let (place, force) = (places.cells(*at_m), forces.cells(*force_n));
+                writeln!(to, "{},{},{place},{force}", e.solver, quoted(&joint.name))?;
             }
         }
         Ok(())
     }
 
     /// Members as CSV, a line per solver and member: its joints, axial force, and the forces on it
-    /// at both.
+    /// at both. What is zero but for rounding is written as 0.
     ///
     /// # Errors
     ///
@@ -152,17 +174,15 @@ impl SystemSolution {
             "solver,bar,from,to,axial_n,start_x_n,start_y_n,start_z_n,end_x_n,end_y_n,end_z_n"
         )?;
         for e in self.equilibria() {
+            let ends = e.start_forces_n.as_flattened().iter().chain(e.end_forces_n.as_flattened());
+            let (ends, axial) = (Numbers::of(ends), Numbers::of(&e.axial_n));
             for (k, member) in self.system.members().iter().enumerate() {
                 let name = |joint: usize| quoted(&self.system.joints()[joint].name);
-                let [sx, sy, sz] = e.start_forces_n[k];
-                let [ex, ey, ez] = e.end_forces_n[k];
-                let (from, end, axial) = (name(member.from), name(member.to), e.axial_n[k]);
-                writeln!(
-                    to,
-                    "{},{},{from},{end},{axial:?},{sx:?},{sy:?},{sz:?},{ex:?},{ey:?},{ez:?}",
-                    e.solver,
-                    k + 1
-                )?;
+                let (from, end) = (name(member.from), name(member.to));
+                let force = axial.cell(e.axial_n[k]);
+                let (start_n, end_n) =
+                    (ends.cells(e.start_forces_n[k]), ends.cells(e.end_forces_n[k]));
+                writeln!(to, "{},{},{from},{end},{force},{start_n},{end_n}", e.solver, k + 1)?;
             }
         }
         Ok(())
@@ -184,15 +204,6 @@ impl SystemSolution {
             agreement: self.agreement(),
             failures: self.failures().iter().map(Failure::of_system).collect(),
         }
-    }
-}
-
-/// A name as a cell of CSV (RFC 4180).
-fn quoted(name: &str) -> String {
-    if name.contains([',', '"', '\n', '\r']) {
-        format!("\"{}\"", name.replace('"', "\"\""))
-    } else {
-        name.to_owned()
     }
 }
 

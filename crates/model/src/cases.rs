@@ -3,7 +3,8 @@
 //! The system files stand in `validation/cases/`, each with a comment that says what it exercises.
 
 use crate::Problem;
-use crate::system_file::parse_problem;
+use crate::system::System;
+use crate::system_file::{Described, parse, parse_problem};
 
 /// A named case.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -31,9 +32,36 @@ impl Case {
     }
 }
 
+/// A named system of the gallery: joints by name, members of all kinds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Exhibit {
+    /// Its name, the stem of its file.
+    pub name: &'static str,
+    /// What it is, in a line.
+    pub about: &'static str,
+    /// Its system file.
+    pub text: &'static str,
+}
+
+impl Exhibit {
+    /// The system.
+    ///
+    /// # Panics
+    ///
+    /// Never: a test reads all of the gallery.
+    #[must_use]
+    pub fn system(&self) -> System {
+        match parse(self.text, self.name) {
+            Ok(Described::System(system)) => system,
+            Ok(Described::Chain(_)) => panic!("{} of the gallery is a chain", self.name),
+            Err(error) => panic!("system of the gallery: {error}"),
+        }
+    }
+}
+
 macro_rules! registry {
-    ($($name:literal: $about:literal,)*) => {
-        &[$(Case {
+    ($kind:ident, $($name:literal: $about:literal,)*) => {
+        &[$($kind {
             name: $name,
             about: $about,
             text: include_str!(concat!("../data/cases/", $name, ".toml")),
@@ -42,6 +70,7 @@ macro_rules! registry {
 }
 
 const REGISTRY: &[Case] = registry! {
+    Case,
     "three-equal-bars": "the example of the paper",
     "three-equal-bars-on-the-moon": "the same in other units",
     "three-equal-bars-oblique": "its bars between anchors not on one vertical",
@@ -62,7 +91,38 @@ const REGISTRY: &[Case] = registry! {
     "far-from-the-origin": "anchors 1e6 m from the origin",
 };
 
-/// All cases.
+const GALLERY: &[Exhibit] = registry! {
+    Exhibit,
+    "lamp": "a lamp on two cables: the triangle 3, 4, 5",
+    "bridle": "three heavy strands hold a load",
+    "mobile": "a tree of beams that hang level by the lever rule",
+    "footbridge": "cables, hangers and a deck: the parabola of a suspension bridge",
+    "net": "a net of heavy bars, hung by its corners",
+    "ring": "a closed ring, held by three cables",
+    "tripod": "three legs and a load: a rigid truss",
+    "pendulum-chain": "five bars in a side wind",
+    "four-bar-linkage": "two cranks and a coupler with a load",
+};
+
+/// The gallery: systems of joints and members, each with what is known of it in a closed form.
+#[must_use]
+pub fn gallery() -> &'static [Exhibit] {
+    GALLERY
+}
+
+/// The system of the gallery of this name.
+///
+/// ```
+/// // A rigid truss of three legs.
+/// let tripod = model::cases::exhibit("tripod").unwrap().system();
+/// assert_eq!((tripod.joints().len(), tripod.members().len()), (4, 3));
+/// ```
+#[must_use]
+pub fn exhibit(name: &str) -> Option<&'static Exhibit> {
+    GALLERY.iter().find(|exhibit| exhibit.name == name)
+}
+
+/// All cases: chains.
 #[must_use]
 pub fn all() -> &'static [Case] {
     REGISTRY
@@ -100,5 +160,20 @@ mod tests {
             assert!(case.text.starts_with("# "), "{} does not say what it exercises", case.name);
         }
         assert_eq!(paper().chain().name(), "three equal bars");
+    }
+
+    #[test]
+    fn every_system_of_the_gallery_can_be_asked_about_and_has_a_name_of_its_own() {
+        for (k, exhibit) in gallery().iter().enumerate() {
+            assert!(exhibit.system().refusal().is_ok());
+            let name = exhibit.name;
+            assert!(name.chars().all(|c| c.is_ascii_lowercase() || c == '-'), "{name}");
+            assert!(gallery()[..k].iter().all(|other| other.name != name), "{name}");
+            assert!(get(name).is_none(), "{name}");
+            assert!(
+                exhibit.text.starts_with("# ") && exhibit.text.contains("# Reference:"),
+                "{name}"
+            );
+        }
     }
 }

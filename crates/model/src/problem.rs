@@ -1,6 +1,6 @@
 //! Chains that have an answer, and the refusal of those that have none.
 
-use crate::readable::Readable;
+use crate::readable::{Computed, Readable};
 use crate::{Anchors, Bar, Chain};
 
 /// How near to straight is straight, relative to the total length.
@@ -37,7 +37,7 @@ pub enum Refusal {
     /// anchors share the force along it in any way they like.
     #[error(
         "a single bar between two fixed points cannot move, and the force along it is indeterminate \
-         (length {} m, span {} m)", Readable(*length_m), Readable(*span_m)
+         (length {} m, span {} m)", Readable(*length_m), Computed::of(*span_m)
     )]
     SingleBar {
         /// Length of the bar.
@@ -48,7 +48,7 @@ pub enum Refusal {
     /// Occurs when the anchors are further apart than the bars reach.
     #[error(
         "the anchors are {} m apart and the bars reach only {} m: {} m are missing",
-        Readable(*span_m), Readable(*total_length_m), Readable(span_m - total_length_m)
+        Computed::of(*span_m), Computed::of(*total_length_m), Computed::difference(*span_m, *total_length_m)
     )]
     OutOfReach {
         /// Distance of the anchors.
@@ -61,7 +61,7 @@ pub enum Refusal {
     #[error(
         "the bars reach from anchor to anchor and no further (total length {} m, span \
          {} m): the chain is straight and taut, and the force along it is indeterminate",
-        Readable(*total_length_m), Readable(*span_m)
+        Computed::of(*total_length_m), Computed::of(*span_m)
     )]
     Taut {
         /// Distance of the anchors.
@@ -73,7 +73,7 @@ pub enum Refusal {
     #[error(
         "bar {bar} is {} m long, longer than the other bars ({} m) and the span ({} m) together: \
          the chain cannot close",
-        Readable(*length_m), Readable(*rest_m), Readable(*span_m)
+        Readable(*length_m), Computed::of(*rest_m), Computed::of(*span_m)
     )]
     BarTooLong {
         /// Number of the bar, from 1.
@@ -90,7 +90,7 @@ pub enum Refusal {
     #[error(
         "bar {bar} is {} m long, exactly as long as the other bars ({} m) and the span ({} m) \
          together: the chain closes only folded on one line, and the force along it is indeterminate",
-        Readable(*length_m), Readable(*rest_m), Readable(*span_m)
+        Readable(*length_m), Computed::of(*rest_m), Computed::of(*span_m)
     )]
     Folded {
         /// Number of the bar, from 1.

@@ -17,9 +17,60 @@ impl fmt::Display for Readable {
     }
 }
 
+/// A number that was worked out from others, with the fewest digits that its rounding allows: `6`,
+/// not `5.999999999999998`.
+pub(crate) struct Computed {
+    value: f64,
+    /// What rounding may have changed.
+    rounding: f64,
+}
+
+impl Computed {
+    /// Roundings of a sum or a distance that are allowed for, in units of [`f64::EPSILON`]: twice
+    /// those of a square root of three squares, after a compensated sum.
+    const ROUNDINGS: f64 = 8.0;
+
+    /// A sum, or a distance.
+    pub(crate) fn of(value: f64) -> Self {
+        Self { value, rounding: Self::ROUNDINGS * f64::EPSILON * value.abs() }
+    }
+
+    /// The difference of two of them, which has the rounding of both.
+    pub(crate) fn difference(a: f64, b: f64) -> Self {
+        let rounding = Self::ROUNDINGS * f64::EPSILON * a.abs().max(b.abs());
+        Self { value: a - b, rounding }
+    }
+}
+
+impl fmt::Display for Computed {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        /// Digits that tell every double from the next.
+        const MOST: usize = 17;
+        let near = |digits: usize| {
+            let shown: f64 = format!("{:.*e}", digits - 1, self.value).parse().ok()?;
+            ((shown - self.value).abs() <= self.rounding).then_some(shown)
+        };
+        write!(f, "{}", Readable((1..=MOST).find_map(near).unwrap_or(self.value)))
+    }
+}
+
 #[cfg(test)]
 mod tests {
-    use super::Readable;
+    use super::{Computed, Readable};
+
+    #[test]
+    fn what_was_worked_out_has_no_digits_of_its_rounding() {
+        assert_eq!(Computed::of(5.999_999_999_999_998).to_string(), "6");
+        assert_eq!(Computed::of(0.1 + 0.2).to_string(), "0.3");
+        assert_eq!(Computed::of(2.0_f64.sqrt()).to_string(), "1.414213562373095");
+        assert_eq!(Computed::of(0.0).to_string(), "0");
+        assert_eq!(Computed::of(1e-300).to_string(), "1e-300");
+        assert_eq!(Computed::of(f64::NAN).to_string(), "NaN");
+        assert_eq!(Computed::difference(3.1, 3.0).to_string(), "0.1");
+        // What is more than rounding is told.
+        assert_eq!(Computed::of(6.000_000_000_000_1).to_string(), "6.0000000000001");
+        assert_eq!(Computed::difference(1.0 + 4.0 * f64::EPSILON, 1.0).to_string(), "9e-16");
+    }
 
     #[test]
     fn only_numbers_of_unusual_size_have_exponents() {

@@ -1,39 +1,87 @@
-//! Loads and reactions as arrows, all to one scale.
+//! Loads and reactions as arrows, all to one scale, on that side of the joint where its members are
+//! not.
 
 use crate::look::{Colour, Look};
 use crate::palette::GREEN;
 use crate::structure::Structure;
-use crate::structure::labels::{Labels, short};
+use crate::structure::labels::{Crossing, Labels, short};
 use crate::structure::scene::{LONGEST_ARROW, Scene, length};
 use crate::svg::{Anchor, Svg};
 
-/// Loads: solid, from the joint on.
+/// Loads: solid.
 pub(crate) const LOAD: Look<'static> = Look::stroke(Colour::BLACK, 1.8).class("load");
 
-/// Reactions: dashed, towards the joint.
+/// Reactions: dashed.
 pub(crate) const REACTION: Look<'static> = Look::stroke(GREEN, 1.8).dashed("5 3").class("reaction");
 
 /// Arrows shorter than this part of the longest are left out; their labels would say nothing.
 const LEAST: f64 = 0.02;
 
+/// An arrow that leaves its joint is drawn towards it instead where it is nearer to a member than
+/// this (the cosine of 15 degrees) and its tail would not be.
+const ALONG: f64 = 0.966;
+
+/// A force at a joint as an arrow, px.
+struct Arrow {
+    joint: usize,
+    force: [f64; 2],
+    newton: f64,
+    look: Look<'static>,
+    /// Cosine of the angle to the nearest member, of the force and of its opposite.
+    nearest: [f64; 2],
+}
+
 pub(crate) fn draw(svg: &mut Svg, structure: &Structure<'_>, scene: &Scene, labels: &mut Labels) {
-    for (joint, at) in structure.joints.iter().zip(&scene.joints) {
-        for (force_n, look, outwards) in
-            [(joint.load_n, LOAD, true), (joint.reaction_n, REACTION, false)]
+    let arrows = arrows(structure, scene);
+    // All arrows before the first label: none is to be crossed.
+    let drawn: Vec<_> = arrows
+        .iter()
+        .map(|arrow| {
+            let at = scene.joints[arrow.joint];
+            let inwards = arrow.nearest[0] > ALONG && arrow.nearest[1] < arrow.nearest[0];
+            let sign = if inwards { -1.0 } else { 1.0 };
+            let far = [0, 1].map(|k| at[k] + sign * arrow.force[k]);
+            let ends = if inwards { [far, at] } else { [at, far] };
+            svg.arrow(arrow.look, ends[0], ends[1]);
+            labels.line(ends);
+            (arrow.newton, far, at)
+        })
+        .collect();
+    for (newton, far, at) in drawn {
+        labels.write(svg, &format!("{} N", short(newton)), &places(far, at), Crossing::Allowed);
+    }
+}
+
+fn arrows(structure: &Structure<'_>, scene: &Scene) -> Vec<Arrow> {
+    let mut arrows = vec![];
+    let mut of_joint = vec![[usize::MAX; 2]; structure.joints.len()];
+    for (k, joint) in structure.joints.iter().enumerate() {
+        for (which, (force_n, look)) in
+            [(joint.load_n, LOAD), (joint.reaction_n, REACTION)].into_iter().enumerate()
         {
-            let [x, y] = scene.arrow(force_n);
-            let size = length([x, y]);
+            let force = scene.arrow(force_n);
+            let size = length(force);
             if size.is_nan() || size < LEAST * LONGEST_ARROW {
                 continue;
             }
-            let sign = if outwards { 1.0 } else { -1.0 };
-            let far = [at[0] + sign * x, at[1] + sign * y];
-            let ends = if outwards { [*at, far] } else { [far, *at] };
-            svg.arrow(look, ends[0], ends[1]);
+            of_joint[k][which] = arrows.len();
             let newton = force_n[0].hypot(force_n[1]).hypot(force_n[2]);
-            labels.write(svg, &format!("{} N", short(newton)), &places(far, *at));
+            arrows.push(Arrow { joint: k, force, newton, look, nearest: [-1.0; 2] });
         }
     }
+    for member in structure.members {
+        let [a, b] = scene.ends(member.joints);
+        let along = [b[0] - a[0], b[1] - a[1]];
+        for (joint, sign) in member.joints.into_iter().zip([1.0, -1.0]) {
+            for arrow in of_joint[joint].into_iter().filter(|arrow| *arrow != usize::MAX) {
+                let Arrow { force: [x, y], nearest, .. } = &mut arrows[arrow];
+                let cosine =
+                    sign * (*x * along[0] + *y * along[1]) / (length([*x, *y]) * length(along));
+                *nearest = [nearest[0].max(cosine), nearest[1].max(-cosine)];
+            }
+        }
+    }
+    arrows
 }
 
 /// Where the size of a force may stand: beyond the far end of its arrow, then beside it.

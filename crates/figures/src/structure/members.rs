@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use crate::look::{Colour, Look};
 use crate::palette::{BLUE, ORANGE, VERMILION};
-use crate::structure::labels::{Labels, short};
+use crate::structure::labels::{Crossing, Labels, half_extent, short};
 use crate::structure::scene::{Scene, length};
 use crate::structure::{Member, Structure};
 use crate::svg::{Anchor, Svg};
@@ -13,7 +13,7 @@ use crate::svg::{Anchor, Svg};
 const WIDTHS: usize = 4;
 
 /// Forces below this part of the largest are none: a solver leaves as much.
-const NOTHING: f64 = 1e-9;
+pub(crate) const NOTHING: f64 = 1e-9;
 
 /// A drawing with less detail than this has no room for hollow lines.
 const HOLLOW: f64 = 0.5;
@@ -115,8 +115,8 @@ fn grained(line: [[f64; 2]; 2], seen: &mut BTreeSet<[[i32; 2]; 2]>) -> Option<[[
 
 /// The forces beside the members, the largest first.
 pub(crate) fn values(svg: &mut Svg, structure: &Structure<'_>, scene: &Scene, labels: &mut Labels) {
-    /// From the middle of the member to its label, px.
-    const BESIDE: f64 = 11.0;
+    /// Between the member and its label, px.
+    const BESIDE: f64 = 4.0;
     /// Least length of a member with a label, px.
     const LEAST: f64 = 20.0;
     if scene.detail < 1.0 {
@@ -137,16 +137,15 @@ pub(crate) fn values(svg: &mut Svg, structure: &Structure<'_>, scene: &Scene, la
         }
         let middle = [f64::midpoint(a[0], b[0]), f64::midpoint(a[1], b[1])];
         let across = [along[1] / size, -along[0] / size];
-        let beside = |side: f64| {
-            let [x, y] = across.map(|x| side * BESIDE * x);
-            let anchor = match x {
-                _ if x.abs() < 0.5 * BESIDE => Anchor::Middle,
-                x if x > 0.0 => Anchor::Start,
-                _ => Anchor::End,
-            };
-            ([middle[0] + x, middle[1] + y], anchor)
-        };
         let text = format!("{} N", short(force));
-        labels.write(svg, &text, &[beside(1.0), beside(-1.0)]);
+        // So far off that no corner of the label meets the member.
+        let [half_width, half_height] = half_extent(&text);
+        let off = BESIDE + half_width * across[0].abs() + half_height * across[1].abs();
+        let beside = |side: f64, part: f64| {
+            let at = [0, 1].map(|k| middle[k] + part * along[k] + side * off * across[k]);
+            (at, Anchor::Middle)
+        };
+        let places = [0.0, -0.2, 0.2].map(|part| [beside(1.0, part), beside(-1.0, part)]);
+        labels.write(svg, &text, places.as_flattened(), Crossing::Never);
     }
 }

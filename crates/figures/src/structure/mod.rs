@@ -130,6 +130,9 @@ impl Structure<'_> {
         svg.text(small, [scene::SIDE, 70.0], Anchor::Start, &self.extremes());
 
         let mut labels = Labels::within(scene.size);
+        if scene.detail >= 1.0 {
+            self.members.iter().for_each(|member| labels.line(scene.ends(member.joints)));
+        }
         supports::draw(&mut svg, self, &scene);
         members::draw(&mut svg, self, &scene);
         supports::joints(&mut svg, self, &scene, &mut labels);
@@ -172,8 +175,10 @@ impl Structure<'_> {
         let forces = || self.members.iter().filter_map(|member| member.axial_n);
         let most = forces().fold(0.0, f64::max);
         let least = forces().fold(0.0, f64::min);
+        // What a solver leaves of a force that is none is not told.
+        let nothing = members::NOTHING * f64::max(most, -least);
         let said = |name: &str, force: f64| {
-            (force > 0.0).then(|| format!("largest {name} {} N", labels::short(force)))
+            (force > nothing).then(|| format!("largest {name} {} N", labels::short(force)))
         };
         [said("tension", most), said("compression", -least)]
             .into_iter()

@@ -53,7 +53,7 @@ impl Scene {
         // Joints all in one place have no scale.
         let scale = if fits.is_finite() { fits } else { 0.0 };
         let size = [
-            (width * scale + 2.0 * SIDE).max(LEAST_WIDTH).round(),
+            (width * scale + 2.0 * SIDE).max(LEAST_WIDTH).max(heading(structure)).round(),
             (height * scale + ABOVE + BELOW).round(),
         ];
         let left = 0.5 * (size[0] - width * scale);
@@ -82,6 +82,16 @@ impl Scene {
         let size = length([x, y]);
         (size > 1e-3).then(|| [x / size, -y / size])
     }
+}
+
+/// Width that the lines above the drawing need, px.
+fn heading(structure: &Structure<'_>) -> f64 {
+    /// Mean width of a letter of the title and of the note, px.
+    const LETTERS: [f64; 2] = [9.6, 7.3];
+    let letters = [structure.title, structure.note].map(|text| text.chars().count() as f64);
+    // A title of any length is cut off at the width of the widest structure.
+    let widest = WIDTH + 2.0 * SIDE;
+    (SIDE + f64::max(LETTERS[0] * letters[0], LETTERS[1] * letters[1]) + 0.2 * SIDE).min(widest)
 }
 
 pub(crate) fn length([x, y]: [f64; 2]) -> f64 {

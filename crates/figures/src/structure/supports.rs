@@ -1,7 +1,7 @@
 //! Joints and what holds them.
 
 use crate::look::{Colour, Look};
-use crate::structure::labels::Labels;
+use crate::structure::labels::{Crossing, Labels};
 use crate::structure::scene::{Scene, length};
 use crate::structure::{Structure, Support};
 use crate::svg::{Anchor, Svg};
@@ -99,7 +99,7 @@ pub(crate) fn names(svg: &mut Svg, structure: &Structure<'_>, scene: &Scene, lab
         if scene.detail < 1.0 && joint.support.is_none() {
             continue;
         }
-        labels.write(svg, joint.name, &places(*at, crowded));
+        labels.write(svg, joint.name, &places(*at, crowded), Crossing::Allowed);
     }
 }
 
@@ -122,15 +122,22 @@ fn crowded(structure: &Structure<'_>, scene: &Scene) -> Vec<[f64; 2]> {
 }
 
 /// Where a name may stand beside a joint: first where its members do not go.
-fn places([x, y]: [f64; 2], crowded: [f64; 2]) -> [([f64; 2], Anchor); 4] {
-    /// From the joint to its name, px.
-    const BESIDE: f64 = 8.0;
-    let mut corners = [[1.0, -1.0], [-1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
-    let toward = |corner: &[f64; 2]| corner[0] * crowded[0] + corner[1] * crowded[1];
+fn places([x, y]: [f64; 2], crowded: [f64; 2]) -> [([f64; 2], Anchor); 8] {
+    /// From the joint to its name, px: at the corners, to the sides, above and below.
+    const BESIDE: [f64; 3] = [8.0, 9.0, 13.0];
+    let [corner, side, above] = BESIDE;
+    let mut places = [
+        ([corner, -corner], Anchor::Start),
+        ([-corner, -corner], Anchor::End),
+        ([corner, corner], Anchor::Start),
+        ([-corner, corner], Anchor::End),
+        ([side, 0.0], Anchor::Start),
+        ([-side, 0.0], Anchor::End),
+        ([0.0, -above], Anchor::Middle),
+        ([0.0, above], Anchor::Middle),
+    ];
+    let toward = |[u, v]: [f64; 2]| (u * crowded[0] + v * crowded[1]) / length([u, v]);
     // Stable: a joint without members has its name above, to the right.
-    corners.sort_by(|a, b| toward(a).total_cmp(&toward(b)));
-    corners.map(|[right, down]| {
-        let anchor = if right > 0.0 { Anchor::Start } else { Anchor::End };
-        ([x + right * BESIDE, y + down * BESIDE], anchor)
-    })
+    places.sort_by(|(a, _), (b, _)| toward(*a).total_cmp(&toward(*b)));
+    places.map(|([u, v], anchor)| ([x + u, y + v], anchor))
 }

@@ -6,13 +6,8 @@ use funicular::SolveAnswer;
 use model::{Equilibrium, Evidence, SolverName, Vector};
 use validate::Agreement;
 
-use crate::tables::{
-    duration, long, numbers_from, rung, short, system_line, table, vector, word, wrapped,
-};
-
-/// Chains up to this many bars are printed joint by joint; longer ones by their ends (`--csv` and
-/// `--json` have all).
-const PRINTED_BARS: usize = 40;
+use crate::shape::Shape;
+use crate::tables::{duration, long, rung, short, system_line, table, vector, word, wrapped};
 
 /// Where the sentences of the ladder begin.
 const LADDER_INDENT: usize = 15;
@@ -21,10 +16,10 @@ const LADDER_INDENT: usize = 15;
 pub fn answer(answer: &SolveAnswer, summary: bool) -> String {
     let (system, equilibria) = (answer.system(), answer.equilibria());
     let mut text = system_line(system);
-    text += &overview(equilibria, answer.agreement().and_then(|agreement| agreement.turned_rad));
-    if !summary && let Some(first) = equilibria.first() {
-        text += &shape(first, system.bars);
+    if let Some(first) = equilibria.first() {
+        text += &shape(first).text(summary);
     }
+    text += &overview(equilibria, answer.agreement().and_then(|agreement| agreement.turned_rad));
     text += &ladder(equilibria.iter().map(|e| (&e.solver, &e.evidence)));
     for failure in answer.failures() {
         // Writing to a String cannot fail.
@@ -80,27 +75,18 @@ fn turn(force @ [x, y, z]: Vector, angle_rad: Option<f64>) -> Vector {
     turned.map(|component: f64| if component.abs() <= rounding { 0.0 } else { component })
 }
 
-/// Joints and forces of one equilibrium; the other solver's agree with it or the verdict says so.
-fn shape(e: &Equilibrium, bars: usize) -> String {
-    if bars > PRINTED_BARS {
-        return format!("{bars} bars are not printed: --csv FILE or --json have them all.\n\n");
+/// One equilibrium; the other solver's agrees with it or the verdict says so.
+fn shape(e: &Equilibrium) -> Shape<'_> {
+    let last = e.joints_m.len().saturating_sub(1);
+    Shape {
+        name: &|joint| joint.to_string(),
+        ends: &|bar| [bar, bar + 1],
+        joints_m: &e.joints_m,
+        axial_n: &e.axial_n,
+        reactions_n: vec![(0, e.reactions_n.start), (last, e.reactions_n.end)],
+        forces_n: Some(&e.multipliers_n),
+        solver: &e.solver,
     }
-    let mut table =
-        table(["joint", "x / m", "y / m", "z / m", "Fx / N", "Fy / N", "Fz / N", "axial / N"]);
-    for column in table.column_iter_mut() {
-        column.set_padding((0, 1));
-    }
-    for (k, (joint, force)) in e.joints_m.iter().zip(&e.multipliers_n).enumerate() {
-        let numbers = joint.iter().chain(force).copied().map(short);
-        let axial = e.axial_n.get(k).map_or_else(String::new, |a| short(*a));
-        table.add_row([k.to_string()].into_iter().chain(numbers).chain([axial]));
-    }
-    numbers_from(&mut table, 1);
-    format!(
-        "Joints, the forces at them (on the bar before; at joint 0 on bar 1), and the\naxial force of the bar to \
-         the next joint (tension positive), by {}:\n{table}\n\n",
-        e.solver
-    )
 }
 
 /// How far each equilibrium is proved, rung by rung.

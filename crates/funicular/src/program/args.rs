@@ -11,7 +11,8 @@ macro_rules! exit_codes {
                0  done, and every check agreed\n  \
                1  a check failed: the solvers disagree, or a claim came out otherwise than expected\n  \
                2  bad input or usage\n  \
-               3  not converged, not decided, or not written (the disk is full)\n\
+               3  not converged, not decided, or not written (the disk is full)\n  \
+               of several systems the worst: 1 before 2 before 3\n\
              130  interrupted; ",
             $interrupted
         )
@@ -32,6 +33,7 @@ Examples:
   funicular new > chain.toml                 a system file to start from
   funicular solve chain.toml                 the shape and the forces of a chain of your own
   funicular solve --case ten-equal-bars --json | jq .agreement
+  funicular solve --batch systems.jsonl > answers.jsonl    a system in every line, an answer in every line
   funicular census chain.toml --svg shapes.svg   every equilibrium, and the proof that there is no other
   funicular sweep chain.toml --seeds 1000000 --out starts    which start leads where
   funicular trace chain.toml --vary anchors.end_m.z=-2.9..-0.1:200 --svg diagram.svg

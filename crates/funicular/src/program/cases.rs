@@ -1,7 +1,6 @@
 //! `funicular cases`: the registry of named cases.
 
 use clap::Args;
-use model::cases;
 
 use crate::exit::{Exit, Failure};
 use crate::output;
@@ -18,8 +17,8 @@ pub struct Cases {
 /// Run the command.
 pub fn run(arguments: &Cases) -> Result<Exit, Failure> {
     match &arguments.name {
-        Some(name) => output::print(funicular::case(name)?.text)?,
-        None => output::print(&tables::cases(cases::all()))?,
+        Some(name) => output::print(funicular::case_text(name)?)?,
+        None => output::print(&tables::cases())?,
     }
     Ok(Exit::Done)
 }

@@ -32,6 +32,19 @@ impl Exit {
             Self::Interrupted => 130,
         }
     }
+
+    /// Of two ways to end the worse: a failed check before bad input, and that before what is
+    /// undecided.
+    pub fn worse(self, other: Self) -> Self {
+        let rank = |exit| match exit {
+            Self::Done => 0,
+            Self::Undecided => 1,
+            Self::BadInput => 2,
+            Self::CheckFailed => 3,
+            Self::Interrupted => 4,
+        };
+        if rank(other) > rank(self) { other } else { self }
+    }
 }
 
 impl From<Exit> for std::process::ExitCode {
@@ -63,7 +76,9 @@ impl Failure {
         match error {
             Error::File(error) => Self::bad_input(SystemFileReport::from(error)),
             Error::UnknownCase { suggestion, .. } => {
-                let names: Vec<_> = model::cases::all().iter().map(|case| case.name).collect();
+                let chains = model::cases::all().iter().map(|case| case.name);
+                let gallery = model::cases::gallery().iter().map(|exhibit| exhibit.name);
+                let names: Vec<_> = chains.chain(gallery).collect();
                 let all = format!("the cases are: {}", names.join(", "));
                 let help = match suggestion {
                     Some(name) => format!("did you mean `{name}`? {all}"),
@@ -111,6 +126,16 @@ impl Failure {
             error.what
         );
         Self::bad_input(report.with_source_code(error.text.clone()))
+    }
+
+    /// The way to end.
+    pub fn exit(&self) -> Exit {
+        self.exit
+    }
+
+    /// What is wrong, in a line, and what to do about it.
+    pub fn message(&self) -> (String, Option<String>) {
+        (self.report.to_string(), self.report.help().map(|help| help.to_string()))
     }
 
     /// Print the report to standard error and say how to end.

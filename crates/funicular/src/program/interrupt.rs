@@ -1,7 +1,9 @@
 //! Ctrl-C, and SIGTERM, as batch systems send it.
 
 use std::fs;
+use std::io;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Mutex, PoisonError};
 
 use miette::miette;
 
@@ -12,6 +14,9 @@ static STOP: AtomicBool = AtomicBool::new(false);
 
 /// Whether there is something to keep.
 static KEEPING: AtomicBool = AtomicBool::new(false);
+
+/// Held while a line is written.
+static LINE: Mutex<()> = Mutex::new(());
 
 /// That Ctrl-C is watched for.
 #[derive(Debug)]
@@ -41,6 +46,34 @@ pub fn on_interrupt() -> Result<Interrupt, Failure> {
 pub fn end_on_interrupt() -> Result<(), Failure> {
     // A hangup would be heard like a Ctrl-C, and a command under `nohup` is to live on.
     if hangups_are_ignored() { Ok(()) } else { watch(end) }
+}
+
+/// For commands that print line by line with [`whole_line`]: the first Ctrl-C ends the program as
+/// soon as no line is half written, the second at once, for a reader that takes no more.
+pub fn end_between_lines() -> Result<(), Failure> {
+    if hangups_are_ignored() {
+        return Ok(());
+    }
+    watch(|| {
+        // In this order: whoever holds the line looks at the flag after it.
+        let again = STOP.swap(true, Ordering::SeqCst);
+        let line = LINE.try_lock();
+        if again || line.is_ok() {
+            end();
+        }
+    })
+}
+
+/// Write what an interruption must not cut.
+pub fn whole_line(write: impl FnOnce() -> io::Result<()>) -> io::Result<()> {
+    let written = {
+        let _line = LINE.lock().unwrap_or_else(PoisonError::into_inner);
+        write()
+    };
+    if STOP.load(Ordering::SeqCst) && !KEEPING.load(Ordering::SeqCst) {
+        end();
+    }
+    written
 }
 
 fn watch(heard: impl FnMut() + Send + 'static) -> Result<(), Failure> {

@@ -17,6 +17,11 @@ pub fn print(text: &str) -> Result<(), Failure> {
     print_stream(|out| out.write_all(filtered(text, false).as_bytes()))
 }
 
+/// The same for JSON, which escapes what would steer a terminal.
+pub fn print_objects(text: &str) -> Result<(), Failure> {
+    print_stream(|out| out.write_all(text.as_bytes()))
+}
+
 /// The same for what is too long to be held as one text.
 pub fn print_stream(
     content: impl FnOnce(&mut BufWriter<StdoutLock<'_>>) -> io::Result<()>,
@@ -102,7 +107,7 @@ fn cannot_write(path: &Path, why: impl Display) -> Failure {
 
 /// A disk that is full says nothing about the input: what was asked is undecided, and may be asked
 /// again.
-fn not_written(what: &str, error: &io::Error) -> Failure {
+pub fn not_written(what: &str, error: &io::Error) -> Failure {
     let report = miette!("cannot write {what}: {error}");
     match error.kind() {
         ErrorKind::StorageFull | ErrorKind::QuotaExceeded | ErrorKind::FileTooLarge => {

@@ -1,11 +1,16 @@
-//! `funicular solve`: one system, both solvers, one verdict.
+//! `funicular solve`: a system or many, both solvers, a verdict on each.
 
-use std::path::PathBuf;
+mod batch;
+mod lines;
+mod object;
+mod several;
+
+use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
-use funicular::{SolveAnswer, SystemSolution, picture};
+use funicular::{Solution, SolveAnswer, SystemSolution, picture};
 use miette::miette;
-use validate::answer::{Equations, Solvers};
+use validate::answer::{Equations, Solvers, UseCensus};
 
 use crate::answer;
 use crate::exit::{Exit, Failure};
@@ -20,13 +25,31 @@ use crate::which::Which;
 /// `funicular solve`.
 #[derive(Debug, Args)]
 pub struct Solve {
-    /// The system file (TOML or JSON, - for standard input); see `funicular cases three-equal-bars`
-    /// for one
-    #[arg(value_name = "FILE", required_unless_present = "case")]
-    pub file: Option<PathBuf>,
+    /// The system file (TOML or JSON, - for standard input), or several, which are answered in
+    /// their order; see `funicular cases three-equal-bars` for one
+    #[arg(value_name = "FILE", required_unless_present_any = ["case", "batch"])]
+    pub files: Vec<PathBuf>,
     /// Solve a named case instead of a file
-    #[arg(long, value_name = "NAME", conflicts_with = "file")]
+    #[arg(long, value_name = "NAME", conflicts_with = "files")]
     pub case: Option<String>,
+    /// Solve every line of this file (- for standard input): each is a system as one JSON object,
+    /// and is answered by one line of JSON, in the same order
+    ///
+    /// An answer is the object of --json with the number of its line under `line`. A line that has
+    /// none is answered by an object with `line`, `error` and, where they are known, `key`,
+    /// `column` and `help`; the others go on.
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["files", "case", "csv", "bars_csv", "svg"])]
+    pub batch: Option<PathBuf>,
+    /// Whether short chains are looked up in their census: up to 8 bars by themselves (auto), up to
+    /// 12 (always)
+    ///
+    /// A census takes far longer than a solution. Without this option none is taken with --batch,
+    /// and elsewhere auto holds; --census alone is --census=auto.
+    #[arg(long, value_name = "WHEN", value_enum, num_args = 0..=1, require_equals = true, default_missing_value = "auto")]
+    pub census: Option<Census>,
+    /// How many threads; 0 means one per processor. No answer depends on it
+    #[arg(long, value_name = "T", default_value_t = 0, value_parser = threads::parse, allow_negative_numbers = true)]
+    pub threads: usize,
     /// Which solver; one alone gets no comparison
     #[arg(long, value_enum, default_value_t = Which::Both)]
     pub solver: Which,
@@ -39,13 +62,19 @@ pub struct Solve {
     /// Leave out the arrays over joints and bars
     #[arg(long)]
     pub summary: bool,
-    /// Write joints and forces, a line per joint, to this CSV file: solver, joint, place in m, and
-    /// for a chain the force on the bar before the joint and the axial force of that bar in N, for
-    /// another system the force of the ground on the joint in N
+    /// Write joints, a line per joint, to this CSV file
+    ///
+    /// Columns: `solver`; `joint`, its number or name; `x_m`, `y_m`, `z_m`, its place; for a chain
+    /// `force_x_n`, `force_y_n`, `force_z_n`, the force on the bar before the joint (at joint 0 of
+    /// the ground on bar 1); for another system `reaction_x_n`, `reaction_y_n`, `reaction_z_n`, the
+    /// force of the ground on it.
     #[arg(long, value_name = "FILE")]
     pub csv: Option<PathBuf>,
-    /// Write the bars of a system of bars, a line per bar, to this CSV file: solver, bar, its
-    /// joints, axial force and the forces on it at both joints in N
+    /// Write bars, a line per bar, to this CSV file
+    ///
+    /// Columns: `solver`; `bar`, its number from 1; `from`, `to`, its joints; `axial_n`, its axial
+    /// force, tension positive; for a system of bars by name `start_x_n` to `end_z_n`, the forces
+    /// on it at both.
     #[arg(long, value_name = "FILE")]
     pub bars_csv: Option<PathBuf>,
     /// Draw the system to scale with loads, reactions and axial forces into this SVG file
@@ -66,24 +95,55 @@ pub enum System {
     Full,
 }
 
+/// When short chains are looked up in a census.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Census {
+    /// Not at all
+    Never,
+    /// Where it takes a second at most: up to 8 bars
+    Auto,
+    /// Wherever there can be one: up to 12 bars, in seconds
+    Always,
+}
+
+impl Solve {
+    /// What is asked, with `census` where the arguments say nothing about it.
+    fn question(&self, census: UseCensus) -> funicular::Solve {
+        funicular::Solve::new()
+            .solvers(self.solver.into())
+            .equations(self.system.into())
+            .census(self.census.map_or(census, UseCensus::from))
+    }
+
+    /// An option that names a file for the answer to one system.
+    fn file_for_one(&self) -> Option<&'static str> {
+        let files = [("--csv", &self.csv), ("--bars-csv", &self.bars_csv), ("--svg", &self.svg)];
+        files.into_iter().find(|(_, file)| file.is_some()).map(|(option, _)| option)
+    }
+}
+
 /// Run the command.
 pub fn run(arguments: &Solve) -> Result<Exit, Failure> {
+    match (&arguments.batch, arguments.files.as_slice()) {
+        (Some(batch), _) => batch::run(arguments, batch),
+        (None, [_, _, ..]) => several::run(arguments),
+        (None, files) => one(arguments, files.first().map(PathBuf::as_path)),
+    }
+}
+
+fn one(arguments: &Solve, file: Option<&Path>) -> Result<Exit, Failure> {
     end_on_interrupt()?;
-    threads::install(0)?;
+    threads::install(arguments.threads)?;
     let progress = Progress::start();
     progress.say("reading");
-    let Input { problem, files } =
-        input::problem(arguments.file.as_deref(), arguments.case.as_deref())?;
+    let Input { problem, files } = input::problem(file, arguments.case.as_deref())?;
     let outputs = [&arguments.csv, &arguments.bars_csv, &arguments.svg];
     output::check(outputs.into_iter().flatten().map(PathBuf::as_path), &files)?;
-    let solve =
-        funicular::Solve::new().solvers(arguments.solver.into()).equations(arguments.system.into());
-    if let Some(system) = problem.as_system() {
-        let answer = solve.run_system_watched(system, &|what| progress.say(what))?;
-        return system_answer(arguments, &answer, progress);
+    let solve = arguments.question(UseCensus::Auto);
+    match solve.run_any_watched(&problem, &|what| progress.say(what))? {
+        Solution::System(answer) => system_answer(arguments, &answer, progress),
+        Solution::Chain(answer) => chain_answer(arguments, &problem, &answer, progress),
     }
-    let answer = solve.run_watched(&problem, &|what| progress.say(what))?;
-    chain_answer(arguments, &problem, &answer, progress)
 }
 
 fn chain_answer(
@@ -92,14 +152,13 @@ fn chain_answer(
     answer: &SolveAnswer,
     progress: Progress,
 ) -> Result<Exit, Failure> {
-    if arguments.bars_csv.is_some() {
-        return Err(Failure::bad_input(miette!(
-            "--bars-csv is for systems of bars by name; --csv has the bars of a chain"
-        )));
-    }
     if let Some(path) = &arguments.csv {
         progress.say(&format!("writing {}", path.display()));
         output::write_stream(path, |file| answer.write_csv(file))?;
+    }
+    if let Some(path) = &arguments.bars_csv {
+        progress.say(&format!("writing {}", path.display()));
+        output::write_stream(path, |file| answer.write_bars_csv(file))?;
     }
     if let (Some(path), Some(chain), [first, ..]) =
         (&arguments.svg, problem.as_chain(), answer.equilibria())
@@ -141,8 +200,7 @@ fn system_answer(
     } else {
         output::print(&system::answer(answer, arguments.summary))?;
     }
-    let disagree = answer.agreement().is_some_and(|agreement| !agreement.agrees());
-    Ok(verdict(disagree, answer.failures().is_empty()))
+    Ok(verdict(answer.check_failed(), answer.is_decided()))
 }
 
 /// A failed check is worse than an answer that is missing or has not converged.
@@ -161,6 +219,16 @@ impl From<System> for Equations {
         match system {
             System::Condensed => Self::Condensed,
             System::Full => Self::Full,
+        }
+    }
+}
+
+impl From<Census> for UseCensus {
+    fn from(census: Census) -> Self {
+        match census {
+            Census::Never => Self::Never,
+            Census::Auto => Self::Auto,
+            Census::Always => Self::Always,
         }
     }
 }

@@ -1,13 +1,13 @@
 //! Tables and numbers for the terminal.
 
-use comfy_table::{CellAlignment, ContentArrangement, LineStyle, Table, presets};
-use model::cases::Case;
-use model::{Evidence, SystemSummary, Vector};
+use comfy_table::{CellAlignment, ColumnConstraint, ContentArrangement, LineStyle, Table, presets};
+use model::{Evidence, SystemSummary, Vector, cases};
 
 use crate::printable::Printable;
 
-/// Width of tables where no terminal says its own.
-const WIDTH: u16 = 120;
+/// Width of tables where no terminal says its own: what every terminal, mail and report has room
+/// for.
+const WIDTH: u16 = 80;
 
 /// A table in the house style: thin rules, as wide as its content or the terminal.
 pub fn table<const N: usize>(head: [&str; N]) -> Table {
@@ -22,20 +22,26 @@ pub fn table<const N: usize>(head: [&str; N]) -> Table {
     table
 }
 
-/// Right-align the columns from `first` on.
+/// Right-align the columns from `first` on, close to each other, and break none of their numbers.
 pub fn numbers_from(table: &mut Table, first: usize) {
     for column in table.column_iter_mut().skip(first) {
         column.set_cell_alignment(CellAlignment::Right);
+        column.set_constraint(ColumnConstraint::ContentWidth);
+        column.set_padding((0, 1));
     }
 }
 
-/// The registry.
-pub fn cases(cases: &[Case]) -> String {
-    let mut table = table(["case", "what it is"]);
-    for case in cases {
-        table.add_row([case.name, case.about]);
+/// The registry: chains, and the systems of the gallery.
+pub fn cases() -> String {
+    let mut chains = table(["case", "what it is"]);
+    for case in cases::all() {
+        chains.add_row([case.name, case.about]);
     }
-    format!("{table}\n")
+    let mut systems = table(["system of bars", "what it is"]);
+    for exhibit in cases::gallery() {
+        systems.add_row([exhibit.name, exhibit.about]);
+    }
+    format!("{chains}\n\n{systems}\n")
 }
 
 /// What is solved, in a line of its own.

@@ -2,6 +2,7 @@
 
 #![expect(clippy::unwrap_used, reason = "helpers of tests")]
 
+use funicular::SolveAnswer;
 use funicular::prelude::*;
 
 fn cases() -> Vec<Problem> {
@@ -11,7 +12,7 @@ fn cases() -> Vec<Problem> {
 }
 
 /// What an answer says but for the times.
-fn without_times(answer: &funicular::SolveAnswer) -> Vec<Equilibrium> {
+fn without_times(answer: &SolveAnswer) -> Vec<Equilibrium> {
     let mut equilibria = answer.equilibria().to_vec();
     for equilibrium in &mut equilibria {
         equilibrium.evidence.solve_s = 0.0;
@@ -28,7 +29,7 @@ fn a_batch_keeps_the_order_and_is_what_each_run_says_whatever_the_threads() {
         let batch = Solve::new().threads(threads).run_all(&problems).unwrap();
         assert_eq!(batch.len(), problems.len());
         for ((problem, alone), together) in problems.iter().zip(&single).zip(&batch) {
-            let together = together.as_ref().unwrap();
+            let together = together.as_ref().unwrap().as_chain().unwrap();
             assert_eq!(together.system().name, problem.name());
             assert_eq!(without_times(alone), without_times(together), "{}", problem.name());
             assert_eq!(alone.agreement(), together.agreement());
@@ -108,4 +109,31 @@ fn a_system_of_joints_is_told_apart_from_a_chain() {
     let problem = Problem::from(System::new("a lamp", 9.81, joints, members).unwrap());
     assert!(problem.as_chain().is_none() && problem.as_system().is_some());
     assert!(matches!(Census::new().run(&problem), Err(Error::ChainsOnly { what: "a census" })));
+}
+
+#[test]
+fn a_batch_takes_chains_and_systems_alike() {
+    let joints = vec![
+        Joint::anchor("A", [-3.0, 0.0, 0.0]),
+        Joint::anchor("B", [3.0, 0.0, 0.0]),
+        Joint::free("P").with_mass(2.0),
+    ];
+    let cord = Bar::homogeneous(5.0, 0.0).unwrap();
+    let members = vec![Member::cable(0, 2, cord), Member::cable(2, 1, cord)];
+    let lamp = Problem::from(System::new("lamp", 10.0, joints, members).unwrap());
+    // Nothing holds the second: it falls.
+    let bar = Bar::homogeneous(1.0, 1.0).unwrap();
+    let loose = vec![Joint::free("A"), Joint::free("B")];
+    let loose = System::new("loose", 10.0, loose, vec![Member::bar(0, 1, bar)]).unwrap();
+    let problems = [lamp, Problem::from(loose), cases().remove(0)];
+    let solve = Solve::new().census(UseCensus::Never).threads(2);
+    let answers = solve.run_all(&problems).unwrap();
+    let lamp = answers[0].as_ref().unwrap();
+    assert!(
+        lamp.agrees() && lamp.is_decided() && !lamp.check_failed() && lamp.as_chain().is_none()
+    );
+    // By the triangle 3, 4, 5.
+    assert!((lamp.as_system().unwrap().equilibria()[0].axial_n[1] - 12.5).abs() < 1e-9);
+    assert!(matches!(answers[1], Err(Error::SystemRefused(_))));
+    assert!(answers[2].as_ref().unwrap().as_chain().is_some_and(SolveAnswer::agrees));
 }

@@ -1,5 +1,6 @@
 //! The program as its users meet it.
 
+mod batch;
 mod census;
 mod escapes;
 mod examples;

@@ -243,14 +243,29 @@ fn a_case_solves_alike_as_a_file_and_by_name() {
 
 #[test]
 fn joints_and_forces_as_csv() {
-    let path = folder("csv").join("joints.csv");
-    let output = funicular(&["solve", "--case", "ten-equal-bars", "--csv", path.to_str().unwrap()]);
+    let folder = folder("csv");
+    let [joints, bars] = ["joints.csv", "bars.csv"].map(|name| folder.join(name));
+    let [to_joints, to_bars] = [&joints, &bars].map(|path| path.to_str().unwrap());
+    let output = funicular(&[
+        "solve",
+        "--case",
+        "ten-equal-bars",
+        "--csv",
+        to_joints,
+        "--bars-csv",
+        to_bars,
+    ]);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-    let text = std::fs::read_to_string(&path).unwrap();
-    assert_eq!(text.lines().count(), 1 + 2 * 11);
-    assert!(text.lines().all(|line| line.matches(',').count() == 8), "{text}");
-    let files = std::fs::read_dir(path.parent().unwrap()).unwrap().count();
-    assert_eq!(files, 1, "a temporary file is left behind");
+    let [joints, bars] = [joints, bars].map(|path| std::fs::read_to_string(path).unwrap());
+    assert_eq!(joints.lines().count(), 1 + 2 * 11);
+    assert!(joints.lines().all(|line| line.matches(',').count() == 7), "{joints}");
+    assert_eq!(bars.lines().next(), Some("solver,bar,from,to,axial_n"));
+    assert_eq!(bars.lines().count(), 1 + 2 * 10);
+    assert!(bars.contains("\nenergy,10,9,10,"), "{bars}");
+    // The chain hangs in the plane y = 0, whatever rounding says.
+    assert!(joints.lines().skip(1).all(|line| line.split(',').nth(3) == Some("0.0")), "{joints}");
+    let files = std::fs::read_dir(&folder).unwrap().count();
+    assert_eq!(files, 2, "a temporary file is left behind");
 }
 
 #[test]

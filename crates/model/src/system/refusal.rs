@@ -2,7 +2,7 @@
 
 use super::System;
 use super::graph::Graph;
-use crate::readable::Readable;
+use crate::readable::{Computed, Readable};
 
 /// Why a system has no equilibrium to be found.
 ///
@@ -41,7 +41,7 @@ pub enum SystemRefusal {
     /// Occurs when two anchors are further apart than the members between them reach.
     #[error(
         "the anchors {from:?} and {to:?} are {} m apart and the members between them reach only {} m: \
-         {} m are missing", Readable(*distance_m), Readable(*reach_m), Readable(distance_m - reach_m)
+         {} m are missing", Computed::of(*distance_m), Computed::of(*reach_m), Computed::difference(*distance_m, *reach_m)
     )]
     OutOfReach {
         /// Name of an anchor.
@@ -60,7 +60,7 @@ pub enum SystemRefusal {
     #[error(
         "the anchors {from:?} and {to:?} are {} m apart and the members between them reach just as far \
          ({} m): they lie straight and taut, and the force along them is indeterminate",
-        Readable(*distance_m), Readable(*reach_m)
+        Computed::of(*distance_m), Computed::of(*reach_m)
     )]
     Taut {
         /// Name of an anchor.
@@ -78,7 +78,7 @@ pub enum SystemRefusal {
     #[error(
         "member {member} from {from:?} to {to:?} is {} m long, and the rest of a loop through it ({}) \
          only {} m: the loop cannot close, {} m are missing",
-        Readable(*length_m), way.join(", "), Readable(*rest_m), Readable(length_m - rest_m)
+        Readable(*length_m), way.join(", "), Computed::of(*rest_m), Computed::difference(*length_m, *rest_m)
     )]
     TooLong {
         /// Number of the member, from 1.

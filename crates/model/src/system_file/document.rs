@@ -19,7 +19,7 @@ use super::table::{Table, Value};
 use crate::{Anchors, Bar, BarError, Chain, ChainError, Problem, Refusal, STANDARD_GRAVITY_M_S2};
 
 const ROOT_KEYS: &[&str] =
-    &["name", "gravity_m_s2", "anchors", "bars", "bars_file", "loads", "joints"];
+    &["name", "gravity_m_s2", "anchors", "bars", "bars_file", "loads", "joints", "joints_file"];
 const ANCHOR_KEYS: &[&str] = &["start_m", "end_m"];
 const BAR_KEYS: &[&str] = &["length_m", "mass_kg", "centre_m", "inertia_kg_m2", "count"];
 
@@ -64,7 +64,7 @@ impl Source<'_> {
         let tree = self.tree()?;
         let root = Table::root(self, tree.get_ref());
         root.only(ROOT_KEYS)?;
-        if root.get("joints").is_some() {
+        if root.get("joints").is_some() || root.get("joints_file").is_some() {
             return network::read(&root).map(Described::System);
         }
         let (chain, places) = self.chain_of(&root)?;
@@ -129,7 +129,7 @@ impl Source<'_> {
         let tree = self.tree()?;
         let root = Table::root(self, tree.get_ref());
         root.only(ROOT_KEYS)?;
-        for key in ["joints", "loads"] {
+        for key in ["joints", "joints_file", "loads"] {
             if root.get(key).is_some() {
                 return Err(root.error(Kind::NotAChain { key }, key));
             }
@@ -189,7 +189,9 @@ impl Source<'_> {
         if root.get("bars").is_some() {
             return Err(error(Kind::Conflict { key: "bars_file", other: "bars" }));
         }
-        let Some(folder) = self.folder else { return Err(error(Kind::NoFolder)) };
+        let Some(folder) = self.folder else {
+            return Err(error(Kind::NoFolder { key: "bars_file" }));
+        };
         let path = folder.join(file);
         let value = root.get("bars_file").map_or(0..0, Spanned::span);
         if let Some(bars) = self.reader.and_then(|reader| reader(&path)) {

@@ -29,9 +29,12 @@ pub enum SystemFileErrorKind {
     /// Occurs when the reader of another kind of bars file fails.
     #[error("{0}")]
     ForeignBars(Box<dyn std::error::Error + Send + Sync>),
-    /// Occurs when `bars_file` stands in a text that was not read from a file.
-    #[error("`bars_file` is relative to the system file, and this text was not read from a file")]
-    NoFolder,
+    /// Occurs when `bars_file` or `joints_file` stands in a text that was not read from a file.
+    #[error("`{key}` is relative to the system file, and this text was not read from a file")]
+    NoFolder {
+        /// `bars_file` or `joints_file`.
+        key: &'static str,
+    },
     /// Occurs when the file is longer than any such file needs to be.
     #[error("the file is longer than the limit of {limit} bytes")]
     TooLong {
@@ -195,6 +198,34 @@ pub enum SystemFileErrorKind {
     /// Occurs when a cell is quoted.
     #[error("cells are numbers, written without quotes")]
     Quoted,
+    /// Occurs when a quoted cell does not end, or is followed by more than a comma.
+    #[error("a quote is not closed")]
+    OpenQuote,
+    /// Occurs when a cell is empty that must not be.
+    #[error("the cell is empty")]
+    EmptyCell,
+    /// Occurs when a joint is named by a number that is not whole.
+    #[error("a joint is named by text or a whole number, found {found}")]
+    NoName {
+        /// The number.
+        found: f64,
+    },
+    /// Occurs when a row of a file is wrong whose text cannot be shown.
+    #[error(
+        "{}: {}{kind}",
+        path.display(),
+        place_in_file(*row, column.as_deref())
+    )]
+    Row {
+        /// The file.
+        path: PathBuf,
+        /// The row, from 1; 0 for the names of the columns.
+        row: usize,
+        /// The column, where one of them is wrong.
+        column: Option<String>,
+        /// What is wrong.
+        kind: Box<SystemFileErrorKind>,
+    },
     /// Occurs when a cell is no number.
     #[error("expected a number, found {found:?}")]
     NotANumber {
@@ -251,7 +282,7 @@ impl SystemFileErrorKind {
             }
             Self::System(error) => return system_help(error).map(str::to_owned),
             Self::SystemRefused(refusal) => system_refusal_help(refusal),
-            Self::NoFolder => "write the bars as [[bars]], or read the system from its file",
+            Self::NoFolder { .. } => "write the bars as [[bars]], or read the system from its file",
             Self::TooLong { .. } => {
                 "equal bars in a row are written once, with `count`; many different ones as columns, \
                  with `bars_file`"
@@ -277,6 +308,10 @@ impl SystemFileErrorKind {
             Self::Separator { .. } | Self::Quoted | Self::NotANumber { .. } => {
                 "a row is numbers with a decimal point, separated by commas, such as 0.25,1e-3"
             }
+            Self::OpenQuote => {
+                "a name with a comma stands in double quotes, a quote in it is doubled"
+            }
+            Self::Row { kind, .. } => return kind.help(),
             Self::WrongCells { .. } => {
                 "a row has one cell for each column of the header; numbers take a decimal point, not a \
                  comma"
@@ -295,10 +330,17 @@ impl SystemFileErrorKind {
             | Self::ForeignBars(_)
             | Self::Mass { .. }
             | Self::Force { .. }
-            | Self::NoDirection => return None,
+            | Self::NoDirection
+            | Self::EmptyCell
+            | Self::NoName { .. } => return None,
         };
         Some(help.to_owned())
     }
+}
+
+fn place_in_file(row: usize, column: Option<&str>) -> String {
+    let row = if row > 0 { format!("row {row}") } else { "the head".to_owned() };
+    column.map_or_else(|| format!("{row}: "), |column| format!("{row}, column `{column}`: "))
 }
 
 fn chain_help(error: &ChainError) -> Option<&'static str> {

@@ -110,7 +110,28 @@
 //! `bars_file = "bars.csv"` takes the bars from a file of [`columns`]; its path is relative to the
 //! folder of the system file. A million rows are read in a fraction of a second, as `[[bars]]` in
 //! seconds. Only [`read_system`] and [`read_problem`] follow it: parsing a text opens no file. A
-//! program may bring readers of its own for other kinds of files ([`read_problem_with`]).
+//! program may bring readers of its own for other kinds of files ([`read_with`]).
+//!
+//! For systems of bars by name `bars_file` takes the bars, and `joints_file` joints, besides those
+//! in `[joints]` or instead of them. A row is a bar or a joint; a cell may be empty where the key
+//! may be left out.
+//!
+//! | columns of bars | what they hold |
+//! |---|---|
+//! | `from`, `to` | names of joints, or whole numbers, which are names too |
+//! | `length_m`, `mass_kg`, `centre_m`, `kind`, `stiffness_n` | as the keys of a bar |
+//! | `force_x_n`, `force_y_n`, `force_z_n`, `force_at_m` | a force on the bar; in the middle without `force_at_m` |
+//!
+//! | columns of joints | what they hold |
+//! |---|---|
+//! | `name` | its name; without this column the joints are called 0, 1, 2, ... |
+//! | `x_m`, `y_m`, `z_m` | where the joint is held; it is free where they are empty |
+//! | `fixed` | 1 or true: it is held there; 0 or false: it is free, and the place is not used |
+//! | `free` | as the key of a joint: how a joint slides through its place |
+//! | `mass_kg`, `force_x_n`, `force_y_n`, `force_z_n` | what acts on it; nothing at an anchor |
+//!
+//! The columns stand in any order, their names in the first line. A name with a comma stands in
+//! double quotes.
 //!
 //! # Refusals
 //!
@@ -134,6 +155,7 @@
 //! ```
 
 pub mod columns;
+mod csv;
 mod described;
 mod document;
 mod duplicate;
@@ -145,7 +167,11 @@ mod load;
 mod loads;
 mod location;
 mod network;
+mod network_rows;
 mod read;
+mod row_table;
+mod rows;
+mod sheet;
 mod source;
 mod suggest;
 mod table;
@@ -161,7 +187,8 @@ pub use read::{
     parse, parse_problem, parse_system, read, read_problem, read_problem_with, read_system,
     read_with,
 };
-pub use source::BarsReader;
+pub use rows::{Cell, Rows, RowsReader};
+pub use source::{BarsReader, Readers};
 pub use suggest::nearest;
 pub use write::write_system;
 pub use write_network::write_network;

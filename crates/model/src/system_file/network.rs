@@ -10,6 +10,9 @@ use super::document::bar;
 use super::error::SystemFileError;
 use super::kind::SystemFileErrorKind as Kind;
 use super::limits::MAX_BARS;
+use super::network_rows::{self, FREE, KINDS};
+use super::row_table::Row;
+use super::sheet::SheetFile;
 use super::suggest::nearest;
 use super::table::{Table, Value};
 use crate::STANDARD_GRAVITY_M_S2;
@@ -19,7 +22,7 @@ use crate::system::{
     UNIT_TOLERANCE,
 };
 
-const ROOT_KEYS: &[&str] = &["name", "gravity_m_s2", "joints", "bars"];
+const ROOT_KEYS: &[&str] = &["name", "gravity_m_s2", "joints", "joints_file", "bars", "bars_file"];
 const JOINT_KEYS: &[&str] = &["at_m", "free", "along", "normal", "mass_kg", "force_n"];
 const MEMBER_KEYS: &[&str] = &[
     "from",
@@ -34,10 +37,11 @@ const MEMBER_KEYS: &[&str] = &[
     "forces",
 ];
 const FORCE_KEYS: &[&str] = &["force_n", "at_m"];
-const KINDS: &[&str] = &["bar", "cable", "strut"];
-const FREE: &str = "\"x\", \"y\", \"z\" (a line), \"xy\", \"xz\" or \"yz\" (a plane)";
 const WANTED_JOINTS: &str = "a table of joints, such as A = { at_m = [0, 0, 0] }";
 const WANTED_BARS: &str = "one or more tables [[bars]] with from, to, length_m and mass_kg";
+
+/// So many joints are looked through for the one that was meant.
+const MOST_NAMES: usize = 10_000;
 
 /// A system while it is read.
 struct Reading<'a> {
@@ -49,12 +53,18 @@ struct Reading<'a> {
     members: Vec<Member>,
     /// Where each `[[bars]]` table stands, with the number of its first member, from 1.
     tables: Vec<(usize, Range<usize>)>,
+    /// The file of the joints behind those of `[joints]`, and how many it has.
+    joints_file: Option<(SheetFile, usize)>,
+    /// The file of the members, in the place of tables.
+    bars_file: Option<SheetFile>,
 }
 
 /// The system of a file with `[joints]`.
 pub(super) fn read(root: &Table<'_>) -> Result<System, SystemFileError> {
     if root.get("anchors").is_some() {
-        return Err(root.error(Kind::Conflict { key: "joints", other: "anchors" }, "joints"));
+        let keys = ["joints", "joints_file"];
+        let key = keys.into_iter().find(|key| root.get(key).is_some()).unwrap_or("joints");
+        return Err(root.error(Kind::Conflict { key, other: "anchors" }, key));
     }
     root.only(ROOT_KEYS)?;
     let name = root.text("name")?.unwrap_or("unnamed");
@@ -66,14 +76,20 @@ pub(super) fn read(root: &Table<'_>) -> Result<System, SystemFileError> {
         numbers: HashMap::new(),
         members: Vec::new(),
         tables: Vec::new(),
+        joints_file: None,
+        bars_file: None,
     };
     reading.joints()?;
+    reading.joints_of_file()?;
     reading.bars()?;
     reading.finish(name, gravity)
 }
 
 impl Reading<'_> {
     fn joints(&mut self) -> Result<(), SystemFileError> {
+        if self.root.get("joints").is_none() && self.root.get("joints_file").is_some() {
+            return Ok(());
+        }
         let value = self.root.require("joints", WANTED_JOINTS)?;
         let table = self.root.table("joints", value)?;
         for (name, value) in table.in_order() {
@@ -85,7 +101,44 @@ impl Reading<'_> {
         Ok(())
     }
 
+    /// The joints of a file, behind those of the table.
+    fn joints_of_file(&mut self) -> Result<(), SystemFileError> {
+        let Self { root, joints, numbers, .. } = self;
+        let before = joints.len();
+        let mut take = |row: &Row<'_>| {
+            let joint = network_rows::joint(row)?;
+            numbers.insert(joint.name.clone(), joints.len());
+            joints.push(joint);
+            Ok(())
+        };
+        let file = SheetFile::read(root, "joints_file", &network_rows::JOINTS, &mut take)?;
+        let rows = self.joints.len() - before;
+        self.joints_file = file.map(|file| (file, rows));
+        Ok(())
+    }
+
+    /// The bars of a file, a row for each.
+    fn bars_of_file(&mut self) -> Result<(), SystemFileError> {
+        if self.root.get("bars").is_some() {
+            let kind = Kind::Conflict { key: "bars_file", other: "bars" };
+            return Err(self.root.error(kind, "bars_file"));
+        }
+        let mut members = Vec::new();
+        let number = |name: &str| self.number(name);
+        let mut take = |row: &Row<'_>| {
+            members.push(network_rows::member(row, &number)?);
+            Ok(())
+        };
+        let file = SheetFile::read(self.root, "bars_file", &network_rows::BARS, &mut take)?;
+        self.bars_file = file;
+        self.members = members;
+        Ok(())
+    }
+
     fn bars(&mut self) -> Result<(), SystemFileError> {
+        if self.root.get("bars_file").is_some() {
+            return self.bars_of_file();
+        }
         let value = self.root.require("bars", WANTED_BARS)?;
         let tables = value.get_ref().as_array();
         let tables: &DeArray<'_> =
@@ -147,24 +200,38 @@ impl Reading<'_> {
         let Some(name) = value.get_ref().as_str() else {
             return Err(table.wrong_type(key, value, "the name of a joint"));
         };
+        let number = self.number(name).map_err(|kind| table.error(kind, key))?;
+        Ok((number, name))
+    }
+
+    /// The number of the joint of this name.
+    fn number(&self, name: &str) -> Result<usize, Kind> {
         let named = self.numbers.get(name).copied();
         let named = named.filter(|joint| self.joints.get(*joint).is_some_and(|j| j.name == name));
-        named.map(|joint| (joint, name)).ok_or_else(|| {
-            let names: Vec<&str> = self.joints.iter().map(|joint| joint.name.as_str()).collect();
-            let suggestion = nearest(name, &names).map(str::to_owned);
-            table.error(Kind::UnknownJoint { joint: name.to_owned(), suggestion }, key)
+        named.ok_or_else(|| {
+            let names = self.joints.iter().take(MOST_NAMES).map(|joint| joint.name.as_str());
+            let suggestion = nearest(name, &names.collect::<Vec<_>>()).map(str::to_owned);
+            Kind::UnknownJoint { joint: name.to_owned(), suggestion }
         })
     }
 
     fn finish(self, name: &str, gravity_m_s2: f64) -> Result<System, SystemFileError> {
-        let Self { root, joints, joint_spans, members, tables, .. } = self;
+        let Self { root, joints, joint_spans, members, tables, joints_file, bars_file, .. } = self;
         let names: Vec<String> = joints.iter().map(|joint| joint.name.clone()).collect();
         // What stands in the file as a joint or a table of bars is the place of an error about it.
         let at_joint = |kind, joint: usize| match joint_spans.get(joint) {
             Some(span) => root.error_at(kind, &format!("joints.{}", names[joint]), span.clone()),
-            None => root.error(kind, "bars"),
+            None => match &joints_file {
+                Some((file, rows)) if joint < joint_spans.len() + rows => {
+                    file.row_error(root, joint - joint_spans.len() + 1, kind)
+                }
+                _ => root.error(kind, "bars"),
+            },
         };
         let at_member = |kind, member: usize| {
+            if let Some(file) = &bars_file {
+                return file.row_error(root, member, kind);
+            }
             let table = tables.partition_point(|(first, _)| *first <= member);
             let span = tables[table - 1].1.clone();
             root.error_at(kind, &format!("bars[{table}]"), span)
@@ -202,7 +269,10 @@ impl Reading<'_> {
                 let member = *member;
                 at_member(Kind::SystemRefused(refusal), member)
             }
-            _ => root.error(Kind::SystemRefused(refusal), "joints"),
+            _ => {
+                let key = if root.get("joints").is_some() { "joints" } else { "joints_file" };
+                root.error(Kind::SystemRefused(refusal), key)
+            }
         })?;
         Ok(system)
     }
@@ -259,19 +329,10 @@ fn support(table: &Table<'_>, at_m: Option<Vector>) -> Result<Support, SystemFil
 
 /// `free = "x"` and the like.
 fn free(table: &Table<'_>, at_m: Vector) -> Result<Support, SystemFileError> {
-    let axis = |k: usize| std::array::from_fn(|c| if c == k { 1.0 } else { 0.0 });
     let word = table.text("free")?.unwrap_or_default();
-    Ok(match word {
-        "x" => Support::Line { at_m, direction: axis(0) },
-        "y" => Support::Line { at_m, direction: axis(1) },
-        "z" => Support::Line { at_m, direction: axis(2) },
-        "yz" => Support::Plane { at_m, normal: axis(0) },
-        "xz" => Support::Plane { at_m, normal: axis(1) },
-        "xy" => Support::Plane { at_m, normal: axis(2) },
-        _ => {
-            let found = format!("{word:?}");
-            return Err(table.error(Kind::OutOfRange { found, wanted: FREE }, "free"));
-        }
+    network_rows::sliding(word, at_m).ok_or_else(|| {
+        let found = format!("{word:?}");
+        table.error(Kind::OutOfRange { found, wanted: FREE }, "free")
     })
 }
 

@@ -8,7 +8,7 @@ use super::json;
 use super::kind::SystemFileErrorKind as Kind;
 use super::limits::MAX_FILE_BYTES;
 use super::load::{Loaded, load, without_mark};
-use super::source::{BarsReader, Source};
+use super::source::{BarsReader, Readers, Source};
 use crate::{Chain, Problem};
 
 /// Read a system file of any kind: a chain, a chain with loads, or joints by name; TOML, or JSON
@@ -19,22 +19,22 @@ use crate::{Chain, Problem};
 /// [`SystemFileError`] with the place and the reason; why something is no equilibrium problem
 /// points at the number that it rests on.
 pub fn read(path: impl AsRef<Path>) -> Result<Described, SystemFileError> {
-    read_with(path, &|_| None)
+    read_with(path, Readers { bars: &|_| None, rows: &|_, _| None })
 }
 
-/// [`read()`] for a program that reads bars from more kinds of files than this crate does: `reader`
-/// is asked first for what `bars_file` names.
+/// [`read()`] for a program that reads columns from more kinds of files than this crate does:
+/// `readers` are asked first for what `bars_file` and `joints_file` name.
 ///
 /// # Errors
 ///
-/// Those of [`read()`]; an error of the reader is placed at `bars_file`.
+/// Those of [`read()`]; an error of a reader is placed at the key.
 pub fn read_with(
     path: impl AsRef<Path>,
-    reader: BarsReader<'_>,
+    readers: Readers<'_>,
 ) -> Result<Described, SystemFileError> {
     let path = path.as_ref();
     let Loaded { file, text } = open(path)?;
-    described(&file, without_mark(&text), path.parent(), Some(reader))
+    described(&file, without_mark(&text), path.parent(), Some(readers))
 }
 
 /// Parse the text of a system file of any kind; `file` is its name in errors. The bars must stand
@@ -78,17 +78,18 @@ fn described(
     file: &str,
     text: &str,
     folder: Option<&Path>,
-    reader: Option<BarsReader<'_>>,
+    readers: Option<Readers<'_>>,
 ) -> Result<Described, SystemFileError> {
+    let (reader, rows) = readers.map(|readers| (readers.bars, readers.rows)).unzip();
     if !json::is_json(text) {
-        return Source { file, text, folder, reader }.described();
+        return Source { file, text, folder, reader, rows }.described();
     }
     let failed = |(offset, message): (usize, String)| {
         let kind = Kind::Json(message);
         SystemFileError::new(file, text, Some(offset..offset), None, kind)
     };
     let same = json::as_toml(text).map_err(failed)?;
-    let source = Source { file, text: &same, folder, reader };
+    let source = Source { file, text: &same, folder, reader, rows };
     source.described().map_err(|error| error.of_text(text))
 }
 
@@ -101,7 +102,7 @@ pub fn read_system(path: impl AsRef<Path>) -> Result<Chain, SystemFileError> {
     let path = path.as_ref();
     let Loaded { file, text } = open(path)?;
     let text = without_mark(&text);
-    Source { file: &file, text, folder: path.parent(), reader: None }.chain()
+    Source { file: &file, text, folder: path.parent(), reader: None, rows: None }.chain()
 }
 
 /// Read a system file that describes an equilibrium problem.
@@ -127,7 +128,7 @@ pub fn read_problem_with(
     let path = path.as_ref();
     let Loaded { file, text } = open(path)?;
     let text = without_mark(&text);
-    Source { file: &file, text, folder: path.parent(), reader: Some(reader) }.problem()
+    Source { file: &file, text, folder: path.parent(), reader: Some(reader), rows: None }.problem()
 }
 
 /// Parse the text of a system file; `file` is its name in errors. The bars must stand in the text:
@@ -147,7 +148,7 @@ pub fn read_problem_with(
 /// # Ok::<(), model::system_file::SystemFileError>(())
 /// ```
 pub fn parse_system(text: &str, file: &str) -> Result<Chain, SystemFileError> {
-    Source { file, text: without_mark(text), folder: None, reader: None }.chain()
+    Source { file, text: without_mark(text), folder: None, reader: None, rows: None }.chain()
 }
 
 /// Parse the text of a system file that describes an equilibrium problem; see [`parse_system`].
@@ -157,7 +158,7 @@ pub fn parse_system(text: &str, file: &str) -> Result<Chain, SystemFileError> {
 /// [`SystemFileError`] with the place and the reason; a [`Refusal`](crate::Refusal) points at the
 /// number it rests on.
 pub fn parse_problem(text: &str, file: &str) -> Result<Problem, SystemFileError> {
-    Source { file, text: without_mark(text), folder: None, reader: None }.problem()
+    Source { file, text: without_mark(text), folder: None, reader: None, rows: None }.problem()
 }
 
 fn open(path: &Path) -> Result<Loaded, SystemFileError> {

@@ -6,6 +6,7 @@ use std::path::Path;
 
 use super::error::SystemFileError;
 use super::kind::SystemFileErrorKind as Kind;
+use super::rows::RowsReader;
 use crate::Bar;
 
 /// Reads bars from a file of another kind than [`columns`](super::columns), for
@@ -13,12 +14,23 @@ use crate::Bar;
 pub type BarsReader<'a> =
     &'a dyn Fn(&Path) -> Option<Result<Vec<Bar>, Box<dyn Error + Send + Sync>>>;
 
+/// Reads files of columns of other kinds than CSV, for [`read_with`](super::read_with): each is
+/// asked first for what a system file names, and says `None` if it does not know the kind.
+#[derive(Clone, Copy)]
+pub struct Readers<'a> {
+    /// Reads the bars of a chain.
+    pub bars: BarsReader<'a>,
+    /// Reads the joints and the bars of other systems.
+    pub rows: RowsReader<'a>,
+}
+
 /// A text with its name, and the folder it comes from if it comes from one.
 pub(super) struct Source<'a> {
     pub(super) file: &'a str,
     pub(super) text: &'a str,
     pub(super) folder: Option<&'a Path>,
     pub(super) reader: Option<BarsReader<'a>>,
+    pub(super) rows: Option<RowsReader<'a>>,
 }
 
 impl Source<'_> {

@@ -33,6 +33,11 @@ impl<'a> Table<'a> {
         Self { source, path: String::new(), entries, span: 0..0 }
     }
 
+    /// The text that the table stands in.
+    pub(super) fn source(&self) -> &'a Source<'a> {
+        self.source
+    }
+
     /// The path of a key of this table.
     pub(super) fn key(&self, key: &str) -> String {
         if self.path.is_empty() { key.to_owned() } else { format!("{}.{key}", self.path) }

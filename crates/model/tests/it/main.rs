@@ -7,6 +7,7 @@ mod constructors;
 mod files;
 mod json;
 mod mutations;
+mod network_columns;
 mod refused;
 mod round_trip;
 mod support;

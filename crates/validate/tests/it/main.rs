@@ -5,6 +5,7 @@
 mod agreement;
 mod census;
 mod chains;
+mod chains_as_networks;
 mod chains_cables;
 mod chains_catenary;
 mod chains_folded;
@@ -13,6 +14,7 @@ mod chains_shapes;
 mod chains_stability;
 mod external;
 mod first_tries;
+mod gallery;
 mod independence;
 mod networks;
 mod paper;

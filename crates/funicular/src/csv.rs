@@ -1,0 +1,83 @@
+//! Numbers and names as cells of CSV.
+
+use std::borrow::Cow;
+use std::fmt;
+
+/// What is this much smaller than the largest of its kind is the rounding of a zero: solvers agree
+/// to less.
+const ROUNDING: f64 = 1e-12;
+
+/// How the numbers of one kind are written: zeros that rounding has left as `5.5e-17` or `-0.0` as
+/// 0. (JSON keeps all digits.)
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Numbers {
+    rounding: f64,
+}
+
+impl Numbers {
+    /// For numbers of which these are the largest.
+    pub(crate) fn of<'a>(numbers: impl IntoIterator<Item = &'a f64>) -> Self {
+        let largest = numbers.into_iter().fold(0.0, |a: f64, b| a.max(b.abs()));
+        Self { rounding: ROUNDING * largest }
+    }
+
+    /// A number in the fewest digits that read back to it.
+    pub(crate) fn cell(self, x: f64) -> impl fmt::Display {
+        Cell(if x.abs() <= self.rounding { 0.0 } else { x })
+    }
+
+    /// Three of them with commas between.
+    pub(crate) fn cells(self, [x, y, z]: model::Vector) -> impl fmt::Display {
+        let [x, y, z] = [x, y, z].map(|x| Cell(if x.abs() <= self.rounding { 0.0 } else { x }));
+        Three(x, y, z)
+    }
+}
+
+struct Cell(f64);
+
+impl fmt::Display for Cell {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Debug::fmt(&self.0, f)
+    }
+}
+
+struct Three(Cell, Cell, Cell);
+
+impl fmt::Display for Three {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{},{},{}", self.0, self.1, self.2)
+    }
+}
+
+/// A name, in quotes where it has to be (RFC 4180).
+pub(crate) fn quoted(name: &str) -> Cow<'_, str> {
+    if name.contains([',', '"', '\n', '\r']) {
+        format!("\"{}\"", name.replace('"', "\"\"")).into()
+    } else {
+        name.into()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Numbers, quoted};
+
+    #[test]
+    fn roundings_of_zero_are_zero_and_nothing_else_is() {
+        let numbers = Numbers::of(&[-2.0, 0.5]);
+        for (x, wanted) in
+            [(-0.0, "0.0"), (5.5e-17, "0.0"), (-2e-12, "0.0"), (3e-12, "3e-12"), (0.1, "0.1")]
+        {
+            assert_eq!(numbers.cell(x).to_string(), wanted);
+        }
+        assert_eq!(numbers.cells([1.0, -1e-16, -2.5]).to_string(), "1.0,0.0,-2.5");
+        // All of a kind may be small.
+        assert_eq!(Numbers::of(&[1e-20]).cell(1e-21).to_string(), "1e-21");
+    }
+
+    #[test]
+    fn names_with_commas_and_quotes_are_quoted() {
+        assert_eq!(quoted("lamp"), "lamp");
+        assert_eq!(quoted("a \"b\", c"), "\"a \"\"b\"\", c\"");
+    }
+}

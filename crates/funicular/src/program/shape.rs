@@ -1,0 +1,217 @@
+//! The shape of an equilibrium in tables: joints, bars, forces of the ground, and what stands out.
+
+use std::fmt::Write as _;
+
+use model::Vector;
+
+use crate::tables::{numbers_from, short, table, wrapped};
+
+/// Joints and bars up to this many are printed one by one; of more the extremes (`--csv`,
+/// `--bars-csv` and `--json` have all).
+pub const PRINTED: usize = 40;
+
+/// Bars at each end of the order by axial force, and forces of the ground, that stand for all of a
+/// long system.
+const EXTREMES: usize = 5;
+
+/// What is this much smaller than the largest of its kind is the rounding of a zero: solvers agree
+/// to less.
+const ROUNDING: f64 = 1e-12;
+
+/// An equilibrium of a chain or of a system, as the tables have it.
+pub struct Shape<'a> {
+    /// The name of a joint, for a terminal.
+    pub name: &'a dyn Fn(usize) -> String,
+    /// The joints of a bar.
+    pub ends: &'a dyn Fn(usize) -> [usize; 2],
+    /// Places, m.
+    pub joints_m: &'a [Vector],
+    /// Axial forces of the bars, tension positive, N.
+    pub axial_n: &'a [f64],
+    /// Forces of the ground, N, with their joints.
+    pub reactions_n: Vec<(usize, Vector)>,
+    /// Forces at the joints of a chain, N: on the bar before, at joint 0 on bar 1.
+    pub forces_n: Option<&'a [Vector]>,
+    /// Who found it.
+    pub solver: &'a model::SolverName,
+}
+
+impl Shape<'_> {
+    /// The tables, and what stands out.
+    pub fn text(&self, summary: bool) -> String {
+        let long = self.joints_m.len().max(self.axial_n.len()) > PRINTED + 1;
+        let mut text = String::new();
+        if !summary && !long {
+            text += &self.joints();
+            text += &self.bars("Bars", (0..self.axial_n.len()).collect());
+        } else if !summary {
+            text += &self.extremes();
+        }
+        if !summary && self.forces_n.is_none() {
+            text += &self.reactions();
+        }
+        text + &self.summary()
+    }
+
+    fn joints(&self) -> String {
+        let mut table = match self.forces_n {
+            Some(_) => table(["joint", "x / m", "y / m", "z / m", "Fx / N", "Fy / N", "Fz / N"]),
+            None => table(["joint", "x / m", "y / m", "z / m"]),
+        };
+        let places = Rounded::of(self.joints_m.as_flattened());
+        let forces = Rounded::of(self.forces_n.unwrap_or_default().as_flattened());
+        for (k, at_m) in self.joints_m.iter().enumerate() {
+            let mut row = vec![(self.name)(k)];
+            row.extend(at_m.map(|x| places.short(x)));
+            row.extend(self.forces_n.into_iter().flat_map(|f| f[k].map(|x| forces.short(x))));
+            table.add_row(row);
+        }
+        numbers_from(&mut table, 1);
+        let what = match self.forces_n {
+            Some(_) => " and the forces at them (on the bar before; at joint 0 on bar 1)",
+            None => "",
+        };
+        titled(&format!("Joints{what}, by {}:", self.solver), &table)
+    }
+
+    /// Some bars, each with its axial force and how steeply it rises from its first joint to its
+    /// second.
+    fn bars(&self, title: &str, bars: Vec<usize>) -> String {
+        let mut table = table(["bar", "from", "to", "axial / N", "", "rises / deg"]);
+        let axial = Rounded::of(self.axial_n);
+        for bar in bars {
+            let [from, to] = (self.ends)(bar);
+            let force = axial.number(self.axial_n[bar]);
+            let what = match force {
+                n if n > 0.0 => "tension",
+                n if n < 0.0 => "compression",
+                _ => "no force",
+            };
+            table.add_row([
+                (bar + 1).to_string(),
+                (self.name)(from),
+                (self.name)(to),
+                short(force),
+                what.to_owned(),
+                self.rise([from, to]),
+            ]);
+        }
+        numbers_from(&mut table, 3);
+        if let Some(words) = table.column_mut(4) {
+            words.set_cell_alignment(comfy_table::CellAlignment::Left);
+        }
+        let title = format!(
+            "{title} (axial force: tension positive; weights at the joints by the lever rule):"
+        );
+        titled(&title, &table)
+    }
+
+    /// The angle of a bar above the level, degrees, to a hundredth.
+    fn rise(&self, [from, to]: [usize; 2]) -> String {
+        let (a, b) = (self.joints_m[from], self.joints_m[to]);
+        let level = (b[0] - a[0]).hypot(b[1] - a[1]);
+        let rise = (b[2] - a[2]).atan2(level).to_degrees();
+        // Without the sign of what is rounded to zero.
+        format!("{:.2}", rise + 0.0).replace("-0.00", "0.00")
+    }
+
+    /// The bars with the largest tension and compression of a long system.
+    fn extremes(&self) -> String {
+        let mut order: Vec<usize> = (0..self.axial_n.len()).collect();
+        let wanted = EXTREMES.min(order.len() - 1);
+        let by_force = |a: &usize, b: &usize| self.axial_n[*b].total_cmp(&self.axial_n[*a]);
+        order.select_nth_unstable_by(wanted, by_force);
+        let mut most = order[..wanted].to_vec();
+        let rest = order.len() - wanted;
+        order.select_nth_unstable_by(rest, by_force);
+        let mut least = order[rest..].to_vec();
+        most.sort_by(by_force);
+        least.sort_by(by_force);
+        most.extend(least);
+        let title = format!("Of {} bars those at both ends", self.axial_n.len());
+        self.bars(&title, most)
+    }
+
+    fn reactions(&self) -> String {
+        let mut table = table(["joint", "Fx / N", "Fy / N", "Fz / N", "size / N"]);
+        let all: Vec<Vector> = self.reactions_n.iter().map(|(_, force)| *force).collect();
+        let forces = Rounded::of(all.as_flattened());
+        let mut shown: Vec<_> = self.reactions_n.iter().collect();
+        let hidden = shown.len() > PRINTED;
+        if hidden {
+            shown.sort_by(|(_, a), (_, b)| size(*b).total_cmp(&size(*a)));
+            shown.truncate(EXTREMES);
+        }
+        for (joint, force) in shown {
+            let mut row = vec![(self.name)(*joint)];
+            row.extend(force.map(|x| forces.short(x)));
+            row.push(short(size(*force)));
+            table.add_row(row);
+        }
+        numbers_from(&mut table, 1);
+        let which = if hidden { ", the largest of them" } else { "" };
+        titled(&format!("Forces of the ground on the joints{which}:"), &table)
+    }
+
+    /// Sag, lowest joint, largest forces and where.
+    fn summary(&self) -> String {
+        let mut text = String::new();
+        let places = Rounded::of(self.joints_m.as_flattened());
+        let lowest = (0..self.joints_m.len())
+            .min_by(|a, b| self.joints_m[*a][2].total_cmp(&self.joints_m[*b][2]));
+        if let Some(joint) = lowest {
+            let at = self.joints_m[joint].map(|x| places.short(x)).join(", ");
+            // Writing to a String cannot fail.
+            let _ = writeln!(text, "Lowest joint: {}, at ({at}) m.", (self.name)(joint));
+            let held = self.reactions_n.iter().map(|(joint, _)| self.joints_m[*joint][2]);
+            if let Some(support) = held.min_by(f64::total_cmp) {
+                let sag = places.number(support - self.joints_m[joint][2]);
+                let _ = writeln!(text, "Sag: {} m below the lowest support.", short(sag));
+            }
+        }
+        let axial = Rounded::of(self.axial_n);
+        let bars = || 0..self.axial_n.len();
+        let by_force = |a: &usize, b: &usize| self.axial_n[*a].total_cmp(&self.axial_n[*b]);
+        let ends = [("tension", bars().max_by(by_force)), ("compression", bars().min_by(by_force))];
+        for (what, bar) in ends {
+            let Some(bar) = bar else { continue };
+            let force = axial.number(self.axial_n[bar]);
+            if (force > 0.0) == (what == "tension") && force.abs() > 0.0 {
+                let [from, to] = (self.ends)(bar).map(|joint| (self.name)(joint));
+                let size = short(force.abs());
+                let _ =
+                    writeln!(text, "Largest {what}: {size} N, in the member from {from} to {to}.");
+            }
+        }
+        text + "\n"
+    }
+}
+
+/// A table under its title.
+fn titled(title: &str, table: &comfy_table::Table) -> String {
+    format!("{}\n{table}\n\n", wrapped(title, 0))
+}
+
+fn size(force: Vector) -> f64 {
+    force[0].hypot(force[1]).hypot(force[2])
+}
+
+/// Numbers of one kind, the rounding of their zeros left out.
+struct Rounded {
+    rounding: f64,
+}
+
+impl Rounded {
+    fn of(numbers: &[f64]) -> Self {
+        let largest = numbers.iter().fold(0.0, |a: f64, b| a.max(b.abs()));
+        Self { rounding: ROUNDING * largest }
+    }
+
+    fn number(&self, x: f64) -> f64 {
+        if x.abs() <= self.rounding { 0.0 } else { x }
+    }
+
+    fn short(&self, x: f64) -> String {
+        short(self.number(x))
+    }
+}

@@ -1,0 +1,140 @@
+//! `funicular solve --batch`: a system in every line, an answer in every line.
+
+use std::fmt;
+use std::fs::File;
+use std::io::{self, BufReader, ErrorKind, IsTerminal as _, Write as _};
+use std::ops::ControlFlow;
+use std::path::Path;
+
+use funicular::{Problem, Solve};
+use miette::miette;
+use validate::answer::UseCensus;
+
+use super::lines::{Line, Lines};
+use super::object::{self, Origin, Unanswered};
+use crate::diagnostics::tell;
+use crate::exit::{Exit, Failure};
+use crate::in_order::in_order;
+use crate::interrupt::{end_between_lines, whole_line};
+use crate::output;
+use crate::progress::Progress;
+use crate::threads;
+
+/// Run the batch: every line is answered, whatever becomes of the others.
+pub fn run(arguments: &super::Solve, path: &Path) -> Result<Exit, Failure> {
+    end_between_lines()?;
+    threads::install(arguments.threads)?;
+    let lines = open(path)?;
+    // A census takes far longer than a solution.
+    let solve = arguments.question(UseCensus::Never);
+    let work = |line: Line| answer(&solve, &line, arguments.summary);
+    // What is written to a terminal is progress enough.
+    let progress = (!io::stdout().is_terminal()).then(Progress::start);
+    let mut tally = Tally::default();
+    let mut failure = None;
+    let write = |(text, exit): (String, Exit)| {
+        tally.count(exit);
+        if let Some(progress) = &progress {
+            progress.say(&tally.to_string());
+        }
+        match print(&text) {
+            Ok(()) => ControlFlow::Continue(()),
+            Err(error) => {
+                failure = Some(error);
+                ControlFlow::Break(())
+            }
+        }
+    };
+    in_order(rayon::current_num_threads(), lines, work, |(text, _)| text.len(), write);
+    drop(progress);
+    match failure {
+        Some(error) if error.kind() != ErrorKind::BrokenPipe => {
+            Err(output::not_written("to standard output", &error))
+        }
+        _ => {
+            tell(&tally);
+            Ok(tally.worst)
+        }
+    }
+}
+
+fn open(path: &Path) -> Result<Lines, Failure> {
+    if path == Path::new("-") {
+        return Ok(Lines::of(BufReader::new(io::stdin())));
+    }
+    let file = File::open(path).and_then(|file| {
+        if file.metadata()?.is_dir() { Err(ErrorKind::IsADirectory.into()) } else { Ok(file) }
+    });
+    let file = file.map_err(|error| {
+        Failure::bad_input(miette!("cannot read the systems from {}: {error}", path.display()))
+    })?;
+    Ok(Lines::of(BufReader::new(file)))
+}
+
+/// The answer to a line as a line.
+fn answer(solve: &Solve, line: &Line, summary: bool) -> (String, Exit) {
+    let origin = Origin::Line(line.number);
+    let (text, exit) = match &line.text {
+        Err(reason) => (Unanswered::because(reason).line(origin), Exit::BadInput),
+        Ok(text) => match Problem::parse(text, "line").and_then(|problem| solve.run_here(&problem))
+        {
+            Ok(solution) => {
+                let exit = super::verdict(solution.check_failed(), solution.is_decided());
+                (object::answer(origin, &solution, summary, false), exit)
+            }
+            Err(error) => {
+                let text = Unanswered::of(&error).line(origin);
+                (text, Failure::from(error).exit())
+            }
+        },
+    };
+    // Numbers that are none have no place in JSON, and an answer has none.
+    text.map_or_else(|_| (String::new(), Exit::Undecided), |text| (text, exit))
+}
+
+fn print(line: &str) -> io::Result<()> {
+    whole_line(|| {
+        let mut out = io::stdout().lock();
+        out.write_all(line.as_bytes())?;
+        out.flush()
+    })
+}
+
+/// How the lines ended.
+#[derive(Debug)]
+struct Tally {
+    ends: [u64; 4],
+    worst: Exit,
+}
+
+impl Default for Tally {
+    fn default() -> Self {
+        Self { ends: [0; 4], worst: Exit::Done }
+    }
+}
+
+impl Tally {
+    fn count(&mut self, exit: Exit) {
+        if let Some(count) = self.ends.get_mut(usize::from(exit.code())) {
+            *count += 1;
+        }
+        self.worst = self.worst.worse(exit);
+    }
+}
+
+impl fmt::Display for Tally {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let [done, failed, bad, undecided] = self.ends;
+        write!(f, "{} systems: {done} done", done + failed + bad + undecided)?;
+        for (count, what) in [
+            (failed, "with a failed check"),
+            (bad, "that cannot be used"),
+            (undecided, "undecided"),
+        ] {
+            if count > 0 {
+                write!(f, ", {count} {what}")?;
+            }
+        }
+        Ok(())
+    }
+}

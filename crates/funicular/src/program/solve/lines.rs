@@ -1,0 +1,125 @@
+//! The lines of a batch, one at a time in bounded memory.
+
+use std::io::{self, BufRead, Read as _};
+
+use model::system_file::MAX_FILE_BYTES;
+
+/// A line that is not blank.
+pub struct Line {
+    /// Its number, from 1; blank lines count.
+    pub number: u64,
+    /// The text of an object, or why it is none.
+    pub text: Result<String, String>,
+}
+
+/// Lines as they are read.
+pub struct Lines {
+    from: Box<dyn BufRead + Send>,
+    number: u64,
+    ended: bool,
+}
+
+impl Lines {
+    pub fn of(from: impl BufRead + Send + 'static) -> Self {
+        Self { from: Box::new(from), number: 0, ended: false }
+    }
+
+    /// The next line with its end, `None` behind the last.
+    fn read(&mut self) -> io::Result<Option<Vec<u8>>> {
+        let mut bytes = vec![];
+        // One byte more than is allowed shows that it is too long.
+        self.from.by_ref().take(MAX_FILE_BYTES + 1).read_until(b'\n', &mut bytes)?;
+        self.number += 1;
+        if bytes.len() as u64 > MAX_FILE_BYTES {
+            skip_line(&mut self.from)?;
+        }
+        Ok(Some(bytes).filter(|bytes| !bytes.is_empty()))
+    }
+}
+
+impl Iterator for Lines {
+    type Item = Line;
+
+    fn next(&mut self) -> Option<Line> {
+        while !self.ended {
+            let read = self.read();
+            let number = self.number;
+            let bytes = match read {
+                Ok(Some(bytes)) => bytes,
+                Ok(None) => break,
+                Err(error) => {
+                    self.ended = true;
+                    return Some(Line {
+                        number: number + 1,
+                        text: Err(format!("it cannot be read: {error}")),
+                    });
+                }
+            };
+            if !bytes.iter().all(u8::is_ascii_whitespace) {
+                return Some(Line { number, text: object(bytes) });
+            }
+        }
+        None
+    }
+}
+
+/// The text of a line that may be an object of JSON.
+fn object(bytes: Vec<u8>) -> Result<String, String> {
+    if bytes.len() as u64 > MAX_FILE_BYTES {
+        return Err(format!("the line is longer than the limit of {MAX_FILE_BYTES} bytes"));
+    }
+    let text = String::from_utf8(bytes).map_err(|error| {
+        let offset = error.utf8_error().valid_up_to();
+        format!("the line is not UTF-8 text (first bad byte at offset {offset})")
+    })?;
+    let text = text.trim_start_matches('\u{feff}').trim_end();
+    if text.trim_start().starts_with('{') {
+        Ok(text.to_owned())
+    } else {
+        Err("a line is an object of JSON with the keys of a system file: {\"anchors\": ...}"
+            .to_owned())
+    }
+}
+
+/// Pass over the rest of a line.
+fn skip_line(from: &mut dyn BufRead) -> io::Result<()> {
+    loop {
+        let buffer = from.fill_buf()?;
+        let (length, ended) = match buffer.iter().position(|byte| *byte == b'\n') {
+            Some(end) => (end + 1, true),
+            None => (buffer.len(), buffer.is_empty()),
+        };
+        from.consume(length);
+        if ended {
+            return Ok(());
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::io::{BufReader, Cursor, Read as _};
+
+    use super::{Lines, MAX_FILE_BYTES};
+
+    #[test]
+    fn blank_lines_count_and_are_passed_over() {
+        let lines = Lines::of(Cursor::new("\u{feff}{1}\r\n\n  \n{2}\nx = 1\n{3}"));
+        let read: Vec<_> = lines.map(|line| (line.number, line.text)).collect();
+        assert_eq!(read[0], (1, Ok("{1}".to_owned())));
+        assert_eq!(read[1], (4, Ok("{2}".to_owned())));
+        assert!(read[2].0 == 5 && read[2].1.is_err());
+        assert_eq!(read[3], (6, Ok("{3}".to_owned())));
+        assert_eq!(read.len(), 4);
+        let bad = Lines::of(Cursor::new(b"{\xff}\n{}\n")).map(|line| line.text.is_ok());
+        assert_eq!(bad.collect::<Vec<_>>(), [false, true]);
+    }
+
+    #[test]
+    fn a_line_without_end_is_not_held() {
+        let endless = std::io::repeat(b'{').take(MAX_FILE_BYTES + 9);
+        let from = BufReader::new(endless.chain(Cursor::new("\n{2}\n")));
+        let read: Vec<_> = Lines::of(from).map(|line| (line.number, line.text.is_ok())).collect();
+        assert_eq!(read, [(1, false), (2, true)]);
+    }
+}

@@ -1,0 +1,108 @@
+//! `funicular solve A.toml B.toml ...`: every file answered, one after the other.
+
+use std::ops::ControlFlow;
+use std::path::{Path, PathBuf};
+
+use funicular::Solution;
+use miette::miette;
+use validate::answer::UseCensus;
+
+use super::object::{self, Origin, Unanswered};
+use crate::answer;
+use crate::exit::{Exit, Failure};
+use crate::in_order::in_order;
+use crate::input;
+use crate::interrupt::end_on_interrupt;
+use crate::output;
+use crate::printable::Printable;
+use crate::system;
+use crate::threads;
+
+/// What is printed about a file.
+struct Said {
+    text: String,
+    /// What goes to standard error.
+    failure: Option<Failure>,
+    exit: Exit,
+}
+
+/// Run the command for several files.
+pub fn run(arguments: &super::Solve) -> Result<Exit, Failure> {
+    if let Some(option) = arguments.file_for_one() {
+        return Err(Failure::bad_input(miette!("{option} writes one file, for one system")));
+    }
+    end_on_interrupt()?;
+    threads::install(arguments.threads)?;
+    let mut worst = Exit::Done;
+    let mut stopped = None;
+    let write = |said: Said| {
+        worst = worst.worse(said.exit);
+        let printed = if arguments.json {
+            output::print_objects(&said.text)
+        } else {
+            output::print(&said.text)
+        };
+        if let Some(failure) = said.failure {
+            failure.report();
+        }
+        match printed {
+            Ok(()) => ControlFlow::Continue(()),
+            Err(failure) => {
+                stopped = Some(failure);
+                ControlFlow::Break(())
+            }
+        }
+    };
+    let work = |path: &PathBuf| one(arguments, path);
+    in_order(
+        rayon::current_num_threads(),
+        arguments.files.iter(),
+        work,
+        |said| said.text.len(),
+        write,
+    );
+    stopped.map_or(Ok(worst), Err)
+}
+
+fn one(arguments: &super::Solve, path: &Path) -> Said {
+    let name = path.display().to_string();
+    let origin = Origin::File(&name);
+    let solve = arguments.question(UseCensus::Auto);
+    let read = input::problem(Some(path), None);
+    let solved = read.and_then(|input| Ok(solve.run_here(&input.problem)?));
+    let failure = match solved {
+        Ok(solution) => return said(arguments, origin, &solution),
+        Err(failure) => failure,
+    };
+    let exit = failure.exit();
+    if arguments.json {
+        // Words and no number: they have a place in JSON.
+        let text = Unanswered::by(&failure).pretty(origin).unwrap_or_default();
+        return Said { text, failure: None, exit };
+    }
+    Said { text: heading(&name), failure: Some(failure), exit }
+}
+
+fn said(arguments: &super::Solve, origin: Origin<'_>, solution: &Solution) -> Said {
+    let exit = super::verdict(solution.check_failed(), solution.is_decided());
+    if arguments.json {
+        return match object::answer(origin, solution, arguments.summary, true) {
+            Ok(text) => Said { text, failure: None, exit },
+            Err(error) => {
+                let failure = output::no_json(&error);
+                Said { text: String::new(), exit: failure.exit(), failure: Some(failure) }
+            }
+        };
+    }
+    let name = if let Origin::File(name) = origin { heading(name) } else { String::new() };
+    let text = match solution {
+        Solution::Chain(chain) => answer::answer(chain, arguments.summary),
+        Solution::System(system) => system::answer(system, arguments.summary),
+    };
+    Said { text: name + &text + "\n", failure: None, exit }
+}
+
+/// What stands above the answer to a file.
+fn heading(name: &str) -> String {
+    format!("=== {} ===\n", Printable(name))
+}

@@ -1,0 +1,179 @@
+//! Joints and bars by name from files of columns: a row is a joint, or a bar.
+
+use super::kind::SystemFileErrorKind as Kind;
+use super::row_table::{Known, Row, Wrong};
+use super::suggest::nearest;
+use crate::system::{Joint, Kind as MemberKind, Member, PointLoad, Support};
+use crate::{Bar, BarError, Vector};
+
+const PLACE: [&str; 3] = ["x_m", "y_m", "z_m"];
+const FORCE: [&str; 3] = ["force_x_n", "force_y_n", "force_z_n"];
+
+/// The columns of joints.
+pub(super) const JOINTS: Known = Known {
+    columns: &[
+        "name",
+        "x_m",
+        "y_m",
+        "z_m",
+        "fixed",
+        "free",
+        "mass_kg",
+        "force_x_n",
+        "force_y_n",
+        "force_z_n",
+    ],
+    needed: &[],
+};
+
+/// The columns of bars.
+pub(super) const BARS: Known = Known {
+    columns: &[
+        "from",
+        "to",
+        "length_m",
+        "mass_kg",
+        "centre_m",
+        "kind",
+        "stiffness_n",
+        "force_x_n",
+        "force_y_n",
+        "force_z_n",
+        "force_at_m",
+    ],
+    needed: &[
+        ("from", "a column of names of joints"),
+        ("to", "a column of names of joints"),
+        ("length_m", "a column of lengths in metres"),
+        ("mass_kg", "a column of masses in kilograms"),
+    ],
+};
+
+/// The words for the kinds of members.
+pub(super) const KINDS: &[&str] = &["bar", "cable", "strut"];
+
+/// What `free` may be.
+pub(super) const FREE: &str = "\"x\", \"y\", \"z\" (a line), \"xy\", \"xz\" or \"yz\" (a plane)";
+
+/// The joint of a row; without a column of names they are numbered from 0.
+pub(super) fn joint(row: &Row<'_>) -> Result<Joint, Wrong> {
+    let name =
+        if row.has("name") { row.name("name")?.into_owned() } else { (row.number - 1).to_string() };
+    let support = support(row)?;
+    let mass_kg = row.number("mass_kg")?.unwrap_or(0.0);
+    let force_n = row.vector(FORCE)?.unwrap_or_default();
+    if !(mass_kg.is_finite() && mass_kg >= 0.0) {
+        return Err((Some("mass_kg"), Kind::Mass { mass_kg }));
+    }
+    if let Some(bad) = (0..3).find(|k| !force_n[*k].is_finite()) {
+        return Err((Some(FORCE[bad]), Kind::Force { component_n: force_n[bad] }));
+    }
+    if support.is_fixed() {
+        let loaded =
+            |is: bool| if is { Err(Kind::LoadedAnchor { joint: name.clone() }) } else { Ok(()) };
+        loaded(mass_kg > 0.0).map_err(|kind| (Some("mass_kg"), kind))?;
+        for k in 0..3 {
+            loaded(force_n[k].abs() > 0.0).map_err(|kind| (Some(FORCE[k]), kind))?;
+        }
+    }
+    Ok(Joint { name, support, mass_kg, force_n })
+}
+
+/// A joint with a place is held there, unless `fixed` says that the place is only where it was
+/// drawn, or `free` how it slides.
+fn support(row: &Row<'_>) -> Result<Support, Wrong> {
+    let at_m = row.vector(PLACE)?;
+    let fixed = match row.word("fixed")?.as_deref() {
+        None => None,
+        Some("1" | "true") => Some(true),
+        Some("0" | "false") => Some(false),
+        Some(found) => {
+            let kind =
+                Kind::OutOfRange { found: found.to_owned(), wanted: "1 or true, 0 or false" };
+            return Err((Some("fixed"), kind));
+        }
+    };
+    let slide = row.word("free")?;
+    match (at_m, fixed, slide) {
+        (_, Some(_), Some(_)) => {
+            Err((Some("free"), Kind::Conflict { key: "free", other: "fixed" }))
+        }
+        (None, Some(true), None) | (None, _, Some(_)) => Err((Some(PLACE[0]), Kind::EmptyCell)),
+        (None, _, None) | (Some(_), Some(false), None) => Ok(Support::Free),
+        (Some(at_m), _, None) => Ok(Support::Fixed { at_m }),
+        (Some(at_m), None, Some(word)) => sliding(&word, at_m).ok_or_else(|| {
+            (Some("free"), Kind::OutOfRange { found: format!("{word:?}"), wanted: FREE })
+        }),
+    }
+}
+
+/// The support that leaves a joint free to slide through a point: along an axis, or in a plane of
+/// two.
+pub(super) fn sliding(word: &str, at_m: Vector) -> Option<Support> {
+    let axis = |k: usize| std::array::from_fn(|c| if c == k { 1.0 } else { 0.0 });
+    Some(match word {
+        "x" => Support::Line { at_m, direction: axis(0) },
+        "y" => Support::Line { at_m, direction: axis(1) },
+        "z" => Support::Line { at_m, direction: axis(2) },
+        "yz" => Support::Plane { at_m, normal: axis(0) },
+        "xz" => Support::Plane { at_m, normal: axis(1) },
+        "xy" => Support::Plane { at_m, normal: axis(2) },
+        _ => return None,
+    })
+}
+
+/// The member of a row, between joints whose numbers `number` knows.
+pub(super) fn member(
+    row: &Row<'_>,
+    number: &dyn Fn(&str) -> Result<usize, Kind>,
+) -> Result<Member, Wrong> {
+    let joint = |column| number(&row.name(column)?).map_err(|kind| (Some(column), kind));
+    let (from, to) = (joint("from")?, joint("to")?);
+    let (length_m, mass_kg) = (row.needed("length_m")?, row.needed("mass_kg")?);
+    let centre_m = row.number("centre_m")?.unwrap_or(0.5 * length_m);
+    let inertia = Bar::slender_inertia(length_m, mass_kg);
+    let body = Bar::new(length_m, mass_kg, centre_m, inertia).map_err(|error| {
+        let column = match error {
+            BarError::Mass { .. } => "mass_kg",
+            BarError::Centre { .. } => "centre_m",
+            // The moments have no column of their own: m l²/12 is too large.
+            BarError::Length { .. } | BarError::Inertia { .. } => "length_m",
+        };
+        (Some(column), Kind::Bar(error))
+    })?;
+    let kind = match row.word("kind")?.as_deref() {
+        None | Some("bar") => MemberKind::Bar,
+        Some("cable") => MemberKind::Cable,
+        Some("strut") => MemberKind::Strut,
+        Some(other) => {
+            let suggestion = nearest(other, KINDS);
+            let kind = Kind::UnknownKind { found: other.to_owned(), allowed: KINDS, suggestion };
+            return Err((Some("kind"), kind));
+        }
+    };
+    Ok(Member {
+        from,
+        to,
+        kind,
+        body,
+        stiffness_n: row.number("stiffness_n")?,
+        loads: load(row, length_m)?,
+    })
+}
+
+/// The force on a bar, in the middle if no place is given.
+fn load(row: &Row<'_>, length_m: f64) -> Result<Vec<PointLoad>, Wrong> {
+    let at = row.number("force_at_m")?;
+    let Some(force_n) = row.vector(FORCE)? else {
+        return if at.is_some() { Err((Some(FORCE[0]), Kind::EmptyCell)) } else { Ok(Vec::new()) };
+    };
+    if let Some(bad) = (0..3).find(|k| !force_n[*k].is_finite()) {
+        return Err((Some(FORCE[bad]), Kind::Force { component_n: force_n[bad] }));
+    }
+    let at_m = at.unwrap_or(0.5 * length_m);
+    if !(0.0..=length_m).contains(&at_m) {
+        let kind = Kind::OutOfRange { found: at_m.to_string(), wanted: "from 0 to length_m" };
+        return Err((Some("force_at_m"), kind));
+    }
+    Ok(vec![PointLoad { at_m, force_n }])
+}

@@ -1,0 +1,240 @@
+//! Systems whose joints and bars stand in files of columns: what is read, and the exact error of
+//! what is not.
+
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+
+use model::Bar;
+use model::system::{Joint, Kind, Member, PointLoad, Support, System};
+use model::system_file::{Cell, Described, Readers, Rows, SystemFileError, read, read_with};
+
+const JOINTS: &str = "name,x_m,y_m,z_m,fixed,free,mass_kg,force_x_n,force_y_n,force_z_n\n\
+                      A,0,0,0,,,,,,\n\
+                      \"lamp, old\",9,9,9,0,,5,0,12,0\n\
+                      C,2,0,0.5,,xz,,,,\n\
+                      4,,,,,,,,,\n";
+
+const BARS: &str = "to,from,length_m,mass_kg,centre_m,kind,stiffness_n,force_x_n,force_y_n,force_z_n,force_at_m\n\
+                    \"lamp, old\",A,1.5,1,0.5,,,,,,\n\
+                    C,\"lamp, old\",1.5,1,,cable,1e5,1,0,0,\n\
+                    4,C,0.25,1,,strut,,0,0,1,0.25\n";
+
+const SYSTEM: &str = "joints_file = \"joints.csv\"\nbars_file = \"bars.csv\"\n";
+
+fn folder(name: &str) -> PathBuf {
+    let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("network-columns").join(name);
+    let _ = std::fs::remove_dir_all(&path);
+    std::fs::create_dir_all(&path).unwrap();
+    path
+}
+
+/// The system of these texts; nothing is written of a text that is empty.
+fn described(name: &str, [system, joints, bars]: [&str; 3]) -> Result<System, SystemFileError> {
+    let folder = folder(name);
+    for (file, text) in [("system.toml", system), ("joints.csv", joints), ("bars.csv", bars)] {
+        if !text.is_empty() {
+            std::fs::write(folder.join(file), text).unwrap();
+        }
+    }
+    match read(folder.join("system.toml"))? {
+        Described::System(system) => Ok(system),
+        Described::Chain(_) => panic!("joints by name make no chain"),
+    }
+}
+
+#[test]
+fn every_column_arrives_where_it_belongs() {
+    let found = described("all", [SYSTEM, JOINTS, BARS]).unwrap();
+    let at_m = [2.0, 0.0, 0.5];
+    let joints = vec![
+        Joint::anchor("A", [0.0; 3]),
+        // Where it was drawn says nothing of where it hangs.
+        Joint::free("lamp, old").with_mass(5.0).with_force([0.0, 12.0, 0.0]),
+        Joint { support: Support::Plane { at_m, normal: [0.0, 1.0, 0.0] }, ..Joint::free("C") },
+        Joint::free("4"),
+    ];
+    let bar = |length: f64| Bar::homogeneous(length, 1.0).unwrap();
+    let load = |at_m, force_n| vec![PointLoad { at_m, force_n }];
+    let off = Bar::new(1.5, 1.0, 0.5, Bar::slender_inertia(1.5, 1.0)).unwrap();
+    let cable = Member::cable(1, 2, bar(1.5)).with_stiffness(1e5);
+    let members = vec![
+        Member::bar(0, 1, off),
+        Member { loads: load(0.75, [1.0, 0.0, 0.0]), ..cable },
+        Member {
+            kind: Kind::Strut,
+            loads: load(0.25, [0.0, 0.0, 1.0]),
+            ..Member::bar(2, 3, bar(0.25))
+        },
+    ];
+    assert_eq!(found, System::new("unnamed", 9.80665, joints, members).unwrap());
+}
+
+/// Anchors in the system file, a thousand joints by their numbers in one of their own.
+#[test]
+fn joints_may_stand_in_both_places_and_have_numbers_for_names() {
+    let joints = "mass_kg\n".to_owned() + &"0.5\n".repeat(999);
+    let mut bars = "from,to,length_m,mass_kg\nA,0,0.1,0\n".to_owned();
+    for k in 1..999 {
+        writeln!(bars, "{},{k},0.1,0", k - 1).unwrap();
+    }
+    bars += "998,B,0.1,0\n";
+    let system = "joints_file = \"joints.csv\"\nbars_file = \"bars.csv\"\n\
+                  [joints]\nA = { at_m = [0, 0, 0] }\nB = { at_m = [80, 0, 0] }\n";
+    let found = described("numbers", [system, &joints, &bars]).unwrap();
+    assert_eq!((found.joints().len(), found.members().len()), (1001, 1000));
+    assert_eq!(found.joint("998"), Some(1000));
+    assert!((found.total_mass_kg() - 499.5).abs() < 1e-12);
+    let last = found.members().last().unwrap();
+    assert_eq!((last.from, last.to), (1000, 1));
+}
+
+#[test]
+fn errors_name_file_row_and_column() {
+    let check = |name: &str, joints: &str, bars: &str, file: &str, wanted: &str| {
+        let error = described(name, [SYSTEM, joints, bars]).unwrap_err();
+        let path = folder_of(name).join(file).display().to_string();
+        assert_eq!(error.to_string(), format!("{path}:{wanted}"), "{name}");
+    };
+    let bars = |from: &str, to: &str| BARS.replacen(from, to, 1);
+    let joints = |from: &str, to: &str| JOINTS.replacen(from, to, 1);
+    check("unknown", JOINTS, &bars("4,C", "5,C"), "bars.csv", "4:1: to: there is no joint \"5\"");
+    check(
+        "length",
+        JOINTS,
+        &bars("A,1.5", "A,-1"),
+        "bars.csv",
+        "2:15: length_m: the length of a bar must be positive and finite, got -1 m",
+    );
+    check("empty", JOINTS, &bars("A,1.5", "A,"), "bars.csv", "2:15: length_m: the cell is empty");
+    check(
+        "word",
+        JOINTS,
+        &bars("cable", "rope"),
+        "bars.csv",
+        "3:22: kind: there is no member of the kind \"rope\"",
+    );
+    check(
+        "number",
+        &joints("0,12,0", "0,1o,0"),
+        BARS,
+        "joints.csv",
+        "3:26: force_y_n: expected a number, found \"1o\"",
+    );
+    check(
+        "column",
+        &joints("mass_kg", "mass"),
+        BARS,
+        "joints.csv",
+        "1:29: mass: unknown key `mass`",
+    );
+    check(
+        "head",
+        JOINTS,
+        "from,to,length_m\nA,C,1\n",
+        "bars.csv",
+        "1:1: the key `mass_kg` is missing",
+    );
+    check(
+        "anchor",
+        &joints("A,0,0,0,,,", "A,0,0,0,,,7"),
+        BARS,
+        "joints.csv",
+        "2:11: mass_kg: joint \"A\" is an anchor: a load there goes straight into the ground",
+    );
+    check("half", &joints("A,0,0,0", "A,0,,0"), BARS, "joints.csv", "2:5: y_m: the cell is empty");
+    check(
+        "slide",
+        &joints(",xz,", ",up,"),
+        BARS,
+        "joints.csv",
+        "4:12: free: the number \"up\" is out of range",
+    );
+    check(
+        "both",
+        &joints(",0.5,,xz", ",0.5,1,xz"),
+        BARS,
+        "joints.csv",
+        "4:13: free: `free` and `fixed` cannot stand together",
+    );
+    check(
+        "twice",
+        &(JOINTS.to_owned() + "C,,,,,,,,,\n"),
+        BARS,
+        "joints.csv",
+        "6:1: two joints are called \"C\"",
+    );
+    check(
+        "parallel",
+        JOINTS,
+        &(BARS.to_owned() + "A,\"lamp, old\",1,1,,,,,,,\n"),
+        "bars.csv",
+        "5:1: two members connect joint \"lamp, old\" with joint \"A\" (numbers 1 and 4): how they share a \
+         force is indeterminate",
+    );
+    check(
+        "none",
+        JOINTS,
+        "from,to,length_m,mass_kg\n",
+        "bars.csv",
+        "1:1: there are columns but no bars",
+    );
+    check(
+        "loose",
+        &(JOINTS.to_owned() + "E,,,,,,,,,\n"),
+        BARS,
+        "joints.csv",
+        "6:1: no member meets joint \"E\"",
+    );
+}
+
+fn folder_of(name: &str) -> PathBuf {
+    PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("network-columns").join(name)
+}
+
+#[test]
+fn keys_that_do_not_go_together_are_refused() {
+    let refused = |name: &str, system: &str| {
+        described(name, [system, JOINTS, BARS]).unwrap_err().kind().to_string()
+    };
+    let with_bars = format!("{SYSTEM}[[bars]]\nfrom = \"A\"\n");
+    assert_eq!(refused("k1", &with_bars), "`bars_file` and `bars` cannot stand together");
+    let anchors = format!("{SYSTEM}anchors = {{}}\n");
+    assert_eq!(refused("k2", &anchors), "`joints_file` and `anchors` cannot stand together");
+    let gone = refused("k3", "joints_file = \"gone.csv\"\nbars_file = \"bars.csv\"\n");
+    assert!(gone.contains("gone.csv"), "{gone}");
+    let text = model::system_file::parse(SYSTEM, "text").unwrap_err().to_string();
+    assert!(text.contains("`joints_file` is relative to the system file"), "{text}");
+}
+
+/// Rows of another kind of file, as a program reads them.
+#[test]
+fn readers_of_other_files_name_their_rows() {
+    let folder = folder("foreign");
+    let path = folder.join("system.toml");
+    std::fs::write(&path, "bars_file = \"bars.x\"\n[joints]\nA = { at_m = [0, 0, 0] }\n7 = {}\n")
+        .unwrap();
+    let by = |length_m: f64, to: f64| {
+        let rows = |file: &Path, rows: &mut dyn Rows| {
+            assert!(file.ends_with("bars.x"));
+            let cells =
+                [Cell::Text("A"), Cell::Number(to), Cell::Number(length_m), Cell::Number(1.0)];
+            let _ = rows.names(&["from", "to", "length_m", "mass_kg"]) && rows.row(&cells);
+            Some(Ok(()))
+        };
+        read_with(&path, Readers { bars: &|_| None, rows: &rows })
+    };
+    let Ok(Described::System(system)) = by(2.0, 7.0) else { panic!("one bar hangs") };
+    assert_eq!(system.members()[0].to, 1);
+    let said = |length_m, to| by(length_m, to).unwrap_err().to_string();
+    let error = said(-2.0, 7.0);
+    assert!(
+        error.contains(":1:13: bars_file: ")
+            && error.contains("bars.x: row 1, column `length_m`: the length"),
+        "{error}"
+    );
+    assert!(
+        said(2.0, 7.5)
+            .ends_with("row 1, column `to`: a joint is named by text or a whole number, found 7.5")
+    );
+    assert!(said(2.0, 8.0).ends_with("row 1, column `to`: there is no joint \"8\""));
+}
