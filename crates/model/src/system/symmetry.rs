@@ -2,10 +2,7 @@
 
 use super::graph::Graph;
 use super::{Support, System};
-
-/// How near to one vertical line points count as on it, relative to the total length: the rounding
-/// of coordinates that were meant to be on it.
-const VERTICAL_TOLERANCE: f64 = crate::STRAIGHT_TOLERANCE;
+use crate::chain::VERTICAL_TOLERANCE;
 
 /// Joints that members connect with each other.
 #[derive(Debug, Clone, PartialEq)]

@@ -11,6 +11,10 @@ pub const SCOPE: &str = "known are joints without friction, bars, cables and str
      stiffness_n (EA), their weight, masses at joints and constant forces; not known are friction, \
      contact, bending, damping and a sea bed";
 
+/// Keys that ask for what is not modelled.
+pub const NOT_MODELLED: &[&str] =
+    &["stiffness", "seabed", "floor", "friction", "damping", "contact", "bending", "temperature"];
+
 /// What is wrong.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]

@@ -6,17 +6,13 @@ use toml::Spanned;
 use toml::de::{DeInteger, DeTable, DeValue};
 
 use super::error::SystemFileError;
-use super::kind::SystemFileErrorKind as Kind;
+use super::kind::{NOT_MODELLED, SystemFileErrorKind as Kind};
 use super::source::Source;
 use super::suggest::nearest;
 use crate::Vector;
 
 /// A value with its place.
 pub(super) type Value<'a> = Spanned<DeValue<'a>>;
-
-/// Keys that ask for what is not modelled.
-const BEYOND: &[&str] =
-    &["stiffness", "seabed", "floor", "friction", "damping", "contact", "bending", "temperature"];
 
 /// One table, with its path in front of its keys.
 pub(super) struct Table<'a> {
@@ -82,7 +78,7 @@ impl<'a> Table<'a> {
             None => Ok(()),
             Some(key) => {
                 let name = key.get_ref().to_string();
-                let kind = if BEYOND.contains(&name.as_str()) {
+                let kind = if NOT_MODELLED.contains(&name.as_str()) {
                     Kind::OutOfScope { key: name.clone() }
                 } else {
                     let suggestion = nearest(&name, allowed);

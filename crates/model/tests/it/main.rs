@@ -5,6 +5,7 @@
 mod columns;
 mod constructors;
 mod files;
+mod format_page;
 mod json;
 mod mutations;
 mod network_columns;
