@@ -4,8 +4,7 @@ use std::time::Instant;
 
 use model::{Equilibrium, Ladder, NoAnswer, Rung, SolverName, Stability, cases};
 use serde::Serialize;
-use validate::compare::{compare, judge_without};
-use validate::completeness::certify_by_census;
+use validate::answer::judge;
 use validate::table::{CaseResult, Row, table};
 use validate::tolerances::Tolerances;
 
@@ -222,17 +221,11 @@ fn positions(example: &Example) -> Vec<Position> {
 /// How far an equilibrium is proved by both solvers, the statics judge, the census and the
 /// certificate; without `energy` where that, looking for minima, has no answer.
 fn ladder(example: &Example, found: &Equilibrium, answer: Option<&energy::Solution>) -> Ladder {
-    let mut found = found.clone();
-    if let Some(answer) = answer {
-        let mut both = [found, answer.equilibrium.clone()];
-        let _ = compare(&example.problem, &mut both, &Tolerances::project());
-        let [mut judged, _] = both;
-        certify_by_census(&example.problem, &example.census, &mut judged);
-        return judged.evidence.ladder;
-    }
-    judge_without(&example.problem, &mut found, SolverName::ENERGY, NoAnswer::MinimaOnly);
-    certify_by_census(&example.problem, &example.census, &mut found);
-    found.evidence.ladder
+    let mut answers = vec![found.clone()];
+    answers.extend(answer.map(|answer| answer.equilibrium.clone()));
+    let missing = Some((SolverName::ENERGY, NoAnswer::MinimaOnly)).filter(|_| answer.is_none());
+    judge(&example.problem, &mut answers, missing, &example.census);
+    answers.swap_remove(0).evidence.ladder
 }
 
 impl Summary {

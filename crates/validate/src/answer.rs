@@ -201,7 +201,8 @@ pub(crate) fn ask_within(
             Err(failure) => failures.push(failure),
         }
     }
-    let agreement = judge(problem, &mut equilibria, &failures, tolerances);
+    let missing = failures.first().map(|failure| (failure.solver(), NoAnswer::Refused));
+    let agreement = judge_within(problem, &mut equilibria, missing, tolerances);
     if let Some(settings) = census_settings(problem, question.census)
         && !equilibria.is_empty()
     {
@@ -226,19 +227,52 @@ fn by_lagrange(problem: &Problem, question: &Question) -> Result<Equilibrium, So
     }
 }
 
-/// Answers are compared; a single one is only judged by Newton's laws.
-fn judge(
+/// Judge answers that are there already as [`ask`] judges its own: compared with each other,
+/// certified, and looked up in a census. For positions that nobody asks for, such as a saddle where
+/// a solver was started.
+///
+/// `missing` is a solver that was asked as well and has no answer, and why. The comparison is that
+/// of two answers or more.
+///
+/// ```
+/// use census::{Census, Settings};
+/// let problem = model::cases::paper();
+/// let census = Census::take(&problem, &Settings::default())?;
+/// // The paper's chain upside down, an equilibrium that no minimiser finds.
+/// let seed = lagrange::Seed::planar(&[1.2, -0.7, -0.3]);
+/// let saddle = lagrange::solve_from(&problem, &seed, &lagrange::Settings::default())?.equilibrium;
+/// let mut found = [saddle];
+/// let missing = Some((model::SolverName::ENERGY, model::NoAnswer::MinimaOnly));
+/// assert!(validate::answer::judge(&problem, &mut found, missing, &census).is_none());
+/// assert!(found[0].evidence.ladder.complete.is_reached());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn judge(
     problem: &Problem,
     equilibria: &mut [Equilibrium],
-    failures: &[SolverFailure],
+    missing: Option<(SolverName, NoAnswer)>,
+    census: &Census,
+) -> Option<Agreement> {
+    let agreement = judge_within(problem, equilibria, missing, &Tolerances::project());
+    for answer in equilibria {
+        certify_by_census(problem, census, answer);
+    }
+    agreement
+}
+
+/// Answers are compared; a single one is only judged by Newton's laws.
+fn judge_within(
+    problem: &Problem,
+    equilibria: &mut [Equilibrium],
+    missing: Option<(SolverName, NoAnswer)>,
     tolerances: &Tolerances,
 ) -> Option<Agreement> {
     match equilibria {
         [] => None,
         [answer] => {
-            match failures.first() {
-                Some(failure) => {
-                    judge_without(problem, answer, failure.solver(), NoAnswer::Refused);
+            match missing {
+                Some((solver, because)) => {
+                    judge_without(problem, answer, solver, because);
                 }
                 None => {
                     judge_alone(problem, answer);
