@@ -6,7 +6,7 @@
 //! difference of coordinates) is carried as an interval, so that a bound speaks of the chain as
 //! given and not of a rounded neighbour.
 
-use intervals::{Interval, IntervalSum};
+use intervals::{Interval, IntervalSum, lever};
 use model::Problem;
 #[cfg(feature = "cones")]
 use model::Vector;
@@ -96,8 +96,9 @@ impl Data {
             .iter()
             .map(|bar| {
                 let weight = Interval::point(bar.mass_kg()) * gravity / per_weight;
-                let lever = Interval::point(bar.centre_m()) / Interval::point(bar.length_m());
-                (weight, weight * lever)
+                let [_, far] =
+                    lever(Interval::point(bar.length_m()), Interval::point(bar.centre_m()));
+                (weight, weight * far)
             })
             .collect();
         let joint_weight: Vec<_> = (0..carried.len())
@@ -132,12 +133,13 @@ impl Data {
     /// The vertical plane of the anchors; OYZ, the paper's choice, when they are on one vertical.
     #[cfg(feature = "cones")]
     pub(crate) fn plane(&self, problem: &Problem) -> Plane {
-        /// Of the total length; a span this small (or subnormal) has no direction worth keeping,
-        /// and no effect on an energy. What is proved takes the anchors as they are.
-        const ON_ONE_VERTICAL: f64 = f64::EPSILON * f64::EPSILON;
+        /// Of the total length; a span this small (or subnormal) has no direction that can be
+        /// computed, and no effect on an energy. Nothing is decided by it: what is proved takes the
+        /// anchors as they are.
+        const NO_DIRECTION: f64 = f64::EPSILON * f64::EPSILON;
         let [x, y, z] = problem.chain().anchors().difference_m().map(|x| x / self.scale.length);
         let span = x.hypot(y);
-        if span > ON_ONE_VERTICAL {
+        if span > NO_DIRECTION {
             Plane { direction: [x / span, y / span], span, height: z }
         } else {
             Plane { direction: [0.0, 1.0], span: 0.0, height: z }

@@ -3,6 +3,7 @@
 use std::cmp::Ordering;
 use std::sync::Arc;
 
+use intervals::lever;
 use model::Problem;
 
 use crate::frame::Frames;
@@ -152,7 +153,7 @@ impl<'a> Path<'a> {
         let mut carried = 0.0;
         let mut raw = Vec::with_capacity(chain.bars.len());
         for bar in &chain.bars {
-            raw.push(carried + bar.mass_kg * ((bar.length_m - bar.centre_m()) / bar.length_m));
+            raw.push(carried + bar.mass_kg * lever(bar.length_m, bar.centre_m())[0]);
             carried += bar.mass_kg;
         }
         let (first, last) = (raw[0], raw[raw.len() - 1]);

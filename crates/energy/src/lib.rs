@@ -68,6 +68,7 @@ mod curvature;
 mod error;
 mod folded;
 mod frame;
+mod lever;
 mod links;
 mod minimise;
 mod objective;

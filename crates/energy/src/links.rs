@@ -3,6 +3,7 @@
 use model::{Problem, Vector};
 
 use crate::frame::{Frame, WORLD_UP};
+use crate::lever;
 use crate::regime::{Reach, Turning};
 use crate::settings::Motion;
 use crate::vector::{Sum, along, dot, norm};
@@ -83,14 +84,14 @@ impl Links {
         let mut hang = vec![0.0; bars.len()];
         let mut before = Sum::default();
         for (h, bar) in hang.iter_mut().zip(bars) {
-            let (m, lever) = (bar.mass_kg() / mass_kg, bar.centre_m() / bar.length_m());
-            *h -= before.value() + m * (1.0 - lever);
+            let (m, at_last) = (bar.mass_kg() / mass_kg, lever::at_last(bar));
+            *h -= before.value() + m * (1.0 - at_last);
             before.add(m);
         }
         let mut after = Sum::default();
         for (h, bar) in hang.iter_mut().zip(bars).rev() {
-            let (m, lever) = (bar.mass_kg() / mass_kg, bar.centre_m() / bar.length_m());
-            *h = 0.5 * (*h + (after.value() + m * lever));
+            let (m, at_last) = (bar.mass_kg() / mass_kg, lever::at_last(bar));
+            *h = 0.5 * (*h + (after.value() + m * at_last));
             after.add(m);
         }
         let span = frame.span(difference_m.map(|x| x / length_m));

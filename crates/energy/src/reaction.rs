@@ -4,6 +4,7 @@ use model::{Problem, Reactions, Vector};
 
 use crate::error::Error;
 use crate::frame::WORLD_UP;
+use crate::lever;
 use crate::links::{Links, Units};
 use crate::minimise::descend;
 use crate::plane::Turn;
@@ -61,7 +62,7 @@ fn lift_from_middle(problem: &Problem) -> Vec<f64> {
 /// The same where the weights are counted from a bar: what of them is between it and the joint.
 fn lift_from(problem: &Problem, origin: usize) -> Vec<f64> {
     let (bars, mass_kg) = (problem.chain().bars(), problem.chain().total_mass_kg());
-    let at_end = bars[origin].centre_m() / bars[origin].length_m();
+    let at_end = lever::at_last(&bars[origin]);
     let share = bars[origin].mass_kg() / mass_kg;
     let mut lift = vec![0.0; bars.len() + 1];
     let (before, after) = lift.split_at_mut(origin + 1);

@@ -25,6 +25,7 @@ use std::sync::Arc;
 use model::{Bar, Problem, Vector};
 
 use crate::closure::Shape;
+use crate::lever;
 use crate::links::{Links, Origin, Units};
 use crate::minimise::Minimum;
 use crate::plane::Turn;
@@ -281,9 +282,8 @@ fn rotated_sum(span: [Vector; 2], cosine: f64, sine: f64) -> [Vector; 2] {
 /// between.
 fn counted_from(problem: &Problem, bar: usize) -> Vec<f64> {
     let (bars, total_kg) = (problem.chain().bars(), problem.chain().total_mass_kg());
-    let at_end = |bar: &Bar| bar.mass_kg() / total_kg * (bar.centre_m() / bar.length_m());
-    let at_start =
-        |bar: &Bar| bar.mass_kg() / total_kg * ((bar.length_m() - bar.centre_m()) / bar.length_m());
+    let at_end = |bar: &Bar| bar.mass_kg() / total_kg * lever::at_last(bar);
+    let at_start = |bar: &Bar| bar.mass_kg() / total_kg * lever::at_first(bar);
     let mut carried = vec![0.0; bars.len()];
     let mut between = Sum::default();
     between.add(at_end(&bars[bar]));

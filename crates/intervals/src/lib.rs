@@ -17,13 +17,14 @@
 //! | [`DoubleDouble`] | two doubles and an error | residuals of ill-conditioned systems |
 //! | [`CompensatedSum`] | a double, without a proof | sums of many terms |
 //!
-//! No mechanics lives here, and the two solvers use none of it: what judges their answers shares
-//! nothing with them.
+//! Of mechanics only the [lever rule](lever()) lives here, which every proof needs; the two solvers
+//! use nothing of this crate: what judges their answers shares nothing with them.
 
 mod angle;
 mod double_double;
 mod interval;
 mod interval_sum;
+mod lever;
 mod rounding;
 mod sum;
 
@@ -31,5 +32,6 @@ pub use angle::{PI, atan2};
 pub use double_double::DoubleDouble;
 pub use interval::Interval;
 pub use interval_sum::IntervalSum;
+pub use lever::lever;
 pub use rounding::{down, two_sum, up};
 pub use sum::CompensatedSum;

@@ -2,7 +2,6 @@
 
 use std::cmp::{Ordering, Reverse};
 use std::collections::BTreeSet;
-use std::f64::consts::PI;
 
 use census::{Census, CensusError, ProvenEquilibrium, SlackFamily};
 use model::{Chain, Problem};
@@ -341,22 +340,11 @@ fn isolated(equilibrium: &ProvenEquilibrium, mirrored: bool) -> Member {
     }
 }
 
-/// The bars in force of a family stand upright: without a horizontal pull nothing else is in
-/// balance. Bar i points the way of its force, the pull and the weight before it, times its sign.
 fn family(slack: &SlackFamily, problem: &Problem) -> Member {
-    let chain = problem.chain();
-    let mut before = slack.pull_n[1].mid();
-    let angles = chain.bars().iter().zip(&slack.signs).map(|(bar, sign)| {
-        let weight = bar.mass_kg() * chain.gravity_m_s2();
-        let force = before + weight * (1.0 - bar.centre_m() / bar.length_m());
-        before += weight;
-        let up = force * f64::from(*sign) > 0.0;
-        (*sign != 0).then_some(if up { PI } else { 0.0 })
-    });
     Member {
         origin: Origin::Family,
         energy_j: slack.energy_j.mid(),
-        angles_rad: angles.collect(),
+        angles_rad: slack.angles_rad(problem),
         index_in_plane: Some(slack.index_in_plane),
         mirrored: false,
     }

@@ -1,9 +1,10 @@
-//! The lever rule, the one place of it outside the two solvers and the census.
+//! The lever rule for bars, as the judge uses it: that of [`intervals::lever`].
 //!
 //! A bar's weight is linear in the places of its two ends, so a bar weighs on its joints as two
 //! point masses do: with the centre of weight at the distance `r` from its first end, `(1 − r/l) m`
 //! there and `(r/l) m` at its second end.
 
+use intervals::lever;
 use model::{Bar, Chain};
 
 /// Where the centre of weight is, as a part of the length from the first end: `r/l`.
@@ -17,20 +18,24 @@ use model::{Bar, Chain};
 /// ```
 #[must_use]
 pub fn centre_part(bar: &Bar) -> f64 {
-    bar.centre_m() / bar.length_m()
+    shares(bar)[1]
 }
 
 /// What of its mass the first end of a bar carries, kg; exactly none where the centre of weight is
 /// at the second.
 #[must_use]
 pub fn near_kg(bar: &Bar) -> f64 {
-    bar.mass_kg() * ((bar.length_m() - bar.centre_m()) / bar.length_m())
+    bar.mass_kg() * shares(bar)[0]
 }
 
 /// What of its mass the second end of a bar carries, kg.
 #[must_use]
 pub fn far_kg(bar: &Bar) -> f64 {
     bar.mass_kg() * centre_part(bar)
+}
+
+fn shares(bar: &Bar) -> [f64; 2] {
+    lever(bar.length_m(), bar.centre_m())
 }
 
 /// The mass that each joint between the anchors carries, kg.

@@ -1,6 +1,6 @@
 //! Enclosures as narrow as doubles allow, however ill-conditioned the pull.
 
-use intervals::{DoubleDouble, Interval};
+use intervals::{DoubleDouble, Interval, lever};
 use model::{Bar, Problem};
 
 use crate::closure::Closure;
@@ -33,11 +33,12 @@ impl PreciseSystem {
             |bar: &Bar| DoubleDouble::point(bar.mass_kg()).scale(system.mass_unit_kg.recip());
         let [length, centre] =
             [Bar::length_m, Bar::centre_m].map(|of| move |bar| DoubleDouble::point(of(bar)));
+        let shares = |bar| lever(length(bar), centre(bar));
         // As in `System`: what joint 0 carries is left out.
-        let mut carried = mass(&bars[0]) * (centre(&bars[0]) / length(&bars[0]));
+        let mut carried = mass(&bars[0]) * shares(&bars[0])[1];
         let mut weight = vec![DoubleDouble::ZERO];
         for bar in &bars[1..] {
-            weight.push(carried + mass(bar) * ((length(bar) - centre(bar)) / length(bar)));
+            weight.push(carried + mass(bar) * shares(bar)[0]);
             carried = carried + mass(bar);
         }
         for group in &system.groups {

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use intervals::Interval;
+use intervals::{Interval, lever};
 use model::{Bar, Problem, Vector};
 
 use crate::error::CensusError;
@@ -225,9 +225,8 @@ impl System {
 }
 
 /// What a bar leaves at its first joint, kg: m (1 − r/l), by the lever rule.
-fn at_first_joint(bar: &Bar) -> Interval {
-    let length = Interval::point(bar.length_m());
-    Interval::point(bar.mass_kg()) * ((length - Interval::point(bar.centre_m())) / length)
+pub(crate) fn at_first_joint(bar: &Bar) -> Interval {
+    Interval::point(bar.mass_kg()) * shares(bar)[0]
 }
 
 /// What a bar leaves at its second joint, kg: m r/l, and nothing at all if its centre is on the
@@ -236,8 +235,12 @@ fn at_second_joint(bar: &Bar) -> Interval {
     if bar.mass_kg() <= 0.0 || bar.centre_m() <= 0.0 {
         return Interval::ZERO;
     }
-    Interval::point(bar.mass_kg())
-        * (Interval::point(bar.centre_m()) / Interval::point(bar.length_m()))
+    Interval::point(bar.mass_kg()) * shares(bar)[1]
+}
+
+/// The parts of its weight that a bar leaves at its two joints.
+fn shares(bar: &Bar) -> [Interval; 2] {
+    lever(Interval::point(bar.length_m()), Interval::point(bar.centre_m()))
 }
 
 /// Runs of bars joined by joints without weight.

@@ -8,13 +8,16 @@
 //! constant and across it the second derivative is the one of the other bars,
 //! `h_j = s_j l_j |F_j|`.
 
+use std::f64::consts::PI;
+
 use intervals::Interval;
+use model::{Bar, Problem};
 use serde::{Deserialize, Serialize};
 
 use crate::closure::signed;
 use crate::count::topology::Topology;
 use crate::plane::face::Face;
-use crate::plane::system::System;
+use crate::plane::system::{System, at_first_joint};
 
 /// A set of equilibria of one energy, in which some bars carry nothing.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -48,6 +51,23 @@ impl SlackFamily {
     #[must_use]
     pub fn dimension_in_plane(&self) -> usize {
         self.topology.betti.len().saturating_sub(1)
+    }
+
+    /// Angle of each bar from the descending vertical, rad: 0 or π, and none for the slack bars.
+    /// Without a horizontal pull the bars in force stand upright; bar i points the way of its
+    /// force, the pull and the weight before it, times its sign.
+    #[must_use]
+    pub fn angles_rad(&self, problem: &Problem) -> Vec<Option<f64>> {
+        let chain = problem.chain();
+        let gravity = Interval::point(chain.gravity_m_s2());
+        let mut before = self.pull_n[1];
+        let angle = |(bar, sign): (&Bar, &i8)| {
+            let force = before + at_first_joint(bar) * gravity;
+            before = before + Interval::point(bar.mass_kg()) * gravity;
+            let up = force.mid() * f64::from(*sign) > 0.0;
+            (*sign != 0).then_some(if up { PI } else { 0.0 })
+        };
+        chain.bars().iter().zip(&self.signs).map(angle).collect()
     }
 }
 

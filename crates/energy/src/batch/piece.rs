@@ -4,6 +4,8 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 
 use model::Problem;
 
+use crate::lever;
+
 /// A bar, in units of the total length and the total weight.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Piece {
@@ -33,7 +35,7 @@ impl Pieces {
             .rev()
             .map(|bar| {
                 let own = bar.mass_kg() / mass_kg;
-                let lifted = after + own * (bar.centre_m() / bar.length_m());
+                let lifted = after + own * lever::at_last(bar);
                 after += own;
                 Piece { length: bar.length_m() / length_m, lifted }
             })

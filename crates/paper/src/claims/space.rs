@@ -3,6 +3,7 @@
 use lagrange::{Seed, relative_residual};
 use model::{Chain, SolverName, Vector};
 use nalgebra::DVector;
+use validate::lever::centre_part;
 use validate::statics;
 
 use super::{ANGLE_RAD, Facts, Finding, largest};
@@ -71,7 +72,7 @@ fn coordinates(chain: &Chain, joints: &[Vector], bars: &[Vector]) -> DVector<f64
     let seed = Seed::directions(bars);
     let mut q = Vec::with_capacity(6 * bars.len());
     for (i, bar) in chain.bars().iter().enumerate() {
-        let part = bar.centre_m() / bar.length_m();
+        let part = centre_part(bar);
         q.extend((0..3).map(|k| joints[i][k] + part * bars[i][k]));
         q.extend(seed.angles()[i]);
     }

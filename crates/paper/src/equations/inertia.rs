@@ -2,6 +2,7 @@
 
 use nalgebra::{DMatrix, Matrix3, Vector3};
 use rand::RngExt;
+use validate::lever::centre_part;
 
 use super::rotations::{phi_matrix, theta_matrix};
 use super::sample::{
@@ -250,7 +251,7 @@ fn moments() -> (f64, f64) {
     let paper = model::cases::paper();
     let of = paper.chain().bars().iter().map(|bar| {
         let (l, m) = (bar.length_m(), bar.mass_kg());
-        let x = [0.5 - at, 0.5 + at].map(|at| at - bar.centre_m() / l);
+        let x = [0.5 - at, 0.5 + at].map(|at| at - centre_part(bar));
         let second = f64::midpoint(x[0] * x[0], x[1] * x[1]);
         let [j_x, j_y, j_z] = bar.inertia_kg_m2().map(|j| j / (m * l * l));
         (f64::midpoint(x[0], x[1]), largest([j_x, j_y - second, j_z - second]))

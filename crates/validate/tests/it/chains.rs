@@ -1,7 +1,7 @@
 //! A thousand random chains of all hard shapes: both solvers hang each from no guess, and agree.
 //!
-//! `CHAINS=100000 cargo test -p validate --test it chains:: -- --nocapture` asks for more; the chains
-//! that come after the first thousand are no part of the checks.
+//! `CHAINS=100000 cargo test -p validate --test it chains:: -- --nocapture` asks for more; the
+//! chains that come after the first thousand are no part of the checks.
 
 use std::collections::BTreeMap;
 

@@ -1,7 +1,9 @@
-//! Random systems of bars, cables and springs: both solvers agree, or the judge or a solver says why not.
+//! Random systems of bars, cables and springs: both solvers agree, or the judge or a solver says
+//! why not.
 //!
-//! `SYSTEMS=10000 cargo test --release -p validate --test it networks:: -- --nocapture` tries more of them, and lists those
-//! that do not agree: 16 of these, most of them cables with a family of forces of which the solvers show different ones.
+//! `SYSTEMS=10000 cargo test --release -p validate --test it networks:: -- --nocapture` tries more
+//! of them, and lists those that do not agree: 16 of these, most of them cables with a family of
+//! forces of which the solvers show different ones.
 
 use model::system::{Joint, Kind, Member, System};
 use model::{Bar, Excess, Quantity};
@@ -173,10 +175,11 @@ enum Outcome {
     Agreed,
     /// A solver refuses, and says so.
     Refused,
-    /// Each found a minimum of its own, with different energies; the lower one has no certificate against it.
+    /// Each found a minimum of its own, with different energies; the lower one has no certificate
+    /// against it.
     OtherMinimum,
-    /// The answers are within their budgets of each other; the judge finds a member of one of them, next to much
-    /// larger forces, off by more than its own budget and less than [`TOLD`].
+    /// The answers are within their budgets of each other; the judge finds a member of one of them,
+    /// next to much larger forces, off by more than its own budget and less than [`TOLD`].
     Told,
     /// No equilibrium problem.
     NoProblem,
