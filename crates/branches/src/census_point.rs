@@ -105,13 +105,7 @@ impl CensusPoint {
             Ok(problem) => problem,
             Err(error) => return Ok(Self { status: refused(error.to_string()), ..census_point }),
         };
-        let census = match Census::take(&problem, settings) {
-            Ok(census) => census,
-            Err(error @ census::CensusError::WeightOnAnchors) => {
-                return Ok(Self { status: refused(error.to_string()), ..census_point });
-            }
-            Err(error) => return Err(error),
-        };
+        let census = Census::take(&problem, settings)?;
         census_point.vertical = census.circles;
         if census.complete {
             census_point.nodes = Some(nodes(path, position, &census));

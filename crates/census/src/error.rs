@@ -35,13 +35,6 @@ pub enum CensusError {
         /// Estimated memory, GB; good to an order of magnitude.
         estimate_gb: f64,
     },
-    /// Occurs when all the weight rests on the two anchors: no joint between them carries any, and
-    /// the energy is the same in every position.
-    #[error(
-        "all the weight of this chain rests on its two anchors: the energy is the same in every \
-         position, and every position is an equilibrium"
-    )]
-    WeightOnAnchors,
 }
 
 /// Numbers from here on are read more easily as a power of ten.

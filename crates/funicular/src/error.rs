@@ -1,8 +1,7 @@
 //! What can go wrong.
 
-use validate::answer::SolverFailure;
-use validate::systems::SystemFailure;
-
+use crate::solve::SolveAnswer;
+use crate::system::SystemSolution;
 use crate::threads::MOST_THREADS;
 
 /// Why there is no answer.
@@ -46,18 +45,12 @@ pub enum Error {
         /// Number of answers.
         answers: usize,
     },
-    /// Occurs when every solver that was asked gave up.
-    #[error("{}", reasons(failures))]
-    Unsolved {
-        /// The reasons, one of each solver.
-        failures: Vec<SolverFailure>,
-    },
+    /// Occurs when every solver that was asked gave up: the answer has no equilibrium, and says why.
+    #[error("{}", reasons(.0.failures()))]
+    Unsolved(Box<SolveAnswer>),
     /// Occurs when every solver that was asked about a system gave up.
-    #[error("{}", system_reasons(failures))]
-    UnsolvedSystem {
-        /// The reasons, one of each solver.
-        failures: Vec<SystemFailure>,
-    },
+    #[error("{}", reasons(.0.failures()))]
+    UnsolvedSystem(Box<SystemSolution>),
     /// Occurs when a system is no equilibrium problem: a part falls, lengths cannot close a loop.
     #[error(transparent)]
     SystemRefused(#[from] model::system::SystemRefusal),
@@ -70,8 +63,7 @@ pub enum Error {
     /// Occurs when `energy`, asked alone, has no answer.
     #[error(transparent)]
     Energy(#[from] energy::Error),
-    /// Occurs when a census is not taken: the chain is too long, or every position is an
-    /// equilibrium.
+    /// Occurs when a census is not taken: the chain is too long.
     #[error(transparent)]
     Census(#[from] census::CensusError),
     /// Occurs when a solver cannot be made ready for a sweep.
@@ -161,10 +153,6 @@ impl Error {
     }
 }
 
-fn reasons(failures: &[SolverFailure]) -> String {
-    failures.iter().map(ToString::to_string).collect::<Vec<_>>().join("; ")
-}
-
-fn system_reasons(failures: &[SystemFailure]) -> String {
+fn reasons(failures: &[impl ToString]) -> String {
     failures.iter().map(ToString::to_string).collect::<Vec<_>>().join("; ")
 }

@@ -113,10 +113,11 @@ impl Solve {
         let chain = problem.chain_for("solving")?;
         let Self { solvers, equations, census, .. } = *self;
         let answer = ask(chain, &Question { solvers, equations, census, threads }, watch);
-        if answer.equilibria.is_empty() {
-            return Err(Error::Unsolved { failures: answer.failures });
+        let answer = SolveAnswer { system: chain.chain().summary(), answer };
+        if answer.equilibria().is_empty() {
+            return Err(Error::Unsolved(Box::new(answer)));
         }
-        Ok(SolveAnswer { system: chain.chain().summary(), answer })
+        Ok(answer)
     }
 }
 
@@ -282,20 +283,28 @@ struct Object<'a> {
 pub struct Failure {
     /// Its name.
     pub solver: SolverName,
-    /// Why it has none.
+    /// Why it has none, in words.
     pub reason: String,
+    /// The same with its numbers: the object of the error, under `kind` its name.
+    pub refusal: Value,
 }
 
 impl Failure {
     /// As JSON has it.
     #[must_use]
     pub fn of(failure: &SolverFailure) -> Self {
-        Self { solver: failure.solver(), reason: failure.to_string() }
+        Self::new(failure.solver(), failure)
     }
 
     /// The same for a system.
     #[must_use]
     pub fn of_system(failure: &SystemFailure) -> Self {
-        Self { solver: failure.solver(), reason: failure.to_string() }
+        Self::new(failure.solver(), failure)
+    }
+
+    fn new(solver: SolverName, failure: &(impl ToString + Serialize)) -> Self {
+        // Errors are numbers and texts, which JSON has.
+        let refusal = serde_json::to_value(failure).unwrap_or_default();
+        Self { solver, reason: failure.to_string(), refusal }
     }
 }

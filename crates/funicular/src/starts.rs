@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
-use model::Problem;
-use sweep::{BatchSolver, Ends, Finds, Finish, Solvers};
+use model::{Ends, Problem};
+use sweep::{BatchSolver, Finds, Solvers};
 
 /// Why a solver cannot be made ready for a sweep.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -53,21 +53,7 @@ impl BatchSolver for Lagrange {
     }
 
     fn solve(&self, starts_rad: &[f64], ends: &mut Ends) {
-        use lagrange::batch::Finish as Own;
-        // The columns change hands, and nothing is copied.
-        let Ends { finish, iterations, residual, energy_j, directions } = std::mem::take(ends);
-        let own = vec![];
-        let mut found =
-            lagrange::batch::Ends { finish: own, iterations, residual, energy_j, directions };
-        self.0.solve(starts_rad, &mut found);
-        let lagrange::batch::Ends { finish: own, iterations, residual, energy_j, directions } =
-            found;
-        let finish = refill(finish, &own, |own| match own {
-            Own::Converged => Finish::Converged,
-            Own::IterationLimit => Finish::IterationLimit,
-            Own::NonFinite => Finish::NonFinite,
-        });
-        *ends = Ends { finish, iterations, residual, energy_j, directions };
+        self.0.solve(starts_rad, ends);
     }
 }
 
@@ -84,26 +70,6 @@ impl BatchSolver for Energy {
     }
 
     fn solve(&self, starts_rad: &[f64], ends: &mut Ends) {
-        use energy::batch::Finish as Own;
-        let Ends { finish, iterations, residual, energy_j, directions } = std::mem::take(ends);
-        let own = vec![];
-        let mut found =
-            energy::batch::Ends { finish: own, iterations, residual, energy_j, directions };
-        self.0.minimise(starts_rad, &mut found);
-        let energy::batch::Ends { finish: own, iterations, residual, energy_j, directions } = found;
-        let finish = refill(finish, &own, |own| match own {
-            Own::Minimum => Finish::Converged,
-            Own::IterationLimit => Finish::IterationLimit,
-            Own::Stalled => Finish::Stalled,
-            Own::NonFinite => Finish::NonFinite,
-        });
-        *ends = Ends { finish, iterations, residual, energy_j, directions };
+        self.0.minimise(starts_rad, ends);
     }
-}
-
-/// A column in the memory of another.
-fn refill<A, B>(mut memory: Vec<B>, from: &[A], each: impl Fn(&A) -> B) -> Vec<B> {
-    memory.clear();
-    memory.extend(from.iter().map(each));
-    memory
 }

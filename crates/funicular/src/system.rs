@@ -60,10 +60,11 @@ impl Solve {
         system.refusal()?;
         threads::on(self.threads_asked(), || {
             let answer = ask(system, self.solvers_asked(), watch);
-            if answer.equilibria.is_empty() {
-                return Err(Error::UnsolvedSystem { failures: answer.failures });
+            let answer = SystemSolution { system: system.clone(), answer };
+            if answer.equilibria().is_empty() {
+                return Err(Error::UnsolvedSystem(Box::new(answer)));
             }
-            Ok(SystemSolution { system: system.clone(), answer })
+            Ok(answer)
         })?
     }
 }

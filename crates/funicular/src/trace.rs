@@ -7,8 +7,12 @@ use branches::{
     Progress, Study,
 };
 
+use model::SystemSummary;
+use serde::Serialize;
+
 use crate::error::Error;
 use crate::problem::Problem;
+use crate::solve::SCHEMA_VERSION;
 use crate::threads;
 
 /// Follows all equilibria over a number of the system file: branches, folds, exchanges of
@@ -111,7 +115,7 @@ impl Trace {
                 Continuation::follow(&study, path, &self.settings, &watch)
             };
             let paths = (0..study.paths().len()).map(follow).collect::<Result<_, _>>()?;
-            Ok(TraceAnswer { title: problem.name().to_owned(), paths })
+            Ok(TraceAnswer { system: study.base().summary(), paths })
         })?
     }
 }
@@ -119,7 +123,7 @@ impl Trace {
 /// All equilibria along every path.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TraceAnswer {
-    title: String,
+    system: SystemSummary,
     paths: Vec<Continuation>,
 }
 
@@ -158,7 +162,7 @@ impl TraceAnswer {
     #[must_use]
     pub fn diagram(&self, path: usize, abscissa: Abscissa, bar: usize) -> Option<String> {
         let path = self.paths.get(path)?;
-        Some(branches::diagram(path, &self.title, abscissa, bar))
+        Some(branches::diagram(path, &self.system.name, abscissa, bar))
     }
 
     /// A line per point of a branch as CSV: units in the names of the columns, nothing where a
@@ -212,5 +216,19 @@ impl TraceAnswer {
             }
         }
         Ok(())
+    }
+}
+
+/// As `funicular trace --json` prints it.
+impl Serialize for TraceAnswer {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        #[derive(Serialize)]
+        struct Object<'a> {
+            schema_version: u32,
+            system: &'a SystemSummary,
+            traces: &'a [Continuation],
+        }
+        let Self { system, paths } = self;
+        Object { schema_version: SCHEMA_VERSION, system, traces: paths }.serialize(serializer)
     }
 }

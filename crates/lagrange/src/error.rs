@@ -1,5 +1,7 @@
 //! What can go wrong in a solve.
 
+use serde::Serialize;
+
 use crate::settings::SettingsError;
 
 /// Why no equilibrium was returned. `Ok` always means converged.
@@ -10,7 +12,8 @@ use crate::settings::SettingsError;
 /// let error = solve_from(&model::cases::paper(), &four, &Settings::default()).unwrap_err();
 /// assert_eq!(error, SolveError::SeedLength { expected: 3, got: 4 });
 /// ```
-#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, thiserror::Error)]
+#[serde(tag = "kind", rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum SolveError {
     /// Occurs when a setting is out of range.

@@ -1,5 +1,7 @@
 //! Settings of the solve.
 
+use serde::Serialize;
+
 /// How a step is computed.
 ///
 /// ```
@@ -89,7 +91,7 @@ impl Default for Settings {
 /// let error = settings.validate().unwrap_err();
 /// assert_eq!((error.name, error.value, error.high), ("tolerance", 1.0, 1e-3));
 /// ```
-#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, thiserror::Error)]
 #[error("setting {name} = {value} is outside its range, {low} to {high}")]
 pub struct SettingsError {
     /// The field.

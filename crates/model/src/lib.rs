@@ -18,6 +18,7 @@
 mod bar;
 pub mod cases;
 mod chain;
+mod ends;
 mod equilibrium;
 pub mod evidence;
 pub mod number;
@@ -34,6 +35,7 @@ pub use chain::{
     Anchors, Chain, ChainError, SMALLEST_TOTAL, STANDARD_GRAVITY_M_S2, SystemSummary,
     VERTICAL_TOLERANCE,
 };
+pub use ends::{Ends, Finish};
 pub use equilibrium::{Equilibrium, Reactions};
 pub use evidence::{
     Agreed, Complete, Convergence, Disagreement, Evidence, Excess, ForceChoice, ForceFamily,

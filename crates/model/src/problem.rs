@@ -121,6 +121,12 @@ pub enum Refusal {
     /// Occurs when no bar has mass: nothing hangs.
     #[error("no bar has mass: without weight every position is an equilibrium")]
     NoMass,
+    /// Occurs when all mass is at the anchors, which carry its weight: nothing hangs between them.
+    #[error(
+        "all the weight of this chain rests on its two anchors: the energy is the same in every \
+         position, and every position is an equilibrium"
+    )]
+    WeightOnAnchors,
 }
 
 impl Problem {
@@ -132,6 +138,11 @@ impl Problem {
     pub fn new(chain: Chain) -> Result<Self, Refusal> {
         if chain.bars().len() > 1 && chain.bars().iter().all(|bar| bar.mass_kg() <= 0.0) {
             return Err(Refusal::NoMass);
+        }
+        if chain.bars().len() > 1
+            && (1..chain.bars().len()).all(|joint| carries_nothing(&chain, joint))
+        {
+            return Err(Refusal::WeightOnAnchors);
         }
         let span_m = chain.anchors().span_m();
         let total_length_m = chain.total_length_m();
@@ -167,6 +178,14 @@ impl Problem {
     pub fn into_chain(self) -> Chain {
         self.0
     }
+}
+
+/// Whether a joint between the anchors carries no weight at all: a question about the data as they
+/// stand, without rounding.
+fn carries_nothing(chain: &Chain, joint: usize) -> bool {
+    let (before, after) = (&chain.bars()[joint - 1], &chain.bars()[joint]);
+    (before.mass_kg() <= 0.0 || before.centre_m() <= 0.0)
+        && (after.mass_kg() <= 0.0 || after.centre_m() >= after.length_m())
 }
 
 /// Whether there is room between the bars and a straight line.

@@ -36,7 +36,7 @@ pub struct Printed {
     #[serde(default)]
     pub digits: Option<usize>,
     /// The verdict that this project has come to.
-    pub expected: Verdict,
+    pub expected: Assessment,
 }
 
 impl Printed {
@@ -67,7 +67,7 @@ impl Printed {
 /// What the numbers say about a claim.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Verdict {
+pub enum Assessment {
     /// True as printed, to all printed digits.
     Confirmed,
     /// Not true as printed, and a number shows where it comes from.
@@ -80,15 +80,15 @@ pub enum Verdict {
     Undecided,
 }
 
-impl Verdict {
-    /// This verdict if the numbers bear it out, otherwise [`Verdict::Undecided`].
+impl Assessment {
+    /// This verdict if the numbers bear it out, otherwise [`Assessment::Undecided`].
     #[must_use]
     pub fn if_shown(self, shown: bool) -> Self {
         if shown { self } else { Self::Undecided }
     }
 }
 
-impl std::fmt::Display for Verdict {
+impl std::fmt::Display for Assessment {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.write_str(match self {
             Self::Confirmed => "confirmed",
@@ -164,7 +164,7 @@ mod tests {
         let mut ids = Vec::new();
         for claim in &paper.claims {
             assert!(!claim.says.is_empty() && !claim.place.is_empty() && !claim.printed.is_empty());
-            assert_ne!(claim.expected, Verdict::Undecided, "{}", claim.id);
+            assert_ne!(claim.expected, Assessment::Undecided, "{}", claim.id);
             if let Some(digits) = claim.digits {
                 // The printed number has the digits that the file says it has.
                 let decimals = claim.printed.split_once('.').map_or(0, |(_, tail)| tail.len());

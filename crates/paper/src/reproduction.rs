@@ -9,7 +9,7 @@ use validate::table::{CaseResult, Row, table};
 use validate::tolerances::Tolerances;
 
 use crate::bounds::Bounds;
-use crate::claims::{Claim, Verdict, claims};
+use crate::claims::{Assessment, Claim, claims};
 use crate::completeness::Completeness;
 use crate::equations::{E1State, EquationAudit, Fault, FaultyEquations, Validity, audit};
 use crate::example::{Example, ExampleError};
@@ -245,11 +245,11 @@ impl Summary {
         let rows = cases.iter().flat_map(|case| &case.rows);
         Self {
             claims: claims.len(),
-            confirmed: with(Verdict::Confirmed),
-            explained: with(Verdict::Explained),
-            corrected: with(Verdict::Corrected),
-            refuted: with(Verdict::Refuted),
-            undecided: with(Verdict::Undecided),
+            confirmed: with(Assessment::Confirmed),
+            explained: with(Assessment::Explained),
+            corrected: with(Assessment::Corrected),
+            refuted: with(Assessment::Refuted),
+            undecided: with(Assessment::Undecided),
             unexpected_claims: claims
                 .iter()
                 .filter(|claim| !claim.as_expected)

@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 
 use paper::equations::{EquationAudit, Fault, Validity};
-use paper::printed::Verdict;
+use paper::printed::Assessment;
 
 /// What a verdict means for what was judged.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -38,12 +38,12 @@ impl Badge {
 
     /// Of a claim of the paper.
     #[must_use]
-    pub fn of_claim(verdict: Verdict, as_expected: bool) -> Self {
+    pub fn of_claim(verdict: Assessment, as_expected: bool) -> Self {
         let tone = match verdict {
             _ if !as_expected => Tone::Bad,
-            Verdict::Confirmed => Tone::Good,
-            Verdict::Explained | Verdict::Corrected => Tone::Mended,
-            Verdict::Refuted | Verdict::Undecided => Tone::Bad,
+            Assessment::Confirmed => Tone::Good,
+            Assessment::Explained | Assessment::Corrected => Tone::Mended,
+            Assessment::Refuted | Assessment::Undecided => Tone::Bad,
         };
         let aside = if as_expected { "" } else { " (not expected)" };
         Self::new(tone, format!("{verdict}{aside}"))

@@ -4,12 +4,12 @@ use std::cmp::{Ordering, Reverse};
 use std::collections::BTreeSet;
 
 use census::{Census, CensusError, ProvenEquilibrium, SlackFamily};
-use model::{Chain, Problem};
+use model::{Chain, Ends, Finish, Problem};
 use serde::{Deserialize, Serialize};
 
 use crate::error::SweepError;
 use crate::settings::Settings;
-use crate::solver::{Ends, Finds, Finish, Solvers};
+use crate::solver::{Finds, Solvers};
 use crate::starts::Source;
 
 /// An outcome is an equilibrium of the list when no joint is farther from it than this, in total
@@ -94,7 +94,7 @@ impl Members {
     ///
     /// # Errors
     ///
-    /// [`SweepError::Census`] when every position is an equilibrium,
+    /// [`SweepError::Census`] when the settings of the census are out of range,
     /// [`SweepError::TooManyEquilibria`] when the columns cannot number them.
     pub fn of(
         problem: &Problem,

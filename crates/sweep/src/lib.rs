@@ -51,7 +51,7 @@ pub use identify::{DISCOVERED, JOINT_TOLERANCE, Member, Members, Origin};
 pub use record::{Chunk, Failure, Outcomes};
 pub use seeds::Stream;
 pub use settings::Settings;
-pub use solver::{BatchSolver, Ends, Finds, Finish, Solvers};
+pub use solver::{BatchSolver, Finds, Solvers};
 pub use starts::{Axis, Source};
 pub use store::compute::Compute;
 pub use store::description::SCHEMA_VERSION;

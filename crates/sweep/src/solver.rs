@@ -3,6 +3,8 @@
 use std::fmt::Debug;
 use std::sync::Arc;
 
+use model::Ends;
+
 use crate::error::SweepError;
 
 /// A solver of one problem for many starts in the vertical plane of its anchors.
@@ -12,7 +14,8 @@ use crate::error::SweepError;
 /// ways, and has the same bits.
 ///
 /// ```
-/// use sweep::{BatchSolver, Ends, Finds, Finish};
+/// use model::{Ends, Finish};
+/// use sweep::{BatchSolver, Finds};
 ///
 /// /// Says of every start that it stays where it is.
 /// #[derive(Debug)]
@@ -65,34 +68,6 @@ pub enum Finds {
     Equilibria,
     /// Minima of the energy in the plane, each verified.
     Minima,
-}
-
-/// How a solver ended for one start.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Finish {
-    /// At what it looks for.
-    Converged,
-    /// The iteration limit was reached.
-    IterationLimit,
-    /// No step leads further, and it is not there.
-    Stalled,
-    /// A number overflowed or was undefined.
-    NonFinite,
-}
-
-/// Where many starts ended: one entry per start, n directions per start.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct Ends {
-    /// How.
-    pub finish: Vec<Finish>,
-    /// Iterations spent.
-    pub iterations: Vec<u16>,
-    /// The solver's own residual where it stopped, without unit.
-    pub residual: Vec<f64>,
-    /// Potential energy above the height of joint 0, J.
-    pub energy_j: Vec<f64>,
-    /// Unit directions of the bars of start 0, of start 1, ...: along the heading, and up.
-    pub directions: Vec<[f64; 2]>,
 }
 
 /// The solvers of a sweep.

@@ -2,14 +2,14 @@
 
 use std::ops::Range;
 
-use model::Problem;
+use model::{Ends, Finish, Problem};
 use rayon::prelude::*;
 
 use crate::error::SweepError;
 use crate::identify::Members;
 use crate::record::{Chunk, Failure, Outcomes};
 use crate::settings::Settings;
-use crate::solver::{Ends, Finish, Solvers};
+use crate::solver::Solvers;
 use crate::starts::Starts;
 use crate::store::compute::Compute;
 use crate::summary::Summary;

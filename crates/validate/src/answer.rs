@@ -16,6 +16,7 @@ use std::num::NonZeroUsize;
 
 use census::{Census, Topology, TopologyError};
 use model::{Equilibrium, NoAnswer, Problem, SolverName};
+use serde::Serialize;
 
 use crate::compare::{Agreement, compare, judge_alone, judge_without};
 use crate::completeness::{certify_by_census, without_census};
@@ -108,7 +109,8 @@ pub struct Answer {
 }
 
 /// Why a solver has no answer.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, Serialize, thiserror::Error)]
+#[serde(untagged)]
 #[non_exhaustive]
 pub enum SolverFailure {
     /// Occurs when `lagrange` does not converge on the full system.

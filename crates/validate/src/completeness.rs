@@ -38,7 +38,6 @@ pub fn without_census(error: &CensusError, answer: &mut Equilibrium) {
         CensusError::TooManyBars { bars, max_bars, .. } => {
             NoCensus::TooManyBars { bars: *bars, limit: *max_bars }
         }
-        CensusError::WeightOnAnchors => NoCensus::WeightOnAnchors,
         _ => NoCensus::Settings,
     });
     let ladder = &mut answer.evidence.ladder;

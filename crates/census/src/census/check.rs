@@ -25,7 +25,6 @@ use crate::count::topology::Topology;
 use crate::enclosure::krawczyk::{Zero, inside, krawczyk_about_zero, narrow};
 use crate::enclosure::polish::{PreciseSystem, polish};
 use crate::equilibrium::ProvenEquilibrium;
-use crate::error::CensusError;
 use crate::plane::cell::Cell;
 use crate::plane::face::Face;
 use crate::plane::system::System;
@@ -43,9 +42,6 @@ const ROUNDINGS: f64 = 256.0 * f64::EPSILON;
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum CheckError {
-    /// Occurs when the problem has no census.
-    #[error(transparent)]
-    Problem(#[from] CensusError),
     /// Occurs when an equilibrium has not one sign for each bar, +1 or −1 (0 for one bar at most),
     /// or its neighbourhood is no rectangle in a chart.
     #[error("equilibrium {number} is malformed")]
@@ -149,7 +145,7 @@ impl Census {
         if problem.chain().bars().len() != self.statistics.bars {
             return Err(CheckError::Claim { quantity: "the number of bars" });
         }
-        let system = System::new(problem)?;
+        let system = System::new(problem);
         for (k, equilibrium) in self.equilibria.iter().enumerate() {
             check_one(problem, &system, k + 1, equilibrium)?;
             let in_order = k == 0 || {

@@ -68,8 +68,7 @@ impl Census {
     ///
     /// # Errors
     ///
-    /// [`CensusError`] when a setting is out of range, the chain is too long, or all its weight
-    /// rests on the anchors.
+    /// [`CensusError`] when a setting is out of range or the chain is too long.
     ///
     /// ```
     /// use census::{Census, Settings};
@@ -98,7 +97,7 @@ impl Census {
         let start = Instant::now();
         settings.validate()?;
         refuse_long(problem, settings)?;
-        let system = System::new(problem)?;
+        let system = System::new(problem);
         let unloaded = unloaded(&system);
         let search = search(&system, settings, &unloaded, watch);
 

@@ -5,7 +5,6 @@ use std::ops::Range;
 use intervals::{Interval, lever};
 use model::{Bar, Problem, Vector};
 
-use crate::error::CensusError;
 use crate::plane::face::Face;
 
 /// A chain in units in which the total length and the spread of the weights are of order one. Units
@@ -66,15 +65,13 @@ fn power_of_two_above(x: f64) -> f64 {
 const PAPER_PLANE: [Interval; 2] = [Interval::ZERO, Interval::ONE];
 
 impl System {
-    /// The chain of a problem in its units, if some weight hangs between the anchors.
-    pub(crate) fn new(problem: &Problem) -> Result<Self, CensusError> {
+    /// The chain of a problem in its units. Some joint between the anchors carries weight: a
+    /// [`Problem`] where none does is refused.
+    pub(crate) fn new(problem: &Problem) -> Self {
         let mut system = Self::shape(problem);
-        if system.groups.len() == 1 {
-            return Err(CensusError::WeightOnAnchors);
-        }
         system.local =
             system.groups.iter().map(|group| system.weights_from(problem, group)).collect();
-        Ok(system)
+        system
     }
 
     /// The chain of a problem in its units; the weights make sense only after [`new`](Self::new).

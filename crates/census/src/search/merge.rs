@@ -71,7 +71,7 @@ mod tests {
     use intervals::Interval;
 
     fn system() -> System {
-        System::new(&model::cases::paper()).unwrap()
+        System::new(&model::cases::paper())
     }
 
     fn zero(face: Face, at: [f64; 2], reach: f64) -> Zero {

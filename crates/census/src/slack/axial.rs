@@ -255,7 +255,7 @@ mod tests {
         let bars = bars.map(|(l, m, r)| Bar::new(l, m, r, [0.0; 3]).unwrap());
         let anchors = Anchors { start_m: [0.0; 3], end_m: [1.0, 0.0, -0.5] };
         let chain = Chain::new("four", 9.81, anchors, bars.to_vec()).unwrap();
-        System::new(&Problem::new(chain).unwrap()).unwrap()
+        System::new(&Problem::new(chain).unwrap())
     }
 
     fn axis() -> impl Strategy<Value = [f64; 2]> {

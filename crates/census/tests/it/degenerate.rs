@@ -128,13 +128,6 @@ fn three_slack_bars_are_a_curve_of_equilibria() {
     assert_eq!(census.alternating_sum(), census.topology.as_ref().unwrap().euler);
 }
 
-#[test]
-fn weight_on_the_anchors_alone_is_refused() {
-    let chain = [(1.0, 2.0, 0.0), (1.0, 0.0, 0.5), (1.0, 3.0, 1.0)];
-    let result = Census::take(&problem(&chain, [1.5, 0.0, 0.0]), &Settings::default());
-    assert_eq!(result, Err(CensusError::WeightOnAnchors));
-}
-
 /// Next to a fold the middle of a neighbourhood is so far from its zero that Krawczyk's test about
 /// the middle fails: what the search proved about the zero, the check proves about the zero as
 /// well.

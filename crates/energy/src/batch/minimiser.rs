@@ -4,7 +4,7 @@
     reason = "a pass over the bars is fast only as one loop of vector instructions"
 )]
 
-use model::Problem;
+use model::{Ends, Finish, Problem};
 
 use super::control::{Lane, Next};
 use super::piece::{Piece, Pieces, direction};
@@ -52,54 +52,16 @@ impl BatchSettings {
     }
 }
 
-/// How the minimisation ended for one seed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Finish {
-    /// A verified minimum in the plane.
-    Minimum,
-    /// Out of trials.
-    IterationLimit,
-    /// No step lowers the energy, or the chain cannot be closed from here, and it is no minimum.
-    Stalled,
-    /// A number overflowed or was undefined, the seed's own angles to begin with.
-    NonFinite,
-}
-
-/// Where many seeds ended: one entry per seed, n directions per seed.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct Ends {
-    /// How.
-    pub finish: Vec<Finish>,
-    /// Trials: passes over the bars.
-    pub iterations: Vec<u16>,
-    /// Largest projected slope, in the units of [`BatchSettings::tolerance`]; infinite if the chain
-    /// was never closed.
-    pub residual: Vec<f64>,
-    /// Potential energy above the height of joint 0, J.
-    pub energy_j: Vec<f64>,
-    /// Unit directions of the bars of seed 0, of seed 1, ...: along the heading, and up.
-    pub directions: Vec<[f64; 2]>,
-}
-
-impl Ends {
-    fn resize(&mut self, seeds: usize, bars: usize) {
-        self.finish.resize(seeds, Finish::NonFinite);
-        self.iterations.resize(seeds, 0);
-        self.residual.resize(seeds, f64::NAN);
-        self.energy_j.resize(seeds, f64::NAN);
-        self.directions.resize(seeds * bars, [f64::NAN; 2]);
-    }
-}
-
 /// A minimiser of one problem for many seeds in its vertical plane: that of the anchors, or any if
 /// they are on one vertical.
 ///
 /// ```
-/// use energy::batch::{Batch, BatchSettings, Ends, Finish};
+/// use energy::batch::{Batch, BatchSettings};
+/// use model::{Ends, Finish};
 /// let batch = Batch::new(&model::cases::paper(), BatchSettings::default())?;
 /// let mut ends = Ends::default();
 /// batch.minimise(&[0.3, 0.7, -1.3, 2.8, 2.4, 4.0], &mut ends);
-/// assert_eq!(ends.finish, [Finish::Minimum; 2]);
+/// assert_eq!(ends.finish, [Finish::Converged; 2]);
 /// // In the plane the only minima are E1 and its mirror image, V = 2.335468651999305 mgl.
 /// for v in ends.energy_j {
 ///     assert!((v / 9.80665 + 6.0 - 2.335_468_651_999_305).abs() < 1e-13);
@@ -125,6 +87,10 @@ impl Batch {
 
     /// Minimise from all seeds: `angles` holds n angles from the descending vertical towards the
     /// last anchor, rad, for each of them. What was in `ends` is replaced, its memory used again.
+    ///
+    /// Converged is at a verified minimum in the plane; stalled, where no step lowers the energy or
+    /// the chain cannot be closed. The residual is the largest projected slope, in the units of
+    /// [`BatchSettings::tolerance`]; iterations are passes over the bars.
     ///
     /// # Panics
     ///
@@ -193,7 +159,7 @@ impl Batch {
                     }
                     Next::Step(part) => (moves.from_base[k], moves.part[k]) = (true, part),
                     Next::Jolt(size) => moves.jolt[k] = size,
-                    Next::Minimum => ended[k] = Some(Finish::Minimum),
+                    Next::Minimum => ended[k] = Some(Finish::Converged),
                     Next::IterationLimit => ended[k] = Some(Finish::IterationLimit),
                     Next::NonFinite => ended[k] = Some(Finish::NonFinite),
                     Next::Stalled | Next::Accept => ended[k] = Some(Finish::Stalled),

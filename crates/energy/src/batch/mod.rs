@@ -48,4 +48,4 @@ mod point;
 mod tests;
 mod wide;
 
-pub use minimiser::{Batch, BatchSettings, Ends, Finish};
+pub use minimiser::{Batch, BatchSettings};

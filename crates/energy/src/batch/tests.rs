@@ -2,12 +2,12 @@
 
 use std::f64::consts::TAU;
 
-use model::{Anchors, Bar, Chain, Problem};
+use model::{Anchors, Bar, Chain, Ends, Finish, Problem};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
 use super::piece::direction;
-use super::{Batch, BatchSettings, Ends, Finish};
+use super::{Batch, BatchSettings};
 use crate::minimise::minimise_from;
 use crate::seed::Seed;
 use crate::settings::{Motion, Settings};
@@ -54,7 +54,7 @@ fn every_seed_of_the_paper_slides_into_its_minimum() {
     let mut rng = ChaCha8Rng::seed_from_u64(1);
     let ends = solved(&model::cases::paper(), &random_angles(&mut rng, 30_000));
     for (finish, v) in ends.finish.iter().zip(&ends.energy_j) {
-        assert_eq!(*finish, Finish::Minimum);
+        assert_eq!(*finish, Finish::Converged);
         // 40-digit root finding; E1 and its mirror image have the same energy.
         assert!((v / 9.80665 + 6.0 - 2.335_468_651_999_305).abs() < 1e-13);
     }
@@ -69,7 +69,7 @@ fn the_minima_are_those_of_the_scalar_minimiser() {
         let problem = random_problem(&mut rng, bars);
         let angles = random_angles(&mut rng, 300 * bars);
         let ends = solved(&problem, &angles);
-        assert!(ends.finish.iter().all(|finish| *finish == Finish::Minimum), "{bars} bars");
+        assert!(ends.finish.iter().all(|finish| *finish == Finish::Converged), "{bars} bars");
         for (u, v) in ends.directions.chunks(bars).zip(&ends.energy_j).take(60) {
             // The scalar solver stays at a minimum that it is given.
             let phi: Vec<f64> = u.iter().map(|u| u[0].atan2(-u[1])).collect();
@@ -99,11 +99,11 @@ fn a_seed_ends_the_same_whatever_its_neighbours() {
 fn bad_and_straight_seeds() {
     let problem = model::cases::paper();
     let ends = solved(&problem, &[f64::NAN, 0.0, 1.0, 0.3, 0.7, -1.3, 1.0, f64::INFINITY, 1.0]);
-    assert_eq!(ends.finish, [Finish::NonFinite, Finish::Minimum, Finish::NonFinite]);
+    assert_eq!(ends.finish, [Finish::NonFinite, Finish::Converged, Finish::NonFinite]);
     // Parallel bars cannot close to first order; E2 is stationary and a maximum.
     let e2 = [73.920_588_792_231_34_f64, -38.599_136_184_451_89, -19.694_867_976_133_02]
         .map(f64::to_radians);
     let ends = solved(&problem, &[[0.0; 3], [TAU / 2.0; 3], [1.0; 3], e2].concat());
-    assert_eq!(ends.finish, [Finish::Minimum; 4]);
+    assert_eq!(ends.finish, [Finish::Converged; 4]);
     assert!(solved(&problem, &[]).finish.is_empty());
 }

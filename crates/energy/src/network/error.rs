@@ -1,9 +1,11 @@
 //! Why there is no answer.
 
 use model::Vector;
+use serde::Serialize;
 
 /// Why a minimisation gave no answer. `Ok` means converged to a local minimum, nothing less.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, Serialize, thiserror::Error)]
+#[serde(tag = "kind", rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum Error {
     /// Occurs when a setting is out of its range.

@@ -11,7 +11,7 @@ use validate::statics::judge;
 use crate::solve::SCHEMA_VERSION;
 
 /// Both ends of an enclosure.
-pub type Ends = [f64; 2];
+pub type Enclosure = [f64; 2];
 
 /// All equilibria with their proofs, and what is known of the list.
 #[derive(Debug, Clone, Serialize)]
@@ -62,17 +62,17 @@ pub struct Found {
 #[derive(Debug, Clone, Serialize)]
 pub struct Enclosures {
     /// Pull of the chain on the first anchor, level and upright.
-    pub pull_n: [Ends; 2],
+    pub pull_n: [Enclosure; 2],
     /// Energy above the height of joint 0.
-    pub energy_j: Ends,
+    pub energy_j: Enclosure,
     /// Angle of each bar from the descending vertical.
-    pub angles_rad: Vec<Ends>,
+    pub angles_rad: Vec<Enclosure>,
     /// Place of each joint.
-    pub joints_m: Vec<[Ends; 3]>,
+    pub joints_m: Vec<[Enclosure; 3]>,
     /// Force at each joint.
-    pub multipliers_n: Vec<[Ends; 3]>,
+    pub multipliers_n: Vec<[Enclosure; 3]>,
     /// Axial force of each bar.
-    pub axial_n: Vec<Ends>,
+    pub axial_n: Vec<Enclosure>,
 }
 
 /// The census as a whole.
@@ -128,9 +128,9 @@ pub struct Open {
     /// The face of the half cube of pulls where the box is.
     pub chart: serde_json::Value,
     /// The box in the coordinates of that face.
-    pub at: [Ends; 2],
+    pub at: [Enclosure; 2],
     /// The pulls in it, if they are bounded.
-    pub pull_n: Option<[Ends; 2]>,
+    pub pull_n: Option<[Enclosure; 2]>,
 }
 
 /// A set of equilibria with bars that carry nothing.
@@ -139,11 +139,11 @@ pub struct Slack {
     /// +1 for each bar in tension, -1 in compression, 0 for a slack one.
     pub signs: Vec<i8>,
     /// Energy above the height of joint 0.
-    pub energy_j: Ends,
+    pub energy_j: Enclosure,
     /// The gap that the slack bars bridge.
-    pub gap_m: Ends,
+    pub gap_m: Enclosure,
     /// Pull of the chain on the first anchor, level and upright.
-    pub pull_n: [Ends; 2],
+    pub pull_n: [Enclosure; 2],
     /// Directions in the plane in which the energy falls.
     pub index_in_plane: usize,
     /// Directions in space in which the energy falls.
@@ -279,12 +279,12 @@ fn full_turn_deg(signed: f64) -> f64 {
     if turned >= 360.0 { 0.0 } else { turned }
 }
 
-fn ends(interval: Interval) -> Ends {
+fn ends(interval: Interval) -> Enclosure {
     [interval.lo(), interval.hi()]
 }
 
 /// Both ends of both parts, if they are numbers that JSON has.
-fn finite(parts: [Interval; 2]) -> Option<[Ends; 2]> {
+fn finite(parts: [Interval; 2]) -> Option<[Enclosure; 2]> {
     let parts = parts.map(ends);
     parts.iter().flatten().all(|end| end.is_finite()).then_some(parts)
 }

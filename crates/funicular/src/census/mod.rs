@@ -1,8 +1,9 @@
 //! Every equilibrium of a chain, with proof.
 
 mod answer;
+mod csv;
 
-pub use answer::{CensusAnswer, Check, Enclosures, Ends, Found, Open, Slack, Summary};
+pub use answer::{CensusAnswer, Check, Enclosure, Enclosures, Found, Open, Slack, Summary};
 
 use census::{Progress, Settings};
 
@@ -58,8 +59,8 @@ impl Census {
     ///
     /// # Errors
     ///
-    /// [`Error::Census`] when the chain is too long or every position is an equilibrium. What
-    /// cannot be decided is no error: it is listed, and the census is not complete.
+    /// [`Error::Census`] when the chain is too long. What cannot be decided is no error: it is
+    /// listed, and the census is not complete.
     pub fn run(&self, problem: &Problem) -> Result<CensusAnswer, Error> {
         self.run_watched(problem, &|_| {})
     }

@@ -31,6 +31,7 @@ Examples:
   funicular reproduce                        the paper, judged, in the terminal
   funicular reproduce --out report           the same as report/report.html, report.md and results.json
   funicular new > chain.toml                 a system file to start from
+  funicular format | less                    every key of a system file
   funicular solve chain.toml                 the shape and the forces of a chain of your own
   funicular solve --case ten-equal-bars --json | jq .agreement
   funicular solve --batch systems.jsonl > answers.jsonl    a system in every line, an answer in every line
@@ -78,8 +79,10 @@ pub enum Command {
     Trace(crate::trace::Arguments),
     /// Draw which start leads where, by both solvers
     Basins(crate::basins::Arguments),
-    /// Print a system file with comments, to start from
+    /// Print a system file with comments, to start from (`funicular format` has every key)
     New,
+    /// Print the page of the file format: every key with its unit, what is allowed, and an example
+    Format,
     /// List the named cases, or print the system file of one (a start for a file of your own)
     Cases(crate::cases::Cases),
     /// Print a completion script for a shell

@@ -1,6 +1,5 @@
 //! `funicular census`: every equilibrium of a chain, with proof.
 
-mod csv;
 mod table;
 
 use std::path::PathBuf;
@@ -74,7 +73,7 @@ pub fn run(arguments: &Census) -> Result<Exit, Failure> {
         output::write_whole(path, &answer.proven.figure(problem.name(), SHAPES))?;
     }
     if let Some(path) = &arguments.csv {
-        output::write_whole(path, &csv::joints(&answer))?;
+        output::write_stream(path, |file| answer.write_csv(file))?;
     }
     drop(progress);
     if arguments.json {

@@ -86,8 +86,8 @@ impl Failure {
                 };
                 Self::bad_input(miette!(help = help, "{error}"))
             }
-            Error::Unsolved { .. }
-            | Error::UnsolvedSystem { .. }
+            Error::Unsolved(_)
+            | Error::UnsolvedSystem(_)
             | Error::Lagrange(_)
             | Error::Condensed(_)
             | Error::Energy(_) => Self::undecided(miette!("{error}")),

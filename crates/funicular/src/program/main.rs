@@ -10,6 +10,7 @@ mod cases;
 mod census;
 mod diagnostics;
 mod exit;
+mod format;
 mod in_order;
 mod input;
 mod interrupt;
@@ -45,6 +46,7 @@ fn main() -> std::process::ExitCode {
         Command::Trace(arguments) => trace::run(&arguments),
         Command::Basins(arguments) => basins::run(&arguments),
         Command::New => new::run(),
+        Command::Format => format::run(),
         Command::Cases(arguments) => cases::run(&arguments),
         Command::Completions { shell } => {
             let mut script = Vec::new();

@@ -8,7 +8,7 @@ mod several;
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
-use funicular::{Solution, SolveAnswer, SystemSolution, picture};
+use funicular::{Error, Solution, SolveAnswer, SystemSolution, picture};
 use miette::miette;
 use validate::answer::{Equations, Solvers, UseCensus};
 
@@ -140,7 +140,8 @@ fn one(arguments: &Solve, file: Option<&Path>) -> Result<Exit, Failure> {
     let outputs = [&arguments.csv, &arguments.bars_csv, &arguments.svg];
     output::check(outputs.into_iter().flatten().map(PathBuf::as_path), &files)?;
     let solve = arguments.question(UseCensus::Auto);
-    match solve.run_any_watched(&problem, &|what| progress.say(what))? {
+    let answer = solve.run_any_watched(&problem, &|what| progress.say(what));
+    match answer.or_else(|error| unsolved(arguments, error))? {
         Solution::System(answer) => system_answer(arguments, &answer, progress),
         Solution::Chain(answer) => chain_answer(arguments, &problem, &answer, progress),
     }
@@ -201,6 +202,17 @@ fn system_answer(
         output::print(&system::answer(answer, arguments.summary))?;
     }
     Ok(verdict(answer.check_failed(), answer.is_decided()))
+}
+
+/// Where no solver has an answer, JSON is an object all the same: without equilibria, and with the
+/// refusals.
+fn unsolved<T>(arguments: &Solve, error: Error) -> Result<T, Failure> {
+    match &error {
+        Error::Unsolved(answer) if arguments.json => output::print_json(answer)?,
+        Error::UnsolvedSystem(answer) if arguments.json => output::print_json(answer)?,
+        _ => {}
+    }
+    Err(error.into())
 }
 
 /// A failed check is worse than an answer that is missing or has not converged.

@@ -6,7 +6,7 @@ mod tables;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use ::sweep::{Comparison, Manifest, RunSettings, SCHEMA_VERSION, StoreSummary};
+use ::sweep::{Manifest, RunSettings, SCHEMA_VERSION, StoreSummary};
 use indicatif::{HumanCount, ProgressBar, ProgressState, ProgressStyle};
 use miette::miette;
 use serde_json::{Value, json};
@@ -80,15 +80,12 @@ pub fn run(arguments: &Sweep) -> Result<Exit, Failure> {
 /// Seeds from which on the cost is told beforehand.
 const MANY_SEEDS: u64 = 100_000_000;
 
-/// What a large sweep needs: rows of 6 to 20 bytes for each solver, as those of the named cases
-/// have.
+/// What a large sweep needs.
 fn tell_cost(manifest: &Manifest) {
     let seeds = manifest.range.end - manifest.range.start;
     if seeds >= MANY_SEEDS {
-        let rows = seeds * manifest.solvers.len() as u64;
-        let gigabytes = |bytes: u64| (rows * bytes).div_ceil(1_000_000_000);
         let parts = seeds.div_ceil(manifest.part_seeds.max(1));
-        let (least, most) = (gigabytes(6), gigabytes(20));
+        let [least, most] = manifest.expected_bytes().map(|bytes| bytes.div_ceil(1_000_000_000));
         tell(format_args!(
             "{seeds} seeds: {parts} files, {least} to {most} GB in all. It may be stopped; --resume goes on."
         ));
@@ -112,11 +109,6 @@ fn whole_rate(state: &ProgressState, out: &mut dyn std::fmt::Write) {
     let rate = state.per_sec().round() as u64;
     // Nobody to tell, as for every part of the bar.
     let _ = write!(out, "{}/s", HumanCount(rate));
-}
-
-/// Whether a comparison says something of the list rather than of the solvers.
-fn is_gap(manifest: &Manifest, comparison: Comparison) -> bool {
-    comparison == Comparison::NotListed && !manifest.equilibria_complete
 }
 
 /// What `--json` prints of a finished sweep.
@@ -151,16 +143,7 @@ pub(crate) fn written(out: &Path) -> String {
     format!("Rows, manifest.json and summary.json are in {}\n", out.display())
 }
 
-/// A seed that converged to what is in no complete list, or a minimisation that ended elsewhere
-/// than in a minimum, is a check that failed. Failures to converge are results, and so is a gap in
-/// a list that is not complete.
+/// How a finished sweep ends.
 pub(crate) fn verdict(manifest: &Manifest, summary: &StoreSummary) -> Exit {
-    let wrong = summary.outcomes.comparisons().any(|(comparison, count)| {
-        count > 0 && comparison.should_not_be() && !is_gap(manifest, comparison)
-    });
-    let unlisted = ::sweep::Failure::Unlisted as i16;
-    let tally = summary.outcomes.tally();
-    let mut outcomes = tally.solvers.iter().flat_map(|(_, solver)| solver.0.keys());
-    let invented = outcomes.any(|outcome| *outcome == unlisted);
-    if wrong || (invented && manifest.equilibria_complete) { Exit::CheckFailed } else { Exit::Done }
+    if summary.check_failed(manifest) { Exit::CheckFailed } else { Exit::Done }
 }

@@ -1,21 +1,19 @@
 //! `funicular trace`: all equilibria over a parameter.
 
-use std::fmt::Write as _;
+mod text;
+
 use std::path::{Path, PathBuf};
 
-use branches::{Abscissa, Combine, Continuation, ContinuationSettings, EventKind, PointStatus};
+use branches::{Abscissa, Combine, ContinuationSettings};
 use clap::Args;
 use funicular::{Problem, Trace, TraceAnswer};
 use miette::miette;
-use model::SystemSummary;
-use serde::Serialize;
 
 use crate::exit::{Exit, Failure};
 use crate::input;
 use crate::interrupt::end_on_interrupt;
 use crate::output;
 use crate::progress::Progress;
-use crate::tables;
 use crate::threads;
 
 /// What `--csv` writes, in `--help`; the head of the file is tested against it.
@@ -61,9 +59,6 @@ Exit codes:
 
 A pair of branches that begins and ends between two censuses, meeting no other, is not seen: take more points.";
 
-/// Branches printed in full as a table.
-const SHOWN: usize = 60;
-
 /// `funicular trace`.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
@@ -100,14 +95,6 @@ pub struct Arguments {
     /// Draw the angle of this bar, from 1
     #[arg(long, value_name = "BAR", default_value_t = 1)]
     pub bar: usize,
-}
-
-/// What `trace --json` prints.
-#[derive(Serialize)]
-struct Answer<'a> {
-    schema_version: u32,
-    system: SystemSummary,
-    traces: &'a [Continuation],
 }
 
 /// Run the command.
@@ -166,11 +153,12 @@ pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
     }
     let traces = found.paths();
     if arguments.json {
-        let answer = Answer { schema_version: funicular::SCHEMA_VERSION, system, traces };
-        output::print_json(&answer)?;
+        output::print_json(&found)?;
     } else {
         let many = traces.len() > 1;
-        output::print(&traces.iter().map(|one| text(one, many)).collect::<Vec<_>>().join("\n"))?;
+        output::print(
+            &traces.iter().map(|one| text::text(one, many)).collect::<Vec<_>>().join("\n"),
+        )?;
     }
     Ok(exit)
 }
@@ -207,124 +195,4 @@ fn numbered(path: &Path, number: usize) -> PathBuf {
         None => format!("{stem}-{number}"),
     };
     path.with_file_name(name)
-}
-
-/// What stays the same along a path, with its values; nothing if that is nothing.
-fn fixed(trace: &Continuation) -> String {
-    let Some(first) = trace.points.first() else { return String::new() };
-    let same = |k: &usize| {
-        trace.points.iter().all(|point| point.values[*k].to_bits() == first.values[*k].to_bits())
-    };
-    let named = (0..trace.parameters.len())
-        .filter(same)
-        .map(|k| format!("{} = {} {}", trace.parameters[k], first.values[k], trace.units[k]));
-    named.collect::<Vec<_>>().join(", ")
-}
-
-/// One trace for people; with others, each says for which values it is.
-fn text(trace: &Continuation, many: bool) -> String {
-    let complete = |p: &&branches::PathPoint| matches!(p.status, PointStatus::Complete { .. });
-    let refused = |p: &&branches::PathPoint| matches!(p.status, PointStatus::Refused { .. });
-    let count = trace.points.len();
-    let proved = trace.points.iter().filter(complete).count();
-    let refused = trace.points.iter().filter(refused).count();
-    let undecided = count - proved - refused;
-    let checks = &trace.checks;
-    let of = match fixed(trace) {
-        fixed if many && !fixed.is_empty() => format!(" ({fixed})"),
-        _ => String::new(),
-    };
-    let mut text = format!(
-        "{}{of}: {count} points, {proved} with all equilibria proved, {refused} refused, {undecided} degenerate; \
-         {} branches\n",
-        trace.parameters.join(", "),
-        trace.branches.len()
-    );
-    text += &table(trace);
-    for point in trace.points.iter().filter(|p| matches!(p.status, PointStatus::Undecided { .. })) {
-        // Writing to a String cannot fail.
-        let _ = writeln!(text, "degenerate at {}", values(trace, &point.values));
-    }
-    // Writing to a String cannot fail.
-    let _ = writeln!(
-        text,
-        "{} censuses between the points and events: {}",
-        checks.between,
-        said(trace, proved == 0 && undecided > 0)
-    );
-    text
-}
-
-/// What the checks say.
-fn said(trace: &Continuation, nothing: bool) -> String {
-    let checks = &trace.checks;
-    if checks.agree() {
-        return "each finds exactly the branches there, with the same indices".to_owned();
-    }
-    if nothing {
-        return "nothing was decided, every point is degenerate".to_owned();
-    }
-    [
-        (checks.mismatches.len(), "differ from the branches"),
-        (checks.undecided.len(), "are undecided"),
-        (checks.unfollowed.len(), "intervals could not be followed"),
-        (checks.incomplete.len(), "branch points lack branches"),
-        (checks.disagreements, "energies or indices differ"),
-        (checks.euler_violations, "Euler characteristics do not hold"),
-    ]
-    .into_iter()
-    .filter(|(count, _)| *count > 0)
-    .map(|(count, what)| format!("{count} {what}"))
-    .collect::<Vec<_>>()
-    .join(", ")
-}
-
-fn values(trace: &Continuation, values: &[f64]) -> String {
-    let named = trace.parameters.iter().zip(values).zip(&trace.units);
-    named
-        .map(|((name, value), unit)| format!("{name} = {value} {unit}"))
-        .collect::<Vec<_>>()
-        .join(", ")
-}
-
-fn table(trace: &Continuation) -> String {
-    let mut table = tables::table(["what happens", "where", "branches", "energy / J", "residual"]);
-    let shown = |kind: EventKind| !matches!(kind, EventKind::Unloaded { .. });
-    let events: Vec<_> = trace.events.iter().filter(|event| shown(event.kind)).collect();
-    for event in events.iter().take(SHOWN) {
-        let what = match event.kind {
-            EventKind::Fold => "fold: two branches meet and end".to_owned(),
-            EventKind::Straight => "straight chain: two branches meet and end".to_owned(),
-            EventKind::BranchPoint => "branch point".to_owned(),
-            EventKind::SpaceExchange { from, to } => {
-                format!("index in space {from} \u{2192} {to}")
-            }
-            EventKind::Unloaded { .. } => event.kind.name().to_owned(),
-        };
-        let branches: Vec<String> = event.branches.iter().map(ToString::to_string).collect();
-        table.add_row([
-            what,
-            values(trace, &event.values),
-            branches.join(", "),
-            format!("{:.9}", event.energy_j),
-            format!("{:.0e}", event.residual),
-        ]);
-    }
-    let unloaded = trace.events.len() - events.len();
-    let mut text = if events.is_empty() {
-        "no folds, branch points or exchanges of stability\n".to_owned()
-    } else {
-        format!("{table}\n")
-    };
-    if events.len() > SHOWN {
-        // Writing to a String cannot fail.
-        let _ = writeln!(text, "... and {} more (--json has them all)", events.len() - SHOWN);
-    }
-    if unloaded > 0 {
-        let _ = writeln!(
-            text,
-            "{unloaded} times a bar changes between tension and compression (--json has them)"
-        );
-    }
-    text
 }

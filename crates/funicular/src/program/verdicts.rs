@@ -2,7 +2,7 @@
 
 use paper::Reproduction;
 use paper::claims::Claim;
-use paper::printed::{Printed, Verdict};
+use paper::printed::{Assessment, Printed};
 use paper::seeds::Survey;
 
 use crate::tables::{numbers_from, short, significant, table, word};
@@ -41,7 +41,7 @@ fn claims(r: &Reproduction) -> String {
 
 fn wrong(r: &Reproduction) -> String {
     let mut table = table(["claim", "verdict", "number", "which is"]);
-    for claim in r.claims.iter().filter(|c| c.verdict != Verdict::Confirmed) {
+    for claim in r.claims.iter().filter(|c| c.verdict != Assessment::Confirmed) {
         table.add_row([
             format!("{} [{}]", claim.printed.says, claim.printed.place),
             claim.verdict.to_string(),

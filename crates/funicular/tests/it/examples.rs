@@ -4,8 +4,12 @@
 
 use std::process::Command;
 
+/// The examples that the tests below run.
+const RUN: [&str; 6] = ["batch", "census", "solve", "sweep", "third_solver", "trace"];
+
 /// Standard output and standard error of an example.
 fn run(name: &str) -> (String, String) {
+    assert!(RUN.contains(&name), "{name}");
     let arguments = ["run", "--quiet", "--locked", "--package", "funicular", "--example", name];
     let output = Command::new(env!("CARGO")).args(arguments).output().unwrap();
     let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
@@ -24,13 +28,17 @@ fn number(cell: &str) -> f64 {
 }
 
 #[test]
-fn examples_are_short() {
+fn examples_are_short_and_all_of_them_are_run() {
     let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("examples");
-    for name in ["solve", "census", "batch", "third_solver", "sweep", "trace"] {
-        let text = std::fs::read_to_string(folder.join(name).with_extension("rs")).unwrap();
-        let lines = text.lines().count();
-        assert!(lines <= 40, "{name} has {lines} lines");
+    let mut names = vec![];
+    for entry in std::fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        let lines = std::fs::read_to_string(&path).unwrap().lines().count();
+        assert!(lines <= 40, "{} has {lines} lines", path.display());
+        names.push(path.file_stem().unwrap().to_str().unwrap().to_owned());
     }
+    names.sort_unstable();
+    assert_eq!(names, RUN, "each is run by a test below");
 }
 
 #[test]

@@ -211,6 +211,54 @@ centre_m = 0.23910237774903406
     }
 }
 
+/// Two equal bars between anchors a billionth of their length apart are beyond the second solver,
+/// and a mass on a strut, which cannot pull, falls for ever: JSON says so, and is JSON all the same.
+#[test]
+fn where_no_solver_has_an_answer_json_holds_the_refusals() {
+    let folded = "anchors = { start_m = [0, 0, 0], end_m = [1e-9, 0, 0] }\n\
+                  bars = [{ length_m = 1, mass_kg = 1, count = 2 }]\n";
+    let falls = "joints = { A = { at_m = [0, 0, 0] }, P = { mass_kg = 1 } }\n\
+                 bars = [{ from = \"A\", to = \"P\", length_m = 1, mass_kg = 0, kind = \"strut\" }]\n";
+    for (name, text, arguments, solvers) in [
+        ("folded", folded, &["--solver", "energy"][..], &["energy"][..]),
+        ("falls", falls, &[], &["lagrange", "energy"]),
+        ("falls", falls, &["--summary"], &["lagrange", "energy"]),
+    ] {
+        let (code, json) = solved(name, text, arguments);
+        assert_eq!(code, Some(3), "{name}: {json:#}");
+        assert_eq!(json["schema_version"], 2);
+        assert_eq!(json["system"]["name"], "unnamed");
+        assert!(json["equilibria"].as_array().unwrap().is_empty());
+        assert!(json["agreement"].is_null());
+        let failures = json["failures"].as_array().unwrap();
+        let names: Vec<_> = failures.iter().map(|failure| failure["solver"].as_str()).collect();
+        assert_eq!(names, solvers.iter().copied().map(Some).collect::<Vec<_>>());
+        for failure in failures {
+            assert!(!failure["reason"].as_str().unwrap().is_empty());
+            let refusal = failure["refusal"].as_object().unwrap();
+            assert!(refusal["kind"].is_string() && refusal.len() > 1, "{refusal:?}");
+        }
+    }
+}
+
+/// Where all weight rests on the anchors every position is an equilibrium: every command says so.
+#[test]
+fn weight_on_the_anchors_alone_is_bad_input_for_every_command() {
+    let path = file(
+        "on-anchors",
+        "anchors = { start_m = [0, 0, 0], end_m = [1.5, 0, 0] }\n\
+         bars = [{ length_m = 1, mass_kg = 1, centre_m = 0 }, { length_m = 1, mass_kg = 0 }, \
+         { length_m = 1, mass_kg = 1, centre_m = 1 }]\n",
+    );
+    for command in ["solve", "census"] {
+        let output = funicular(&[command, &path]);
+        assert_eq!(output.status.code(), Some(2), "{command}");
+        let said = stderr(&output).replace('\u{2502}', " ");
+        let said = said.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(said.contains("every position is an equilibrium"), "{command}: {said}");
+    }
+}
+
 /// Three equal bars with anchors one length apart: the forces are one of a family, and the output
 /// says so.
 #[test]
@@ -345,6 +393,11 @@ fn a_closed_standard_error_changes_no_exit_code() {
 }
 
 #[test]
+fn the_page_of_the_file_format_is_printed() {
+    assert_eq!(stdout(&funicular(&["format"])), model::system_file::FORMAT);
+}
+
+#[test]
 fn a_new_file_can_be_solved_as_it_is_and_from_standard_input() {
     let new = funicular(&["new"]);
     assert_eq!(new.status.code(), Some(0));
@@ -375,7 +428,8 @@ fn where_the_chain_turns_freely_both_answers_are_shown_in_one_plane() {
 fn the_nearest_case_is_named() {
     let output = funicular(&["solve", "--case", "three-equal-bar"]);
     assert_eq!(output.status.code(), Some(2));
-    let said = stderr(&output).split_whitespace().collect::<Vec<_>>().join(" ");
+    let said = stderr(&output).replace('\u{2502}', " ");
+    let said = said.split_whitespace().collect::<Vec<_>>().join(" ");
     assert!(said.contains("did you mean `three-equal-bars`?"), "{said}");
 }
 

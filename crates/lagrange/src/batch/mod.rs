@@ -74,4 +74,4 @@ mod solver;
 mod tests;
 
 pub use kernel::PLAIN_EVERY;
-pub use solver::{Batch, BatchSettings, Ends, Finish};
+pub use solver::{Batch, BatchSettings};

@@ -4,7 +4,7 @@
     reason = "a pass over the bars is fast only as one loop of vector instructions"
 )]
 
-use model::Problem;
+use model::{Ends, Finish, Problem};
 
 use super::kernel::{Common, MOST_STEPS, State, step};
 use super::lanes::{LANES, Lanes};
@@ -66,68 +66,11 @@ impl BatchSettings {
     }
 }
 
-/// How the iteration ended for one seed.
-///
-/// ```
-/// use lagrange::batch::{Batch, BatchSettings, Ends, Finish};
-/// let hasty = BatchSettings { max_iterations: 1, ..Default::default() };
-/// let mut ends = Ends::default();
-/// let batch = Batch::new(&model::cases::paper(), hasty)?;
-/// batch.solve(&[0.3, 0.7, -1.3, f64::NAN, 0.0, 0.0], &mut ends);
-/// assert_eq!(ends.finish, [Finish::IterationLimit, Finish::NonFinite]);
-/// # Ok::<(), lagrange::SettingsError>(())
-/// ```
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Finish {
-    /// Every equation is below the tolerance.
-    Converged,
-    /// The iteration limit was reached.
-    IterationLimit,
-    /// A number overflowed or was undefined, the seed's own angles to begin with.
-    NonFinite,
-}
-
-/// Where many seeds ended: one entry per seed, n directions per seed.
-///
-/// ```
-/// use lagrange::batch::{Batch, BatchSettings, Ends};
-/// let batch = Batch::new(&model::cases::paper(), BatchSettings::default())?;
-/// let mut ends = Ends::default();
-/// batch.solve(&[0.3, 0.7, -1.3], &mut ends);
-/// assert!(ends.iterations[0] < 10 && ends.residual[0] <= 1e-13);
-/// // The first bar hangs 19.69 degrees off the vertical.
-/// let [along, up] = ends.directions[0];
-/// assert!((along.atan2(-up).to_degrees() - 19.694867976133019).abs() < 1e-11);
-/// # Ok::<(), lagrange::SettingsError>(())
-/// ```
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct Ends {
-    /// How.
-    pub finish: Vec<Finish>,
-    /// Newton steps spent, and passes over the bars by which signs were solved for.
-    pub iterations: Vec<u16>,
-    /// The largest equation, in the units of [`BatchSettings::tolerance`].
-    pub residual: Vec<f64>,
-    /// Potential energy above the height of joint 0, J.
-    pub energy_j: Vec<f64>,
-    /// Unit directions of the bars of seed 0, of seed 1, ...: along the heading, and up.
-    pub directions: Vec<[f64; 2]>,
-}
-
-impl Ends {
-    fn resize(&mut self, seeds: usize, bars: usize) {
-        self.finish.resize(seeds, Finish::NonFinite);
-        self.iterations.resize(seeds, 0);
-        self.residual.resize(seeds, f64::NAN);
-        self.energy_j.resize(seeds, f64::NAN);
-        self.directions.resize(seeds * bars, [f64::NAN; 2]);
-    }
-}
-
 /// A solver of one problem for many seeds in its vertical plane.
 ///
 /// ```
-/// use lagrange::batch::{Batch, BatchSettings, Ends, Finish};
+/// use lagrange::batch::{Batch, BatchSettings};
+/// use model::{Ends, Finish};
 /// let batch = Batch::new(&model::cases::paper(), BatchSettings::default())?;
 /// let mut ends = Ends::default();
 /// batch.solve(&[0.3, 0.7, -1.3, 2.8, 2.4, 4.0], &mut ends);
@@ -191,14 +134,17 @@ impl Batch {
     /// Solve all seeds: `angles` holds n angles from the descending vertical, rad, for each of
     /// them. What was in `ends` is replaced, its memory used again.
     ///
+    /// The residual is the largest equation, in the units of [`BatchSettings::tolerance`];
+    /// iterations are Newton steps, and passes over the bars by which signs were solved for.
+    ///
     /// # Panics
     ///
     /// When `angles` does not hold a multiple of n numbers.
     ///
     /// ```
-    /// use lagrange::batch::{Batch, BatchSettings, Ends};
+    /// use lagrange::batch::{Batch, BatchSettings};
     /// let batch = Batch::new(&model::cases::paper(), BatchSettings::default())?;
-    /// let mut ends = Ends::default();
+    /// let mut ends = model::Ends::default();
     /// // E1 and E2: two seeds of three angles.
     /// batch.solve(&[0.3, 0.7, -1.3, 1.3, -0.7, -0.3], &mut ends);
     /// assert!((ends.energy_j[1] / 9.80665 + 6.0 - 3.664531348000695).abs() < 1e-12);

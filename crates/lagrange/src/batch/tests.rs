@@ -2,7 +2,7 @@
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-use model::{Anchors, Bar, Chain, Problem};
+use model::{Anchors, Bar, Chain, Ends, Finish, Problem};
 use nalgebra::{DMatrix, DVector, Vector3};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -10,7 +10,7 @@ use rand_chacha::ChaCha8Rng;
 use super::kernel::{Common, State, step};
 use super::lanes::{LANES, Lanes};
 use super::numbers::Numbers;
-use super::{Batch, BatchSettings, Ends, Finish};
+use super::{Batch, BatchSettings};
 use crate::mechanism::{Mechanism, Units};
 use crate::multipliers::all_multipliers;
 use crate::seed::Seed;

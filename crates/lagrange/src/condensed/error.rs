@@ -1,5 +1,7 @@
 //! What can go wrong in a condensed solve.
 
+use serde::Serialize;
+
 use crate::settings::SettingsError;
 
 /// Why no equilibrium was returned. `Ok` always means converged.
@@ -10,7 +12,8 @@ use crate::settings::SettingsError;
 /// let error = solve(&model::cases::paper(), &hasty).unwrap_err();
 /// assert!(matches!(error, CondensedError::NotClosed { .. }));
 /// ```
-#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, thiserror::Error)]
+#[serde(tag = "kind", rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum CondensedError {
     /// Occurs when a setting is out of range.

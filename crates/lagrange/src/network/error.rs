@@ -1,9 +1,12 @@
 //! What can go wrong in a solve of a system.
 
+use serde::Serialize;
+
 use super::settings::SettingsError;
 
 /// Why no equilibrium of a system was returned. `Ok` always means converged.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, Serialize, thiserror::Error)]
+#[serde(tag = "kind", rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum Error {
     /// Occurs when a setting is out of range.

@@ -1,5 +1,7 @@
 //! Settings of the solve of a system.
 
+use serde::Serialize;
+
 /// Settings of [`solve`](super::solve()) and [`solve_from`](super::solve_from()).
 ///
 /// ```
@@ -34,7 +36,7 @@ impl Default for Settings {
 }
 
 /// Why settings cannot be used.
-#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, thiserror::Error)]
 #[error("setting {name} = {value} is outside its range, {low} to {high}")]
 pub struct SettingsError {
     /// The field.

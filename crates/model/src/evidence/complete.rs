@@ -29,8 +29,6 @@ pub enum NoCensus {
         /// The limit.
         limit: usize,
     },
-    /// All the weight rests on the two anchors: every position is an equilibrium.
-    WeightOnAnchors,
     /// The census refuses its settings.
     Settings,
 }

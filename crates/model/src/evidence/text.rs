@@ -327,10 +327,6 @@ impl Display for NoCensus {
             Self::TooManyBars { bars, limit } => {
                 write!(f, "no census: {bars} bars, and the limit is {limit}")
             }
-            Self::WeightOnAnchors => f.write_str(
-                "no census: all the weight of this chain rests on its two anchors: the energy is the same in every \
-                 position, and every position is an equilibrium",
-            ),
             Self::Settings => f.write_str("no census: its settings are out of range"),
         }
     }

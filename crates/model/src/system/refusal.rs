@@ -38,6 +38,13 @@ pub enum SystemRefusal {
         "no mass and no force act on the system: without load every position is an equilibrium"
     )]
     NoLoad,
+    /// Occurs when all loads act on anchors, through members or at their ends: nothing loads what
+    /// can move.
+    #[error(
+        "all loads of this system rest on its anchors: the energy is the same in every position, and \
+         every position is an equilibrium"
+    )]
+    LoadOnAnchors,
     /// Occurs when two anchors are further apart than the members between them reach.
     #[error(
         "the anchors {from:?} and {to:?} are {} m apart and the members between them reach only {} m: \
@@ -158,6 +165,9 @@ impl System {
         if self.is_unloaded() {
             return Err(SystemRefusal::NoLoad);
         }
+        if self.is_loaded_on_anchors_alone() {
+            return Err(SystemRefusal::LoadOnAnchors);
+        }
         self.anchors_in_reach(&graph)?;
         self.loops_close(&graph)
     }
@@ -169,6 +179,26 @@ impl System {
         self.total_mass_kg() <= 0.0
             && self.joints().iter().all(|joint| still(joint.force_n))
             && self.members().iter().all(|m| m.loads.iter().all(|load| still(load.force_n)))
+    }
+
+    /// Whether no joint that can move feels a load, its own or one of a member: a question about
+    /// the data as they stand, without rounding. A load on a member is felt by both its joints
+    /// unless it acts at one of them.
+    fn is_loaded_on_anchors_alone(&self) -> bool {
+        let still = |force_n: [f64; 3]| force_n.iter().all(|x| x.abs() <= 0.0);
+        let held = |joint: usize| self.joints()[joint].support.is_fixed();
+        self.joints()
+            .iter()
+            .all(|joint| joint.support.is_fixed() || (joint.mass_kg <= 0.0 && still(joint.force_n)))
+            && self.members().iter().all(|member| {
+                let body = &member.body;
+                let on_anchors = |at_m: f64| {
+                    (at_m >= body.length_m() || held(member.from))
+                        && (at_m <= 0.0 || held(member.to))
+                };
+                (body.mass_kg() <= 0.0 || on_anchors(body.centre_m()))
+                    && member.loads.iter().all(|load| still(load.force_n) || on_anchors(load.at_m))
+            })
     }
 
     fn connected(&self, graph: &Graph) -> Result<(), SystemRefusal> {

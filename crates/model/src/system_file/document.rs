@@ -75,7 +75,7 @@ impl Source<'_> {
         let loaded = loads::put(&root, &chain)?;
         match Problem::new(chain) {
             // The loads may be all that weighs; the system's own check says so if nothing does.
-            Ok(_) | Err(Refusal::NoMass) => {}
+            Ok(_) | Err(Refusal::NoMass | Refusal::WeightOnAnchors) => {}
             Err(refusal) => return Err(self.refusal(refusal, &places)),
         }
         match loaded.refusal() {
@@ -92,7 +92,7 @@ impl Source<'_> {
                 return self.error(Kind::Refused(refusal), Some(key), Some(span));
             }
             Refusal::BarTooLong { bar, .. } | Refusal::Folded { bar, .. } => Some(bar),
-            Refusal::SingleBar { .. } | Refusal::NoMass => None,
+            Refusal::SingleBar { .. } | Refusal::NoMass | Refusal::WeightOnAnchors => None,
         };
         if let (Refusal::NoMass, Origin::Tables(tables)) = (&refusal, &places.bars) {
             let (key, span) = ("bars[1].mass_kg".to_owned(), tables[0].mass.clone());

@@ -376,6 +376,7 @@ fn system_refusal_help(refusal: &SystemRefusal) -> &'static str {
         SystemRefusal::Falls { .. } => "give one of its joints a place: at_m = [x, y, z]",
         SystemRefusal::NothingMoves => "leave one joint without at_m",
         SystemRefusal::NoLoad => "give a bar or a joint a mass, or a joint a force",
+        SystemRefusal::LoadOnAnchors => "give a load to a joint that can move",
         SystemRefusal::OutOfReach { .. } | SystemRefusal::Taut { .. } => {
             "move the anchors together or lengthen the bars"
         }
@@ -396,5 +397,8 @@ fn refusal_help(refusal: &Refusal) -> &'static str {
         }
         Refusal::Unresolved { .. } => "put the origin near the chain",
         Refusal::NoMass => "give at least one bar a mass",
+        Refusal::WeightOnAnchors => {
+            "give a bar a mass whose centre is not on an anchor, or a joint a load"
+        }
     }
 }

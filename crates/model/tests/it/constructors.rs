@@ -182,6 +182,26 @@ fn chains_without_mass_are_refused_before_their_shape() {
 }
 
 #[test]
+fn weight_on_the_anchors_alone_is_refused_and_weight_beside_them_is_not() {
+    let problem = |bars: [(f64, f64); 3]| {
+        let bars = bars.map(|(mass, centre)| Bar::new(1.0, mass, centre, [0.0; 3]).unwrap());
+        Problem::new(Chain::new("", 1.0, apart(1.5), bars.to_vec()).unwrap())
+    };
+    let refused = Err(Refusal::WeightOnAnchors);
+    assert_eq!(problem([(2.0, 0.0), (0.0, 0.5), (3.0, 1.0)]), refused);
+    assert_eq!(problem([(0.0, 0.7), (0.0, 0.5), (3.0, 1.0)]), refused);
+    // The least part of a weight at a joint that can move, from either side, is one.
+    for loaded in [
+        [(2.0, 1e-300), (0.0, 0.5), (3.0, 1.0)],
+        [(2.0, 0.0), (1e-300, 0.5), (3.0, 1.0)],
+        [(2.0, 0.0), (0.0, 0.5), (3.0, 1.0 - f64::EPSILON)],
+        [(2.0, 1.0), (0.0, 0.5), (0.0, 1.0)],
+    ] {
+        assert!(problem(loaded).is_ok(), "{loaded:?}");
+    }
+}
+
+#[test]
 fn refusals_do_not_depend_on_the_unit_of_length() {
     for scale in [1e-100, 1e-9, 1.0, 1e9, 1e100] {
         let lengths = [scale, scale, scale];

@@ -4,7 +4,7 @@ use lagrange::{constraint_matrix, direction_gradient, jacobian, residual, spin};
 use nalgebra::DVector;
 
 use super::{Facts, Finding};
-use crate::printed::{Printed, Verdict};
+use crate::printed::{Assessment, Printed};
 
 /// The largest number of a displayed equation in the paper's text (before the example's roman
 /// ones).
@@ -28,7 +28,7 @@ pub(super) fn judge(facts: &Facts, printed: &Printed) -> Option<Finding> {
     let counted = |found: usize, what: &str| {
         let found = found as f64;
         let missing = (found - printed.value()).abs();
-        let verdict = if missing < 0.5 { Verdict::Confirmed } else { Verdict::Corrected };
+        let verdict = if missing < 0.5 { Assessment::Confirmed } else { Assessment::Corrected };
         Some(Finding::new(verdict, missing, what).lagrange(found))
     };
     match printed.id.as_str() {
@@ -74,7 +74,7 @@ pub(super) fn judge(facts: &Facts, printed: &Printed) -> Option<Finding> {
         }
         "reference-45" | "reference-52" => {
             let beyond = printed.value() - LAST_EQUATION;
-            let verdict = if beyond > 0.5 { Verdict::Corrected } else { Verdict::Confirmed };
+            let verdict = if beyond > 0.5 { Assessment::Corrected } else { Assessment::Confirmed };
             let what = if printed.id == "reference-45" {
                 "numbers beyond the last equation, (41); (33) is meant"
             } else {

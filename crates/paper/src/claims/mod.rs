@@ -22,7 +22,7 @@ use serde::Serialize;
 
 use crate::completeness::Completeness;
 use crate::example::Example;
-pub use crate::printed::Verdict;
+pub use crate::printed::Assessment;
 use crate::printed::{Paper, Printed};
 use crate::seeds::Survey;
 use crate::sentence::Sentence;
@@ -48,7 +48,7 @@ pub struct Claim {
     /// What `energy` finds, in the unit of the claim.
     pub energy: Option<f64>,
     /// The verdict that the numbers support.
-    pub verdict: Verdict,
+    pub verdict: Assessment,
     /// The number behind the verdict.
     pub number: Option<f64>,
     /// What that number is.
@@ -62,14 +62,14 @@ pub struct Claim {
 struct Finding {
     lagrange: Option<f64>,
     energy: Option<f64>,
-    verdict: Verdict,
+    verdict: Assessment,
     number: f64,
     number_is: Sentence,
 }
 
 impl Finding {
     /// A finding with the number behind it.
-    fn new(verdict: Verdict, number: f64, number_is: impl Into<Sentence>) -> Self {
+    fn new(verdict: Assessment, number: f64, number_is: impl Into<Sentence>) -> Self {
         Self { lagrange: None, energy: None, verdict, number, number_is: number_is.into() }
     }
 
@@ -102,7 +102,7 @@ pub fn claims(paper: &Paper, example: &Example, surveys: &[Survey]) -> Vec<Claim
             let judges = [counts::judge, scan::judge, second::judge, plane::judge, space::judge];
             let finding = judges.iter().find_map(|judge| judge(&facts, printed));
             let finding = finding.unwrap_or_else(|| {
-                Finding::new(Verdict::Undecided, f64::NAN, "nobody judges this claim")
+                Finding::new(Assessment::Undecided, f64::NAN, "nobody judges this claim")
             });
             Claim::new(printed.clone(), finding)
         })
@@ -155,7 +155,7 @@ mod tests {
         let printed = Paper::project().claims[0].clone();
         let finding = Finding::new(printed.expected, f64::NAN, "").lagrange(f64::INFINITY);
         let claim = Claim::new(printed, finding);
-        assert_eq!((claim.verdict, claim.as_expected), (Verdict::Undecided, false));
+        assert_eq!((claim.verdict, claim.as_expected), (Assessment::Undecided, false));
         assert_eq!((claim.number, claim.lagrange), (None, None));
         assert!(largest([1.0, f64::NAN, 2.0]).is_nan());
         assert!(smallest([1.0, f64::NAN, 2.0]).is_nan());

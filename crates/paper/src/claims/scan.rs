@@ -8,7 +8,7 @@ use energy::example::{
 use model::{Anchors, Chain, InPlane, InSpace, Problem};
 
 use super::{ANGLE_RAD, ENERGY_MGL, Facts, Finding, largest, printed_degrees};
-use crate::printed::{Paper, Printed, Verdict};
+use crate::printed::{Assessment, Paper, Printed};
 use crate::sentence::Sentence;
 use model::number::Number;
 
@@ -52,7 +52,7 @@ fn scanned(paper: &Paper, position: &str, found: &ScanMinimum) -> Finding {
     let numbers = numbers(paper, position, found);
     let same = numbers.iter().filter(|(claim, value)| claim.is_some_and(|c| c.rounds_to(*value)));
     let same = same.count();
-    let verdict = if same == numbers.len() { Verdict::Confirmed } else { Verdict::Refuted };
+    let verdict = if same == numbers.len() { Assessment::Confirmed } else { Assessment::Refuted };
     let what = Sentence::from([
         "of the four printed numbers to the last digit; point ".into(),
         found.point.into(),
@@ -81,11 +81,11 @@ fn angle(facts: &Facts, printed: &Printed, bar: usize) -> Finding {
     let scanned = [first.theta_rad, first.alpha_rad, first.beta_rad][bar];
     let steps = (printed.value() - printed_degrees(lagrange)).to_radians() / PAPER_STEP_RAD;
     let verdict = if printed.rounds_to(printed_degrees(lagrange)) {
-        Verdict::Confirmed
+        Assessment::Confirmed
     } else if printed.rounds_to(printed_degrees(scanned)) && steps.abs() < 1.0 {
-        Verdict::Explained
+        Assessment::Explained
     } else {
-        Verdict::Refuted
+        Assessment::Refuted
     };
     let what = Sentence::from([
         "printed less true, in steps of the scan (0.001 rad), whose point this is; solvers and reference agree to "
@@ -108,7 +108,7 @@ fn energy(facts: &Facts, printed: &Printed) -> Finding {
     let spread = largest([lagrange, energy, curve].map(|value| value - reference));
     let agreed = spread <= ENERGY_MGL && (lagrange - energy).abs() <= ENERGY_MGL;
     let all = [lagrange, energy, curve].into_iter().all(|value| printed.rounds_to(value));
-    let verdict = if all { Verdict::Confirmed } else { Verdict::Refuted };
+    let verdict = if all { Assessment::Confirmed } else { Assessment::Refuted };
     let what = "printed less true, mgl: within half a unit of the last digit";
     Finding::new(verdict.if_shown(agreed), printed.value() - lagrange, what)
         .lagrange(lagrange)
@@ -139,7 +139,7 @@ fn span(facts: &Facts) -> Finding {
         ]),
         None => sum.into(),
     };
-    Finding::new(Verdict::Corrected.if_shown(shown), printed, what)
+    Finding::new(Assessment::Corrected.if_shown(shown), printed, what)
         .lagrange(lagrange)
         .energy(energy)
 }
@@ -168,7 +168,8 @@ fn vertical(facts: &Facts) -> Finding {
     let weight =
         lagrange::load_vector(facts.example.problem.chain()).fixed_rows::<3>(0).normalize();
     let [from_x, from_down] = [weight.x, -weight.z].map(|cos| cos.acos().to_degrees());
-    let verdict = if from_x <= f64::EPSILON { Verdict::Confirmed } else { Verdict::Corrected };
+    let verdict =
+        if from_x <= f64::EPSILON { Assessment::Confirmed } else { Assessment::Corrected };
     let what =
         "deg between Ox and the weights, which (35) has along -Z: the angles are from the axis -OZ";
     Finding::new(verdict.if_shown(from_down <= f64::EPSILON), from_x, what).lagrange(from_x)
@@ -199,8 +200,11 @@ fn solutions(facts: &Facts, printed: &Printed) -> Finding {
         " deg, added by squaring, do not".into(),
     ]);
     let count = all.len() as f64;
-    let verdict =
-        if (count - printed.value()).abs() < 0.5 { Verdict::Confirmed } else { Verdict::Corrected };
+    let verdict = if (count - printed.value()).abs() < 0.5 {
+        Assessment::Confirmed
+    } else {
+        Assessment::Corrected
+    };
     Finding::new(verdict.if_shown(shown), count, what).energy(count)
 }
 
@@ -226,9 +230,9 @@ fn branches() -> Finding {
     let before = points().filter(|theta| *theta < low).all(as_printed);
     let after = points().filter(|theta| *theta > high).any(as_printed);
     let verdict = match (before, after, high < largest) {
-        (true, _, false) => Verdict::Confirmed,
-        (true, false, true) => Verdict::Refuted,
-        _ => Verdict::Undecided,
+        (true, _, false) => Assessment::Confirmed,
+        (true, false, true) => Assessment::Refuted,
+        _ => Assessment::Undecided,
     };
     let what = Sentence::from([
         "deg: from this theta on, up to ".into(),
@@ -249,7 +253,7 @@ fn minima(facts: &Facts) -> Finding {
         .all(|s| s.in_plane == InPlane::Maximum && s.in_space == InSpace::Unstable);
     let index = found.stability.index_in_space as f64;
     let what = "independent motions that lower the energy at E2, an equilibrium";
-    Finding::new(Verdict::Refuted.if_shown(equilibrium && unstable), index, what)
+    Finding::new(Assessment::Refuted.if_shown(equilibrium && unstable), index, what)
         .lagrange(index)
         .energy(at_e2.stability.index_in_space as f64)
 }

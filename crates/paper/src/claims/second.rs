@@ -6,7 +6,7 @@ use model::InPlane;
 use super::multiplier_system::{Misfit, misfit};
 use super::{ANGLE_RAD, ENERGY_MGL, Facts, Finding, largest, printed_degrees, smallest};
 use crate::example::Planar;
-use crate::printed::{Printed, Verdict};
+use crate::printed::{Assessment, Printed};
 use crate::sentence::Sentence;
 use model::number::Number;
 
@@ -60,11 +60,11 @@ fn angle(facts: &Facts, printed: &Printed, bar: usize) -> Finding {
     };
     let nearest = smallest(truth.iter().map(away));
     let verdict = if truth.iter().any(|value| printed.rounds_to(*value)) {
-        Verdict::Confirmed
+        Assessment::Confirmed
     } else if nearest.to_radians() < PAPER_STEP_RAD {
-        Verdict::Explained
+        Assessment::Explained
     } else {
-        Verdict::Refuted
+        Assessment::Refuted
     };
     let what = "deg to the nearest of the four equilibria; lagrange's value is that of E2";
     Finding::new(verdict, nearest, what).lagrange(truth[2])
@@ -75,9 +75,9 @@ fn energy(facts: &Facts, printed: &Printed) -> Finding {
     let truth = planar_equilibria(facts).map(|found| found.v_mgl);
     let nearest = smallest(truth.map(|v| v - printed.value()));
     let verdict = if truth.iter().any(|v| printed.rounds_to(*v)) {
-        Verdict::Confirmed
+        Assessment::Confirmed
     } else {
-        Verdict::Refuted
+        Assessment::Refuted
     };
     let what = "mgl to the nearest of the four equilibria; lagrange's value is that of E2";
     Finding::new(verdict, nearest, what).lagrange(truth[2])
@@ -94,7 +94,7 @@ fn slope_at_x(facts: &Facts) -> Finding {
     // The same slope vanishes where there is an equilibrium.
     let minimum = &facts.example.energy.minimum;
     let control = slope(minimum.theta_rad, Branch::FirstQuadrant).abs() <= FLAT;
-    let verdict = if found.abs() <= FLAT { Verdict::Confirmed } else { Verdict::Refuted };
+    let verdict = if found.abs() <= FLAT { Assessment::Confirmed } else { Assessment::Refuted };
     let what = Sentence::from([
         "mgl/rad (".into(),
         Number::decimals(at_zero, 4).into(),
@@ -111,7 +111,7 @@ fn multipliers(facts: &Facts) -> Finding {
     // The same misfit vanishes at an equilibrium.
     let e1 = planar_equilibria(facts)[0].angles_rad;
     let control = misfit(&facts.example.problem, facts.example.units, &e1).norm <= ANGLE_RAD;
-    let verdict = if found.norm <= FLAT { Verdict::Confirmed } else { Verdict::Refuted };
+    let verdict = if found.norm <= FLAT { Assessment::Confirmed } else { Assessment::Refuted };
     let what = Sentence::from([
         "mg: what the best multipliers leave of (40), norm; the largest component is ".into(),
         Number::decimals(found.largest, 4).into(),
@@ -137,7 +137,7 @@ fn listed(facts: &Facts) -> Finding {
         Number::decimals(proof.first.nearest_deg, 4).into(),
         " deg)".into(),
     ]);
-    let verdict = if x.is_refuted() { Verdict::Refuted } else { Verdict::Confirmed };
+    let verdict = if x.is_refuted() { Assessment::Refuted } else { Assessment::Confirmed };
     Finding::new(verdict.if_shown(shown), x.least_slope_mgl(), what)
 }
 
@@ -154,7 +154,7 @@ fn first_point(facts: &Facts, printed: &Printed) -> Finding {
         second.points.into(),
         "; before it V is lower".into(),
     ]);
-    Finding::new(Verdict::Explained.if_shown(shown && falls), second.point as f64, what)
+    Finding::new(Assessment::Explained.if_shown(shown && falls), second.point as f64, what)
         .energy(step_deg)
 }
 
@@ -175,7 +175,8 @@ fn second(facts: &Facts, printed: &Printed) -> Finding {
     let left = facts.example.by_energy_in_plane(&facts.example.energy.from_e2).v_mgl;
     let falls = e2.v_mgl - left;
     let lower = (left - facts.paper.reference("e1-energy")).abs() <= ENERGY_MGL;
-    let verdict = if printed.rounds_to(e2.v_mgl) { Verdict::Confirmed } else { Verdict::Corrected };
+    let verdict =
+        if printed.rounds_to(e2.v_mgl) { Assessment::Confirmed } else { Assessment::Corrected };
     let what = "mgl: what a minimiser loses that starts exactly at E2 (a maximum in the plane) and ends at E1";
     Finding::new(verdict.if_shown(found && maximum && lower), falls, what)
         .lagrange(e2.v_mgl)
@@ -185,7 +186,7 @@ fn second(facts: &Facts, printed: &Printed) -> Finding {
 /// The mirror image of (x) is no equilibrium either.
 fn symmetric(facts: &Facts) -> Finding {
     let found = misfit_at_x(facts, -1.0).norm;
-    let verdict = if found <= FLAT { Verdict::Confirmed } else { Verdict::Refuted };
+    let verdict = if found <= FLAT { Assessment::Confirmed } else { Assessment::Refuted };
     let what = "mg: what the best multipliers leave of (40) at the mirror image of (x)";
     Finding::new(verdict, found, what).lagrange(found)
 }
@@ -196,8 +197,11 @@ fn same(facts: &Facts) -> Finding {
     let distance =
         |found: &Planar| largest((0..3).map(|k| found.angles_rad[k] - x[k])).to_degrees();
     let nearest = smallest(planar_equilibria(facts).iter().map(distance));
-    let verdict =
-        if nearest.to_radians() < PAPER_STEP_RAD { Verdict::Confirmed } else { Verdict::Refuted };
+    let verdict = if nearest.to_radians() < PAPER_STEP_RAD {
+        Assessment::Confirmed
+    } else {
+        Assessment::Refuted
+    };
     let what = "deg: the largest angle between (x) and the nearest equilibrium of Solution 2";
     Finding::new(verdict, nearest, what).lagrange(nearest)
 }
@@ -210,9 +214,9 @@ fn identical(facts: &Facts) -> Finding {
     let second = misfit_at_x(facts, 1.0).norm;
     // (ix) is a scan step away from E1, and so is its misfit from zero.
     let verdict = match (first < PAPER_STEP_RAD, second < PAPER_STEP_RAD) {
-        (true, true) => Verdict::Confirmed,
-        (true, false) => Verdict::Refuted,
-        (false, _) => Verdict::Undecided,
+        (true, true) => Assessment::Confirmed,
+        (true, false) => Assessment::Refuted,
+        (false, _) => Assessment::Undecided,
     };
     let what = Sentence::from([
         "mg: what (x) leaves of the equations of the other method, (40); (ix) leaves ".into(),

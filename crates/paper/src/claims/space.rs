@@ -7,7 +7,7 @@ use validate::lever::centre_part;
 use validate::statics;
 
 use super::{ANGLE_RAD, Facts, Finding, largest};
-use crate::printed::{Printed, Verdict};
+use crate::printed::{Assessment, Printed};
 use crate::seeds::Kind;
 use crate::sentence::Sentence;
 
@@ -25,7 +25,7 @@ fn initial_conditions(facts: &Facts) -> Option<Finding> {
         |solver| facts.surveys.iter().find(|s| s.solver == solver && s.kind == Kind::Planar);
     let lagrange = survey(SolverName::LAGRANGE)?.distinct() as f64;
     let energy = survey(SolverName::ENERGY)?.distinct() as f64;
-    let verdict = if lagrange > 1.5 { Verdict::Confirmed } else { Verdict::Refuted };
+    let verdict = if lagrange > 1.5 { Assessment::Confirmed } else { Assessment::Refuted };
     let what = "different equilibria that the same random planar seeds lead to";
     Some(Finding::new(verdict, lagrange, what).lagrange(lagrange).energy(energy))
 }
@@ -57,7 +57,7 @@ fn turned(facts: &Facts) -> Finding {
         gradient = largest([gradient, second.map_or(f64::NAN, |s| largest([s.residual, s.gap]))]);
     }
     let most = largest([multipliers, gradient, newton]);
-    let verdict = if most <= ANGLE_RAD { Verdict::Confirmed } else { Verdict::Refuted };
+    let verdict = if most <= ANGLE_RAD { Assessment::Confirmed } else { Assessment::Refuted };
     let what = Sentence::from([
         "largest residual of E1 turned by ".into(),
         TURNS.len().into(),
@@ -100,7 +100,7 @@ fn infinity(facts: &Facts) -> Finding {
         " circles of equilibria and nothing else: the infinity is double in number, not in dimension".into(),
     ]);
     let shown = nullity && single && double;
-    Finding::new(Verdict::Explained.if_shown(shown), dimensions[0], what)
+    Finding::new(Assessment::Explained.if_shown(shown), dimensions[0], what)
         .lagrange(dimensions[0])
         .energy(energy[0] as f64)
 }

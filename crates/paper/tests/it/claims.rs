@@ -3,7 +3,7 @@
 
 use std::sync::OnceLock;
 
-use paper::claims::{Claim, Verdict, claims};
+use paper::claims::{Assessment, Claim, claims};
 use paper::example::Example;
 use paper::printed::Paper;
 use paper::seeds::{Survey, surveys};
@@ -23,7 +23,7 @@ fn find(claims: &[Claim], id: &str) -> Claim {
 }
 
 /// The verdict on a claim if something else were printed.
-fn if_printed(id: &str, text: &str) -> Verdict {
+fn if_printed(id: &str, text: &str) -> Assessment {
     let mut paper = Paper::project();
     let printed = paper.claims.iter_mut().find(|claim| claim.id == id).unwrap();
     text.clone_into(&mut printed.printed);
@@ -35,31 +35,31 @@ fn if_printed(id: &str, text: &str) -> Verdict {
 fn the_verdict_follows_what_is_printed() {
     for (id, text, verdict) in [
         // The truth would be confirmed.
-        ("ix-theta", "19.69487", Verdict::Confirmed),
-        ("ix-alpha", "38.59914", Verdict::Confirmed),
-        ("ix-beta", "286.07941", Verdict::Confirmed),
-        ("x-theta", "73.92059", Verdict::Confirmed),
-        ("x-alpha", "321.40086", Verdict::Confirmed),
-        ("x-energy", "3.66453", Verdict::Confirmed),
-        ("second", "3.66453", Verdict::Confirmed),
-        ("abstract-18", "30", Verdict::Confirmed),
-        ("reference-45", "33", Verdict::Confirmed),
+        ("ix-theta", "19.69487", Assessment::Confirmed),
+        ("ix-alpha", "38.59914", Assessment::Confirmed),
+        ("ix-beta", "286.07941", Assessment::Confirmed),
+        ("x-theta", "73.92059", Assessment::Confirmed),
+        ("x-alpha", "321.40086", Assessment::Confirmed),
+        ("x-energy", "3.66453", Assessment::Confirmed),
+        ("second", "3.66453", Assessment::Confirmed),
+        ("abstract-18", "30", Assessment::Confirmed),
+        ("reference-45", "33", Assessment::Confirmed),
         // Another grid point, a wrong last digit, a wrong count would not.
-        ("ix-theta", "19.76704", Verdict::Refuted),
-        ("ix-theta", "19.70976", Verdict::Refuted),
-        ("ix-energy", "2.33548", Verdict::Refuted),
-        ("x-theta", "73.92100", Verdict::Explained),
-        ("parameters", "17", Verdict::Corrected),
-        ("freedom", "3", Verdict::Corrected),
-        ("useless", "2", Verdict::Corrected),
-        ("unknowns-40", "30", Verdict::Corrected),
-        ("system-30", "18", Verdict::Corrected),
-        ("four", "2", Verdict::Corrected),
-        ("x-first-point", "0.11459", Verdict::Undecided),
+        ("ix-theta", "19.76704", Assessment::Refuted),
+        ("ix-theta", "19.70976", Assessment::Refuted),
+        ("ix-energy", "2.33548", Assessment::Refuted),
+        ("x-theta", "73.92100", Assessment::Explained),
+        ("parameters", "17", Assessment::Corrected),
+        ("freedom", "3", Assessment::Corrected),
+        ("useless", "2", Assessment::Corrected),
+        ("unknowns-40", "30", Assessment::Corrected),
+        ("system-30", "18", Assessment::Corrected),
+        ("four", "2", Assessment::Corrected),
+        ("x-first-point", "0.11459", Assessment::Undecided),
         // What is no number supports no verdict.
-        ("ix-theta", "nineteen", Verdict::Undecided),
-        ("x-theta", "NaN", Verdict::Undecided),
-        ("abstract-18", "eighteen", Verdict::Undecided),
+        ("ix-theta", "nineteen", Assessment::Undecided),
+        ("x-theta", "NaN", Assessment::Undecided),
+        ("abstract-18", "eighteen", Assessment::Undecided),
     ] {
         assert_eq!(if_printed(id, text), verdict, "{id} printed as {text}");
     }
@@ -147,5 +147,5 @@ fn every_claim_has_a_judge() {
     }
     let mut paper = Paper::project();
     paper.claims[0].id = "a claim that nobody knows".to_owned();
-    assert_eq!(claims(&paper, example, surveys)[0].verdict, Verdict::Undecided);
+    assert_eq!(claims(&paper, example, surveys)[0].verdict, Assessment::Undecided);
 }

@@ -3,7 +3,7 @@
 use std::sync::OnceLock;
 
 use model::{InPlane, InSpace, SolverName};
-use paper::claims::{Claim, Verdict};
+use paper::claims::{Assessment, Claim};
 use paper::equations;
 use paper::printed::Paper;
 use paper::reproduction::{Reproduction, reproduce_with};
@@ -71,7 +71,7 @@ fn both_solvers_give_e1_of_the_reference() {
         }
         // The printed grid point is less than a step of the scan away.
         assert!(apart_deg(found.printed.value(), lagrange) < 0.001, "{id}");
-        assert_eq!(found.verdict, Verdict::Explained);
+        assert_eq!(found.verdict, Assessment::Explained);
     }
     let v = claim("ix-energy");
     for value in [v.lagrange.unwrap(), v.energy.unwrap()] {
@@ -119,14 +119,14 @@ fn the_scan_of_the_paper_returns_its_eight_numbers() {
 #[test]
 fn the_position_x_is_refuted_twice_and_explained() {
     let slope = claim("x-slope");
-    assert_eq!(slope.verdict, Verdict::Refuted);
+    assert_eq!(slope.verdict, Assessment::Refuted);
     assert!((slope.energy.unwrap() - 0.866).abs() < 2e-3, "at theta = 0.001; 0.866 at 0");
     let misfit = claim("x-multipliers");
-    assert_eq!(misfit.verdict, Verdict::Refuted);
+    assert_eq!(misfit.verdict, Assessment::Refuted);
     assert!((misfit.lagrange.unwrap() - 0.5229).abs() < 5e-5);
     let largest = misfit.number_is.numbers().next().unwrap().value;
     assert!((largest - 0.2366).abs() < 5e-5, "{largest}");
-    assert_eq!(claim("x-first-point").verdict, Verdict::Explained);
+    assert_eq!(claim("x-first-point").verdict, Assessment::Explained);
 }
 
 #[test]
@@ -205,7 +205,7 @@ fn every_equation_that_is_printed_wrong_is_shown_to_be() {
 #[test]
 fn squaring_added_two_solutions_to_viii() {
     let solutions = claim("solutions");
-    assert_eq!(solutions.verdict, Verdict::Corrected);
+    assert_eq!(solutions.verdict, Assessment::Corrected);
     let found: Vec<f64> = solutions.number_is.numbers().map(|number| number.value).collect();
     let [theta, closing @ .., a, b] = &found[..] else { panic!("{found:?}") };
     assert!((theta - 0.344).abs() < 1e-12 && closing.len() == 2, "{found:?}");
@@ -219,7 +219,7 @@ fn squaring_added_two_solutions_to_viii() {
 #[test]
 fn the_vertical_is_z() {
     let vertical = claim("vertical");
-    assert_eq!(vertical.verdict, Verdict::Corrected);
+    assert_eq!(vertical.verdict, Assessment::Corrected);
     assert!((vertical.number.unwrap() - 90.0).abs() < 1e-12);
 }
 

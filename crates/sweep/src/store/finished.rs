@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use serde::{Deserialize, Serialize};
 
+use crate::record::Failure;
 use crate::store::description::SCHEMA_VERSION;
 use crate::store::manifest::Manifest;
 use crate::summary::Summary;
@@ -46,5 +47,19 @@ impl StoreSummary {
             })
             .collect();
         Self { schema_version: SCHEMA_VERSION, outcomes, parts }
+    }
+
+    /// Whether a check failed: a start converged to what is in no complete list, or the solvers
+    /// contradict each other. Failures to converge are results, and so is what a list that is not
+    /// complete lacks.
+    #[must_use]
+    pub fn check_failed(&self, manifest: &Manifest) -> bool {
+        let wrong = self.outcomes.comparisons().any(|(comparison, count)| {
+            count > 0 && comparison.should_not_be() && !manifest.explains(comparison)
+        });
+        let unlisted = Failure::Unlisted as i16;
+        let tally = self.outcomes.tally();
+        let mut outcomes = tally.solvers.iter().flat_map(|(_, solver)| solver.0.keys());
+        wrong || (manifest.equilibria_complete && outcomes.any(|outcome| *outcome == unlisted))
     }
 }

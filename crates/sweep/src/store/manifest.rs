@@ -12,7 +12,7 @@ use crate::store::description::{MANIFEST, read_json};
 use crate::store::shard::{Shard, part_seeds};
 
 use crate::store::error::StoreError;
-use crate::summary::Summary;
+use crate::summary::{Comparison, Summary};
 
 /// Everything that the rows of a sweep depend on, and which of them are here: `manifest.json`.
 ///
@@ -92,7 +92,24 @@ pub(crate) fn hexadecimal(bytes: &[u8]) -> String {
     bytes.iter().flat_map(|byte| [digit(byte >> 4), digit(byte & 15)]).collect()
 }
 
+/// Bytes of a row of one solver, as the named cases have them: the fewest and the most.
+const ROW_BYTES: [u64; 2] = [6, 20];
+
 impl Manifest {
+    /// Whether a comparison says something of the list of equilibria rather than of the solvers: an
+    /// equilibrium that a list lacks which is not complete.
+    #[must_use]
+    pub fn explains(&self, comparison: Comparison) -> bool {
+        comparison == Comparison::NotListed && !self.equilibria_complete
+    }
+
+    /// Bytes of all files of this shard, the fewest and the most to be expected.
+    #[must_use]
+    pub fn expected_bytes(&self) -> [u64; 2] {
+        let rows = (self.range.end - self.range.start) * self.solvers.len() as u64;
+        ROW_BYTES.map(|bytes| rows.saturating_mul(bytes))
+    }
+
     /// Read the manifest of a folder.
     ///
     /// # Errors

@@ -2,6 +2,7 @@
 
 use model::system::{System, SystemEquilibrium};
 use model::{NoAnswer, Reason, SolverName, Status};
+use serde::Serialize;
 
 use super::compare::{SystemAgreement, compare, judge_alone};
 use crate::answer::Solvers;
@@ -19,7 +20,8 @@ pub struct SystemAnswer {
 }
 
 /// Why a solver has no answer for a system.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, Serialize, thiserror::Error)]
+#[serde(untagged)]
 #[non_exhaustive]
 pub enum SystemFailure {
     /// Occurs when `lagrange` has no answer.

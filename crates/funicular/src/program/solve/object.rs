@@ -34,12 +34,15 @@ pub struct Unanswered {
     column: Option<usize>,
     #[serde(skip_serializing_if = "Option::is_none")]
     help: Option<String>,
+    /// What each solver said, where all that were asked gave up.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    failures: Vec<funicular::Failure>,
 }
 
 impl Unanswered {
     /// What is no answer of the library.
     pub fn because(error: &impl ToString) -> Self {
-        Self { error: error.to_string(), key: None, column: None, help: None }
+        Self { error: error.to_string(), key: None, column: None, help: None, failures: vec![] }
     }
 
     /// What stopped the answer.
@@ -50,12 +53,24 @@ impl Unanswered {
 
     /// What the library says of a line, with its place taken apart.
     pub fn of(error: &Error) -> Self {
-        let Error::File(error) = error else { return Self::because(error) };
-        Self {
-            error: error.kind().to_string(),
-            key: error.key().map(str::to_owned),
-            column: error.position().map(|place| place.column),
-            help: error.help(),
+        let because = Self::because(error);
+        match error {
+            Error::File(error) => Self {
+                error: error.kind().to_string(),
+                key: error.key().map(str::to_owned),
+                column: error.position().map(|place| place.column),
+                help: error.help(),
+                ..because
+            },
+            Error::Unsolved(answer) => {
+                let failures = answer.failures().iter().map(funicular::Failure::of).collect();
+                Self { failures, ..because }
+            }
+            Error::UnsolvedSystem(answer) => {
+                let failures = answer.failures().iter().map(funicular::Failure::of_system);
+                Self { failures: failures.collect(), ..because }
+            }
+            _ => because,
         }
     }
 

@@ -5,7 +5,6 @@ use std::fmt::Write as _;
 use ::sweep::{Comparison, Failure, Manifest, SolverTally, StoreSummary, rate_interval};
 use serde_json::{Value, json};
 
-use super::is_gap;
 use crate::printable::Printable;
 use crate::tables::{numbers_from, short, table, word};
 
@@ -119,7 +118,7 @@ fn comparisons(manifest: &Manifest, summary: &StoreSummary) -> String {
             count.to_string(),
             short(percent(count, all)),
             match comparison {
-                gap if is_gap(manifest, gap) => "unknown: the list has gaps",
+                gap if manifest.explains(gap) => "unknown: the list has gaps",
                 wrong if wrong.should_not_be() => "NO",
                 _ => "yes",
             }
@@ -130,7 +129,7 @@ fn comparisons(manifest: &Manifest, summary: &StoreSummary) -> String {
     let mut text = format!("{table}\n\n");
     // A seed for which the list has no entry is no contradiction.
     let listed = summary.outcomes.disagreements().iter();
-    let listed: Vec<_> = listed.filter(|seed| !is_gap(manifest, seed.comparison)).collect();
+    let listed: Vec<_> = listed.filter(|seed| !manifest.explains(seed.comparison)).collect();
     let solvers: Vec<&str> = summary.outcomes.tally().names().collect();
     for disagreement in listed.iter().take(NAMED) {
         let said = solvers.iter().zip(disagreement.outcomes);

@@ -1,7 +1,7 @@
 //! How many seeds a second are computed and written: the paper's chain, to a temporary folder.
 //!
 //! ```text
-//! cargo run --release -p funicular --example store_speed [SEEDS [lagrange|energy|both [parquet|csv]]]
+//! cargo run --release -p benches --example store_speed [SEEDS [lagrange|energy|both [parquet|csv]]]
 //! ```
 
 use std::error::Error;

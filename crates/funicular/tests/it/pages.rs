@@ -1,0 +1,112 @@
+//! README and CONTRIBUTING against the files that they name.
+
+#![expect(clippy::unwrap_used, reason = "helpers of tests")]
+
+use std::path::{Path, PathBuf};
+
+/// The folder of the workspace.
+fn top() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
+}
+
+/// The pages, with their texts. (The licences, the changelog and the citation name no files.)
+fn pages() -> [(&'static str, String); 2] {
+    ["README.md", "CONTRIBUTING.md"]
+        .map(|page| (page, std::fs::read_to_string(top().join(page)).unwrap()))
+}
+
+/// What stands between single backticks, and between the fences of blocks line by line.
+fn code(page: &str) -> Vec<String> {
+    let mut found = vec![];
+    let mut fenced = false;
+    let mut prose = String::new();
+    for line in page.lines() {
+        if line.starts_with("```") {
+            fenced = !fenced;
+        } else if fenced {
+            found.push(line.to_owned());
+        } else {
+            prose.push_str(line);
+            prose.push(' ');
+        }
+    }
+    found.extend(prose.split('`').skip(1).step_by(2).map(str::to_owned));
+    found
+}
+
+/// Whether a word is meant as a path from the top of the workspace.
+fn is_path(word: &str) -> bool {
+    let tops = ["crates/", "validation/", "benches/", "notebooks/", ".ci/"];
+    tops.iter().any(|top| word.starts_with(top))
+}
+
+#[test]
+fn every_path_exists() {
+    for (page, text) in pages() {
+        let mut paths = 0;
+        let code = code(&text);
+        let words = code.iter().flat_map(|code| code.split([' ', ',', ';', '"', '\'']));
+        let links = text.split("](").skip(1).filter_map(|rest| rest.split(')').next());
+        let links = links.filter(|link| !link.contains("://") && !link.starts_with('#'));
+        for path in words.filter(|word| is_path(word)).chain(links) {
+            assert!(top().join(path).exists(), "{page} names {path}, which does not exist");
+            paths += 1;
+        }
+        assert!(paths > 5, "{page}: {paths} paths");
+    }
+}
+
+/// The word behind an option of a command.
+fn after<'a>(words: &[&'a str], option: &str) -> Option<&'a str> {
+    let at = words.iter().position(|word| *word == option)?;
+    words.get(at + 1).copied()
+}
+
+#[test]
+fn every_command_names_packages_tests_and_examples_that_exist() {
+    let mut commands = 0;
+    for (page, text) in pages() {
+        for code in code(&text).iter().filter(|code| code.contains("cargo ")) {
+            let words: Vec<&str> = code.split_whitespace().collect();
+            let package = after(&words, "-p");
+            let folder = match package {
+                Some("benches") => top().join("benches"),
+                Some(name) => top().join("crates").join(name),
+                None => continue,
+            };
+            assert!(folder.is_dir(), "{page}: {code}");
+            let manifest = std::fs::read_to_string(folder.join("Cargo.toml")).unwrap();
+            if let Some(example) = after(&words, "--example") {
+                let file = folder.join("examples").join(example).with_extension("rs");
+                let named = manifest.contains(&format!("[[example]]\nname = \"{example}\""));
+                assert!(file.is_file() || named, "{page}: {code}");
+            }
+            if let Some(bench) = after(&words, "--bench") {
+                let named = manifest.contains(&format!("[[bench]]\nname = \"{bench}\""));
+                assert!(named, "{page}: {code}");
+            }
+            if let Some(program) = after(&words, "--test") {
+                assert_eq!(program, "it", "{page}: {code}");
+                let filter = after(&words, "it").and_then(|filter| filter.strip_suffix("::"));
+                let file = folder.join("tests/it").join(filter.unwrap()).with_extension("rs");
+                assert!(file.is_file(), "{page}: {code}");
+            }
+            commands += 1;
+        }
+    }
+    assert!(commands > 10, "{commands} commands");
+}
+
+/// One program of tests for each crate.
+#[test]
+fn every_crate_has_one_program_of_tests() {
+    for entry in std::fs::read_dir(top().join("crates")).unwrap() {
+        let tests = entry.unwrap().path().join("tests");
+        let Ok(entries) = std::fs::read_dir(&tests) else { continue };
+        for entry in entries {
+            let path = entry.unwrap().path();
+            assert!(path.extension().is_none_or(|e| e != "rs"), "{}", path.display());
+        }
+        assert!(tests.join("it/main.rs").is_file(), "{}", tests.display());
+    }
+}
