@@ -1,7 +1,7 @@
 //! How many seeds a second are computed and written: the paper's chain, to a temporary folder.
 //!
 //! ```text
-//! cargo run --release -p benches --example store_speed [SEEDS [lagrange|energy|both [parquet|csv]]]
+//! cargo bench -p funicular --bench store_speed -- [SEEDS [lagrange|energy|both [parquet|csv]]]
 //! ```
 
 use std::error::Error;
@@ -14,7 +14,8 @@ use sweep::{Manifest, RunSettings, SCHEMA_VERSION, Settings, Shard, Sweep, Syste
 const RUNS: usize = 3;
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let mut arguments = std::env::args().skip(1);
+    // Cargo adds an option of its own.
+    let mut arguments = std::env::args().skip(1).filter(|argument| argument != "--bench");
     let seeds: u64 = arguments.next().as_deref().unwrap_or("4000000").parse()?;
     let solver = arguments.next().unwrap_or_else(|| "lagrange".to_owned());
     let format = arguments.next().unwrap_or_else(|| "parquet".to_owned());

@@ -1,7 +1,7 @@
 //! Seeds per second of both solvers on the paper's chain, in memory, identified and counted, on one
 //! thread and on two.
 //!
-//! `cargo run --release -p benches --example throughput`
+//! `cargo bench -p funicular --bench throughput`
 //!
 //! The best of several runs, and the middle one: one thread, two threads, and two runs of one
 //! thread each that know nothing of each other, in turn, so that other work on the machine falls on
