@@ -2,9 +2,8 @@
 //! parser's keys.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-use model::system_file::columns::parse_bars;
 use model::system_file::{FORMAT, SystemFileError, SystemFileErrorKind as Kind, parse, read};
 use toml::{Table, Value};
 
@@ -21,6 +20,11 @@ impl Block {
     /// What its first lines say about itself: `# refused: ...`, `# help: ...`.
     fn says(&self, word: &str) -> Option<&str> {
         self.text.lines().find_map(|line| line.strip_prefix(&format!("# {word}: ")))
+    }
+
+    /// Whether it is a system whose bars or joints stand in other files.
+    fn names_files(&self) -> bool {
+        self.text.contains("_file = ")
     }
 }
 
@@ -58,24 +62,72 @@ fn systems() -> Vec<Table> {
         .collect()
 }
 
+/// A system of the page whose bars or joints stand in files, in a folder of its own.
+struct Folder {
+    path: PathBuf,
+    of_system: bool,
+    files: Vec<String>,
+}
+
+/// All of these, with what their files hold.
+fn folders(test: &str) -> Vec<Folder> {
+    let mut found: Vec<Folder> = vec![];
+    for block in blocks() {
+        if block.names_files() {
+            let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join("format").join(test);
+            let path = path.join(found.len().to_string());
+            std::fs::create_dir_all(&path).unwrap();
+            std::fs::write(path.join("system.toml"), &block.text).unwrap();
+            let of_system = !block.text.contains("anchors");
+            found.push(Folder { path, of_system, files: vec![] });
+        } else if let Some(name) = block.language.strip_prefix("csv ") {
+            let folder = found.last_mut().unwrap();
+            std::fs::write(folder.path.join(name), &block.text).unwrap();
+            folder.files.push(name.to_owned());
+        }
+    }
+    assert!(found.iter().map(|folder| folder.files.len()).sum::<usize>() >= 3);
+    found
+}
+
+impl Folder {
+    fn read(&self) -> Result<(), SystemFileError> {
+        read(self.path.join("system.toml")).map(drop)
+    }
+
+    /// How the page calls the columns of a file.
+    fn prefix(&self, file: &str) -> String {
+        let key = format!("{}_file", file.strip_suffix(".csv").unwrap());
+        let of_system = self.of_system && key == "bars_file";
+        if of_system { format!("{key} of a system: ") } else { format!("{key}: ") }
+    }
+
+    /// The columns that the parser allows in a file, as the page calls them.
+    fn columns(&self, file: &str) -> Vec<String> {
+        let path = self.path.join(file);
+        let text = std::fs::read_to_string(&path).unwrap();
+        let wider: Vec<String> = text
+            .lines()
+            .enumerate()
+            .map(|(k, line)| format!("{line},{}", if k == 0 { UNKNOWN } else { "1" }))
+            .collect();
+        std::fs::write(&path, wider.join("\n")).unwrap();
+        let error = self.read().unwrap_err();
+        std::fs::write(&path, text).unwrap();
+        let Kind::UnknownKey { key, allowed, .. } = error.kind() else { panic!("{error}") };
+        assert_eq!(key, UNKNOWN);
+        allowed.iter().map(|column| self.prefix(file) + column).collect()
+    }
+}
+
 #[test]
 fn every_block_says_what_the_parser_says() {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("format");
-    std::fs::create_dir_all(&folder).unwrap();
     let (mut accepted, mut refused) = (0, 0);
-    for block in blocks() {
-        if block.language == "csv" {
-            // Columns for the system file before it.
-            std::fs::write(folder.join("bars.csv"), &block.text).unwrap();
-            read(folder.join("system.toml")).unwrap();
-            assert_eq!(parse_bars(&block.text, "bars.csv").unwrap().len(), 2);
+    for block in blocks().iter().filter(|block| !block.names_files()) {
+        if block.language.starts_with("csv ") {
             continue;
         }
         assert!(["toml", "json"].contains(&block.language.as_str()), "{}", block.language);
-        if block.text.contains("bars_file =") {
-            std::fs::write(folder.join("system.toml"), &block.text).unwrap();
-            continue;
-        }
         match (parse(&block.text, "page"), block.says("refused")) {
             (Ok(_), None) => accepted += 1,
             (Err(error), Some(words)) => {
@@ -90,6 +142,9 @@ fn every_block_says_what_the_parser_says() {
         }
     }
     assert!(accepted >= 4 && refused >= 15, "{accepted} accepted, {refused} refused");
+    for folder in folders("read") {
+        folder.read().unwrap();
+    }
 }
 
 /// What the parser allows where an unknown key stands: the path of the table, and its keys.
@@ -145,9 +200,9 @@ fn known() -> BTreeSet<String> {
             None => assert_eq!(error.key(), Some(format!("joints.{UNKNOWN}").as_str()), "{error}"),
         }
     }
-    let error = parse_bars(&format!("{UNKNOWN}\n1\n"), "bars.csv").unwrap_err();
-    let (_, columns) = allowed(&error).unwrap();
-    known.extend(columns.iter().map(|column| format!("bars_file: {column}")));
+    for folder in folders("known") {
+        known.extend(folder.files.iter().flat_map(|file| folder.columns(file)));
+    }
     known
 }
 
@@ -187,9 +242,13 @@ fn every_key_stands_in_an_example() {
     for system in systems() {
         keys("", &Value::Table(system), &mut found);
     }
-    let columns = blocks().into_iter().find(|block| block.language == "csv").unwrap();
-    let header = columns.text.lines().next().unwrap().to_owned();
-    found.extend(header.split(',').map(|column| format!("bars_file: {column}")));
+    for folder in folders("examples") {
+        for file in &folder.files {
+            let text = std::fs::read_to_string(folder.path.join(file)).unwrap();
+            let columns = text.lines().next().unwrap().split(',');
+            found.extend(columns.map(|column| folder.prefix(file) + column));
+        }
+    }
     for key in described().into_keys() {
         assert!(found.contains(&key), "no example has {key}");
     }
