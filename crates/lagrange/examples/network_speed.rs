@@ -3,8 +3,9 @@
 //! `cargo run --release -p lagrange --example network_speed -- net 32 100` takes square nets hung
 //! from their four corners, by their joints a side; `cables` the same of cables; `bridle 1000`
 //! takes three chains of so many bars that meet in a joint; `tree 1000` a dangling tree of so many
-//! bars. Each prints a line: members, time, factorisations, residual, members in compression, slack
-//! ones; for a bridle and a tree also the times of one chain of as many bars, by `lagrange::solve`
+//! bars; `crumpled` nets of cables with all their edges held, the cables between as long as
+//! their places are apart up to 1.5 times that. Each prints a line: members, time, factorisations, residual, members in compression, slack
+//! ones; for a bridle also the times of one chain of as many bars, by `lagrange::solve`
 //! (the paper's 6n coordinates) and by `lagrange::condensed`.
 
 use std::error::Error;
@@ -20,7 +21,7 @@ const SPAN: f64 = 0.8;
 fn main() -> Result<(), Box<dyn Error>> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let Some((shape, sizes)) = arguments.split_first() else {
-        return Err("say `net`, `cables`, `bridle` or `tree`, and sizes".into());
+        return Err("say `net`, `cables`, `crumpled`, `bridle` or `tree`, and sizes".into());
     };
     println!(
         "{:>8} {:>10} {:>15} {:>10} {:>9} {:>9}",
@@ -29,15 +30,27 @@ fn main() -> Result<(), Box<dyn Error>> {
     for size in sizes {
         let size = size.parse()?;
         let system = match shape.as_str() {
-            "net" => net(size, Kind::Bar)?,
-            "cables" => net(size, Kind::Cable)?,
+            "net" => net(size, Kind::Bar, SPAN)?,
+            "cables" => net(size, Kind::Cable, SPAN)?,
+            "crumpled" => crumpled(size)?,
             "bridle" => bridle(size)?,
             "tree" => tree(size)?,
-            other => return Err(format!("`{other}` is none of net, cables, bridle, tree").into()),
+            other => {
+                return Err(
+                    format!("`{other}` is none of net, cables, crumpled, bridle, tree").into()
+                );
+            }
         };
         let began = Instant::now();
-        let solution = solve(&system, &Settings::default())?;
+        let solution = solve(&system, &Settings::default());
         let seconds = began.elapsed().as_secs_f64();
+        let solution = match solution {
+            Ok(solution) => solution,
+            Err(error) => {
+                println!("{:>8} {seconds:>10.3} {error}", system.members().len());
+                continue;
+            }
+        };
         let pushed = solution.equilibrium.axial_n.iter().filter(|axial| **axial < 0.0).count();
         println!(
             "{:>8} {seconds:>10.3} {:>15} {:>10.1e} {pushed:>9} {:>9}",
@@ -46,7 +59,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             solution.residual,
             solution.slack.len(),
         );
-        if shape == "bridle" || shape == "tree" {
+        if shape == "bridle" {
             chain_times(system.members().len())?;
         }
     }
@@ -107,9 +120,36 @@ fn bridle(n: usize) -> Result<System, Box<dyn Error>> {
     Ok(System::new("bridle", 9.806_65, joints, members)?)
 }
 
+/// A net of `n` by `n` joints with all joints of the edges held 1 m apart, and cables of 1 m to
+/// 1.5 m between them, spread without pattern (golden ratio).
+fn crumpled(n: usize) -> Result<System, Box<dyn Error>> {
+    let (mut joints, mut members) = (Vec::new(), Vec::new());
+    let mut cable = |from, to| -> Result<(), Box<dyn Error>> {
+        let spread = (members.len() as f64 * 0.618_033_988_749_894_9).fract();
+        let body = Bar::homogeneous(1.0 + 0.5 * spread, 1.0)?;
+        members.push(Member { kind: Kind::Cable, ..Member::bar(from, to, body) });
+        Ok(())
+    };
+    for i in 0..n {
+        for j in 0..n {
+            let edge = [i, j].into_iter().any(|k| k == 0 || k + 1 == n);
+            let name = format!("{i} {j}");
+            let at_m = [i as f64, j as f64, 0.0];
+            joints.push(if edge { Joint::anchor(name, at_m) } else { Joint::free(name) });
+            if i > 0 {
+                cable((i - 1) * n + j, i * n + j)?;
+            }
+            if j > 0 {
+                cable(i * n + j - 1, i * n + j)?;
+            }
+        }
+    }
+    Ok(System::new("crumpled", 9.806_65, joints, members)?)
+}
+
 /// A net of `n` by `n` joints, members of 1 m and 1 kg between neighbours.
-fn net(n: usize, kind: Kind) -> Result<System, Box<dyn Error>> {
-    let side = SPAN * (n - 1) as f64;
+fn net(n: usize, kind: Kind, span: f64) -> Result<System, Box<dyn Error>> {
+    let side = span * (n - 1) as f64;
     let bar = Bar::homogeneous(1.0, 1.0)?;
     let (mut joints, mut members) = (Vec::new(), Vec::new());
     let edge = |i: usize| i == 0 || i + 1 == n;

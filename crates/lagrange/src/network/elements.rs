@@ -26,8 +26,10 @@ use model::system::Kind;
 /// The compliance along a member that the matrix has beside its own, in units of that across: each
 /// step gains some five digits where it is all there is.
 const ALONG: f64 = 1e-5;
-/// A force below this part of the largest one in the system has no direction to rely on.
+/// A force below this part of the largest one in its run has no direction to rely on, nor one below
+/// the other part of the largest in the system.
 const CLEAR: f64 = 1e-6;
+const SOME_FORCE: f64 = 1e-9;
 /// A step is halved while the slope at its end rises steeper than this part of the first slope.
 const SLOPE: f64 = 0.5;
 /// Newton steps at most, and halvings of one.
@@ -37,6 +39,9 @@ const HALVINGS: usize = 30;
 /// does not fall to this part of itself any more.
 const CLOSED: f64 = 1e-12;
 const FALL: f64 = 0.25;
+/// Members of a run are summed by so many: rounding then grows with the square root of their number
+/// only.
+const CHUNK: usize = 512;
 /// It pays when this part of the members is left, or less.
 const WORTH: f64 = 0.5;
 
@@ -78,22 +83,54 @@ struct Law {
 
 impl Law {
     fn new(steps: &[Step], pull: &Vector3<f64>) -> Self {
-        let (mut span, mut across) = (Vector3::zeros(), 0.0);
-        let mut square = Matrix3::zeros();
-        let (mut least, mut most) = (f64::INFINITY, 0.0_f64);
+        let sums = steps.chunks(CHUNK).map(|chunk| Sums::of(chunk, pull));
+        let sums = sums.reduce(|sum, more| sum.plus(&more)).unwrap_or_default();
+        let compliance = Matrix3::identity() * sums.across - sums.square * (1.0 - ALONG);
+        let (least, most) = (sums.least, sums.most);
+        Self { span: sums.span, stiffness: inverse(&compliance), least, most }
+    }
+}
+
+/// Sums over members of a run.
+struct Sums {
+    span: Vector3<f64>,
+    /// Of $l/|F| + c$.
+    across: f64,
+    /// Of $l/|F|\,u u^T$.
+    square: Matrix3<f64>,
+    least: f64,
+    most: f64,
+}
+
+impl Default for Sums {
+    fn default() -> Self {
+        let (span, square) = (Vector3::zeros(), Matrix3::zeros());
+        Self { span, across: 0.0, square, least: f64::INFINITY, most: 0.0 }
+    }
+}
+
+impl Sums {
+    fn of(steps: &[Step], pull: &Vector3<f64>) -> Self {
+        let mut sums = Self::default();
         for step in steps {
             let force = pull + step.offset;
             let squared = force.norm_squared();
             let inverse = squared.sqrt().recip();
             let turn = step.length * inverse;
-            span += force * (turn + step.compliance);
-            across += turn + step.compliance;
-            let part = turn * inverse * inverse;
-            square += force * (force * part).transpose();
-            (least, most) = (least.min(squared), most.max(squared));
+            sums.span += force * (turn + step.compliance);
+            sums.across += turn + step.compliance;
+            sums.square += force * (force * (turn * inverse * inverse)).transpose();
+            (sums.least, sums.most) = (sums.least.min(squared), sums.most.max(squared));
         }
-        let compliance = Matrix3::identity() * across - square * (1.0 - ALONG);
-        Self { span, stiffness: inverse(&compliance), least, most }
+        sums
+    }
+
+    fn plus(mut self, other: &Self) -> Self {
+        self.span += other.span;
+        self.across += other.across;
+        self.square += other.square;
+        (self.least, self.most) = (self.least.min(other.least), self.most.max(other.most));
+        self
     }
 }
 
@@ -188,19 +225,14 @@ impl<'a> Shape<'a> {
         spans.chain(balance).fold(0.0, |most, e| if e > most || e.is_nan() { e } else { most })
     }
 
-    /// Whether every force is far from none.
+    /// Whether every force of the runs is far from none. Those of trees follow from loads alone.
     fn clear(&self) -> bool {
         let twigs = self.runs.twigs.iter().map(|twig| twig.force.norm_squared());
-        let (least, most) = self
-            .laws
-            .iter()
-            .map(|law| (law.least, law.most))
-            .fold((f64::INFINITY, 0.0_f64), |(least, most), (low, high)| {
-                (least.min(low), most.max(high))
-            });
-        let (least, most) =
-            twigs.fold((least, most), |(least, most), f| (least.min(f), most.max(f)));
-        least > CLEAR * CLEAR * most
+        let most = self.laws.iter().map(|law| law.most).chain(twigs).fold(0.0, f64::max);
+        let clear = |law: &Law| {
+            law.least > CLEAR * CLEAR * law.most && law.least > SOME_FORCE * SOME_FORCE * most
+        };
+        self.laws.iter().all(clear)
     }
 
     /// Places of all joints and axial forces of all members.
@@ -224,13 +256,19 @@ impl<'a> Shape<'a> {
             let left = (to.place - end.place) + (to.rest - end.rest);
             let length: f64 = steps.iter().map(|step| step.length).sum();
             let mut at = Place::of(&state, self.runs.kept[element.from]);
+            let mut arc = 0.0;
             for (k, step) in steps.iter().enumerate() {
                 let force = pull + step.offset;
                 state.axial[step.member] = force.norm();
                 state.taut[step.member] = true;
+                at.go(&span(step, &force));
+                arc += step.length;
                 if k + 1 < steps.len() {
-                    at.go(&(span(step, &force) + left * (step.length / length)));
-                    (state.places[step.joint], state.rests[step.joint]) = (at.place, at.rest);
+                    // The share of one member alone would be lost to rounding.
+                    let mut shifted = Place { ..at };
+                    shifted.go(&(left * (arc / length)));
+                    state.places[step.joint] = shifted.place;
+                    state.rests[step.joint] = shifted.rest;
                 }
             }
         }

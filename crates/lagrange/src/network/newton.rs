@@ -67,7 +67,12 @@ pub(super) fn polish(
     while run.steps < settings.max_iterations {
         let done = run.residual.size() <= settings.tolerance;
         let Residual { forces, lengths, .. } = &run.residual;
-        let derivative = Derivative::new(framework, stiffness, &run.state, &run.residual);
+        // What is left of rounding goes with the factor of the last step.
+        let derivative = if done && run.steps > 0 {
+            Some(Derivative::unfactored(framework, &run.state, &run.residual))
+        } else {
+            Derivative::new(framework, stiffness, &run.state, &run.residual)
+        };
         let step =
             derivative.and_then(|d| d.solve(framework, stiffness, (forces, lengths), REFINED));
         let Some((step, _)) = step else { break };
@@ -129,11 +134,16 @@ impl Derivative {
         state: &State,
         residual: &Residual,
     ) -> Option<Self> {
-        let rows = rows(framework, state, &residual.directions);
-        let blocks = rows.iter().map(|row| by_direction(&row.u, row.across, row.along));
+        let new = Self::unfactored(framework, state, residual);
+        let blocks = new.rows.iter().map(|row| by_direction(&row.u, row.across, row.along));
         stiffness.assemble(framework, blocks);
         let finite = stiffness.factorise_indefinite();
-        finite.then_some(Self { rows, unit: residual.unit })
+        finite.then_some(new)
+    }
+
+    /// The same for a stiffness that holds a factor from nearby.
+    fn unfactored(framework: &Framework, state: &State, residual: &Residual) -> Self {
+        Self { rows: rows(framework, state, &residual.directions), unit: residual.unit }
     }
 
     /// What concerns taut members; zero for the others.

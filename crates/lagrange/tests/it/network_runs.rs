@@ -95,6 +95,40 @@ fn a_long_chain_is_one_element() {
     }
 }
 
+/// Three strands of 30,000 bars to one joint: rounding of so long sums does not reach the members,
+/// and the factor is that of the branching.
+#[test]
+fn long_strands_keep_their_digits() {
+    const BARS: usize = 30_000;
+    let bar = Bar::homogeneous(1.0, 1.0).unwrap();
+    let mut joints = vec![Joint::free("middle").with_mass(BARS as f64)];
+    let mut members = Vec::new();
+    for strand in 0..3 {
+        let angle = std::f64::consts::TAU * f64::from(strand) / 3.0;
+        let radius = 0.8 * BARS as f64;
+        let at_m = [radius * angle.cos(), radius * angle.sin(), 0.0];
+        joints.push(Joint::anchor(format!("{strand}"), at_m));
+        for k in 1..=BARS {
+            let to = if k == BARS { 0 } else { joints.len() };
+            members.push(Member::bar(joints.len() - 1, to, bar));
+            if k < BARS {
+                joints.push(Joint::free(format!("{strand} {k}")));
+            }
+        }
+    }
+    let system = System::new("bridle", 9.80665, joints, members).unwrap();
+    let answer = solve(&system, &Settings::default()).unwrap();
+    assert!(answer.residual <= 1e-14, "{:e}", answer.residual);
+    assert!(answer.factorisations <= 10, "{}", answer.factorisations);
+    // A third of everything hangs at each anchor.
+    let third = system.total_mass_kg() * 9.80665 / 3.0;
+    for (joint, reaction) in system.joints().iter().zip(&answer.equilibrium.reactions_n) {
+        if joint.support.is_fixed() {
+            assert!((reaction[2] - third).abs() < 1e-12 * third);
+        }
+    }
+}
+
 /// A tree of 10,000 bars below one anchor: every member bears the weight below it.
 #[test]
 fn a_tree_needs_no_factorisation() {
