@@ -21,6 +21,12 @@ const LINEAR_ALGEBRA: &[&str] = &[
     "dense-lapack",
 ];
 
+/// Data that both solvers may use: problems and answers, and the random chains of their tests.
+const DATA: &[&str] = &["model", SAMPLES];
+
+/// Random chains, for tests alone.
+const SAMPLES: &str = "samples";
+
 /// Packages of the workspace that may reach both solvers: the judge, what shows its verdicts, and
 /// what measures or sweeps both side by side.
 const MEETING_PLACES: &[&str] = &["validate", "paper", "report", "benches", "funicular"];
@@ -45,6 +51,8 @@ pub enum GraphError {
 pub struct Graph {
     edges: BTreeMap<String, BTreeSet<String>>,
     workspace: BTreeSet<String>,
+    /// Edges that manifests declare for tests, and for nothing else.
+    tests_only: BTreeSet<(String, String)>,
 }
 
 impl Graph {
@@ -92,8 +100,15 @@ impl Graph {
             let name = text(&package["name"], "a package's name")?;
             names.insert(text(&package["id"], "a package's id")?, name.clone());
             // What a manifest declares counts even where the resolver has no use for it.
-            for dependency in array(&package["dependencies"], "a package's dependencies")? {
-                graph.insert(&name, &text(&dependency["name"], "a dependency's name")?);
+            let declared = array(&package["dependencies"], "a package's dependencies")?;
+            for dependency in &declared {
+                let to = text(&dependency["name"], "a dependency's name")?;
+                graph.insert(&name, &to);
+                let of_tests = |other: &Value| other["kind"].as_str() == Some("dev");
+                let mut kinds = declared.iter().filter(|other| other["name"] == dependency["name"]);
+                if kinds.all(of_tests) {
+                    graph.tests_only.insert((name.clone(), to));
+                }
             }
         }
         for member in array(&metadata["workspace_members"], "workspace_members")? {
@@ -151,6 +166,15 @@ impl Graph {
     }
 
     /// Every breach of the rules of independence, with the path that shows it.
+    ///
+    /// ```
+    /// use validate::independence::Graph;
+    /// let mut graph = Graph::default();
+    /// graph.insert("lagrange", "helper");
+    /// graph.insert("helper", "energy");
+    /// let path = "lagrange -> helper -> energy";
+    /// assert!(graph.violations().iter().any(|violation| violation.ends_with(path)));
+    /// ```
     #[must_use]
     pub fn violations(&self) -> Vec<String> {
         let mut found = Vec::new();
@@ -161,8 +185,20 @@ impl Graph {
         };
         forbid("lagrange", "energy", "the solvers must not know each other");
         forbid("energy", "lagrange", "the solvers must not know each other");
-        for package in LINEAR_ALGEBRA {
-            forbid("model", package, "model is data, no mechanics");
+        for data in DATA {
+            for package in LINEAR_ALGEBRA {
+                forbid(data, package, "data, no mechanics");
+            }
+        }
+        for package in &self.workspace {
+            for solver in ["lagrange", "energy"] {
+                if package != solver && !DATA.contains(&package.as_str()) {
+                    forbid(solver, package, "of ours a solver uses data alone");
+                }
+            }
+            if !DATA.contains(&package.as_str()) {
+                forbid(SAMPLES, package, "samples are data");
+            }
         }
         for package in WITHOUT_SOLVERS {
             for solver in ["lagrange", "energy"] {
@@ -176,6 +212,12 @@ impl Graph {
                 && self.path(package, "lagrange").is_some()
             {
                 forbid(package, "energy", "the solvers meet in validate and nowhere below it");
+            }
+        }
+        let users = self.edges.iter().filter(|(_, targets)| targets.contains(SAMPLES));
+        for (user, _) in users {
+            if !self.tests_only.contains(&(user.clone(), SAMPLES.to_owned())) {
+                found.push(format!("samples are for tests: {user} -> {SAMPLES}"));
             }
         }
         found

@@ -1,13 +1,12 @@
 //! Chains to bound, and what is needed to check a bound without knowing how it was found.
 
 use model::{Anchors, Bar, Chain, Problem, Vector};
-use rand::{Rng, RngExt, SeedableRng};
+use rand::{Rng, RngExt};
 use rand_chacha::ChaCha8Rng;
+use samples::{General, Line};
 
 pub fn rng(stream: u64) -> ChaCha8Rng {
-    let mut rng = ChaCha8Rng::seed_from_u64(20_261_121);
-    rng.set_stream(stream);
-    rng
+    samples::stream(20_261_121, stream)
 }
 
 /// A unit vector, every direction alike.
@@ -29,27 +28,11 @@ pub fn minus(a: Vector, b: Vector) -> Vector {
     std::array::from_fn(|k| a[k] - b[k])
 }
 
-/// A chain of n different bars, anchors anywhere, with a span of at most `slack` of its length;
-/// every third one has its anchors on one vertical.
+/// A chain of n different bars with a span of at most `slack` of its length; every third one has
+/// its anchors on one vertical.
 pub fn chain(n: usize, stream: u64, slack: f64) -> Problem {
-    let mut rng = rng(stream);
-    loop {
-        let bars: Vec<Bar> = (0..n)
-            .map(|_| {
-                let length = rng.random_range(0.3..2.0);
-                let (mass, centre) = (rng.random_range(0.1..3.0), rng.random_range(0.0..length));
-                Bar::new(length, mass, centre, [0.0; 3]).unwrap()
-            })
-            .collect();
-        let total: f64 = bars.iter().map(Bar::length_m).sum();
-        let span = rng.random_range(0.0..slack) * total;
-        let towards = if stream.is_multiple_of(3) { [0.0, 0.0, -1.0] } else { direction(&mut rng) };
-        let anchors = Anchors { start_m: [0.0; 3], end_m: towards.map(|x| span * x) };
-        // Some are refused: one bar longer than the rest can reach.
-        if let Ok(problem) = Problem::new(Chain::new("random", 9.81, anchors, bars).unwrap()) {
-            return problem;
-        }
-    }
+    let line = if stream.is_multiple_of(3) { Line::Vertical } else { Line::Any };
+    General { span: 0.0..slack, line, ..General::default() }.problem(&mut rng(stream), n)
 }
 
 /// Weight times length, J: the unit of an energy.
@@ -93,8 +76,8 @@ pub fn configuration(problem: &Problem, rng: &mut impl Rng) -> Vec<Vector> {
         let aside = (first * first - along * along).max(0.0).sqrt();
         let axis = rest.map(|x| x / gap);
         let any = direction(rng);
-        let share = any[0] * axis[0] + any[1] * axis[1] + any[2] * axis[2];
-        let across: Vector = std::array::from_fn(|k| any[k] - share * axis[k]);
+        let on_axis = any[0] * axis[0] + any[1] * axis[1] + any[2] * axis[2];
+        let across: Vector = std::array::from_fn(|k| any[k] - on_axis * axis[k]);
         let size = norm(across);
         if size < 1e-3 {
             continue;

@@ -2,9 +2,10 @@
 
 use std::f64::consts::TAU;
 
-use model::{Anchors, Bar, Chain, Ends, Finish, Problem};
+use model::{Ends, Finish, Problem};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
+use samples::{General, Line};
 
 use super::piece::direction;
 use super::{Batch, BatchSettings};
@@ -13,21 +14,8 @@ use crate::seed::Seed;
 use crate::settings::{Motion, Settings};
 
 fn random_problem(rng: &mut ChaCha8Rng, bars: usize) -> Problem {
-    loop {
-        let list: Vec<Bar> = (0..bars)
-            .map(|_| {
-                let (length, mass) = (rng.random_range(0.5..2.0), rng.random_range(0.2..2.0));
-                Bar::new(length, mass, length * rng.random_range(0.2..0.8), [0.0; 3]).unwrap()
-            })
-            .collect();
-        let total: f64 = list.iter().map(Bar::length_m).sum();
-        let (span, slope) = (total * rng.random_range(0.2..0.8), rng.random_range(-1.5..1.5_f64));
-        let end_m = [0.0, span * slope.cos(), span * slope.sin()];
-        let anchors = Anchors { start_m: [0.0; 3], end_m };
-        if let Ok(problem) = Problem::new(Chain::new("random", 9.81, anchors, list).unwrap()) {
-            return problem;
-        }
-    }
+    let line = Line::PlaneOyz;
+    General { centre: 0.2..0.8, span: 0.2..0.8, line, ..General::default() }.problem(rng, bars)
 }
 
 fn solved(problem: &Problem, angles: &[f64]) -> Ends {

@@ -2,13 +2,11 @@
 
 use energy::{Seed, Solution};
 use model::{Anchors, Bar, Chain, Problem, Vector};
-use rand::{RngExt, SeedableRng};
+use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 
 pub fn rng(stream: u64) -> ChaCha8Rng {
-    let mut rng = ChaCha8Rng::seed_from_u64(20_261_121);
-    rng.set_stream(stream);
-    rng
+    samples::stream(20_261_121, stream)
 }
 
 /// Bars as (length, mass, part of the length at which the centre lies).

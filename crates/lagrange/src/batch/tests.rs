@@ -6,6 +6,7 @@ use model::{Anchors, Bar, Chain, Ends, Finish, Problem};
 use nalgebra::{DMatrix, DVector, Vector3};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
+use samples::{General, Line};
 
 use super::kernel::{Common, State, step};
 use super::lanes::{LANES, Lanes};
@@ -19,21 +20,8 @@ use crate::solve::Solver;
 
 /// A chain of random bars with its anchors in the plane OYZ.
 fn random_problem(rng: &mut ChaCha8Rng, bars: usize) -> Problem {
-    loop {
-        let list: Vec<Bar> = (0..bars)
-            .map(|_| {
-                let (length, mass) = (rng.random_range(0.5..2.0), rng.random_range(0.2..2.0));
-                Bar::new(length, mass, length * rng.random_range(0.2..0.8), [0.0; 3]).unwrap()
-            })
-            .collect();
-        let total: f64 = list.iter().map(Bar::length_m).sum();
-        let (span, slope) = (total * rng.random_range(0.2..0.8), rng.random_range(-1.5..1.5_f64));
-        let end_m = [0.0, span * slope.cos(), span * slope.sin()];
-        let anchors = Anchors { start_m: [0.0; 3], end_m };
-        if let Ok(problem) = Problem::new(Chain::new("random", 9.81, anchors, list).unwrap()) {
-            return problem;
-        }
-    }
+    let line = Line::PlaneOyz;
+    General { centre: 0.2..0.8, span: 0.2..0.8, line, ..General::default() }.problem(rng, bars)
 }
 
 /// The rows and columns of the full system that a chain in the plane OYZ has: Y, Z and φ of each

@@ -2,12 +2,11 @@
 //! 2 to 30 bars: a single bar is refused as a problem, it cannot move and the force along it is
 //! indeterminate.
 
-use std::f64::consts::{FRAC_PI_2, PI};
-
 use lagrange::{Settings, condensed, solve};
-use model::{Anchors, Bar, Chain, Equilibrium, Problem, Vector};
-use rand::{RngExt, SeedableRng};
+use model::{Equilibrium, Problem, Vector};
+use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
+use samples::{General, Line};
 
 /// Agreement of joints, in total lengths, and of forces, in units of the largest. The full system
 /// is solved to 1e-13. Measured: 2e-14.
@@ -16,30 +15,8 @@ const AGREED: f64 = 1e-12;
 const LARGEST: usize = 30;
 
 fn random_problem(rng: &mut ChaCha8Rng, n: usize, vertical: bool) -> Problem {
-    loop {
-        let bars: Vec<Bar> = (0..n)
-            .map(|_| {
-                let length = rng.random_range(0.5..1.5);
-                let (mass, centre) = (rng.random_range(0.1..2.0), rng.random_range(0.0..length));
-                Bar::new(length, mass, centre, [0.0; 3]).unwrap()
-            })
-            .collect();
-        let total: f64 = bars.iter().map(Bar::length_m).sum();
-        let start_m: Vector = std::array::from_fn(|_| rng.random_range(-1.0..1.0));
-        let distance = total * rng.random_range(0.2..0.9);
-        let (slope, azimuth): (f64, f64) = (rng.random_range(-1.4..1.4), rng.random_range(-PI..PI));
-        let slope = if vertical { FRAC_PI_2.copysign(slope) } else { slope };
-        let level = if vertical { 0.0 } else { distance * slope.cos() };
-        let end_m = [
-            start_m[0] + level * azimuth.cos(),
-            start_m[1] + level * azimuth.sin(),
-            start_m[2] + distance * slope.sin(),
-        ];
-        let chain = Chain::new("random", 9.81, Anchors { start_m, end_m }, bars).unwrap();
-        if let Ok(problem) = Problem::new(chain) {
-            return problem;
-        }
-    }
+    let line = if vertical { Line::Vertical } else { Line::Any };
+    General { start_m: -1.0..1.0, span: 0.2..0.9, line, ..General::default() }.problem(rng, n)
 }
 
 /// Largest difference of joints and of forces, relative.

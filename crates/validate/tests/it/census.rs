@@ -11,37 +11,15 @@ use paper::example::Example;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
+use samples::{General, Line, stream};
 use validate::Tolerances;
 use validate::census_checks::{gaps, nearest, placed, statics, visits};
 use validate::completeness::certify_by_census;
 
 /// A random chain in general position; every fifth one hangs between anchors on one vertical.
 fn random_problem(bars: usize, seed: u64) -> Problem {
-    let mut rng = ChaCha8Rng::seed_from_u64(seed);
-    rng.set_stream(bars as u64);
-    loop {
-        let bars: Vec<Bar> = (0..bars)
-            .map(|_| {
-                let length = rng.random_range(0.3..1.0);
-                let centre = length * rng.random_range(0.1..0.9);
-                Bar::new(length, rng.random_range(0.05..1.0), centre, [0.0; 3]).unwrap()
-            })
-            .collect();
-        let span = rng.random_range(0.05..0.9) * bars.iter().map(Bar::length_m).sum::<f64>();
-        let angle: f64 = rng.random_range(0.0..TAU);
-        let turn: f64 = rng.random_range(0.0..TAU);
-        let (level, rise) = if seed.is_multiple_of(5) {
-            (0.0, span.copysign(angle.sin()))
-        } else {
-            (span * angle.cos(), span * angle.sin())
-        };
-        let end_m = [level * turn.cos(), level * turn.sin(), rise];
-        let anchors = Anchors { start_m: [0.0; 3], end_m };
-        let problem = Chain::new("random", 9.81, anchors, bars).map(Problem::new);
-        if let Ok(Ok(problem)) = problem {
-            return problem;
-        }
-    }
+    let line = if seed.is_multiple_of(5) { Line::Vertical } else { Line::Any };
+    General::of_censuses(line).problem(&mut stream(seed, bars as u64), bars)
 }
 
 fn census(problem: &Problem) -> Census {

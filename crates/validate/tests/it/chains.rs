@@ -8,16 +8,14 @@ use std::collections::BTreeMap;
 use lagrange::condensed;
 use model::{Anchors, Bar, Chain, Equilibrium, InPlane, Problem, Rung};
 use rayon::prelude::*;
+use samples::{Shape, folded_chain, random_chain};
 use validate::{Agreement, Tolerances, compare};
-
-use crate::chains_folded::folded_chain;
-use crate::chains_shapes::{Shape, random_chain};
 
 /// Chains of the test.
 const CHAINS: u64 = 1000;
 
 /// Both hanging equilibria, or why there is none.
-fn hang(problem: &Problem) -> Result<[Equilibrium; 2], String> {
+fn solved(problem: &Problem) -> Result<[Equilibrium; 2], String> {
     let lagrange = condensed::solve(problem, &condensed::Settings::default());
     let energy = energy::minimise(problem, &energy::Settings::default());
     match (lagrange, energy) {
@@ -50,7 +48,7 @@ fn outcome(seed: u64, tolerances: &Tolerances) -> Outcome {
         iterations: [0; 2],
         compared: Err(String::new()),
     };
-    outcome.compared = hang(&problem).map(|mut answers| {
+    outcome.compared = solved(&problem).map(|mut answers| {
         let agreement = compare(&problem, &mut answers, tolerances);
         outcome.optimal = answers.iter().all(|a| a.evidence.ladder.is_reached(Rung::Optimal));
         outcome.compressed = answers[0].axial_n.iter().any(|force| *force < 0.0);
@@ -117,32 +115,32 @@ fn both_solvers_agree_on_a_thousand_random_chains() {
     assert!(table.get(&Shape::OneCompressed).is_none_or(|row| 2 * row.compressed > row.chains));
 }
 
-/// Condition from which on a residual of rounding leaves joints more in doubt than solvers are
+/// Condition above which a residual of rounding leaves joints more uncertain than solvers are
 /// asked to agree.
 const NEARLY_FREE: f64 = 1e9;
 
 /// Chains at the edge of what doubles resolve: the solvers agree, or one of them refuses, or says
-/// in its evidence that its forces are in doubt, that the position is degenerate, or by its
+/// in its evidence that its forces are uncertain, that the position is degenerate, or by its
 /// condition number that the chain turns next to freely about anchors so close. None is wrong
 /// without a word.
 #[test]
-fn chains_all_but_folded_are_right_or_in_doubt() {
+fn chains_all_but_folded_are_right_or_say_how_uncertain() {
     let count = std::env::var("CHAINS").map_or(CHAINS, |count| count.parse().unwrap());
     let tolerances = Tolerances::project();
     let outcomes: Vec<Result<bool, String>> = (0..count)
         .into_par_iter()
         .map(|seed| {
             let problem = folded_chain(seed);
-            let Ok(mut answers) = hang(&problem) else { return Ok(false) };
+            let Ok(mut answers) = solved(&problem) else { return Ok(false) };
             let agreement = compare(&problem, &mut answers, &tolerances);
-            let doubted = |answer: &Equilibrium| {
+            let uncertain = |answer: &Equilibrium| {
                 answer.stability.in_plane == InPlane::Degenerate
                     || answer.evidence.condition > NEARLY_FREE
                     || answer.evidence.force_uncertainty().is_some()
             };
             if agreement.agrees() {
                 Ok(true)
-            } else if answers.iter().any(doubted) {
+            } else if answers.iter().any(uncertain) {
                 Ok(false)
             } else {
                 Err(format!("{seed}: {:?}\n{:?}", agreement.disagreement, problem.chain()))
@@ -183,7 +181,7 @@ fn loose_bars_are_compared_by_what_is_determined() {
         // One bar alone has to fill the gap.
         let span = if massless == 1 { 1.0 } else { 0.75 };
         let problem = problem(bars, [span, 0.0, 0.0]);
-        let mut answers = hang(&problem).unwrap();
+        let mut answers = solved(&problem).unwrap();
         let agreement = compare(&problem, &mut answers, &tolerances);
         assert!(agreement.agrees(), "{massless}: {:?}", agreement.disagreement);
         assert_eq!(agreement.free_joints, free, "{massless}");
@@ -207,12 +205,12 @@ fn loose_bars_are_compared_by_what_is_determined() {
 /// bars are upright, and lengths alone do not say how the ties share the weight. Neither solver's
 /// forces are worth anything, and both say so.
 #[test]
-fn upright_chains_with_a_prop_are_told_in_doubt() {
+fn upright_chains_with_a_prop_say_that_their_forces_are_uncertain() {
     let bars = [(1.0, 1.0), (3.0, 1.0), (1.0, 1.0), (1.0, 5.0), (1.0, 1.0)]
         .map(|(length, mass)| Bar::homogeneous(length, mass).unwrap());
     let anchors = Anchors { start_m: [0.0; 3], end_m: [0.0, 0.0, 1.0] };
     let chain = Chain::new("prop", 9.81, anchors, bars.to_vec()).unwrap();
-    let mut answers = hang(&Problem::new(chain).unwrap()).unwrap();
+    let mut answers = solved(&Problem::new(chain).unwrap()).unwrap();
     for answer in &mut answers {
         let heights = answer.joints_m.iter().map(|joint| joint[2]);
         assert!(
@@ -232,7 +230,7 @@ fn strands_that_meet_share_the_weight_as_they_do_a_little_apart() {
     let bars: Vec<Bar> =
         [3.0, 8.0, 2.0, 0.5, 0.1, 0.1].iter().map(|m| Bar::homogeneous(1.0, *m).unwrap()).collect();
     let [meeting, apart] =
-        [0.0, 1e-4].map(|span| hang(&problem(bars.clone(), [span, 0.0, 0.0])).unwrap());
+        [0.0, 1e-4].map(|span| solved(&problem(bars.clone(), [span, 0.0, 0.0])).unwrap());
     for (meeting, apart) in meeting.iter().zip(&apart) {
         for (a, b) in meeting.axial_n.iter().zip(&apart.axial_n) {
             // Of second order in the angles, some 1e-4. Measured: 1.5e-7.

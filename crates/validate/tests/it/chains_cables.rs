@@ -5,15 +5,14 @@ use model::{Anchors, Bar, Chain, Equilibrium, Problem, Vector};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
+use samples::random_chain;
 use validate::Tolerances;
 use validate::cables::hold_against_cables;
-
-use crate::chains_shapes::random_chain;
 
 /// Joints in units of the length. Measured, like forces and energies: 7e-16.
 const JOINTS: f64 = 1e-12;
 
-fn hang(problem: &Problem) -> [Equilibrium; 2] {
+fn solved(problem: &Problem) -> [Equilibrium; 2] {
     [
         condensed::solve(problem, &condensed::Settings::default()).unwrap().equilibrium,
         energy::minimise(problem, &energy::Settings::default()).unwrap().equilibrium,
@@ -50,7 +49,7 @@ fn taut_cables_are_the_chain_of_both_solvers() {
     let chains = [2, 3, 10, 100, 1000].map(equal).into_iter();
     let chains = chains.chain([2, 5, 10, 100, 1000, 5000].map(|n| unequal(n, 9)));
     for problem in chains {
-        for found in hang(&problem) {
+        for found in solved(&problem) {
             let cables = hold_against_cables(&problem, &found).unwrap();
             println!("{:5} {:8} {cables:?}", problem.chain().bars().len(), found.solver);
             assert!(cables.taut && cables.in_tension, "{cables:?}");
@@ -75,7 +74,7 @@ fn the_hard_shapes_against_the_cables() {
         .into_par_iter()
         .flat_map_iter(|seed| {
             let (shape, problem) = random_chain(seed);
-            hang(&problem).map(|found| {
+            solved(&problem).map(|found| {
                 let cables = hold_against_cables(&problem, &found).unwrap();
                 (format!("{seed}: {shape:?}, {}", found.solver), cables)
             })

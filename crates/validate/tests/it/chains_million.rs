@@ -14,9 +14,7 @@ const MILLION: usize = 1_000_000;
 const ACCURACY: f64 = 1e-12;
 
 fn equal_bars(n: usize) -> Problem {
-    let bar = Bar::homogeneous(1.5 / n as f64, 1.0 / n as f64).unwrap();
-    let anchors = Anchors { start_m: [0.0; 3], end_m: [1.0, 0.0, -0.2] };
-    Problem::new(Chain::new("equal", 9.806_65, anchors, vec![bar; n]).unwrap()).unwrap()
+    samples::equal_bars(n, 1.5, 1.0, [1.0, 0.0, -0.2])
 }
 
 /// Lengths and masses over a factor of twenty, a tenth of the bars massless, centres anywhere,

@@ -4,13 +4,14 @@
 //! coordinates is the stress matrix of the axial forces, once for each of X, Y and Z, the bars are
 //! the constraints, and the index is counted on their null space.
 
-use std::f64::consts::{FRAC_PI_2, PI};
+use std::f64::consts::PI;
 
 use lagrange::{Seed, Settings, condensed, solve_from};
 use model::{Anchors, Bar, Chain, Equilibrium, InPlane, InSpace, NoCertificate, Problem, Vector};
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
+use samples::{General, Line};
 use validate::certificate::certify;
 
 /// Bars of the largest chain.
@@ -24,25 +25,8 @@ const ZERO: f64 = 1e-11;
 const CLEAR: f64 = 1e-8;
 
 fn random_problem(rng: &mut ChaCha8Rng, n: usize, vertical: bool) -> Problem {
-    loop {
-        let bars: Vec<Bar> = (0..n)
-            .map(|_| {
-                let length = rng.random_range(0.5..1.5);
-                let (mass, centre) = (rng.random_range(0.1..2.0), rng.random_range(0.0..length));
-                Bar::new(length, mass, centre, [0.0; 3]).unwrap()
-            })
-            .collect();
-        let total: f64 = bars.iter().map(Bar::length_m).sum();
-        let distance = total * rng.random_range(0.1..0.9);
-        let (slope, azimuth): (f64, f64) = (rng.random_range(-1.4..1.4), rng.random_range(-PI..PI));
-        let slope = if vertical { FRAC_PI_2.copysign(slope) } else { slope };
-        let level = if vertical { 0.0 } else { distance * slope.cos() };
-        let end_m = [level * azimuth.cos(), level * azimuth.sin(), distance * slope.sin()];
-        let anchors = Anchors { start_m: [0.0; 3], end_m };
-        if let Ok(problem) = Problem::new(Chain::new("random", 9.81, anchors, bars).unwrap()) {
-            return problem;
-        }
-    }
+    let line = if vertical { Line::Vertical } else { Line::Any };
+    General { span: 0.1..0.9, line, ..General::default() }.problem(rng, n)
 }
 
 /// Negative and zero eigenvalues of the second derivative on the motions that keep the bars whole,
@@ -173,7 +157,7 @@ fn indices_are_those_of_dense_matrices() {
                 Err(NoCertificate::SeveralCompressed { .. } | NoCertificate::Indefinite { .. }) => {
                     assert!(in_space > 0, "{what}");
                 }
-                Err(doubt) => panic!("{what}: {doubt}"),
+                Err(reason) => panic!("{what}: {reason}"),
             }
             by_index[in_space] += 1;
         }
@@ -223,7 +207,7 @@ fn the_highest_equilibrium_of_a_hundred_thousand_bars() {
         assert_eq!(stability.in_plane, InPlane::Maximum);
         assert_eq!(stability.index_in_plane, n - 2);
         assert_eq!(stability.index_in_space, 2 * n - 3);
-        let doubt = certify(&problem, &arch).unwrap_err();
-        assert_eq!(doubt, NoCertificate::SeveralCompressed { bars: n });
+        let reason = certify(&problem, &arch).unwrap_err();
+        assert_eq!(reason, NoCertificate::SeveralCompressed { bars: n });
     }
 }

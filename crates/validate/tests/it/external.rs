@@ -19,7 +19,7 @@ fn equal_bars(
 }
 
 /// The hanging equilibrium by both solvers.
-fn hang(problem: &Problem) -> [Equilibrium; 2] {
+fn solved(problem: &Problem) -> [Equilibrium; 2] {
     [
         lagrange::solve(problem, &lagrange::Settings::default()).unwrap().equilibrium,
         energy::minimise(problem, &energy::Settings::default()).unwrap().equilibrium,
@@ -112,7 +112,7 @@ fn the_closed_form_of_the_catenary_is_that_of_the_reference_digits() {
 fn errors(n: usize, length: f64, a: f64, b: f64) -> [[f64; 3]; 2] {
     let catenary = Catenary::new(length, a, b);
     let (horizontal, vertical) = catenary.start_force();
-    hang(&equal_bars(n, length, length, 1.0, [a, 0.0, b])).map(|found| {
+    solved(&equal_bars(n, length, length, 1.0, [a, 0.0, b])).map(|found| {
         [
             found.energy_j - catenary.energy(),
             found.reactions_n.start[0] - horizontal,
@@ -171,7 +171,7 @@ fn the_published_optima_of_cops_tend_to_the_same_catenary() {
             1.0,
             [cops.problem.span_x, 0.0, rise],
         );
-        for found in hang(&problem) {
+        for found in solved(&problem) {
             let ours = found.energy_j + lift - limit;
             assert!(
                 0.0 < ours && ours < published,
@@ -215,7 +215,7 @@ fn cutest_catena_is_half_of_a_chain_between_level_anchors() {
             [2.0 * catena.fraction * beams, 0.0, 0.0],
         );
         let published: f64 = optimum.energy_j.parse().unwrap();
-        for found in hang(&problem) {
+        for found in solved(&problem) {
             let excess = (0.5 * found.energy_j - published) / published.abs();
             assert!(
                 (0.0..CATENA_VIOLATION).contains(&excess),

@@ -26,6 +26,8 @@ fn the_guard_sees_real_edges() {
         // A development dependency, an optional one, one behind another.
         ("lagrange", "num-dual"),
         ("bounds", "clarabel"),
+        ("lagrange", "samples"),
+        ("energy", "samples"),
     ] {
         assert!(graph.has(from, to), "{from} -> {to} is not seen");
     }
@@ -45,6 +47,12 @@ fn the_guard_fires_on_doctored_graphs() {
         (vec![("sweep", "lagrange")], "sweep -> lagrange"),
         (vec![("motion", "energy")], "motion -> energy"),
         (vec![("figures", "sweep"), ("sweep", "energy")], "figures -> sweep -> energy"),
+        // Mechanics that both could take from a third, tests included.
+        (vec![("lagrange", "intervals")], "lagrange -> intervals"),
+        (vec![("samples", "intervals")], "energy -> samples -> intervals"),
+        (vec![("samples", "nalgebra")], "samples -> nalgebra"),
+        // Random chains outside tests.
+        (vec![("model", "samples")], "model -> samples"),
     ] {
         let mut doctored = graph();
         for (from, to) in &edges {

@@ -3,8 +3,10 @@
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 use model::{Anchors, Bar, Chain, Problem, Vector};
-use rand::{RngExt, SeedableRng};
+use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
+
+use crate::stream::stream;
 
 /// A shape that asks something of a solver.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -34,6 +36,7 @@ pub enum Shape {
 }
 
 impl Shape {
+    /// All of them.
     pub const ALL: [Self; 11] = [
         Self::Generic,
         Self::Together,
@@ -76,17 +79,27 @@ impl Recipe {
     }
 }
 
-/// A number whose logarithm is uniform between the decades.
-pub fn decades(rng: &mut ChaCha8Rng, low: f64, high: f64) -> f64 {
+/// A number whose logarithm is uniform between the decades `low` and `high`.
+pub(crate) fn decades(rng: &mut ChaCha8Rng, low: f64, high: f64) -> f64 {
     10.0_f64.powf(rng.random_range(low..high))
 }
 
-/// Chain number `seed`: its shape, and the chain.
+/// Chain number `seed`: its shape, and the chain, of 2 to 200 bars.
+///
+/// # Panics
+///
+/// Never: what is drawn is in range.
+///
+/// ```
+/// let (shape, problem) = samples::random_chain(3);
+/// assert_eq!(shape, samples::Shape::Vertical);
+/// assert!(problem.chain().anchors_on_one_vertical());
+/// ```
+#[must_use]
 pub fn random_chain(seed: u64) -> (Shape, Problem) {
-    let mut rng = ChaCha8Rng::seed_from_u64(3);
-    rng.set_stream(seed);
+    let mut rng = stream(3, seed);
     let shapes = Shape::ALL.len() as u64;
-    let shape = Shape::ALL[usize::try_from(seed % shapes).unwrap()];
+    let shape = Shape::ALL[usize::try_from(seed % shapes).expect("fewer shapes than numbers")];
     // Chains that cannot close, and weightless ones, are drawn again.
     loop {
         // Small chains are where one bar matters most: a third of them have fewer than ten.
@@ -121,7 +134,7 @@ fn draw(recipe: &Recipe, n: usize, rng: &mut ChaCha8Rng) -> Option<Problem> {
         .map(|(length, mass)| {
             // At an end, in the middle, anywhere.
             let part = [0.0, 0.5, 1.0, rng.random_range(0.0..1.0)][rng.random_range(0..4)];
-            Bar::new(*length, mass, length * part, [0.0; 3]).unwrap()
+            Bar::new(*length, mass, length * part, [0.0; 3]).expect("a valid bar")
         })
         .collect();
     let end_m = far_anchor(recipe.anchors, &bars, rng);
@@ -132,12 +145,12 @@ fn draw(recipe: &Recipe, n: usize, rng: &mut ChaCha8Rng) -> Option<Problem> {
         std::array::from_fn(|_| metre * rng.random_range(-1.0..1.0))
     };
     let end_m = std::array::from_fn(|k| start_m[k] + end_m[k]);
-    let chain = Chain::new("random", gravity, Anchors { start_m, end_m }, bars).unwrap();
-    Problem::new(chain).ok()
+    let chain = Chain::new("random", gravity, Anchors { start_m, end_m }, bars);
+    Problem::new(chain.expect("a valid chain")).ok()
 }
 
 /// Lengths of `n` bars, in any unit.
-pub fn lengths(shape: Shape, n: usize, rng: &mut ChaCha8Rng) -> Vec<f64> {
+pub(crate) fn lengths(shape: Shape, n: usize, rng: &mut ChaCha8Rng) -> Vec<f64> {
     let equal = rng.random_range(0..2) == 0;
     let mut sizes: Vec<f64> = (0..n)
         .map(|_| match shape {
@@ -154,7 +167,7 @@ pub fn lengths(shape: Shape, n: usize, rng: &mut ChaCha8Rng) -> Vec<f64> {
 }
 
 /// Masses of `n` bars.
-pub fn masses(shape: Shape, n: usize, rng: &mut ChaCha8Rng) -> Vec<f64> {
+pub(crate) fn masses(shape: Shape, n: usize, rng: &mut ChaCha8Rng) -> Vec<f64> {
     let equal = rng.random_range(0..2) == 0;
     (0..n)
         .map(|_| match shape {

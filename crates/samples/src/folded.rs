@@ -3,17 +3,26 @@
 use std::f64::consts::FRAC_PI_2;
 
 use model::{Anchors, Bar, Chain, Problem};
-use rand::{RngExt, SeedableRng};
-use rand_chacha::ChaCha8Rng;
+use rand::RngExt;
 
-use crate::chains_shapes::{Shape, decades, lengths, masses};
+use crate::shape::{Shape, decades, lengths, masses};
+use crate::stream::stream;
 
 /// Chain number `seed` of those all but folded on one line, or with anchors all but in one place:
 /// two to six bars, and a thousandth to a hundred-billionth of the length more span than the least,
 /// any slope.
+///
+/// # Panics
+///
+/// Never: what is drawn is in range.
+///
+/// ```
+/// let problem = samples::folded_chain(0);
+/// assert!((2..=6).contains(&problem.chain().bars().len()));
+/// ```
+#[must_use]
 pub fn folded_chain(seed: u64) -> Problem {
-    let mut rng = ChaCha8Rng::seed_from_u64(4);
-    rng.set_stream(seed);
+    let mut rng = stream(4, seed);
     loop {
         let n = rng.random_range(2..=6);
         let bars = [Shape::Generic, Shape::OneCompressed, Shape::Massless][rng.random_range(0..3)];
@@ -21,7 +30,7 @@ pub fn folded_chain(seed: u64) -> Problem {
         let bars: Vec<Bar> = sizes
             .iter()
             .zip(masses)
-            .map(|(length, mass)| Bar::homogeneous(*length, mass).unwrap())
+            .map(|(length, mass)| Bar::homogeneous(*length, mass).expect("a valid bar"))
             .collect();
         let total = model::sum(sizes.iter().copied());
         let longest = sizes.iter().copied().fold(0.0, f64::max);
@@ -33,7 +42,7 @@ pub fn folded_chain(seed: u64) -> Problem {
         };
         let end_m = [span * slope.cos(), 0.0, span * slope.sin()];
         let anchors = Anchors { start_m: [0.0; 3], end_m };
-        let chain = Chain::new("folded", 9.81, anchors, bars).unwrap();
+        let chain = Chain::new("folded", 9.81, anchors, bars).expect("a valid chain");
         if let Ok(problem) = Problem::new(chain) {
             return problem;
         }

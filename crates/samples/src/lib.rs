@@ -1,0 +1,38 @@
+//! Random and named chains for the tests of all crates, the same in every run.
+//!
+//! ```
+//! use samples::{General, stream};
+//! // Chain 7 of a test: its bars reach from anchor to anchor with length to spare.
+//! let problem = General::default().problem(&mut stream(20_261_122, 7), 5);
+//! let chain = problem.chain();
+//! assert_eq!(chain.bars().len(), 5);
+//! assert!(chain.anchors().span_m() < 0.95 * chain.total_length_m());
+//! ```
+//!
+//! | chains | from |
+//! |---|---|
+//! | in general position | [`General`] |
+//! | of eleven shapes that are hard to solve, one for each seed | [`random_chain`] |
+//! | hard in several ways at once | [`extreme_chain`] |
+//! | all but folded on one line | [`folded_chain`] |
+//! | of so many equal bars | [`equal_bars`] |
+//! | of bars written down as numbers | [`chain`] |
+//!
+//! Chains with a name and a file of their own are those of [`model::cases`].
+//!
+//! Here are lengths, masses and places, and no mechanics: so both solvers may draw their test
+//! chains from here and still have nothing in common but data.
+
+mod extreme;
+mod folded;
+mod general;
+mod named;
+mod shape;
+mod stream;
+
+pub use extreme::extreme_chain;
+pub use folded::folded_chain;
+pub use general::{General, Line};
+pub use named::{chain, equal_bars};
+pub use shape::{Shape, random_chain};
+pub use stream::stream;
