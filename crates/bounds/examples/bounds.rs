@@ -58,8 +58,8 @@ fn alternating(n: u32) -> Result<Problem, Box<dyn std::error::Error>> {
     let unit = 1.5 * anchors.span_m() / f64::from(n);
     let bars = (0..n)
         .map(|i| {
-            let share = if i % 2 == 0 { 1.25 } else { 0.75 };
-            Bar::homogeneous(share * unit, share)
+            let factor = if i % 2 == 0 { 1.25 } else { 0.75 };
+            Bar::homogeneous(factor * unit, factor)
         })
         .collect::<Result<_, _>>()?;
     Ok(Problem::new(Chain::new("alternating", 9.81, anchors, bars)?)?)

@@ -17,7 +17,7 @@ pub struct Configuration {
     pub pull_n: Vector,
     /// Energy from the height of joint 0, J, in floating point.
     pub energy_j: f64,
-    /// By how much the bars, put one after the other, miss the last anchor, m.
+    /// Distance of the end of the bars, put one after the other, from the last anchor, m.
     pub open_m: f64,
 }
 

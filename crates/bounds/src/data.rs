@@ -12,6 +12,21 @@ use model::Problem;
 use model::Vector;
 
 /// Which side of the energy a bound is on.
+///
+/// ```
+/// use bounds::{Sense, stress_bound};
+/// use model::{Anchors, Bar, Chain, Problem};
+/// // Two bars of 1 m and 1 N stand as a triangle of equal sides: no shape has more energy.
+/// let anchors = Anchors { start_m: [0.0; 3], end_m: [1.0, 0.0, 0.0] };
+/// let chain = Chain::new("arch", 1.0, anchors, vec![Bar::homogeneous(1.0, 1.0)?; 2])?;
+/// let height = 0.75_f64.sqrt();
+/// let joints = [[0.0; 3], [0.5, 0.0, height], [1.0, 0.0, 0.0]];
+/// // Both are compressed: the joint carries 1 N, and 2 τ height = -1.
+/// let density = [-0.5 / height; 2];
+/// let bound = stress_bound(&Problem::new(chain)?, Sense::Upper, &joints, &density).unwrap();
+/// assert!(bound.rigorous_j >= height && bound.rigorous_j < height + 1e-14);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Sense {
     /// No configuration has less energy: the bound belongs to the global minimum.
@@ -90,7 +105,7 @@ impl Data {
 
         let length: Vec<_> =
             chain.bars().iter().map(|bar| Interval::point(bar.length_m()) / per_length).collect();
-        // Weight of each bar, and the share that its far joint carries.
+        // Weight of each bar, and the part that its far joint carries.
         let carried: Vec<_> = chain
             .bars()
             .iter()

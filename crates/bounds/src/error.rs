@@ -70,7 +70,7 @@ pub enum BoundError {
     /// Occurs when clarabel does not accept the programme, which would be a bug here.
     #[error("the cone programme was not accepted")]
     Refused(#[source] Box<clarabel::solver::SolverError>),
-    /// Occurs when clarabel ends without a solution; "almost solved" is none.
+    /// Occurs when clarabel ends without a solution; "almost solved" is not one.
     #[error(
         "the cone programme was not solved: {status}, after {iterations} iterations, \
          primal residual {primal_residual:.1e}, dual residual {dual_residual:.1e}"

@@ -1,6 +1,20 @@
 //! Bounds on the energy of all configurations, by convex programming; no minimum is needed to start
 //! from, and what is called rigorous holds whatever the rounding.
 //!
+//! ```
+//! use bounds::{Sense, pull_bound};
+//! use model::{Anchors, Bar, Chain, Problem};
+//! // Two bars of 1 m and 1 N between level anchors 1 m apart: a triangle of equal sides.
+//! let anchors = Anchors { start_m: [0.0; 3], end_m: [1.0, 0.0, 0.0] };
+//! let chain = Chain::new("triangle", 1.0, anchors, vec![Bar::homogeneous(1.0, 1.0)?; 2])?;
+//! // Each anchor carries 1 N, and the moments about the joint give 1/(2 √3) N across.
+//! let pull = [0.5 / 3.0_f64.sqrt(), 0.0, 1.0];
+//! let bound = pull_bound(&Problem::new(chain)?, Sense::Lower, pull);
+//! // No shape has less energy than the triangle, whose weights are √3/4 deep.
+//! assert!(bound <= -0.75_f64.sqrt() && bound > -0.75_f64.sqrt() - 1e-14);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
 //! | bound | needs | cost | tight |
 //! |---|---|---|---|
 //! | [`stress_bound`] | any shape and force densities | O(n) | for the global optimum |

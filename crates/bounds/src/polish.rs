@@ -16,9 +16,9 @@ const MAX_STEPS: usize = 20;
 /// Halvings of a step that does not come nearer to closing.
 const MAX_HALVINGS: usize = 20;
 
-/// How far bars may miss the last anchor, of the unit of length (within a factor two of the total
-/// length), to count as a configuration. Newton's method leaves 1e-16, and 1e-13 where the forces
-/// are a thousand times the weight; what does not converge leaves the solver's 1e-9 or more.
+/// How far bars may end from the last anchor, of the unit of length (within a factor two of the
+/// total length), to count as a configuration. Newton's method leaves 1e-16, and 1e-13 where the
+/// forces are a thousand times the weight; what does not converge leaves the solver's 1e-9 or more.
 pub(crate) const CLOSED: f64 = 1e-12;
 
 /// The pull of a chain, in its plane (across, up), and how well it closes.

@@ -23,8 +23,9 @@ use crate::data::{Data, Sense};
 ///
 /// ```
 /// use bounds::{Sense, pull_bound};
-/// // The paper's chain is propped up by a bar in compression, which no cable can be: two cables hang
-/// // straight down to the last anchor and the third is slack, V = -4 mgl (2 mgl in the paper's terms).
+/// // The paper's chain is propped up by a bar in compression, which no cable can be: two cables
+/// // hang straight down to the last anchor and the third is slack, V = -4 mgl (2 mgl in the paper's
+/// // terms).
 /// let problem = model::cases::paper();
 /// let mg = problem.chain().gravity_m_s2();
 /// let bound = pull_bound(&problem, Sense::Lower, [0.0, 0.0, 0.5 * mg]) / mg;

@@ -167,14 +167,14 @@ impl Stress {
             |i: usize| self.axial[i] / data.length[i].mid() * (self.height[i + 1] - self.height[i]);
         // Longer bars know their direction better.
         for i in 0..data.bars() {
-            let share = data.length[i].mid().powi(2);
-            up += share * (vertical(i) + data.tail_weight[i].mid());
-            weight += share;
+            let square = data.length[i].mid().powi(2);
+            up += square * (vertical(i) + data.tail_weight[i].mid());
+            weight += square;
         }
         let mut across = 0.0;
         for i in 0..data.bars() {
-            let share = data.length[i].mid().powi(2);
-            across += share * (self.axial[i].powi(2) - vertical(i).powi(2));
+            let square = data.length[i].mid().powi(2);
+            across += square * (self.axial[i].powi(2) - vertical(i).powi(2));
         }
         [(across / weight).max(0.0).sqrt(), up / weight]
     }

@@ -21,7 +21,8 @@ pub struct StressBound {
 ///
 /// With a multiplier τ_i/2 for each $|d_i|^2 = l_i^2$, the Lagrangian
 ///
-/// $$ L(x, \tau) = \sum_k W_k z_k + \tfrac12 \sum_i \tau_i \left(|x_i - x_{i-1}|^2 - l_i^2\right) $$
+/// $$ L(x, \tau) = \sum_k W_k z_k
+///    + \tfrac12 \sum_i \tau_i \left(|x_i - x_{i-1}|^2 - l_i^2\right) $$
 ///
 /// equals the energy on every configuration, so its minimum over free joints x is below the energy
 /// of all of them. It is a quadratic function; its second derivative, the same for X, Y and Z, is
@@ -52,14 +53,16 @@ pub struct StressBound {
 /// ```
 /// use bounds::{Sense, stress_bound};
 /// use model::{Anchors, Bar, Chain, Problem};
-/// // Two bars of weight 1 N hang in an equilateral triangle: the joint is at depth √3/2, V = -√3/2.
+/// // Two bars of weight 1 N hang in an equilateral triangle: the joint is at depth √3/2, and
+/// // V = -√3/2.
 /// let anchors = Anchors { start_m: [0.0; 3], end_m: [1.0, 0.0, 0.0] };
 /// let chain = Chain::new("two bars", 1.0, anchors, vec![Bar::homogeneous(1.0, 1.0)?; 2])?;
 /// let problem = Problem::new(chain)?;
 /// let depth = 0.75_f64.sqrt();
 /// let joints = [[0.0; 3], [0.5, 0.0, -depth], [1.0, 0.0, 0.0]];
 /// // The joint carries 1 N: 2 τ depth = 1.
-/// let bound = stress_bound(&problem, Sense::Lower, &joints, &[0.5 / depth; 2]).unwrap().rigorous_j;
+/// let density = [0.5 / depth; 2];
+/// let bound = stress_bound(&problem, Sense::Lower, &joints, &density).unwrap().rigorous_j;
 /// assert!(bound <= -depth && bound > -depth - 1e-14);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```

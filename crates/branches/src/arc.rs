@@ -131,7 +131,7 @@ fn turn_kind(turn: Turn) -> EventKind {
     match turn {
         Turn::Fold => EventKind::Fold,
         Turn::Straight => EventKind::Straight,
-        // The two sides are twins: another branch, with their symmetry, passes between them.
+        // The two sides are mirror images: another branch, which is symmetric, passes between them.
         Turn::Crossing => EventKind::BranchPoint,
     }
 }

@@ -23,8 +23,8 @@ pub(crate) struct Link<'a> {
 /// A pull this near to infinite (its homogeneous weight) is not shown: it is a straight chain.
 const INFINITE: f64 = 1e-7;
 
-/// Two sightings of one branch point: by the change of the index and by the turn of the twins,
-/// which is located to the square root of rounding only.
+/// One branch point is found twice: by the change of the index, and by the turn of a curve that is
+/// its own mirror image there, which is located to the square root of rounding only.
 const SAME_POSITION: f64 = 1e-6;
 const SAME_SHAPE: f64 = 1e-2;
 
@@ -272,7 +272,7 @@ impl<'a> Assembly<'a> {
             }
             // Curves that turn in it join one that passes; so does one that passes after the first.
             let others = if passing(&self.events[k]) { 0..k } else { 0..count };
-            let twin = others.into_iter().find(|other| {
+            let first = others.into_iter().find(|other| {
                 let event = &self.events[*other];
                 event.kind == EventKind::BranchPoint
                     && passing(event)
@@ -280,8 +280,8 @@ impl<'a> Assembly<'a> {
                     && (event.position - self.events[k].position).abs() <= SAME_POSITION
                     && distance(&self.places[*other], &self.places[k]) <= SAME_SHAPE
             });
-            if let Some(twin) = twin {
-                *same = twin;
+            if let Some(first) = first {
+                *same = first;
             }
         }
         for (k, &same) in same.iter().enumerate() {

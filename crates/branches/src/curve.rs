@@ -14,7 +14,7 @@ const STRAIGHT_ENOUGH: f64 = 0.97;
 /// step that turns as far as it may leaves its tangent by half of that angle, 0.12.
 const CORRECTION: f64 = 0.2;
 
-/// Steps shorter than this are none.
+/// Steps shorter than this count as zero.
 const SHORTEST: f64 = 1e-10;
 
 /// Growth of the next step after one that went well.

@@ -57,6 +57,10 @@ pub enum EventKind {
 
 impl EventKind {
     /// The name of the kind, for tables.
+    ///
+    /// ```
+    /// assert_eq!(branches::EventKind::SpaceExchange { from: 0, to: 1 }.name(), "space-exchange");
+    /// ```
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {

@@ -1,6 +1,20 @@
 //! Continuation of equilibria over a parameter: branches, folds, branch points, exchanges of
 //! stability.
 //!
+//! ```
+//! use branches::{Combine, Continuation, ContinuationSettings, EventKind, Study};
+//! // Three bars of 1 m between level anchors, which move from 1.1 m to 1.3 m apart.
+//! let vary = ["anchors.end_m.z=0".parse()?, "anchors.end_m.x=1.1..1.3:3".parse()?];
+//! let study = Study::new(model::cases::paper().into_chain(), &vary, Combine::Product)?;
+//! let found = Continuation::follow(&study, 0, &ContinuationSettings::default(), &|_| {})?;
+//! // The asymmetric shapes end in folds where the squared distance is 3/2.
+//! let folds = found.events.iter().filter(|event| event.kind == EventKind::Fold);
+//! let places: Vec<f64> = folds.map(|fold| fold.values[1]).collect();
+//! assert_eq!(places.len(), 4);
+//! assert!(places.iter().all(|x| (x - 1.5_f64.sqrt()).abs() < 1e-10));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
 //! At every point of a path a census lists all equilibria in the vertical plane of the anchors,
 //! with proof. Between neighbouring points every one of them is followed along its curve (module
 //! `curve`), which ends at exactly one other: of the next point, or, having turned back, of the

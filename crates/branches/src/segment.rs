@@ -53,8 +53,8 @@ impl Segment {
 /// of the interval: a bar without length has no equations.
 const EDGE_HALVINGS: i32 = 30;
 
-/// An interval that is left of one between census points, if it is shorter than this part, is none:
-/// what the halvings leave, twice.
+/// An interval that is left of one between census points, if it is shorter than this part, counts
+/// as empty: what the halvings leave, twice.
 const NOWHERE: f64 = 2e-9;
 
 /// How far curves are followed towards a census point from another.

@@ -8,6 +8,18 @@ use crate::parameter::number::Number;
 use crate::parameter::values::{MAX_POINTS, Parameter};
 
 /// How several parameters are combined.
+///
+/// ```
+/// use branches::{Combine, Study};
+/// let vary = ["bars.1.mass_kg=1,2".parse()?, "bars.3.mass_kg=3,4".parse()?];
+/// let paths = |combine| {
+///     let study = Study::new(model::cases::paper().into_chain(), &vary, combine);
+///     study.map(|study| study.paths().to_vec())
+/// };
+/// assert_eq!(paths(Combine::Product)?, [[[1.0, 3.0], [1.0, 4.0]], [[2.0, 3.0], [2.0, 4.0]]]);
+/// assert_eq!(paths(Combine::Zip)?, [[[1.0, 3.0], [2.0, 4.0]]]);
+/// # Ok::<(), branches::ParameterError>(())
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Combine {
     /// Every value of each with every value of the others; the last one changes fastest.
@@ -49,12 +61,12 @@ impl Study {
     pub fn new(base: Chain, vary: &[Parameter], combine: Combine) -> Result<Self, ParameterError> {
         for (k, one) in vary.iter().enumerate() {
             one.check(&base)?;
-            let twin = vary[..k].iter().find(|other| other.number.overlaps(one.number));
-            if let Some(twin) = twin {
-                let what = if twin.number == one.number {
+            let earlier = vary[..k].iter().find(|other| other.number.overlaps(one.number));
+            if let Some(earlier) = earlier {
+                let what = if earlier.number == one.number {
                     format!("`{}` is varied twice", one.number)
                 } else {
-                    format!("`{}` and `{}` set one number", twin.number, one.number)
+                    format!("`{}` and `{}` set one number", earlier.number, one.number)
                 };
                 let span = 0..one.text().len();
                 return Err(ParameterError::new(one.text(), span, what, "name each number once"));
@@ -91,6 +103,16 @@ impl Study {
     /// # Errors
     ///
     /// [`PointError`] when the values describe no problem.
+    ///
+    /// ```
+    /// use branches::{Combine, PointError, Study};
+    /// let vary = ["anchors.end_m.z=-3.1..-0.1:61".parse()?];
+    /// let study = Study::new(model::cases::paper().into_chain(), &vary, Combine::Product)?;
+    /// assert_eq!(study.problem(&[-2.5])?.chain().anchors().span_m(), 2.5);
+    /// // Three bars of 1 m reach no farther than 3 m.
+    /// assert!(study.problem(&[-3.1]).is_err());
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn problem(&self, values: &[f64]) -> Result<Problem, PointError> {
         let numbers: Vec<_> = self.numbers.iter().copied().zip(values.iter().copied()).collect();
         apply(&self.base, &numbers)

@@ -1,5 +1,17 @@
 //! Every equilibrium of a hanging chain of bars, with proof.
 //!
+//! ```
+//! use census::{Census, Settings};
+//! // The paper's chain has two equilibria, each on a circle about the vertical of the anchors.
+//! let census = Census::take(&model::cases::paper(), &Settings::default())?;
+//! let [lowest, highest] = &census.equilibria[..] else { panic!("{census:?}") };
+//! assert!(census.complete && lowest.circle && highest.circle);
+//! // One is the other upside down: the energies add up to that of three centres at mid height.
+//! let sum = (lowest.energy_j + highest.energy_j).mid() / 9.80665;
+//! assert!((sum + 6.0).abs() < 1e-14);
+//! # Ok::<(), census::CensusError>(())
+//! ```
+//!
 //! [`Census::take`] finds all equilibria of a chain, stable or not, encloses each of them in
 //! intervals to full double precision, proves its Morse index, and proves that there is no other.
 //! What it cannot decide it lists ([`Undecided`]) and does not call complete.
@@ -8,10 +20,10 @@
 //!
 //! At rest the force along the chain is the pull $p$ of bar 1 on joint 0 plus the weights in
 //! between. The moment balance of bar i says that it is parallel to $F_i = p + c_i e_z$, where
-//! $c_i$ is the weight carried at the joints 1 to i−1, that of each bar divided between its joints by the lever rule.
-//! What joint 0 carries, $m_1(1 - r_1/l_1)$, adds to the pull on the first anchor alone. So
-//! $u_i = s_i F_i/|F_i|$ with $s_i = +1$ in tension and −1 in compression, and an equilibrium is a
-//! pattern of signs and a pull that close the chain:
+//! $c_i$ is the weight carried at the joints 1 to i−1, that of each bar divided between its joints
+//! by the lever rule. What joint 0 carries, $m_1(1 - r_1/l_1)$, adds to the pull on the first
+//! anchor alone. So $u_i = s_i F_i/|F_i|$ with $s_i = +1$ in tension and −1 in compression, and an
+//! equilibrium is a pattern of signs and a pull that close the chain:
 //!
 //! $$ \Phi_s(p) = \sum_i s_i l_i \frac{F_i}{|F_i|} - D = 0. $$
 //!
@@ -37,8 +49,8 @@
 //!
 //! Pulls of any size, infinite ones included, are the points of half a cube (module `cell`), which
 //! is cut into cells (module `search`). On each cell all patterns that are left are excluded
-//! together where possible (module `family`); where the derivative hardly varies, Krawczyk's test
-//! proves a zero (module `krawczyk`). All arithmetic that a proof rests on is rounded outward
+//! together where possible (module `pattern_sums`); where the derivative hardly varies, Krawczyk's
+//! test proves a zero (module `krawczyk`). All arithmetic that a proof rests on is rounded outward
 //! ([`Interval`]). The indices follow from signs of small determinants (module `inertia`).
 //!
 //! # What is independent of the search

@@ -33,6 +33,12 @@ impl Settings {
     /// # Errors
     ///
     /// [`CensusError::Setting`] for the first field out of range.
+    ///
+    /// ```
+    /// let settings = census::Settings::default();
+    /// assert!(settings.validate().is_ok());
+    /// assert!(census::Settings { max_bars: 1000, ..settings }.validate().is_err());
+    /// ```
     pub fn validate(&self) -> Result<(), CensusError> {
         /// 2⁻⁴⁸ and 2⁻⁴.
         const WIDTHS: std::ops::RangeInclusive<f64> =

@@ -20,6 +20,22 @@ const MOST_LINKS: usize = 40;
 /// Where the name is a symbolic link, the file that it leads to is replaced, and the link stays.
 /// What is there and is no regular file, such as a pipe or a device, cannot be replaced by one: it
 /// is written into as the bytes come. So is standard output under another name (`/dev/stdout`).
+///
+/// ```
+/// use std::io::Write;
+/// let folder = tempfile::tempdir()?;
+/// let path = folder.path().join("answer.txt");
+/// let mut file = columns::AtomicFile::create(&path)?;
+/// file.write_all(b"half")?;
+/// drop(file);
+/// // Nothing is left of what was not finished.
+/// assert_eq!(std::fs::read_dir(folder.path())?.count(), 0);
+/// let mut file = columns::AtomicFile::create(&path)?;
+/// file.write_all(b"whole")?;
+/// file.commit()?;
+/// assert_eq!(std::fs::read(&path)?, b"whole");
+/// # Ok::<(), std::io::Error>(())
+/// ```
 #[derive(Debug)]
 pub struct AtomicFile {
     // Before the part: closed when that goes away.
@@ -247,6 +263,15 @@ pub fn unfinished(name: &str) -> Option<&str> {
 /// # Errors
 ///
 /// Those of the file system.
+///
+/// ```
+/// let folder = tempfile::tempdir()?;
+/// let path = folder.path().join("page.html");
+/// columns::write_whole(&path, b"<p>first</p>")?;
+/// columns::write_whole(&path, b"<p>second</p>")?;
+/// assert_eq!(std::fs::read_to_string(&path)?, "<p>second</p>");
+/// # Ok::<(), std::io::Error>(())
+/// ```
 pub fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
     let mut file = AtomicFile::create(path)?;
     file.write_all(bytes)?;

@@ -1,5 +1,21 @@
 //! Columns on disk: bars read from Parquet, and tables written as Parquet or CSV.
 //!
+//! ```
+//! use columns::{Column, Data, Format, Kind, Schema, Spread, TableWriter};
+//! let length = Column::new("length_m", Kind::F64, Spread::Many, "m", "Length of the bar");
+//! let schema = Schema { columns: vec![length], notes: vec![] };
+//! let folder = tempfile::tempdir()?;
+//! let path = folder.path().join("lengths.csv");
+//! let mut table = TableWriter::create(&path, Format::Csv, &schema)?;
+//! table.write(vec![Data::F64(vec![1.0 / 3.0, 0.1 + 0.2])])?;
+//! assert!(!path.exists());
+//! table.finish()?;
+//! // The shortest digits that read back to the same bits.
+//! let text = "length_m\n0.3333333333333333\n0.30000000000000004\n";
+//! assert_eq!(std::fs::read_to_string(&path)?, text);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
 //! [`read_bars`] is for chains of a million different bars, [`read_rows`] for systems of as many.
 //! [`TableWriter`] and [`read_table`] are for what the program makes itself: every column with its
 //! unit and a description, row group after row group in bounded memory, in files that are whole or

@@ -61,6 +61,15 @@ pub struct Schema {
 }
 
 /// Cells of one column.
+///
+/// ```
+/// use columns::{Data, Kind};
+/// let mut cells = Data::empty(Kind::F64);
+/// cells.append(&mut Data::F64(vec![1.5, -2.0]));
+/// // Cells of another type are left alone.
+/// cells.append(&mut Data::U16(vec![3]));
+/// assert_eq!((cells.kind(), cells.len()), (Kind::F64, 2));
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub enum Data {
     /// Of a [`Kind::U64`] column.

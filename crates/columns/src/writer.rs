@@ -56,10 +56,10 @@ impl Format {
 pub struct TableWriter {
     path: PathBuf,
     schema: Schema,
-    sink: Sink,
+    output: Output,
 }
 
-enum Sink {
+enum Output {
     Parquet(Box<ParquetWriter>),
     Csv(Box<CsvWriter>),
 }
@@ -72,11 +72,11 @@ impl TableWriter {
     /// [`ColumnsError`] if the file cannot be made.
     pub fn create(path: &Path, format: Format, schema: &Schema) -> Result<Self, ColumnsError> {
         let file = AtomicFile::create(path).map_err(|error| ColumnsError::file(path, error))?;
-        let sink = match format {
-            Format::Parquet => Sink::Parquet(Box::new(ParquetWriter::new(path, file, schema)?)),
-            Format::Csv => Sink::Csv(Box::new(CsvWriter::new(path, file, schema)?)),
+        let output = match format {
+            Format::Parquet => Output::Parquet(Box::new(ParquetWriter::new(path, file, schema)?)),
+            Format::Csv => Output::Csv(Box::new(CsvWriter::new(path, file, schema)?)),
         };
-        Ok(Self { path: path.to_owned(), schema: schema.clone(), sink })
+        Ok(Self { path: path.to_owned(), schema: schema.clone(), output })
     }
 
     /// Write rows as one row group.
@@ -89,9 +89,9 @@ impl TableWriter {
         self.schema
             .rows(&columns)
             .map_err(|error| ColumnsError::Mismatch { path: path(), error })?;
-        match &mut self.sink {
-            Sink::Parquet(sink) => sink.write(&self.path, columns),
-            Sink::Csv(sink) => sink.write(&self.path, &columns),
+        match &mut self.output {
+            Output::Parquet(inner) => inner.write(&self.path, columns),
+            Output::Csv(inner) => inner.write(&self.path, &columns),
         }
     }
 
@@ -101,9 +101,9 @@ impl TableWriter {
     ///
     /// [`ColumnsError`] if the disk does not take the rest.
     pub fn finish(self) -> Result<(), ColumnsError> {
-        let file = match self.sink {
-            Sink::Parquet(sink) => sink.finish(&self.path)?,
-            Sink::Csv(sink) => sink.finish(),
+        let file = match self.output {
+            Output::Parquet(inner) => inner.finish(&self.path)?,
+            Output::Csv(inner) => inner.finish(),
         };
         file.commit().map_err(|error| ColumnsError::file(&self.path, error))
     }
@@ -131,6 +131,20 @@ pub fn read_table(
 /// # Errors
 ///
 /// [`ColumnsError`] if the file is no Parquet file.
+///
+/// ```
+/// use columns::{Column, Data, Format, Kind, Schema, Spread, TableWriter, read_notes};
+/// let seed = Column::new("seed", Kind::U64, Spread::Rising, "1", "Number of the start");
+/// let note = ("sweep.seed_number".to_owned(), "7".to_owned());
+/// let schema = Schema { columns: vec![seed], notes: vec![note.clone()] };
+/// let folder = tempfile::tempdir()?;
+/// let path = folder.path().join("seeds.parquet");
+/// let mut table = TableWriter::create(&path, Format::Parquet, &schema)?;
+/// table.write(vec![Data::U64(vec![0, 1, 2])])?;
+/// table.finish()?;
+/// assert!(read_notes(&path)?.contains(&note));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn read_notes(path: &Path) -> Result<Vec<(String, String)>, ColumnsError> {
     crate::parquet::notes(path)
 }

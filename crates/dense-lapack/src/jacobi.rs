@@ -200,8 +200,8 @@ fn complete<T: Scalar>(u: &mut DMatrix<T>, j: usize) {
         // Twice is enough (Kahan and Parlett).
         for _ in 0..2 {
             for i in 0..j {
-                let share = u.column(i).dot(&rest);
-                rest -= u.column(i) * share;
+                let along = u.column(i).dot(&rest);
+                rest -= u.column(i) * along;
             }
         }
         if rest.norm_squared() >= enough {

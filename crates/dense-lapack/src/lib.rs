@@ -1,5 +1,18 @@
 //! The dense BLAS and LAPACK routines that a semidefinite cone needs, without a BLAS to install.
 //!
+//! ```
+//! use std::ffi::{c_char, c_int};
+//! // [4 2; 2 5] = L Lᵀ with L = [2 0; 1 2], column by column.
+//! let mut matrix = [4.0, 2.0, 2.0, 5.0];
+//! let (lower, two, mut info): (c_char, c_int, c_int) = (b'L' as c_char, 2, -1);
+//! // SAFETY: a matrix of 2 × 2 numbers, and places that live as long as the call.
+//! unsafe {
+//!     dense_lapack::factor::dpotrf_(&raw const lower, &two, matrix.as_mut_ptr(), &two, &mut info);
+//! }
+//! assert_eq!(info, 0);
+//! assert_eq!([matrix[0], matrix[1], matrix[3]], [2.0, 1.0, 2.0]);
+//! ```
+//!
 //! The cone solver clarabel leaves the dense algebra of its semidefinite cone to whatever BLAS and
 //! LAPACK the final binary is linked with, and calls 22 Fortran symbols. This crate defines exactly
 //! these, over nalgebra, so that a machine with nothing but the Rust toolchain can link it:

@@ -13,7 +13,7 @@ use crate::vector::{VectorSum, along, dot, norm, scaled};
 /// there.
 const SHARP: f64 = 0.5;
 
-/// Groups on either side of the bend that are solved anew: the bend of a hanging chain is a few
+/// Groups on either side of the bend that are solved again: the bend of a hanging chain is a few
 /// bars wide where a group is too long for it, and what is left of it four groups up is a nearly
 /// straight strand.
 const SIDE: usize = 4;
@@ -44,8 +44,8 @@ impl Links {
     /// With its ends held, what the part has to lose is what the whole has to lose by it: a
     /// multiple of `l_i` taken off all of its `l_i h_i` is worth a constant.
     pub(crate) fn part(&self, bars: Range<usize>, u: &[Vector]) -> Option<(Self, Turn)> {
-        let (length, hang) = (&self.length[bars.clone()], &self.hang[bars.clone()]);
-        let (highest, lowest) = (*hang.first()?, *hang.last()?);
+        let (length, carried) = (&self.length[bars.clone()], &self.carried[bars.clone()]);
+        let (highest, lowest) = (*carried.first()?, *carried.last()?);
         let between = highest - lowest;
         let total: f64 = length.iter().sum();
         let mut span = VectorSum::default();
@@ -57,7 +57,7 @@ impl Links {
         let level = along(span, -dot(span, self.up), self.up);
         let part = Self {
             length: length.iter().map(|l| l / total).collect(),
-            hang: hang.iter().map(|h| (h - 0.5 * (highest + lowest)) / between).collect(),
+            carried: carried.iter().map(|h| (h - 0.5 * (highest + lowest)) / between).collect(),
             span: [span, [0.0; 3]],
             up: self.up,
             vertical: norm(level) <= VERTICAL_TOLERANCE,
@@ -77,7 +77,7 @@ mod tests {
         let n = 100;
         Links {
             length: vec![0.01; n],
-            hang: (0..n).map(|i| 0.495 - 0.01 * i as f64).collect(),
+            carried: (0..n).map(|i| 0.495 - 0.01 * i as f64).collect(),
             span: [[0.013, 0.0, 0.0], [0.0; 3]],
             up: [0.0, 0.0, 1.0],
             vertical: false,
@@ -87,7 +87,7 @@ mod tests {
 
     #[test]
     fn only_a_sharp_bend_is_one() {
-        let links = Links { length: vec![0.001; 1000], hang: vec![0.0; 1000], ..deep() };
+        let links = Links { length: vec![0.001; 1000], carried: vec![0.0; 1000], ..deep() };
         let grouped = links.grouped().unwrap();
         let groups = grouped.links.bars();
         let hairpin = |k: usize| if k < groups / 2 { [0.0, 0.0, -1.0] } else { [0.0, 0.0, 1.0] };
@@ -117,7 +117,7 @@ mod tests {
         u.swap(43, 55);
         let (after, moved) = (inside(&u), links.measure(&u));
         assert!(norm(after.gap) < 1e-14, "{:?}", after.gap);
-        let unit = 0.2 * (links.hang[40] - links.hang[59]);
+        let unit = 0.2 * (links.carried[40] - links.carried[59]);
         let (fall, of_whole) = (before.value - after.value, whole.value - moved.value);
         assert!(fall.abs() > 1e-3 && (unit * fall - of_whole).abs() < 1e-15, "{fall} {of_whole}");
     }

@@ -37,7 +37,8 @@ const CLOSED: f64 = 4.0 * f64::EPSILON;
 /// Least part of the predicted fall of the squared gap that counts as success.
 const FAIR_PART: f64 = 0.1;
 
-/// A predicted fall below this part of the squared gap is none: the bars are parallel to the gap.
+/// A predicted fall below this part of the squared gap counts as zero: the bars are parallel to the
+/// gap.
 const NO_FALL: f64 = 1e-8;
 
 /// First damping after a correction that failed, over the gap: it holds the turn of a bar below the
@@ -237,7 +238,7 @@ impl Pass {
 
     #[inline]
     fn add(&mut self, links: &Links, i: usize, u: Vector) {
-        let (l, h) = (links.length[i], links.hang[i]);
+        let (l, h) = (links.length[i], links.carried[i]);
         let (axis, rest) = parted(u);
         self.closure.add_to(axis, l.copysign(u[axis]));
         let rest = scaled(l, rest);

@@ -31,12 +31,12 @@ impl Links {
         if self.bars() <= FEW {
             return None;
         }
-        let (mut length, mut hang, mut sizes) = (Vec::new(), Vec::new(), Vec::new());
+        let (mut length, mut carried, mut sizes) = (Vec::new(), Vec::new(), Vec::new());
         let (mut l, mut lh, mut size) = (0.0, 0.0, 0_usize);
-        for (&next, &h) in self.length.iter().zip(&self.hang) {
+        for (&next, &h) in self.length.iter().zip(&self.carried) {
             if size > 0 && (size == GROUP || l + next > LONGEST_GROUP) {
                 length.push(l);
-                hang.push(lh / l);
+                carried.push(lh / l);
                 sizes.push(size);
                 (l, lh, size) = (0.0, 0.0, 0);
             }
@@ -45,13 +45,13 @@ impl Links {
             size += 1;
         }
         length.push(l);
-        hang.push(lh / l);
+        carried.push(lh / l);
         sizes.push(size);
         // Few long bars between many short ones may leave little to group.
         if 2 * length.len() > self.bars() {
             return None;
         }
-        let links = Self { length, hang, ..*self };
+        let links = Self { length, carried, ..*self };
         Some(Grouped { links, sizes })
     }
 }
@@ -77,10 +77,10 @@ mod tests {
     fn a_chain_of_straight_groups_has_the_energy_and_the_closure_of_the_bars() {
         let n = 100;
         let length: Vec<f64> = (0..n).map(|i| (1.0 + (i % 7) as f64) / 396.0).collect();
-        let hang = (0..n).map(|i| 0.5 - i as f64 / n as f64).collect();
+        let carried = (0..n).map(|i| 0.5 - i as f64 / n as f64).collect();
         let links = Links {
             length,
-            hang,
+            carried,
             span: [[0.6, 0.0, 0.1], [0.0; 3]],
             up: [0.0, 0.0, 1.0],
             vertical: false,

@@ -81,8 +81,8 @@ pub enum Error {
         directions: usize,
     },
     /// Occurs when all bars lie on one line as far as double precision tells, and the anchors do
-    /// not: a chain folded to a fraction of 1e-7 of its length, whose least energy hangs on angles
-    /// that are lost.
+    /// not: a chain folded to a fraction of 1e-7 of its length, whose least energy depends on
+    /// angles that are lost.
     #[error(
         "the bars lie on one line to rounding and the anchors {across:e} of the total length off it: what decides \
          between the positions of such a folded chain is lost in double precision"

@@ -35,7 +35,7 @@ impl Links {
         let [span, rest] = self.span;
         let mut others = Self { span: [along(span, -longest, to), rest], ..self.clone() };
         others.length.remove(k);
-        others.hang.remove(k);
+        others.carried.remove(k);
         let mut rest = turned.clone();
         rest.remove(k);
         let moments = others.measure(&rest);
@@ -61,7 +61,7 @@ mod tests {
     fn a_nearly_folded_chain_comes_closed_with_its_longest_bar_along_the_span() {
         let links = Links {
             length: vec![0.2, 0.6, 0.2],
-            hang: vec![0.3, 0.0, -0.3],
+            carried: vec![0.3, 0.0, -0.3],
             span: [[0.21, 0.0, 0.0], [0.0; 3]],
             up: [0.0, 0.0, 1.0],
             vertical: false,

@@ -1,6 +1,16 @@
 //! Equilibria of hanging chains of bars, energy first: section VIII, Solution 1 of the paper, for
 //! any number of bars in space.
 //!
+//! ```
+//! // The paper's chain: three bars of 1 m and 1 kg, anchors 2 m apart on one vertical.
+//! let found = energy::minimise(&model::cases::paper(), &energy::Settings::default())?;
+//! // The first bar hangs 19.694867976133 degrees off the vertical (a root finder of 40 digits).
+//! let [x, y, z] = found.directions[0];
+//! assert!((x.hypot(y).atan2(-z).to_degrees() - 19.694_867_976_133).abs() < 1e-9);
+//! assert_eq!(found.equilibrium.stability.index_in_space, 0);
+//! # Ok::<(), energy::Error>(())
+//! ```
+//!
 //! A chain comes to rest where its potential energy is least. The energy is linear in the
 //! directions `u_i` of the bars; that the chain ends at its anchor is one vector equation, the
 //! closure. This crate minimises the one subject to the other, and gets every force from the
@@ -12,7 +22,7 @@
 //! | first column of `[A_i]` | `u`, `directions` | - | (5) |
 //! | `V` | [`potential_j`], `energy_j` (from joint 0) | J | (v) |
 //! | `V / mgl` | [`example::potential`] (6 more) | `mgl` | (vi) |
-//! | - | `hang`, `h_i`: weight hanging on bar *i*, less one half | total weight | (v), see `links` |
+//! | - | `carried`, `h_i`: weight hanging on bar *i*, less one half | total weight | (v), see `links` |
 //! | `sum l_i u_i = D` | `closure`, `gap` | total length | (i), (ii) |
 //! | `theta, alpha, beta` | `theta_rad`, `alpha_rad`, `beta_rad` | rad | (i)-(iv) |
 //! | (viii) | [`example::quadratic`], [`example::candidates`] | - | (viii) |
@@ -37,6 +47,31 @@
 //! energy and the closure are those of a shorter chain. Three or four iterations on the chain
 //! itself are left. Where a deep chain bends within a few bars the bars around the bend are
 //! minimised by themselves first, their ends held.
+//!
+//! # Regimes
+//!
+//! Two questions decide which way a chain takes, [`Regime::of_problem`] answers both from the
+//! lengths and the anchors before any iteration. Let L be the total length, D the way from anchor
+//! to anchor, l the longest bar and s the length to spare, the smaller of $L - |D|$ and
+//! $L + |D| - 2l$. The thresholds stand in `regime`.
+//!
+//! | [`Reach`] | test | unknowns | fallback | what the evidence says |
+//! |---|---|---|---|---|
+//! | slack | neither of those below | directions on the closed chains, 2 n - 3; axes level and upright | a saddle is left along its lowest mode; bars that carry next to nothing: Newton's method with the weights counted from the least loaded bar (`refine`) | converged; minimum, with its indices |
+//! | drawn out | $s < L/4$ and $s < \lvert D\rvert$ | the same, with an axis along D | nearly parallel bars: that method with an axis along them | the same; how uncertain the forces are, if above 1e-9 |
+//! | nearly folded | and 3 bars or more, $L + \lvert D\rvert - 2l \le L/20$ and $\le \lvert D\rvert$ | the same; the longest bar starts along D, the others back | the same | the same; refused as `NearlyFolded` where what decides is lost |
+//! | folded anyway | the same, but $2l = L$: D is no axis | the same start, axes level and upright | the same | the same |
+//!
+//! | [`Turning`] | test | what is done | what the evidence says |
+//! |---|---|---|---|
+//! | free | anchors on one vertical | the turn about it is taken out of the Newton system | the turn counts in `nullity` |
+//! | soft | level distance of the anchors at most 1/100 of the unit of length | the chain is turned as a whole before Newton's steps | its condition |
+//! | held | any other, and every chain with [`Motion::Plane`] | nothing | nothing |
+//!
+//! What only a solution can tell follows from it. All bars on one line through both anchors (two
+//! strands that just meet): their forces are the limit of anchors moved apart (`strands`). A bend
+//! that is too sharp for the groups of bars of a coarser chain: its bars are solved by themselves
+//! (`bend`).
 //!
 //! argmin (`Executor`, `CostFunction`, `Gradient`, `Hessian`, `Operator`, `Solver`, `IterState`)
 //! runs the minimisation. The `Solver` is ours: argmin has none for constrained problems, and its
@@ -89,7 +124,7 @@ mod symmetric;
 mod vector;
 
 #[cfg(test)]
-mod twins;
+mod derivative_tests;
 
 pub mod batch;
 pub mod example;

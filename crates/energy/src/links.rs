@@ -21,10 +21,10 @@ use crate::vector::{Sum, along, dot, norm};
 #[derive(Debug, Clone)]
 pub(crate) struct Links {
     /// Lengths `l_i`; their sum is from 1 to 2. The unit is a power of two, so that all digits of
-    /// the lengths are there: a nearly taut chain hangs on the last of them.
+    /// the lengths are there: a nearly taut chain depends on the last of them.
     pub(crate) length: Vec<f64>,
     /// Weight hanging on each bar less one half, `h_i`; never increasing along the chain.
-    pub(crate) hang: Vec<f64>,
+    pub(crate) carried: Vec<f64>,
     /// The end anchor seen from the start anchor, `D`, as a sum to twice the digits; no component
     /// along the second axis.
     pub(crate) span: [Vector; 2],
@@ -81,15 +81,15 @@ impl Links {
         let frame = Frame::new(chain, reach);
         let length = bars.iter().map(|bar| bar.length_m() / length_m).collect();
         // Twice h_i: what hangs after bar i less what hangs before it.
-        let mut hang = vec![0.0; bars.len()];
+        let mut carried = vec![0.0; bars.len()];
         let mut before = Sum::default();
-        for (h, bar) in hang.iter_mut().zip(bars) {
+        for (h, bar) in carried.iter_mut().zip(bars) {
             let (m, at_last) = (bar.mass_kg() / mass_kg, lever::at_last(bar));
             *h -= before.value() + m * (1.0 - at_last);
             before.add(m);
         }
         let mut after = Sum::default();
-        for (h, bar) in hang.iter_mut().zip(bars).rev() {
+        for (h, bar) in carried.iter_mut().zip(bars).rev() {
             let (m, at_last) = (bar.mass_kg() / mass_kg, lever::at_last(bar));
             *h = 0.5 * (*h + (after.value() + m * at_last));
             after.add(m);
@@ -100,7 +100,7 @@ impl Links {
         up[1] = 0.0;
         let vertical = chain.anchors_on_one_vertical();
         (
-            Self { length, hang, span, up, vertical, motion },
+            Self { length, carried, span, up, vertical, motion },
             Units { length_m, weight_n, frame, origin: None },
         )
     }
@@ -134,6 +134,6 @@ impl Links {
 
     /// Gradient of the Lagrangian by the direction of bar `i`, over its length: `h_i up + mu`.
     pub(crate) fn load(&self, i: usize, multiplier: Vector) -> Vector {
-        along(multiplier, self.hang[i], self.up)
+        along(multiplier, self.carried[i], self.up)
     }
 }

@@ -66,6 +66,18 @@ pub fn minimise(problem: &Problem, settings: &Settings) -> Result<Solution, Erro
 /// # Errors
 ///
 /// [`Error`]; `Ok` means what it means for [`minimise`].
+///
+/// ```
+/// use energy::{Seed, Settings, minimise_from};
+/// let problem = model::cases::paper();
+/// // E2, the hanging shape upside down: no force is left over, and yet it is left.
+/// let e2 = [73.920_588_792_231, -38.599_136_184_452, -19.694_867_976_133];
+/// let seed = Seed::angles(&problem, &e2.map(f64::to_radians))?;
+/// let found = minimise_from(&problem, &seed, &Settings::default())?;
+/// let v = found.equilibrium.energy_j / model::STANDARD_GRAVITY_M_S2 + 6.0;
+/// assert!((v - 2.335_468_651_999_305).abs() < 1e-13);
+/// # Ok::<(), energy::Error>(())
+/// ```
 pub fn minimise_from(
     problem: &Problem,
     seed: &Seed,

@@ -125,7 +125,7 @@ mod tests {
         for up in [[0.0, 0.0, 1.0], [-1.0, 0.0, 0.0]] {
             let links = Links {
                 length: vec![0.5, 0.5],
-                hang: vec![0.25, -0.25],
+                carried: vec![0.25, -0.25],
                 span: [up, [0.0; 3]],
                 up,
                 vertical: true,

@@ -139,16 +139,16 @@ impl Point {
         let (cosine, sine) = quarter_turn_to_line(&u, links, units);
         let rotated = |[x, _, z]: Vector| [cosine * x + sine * z, 0.0, cosine * z - sine * x];
         let axes = [[cosine, 0.0, sine], [0.0, 1.0, 0.0], [-sine, 0.0, cosine]];
-        let multiplier = along(multiplier, links.hang[bar], links.up);
+        let multiplier = along(multiplier, links.carried[bar], links.up);
         let links = Links {
-            hang: counted_from(problem, bar),
+            carried: counted_from(problem, bar),
             span: rotated_sum(links.span, cosine, sine),
             up: rotated(links.up),
             ..(**links).clone()
         };
         let units = Units {
             frame: units.frame.turned(axes.map(|axis| turn.back(axis))),
-            origin: Some(Origin { bar, carried: minimum.links.hang[bar] }),
+            origin: Some(Origin { bar, carried: minimum.links.carried[bar] }),
             ..*units
         };
         let u: Vec<Vector> = u.into_iter().map(rotated).collect();

@@ -164,7 +164,7 @@ mod tests {
     fn the_turn_by_the_distance_of_the_verticals() {
         let links = |across: f64, vertical: bool, motion: Motion| Links {
             length: vec![0.5; 3],
-            hang: vec![0.3, 0.0, -0.3],
+            carried: vec![0.3, 0.0, -0.3],
             span: [[across, 0.0, 0.5], [0.0; 3]],
             up: [0.0, 0.0, 1.0],
             vertical,

@@ -10,6 +10,16 @@ use crate::vector::{scaled, unit};
 
 /// One direction per bar, from joint *i*-1 to joint *i*, in the world frame. Any length but zero;
 /// the chain need not close.
+///
+/// ```
+/// use energy::{Seed, potential_j};
+/// let problem = model::cases::paper();
+/// // Two bars straight down, the third up again: centres at -0.5 m, -1.5 m and -1.5 m.
+/// let seed = Seed::directions(&problem, &[[0.0, 0.0, -2.0], [0.0, 0.0, -1.0], [0.0, 0.0, 1.0]])?;
+/// assert_eq!(seed.as_slice()[0], [0.0, 0.0, -1.0]);
+/// assert!((potential_j(&problem, &seed) / 9.80665 + 3.5).abs() < 1e-15);
+/// # Ok::<(), energy::Error>(())
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Seed {
     directions: Vec<Vector>,
@@ -45,6 +55,16 @@ impl Seed {
     ///
     /// [`Error::SeedSize`] for a wrong number of angles, [`Error::SeedAngle`] for one that is not
     /// finite.
+    ///
+    /// ```
+    /// use energy::Seed;
+    /// // The anchors lie on one vertical, so a level bar points along +Y.
+    /// let seed = Seed::angles(&model::cases::paper(), &[std::f64::consts::FRAC_PI_2, 0.0, 0.0])?;
+    /// let [x, y, z] = seed.as_slice()[0];
+    /// assert!(x.abs() < 1e-15 && (y - 1.0).abs() < 1e-15 && z.abs() < 1e-15);
+    /// assert_eq!(seed.as_slice()[1], [0.0, 0.0, -1.0]);
+    /// # Ok::<(), energy::Error>(())
+    /// ```
     pub fn angles(problem: &Problem, angles_rad: &[f64]) -> Result<Self, Error> {
         let chain = problem.chain();
         if let Some(&angle_rad) = angles_rad.iter().find(|a| !a.is_finite()) {

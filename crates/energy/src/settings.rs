@@ -3,6 +3,18 @@
 use crate::error::Error;
 
 /// The motions among which the energy is minimised.
+///
+/// ```
+/// use energy::{Motion, Seed, Settings, minimise_from};
+/// let problem = model::cases::paper();
+/// // In the plane the mirror image of the hanging shape is a minimum of its own.
+/// let seed = Seed::angles(&problem, &[-0.3, -0.7, 1.3])?;
+/// let plane = Settings { motion: Motion::Plane, ..Settings::default() };
+/// let [x, y, _] = minimise_from(&problem, &seed, &plane)?.directions[0];
+/// assert!(x.abs() < 1e-15);
+/// assert!((y - (-19.694_867_976_133_f64).to_radians().sin()).abs() < 1e-12);
+/// # Ok::<(), energy::Error>(())
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum Motion {
     /// All motions. Every local minimum of a chain in space is its global one.

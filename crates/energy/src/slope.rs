@@ -40,7 +40,7 @@ pub(crate) struct Slope {
     /// Curvatures below minus this are negative, those above it positive; in between they are zero.
     pub(crate) zero: f64,
     /// The direction of the bars if all are on one straight line: the closure then leaves this part
-    /// of the multiplier free, and the row of the closure along it is none.
+    /// of the multiplier free, and the closure along it restricts nothing.
     pub(crate) line: Option<Vector>,
     /// Whether on that line the multiplier leaves no bar pushed.
     pub(crate) opened: bool,
@@ -60,7 +60,7 @@ impl Slope {
     /// near it say how small a curvature still says something.
     pub(crate) fn refined(links: &Links, u: &[Vector], multiplier: Vector) -> Self {
         let slope = Self::with_multiplier(links, u, multiplier);
-        let sizes = links.hang.iter().map(|h| h.abs()).filter(|h| *h > 0.0);
+        let sizes = links.carried.iter().map(|h| h.abs()).filter(|h| *h > 0.0);
         let near = sizes.fold(slope.pull, f64::min);
         Self { zero: ZERO_CURVATURE * near, ..slope }
     }

@@ -15,6 +15,15 @@ use crate::stability::SecondOrder;
 use crate::vector::{VectorSum, scaled};
 
 /// A local minimum of the energy: the equilibrium with its evidence, and what the search cost.
+///
+/// ```
+/// let found = energy::minimise(&model::cases::paper(), &energy::Settings::default())?;
+/// // Together the anchors carry the three weights.
+/// let reactions = found.equilibrium.reactions_n;
+/// assert!((reactions.start[2] + reactions.end[2] - 3.0 * 9.80665).abs() < 1e-12);
+/// assert!(found.work.gap < 1e-13);
+/// # Ok::<(), energy::Error>(())
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Solution {
     /// The observables.

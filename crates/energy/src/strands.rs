@@ -110,7 +110,7 @@ mod tests {
         let (down, up) = ([0.0, 0.0, -1.0], [0.0, 0.0, 1.0]);
         let links = |rounding: f64| Links {
             length: vec![0.25; 4],
-            hang: vec![0.5, 0.1 + rounding, 0.1 - rounding, -0.5],
+            carried: vec![0.5, 0.1 + rounding, 0.1 - rounding, -0.5],
             span: [[0.0; 3]; 2],
             up,
             vertical: true,
@@ -130,13 +130,13 @@ mod tests {
         }
     }
 
-    /// Four equal bars with both anchors at one point: by symmetry the strands share alike.
+    /// Four equal bars with both anchors at one point: by symmetry each strand takes one half.
     #[test]
     fn two_equal_strands_share_the_weight() {
         let (down, up) = ([0.0, 0.0, -1.0], [0.0, 0.0, 1.0]);
         let links = Links {
             length: vec![0.25; 4],
-            hang: vec![0.375, 0.125, -0.125, -0.375],
+            carried: vec![0.375, 0.125, -0.125, -0.375],
             span: [[0.0; 3]; 2],
             up,
             vertical: true,

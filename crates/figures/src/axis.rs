@@ -4,6 +4,13 @@ use crate::look::{Colour, Look};
 use crate::svg::{Anchor, Svg};
 
 /// A range of values on a stretch of the picture.
+///
+/// ```
+/// use figures::Axis;
+/// // 0 to 2 on 300 pixels.
+/// let axis = Axis { values: [0.0, 2.0], pixels: [80.0, 380.0] };
+/// assert_eq!(axis.at(0.5), 155.0);
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Axis {
     /// Its ends.

@@ -10,6 +10,8 @@
 //! let parabola = (0..=20).map(|k| f64::from(k) / 10.0);
 //! svg.polyline(Look::stroke(BLUE, 2.0), parabola.map(|x| axes.at([x, x * x])));
 //! axes.frame(&mut svg, [Unit::Decimal; 2]);
+//! // Half way to the right, a quarter of the way up.
+//! assert_eq!(axes.at([1.0, 1.0]), [230.0, 170.0]);
 //! svg.text(Look::PLAIN, axes.at([1.0, 1.0]), Anchor::Start, "(1, 1)");
 //! assert!(svg.finish().starts_with("<svg xmlns="));
 //! ```

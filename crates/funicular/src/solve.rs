@@ -190,7 +190,7 @@ impl SolveAnswer {
     ///
     /// # Errors
     ///
-    /// When a number is none, which an answer does not have.
+    /// When a number is not finite, which no answer has.
     pub fn summary(&self) -> serde_json::Result<Value> {
         let bare = |e: &Equilibrium| Equilibrium {
             joints_m: vec![],

@@ -20,7 +20,8 @@ impl Solve {
     ///
     /// ```
     /// use funicular::prelude::*;
-    /// // A lamp of 2 kg on two cables of 5 m between anchors 6 m apart: each pulls with 5/4 of 10 N.
+    /// // A lamp of 2 kg on two cables of 5 m between anchors 6 m apart: each pulls with 5/4 of
+    /// // 10 N.
     /// let joints = vec![
     ///     Joint::anchor("A", [-3.0, 0.0, 0.0]),
     ///     Joint::anchor("B", [3.0, 0.0, 0.0]),

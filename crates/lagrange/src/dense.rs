@@ -1,7 +1,7 @@
 //! The full system of the paper, stepped by its singular value decomposition.
 //!
-//! The readable form of the method and the twin of the reduced one: the same equations, all 6n +
-//! 3(n+1) of them, and a step for which nothing about their structure is known.
+//! The readable form of the method and what tests hold the reduced one against: the same equations,
+//! all 6n + 3(n+1) of them, and a step for which nothing about their structure is known.
 
 use nalgebra::{DMatrix, DVector, Vector3};
 

@@ -5,8 +5,8 @@ use nalgebra::{DVector, Matrix3, Vector3};
 use crate::mechanism::Mechanism;
 use crate::point::Point;
 
-/// Weight of the preference for equal shares in the estimate: small against the lengths (their sum
-/// is 1), large against rounding. It decides only when all bars are parallel.
+/// Weight of the preference for equal reactions in the estimate: small against the lengths (their
+/// sum is 1), large against rounding. It decides only when all bars are parallel.
 const REGULARISATION: f64 = 1e-10;
 
 /// The pull of the first anchor for which the moments are least,

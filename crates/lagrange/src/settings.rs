@@ -18,7 +18,7 @@ pub enum StepMethod {
     #[default]
     Reduced,
     /// From the full system of the paper, 6n + 3(n+1) unknowns, by its singular value
-    /// decomposition: the readable form and the twin of the other in tests. Cubic in n.
+    /// decomposition: the readable form, held against the other in tests. Cubic in n.
     Dense,
 }
 

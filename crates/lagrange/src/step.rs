@@ -3,7 +3,8 @@
 //! The matrix of the reduced system (see the module `point`) is symmetric,
 //!
 //! $$ J = \begin{bmatrix} H & G^T \\\\ G & 0 \end{bmatrix}, \qquad
-//!    H = \mathrm{diag}\\,(l_i\\,F_i \cdot \partial^2 u_i), \qquad G = [\\,l_i\\,\partial u_i\\,], $$
+//!    H = \mathrm{diag}\\,(l_i\\,F_i \cdot \partial^2 u_i), \qquad
+//!    G = [\\,l_i\\,\partial u_i\\,], $$
 //!
 //! and singular at every solution. Two treatments make the step well defined.
 //!
@@ -38,7 +39,8 @@ use crate::spin::across;
 /// Steps of the power method for the smallest singular value; a few digits are enough.
 const POWERS: usize = 50;
 
-/// A bar's share of the matrix, in the variables $\sqrt{l_i}\\,\times$ (angles across the spin).
+/// The part of a bar in the matrix, in the variables $\sqrt{l_i}\\,\times$ (angles across the
+/// spin).
 #[derive(Debug, Clone, Copy)]
 struct Block {
     /// Square root of the length.
@@ -108,7 +110,7 @@ impl Matrix {
     }
 
     /// Assemble in the plain metric with the curvature of the stretched bars alone, which is never
-    /// positive: what a motion that only sinks may use.
+    /// positive: for a motion along which the energy only falls.
     pub fn assemble_stretched(&mut self, point: &Point) {
         self.assemble(point, &Metric::plain());
         for (block, bar) in self.blocks.iter_mut().zip(&point.bars) {

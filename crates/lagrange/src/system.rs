@@ -62,7 +62,8 @@ pub(crate) fn residual_of<T: RealField + Copy>(
 
 /// Jacobian of [`residual`] by `q` and then `lambda`, square of size 6n + 3(n+1), analytic:
 ///
-/// $$ \begin{bmatrix} -\sum_i \lambda_i\\, \partial^2 f_i/\partial q^2 & -\mathbf{B}^T \\\\ \mathbf{B} & 0 \end{bmatrix}. $$
+/// $$ \begin{bmatrix} -\sum_i \lambda_i\\, \partial^2 f_i/\partial q^2 & -\mathbf{B}^T \\\\
+///    \mathbf{B} & 0 \end{bmatrix}. $$
 ///
 /// It is singular at every equilibrium, because a bar can spin about its own axis without any
 /// effect ("three of them being useless", section III); see [`spectrum`](crate::spectrum()).

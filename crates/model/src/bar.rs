@@ -56,6 +56,16 @@ impl Bar {
     /// # Errors
     ///
     /// [`BarError`] when a number is out of range; nothing is repaired.
+    ///
+    /// ```
+    /// use model::{Bar, BarError};
+    /// let bar = Bar::new(2.0, 3.0, 0.5, [0.0, 1.0, 1.0])?;
+    /// assert_eq!((bar.length_m(), bar.mass_kg(), bar.centre_m()), (2.0, 3.0, 0.5));
+    /// // The centre of weight lies on the bar.
+    /// let error = Bar::new(2.0, 3.0, 2.5, [0.0; 3]).unwrap_err();
+    /// assert_eq!(error, BarError::Centre { centre_m: 2.5, length_m: 2.0 });
+    /// # Ok::<(), model::BarError>(())
+    /// ```
     pub fn new(
         length_m: f64,
         mass_kg: f64,
@@ -102,6 +112,10 @@ impl Bar {
     ///
     /// This is also what a system file means that gives no moments, wherever it puts the centre of
     /// weight: a stand-in, since no equilibrium depends on them.
+    ///
+    /// ```
+    /// assert_eq!(model::Bar::slender_inertia(2.0, 3.0), [0.0, 1.0, 1.0]);
+    /// ```
     #[must_use]
     pub fn slender_inertia(length_m: f64, mass_kg: f64) -> [f64; 3] {
         let moment = mass_kg * length_m * length_m / 12.0;

@@ -123,6 +123,13 @@ pub fn exhibit(name: &str) -> Option<&'static Exhibit> {
 }
 
 /// All cases: chains.
+///
+/// ```
+/// // Every case is a problem with an answer.
+/// for case in model::cases::all() {
+///     assert!(case.problem().chain().bars().len() >= 2, "{}", case.name);
+/// }
+/// ```
 #[must_use]
 pub fn all() -> &'static [Case] {
     REGISTRY
@@ -142,6 +149,11 @@ pub fn get(name: &str) -> Option<&'static Case> {
 
 /// The paper's example (section VIII): three homogeneous bars of length 1 m and mass 1 kg, the
 /// anchors 2 m apart on one vertical.
+///
+/// ```
+/// let problem = model::cases::paper();
+/// assert_eq!(problem.chain().anchors().difference_m(), [0.0, 0.0, -2.0]);
+/// ```
 #[must_use]
 pub fn paper() -> Problem {
     REGISTRY[0].problem()

@@ -19,6 +19,11 @@ pub struct Anchors {
 
 impl Anchors {
     /// Vector from the start to the end anchor, m.
+    ///
+    /// ```
+    /// let anchors = model::Anchors { start_m: [1.0, 2.0, 3.0], end_m: [2.0, 2.0, 1.0] };
+    /// assert_eq!(anchors.difference_m(), [1.0, 0.0, -2.0]);
+    /// ```
     #[must_use]
     pub fn difference_m(&self) -> Vector {
         std::array::from_fn(|k| self.end_m[k] - self.start_m[k])
@@ -50,7 +55,8 @@ pub struct Chain {
     gravity_m_s2: f64,
     anchors: Anchors,
     bars: Vec<Bar>,
-    // Asked for by every part of a solver: a pass over a million bars costs as much as reading them.
+    // Asked for by every part of a solver: a pass over a million bars costs as much as reading
+    // them.
     total_length_m: f64,
     total_mass_kg: f64,
 }
@@ -216,6 +222,12 @@ impl Chain {
     }
 
     /// The few numbers that name the system in an answer.
+    ///
+    /// ```
+    /// let summary = model::cases::paper().chain().summary();
+    /// assert_eq!((summary.bars, summary.span_m), (3, 2.0));
+    /// assert_eq!((summary.total_length_m, summary.total_mass_kg), (3.0, 3.0));
+    /// ```
     #[must_use]
     pub fn summary(&self) -> SystemSummary {
         SystemSummary {

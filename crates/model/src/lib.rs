@@ -1,11 +1,25 @@
 //! The problem and the answer as data.
 //!
+//! ```
+//! use model::{Anchors, Bar, Chain, Problem};
+//! let bars = vec![Bar::homogeneous(1.0, 2.0)?; 3];
+//! let anchors = Anchors { start_m: [0.0; 3], end_m: [2.1, 0.0, 2.8] };
+//! let chain = Chain::new("too short", 9.81, anchors, bars)?;
+//! assert_eq!((chain.total_mass_kg(), chain.anchors().span_m()), (6.0, 3.5));
+//! let refusal = Problem::new(chain).unwrap_err();
+//! assert_eq!(
+//!     refusal.to_string(),
+//!     "the anchors are 3.5 m apart and the bars reach only 3 m: 0.5 m are missing"
+//! );
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
 //! A [`Chain`] is what hangs: rigid [`Bar`]s in a row between two [`Anchors`]. A [`Problem`] is a
 //! chain that has an answer; [`Refusal`] says why another has none. An [`Equilibrium`] is an answer
 //! of one solver with its [`Evidence`].
 //!
 //! No mechanics lives here. The two solvers, which must know nothing of each other, both depend on
-//! this crate; a formula of statics in it would be a formula they share. Sums of lengths and
+//! this crate; a formula of statics in it would be common to both. Sums of lengths and
 //! masses, the distance of two anchors and whether they stand on one vertical, and the moments of a
 //! slender bar (which no equilibrium depends on) are all it computes.
 //!

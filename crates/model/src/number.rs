@@ -15,7 +15,8 @@ use std::fmt::{self, Display, Formatter};
 /// assert_eq!(Number::significant(0.522_916_3, 4).to_string(), "0.5229");
 /// // Rounding, in full for those who look, as a bound for those who compare.
 /// let rounding = Number::size(3.1e-16, 0);
-/// assert_eq!((format!("{rounding}"), format!("{rounding:#}")), ("3e-16".into(), "<\u{a0}10⁻¹²".into()));
+/// assert_eq!(format!("{rounding}"), "3e-16");
+/// assert_eq!(format!("{rounding:#}"), "<\u{a0}10⁻¹²");
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Number {
@@ -52,6 +53,11 @@ impl Number {
     }
 
     /// A number that counts something.
+    ///
+    /// ```
+    /// use model::number::Number;
+    /// assert_eq!(Number::count(4.0).to_string(), "4");
+    /// ```
     #[must_use]
     pub const fn count(value: f64) -> Self {
         Self { value, digits: Digits::Count }
@@ -100,7 +106,7 @@ impl Display for Number {
     }
 }
 
-/// Significant digits of a count that is none.
+/// Significant digits of a number that is not a whole number.
 const COUNTED: usize = 4;
 
 /// Bounds for what is only rounding, largest first: value and text. A number is told as the

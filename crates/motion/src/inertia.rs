@@ -9,7 +9,8 @@ use model::Bar;
 /// with the centre at the fraction `r/l`, and the moment `J` about the centre across the member,
 /// therefore give
 ///
-/// $$ a = \frac{m (l-r)^2 + J}{l^2}, \qquad b = \frac{m r (l-r) - J}{l^2}, \qquad c = \frac{m r^2 + J}{l^2}. $$
+/// $$ a = \frac{m (l-r)^2 + J}{l^2}, \qquad b = \frac{m r (l-r) - J}{l^2}, \qquad
+///    c = \frac{m r^2 + J}{l^2}. $$
 ///
 /// The matrix is constant: no rotation, no angle, no velocity-dependent force enters. For a rigid
 /// bar the relative velocity of the ends is across the bar, so that `J` counts once for each axis

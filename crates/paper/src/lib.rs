@@ -1,10 +1,5 @@
 //! The paper audited: what it prints, what is true, and the numbers that decide.
 //!
-//! What is printed comes from `validation/paper.toml` ([`printed`]). Its example is solved by both
-//! solvers and closed by the census ([`example`], [`completeness`]); each claim ([`claims`]) and
-//! each equation ([`equations`]) gets a verdict that follows from numbers. [`reproduce`] puts all
-//! of it into one value, which `report` renders.
-//!
 //! ```
 //! use paper::example::Example;
 //! use paper::printed::Paper;
@@ -15,6 +10,11 @@
 //! assert!((printed - theta - 0.014_88).abs() < 1e-5);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
+//!
+//! What is printed comes from `validation/paper.toml` ([`printed`]). Its example is solved by both
+//! solvers and closed by the census ([`example`], [`completeness`]); each claim ([`claims`]) and
+//! each equation ([`equations`]) gets a verdict that follows from numbers. [`reproduce`] puts all
+//! of it into one value, which `report` renders.
 
 pub mod basins;
 pub mod bounds;

@@ -45,7 +45,7 @@ impl Report {
     /// # Errors
     ///
     /// [`ReportError::Census`] when the equilibria of the example cannot be listed,
-    /// [`ReportError::Json`] when a number is none.
+    /// [`ReportError::Json`] when a number is not finite.
     pub fn new(reproduction: Reproduction, environment: Environment) -> Result<Self, ReportError> {
         let census = Census::take(&model::cases::paper(), &census::Settings::default())?;
         let view = View::new(&reproduction).fragment()?;

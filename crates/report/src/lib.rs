@@ -1,5 +1,16 @@
 //! What people read: the reproduction report and its figures.
 //!
+//! ```
+//! use model::number::Number;
+//! use paper::printed::Paper;
+//! use report::cell::Cell;
+//! // Theta of the paper's first position, degrees: a point of its grid, 344 steps of 0.001 rad.
+//! let printed = Paper::project().claim("ix-theta").unwrap().value();
+//! assert!((printed.to_radians() - 0.344).abs() < 1e-7);
+//! // It is told with all its digits, since it is printed so.
+//! assert_eq!(Cell::number(Number::decimals(printed, 5)).text(), "19.70975");
+//! ```
+//!
 //! A [`Report`] is made from one [`Reproduction`](paper::Reproduction) and written as a page
 //! ([`Report::html`]: one file that needs nothing else), as Markdown ([`Report::markdown`]) and as
 //! JSON ([`Report::json`]). The first two are made of the same [`block`]s, so they say the same.

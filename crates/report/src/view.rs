@@ -59,8 +59,8 @@ pub struct State {
     pub axial_mg: Option<[f64; 3]>,
 }
 
-/// A closed chain: theta, alpha, beta in degrees, V in mgl, and dV/dtheta in mgl/rad, which is none
-/// where the curve turns back in theta.
+/// A closed chain: theta, alpha, beta in degrees, V in mgl, and dV/dtheta in mgl/rad, which is
+/// `None` where the curve turns back in theta.
 pub type Sample = (f64, f64, f64, f64, Option<f64>);
 
 /// The numbers of the interactive view.

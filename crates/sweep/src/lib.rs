@@ -1,5 +1,14 @@
 //! Many starts in parallel: which start leads where.
 //!
+//! ```
+//! // None of 1000 random starts led to a position: fewer than 0.4 % of all do, with 95 %
+//! // confidence.
+//! let (low, high) = sweep::rate_interval(0, 1000);
+//! let z = 1.959_963_984_540_054_f64;
+//! assert_eq!(low, 0.0);
+//! assert!((high - z * z / (1000.0 + z * z)).abs() < 1e-15);
+//! ```
+//!
 //! A sweep depends on no solver: it is handed those that it runs ([`BatchSolver`]). Two are
 //! compared seed by seed.
 //!

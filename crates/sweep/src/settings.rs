@@ -42,6 +42,13 @@ impl Settings {
     /// # Errors
     ///
     /// [`SweepError`] for the first setting out of range.
+    ///
+    /// ```
+    /// use sweep::Settings;
+    /// assert!(Settings::default().validate().is_ok());
+    /// let large = Settings { chunk: Settings::LARGEST_CHUNK + 1, ..Settings::default() };
+    /// assert!(large.validate().is_err());
+    /// ```
     pub fn validate(&self) -> Result<(), SweepError> {
         if !(1..=Self::LARGEST_CHUNK).contains(&self.chunk) {
             return Err(SweepError::Chunk { seeds: self.chunk, most: Self::LARGEST_CHUNK });

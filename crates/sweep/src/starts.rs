@@ -28,6 +28,14 @@ pub enum Source {
 
 /// One angle of a grid: the middles of `points` equal parts of an interval. With one point it is
 /// fixed at the middle.
+///
+/// ```
+/// use std::f64::consts::FRAC_PI_4;
+/// use sweep::Axis;
+/// let quarters = Axis::full(4);
+/// assert_eq!([0, 1, 2, 3].map(|k| quarters.at(k) / FRAC_PI_4), [1.0, 3.0, 5.0, 7.0]);
+/// assert_eq!(Axis::fixed(0.3).at(0), 0.3);
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Axis {

@@ -21,6 +21,13 @@ pub struct OutcomeTally {
 
 impl OutcomeTally {
     /// The middle of the numbers of iterations, the lower one of two.
+    ///
+    /// ```
+    /// use std::collections::BTreeMap;
+    /// use sweep::OutcomeTally;
+    /// let tally = OutcomeTally { count: 5, iterations: BTreeMap::from([(3, 2), (4, 2), (9, 1)]) };
+    /// assert_eq!((tally.median_iterations(), tally.max_iterations()), (4, 9));
+    /// ```
     #[must_use]
     pub fn median_iterations(&self) -> u16 {
         let mut below = 0;

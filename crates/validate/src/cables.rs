@@ -13,7 +13,8 @@
 //! let problem = model::cases::paper();
 //! let found = lagrange::condensed::solve(&problem, &lagrange::condensed::Settings::default())?;
 //! let cables = hold_against_cables(&problem, &found.equilibrium)?;
-//! // Its energy is 2.33546865 mgl in the paper's terms, that of the cables 2; the weight times length is 9.
+//! // Its energy is 2.33546865 mgl in the paper's terms, that of the cables 2; the weight times
+//! // length is 9.
 //! assert!(!cables.taut && (cables.gap - 0.33546865 / 9.0).abs() < 1e-9);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```

@@ -102,6 +102,18 @@ impl Certificate {
 /// # Errors
 ///
 /// [`NoCertificate`] when the bound proves nothing, with the reason.
+///
+/// ```
+/// use validate::certificate::certify;
+/// let problem = model::cases::paper();
+/// let found = lagrange::solve(&problem, &lagrange::Settings::default())?.equilibrium;
+/// let certificate = certify(&problem, &found)?;
+/// // Bar 3 props the chain up, and the chain turns freely about the vertical of the anchors.
+/// assert_eq!((certificate.compressed_bar, certificate.singular), (Some(3), true));
+/// let bound = certificate.lower_bound_j / 9.80665 + 6.0;
+/// assert!(bound <= 2.335_468_651_999_31 && bound > 2.335_468_65);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn certify(problem: &Problem, found: &Equilibrium) -> Result<Certificate, NoCertificate> {
     let chain = problem.chain();
     let bars = chain.bars();
@@ -115,7 +127,7 @@ pub fn certify(problem: &Problem, found: &Equilibrium) -> Result<Certificate, No
     closed(chain, found)?;
     // What the last bar leaves on its anchor moves nothing: without it the numbers are no larger
     // than what hangs.
-    let resting_n = last_share(bars) * chain.gravity_m_s2();
+    let resting_n = last_part(bars) * chain.gravity_m_s2();
     let pull = [pull[0], pull[1], pull[2] - resting_n];
     let force_n = norm(pull) + hanging_n(chain);
     let compressed = the_compressed_bar(&found.axial_n, force_n)?;
@@ -148,7 +160,7 @@ pub fn certify(problem: &Problem, found: &Equilibrium) -> Result<Certificate, No
     Ok(Certificate { lower_bound_j, gap_j, gap, compressed_bar, singular })
 }
 
-/// Largest part of what a chain can spare by which its last joint may miss the anchor.
+/// Largest distance of the last joint from its anchor, as a part of the slack of the chain.
 const OPEN_PART: f64 = 0.1;
 
 /// Whether the answer is a configuration of the chain, as far as that matters.
@@ -156,13 +168,13 @@ fn closed(chain: &Chain, found: &Equilibrium) -> Result<(), NoCertificate> {
     let Some(last) = found.joints_m.last() else { return Err(NoCertificate::Unusable) };
     let end = chain.anchors().end_m;
     let off = norm(std::array::from_fn(|k| last[k] - end[k]));
-    let missed_m = off - stored_rounding_m(chain);
+    let gap_m = off - stored_rounding_m(chain);
     let total = chain.total_length_m();
     let longest = chain.bars().iter().fold(0.0_f64, |most, bar| most.max(bar.length_m()));
     let span = chain.anchors().span_m();
-    let spare_m = (total - span).min((total - longest) - longest + span);
-    if off.is_nan() || missed_m > OPEN_PART * spare_m {
-        return Err(NoCertificate::NotClosed { missed_m, spare_m });
+    let slack_m = (total - span).min((total - longest) - longest + span);
+    if off.is_nan() || gap_m > OPEN_PART * slack_m {
+        return Err(NoCertificate::NotClosed { gap_m, slack_m });
     }
     Ok(())
 }
@@ -187,7 +199,7 @@ fn the_compressed_bar(axial_n: &[f64], force_n: f64) -> Result<Option<usize>, No
 }
 
 /// The mass that the lever rule leaves at the far end of the last bar, on the anchor, kg.
-fn last_share(bars: &[Bar]) -> f64 {
+fn last_part(bars: &[Bar]) -> f64 {
     bars.last().map_or(0.0, far_kg)
 }
 
@@ -195,7 +207,7 @@ fn last_share(bars: &[Bar]) -> f64 {
 /// the anchor, less the weight between the bar and the anchor.
 fn bar_forces(bars: &[Bar], gravity: f64, pull: Vector) -> Vec<Vector> {
     let mut forces = vec![pull; bars.len()];
-    let (mut beyond, mut lost) = (0.0 - last_share(bars), 0.0_f64);
+    let (mut beyond, mut lost) = (0.0 - last_part(bars), 0.0_f64);
     for (bar, force) in bars.iter().zip(&mut forces).rev() {
         let lever = far_kg(bar);
         force[2] -= gravity * (beyond + lost + lever);

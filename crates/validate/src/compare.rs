@@ -40,7 +40,8 @@ pub struct Agreement {
     pub force_family: Option<ForceFamily>,
     /// Violations of Newton's laws by each answer.
     pub statics: Vec<Statics>,
-    /// Whether the other numbers of each answer follow from its joints and forces.
+    /// Whether the other numbers of each answer follow from its joints and forces; in JSON under
+    /// the key of schema version 1, `books`.
     #[serde(rename = "books")]
     pub consistency: Vec<Consistency>,
     /// Whether all of these are within their budgets.
@@ -110,6 +111,23 @@ impl Agreement {
 /// # Panics
 ///
 /// When there are fewer than two answers: one alone is judged by [`judge_alone`].
+///
+/// ```
+/// use validate::{Tolerances, compare};
+/// let problem = model::cases::paper();
+/// let mut answers = [
+///     lagrange::solve(&problem, &lagrange::Settings::default())?.equilibrium,
+///     energy::minimise(&problem, &energy::Settings::default())?.equilibrium,
+/// ];
+/// let agreement = compare(&problem, &mut answers, &Tolerances::project());
+/// // The anchors are on one vertical: the second answer is turned onto the first.
+/// assert!(agreement.agrees() && agreement.turned_rad.is_some());
+/// assert!(agreement.joints_m < 1e-12);
+/// // An answer that is off by a micrometre is told from the other.
+/// answers[1].joints_m[1][2] += 1e-6;
+/// assert!(!compare(&problem, &mut answers, &Tolerances::project()).agrees());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[must_use]
 pub fn compare(
     problem: &Problem,

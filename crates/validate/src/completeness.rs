@@ -9,6 +9,22 @@ use crate::tolerances::Tolerances;
 
 /// Say on an answer of a solver how far the census carries it: the rungs `verified` and `complete`.
 /// An answer that a complete census refutes loses what it had reached above `converged`.
+///
+/// ```
+/// use census::{Census, Settings};
+/// use model::Rung;
+/// use validate::completeness::certify_by_census;
+/// let problem = model::cases::paper();
+/// let mut found = lagrange::solve(&problem, &lagrange::Settings::default())?.equilibrium;
+/// let census = Census::take(&problem, &Settings::default())?;
+/// certify_by_census(&problem, &census, &mut found);
+/// assert!(found.evidence.ladder.is_reached(Rung::Verified));
+/// // A joint a millimetre off is at none of the listed equilibria.
+/// found.joints_m[1][2] += 1e-3;
+/// certify_by_census(&problem, &census, &mut found);
+/// assert!(!found.evidence.ladder.is_reached(Rung::Verified));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn certify_by_census(problem: &Problem, census: &Census, answer: &mut Equilibrium) {
     let chain = problem.chain();
     let ladder = &mut answer.evidence.ladder;
@@ -45,7 +61,7 @@ pub fn without_census(error: &CensusError, answer: &mut Equilibrium) {
     ladder.complete = Status::Open(reason);
 }
 
-/// Why an answer is none of the equilibria of the list.
+/// Why an answer is not among the equilibria of the list.
 fn not_listed(chain: &Chain, census: &Census, place: Option<Nearest>, energy_j: f64) -> Reason {
     if in_family(chain, census, energy_j) {
         return Reason::SlackFamily;
@@ -60,8 +76,8 @@ fn not_listed(chain: &Chain, census: &Census, place: Option<Nearest>, energy_j: 
     }
 }
 
-/// Whether an answer at this distance of all equilibria is none, to the accuracy that answers are
-/// asked to agree to.
+/// Whether an answer at this distance of all equilibria differs from them, to the accuracy that
+/// answers are asked to agree to.
 fn refutes(chain: &Chain, distance: f64) -> bool {
     distance > Tolerances::project().joints.value + placed(chain)
 }

@@ -39,6 +39,15 @@ fn shares(bar: &Bar) -> [f64; 2] {
 }
 
 /// The mass that each joint between the anchors carries, kg.
+///
+/// ```
+/// use model::{Anchors, Bar, Chain};
+/// let anchors = Anchors { start_m: [0.0; 3], end_m: [3.0, 0.0, 0.0] };
+/// // 2 kg of the first bar fall on its second joint, 6 kg of the second bar on its first.
+/// let chain = Chain::new("two bars", 9.81, anchors, vec![Bar::new(2.0, 8.0, 0.5, [0.0; 3])?; 2])?;
+/// assert_eq!(validate::lever::carried_kg(&chain).collect::<Vec<_>>(), [8.0]);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn carried_kg(chain: &Chain) -> impl Iterator<Item = f64> + '_ {
     chain.bars().windows(2).map(|pair| far_kg(&pair[0]) + near_kg(&pair[1]))
 }

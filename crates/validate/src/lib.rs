@@ -1,5 +1,17 @@
 //! The only place where the two solvers meet.
 //!
+//! ```
+//! use validate::answer::{Question, ask};
+//! // The paper's chain: three bars of 1 m and 1 kg, anchors 2 m apart on one vertical.
+//! let answer = ask(&model::cases::paper(), &Question::default(), &|_| {});
+//! assert!(answer.agrees());
+//! for found in &answer.equilibria {
+//!     // lambda_3, the vertical force of the ground on bar 1, in mg (a root finder of 40 digits).
+//!     assert!((found.multipliers_n[0][2] / 9.80665 - 2.312_944_292_241_838).abs() < 1e-12);
+//!     assert_eq!(found.evidence.rung(), Some(model::Rung::Optimal));
+//! }
+//! ```
+//!
 //! `lagrange` and `energy` answer the same question and know nothing of each other. Here their
 //! answers are held against each other ([`compare`](mod@compare)), against a third judge written
 //! from Newton's laws ([`statics`]), against a proof of global minimality ([`certificate`]), and

@@ -82,6 +82,23 @@ impl Statics {
 ///
 /// Arrays that do not fit the chain, and numbers that are not finite, give NaN, which passes no
 /// tolerance.
+///
+/// ```
+/// use model::{Anchors, Bar, Chain};
+/// use validate::statics::judge;
+/// // Two bars of 1 m and 1 N hang as a triangle of equal sides.
+/// let anchors = Anchors { start_m: [0.0; 3], end_m: [1.0, 0.0, 0.0] };
+/// let chain = Chain::new("triangle", 1.0, anchors, vec![Bar::homogeneous(1.0, 1.0)?; 2])?;
+/// let joints = [[0.0; 3], [0.5, 0.0, -0.75_f64.sqrt()], [1.0, 0.0, 0.0]];
+/// // Moments about the joint: 1 N at the anchor, less the weight half way, is half a newton.
+/// let across = 0.25 / 0.75_f64.sqrt();
+/// let forces = [[-across, 0.0, 1.0], [across, 0.0, 0.0], [across, 0.0, 1.0]];
+/// assert!(judge(&chain, &joints, &forces).passes(1e-15));
+/// // A thousandth of a newton that is not there is found.
+/// let wrong = [[-across, 0.0, 1.001], forces[1], forces[2]];
+/// assert!((judge(&chain, &joints, &wrong).force - 1e-3).abs() < 1e-4);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[must_use]
 pub fn judge(chain: &Chain, joints_m: &[Vector], multipliers_n: &[Vector]) -> Statics {
     let bars = chain.bars();

@@ -8,6 +8,14 @@ use model::system_file::nearest;
 use crate::parameter::error::ParameterError;
 
 /// One number of a system file, or the same number of every bar.
+///
+/// ```
+/// use branches::{BarField, Number, Parameter, Which};
+/// let vary: Parameter = "bars.*.length_m=0.5,1".parse()?;
+/// assert_eq!(vary.number, Number::Bar(Which::All, BarField::Length));
+/// assert_eq!((vary.number.to_string().as_str(), vary.number.unit()), ("bars.*.length_m", "m"));
+/// # Ok::<(), branches::ParameterError>(())
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Number {
     /// `gravity_m_s2`.

@@ -31,8 +31,8 @@ use crate::plane::system::System;
 use crate::slack::families::families;
 use crate::slack::unloaded::with_signs;
 
-/// A stated enclosure may be that much wider than the one computed by the check, both being at the level of
-/// rounding errors; measured: below 4 on thousands of equilibria.
+/// A stated enclosure may be that much wider than the one computed by the check, both being at the
+/// level of rounding errors; measured: below 4 on thousands of equilibria.
 const LOOSE: f64 = 64.0;
 
 /// An enclosure narrower than this many units in the last place is never called loose.

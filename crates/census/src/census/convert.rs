@@ -92,6 +92,14 @@ impl Census {
     }
 
     /// The rung `complete` of every equilibrium of this list.
+    ///
+    /// ```
+    /// use census::{Census, Settings};
+    /// let census = Census::take(&model::cases::paper(), &Settings::default())?;
+    /// let proof = census.completeness();
+    /// assert_eq!(proof.proof().map(|complete| complete.in_plane), Some(4));
+    /// # Ok::<(), census::CensusError>(())
+    /// ```
     #[must_use]
     pub fn completeness(&self) -> Status<Complete> {
         if self.complete {
@@ -117,6 +125,13 @@ impl Census {
 
     /// Patterns of tension and compression that the census goes through, 2ⁿ; the largest number
     /// where they are more.
+    ///
+    /// ```
+    /// use census::{Census, Settings};
+    /// let census = Census::take(&model::cases::paper(), &Settings::default())?;
+    /// assert_eq!(census.patterns(), 8);
+    /// # Ok::<(), census::CensusError>(())
+    /// ```
     #[must_use]
     pub fn patterns(&self) -> u64 {
         2_u64.saturating_pow(u32::try_from(self.statistics.bars).unwrap_or(u32::MAX))

@@ -51,7 +51,7 @@ pub struct Statistics {
     pub bars: usize,
     /// Cells of pulls looked at.
     pub cells: u64,
-    /// Tests of one cell for one pattern, those decided in families included.
+    /// Tests of one cell for one pattern, those decided together included.
     pub tests: u64,
     /// Proofs of existence tried.
     pub proofs: u64,
@@ -89,6 +89,16 @@ impl Census {
     /// # Errors
     ///
     /// As [`take`](Self::take).
+    ///
+    /// ```
+    /// use std::cell::Cell;
+    /// use census::{Census, Settings};
+    /// let levels = Cell::new(0);
+    /// let watch = |_| levels.set(levels.get() + 1);
+    /// let census = Census::take_watched(&model::cases::paper(), &Settings::default(), &watch)?;
+    /// assert_eq!(levels.get(), census.statistics.levels);
+    /// # Ok::<(), census::CensusError>(())
+    /// ```
     pub fn take_watched(
         problem: &Problem,
         settings: &Settings,
@@ -162,6 +172,15 @@ impl Census {
 
     /// Number of equilibria in the plane by index; families of slack bars count with their Betti
     /// numbers.
+    ///
+    /// ```
+    /// use census::{Census, Settings};
+    /// let census = Census::take(&model::cases::paper(), &Settings::default())?;
+    /// // Two minima and two maxima in the plane: the configurations are closed curves.
+    /// assert_eq!(census.count_by_index(), [2, 2]);
+    /// assert_eq!((census.alternating_sum(), census.morse()), (0, Ok(())));
+    /// # Ok::<(), census::CensusError>(())
+    /// ```
     #[must_use]
     pub fn count_by_index(&self) -> Vec<i64> {
         let mut count = vec![0; self.statistics.bars.saturating_sub(1)];

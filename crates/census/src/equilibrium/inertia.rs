@@ -5,7 +5,8 @@
 //! compression. Motions in the plane keep two closure equations, those out of it one. By the
 //! inertia of the bordered matrix, with the Schur complements
 //!
-//! $$ S = \sum_i \frac{s_i l_i}{|F_i|} (I - f_i f_i^T), \qquad \sigma = \sum_i \frac{s_i l_i}{|F_i|}, $$
+//! $$ S = \sum_i \frac{s_i l_i}{|F_i|} (I - f_i f_i^T), \qquad
+//!    \sigma = \sum_i \frac{s_i l_i}{|F_i|}, $$
 //!
 //! index in the plane = compressed bars + positive eigenvalues of S − 2,
 //! index out of it = compressed bars + (1 if σ > 0) − 1.

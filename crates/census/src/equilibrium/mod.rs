@@ -67,6 +67,15 @@ pub struct Neighbourhood {
 
 impl ProvenEquilibrium {
     /// Index among all motions in space.
+    ///
+    /// ```
+    /// use census::{Census, Settings};
+    /// let census = Census::take(&model::cases::paper(), &Settings::default())?;
+    /// let highest = &census.equilibria[1];
+    /// assert_eq!((highest.index_in_plane, highest.index_out_of_plane), (1, 1));
+    /// assert_eq!(highest.index_in_space(), 2);
+    /// # Ok::<(), census::CensusError>(())
+    /// ```
     #[must_use]
     pub fn index_in_space(&self) -> usize {
         self.index_in_plane + self.index_out_of_plane
@@ -74,6 +83,13 @@ impl ProvenEquilibrium {
 
     /// The largest relative width of an enclosure: of the pull against its size, the joints against
     /// the length of the chain, the angles in radians.
+    ///
+    /// ```
+    /// use census::{Census, Settings};
+    /// let census = Census::take(&model::cases::paper(), &Settings::default())?;
+    /// assert!(census.equilibria.iter().all(|equilibrium| equilibrium.width() < 1e-14));
+    /// # Ok::<(), census::CensusError>(())
+    /// ```
     #[must_use]
     pub fn width(&self) -> f64 {
         let [h, v] = self.pull_n;

@@ -4,8 +4,8 @@
 //! taken in order. So neither the answer nor the point where the search gives up depends on the
 //! number of threads.
 
-pub(crate) mod family;
 pub(crate) mod merge;
+pub(crate) mod pattern_sums;
 pub(crate) mod undecided;
 
 use rayon::prelude::*;
@@ -14,7 +14,7 @@ use crate::closure::Pattern;
 use crate::enclosure::krawczyk::{Finding, Zero, examine};
 use crate::plane::cell::Cell;
 use crate::plane::system::System;
-use crate::search::family::Family;
+use crate::search::pattern_sums::PatternSums;
 use crate::settings::Settings;
 use crate::slack::exclusion;
 use crate::slack::unloaded::Unloaded;
@@ -127,15 +127,15 @@ fn examine_cell(system: &System, settings: &Settings, unloaded: &Unloaded, task:
     let mut outcome = Outcome::default();
     let mut noisy = [true; 2];
     let asked = unloaded.left(system, &cell, &task.patterns);
-    let (patterns, left, across) = match Family::over(system, &cell) {
+    let (patterns, left, across) = match PatternSums::over(system, &cell) {
         None => {
             noisy = [false; 2];
             (exclusion::open(system, &cell, &asked), cell, wider(&cell))
         }
-        Some(family) => {
+        Some(sums) => {
             let mut patterns = vec![];
             let mut left: Option<Cell> = None;
-            for open in family.open(&asked) {
+            for open in sums.open(&asked) {
                 if open.promising {
                     outcome.proofs += 1;
                     let signs: Vec<i8> = open.pattern.signs(system.bars()).collect();
@@ -156,7 +156,7 @@ fn examine_cell(system: &System, settings: &Settings, unloaded: &Unloaded, task:
                     at: std::array::from_fn(|k| all.at[k].hull(part.at[k])),
                 }));
             }
-            (patterns, left.unwrap_or(cell), family.widest(system, &cell))
+            (patterns, left.unwrap_or(cell), sums.widest(system, &cell))
         }
     };
     if patterns.is_empty() {

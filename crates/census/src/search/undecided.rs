@@ -13,6 +13,18 @@ use crate::search::Task;
 
 /// A set of pulls for which the census does not say whether and how many equilibria it holds,
 /// besides those that are listed.
+///
+/// ```
+/// use census::{Census, Reason, Settings};
+/// use model::{Anchors, Bar, Chain, Problem};
+/// // 1 + 1 + 1 - 1 = 2: the chain can lie straight, and the force along it is then any.
+/// let anchors = Anchors { start_m: [0.0; 3], end_m: [2.0, 0.0, 0.0] };
+/// let chain = Chain::new("straight", 9.81, anchors, vec![Bar::homogeneous(1.0, 1.0)?; 4])?;
+/// let census = Census::take(&Problem::new(chain)?, &Settings::default())?;
+/// assert!(!census.complete);
+/// assert!(census.undecided.iter().all(|open| open.reason == Reason::Degenerate));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Undecided {
     /// Why.

@@ -173,7 +173,8 @@ impl AxialClosure<'_> {
     /// from the closure across it, and enters the second derivative with the factor
     /// $h_k = l_k \varrho$ alone,
     ///
-    /// $$ \sum_{i \ne k} h_i \dot\theta_i^2 + h_k (w \cdot \dot\theta)^2, \qquad b \cdot \dot\theta = 0, $$
+    /// $$ \sum_{i \ne k} h_i \dot\theta_i^2 + h_k (w \cdot \dot\theta)^2, \qquad
+    ///    b \cdot \dot\theta = 0, $$
     ///
     /// $h_i = s_i l_i |F_i|$, $b_i = l_i\,e \cdot n_i$, $w_i = l_i\,n_k \cdot n_i / l_k$. It has
     /// one negative direction less than bars are compressed where $b^T H^{-1} b < 0$. Out of the

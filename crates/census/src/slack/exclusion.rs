@@ -8,8 +8,8 @@
 //! $$ \max(0,\ 2\max_g|\Lambda_g| - \sum_g|\Lambda_g|) \le
 //!    \Bigl|D - \sum_{\text{others}} s_j l_j u_j\Bigr| \le \sum_g|\Lambda_g|. $$
 //!
-//! For one group this is a circle, and lengths in general position exclude it: the small cells around
-//! the point are excluded. One bar alone that meets it is decided by
+//! For one group this is a circle, and lengths in general position exclude it: the small cells
+//! around the point are excluded. One bar alone that meets it is decided by
 //! [`unloaded`](crate::slack::unloaded). The point itself, where the bars of a group need not be
 //! parallel, is the business of [`families`](crate::slack::families).
 

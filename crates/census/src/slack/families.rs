@@ -20,6 +20,24 @@ use crate::plane::face::Face;
 use crate::plane::system::{System, at_first_joint};
 
 /// A set of equilibria of one energy, in which some bars carry nothing.
+///
+/// ```
+/// use census::{Census, Settings};
+/// use model::{Anchors, Bar, Chain, Problem};
+/// // Two bars without mass between two that hang straight down: they hang slack.
+/// let bars = [(0.9, 2.0), (0.5, 0.0), (0.6, 0.0), (0.7, 1.5)];
+/// let bars = bars.map(|(l, m)| Bar::homogeneous(l, m)).into_iter().collect::<Result<_, _>>()?;
+/// let anchors = Anchors { start_m: [0.0; 3], end_m: [0.3, 0.0, -0.1] };
+/// let problem = Problem::new(Chain::new("slack", 10.0, anchors, bars)?)?;
+/// let census = Census::take(&problem, &Settings::default())?;
+/// let hanging = census.families.iter().find(|family| family.signs == [1, 0, 0, 1]).unwrap();
+/// // Heights of the centres, by hand: -0.45 m and -0.1 m - 0.35 m.
+/// assert!((hanging.energy_j.mid() + 10.0 * (2.0 * 0.45 + 1.5 * 0.45)).abs() < 1e-14);
+/// // They bridge what is left between -0.9 m and -0.8 m.
+/// assert!((hanging.gap_m.mid() - 0.3_f64.hypot(0.1)).abs() < 1e-15);
+/// assert_eq!(hanging.dimension_in_plane(), 0);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct SlackFamily {
     /// +1 for each bar in tension, −1 in compression, 0 for the slack bars.

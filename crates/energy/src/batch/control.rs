@@ -14,16 +14,16 @@ const DAMPING: f64 = 0.1;
 const FAIR: f64 = 1e-4;
 /// Roundings in the energy, in units of the total weight times the total length.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
-/// Corrections of a seed, which may be anywhere, before it is jolted: six are usual; bars in
+/// Corrections of a seed, which may be anywhere, before it is perturbed: six are usual; bars in
 /// parallel turn together towards the line of the gap, ever more slowly.
 const SEED_CORRECTIONS: u32 = 25;
 /// Corrections after a step.
 const STEP_CORRECTIONS: u32 = 12;
 /// Halvings of a step.
 const HALVINGS: u32 = 40;
-/// Jolts off points that are stationary and no minima, and their size, rad.
-const JOLTS: u32 = 8;
-const JOLT: f64 = 0.01;
+/// Perturbations off points that are stationary and no minima, and their size, rad.
+const PERTURBATIONS: u32 = 8;
+const PERTURBATION: f64 = 0.01;
 
 /// Where one lane is.
 #[derive(Debug, Clone, Copy)]
@@ -35,7 +35,7 @@ pub(crate) struct Lane {
     /// Corrections of the closure in this trial.
     corrections: u32,
     halvings: u32,
-    jolts: u32,
+    perturbations: u32,
     /// Part of the step on trial.
     part: f64,
     /// Energy at the accepted chain; infinite before there is one.
@@ -56,7 +56,7 @@ pub(crate) enum Next {
     /// From the base, by this part of the step.
     Step(f64),
     /// From the base, by this times i + 1.
-    Jolt(f64),
+    Perturb(f64),
     /// It is a minimum.
     Minimum,
     /// Out of trials.
@@ -75,7 +75,7 @@ impl Lane {
             trials: 0,
             corrections: 0,
             halvings: 0,
-            jolts: 0,
+            perturbations: 0,
             part: 0.0,
             value: f64::INFINITY,
             fall: 0.0,
@@ -113,7 +113,7 @@ impl Lane {
         let started = self.value.is_finite();
         self.corrections += 1;
         if self.corrections > if started { STEP_CORRECTIONS } else { SEED_CORRECTIONS } {
-            return if started { self.halve() } else { self.jolt() };
+            return if started { self.halve() } else { self.perturb() };
         }
         let damping = DAMPING * square;
         let [a, b, d] = [spread[0] + damping, spread[1], spread[2] + damping];
@@ -122,11 +122,11 @@ impl Lane {
         // No turn is larger than the pull.
         let size = (pull[0] * pull[0] + pull[1] * pull[1]).sqrt();
         if !size.is_finite() {
-            return if started { self.halve() } else { self.jolt() };
+            return if started { self.halve() } else { self.perturb() };
         }
         // All bars along the gap: no turn closes it to first order.
         if !started && parallel(spread, gap, square) {
-            return self.jolt();
+            return self.perturb();
         }
         let part = if size > LARGEST_TURN { LARGEST_TURN / size } else { 1.0 };
         Next::Correct(pull.map(|pull| pull * part))
@@ -149,10 +149,10 @@ impl Lane {
             return Next::NonFinite;
         }
         if slope <= settings.tolerance {
-            return if convex { Next::Minimum } else { self.jolt() };
+            return if convex { Next::Minimum } else { self.perturb() };
         }
         if !(largest_turn.is_finite() && fall < 0.0) {
-            return self.jolt();
+            return self.perturb();
         }
         self.fall = fall;
         self.part = if largest_turn > LARGEST_TURN { LARGEST_TURN / largest_turn } else { 1.0 };
@@ -166,12 +166,16 @@ impl Lane {
         if self.halvings > HALVINGS { Next::Stalled } else { Next::Step(self.part) }
     }
 
-    fn jolt(&mut self) -> Next {
-        self.jolts += 1;
-        // What is closed after a jolt is the new base, whatever its energy.
+    fn perturb(&mut self) -> Next {
+        self.perturbations += 1;
+        // What is closed after a perturbation is the new base, whatever its energy.
         self.value = f64::INFINITY;
         self.corrections = 0;
-        if self.jolts > JOLTS { Next::Stalled } else { Next::Jolt(JOLT * f64::from(self.jolts)) }
+        if self.perturbations > PERTURBATIONS {
+            Next::Stalled
+        } else {
+            Next::Perturb(PERTURBATION * f64::from(self.perturbations))
+        }
     }
 }
 

@@ -149,7 +149,7 @@ impl Batch {
                 from_base: [false; WIDTH],
                 part: same(0.0),
                 pull: [same(0.0); 2],
-                jolt: same(0.0),
+                perturbation: same(0.0),
             };
             let mut ended = [None; WIDTH];
             for k in 0..WIDTH {
@@ -158,7 +158,7 @@ impl Batch {
                         (moves.pull[0][k], moves.pull[1][k]) = (pull[0], pull[1]);
                     }
                     Next::Step(part) => (moves.from_base[k], moves.part[k]) = (true, part),
-                    Next::Jolt(size) => moves.jolt[k] = size,
+                    Next::Perturb(size) => moves.perturbation[k] = size,
                     Next::Minimum => ended[k] = Some(Finish::Converged),
                     Next::IterationLimit => ended[k] = Some(Finish::IterationLimit),
                     Next::NonFinite => ended[k] = Some(Finish::NonFinite),

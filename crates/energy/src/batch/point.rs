@@ -118,10 +118,10 @@ pub(crate) fn slopes(
         let slope = wide(|k| x[k] * up[k] - z[k] * mu[0][k]);
         let axial = wide(|k| -(z[k] * up[k] + x[k] * mu[0][k]));
         accumulate(&mut negative, |k| if axial[k] < 0.0 { 1.0 } else { 0.0 });
-        let share = wide(|k| piece.length / axial[k]);
-        accumulate(&mut matrix[0], |k| share[k] * z[k] * z[k]);
-        accumulate(&mut matrix[1], |k| -(share[k] * x[k] * z[k]));
-        accumulate(&mut matrix[2], |k| share[k] * x[k] * x[k]);
+        let weight = wide(|k| piece.length / axial[k]);
+        accumulate(&mut matrix[0], |k| weight[k] * z[k] * z[k]);
+        accumulate(&mut matrix[1], |k| -(weight[k] * x[k] * z[k]));
+        accumulate(&mut matrix[2], |k| weight[k] * x[k] * x[k]);
         largest = wide(|k| {
             let slope = piece.length * slope[k].abs();
             if slope <= largest[k] { largest[k] } else { slope }
@@ -176,12 +176,12 @@ fn newton(
             let stiff = if axial.abs() > LEAST_STIFFNESS { axial.abs() } else { LEAST_STIFFNESS };
             1.0 / if convex[k] || !accepted[k] { axial } else { stiff }
         });
-        let share = wide(|k| piece.length * inverse[k]);
-        accumulate(&mut matrix[0], |k| share[k] * z[k] * z[k]);
-        accumulate(&mut matrix[1], |k| -(share[k] * x[k] * z[k]));
-        accumulate(&mut matrix[2], |k| share[k] * x[k] * x[k]);
-        accumulate(&mut right[0], |k| share[k] * place.slope[k] * z[k]);
-        accumulate(&mut right[1], |k| -(share[k] * place.slope[k] * x[k]));
+        let weight = wide(|k| piece.length * inverse[k]);
+        accumulate(&mut matrix[0], |k| weight[k] * z[k] * z[k]);
+        accumulate(&mut matrix[1], |k| -(weight[k] * x[k] * z[k]));
+        accumulate(&mut matrix[2], |k| weight[k] * x[k] * x[k]);
+        accumulate(&mut right[0], |k| weight[k] * place.slope[k] * z[k]);
+        accumulate(&mut right[1], |k| -(weight[k] * place.slope[k] * x[k]));
         for k in 0..WIDTH {
             if accepted[k] {
                 place.axial[k] = inverse[k];
@@ -213,7 +213,7 @@ pub(crate) struct Moves {
     /// ... or from the trial by $-t_i\cdot\nu$, ...
     pub(crate) pull: [Wide; 2],
     /// ... and besides, bar i by this times i + 1.
-    pub(crate) jolt: Wide,
+    pub(crate) perturbation: Wide,
 }
 
 /// Make the next trial.
@@ -228,7 +228,7 @@ pub(crate) fn turn(places: &mut [Place], moves: &Moves) {
         let correction = wide(|k| z[k] * nu[0][k] - x[k] * nu[1][k]);
         let number = (bar + 1) as f64;
         let delta = pick(&step, &correction);
-        let delta = wide(|k| delta[k] + number * moves.jolt[k]);
+        let delta = wide(|k| delta[k] + number * moves.perturbation[k]);
         let scale = wide(|k| 1.0 / (1.0 + delta[k] * delta[k]).sqrt());
         place.x = wide(|k| (x[k] - delta[k] * z[k]) * scale[k]);
         place.z = wide(|k| (z[k] + delta[k] * x[k]) * scale[k]);

@@ -27,6 +27,15 @@ impl Branch {
 /// By geometry, without the squaring of (viii): bars 2 and 3 span the vector from *A* to *D*,
 /// `(2 - cos(theta), -sin(theta))`, of length `rho` and angle `phi`; being equal they lean from it
 /// by `arccos(rho / 2)` to either side.
+///
+/// ```
+/// use energy::example::{Branch, alpha};
+/// let third = std::f64::consts::FRAC_PI_3;
+/// assert!((alpha(0.0, Branch::FirstQuadrant).unwrap() - third).abs() < 1e-15);
+/// assert!((alpha(0.0, Branch::FourthQuadrant).unwrap() + third).abs() < 1e-15);
+/// // Bars 2 and 3 drawn out reach no farther than cos(theta) = 1/4.
+/// assert!(alpha(0.25_f64.acos() + 1e-6, Branch::FirstQuadrant).is_none());
+/// ```
 #[must_use]
 pub fn alpha(theta_rad: f64, branch: Branch) -> Option<f64> {
     let (sin, cos) = theta_rad.sin_cos();
@@ -43,6 +52,11 @@ pub fn alpha(theta_rad: f64, branch: Branch) -> Option<f64> {
 }
 
 /// Beta that closes the chain, by (iii) and (iv), rad, in (-pi, pi].
+///
+/// ```
+/// let third = std::f64::consts::FRAC_PI_3;
+/// assert!((energy::example::beta(0.0, third) + third).abs() < 1e-15);
+/// ```
 #[must_use]
 pub fn beta(theta_rad: f64, alpha_rad: f64) -> f64 {
     (-theta_rad.sin() - alpha_rad.sin()).atan2(2.0 - theta_rad.cos() - alpha_rad.cos())
@@ -151,13 +165,13 @@ mod tests {
     }
 
     #[test]
-    fn the_slope_has_its_twin() {
+    fn the_slope_is_its_difference_quotient() {
         for branch in Branch::BOTH {
             for theta in [-1.0, -0.3, 0.001, 0.344, 1.1] {
                 let v = |h: f64| CurvePoint::at(theta + h, branch).unwrap().energy_mgl;
                 let d = |h: f64| (v(h) - v(-h)) / (2.0 * h);
-                let twin = (4.0 * d(5e-4) - d(1e-3)) / 3.0;
-                assert!((slope(theta, branch) - twin).abs() < 1e-9, "{branch:?} {theta}");
+                let quotient = (4.0 * d(5e-4) - d(1e-3)) / 3.0;
+                assert!((slope(theta, branch) - quotient).abs() < 1e-9, "{branch:?} {theta}");
             }
         }
     }

@@ -4,6 +4,11 @@ use super::closure;
 
 /// Coefficients of (viii), `a cos²(alpha) + b cos(alpha) + c = 0`, for a given theta.
 ///
+/// ```
+/// // Bar 1 straight down: 4 c² - 4 c + 1 = 0 has the double root 1/2, alpha = 60 degrees.
+/// assert_eq!(energy::example::quadratic(0.0), [4.0, -4.0, 1.0]);
+/// ```
+///
 /// # References
 ///
 /// Equation (viii) of the paper (the second one of that number).
@@ -37,7 +42,7 @@ pub struct Candidate {
 ///
 /// $$2 \sin\theta \sin\alpha = 4\cos\theta + 4\cos\alpha - 5 - 2\cos\theta\cos\alpha,$$
 ///
-/// whose right-hand side decides the sign; [`Candidate::closure`] shows what the other sign misses
+/// whose right-hand side decides the sign; [`Candidate::closure`] shows what the other sign leaves
 /// by. Empty where theta is out of reach, `cos(theta) < 1/4`.
 ///
 /// ```
@@ -100,9 +105,9 @@ mod tests {
                 // sin²(theta), and its root loses digits accordingly.
                 let rounding = 1e-14 / f64::sin(theta).abs();
                 assert!(good.closure.abs() < rounding, "theta {theta}: {good:?}");
-                // The wrong sign misses by -4 sin(theta) sin(alpha).
-                let miss = -4.0 * f64::sin(theta) * good.alpha_rad.sin();
-                assert!((bad.closure - miss).abs() < rounding, "theta {theta}: {bad:?}");
+                // The wrong sign leaves -4 sin(theta) sin(alpha).
+                let gap = -4.0 * f64::sin(theta) * good.alpha_rad.sin();
+                assert!((bad.closure - gap).abs() < rounding, "theta {theta}: {bad:?}");
             }
         }
         assert!(candidates(1.4).is_empty());

@@ -354,7 +354,7 @@ mod tests {
     }
 
     #[test]
-    fn the_curvature_has_its_twin() {
+    fn the_curvature_is_its_difference_quotient() {
         // The gradient by arc length, differenced along the curve.
         for place in [[0.3, 0.4], [-0.9, 0.2], [1.0, -1.0], [0.05, 0.9]] {
             let place = onto_curve(place);
@@ -364,8 +364,8 @@ mod tests {
                 Along::at(corrected(aside).0).gradient
             };
             let d = |h: f64| (g(h) - g(-h)) / (2.0 * h);
-            let twin = (4.0 * d(5e-4) - d(1e-3)) / 3.0;
-            assert!((along.curvature - twin).abs() < 1e-9, "{place:?}");
+            let quotient = (4.0 * d(5e-4) - d(1e-3)) / 3.0;
+            assert!((along.curvature - quotient).abs() < 1e-9, "{place:?}");
         }
     }
 

@@ -35,6 +35,12 @@ pub fn potential_of_three(theta_rad: f64, alpha_rad: f64, beta_rad: f64) -> f64 
 }
 
 /// Potential energy (vi) of the two angles, in `mgl`.
+///
+/// ```
+/// use energy::example::potential;
+/// let [theta, alpha] = [19.694_867_976_133_02_f64, 38.599_136_184_451_89].map(f64::to_radians);
+/// assert!((potential(theta, alpha) - 2.335_468_651_999_305).abs() < 1e-15);
+/// ```
 #[must_use]
 pub fn potential(theta_rad: f64, alpha_rad: f64) -> f64 {
     5.0 - 2.0 * theta_rad.cos() - alpha_rad.cos()
@@ -44,6 +50,14 @@ pub fn potential(theta_rad: f64, alpha_rad: f64) -> f64 {
 ///
 /// $$f(\theta, \alpha) = (2 - \cos\theta - \cos\alpha)^2 + (\sin\theta + \sin\alpha)^2 - 1
 ///   = 5 - 4\cos\theta - 4\cos\alpha + 2\cos(\alpha - \theta) = 0 .$$
+///
+/// ```
+/// use energy::example::closure;
+/// // Bar 1 straight down: *A* and *D* are 1 l apart, and the other two stand at 60 degrees.
+/// assert!(closure(0.0, std::f64::consts::FRAC_PI_3).abs() < 1e-15);
+/// // Bars 1 and 2 straight down end at *D*, which bar 3 then misses by its length.
+/// assert_eq!(closure(0.0, 0.0), -1.0);
+/// ```
 #[must_use]
 pub fn closure(theta_rad: f64, alpha_rad: f64) -> f64 {
     5.0 - 4.0 * theta_rad.cos() - 4.0 * alpha_rad.cos() + 2.0 * (alpha_rad - theta_rad).cos()
@@ -71,7 +85,7 @@ mod tests {
     }
 
     #[test]
-    fn gradients_have_their_twins() {
+    fn gradients_are_their_difference_quotients() {
         for (t, a) in [(0.3, 0.7), (-1.1, 2.5), (3.0, -0.2), (0.0, 0.0)] {
             for (gradient, f) in [
                 (potential_gradient([t, a]), potential as fn(f64, f64) -> f64),

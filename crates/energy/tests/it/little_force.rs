@@ -49,10 +49,11 @@ fn massless_bars_that_just_bridge_their_gap() {
             let middle = 0.5 * (joints[1][k] + joints[3][k]);
             assert!((joints[2][k] - middle).abs() < 1e-12, "{joints:?}");
         }
-        // The outer bars give way by what the inner ones lack, shared as one over their weights.
-        let shares = [joints[1][0], 2.0 + over_m - joints[3][0]];
-        assert!((shares[0] + shares[1] - over_m).abs() < 1e-15);
-        assert!((shares[0] - last_kg * shares[1]).abs() < 1e-6 * over_m, "{shares:?}");
+        // The outer bars give way by what the inner ones lack, in the ratio of one over their
+        // weights.
+        let parts = [joints[1][0], 2.0 + over_m - joints[3][0]];
+        assert!((parts[0] + parts[1] - over_m).abs() < 1e-15);
+        assert!((parts[0] - last_kg * parts[1]).abs() < 1e-6 * over_m, "{parts:?}");
     }
 }
 

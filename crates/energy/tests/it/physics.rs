@@ -78,7 +78,7 @@ fn compare(
     (joints / case.length(), forces / case.weight())
 }
 
-/// A force below this part of the weight is none.
+/// A force below this part of the weight counts as zero.
 const NO_FORCE: f64 = 1e-12;
 
 /// The worst of 21,000 chains stayed below 2e-14 (3,000 per property); the rest is room for the

@@ -12,7 +12,7 @@ use crate::svg::{Anchor, Svg};
 /// Classes of width.
 const WIDTHS: usize = 4;
 
-/// Forces below this part of the largest are none: a solver leaves as much.
+/// Forces below this part of the largest count as zero: a solver leaves as much.
 pub(crate) const NOTHING: f64 = 1e-9;
 
 /// A drawing with less detail than this has no room for hollow lines.

@@ -175,7 +175,7 @@ impl Structure<'_> {
         let forces = || self.members.iter().filter_map(|member| member.axial_n);
         let most = forces().fold(0.0, f64::max);
         let least = forces().fold(0.0, f64::min);
-        // What a solver leaves of a force that is none is not told.
+        // What a solver leaves of a force that is zero is not told.
         let nothing = members::NOTHING * f64::max(most, -least);
         let said = |name: &str, force: f64| {
             (force > nothing).then(|| format!("largest {name} {} N", labels::short(force)))

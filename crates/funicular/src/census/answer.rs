@@ -155,7 +155,7 @@ pub struct Slack {
 /// The census judged again, without the search.
 #[derive(Debug, Clone, Serialize)]
 pub struct Check {
-    /// Whether every equilibrium is proved anew.
+    /// Whether every equilibrium is proved again.
     pub passed: bool,
     /// Whether something is shown to be wrong; else what failed is a proof, which shows nothing.
     pub refuted: bool,
@@ -275,7 +275,7 @@ fn signed_deg(angle: f64) -> f64 {
 /// In [0, 360).
 fn full_turn_deg(signed: f64) -> f64 {
     let turned = if signed < 0.0 { signed + 360.0 } else { signed };
-    // A tiny negative angle rounds to the full turn, which is none.
+    // A tiny negative angle rounds to the full turn, which is zero.
     if turned >= 360.0 { 0.0 } else { turned }
 }
 

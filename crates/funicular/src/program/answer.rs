@@ -66,7 +66,8 @@ fn overview(equilibria: &[Equilibrium], turned_rad: Option<f64>) -> String {
     )
 }
 
-/// A force turned about the vertical. What the rounding of the turn leaves of a component is none.
+/// A force turned about the vertical. What the rounding of the turn leaves of a component
+/// counts as zero.
 fn turn(force @ [x, y, z]: Vector, angle_rad: Option<f64>) -> Vector {
     let Some(angle_rad) = angle_rad else { return force };
     let (sin, cos) = angle_rad.sin_cos();

@@ -22,7 +22,7 @@ macro_rules! exit_codes {
 /// Of the program.
 const EXIT_CODES: &str = exit_codes!("what `sweep` and `merge` have done is kept, to go on from");
 
-/// Of the commands that begin anew.
+/// Of the commands that begin from the start.
 const ALL_OR_NOTHING: &str =
     exit_codes!("nothing is kept to go on from, and no file is half written");
 

@@ -43,7 +43,7 @@ pub fn print_json(object: &impl Serialize) -> Result<(), Failure> {
     })
 }
 
-/// What cannot be said in JSON: a number that is none, which no answer has.
+/// What cannot be said in JSON: a number that is not finite, which no answer has.
 pub fn no_json(error: &serde_json::Error) -> Failure {
     Failure::undecided(miette!("the answer cannot be written as JSON: {error}"))
 }

@@ -77,7 +77,7 @@ pub fn run(arguments: &Sweep) -> Result<Exit, Failure> {
     Ok(verdict(manifest, summary))
 }
 
-/// Seeds from which on the cost is told beforehand.
+/// So many seeds and more have their cost told beforehand.
 const MANY_SEEDS: u64 = 100_000_000;
 
 /// What a large sweep needs.

@@ -194,7 +194,7 @@ fn the_paper_in_tables() {
         "optimal   2 of 4",
         "agreed    0 of 4",
         "Betti numbers [1, 1]",
-        "every equilibrium listed is proved anew without the search",
+        "every equilibrium listed is proved again without the search",
         "That the list is complete rests on the search",
     ] {
         assert!(text.contains(wanted), "{wanted} is not in\n{text}");

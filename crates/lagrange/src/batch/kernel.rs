@@ -85,7 +85,7 @@ const fn limits() -> [f64; 32] {
 pub(crate) const MOST_STEPS: u32 = 60_000;
 const _: () = assert!(MOST_STEPS as f64 * PLAIN < LARGEST_ANGLE);
 
-/// Weight of the preference for equal shares in the estimate of the pull, as in `multipliers`.
+/// Weight of the preference for equal reactions in the estimate of the pull, as in `multipliers`.
 const REGULARISATION: f64 = 1e-10;
 
 /// An axial force smaller than this is taken for this one: it keeps the quotients finite.
@@ -210,7 +210,7 @@ fn judge(
 }
 
 /// The pull for which the moments are least, $\sum l_i (t_i\cdot F_i)^2 \to \min$, with a faint
-/// preference for equal shares of the anchors: that of `solve_from`, in the plane.
+/// preference for equal reactions: that of `solve_from`, in the plane.
 #[inline(always)]
 fn estimate(bars: &[Bar], states: &[State]) -> [Lanes; 2] {
     let regularisation = Lanes::all(REGULARISATION);

@@ -179,7 +179,7 @@ impl<'a> Signs<'a> {
     }
 
     /// The pull for which the moments on the closed shape are least, with a faint preference for
-    /// equal shares of the anchors.
+    /// equal reactions of the anchors.
     fn estimate(&mut self) -> [f64; 2] {
         self.passes += 1;
         let (mut matrix, mut right) =

@@ -11,7 +11,7 @@ use crate::settings::SettingsError;
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Settings {
-    /// How far the last joint may miss its anchor, relative to the total length.
+    /// How far the last joint may be from its anchor, relative to the total length.
     ///
     /// Newton's method always goes on to the rounding errors, some 1e-15; this bounds them where a
     /// chain amplifies them. Default 1e-13. Range 1e-15 to 1e-3.

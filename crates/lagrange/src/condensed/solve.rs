@@ -37,7 +37,7 @@ pub struct Solution {
 /// # Errors
 ///
 /// [`CondensedError`]: settings out of range; passes over the bars that ran out, or a chain that
-/// misses its anchor by more than the settings allow; a force too large for a double.
+/// is farther from its anchor than the settings allow; a force too large for a double.
 ///
 /// ```
 /// use lagrange::condensed::{Settings, solve};
@@ -154,7 +154,7 @@ impl Condensed {
     ///
     /// # Errors
     ///
-    /// [`CondensedError::NotClosed`] when the last joint misses its anchor by more than
+    /// [`CondensedError::NotClosed`] when the last joint is farther from its anchor than
     /// [`Settings::closure`], [`CondensedError::Overflow`] when a force or the energy is infinite.
     ///
     /// ```

@@ -193,10 +193,10 @@ mod tests {
     /// Worst measured: 3e-10 of the largest entry.
     const DIFFERENCES: f64 = 1e-8;
 
-    /// The derivative of the closure has a twin by central differences, in both frames, with a bar
+    /// The derivative of the closure agrees with central differences, in both frames, with a bar
     /// in compression and without.
     #[test]
-    fn derivative_of_the_closure_has_a_twin() {
+    fn derivative_of_the_closure_is_that_of_differences() {
         let lengths = [0.7, 1.2, 0.5, 0.9, 1.1];
         let loads = [-1.9, -0.8, 0.0, 0.7, 1.6];
         let bars =

@@ -1,4 +1,4 @@
-//! Every analytic derivative has two twins, dual numbers and central differences, over random
+//! Every analytic derivative is held against dual numbers and central differences over random
 //! states.
 
 use lagrange::{

@@ -153,7 +153,7 @@ pub struct Disagreement {
 }
 
 impl Disagreement {
-    /// Whether there is none.
+    /// Whether nothing differs.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.excesses.is_empty() && self.stability.is_empty()

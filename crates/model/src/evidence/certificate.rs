@@ -43,15 +43,15 @@ pub enum NoCertificate {
         #[serde(with = "finite")]
         gap: f64,
     },
-    /// Occurs when the last joint misses its anchor by so much of what the chain can spare that no
-    /// configuration of it need be near.
+    /// Occurs when the last joint is so far from its anchor, measured by the slack of the chain,
+    /// that no configuration of the chain need be near.
     NotClosed {
         /// How far the joint is from the anchor, beyond the rounding of coordinates, m.
         #[serde(with = "finite")]
-        missed_m: f64,
-        /// What the bars can spare before they lie on one line, m.
+        gap_m: f64,
+        /// Slack: the length to spare before the bars lie on one line, m.
         #[serde(with = "finite")]
-        spare_m: f64,
+        slack_m: f64,
     },
     /// Occurs when the energy is proved to fall in some directions.
     EnergyFalls {

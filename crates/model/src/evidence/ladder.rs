@@ -110,6 +110,12 @@ impl Ladder {
     }
 
     /// One statement for each rung, lowest first.
+    ///
+    /// ```
+    /// let evidence = model::Evidence::new("residual of (40)", 1e-15, 1e-12, 7);
+    /// let reached = evidence.ladder.statements().map(|statement| statement.reached);
+    /// assert_eq!(reached, [true, false, false, false, false]);
+    /// ```
     #[must_use]
     pub fn statements(&self) -> [Statement; 5] {
         Rung::ALL.map(|rung| Statement {

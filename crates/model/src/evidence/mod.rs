@@ -76,6 +76,15 @@ pub struct Evidence {
 impl Evidence {
     /// Evidence of a solver that has ended with a residual: the rung `converged` is reached if the
     /// residual is not above its tolerance, and no other rung is.
+    ///
+    /// ```
+    /// use model::{Evidence, Rung};
+    /// let within = Evidence::new("residual of (40)", 1e-15, 1e-12, 7);
+    /// assert_eq!(within.rung(), Some(Rung::Converged));
+    /// // Above its tolerance it reaches no rung, and neither does what is not a number.
+    /// assert_eq!(Evidence::new("residual of (40)", 1e-9, 1e-12, 7).rung(), None);
+    /// assert_eq!(Evidence::new("residual of (40)", f64::NAN, 1e-12, 7).rung(), None);
+    /// ```
     #[must_use]
     pub fn new(
         residual_of: impl Into<Cow<'static, str>>,

@@ -96,7 +96,7 @@ pub enum Reason {
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum NoAnswer {
-    /// It looks for minima, and this is none.
+    /// It looks for minima, and this is not a minimum.
     MinimaOnly,
     /// It refused, or gave up.
     Refused,

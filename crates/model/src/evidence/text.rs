@@ -71,7 +71,7 @@ impl Display for ForceUncertainty {
                 "the bars are so nearly parallel that their directions in double precision leave the forces"
             }
         })?;
-        write!(f, " in doubt by up to {:.0e} of the largest", self.relative)
+        write!(f, " uncertain by up to {:.0e} of the largest", self.relative)
     }
 }
 
@@ -347,9 +347,9 @@ impl Display for NoCertificate {
             Self::Gap { gap } => {
                 write!(f, "the lower bound stays {gap:.1e} of weight times length below the energy")
             }
-            Self::NotClosed { missed_m, spare_m } => write!(
+            Self::NotClosed { gap_m, slack_m } => write!(
                 f,
-                "the last joint misses its anchor by {missed_m:.1e} m, and the chain has but {spare_m:.1e} m to spare"
+                "the last joint is {gap_m:.1e} m from its anchor, and the chain has only {slack_m:.1e} m of slack"
             ),
             Self::EnergyFalls { directions } => {
                 write!(f, "the energy falls in {directions} directions")

@@ -66,6 +66,13 @@ impl Joint {
     }
 
     /// A joint that cannot move.
+    ///
+    /// ```
+    /// use model::system::Joint;
+    /// let anchor = Joint::anchor("A", [1.0, 0.0, 2.0]);
+    /// assert!(anchor.support.is_fixed());
+    /// assert_eq!(anchor.support.at_m(), Some([1.0, 0.0, 2.0]));
+    /// ```
     #[must_use]
     pub fn anchor(name: impl Into<String>, at_m: Vector) -> Self {
         Self { support: Support::Fixed { at_m }, ..Self::free(name) }
@@ -78,6 +85,12 @@ impl Joint {
     }
 
     /// The same joint with a constant force, N.
+    ///
+    /// ```
+    /// use model::system::Joint;
+    /// let buoy = Joint::free("buoy").with_mass(2.0).with_force([0.0, 0.0, 30.0]);
+    /// assert_eq!((buoy.mass_kg, buoy.force_n[2], buoy.support.at_m()), (2.0, 30.0, None));
+    /// ```
     #[must_use]
     pub fn with_force(self, force_n: Vector) -> Self {
         Self { force_n, ..self }

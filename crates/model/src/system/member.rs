@@ -71,6 +71,15 @@ impl Member {
 
     /// The greatest distance of its ends that the member allows, m; infinite where it stretches or
     /// does not resist tension.
+    ///
+    /// ```
+    /// use model::{Bar, system::Member};
+    /// let rope = Member::cable(0, 1, Bar::homogeneous(5.0, 0.0)?);
+    /// assert_eq!((rope.greatest_length_m(), rope.keeps_apart()), (5.0, false));
+    /// assert_eq!(rope.with_stiffness(1e6).greatest_length_m(), f64::INFINITY);
+    /// assert!(Member::bar(0, 1, Bar::homogeneous(5.0, 0.0)?).keeps_apart());
+    /// # Ok::<(), model::BarError>(())
+    /// ```
     #[must_use]
     pub fn greatest_length_m(&self) -> f64 {
         match (self.kind, self.stiffness_n) {

@@ -100,6 +100,16 @@ impl System {
     /// The point from which energies are measured: where the first supported joint is held, m.
     ///
     /// `V = Σ m g Z − Σ f · x +` elastic energies, with heights and places relative to this point.
+    ///
+    /// ```
+    /// use model::system::{Joint, Member, System};
+    /// use model::Bar;
+    /// let joints = vec![Joint::free("P").with_mass(1.0), Joint::anchor("A", [0.0, 0.0, 3.0])];
+    /// let members = vec![Member::bar(1, 0, Bar::homogeneous(2.0, 0.0)?)];
+    /// let system = System::new("pendulum", 9.81, joints, members)?;
+    /// assert_eq!((system.reference_m(), system.joint("P")), ([0.0, 0.0, 3.0], Some(0)));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     #[must_use]
     pub fn reference_m(&self) -> Vector {
         self.joints.iter().find_map(|joint| joint.support.at_m()).unwrap_or_default()

@@ -54,10 +54,10 @@ pub enum SystemFileErrorKind {
         /// Offset of the first byte that is not UTF-8, in the file.
         offset: usize,
     },
-    /// Occurs when the text is no TOML.
+    /// Occurs when the text is not TOML.
     #[error("not valid TOML: {0}")]
     Syntax(String),
-    /// Occurs when the text begins like JSON and is none, or holds what no system can.
+    /// Occurs when the text begins like JSON and is not JSON, or holds what no system can.
     #[error("not valid JSON: {0}")]
     Json(String),
     /// Occurs when a key is given twice.

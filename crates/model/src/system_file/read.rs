@@ -157,6 +157,17 @@ pub fn parse_system(text: &str, file: &str) -> Result<Chain, SystemFileError> {
 ///
 /// [`SystemFileError`] with the place and the reason; a [`Refusal`](crate::Refusal) points at the
 /// number it rests on.
+///
+/// ```
+/// use model::system_file::parse_problem;
+/// let text = "anchors = { start_m = [0, 0, 0], end_m = [3, 0, 0] }\n\
+///             bars = [{ length_m = 1, mass_kg = 1, count = 2 }]\n";
+/// // The place, the key, and what is wrong in numbers.
+/// let error = parse_problem(text, "short.toml").unwrap_err().to_string();
+/// let place = "short.toml:1:42: anchors.end_m: ";
+/// let why = "the anchors are 3 m apart and the bars reach only 2 m: 1 m are missing";
+/// assert_eq!(error, format!("{place}{why}"));
+/// ```
 pub fn parse_problem(text: &str, file: &str) -> Result<Problem, SystemFileError> {
     Source { file, text: without_mark(text), folder: None, reader: None, rows: None }.problem()
 }

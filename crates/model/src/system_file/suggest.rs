@@ -2,6 +2,14 @@
 
 /// The allowed key most like this one, if it is like one at all: a slip of a few letters, another
 /// case, or the same first word (`mass` for `mass_kg`, `length_cm` for `length_m`).
+///
+/// ```
+/// use model::system_file::nearest;
+/// let keys = ["length_m", "mass_kg", "centre_m"];
+/// assert_eq!(nearest("lenght_m", &keys), Some("length_m"));
+/// assert_eq!(nearest("mass", &keys), Some("mass_kg"));
+/// assert_eq!(nearest("colour", &keys), None);
+/// ```
 #[must_use]
 pub fn nearest<'a>(key: &str, allowed: &[&'a str]) -> Option<&'a str> {
     let key = key.to_lowercase();

@@ -191,7 +191,7 @@ impl<'a> Table<'a> {
         }
     }
 
-    /// Refuse a mass or a force that is none, at its place.
+    /// Refuse a mass below zero and a number that is not finite, at its place.
     pub(super) fn check_load(
         &self,
         mass_kg: Option<f64>,

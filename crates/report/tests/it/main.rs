@@ -15,7 +15,7 @@ static REPORT: LazyLock<Report> = LazyLock::new(|| {
     Report::new(reproduction, Environment::here(command.into_iter())).expect("a report")
 });
 
-/// Set this variable to anything to write the golden copy anew: `BLESS=1 cargo test -p report`.
+/// Set this variable to anything to write the golden copy again: `BLESS=1 cargo test -p report`.
 const BLESS: &str = "BLESS";
 
 #[test]
@@ -30,7 +30,7 @@ fn the_golden_copy_is_what_comes_out() {
         assert_eq!(
             ours,
             theirs,
-            "line {} of validation/REPORT.md; {BLESS}=1 writes it anew",
+            "line {} of validation/REPORT.md; {BLESS}=1 writes it again",
             k + 1
         );
     }

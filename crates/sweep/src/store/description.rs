@@ -46,7 +46,7 @@ pub(crate) fn read_json<T: serde::de::DeserializeOwned>(path: &Path) -> Result<T
         serde_json::from_str(&text).map_err(|error| fail(error.to_string()))?;
     let version = value.get("schema_version").and_then(serde_json::Value::as_u64);
     if version != Some(SCHEMA_VERSION.into()) {
-        let version = version.map_or_else(|| "none".to_owned(), |version| version.to_string());
+        let version = version.map_or_else(|| "missing".to_owned(), |version| version.to_string());
         return Err(fail(format!("its schema version is {version}, not {SCHEMA_VERSION}")));
     }
     // From the text: numbers for keys are strings in a value.

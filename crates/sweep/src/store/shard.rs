@@ -34,6 +34,12 @@ pub(crate) const MOST_PARTS: u64 = 150_000;
 pub const MOST_SEEDS: u64 = MOST_PARTS * PART_SEEDS.end;
 
 /// The `number`-th of `of` shards.
+///
+/// ```
+/// use sweep::{Shard, ShardError};
+/// assert_eq!("2/7".parse(), Ok(Shard { number: 2, of: 7 }));
+/// assert!(matches!("8/7".parse::<Shard>(), Err(ShardError::Range { .. })));
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Shard {
     /// Which, from 1.

@@ -259,7 +259,7 @@ fn a_broken_manifest_is_an_error() {
     let newer = good.replace("\"schema_version\": 1", "\"schema_version\": 2");
     for (text, wanted) in [
         ("", "EOF"),
-        ("[]", "schema version is none"),
+        ("[]", "schema version is missing"),
         (newer.as_str(), "schema version is 2, not 1"),
         ("{\"schema_version\": 1}", "missing field"),
         (&good[..good.len() / 2], "EOF"),

@@ -286,7 +286,7 @@ fn undecided(census: &Summary) -> String {
 
 /// What the check proved, and what it did not.
 fn check_line(census: &Summary) -> String {
-    let listed = "Check: every equilibrium listed is proved anew without the search";
+    let listed = "Check: every equilibrium listed is proved again without the search";
     match (&census.check.failure, census.check.refuted) {
         (None, _) if census.complete => format!(
             "{listed}. That the list is complete rests on the search:\nthe check would see if one alone, the lowest \
@@ -346,7 +346,8 @@ mod tests {
         let line =
             |verdict| check_line(&CensusAnswer::new(&problem, census.clone(), verdict).census);
         assert!(
-            line(Ok(())).contains("is proved anew") && line(Ok(())).contains("rests on the search")
+            line(Ok(())).contains("is proved again")
+                && line(Ok(())).contains("rests on the search")
         );
         let refuted = line(Err(CheckError::Empty { number: 2 }));
         assert_eq!(refuted, "Check FAILED: the neighbourhood of equilibrium 2 holds none.");

@@ -8,7 +8,7 @@ use model::system_file::MAX_FILE_BYTES;
 pub struct Line {
     /// Its number, from 1; blank lines count.
     pub number: u64,
-    /// The text of an object, or why it is none.
+    /// The text of an object, or why there is none.
     pub text: Result<String, String>,
 }
 

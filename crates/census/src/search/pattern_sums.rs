@@ -3,8 +3,8 @@
 //! A pattern only flips the signs of the bars' terms. Written as middle and radius, a sign moves
 //! the middle and leaves the radius alone: so the radii of all sums, rounding errors included, are
 //! the same for all patterns and are computed once for a cell, and what is left for each pattern
-//! are sums of plain numbers. Those have their prefixes in common in a walk over the tree of signs, and a
-//! bound over the signs not yet chosen cuts off whole families.
+//! are sums of plain numbers. Those have their prefixes in common in a walk over the tree of signs,
+//! and a bound over the signs not yet chosen cuts off whole branches.
 //!
 //! # Rounding
 //!
@@ -38,7 +38,7 @@ const PARTS: usize = 8;
 
 /// The sums of all patterns on one cell.
 #[derive(Debug)]
-pub(crate) struct Family {
+pub(crate) struct PatternSums {
     bars: usize,
     /// Middles of the terms of each bar.
     middle: Vec<[f64; PARTS]>,
@@ -67,13 +67,13 @@ pub(crate) struct Open {
     pub(crate) noisy: [bool; 2],
 }
 
-impl Family {
+impl PatternSums {
     /// The terms of all bars over a cell; `None` where the force of some bar vanishes.
     pub(crate) fn over(system: &System, cell: &Cell) -> Option<Self> {
         let bars = system.bars();
         let at = cell.middle();
         let point = Cell::point(cell.face, at);
-        let mut family = Self {
+        let mut sums = Self {
             bars,
             middle: Vec::with_capacity(bars),
             radius: [0.0; PARTS],
@@ -85,15 +85,15 @@ impl Family {
         };
         // Sum of absolute values, for the rounding error of the sums.
         let mut size = [0.0; PARTS];
-        let mut add = |family: &mut Self, part: usize, term: Interval| {
+        let mut add = |sums: &mut Self, part: usize, term: Interval| {
             let middle = term.mid();
-            family.radius[part] += term.rad();
+            sums.radius[part] += term.rad();
             size[part] += middle.abs();
             middle
         };
         for k in 0..2 {
             for part in [k, 2 + k] {
-                family.start[part] = add(&mut family, part, -system.span[k]);
+                sums.start[part] = add(&mut sums, part, -system.span[k]);
             }
         }
         for (length, weight) in system.length.iter().zip(system.weights(cell.face)) {
@@ -109,20 +109,19 @@ impl Family {
                 term.slope[1][0],
                 term.slope[1][1],
             ];
-            let middle = std::array::from_fn(|part| add(&mut family, part, terms[part]));
-            family.middle.push(middle);
+            let middle = std::array::from_fn(|part| add(&mut sums, part, terms[part]));
+            sums.middle.push(middle);
         }
         let roundings = f64::EPSILON * (bars + 1) as f64;
-        for (radius, size) in family.radius.iter_mut().zip(size) {
+        for (radius, size) in sums.radius.iter_mut().zip(size) {
             *radius = SLACK * (*radius + roundings * size);
         }
         for bar in (0..bars).rev() {
             for k in 0..2 {
-                family.rest[bar][k] =
-                    SLACK * (family.rest[bar + 1][k] + family.middle[bar][k].abs());
+                sums.rest[bar][k] = SLACK * (sums.rest[bar + 1][k] + sums.middle[bar][k].abs());
             }
         }
-        Some(family)
+        Some(sums)
     }
 
     /// The coordinate of the cell to cut: the one whose width blurs the closure more.
@@ -281,8 +280,8 @@ mod tests {
                 }),
             };
             let all: Vec<Pattern> = (0..1 << system.bars()).map(Pattern).collect();
-            let open = |cell: &Cell| match Family::over(&system, cell) {
-                Some(family) => family.open(&all),
+            let open = |cell: &Cell| match PatternSums::over(&system, cell) {
+                Some(sums) => sums.open(&all),
                 None => exclusion::open(&system, cell, &all)
                     .into_iter()
                     .map(|pattern| Open {

@@ -27,10 +27,10 @@ fn place(n: usize, motion: Motion, vertical: bool, rng: &mut ChaCha8Rng) -> Curv
     for l in &mut length {
         *l /= total;
     }
-    let hang = (0..n).map(|_| rng.random_range(-0.5..0.5)).collect();
+    let carried = (0..n).map(|_| rng.random_range(-0.5..0.5)).collect();
     let span = if vertical { [0.0, 0.0, -0.5] } else { [0.4, 0.0, 0.2] };
     let up = [0.0, 0.0, 1.0];
-    let links = Links { length, hang, span: [span, [0.0; 3]], up, vertical, motion };
+    let links = Links { length, carried, span: [span, [0.0; 3]], up, vertical, motion };
     let u: Vec<Vector> = (0..n)
         .map(|_| {
             let mut v = random(rng);
