@@ -3,10 +3,11 @@
 //! `cargo run --release -p lagrange --example network_speed -- net 32 100` takes square nets hung
 //! from their four corners, by their joints a side; `cables` the same of cables; `bridle 1000`
 //! takes three chains of so many bars that meet in a joint; `tree 1000` a dangling tree of so many
-//! bars; `crumpled` nets of cables with all their edges held, the cables between as long as
-//! their places are apart up to 1.5 times that. Each prints a line: members, time, factorisations, residual, members in compression, slack
-//! ones; for a bridle also the times of one chain of as many bars, by `lagrange::solve`
-//! (the paper's 6n coordinates) and by `lagrange::condensed`.
+//! bars; `crumpled` nets of cables with all their edges held, the cables between as long as their
+//! places are apart up to 1.5 times that. Each prints a line: members, time, time of the processor
+//! (on Linux, in steps of 10 ms), factorisations, residual, members in compression, slack ones; for
+//! a bridle also the times of one chain of as many bars, by `lagrange::solve` (the paper's 6n
+//! coordinates) and by `lagrange::condensed`.
 
 use std::error::Error;
 use std::time::Instant;
@@ -24,8 +25,8 @@ fn main() -> Result<(), Box<dyn Error>> {
         return Err("say `net`, `cables`, `crumpled`, `bridle` or `tree`, and sizes".into());
     };
     println!(
-        "{:>8} {:>10} {:>15} {:>10} {:>9} {:>9}",
-        "members", "time s", "factorisations", "residual", "pushed", "slack"
+        "{:>8} {:>10} {:>10} {:>15} {:>10} {:>9} {:>9}",
+        "members", "time s", "processor", "factorisations", "residual", "pushed", "slack"
     );
     for size in sizes {
         let size = size.parse()?;
@@ -41,9 +42,10 @@ fn main() -> Result<(), Box<dyn Error>> {
                 );
             }
         };
-        let began = Instant::now();
+        let (began, used) = (Instant::now(), processor_s());
         let solution = solve(&system, &Settings::default());
         let seconds = began.elapsed().as_secs_f64();
+        let used = processor_s() - used;
         let solution = match solution {
             Ok(solution) => solution,
             Err(error) => {
@@ -53,7 +55,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         };
         let pushed = solution.equilibrium.axial_n.iter().filter(|axial| **axial < 0.0).count();
         println!(
-            "{:>8} {seconds:>10.3} {:>15} {:>10.1e} {pushed:>9} {:>9}",
+            "{:>8} {seconds:>10.3} {used:>10.2} {:>15} {:>10.1e} {pushed:>9} {:>9}",
             system.members().len(),
             solution.factorisations,
             solution.residual,
@@ -64,6 +66,18 @@ fn main() -> Result<(), Box<dyn Error>> {
         }
     }
     Ok(())
+}
+
+/// Time that the processors have given to this process; NaN where the system does not say.
+fn processor_s() -> f64 {
+    /// Ticks of the clock in `/proc`.
+    const PER_SECOND: f64 = 100.0;
+    let status = std::fs::read_to_string("/proc/self/stat").unwrap_or_default();
+    // The name of the program, in brackets, may contain spaces; user and system time are the 12th
+    // and 13th field after it.
+    let after = status.rsplit(')').next().unwrap_or_default();
+    let ticks = after.split_whitespace().skip(11).take(2).map(str::parse::<f64>);
+    ticks.map(|ticks| ticks.unwrap_or(f64::NAN)).sum::<f64>() / PER_SECOND
 }
 
 /// Times of a chain of `n` bars.

@@ -11,7 +11,7 @@
 //! |---|---|---|
 //! | a dangling tree | nothing: each member bears the load below it (`runs`) | O(n) |
 //! | a run of members between branchings | one element, its pull and a 3 x 3 derivative (`elements`) | O(n) a step, a matrix of the branchings alone |
-//! | a net | a sparse matrix over the joints in an order that suits it (`order`) | the factor of a planar graph |
+//! | a net | a sparse matrix over the joints, minimum degree first (`order`) | the factor of a planar graph |
 //!
 //! [`Derivatives`] of an answer by lengths, masses, stiffnesses, loads and anchors come from one
 //! more factorisation; where the forces are one family [`force_ranges`] says how far each of them

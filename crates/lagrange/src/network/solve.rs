@@ -49,7 +49,7 @@ pub fn solve(system: &System, settings: &Settings) -> Result<Solution, Error> {
         return Ok(solution);
     }
     let mut hanging = Hanging::new(&framework)?;
-    let stiffness = Stiffness::at(&framework, hanging.places())?;
+    let stiffness = Stiffness::new(&framework, false)?;
     let mut solver = Solver::new(system, framework, *settings, stiffness, began);
     for end in [FIRST_END, LAST_END] {
         let before = hanging.steps;

@@ -18,15 +18,11 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::error::Error;
 use super::framework::Framework;
-use super::order::{by_degree, by_dissection};
+use super::order::by_degree;
 
 /// A pivot below this fraction of the largest diagonal entry is no pivot: the direction is left out
 /// of the solve. Some fifty rounding errors.
 const NO_PIVOT: f64 = 1e-14;
-
-/// From this number of unknowns the order by dissection is tried: below, what it may gain is less
-/// than its own time.
-const DISSECTED: usize = 3000;
 
 /// Where the blocks of one member stand.
 #[derive(Debug, Clone, Copy)]
@@ -65,37 +61,16 @@ impl Stiffness {
     ///
     /// [`Error::Memory`] when the factor cannot be held.
     pub fn new(framework: &Framework, scalar: bool) -> Result<Self, Error> {
-        let rank = by_degree(framework).ok_or_else(|| memory(framework))?;
-        Self::in_order(framework, scalar, &rank)
-    }
-
-    /// With an order that suits a net whose joints lie roughly at some places, where that leaves
-    /// less fill.
-    ///
-    /// # Errors
-    ///
-    /// [`Error::Memory`] when the factor cannot be held.
-    pub fn at(framework: &Framework, places: &[Vector3<f64>]) -> Result<Self, Error> {
-        let plain = Self::new(framework, false)?;
-        if plain.size() < DISSECTED {
-            return Ok(plain);
-        }
-        let rank = by_dissection(framework, places).ok_or_else(|| memory(framework))?;
-        let dissected = Self::in_order(framework, false, &rank)?;
-        let less = dissected.factor.len() < plain.factor.len();
-        Ok(if less { dissected } else { plain })
-    }
-
-    fn in_order(framework: &Framework, scalar: bool, rank: &[usize]) -> Result<Self, Error> {
         let counts: Vec<usize> = framework
             .nodes
             .iter()
             .map(|node| if scalar { usize::from(node.freedom > 0) } else { node.freedom })
             .collect();
         let size = counts.iter().sum();
-        let lost = || memory(framework);
-        let seats = seats(&counts, rank);
-        let (places, columns, rows) = pattern(framework, &seats, rank);
+        let lost = || Error::Memory { unknowns: size };
+        let rank = by_degree(framework).ok_or_else(lost)?;
+        let seats = seats(&counts, &rank);
+        let (places, columns, rows) = pattern(framework, &seats, &rank);
         let matrix = SymbolicSparseColMatRef::new_checked(size, size, &columns, None, &rows);
         // The joints are in their order already; this says so to a routine that turns the lower
         // triangle over only where it permutes.
@@ -278,10 +253,6 @@ impl Stiffness {
     pub fn seat(&self, joint: usize) -> Option<usize> {
         (self.seats[joint].count > 0).then_some(self.seats[joint].first)
     }
-}
-
-fn memory(framework: &Framework) -> Error {
-    Error::Memory { unknowns: framework.freedoms() }
 }
 
 /// Unknowns of the joints one after another in the order of elimination.
