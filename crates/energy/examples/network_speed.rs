@@ -1,57 +1,247 @@
-//! How long the positions-first solver takes for nets of rigid bars hung from their four corners.
+//! How long the positions-first solver takes for systems of growing size.
 //!
-//! `cargo run --release -p energy --example network_speed [n ...]` prints a line for each net of n x n joints.
+//! `cargo run --release -p energy --example network_speed [kind [n ...]]` prints a line for each size *n*:
+//!
+//! | kind | system |
+//! |---|---|
+//! | `net` | n x n joints and rigid bars, hung from the four corners |
+//! | `pushing` | the same with lengths that differ by a fifth: some bars push |
+//! | `cables` | the net of cables a third longer than the distances of the corners ask for |
+//! | `ring` | a square net of cables within a ring, hung from all of it: members near it are slack |
+//! | `bridle` | three strands of n bars each |
+//! | `branches` | ten branchings in a tree of n bars in all, between twelve anchors |
+//! | `tree` | a random tree of n bars |
+//! | `chain` | n bars as a system; in brackets the time of the solver of chains |
+
+use std::f64::consts::TAU;
+use std::time::Instant;
 
 use energy::network::{Settings, minimise};
-use model::Bar;
 use model::system::{Joint, Member, System};
+use model::{Anchors, Bar, Chain, Problem};
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
 
-/// Distance of the corners over the length of a side.
-const SPAN: f64 = 0.8;
+type Failure = Box<dyn std::error::Error>;
 
-fn net(n: usize) -> Result<System, Box<dyn std::error::Error>> {
+/// Joints and members while they are put together.
+#[derive(Default)]
+struct Draft {
+    joints: Vec<Joint>,
+    members: Vec<Member>,
+}
+
+impl Draft {
+    fn anchor(&mut self, at_m: [f64; 3]) -> usize {
+        self.joints.push(Joint::anchor(format!("{}", self.joints.len()), at_m));
+        self.joints.len() - 1
+    }
+
+    fn free(&mut self) -> usize {
+        self.joints.push(Joint::free(format!("{}", self.joints.len())));
+        self.joints.len() - 1
+    }
+
+    fn bar(&mut self, from: usize, to: usize, length_m: f64) -> Result<(), Failure> {
+        self.members.push(Member::bar(from, to, Bar::homogeneous(length_m, length_m)?));
+        Ok(())
+    }
+
+    fn cable(&mut self, from: usize, to: usize, length_m: f64) -> Result<(), Failure> {
+        self.members.push(Member::cable(from, to, Bar::homogeneous(length_m, length_m)?));
+        Ok(())
+    }
+
+    /// Bars in a row.
+    fn run(&mut self, from: usize, to: usize, bars: usize, length_m: f64) -> Result<(), Failure> {
+        let mut here = from;
+        for k in 1..=bars {
+            let there = if k == bars { to } else { self.free() };
+            self.bar(here, there, length_m / bars as f64)?;
+            here = there;
+        }
+        Ok(())
+    }
+
+    fn finish(self, name: &str) -> Result<System, Failure> {
+        Ok(System::new(name, model::STANDARD_GRAVITY_M_S2, self.joints, self.members)?)
+    }
+}
+
+/// A net hung from four corners that are `span` of a side apart, with lengths that differ by `rough`.
+fn net(n: usize, span: f64, rough: f64, cables: bool) -> Result<System, Failure> {
+    let mut random = ChaCha8Rng::seed_from_u64(1);
     let step = 1.0 / (n as f64 - 1.0);
-    let bar = Bar::homogeneous(step, step)?;
-    let (mut joints, mut members) = (Vec::new(), Vec::new());
+    let mut draft = Draft::default();
     for i in 0..n {
         for j in 0..n {
             let corner = (i == 0 || i == n - 1) && (j == 0 || j == n - 1);
-            let at = [SPAN * i as f64 * step, SPAN * j as f64 * step, 0.0];
-            let name = format!("{i},{j}");
-            joints.push(if corner { Joint::anchor(name, at) } else { Joint::free(name) });
-            if i + 1 < n {
-                members.push(Member::bar(i * n + j, (i + 1) * n + j, bar));
-            }
-            if j + 1 < n {
-                members.push(Member::bar(i * n + j, i * n + j + 1, bar));
+            if corner {
+                draft.anchor([span * i as f64 * step, span * j as f64 * step, 0.0]);
+            } else {
+                draft.free();
             }
         }
     }
-    Ok(System::new("net", model::STANDARD_GRAVITY_M_S2, joints, members)?)
+    for i in 0..n {
+        for j in 0..n {
+            let right = (i + 1 < n).then_some((i + 1) * n + j);
+            let up = (j + 1 < n).then_some(i * n + j + 1);
+            for to in [right, up].into_iter().flatten() {
+                let length_m = step * (1.0 + rough * random.random_range(-1.0..1.0));
+                if cables {
+                    draft.cable(i * n + j, to, length_m)?;
+                } else {
+                    draft.bar(i * n + j, to, length_m)?;
+                }
+            }
+        }
+    }
+    draft.finish("net")
 }
 
-fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let mut sizes: Vec<usize> =
-        std::env::args().skip(1).filter_map(|arg| arg.parse().ok()).collect();
+/// A net of cables in a ring of diameter one. Joints whose neighbour would be outside are anchors on the ring.
+fn ring(n: usize) -> Result<System, Failure> {
+    let step = 1.0 / (n as f64 - 1.0);
+    let at = |k: usize| k as f64 * step - 0.5;
+    let inside = |i: usize, j: usize| at(i).hypot(at(j)) < 0.5;
+    let mut draft = Draft::default();
+    let mut number = vec![vec![None; n]; n];
+    for i in 1..n - 1 {
+        for j in 1..n - 1 {
+            let (x, y) = (at(i), at(j));
+            let whole = [(i - 1, j), (i + 1, j), (i, j - 1), (i, j + 1)].map(|(i, j)| inside(i, j));
+            number[i][j] = inside(i, j).then(|| {
+                if whole.iter().all(|inside| *inside) {
+                    draft.free()
+                } else {
+                    draft.anchor([0.5 * x / x.hypot(y), 0.5 * y / x.hypot(y), 0.0])
+                }
+            });
+        }
+    }
+    for i in 0..n - 1 {
+        for j in 0..n - 1 {
+            let Some(from) = number[i][j] else { continue };
+            for to in [number[i + 1][j], number[i][j + 1]].into_iter().flatten() {
+                draft.cable(from, to, 1.1 * step)?;
+            }
+        }
+    }
+    draft.finish("ring")
+}
+
+fn bridle(n: usize) -> Result<System, Failure> {
+    let mut draft = Draft::default();
+    let knot = draft.free();
+    for k in 0..3 {
+        let angle = TAU * f64::from(k) / 3.0;
+        let anchor = draft.anchor([angle.cos(), angle.sin(), 0.1 * f64::from(k)]);
+        draft.run(anchor, knot, n, 1.3)?;
+    }
+    draft.finish("bridle")
+}
+
+/// A trunk of ten branchings between two anchors; from each branching a strand to an anchor of its own.
+fn branches(n: usize) -> Result<System, Failure> {
+    let mut draft = Draft::default();
+    let bars = n / 21;
+    let mut here = draft.anchor([0.0; 3]);
+    for k in 0..10 {
+        let next = draft.free();
+        draft.run(here, next, bars, 0.13)?;
+        let side = if k % 2 == 0 { 0.4 } else { -0.4 };
+        let anchor = draft.anchor([0.1 * f64::from(k + 1), side, 0.0]);
+        draft.run(anchor, next, bars, 0.7)?;
+        here = next;
+    }
+    let end = draft.anchor([1.1, 0.0, 0.0]);
+    draft.run(here, end, bars, 0.13)?;
+    draft.finish("branches")
+}
+
+fn tree(n: usize) -> Result<System, Failure> {
+    let mut random = ChaCha8Rng::seed_from_u64(1);
+    let mut draft = Draft::default();
+    draft.anchor([0.0; 3]);
+    for k in 0..n {
+        let from = random.random_range(k.saturating_sub(100)..=k);
+        let to = draft.free();
+        draft.bar(from, to, random.random_range(0.5..1.0))?;
+    }
+    draft.finish("tree")
+}
+
+/// A chain as a system, and the time of the solver of chains for it.
+fn chain(n: usize) -> Result<(System, f64), Failure> {
+    let anchors = Anchors { start_m: [0.0; 3], end_m: [0.6, 0.3, 0.2] };
+    let bars = vec![Bar::homogeneous(1.0 / n as f64, 1.0 / n as f64)?; n];
+    let chain = Chain::new("chain", model::STANDARD_GRAVITY_M_S2, anchors, bars)?;
+    let system = System::from(&chain);
+    let problem = Problem::new(chain)?;
+    let clock = Instant::now();
+    energy::minimise(&problem, &energy::Settings::default())?;
+    Ok((system, clock.elapsed().as_secs_f64()))
+}
+
+fn main() -> Result<(), Failure> {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let kind = arguments.first().map_or("net", String::as_str);
+    let mut sizes: Vec<usize> = arguments.iter().skip(1).filter_map(|n| n.parse().ok()).collect();
     if sizes.is_empty() {
         sizes = vec![8, 16, 32, 64, 100];
     }
     println!(
-        "{:>5} {:>7} {:>9} {:>11} {:>14} {:>9} {:>9}",
-        "n", "bars", "time/s", "iterations", "factorisations", "unbalance", "misfit"
+        "{:>8} {:>8} {:>9} {:>9} {:>10} {:>10} {:>14} {:>9} {:>9} {:>8}",
+        "n",
+        "members",
+        "time/s",
+        "us/member",
+        "relaxation",
+        "iterations",
+        "factorisations",
+        "unbalance",
+        "misfit",
+        "idle"
     );
     for n in sizes {
-        let system = net(n)?;
-        let solution = minimise(&system, &Settings::default())?;
-        let work = solution.work;
+        let mut beside = String::new();
+        let system = match kind {
+            "net" => net(n, 0.8, 0.0, false)?,
+            "pushing" => net(n, 0.8, 0.2, false)?,
+            "cables" => net(n, 0.75, 0.0, true)?,
+            "ring" => ring(n)?,
+            "bridle" => bridle(n)?,
+            "branches" => branches(n)?,
+            "tree" => tree(n)?,
+            "chain" => {
+                let (system, chain_s) = chain(n)?;
+                beside = format!(" [{chain_s:.4} s]");
+                system
+            }
+            other => return Err(format!("no kind `{other}`").into()),
+        };
+        let members = system.members().len();
+        let clock = Instant::now();
+        let solution = match minimise(&system, &Settings::default()) {
+            Ok(solution) => solution,
+            Err(error) => {
+                println!("{n:>8} {members:>8} {:>9.4} {error}", clock.elapsed().as_secs_f64());
+                continue;
+            }
+        };
+        let (work, time_s) = (solution.work, solution.equilibrium.evidence.solve_s);
+        let idle = solution.equilibrium.axial_n.iter().filter(|n| n.abs() <= 0.0).count();
+        let pushing = solution.equilibrium.axial_n.iter().filter(|n| **n < 0.0).count();
         println!(
-            "{n:>5} {:>7} {:>9.4} {:>11} {:>14} {:>9.1e} {:>9.1e}",
-            system.members().len(),
-            solution.equilibrium.evidence.solve_s,
-            work.relaxation + work.iterations,
+            "{n:>8} {members:>8} {time_s:>9.4} {:>9.3} {:>10} {:>10} {:>14} {:>9.1e} {:>9.1e} {:>8}{beside}",
+            1e6 * time_s / members as f64,
+            work.relaxation,
+            work.iterations,
             work.factorisations,
             work.unbalance,
             work.misfit,
+            if kind == "pushing" { pushing } else { idle },
         );
     }
     Ok(())

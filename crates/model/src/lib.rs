@@ -54,7 +54,8 @@ pub use equilibrium::{Equilibrium, Reactions};
 pub use evidence::{
     Agreed, Complete, Convergence, Disagreement, Evidence, Excess, ForceChoice, ForceFamily,
     ForceUncertainty, FreeJoints, Ladder, NoAnswer, NoCensus, NoCertificate, Optimal, Place,
-    Quantity, Reason, Rung, StabilityDifference, Statement, Status, UncertaintyCause, Verified,
+    Quantity, Reason, Rung, SelfStresses, StabilityDifference, Statement, Status, UncertaintyCause,
+    Verified,
 };
 pub use problem::{Problem, Refusal, STRAIGHT_TOLERANCE};
 pub use solver_name::SolverName;

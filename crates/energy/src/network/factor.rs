@@ -222,8 +222,8 @@ impl Factor {
             MemStack::new(&mut self.memory),
             Spec::default(),
         );
-        // A pivot that is no number passes for a positive one.
-        let definite = done.is_ok() && self.lower.iter().all(|value| value.is_finite());
+        // A pivot that is no number passes for a positive one; whatever is none ends up in a later pivot.
+        let definite = done.is_ok() && self.pivots().iter().all(|value| value.is_finite());
         self.kept = if definite { Kept::Cholesky } else { Kept::Nothing };
         definite
     }
@@ -243,11 +243,20 @@ impl Factor {
             Spec::default(),
         );
         self.kept = Kept::Nothing;
-        if done.is_err() || !self.lower.iter().all(|value| value.is_finite()) {
+        if done.is_err() {
+            return None;
+        }
+        let pivots = self.pivots();
+        if !pivots.iter().all(|value| value.is_finite()) {
             return None;
         }
         self.kept = Kept::Signed;
-        let pivots: Vec<f64> = match self.symbolic.raw() {
+        Some(pivots.into_iter().filter(|pivot| *pivot < 0.0).count())
+    }
+
+    /// The diagonal of the factor.
+    fn pivots(&self) -> Vec<f64> {
+        match self.symbolic.raw() {
             SymbolicCholeskyRaw::Simplicial(simplicial) => {
                 let starts = simplicial.col_ptr();
                 (0..self.size()).map(|k| self.lower[starts[k]]).collect()
@@ -260,8 +269,7 @@ impl Factor {
                 };
                 (0..supernodal.n_supernodes()).flat_map(diagonal).collect()
             }
-        };
-        Some(pivots.into_iter().filter(|pivot| *pivot < 0.0).count())
+        }
     }
 
     /// Solve with the factorisation made last, one right side after the other.

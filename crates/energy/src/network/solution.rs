@@ -4,7 +4,7 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use model::system::{System, SystemEquilibrium, SystemStability};
-use model::{Evidence, InSpace, SolverName, Vector};
+use model::{Evidence, ForceChoice, InSpace, SelfStresses, SolverName, Vector};
 
 use crate::network::error::Error;
 use crate::network::frame::{Frame, shares_n};
@@ -96,6 +96,7 @@ impl Solution {
         let mut evidence = Evidence::new(RESIDUAL_OF, slope.residual(), tolerance, iterations);
         evidence.nullity = second.neutral;
         evidence.condition = second.condition;
+        evidence.self_stresses = self_stresses(&second, least);
         let equilibrium = equilibrium(system, frame, &shape, &second, evidence);
         let work = Work {
             relaxation: effort.relaxation,
@@ -108,6 +109,13 @@ impl Solution {
         solution.equilibrium.evidence.solve_s = clock.elapsed().as_secs_f64();
         Ok(solution)
     }
+}
+
+/// What equilibrium leaves open of the forces, and which of them are named.
+fn self_stresses(second: &SecondOrder, least: bool) -> Option<SelfStresses> {
+    let basis = second.self_stresses.clone();
+    let choice = if least { ForceChoice::EquallyStiff } else { ForceChoice::Unknown };
+    (!basis.is_empty()).then(|| SelfStresses { dimension: basis.len(), basis, choice })
 }
 
 /// The observables in the world.

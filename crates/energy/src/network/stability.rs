@@ -48,6 +48,8 @@ pub(super) struct SecondOrder {
     pub(super) neutral: usize,
     pub(super) index_in_plane: Option<usize>,
     pub(super) rigidity: Option<Rigidity>,
+    /// Orthonormal self-stresses, one force for each member; none where forces are unique or not counted.
+    pub(super) self_stresses: Vec<Vec<f64>>,
     /// Forces of the least norm, where they are not unique.
     pub(super) least: Option<Vec<f64>>,
     /// Largest over smallest eigenvalue that is not zero, by magnitude.
@@ -63,6 +65,7 @@ pub(super) fn second_order(frame: &Frame, shape: &Shape, factor: &mut Factor) ->
             index,
             neutral,
             index_in_plane: None,
+            self_stresses: dense.self_stresses(frame.rods.len()),
             least: dense.least_forces(frame, shape),
             rigidity: Some(dense.rigidity),
             condition,
@@ -75,6 +78,7 @@ pub(super) fn second_order(frame: &Frame, shape: &Shape, factor: &mut Factor) ->
             neutral,
             index_in_plane: None,
             rigidity: None,
+            self_stresses: Vec::new(),
             least: None,
             condition: 1.0,
         }
@@ -173,6 +177,10 @@ fn below(frame: &Frame, shape: &Shape, factor: &mut Factor, shift: f64) -> usize
     };
     let sizes = frame.sizes(|_| force);
     frame.fill(factor, block, |joint| shift * sizes[joint]);
+    // The rule, and the cheaper factorisation.
+    if factor.cholesky() {
+        return 0;
+    }
     factor.negative_pivots().unwrap_or(0)
 }
 
@@ -243,6 +251,18 @@ impl Dense {
         let smallest = others.fold(f64::INFINITY, f64::min);
         let condition = if smallest.is_finite() { largest(&values) / smallest } else { 1.0 };
         (index, neutral, condition)
+    }
+
+    /// The basis of the self-stresses by members.
+    fn self_stresses(&self, members: usize) -> Vec<Vec<f64>> {
+        let stress = |k| {
+            let mut stress = vec![0.0; members];
+            for (row, &e) in self.taut.iter().enumerate() {
+                stress[e] = self.stresses[(row, k)];
+            }
+            stress
+        };
+        (0..self.stresses.ncols()).map(stress).collect()
     }
 
     /// The forces with the least `sum F² l` that balance the same loads: the limit of equally stiff

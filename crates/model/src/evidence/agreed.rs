@@ -109,6 +109,12 @@ pub enum Quantity {
         /// The two solvers.
         between: [SolverName; 2],
     },
+    /// What the self-stresses that a solver names leave at a joint, dimensionless: they are in balance with no
+    /// load.
+    SelfStresses {
+        /// The solver.
+        solver: SolverName,
+    },
     /// The energy that an answer names less that of its joints, in units of weight times length.
     EnergyOfJoints {
         /// The solver.

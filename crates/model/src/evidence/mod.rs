@@ -28,6 +28,7 @@ mod force_family;
 mod ladder;
 mod reason;
 mod rung;
+mod self_stresses;
 mod status;
 mod text;
 mod verified;
@@ -44,6 +45,7 @@ pub use force_family::{ForceChoice, ForceFamily};
 pub use ladder::{Ladder, Statement};
 pub use reason::{NoAnswer, Reason};
 pub use rung::Rung;
+pub use self_stresses::SelfStresses;
 pub use status::Status;
 pub use verified::Verified;
 
@@ -69,6 +71,9 @@ pub struct Evidence {
     /// Where equilibrium does not determine the forces: the family that they belong to.
     #[serde(default)]
     pub force_family: Option<ForceFamily>,
+    /// Where equilibrium does not determine the forces in a system: what may be added to them.
+    #[serde(default)]
+    pub self_stresses: Option<SelfStresses>,
     /// The five rungs.
     pub ladder: Ladder,
 }
@@ -114,6 +119,7 @@ impl Evidence {
             condition: 1.0,
             solve_s: 0.0,
             force_family: None,
+            self_stresses: None,
             ladder: Ladder { converged: convergence.judged(), ..Ladder::default() },
         }
     }
@@ -155,6 +161,8 @@ struct Keys<'a> {
     solve_s: f64,
     #[serde(skip_serializing_if = "Option::is_none")]
     force_family: Option<ForceFamily>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    self_stresses: Option<&'a SelfStresses>,
     ladder: &'a Ladder,
 }
 
@@ -169,6 +177,7 @@ impl Serialize for Evidence {
             condition: self.condition,
             solve_s: self.solve_s,
             force_family: self.force_family,
+            self_stresses: self.self_stresses.as_ref(),
             ladder: &self.ladder,
         }
         .serialize(serializer)

@@ -142,6 +142,10 @@ impl Display for ForceChoice {
             Self::AnchorsMovedApart => {
                 "the limit for anchors moved apart level, by convention, which is no evidence for them"
             }
+            Self::EquallyStiff => {
+                "the limit for equally stiff members as these become rigid, by convention, which is no \
+                 evidence for them"
+            }
             Self::Unknown => "the solver's own choice, which is no evidence for them",
         })
     }
@@ -164,6 +168,9 @@ impl Display for Quantity {
             Self::SystemStatics { solver, place } => write!(f, "statics of {solver}, {place}"),
             Self::MorseIndex { between: [a, b] } => {
                 write!(f, "numbers of directions in which the energy falls, by {a} and {b}")
+            }
+            Self::SelfStresses { solver } => {
+                write!(f, "what the self-stresses of {solver} leave at a joint")
             }
             Self::EnergyOfJoints { solver } => {
                 write!(f, "energy of {solver} less that of its joints")

@@ -5,10 +5,11 @@ use model::{Agreed, Disagreement, Excess, Quantity, Reason, SolverName, Status, 
 use serde::Serialize;
 
 use super::certificate::{certify, largest_force_n, size_m, total_load_n};
+use super::family::Family;
 use super::statics::{SystemStatics, judge};
 use crate::compare::{Verdict, with_sentences};
 use crate::tolerances::Tolerances;
-use crate::vector::{minus, norm, worse};
+use crate::vector::{minus, norm, plus, worse};
 
 /// How far answers agree: the object `agreement` of the JSON. Of more than two, the largest
 /// differences of any two.
@@ -17,13 +18,17 @@ pub struct SystemAgreement {
     /// Largest distance of a joint in one answer from the same joint in another, m. Parts that turn
     /// freely about a vertical are turned onto each other first.
     pub joints_m: f64,
-    /// Largest difference of a force at an end of a member or of a support, N.
+    /// Largest difference of a force at an end of a member or of a support, N; where the forces are a family,
+    /// of what is not a self-stress in the difference.
     pub forces_n: f64,
     /// Largest difference of the energies, J.
     pub energy_j: f64,
     /// Joints without load whose members are all slack in every answer, so that they may be
     /// anywhere near: their places are judged by the members' laws alone.
     pub free_joints: usize,
+    /// Independent self-stresses of the shape: with any, the forces are one of a family, and that both answers name
+    /// the same of them is no evidence. Nothing where the system is too large to count them.
+    pub self_stresses: Option<usize>,
     /// Violations of geometry and of Newton's laws by each answer.
     pub statics: Vec<SystemStatics>,
     /// Whether all of these are within their budgets.
@@ -50,6 +55,8 @@ struct Judgement<'a> {
     energy_j: f64,
     parts: Vec<Part>,
     free: Vec<bool>,
+    /// The self-stresses of the first answer's shape.
+    family: Option<Family>,
     agreement: SystemAgreement,
 }
 
@@ -75,7 +82,7 @@ pub fn compare(
             energy_j: agreement.energy_j,
             statics: agreement.statics.iter().map(SystemStatics::largest).fold(0.0, worse),
             free_joints: None,
-            shape_only: false,
+            shape_only: agreement.self_stresses.is_some_and(|dimension| dimension > 0),
         })
     } else {
         Status::Open(Reason::SolversDisagree(agreement.disagreement.clone()))
@@ -123,11 +130,13 @@ impl<'a> Judgement<'a> {
             energy_j: total_load_n(system) * size_m,
             parts: system.parts(),
             free: free_joints(system, answers),
+            family: None,
             agreement: SystemAgreement {
                 joints_m: 0.0,
                 forces_n: 0.0,
                 energy_j: 0.0,
                 free_joints: 0,
+                self_stresses: None,
                 statics: Vec::new(),
                 verdict: Verdict::Agreed,
                 disagreement: Disagreement::default(),
@@ -138,6 +147,11 @@ impl<'a> Judgement<'a> {
     fn run(mut self, answers: &[SystemEquilibrium]) -> SystemAgreement {
         self.agreement.free_joints = self.free.iter().filter(|free| **free).count();
         for (k, first) in answers.iter().enumerate() {
+            self.family = Family::of(self.system, first);
+            if k == 0 {
+                self.agreement.self_stresses = self.family.as_ref().map(Family::dimension);
+            }
+            self.named(first);
             for second in &answers[k + 1..] {
                 self.pair(first, second);
             }
@@ -160,6 +174,26 @@ impl<'a> Judgement<'a> {
         if value.is_nan() || value > budget {
             self.agreement.disagreement.excesses.push(Excess { what, value, budget });
         }
+    }
+
+    /// The self-stresses that an answer names are in balance without any load.
+    fn named(&mut self, answer: &SystemEquilibrium) {
+        let (Some(family), Some(named)) = (&self.family, &answer.evidence.self_stresses) else {
+            return;
+        };
+        let members = self.system.members().len();
+        let left = |stress: &Vec<f64>| {
+            if stress.len() == members {
+                family.left_by(self.system, stress).into_iter().map(f64::abs).fold(0.0, worse)
+            } else {
+                f64::NAN
+            }
+        };
+        let left = named.basis.iter().map(left).fold(0.0, worse);
+        let solver = answer.solver.clone();
+        // As small as the solver's own threshold, which is the judge's at a shape apart by rounding.
+        let budget = 2.0 * family.rounding;
+        self.hold(Quantity::SelfStresses { solver }, left, budget);
     }
 
     /// Two answers: their differences, and their second-order behaviour.
@@ -222,6 +256,7 @@ impl<'a> Judgement<'a> {
             .fold(0.0, worse)
     }
 
+    /// The largest difference of forces that is not a self-stress.
     fn forces_apart_n(
         &self,
         first: &SystemEquilibrium,
@@ -229,22 +264,48 @@ impl<'a> Judgement<'a> {
         turns: &[Turn],
     ) -> f64 {
         let members = self.system.members();
-        let of_members = |a: &[Vector], b: &[Vector]| {
-            if [a.len(), b.len()] != [members.len(); 2] {
-                return f64::NAN;
-            }
-            let turned = |k: usize| turns[members[k].from].vector(b[k]);
-            (0..members.len()).map(|k| norm(minus(a[k], turned(k)))).fold(0.0, worse)
+        let counts = |answer: &SystemEquilibrium| {
+            let of_members =
+                [&answer.start_forces_n, &answer.end_forces_n].map(Vec::len) == [members.len(); 2];
+            of_members
+                && answer.axial_n.len() == members.len()
+                && answer.reactions_n.len() == turns.len()
         };
-        let reactions = if [first.reactions_n.len(), second.reactions_n.len()] == [turns.len(); 2] {
-            let pairs = first.reactions_n.iter().zip(&second.reactions_n).zip(turns);
-            pairs.map(|((a, b), turn)| norm(minus(*a, turn.vector(*b)))).fold(0.0, worse)
-        } else {
-            f64::NAN
-        };
-        let start = of_members(&first.start_forces_n, &second.start_forces_n);
-        let end = of_members(&first.end_forces_n, &second.end_forces_n);
-        worse(reactions, worse(start, end))
+        if !counts(first) || !counts(second) {
+            return f64::NAN;
+        }
+        let part = self.self_stress_between(first, second);
+        let mut apart = 0.0;
+        let mut reactions: Vec<Vector> = (0..turns.len())
+            .map(|k| minus(first.reactions_n[k], turns[k].vector(second.reactions_n[k])))
+            .collect();
+        for (k, member) in members.iter().enumerate() {
+            let turn = turns[member.from];
+            let pull = match (&self.family, &part) {
+                (Some(family), Some(part)) if part[k].abs() > 0.0 => family.pull(k, part[k]),
+                _ => [0.0; 3],
+            };
+            // The joints pull at the member's ends, outwards.
+            let start = minus(first.start_forces_n[k], turn.vector(second.start_forces_n[k]));
+            let end = minus(first.end_forces_n[k], turn.vector(second.end_forces_n[k]));
+            apart = worse(apart, norm(plus(start, pull)));
+            apart = worse(apart, norm(minus(end, pull)));
+            reactions[member.from] = plus(reactions[member.from], pull);
+            reactions[member.to] = minus(reactions[member.to], pull);
+        }
+        reactions.into_iter().map(norm).fold(apart, worse)
+    }
+
+    /// The part of the difference of the axial forces that is a self-stress, where there is any.
+    fn self_stress_between(
+        &self,
+        first: &SystemEquilibrium,
+        second: &SystemEquilibrium,
+    ) -> Option<Vec<f64>> {
+        let family = self.family.as_ref().filter(|family| family.dimension() > 0)?;
+        let apart: Vec<f64> =
+            first.axial_n.iter().zip(&second.axial_n).map(|(a, b)| a - b).collect();
+        Some(family.part_of(&apart))
     }
 }
 

@@ -5,6 +5,7 @@
 mod ask;
 mod certificate;
 mod compare;
+mod family;
 mod statics;
 #[cfg(test)]
 mod tests;

@@ -1,7 +1,10 @@
 //! The judge of systems on closed forms, right and tampered with.
 
 use model::system::{Joint, Member, System, SystemEquilibrium, SystemStability};
-use model::{Bar, Evidence, InSpace, NoCertificate, Place, Quantity, SolverName};
+use model::{
+    Bar, Evidence, Excess, ForceChoice, InSpace, NoCertificate, Place, Quantity, SelfStresses,
+    SolverName,
+};
 
 use super::{certify, compare, judge};
 use crate::tolerances::Tolerances;
@@ -178,4 +181,89 @@ fn a_part_that_turns_is_turned_before_it_is_compared() {
     assert!(agreement.agrees() && agreement.joints_m < 1e-14, "{agreement:?}");
     // Singular by the turn: nothing is claimed.
     assert!(certify(&system, &both[0]).is_err());
+}
+
+/// 16 N on four bars of 5 m from the corners of a square (3, 4, 5): those along x may take any part of it.
+fn four_legs(along_x: f64) -> (System, SystemEquilibrium) {
+    let corners = [[3.0, 0.0, 0.0], [-3.0, 0.0, 0.0], [0.0, 3.0, 0.0], [0.0, -3.0, 0.0]];
+    let mut joints: Vec<Joint> = corners
+        .iter()
+        .zip(["A", "B", "C", "D"])
+        .map(|(at, name)| Joint::anchor(name, *at))
+        .collect();
+    joints.push(Joint::free("P").with_mass(1.6));
+    let bar = Bar::homogeneous(5.0, 0.0).unwrap();
+    let members = (0..4).map(|k| Member::bar(k, 4, bar)).collect();
+    let system = System::new("four legs", 10.0, joints, members).unwrap();
+    // Two bars of 5/4 N for each 2 N.
+    let axial_n = [along_x, along_x, 1.0 - along_x, 1.0 - along_x].map(|part| 10.0 * part).to_vec();
+    let pull = |k: usize| corners[k].map(|x| x / 5.0 * axial_n[k]);
+    let start: Vec<_> = (0..4).map(|k| [pull(k)[0], pull(k)[1], 0.8 * axial_n[k]]).collect();
+    let end = start.iter().map(|f: &[f64; 3]| f.map(|x| -x)).collect();
+    let mut reactions_n = start.clone();
+    reactions_n.push([0.0; 3]);
+    let mut joints_m = corners.to_vec();
+    joints_m.push([0.0, 0.0, -4.0]);
+    let (_, like) = lamp();
+    let answer = SystemEquilibrium {
+        energy_j: -64.0,
+        joints_m,
+        start_forces_n: start,
+        end_forces_n: end,
+        axial_n,
+        reactions_n,
+        ..like
+    };
+    (system, answer)
+}
+
+#[test]
+fn answers_that_differ_by_a_self_stress_are_one_and_it_is_no_evidence_for_forces() {
+    let (system, first) = four_legs(0.5);
+    let (_, mut second) = four_legs(0.2);
+    second.solver = SolverName::ENERGY;
+    let mut answers = [first, second];
+    let agreement = compare(&system, &mut answers, &Tolerances::project());
+    assert!(agreement.agrees(), "{}", agreement.disagreement);
+    assert_eq!(agreement.self_stresses, Some(1));
+    assert!(agreement.forces_n < 1e-14, "{:e}", agreement.forces_n);
+    assert!(answers.iter().all(|a| a.evidence.ladder.agreed.proof().unwrap().shape_only));
+}
+
+#[test]
+fn what_is_no_self_stress_still_counts() {
+    let (system, first) = four_legs(0.5);
+    let (_, mut second) = four_legs(0.2);
+    second.start_forces_n[2][2] += 1e-6;
+    let agreement = compare(&system, &mut [first, second], &Tolerances::project());
+    assert!(!agreement.agrees());
+    assert!((agreement.forces_n - 1e-6).abs() < 1e-12, "{:e}", agreement.forces_n);
+}
+
+#[test]
+fn forces_of_one_shape_are_told_from_a_family() {
+    let (system, first) = lamp();
+    let mut second = first.clone();
+    second.solver = SolverName::ENERGY;
+    let mut answers = [first, second];
+    let agreement = compare(&system, &mut answers, &Tolerances::project());
+    assert_eq!(agreement.self_stresses, Some(0));
+    assert!(!answers[0].evidence.ladder.agreed.proof().unwrap().shape_only);
+}
+
+#[test]
+fn a_named_self_stress_that_is_none_is_seen() {
+    for (stress, is_one) in [([0.5, 0.5, -0.5, -0.5], true), ([0.5, 0.5, -0.5, -0.5001], false)] {
+        let (system, mut first) = four_legs(0.5);
+        let (_, second) = four_legs(0.5);
+        first.evidence.self_stresses = Some(SelfStresses {
+            dimension: 1,
+            basis: vec![stress.to_vec()],
+            choice: ForceChoice::Unknown,
+        });
+        let agreement = compare(&system, &mut [first, second], &Tolerances::project());
+        let told = |e: &Excess| matches!(e.what, Quantity::SelfStresses { .. });
+        assert_eq!(agreement.disagreement.excesses.iter().any(told), !is_one, "{stress:?}");
+        assert_eq!(agreement.agrees(), is_one);
+    }
 }
