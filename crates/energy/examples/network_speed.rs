@@ -100,32 +100,34 @@ fn net(n: usize, span: f64, rough: f64, cables: bool) -> Result<System, Failure>
     draft.finish("net")
 }
 
+/// Rows and columns of a square.
+fn cells(n: usize) -> impl Iterator<Item = (usize, usize)> {
+    (0..n * n).map(move |k| (k / n, k % n))
+}
+
 /// A net of cables in a ring of diameter one. Joints whose neighbour would be outside are anchors on the ring.
 fn ring(n: usize) -> Result<System, Failure> {
     let step = 1.0 / (n as f64 - 1.0);
     let at = |k: usize| k as f64 * step - 0.5;
     let inside = |i: usize, j: usize| at(i).hypot(at(j)) < 0.5;
     let mut draft = Draft::default();
-    let mut number = vec![vec![None; n]; n];
-    for i in 1..n - 1 {
-        for j in 1..n - 1 {
-            let (x, y) = (at(i), at(j));
-            let whole = [(i - 1, j), (i + 1, j), (i, j - 1), (i, j + 1)].map(|(i, j)| inside(i, j));
-            number[i][j] = inside(i, j).then(|| {
-                if whole.iter().all(|inside| *inside) {
-                    draft.free()
-                } else {
-                    draft.anchor([0.5 * x / x.hypot(y), 0.5 * y / x.hypot(y), 0.0])
-                }
-            });
-        }
+    let mut number = vec![vec![None; n + 1]; n + 1];
+    let mut places = Vec::new();
+    for (i, j) in cells(n).filter(|&(i, j)| inside(i, j)) {
+        let (x, y) = (at(i), at(j));
+        let around = [(i - 1, j), (i + 1, j), (i, j - 1), (i, j + 1)];
+        let free = around.iter().all(|&(i, j)| inside(i, j));
+        let place = if free { [x, y] } else { [x, y].map(|c| 0.5 * c / x.hypot(y)) };
+        places.push(place);
+        let [x, y] = place;
+        number[i][j] = Some(if free { draft.free() } else { draft.anchor([x, y, 0.0]) });
     }
-    for i in 0..n - 1 {
-        for j in 0..n - 1 {
-            let Some(from) = number[i][j] else { continue };
-            for to in [number[i + 1][j], number[i][j + 1]].into_iter().flatten() {
-                draft.cable(from, to, 1.1 * step)?;
-            }
+    for (i, j) in cells(n) {
+        let Some(from) = number[i][j] else { continue };
+        for to in [number[i + 1][j], number[i][j + 1]].into_iter().flatten() {
+            let [a, b]: [[f64; 2]; 2] = [places[from], places[to]];
+            let apart = (b[0] - a[0]).hypot(b[1] - a[1]);
+            draft.cable(from, to, (1.1 * step).max(1.02 * apart))?;
         }
     }
     draft.finish("ring")

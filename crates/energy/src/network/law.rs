@@ -113,16 +113,21 @@ pub(super) struct Softened {
 }
 
 impl Rod {
-    /// The softened member at an excess.
-    pub(super) fn softened(&self, excess: f64, estimate: f64, kappa: f64) -> Softened {
+    /// The softened member at an excess, if it resists there.
+    pub(super) fn spring(&self, excess: f64, estimate: f64, kappa: f64) -> Softened {
         let trial = estimate + kappa * excess;
         let series = 1.0 + kappa * self.flexibility;
-        if self.resists(trial) {
-            Softened {
-                force: trial / series,
-                stiffness: kappa / series,
-                potential: 0.5 * (trial * trial / series - estimate * estimate) / kappa,
-            }
+        Softened {
+            force: trial / series,
+            stiffness: kappa / series,
+            potential: 0.5 * (trial * trial / series - estimate * estimate) / kappa,
+        }
+    }
+
+    /// The softened member at an excess.
+    pub(super) fn softened(&self, excess: f64, estimate: f64, kappa: f64) -> Softened {
+        if self.resists(estimate + kappa * excess) {
+            self.spring(excess, estimate, kappa)
         } else {
             let potential = -0.5 * estimate * estimate / kappa;
             Softened { potential, ..Softened::default() }

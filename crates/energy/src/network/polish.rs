@@ -3,12 +3,20 @@
 //! The springs of the augmented Lagrangian are stiff here and every step updates the forces, so that a step
 //! leaves next to nothing of the springs: it is the step of the system of balances and lengths. Its matrix is
 //! positive definite exactly where the second derivative of the energy is, on the motions that keep the lengths:
-//! at saddles and maxima it is refused. Which cables and struts resist follows from the signs of their
-//! forces, afresh for each factorisation.
+//! at saddles and maxima it is refused.
+//!
+//! Which cables and struts resist is read off their forces, afresh for each factorisation, and not off the stiff
+//! springs: the second order of a step leaves errors of the lengths that such springs would take for
+//! forces, larger than those of most members of a net.
+//!
+//! M. Hintermueller, K. Ito and K. Kunisch, SIAM J. Optim. 13 (2002) 865-888,
+//! doi:10.1137/S1052623401383558
 
 use std::sync::Arc;
 
-use crate::network::frame::Frame;
+use model::system::Kind;
+
+use crate::network::frame::{Frame, Rod};
 use crate::network::law::{Excess, Softened};
 use crate::network::newton::{NEAR, Newton};
 use crate::network::shape::Shape;
@@ -24,6 +32,9 @@ pub(super) const NEUTRAL: f64 = 1e-10;
 const POLISH: usize = 12;
 const CHORDS: usize = 6;
 
+/// Steps more for each change of the members that resist; changes that are allowed.
+const CHANGES: usize = 40;
+
 /// Misfit above which members have turned too far for the factorisation of the step before: its stiff springs
 /// point the old way.
 const CHORD_NEAR: f64 = 1e-8;
@@ -37,11 +48,16 @@ impl Newton {
         let frame = Arc::clone(&self.frame);
         let (mut shape, mut slope) = (shape.clone(), frame.slope(shape));
         let stiffness = frame.largest_force(&shape.force) / STIFF_STRAIN;
-        for _ in 0..POLISH {
+        let (mut steps, mut changes) = (POLISH, CHANGES);
+        let mut active = frame.active(&shape);
+        while steps > 0 {
+            steps -= 1;
             let start = slope.residual();
-            let active = self.factorise_stiff(&shape, stiffness)?;
+            if !self.factorise_stiff(&shape, stiffness, &active) {
+                return None;
+            }
             for chord in 0..CHORDS {
-                let Some(next) = self.chord(&shape, stiffness, &active) else { break };
+                let next = self.chord(&shape, stiffness, &active);
                 let there = frame.slope(&next);
                 let (before, after) = (slope.residual(), there.residual());
                 if !after.is_finite() {
@@ -54,9 +70,19 @@ impl Newton {
                     break;
                 }
                 (shape, slope) = (next, there);
-                if slope.misfit > CHORD_NEAR {
+                if frame.active(&shape) != active || slope.misfit > CHORD_NEAR {
                     break;
                 }
+            }
+            let resist = frame.active(&shape);
+            if resist != active {
+                if changes == 0 {
+                    return None;
+                }
+                (active, changes, steps) = (resist, changes - 1, steps + 1);
+                frame.release(&mut shape, &active);
+                slope = frame.slope(&shape);
+                continue;
             }
             // Below the tolerance it goes on as long as that brings something.
             let rounded = slope.residual() <= rounding_floor(&frame, &shape);
@@ -71,36 +97,29 @@ impl Newton {
         None
     }
 
-    /// Which members resist, with stiff springs; the matrix is factorised. Nothing where it is not positive
-    /// definite.
-    fn factorise_stiff(&mut self, shape: &Shape, stiffness: f64) -> Option<Vec<bool>> {
+    /// Factorise the matrix with stiff springs in the members that resist; whether it is positive definite.
+    fn factorise_stiff(&mut self, shape: &Shape, stiffness: f64, active: &[bool]) -> bool {
         let frame = Arc::clone(&self.frame);
         let excess = frame.excesses(&shape.x);
-        let active: Vec<bool> = (0..frame.rods.len())
-            .map(|e| stiff(&frame, &excess[e], shape.force[e], e, stiffness).stiffness > 0.0)
-            .collect();
         let largest = frame.largest_force(&shape.force);
         let sizes = frame.sizes(|e| if active[e] { largest } else { 0.0 });
         let block = |e: usize| {
-            let spring = stiff(&frame, &excess[e], shape.force[e], e, stiffness);
+            let spring = stiff(&frame, &excess[e], shape.force[e], e, stiffness, active[e]);
             excess[e].block(if active[e] { shape.force[e] } else { 0.0 }, spring.stiffness)
         };
         frame.fill(&mut self.factor, block, |joint| {
             NEUTRAL * if sizes[joint] > 0.0 { sizes[joint] } else { largest }
         });
-        self.factor.cholesky().then_some(active)
+        self.factor.cholesky()
     }
 
-    /// One step with the factorisation at hand; nothing where other members resist than in it.
-    fn chord(&mut self, shape: &Shape, stiffness: f64, active: &[bool]) -> Option<Shape> {
+    /// One step with the factorisation at hand.
+    fn chord(&mut self, shape: &Shape, stiffness: f64, active: &[bool]) -> Shape {
         let frame = Arc::clone(&self.frame);
         let excess = frame.excesses(&shape.x);
         let soft: Vec<Softened> = (0..frame.rods.len())
-            .map(|e| stiff(&frame, &excess[e], shape.force[e], e, stiffness))
+            .map(|e| stiff(&frame, &excess[e], shape.force[e], e, stiffness, active[e]))
             .collect();
-        if soft.iter().zip(active).any(|(soft, active)| (soft.stiffness > 0.0) != *active) {
-            return None;
-        }
         let mut step = frame.gradient(|e| scaled(soft[e].force, excess[e].gradient));
         for value in &mut step {
             *value = -*value;
@@ -109,7 +128,7 @@ impl Newton {
         let force = (0..frame.rods.len()).map(|e| {
             soft[e].force + soft[e].stiffness * excess[e].change(frame.relative(&step, e))
         });
-        Some(Shape { force: force.collect(), x: frame.moved(&shape.x, 1.0, &step) })
+        Shape { force: force.collect(), x: frame.moved(&shape.x, 1.0, &step) }
     }
 
     /// The tolerance, or what rounding of the places leaves where that is more.
@@ -118,10 +137,49 @@ impl Newton {
     }
 }
 
-/// A member with a spring of strain [`STIFF_STRAIN`] under the largest force.
-fn stiff(frame: &Frame, excess: &Excess, force: f64, rod: usize, stiffness: f64) -> Softened {
+/// A member that resists or not, with a spring of strain [`STIFF_STRAIN`] under the largest force.
+fn stiff(
+    frame: &Frame,
+    excess: &Excess,
+    force: f64,
+    rod: usize,
+    stiffness: f64,
+    active: bool,
+) -> Softened {
     let rod = &frame.rods[rod];
-    rod.softened(excess.value, force, stiffness / rod.length)
+    if active {
+        rod.spring(excess.value, force, stiffness / rod.length)
+    } else {
+        Softened::default()
+    }
+}
+
+impl Frame {
+    /// Which members resist: by the sign of their force, and where there is none by their length.
+    fn active(&self, shape: &Shape) -> Vec<bool> {
+        let rounding = rounding_floor(self, shape);
+        let resists = |(e, rod): (usize, &Rod)| {
+            let force = shape.force[e];
+            if rod.kind == Kind::Bar {
+                return true;
+            }
+            if force.abs() > 0.0 {
+                return rod.resists(force);
+            }
+            let excess = rod.excess(self.span(&shape.x, e)).value / rod.length;
+            excess.abs() > rounding && rod.resists(excess)
+        };
+        self.rods.iter().enumerate().map(resists).collect()
+    }
+
+    /// Take the forces off the members that do not resist.
+    fn release(&self, shape: &mut Shape, active: &[bool]) {
+        for (force, active) in shape.force.iter_mut().zip(active) {
+            if !active {
+                *force = 0.0;
+            }
+        }
+    }
 }
 
 /// What roundings of the places leave of the lengths: some units in the last place of the largest

@@ -3,6 +3,7 @@
 mod chains;
 mod little_force;
 mod network;
+mod network_large;
 mod network_members;
 mod network_random;
 mod network_support;

@@ -11,7 +11,7 @@ use faer::Mat;
 use model::Vector;
 use model::system::{Support, System, SystemEquilibrium};
 
-use crate::vector::{dot, minus, norm, plus, times};
+use crate::vector::{cross, dot, minus, norm, plus, times};
 
 /// Free coordinates up to which the rank of the balances is counted: dense singular values.
 const COUNTED: usize = 240;
@@ -128,7 +128,7 @@ fn motions(support: &Support) -> Vec<Vector> {
             let helper = helper.unwrap_or(axes[0]);
             let first = minus(helper, times(dot(helper, normal), normal));
             let first = times(1.0 / norm(first), first);
-            vec![first, crate::vector::cross(normal, first)]
+            vec![first, cross(normal, first)]
         }
     }
 }
