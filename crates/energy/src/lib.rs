@@ -96,6 +96,7 @@
 //! mechanics agree to the last digits is the experiment of this project. Do not deduplicate them.
 
 mod bend;
+mod bridged;
 mod closure;
 mod coarse;
 mod convergence;

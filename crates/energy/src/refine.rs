@@ -56,7 +56,7 @@ const EXACT: f64 = 4.0 * f64::EPSILON;
 const SMALL: f64 = 1e-9;
 
 /// Axial forces below this part of the largest force are rounding.
-const NO_FORCE: f64 = 64.0 * f64::EPSILON;
+pub(crate) const NO_FORCE: f64 = 64.0 * f64::EPSILON;
 
 /// An axis within this angle, rad, of the line of the bars is on it: the small components keep all
 /// but three of their digits.
@@ -100,8 +100,12 @@ pub(crate) fn refine(problem: &Problem, units: &Units, minimum: &Minimum) -> Ref
     } else {
         Refinement::Failed(first)
     };
-    let Some(last) = point.newton() else {
-        return failed;
+    let last = match point.straightened() {
+        Some(unknown) => unknown,
+        None => match point.newton() {
+            Some(last) if point.closed() => last,
+            _ => return failed,
+        },
     };
     let (refined, units) = point.into_minimum(minimum);
     // Newton's method finds any stationary point; what was not known to be a minimum must prove it.
@@ -113,11 +117,11 @@ pub(crate) fn refine(problem: &Problem, units: &Units, minimum: &Minimum) -> Ref
 }
 
 /// A point of the unknowns: directions in the plane, and the multiplier.
-struct Point {
-    links: Links,
+pub(crate) struct Point {
+    pub(crate) links: Links,
     units: Units,
-    shape: Shape,
-    multiplier: Vector,
+    pub(crate) shape: Shape,
+    pub(crate) multiplier: Vector,
 }
 
 /// A step of Newton's method.

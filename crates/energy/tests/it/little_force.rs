@@ -57,6 +57,44 @@ fn massless_bars_that_just_bridge_their_gap() {
     }
 }
 
+/// Bars that bridge a gap exactly, and carry nothing: right angles of integers.
+#[test]
+fn bars_that_exactly_bridge_a_gap_and_carry_nothing() {
+    type Case<'a> = (&'a [(f64, f64, f64)], Vector, &'a [Vector]);
+    let cases: [Case; 4] = [
+        // All weight is plumb below the first anchor, and 5 m and 1 m reach from it to the other one.
+        (
+            &[(1.0, 3.0, 1.0), (5.0, 2.0, 0.0), (1.0, 0.0, 0.25)],
+            [6.0, 0.0, -1.0],
+            &[[0.0, 0.0, -1.0], [5.0, 0.0, -1.0]],
+        ),
+        // 2 m and 3 m reach to where the weight is plumb below the last anchor: 3, 4, 5.
+        (
+            &[(2.0, 0.0, 0.5), (3.0, 3.0, 1.0), (1.0, 0.0, 0.75)],
+            [3.0, 0.0, 5.0],
+            &[[1.2, 0.0, 1.6], [3.0, 0.0, 4.0]],
+        ),
+        // One level bar reaches to it; it is heavy, and the plumb bars carry its end.
+        (
+            &[(2.0, 2.0, 0.25), (1.0, 2.0, 0.75), (5.0, 0.0, 0.5), (1.0, 1.0, 0.75)],
+            [2.0, 0.0, 7.0],
+            &[[2.0, 0.0, 0.0], [2.0, 0.0, 1.0], [2.0, 0.0, 6.0]],
+        ),
+        (
+            &[(1.0, 0.0, 0.0), (1.0, 1.0, 0.5), (3.0, 3.0, 0.5)],
+            [1.0, 0.0, 4.0],
+            &[[1.0, 0.0, 0.0], [1.0, 0.0, 1.0]],
+        ),
+    ];
+    for (bars, end_m, joints) in cases {
+        let (_, solution) = solved(bars, end_m);
+        let found = &solution.equilibrium.joints_m;
+        for (found, exact) in found[1..].iter().zip(joints) {
+            assert!(difference(*found, *exact) < 1e-13, "{found:?} {exact:?}");
+        }
+    }
+}
+
 /// Masses from 1e12 kg to 1e-12 kg: the light bars hang from the end of the heavy one as if it were
 /// an anchor.
 #[test]

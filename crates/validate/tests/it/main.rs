@@ -14,6 +14,7 @@ mod external;
 mod first_tries;
 mod gallery;
 mod independence;
+mod integer_chains;
 mod networks;
 mod paper;
 mod statics;
