@@ -38,5 +38,5 @@ pub use palette::{
     regions,
 };
 pub use png::Raster;
-pub use structure::{Joint, Member, Structure, StructureError, Support};
+pub use structure::{Joint, Member, Structure, StructureError, Support, SystemShape};
 pub use svg::{Anchor, Svg};

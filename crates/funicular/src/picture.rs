@@ -1,8 +1,8 @@
 //! Drawings of answers: joints, supports, loads, reactions and axial forces, to scale.
 
-use figures::{Joint, Member, Structure, StructureError, Support as Held};
-use model::system::{Support, System, SystemEquilibrium};
-use model::{Equilibrium, Vector};
+use figures::{StructureError, SystemShape};
+use model::Equilibrium;
+use model::system::{System, SystemEquilibrium};
 
 /// An equilibrium of a system as an SVG file.
 ///
@@ -21,7 +21,8 @@ use model::{Equilibrium, Vector};
 ///
 /// [`StructureError`] when a place is not finite.
 pub fn of_system(system: &System, answer: &SystemEquilibrium) -> Result<String, StructureError> {
-    draw(system, &answer.joints_m, &answer.axial_n, &answer.reactions_n)
+    let SystemEquilibrium { joints_m, axial_n, reactions_n, .. } = answer;
+    SystemShape { system, joints_m, axial_n, reactions_n }.svg()
 }
 
 /// An equilibrium of a chain as an SVG file.
@@ -38,41 +39,6 @@ pub fn of_chain(chain: &model::Chain, answer: &Equilibrium) -> Result<String, St
     if let Some(last) = reactions_n.last_mut() {
         *last = answer.reactions_n.end;
     }
-    draw(&system, &answer.joints_m, &answer.axial_n, &reactions_n)
-}
-
-fn draw(
-    system: &System,
-    joints_m: &[Vector],
-    axial_n: &[f64],
-    reactions_n: &[Vector],
-) -> Result<String, StructureError> {
-    let gravity = system.gravity_m_s2();
-    let placed = system.joints().iter().zip(joints_m).zip(reactions_n);
-    let joints: Vec<Joint<'_>> = placed
-        .map(|((joint, at_m), reaction_n)| {
-            let [x, y, z] = joint.force_n;
-            Joint {
-                name: &joint.name,
-                at_m: *at_m,
-                support: match joint.support {
-                    Support::Free => None,
-                    Support::Fixed { .. } => Some(Held::Fixed),
-                    Support::Line { direction, .. } => Some(Held::Line(direction)),
-                    Support::Plane { normal, .. } => Some(Held::Plane(normal)),
-                },
-                load_n: [x, y, z - joint.mass_kg * gravity],
-                reaction_n: *reaction_n,
-            }
-        })
-        .collect();
-    let members: Vec<Member> = system
-        .members()
-        .iter()
-        .zip(axial_n)
-        .map(|(member, axial)| Member { joints: [member.from, member.to], axial_n: Some(*axial) })
-        .collect();
-    let note =
-        "arrows: loads at joints, and forces of the ground; the weights of members are not drawn";
-    Structure { title: system.name(), note, joints: &joints, members: &members }.svg()
+    let Equilibrium { joints_m, axial_n, .. } = answer;
+    SystemShape { system: &system, joints_m, axial_n, reactions_n: &reactions_n }.svg()
 }

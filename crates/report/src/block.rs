@@ -27,6 +27,8 @@ pub enum Block<'a> {
     Statements(Vec<&'a EquationAudit>),
     /// Pictures: drawn in HTML, in Markdown their caption alone.
     Figure(Figure),
+    /// Pictures with colours of their own, on white.
+    Sheet(Figure),
     /// A piece of HTML of its own, and what Markdown says instead.
     Slot {
         /// HTML.

@@ -3,9 +3,12 @@
 use census::{Census, CensusError};
 use paper::Reproduction;
 use serde::Serialize;
+use validate::gallery::Piece;
 
 use crate::block::Block;
-use crate::chapters::{cases, citing, claims, equations, method, overview, positions, run, scan};
+use crate::chapters::{
+    cases, citing, claims, equations, gallery, method, overview, positions, run, scan,
+};
 use crate::environment::Environment;
 use crate::view::View;
 use crate::{html, markdown};
@@ -27,6 +30,7 @@ pub enum ReportError {
 pub struct Report {
     reproduction: Reproduction,
     census: Census,
+    gallery: Vec<Piece>,
     view: String,
     environment: Environment,
 }
@@ -49,7 +53,8 @@ impl Report {
     pub fn new(reproduction: Reproduction, environment: Environment) -> Result<Self, ReportError> {
         let census = Census::take(&model::cases::paper(), &census::Settings::default())?;
         let view = View::new(&reproduction).fragment()?;
-        Ok(Self { reproduction, census, view, environment })
+        let gallery = validate::gallery::solve();
+        Ok(Self { reproduction, census, gallery, view, environment })
     }
 
     /// What it was made from.
@@ -98,6 +103,7 @@ impl Report {
             equations::blocks(r),
             method::blocks(r),
             cases::blocks(r),
+            gallery::blocks(&self.gallery),
             citing::blocks(),
         ]
         .concat()

@@ -75,7 +75,8 @@ fn html(block: &Block) -> String {
         Block::Table(table) => rows(table),
         Block::Equation(judged) => equation(judged),
         Block::Statements(audit) => rows(&block::statements(audit)),
-        Block::Figure(figure) => drawn(figure),
+        Block::Figure(figure) => drawn(figure, "plate"),
+        Block::Sheet(figure) => drawn(figure, "sheet"),
         Block::Slot { html, .. } => html.clone(),
         Block::Code(_, text) => {
             format!("<pre tabindex=\"0\"><code>{}</code></pre>\n", Escaped(text.trim_end()))
@@ -83,9 +84,9 @@ fn html(block: &Block) -> String {
     }
 }
 
-fn drawn(figure: &Figure) -> String {
+fn drawn(figure: &Figure, class: &str) -> String {
     format!(
-        "<figure class=\"plate\" id=\"{}\">\n<div class=\"panels\">\n{}</div>\n<figcaption>{}</figcaption>\n</figure>\n",
+        "<figure class=\"{class}\" id=\"{}\">\n<div class=\"panels\">\n{}</div>\n<figcaption>{}</figcaption>\n</figure>\n",
         figure.id,
         figure.panels.concat(),
         inline(&figure.caption)

@@ -22,7 +22,9 @@ fn one(block: &Block) -> String {
         Block::Statements(audit) => {
             rows(&Table { caption: String::new(), ..block::statements(audit) })
         }
-        Block::Figure(figure) => format!("*Figure (drawn in `report.html`).* {}\n", figure.caption),
+        Block::Figure(figure) | Block::Sheet(figure) => {
+            format!("*Figure (drawn in `report.html`).* {}\n", figure.caption)
+        }
         Block::Slot { instead, .. } => format!("{instead}\n"),
         Block::Code(language, text) => format!("```{language}\n{}\n```\n", text.trim_end()),
     }

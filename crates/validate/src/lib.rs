@@ -29,6 +29,7 @@ pub mod consistency;
 mod differences;
 pub mod force_family;
 mod free;
+pub mod gallery;
 pub mod independence;
 pub mod lever;
 pub mod statics;

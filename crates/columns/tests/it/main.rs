@@ -5,4 +5,5 @@
 #[cfg(unix)]
 mod atomic;
 mod bars;
+mod rows;
 mod tables;

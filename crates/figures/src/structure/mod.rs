@@ -11,7 +11,10 @@ mod labels;
 mod members;
 mod scene;
 mod supports;
+mod system;
 mod view;
+
+pub use system::SystemShape;
 
 use crate::look::{Colour, Look};
 use crate::structure::labels::Labels;
@@ -120,9 +123,23 @@ impl Structure<'_> {
     ///
     /// [`StructureError`].
     pub fn svg(&self) -> Result<String, StructureError> {
+        self.draw(|size, description| Svg::new(size, self.title).described(description))
+    }
+
+    /// The drawing as an SVG element for a page in which `id` is unique. It is meant for a white
+    /// ground.
+    ///
+    /// # Errors
+    ///
+    /// [`StructureError`].
+    pub fn in_page(&self, id: &str) -> Result<String, StructureError> {
+        self.draw(|size, description| Svg::in_page(id, size, self.title, description))
+    }
+
+    fn draw(&self, begin: impl FnOnce([f64; 2], &str) -> Svg) -> Result<String, StructureError> {
         self.check()?;
         let scene = Scene::new(self);
-        let mut svg = Svg::new(scene.size, self.title).described(&self.description(&scene));
+        let mut svg = begin(scene.size, &self.description(&scene));
         let heading = Look::PLAIN.size(17.0).bold();
         svg.text(heading, [scene::SIDE, 30.0], Anchor::Start, self.title);
         svg.text(Look::PLAIN, [scene::SIDE, 51.0], Anchor::Start, self.note);

@@ -6,7 +6,7 @@ use crate::structure::view::View;
 /// Room at the sides, px: for arrows and their labels.
 pub(crate) const SIDE: f64 = 96.0;
 /// Room above, for the title too, and below, for the key too.
-const ABOVE: f64 = 158.0;
+const ABOVE: f64 = 172.0;
 const BELOW: f64 = 176.0;
 
 /// Largest extent of the structure, px.

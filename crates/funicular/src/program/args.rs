@@ -64,8 +64,13 @@ pub enum Command {
     Reproduce(crate::reproduce::Reproduce),
     /// Find the hanging equilibrium of a system file by both solvers, and compare them
     ///
-    /// Time and memory grow with the number of bars: a million of them take about a second, and
-    /// some 240 bytes each.
+    /// Known are bars, cables and struts between joints without friction, rigid or with a stiffness,
+    /// in space, at rest under their weight, masses at joints and constant forces; not known are
+    /// friction, contact, bending, damping and a sea bed. A file is a chain between two anchors, or
+    /// joints by name with members between them (`funicular cases footbridge` prints one).
+    ///
+    /// One answer is printed whole, the other solver's compared with it. Time and memory grow with
+    /// the number of bars: a chain of a million takes about a second, and some 240 bytes each.
     #[command(after_help = ALL_OR_NOTHING)]
     Solve(crate::solve::Solve),
     /// Find every equilibrium of a chain, stable or not, and prove that there is no other

@@ -160,3 +160,29 @@ fn the_files_of_the_readme_are_solved() {
         assert_eq!(answer["equilibria"][0]["evidence"]["rung"], "optimal", "{name}");
     }
 }
+
+/// Nobody says how wide the terminal is: tables keep to 80 columns, and long systems to what stands
+/// out.
+#[test]
+fn every_answer_of_the_gallery_fits_eighty_columns() {
+    let folder = folder("systems-gallery");
+    for exhibit in model::cases::gallery() {
+        let output = run(&folder, &["solve", "--case", exhibit.name, "--csv", "j.csv"]);
+        assert_eq!(output.status.code(), Some(0), "{}", exhibit.name);
+        let text = String::from_utf8(output.stdout).unwrap();
+        for line in text.lines() {
+            assert!(line.chars().count() <= 80, "{}: {line}", exhibit.name);
+        }
+        for wanted in ["Forces of the ground", "Lowest joint: ", "Sag: ", "Largest tension: "] {
+            assert!(text.contains(wanted), "{}: {wanted}\n{text}", exhibit.name);
+        }
+        // Neither the tables nor the file have zeros that rounding has left.
+        let joints = std::fs::read_to_string(folder.join("j.csv")).unwrap();
+        let tables = text.split_once("Sag: ").unwrap().0;
+        for rounding in ["e-1", "-0.0,", "-0 "] {
+            assert!(!joints.contains(rounding) && !tables.contains(rounding), "{joints}{tables}");
+        }
+    }
+    let output = run(&folder, &["cases"]);
+    assert!(String::from_utf8(output.stdout).unwrap().contains("footbridge"));
+}

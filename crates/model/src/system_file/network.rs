@@ -216,8 +216,11 @@ impl Reading<'_> {
     }
 
     fn finish(self, name: &str, gravity_m_s2: f64) -> Result<System, SystemFileError> {
-        let Self { root, joints, joint_spans, members, tables, joints_file, bars_file, .. } = self;
-        let names: Vec<String> = joints.iter().map(|joint| joint.name.clone()).collect();
+        let Self { root, joints, joint_spans, members, tables, joints_file, bars_file, numbers } =
+            self;
+        drop(numbers);
+        let names: Vec<String> =
+            joints.iter().take(joint_spans.len()).map(|joint| joint.name.clone()).collect();
         // What stands in the file as a joint or a table of bars is the place of an error about it.
         let at_joint = |kind, joint: usize| match joint_spans.get(joint) {
             Some(span) => root.error_at(kind, &format!("joints.{}", names[joint]), span.clone()),
