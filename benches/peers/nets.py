@@ -3,7 +3,9 @@
 Each net has N x N joints and equal members of 1 m and 1 kg; its corners are 0.8 of a side apart. The peers minimise the
 potential energy over the places of the joints with the squared lengths as constraints: equal to 1 (rigid bars), or at
 most 1 (cables that may be slack, an easier problem). They get exact sparse derivatives and start from the flat net,
-sagged by a paraboloid. Times are those of the solvers alone, without reading, building and compiling.
+sagged by a paraboloid. Times are those of the solvers alone, without reading, building and compiling: of the peers the
+processor's, of ours, which are short, the least by the clock of several runs, so that other programs on the machine
+weigh on ours alone.
 """
 
 import json
@@ -23,7 +25,10 @@ from scipy.sparse import coo_matrix, csr_matrix, diags
 
 GRAVITY = 9.80665
 SPAN = 0.8
-LIMIT_S = 300.0
+# Seconds of the processor after which a peer is given up.
+LIMIT_S = float(os.environ.get("LIMIT_S", "300"))
+# Runs of ours, of which the shortest counts.
+RUNS = 5
 # SciPy's method for large sparse problems is given up beyond so many members.
 MOST_FOR_SCIPY = 2_000
 
@@ -69,17 +74,17 @@ def ours(net):
         file.flush()
         for solver in ["lagrange", "energy"]:
             command = [os.environ["FUNICULAR"], "solve", file.name, "--solver", solver, "--json", "--summary"]
-            done = subprocess.run(command, capture_output=True, text=True, check=False)
-            if not done.stdout.startswith("{"):
-                yield f"funicular, {solver}", None, None, done.stderr.strip().splitlines()[0]
+            runs = [subprocess.run(command, capture_output=True, text=True, check=False) for _ in range(RUNS)]
+            if not runs[0].stdout.startswith("{"):
+                yield f"funicular, {solver}", None, None, runs[0].stderr.strip().splitlines()[0]
                 continue
-            answer = json.loads(done.stdout)
-            if not answer["equilibria"]:
-                yield f"funicular, {solver}", None, None, answer["failures"][0]["reason"]
+            answers = [json.loads(run.stdout) for run in runs]
+            if not answers[0]["equilibria"]:
+                yield f"funicular, {solver}", None, None, answers[0]["failures"][0]["reason"]
                 continue
-            found = answer["equilibria"][0]
-            evidence = found["evidence"]
-            yield f"funicular, {solver}", evidence["solve_s"], found["energy_j"], f"{evidence['iterations']} steps"
+            found = answers[0]["equilibria"][0]
+            seconds = min(answer["equilibria"][0]["evidence"]["solve_s"] for answer in answers)
+            yield f"funicular, {solver}", seconds, found["energy_j"], f"{found['evidence']['iterations']} steps"
 
 
 def ipopt(net, cables):
@@ -95,9 +100,9 @@ def ipopt(net, cables):
     }
     solver = casadi.nlpsol("solver", "ipopt", {"x": casadi.vec(x), "f": energy, "g": lengths}, options)
     lower = -casadi.inf if cables else 1.0
-    begun = time.perf_counter()
+    begun = time.process_time()
     found = solver(x0=net.start[net.free].ravel(), lbg=lower, ubg=1.0)
-    seconds = time.perf_counter() - begun
+    seconds = time.process_time() - begun
     stats = solver.stats()
     said = f"{stats['iter_count']} steps" + ("" if stats["success"] else f", {stats['return_status']}")
     return seconds, float(found["f"]), said
@@ -138,10 +143,10 @@ def by_scipy(net):
     class Late(Exception):
         pass
 
-    begun = time.perf_counter()
+    begun = time.process_time()
 
     def watch(_, state):
-        if time.perf_counter() - begun > LIMIT_S:
+        if time.process_time() - begun > LIMIT_S:
             raise Late
 
     lengths = NonlinearConstraint(lambda x: (across(x) ** 2).sum(axis=1), 1.0, 1.0, jac=jacobian, hess=hessian)
@@ -159,7 +164,7 @@ def by_scipy(net):
     except Late:
         return None, None, f"given up after {LIMIT_S:.0f} s"
     said = f"{found.nit} steps, lengths off by {found.constr_violation:.0e}"
-    return time.perf_counter() - begun, float(found.fun), said
+    return time.process_time() - begun, float(found.fun), said
 
 
 def peers(net):

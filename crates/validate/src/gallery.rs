@@ -1,7 +1,7 @@
 //! The gallery: systems of bars whose equilibrium is known in a closed form, by both solvers.
 //!
-//! Each reference number is of kind `analytic`: it follows from the numbers of the system file by the formula that
-//! stands beside it, and from no solver.
+//! Each reference number is of kind `analytic`: it follows from the numbers of the system file by
+//! the formula that stands beside it, and from no solver.
 
 use model::STANDARD_GRAVITY_M_S2 as G;
 use model::cases::{Exhibit, gallery};

@@ -46,7 +46,8 @@ impl SystemShape<'_> {
         self.draw(None)
     }
 
-    /// The drawing as an SVG element for a page in which `id` is unique. It is meant for a white ground.
+    /// The drawing as an SVG element for a page in which `id` is unique. It is meant for a white
+    /// ground.
     ///
     /// # Errors
     ///

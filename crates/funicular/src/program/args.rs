@@ -64,10 +64,11 @@ pub enum Command {
     Reproduce(crate::reproduce::Reproduce),
     /// Find the hanging equilibrium of a system file by both solvers, and compare them
     ///
-    /// Known are bars, cables and struts between joints without friction, rigid or with a stiffness,
-    /// in space, at rest under their weight, masses at joints and constant forces; not known are
-    /// friction, contact, bending, damping and a sea bed. A file is a chain between two anchors, or
-    /// joints by name with members between them (`funicular cases footbridge` prints one).
+    /// Known are bars, cables and struts between joints without friction, rigid or with a
+    /// stiffness, in space, at rest under their weight, masses at joints and constant forces; not
+    /// known are friction, contact, bending, damping and a sea bed. A file is a chain between two
+    /// anchors, or joints by name with members between them (`funicular cases footbridge` prints
+    /// one).
     ///
     /// One answer is printed whole, the other solver's compared with it. Time and memory grow with
     /// the number of bars: a chain of a million takes about a second, and some 240 bytes each.
