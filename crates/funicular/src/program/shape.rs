@@ -145,7 +145,7 @@ impl Shape<'_> {
         for (joint, force) in shown {
             let mut row = vec![(self.name)(*joint)];
             row.extend(force.map(|x| forces.short(x)));
-            row.push(short(size(*force)));
+            row.push(forces.short(size(*force)));
             table.add_row(row);
         }
         numbers_from(&mut table, 1);
