@@ -6,7 +6,7 @@ use crate::network::error::Error;
 use crate::network::frame::{Frame, Spot};
 use crate::vector::{along, dot, norm, scaled, unit};
 
-/// A direction shorter than this after projection is none.
+/// A direction shorter than this after projection counts as zero.
 const NO_DIRECTION: f64 = 1e-9;
 
 /// A load below this part of all loads is rounding.

@@ -31,8 +31,9 @@ pub(super) struct Rod {
 
 /// The system without units: lengths in the longest member's, forces in the sum of all loads.
 ///
-/// A force at a point of a straight member is linear in the places of the ends. Hence all weights and
-/// constant forces of a member act as if shared by its joints in the ratio of the lever arms.
+/// A force at a point of a straight member is linear in the places of the ends. Hence all weights
+/// and constant forces of a member act as if divided between its joints in the ratio of the lever
+/// arms.
 #[derive(Debug, Clone)]
 pub(super) struct Frame {
     /// The origin in the world, m.
@@ -45,35 +46,35 @@ pub(super) struct Frame {
     /// Where supports are; the origin for free joints.
     pub(super) supports: Vec<Vector>,
     pub(super) rods: Vec<Rod>,
-    /// Load of each joint, the shares of its members included.
+    /// Load of each joint, what its members bring included.
     pub(super) loads: Vec<Vector>,
     /// Number of coordinates.
     pub(super) freedom: usize,
 }
 
-/// The loads of a member shared by its joints, N.
-pub(super) fn shares_n(member: &Member, gravity_m_s2: f64) -> [Vector; 2] {
+/// The loads of a member divided between its joints, N.
+pub(super) fn end_loads_n(member: &Member, gravity_m_s2: f64) -> [Vector; 2] {
     let body = &member.body;
-    let mut shares = [[0.0; 3]; 2];
+    let mut end_loads = [[0.0; 3]; 2];
     let mut put = |at_m: f64, force_n: Vector| {
         let part = at_m / body.length_m();
-        shares[0] = along(shares[0], 1.0 - part, force_n);
-        shares[1] = along(shares[1], part, force_n);
+        end_loads[0] = along(end_loads[0], 1.0 - part, force_n);
+        end_loads[1] = along(end_loads[1], part, force_n);
     };
     put(body.centre_m(), [0.0, 0.0, -body.mass_kg() * gravity_m_s2]);
     for load in &member.loads {
         put(load.at_m, load.force_n);
     }
-    shares
+    end_loads
 }
 
-/// Load of each joint, the shares of its members included, N.
+/// Load of each joint, what its members bring included, N.
 fn loads_n(system: &System) -> Vec<Vector> {
     let gravity = system.gravity_m_s2();
     let weight = |joint: &Joint| along(joint.force_n, joint.mass_kg * gravity, [0.0, 0.0, -1.0]);
     let mut loads: Vec<Vector> = system.joints().iter().map(weight).collect();
     for member in system.members() {
-        let [start, end] = shares_n(member, gravity);
+        let [start, end] = end_loads_n(member, gravity);
         loads[member.from] = along(loads[member.from], 1.0, start);
         loads[member.to] = along(loads[member.to], 1.0, end);
     }

@@ -7,7 +7,7 @@ use model::system::{System, SystemEquilibrium, SystemStability};
 use model::{Evidence, ForceChoice, InSpace, SelfStresses, SolverName, Vector};
 
 use crate::network::error::Error;
-use crate::network::frame::{Frame, shares_n};
+use crate::network::frame::{Frame, end_loads_n};
 use crate::network::minimise::Minimum;
 use crate::network::polish::rounding_floor;
 use crate::network::settings::Settings;
@@ -32,8 +32,9 @@ pub struct Solution {
 pub enum Forces {
     /// One set of forces is in balance with the loads.
     Unique(Rigidity),
-    /// A family of them is; given is the member with the least `sum F² l`, the limit of equally stiff
-    /// members as they become rigid, or another one where that would make a cable push or a strut pull.
+    /// A family of them is; given is the member with the least `sum F² l`, the limit of equally
+    /// stiff members as they become rigid, or another one where that would make a cable push or a
+    /// strut pull.
     Family {
         /// The counts.
         rigidity: Rigidity,
@@ -139,7 +140,7 @@ fn equilibrium(
         let d = frame.span(&shape.x, e);
         // By virtual work: the derivative of the energy by the place of an end.
         let pull = scaled(frame.force_n * shape.force[e], frame.rods[e].excess(d).gradient);
-        let [start, end] = shares_n(member, system.gravity_m_s2());
+        let [start, end] = end_loads_n(member, system.gravity_m_s2());
         let at_start = scaled(-1.0, along(pull, 1.0, start));
         let at_end = along(pull, -1.0, end);
         reactions_n[member.from] = along(reactions_n[member.from], 1.0, at_start);

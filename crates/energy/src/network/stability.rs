@@ -1,8 +1,9 @@
 //! The second derivative of the energy at an equilibrium, on the motions that keep the lengths.
 //!
-//! Small systems: an orthonormal basis of those motions from the singular values of the rigidity matrix,
-//! whose rank also counts self-stresses and mechanisms, and the eigenvalues of the second derivative in that
-//! basis. Large ones: the signs of the pivots of the sparse matrix with stiff springs for the lengths.
+//! Small systems: an orthonormal basis of those motions from the singular values of the rigidity
+//! matrix, whose rank also counts self-stresses and mechanisms, and the eigenvalues of the second
+//! derivative in that basis. Large ones: the signs of the pivots of the sparse matrix with stiff
+//! springs for the lengths.
 
 use faer::{Mat, Side};
 use model::Vector;
@@ -24,20 +25,21 @@ const RANK: f64 = 1e-9;
 /// Strain of the springs that stand for the lengths in the sparse count.
 const STRAIN: f64 = 1e-6;
 
-/// A component of a unit vector below this is none.
+/// A component of a unit vector below this counts as zero.
 const PLANE: f64 = 1e-9;
 
 /// How the lengths of the members that resist determine shape and forces.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Rigidity {
-    /// Rank of the rigidity matrix: one row for each inextensible member that resists, one column for
-    /// each coordinate of a joint.
+    /// Rank of the rigidity matrix: one row for each inextensible member that resists, one column
+    /// for each coordinate of a joint.
     pub rank: usize,
     /// Independent sets of forces in balance with no load: with none the forces are unique.
     pub self_stresses: usize,
     /// Independent motions that keep the lengths to first order.
     pub mechanisms: usize,
-    /// The smallest singular value that counts, and the largest that does not, over the largest one.
+    /// The smallest singular value that counts, and the largest that does not, over the largest
+    /// one.
     pub gap: [f64; 2],
 }
 
@@ -71,7 +73,8 @@ pub(super) fn second_order(frame: &Frame, shape: &Shape, factor: &mut Factor) ->
             condition,
         }
     } else {
-        // A run ends with a positive definite matrix alone: no negative eigenvalue is left to count.
+        // A run ends with a positive definite matrix alone: no negative eigenvalue is left to
+        // count.
         let neutral = below(frame, shape, factor, -ZERO);
         SecondOrder {
             index: 0,
@@ -266,8 +269,8 @@ impl Dense {
     }
 
     /// The forces with the least `sum F² l` that balance the same loads: the limit of equally stiff
-    /// members as they become rigid. Nothing where the forces are unique, or where a cable or strut would
-    /// have to work against its kind.
+    /// members as they become rigid. Nothing where the forces are unique, or where a cable or strut
+    /// would have to work against its kind.
     fn least_forces(&self, frame: &Frame, shape: &Shape) -> Option<Vec<f64>> {
         let stresses = self.stresses.ncols();
         if stresses == 0 {

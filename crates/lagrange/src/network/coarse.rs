@@ -94,7 +94,7 @@ fn refine(
             length,
             compliance: group.iter().map(|step| step.compliance).sum(),
             kind: if cable { Kind::Cable } else { Kind::Bar },
-            shares: [Vector3::zeros(); 2],
+            end_loads: [Vector3::zeros(); 2],
         });
         from = to;
     }

@@ -192,8 +192,8 @@ impl<'a> Derivatives<'a> {
         })
     }
 
-    /// The stiffness matrix of a pair of anchors, N/m: entry (i, k) is the derivative of component i
-    /// of the force of the ground on joint `of` by coordinate k of joint `by`. It is symmetric
+    /// The stiffness matrix of a pair of anchors, N/m: entry (i, k) is the derivative of component
+    /// i of the force of the ground on joint `of` by coordinate k of joint `by`. It is symmetric
     /// together with that of the exchanged pair.
     ///
     /// # Errors

@@ -161,7 +161,7 @@ impl<'a> Shape<'a> {
             length: runs.steps[element.steps.clone()].iter().map(|step| step.length).sum(),
             compliance: 0.0,
             kind: Kind::Bar,
-            shares: [Vector3::zeros(); 2],
+            end_loads: [Vector3::zeros(); 2],
         });
         let (units, nodes) = (framework.units, runs.nodes.clone());
         let skeleton = Framework { units, nodes, links: links.collect() };
@@ -264,7 +264,7 @@ impl<'a> Shape<'a> {
                 at.go(&span(step, &force));
                 arc += step.length;
                 if k + 1 < steps.len() {
-                    // The share of one member alone would be lost to rounding.
+                    // The part of one member alone would be lost to rounding.
                     let mut shifted = Place { ..at };
                     shifted.go(&(left * (arc / length)));
                     state.places[step.joint] = shifted.place;

@@ -111,8 +111,8 @@ pub enum Error {
         /// Unknowns of the matrix.
         unknowns: usize,
     },
-    /// Occurs when derivatives are asked for where there are none: a motion that meets no stiffness,
-    /// a self-stress, or an inextensible member between the anchors that are to move.
+    /// Occurs when derivatives are asked for where there are none: a motion that meets no
+    /// stiffness, a self-stress, or an inextensible member between the anchors that are to move.
     #[error(
         "no derivative here: the equations leave {left:.1e} of a change; a motion without stiffness or a \
          self-stress does that"

@@ -19,7 +19,7 @@ pub(super) struct Node {
     pub axes: Matrix3<f64>,
     /// Number of its free directions.
     pub freedom: usize,
-    /// Loads of the joint and of its members' shares.
+    /// Loads of the joint, and of its members at it.
     pub load: Vector3<f64>,
 }
 
@@ -36,8 +36,8 @@ pub(super) struct Link {
     pub compliance: f64,
     /// Which sign of axial force it can have.
     pub kind: Kind,
-    /// Its loads' shares at its two joints.
-    pub shares: [Vector3<f64>; 2],
+    /// Its loads at its two joints, by the lever rule.
+    pub end_loads: [Vector3<f64>; 2],
 }
 
 impl Link {
@@ -77,18 +77,18 @@ pub(super) struct Framework {
 
 impl Framework {
     pub fn new(system: &System) -> Self {
-        let shares: Vec<_> = system.members().iter().map(|m| shares_n(system, m)).collect();
+        let end_loads: Vec<_> = system.members().iter().map(|m| end_loads_n(system, m)).collect();
         let mut loads: Vec<_> =
             system.joints().iter().map(|joint| own_load_n(system, joint)).collect();
-        for (member, [start, end]) in system.members().iter().zip(&shares) {
+        for (member, [start, end]) in system.members().iter().zip(&end_loads) {
             loads[member.from] += start;
             loads[member.to] += end;
         }
         let units = units(system, &loads);
         let nodes = system.joints().iter().zip(&loads);
         let nodes = nodes.map(|(joint, load)| node(joint, load, units)).collect();
-        let links = system.members().iter().zip(&shares);
-        let links = links.map(|(member, shares)| link(member, shares, units)).collect();
+        let links = system.members().iter().zip(&end_loads);
+        let links = links.map(|(member, end_loads)| link(member, end_loads, units)).collect();
         Self { units, nodes, links }
     }
 
@@ -129,19 +129,19 @@ fn own_load_n(system: &System, joint: &Joint) -> Vector3<f64> {
     Vector3::from(joint.force_n) - Vector3::z() * (joint.mass_kg * system.gravity_m_s2())
 }
 
-/// Weight and loads of a member shared between its joints by the lever rule, N.
-fn shares_n(system: &System, member: &Member) -> [Vector3<f64>; 2] {
+/// Weight and loads of a member divided between its joints by the lever rule, N.
+fn end_loads_n(system: &System, member: &Member) -> [Vector3<f64>; 2] {
     let length = member.body.length_m();
     let weight = Vector3::z() * (-member.body.mass_kg() * system.gravity_m_s2());
-    let mut shares = [Vector3::zeros(); 2];
+    let mut end_loads = [Vector3::zeros(); 2];
     let own = std::iter::once((member.body.centre_m(), weight));
     let others = member.loads.iter().map(|load| (load.at_m, Vector3::from(load.force_n)));
     for (at, force) in own.chain(others) {
         let fraction = at / length;
-        shares[0] += force * (1.0 - fraction);
-        shares[1] += force * fraction;
+        end_loads[0] += force * (1.0 - fraction);
+        end_loads[1] += force * fraction;
     }
-    shares
+    end_loads
 }
 
 fn units(system: &System, loads: &[Vector3<f64>]) -> Units {
@@ -176,7 +176,7 @@ pub(super) fn across(normal: &Vector3<f64>) -> [Vector3<f64>; 2] {
     [first, normal.cross(&first)]
 }
 
-fn link(member: &Member, shares_n: &[Vector3<f64>; 2], units: Units) -> Link {
+fn link(member: &Member, end_loads_n: &[Vector3<f64>; 2], units: Units) -> Link {
     let length = member.body.length_m() / units.length_m;
     Link {
         from: member.from,
@@ -184,6 +184,6 @@ fn link(member: &Member, shares_n: &[Vector3<f64>; 2], units: Units) -> Link {
         length,
         compliance: member.stiffness_n.map_or(0.0, |stiffness| length * units.force_n / stiffness),
         kind: member.kind,
-        shares: shares_n.map(|share| share / units.force_n),
+        end_loads: end_loads_n.map(|load| load / units.force_n),
     }
 }

@@ -253,18 +253,18 @@ fn by_density(
     stiffness.factorise_definite();
     let size = stiffness.size();
     let mut moves = vec![0.0; 3 * size];
-    let seats = |joint: usize| stiffness.seat(joint);
+    let column_of = |joint: usize| stiffness.first_unknown(joint);
     for (joint, force) in unbalance.iter().enumerate() {
-        if let Some(seat) = seats(joint) {
+        if let Some(column) = column_of(joint) {
             for axis in 0..3 {
-                moves[axis * size + seat] = force[axis];
+                moves[axis * size + column] = force[axis];
             }
         }
     }
     stiffness.solve(&mut moves);
     let place = |(joint, base): (usize, &Vector3<f64>)| {
-        stiffness.seat(joint).map_or(*base, |seat| {
-            base + Vector3::new(moves[seat], moves[size + seat], moves[2 * size + seat])
+        stiffness.first_unknown(joint).map_or(*base, |column| {
+            base + Vector3::new(moves[column], moves[size + column], moves[2 * size + column])
         })
     };
     bases.iter().enumerate().map(place).collect()

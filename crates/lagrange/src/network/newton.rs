@@ -181,7 +181,7 @@ impl Derivative {
                 break;
             }
         }
-        // A step that leaves all of the residual is none.
+        // A step that leaves all of the residual does not count.
         (last < first).then(|| (step, (last / first).sqrt()))
     }
 

@@ -121,7 +121,7 @@ impl Table {
         let unique = rows.iter().map(|row| row.iter().all(|t| t.abs() <= NO_ENTRY)).collect();
         let value = |k: usize| {
             let value = turn(k) * axial_n[k] / largest;
-            // A force of the wrong sign by rounding is none.
+            // A force of the wrong sign by rounding counts as zero.
             if signs[k] != 0.0 && value < NO_FORCE { 0.0 } else { value }
         };
         let values = (0..signs.len()).map(value).collect();
@@ -193,12 +193,12 @@ impl Table {
         let limiting = self.rows[member].clone();
         let value = self.values[member];
         for (row, d) in self.rows.iter_mut().zip(&mut self.values) {
-            let share = row[unknown] / pivot;
-            if share != 0.0 {
-                *d -= share * value;
-                row.iter_mut().zip(&limiting).for_each(|(entry, of)| *entry -= share * of);
+            let factor = row[unknown] / pivot;
+            if factor != 0.0 {
+                *d -= factor * value;
+                row.iter_mut().zip(&limiting).for_each(|(entry, of)| *entry -= factor * of);
             }
-            row[unknown] = share;
+            row[unknown] = factor;
         }
         // Exact, and no remainder of rounding.
         self.rows[member].fill(0.0);

@@ -155,7 +155,7 @@ struct Dense {
 impl Dense {
     fn new(framework: &Framework, state: &State) -> Self {
         let links = links(framework, state);
-        let seats = seats(framework);
+        let first_unknown = first_unknowns(framework);
         let size = framework.freedoms();
         let rigid: Vec<usize> =
             (0..links.len()).filter(|&k| links[k].taut && links[k].along.is_none()).collect();
@@ -164,7 +164,7 @@ impl Dense {
             for (joint, sign) in [(framework.links[k].from, -1.0), (framework.links[k].to, 1.0)] {
                 let node = &framework.nodes[joint];
                 for axis in 0..node.freedom {
-                    rows[(row, seats[joint] + axis)] +=
+                    rows[(row, first_unknown[joint] + axis)] +=
                         sign * node.axes.column(axis).dot(&links[k].u);
                 }
             }
@@ -173,7 +173,13 @@ impl Dense {
         let mut hessian = Mat::<f64>::zeros(size, size);
         for (k, link) in links.iter().enumerate() {
             let along = if link.taut { link.along.unwrap_or(0.0) } else { 0.0 };
-            add(framework, &seats, &mut hessian, k, &by_direction(&link.u, link.across, along));
+            add(
+                framework,
+                &first_unknown,
+                &mut hessian,
+                k,
+                &by_direction(&link.u, link.across, along),
+            );
         }
         let largest = links.iter().map(|link| link.across.abs()).fold(0.0, f64::max);
         let stiffest = links.iter().filter_map(|link| link.along).fold(0.0, f64::max);
@@ -196,7 +202,7 @@ impl Dense {
 }
 
 /// First unknown of each joint.
-fn seats(framework: &Framework) -> Vec<usize> {
+fn first_unknowns(framework: &Framework) -> Vec<usize> {
     let nodes = framework.nodes.iter();
     nodes
         .scan(0, |next, node| {
@@ -249,7 +255,7 @@ fn eigenvalues(matrix: &Mat<f64>) -> Vec<f64> {
 /// Add the block of a member to a dense matrix.
 fn add(
     framework: &Framework,
-    seats: &[usize],
+    first_unknown: &[usize],
     matrix: &mut Mat<f64>,
     member: usize,
     block: &Matrix3<f64>,
@@ -262,7 +268,8 @@ fn add(
             let part = a.axes.tr_mul(block) * b.axes * (sign_one * sign_other);
             for row in 0..a.freedom {
                 for column in 0..b.freedom {
-                    matrix[(seats[one] + row, seats[other] + column)] += part[(row, column)];
+                    matrix[(first_unknown[one] + row, first_unknown[other] + column)] +=
+                        part[(row, column)];
                 }
             }
         }

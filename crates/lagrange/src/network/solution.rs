@@ -43,9 +43,10 @@ pub struct Solution {
     /// orthonormal, empty where the forces are unique. Only inextensible taut members take part.
     /// Nothing where they were not counted.
     pub self_stresses: Option<Vec<Vec<f64>>>,
-    /// Where the rank of the members' directions, of which mechanisms and self-stresses are counted,
-    /// was drawn: the smallest singular value that counts and the largest that does not, in units of
-    /// the largest one; 1 and 0 where there is none. Values near each other are a count in doubt.
+    /// Where the rank of the members' directions, of which mechanisms and self-stresses are
+    /// counted, was drawn: the smallest singular value that counts and the largest that does not,
+    /// in units of the largest one; 1 and 0 where there is none. Values near each other
+    /// mean an uncertain count.
     pub rank_gap: Option<[f64; 2]>,
     /// Which of the forces in balance are shown.
     pub forces: Forces,
@@ -56,9 +57,9 @@ pub struct Solution {
     pub limp: Vec<usize>,
 }
 
-/// A force below this part of the largest one is none.
+/// A force below this part of the largest one counts as zero.
 pub(super) const NO_FORCE: f64 = 1e-10;
-/// A member that misses its length by less than this part of it just reaches.
+/// A member whose length is off by less than this part of it just reaches.
 const NO_SLACK: f64 = 1e-10;
 
 /// What the answer is made of.
@@ -186,8 +187,8 @@ fn equilibrium(
             .iter()
             .map(|place| (place * units.length_m + units.origin_m).into())
             .collect(),
-        start_forces_n: links().map(|(link, pull)| to_n(-pull - link.shares[0])).collect(),
-        end_forces_n: links().map(|(link, pull)| to_n(pull - link.shares[1])).collect(),
+        start_forces_n: links().map(|(link, pull)| to_n(-pull - link.end_loads[0])).collect(),
+        end_forces_n: links().map(|(link, pull)| to_n(pull - link.end_loads[1])).collect(),
         axial_n: state.axial.iter().map(|axial| axial * units.force_n).collect(),
         reactions_n: reactions.collect(),
         stability: stability(second_order),

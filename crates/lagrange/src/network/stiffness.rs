@@ -36,14 +36,14 @@ struct Place {
 
 /// Where the unknowns of a joint stand.
 #[derive(Debug, Clone, Copy, Default)]
-struct Seat {
+struct Unknowns {
     first: usize,
     count: usize,
 }
 
 /// The matrix, its pattern analysed once.
 pub(super) struct Stiffness {
-    seats: Vec<Seat>,
+    unknowns: Vec<Unknowns>,
     places: Vec<Place>,
     columns: Vec<usize>,
     rows: Vec<usize>,
@@ -69,8 +69,8 @@ impl Stiffness {
         let size = counts.iter().sum();
         let lost = || Error::Memory { unknowns: size };
         let rank = by_degree(framework).ok_or_else(lost)?;
-        let seats = seats(&counts, &rank);
-        let (places, columns, rows) = pattern(framework, &seats, &rank);
+        let unknowns = unknowns(&counts, &rank);
+        let (places, columns, rows) = pattern(framework, &unknowns, &rank);
         let matrix = SymbolicSparseColMatRef::new_checked(size, size, &columns, None, &rows);
         // The joints are in their order already; this says so to a routine that turns the lower
         // triangle over only where it permutes.
@@ -87,7 +87,7 @@ impl Stiffness {
             .or(symbolic.solve_in_place_scratch::<f64>(3, Par::Seq));
         let memory = MemBuffer::try_new(scratch).map_err(|_| lost())?;
         let (values, factor) = (vec![0.0; rows.len()], vec![0.0; symbolic.len_val()]);
-        Ok(Self { seats, places, columns, rows, values, symbolic, factor, memory })
+        Ok(Self { unknowns, places, columns, rows, values, symbolic, factor, memory })
     }
 
     /// Number of unknowns.
@@ -100,24 +100,25 @@ impl Stiffness {
         self.values.fill(0.0);
         for (place, block) in self.places.iter().zip(blocks) {
             let (low, high) = (&framework.nodes[place.low], &framework.nodes[place.high]);
-            let (seat_low, seat_high) = (self.seats[place.low], self.seats[place.high]);
+            let (unknowns_low, unknowns_high) =
+                (self.unknowns[place.low], self.unknowns[place.high]);
             let (by_low, by_high) = (block * low.axes, block * high.axes);
             let same_low = low.axes.tr_mul(&by_low);
             let same_high = high.axes.tr_mul(&by_high);
             let mixed = high.axes.tr_mul(&by_low);
-            for column in 0..seat_low.count {
-                let start = self.columns[seat_low.first + column];
-                let height = seat_low.count - column;
+            for column in 0..unknowns_low.count {
+                let start = self.columns[unknowns_low.first + column];
+                let height = unknowns_low.count - column;
                 for row in 0..height {
                     self.values[start + row] += same_low[(column + row, column)];
                 }
-                for row in 0..seat_high.count {
+                for row in 0..unknowns_high.count {
                     self.values[start + height + place.gap + row] -= mixed[(row, column)];
                 }
             }
-            for column in 0..seat_high.count {
-                let start = self.columns[seat_high.first + column];
-                for row in 0..seat_high.count - column {
+            for column in 0..unknowns_high.count {
+                let start = self.columns[unknowns_high.first + column];
+                for row in 0..unknowns_high.count - column {
                     self.values[start + row] += same_high[(column + row, column)];
                 }
             }
@@ -128,7 +129,7 @@ impl Stiffness {
     pub fn assemble_scalar(&mut self, weights: impl Iterator<Item = f64>) {
         self.values.fill(0.0);
         for (place, weight) in self.places.iter().zip(weights) {
-            let (low, high) = (self.seats[place.low], self.seats[place.high]);
+            let (low, high) = (self.unknowns[place.low], self.unknowns[place.high]);
             if low.count == 1 {
                 let start = self.columns[low.first];
                 self.values[start] += weight;
@@ -230,59 +231,59 @@ impl Stiffness {
     /// The components of forces at the joints along their free directions.
     pub fn gather(&self, framework: &Framework, forces: &[Vector3<f64>]) -> Vec<f64> {
         let mut gathered = vec![0.0; self.size()];
-        for ((node, seat), force) in framework.nodes.iter().zip(&self.seats).zip(forces) {
+        for ((node, own), force) in framework.nodes.iter().zip(&self.unknowns).zip(forces) {
             let along = node.axes.tr_mul(force);
-            gathered[seat.first..seat.first + seat.count]
-                .copy_from_slice(&along.as_slice()[..seat.count]);
+            gathered[own.first..own.first + own.count]
+                .copy_from_slice(&along.as_slice()[..own.count]);
         }
         gathered
     }
 
     /// The moves of the joints from their components along the free directions.
     pub fn scatter(&self, framework: &Framework, moves: &[f64]) -> Vec<Vector3<f64>> {
-        let joints = framework.nodes.iter().zip(&self.seats);
+        let joints = framework.nodes.iter().zip(&self.unknowns);
         joints
-            .map(|(node, seat)| {
-                let components = &moves[seat.first..seat.first + seat.count];
+            .map(|(node, own)| {
+                let components = &moves[own.first..own.first + own.count];
                 components.iter().enumerate().map(|(k, s)| node.axes.column(k) * *s).sum()
             })
             .collect()
     }
 
     /// Where the unknown of a joint stands in a scalar matrix; nothing for a joint that is held.
-    pub fn seat(&self, joint: usize) -> Option<usize> {
-        (self.seats[joint].count > 0).then_some(self.seats[joint].first)
+    pub fn first_unknown(&self, joint: usize) -> Option<usize> {
+        (self.unknowns[joint].count > 0).then_some(self.unknowns[joint].first)
     }
 }
 
 /// Unknowns of the joints one after another in the order of elimination.
-fn seats(counts: &[usize], rank: &[usize]) -> Vec<Seat> {
+fn unknowns(counts: &[usize], rank: &[usize]) -> Vec<Unknowns> {
     let mut order = vec![0; rank.len()];
     for (joint, &place) in rank.iter().enumerate() {
         order[place] = joint;
     }
-    let mut seats = vec![Seat::default(); counts.len()];
+    let mut unknowns = vec![Unknowns::default(); counts.len()];
     let mut first = 0;
     for joint in order {
-        seats[joint] = Seat { first, count: counts[joint] };
+        unknowns[joint] = Unknowns { first, count: counts[joint] };
         first += counts[joint];
     }
-    seats
+    unknowns
 }
 
 /// Places of the members' blocks, and the lower triangle column by column.
 fn pattern(
     framework: &Framework,
-    seats: &[Seat],
+    unknowns: &[Unknowns],
     rank: &[usize],
 ) -> (Vec<Place>, Vec<usize>, Vec<usize>) {
-    let mut later = vec![Vec::new(); seats.len()];
+    let mut later = vec![Vec::new(); unknowns.len()];
     let ends = framework.links.iter().map(|link| {
         if rank[link.from] < rank[link.to] { (link.from, link.to) } else { (link.to, link.from) }
     });
     let ends: Vec<_> = ends.collect();
     for &(low, high) in &ends {
-        if seats[low].count > 0 && seats[high].count > 0 {
+        if unknowns[low].count > 0 && unknowns[high].count > 0 {
             later[low].push(rank[high]);
         }
     }
@@ -294,11 +295,11 @@ fn pattern(
     for &joint in &order {
         later[joint].sort_unstable();
         later[joint].dedup();
-        let seat = seats[joint];
-        for column in 0..seat.count {
-            rows.extend(seat.first + column..seat.first + seat.count);
+        let own = unknowns[joint];
+        for column in 0..own.count {
+            rows.extend(own.first + column..own.first + own.count);
             for &other in &later[joint] {
-                let there = seats[order[other]];
+                let there = unknowns[order[other]];
                 rows.extend(there.first..there.first + there.count);
             }
             columns.push(rows.len());
@@ -306,7 +307,7 @@ fn pattern(
     }
     let places = ends.iter().map(|&(low, high)| {
         let before = later[low].iter().take_while(|other| **other < rank[high]);
-        let gap = before.map(|&other| seats[order[other]].count).sum();
+        let gap = before.map(|&other| unknowns[order[other]].count).sum();
         Place { low, high, gap }
     });
     (places.collect(), columns, rows)

@@ -7,7 +7,9 @@ use std::f64::consts::PI;
 
 use lagrange::Seed;
 use lagrange::condensed::{Condensed, CondensedError, Settings, Solution, solve};
-use model::{Anchors, Bar, Chain, InPlane, InSpace, Problem, STANDARD_GRAVITY_M_S2, Vector};
+use model::{
+    Anchors, Bar, Chain, InPlane, InSpace, Problem, Refusal, STANDARD_GRAVITY_M_S2, Vector,
+};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
@@ -218,14 +220,15 @@ fn special_shapes() {
     assert!(found.equilibrium.axial_n[2..4].iter().all(|force| force.abs() < 1e-15));
     near(found.equilibrium.joints_m[2], [0.0, 0.0, -2.0], 1e-15);
     near(found.equilibrium.joints_m[4], [1.0, 0.0, -2.0], 1e-15);
-    // All weight at the anchors: nothing hangs, any shape that closes will do.
+    // All weight at the anchors: nothing hangs, and any shape that closes would do.
     let bars = vec![
         Bar::new(1.0, 1.0, 0.0, [0.0; 3]).unwrap(),
         Bar::new(1.0, 0.0, 0.5, [0.0; 3]).unwrap(),
         Bar::new(1.0, 1.0, 1.0, [0.0; 3]).unwrap(),
     ];
-    let found = solved(bars, 1.0, [0.5, 1.0, 1.0]);
-    near(found.equilibrium.reactions_n.start, [0.0, 0.0, 1.0], 1e-15);
+    let anchors = Anchors { start_m: [0.0; 3], end_m: [0.5, 1.0, 1.0] };
+    let chain = Chain::new("test", 1.0, anchors, bars).unwrap();
+    assert!(matches!(Problem::new(chain), Err(Refusal::WeightOnAnchors)));
 }
 
 /// Nearly straight chains: the pull follows $\sqrt{\mathrm{var}\,b/(2\,\mathrm{slack})}$ with all
