@@ -127,6 +127,12 @@ pub enum Error {
     #[cfg(feature = "paper")]
     #[error(transparent)]
     Report(#[from] report::document::ReportError),
+    /// Occurs when a system cannot be set in motion, or a step cannot be taken.
+    #[error(transparent)]
+    Motion(#[from] motion::MotionError),
+    /// Occurs when a simulation does not begin: a time out of range, no such start.
+    #[error(transparent)]
+    Simulate(#[from] crate::simulate::SimulateError),
     /// Occurs when more threads are asked for than make sense.
     #[error("{threads} threads are too many: at most {MOST_THREADS}")]
     TooManyThreads {

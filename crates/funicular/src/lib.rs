@@ -32,6 +32,8 @@
 //! | all equilibria over a parameter: branches, folds, exchanges of stability | [`Trace`] |
 //! | which start leads where, by millions | [`Sweep`] |
 //! | the same as a picture | [`Basins`] |
+//! | small oscillations, and how fast unstable equilibria are left | [`Modes`] |
+//! | the system in motion | [`Simulate`] |
 //! | the paper, judged | [`Reproduce`] |
 //!
 //! Each is a builder: `new`, what differs from the defaults, `run`. The program `funicular` does
@@ -57,16 +59,20 @@
 //! World frame *OXYZ*, *Z* up, gravity along −*Z*; SI units, named in every field. Joint 0 is the
 //! start anchor, joint *n* the end anchor; bar *i* = 1..n runs from joint *i*−1 to joint *i*.
 
+mod animation;
 #[cfg(feature = "sweep")]
 mod basins;
 pub mod census;
 mod compare;
 mod csv;
+mod equilibria;
 mod error;
+mod modes;
 pub mod picture;
 mod problem;
 #[cfg(feature = "paper")]
 mod reproduce;
+mod simulate;
 mod solution;
 mod solve;
 #[cfg(feature = "sweep")]
@@ -85,6 +91,7 @@ pub mod prelude;
 #[doc = include_str!("../README.md")]
 struct Readme;
 
+pub use self::animation::Animation;
 #[cfg(feature = "sweep")]
 pub use self::basins::{Basins, BasinsAnswer};
 pub use self::census::{Census, CensusAnswer};
@@ -97,8 +104,11 @@ pub use self::trace::{Trace, TraceAnswer};
 #[cfg(feature = "sweep")]
 pub use ::sweep::Field;
 pub use compare::compare;
+pub use equilibria::system_of;
 pub use error::Error;
+pub use modes::{JointAt, Mode, Modes, ModesAnswer, Summary, WithModes};
 pub use problem::{Problem, case, case_text};
+pub use simulate::{Motion, Simulate, SimulateError, Start};
 pub use solution::Solution;
 pub use solve::{Failure, SCHEMA_VERSION, Solve, SolveAnswer};
 pub use system::SystemSolution;

@@ -9,9 +9,11 @@ pub use crate::basins::Basins;
 pub use crate::census::Census;
 pub use crate::compare::compare;
 pub use crate::error::Error;
+pub use crate::modes::Modes;
 pub use crate::problem::Problem;
 #[cfg(feature = "paper")]
 pub use crate::reproduce::Reproduce;
+pub use crate::simulate::{Simulate, Start};
 pub use crate::solution::Solution;
 pub use crate::solve::Solve;
 #[cfg(feature = "sweep")]

@@ -100,4 +100,15 @@ pub enum MotionError {
         /// That force, relative to the largest force in the system.
         off: f64,
     },
+    /// Occurs when modes are asked for of a system with too many joints for dense linear algebra.
+    #[error(
+        "modes are found by dense linear algebra, for at most {most} joints that move; this system has \
+         {joints}"
+    )]
+    TooLarge {
+        /// Number of joints that move.
+        joints: usize,
+        /// Most of them.
+        most: usize,
+    },
 }

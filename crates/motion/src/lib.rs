@@ -40,9 +40,10 @@
 //!
 //! Inextensible cables and struts are refused: becoming taut they need a law of impact. Members
 //! with a stiffness, unilateral ones too, move by their potential. Bars whose two moments across
-//! differ are refused, and so are joints without any inertia. The spin of a bar about its own axis
-//! is constant and apart, for no moment acts along it.
+//! differ are refused, and so are joints without any inertia. Bars do not spin about their own
+//! axes: where the two moments across are equal, a bar without spin never gets any.
 
+mod assemble;
 mod damping;
 mod error;
 mod force;
@@ -51,6 +52,7 @@ mod laws;
 mod mechanism;
 mod modes;
 mod order;
+pub mod paper;
 mod rattle;
 mod saddle;
 mod settings;
@@ -59,6 +61,7 @@ mod snapshot;
 mod state;
 mod vector;
 
+pub use assemble::{assemble, random_position};
 pub use error::MotionError;
 pub use force::ForceOfTime;
 pub use inertia::EndInertia;

@@ -269,8 +269,24 @@ impl Stepper {
             }
             self.x[..moving].fill([0.0; 3]);
             self.saddle.solve(&mut self.x[..moving], &mut self.rows);
+            let part = self.part_of_correction(mechanism);
+            for x in &mut self.x[..moving] {
+                *x = x.map(|x| part * x);
+            }
             state.displace(&self.x[..moving]);
         }
         Ok(())
+    }
+
+    /// Largest correction of [`Self::assemble`], in units of the bars.
+    pub(crate) const LARGEST_CORRECTION: f64 = 0.3;
+
+    /// How much of a correction is taken: the linear part of a length is good for a part of a bar.
+    fn part_of_correction(&self, mechanism: &Mechanism) -> f64 {
+        let changes = mechanism.bars.iter().map(|link| {
+            let change = minus(self.x[link.b], self.x[link.a]);
+            dot(change, change).sqrt() / link.length_m
+        });
+        (Self::LARGEST_CORRECTION / changes.fold(0.0, worse)).min(1.0)
     }
 }

@@ -38,6 +38,8 @@ Examples:
   funicular census chain.toml --svg shapes.svg   every equilibrium, and the proof that there is no other
   funicular sweep chain.toml --seeds 1000000 --out starts    which start leads where
   funicular trace chain.toml --vary anchors.end_m.z=-2.9..-0.1:200 --svg diagram.svg
+  funicular modes chain.toml                 frequencies, and rates of leaving
+  funicular simulate chain.toml --from seed:7 --damping 0.5 --html motion.html    released, it comes to rest
   funicular completions bash > ~/.local/share/bash-completion/completions/funicular";
 
 /// Where does a chain of rigid bars come to rest under its own weight, and how sure can we be?
@@ -46,8 +48,9 @@ Examples:
 /// potential energy), and judged by a third party that knows only Newton's laws.
 ///
 /// Scope: bars, cables and struts between joints without friction, rigid or with a stiffness, in
-/// space, at rest under their weight, masses at joints and constant forces; no friction, contact,
-/// bending or motion. All but `solve` is for chains of rigid bars between two anchors.
+/// space, at rest or in motion under their weight, masses at joints and constant forces; no contact
+/// and no bending. All but `solve`, `modes` and `simulate` is for chains of rigid bars between two
+/// anchors.
 #[derive(Debug, Parser)]
 #[command(name = "funicular", version, after_help = EXIT_CODES, after_long_help = format!("{EXAMPLES}\n\n{EXIT_CODES}"))]
 pub struct Cli {
@@ -85,6 +88,15 @@ pub enum Command {
     Trace(crate::trace::Arguments),
     /// Draw which start leads where, by both solvers
     Basins(crate::basins::Arguments),
+    /// Find the frequencies and shapes of small oscillations, and how fast unstable equilibria are
+    /// left
+    #[command(after_help = ALL_OR_NOTHING)]
+    Modes(crate::modes::Modes),
+    /// Set a system in motion: columns of places, forces and energies, and an animation
+    ///
+    /// Rigid bars are kept to their lengths at every step (RATTLE). Ctrl-C ends it and keeps what
+    /// is stored so far.
+    Simulate(crate::simulate::Simulate),
     /// Print a system file with comments, to start from (`funicular format` has every key)
     New,
     /// Print the page of the file format: every key with its unit, what is allowed, and an example

@@ -15,12 +15,14 @@ mod in_order;
 mod input;
 mod interrupt;
 mod merge;
+mod modes;
 mod new;
 mod output;
 mod printable;
 mod progress;
 mod reproduce;
 mod shape;
+mod simulate;
 mod solve;
 mod sweep;
 mod system;
@@ -45,6 +47,8 @@ fn main() -> std::process::ExitCode {
         Command::Merge(arguments) => merge::run(&arguments),
         Command::Trace(arguments) => trace::run(&arguments),
         Command::Basins(arguments) => basins::run(&arguments),
+        Command::Modes(arguments) => modes::run(&arguments),
+        Command::Simulate(arguments) => simulate::run(&arguments),
         Command::New => new::run(),
         Command::Format => format::run(),
         Command::Cases(arguments) => cases::run(&arguments),

@@ -96,6 +96,9 @@ impl Modes {
     }
 }
 
+/// Most joints that move: a thousand coordinates take some ten seconds.
+const MOST_JOINTS: usize = 350;
+
 /// Largest violation of a length, relative, in an equilibrium.
 const LENGTHS: f64 = 1e-8;
 
@@ -113,8 +116,8 @@ const BALANCE: f64 = 1e-7;
 ///
 /// # Errors
 ///
-/// [`MotionError`] when the system cannot be moved here, the places are no equilibrium, or forces
-/// are needed and not given.
+/// [`MotionError`] when the system cannot be moved here or is too large, the places are no
+/// equilibrium, or forces are needed and not given.
 ///
 /// ```
 /// use model::Bar;
@@ -139,6 +142,9 @@ pub fn modes(
     axial_n: Option<&[f64]>,
 ) -> Result<Modes, MotionError> {
     let mechanism = Mechanism::new(system)?;
+    if mechanism.moving > MOST_JOINTS {
+        return Err(MotionError::TooLarge { joints: mechanism.moving, most: MOST_JOINTS });
+    }
     let state = State::at_rest(mechanism.places(joints_m)?);
     let mut vectors = vec![[0.0; 3]; mechanism.constraints()];
     let off = state.rows(&mechanism, &mut vectors);

@@ -293,7 +293,7 @@ fn invert(t: &mut [f64], m: usize) -> Result<(), f64> {
     for k in 0..m {
         let pivot = t[k * m + k];
         if pivot.is_nan() || pivot <= LEAST_PIVOT * diagonal[k] {
-            return Err(pivot / diagonal[k]);
+            return Err(if diagonal[k] > 0.0 { pivot / diagonal[k] } else { 0.0 });
         }
         let r = 1.0 / pivot;
         t[k * m + k] = 1.0;

@@ -7,5 +7,8 @@ mod energy;
 mod laws;
 mod modes;
 mod order;
+mod paper;
 mod pendulum;
+mod positions;
 mod refused;
+mod taylor;

@@ -1,0 +1,132 @@
+//! A motion as one HTML file: play, pause, scrub, the energies as curves.
+
+use std::fmt::Write as _;
+
+use model::Vector;
+use model::system::System;
+use motion::Snapshot;
+
+/// The page, with `@TITLE@` and `@DATA@` to be filled in. It needs nothing but itself.
+const PAGE: &str = include_str!("animation.html");
+
+/// Collects what an animation shows, time by time.
+///
+/// ```
+/// use funicular::prelude::*;
+/// let problem = Problem::case("two-bars")?;
+/// let moved = Simulate::new().start(Start::Seed(1)).time_s(0.1).run(&problem)?;
+/// let mut animation = funicular::Animation::new(&moved.system);
+/// moved.stored.iter().for_each(|at| animation.add(at));
+/// let page = animation.page();
+/// assert!(page.starts_with("<!DOCTYPE html>") && page.contains("\"bars\":[[0,1],[1,2]]"));
+/// # Ok::<(), Error>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct Animation {
+    system: System,
+    times_s: Vec<f64>,
+    frames: Vec<Vec<Vector>>,
+    kinetic_j: Vec<f64>,
+    potential_j: Vec<f64>,
+}
+
+impl Animation {
+    /// Of a system, at no time yet.
+    #[must_use]
+    pub fn new(system: &System) -> Self {
+        Self {
+            system: system.clone(),
+            times_s: Vec::new(),
+            frames: Vec::new(),
+            kinetic_j: Vec::new(),
+            potential_j: Vec::new(),
+        }
+    }
+
+    /// Add a stored time.
+    pub fn add(&mut self, at: &Snapshot) {
+        self.times_s.push(at.time_s);
+        self.frames.push(at.joints_m.clone());
+        self.kinetic_j.push(at.kinetic_j);
+        self.potential_j.push(at.potential_j);
+    }
+
+    /// The HTML of the page.
+    #[must_use]
+    pub fn page(&self) -> String {
+        PAGE.replace("@TITLE@", &escaped(self.system.name())).replace("@DATA@", &self.data())
+    }
+
+    /// Everything that is drawn, as JSON of numbers alone.
+    fn data(&self) -> String {
+        let mut out = String::from("{\"t\":");
+        list(&mut out, self.times_s.iter().copied());
+        out.push_str(",\"kinetic\":");
+        list(&mut out, self.kinetic_j.iter().copied());
+        out.push_str(",\"potential\":");
+        list(&mut out, self.potential_j.iter().copied());
+        let reference = self.system.reference_m();
+        out.push_str(",\"x\":[");
+        for (k, frame) in self.frames.iter().enumerate() {
+            if k > 0 {
+                out.push(',');
+            }
+            let relative = frame.iter().flat_map(|x| [0, 1, 2].map(|k| x[k] - reference[k]));
+            list(&mut out, relative);
+        }
+        out.push_str("],\"bars\":[");
+        for (k, member) in self.system.members().iter().enumerate() {
+            let comma = if k > 0 { "," } else { "" };
+            let _ = write!(out, "{comma}[{},{}]", member.from, member.to);
+        }
+        out.push_str("],\"held\":[");
+        for (k, joint) in self.system.joints().iter().enumerate() {
+            let comma = if k > 0 { "," } else { "" };
+            let _ = write!(out, "{comma}{}", u8::from(joint.support.at_m().is_some()));
+        }
+        let _ = write!(out, "],\"view\":{:.4}}}", self.view_rad());
+        out
+    }
+
+    /// The turn of the view that shows the widest spread of all joints at all times.
+    fn view_rad(&self) -> f64 {
+        let all = || self.frames.iter().flatten();
+        let count = all().count().max(1) as f64;
+        let mean = [0, 1].map(|k| all().map(|x| x[k]).sum::<f64>() / count);
+        let (mut xx, mut xy, mut yy) = (0.0, 0.0, 0.0);
+        for [x, y, _] in all() {
+            let (x, y) = (x - mean[0], y - mean[1]);
+            (xx, xy, yy) = (xx + x * x, xy + x * y, yy + y * y);
+        }
+        0.5 * f64::atan2(2.0 * xy, xx - yy)
+    }
+}
+
+/// Numbers for the eye: six digits.
+fn list(out: &mut String, numbers: impl Iterator<Item = f64>) {
+    out.push('[');
+    for (k, x) in numbers.enumerate() {
+        if k > 0 {
+            out.push(',');
+        }
+        // Six digits, written as short as they are.
+        let rounded: f64 = format!("{x:.5e}").parse().unwrap_or(0.0);
+        let _ = write!(out, "{rounded}");
+    }
+    out.push(']');
+}
+
+fn escaped(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    for c in text.chars() {
+        match c {
+            '&' => out.push_str("&amp;"),
+            '<' => out.push_str("&lt;"),
+            '>' => out.push_str("&gt;"),
+            // A name must not fill in the rest of the page.
+            '@' => out.push_str("&#64;"),
+            _ => out.push(c),
+        }
+    }
+    out
+}

@@ -1,0 +1,240 @@
+//! Small oscillations about equilibria.
+
+use model::Vector;
+use model::system::System;
+use motion::{Direction, What};
+use serde::Serialize;
+
+use crate::equilibria::{self, Located, system_of};
+use crate::error::Error;
+use crate::problem::Problem;
+use crate::solve::SCHEMA_VERSION;
+use crate::threads;
+
+/// Finds the frequencies and shapes of small oscillations, and the rates at which a system leaves
+/// its unstable equilibria: of all equilibria of a chain where a census is complete, of the stable
+/// one otherwise.
+///
+/// ```
+/// use funicular::prelude::*;
+/// // Two bars of 1 m between level anchors swing about them like a plate: ω² = M g h / J with
+/// // M = 2 kg, the centre h = √3/4 m below the axis, and J = 2 (√3/2)²/3 = 1/2 kg m².
+/// let problem = Problem::parse(
+///     "anchors = { start_m = [0, 0, 0], end_m = [1, 0, 0] }\n\
+///      bars = [{ length_m = 1, mass_kg = 1, count = 2 }]",
+///     "two.toml",
+/// )?;
+/// let found = Modes::new().run(&problem)?;
+/// assert!(found.complete && found.indices_agree());
+/// let hanging = &found.equilibria[0];
+/// let told = 2.0 * 9.80665 * (3.0_f64.sqrt() / 4.0) / 0.5;
+/// assert!((hanging.modes[0].omega2_s2 - told).abs() < 1e-9);
+/// # Ok::<(), Error>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Modes {
+    max_bars: usize,
+    threads: usize,
+}
+
+/// Chains of at most so many bars get a census: it takes about a second.
+const CENSUS_BARS: usize = 8;
+
+impl Default for Modes {
+    fn default() -> Self {
+        Self { max_bars: CENSUS_BARS, threads: 0 }
+    }
+}
+
+impl Modes {
+    /// A census for chains of up to eight bars.
+    #[must_use]
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Take a census of chains of up to so many bars; 0 takes none.
+    #[must_use]
+    pub fn max_bars(self, max_bars: usize) -> Self {
+        Self { max_bars, ..self }
+    }
+
+    /// How many threads share the census, 0 (the default) for those of the pool that it is called
+    /// from. The answer does not depend on it.
+    #[must_use]
+    pub fn threads(self, threads: usize) -> Self {
+        Self { threads, ..self }
+    }
+
+    /// Find equilibria and their modes.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Motion`] when the system cannot be moved, and the errors of
+    /// [`Solve`](crate::Solve).
+    pub fn run(&self, problem: &Problem) -> Result<ModesAnswer, Error> {
+        threads::on(self.threads, || {
+            let found = equilibria::all(problem, self.max_bars)?;
+            let system = system_of(problem);
+            let equilibria = found
+                .list
+                .into_iter()
+                .map(|located| with_modes(&system, located))
+                .collect::<Result<_, _>>()?;
+            Ok(ModesAnswer {
+                schema_version: SCHEMA_VERSION,
+                system: Summary::new(&system),
+                equilibria,
+                complete: found.complete,
+            })
+        })?
+    }
+}
+
+/// Equilibria with their modes, as `funicular modes --json` prints them.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ModesAnswer {
+    /// Version of this object as JSON.
+    pub schema_version: u32,
+    /// What was asked about.
+    pub system: Summary,
+    /// The equilibria, by energy.
+    pub equilibria: Vec<WithModes>,
+    /// Whether a census proves that there are no others.
+    pub complete: bool,
+}
+
+/// The few numbers that name a system.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Summary {
+    /// Its name.
+    pub name: String,
+    /// Number of joints.
+    pub joints: usize,
+    /// Number of members.
+    pub bars: usize,
+    /// Sum of their lengths, m.
+    pub total_length_m: f64,
+    /// Sum of the masses, kg.
+    pub total_mass_kg: f64,
+    /// Gravity along −Z, m/s².
+    pub gravity_m_s2: f64,
+}
+
+/// One equilibrium with its modes.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct WithModes {
+    /// Its number in the census, with a prime for a mirror image; `1` for the stable one.
+    pub label: String,
+    /// Who found it.
+    pub solver: model::SolverName,
+    /// Potential energy, J, as the solvers have it.
+    pub energy_j: f64,
+    /// The joints: names and places.
+    pub joints: Vec<JointAt>,
+    /// Number of directions in which the energy falls, by who found it.
+    pub index_in_space: usize,
+    /// The same by the signs of the modes.
+    pub index_by_modes: usize,
+    /// Largest force left over at a joint, relative to the largest force.
+    pub out_of_balance: f64,
+    /// The modes by ascending `ω²`, zero and negative ones included.
+    pub modes: Vec<Mode>,
+}
+
+/// A joint and its place.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct JointAt {
+    /// Its name.
+    pub name: String,
+    /// Its place, world frame, m.
+    pub at_m: Vector,
+}
+
+/// One mode.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Mode {
+    /// `ω²`, 1/s²; negative where it leaves the equilibrium.
+    pub omega2_s2: f64,
+    /// Displacement of each joint, the largest of length 1.
+    pub shape: Vec<Vector>,
+    /// What it is, in words.
+    pub what: String,
+    /// Frequency, Hz, of an oscillation.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub frequency_hz: Option<f64>,
+    /// Rate at which the system leaves, 1/s.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub rate_1_s: Option<f64>,
+}
+
+impl ModesAnswer {
+    /// Whether the signs of the modes give each equilibrium the index that its solver gives it.
+    #[must_use]
+    pub fn indices_agree(&self) -> bool {
+        self.equilibria.iter().all(|found| found.index_in_space == found.index_by_modes)
+    }
+}
+
+impl Summary {
+    pub(crate) fn new(system: &System) -> Self {
+        Self {
+            name: system.name().to_owned(),
+            joints: system.joints().len(),
+            bars: system.members().len(),
+            total_length_m: system.total_length_m(),
+            total_mass_kg: system.total_mass_kg(),
+            gravity_m_s2: system.gravity_m_s2(),
+        }
+    }
+}
+
+fn with_modes(system: &System, located: Located) -> Result<WithModes, Error> {
+    let found = motion::modes(system, located.joints_m(), Some(located.axial_n()))?;
+    let joints = system.joints().iter().zip(located.joints_m());
+    let joints = joints.map(|(joint, at_m)| JointAt { name: joint.name.clone(), at_m: *at_m });
+    let (solver, energy_j) = match &located {
+        Located::Chain(_, e) => (e.solver.clone(), e.energy_j),
+        Located::System(e) => (e.solver.clone(), e.energy_j),
+    };
+    Ok(WithModes {
+        label: located.label().to_owned(),
+        solver,
+        energy_j,
+        joints: joints.collect(),
+        index_in_space: located.index(),
+        index_by_modes: found.index(),
+        out_of_balance: found.out_of_balance,
+        modes: found.modes.into_iter().map(Mode::from).collect(),
+    })
+}
+
+impl From<motion::Mode> for Mode {
+    fn from(mode: motion::Mode) -> Self {
+        Self {
+            what: words(&mode),
+            frequency_hz: mode.frequency_hz(),
+            rate_1_s: mode.rate_1_s(),
+            omega2_s2: mode.omega2_s2,
+            shape: mode.shape,
+        }
+    }
+}
+
+/// What a mode is, in words.
+fn words(mode: &motion::Mode) -> String {
+    let what = match mode.what {
+        What::Oscillation => "oscillation",
+        What::Leaving => "leaves the equilibrium",
+        What::Turn { axis_m: [x, y] } => {
+            return format!("turn about the vertical at x = {x} m, y = {y} m");
+        }
+        _ => "neutral",
+    };
+    let direction = match mode.direction {
+        Direction::InPlane => " in the plane",
+        Direction::Across => " across the plane",
+        Direction::Space => "",
+    };
+    format!("{what}{direction}")
+}

@@ -1,0 +1,98 @@
+//! `funicular modes`: small oscillations about equilibria.
+
+use std::fmt::Write as _;
+use std::path::PathBuf;
+
+use clap::Args;
+use funicular::ModesAnswer;
+
+use crate::exit::{Exit, Failure};
+use crate::input::{self, Input};
+use crate::interrupt::end_on_interrupt;
+use crate::output;
+use crate::printable::Printable;
+use crate::progress::Progress;
+use crate::tables::{numbers_from, short, table};
+use crate::threads;
+
+/// `funicular modes`.
+#[derive(Debug, Args)]
+pub struct Modes {
+    /// The system file (TOML or JSON, - for standard input)
+    #[arg(value_name = "FILE", required_unless_present = "case")]
+    pub file: Option<PathBuf>,
+    /// A named case instead of a file
+    #[arg(long, value_name = "NAME", conflicts_with = "file")]
+    pub case: Option<String>,
+    /// Print one JSON object (schema_version 2) with the shapes instead of tables
+    #[arg(long)]
+    pub json: bool,
+    /// All equilibria, by a census, of chains of up to N bars; the stable one of longer chains and
+    /// of other systems
+    #[arg(long, value_name = "N", default_value_t = 8)]
+    pub max_bars: usize,
+    /// How many threads; 0 means one per processor. The answer does not depend on it
+    #[arg(long, value_name = "T", default_value_t = 0, value_parser = threads::parse, allow_negative_numbers = true)]
+    pub threads: usize,
+}
+
+/// Run the command.
+pub fn run(arguments: &Modes) -> Result<Exit, Failure> {
+    end_on_interrupt()?;
+    threads::install(arguments.threads)?;
+    let progress = Progress::start();
+    progress.say("reading");
+    let Input { problem, .. } =
+        input::problem(arguments.file.as_deref(), arguments.case.as_deref())?;
+    progress.say("equilibria and their modes");
+    let answer = funicular::Modes::new().max_bars(arguments.max_bars).run(&problem)?;
+    drop(progress);
+    if arguments.json {
+        output::print_json(&answer)?;
+    } else {
+        output::print(&text(&answer))?;
+    }
+    Ok(if answer.indices_agree() { Exit::Done } else { Exit::CheckFailed })
+}
+
+fn text(answer: &ModesAnswer) -> String {
+    let mut out = format!("{}\n", Printable(&answer.system.name));
+    for found in &answer.equilibria {
+        let joints = found.modes.len();
+        let _ = writeln!(
+            out,
+            "\nequilibrium {}, {} J, by {}: {joints} modes, {} leave it",
+            found.label,
+            short(found.energy_j),
+            found.solver,
+            found.index_by_modes
+        );
+        let mut rows = table(["mode", "omega^2, 1/s^2", "frequency, Hz", "rate, 1/s", "what"]);
+        for (k, mode) in found.modes.iter().enumerate() {
+            let cell = |x: Option<f64>| x.map(short).unwrap_or_default();
+            rows.add_row([
+                (k + 1).to_string(),
+                short(mode.omega2_s2),
+                cell(mode.frequency_hz),
+                cell(mode.rate_1_s),
+                mode.what.clone(),
+            ]);
+        }
+        numbers_from(&mut rows, 1);
+        let _ = writeln!(out, "{rows}");
+        if found.index_in_space != found.index_by_modes {
+            let _ = writeln!(
+                out,
+                "the solver has {} directions in which the energy falls",
+                found.index_in_space
+            );
+        }
+    }
+    let all = if answer.complete {
+        "These are all equilibria, by the census."
+    } else {
+        "Of the equilibria that the solvers find; there may be others."
+    };
+    let _ = writeln!(out, "\n{all}");
+    out
+}

@@ -1,0 +1,231 @@
+//! `funicular simulate`: a system in motion.
+
+mod columns;
+
+use std::ops::ControlFlow;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::Ordering;
+
+use ::columns::{ColumnsError, Format};
+use clap::Args;
+use funicular::{Animation, Start};
+use miette::miette;
+use model::Vector;
+use model::system::System;
+
+use self::columns::Rows;
+use crate::exit::{Exit, Failure};
+use crate::input::{self, Input};
+use crate::interrupt::on_interrupt;
+use crate::output;
+use crate::printable::Printable;
+use crate::progress::Progress;
+use crate::tables::short;
+
+/// `funicular simulate`.
+#[derive(Debug, Args)]
+pub struct Simulate {
+    /// The system file (TOML or JSON, - for standard input)
+    #[arg(value_name = "FILE", required_unless_present = "case")]
+    pub file: Option<PathBuf>,
+    /// A named case instead of a file
+    #[arg(long, value_name = "NAME", conflicts_with = "file")]
+    pub case: Option<String>,
+    /// Where it begins, at rest: `rest` (the stable equilibrium), `equilibrium:2` (as `modes` and
+    /// `census` number them), `angles=0,60,-60` (bars of a chain from the descending vertical,
+    /// degrees), `seed:7` (at random)
+    #[arg(long, value_name = "START", default_value = "rest", allow_hyphen_values = true)]
+    pub from: Start,
+    /// How long, s
+    #[arg(long, value_name = "S", default_value_t = 10.0)]
+    pub time: f64,
+    /// Length of a step, s
+    #[arg(long, value_name = "S", default_value_t = 1e-3)]
+    pub step: f64,
+    /// Time between stored times, s; a thousandth of the whole if not given
+    #[arg(long, value_name = "S")]
+    pub store: Option<f64>,
+    /// Fourth order in the step instead of second, for five times the work
+    #[arg(long)]
+    pub fourth_order: bool,
+    /// Drag of a medium, 1/s: momentum falls at this rate
+    #[arg(long, value_name = "C", default_value_t = 0.0)]
+    pub damping: f64,
+    /// Friction in the joints, N m s
+    #[arg(long, value_name = "K", default_value_t = 0.0)]
+    pub friction: f64,
+    /// Push a joint at the beginning: JOINT=X,Y,Z with the impulse in N s; joints of a chain are
+    /// called 0, 1, 2 ... May be given several times
+    #[arg(long, value_name = "PUSH", value_parser = push, allow_hyphen_values = true)]
+    pub push: Vec<(String, Vector)>,
+    /// Write the stored times as columns with units: `.csv` or `.parquet`
+    #[arg(long, value_name = "FILE")]
+    pub out: Option<PathBuf>,
+    /// Write an animation in one HTML file
+    #[arg(long, value_name = "FILE")]
+    pub html: Option<PathBuf>,
+}
+
+/// `JOINT=X,Y,Z`.
+fn push(text: &str) -> Result<(String, Vector), String> {
+    let form = "JOINT=X,Y,Z is wanted, such as 1=0,0.5,0";
+    let (joint, impulse) = text.rsplit_once('=').ok_or(form)?;
+    let parts: Vec<f64> = impulse
+        .split(',')
+        .filter_map(|x| x.trim().parse().ok())
+        .filter(|x: &f64| x.is_finite())
+        .collect();
+    let impulse: Vector = parts.try_into().map_err(|_| form)?;
+    if impulse.len() != text.matches(',').count() + 1 - joint.matches(',').count() {
+        return Err(form.to_owned());
+    }
+    Ok((joint.to_owned(), impulse))
+}
+
+/// The form of a table, by the name of its file.
+fn format(path: &Path) -> Result<Format, Failure> {
+    [Format::Csv, Format::Parquet]
+        .into_iter()
+        .find(|format| path.extension().is_some_and(|e| e.eq_ignore_ascii_case(format.extension())))
+        .ok_or_else(|| {
+            Failure::bad_input(miette!(
+                "cannot write {}: its name has to end in .csv or .parquet",
+                path.display()
+            ))
+        })
+}
+
+/// What is kept of the motion while it runs.
+struct Kept {
+    rows: Option<Rows>,
+    animation: Option<Animation>,
+    failed: Option<ColumnsError>,
+    stored: usize,
+    first_j: f64,
+    /// Largest departure of the energy, J, and violations of lengths and laws.
+    energy_off_j: f64,
+    lengths_off: f64,
+    laws_off: f64,
+    last_s: f64,
+}
+
+/// Run the command.
+pub fn run(arguments: &Simulate) -> Result<Exit, Failure> {
+    let interrupt = on_interrupt()?;
+    let progress = Progress::start();
+    progress.say("reading");
+    let Input { problem, files } =
+        input::problem(arguments.file.as_deref(), arguments.case.as_deref())?;
+    let outputs = [&arguments.out, &arguments.html];
+    output::check(outputs.into_iter().flatten().map(PathBuf::as_path), &files)?;
+    let system = funicular::system_of(&problem);
+    let mut kept = Kept::begin(arguments, &system)?;
+    let stop = interrupt.keep_what_is_done();
+    let moved = simulate(arguments).run_watched(&problem, &mut |now| {
+        kept.add(now);
+        progress.say(&format!("{} of {} s", short(now.time_s), short(arguments.time)));
+        if kept.failed.is_some() || stop.load(Ordering::SeqCst) {
+            ControlFlow::Break(())
+        } else {
+            ControlFlow::Continue(())
+        }
+    });
+    drop(progress);
+    // What is stored up to a step that fails is kept too.
+    let interrupted = stop.load(Ordering::SeqCst);
+    if kept.stored > 0 {
+        kept.finish(arguments)?;
+        output::print(&kept.text(&system, interrupted))?;
+    }
+    moved?;
+    Ok(if interrupted { Exit::Interrupted } else { Exit::Done })
+}
+
+fn simulate(arguments: &Simulate) -> funicular::Simulate {
+    let mut simulate = funicular::Simulate::new()
+        .start(arguments.from.clone())
+        .time_s(arguments.time)
+        .step_s(arguments.step)
+        .drag_1_s(arguments.damping)
+        .friction_n_m_s(arguments.friction);
+    if arguments.fourth_order {
+        simulate = simulate.fourth_order();
+    }
+    if let Some(store_s) = arguments.store {
+        simulate = simulate.store_s(store_s);
+    }
+    for (joint, impulse) in &arguments.push {
+        simulate = simulate.push(joint, *impulse);
+    }
+    simulate
+}
+
+impl Kept {
+    fn begin(arguments: &Simulate, system: &System) -> Result<Self, Failure> {
+        let rows = match &arguments.out {
+            Some(path) => Some(Rows::create(path, format(path)?, system).map_err(unwritten)?),
+            None => None,
+        };
+        Ok(Self {
+            rows,
+            animation: arguments.html.is_some().then(|| Animation::new(system)),
+            failed: None,
+            stored: 0,
+            first_j: 0.0,
+            energy_off_j: 0.0,
+            lengths_off: 0.0,
+            laws_off: 0.0,
+            last_s: 0.0,
+        })
+    }
+
+    fn add(&mut self, now: &motion::Snapshot) {
+        if self.stored == 0 {
+            self.first_j = now.energy_j();
+        }
+        self.stored += 1;
+        self.last_s = now.time_s;
+        self.energy_off_j = self.energy_off_j.max((now.energy_j() - self.first_j).abs());
+        self.lengths_off = self.lengths_off.max(now.lengths_off);
+        self.laws_off = self.laws_off.max(now.laws.largest());
+        if let Some(rows) = &mut self.rows {
+            self.failed = rows.add(now).err();
+        }
+        if let Some(animation) = &mut self.animation {
+            animation.add(now);
+        }
+    }
+
+    fn finish(&mut self, arguments: &Simulate) -> Result<(), Failure> {
+        if let Some(error) = self.failed.take() {
+            return Err(unwritten(error));
+        }
+        if let Some(rows) = self.rows.take() {
+            rows.finish().map_err(unwritten)?;
+        }
+        if let (Some(animation), Some(path)) = (&self.animation, &arguments.html) {
+            output::write_whole(path, &animation.page())?;
+        }
+        Ok(())
+    }
+
+    fn text(&self, system: &System, interrupted: bool) -> String {
+        let ended = if interrupted { ", interrupted" } else { "" };
+        format!(
+            "{}: {} s{ended}, {} stored times\n\
+             energy at the beginning {} J, largest change {:.1e} J\n\
+             lengths kept to {:.1e}, Newton's and Euler's laws to {:.1e} of the largest force\n",
+            Printable(system.name()),
+            short(self.last_s),
+            self.stored,
+            short(self.first_j),
+            self.energy_off_j,
+            self.lengths_off,
+            self.laws_off,
+        )
+    }
+}
+
+fn unwritten(error: ColumnsError) -> Failure {
+    Failure::undecided(miette!("{error}"))
+}

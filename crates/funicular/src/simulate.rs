@@ -1,0 +1,365 @@
+//! A system set in motion.
+
+use std::ops::ControlFlow;
+use std::str::FromStr;
+
+use model::Vector;
+use model::system::System;
+use motion::{Order, Settings, Simulation, Snapshot};
+
+use crate::equilibria::{self, system_of};
+use crate::error::Error;
+use crate::problem::Problem;
+
+/// Where a motion begins.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub enum Start {
+    /// In the stable equilibrium, at rest: a push sets it in motion.
+    #[default]
+    Rest,
+    /// In an equilibrium, named as [`Modes`](crate::Modes) and the census number them: `2`, or
+    /// `2'` for a mirror image.
+    Equilibrium(String),
+    /// Angles of the bars of a chain from the descending vertical, degrees, in a vertical plane
+    /// through its anchors; what they lack to close the chain is corrected if it is little.
+    Angles(Vec<f64>),
+    /// A position at random, the same for the same number.
+    Seed(u64),
+    /// Places of all joints, world frame, m.
+    Joints(Vec<Vector>),
+}
+
+/// Why a simulation does not begin.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum SimulateError {
+    /// Occurs when a time is zero, negative, infinite or not a number.
+    #[error("{what} must be positive and finite, got {value_s} s")]
+    Time {
+        /// Which time.
+        what: &'static str,
+        /// Its value.
+        value_s: f64,
+    },
+    /// Occurs when the time has more steps than can be counted.
+    #[error("{steps:e} steps are too many: at most {MOST_STEPS:e}")]
+    Steps {
+        /// Their number.
+        steps: f64,
+    },
+    /// Occurs when a joint that is to be pushed is not there.
+    #[error("there is no joint {name:?} to push")]
+    NoSuchJoint {
+        /// The name as given.
+        name: String,
+    },
+    /// Occurs when there is no equilibrium of this number.
+    #[error("there is no equilibrium {label:?}; there are {}", labels.join(", "))]
+    NoSuchEquilibrium {
+        /// The number as given.
+        label: String,
+        /// Those that are found.
+        labels: Vec<String>,
+    },
+    /// Occurs when there are not as many angles as bars.
+    #[error("{given} angles are given for {bars} bars")]
+    AngleCount {
+        /// Number of angles.
+        given: usize,
+        /// Number of bars.
+        bars: usize,
+    },
+    /// Occurs when bars at the given angles end far off the anchor.
+    #[error(
+        "with these angles the chain ends off its anchor: closed, a joint moves by {off:.3} of its \
+         length (at most {ROUGH_ANGLES})"
+    )]
+    Angles {
+        /// Largest correction of a joint, in units of the total length.
+        off: f64,
+    },
+}
+
+/// Chains of at most so many bars have their equilibria numbered by a census.
+const CENSUS_BARS: usize = 12;
+
+/// How far the joints of given angles may be from those of the closed chain, relative to the total
+/// length: angles given in whole degrees.
+const ROUGH_ANGLES: f64 = 0.02;
+
+impl FromStr for Start {
+    type Err = String;
+
+    /// `rest`, `equilibrium:2`, `angles=19.7,38.6,-73.9`, `seed:7`.
+    fn from_str(text: &str) -> Result<Self, String> {
+        let number = |text: &str| {
+            let read: Result<f64, _> = text.trim().parse();
+            read.ok().filter(|x| x.is_finite()).ok_or(format!("`{text}` is not a number"))
+        };
+        if text == "rest" {
+            Ok(Self::Rest)
+        } else if let Some(label) = text.strip_prefix("equilibrium:") {
+            Ok(Self::Equilibrium(label.to_owned()))
+        } else if let Some(angles) = text.strip_prefix("angles=") {
+            angles.split(',').map(number).collect::<Result<_, _>>().map(Self::Angles)
+        } else if let Some(seed) = text.strip_prefix("seed:") {
+            seed.parse().map(Self::Seed).map_err(|error| format!("`{seed}`: {error}"))
+        } else {
+            Err("rest, equilibrium:2, angles=19.7,38.6,-73.9 or seed:7".to_owned())
+        }
+    }
+}
+
+/// Sets a system in motion, and follows it with rigid bars: RATTLE in the places of the joints.
+///
+/// ```
+/// use funicular::prelude::*;
+/// // The example of the paper, released from a position of its own.
+/// let problem = Problem::case("three-equal-bars")?;
+/// let moved = Simulate::new()
+///     .start(Start::Angles(vec![0.0, 60.0, -60.0]))
+///     .time_s(2.0)
+///     .step_s(1e-3)
+///     .run(&problem)?;
+/// let [first, .., last] = &moved.stored[..] else { panic!("stored at many times") };
+/// assert_eq!((first.time_s, moved.stored.len()), (0.0, 1001));
+/// assert!((last.time_s - 2.0).abs() < 1e-9);
+/// // Energy is kept to the order of the step squared, laws and lengths to rounding.
+/// assert!((last.energy_j() - first.energy_j()).abs() < 1e-4);
+/// assert!(last.laws.largest() < 1e-12 && last.lengths_off < 1e-12);
+/// # Ok::<(), Error>(())
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct Simulate {
+    start: Start,
+    time_s: f64,
+    step_s: f64,
+    store_s: Option<f64>,
+    settings: Settings,
+    pushes: Vec<(String, Vector)>,
+}
+
+impl Default for Simulate {
+    fn default() -> Self {
+        Self {
+            start: Start::Rest,
+            time_s: 10.0,
+            step_s: 1e-3,
+            store_s: None,
+            settings: Settings::default(),
+            pushes: Vec::new(),
+        }
+    }
+}
+
+/// Times stored where nothing else is asked for.
+const STORED: f64 = 1000.0;
+
+/// Most steps: their number is counted in a double, exactly.
+const MOST_STEPS: f64 = 1e12;
+
+impl Simulate {
+    /// Ten seconds in steps of a millisecond, from the stable equilibrium, without damping.
+    #[must_use]
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Where it begins.
+    #[must_use]
+    pub fn start(self, start: Start) -> Self {
+        Self { start, ..self }
+    }
+
+    /// How long it is followed, s.
+    #[must_use]
+    pub fn time_s(self, time_s: f64) -> Self {
+        Self { time_s, ..self }
+    }
+
+    /// Length of a step, s.
+    #[must_use]
+    pub fn step_s(self, step_s: f64) -> Self {
+        Self { step_s, ..self }
+    }
+
+    /// Time between stored times, s, rounded to whole steps; a thousandth of the time if not said.
+    #[must_use]
+    pub fn store_s(self, store_s: f64) -> Self {
+        Self { store_s: Some(store_s), ..self }
+    }
+
+    /// Fourth order in the step instead of second: five times the work.
+    #[must_use]
+    pub fn fourth_order(mut self) -> Self {
+        self.settings.order = Order::Fourth;
+        self
+    }
+
+    /// Drag of a medium, 1/s: momentum falls at this rate.
+    #[must_use]
+    pub fn drag_1_s(mut self, drag_1_s: f64) -> Self {
+        self.settings.drag_1_s = drag_1_s;
+        self
+    }
+
+    /// Friction in the joints, N m s.
+    #[must_use]
+    pub fn friction_n_m_s(mut self, friction_n_m_s: f64) -> Self {
+        self.settings.friction_n_m_s = friction_n_m_s;
+        self
+    }
+
+    /// Push a joint at the beginning with an impulse, N s. Joints of a chain are named by their
+    /// numbers, from `0`.
+    #[must_use]
+    pub fn push(mut self, joint: impl Into<String>, impulse_n_s: Vector) -> Self {
+        self.pushes.push((joint.into(), impulse_n_s));
+        self
+    }
+
+    /// Follow the motion, and keep all stored times in memory.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Motion`] when the system cannot be moved or a step is too long, [`Error::Simulate`]
+    /// when a setting is out of range or there is no such start, and the errors of
+    /// [`Solve`](crate::Solve).
+    pub fn run(&self, problem: &Problem) -> Result<Motion, Error> {
+        let mut stored = Vec::new();
+        let system = self.run_watched(problem, &mut |snapshot| {
+            stored.push(snapshot.clone());
+            ControlFlow::Continue(())
+        })?;
+        Ok(Motion { system, stored })
+    }
+
+    /// Follow the motion, and hand each stored time to `each`, which may end it.
+    ///
+    /// # Errors
+    ///
+    /// As [`run`](Self::run).
+    pub fn run_watched(
+        &self,
+        problem: &Problem,
+        each: &mut dyn FnMut(&Snapshot) -> ControlFlow<()>,
+    ) -> Result<System, Error> {
+        let (steps, every) = self.steps()?;
+        let system = system_of(problem);
+        let at = self.position(problem, &system)?;
+        let mut simulation = Simulation::new(&system, &at, self.settings)?;
+        simulation.push(&self.impulses(&system)?)?;
+        let step_s = self.time_s / steps as f64;
+        for step in 0..=steps {
+            if step > 0 {
+                simulation.step(step_s)?;
+            }
+            if step % every == 0 || step == steps {
+                let mut snapshot = simulation.snapshot();
+                // Sums of steps drift by rounding; the number of steps does not.
+                snapshot.time_s = step as f64 * step_s;
+                if each(&snapshot).is_break() {
+                    break;
+                }
+            }
+        }
+        Ok(system)
+    }
+
+    /// Number of steps, and every how many the state is stored.
+    fn steps(&self) -> Result<(u64, u64), Error> {
+        let store_s = self.store_s.unwrap_or(self.time_s / STORED);
+        for (what, value_s) in [
+            ("the time", self.time_s),
+            ("the step", self.step_s),
+            ("the time between stored times", store_s),
+        ] {
+            if !(value_s.is_finite() && value_s > 0.0) {
+                return Err(SimulateError::Time { what, value_s }.into());
+            }
+        }
+        let steps = (self.time_s / self.step_s).round().max(1.0);
+        if steps > MOST_STEPS {
+            return Err(SimulateError::Steps { steps }.into());
+        }
+        let every = (store_s / self.step_s).round().max(1.0);
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "whole, positive, and the steps below 1e12; more between stored times are capped"
+        )]
+        Ok((steps as u64, every as u64))
+    }
+
+    fn impulses(&self, system: &System) -> Result<Vec<Vector>, Error> {
+        let mut impulses = vec![[0.0; 3]; system.joints().len()];
+        for (name, impulse) in &self.pushes {
+            let joint = system.joint(name);
+            let joint = joint.ok_or_else(|| SimulateError::NoSuchJoint { name: name.clone() })?;
+            for k in 0..3 {
+                impulses[joint][k] += impulse[k];
+            }
+        }
+        Ok(impulses)
+    }
+
+    /// Places of the joints at the beginning.
+    fn position(&self, problem: &Problem, system: &System) -> Result<Vec<Vector>, Error> {
+        match &self.start {
+            Start::Rest => named(equilibria::hanging(problem)?, "1"),
+            Start::Equilibrium(label) => named(equilibria::all(problem, CENSUS_BARS)?, label),
+            Start::Angles(angles) => from_angles(problem, system, angles),
+            Start::Seed(seed) => Ok(motion::random_position(system, *seed)?),
+            Start::Joints(joints_m) => Ok(joints_m.clone()),
+        }
+    }
+}
+
+fn named(found: equilibria::Equilibria, label: &str) -> Result<Vec<Vector>, Error> {
+    let labels: Vec<String> = found.list.iter().map(|e| e.label().to_owned()).collect();
+    let wanted = found.list.into_iter().find(|e| e.label() == label);
+    let at = wanted.map(|e| e.joints_m().to_vec());
+    at.ok_or_else(|| SimulateError::NoSuchEquilibrium { label: label.to_owned(), labels }.into())
+}
+
+fn from_angles(
+    problem: &Problem,
+    system: &System,
+    angles_deg: &[f64],
+) -> Result<Vec<Vector>, Error> {
+    let chain = problem.chain_for("a start from angles")?.chain();
+    if angles_deg.len() != chain.bars().len() {
+        let (given, bars) = (angles_deg.len(), chain.bars().len());
+        return Err(SimulateError::AngleCount { given, bars }.into());
+    }
+    // The plane of the anchors; on one vertical the paper's OYZ.
+    let [x, y, _] = chain.anchors().difference_m();
+    let width = x.hypot(y);
+    let level = if chain.anchors_on_one_vertical() { [0.0, 1.0] } else { [x / width, y / width] };
+    let mut at = vec![chain.anchors().start_m];
+    for (bar, angle_deg) in chain.bars().iter().zip(angles_deg) {
+        let [x, y, z] = at[at.len() - 1];
+        let angle = angle_deg.to_radians();
+        let (out, down) = (bar.length_m() * angle.sin(), bar.length_m() * angle.cos());
+        at.push([x + out * level[0], y + out * level[1], z - down]);
+    }
+    let closed = motion::assemble(system, &at)?;
+    let moved_m = at
+        .iter()
+        .zip(&closed)
+        .map(|(a, b)| (0..3).map(|k| (a[k] - b[k]).powi(2)).sum::<f64>().sqrt());
+    let off = moved_m.fold(0.0, f64::max) / chain.total_length_m();
+    if off > ROUGH_ANGLES {
+        return Err(SimulateError::Angles { off }.into());
+    }
+    Ok(closed)
+}
+
+/// A motion at its stored times.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Motion {
+    /// What moves.
+    pub system: System,
+    /// Everything at the stored times.
+    pub stored: Vec<Snapshot>,
+}

@@ -1,0 +1,72 @@
+//! Microseconds a bar and step, for chains that hang from one anchor and between two.
+//!
+//! `cargo run --release -p motion --example step_speed [largest]`
+
+use std::time::Instant;
+
+use model::Bar;
+use model::system::{Joint, Member, System};
+use motion::{CONSTRAINT_TOLERANCE, Settings, Simulation};
+
+/// Time to measure for each chain, s.
+const MEASURED_S: f64 = 1.0;
+
+/// A chain of n bars of the length 1/n on a quarter of a circle; closed if both ends are held.
+fn chain(n: usize, closed: bool) -> Result<(System, Vec<[f64; 3]>), Box<dyn std::error::Error>> {
+    let length = 1.0 / n as f64;
+    let angle = std::f64::consts::FRAC_PI_2 / n as f64;
+    let mut at = vec![[0.0; 3]];
+    for k in 0..n {
+        let [x, y, z] = at[k];
+        let turn = (k as f64 + 0.5) * angle;
+        at.push([x + length * turn.sin(), y, z - length * turn.cos()]);
+    }
+    let mut joints = vec![Joint::anchor("0", at[0])];
+    joints.extend((1..n).map(|k| Joint::free(k.to_string())));
+    let last = n.to_string();
+    joints.push(if closed { Joint::anchor(last, at[n]) } else { Joint::free(last) });
+    let bar = Bar::homogeneous(length, length)?;
+    let members = (0..n).map(|k| Member::bar(k, k + 1, bar)).collect();
+    Ok((System::new("chain", 9.81, joints, members)?, at))
+}
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let largest: usize = std::env::args().nth(1).map_or(Ok(100_000), |n| n.parse())?;
+    println!("bars,closed,us_a_bar_and_step,corrections,worst_length,worst_rate");
+    for closed in [false, true] {
+        let mut points = Vec::new();
+        for n in [3, 10, 30, 100, 300, 1000, 10_000, 100_000] {
+            if n > largest {
+                continue;
+            }
+            let (system, at) = chain(n, closed)?;
+            let mut motion = Simulation::new(&system, &at, Settings::default())?;
+            // The fastest wave along the bars crosses a tenth of one in a step.
+            let step_s = (1e-3_f64).min(0.1 / n as f64);
+            motion.step(step_s)?;
+            let (mut steps, mut worst) = (0_u64, [0.0_f64; 2]);
+            let mut corrections = 0;
+            let begin = Instant::now();
+            while begin.elapsed().as_secs_f64() < MEASURED_S {
+                // The clock is asked once in many steps of a short chain.
+                for _ in 0..(1000 / n).max(1) {
+                    motion.step(step_s)?;
+                    steps += 1;
+                    corrections += motion.corrections();
+                    let off = motion.constraints_off();
+                    worst = [worst[0].max(off[0]), worst[1].max(off[1])];
+                }
+            }
+            let each = begin.elapsed().as_secs_f64() / steps as f64 / n as f64 * 1e6;
+            if worst.iter().any(|off| *off > CONSTRAINT_TOLERANCE) {
+                return Err(format!("{n} bars: constraints off by {worst:?}").into());
+            }
+            let mean = corrections as f64 / steps as f64;
+            println!("{n},{closed},{each:.3},{mean:.1},{:.1e},{:.1e}", worst[0], worst[1]);
+            points.push(((n as f64).ln(), (each * n as f64).ln()));
+        }
+        let (first, last) = (points[0], points[points.len() - 1]);
+        eprintln!("slope {:.3}", (last.1 - first.1) / (last.0 - first.0));
+    }
+    Ok(())
+}

@@ -1,0 +1,131 @@
+//! Positions that meet the constraints, near a guess or at random.
+
+use model::Vector;
+use model::system::{Support, System};
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+
+use crate::error::MotionError;
+use crate::force::Forces;
+use crate::mechanism::Mechanism;
+use crate::rattle::Stepper;
+use crate::simulation::at_the_beginning;
+use crate::state::State;
+use crate::vector::{add_times, norm, plus, times};
+
+/// Corrections of a guess: far ones move at most [`Stepper::LARGEST_CORRECTION`] of a bar each.
+const MOST_CORRECTIONS: usize = 400;
+
+/// Random guesses after which no position is found.
+const GUESSES: u64 = 50;
+
+/// The position that a guess leads to by corrections that are least in the metric of the inertia:
+/// places of the joints, world frame, m.
+///
+/// # Errors
+///
+/// [`MotionError`] when the system cannot be moved here, or the corrections do not end.
+///
+/// ```
+/// let system = model::system::System::from(model::cases::paper().chain());
+/// // Roughly the paper's chain; its bars are 1 m long.
+/// let guess = [[0.0; 3], [0.0, 0.3, -0.9], [0.0, 0.9, -1.7], [0.0, 0.0, -2.0]];
+/// let at = motion::assemble(&system, &guess)?;
+/// for pair in at.windows(2) {
+///     let d: Vec<f64> = (0..3).map(|k| pair[1][k] - pair[0][k]).collect();
+///     assert!((d.iter().map(|x| x * x).sum::<f64>() - 1.0).abs() < 1e-13);
+/// }
+/// # Ok::<(), motion::MotionError>(())
+/// ```
+pub fn assemble(system: &System, guess_m: &[Vector]) -> Result<Vec<Vector>, MotionError> {
+    let mechanism = Mechanism::new(system)?;
+    let mut stepper = Stepper::new(&mechanism)?;
+    let mut state = State::at_rest(mechanism.places(guess_m)?);
+    close(&mechanism, &mut stepper, &mut state)?;
+    Ok(world(&mechanism, &state))
+}
+
+/// A position at random: the same for the same seed. Members point anywhere from the joints they
+/// hang on, and loops are closed by [`assemble`].
+///
+/// # Errors
+///
+/// [`MotionError`] when the system cannot be moved here, or no guess of fifty can be closed.
+pub fn random_position(system: &System, seed: u64) -> Result<Vec<Vector>, MotionError> {
+    let mechanism = Mechanism::new(system)?;
+    let mut stepper = Stepper::new(&mechanism)?;
+    let mut failed = MotionError::NotClosed { iterations: 0, off: f64::NAN };
+    for stream in 0..GUESSES {
+        let mut random = ChaCha8Rng::seed_from_u64(seed);
+        random.set_stream(stream);
+        let mut state = State::at_rest(mechanism.places(&guess(system, &mut random))?);
+        match close(&mechanism, &mut stepper, &mut state) {
+            Ok(()) => return Ok(world(&mechanism, &state)),
+            Err(error) => failed = error,
+        }
+    }
+    Err(failed)
+}
+
+fn close(
+    mechanism: &Mechanism,
+    stepper: &mut Stepper,
+    state: &mut State,
+) -> Result<(), MotionError> {
+    let told = |failure| at_the_beginning(mechanism, failure);
+    stepper.assemble(mechanism, state, MOST_CORRECTIONS).map_err(told)?;
+    // A position where forces are indeterminate is no beginning.
+    stepper.arrive(mechanism, state, &Forces { of_time: Vec::new() }, 0.0).map_err(told)
+}
+
+fn world(mechanism: &Mechanism, state: &State) -> Vec<Vector> {
+    let reference = mechanism.system().reference_m();
+    mechanism.by_joint(&state.at).into_iter().map(|x| plus(x, reference)).collect()
+}
+
+/// Joints one after the other, each at the length of a member from one that is placed.
+fn guess(system: &System, random: &mut ChaCha8Rng) -> Vec<Vector> {
+    let joints = system.joints();
+    let mut at: Vec<Option<Vector>> = joints.iter().map(|joint| joint.support.at_m()).collect();
+    let mut members = vec![Vec::new(); joints.len()];
+    for member in system.members() {
+        members[member.from].push((member.to, member.body.length_m()));
+        members[member.to].push((member.from, member.body.length_m()));
+    }
+    let mut open: Vec<usize> = (0..joints.len()).filter(|&joint| at[joint].is_some()).collect();
+    if open.is_empty() {
+        at[0] = Some([0.0; 3]);
+        open.push(0);
+    }
+    let mut next = 0;
+    while let Some(&joint) = open.get(next) {
+        next += 1;
+        for &(other, length_m) in &members[joint] {
+            if let (None, Some(here)) = (at[other], at[joint]) {
+                at[other] = Some(add_times(here, length_m, direction(random)));
+                open.push(other);
+            }
+        }
+    }
+    let slid = joints.iter().zip(at).map(|(joint, at)| {
+        let along = random.random_range(-1.0..1.0);
+        let at = at.unwrap_or_default();
+        match joint.support {
+            // Somewhere on its support, not where the file happens to name a point of it.
+            Support::Line { direction, .. } => add_times(at, along, direction),
+            _ => at,
+        }
+    });
+    slid.collect()
+}
+
+/// A direction, all equally likely.
+fn direction(random: &mut ChaCha8Rng) -> Vector {
+    loop {
+        let v: Vector = std::array::from_fn(|_| random.random_range(-1.0..1.0));
+        let size = norm(v);
+        if size > 0.1 && size <= 1.0 {
+            return times(1.0 / size, v);
+        }
+    }
+}
