@@ -78,7 +78,7 @@ impl Modes {
             let system = system_of(problem);
             let equilibria = found
                 .list
-                .into_iter()
+                .iter()
                 .map(|located| with_modes(&system, located))
                 .collect::<Result<_, _>>()?;
             Ok(ModesAnswer {
@@ -189,11 +189,11 @@ impl Summary {
     }
 }
 
-fn with_modes(system: &System, located: Located) -> Result<WithModes, Error> {
+fn with_modes(system: &System, located: &Located) -> Result<WithModes, Error> {
     let found = motion::modes(system, located.joints_m(), Some(located.axial_n()))?;
     let joints = system.joints().iter().zip(located.joints_m());
     let joints = joints.map(|(joint, at_m)| JointAt { name: joint.name.clone(), at_m: *at_m });
-    let (solver, energy_j) = match &located {
+    let (solver, energy_j) = match located {
         Located::Chain(_, e) => (e.solver.clone(), e.energy_j),
         Located::System(e) => (e.solver.clone(), e.energy_j),
     };

@@ -71,11 +71,11 @@ pub enum SimulateError {
     },
     /// Occurs when bars at the given angles end far off the anchor.
     #[error(
-        "with these angles the chain ends off its anchor: closed, a joint moves by {off:.3} of its \
-         length (at most {ROUGH_ANGLES})"
+        "with these angles the chain ends {off:.3} of its length off its anchor (at most \
+         {ROUGH_ANGLES} is corrected)"
     )]
     Angles {
-        /// Largest correction of a joint, in units of the total length.
+        /// Distance of the end from its anchor, in units of the total length.
         off: f64,
     },
 }
@@ -83,8 +83,8 @@ pub enum SimulateError {
 /// Chains of at most so many bars have their equilibria numbered by a census.
 const CENSUS_BARS: usize = 12;
 
-/// How far the joints of given angles may be from those of the closed chain, relative to the total
-/// length: angles given in whole degrees.
+/// How far from its anchor a chain of given angles may end, relative to its length: angles in whole
+/// degrees.
 const ROUGH_ANGLES: f64 = 0.02;
 
 impl FromStr for Start {
@@ -343,16 +343,14 @@ fn from_angles(
         let (out, down) = (bar.length_m() * angle.sin(), bar.length_m() * angle.cos());
         at.push([x + out * level[0], y + out * level[1], z - down]);
     }
-    let closed = motion::assemble(system, &at)?;
-    let moved_m = at
-        .iter()
-        .zip(&closed)
-        .map(|(a, b)| (0..3).map(|k| (a[k] - b[k]).powi(2)).sum::<f64>().sqrt());
-    let off = moved_m.fold(0.0, f64::max) / chain.total_length_m();
+    let ends = at.last().copied().unwrap_or_default();
+    let gap_m: f64 =
+        (0..3).map(|k| (ends[k] - chain.anchors().end_m[k]).powi(2)).sum::<f64>().sqrt();
+    let off = gap_m / chain.total_length_m();
     if off > ROUGH_ANGLES {
         return Err(SimulateError::Angles { off }.into());
     }
-    Ok(closed)
+    Ok(motion::assemble(system, &at)?)
 }
 
 /// A motion at its stored times.

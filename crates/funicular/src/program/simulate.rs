@@ -163,7 +163,9 @@ fn simulate(arguments: &Simulate) -> funicular::Simulate {
 impl Kept {
     fn begin(arguments: &Simulate, system: &System) -> Result<Self, Failure> {
         let rows = match &arguments.out {
-            Some(path) => Some(Rows::create(path, format(path)?, system).map_err(unwritten)?),
+            Some(path) => {
+                Some(Rows::create(path, format(path)?, system).map_err(|e| unwritten(&e))?)
+            }
             None => None,
         };
         Ok(Self {
@@ -198,10 +200,10 @@ impl Kept {
 
     fn finish(&mut self, arguments: &Simulate) -> Result<(), Failure> {
         if let Some(error) = self.failed.take() {
-            return Err(unwritten(error));
+            return Err(unwritten(&error));
         }
         if let Some(rows) = self.rows.take() {
-            rows.finish().map_err(unwritten)?;
+            rows.finish().map_err(|e| unwritten(&e))?;
         }
         if let (Some(animation), Some(path)) = (&self.animation, &arguments.html) {
             output::write_whole(path, &animation.page())?;
@@ -226,6 +228,6 @@ impl Kept {
     }
 }
 
-fn unwritten(error: ColumnsError) -> Failure {
+fn unwritten(error: &ColumnsError) -> Failure {
     Failure::undecided(miette!("{error}"))
 }

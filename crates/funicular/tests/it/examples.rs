@@ -5,7 +5,8 @@
 use std::process::Command;
 
 /// The examples that the tests below run.
-const RUN: [&str; 6] = ["batch", "census", "solve", "sweep", "third_solver", "trace"];
+const RUN: [&str; 8] =
+    ["batch", "census", "modes", "simulate", "solve", "sweep", "third_solver", "trace"];
 
 /// Standard output and standard error of an example.
 fn run(name: &str) -> (String, String) {
@@ -113,4 +114,23 @@ fn trace() {
     assert!(text.ends_with("every census between agrees: true\n"), "{text}");
     // The chain is straight where the anchors are as far apart as its bars reach.
     assert!(text.contains("straight at x = 2.500000000 m"), "{text}");
+}
+
+#[test]
+fn modes() {
+    let (text, _) = run("modes");
+    assert!(text.ends_with("signs and indices agree: true\n"), "{text}");
+    // Two circles of equilibria, each with its mirror image, and three modes each.
+    assert_eq!(text.matches("omega^2").count(), 12);
+    assert_eq!(text.matches("turn about the vertical").count(), 4);
+    assert_eq!(text.matches("leaves the equilibrium").count(), 4);
+}
+
+#[test]
+fn simulate() {
+    let (csv, said) = run("simulate");
+    let last = rows(&csv).pop().unwrap().iter().map(|cell| number(cell)).collect::<Vec<_>>();
+    assert!((last[0] - 30.0).abs() < 1e-9 && last[1] < 1e-20, "{last:?}");
+    let off = said.strip_prefix("at rest ").unwrap().split(' ').next().unwrap();
+    assert!(number(off) < 1e-8, "{said}");
 }

@@ -6,6 +6,7 @@ mod escapes;
 mod examples;
 mod files;
 mod library;
+mod motion;
 mod pages;
 mod program;
 mod starts;

@@ -1,0 +1,158 @@
+//! `funicular modes` and `funicular simulate`.
+
+#![expect(clippy::unwrap_used, reason = "helpers of tests")]
+
+use std::path::Path;
+
+use assert_cmd::Command;
+use serde_json::Value;
+
+fn funicular(arguments: &[&str]) -> std::process::Output {
+    Command::cargo_bin("funicular").unwrap().args(arguments).output().unwrap()
+}
+
+fn json(arguments: &[&str]) -> Value {
+    let output = funicular(arguments);
+    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    serde_json::from_slice(&output.stdout).unwrap()
+}
+
+fn file(folder: &Path, name: &str, text: &str) -> String {
+    let path = folder.join(name);
+    std::fs::write(&path, text).unwrap();
+    path.to_str().unwrap().to_owned()
+}
+
+#[test]
+fn modes_of_the_paper_have_the_keys_that_others_rely_on() {
+    let found = json(&["modes", "--case", "three-equal-bars", "--json"]);
+    assert_eq!(found["schema_version"], 2);
+    assert_eq!(found["complete"], true);
+    let equilibria = found["equilibria"].as_array().unwrap();
+    assert_eq!(equilibria.len(), 4);
+    for equilibrium in equilibria {
+        let modes = equilibrium["modes"].as_array().unwrap();
+        assert_eq!(modes.len(), 3);
+        let omega2: Vec<f64> = modes.iter().map(|m| m["omega2_s2"].as_f64().unwrap()).collect();
+        assert!(omega2.windows(2).all(|pair| pair[0] <= pair[1]), "{omega2:?}");
+        let negative = omega2.iter().filter(|o| **o < 0.0).count();
+        assert_eq!(equilibrium["index_in_space"], negative);
+        for mode in modes {
+            assert_eq!(mode["shape"].as_array().unwrap().len(), 4);
+            assert!(mode["what"].is_string());
+        }
+    }
+}
+
+/// A double pendulum of point masses on massless links, by name.
+const DOUBLE: &str = r#"
+name = "double pendulum"
+gravity_m_s2 = 10
+
+[joints]
+O = { at_m = [0, 0, 0] }
+A = { mass_kg = 1 }
+B = { mass_kg = 1 }
+
+[[bars]]
+from = "O"
+to = "A"
+length_m = 1
+mass_kg = 0
+
+[[bars]]
+from = "A"
+to = "B"
+length_m = 1
+mass_kg = 0
+"#;
+
+#[test]
+fn modes_of_a_double_pendulum_by_name() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = file(folder.path(), "double.toml", DOUBLE);
+    let found = json(&["modes", &path, "--json"]);
+    let modes = found["equilibria"][0]["modes"].as_array().unwrap();
+    let omega2: Vec<f64> = modes.iter().map(|m| m["omega2_s2"].as_f64().unwrap()).collect();
+    // (2 -+ sqrt 2) g/l, each in both planes.
+    let root = 2.0_f64.sqrt();
+    let told = [2.0 - root, 2.0 - root, 2.0 + root, 2.0 + root].map(|x| 10.0 * x);
+    assert!(omega2.iter().zip(told).all(|(a, b)| (a - b).abs() < 1e-9), "{omega2:?}");
+    let text = String::from_utf8(funicular(&["modes", &path]).stdout).unwrap();
+    assert!(text.contains("oscillation in the plane"), "{text}");
+}
+
+#[test]
+fn simulate_writes_columns_and_an_animation_and_the_same_bytes_again() {
+    let folder = tempfile::tempdir().unwrap();
+    let name = |file: &str| folder.path().join(file).to_str().unwrap().to_owned();
+    let run = |csv: &str, html: &str| {
+        let output = funicular(&[
+            "simulate",
+            "--case",
+            "three-equal-bars",
+            "--from",
+            "angles=0,60,-60",
+            "--time",
+            "2",
+            "--push",
+            "1=0.1,0,0",
+            "--out",
+            csv,
+            "--html",
+            html,
+        ]);
+        assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    };
+    run(&name("a.csv"), &name("a.html"));
+    run(&name("b.csv"), &name("b.html"));
+    let read = |file: &str| std::fs::read_to_string(name(file)).unwrap();
+    assert_eq!(read("a.csv"), read("b.csv"));
+    assert_eq!(read("a.html"), read("b.html"));
+    let csv = read("a.csv");
+    let mut lines = csv.lines();
+    let head: Vec<&str> = lines.next().unwrap().split(',').collect();
+    assert_eq!(head[..5], ["time_s", "kinetic_j", "potential_j", "energy_j", "joint0_x_m"]);
+    let column = |name: &str| head.iter().position(|h| *h == name).unwrap();
+    let rows: Vec<Vec<f64>> =
+        lines.map(|l| l.split(',').map(|x| x.parse().unwrap()).collect()).collect();
+    assert_eq!(rows.len(), 1001);
+    for row in &rows {
+        // Bar 2 keeps its length, and the energy its value.
+        let d = ["x", "y", "z"].map(|axis| {
+            row[column(&format!("joint2_{axis}_m"))] - row[column(&format!("joint1_{axis}_m"))]
+        });
+        assert!((d.iter().map(|x| x * x).sum::<f64>() - 1.0).abs() < 1e-12);
+        assert!((row[column("energy_j")] - rows[0][column("energy_j")]).abs() < 1e-4);
+    }
+    assert!(column("bar3_axial_n") < column("joint3_fz_n"));
+    let html = read("a.html");
+    assert!(html.contains("<canvas") && !html.contains("http"), "the page needs nothing else");
+    let parquet = name("a.parquet");
+    let arguments = ["simulate", "--case", "two-bars", "--from", "seed:3", "--out", &parquet];
+    assert_eq!(funicular(&arguments).status.code(), Some(0));
+    assert!(std::fs::read(&parquet).unwrap().starts_with(b"PAR1"));
+}
+
+#[test]
+fn simulate_refuses_what_it_cannot_do_and_says_why() {
+    for (arguments, told) in [
+        (vec!["--from", "equilibrium:9"], "there is no equilibrium \"9\"; there are 1, 1', 2, 2'"),
+        (vec!["--from", "angles=0,0,0"], "off its anchor"),
+        (vec!["--from", "angles=0,0"], "2 angles are given for 3 bars"),
+        (vec!["--from", "nowhere"], "equilibrium:2"),
+        (vec!["--push", "P=0,0,1"], "there is no joint \"P\""),
+        (vec!["--push", "1=0,0"], "JOINT=X,Y,Z"),
+        (vec!["--time", "0"], "must be positive"),
+        (vec!["--damping=-1"], "zero or positive"),
+        (vec!["--out", "motion.txt"], ".csv or .parquet"),
+        (vec!["--from", "angles=0,60,-60", "--step", "2", "--time", "40"], "shorter step"),
+    ] {
+        let mut all = vec!["simulate", "--case", "three-equal-bars"];
+        all.extend(arguments);
+        let output = funicular(&all);
+        let said = String::from_utf8_lossy(&output.stderr).replace("\n  │ ", " ");
+        assert!(matches!(output.status.code(), Some(2 | 3)), "{all:?} {said}");
+        assert!(said.contains(told), "{all:?}: {said}");
+    }
+}
