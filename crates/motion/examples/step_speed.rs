@@ -13,8 +13,11 @@ use motion::{CONSTRAINT_TOLERANCE, Settings, Simulation};
 /// Time to measure for each chain, s.
 const MEASURED_S: f64 = 0.5;
 
+/// A system and the places of its joints.
+type Placed = (System, Vec<[f64; 3]>);
+
 /// A chain of n bars of the length 1/n on a quarter of a circle; closed if both ends are held.
-fn chain(n: usize, closed: bool) -> Result<(System, Vec<[f64; 3]>), Box<dyn std::error::Error>> {
+fn chain(n: usize, closed: bool) -> Result<Placed, Box<dyn std::error::Error>> {
     let length = 1.0 / n as f64;
     let angle = std::f64::consts::FRAC_PI_2 / n as f64;
     let mut at = vec![[0.0; 3]];

@@ -94,9 +94,9 @@ fn circular_at(x: Twin) -> (Twin, Twin) {
     for k in 0..30_u32 {
         let sign = if k % 4 < 2 { twin(1.0) } else { twin(-1.0) };
         if k % 2 == 0 {
-            cos = cos + sign * term
+            cos = cos + sign * term;
         } else {
-            sin = sin + sign * term
+            sin = sin + sign * term;
         }
         term = term * small / twin(f64::from(k + 1));
     }
