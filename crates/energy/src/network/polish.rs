@@ -80,7 +80,7 @@ impl Newton {
                     return None;
                 }
                 (active, changes, steps) = (resist, changes - 1, steps + 1);
-                frame.release(&mut shape, &active);
+                release(&mut shape, &active);
                 slope = frame.slope(&shape);
                 continue;
             }
@@ -171,13 +171,13 @@ impl Frame {
         };
         self.rods.iter().enumerate().map(resists).collect()
     }
+}
 
-    /// Take the forces off the members that do not resist.
-    fn release(&self, shape: &mut Shape, active: &[bool]) {
-        for (force, active) in shape.force.iter_mut().zip(active) {
-            if !active {
-                *force = 0.0;
-            }
+/// Take the forces off the members that do not resist.
+fn release(shape: &mut Shape, active: &[bool]) {
+    for (force, active) in shape.force.iter_mut().zip(active) {
+        if !active {
+            *force = 0.0;
         }
     }
 }

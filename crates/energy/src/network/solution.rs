@@ -116,7 +116,11 @@ impl Solution {
 fn self_stresses(second: &SecondOrder, least: bool) -> Option<SelfStresses> {
     let basis = second.self_stresses.clone();
     let choice = if least { ForceChoice::EquallyStiff } else { ForceChoice::Unknown };
-    (!basis.is_empty()).then(|| SelfStresses { dimension: basis.len(), basis, choice })
+    if basis.is_empty() {
+        None
+    } else {
+        Some(SelfStresses { dimension: basis.len(), basis, choice })
+    }
 }
 
 /// The observables in the world.
