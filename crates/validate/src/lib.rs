@@ -16,7 +16,8 @@
 //! answers are held against each other ([`compare`](mod@compare)), against a third judge written
 //! from Newton's laws ([`statics`]), against a proof of global minimality ([`certificate`]), and
 //! against a list of all equilibria ([`completeness`]). [`independence`] proves from the dependency
-//! graph that the agreement of the two is worth something.
+//! graph that the agreement of the two is worth something. Answers from elsewhere are judged by the
+//! same laws ([`foreign`]).
 
 pub mod answer;
 #[cfg(feature = "bounds")]
@@ -28,6 +29,7 @@ pub mod completeness;
 pub mod consistency;
 mod differences;
 pub mod force_family;
+pub mod foreign;
 mod free;
 pub mod gallery;
 pub mod independence;

@@ -7,6 +7,7 @@ use serde::Serialize;
 use super::certificate::{certify, largest_force_n, size_m, total_load_n};
 use super::family::Family;
 use super::statics::{SystemStatics, judge};
+use super::turn::{Turn, turns};
 use crate::compare::{Verdict, with_sentences};
 use crate::tolerances::Tolerances;
 use crate::vector::{minus, norm, plus, worse};
@@ -198,7 +199,8 @@ impl<'a> Judgement<'a> {
 
     /// Two answers: their differences, and their second-order behaviour.
     fn pair(&mut self, first: &SystemEquilibrium, second: &SystemEquilibrium) {
-        let turns = self.turns(first, second);
+        let turns =
+            turns(&self.parts, &first.joints_m, &second.joints_m, self.system.joints().len());
         let joints_m = self.joints_apart_m(first, second, &turns);
         let forces_n = self.forces_apart_n(first, second, &turns);
         let energy_j = (first.energy_j - second.energy_j).abs();
@@ -216,30 +218,6 @@ impl<'a> Judgement<'a> {
         self.hold(Quantity::Energy { between: between.clone() }, energy_j, budget);
         let indices = [first.stability.index_in_space, second.stability.index_in_space];
         self.hold(Quantity::MorseIndex { between }, indices[0].abs_diff(indices[1]) as f64, 0.0);
-    }
-
-    /// For every joint the part's turn that brings the second answer closest to the first: cosine,
-    /// sine, and the place of the axis.
-    fn turns(&self, first: &SystemEquilibrium, second: &SystemEquilibrium) -> Vec<Turn> {
-        let mut turns = vec![Turn::NONE; self.system.joints().len()];
-        for part in &self.parts {
-            let Some([x, y]) = part.axis_m else { continue };
-            let (mut along, mut across) = (0.0, 0.0);
-            for joint in &part.joints {
-                let (Some(a), Some(b)) = (first.joints_m.get(*joint), second.joints_m.get(*joint))
-                else {
-                    continue;
-                };
-                let (ax, ay, bx, by) = (a[0] - x, a[1] - y, b[0] - x, b[1] - y);
-                along += ax * bx + ay * by;
-                across += bx * ay - by * ax;
-            }
-            let (sin, cos) = f64::atan2(across, along).sin_cos();
-            for joint in &part.joints {
-                turns[*joint] = Turn { axis_m: [x, y], cos, sin };
-            }
-        }
-        turns
     }
 
     fn joints_apart_m(
@@ -309,31 +287,9 @@ impl<'a> Judgement<'a> {
     }
 }
 
-/// A turn about a vertical.
-#[derive(Clone, Copy)]
-struct Turn {
-    axis_m: [f64; 2],
-    cos: f64,
-    sin: f64,
-}
-
-impl Turn {
-    const NONE: Self = Self { axis_m: [0.0; 2], cos: 1.0, sin: 0.0 };
-
-    fn vector(&self, [x, y, z]: Vector) -> Vector {
-        [self.cos * x - self.sin * y, self.sin * x + self.cos * y, z]
-    }
-
-    fn place(&self, [x, y, z]: Vector) -> Vector {
-        let [ox, oy] = self.axis_m;
-        let [x, y, z] = self.vector([x - ox, y - oy, z]);
-        [x + ox, y + oy, z]
-    }
-}
-
 /// Which joints nothing loads and no member holds, because all that meet there are slack in every
 /// answer: such a joint can be moved a little without any change of energy.
-fn free_joints(system: &System, answers: &[SystemEquilibrium]) -> Vec<bool> {
+pub(crate) fn free_joints(system: &System, answers: &[SystemEquilibrium]) -> Vec<bool> {
     let still = |force: Vector| force.iter().all(|x| x.abs() <= 0.0);
     let mut free: Vec<bool> = system
         .joints()

@@ -4,11 +4,12 @@
 
 mod ask;
 mod certificate;
-mod compare;
+pub(crate) mod compare;
 mod family;
 mod statics;
 #[cfg(test)]
 mod tests;
+pub(crate) mod turn;
 
 pub use ask::{SystemAnswer, SystemFailure, ask};
 pub use certificate::certify;

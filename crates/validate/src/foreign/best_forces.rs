@@ -1,0 +1,130 @@
+//! The forces that leave the joints of given positions least out of balance.
+
+use model::Vector;
+use model::system::{Kind, Support, System};
+use serde::Serialize;
+
+use super::bounds::Bounds;
+use super::least_squares::{Column, Found, Problem};
+use crate::vector::{dot, minus, norm, plus, times};
+
+/// Forces found for positions that came without.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct BestForces {
+    /// Axial force of each member, N.
+    #[serde(skip)]
+    pub axial_n: Vec<f64>,
+    /// What they leave over at each joint along the motions that its support leaves free, N.
+    #[serde(skip)]
+    pub left_n: Vec<Vector>,
+    /// Root of the sum of squares of that, N.
+    pub residual_n: f64,
+    /// Largest of the forces, N.
+    pub largest_n: f64,
+    /// Factorisations that the search took.
+    pub steps: usize,
+    /// Whether it ended.
+    pub converged: bool,
+}
+
+/// The load of each joint, with those of the members lumped by the lever rule, N.
+pub(super) fn joint_loads(system: &System) -> Vec<Vector> {
+    let gravity = system.gravity_m_s2();
+    let weight = |mass_kg: f64| [0.0, 0.0, -mass_kg * gravity];
+    let joints = system.joints().iter();
+    let mut loads: Vec<_> = joints.map(|j| plus(j.force_n, weight(j.mass_kg))).collect();
+    for (k, member) in system.members().iter().enumerate() {
+        let [start, end] = shares_n(system, k);
+        loads[member.from] = plus(loads[member.from], start);
+        loads[member.to] = plus(loads[member.to], end);
+    }
+    loads
+}
+
+/// What of its own loads a member puts on its two joints, N.
+pub(super) fn shares_n(system: &System, k: usize) -> [Vector; 2] {
+    let member = &system.members()[k];
+    let body = &member.body;
+    let weight = (body.centre_m(), [0.0, 0.0, -body.mass_kg() * system.gravity_m_s2()]);
+    let loads = member.loads.iter().map(|load| (load.at_m, load.force_n));
+    loads.chain([weight]).fold([[0.0; 3]; 2], |[start, end], (at_m, force)| {
+        let part = at_m / body.length_m();
+        [plus(start, times(1.0 - part, force)), plus(end, times(part, force))]
+    })
+}
+
+/// The part of a vector along the motions that a support leaves free.
+pub(super) fn free_part(support: &Support, vector: Vector) -> Vector {
+    match *support {
+        Support::Free => vector,
+        Support::Fixed { .. } => [0.0; 3],
+        Support::Line { direction, .. } => times(dot(vector, direction), direction),
+        Support::Plane { normal, .. } => minus(vector, times(dot(vector, normal), normal)),
+    }
+}
+
+/// Distance of the ends of each member, m, and the direction from the first to the second; none where they meet.
+pub(super) fn spans(system: &System, joints_m: &[Vector]) -> Vec<(f64, Vector)> {
+    let span = |member: &model::system::Member| {
+        let along = minus(joints_m[member.to], joints_m[member.from]);
+        let distance = norm(along);
+        (distance, if distance > 0.0 { times(1.0 / distance, along) } else { [0.0; 3] })
+    };
+    system.members().iter().map(span).collect()
+}
+
+/// The force of an elastic member by its law, N.
+pub(super) fn law_n(kind: Kind, stiffness_n: f64, length_m: f64, distance_m: f64) -> f64 {
+    let force = stiffness_n * ((distance_m - length_m) / length_m);
+    match kind {
+        Kind::Bar => force,
+        Kind::Cable => force.max(0.0),
+        Kind::Strut => force.min(0.0),
+    }
+}
+
+/// Find the axial forces that leave the joints at these places least out of balance: least squares under the members'
+/// laws. A cable that is shorter than its length is slack, a strut that is longer is loose; an elastic member has the
+/// force of its elongation; each as far as the bounds of the positions decide it.
+#[must_use]
+pub fn best_forces(system: &System, joints_m: &[Vector], bounds: &Bounds) -> BestForces {
+    let spans = spans(system, joints_m);
+    let columns: Vec<Column> = system
+        .members()
+        .iter()
+        .zip(&spans)
+        .map(|(member, (distance_m, unit))| {
+            let length_m = member.body.length_m();
+            let reach_m = bounds.distance_m();
+            let slack = match member.kind {
+                Kind::Bar => false,
+                Kind::Cable => *distance_m < length_m - reach_m,
+                Kind::Strut => *distance_m > length_m + reach_m,
+            };
+            let (lower, upper) = match (member.stiffness_n, member.kind) {
+                (Some(stiffness_n), kind) => (
+                    law_n(kind, stiffness_n, length_m, distance_m - reach_m),
+                    law_n(kind, stiffness_n, length_m, distance_m + reach_m),
+                ),
+                _ if slack => (0.0, 0.0),
+                (None, Kind::Bar) => (f64::NEG_INFINITY, f64::INFINITY),
+                (None, Kind::Cable) => (0.0, f64::INFINITY),
+                (None, Kind::Strut) => (f64::NEG_INFINITY, 0.0),
+            };
+            Column { joints: [member.from, member.to], unit: *unit, lower, upper }
+        })
+        .collect();
+    let loads = joint_loads(system);
+    let joints = system.joints();
+    let free = |joint: usize, vector: Vector| free_part(&joints[joint].support, vector);
+    let problem = Problem { columns: &columns, loads: &loads, free: &free };
+    let Found { x, left, steps, converged } = problem.solve();
+    BestForces {
+        residual_n: model::sum(left.iter().map(|left| dot(*left, *left))).sqrt(),
+        largest_n: x.iter().fold(0.0, |most: f64, force| most.max(force.abs())),
+        axial_n: x,
+        left_n: left,
+        steps,
+        converged,
+    }
+}

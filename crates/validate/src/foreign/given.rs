@@ -1,0 +1,264 @@
+//! An answer from elsewhere, by the names of joints.
+
+use std::collections::HashMap;
+
+use model::system::System;
+use model::{SolverName, Vector};
+
+/// Joint positions that somebody says are an equilibrium of a system, with forces if they were given.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ForeignAnswer {
+    /// Whose answer it is.
+    pub source: SolverName,
+    /// Place of each joint of the system, in its order, m.
+    pub joints_m: Vec<Vector>,
+    /// Axial force of each member, tension positive, N: of a member with loads along it the force with the loads
+    /// lumped to its joints by the lever rule.
+    pub axial_n: Option<Vec<f64>>,
+    /// Force of the ground on each joint, N; zero at joints without support.
+    pub reactions_n: Option<Vec<Vector>>,
+}
+
+/// Why an answer does not fit the system.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum GivenError {
+    /// Occurs when a joint of the answer is not in the system.
+    #[error("the system has no joint {name:?}")]
+    UnknownJoint {
+        /// Its name.
+        name: String,
+        /// The joint whose name is nearest, if one is near.
+        suggestion: Option<String>,
+    },
+    /// Occurs when the answer has a joint twice.
+    #[error("joint {name:?} is given twice")]
+    Repeated {
+        /// Its name.
+        name: String,
+    },
+    /// Occurs when joints of the system are not in the answer.
+    #[error("the answer has no place for {}", listed("joint", names, *count))]
+    MissingJoints {
+        /// The first of them.
+        names: Vec<String>,
+        /// How many.
+        count: usize,
+    },
+    /// Occurs when a number of the answer is infinite or not a number.
+    #[error("a number of {what} is not finite")]
+    NotFinite {
+        /// Of which joint or member.
+        what: String,
+    },
+    /// Occurs when no member connects two joints for which a force is given.
+    #[error("no member connects {from:?} with {to:?}")]
+    UnknownMember {
+        /// A joint.
+        from: String,
+        /// The other joint.
+        to: String,
+    },
+    /// Occurs when the force of a member is given twice.
+    #[error("the force between {from:?} and {to:?} is given twice")]
+    RepeatedMember {
+        /// A joint.
+        from: String,
+        /// The other joint.
+        to: String,
+    },
+    /// Occurs when forces are given, but not for every member.
+    #[error("forces are given, but not {}", listed("that of member", names, *count))]
+    MissingForces {
+        /// The first members without.
+        names: Vec<String>,
+        /// How many.
+        count: usize,
+    },
+    /// Occurs when a list has not as many entries as the system has joints or members.
+    #[error("the answer has {found} {of}, and the system {wanted}")]
+    Count {
+        /// Joints or members.
+        of: &'static str,
+        /// How many there are in the system.
+        wanted: usize,
+        /// How many are given.
+        found: usize,
+    },
+}
+
+/// How many names an error lists.
+const LISTED: usize = 5;
+
+fn listed(what: &str, names: &[String], count: usize) -> String {
+    let quoted: Vec<_> = names.iter().map(|name| format!("{name:?}")).collect();
+    let more = match count - names.len() {
+        0 => String::new(),
+        more => format!(" and {more} more"),
+    };
+    format!("{what} {}{more}", quoted.join(", "))
+}
+
+impl ForeignAnswer {
+    /// An answer of positions by the names of joints, in any order, one for every joint.
+    ///
+    /// # Errors
+    ///
+    /// [`GivenError`]: names that the system has not, or that are missing or repeated; numbers that are not finite.
+    ///
+    /// ```
+    /// use validate::foreign::{ForeignAnswer, GivenError};
+    /// let system = model::system::System::from(model::cases::paper().chain());
+    /// let places = [("0", 0.0), ("1", -1.0), ("3", -2.0)];
+    /// let places = places.map(|(name, z)| (name.to_owned(), [0.0, 0.0, z]));
+    /// let error = ForeignAnswer::by_name(&system, "a table", places).unwrap_err();
+    /// assert_eq!(error.to_string(), "the answer has no place for joint \"2\"");
+    /// ```
+    pub fn by_name(
+        system: &System,
+        source: impl Into<String>,
+        places: impl IntoIterator<Item = (String, Vector)>,
+    ) -> Result<Self, GivenError> {
+        let joints_m = vectors(system, places)?;
+        let missing = joints_m.iter().zip(system.joints()).filter(|(place, _)| place.is_none());
+        let missing: Vec<_> = missing.map(|(_, joint)| joint.name.clone()).collect();
+        if !missing.is_empty() {
+            let (count, names) = shortened(missing);
+            return Err(GivenError::MissingJoints { names, count });
+        }
+        Ok(Self {
+            source: SolverName::new(source.into()),
+            joints_m: joints_m.into_iter().flatten().collect(),
+            axial_n: None,
+            reactions_n: None,
+        })
+    }
+
+    /// An answer whose lists are in the order of the system's joints and members.
+    ///
+    /// # Errors
+    ///
+    /// [`GivenError::Count`] when they are not as long, [`GivenError::NotFinite`].
+    pub fn in_order(
+        system: &System,
+        source: impl Into<String>,
+        joints_m: Vec<Vector>,
+        axial_n: Option<Vec<f64>>,
+    ) -> Result<Self, GivenError> {
+        let count = |of, wanted, found| GivenError::Count { of, wanted, found };
+        if joints_m.len() != system.joints().len() {
+            return Err(count("joints", system.joints().len(), joints_m.len()));
+        }
+        let members = system.members();
+        if let Some(forces) = axial_n.as_ref().filter(|forces| forces.len() != members.len()) {
+            return Err(count("member forces", members.len(), forces.len()));
+        }
+        if let Some(k) = joints_m.iter().position(|place| place.iter().any(|x| !x.is_finite())) {
+            let what = format!("joint {:?}", system.joints()[k].name);
+            return Err(GivenError::NotFinite { what });
+        }
+        if let Some(k) = axial_n.iter().flatten().position(|force| !force.is_finite()) {
+            return Err(GivenError::NotFinite { what: member_name(system, k) });
+        }
+        let source = SolverName::new(source.into());
+        Ok(Self { source, joints_m, axial_n, reactions_n: None })
+    }
+
+    /// The same with axial forces, by the names of the two joints of each member in any order.
+    ///
+    /// # Errors
+    ///
+    /// [`GivenError`]: members that the system has not, or that are missing or repeated; numbers that are not finite.
+    pub fn with_forces(
+        mut self,
+        system: &System,
+        forces: impl IntoIterator<Item = (String, String, f64)>,
+    ) -> Result<Self, GivenError> {
+        let members = system.members().iter().enumerate();
+        let pair = |a: usize, b: usize| (a.min(b), a.max(b));
+        let numbers: HashMap<_, _> = members.map(|(k, m)| (pair(m.from, m.to), k)).collect();
+        let joints = joint_numbers(system);
+        let mut axial_n = vec![None; system.members().len()];
+        for (from, to, force) in forces {
+            let number =
+                |name: &str| joints.get(name).copied().ok_or_else(|| unknown(system, name));
+            let (a, b) = (number(&from)?, number(&to)?);
+            let Some(k) = numbers.get(&pair(a, b)).copied() else {
+                return Err(GivenError::UnknownMember { from, to });
+            };
+            if !force.is_finite() {
+                return Err(GivenError::NotFinite { what: member_name(system, k) });
+            }
+            if axial_n[k].replace(force).is_some() {
+                return Err(GivenError::RepeatedMember { from, to });
+            }
+        }
+        let missing = axial_n.iter().enumerate().filter(|(_, force)| force.is_none());
+        let missing: Vec<_> = missing.map(|(k, _)| member_name(system, k)).collect();
+        if !missing.is_empty() {
+            let (count, names) = shortened(missing);
+            return Err(GivenError::MissingForces { names, count });
+        }
+        self.axial_n = Some(axial_n.into_iter().flatten().collect());
+        Ok(self)
+    }
+
+    /// The same with forces of the ground by the names of joints; those not named are zero.
+    ///
+    /// # Errors
+    ///
+    /// [`GivenError`]: names that the system has not, or that are repeated; numbers that are not finite.
+    pub fn with_reactions(
+        mut self,
+        system: &System,
+        reactions: impl IntoIterator<Item = (String, Vector)>,
+    ) -> Result<Self, GivenError> {
+        let found = vectors(system, reactions)?;
+        self.reactions_n = Some(found.into_iter().map(Option::unwrap_or_default).collect());
+        Ok(self)
+    }
+}
+
+fn joint_numbers(system: &System) -> HashMap<&str, usize> {
+    system.joints().iter().enumerate().map(|(k, joint)| (joint.name.as_str(), k)).collect()
+}
+
+/// Vectors by the names of joints, in the order of the system.
+fn vectors(
+    system: &System,
+    named: impl IntoIterator<Item = (String, Vector)>,
+) -> Result<Vec<Option<Vector>>, GivenError> {
+    let numbers = joint_numbers(system);
+    let mut found = vec![None; system.joints().len()];
+    for (name, vector) in named {
+        let Some(k) = numbers.get(name.as_str()).copied() else {
+            return Err(unknown(system, &name));
+        };
+        if vector.iter().any(|x| !x.is_finite()) {
+            return Err(GivenError::NotFinite { what: format!("joint {name:?}") });
+        }
+        if found[k].replace(vector).is_some() {
+            return Err(GivenError::Repeated { name });
+        }
+    }
+    Ok(found)
+}
+
+fn unknown(system: &System, name: &str) -> GivenError {
+    let names: Vec<_> = system.joints().iter().map(|joint| joint.name.as_str()).collect();
+    let suggestion = model::system_file::nearest(name, &names).map(str::to_owned);
+    GivenError::UnknownJoint { name: name.to_owned(), suggestion }
+}
+
+/// A member by its number and its joints.
+pub(super) fn member_name(system: &System, k: usize) -> String {
+    let member = &system.members()[k];
+    let name = |joint: usize| &system.joints()[joint].name;
+    format!("{} ({} - {})", k + 1, name(member.from), name(member.to))
+}
+
+fn shortened(mut names: Vec<String>) -> (usize, Vec<String>) {
+    let count = names.len();
+    names.truncate(LISTED);
+    (count, names)
+}

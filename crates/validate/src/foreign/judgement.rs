@@ -1,0 +1,352 @@
+//! The judgement of an answer from elsewhere.
+
+use model::system::{System, SystemEquilibrium};
+use model::{
+    Agreed, Convergence, Disagreement, Excess, Ladder, Place, Quantity, Reason, SolverName, Status,
+    Vector,
+};
+use serde::Serialize;
+
+use super::best_forces::{BestForces, best_forces, joint_loads};
+use super::bounds::{Bounds, IMPLAUSIBLE};
+use super::complete::{complete, largest_n};
+use super::given::ForeignAnswer;
+use super::nearest::{Nearest, NearestEquilibrium, nearest};
+use super::violation::{
+    Measured, Violation, balance_found, balance_given, geometry_and_laws, whole,
+};
+use crate::systems::{SystemStatics, certify, judge};
+use crate::vector::norm;
+
+/// What the judgement comes to.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[serde(tag = "finding", rename_all = "snake_case")]
+#[non_exhaustive]
+pub enum Finding {
+    /// An equilibrium is within the tolerance of the answer, by a solver whose forces and lengths the statics judge
+    /// finds right.
+    Confirmed,
+    /// A law is broken by more than the tolerance explains: no equilibrium is within it.
+    Refuted,
+    /// No law is broken, and the nearest equilibrium found is further off than the tolerance.
+    Far {
+        /// The largest distance of a joint, m.
+        joints_m: f64,
+        /// What the tolerance allows, m.
+        allowed_m: f64,
+    },
+    /// The positions are those of an equilibrium, and the forces given differ from its own, which are unique.
+    OtherForces {
+        /// The largest difference of an axial force, N.
+        forces_n: f64,
+        /// What the tolerance allows, N.
+        allowed_n: f64,
+    },
+    /// No law is broken, and no solver found an equilibrium.
+    NoEquilibrium,
+    /// The search for the best forces did not end.
+    ForcesNotFound,
+}
+
+/// Which forces were judged.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(tag = "forces", rename_all = "snake_case")]
+pub enum ForcesJudged {
+    /// Those of the answer.
+    Given,
+    /// The answer has none: those that leave the joints least out of balance.
+    Found(BestForces),
+}
+
+/// An answer from elsewhere, judged.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Judgement {
+    /// Whose answer it is.
+    pub source: SolverName,
+    /// What the judgement comes to.
+    #[serde(flatten)]
+    pub finding: Finding,
+    /// What the tolerance explains.
+    pub bounds: Bounds,
+    /// Which forces were judged.
+    #[serde(flatten)]
+    pub forces: ForcesJudged,
+    /// Everything that is broken.
+    pub violations: Vec<Violation>,
+    /// The largest violation in units of what the tolerance explains: 1 or less is none.
+    pub largest: f64,
+    /// The same answer before the statics judge, as strictly as the project's own answers.
+    pub statics: SystemStatics,
+    /// How far off the nearest equilibrium is.
+    pub nearest: Nearest,
+    /// How far the answer is proved: the rungs of the equilibrium that it stands for.
+    pub ladder: Ladder,
+    /// Place of each joint as given, m.
+    #[serde(skip)]
+    pub joints_m: Vec<Vector>,
+    /// Axial force of each member, given or found, N.
+    #[serde(skip)]
+    pub axial_n: Vec<f64>,
+    /// Force of the ground on each joint, given or from the balance of its joint, N.
+    #[serde(skip)]
+    pub reactions_n: Vec<Vector>,
+}
+
+impl Judgement {
+    /// Whether the answer stands.
+    #[must_use]
+    pub fn is_confirmed(&self) -> bool {
+        self.finding == Finding::Confirmed
+    }
+
+    /// Whether the answer falls.
+    #[must_use]
+    pub fn is_refuted(&self) -> bool {
+        self.finding == Finding::Refuted
+    }
+
+    /// The nearest equilibrium, if one was found.
+    #[must_use]
+    pub fn nearest(&self) -> Option<&NearestEquilibrium> {
+        self.nearest.equilibria.first()
+    }
+}
+
+/// Why nothing was judged.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[error("the tolerance of an answer must lie between {LEAST:e} and {MOST:e}, got {tolerance:e}")]
+pub struct ToleranceError {
+    /// As asked for.
+    pub tolerance: f64,
+}
+
+/// Below this rounding decides.
+const LEAST: f64 = 1e-13;
+/// Above this every shape is an equilibrium.
+const MOST: f64 = 0.1;
+
+/// Judge an answer. `watch` is told what is being done.
+///
+/// # Errors
+///
+/// [`ToleranceError`] when the tolerance is out of range.
+///
+/// ```
+/// use model::system::{Joint, Member, System};
+/// use validate::foreign::{Finding, ForeignAnswer, bounds::TOLERANCE, judge_foreign};
+/// // A lamp of 2 N on two cables of 5 m between anchors 6 m apart hangs 4 m below them.
+/// let joints = vec![
+///     Joint::anchor("A", [-3.0, 0.0, 0.0]),
+///     Joint::anchor("B", [3.0, 0.0, 0.0]),
+///     Joint::free("lamp").with_mass(0.2),
+/// ];
+/// let body = model::Bar::homogeneous(5.0, 0.0)?;
+/// let members = vec![Member::cable(0, 2, body), Member::cable(2, 1, body)];
+/// let system = System::new("lamp", 10.0, joints, members)?;
+/// let at = |z: f64| vec![[-3.0, 0.0, 0.0], [3.0, 0.0, 0.0], [0.0, 0.0, z]];
+/// let finding = |z: f64| {
+///     let answer = ForeignAnswer::in_order(&system, "a table", at(z), None).unwrap();
+///     judge_foreign(&system, &answer, TOLERANCE, &|_| {}).unwrap()
+/// };
+/// assert_eq!(finding(-4.0).finding, Finding::Confirmed);
+/// // A centimetre too low, both cables are 8 mm too long.
+/// let low = finding(-4.01);
+/// assert_eq!(low.finding, Finding::Refuted);
+/// assert!((low.violations[0].value - 0.008).abs() < 1e-4);
+/// assert!((low.nearest().unwrap().joints_m - 0.01).abs() < 1e-9);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn judge_foreign(
+    system: &System,
+    answer: &ForeignAnswer,
+    tolerance: f64,
+    watch: &dyn Fn(&str),
+) -> Result<Judgement, ToleranceError> {
+    if !(LEAST..=MOST).contains(&tolerance) {
+        return Err(ToleranceError { tolerance });
+    }
+    let bounds = Bounds::of_positions(system, &answer.joints_m, tolerance);
+    let (forces, axial_n) = match &answer.axial_n {
+        Some(axial_n) => (ForcesJudged::Given, axial_n.clone()),
+        None => {
+            watch("the forces that leave the joints least out of balance");
+            let best = best_forces(system, &answer.joints_m, &bounds);
+            let axial_n = best.axial_n.clone();
+            (ForcesJudged::Found(best), axial_n)
+        }
+    };
+    watch("the laws, member by member");
+    let completed = complete(system, &answer.source, &answer.joints_m, &axial_n);
+    let given = answer.reactions_n.iter().flatten();
+    let largest = given.map(|force| norm(*force)).fold(largest_n(system, &completed), f64::max);
+    let bounds = bounds.with_largest_force(largest);
+    let measured = measure(system, answer, &completed, &forces, &bounds);
+    let nearest = nearest(system, &completed, bounds.position_m, watch);
+    let finding = finding(system, answer, &forces, &measured, &nearest, &bounds);
+    watch("the rungs");
+    let ladder = ladder(system, &completed, finding, &measured, &nearest, &bounds);
+    Ok(Judgement {
+        source: answer.source.clone(),
+        finding,
+        bounds,
+        forces,
+        violations: measured.violations,
+        largest: measured.largest,
+        statics: judge(system, &completed),
+        nearest,
+        ladder,
+        joints_m: completed.joints_m,
+        axial_n: completed.axial_n,
+        reactions_n: answer.reactions_n.clone().unwrap_or(completed.reactions_n),
+    })
+}
+
+/// Every law.
+fn measure(
+    system: &System,
+    answer: &ForeignAnswer,
+    completed: &SystemEquilibrium,
+    forces: &ForcesJudged,
+    bounds: &Bounds,
+) -> Measured {
+    let given = *forces == ForcesJudged::Given;
+    let mut measured = geometry_and_laws(system, completed, given, bounds);
+    let reactions_n = answer.reactions_n.as_deref();
+    match forces {
+        ForcesJudged::Given => {
+            balance_given(system, completed, reactions_n, bounds, &mut measured);
+        }
+        ForcesJudged::Found(best) => {
+            let loads_n = model::sum(joint_loads(system).into_iter().map(norm));
+            let at_most_n = IMPLAUSIBLE * best.largest_n.max(loads_n);
+            balance_found(system, completed, at_most_n, bounds, &mut measured);
+        }
+    }
+    if let Some(reactions_n) = reactions_n {
+        whole(system, reactions_n, bounds, &mut measured);
+    }
+    measured
+}
+
+/// What it comes to.
+fn finding(
+    system: &System,
+    answer: &ForeignAnswer,
+    forces: &ForcesJudged,
+    measured: &Measured,
+    nearest: &Nearest,
+    bounds: &Bounds,
+) -> Finding {
+    if !measured.violations.is_empty() {
+        return Finding::Refuted;
+    }
+    if matches!(forces, ForcesJudged::Found(best) if !best.converged) {
+        return Finding::ForcesNotFound;
+    }
+    let Some(found) = nearest.equilibria.first() else { return Finding::NoEquilibrium };
+    let (joints_m, allowed_m) = (found.joints_m, bounds.position_m);
+    // NaN is no confirmation.
+    if joints_m.is_nan() || joints_m > allowed_m {
+        return Finding::Far { joints_m, allowed_m };
+    }
+    let (forces_n, allowed_n) = (found.forces_n, allowed_n(system, found.member, bounds));
+    if answer.axial_n.is_some() && found.forces_unique == Some(true) && forces_n > allowed_n {
+        return Finding::OtherForces { forces_n, allowed_n };
+    }
+    Finding::Confirmed
+}
+
+/// How far the force of a member (from 1) may be off.
+fn allowed_n(system: &System, member: usize, bounds: &Bounds) -> f64 {
+    let member = member.checked_sub(1).and_then(|k| system.members().get(k));
+    let elastic = member.and_then(|m| Some(m.stiffness_n? / m.body.length_m()));
+    bounds.force_n + elastic.unwrap_or_default() * bounds.distance_m()
+}
+
+/// The rungs of an answer that is confirmed are those of the equilibrium that it stands for.
+fn ladder(
+    system: &System,
+    completed: &SystemEquilibrium,
+    finding: Finding,
+    measured: &Measured,
+    nearest: &Nearest,
+    bounds: &Bounds,
+) -> Ladder {
+    let convergence = Convergence {
+        residual_of: "largest violation of a law in units of what the tolerance explains".into(),
+        residual: measured.largest,
+        tolerance: Some(1.0),
+        iterations: 0,
+        force_uncertainty: None,
+    };
+    let mut ladder = Ladder::default();
+    if finding == Finding::Confirmed {
+        ladder.converged = Status::Reached(convergence);
+        if let Some(found) = nearest.equilibria.first() {
+            ladder.agreed = agreed(completed, nearest, bounds, found);
+            let own = &found.equilibrium.evidence.ladder;
+            ladder.verified = own.verified.clone();
+            ladder.complete = own.complete.clone();
+            ladder.optimal = own.optimal.clone();
+        }
+        return ladder;
+    }
+    let refused = |what, value, budget| Reason::JudgeRefuses {
+        excesses: vec![Excess { what, value, budget }],
+    };
+    let solver = completed.solver.clone();
+    let place = measured.violations.first().map_or(Place::Whole, |violation| violation.place);
+    ladder.converged = if measured.violations.is_empty() {
+        Status::Reached(convergence)
+    } else {
+        Status::Open(Reason::AboveTolerance(convergence))
+    };
+    ladder.agreed = Status::Open(match nearest.equilibria.first() {
+        _ if !measured.violations.is_empty() => {
+            refused(Quantity::SystemStatics { solver, place }, measured.largest, 1.0)
+        }
+        Some(found) => {
+            let between = [solver, found.equilibrium.solver.clone()];
+            let excess = match finding {
+                Finding::OtherForces { forces_n, allowed_n } => Excess {
+                    what: Quantity::Forces { between },
+                    value: forces_n,
+                    budget: allowed_n,
+                },
+                _ => Excess {
+                    what: Quantity::Joints { between },
+                    value: found.joints_m,
+                    budget: bounds.position_m,
+                },
+            };
+            Reason::SolversDisagree(Disagreement { excesses: vec![excess], stability: vec![] })
+        }
+        None => Reason::NotTried,
+    });
+    // A certificate needs no second answer: it bounds the energy of every configuration.
+    if let Err(because) = certify(system, completed) {
+        ladder.optimal = Status::Open(Reason::NoCertificate(because));
+    }
+    ladder
+}
+
+/// Whether both solvers stand behind the equilibrium.
+fn agreed(
+    completed: &SystemEquilibrium,
+    nearest: &Nearest,
+    bounds: &Bounds,
+    found: &NearestEquilibrium,
+) -> Status<Agreed> {
+    let own = &found.equilibrium.evidence.ladder.agreed;
+    let Status::Reached(agreement) = own else { return own.clone() };
+    let near = nearest.equilibria.iter().filter(|one| one.joints_m <= bounds.position_m);
+    let solvers = near.map(|one| one.equilibrium.solver.clone());
+    Status::Reached(Agreed {
+        solvers: std::iter::once(completed.solver.clone()).chain(solvers).collect(),
+        joints_m: found.joints_m,
+        forces_n: found.forces_n,
+        energy_j: found.energy_j.abs(),
+        shape_only: found.forces_unique != Some(true),
+        ..agreement.clone()
+    })
+}

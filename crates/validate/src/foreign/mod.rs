@@ -1,0 +1,52 @@
+//! The judge of answers from elsewhere: joint positions, and member forces if there are some, from any program or
+//! publication.
+//!
+//! # What is judged
+//!
+//! An answer has as many digits as its file. Its positions are taken to be known to within $\\delta$, the tolerance
+//! times the size of the system, and its forces to within $\\tau$, the tolerance times the largest of them. What an
+//! equilibrium within these distances of the answer would explain is no violation; what is above that refutes it:
+//!
+//! * a length: both ends of a member moved by $\\delta$ change it by at most $2\\delta$;
+//! * the direction of a member of length $d$: by at most $2\\delta/(d - \\delta)$, since
+//!   $|a/|a| - b/|b|| \\le 2|a - b|/(|a| + |b|)$ (Dunkl and Williams), so that a joint in equilibrium is told to be
+//!   out of balance by no more than
+//!   $$ \\sum_{\\text{its members}} \\Big(\\tau + |N_e| \\frac{2\\delta}{d_e - \\delta}\\Big) ; $$
+//! * the force of an elastic member by $2\\delta\\, EA/l$.
+//!
+//! Every violation is thus a proof that no equilibrium is within the tolerance of the answer.
+//!
+//! # Without forces
+//!
+//! The forces that leave the joints least out of balance are found ([`best_forces`]): a linear least-squares problem
+//! under the sign conditions of cables and struts, with slack members at zero and elastic ones at the force of their
+//! elongation. Its smallest residual $r$ refutes the positions for all forces up to the size at which $\\delta$ would
+//! explain it; that size is told, and counts as a refutation where it is [`IMPLAUSIBLE`](bounds::IMPLAUSIBLE) times
+//! the forces found.
+//!
+//! # How large the error is
+//!
+//! Both solvers start at the answer's positions; the equilibrium that is nearest says how large the error is, and its
+//! own evidence how far that is proved.
+//!
+//! # References
+//!
+//! C. F. Dunkl, K. S. Williams, A simple norm inequality, Amer. Math. Monthly 71 (1964) 53-54,
+//! doi:10.2307/2311304.
+
+pub mod best_forces;
+pub mod bounds;
+mod complete;
+mod given;
+mod judgement;
+mod least_squares;
+mod nearest;
+mod sentence;
+#[cfg(test)]
+mod tests;
+mod violation;
+
+pub use given::{ForeignAnswer, GivenError};
+pub use judgement::{Finding, ForcesJudged, Judgement, ToleranceError, judge_foreign};
+pub use nearest::{Nearest, NearestEquilibrium};
+pub use violation::{Law, Violation};

@@ -1,0 +1,218 @@
+//! The equilibrium nearest to an answer: how large its error is.
+
+use model::system::{System, SystemEquilibrium};
+use model::{SolverName, Vector};
+use serde::{Serialize, Serializer};
+
+use crate::systems::compare::{compare, free_joints, judge_alone};
+use crate::systems::turn::{Turn, turns};
+use crate::systems::{SystemFailure, ask};
+use crate::tolerances::Tolerances;
+use crate::vector::{minus, norm, worse};
+
+/// What a solver that starts at the answer's positions finds.
+#[derive(Debug, Clone, PartialEq)]
+pub struct NearestEquilibrium {
+    /// The equilibrium with its evidence.
+    pub equilibrium: SystemEquilibrium,
+    /// Largest distance of a joint of the answer from the same joint of the equilibrium, m. Parts that turn freely
+    /// about a vertical are turned onto each other first; joints that nothing holds are not compared.
+    pub joints_m: f64,
+    /// That joint, from 0.
+    pub joint: usize,
+    /// Largest difference of an axial force, N.
+    pub forces_n: f64,
+    /// That member, from 1.
+    pub member: usize,
+    /// The energy of the answer less that of the equilibrium, J.
+    pub energy_j: f64,
+    /// Whether equilibrium determines the forces; nothing where that was not counted.
+    pub forces_unique: Option<bool>,
+}
+
+/// What both solvers say about the surroundings of an answer.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Nearest {
+    /// One for each solver that found one, the nearest first.
+    pub equilibria: Vec<NearestEquilibrium>,
+    /// Why the others found none.
+    pub failures: Vec<SystemFailure>,
+    /// Whether no solver found its way from the answer's positions, and they began without a guess.
+    pub without_guess: bool,
+}
+
+/// Look from the positions of an answer.
+pub(super) fn nearest(
+    system: &System,
+    answer: &SystemEquilibrium,
+    position_m: f64,
+    watch: &dyn Fn(&str),
+) -> Nearest {
+    watch("lagrange from the answer's positions");
+    let seed = lagrange::network::Seed {
+        joints_m: answer.joints_m.clone(),
+        axial_n: Some(answer.axial_n.clone()),
+    };
+    let forces =
+        lagrange::network::solve_from(system, &seed, &lagrange::network::Settings::default());
+    watch("energy from the answer's positions");
+    let positions = energy::network::minimise_from(
+        system,
+        &answer.joints_m,
+        &energy::network::Settings::default(),
+    );
+    let (mut found, mut unique, mut failures) = (vec![], vec![], vec![]);
+    match forces {
+        Ok(solution) => {
+            use lagrange::network::Forces;
+            unique.push(match solution.forces {
+                Forces::Unique => Some(true),
+                Forces::LeastNorm | Forces::Found => Some(false),
+                Forces::Uncounted => None,
+            });
+            found.push(solution.equilibrium);
+        }
+        Err(error) => failures.push(SystemFailure::from(error)),
+    }
+    match positions {
+        Ok(solution) => {
+            use energy::network::Forces;
+            unique.push(match solution.forces {
+                Forces::Unique(_) => Some(true),
+                Forces::Family { .. } => Some(false),
+                _ => None,
+            });
+            found.push(solution.equilibrium);
+        }
+        Err(error) => failures.push(SystemFailure::from(error)),
+    }
+    let without_guess = found.is_empty();
+    if without_guess {
+        let fresh = ask(system, crate::answer::Solvers::Both, watch);
+        if !fresh.equilibria.is_empty() {
+            (found, failures) = (fresh.equilibria, fresh.failures);
+            unique = vec![None; found.len()];
+        }
+    } else {
+        judged(system, &mut found, position_m);
+    }
+    let measured = found.into_iter().zip(unique);
+    let mut equilibria: Vec<_> =
+        measured.map(|(found, unique)| measure(system, answer, found, unique)).collect();
+    equilibria.sort_by(|a, b| a.joints_m.total_cmp(&b.joints_m));
+    Nearest { equilibria, failures, without_guess }
+}
+
+/// Two answers that are one are compared; two equilibria are judged each by itself.
+fn judged(system: &System, found: &mut [SystemEquilibrium], position_m: f64) {
+    if let [first, second] = found {
+        let parts = turns_onto(system, first, second);
+        let free = free_joints(system, &[first.clone(), second.clone()]);
+        let apart = apart_m(first, second, &parts, &free).0;
+        if apart <= position_m {
+            // What it finds stands in the evidence of both.
+            let _ = compare(system, found, &Tolerances::project());
+            return;
+        }
+    }
+    for one in found {
+        judge_alone(system, one);
+    }
+}
+
+fn turns_onto(system: &System, first: &SystemEquilibrium, second: &SystemEquilibrium) -> Vec<Turn> {
+    turns(&system.parts(), &first.joints_m, &second.joints_m, system.joints().len())
+}
+
+/// Largest distance of a joint that something holds, and which.
+fn apart_m(
+    first: &SystemEquilibrium,
+    second: &SystemEquilibrium,
+    turns: &[Turn],
+    free: &[bool],
+) -> (f64, usize) {
+    let places = first.joints_m.iter().zip(&second.joints_m).zip(turns);
+    let distance = |((a, b), turn): ((&Vector, &Vector), &Turn)| norm(minus(*a, turn.place(*b)));
+    let held = places.map(distance).enumerate().filter(|(k, _)| !free[*k]);
+    largest(held.map(|(k, distance)| (distance, k)))
+}
+
+/// The largest of numbered values.
+fn largest(values: impl Iterator<Item = (f64, usize)>) -> (f64, usize) {
+    values.fold((0.0, 0), |(most, at), (value, k)| {
+        if value > most || value.is_nan() { (worse(most, value), k) } else { (most, at) }
+    })
+}
+
+fn measure(
+    system: &System,
+    answer: &SystemEquilibrium,
+    equilibrium: SystemEquilibrium,
+    forces_unique: Option<bool>,
+) -> NearestEquilibrium {
+    let turns = turns_onto(system, answer, &equilibrium);
+    let both = [answer.clone(), equilibrium];
+    let free = free_joints(system, &both);
+    let [_, equilibrium] = both;
+    let (joints_m, joint) = apart_m(answer, &equilibrium, &turns, &free);
+    let forces = answer.axial_n.iter().zip(&equilibrium.axial_n).enumerate();
+    let (forces_n, member) = largest(forces.map(|(k, (a, b))| ((a - b).abs(), k + 1)));
+    let energy_j = answer.energy_j - equilibrium.energy_j;
+    NearestEquilibrium { equilibrium, joints_m, joint, forces_n, member, energy_j, forces_unique }
+}
+
+impl Serialize for NearestEquilibrium {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        #[derive(Serialize)]
+        struct Keys<'a> {
+            solver: &'a SolverName,
+            joints_m: f64,
+            joint: usize,
+            forces_n: f64,
+            member: usize,
+            energy_j: f64,
+            forces_unique: Option<bool>,
+            index_in_space: usize,
+            evidence: &'a model::Evidence,
+        }
+        let Self { equilibrium, joints_m, joint, forces_n, member, energy_j, forces_unique } = self;
+        Keys {
+            solver: &equilibrium.solver,
+            joints_m: *joints_m,
+            joint: *joint,
+            forces_n: *forces_n,
+            member: *member,
+            energy_j: *energy_j,
+            forces_unique: *forces_unique,
+            index_in_space: equilibrium.stability.index_in_space,
+            evidence: &equilibrium.evidence,
+        }
+        .serialize(serializer)
+    }
+}
+
+impl Serialize for Nearest {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        #[derive(Serialize)]
+        struct Keys<'a> {
+            equilibria: &'a [NearestEquilibrium],
+            failures: Vec<Failure>,
+            without_guess: bool,
+        }
+        #[derive(Serialize)]
+        struct Failure {
+            solver: SolverName,
+            because: String,
+        }
+        let failure = |failure: &SystemFailure| Failure {
+            solver: failure.solver(),
+            because: failure.to_string(),
+        };
+        Keys {
+            equilibria: &self.equilibria,
+            failures: self.failures.iter().map(failure).collect(),
+            without_guess: self.without_guess,
+        }
+        .serialize(serializer)
+    }
+}

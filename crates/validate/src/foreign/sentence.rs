@@ -1,0 +1,189 @@
+//! The words of a judgement, all of them.
+
+use std::fmt::{self, Display, Formatter};
+
+use model::Place;
+use model::system::System;
+
+use super::given::member_name;
+use super::judgement::{Finding, ForcesJudged, Judgement};
+use super::violation::{Law, Violation};
+
+impl Display for Finding {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Confirmed => f.write_str("confirmed: an equilibrium is within the tolerance"),
+            Self::Refuted => f.write_str(
+                "refuted: a law is broken by more than the tolerance explains, so no equilibrium is within it",
+            ),
+            Self::Far { joints_m, allowed_m } => write!(
+                f,
+                "undecided: no law is broken beyond the tolerance, but the nearest equilibrium found is {joints_m:.3e} m \
+                 away, and the tolerance is {allowed_m:.1e} m"
+            ),
+            Self::OtherForces { forces_n, allowed_n } => write!(
+                f,
+                "undecided: the positions are those of an equilibrium, whose forces differ by {forces_n:.3e} N from \
+                 those given; the tolerance is {allowed_n:.1e} N"
+            ),
+            Self::NoEquilibrium => {
+                f.write_str("undecided: no law is broken, and no solver found an equilibrium")
+            }
+            Self::ForcesNotFound => {
+                f.write_str("undecided: the search for the forces that balance best did not end")
+            }
+        }
+    }
+}
+
+impl Finding {
+    /// The finding in a word.
+    #[must_use]
+    pub fn word(&self) -> &'static str {
+        match self {
+            Self::Confirmed => "confirmed",
+            Self::Refuted => "refuted",
+            _ => "undecided",
+        }
+    }
+}
+
+impl Law {
+    /// The law in a word or two.
+    #[must_use]
+    pub fn word(&self) -> &'static str {
+        match self {
+            Self::Support => "support",
+            Self::Length { .. } => "length",
+            Self::Elongation { .. } => "elongation",
+            Self::Sign { .. } => "sign",
+            Self::Slack { .. } => "slackness",
+            Self::Balance { .. } => "balance",
+            Self::Reaction { .. } => "force of the ground",
+            Self::Whole { .. } => "balance of the whole",
+        }
+    }
+}
+
+/// Enough digits to see a difference of 1e-9 of a length.
+struct Digits(f64);
+
+impl Display for Digits {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let rounded: f64 = format!("{:.9e}", self.0).parse().unwrap_or(self.0);
+        if rounded.abs() < 1e9 && (rounded.abs() >= 1e-4 || rounded.abs() <= 0.0) {
+            write!(f, "{rounded}")
+        } else {
+            write!(f, "{rounded:e}")
+        }
+    }
+}
+
+struct Force([f64; 3]);
+
+impl Display for Force {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let [x, y, z] = self.0.map(|x| format!("{:.6e}", x).parse::<f64>().unwrap_or(x));
+        write!(f, "({x:e}, {y:e}, {z:e}) N")
+    }
+}
+
+impl Violation {
+    /// Where it is, by name.
+    #[must_use]
+    pub fn place_in(&self, system: &System) -> String {
+        match self.place {
+            Place::Member(k) if k >= 1 && k <= system.members().len() => {
+                format!("member {}", member_name(system, k - 1))
+            }
+            Place::Joint(k) if k < system.joints().len() => {
+                format!("joint {}", system.joints()[k].name)
+            }
+            Place::Whole => "the whole".to_owned(),
+            Place::Member(k) => format!("member {k}"),
+            Place::Joint(k) => format!("joint {k}"),
+        }
+    }
+
+    /// What is broken, with its numbers.
+    #[must_use]
+    pub fn what(&self) -> String {
+        match self.law {
+            Law::Support => format!("{} m off its support", Digits(self.value)),
+            Law::Length { length_m, distance_m } => {
+                let more = if distance_m > length_m { "more" } else { "less" };
+                format!(
+                    "its joints are {} m apart, {} m {more} than its length of {} m",
+                    Digits(distance_m),
+                    Digits(self.value),
+                    Digits(length_m)
+                )
+            }
+            Law::Elongation { force_n, elastic_n } => format!(
+                "carries {} N, and its elongation gives {} N",
+                Digits(force_n),
+                Digits(elastic_n)
+            ),
+            Law::Sign { force_n } if force_n < 0.0 => {
+                format!("a cable that pushes with {} N", Digits(-force_n))
+            }
+            Law::Sign { force_n } => format!("a strut that pulls with {} N", Digits(force_n)),
+            Law::Slack { force_n, length_m, distance_m } => format!(
+                "carries {} N, though its joints are {} m apart and its length is {} m",
+                Digits(force_n),
+                Digits(distance_m),
+                Digits(length_m)
+            ),
+            Law::Balance { left_n } => format!("{} are left over", Force(left_n)),
+            Law::Reaction { given_n, wanted_n } => format!(
+                "the ground is said to push with {}, and its members and loads need {}",
+                Force(given_n),
+                Force(wanted_n)
+            ),
+            Law::Whole { left_n } => {
+                format!("forces of the ground and loads together leave {}", Force(left_n))
+            }
+        }
+    }
+}
+
+impl Judgement {
+    /// Which forces were judged, in a sentence.
+    #[must_use]
+    pub fn forces_sentence(&self) -> String {
+        match &self.forces {
+            ForcesJudged::Given => "The forces are those of the answer.".to_owned(),
+            ForcesJudged::Found(best) => format!(
+                "The answer has no forces: those that balance best leave {:.2e} N (root of the sum of squares over \
+                 the joints), the largest of them is {:.6e} N.",
+                best.residual_n, best.largest_n
+            ),
+        }
+    }
+
+    /// How large the error is, one sentence for each equilibrium and each solver without one.
+    #[must_use]
+    pub fn error_sentences(&self, system: &System) -> Vec<String> {
+        let start = if self.nearest.without_guess { "without a guess" } else { "from the answer" };
+        let found = self.nearest.equilibria.iter().map(|one| {
+            let rung = one.equilibrium.evidence.rung();
+            let rung = rung.map_or_else(|| "no rung".to_owned(), |rung| rung.to_string());
+            let joint = system.joints().get(one.joint).map_or("", |joint| &joint.name);
+            let forces = match one.member.checked_sub(1) {
+                Some(k) if k < system.members().len() => format!(
+                    "; forces differ by up to {:.3e} N, in member {}",
+                    one.forces_n,
+                    member_name(system, k)
+                ),
+                _ => String::new(),
+            };
+            format!(
+                "{}, {start}, finds an equilibrium ({rung}) up to {:.3e} m away, at joint {joint}{forces}.",
+                one.equilibrium.solver, one.joints_m
+            )
+        });
+        let failed =
+            self.nearest.failures.iter().map(|failure| format!("No equilibrium by {failure}."));
+        found.chain(failed).collect()
+    }
+}

@@ -1,0 +1,240 @@
+//! The judge of foreign answers on closed forms, right and tampered with.
+
+use model::Bar;
+use model::Place;
+use model::system::{Joint, Member, System};
+
+use super::best_forces::best_forces;
+use super::bounds::{Bounds, TOLERANCE};
+use super::{Finding, ForcesJudged, ForeignAnswer, GivenError, Judgement, Law, judge_foreign};
+
+/// A lamp of 2 N on two massless cables of 5 m between anchors 6 m apart (3, 4, 5): each pulls with 5/4 N.
+fn lamp() -> System {
+    let joints = vec![
+        Joint::anchor("A", [-3.0, 0.0, 0.0]),
+        Joint::anchor("B", [3.0, 0.0, 0.0]),
+        Joint::free("P").with_mass(0.2),
+    ];
+    let body = Bar::homogeneous(5.0, 0.0).unwrap();
+    System::new("lamp", 10.0, joints, vec![Member::cable(0, 2, body), Member::cable(2, 1, body)])
+        .unwrap()
+}
+
+fn places(lamp_m: [f64; 3]) -> Vec<[f64; 3]> {
+    vec![[-3.0, 0.0, 0.0], [3.0, 0.0, 0.0], lamp_m]
+}
+
+fn judged(system: &System, joints_m: Vec<[f64; 3]>, axial_n: Option<Vec<f64>>) -> Judgement {
+    let answer = ForeignAnswer::in_order(system, "a table", joints_m, axial_n).unwrap();
+    judge_foreign(system, &answer, TOLERANCE, &|_| {}).unwrap()
+}
+
+#[test]
+fn a_closed_form_is_confirmed_with_and_without_forces() {
+    let system = lamp();
+    for forces in [None, Some(vec![1.25, 1.25])] {
+        let found = judged(&system, places([0.0, 0.0, -4.0]), forces.clone());
+        assert_eq!(found.finding, Finding::Confirmed, "{found:?}");
+        assert!(found.largest < 1e-6 && found.violations.is_empty());
+        assert!(found.axial_n.iter().all(|force| (force - 1.25).abs() < 1e-12), "{found:?}");
+        assert_eq!(found.ladder.highest(), Some(model::Rung::Optimal));
+        assert!(found.nearest().unwrap().joints_m < 1e-12);
+        assert_eq!(forces.is_some(), found.forces == ForcesJudged::Given);
+    }
+}
+
+#[test]
+fn digits_beyond_the_tolerance_do_not_count() {
+    let found = judged(&lamp(), places([1e-7, 0.0, -4.000_000_1]), Some(vec![1.250_000_1, 1.25]));
+    assert_eq!(found.finding, Finding::Confirmed, "{found:?}");
+    let answer = ForeignAnswer::in_order(&lamp(), "x", places([1e-7, 0.0, -4.0]), None).unwrap();
+    let strict = judge_foreign(&lamp(), &answer, 1e-9, &|_| {}).unwrap();
+    assert_eq!(strict.finding, Finding::Refuted);
+}
+
+/// The only law broken.
+fn only(found: &Judgement) -> (Place, Law) {
+    assert_eq!(found.finding, Finding::Refuted, "{found:?}");
+    assert_eq!(found.violations.len(), 1, "{:?}", found.violations);
+    (found.violations[0].place, found.violations[0].law)
+}
+
+#[test]
+fn what_is_broken_is_told_with_its_numbers() {
+    let system = lamp();
+    let right = places([0.0, 0.0, -4.0]);
+    // 1 mm beside: both lengths.
+    let found = judged(&system, places([0.001, 0.0, -4.0]), Some(vec![1.25; 2]));
+    assert_eq!(found.finding, Finding::Refuted);
+    assert!(found.violations.iter().any(|v| v.place == Place::Member(1)
+        && matches!(v.law, Law::Length { distance_m, .. } if (distance_m - 5.0006).abs() < 1e-6)));
+    // The second cable is shorter than its length and taut all the same.
+    assert!(
+        found
+            .violations
+            .iter()
+            .any(|v| v.place == Place::Member(2) && matches!(v.law, Law::Slack { .. }))
+    );
+    // 1 % more in one cable: 0.0125 N along it are left.
+    let found = judged(&system, right.clone(), Some(vec![1.2625, 1.25]));
+    let (place, law) = only(&found);
+    assert_eq!(place, Place::Joint(2));
+    assert!(matches!(law, Law::Balance { .. }));
+    assert!((found.violations[0].value - 0.0125).abs() < 1e-12);
+    // A support.
+    let mut moved = right.clone();
+    moved[0][1] = 1e-3;
+    let found = judged(&system, moved, Some(vec![1.25; 2]));
+    assert!(found.violations.iter().any(|v| v.place == Place::Joint(0)
+        && v.law == Law::Support
+        && (v.value - 1e-3).abs() < 1e-15));
+    // The arch: cables that push.
+    let found = judged(&system, places([0.0, 0.0, 4.0]), Some(vec![-1.25; 2]));
+    let signs = found.violations.iter().filter(|v| matches!(v.law, Law::Sign { .. }));
+    assert_eq!(signs.count(), 2);
+    assert_eq!(found.violations.len(), 2, "{:?}", found.violations);
+}
+
+/// Without forces the arch of cables has none: the best ones are zero, and leave the whole lamp.
+#[test]
+fn no_forces_hold_an_arch_of_cables() {
+    let found = judged(&lamp(), places([0.0, 0.0, 4.0]), None);
+    let ForcesJudged::Found(best) = &found.forces else { panic!("{found:?}") };
+    assert!((best.residual_n - 2.0).abs() < 1e-12 && best.largest_n < 1e-12, "{best:?}");
+    let (place, law) = only(&found);
+    assert_eq!(place, Place::Joint(2));
+    assert!(matches!(law, Law::Balance { left_n } if (left_n[2] + 2.0).abs() < 1e-12));
+    // The nearest equilibrium is 8 m away, below the anchors.
+    assert!((found.nearest().unwrap().joints_m - 8.0).abs() < 1e-9, "{:?}", found.nearest);
+}
+
+/// The forces of the ground must carry the loads, whatever the shape.
+#[test]
+fn forces_of_the_ground_must_differ_by_the_weight() {
+    let system = lamp();
+    let answer = ForeignAnswer::in_order(&system, "x", places([0.0, 0.0, -4.0]), None).unwrap();
+    let ground = |z: f64| [("A", [-0.75, 0.0, 1.0]), ("B", [0.75, 0.0, z])];
+    let given = |z| ground(z).map(|(name, force)| (name.to_owned(), force));
+    let right = answer.clone().with_reactions(&system, given(1.0)).unwrap();
+    assert!(judge_foreign(&system, &right, TOLERANCE, &|_| {}).unwrap().is_confirmed());
+    let wrong = answer.with_reactions(&system, given(1.1)).unwrap();
+    let found = judge_foreign(&system, &wrong, TOLERANCE, &|_| {}).unwrap();
+    let (place, law) = only(&found);
+    assert_eq!(place, Place::Whole);
+    assert!(matches!(law, Law::Whole { left_n } if (left_n[2] - 0.1).abs() < 1e-12));
+}
+
+/// A weight of 3 N on a spring of 1 m with 6 N: it stretches by half a metre.
+#[test]
+fn an_elastic_member_must_have_the_force_of_its_elongation() {
+    let joints = vec![Joint::anchor("A", [0.0; 3]), Joint::free("P").with_mass(0.3)];
+    let body = Bar::homogeneous(1.0, 0.0).unwrap();
+    let spring = Member::cable(0, 1, body).with_stiffness(6.0);
+    let system = System::new("spring", 10.0, joints, vec![spring]).unwrap();
+    let at = |z: f64| vec![[0.0; 3], [0.0, 0.0, z]];
+    assert!(judged(&system, at(-1.5), None).is_confirmed());
+    assert!(judged(&system, at(-1.5), Some(vec![3.0])).is_confirmed());
+    let found = judged(&system, at(-1.4), Some(vec![3.0]));
+    let (place, law) = only(&found);
+    assert_eq!(place, Place::Member(1));
+    assert!(matches!(law, Law::Elongation { elastic_n, .. } if (elastic_n - 2.4).abs() < 1e-12));
+    // Without forces the spring has that of its elongation, and 0.6 N are left over.
+    let found = judged(&system, at(-1.4), None);
+    let (place, _) = only(&found);
+    assert_eq!(place, Place::Joint(1));
+    assert!((found.violations[0].value - 0.6).abs() < 1e-4, "{:?}", found.violations);
+}
+
+/// A square net of cables with loads: some go slack; forces from the shape alone are those of the solver.
+#[test]
+fn forces_are_found_from_the_shape_of_a_net() {
+    const SIDE: usize = 7;
+    let system = net(SIDE);
+    let solved = energy::network::minimise(&system, &energy::network::Settings::default()).unwrap();
+    let bounds = Bounds::of_positions(&system, &solved.equilibrium.joints_m, 1e-9);
+    let best = best_forces(&system, &solved.equilibrium.joints_m, &bounds);
+    let largest = solved.equilibrium.axial_n.iter().fold(0.0, |a: f64, b| a.max(*b));
+    assert!(best.converged && best.residual_n < 1e-9 * largest, "{best:?}");
+    assert!(best.axial_n.iter().all(|force| *force >= 0.0));
+    let slack = best.axial_n.iter().filter(|force| **force <= 0.0).count();
+    assert!(slack >= (SIDE - 1) * (SIDE - 1), "{best:?}");
+    let found = judged(&system, solved.equilibrium.joints_m, None);
+    assert!(found.is_confirmed(), "{} {:?}", found.finding, found.violations);
+}
+
+/// A square net hung from its corners and the middles of its sides, with more cable than distance, and a diagonal
+/// in every mesh that is too long to be taut.
+fn net(side: usize) -> System {
+    let name = |i: usize, k: usize| format!("{i},{k}");
+    let mut joints = Vec::new();
+    for i in 0..side {
+        for k in 0..side {
+            let held = [0, side / 2, side - 1];
+            let rim = i == 0 || k == 0 || i == side - 1 || k == side - 1;
+            let joint = if rim && held.contains(&i) && held.contains(&k) {
+                Joint::anchor(name(i, k), [i as f64, k as f64, 0.0])
+            } else {
+                Joint::free(name(i, k)).with_mass(1.0 + 0.1 * ((3 * i + 5 * k) % 7) as f64)
+            };
+            joints.push(joint);
+        }
+    }
+    let body = |i: usize, k: usize| {
+        Bar::homogeneous(1.1 + 0.02 * ((2 * i + 3 * k) % 5) as f64, 0.0).unwrap()
+    };
+    let mut members = Vec::new();
+    for i in 0..side {
+        for k in 0..side {
+            let here = i * side + k;
+            if i + 1 < side {
+                members.push(Member::cable(here, here + side, body(i, k)));
+            }
+            if k + 1 < side {
+                members.push(Member::cable(here, here + 1, body(k, i)));
+            }
+            if i + 1 < side && k + 1 < side {
+                let long = Bar::homogeneous(2.5, 0.0).unwrap();
+                members.push(Member::cable(here, here + side + 1, long));
+            }
+        }
+    }
+    System::new("net", 9.81, joints, members).unwrap()
+}
+
+#[test]
+fn names_that_do_not_fit_are_told() {
+    let system = lamp();
+    let named = |name: &str| (name.to_owned(), [0.0; 3]);
+    let error = |names: &[&str]| {
+        ForeignAnswer::by_name(&system, "x", names.iter().map(|name| named(name))).unwrap_err()
+    };
+    assert!(
+        matches!(error(&["A", "B", "Q"]), GivenError::UnknownJoint { name, .. } if name == "Q")
+    );
+    assert!(matches!(error(&["A", "A"]), GivenError::Repeated { name } if name == "A"));
+    let missing = error(&["B"]);
+    assert_eq!(missing.to_string(), "the answer has no place for joint \"A\", \"P\"");
+    let nan = ForeignAnswer::by_name(&system, "x", [("A".to_owned(), [f64::NAN; 3])]);
+    assert!(matches!(nan, Err(GivenError::NotFinite { .. })));
+    let short = ForeignAnswer::in_order(&system, "x", vec![[0.0; 3]; 2], None);
+    assert!(matches!(short, Err(GivenError::Count { wanted: 3, found: 2, .. })));
+    let answer = ForeignAnswer::in_order(&system, "x", vec![[0.0; 3]; 3], None).unwrap();
+    let force = |a: &str, b: &str| (a.to_owned(), b.to_owned(), 1.0);
+    let with = |forces: Vec<_>| answer.clone().with_forces(&system, forces);
+    assert!(with(vec![force("P", "A"), force("P", "B")]).is_ok());
+    assert!(matches!(with(vec![force("A", "B")]), Err(GivenError::UnknownMember { .. })));
+    assert!(matches!(
+        with(vec![force("A", "P"), force("P", "A")]),
+        Err(GivenError::RepeatedMember { .. })
+    ));
+    assert!(matches!(with(vec![force("A", "P")]), Err(GivenError::MissingForces { count: 1, .. })));
+}
+
+#[test]
+fn tolerances_out_of_range_are_refused() {
+    let system = lamp();
+    let answer = ForeignAnswer::in_order(&system, "x", vec![[0.0; 3]; 3], None).unwrap();
+    for tolerance in [0.0, -1.0, 1.0, f64::NAN, f64::INFINITY] {
+        assert!(judge_foreign(&system, &answer, tolerance, &|_| {}).is_err());
+    }
+}

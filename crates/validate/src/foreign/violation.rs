@@ -1,0 +1,263 @@
+//! What is broken in an answer, member by member and joint by joint.
+
+use model::system::{Kind, Member, Support, System, SystemEquilibrium};
+use model::{Place, Vector};
+use serde::Serialize;
+
+use super::best_forces::{free_part, joint_loads, law_n, spans};
+use super::bounds::Bounds;
+use crate::vector::{dot, minus, norm, plus, times};
+
+/// A law that an answer breaks by more than its tolerance explains.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Violation {
+    /// The member, counted from 1, or the joint, counted from 0.
+    pub place: Place,
+    /// Which law, with the numbers.
+    #[serde(flatten)]
+    pub law: Law,
+    /// By how much, in m or N as the law says.
+    pub value: f64,
+    /// How much the tolerance explains, in the same unit.
+    pub allowed: f64,
+}
+
+/// The laws.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[serde(tag = "law", rename_all = "snake_case")]
+#[non_exhaustive]
+pub enum Law {
+    /// A supported joint lies on its support; by how many m it does not.
+    Support,
+    /// An inextensible member keeps its length; m.
+    Length {
+        /// The length, m.
+        length_m: f64,
+        /// The distance of its joints, m.
+        distance_m: f64,
+    },
+    /// An elastic member has the force of its elongation; N.
+    Elongation {
+        /// The force, N.
+        force_n: f64,
+        /// That of its elongation, N.
+        elastic_n: f64,
+    },
+    /// A cable does not push and a strut does not pull; N.
+    Sign {
+        /// The force, N.
+        force_n: f64,
+    },
+    /// A cable shorter than its length, and a strut longer than it, carries nothing; N.
+    Slack {
+        /// The force, N.
+        force_n: f64,
+        /// The length, m.
+        length_m: f64,
+        /// The distance of its joints, m.
+        distance_m: f64,
+    },
+    /// The forces on a joint balance along the motions that its support leaves free; N.
+    Balance {
+        /// What is left over, N.
+        left_n: Vector,
+    },
+    /// The force of the ground that is given balances the members and loads of its joint; N.
+    Reaction {
+        /// As given, N.
+        given_n: Vector,
+        /// What members and loads ask for, N.
+        wanted_n: Vector,
+    },
+    /// The forces of the ground that are given carry the loads of the whole system; N.
+    Whole {
+        /// What is left over, N.
+        left_n: Vector,
+    },
+}
+
+impl Law {
+    /// The unit of [`Violation::value`].
+    #[must_use]
+    pub fn unit(&self) -> &'static str {
+        match self {
+            Self::Support | Self::Length { .. } => "m",
+            _ => "N",
+        }
+    }
+}
+
+/// What was measured: the violations, and the largest measure of all in units of what is allowed.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(super) struct Measured {
+    pub(super) violations: Vec<Violation>,
+    pub(super) largest: f64,
+}
+
+impl Measured {
+    fn note(&mut self, place: Place, law: Law, value: f64, allowed: f64) {
+        let ratio = if value > 0.0 { value / allowed } else { 0.0 };
+        self.largest = self.largest.max(ratio);
+        if value > allowed {
+            self.violations.push(Violation { place, law, value, allowed });
+        }
+    }
+}
+
+/// Supports, lengths and members' laws.
+pub(super) fn geometry_and_laws(
+    system: &System,
+    answer: &SystemEquilibrium,
+    given: bool,
+    bounds: &Bounds,
+) -> Measured {
+    let mut found = Measured::default();
+    for (k, joint) in system.joints().iter().enumerate() {
+        if let Some(off_m) = off_support_m(&joint.support, answer.joints_m[k]) {
+            found.note(Place::Joint(k), Law::Support, off_m, bounds.position_m);
+        }
+    }
+    for ((k, member), (distance_m, _)) in
+        system.members().iter().enumerate().zip(spans(system, &answer.joints_m))
+    {
+        let force_n = given.then(|| answer.axial_n[k]);
+        law(member, distance_m, force_n, bounds, Place::Member(k + 1), &mut found);
+    }
+    found
+}
+
+/// How far a joint is from its support; nothing for a free one.
+fn off_support_m(support: &Support, at: Vector) -> Option<f64> {
+    let off = minus(at, support.at_m()?);
+    Some(norm(minus(
+        off,
+        match support {
+            Support::Fixed { .. } | Support::Free => [0.0; 3],
+            movable => free_part(movable, off),
+        },
+    )))
+}
+
+/// The law of one member. Forces that were found obey the laws of force by construction.
+fn law(
+    member: &Member,
+    distance_m: f64,
+    force_n: Option<f64>,
+    bounds: &Bounds,
+    place: Place,
+    found: &mut Measured,
+) {
+    let length_m = member.body.length_m();
+    let reach_m = bounds.distance_m();
+    if let Some(stiffness_n) = member.stiffness_n {
+        let Some(force_n) = force_n else { return };
+        let elastic_n = law_n(member.kind, stiffness_n, length_m, distance_m);
+        let allowed = bounds.force_n + stiffness_n / length_m * reach_m;
+        let off = (force_n - elastic_n).abs();
+        found.note(place, Law::Elongation { force_n, elastic_n }, off, allowed);
+        return;
+    }
+    let longer_m = distance_m - length_m;
+    let (off_m, wrong_n, slack_m) = match member.kind {
+        Kind::Bar => (longer_m.abs(), 0.0, 0.0),
+        Kind::Cable => (longer_m, force_n.map_or(0.0, |force| -force), -longer_m),
+        Kind::Strut => (-longer_m, force_n.unwrap_or_default(), longer_m),
+    };
+    found.note(place, Law::Length { length_m, distance_m }, off_m, reach_m);
+    let Some(force_n) = force_n else { return };
+    found.note(place, Law::Sign { force_n }, wrong_n, bounds.force_n);
+    if slack_m > reach_m && wrong_n <= bounds.force_n {
+        let law = Law::Slack { force_n, length_m, distance_m };
+        found.note(place, law, force_n.abs(), bounds.force_n);
+    }
+}
+
+/// What is left over at every joint along its free motions, and what the bounds explain there when no force is larger
+/// than the answer's, or than `at_most_n` if that is given.
+pub(super) fn balances(
+    system: &System,
+    answer: &SystemEquilibrium,
+    at_most_n: Option<f64>,
+    bounds: &Bounds,
+) -> Vec<(Vector, f64)> {
+    let mut left: Vec<(Vector, f64)> =
+        joint_loads(system).into_iter().map(|load| (load, bounds.force_n)).collect();
+    for ((k, member), (distance_m, unit)) in
+        system.members().iter().enumerate().zip(spans(system, &answer.joints_m))
+    {
+        let force = answer.axial_n[k];
+        let pull = times(force, unit);
+        let explained = bounds.force_n + at_most_n.unwrap_or(force.abs()) * bounds.turn(distance_m);
+        left[member.from] = (plus(left[member.from].0, pull), left[member.from].1 + explained);
+        left[member.to] = (minus(left[member.to].0, pull), left[member.to].1 + explained);
+    }
+    left
+}
+
+/// The balance of joints whose forces are given.
+pub(super) fn balance_given(
+    system: &System,
+    answer: &SystemEquilibrium,
+    reactions_n: Option<&[Vector]>,
+    bounds: &Bounds,
+    found: &mut Measured,
+) {
+    for (k, (left, allowed)) in balances(system, answer, None, bounds).into_iter().enumerate() {
+        let support = &system.joints()[k].support;
+        let left_n = free_part(support, left);
+        if !support.is_fixed() {
+            found.note(Place::Joint(k), Law::Balance { left_n }, norm(left_n), allowed);
+        }
+        if let Some(given) = reactions_n {
+            let (given_n, wanted_n) = (given[k], times(-1.0, minus(left, left_n)));
+            let off = norm(minus(given_n, wanted_n));
+            found.note(Place::Joint(k), Law::Reaction { given_n, wanted_n }, off, allowed);
+        }
+    }
+}
+
+/// The balance of joints whose forces were found: all of them together, since no other forces leave less.
+///
+/// Told as a violation where forces up to `at_most_n` cannot explain what is left; the joints are those where most is.
+pub(super) fn balance_found(
+    system: &System,
+    answer: &SystemEquilibrium,
+    at_most_n: f64,
+    bounds: &Bounds,
+    found: &mut Measured,
+) {
+    let balances = balances(system, answer, Some(at_most_n), bounds);
+    let joints = || system.joints().iter().zip(&balances).filter(|(j, _)| !j.support.is_fixed());
+    let left = |(joint, (left, _)): (&model::system::Joint, &(Vector, f64))| {
+        let left = free_part(&joint.support, *left);
+        dot(left, left)
+    };
+    let residual_n = model::sum(joints().map(left)).sqrt();
+    let explained_n = model::sum(joints().map(|(_, (_, allowed))| allowed * allowed)).sqrt();
+    if residual_n > 0.0 {
+        found.largest = found.largest.max(residual_n / explained_n);
+    }
+    if residual_n <= explained_n {
+        return;
+    }
+    // At least one joint is above its share, or they would not be together.
+    for (k, (joint, (left, allowed))) in system.joints().iter().zip(&balances).enumerate() {
+        let left_n = free_part(&joint.support, *left);
+        found.note(Place::Joint(k), Law::Balance { left_n }, norm(left_n), *allowed);
+    }
+}
+
+/// Given forces of the ground against all loads. No position enters, so every digit counts.
+pub(super) fn whole(
+    system: &System,
+    reactions_n: &[Vector],
+    bounds: &Bounds,
+    found: &mut Measured,
+) {
+    let loads = joint_loads(system);
+    let all = || loads.iter().chain(reactions_n);
+    let left_n: Vector = std::array::from_fn(|c| model::sum(all().map(|force| force[c])));
+    let supported = system.joints().iter().filter(|joint| joint.support.at_m().is_some());
+    let allowed = bounds.force_n * supported.count().max(1) as f64;
+    found.note(Place::Whole, Law::Whole { left_n }, norm(left_n), allowed);
+}
