@@ -54,6 +54,15 @@ pub enum Error {
     /// Occurs when a system is no equilibrium problem: a part falls, lengths cannot close a loop.
     #[error(transparent)]
     SystemRefused(#[from] model::system::SystemRefusal),
+    /// Occurs when a file of another program cannot be used.
+    #[error(transparent)]
+    Format(#[from] formats::FormatError),
+    /// Occurs when an answer from elsewhere does not fit the system.
+    #[error(transparent)]
+    Given(#[from] validate::foreign::GivenError),
+    /// Occurs when the tolerance of an answer from elsewhere is out of range.
+    #[error(transparent)]
+    Tolerance(#[from] validate::foreign::ToleranceError),
     /// Occurs when `lagrange`, asked alone, has no answer.
     #[error(transparent)]
     Lagrange(#[from] lagrange::SolveError),

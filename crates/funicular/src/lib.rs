@@ -34,6 +34,7 @@
 //! | the same as a picture | [`Basins`] |
 //! | small oscillations, and how fast unstable equilibria are left | [`Modes`] |
 //! | the system in motion | [`Simulate`] |
+//! | an answer from elsewhere, judged | [`Judge`] |
 //! | the paper, judged | [`Reproduce`] |
 //!
 //! Each is a builder: `new`, what differs from the defaults, `run`. The program `funicular` does
@@ -67,6 +68,7 @@ mod compare;
 mod csv;
 mod equilibria;
 mod error;
+pub mod judge;
 mod modes;
 pub mod picture;
 mod problem;
@@ -106,6 +108,7 @@ pub use ::sweep::Field;
 pub use compare::compare;
 pub use equilibria::system_of;
 pub use error::Error;
+pub use judge::{Judge, Judged};
 pub use modes::{JointAt, Mode, Modes, ModesAnswer, Summary, WithModes};
 pub use problem::{Problem, case, case_text};
 pub use simulate::{Motion, Simulate, SimulateError, Start};

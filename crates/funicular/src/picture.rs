@@ -42,3 +42,18 @@ pub fn of_chain(chain: &model::Chain, answer: &Equilibrium) -> Result<String, St
     let Equilibrium { joints_m, axial_n, .. } = answer;
     SystemShape { system: &system, joints_m, axial_n, reactions_n: &reactions_n }.svg()
 }
+
+/// Positions, axial forces and forces of the ground from anywhere as an SVG file; each list as long
+/// as the system has joints or members.
+///
+/// # Errors
+///
+/// [`StructureError`] when a place is not finite.
+pub fn of_answer(
+    system: &System,
+    joints_m: &[Vector],
+    axial_n: &[f64],
+    reactions_n: &[Vector],
+) -> Result<String, StructureError> {
+    SystemShape { system, joints_m, axial_n, reactions_n }.svg()
+}

@@ -9,6 +9,7 @@ pub use crate::basins::Basins;
 pub use crate::census::Census;
 pub use crate::compare::compare;
 pub use crate::error::Error;
+pub use crate::judge::Judge;
 pub use crate::modes::Modes;
 pub use crate::problem::Problem;
 #[cfg(feature = "paper")]

@@ -35,6 +35,7 @@ Examples:
   funicular solve chain.toml                 the shape and the forces of a chain of your own
   funicular solve --case ten-equal-bars --json | jq .agreement
   funicular solve --batch systems.jsonl > answers.jsonl    a system in every line, an answer in every line
+  funicular judge net.toml --answer theirs.csv --html verdict.html    somebody else's answer, judged
   funicular census chain.toml --svg shapes.svg   every equilibrium, and the proof that there is no other
   funicular sweep chain.toml --seeds 1000000 --out starts    which start leads where
   funicular trace chain.toml --vary anchors.end_m.z=-2.9..-0.1:200 --svg diagram.svg
@@ -49,8 +50,8 @@ Examples:
 ///
 /// Scope: bars, cables and struts between joints without friction, rigid or with a stiffness, in
 /// space, at rest or in motion under their weight, masses at joints and constant forces; no contact
-/// and no bending. All but `solve`, `modes` and `simulate` is for chains of rigid bars between two
-/// anchors.
+/// and no bending. All but `solve`, `judge`, `modes` and `simulate` is for chains of rigid bars
+/// between two anchors.
 #[derive(Debug, Parser)]
 #[command(name = "funicular", version, after_help = EXIT_CODES, after_long_help = format!("{EXAMPLES}\n\n{EXIT_CODES}"))]
 pub struct Cli {
@@ -80,6 +81,12 @@ pub enum Command {
     /// Find every equilibrium of a chain, stable or not, and prove that there is no other
     #[command(after_help = ALL_OR_NOTHING)]
     Census(crate::census::Census),
+    /// Judge joint positions, and forces if there are some, from any program: what is broken, and how large the error is
+    ///
+    /// Reads answers as JSON, CSV and VTU, and systems of our own files, MoorDyn, COMPAS and the force density method.
+    /// Ends with 0 where the answer is confirmed, 1 where it is refuted, 3 where it is neither.
+    #[command(after_help = ALL_OR_NOTHING)]
+    Judge(crate::judge::Judge),
     /// Run millions of starts through the solvers: which start leads where
     Sweep(crate::sweep::Sweep),
     /// Join the shards of a sweep, and prove that nothing is missing or double

@@ -2,6 +2,7 @@
 
 use branches::ParameterError;
 use funicular::Error;
+use funicular::judge::GivenError;
 use miette::{LabeledSpan, miette};
 
 use crate::diagnostics::{SystemFileReport, tell};
@@ -107,6 +108,17 @@ impl Failure {
                 Self::bad_input(miette!(help = help, "{error}"))
             }
             Error::Parameter(error) => Self::parameter(&error),
+            Error::Format(error) => {
+                let message = error.to_string();
+                match error.help {
+                    Some(help) => Self::bad_input(miette!(help = help, "{message}")),
+                    None => Self::bad_input(miette!("{message}")),
+                }
+            }
+            Error::Given(GivenError::UnknownJoint { name, suggestion: Some(near) }) => {
+                let help = format!("did you mean {near:?}?");
+                Self::bad_input(miette!(help = help, "the system has no joint {name:?}"))
+            }
             Error::Basins(_) | Error::Reproduction(_) | Error::Report(_) => {
                 Self::undecided(miette!("{error}"))
             }

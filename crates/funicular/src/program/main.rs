@@ -10,10 +10,13 @@ mod cases;
 mod census;
 mod diagnostics;
 mod exit;
+mod foreign_input;
 mod format;
 mod in_order;
 mod input;
 mod interrupt;
+mod judge;
+mod judged;
 mod merge;
 mod modes;
 mod new;
@@ -43,6 +46,7 @@ fn main() -> std::process::ExitCode {
         Command::Reproduce(arguments) => reproduce::run(&arguments),
         Command::Solve(arguments) => solve::run(&arguments),
         Command::Census(arguments) => census::run(&arguments),
+        Command::Judge(arguments) => judge::run(&arguments),
         Command::Sweep(arguments) => sweep::run(&arguments),
         Command::Merge(arguments) => merge::run(&arguments),
         Command::Trace(arguments) => trace::run(&arguments),

@@ -5,6 +5,7 @@ mod census;
 mod escapes;
 mod examples;
 mod files;
+mod judge;
 mod library;
 mod motion;
 mod pages;

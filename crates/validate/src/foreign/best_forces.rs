@@ -63,7 +63,8 @@ pub(super) fn free_part(support: &Support, vector: Vector) -> Vector {
     }
 }
 
-/// Distance of the ends of each member, m, and the direction from the first to the second; none where they meet.
+/// Distance of the ends of each member, m, and the direction from the first to the second; none
+/// where they meet.
 pub(super) fn spans(system: &System, joints_m: &[Vector]) -> Vec<(f64, Vector)> {
     let span = |member: &model::system::Member| {
         let along = minus(joints_m[member.to], joints_m[member.from]);
@@ -83,9 +84,10 @@ pub(super) fn law_n(kind: Kind, stiffness_n: f64, length_m: f64, distance_m: f64
     }
 }
 
-/// Find the axial forces that leave the joints at these places least out of balance: least squares under the members'
-/// laws. A cable that is shorter than its length is slack, a strut that is longer is loose; an elastic member has the
-/// force of its elongation; each as far as the bounds of the positions decide it.
+/// Find the axial forces that leave the joints at these places least out of balance: least squares
+/// under the members' laws. A cable that is shorter than its length is slack, a strut that is
+/// longer is loose; an elastic member has the force of its elongation; each as far as the bounds of
+/// the positions decide it.
 #[must_use]
 pub fn best_forces(system: &System, joints_m: &[Vector], bounds: &Bounds) -> BestForces {
     let spans = spans(system, joints_m);

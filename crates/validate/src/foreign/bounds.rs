@@ -5,13 +5,15 @@ use serde::Serialize;
 
 use crate::vector::{minus, norm, worse};
 
-/// Forces this many times larger than those found, or than all loads together, are no explanation of a residual.
+/// Forces this many times larger than those found, or than all loads together, are no explanation
+/// of a residual.
 pub const IMPLAUSIBLE: f64 = 10.0;
 
 /// The tolerance of an answer unless another is asked for: what six digits carry.
 pub const TOLERANCE: f64 = 1e-6;
 
-/// Rounding of stored numbers: eight units in the last place of the largest, as everywhere in this crate.
+/// Rounding of stored numbers: eight units in the last place of the largest, as everywhere in this
+/// crate.
 const STORED: f64 = 8.0 * f64::EPSILON;
 
 /// How well an answer is taken to know its numbers.
@@ -44,7 +46,8 @@ impl Bounds {
         Self { force_n: (self.tolerance + STORED) * largest_n, ..self }
     }
 
-    /// How far the direction of a member may turn, as the length of the difference of two unit vectors.
+    /// How far the direction of a member may turn, as the length of the difference of two unit
+    /// vectors.
     pub(super) fn turn(&self, distance_m: f64) -> f64 {
         // Unit vectors are no further apart than 2.
         if distance_m <= 2.0 * self.position_m {

@@ -5,15 +5,16 @@ use std::collections::HashMap;
 use model::system::System;
 use model::{SolverName, Vector};
 
-/// Joint positions that somebody says are an equilibrium of a system, with forces if they were given.
+/// Joint positions that somebody says are an equilibrium of a system, with forces if they were
+/// given.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ForeignAnswer {
     /// Whose answer it is.
     pub source: SolverName,
     /// Place of each joint of the system, in its order, m.
     pub joints_m: Vec<Vector>,
-    /// Axial force of each member, tension positive, N: of a member with loads along it the force with the loads
-    /// lumped to its joints by the lever rule.
+    /// Axial force of each member, tension positive, N: of a member with loads along it the force
+    /// with the loads lumped to its joints by the lever rule.
     pub axial_n: Option<Vec<f64>>,
     /// Force of the ground on each joint, N; zero at joints without support.
     pub reactions_n: Option<Vec<Vector>>,
@@ -104,7 +105,8 @@ impl ForeignAnswer {
     ///
     /// # Errors
     ///
-    /// [`GivenError`]: names that the system has not, or that are missing or repeated; numbers that are not finite.
+    /// [`GivenError`]: names that the system has not, or that are missing or repeated; numbers that
+    /// are not finite.
     ///
     /// ```
     /// use validate::foreign::{ForeignAnswer, GivenError};
@@ -168,7 +170,8 @@ impl ForeignAnswer {
     ///
     /// # Errors
     ///
-    /// [`GivenError`]: members that the system has not, or that are missing or repeated; numbers that are not finite.
+    /// [`GivenError`]: members that the system has not, or that are missing or repeated; numbers
+    /// that are not finite.
     pub fn with_forces(
         mut self,
         system: &System,
@@ -207,7 +210,8 @@ impl ForeignAnswer {
     ///
     /// # Errors
     ///
-    /// [`GivenError`]: names that the system has not, or that are repeated; numbers that are not finite.
+    /// [`GivenError`]: names that the system has not, or that are repeated; numbers that are not
+    /// finite.
     pub fn with_reactions(
         mut self,
         system: &System,

@@ -23,8 +23,8 @@ use crate::vector::norm;
 #[serde(tag = "finding", rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum Finding {
-    /// An equilibrium is within the tolerance of the answer, by a solver whose forces and lengths the statics judge
-    /// finds right.
+    /// An equilibrium is within the tolerance of the answer, by a solver whose forces and lengths
+    /// the statics judge finds right.
     Confirmed,
     /// A law is broken by more than the tolerance explains: no equilibrium is within it.
     Refuted,
@@ -35,7 +35,8 @@ pub enum Finding {
         /// What the tolerance allows, m.
         allowed_m: f64,
     },
-    /// The positions are those of an equilibrium, and the forces given differ from its own, which are unique.
+    /// The positions are those of an equilibrium, and the forces given differ from its own, which
+    /// are unique.
     OtherForces {
         /// The largest difference of an axial force, N.
         forces_n: f64,

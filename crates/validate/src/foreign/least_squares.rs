@@ -1,11 +1,12 @@
 //! Least squares of a sparse equilibrium matrix under bounds of the unknowns.
 //!
-//! Minimise $\\tfrac12 |A x + f|^2$ for $l \\le x \\le u$, where a column of $A$ is $\\pm u_e$ at the two ends of a
-//! member. Bertsekas's projected Newton method: unknowns at a bound that the gradient pushes outwards stay there, the
-//! others take a Newton step, and the path is bent at the bounds. The step is
-//! $p = -A_F^T (A_F A_F^T + \\varepsilon I)^{-1} r$, the same as $-(A_F^T A_F + \\varepsilon I)^{-1} A_F^T r$, so that the
-//! matrix to factorise is that of the joints, sparse whatever the number of members in a joint. The ridge
-//! $\\varepsilon$ makes it definite where forces are indeterminate; repeated steps remove what it leaves.
+//! Minimise $\\tfrac12 |A x + f|^2$ for $l \\le x \\le u$, where a column of $A$ is $\\pm u_e$ at
+//! the two ends of a member. Bertsekas's projected Newton method: unknowns at a bound that the
+//! gradient pushes outwards stay there, the others take a Newton step, and the path is bent at the
+//! bounds. The step is $p = -A_F^T (A_F A_F^T + \\varepsilon I)^{-1} r$, the same as
+//! $-(A_F^T A_F + \\varepsilon I)^{-1} A_F^T r$, so that the matrix to factorise is that of the
+//! joints, sparse whatever the number of members in a joint. The ridge $\\varepsilon$ makes it
+//! definite where forces are indeterminate; repeated steps remove what it leaves.
 //!
 //! # References
 //!
@@ -18,8 +19,8 @@ use model::{Vector, sum};
 
 use crate::vector::{dot, minus, norm, plus, times};
 
-/// The ridge, in units of the diagonal (a member adds 1 to each end): its square root is far above the rounding, and
-/// itself far below what changes a residual.
+/// The ridge, in units of the diagonal (a member adds 1 to each end): its square root is far above
+/// the rounding, and itself far below what changes a residual.
 const RIDGE: f64 = 1e-9;
 /// Steps before the method gives up. Nets of 10,000 cables, a fifth of them slack, take some ten.
 const STEPS: usize = 200;
@@ -27,7 +28,8 @@ const STEPS: usize = 200;
 const HALVINGS: usize = 40;
 /// Part of the descent promised by the gradient that a step must bring (Armijo).
 const DESCENT: f64 = 1e-4;
-/// A step that lowers the objective by less than this part of it, or of the squared loads' rounding, is the last.
+/// A step that lowers the objective by less than this part of it, or of the squared loads'
+/// rounding, is the last.
 const PROGRESS: f64 = 1e-13;
 
 /// A column: the two joints, and the unit vector from the first to the second.

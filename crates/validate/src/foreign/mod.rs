@@ -1,16 +1,17 @@
-//! The judge of answers from elsewhere: joint positions, and member forces if there are some, from any program or
-//! publication.
+//! The judge of answers from elsewhere: joint positions, and member forces if there are some, from
+//! any program or publication.
 //!
 //! # What is judged
 //!
-//! An answer has as many digits as its file. Its positions are taken to be known to within $\\delta$, the tolerance
-//! times the size of the system, and its forces to within $\\tau$, the tolerance times the largest of them. What an
-//! equilibrium within these distances of the answer would explain is no violation; what is above that refutes it:
+//! An answer has as many digits as its file. Its positions are taken to be known to within
+//! $\\delta$, the tolerance times the size of the system, and its forces to within $\\tau$, the
+//! tolerance times the largest of them. What an equilibrium within these distances of the answer
+//! would explain is no violation; what is above that refutes it:
 //!
 //! * a length: both ends of a member moved by $\\delta$ change it by at most $2\\delta$;
 //! * the direction of a member of length $d$: by at most $2\\delta/(d - \\delta)$, since
-//!   $|a/|a| - b/|b|| \\le 2|a - b|/(|a| + |b|)$ (Dunkl and Williams), so that a joint in equilibrium is told to be
-//!   out of balance by no more than
+//!   $|a/|a| - b/|b|| \\le 2|a - b|/(|a| + |b|)$ (Dunkl and Williams), so that a joint in
+//!   equilibrium is told to be out of balance by no more than
 //!   $$ \\sum_{\\text{its members}} \\Big(\\tau + |N_e| \\frac{2\\delta}{d_e - \\delta}\\Big) ; $$
 //! * the force of an elastic member by $2\\delta\\, EA/l$.
 //!
@@ -18,16 +19,17 @@
 //!
 //! # Without forces
 //!
-//! The forces that leave the joints least out of balance are found ([`best_forces`]): a linear least-squares problem
-//! under the sign conditions of cables and struts, with slack members at zero and elastic ones at the force of their
-//! elongation. Its smallest residual $r$ refutes the positions for all forces up to the size at which $\\delta$ would
-//! explain it; that size is told, and counts as a refutation where it is [`IMPLAUSIBLE`](bounds::IMPLAUSIBLE) times
-//! the forces found.
+//! The forces that leave the joints least out of balance are found ([`best_forces`]): a linear
+//! least-squares problem under the sign conditions of cables and struts, with slack members at zero
+//! and elastic ones at the force of their elongation. Its smallest residual $r$ refutes the
+//! positions for all forces up to the size at which $\\delta$ would explain it, and counts as a
+//! refutation where that is at least [`IMPLAUSIBLE`](bounds::IMPLAUSIBLE) times the forces found
+//! and all loads together.
 //!
 //! # How large the error is
 //!
-//! Both solvers start at the answer's positions; the equilibrium that is nearest says how large the error is, and its
-//! own evidence how far that is proved.
+//! Both solvers start at the answer's positions; the equilibrium that is nearest says how large the
+//! error is, and its own evidence how far that is proved.
 //!
 //! # References
 //!

@@ -15,8 +15,9 @@ use crate::vector::{minus, norm, worse};
 pub struct NearestEquilibrium {
     /// The equilibrium with its evidence.
     pub equilibrium: SystemEquilibrium,
-    /// Largest distance of a joint of the answer from the same joint of the equilibrium, m. Parts that turn freely
-    /// about a vertical are turned onto each other first; joints that nothing holds are not compared.
+    /// Largest distance of a joint of the answer from the same joint of the equilibrium, m. Parts
+    /// that turn freely about a vertical are turned onto each other first; joints that nothing
+    /// holds are not compared.
     pub joints_m: f64,
     /// That joint, from 0.
     pub joint: usize,

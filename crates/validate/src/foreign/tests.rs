@@ -8,7 +8,8 @@ use super::best_forces::best_forces;
 use super::bounds::{Bounds, TOLERANCE};
 use super::{Finding, ForcesJudged, ForeignAnswer, GivenError, Judgement, Law, judge_foreign};
 
-/// A lamp of 2 N on two massless cables of 5 m between anchors 6 m apart (3, 4, 5): each pulls with 5/4 N.
+/// A lamp of 2 N on two massless cables of 5 m between anchors 6 m apart (3, 4, 5): each pulls with
+/// 5/4 N.
 fn lamp() -> System {
     let joints = vec![
         Joint::anchor("A", [-3.0, 0.0, 0.0]),
@@ -145,7 +146,8 @@ fn an_elastic_member_must_have_the_force_of_its_elongation() {
     assert!((found.violations[0].value - 0.6).abs() < 1e-4, "{:?}", found.violations);
 }
 
-/// A square net of cables with loads: some go slack; forces from the shape alone are those of the solver.
+/// A square net of cables with loads: some go slack; forces from the shape alone are those of the
+/// solver.
 #[test]
 fn forces_are_found_from_the_shape_of_a_net() {
     const SIDE: usize = 7;
@@ -162,8 +164,8 @@ fn forces_are_found_from_the_shape_of_a_net() {
     assert!(found.is_confirmed(), "{} {:?}", found.finding, found.violations);
 }
 
-/// A square net hung from its corners and the middles of its sides, with more cable than distance, and a diagonal
-/// in every mesh that is too long to be taut.
+/// A square net hung from its corners and the middles of its sides, with more cable than distance,
+/// and a diagonal in every mesh that is too long to be taut.
 fn net(side: usize) -> System {
     let name = |i: usize, k: usize| format!("{i},{k}");
     let mut joints = Vec::new();

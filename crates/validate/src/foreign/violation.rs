@@ -172,8 +172,8 @@ fn law(
     }
 }
 
-/// What is left over at every joint along its free motions, and what the bounds explain there when no force is larger
-/// than the answer's, or than `at_most_n` if that is given.
+/// What is left over at every joint along its free motions, and what the bounds explain there when
+/// no force is larger than the answer's, or than `at_most_n` if that is given.
 pub(super) fn balances(
     system: &System,
     answer: &SystemEquilibrium,
@@ -216,9 +216,11 @@ pub(super) fn balance_given(
     }
 }
 
-/// The balance of joints whose forces were found: all of them together, since no other forces leave less.
+/// The balance of joints whose forces were found: all of them together, since no other forces leave
+/// less.
 ///
-/// Told as a violation where forces up to `at_most_n` cannot explain what is left; the joints are those where most is.
+/// Told as a violation where forces up to `at_most_n` cannot explain what is left; the joints are
+/// those where most is.
 pub(super) fn balance_found(
     system: &System,
     answer: &SystemEquilibrium,

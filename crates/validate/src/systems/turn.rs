@@ -1,5 +1,5 @@
-//! Turns about verticals: parts of a system that turn freely are turned onto each other before their places are
-//! compared.
+//! Turns about verticals: parts of a system that turn freely are turned onto each other before
+//! their places are compared.
 
 use model::Vector;
 use model::system::Part;

@@ -1,0 +1,78 @@
+//! Answers: joint positions, and forces if there are some.
+//!
+//! | file | what is read |
+//! |---|---|
+//! | JSON | what `solve --json` and `census --json` print, of chains and of systems: every equilibrium in it; or one object with `joints` and, if there are forces, `bars` |
+//! | CSV | `joint,x_m,y_m,z_m`, and `reaction_x_n,reaction_y_n,reaction_z_n`, `solver` if there are; forces as `from,to,axial_n` in a file of their own |
+//! | VTU | an unstructured grid in ASCII: points in the order of the joints, lines that are members, `axial_n` as data of the cells |
+
+mod csv;
+mod json;
+mod vtu;
+
+use model::Vector;
+
+use crate::error::{FormatError, Wrong};
+
+pub use csv::{parse_csv, parse_member_forces};
+pub use json::parse_json;
+pub use vtu::parse_vtu;
+
+/// An answer as a file has it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Answer {
+    /// Who found it: what the file says, or the file's own name.
+    pub source: String,
+    /// Where the joints are.
+    pub joints: Joints,
+    /// Forces of the members.
+    pub forces: Forces,
+    /// Forces of the ground on joints by name, N; nothing where the file has none.
+    pub reactions_n: Option<Vec<(String, Vector)>>,
+}
+
+/// Where joints are, m.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Joints {
+    /// By name.
+    Named(Vec<(String, Vector)>),
+    /// In the order of the system.
+    InOrder(Vec<Vector>),
+}
+
+/// Axial forces of members, tension positive, N.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Forces {
+    /// The file has none.
+    None,
+    /// By the names of the two joints.
+    Named(Vec<(String, String, f64)>),
+    /// By the numbers of the two joints, from 0; without a force the member is only said to be
+    /// there.
+    Numbered(Vec<(usize, usize, Option<f64>)>),
+    /// In the order of the system.
+    InOrder(Vec<f64>),
+}
+
+/// Parse an answer by what the text looks like: JSON begins with a brace, XML with `<`, all else is
+/// CSV.
+///
+/// # Errors
+///
+/// [`FormatError`] with the line and the reason.
+///
+/// ```
+/// use formats::answer::{Joints, parse};
+/// let answers = parse("joint,x_m,y_m,z_m\nP,0,0,-4\n", "lamp.csv")?;
+/// assert_eq!(answers[0].joints, Joints::Named(vec![("P".to_owned(), [0.0, 0.0, -4.0])]));
+/// # Ok::<(), formats::FormatError>(())
+/// ```
+pub fn parse(text: &str, file: &str) -> Result<Vec<Answer>, FormatError> {
+    let begins = text.trim_start_matches('\u{feff}').trim_start();
+    match begins.chars().next() {
+        None => Err(FormatError::new(file, None, Wrong::Empty)),
+        Some('{' | '[') => parse_json(text, file),
+        Some('<') => Ok(vec![parse_vtu(text, file)?]),
+        Some(_) => parse_csv(text, file),
+    }
+}

@@ -1,0 +1,157 @@
+//! Answers as VTK's XML of an unstructured grid, in ASCII.
+//!
+//! # References
+//!
+//! VTK File Formats, <https://docs.vtk.org/en/latest/design_documents/VTKFileFormats.html>.
+
+use model::Vector;
+use roxmltree::{Document, Node, ParsingOptions};
+
+use crate::answer::{Answer, Forces, Joints};
+use crate::error::{FormatError, Wrong, number};
+
+/// VTK's numbers for a line of two points, and for one of many.
+const LINES: [usize; 2] = [3, 4];
+
+/// Parse a VTU file: its points are the joints in the order of the system, its lines members.
+///
+/// # Errors
+///
+/// [`FormatError`] with the line and the reason: what is not ASCII, not a line, or not understood.
+pub fn parse_vtu(text: &str, file: &str) -> Result<Answer, FormatError> {
+    let options = ParsingOptions { allow_dtd: false, ..ParsingOptions::default() };
+    let text = text.trim_start_matches('\u{feff}');
+    let document = Document::parse_with_options(text, options).map_err(|error| {
+        let line = usize::try_from(error.pos().row).ok();
+        FormatError::new(file, line, Wrong::Xml { reason: error.to_string() })
+    })?;
+    let reader = Reader { file };
+    let root = document.root_element();
+    if !root.has_tag_name("VTKFile") || root.attribute("type") != Some("UnstructuredGrid") {
+        return Err(reader.missing(root, "VTKFile of type UnstructuredGrid"));
+    }
+    let pieces: Vec<_> = root.descendants().filter(|node| node.has_tag_name("Piece")).collect();
+    let [piece] = pieces[..] else {
+        return Err(reader.missing(root, "single Piece"));
+    };
+    let points = reader.child(piece, "Points")?;
+    let places = reader.array(reader.child(points, "DataArray")?)?;
+    if places.is_empty() || places.len() % 3 != 0 {
+        let (wanted, found) = (places.len().div_ceil(3).max(1) * 3, places.len());
+        return Err(reader.error(points, Wrong::Count { wanted, found }));
+    }
+    let joints: Vec<Vector> = places.chunks_exact(3).map(|p| [p[0], p[1], p[2]]).collect();
+    let members = reader.lines(piece)?;
+    let axial_n = reader.named(piece, "CellData", "axial_n")?;
+    if let Some(forces) = axial_n.as_ref().filter(|forces| forces.len() != members.len()) {
+        let wrong = Wrong::Count { wanted: members.len(), found: forces.len() };
+        return Err(reader.error(piece, wrong));
+    }
+    let force = |k: usize| axial_n.as_ref().map(|forces| forces[k]);
+    let forces = members.into_iter().enumerate().map(|(k, [a, b])| (a, b, force(k)));
+    Ok(Answer {
+        source: file.to_owned(),
+        joints: Joints::InOrder(joints),
+        forces: Forces::Numbered(forces.collect()),
+        reactions_n: None,
+    })
+}
+
+struct Reader<'a> {
+    file: &'a str,
+}
+
+impl Reader<'_> {
+    fn error(&self, node: Node<'_, '_>, wrong: Wrong) -> FormatError {
+        let line = node.document().text_pos_at(node.range().start).row;
+        FormatError::new(self.file, usize::try_from(line).ok(), wrong)
+    }
+
+    fn missing(&self, node: Node<'_, '_>, what: &str) -> FormatError {
+        self.error(node, Wrong::Missing { what: what.to_owned() })
+    }
+
+    fn child<'n, 'd>(&self, node: Node<'n, 'd>, name: &str) -> Result<Node<'n, 'd>, FormatError> {
+        let child = node.children().find(|child| child.has_tag_name(name));
+        child.ok_or_else(|| self.missing(node, &format!("{name} in {}", node.tag_name().name())))
+    }
+
+    /// The numbers of a DataArray.
+    fn array(&self, node: Node<'_, '_>) -> Result<Vec<f64>, FormatError> {
+        let format = node.attribute("format").unwrap_or("ascii");
+        if format != "ascii" {
+            let what = format!("DataArray of format {format:?}");
+            let error = self.error(node, Wrong::Unknown { what });
+            return Err(error.with_help("write the file in ASCII"));
+        }
+        let line = node.document().text_pos_at(node.range().start).row;
+        let line = usize::try_from(line).ok();
+        let name = node.attribute("Name").unwrap_or("DataArray");
+        let text = node.text().unwrap_or_default();
+        text.split_whitespace().map(|word| number(self.file, line, name, word)).collect()
+    }
+
+    /// The DataArray of a name, if it is there.
+    fn named(
+        &self,
+        piece: Node<'_, '_>,
+        part: &str,
+        name: &str,
+    ) -> Result<Option<Vec<f64>>, FormatError> {
+        let Some(part) = piece.children().find(|child| child.has_tag_name(part)) else {
+            return Ok(None);
+        };
+        let arrays = part.children().filter(|child| child.has_tag_name("DataArray"));
+        let mut arrays = arrays.filter(|array| array.attribute("Name") == Some(name));
+        arrays.next().map(|array| self.array(array)).transpose()
+    }
+
+    fn counts(&self, piece: Node<'_, '_>, name: &str) -> Result<Vec<usize>, FormatError> {
+        let cells = self.child(piece, "Cells")?;
+        let found = self.named(piece, "Cells", name)?;
+        let found =
+            found.ok_or_else(|| self.missing(cells, &format!("array {name:?} of the cells")))?;
+        let whole = |x: f64| {
+            let wanted = "a whole number";
+            let wrong = Wrong::Value { what: name.to_owned(), wanted, found: x.to_string() };
+            let fits = x >= 0.0 && x <= f64::from(u32::MAX) && x.fract() <= 0.0;
+            if fits { Ok(as_count(x)) } else { Err(self.error(cells, wrong)) }
+        };
+        found.into_iter().map(whole).collect()
+    }
+
+    /// The members: every line of two points, every piece of one of many.
+    fn lines(&self, piece: Node<'_, '_>) -> Result<Vec<[usize; 2]>, FormatError> {
+        let ends = self.counts(piece, "offsets")?;
+        let kinds = self.counts(piece, "types")?;
+        let points = self.counts(piece, "connectivity")?;
+        if kinds.len() != ends.len() {
+            let wrong = Wrong::Count { wanted: ends.len(), found: kinds.len() };
+            return Err(self.error(piece, wrong));
+        }
+        let (mut members, mut start) = (vec![], 0);
+        for (end, kind) in ends.into_iter().zip(kinds) {
+            if !LINES.contains(&kind) {
+                let what = format!("cell of VTK's type {kind}");
+                return Err(self.error(piece, Wrong::OutOfScope { what }));
+            }
+            let Some(line) = points.get(start..end) else {
+                let wrong = Wrong::Count { wanted: end, found: points.len() };
+                return Err(self.error(piece, wrong));
+            };
+            members.extend(line.windows(2).map(|pair| [pair[0], pair[1]]));
+            start = end;
+        }
+        Ok(members)
+    }
+}
+
+/// A whole number that was checked to fit.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "whole, from 0 to 2^32"
+)]
+fn as_count(x: f64) -> usize {
+    x as usize
+}

@@ -1,0 +1,120 @@
+//! Why a file of another program cannot be used.
+
+/// Why a file cannot be used: which file, which line where that is known, and what is wrong.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("{file}:{}{what}", line.map_or_else(|| " ".to_owned(), |line| format!("{line}: ")))]
+pub struct FormatError {
+    /// The file as it was named.
+    pub file: String,
+    /// The line, from 1.
+    pub line: Option<usize>,
+    /// What is wrong.
+    pub what: Wrong,
+    /// What is allowed instead, or what to do about it.
+    pub help: Option<String>,
+}
+
+/// What is wrong with a file.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Wrong {
+    /// Occurs when there is nothing in the file.
+    #[error("the file is empty")]
+    Empty,
+    /// Occurs when the text is no JSON.
+    #[error("this is no JSON: {reason}")]
+    Json {
+        /// What the parser says.
+        reason: String,
+    },
+    /// Occurs when the text is no XML.
+    #[error("this is no XML: {reason}")]
+    Xml {
+        /// What the parser says.
+        reason: String,
+    },
+    /// Occurs when a part that is needed is not there.
+    #[error("there is no {what}")]
+    Missing {
+        /// The part.
+        what: String,
+    },
+    /// Occurs when a part is not understood, so that the system or answer would be another one
+    /// without it.
+    #[error("{what} is not understood")]
+    Unknown {
+        /// The part.
+        what: String,
+    },
+    /// Occurs when a part is understood and outside of what systems of bars are.
+    #[error("{what} is not part of a system of bars at rest")]
+    OutOfScope {
+        /// The part.
+        what: String,
+    },
+    /// Occurs when a value is of the wrong type or out of range.
+    #[error("{what} must be {wanted}, found {found:?}")]
+    Value {
+        /// Of what.
+        what: String,
+        /// What is allowed.
+        wanted: &'static str,
+        /// As it stands in the file.
+        found: String,
+    },
+    /// Occurs when a line has not as many values as the line that names the columns.
+    #[error("{wanted} values are needed here, found {found}")]
+    Count {
+        /// Values named.
+        wanted: usize,
+        /// Values found.
+        found: usize,
+    },
+    /// Occurs when a name or number stands twice.
+    #[error("{what} is there twice")]
+    Repeated {
+        /// Which.
+        what: String,
+    },
+    /// Occurs when what was read is no system: a length that is no length, a member twice.
+    #[error("{reason}")]
+    NoSystem {
+        /// Why not.
+        reason: String,
+    },
+}
+
+impl FormatError {
+    pub(crate) fn new(file: &str, line: Option<usize>, what: Wrong) -> Self {
+        Self { file: file.to_owned(), line, what, help: None }
+    }
+
+    pub(crate) fn with_help(self, help: impl Into<String>) -> Self {
+        Self { help: Some(help.into()), ..self }
+    }
+}
+
+/// A finite number; anything else, `nan` and `inf` too, is an error.
+pub(crate) fn number(
+    file: &str,
+    line: Option<usize>,
+    what: &str,
+    text: &str,
+) -> Result<f64, FormatError> {
+    let parsed = text.trim().parse::<f64>().ok().filter(|x| x.is_finite());
+    parsed.ok_or_else(|| {
+        let (what, found) = (what.to_owned(), shortened(text));
+        FormatError::new(file, line, Wrong::Value { what, wanted: "a finite number", found })
+    })
+}
+
+/// What an error shows of a text.
+pub(crate) fn shortened(text: &str) -> String {
+    /// Characters.
+    const SHOWN: usize = 60;
+    let mut out: String = text.trim().chars().take(SHOWN).collect();
+    if text.trim().chars().count() > SHOWN {
+        out.push_str("...");
+    }
+    out
+}

@@ -1,0 +1,159 @@
+//! Comma-separated values with a line of names: RFC 4180, blanks around cells do not count.
+
+use crate::error::{FormatError, Wrong, number, shortened};
+
+/// A table: its names, and its rows with the lines they stand in.
+pub(crate) struct Sheet<'a> {
+    file: &'a str,
+    columns: Vec<Option<usize>>,
+    names: &'a [&'a str],
+    rows: Vec<(usize, Vec<String>)>,
+}
+
+/// A row of a sheet.
+pub(crate) struct Row<'a> {
+    sheet: &'a Sheet<'a>,
+    pub(crate) line: usize,
+    cells: &'a [String],
+}
+
+impl<'a> Sheet<'a> {
+    /// Read a text whose columns must all be among `names`. A name of the file that stands for one
+    /// of them may be given in `aliases`.
+    pub(crate) fn parse(
+        file: &'a str,
+        text: &str,
+        names: &'a [&'a str],
+        aliases: &[(&str, &str)],
+    ) -> Result<Self, FormatError> {
+        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+        let mut rows = records(file, text)?.into_iter();
+        let Some((line, head)) = rows.next() else {
+            return Err(FormatError::new(file, None, Wrong::Empty));
+        };
+        let mut columns = vec![None; names.len()];
+        for (k, cell) in head.iter().enumerate() {
+            let cell =
+                aliases.iter().find(|(alias, _)| alias == cell).map_or(cell.as_str(), |a| a.1);
+            let Some(column) = names.iter().position(|name| *name == cell) else {
+                let what = format!("the column {:?}", shortened(cell));
+                let near = model::system_file::nearest(cell, names);
+                let near = near.map_or(String::new(), |near| format!("did you mean `{near}`? "));
+                let help = format!("{near}columns are: {}", names.join(", "));
+                let error = FormatError::new(file, Some(line), Wrong::Unknown { what });
+                return Err(error.with_help(help));
+            };
+            if columns[column].replace(k).is_some() {
+                let what = format!("the column {cell:?}");
+                return Err(FormatError::new(file, Some(line), Wrong::Repeated { what }));
+            }
+        }
+        let rows: Vec<_> = rows.collect();
+        for (line, cells) in &rows {
+            if cells.len() != head.len() {
+                let wrong = Wrong::Count { wanted: head.len(), found: cells.len() };
+                return Err(FormatError::new(file, Some(*line), wrong));
+            }
+        }
+        Ok(Self { file, columns, names, rows })
+    }
+
+    /// Whether the sheet has a column.
+    pub(crate) fn has(&self, name: &str) -> bool {
+        self.place(name).is_some()
+    }
+
+    /// Refuse a sheet without a column.
+    pub(crate) fn need(&self, name: &str) -> Result<(), FormatError> {
+        if self.has(name) {
+            return Ok(());
+        }
+        let what = format!("column `{name}`");
+        Err(FormatError::new(self.file, Some(1), Wrong::Missing { what }))
+    }
+
+    pub(crate) fn rows(&'a self) -> impl Iterator<Item = Row<'a>> {
+        self.rows.iter().map(|(line, cells)| Row { sheet: self, line: *line, cells })
+    }
+
+    fn place(&self, name: &str) -> Option<usize> {
+        self.columns[self.names.iter().position(|known| *known == name)?]
+    }
+}
+
+impl Row<'_> {
+    /// The cell of a column; empty where there is no such column.
+    pub(crate) fn text(&self, name: &str) -> &str {
+        self.sheet.place(name).map_or("", |k| self.cells[k].as_str())
+    }
+
+    /// The number of a column.
+    pub(crate) fn number(&self, name: &str) -> Result<f64, FormatError> {
+        number(self.sheet.file, Some(self.line), name, self.text(name))
+    }
+
+    /// The number of a column, 0 where there is no such column or its cell is empty.
+    pub(crate) fn number_or_zero(&self, name: &str) -> Result<f64, FormatError> {
+        if self.text(name).is_empty() { Ok(0.0) } else { self.number(name) }
+    }
+
+    /// An error in this row.
+    pub(crate) fn error(&self, wrong: Wrong) -> FormatError {
+        FormatError::new(self.sheet.file, Some(self.line), wrong)
+    }
+}
+
+/// The records of a text with the lines they begin in, without empty lines.
+fn records(file: &str, text: &str) -> Result<Vec<(usize, Vec<String>)>, FormatError> {
+    let mut records = Vec::new();
+    let (mut cells, mut cell, mut quoted, mut was_quoted) = (vec![], String::new(), false, false);
+    let (mut line, mut began) = (1, 1);
+    let mut characters = text.chars().peekable();
+    while let Some(c) = characters.next() {
+        match c {
+            '"' if quoted && characters.peek() == Some(&'"') => {
+                characters.next();
+                cell.push('"');
+            }
+            '"' if quoted => quoted = false,
+            '"' if cell.trim().is_empty() && !was_quoted => {
+                (quoted, was_quoted) = (true, true);
+                cell.clear();
+            }
+            ',' if !quoted => {
+                cells.push(finished(&mut cell, &mut was_quoted));
+            }
+            '\n' if !quoted => {
+                cells.push(finished(&mut cell, &mut was_quoted));
+                push(&mut records, began, &mut cells);
+                (line, began) = (line + 1, line + 1);
+            }
+            c => {
+                line += usize::from(c == '\n');
+                cell.push(c);
+            }
+        }
+    }
+    if quoted {
+        let wrong = Wrong::Missing { what: "end of a quoted cell".to_owned() };
+        return Err(FormatError::new(file, Some(began), wrong));
+    }
+    cells.push(finished(&mut cell, &mut was_quoted));
+    push(&mut records, began, &mut cells);
+    Ok(records)
+}
+
+/// A cell without the blanks around it; within quotes they count.
+fn finished(cell: &mut String, quoted: &mut bool) -> String {
+    let text = if *quoted { cell.trim_end().to_owned() } else { cell.trim().to_owned() };
+    cell.clear();
+    *quoted = false;
+    text
+}
+
+fn push(records: &mut Vec<(usize, Vec<String>)>, line: usize, cells: &mut Vec<String>) {
+    let cells = std::mem::take(cells);
+    if cells.len() > 1 || cells.iter().any(|cell| !cell.is_empty()) {
+        records.push((line, cells));
+    }
+}

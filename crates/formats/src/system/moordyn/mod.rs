@@ -1,0 +1,271 @@
+//! MoorDyn input files, versions 1 and 2: the statics of lines between points in still water.
+//!
+//! A line becomes a run of as many elastic cables as the file has segments for it, with its weight
+//! in water at the middle of each; a line lighter than water is pulled up there. Points that are
+//! fixed, coupled to a vessel, or attached to a body that is, are anchors where the file puts them.
+//! Free points carry their mass less the water they displace.
+//!
+//! Bending stiffness, rods, free bodies, waves, currents, non-linear stiffness and everything that
+//! is not known is named and refused. The floor is not part of the system: see
+//! [`ForeignSystem::floor_m`].
+//!
+//! # References
+//!
+//! MoorDyn, <https://moordyn.readthedocs.io>, "Input Files".
+
+mod options;
+mod sections;
+
+use std::collections::HashMap;
+
+use model::system::{Joint, Member, PointLoad, System};
+use model::{Bar, Vector};
+
+use crate::error::{FormatError, Wrong};
+use crate::system::ForeignSystem;
+use options::Options;
+use sections::{Row, Section, Sections};
+
+const TYPE_COLUMNS: &[(&str, &[&str])] = &[
+    ("name", &["name", "typename", "linetype"]),
+    ("diameter", &["diam", "d"]),
+    ("mass", &["massden", "mass/m", "massdeninair", "mass"]),
+    ("EA", &["ea"]),
+    ("EI", &["ei"]),
+    // Damping, drag, added mass and vortices: nothing of them at rest in still water.
+    ("BA", &["ba/-zeta", "ba", "cint"]),
+    ("", &["cd", "ca", "cdax", "caax", "can", "cat", "cdn", "cdt", "cl", "df", "cf"]),
+];
+const POINT_COLUMNS: &[(&str, &[&str])] = &[
+    ("id", &["id", "node", "point"]),
+    ("type", &["type", "attachment"]),
+    ("x", &["x"]),
+    ("y", &["y"]),
+    ("z", &["z"]),
+    ("mass", &["m", "mass"]),
+    ("volume", &["v", "volume", "vol"]),
+    ("fx", &["fx"]),
+    ("fy", &["fy"]),
+    ("fz", &["fz"]),
+    ("", &["cda", "ca"]),
+];
+const LINE_COLUMNS: &[(&str, &[&str])] = &[
+    ("id", &["id", "line"]),
+    ("type", &["linetype", "type"]),
+    ("a", &["attacha", "nodeanch", "nodea", "enda"]),
+    ("b", &["attachb", "nodefair", "nodeb", "endb"]),
+    ("length", &["unstrlen"]),
+    ("segments", &["numsegs"]),
+    ("", &["lineoutputs", "flags/outputs", "outputs"]),
+];
+const BODY_COLUMNS: &[(&str, &[&str])] = &[
+    ("id", &["id", "body"]),
+    ("type", &["attachment", "type"]),
+    ("x", &["x0", "x"]),
+    ("y", &["Y0", "y"]),
+    ("z", &["z0", "z"]),
+    ("roll", &["r0", "roll", "roll0"]),
+    ("pitch", &["p0", "pitch", "pitch0"]),
+    ("yaw", &["y0", "yaw", "yaw0"]),
+    ("", &["mass", "m", "cg*", "cg", "i*", "i", "volume", "v", "cda*", "cda", "ca*", "ca"]),
+];
+/// Words for a point that does not move.
+const HELD: &[&str] = &[
+    "fixed",
+    "fix",
+    "anchor",
+    "vessel",
+    "ves",
+    "coupled",
+    "cpld",
+    "vesselpinned",
+    "coupledpinned",
+];
+/// Words for a point that is free.
+const FREE: &[&str] = &["free", "connect", "point", "con"];
+/// Segments of one line.
+const MOST_SEGMENTS: f64 = 1e6;
+
+/// Properties of a line.
+struct LineType {
+    weight_n_m: f64,
+    stiffness_n: f64,
+}
+
+/// Read a MoorDyn input file.
+///
+/// # Errors
+///
+/// [`FormatError`] with the line and the part that is wrong, not understood, or out of scope.
+pub fn parse_moordyn(text: &str, file: &str) -> Result<ForeignSystem, FormatError> {
+    let sections = Sections::parse(text, file)?;
+    let options = Options::read(&sections)?;
+    let types = line_types(&sections, &options)?;
+    let bodies = bodies(&sections)?;
+    let mut notes = vec![format!(
+        "in still water of {} kg/m^3, g = {} m/s^2",
+        options.density_kg_m3, options.gravity_m_s2
+    )];
+    let mut joints = Vec::new();
+    let mut numbers = HashMap::new();
+    for row in sections.need(Section::Points)?.rows(POINT_COLUMNS)? {
+        let joint = point(&row, &bodies, &options)?;
+        if numbers.insert(joint.name.clone(), joints.len()).is_some() {
+            return Err(row.error(Wrong::Repeated { what: format!("point {}", joint.name) }));
+        }
+        joints.push(joint);
+    }
+    let mut members = Vec::new();
+    for row in sections.need(Section::Lines)?.rows(LINE_COLUMNS)? {
+        notes.push(line(&row, &types, &numbers, options.gravity_m_s2, &mut joints, &mut members)?);
+    }
+    let name = sections.title();
+    let system = System::new(name, options.gravity_m_s2, joints, members).map_err(|error| {
+        FormatError::new(file, None, Wrong::NoSystem { reason: error.to_string() })
+    })?;
+    if let Some(floor_m) = options.floor_m {
+        notes.push(format!("the floor at {floor_m} m is not part of the system"));
+    }
+    Ok(ForeignSystem { system, notes, floor_m: options.floor_m })
+}
+
+fn line_types(
+    sections: &Sections<'_>,
+    options: &Options,
+) -> Result<HashMap<String, LineType>, FormatError> {
+    let mut types = HashMap::new();
+    for row in sections.need(Section::LineTypes)?.rows(TYPE_COLUMNS)? {
+        let name = row.text("name")?.to_owned();
+        let (diameter_m, mass_kg_m) = (row.positive("diameter")?, row.number("mass")?);
+        let stiffness = row.text("EA")?;
+        if stiffness.parse::<f64>().is_err() {
+            let what = format!("the stiffness {stiffness:?}, which is no constant,");
+            return Err(row.error(Wrong::OutOfScope { what }));
+        }
+        if let Some(bending) = row.optional("EI")?.filter(|bending| bending.abs() > 0.0) {
+            let what = format!("the bending stiffness EI = {bending} N m^2");
+            return Err(row.error(Wrong::OutOfScope { what }));
+        }
+        let area_m2 = 0.25 * std::f64::consts::PI * diameter_m * diameter_m;
+        let weight_n_m = (mass_kg_m - options.density_kg_m3 * area_m2) * options.gravity_m_s2;
+        let line_type = LineType { weight_n_m, stiffness_n: row.positive("EA")? };
+        if types.insert(name.clone(), line_type).is_some() {
+            return Err(row.error(Wrong::Repeated { what: format!("line type {name:?}") }));
+        }
+    }
+    Ok(types)
+}
+
+/// Where the bodies are that do not move.
+fn bodies(sections: &Sections<'_>) -> Result<HashMap<String, Vector>, FormatError> {
+    let mut bodies = HashMap::new();
+    let Some(section) = sections.get(Section::Bodies) else { return Ok(bodies) };
+    for row in section.rows(BODY_COLUMNS)? {
+        let (id, kind) = (row.text("id")?.to_owned(), row.text("type")?.to_lowercase());
+        if !HELD.contains(&kind.as_str()) {
+            let what = format!("body {id}, which is {kind:?} and not fixed,");
+            return Err(row.error(Wrong::OutOfScope { what }));
+        }
+        for angle in ["roll", "pitch", "yaw"] {
+            if row.optional(angle)?.is_some_and(|angle| angle.abs() > 0.0) {
+                let what = format!("the {angle} of body {id}");
+                return Err(row.error(Wrong::Unknown { what }));
+            }
+        }
+        let at_m = [row.number("x")?, row.number("y")?, row.number("z")?];
+        if bodies.insert(id.clone(), at_m).is_some() {
+            return Err(row.error(Wrong::Repeated { what: format!("body {id}") }));
+        }
+    }
+    Ok(bodies)
+}
+
+fn point(
+    row: &Row<'_>,
+    bodies: &HashMap<String, Vector>,
+    options: &Options,
+) -> Result<Joint, FormatError> {
+    let name = row.text("id")?;
+    let kind = row.text("type")?.to_lowercase();
+    let at_m = [row.number("x")?, row.number("y")?, row.number("z")?];
+    for force in ["fx", "fy", "fz"] {
+        if row.optional(force)?.is_some_and(|force| force.abs() > 0.0) {
+            // Manual and sample files disagree whether it is in N or kN.
+            let what = format!("the force {force} on point {name}, whose unit is not said,");
+            return Err(row.error(Wrong::Unknown { what }));
+        }
+    }
+    if HELD.contains(&kind.as_str()) {
+        return Ok(Joint::anchor(name, at_m));
+    }
+    if let Some(body) = kind.strip_prefix("body") {
+        let Some(centre) = bodies.get(body) else {
+            let what = format!("body {body:?} of point {name}");
+            return Err(row.error(Wrong::Missing { what }));
+        };
+        return Ok(Joint::anchor(name, std::array::from_fn(|c| centre[c] + at_m[c])));
+    }
+    if !FREE.contains(&kind.as_str()) {
+        let what = format!("the type {kind:?} of point {name}");
+        return Err(row.error(Wrong::Unknown { what }));
+    }
+    let mass_kg = row.optional("mass")?.unwrap_or_default();
+    let displaced_kg = row.optional("volume")?.unwrap_or_default() * options.density_kg_m3;
+    let weight_n = (mass_kg - displaced_kg) * options.gravity_m_s2;
+    Ok(Joint::free(name).with_force([0.0, 0.0, -weight_n]))
+}
+
+/// A line as a run of elastic cables, and how it was read.
+fn line(
+    row: &Row<'_>,
+    types: &HashMap<String, LineType>,
+    numbers: &HashMap<String, usize>,
+    gravity_m_s2: f64,
+    joints: &mut Vec<Joint>,
+    members: &mut Vec<Member>,
+) -> Result<String, FormatError> {
+    let (id, kind) = (row.text("id")?, row.text("type")?);
+    let Some(line_type) = types.get(kind) else {
+        return Err(row.error(Wrong::Missing { what: format!("line type {kind:?}") }));
+    };
+    let end = |column: &str| {
+        let name = row.text(column)?;
+        let bare = name.to_lowercase();
+        let bare = bare.strip_prefix("point").unwrap_or(name);
+        let found = numbers.get(bare).copied();
+        found.ok_or_else(|| row.error(Wrong::Missing { what: format!("point {name:?}") }))
+    };
+    let (from, to, length_m) = (end("a")?, end("b")?, row.positive("length")?);
+    let segments = row.positive("segments")?;
+    if segments.fract() > 0.0 || segments > MOST_SEGMENTS {
+        let (what, found) = ("NumSegs".to_owned(), segments.to_string());
+        return Err(row.error(Wrong::Value { what, wanted: "a whole number up to 1e6", found }));
+    }
+    let piece_m = length_m / segments;
+    let weight_n = line_type.weight_n_m * piece_m;
+    let mass_kg = if weight_n > 0.0 { weight_n / gravity_m_s2 } else { 0.0 };
+    let body = Bar::homogeneous(piece_m, mass_kg)
+        .map_err(|error| row.error(Wrong::NoSystem { reason: error.to_string() }))?;
+    let lift = PointLoad { at_m: 0.5 * piece_m, force_n: [0.0, 0.0, -weight_n] };
+    let mut here = from;
+    let mut k = 1.0;
+    while k <= segments {
+        let there = if k < segments {
+            joints.push(Joint::free(format!("line {id}.{k}")));
+            joints.len() - 1
+        } else {
+            to
+        };
+        let mut member = Member::cable(here, there, body).with_stiffness(line_type.stiffness_n);
+        if weight_n < 0.0 {
+            member.loads.push(lift);
+        }
+        members.push(member);
+        here = there;
+        k += 1.0;
+    }
+    Ok(format!(
+        "line {id}: {segments} elastic cables of {piece_m} m, EA = {} N, {} N/m in water",
+        line_type.stiffness_n, line_type.weight_n_m
+    ))
+}

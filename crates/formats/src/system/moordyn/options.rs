@@ -1,0 +1,95 @@
+//! The options of a MoorDyn input file that have a bearing on statics.
+
+use model::STANDARD_GRAVITY_M_S2;
+
+use super::sections::{Section, Sections};
+use crate::error::{FormatError, Wrong, number, shortened};
+
+/// Gravity, water and floor.
+pub(super) struct Options {
+    pub(super) gravity_m_s2: f64,
+    pub(super) density_kg_m3: f64,
+    pub(super) floor_m: Option<f64>,
+}
+
+/// Density of water unless the file says another, kg/m^3: MoorDyn's own default.
+const SEA_WATER: f64 = 1025.0;
+
+/// Time steps, tolerances of the dynamic relaxation, contact with the floor, output: nothing of
+/// them at rest above it.
+const NO_BEARING: &[&str] = &[
+    "dtm",
+    "cfl",
+    "tscheme",
+    "kbot",
+    "kb",
+    "cbot",
+    "cb",
+    "dtic",
+    "tmaxic",
+    "cdscaleic",
+    "threshic",
+    "icdfac",
+    "icthresh",
+    "ictmax",
+    "writelog",
+    "writeunits",
+    "dtout",
+    "disableoutput",
+    "disableouttime",
+    "frictioncoefficient",
+    "frictiondamping",
+    "statdynfricscale",
+    "icgendynamic",
+    "dtwave",
+];
+/// Anything but zero is out of scope.
+const ZERO: &[&str] = &["wavekin", "currents", "waterkin"];
+
+impl Options {
+    /// Read them; what is not known is refused.
+    pub(super) fn read(sections: &Sections<'_>) -> Result<Self, FormatError> {
+        let file = sections.file;
+        let mut options =
+            Self { gravity_m_s2: STANDARD_GRAVITY_M_S2, density_kg_m3: SEA_WATER, floor_m: None };
+        for (line, text) in sections.lines(Section::Options) {
+            let mut words = text.split_whitespace();
+            let (value, name) =
+                (words.next().unwrap_or_default(), words.next().unwrap_or_default());
+            let at = Some(*line);
+            let positive = || {
+                let found = number(file, at, name, value)?;
+                let wrong = || {
+                    let (what, found) = (name.to_owned(), shortened(value));
+                    Wrong::Value { what, wanted: "positive", found }
+                };
+                if found > 0.0 { Ok(found) } else { Err(FormatError::new(file, at, wrong())) }
+            };
+            match name.to_lowercase().as_str() {
+                "g" | "gravity" => options.gravity_m_s2 = positive()?,
+                "wtrdnsty" | "rhow" | "rho" => {
+                    options.density_kg_m3 = number(file, at, name, value)?;
+                }
+                "wtrdpth" | "depth" => {
+                    if value.parse::<f64>().is_err() {
+                        let what = format!("the floor {value:?}");
+                        return Err(FormatError::new(file, at, Wrong::OutOfScope { what }));
+                    }
+                    options.floor_m = Some(-positive()?);
+                }
+                known if NO_BEARING.contains(&known) => {}
+                known if ZERO.contains(&known) => {
+                    if value.parse::<f64>().map_or(true, |value| value.abs() > 0.0) {
+                        let what = format!("{name} = {value}");
+                        return Err(FormatError::new(file, at, Wrong::OutOfScope { what }));
+                    }
+                }
+                _ => {
+                    let what = format!("the option {:?}", shortened(text));
+                    return Err(FormatError::new(file, at, Wrong::Unknown { what }));
+                }
+            }
+        }
+        Ok(options)
+    }
+}

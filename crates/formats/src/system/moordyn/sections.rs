@@ -1,0 +1,217 @@
+//! The sections of a MoorDyn input file, and their tables.
+
+use std::collections::HashMap;
+
+use crate::error::{FormatError, Wrong, number, shortened};
+
+/// The sections that are known.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub(super) enum Section {
+    LineTypes,
+    Points,
+    Lines,
+    Bodies,
+    Options,
+    /// Rods and their types: only empty ones can be read.
+    Rods,
+    /// What is written by MoorDyn.
+    Outputs,
+    /// The line before the first section, and the one after the last.
+    Frame,
+}
+
+/// What the heading of a section says, in the order in which they are tried.
+const HEADINGS: &[(&str, Section)] = &[
+    ("LINE TYPES", Section::LineTypes),
+    ("LINE DICTIONARY", Section::LineTypes),
+    ("ROD", Section::Rods),
+    ("BODIES", Section::Bodies),
+    ("BODY", Section::Bodies),
+    ("NODE PROPERTIES", Section::Points),
+    ("CONNECTION PROPERTIES", Section::Points),
+    ("POINT", Section::Points),
+    ("LINES", Section::Lines),
+    ("LINE PROPERTIES", Section::Lines),
+    ("LINE LIST", Section::Lines),
+    ("OPTIONS", Section::Options),
+    ("OUTPUT", Section::Outputs),
+    ("NEED THIS LINE", Section::Frame),
+    ("INPUT FILE", Section::Frame),
+];
+/// What begins a comment.
+const COMMENTS: [char; 3] = ['!', '#', '%'];
+/// Lines of names and of units above a table.
+const HEAD: usize = 2;
+
+/// The lines of a section with their numbers, without comments and empty lines.
+pub(super) struct Table<'a> {
+    file: &'a str,
+    heading: usize,
+    lines: Vec<(usize, &'a str)>,
+}
+
+/// All sections of a file.
+pub(super) struct Sections<'a> {
+    pub(super) file: &'a str,
+    title: Option<String>,
+    tables: HashMap<Section, Table<'a>>,
+}
+
+/// A row of a table.
+pub(super) struct Row<'a> {
+    file: &'a str,
+    line: usize,
+    words: Vec<&'a str>,
+    columns: HashMap<&'static str, usize>,
+}
+
+impl<'a> Sections<'a> {
+    pub(super) fn parse(text: &'a str, file: &'a str) -> Result<Self, FormatError> {
+        let mut sections = Self { file, title: None, tables: HashMap::new() };
+        let mut current = Section::Frame;
+        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+        if text.trim().is_empty() {
+            return Err(FormatError::new(file, None, Wrong::Empty));
+        }
+        for (k, line) in text.lines().enumerate() {
+            let number = k + 1;
+            if line.contains("---") {
+                current = heading(line, file, number)?;
+                let table = || Table { file, heading: number, lines: vec![] };
+                if current != Section::Frame
+                    && current != Section::Rods
+                    && sections.tables.contains_key(&current)
+                {
+                    let what =
+                        format!("the section {:?}", shortened(line.trim_matches(['-', ' '])));
+                    return Err(FormatError::new(file, Some(number), Wrong::Repeated { what }));
+                }
+                sections.tables.entry(current).or_insert_with(table);
+                continue;
+            }
+            let bare = line.split(COMMENTS).next().unwrap_or_default().trim();
+            if bare.is_empty() {
+                continue;
+            }
+            match sections.tables.get_mut(&current) {
+                Some(table) if current != Section::Frame => table.lines.push((number, bare)),
+                // Free text before the first section: its first line is the title.
+                _ => sections.title = sections.title.take().or_else(|| Some(bare.to_owned())),
+            }
+        }
+        if let Some(rods) = sections.tables.get(&Section::Rods)
+            && let Some((line, rod)) = rods.lines.get(HEAD)
+        {
+            let what = format!("the rod {:?}", shortened(rod));
+            return Err(FormatError::new(file, Some(*line), Wrong::OutOfScope { what }));
+        }
+        Ok(sections)
+    }
+
+    /// The name of the system.
+    pub(super) fn title(&self) -> String {
+        self.title.clone().unwrap_or_else(|| "unnamed".to_owned())
+    }
+
+    pub(super) fn get(&self, section: Section) -> Option<&Table<'a>> {
+        self.tables.get(&section)
+    }
+
+    pub(super) fn need(&self, section: Section) -> Result<&Table<'a>, FormatError> {
+        self.get(section).ok_or_else(|| {
+            let what = format!(
+                "section {}",
+                HEADINGS.iter().find(|(_, one)| *one == section).map_or("", |(name, _)| name)
+            );
+            FormatError::new(self.file, None, Wrong::Missing { what })
+        })
+    }
+
+    /// Lines of a section without a head.
+    pub(super) fn lines(&self, section: Section) -> &[(usize, &'a str)] {
+        self.get(section).map_or(&[], |table| &table.lines)
+    }
+}
+
+fn heading(line: &str, file: &str, number: usize) -> Result<Section, FormatError> {
+    let text = line.trim_matches(|c: char| c == '-' || c.is_whitespace()).to_uppercase();
+    if text.is_empty() {
+        return Ok(Section::Frame);
+    }
+    let known = HEADINGS.iter().find(|(name, _)| text.contains(name));
+    known.map(|(_, section)| *section).ok_or_else(|| {
+        let what = format!("the section {:?}", shortened(&text));
+        FormatError::new(file, Some(number), Wrong::Unknown { what })
+    })
+}
+
+impl<'a> Table<'a> {
+    /// The rows under the names and units of the columns. `known` has for each column that is read
+    /// the names that it goes by; those without a name are known and have no bearing on statics.
+    pub(super) fn rows(
+        &self,
+        known: &[(&'static str, &[&str])],
+    ) -> Result<Vec<Row<'a>>, FormatError> {
+        let Some((line, names)) = self.lines.first() else {
+            let what = "line with the names of the columns".to_owned();
+            return Err(FormatError::new(self.file, Some(self.heading), Wrong::Missing { what }));
+        };
+        let mut columns = HashMap::new();
+        let names: Vec<_> = names.split_whitespace().collect();
+        for (k, name) in names.iter().enumerate() {
+            let lower = name.to_lowercase();
+            // `Y0` is a place and `y0` an angle: the name as it stands goes first.
+            let find = |name: &str| known.iter().find(|(_, aliases)| aliases.contains(&name));
+            let column = find(name).or_else(|| find(&lower));
+            let Some((column, _)) = column else {
+                let what = format!("the column {:?}", shortened(name));
+                return Err(FormatError::new(self.file, Some(*line), Wrong::Unknown { what }));
+            };
+            if !column.is_empty() && columns.insert(*column, k).is_some() {
+                let what = format!("the column {name:?}");
+                return Err(FormatError::new(self.file, Some(*line), Wrong::Repeated { what }));
+            }
+        }
+        let rows = self.lines.iter().skip(HEAD).map(|(line, text)| {
+            let words: Vec<_> = text.split_whitespace().collect();
+            if words.len() < names.len() {
+                let wrong = Wrong::Count { wanted: names.len(), found: words.len() };
+                return Err(FormatError::new(self.file, Some(*line), wrong));
+            }
+            let (file, line) = (self.file, *line);
+            Ok(Row { file, line, words, columns: columns.clone() })
+        });
+        rows.collect()
+    }
+}
+
+impl Row<'_> {
+    pub(super) fn error(&self, wrong: Wrong) -> FormatError {
+        FormatError::new(self.file, Some(self.line), wrong)
+    }
+
+    pub(super) fn text(&self, column: &str) -> Result<&str, FormatError> {
+        let place = self.columns.get(column).copied();
+        let place = place
+            .ok_or_else(|| self.error(Wrong::Missing { what: format!("column for {column}") }))?;
+        Ok(self.words[place])
+    }
+
+    pub(super) fn number(&self, column: &str) -> Result<f64, FormatError> {
+        number(self.file, Some(self.line), column, self.text(column)?)
+    }
+
+    /// The number of a column that need not be there.
+    pub(super) fn optional(&self, column: &str) -> Result<Option<f64>, FormatError> {
+        if self.columns.contains_key(column) { self.number(column).map(Some) } else { Ok(None) }
+    }
+
+    pub(super) fn positive(&self, column: &str) -> Result<f64, FormatError> {
+        let found = self.number(column)?;
+        if found > 0.0 {
+            return Ok(found);
+        }
+        let (what, found) = (column.to_owned(), found.to_string());
+        Err(self.error(Wrong::Value { what, wanted: "positive", found }))
+    }
+}

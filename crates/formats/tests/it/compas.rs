@@ -1,0 +1,79 @@
+//! COMPAS JSON.
+
+use formats::system::{Edge, parse_compas};
+
+const NETWORK: &str = r#"{"dtype": "jax_fdm.datastructures/FDNetwork", "data": {
+    "attributes": {"name": "lamp"},
+    "default_node_attributes": {"x": 0.0, "y": 0.0, "z": 0.0, "pz": 0.0, "is_support": false},
+    "default_edge_attributes": {"q": 2.0, "length": 0.0},
+    "node": {"10": {"x": 0, "z": -4, "pz": -16, "neighbors": [0, 1]}, "0": {"x": -3, "is_support": true},
+             "1": {"x": 3, "is_support": true}},
+    "edge": {"0": {"10": {}}, "1": {"10": {"q": 2.5}}, "10": {}}}}"#;
+
+#[test]
+fn a_network_has_nodes_loads_supports_and_force_densities() {
+    let net = parse_compas(NETWORK, "x").unwrap();
+    assert_eq!(net.name, "lamp");
+    let names: Vec<_> = net.nodes.iter().map(|node| node.name.as_str()).collect();
+    assert_eq!(names, ["0", "1", "10"]);
+    assert_eq!((net.nodes[0].held, net.nodes[2].held), (true, false));
+    assert_eq!((net.nodes[2].at_m, net.nodes[2].force_n), ([0.0, 0.0, -4.0], [0.0, 0.0, -16.0]));
+    let edge = |from, density_n_m| Edge { from, to: 2, density_n_m };
+    assert_eq!(net.edges, [edge(0, 2.0), edge(1, 2.5)]);
+}
+
+#[test]
+fn a_mesh_has_the_edges_of_its_faces_once() {
+    let mesh = r#"{"dtype": "compas.datastructures/Mesh", "data": {
+        "vertex": {"0": {"x": 0, "y": 0, "z": 0, "is_anchor": true}, "1": {"x": 1, "y": 0, "z": 0},
+                   "2": {"x": 1, "y": 1, "z": 0}, "3": {"x": 0, "y": 1, "z": 0}},
+        "face": {"0": [0, 1, 2], "1": [0, 2, 3]}, "default_edge_attributes": {"q": 1},
+        "edgedata": {"0-2": {"q": 3}}}}"#;
+    let net = parse_compas(mesh, "x").unwrap();
+    assert_eq!(net.edges.len(), 5);
+    assert!(net.edges.contains(&Edge { from: 2, to: 0, density_n_m: 3.0 }));
+}
+
+#[test]
+fn what_is_not_understood_is_named() {
+    let wrong = |from: &str, to: &str| {
+        assert!(NETWORK.contains(from), "{from}");
+        parse_compas(&NETWORK.replacen(from, to, 1), "x").unwrap_err().to_string()
+    };
+    for (from, to, says) in [
+        (
+            "\"q\": 2.5",
+            "\"lmin\": 2.5",
+            "x: the attribute \"lmin\" of the edge 1 - 10 is not understood",
+        ),
+        (
+            "\"neighbors\"",
+            "\"stiffness\"",
+            "x: the attribute \"stiffness\" of node 10 is not understood",
+        ),
+        (
+            "\"q\": 2.5",
+            "\"pz\": 2.5",
+            "x: the load pz on the edge 1 - 10 is not part of a system of bars at rest",
+        ),
+        ("{\"10\": {}}", "{\"11\": {}}", "x: there is no node \"11\""),
+        (
+            "\"z\": -4",
+            "\"z\": \"low\"",
+            "x: z of node 10 must be a finite number, found \"\\\"low\\\"\"",
+        ),
+        ("\"z\": -4", "\"z\": null", "x: z of node 10 must be a finite number, found \"null\""),
+        ("true", "1", "x: is_support of node 0 must be true or false, found \"1\""),
+        (
+            "FDNetwork",
+            "VolMesh2",
+            "x: the data of type \"jax_fdm.datastructures/VolMesh2\" is not understood",
+        ),
+        ("\"q\": 2.0, ", "", "x: there is no q of the edge 0 - 10"),
+        ("\"edge\":", "\"edges\":", "x: there is no object `edge`"),
+        ("\"dtype\"", "\"kind\"", "x: there is no text `dtype`"),
+    ] {
+        assert_eq!(wrong(from, to), says);
+    }
+    assert!(parse_compas("", "x").unwrap_err().to_string().contains("this is no JSON"));
+}

@@ -1,0 +1,6 @@
+//! Files of other programs, right and wrong.
+
+mod answers;
+mod compas;
+mod moordyn;
+mod nets;

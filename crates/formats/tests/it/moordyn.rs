@@ -1,0 +1,210 @@
+//! MoorDyn input files.
+
+use formats::system::parse_moordyn;
+use model::system::Kind;
+
+/// A line heavier than water from an anchor to a fairlead, and a buoyant one to a free float.
+const FILE: &str = "\
+--------------------- MoorDyn Input File ------------------------------------
+two lines, written for a test   # a comment
+----------------------- LINE TYPES ------------------------------------------
+TypeName   Diam    Mass/m     EA         BA/-zeta    EI         Cd     Ca     CdAx    CaAx
+(name)     (m)     (kg/m)     (N)        (N-s/-)     (N-m^2)    (-)    (-)    (-)     (-)
+chain      0.2     100        1.0e9      -1.0        0          1.37   1.0    0.64    0.0
+rope       0.2     20         1.0e7      -1.0        0          1.37   1.0    0.64    0.0
+---------------------- POINT PROPERTIES --------------------------------
+ID    Type      X       Y       Z       Mass   Volume  CdA    Ca
+(#)   (-)       (m)     (m)     (m)     (kg)   (m^3)   (m^2)  (-)
+1     Fixed     0       0.0     -50.0   0      0       0      0
+2     Vessel    60      0.0     -10.0   0      0       0      0
+3     Free      20      0.0     -20.0   100    1       0      0
+---------------------- LINES ----------------------------------------
+ID   LineType   AttachA  AttachB  UnstrLen  NumSegs  LineOutputs
+(#)   (name)     (#)      (#)       (m)       (-)     (-)
+1     chain      1        2         80        4       p
+2     rope       1        3         30        2       -
+---------------------- OPTIONS -----------------------------------------
+0.001         dtM           time step
+1000          WtrDnsty      water density (kg/m^3)
+10            g             gravity (m/s^2)
+60            WtrDpth       water depth (m)
+0             WaveKin       no waves
+---------------------- OUTPUTS -----------------------------------------
+FairTen1
+------------------------- need this line -------------------------------
+";
+
+#[test]
+fn lines_are_runs_of_elastic_cables_with_their_weight_in_water() {
+    let found = parse_moordyn(FILE, "lines.txt").unwrap();
+    let system = &found.system;
+    assert_eq!(system.name(), "two lines, written for a test");
+    let names: Vec<_> = system.joints().iter().map(|joint| joint.name.as_str()).collect();
+    assert_eq!(names, ["1", "2", "3", "line 1.1", "line 1.2", "line 1.3", "line 2.1"]);
+    assert_eq!(system.members().len(), 6);
+    let displaced_kg_m = 1000.0 * std::f64::consts::PI * 0.01;
+    // 31.4 kg/m of water: the chain weighs 68.6 of its 100 kg/m, the rope is lifted by 11.4 of its
+    // 20.
+    let chain = &system.members()[0];
+    assert_eq!((chain.kind, chain.stiffness_n), (Kind::Cable, Some(1e9)));
+    assert!((chain.body.mass_kg() - 20.0 * (100.0 - displaced_kg_m)).abs() < 1e-9);
+    let rope = &system.members()[4];
+    assert!(rope.body.mass_kg() <= 0.0 && rope.loads.len() == 1);
+    assert!((rope.loads[0].force_n[2] - 150.0 * (displaced_kg_m - 20.0)).abs() < 1e-9);
+    // A float of a cubic metre that weighs 100 kg: 900 kg of lift.
+    assert!((system.joints()[2].force_n[2] - 9000.0).abs() < 1e-9);
+    assert_eq!(system.joints()[1].support.at_m(), Some([60.0, 0.0, -10.0]));
+    assert_eq!(found.floor_m, Some(-60.0));
+    assert!(found.notes.iter().any(|note| note.starts_with("line 1: 4 elastic cables of 20 m")));
+}
+
+#[test]
+fn version_one_has_its_columns_in_another_order() {
+    let text = FILE
+        .replace(
+            "ID   LineType   AttachA  AttachB  UnstrLen  NumSegs  LineOutputs",
+            "Line LineType UnstrLen NumSegs NodeAnch NodeFair Flags/Outputs",
+        )
+        .replace("1     chain      1        2         80        4       p", "1 chain 80 4 1 2 p")
+        .replace("2     rope       1        3         30        2       -", "2 rope 30 2 1 3 -")
+        .replace("LINE TYPES", "LINE DICTIONARY")
+        .replace("POINT PROPERTIES", "CONNECTION PROPERTIES");
+    assert_eq!(parse_moordyn(&text, "x").unwrap().system, parse_moordyn(FILE, "x").unwrap().system);
+}
+
+fn wrong(from: &str, to: &str) -> String {
+    assert!(FILE.contains(from), "{from}");
+    parse_moordyn(&FILE.replacen(from, to, 1), "x").unwrap_err().to_string()
+}
+
+#[test]
+fn what_is_not_statics_of_lines_is_named_and_refused() {
+    for (from, to, says) in [
+        (
+            "0          1.37   1.0",
+            "5          1.37   1.0",
+            "x:6: the bending stiffness EI = 5 N m^2 is not part of a system of bars at rest",
+        ),
+        (
+            "1.0e9 ",
+            "1.0e9|2.0e9 ",
+            "x:6: the stiffness \"1.0e9|2.0e9\", which is no constant, is not part of a system of bars at rest",
+        ),
+        (
+            "1.0e9 ",
+            "curve.txt ",
+            "x:6: the stiffness \"curve.txt\", which is no constant, is not part of a system of bars at rest",
+        ),
+        (
+            "0             WaveKin",
+            "1             WaveKin",
+            "x:24: WaveKin = 1 is not part of a system of bars at rest",
+        ),
+        (
+            "60            WtrDpth",
+            "floor.txt     WtrDpth",
+            "x:23: the floor \"floor.txt\" is not part of a system of bars at rest",
+        ),
+        (
+            "0.001         dtM ",
+            "0.001         Seismic ",
+            "x:20: the option \"0.001         Seismic           time step\" is not understood",
+        ),
+        (
+            "- OUTPUTS -",
+            "- EXTERNAL LOADS -",
+            "x:25: the section \"EXTERNAL LOADS\" is not understood",
+        ),
+        ("Vessel ", "Pinned ", "x:12: the type \"pinned\" of point 2 is not understood"),
+        ("Vessel ", "Body1  ", "x:12: there is no body \"1\" of point 2"),
+        ("Cd     Ca     CdAx", "Cd     Qx     CdAx", "x:4: the column \"Qx\" is not understood"),
+    ] {
+        assert_eq!(wrong(from, to), says);
+    }
+    let rods = "---------------------- RODS ------------------\nID RodType Attachment\n(#) (name) (#)\n1 pipe Free\n";
+    let text = FILE.replacen(
+        "---------------------- LINES",
+        &format!("{rods}---------------------- LINES"),
+        1,
+    );
+    let error = parse_moordyn(&text, "x").unwrap_err();
+    assert_eq!(
+        error.to_string(),
+        "x:17: the rod \"1 pipe Free\" is not part of a system of bars at rest"
+    );
+}
+
+#[test]
+fn bad_tables_are_told_with_their_lines() {
+    for (from, to, says) in [
+        (
+            "100        1.0e9",
+            "nan        1.0e9",
+            "x:6: mass must be a finite number, found \"nan\"",
+        ),
+        ("100        1.0e9", "100        -1", "x:6: EA must be positive, found \"-1\""),
+        (
+            "80        4 ",
+            "80        4.5 ",
+            "x:17: NumSegs must be a whole number up to 1e6, found \"4.5\"",
+        ),
+        (
+            "80        4 ",
+            "80        1e9 ",
+            "x:17: NumSegs must be a whole number up to 1e6, found \"1000000000\"",
+        ),
+        ("80        4 ", "0         4 ", "x:17: length must be positive, found \"0\""),
+        (
+            "1     chain      1        2",
+            "1     wire       1        2",
+            "x:17: there is no line type \"wire\"",
+        ),
+        (
+            "1     chain      1        2",
+            "1     chain      1        7",
+            "x:17: there is no point \"7\"",
+        ),
+        ("2     Vessel", "1     Vessel", "x:12: point 1 is there twice"),
+        (
+            "2     Vessel    60      0.0     -10.0   0      0       0      0",
+            "2 Vessel 60",
+            "x:12: 9 values are needed here, found 3",
+        ),
+        ("LINE TYPES", "LINES", "x:14: the section \"LINES\" is there twice"),
+        ("10            g ", "0             g ", "x:22: g must be positive, found \"0\""),
+    ] {
+        assert_eq!(wrong(from, to), says);
+    }
+    assert_eq!(parse_moordyn("", "x").unwrap_err().to_string(), "x: the file is empty");
+    assert_eq!(
+        parse_moordyn("hello\n", "x").unwrap_err().to_string(),
+        "x: there is no section LINE TYPES"
+    );
+}
+
+#[test]
+fn points_of_a_fixed_body_are_anchors() {
+    let bodies = "---------------------- BODIES ------------------\n\
+        ID   Attachment  X0  Y0  Z0  r0  p0  y0  Mass  CG*  I*  Volume  CdA*  Ca*\n(#) (word) (m) (m) (m) (deg) (deg) (deg) (kg) (m) (kg-m^2) (m^3) (m^2) (-)\n\
+        1    Fixed       60  0   0   0   0   0   0     0    0   0       0     0\n";
+    let text = FILE
+        .replacen(
+            "---------------------- POINT",
+            &format!("{bodies}---------------------- POINT"),
+            1,
+        )
+        .replacen("2     Vessel    60      0.0     -10.0", "2 Body1 0 0 -10", 1);
+    let found = parse_moordyn(&text, "x").unwrap();
+    assert_eq!(found.system.joints()[1].support.at_m(), Some([60.0, 0.0, -10.0]));
+    let free = text.replacen("1    Fixed ", "1    Free  ", 1);
+    let error = parse_moordyn(&free, "x").unwrap_err();
+    assert_eq!(
+        error.to_string(),
+        "x:11: body 1, which is \"free\" and not fixed, is not part of a system of bars at rest"
+    );
+    let turned = text.replacen("60  0   0   0   0   0", "60  0   0   0   0   5", 1);
+    assert_eq!(
+        parse_moordyn(&turned, "x").unwrap_err().to_string(),
+        "x:11: the yaw of body 1 is not understood"
+    );
+}

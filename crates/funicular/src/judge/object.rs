@@ -1,0 +1,90 @@
+//! A judgement as JSON: the keys of [`Judgement`], with names and sentences beside its numbers.
+
+use model::Vector;
+use serde::{Serialize, Serializer};
+use validate::foreign::{Judgement, Violation};
+
+use super::Judged;
+use crate::solve::SCHEMA_VERSION;
+
+#[derive(Serialize)]
+struct Object<'a> {
+    schema_version: u32,
+    system: Summary<'a>,
+    #[serde(flatten)]
+    judgement: Told<'a>,
+    joints: Vec<Joint<'a>>,
+    bars: Vec<Bar<'a>>,
+}
+
+#[derive(Serialize)]
+struct Summary<'a> {
+    name: &'a str,
+    joints: usize,
+    bars: usize,
+}
+
+/// The judgement with the violations by name.
+#[derive(Serialize)]
+struct Told<'a> {
+    says: String,
+    broken: Vec<Broken<'a>>,
+    #[serde(flatten)]
+    judgement: &'a Judgement,
+}
+
+#[derive(Serialize)]
+struct Broken<'a> {
+    at: String,
+    says: String,
+    #[serde(flatten)]
+    violation: &'a Violation,
+}
+
+#[derive(Serialize)]
+struct Joint<'a> {
+    name: &'a str,
+    at_m: Vector,
+    reaction_n: Vector,
+}
+
+#[derive(Serialize)]
+struct Bar<'a> {
+    from: &'a str,
+    to: &'a str,
+    axial_n: f64,
+}
+
+impl Serialize for Judged {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let (system, judgement) = (self.system(), self.judgement());
+        let name = |joint: usize| system.joints()[joint].name.as_str();
+        let broken = |violation| Broken {
+            at: Violation::place_in(violation, system),
+            says: violation.what(),
+            violation,
+        };
+        let places = judgement.joints_m.iter().zip(&judgement.reactions_n).enumerate();
+        let members = system.members().iter().zip(&judgement.axial_n);
+        Object {
+            schema_version: SCHEMA_VERSION,
+            system: Summary {
+                name: system.name(),
+                joints: system.joints().len(),
+                bars: system.members().len(),
+            },
+            judgement: Told {
+                says: judgement.finding.to_string(),
+                broken: judgement.violations.iter().map(broken).collect(),
+                judgement,
+            },
+            joints: places
+                .map(|(k, (at_m, force))| Joint { name: name(k), at_m: *at_m, reaction_n: *force })
+                .collect(),
+            bars: members
+                .map(|(m, axial)| Bar { from: name(m.from), to: name(m.to), axial_n: *axial })
+                .collect(),
+        }
+        .serialize(serializer)
+    }
+}

@@ -1,0 +1,263 @@
+//! `funicular judge`: answers from elsewhere, in all formats, right and wrong.
+
+#![expect(clippy::unwrap_used, reason = "helpers of tests")]
+
+use std::path::{Path, PathBuf};
+use std::process::Output;
+
+use assert_cmd::Command;
+use formats::system::parse_moordyn;
+use serde_json::Value;
+
+/// A mass of 2 kg on two massless cables of 5 m between anchors 6 m apart: by the triangle 3, 4, 5
+/// it hangs 4 m deep, and each cable pulls with 5/4 of 10 N.
+const LAMP: &str = "name = \"lamp\"\ngravity_m_s2 = 10\n[joints]\nA = { at_m = [-3, 0, 0] }\n\
+    B = { at_m = [3, 0, 0] }\nP = { mass_kg = 2 }\n\
+    [[bars]]\nfrom = \"A\"\nto = \"P\"\nlength_m = 5\nmass_kg = 0\nkind = \"cable\"\n\
+    [[bars]]\nfrom = \"P\"\nto = \"B\"\nlength_m = 5\nmass_kg = 0\nkind = \"cable\"\n";
+const RIGHT: &str = "joint,x_m,y_m,z_m\nP,0,0,-4\nA,-3,0,0\nB,3,0,0\n";
+
+fn folder(name: &str) -> PathBuf {
+    let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(name);
+    let _ = std::fs::remove_dir_all(&path);
+    std::fs::create_dir_all(&path).unwrap();
+    std::fs::write(path.join("lamp.toml"), LAMP).unwrap();
+    std::fs::write(path.join("right.csv"), RIGHT).unwrap();
+    path
+}
+
+fn command(folder: &Path, arguments: &[&str]) -> Command {
+    let mut command = Command::cargo_bin("funicular").unwrap();
+    command.current_dir(folder).env("NO_COLOR", "1").args(arguments);
+    command
+}
+
+fn judge(folder: &Path, arguments: &[&str]) -> (Option<i32>, String, String) {
+    let all: Vec<_> = std::iter::once("judge").chain(arguments.iter().copied()).collect();
+    let Output { status, stdout, stderr } = command(folder, &all).output().unwrap();
+    let text = |bytes| String::from_utf8(bytes).unwrap();
+    (status.code(), text(stdout), text(stderr))
+}
+
+fn write(folder: &Path, name: &str, text: &str) {
+    std::fs::write(folder.join(name), text).unwrap();
+}
+
+#[test]
+fn what_our_own_commands_print_is_confirmed() {
+    let folder = folder("judge-own");
+    let solved = command(
+        &folder,
+        &["solve", "lamp.toml", "--json", "--csv", "j.csv", "--bars-csv", "b.csv"],
+    );
+    let solved = { solved }.output().unwrap();
+    write(&folder, "answer.json", &String::from_utf8(solved.stdout).unwrap());
+    let (code, out, _) = judge(&folder, &["lamp.toml", "--answer", "answer.json"]);
+    assert_eq!(code, Some(0), "{out}");
+    assert_eq!(out.matches("Verdict: confirmed").count(), 2, "{out}");
+    let columns = ["lamp.toml", "--answer", "j.csv", "--members", "b.csv", "--tolerance", "1e-11"];
+    assert_eq!(judge(&folder, &columns).0, Some(0));
+    // A chain, and its census: every equilibrium of it, stable or not.
+    let chain = ["--case", "three-equal-bars"];
+    for by in ["solve", "census"] {
+        let printed =
+            command(&folder, &[&[by], &chain[..], &["--json"]].concat()).output().unwrap();
+        write(&folder, "chain.json", &String::from_utf8(printed.stdout).unwrap());
+        let (code, out, _) =
+            judge(&folder, &[&chain[..], &["--answer", "chain.json", "--json"]].concat());
+        assert_eq!(code, Some(0), "{by}: {out}");
+        let found: Value = serde_json::from_str(&out).unwrap();
+        let found = found.as_array().unwrap();
+        assert_eq!(found.len(), if by == "solve" { 2 } else { 4 });
+        assert!(found.iter().all(|one| one["finding"] == "confirmed"));
+    }
+}
+
+#[test]
+fn positions_alone_are_judged_by_the_forces_that_balance_best() {
+    let folder = folder("judge-positions");
+    let (code, out, _) = judge(&folder, &["lamp.toml", "--answer", "right.csv", "--json"]);
+    assert_eq!(code, Some(0), "{out}");
+    let found: Value = serde_json::from_str(&out).unwrap();
+    assert_eq!((&found["finding"], &found["forces"]), (&"confirmed".into(), &"found".into()));
+    let axial = found["bars"][0]["axial_n"].as_f64().unwrap();
+    assert!((axial - 12.5).abs() < 1e-9, "{axial}");
+    assert_eq!(found["ladder"][4]["reached"], true);
+}
+
+#[test]
+fn what_is_broken_is_named_with_its_numbers() {
+    let folder = folder("judge-broken");
+    write(&folder, "low.csv", &RIGHT.replace("-4\n", "-4.01\n"));
+    let (code, out, _) = judge(&folder, &["lamp.toml", "--answer", "low.csv"]);
+    assert_eq!(code, Some(1), "{out}");
+    assert!(out.contains("Verdict: refuted") && out.contains("member 1 (A - P)"), "{out}");
+    assert!(out.contains("finds an equilibrium (optimal) up to 1.000e-2 m away"), "{out}");
+    // Right to two digits.
+    let arguments = ["lamp.toml", "--answer", "low.csv", "--tolerance", "0.01"];
+    assert_eq!(judge(&folder, &arguments).0, Some(0));
+    // One force a tenth too large.
+    write(&folder, "forces.csv", "from,to,axial_n\nA,P,13.75\nB,P,12.5\n");
+    let arguments = ["lamp.toml", "--answer", "right.csv", "--members", "forces.csv", "--json"];
+    let (code, out, _) = judge(&folder, &arguments);
+    assert_eq!(code, Some(1));
+    let found: Value = serde_json::from_str(&out).unwrap();
+    assert_eq!(found["broken"][0]["at"], "joint P");
+    assert_eq!(found["broken"][0]["law"], "balance");
+    assert!((found["broken"][0]["value"].as_f64().unwrap() - 1.25).abs() < 1e-9);
+}
+
+#[test]
+fn the_page_needs_nothing_else_and_tells_the_verdict_first() {
+    let folder = folder("judge-page");
+    write(&folder, "low.csv", &RIGHT.replace("-4\n", "-4.01\n"));
+    let (code, _, _) = judge(&folder, &["lamp.toml", "--answer", "low.csv", "--html", "page.html"]);
+    assert_eq!(code, Some(1));
+    let page = std::fs::read_to_string(folder.join("page.html")).unwrap();
+    for outside in ["http://", "https://", "src=\"", "@import", "url("] {
+        let allowed = page.matches("http://www.w3.org/").count();
+        let found = page.matches(outside).count();
+        assert_eq!(found, if outside == "http://" { allowed } else { 0 }, "{outside}");
+    }
+    let place = |text: &str| page.find(text).unwrap_or_else(|| panic!("{text}"));
+    assert!(place("refuted: a law is broken") < place("member 1 (A - P)"));
+    assert!(place("member 1 (A - P)") < place("<svg"));
+    // A page that would overwrite the answer is refused.
+    let (code, _, err) = judge(&folder, &["lamp.toml", "--answer", "low.csv", "--html", "low.csv"]);
+    assert_eq!(code, Some(2), "{err}");
+}
+
+#[test]
+fn bad_input_is_told_and_ends_with_two() {
+    let folder = folder("judge-bad");
+    let files = [
+        ("empty.csv", "", "the file is empty"),
+        ("missing.csv", "joint,x_m,y_m,z_m\nA,-3,0,0\nB,3,0,0\n", "no place for joint \"P\""),
+        ("misspelt.csv", "joint,x_m,y_m,z\nA,-3,0,0\n", "did you mean `z_m`?"),
+        ("unknown.csv", "joint,x_m,y_m,z_m\nQ,0,0,0\n", "the system has no joint \"Q\""),
+        ("nan.csv", "joint,x_m,y_m,z_m\nA,nan,0,0\n", "nan.csv:2: x_m must be a finite number"),
+        ("broken.json", "{\"equilibria\": [", "this is no JSON"),
+        ("counts.json", "{\"joints_m\": [[0,0,0]]}", "1 joints, and the system 3"),
+        ("grid.vtu", "<VTKFile type=\"PolyData\"/>", "UnstructuredGrid"),
+    ];
+    for (name, text, says) in files {
+        write(&folder, name, text);
+        let (code, out, err) = judge(&folder, &["lamp.toml", "--answer", name]);
+        let err = err.split_whitespace().collect::<Vec<_>>().join(" ").replace("│ ", "");
+        assert_eq!((code, out.as_str()), (Some(2), ""), "{name}: {err}");
+        assert!(err.contains(says), "{name}: {err}");
+    }
+    std::fs::write(folder.join("latin.csv"), b"joint,x_m,y_m,z_m\n\xe9,0,0,0\n").unwrap();
+    let large = std::fs::File::create(folder.join("large.csv")).unwrap();
+    large.set_len(model::system_file::MAX_FILE_BYTES + 1).unwrap();
+    for (arguments, says) in [
+        (vec!["lamp.toml"], "an answer is needed"),
+        (vec!["lamp.toml", "--answer", "none.csv"], "cannot be read"),
+        (vec!["lamp.toml", "--answer", "."], "it is a folder"),
+        (vec!["lamp.toml", "--answer", "latin.csv"], "cannot be read"),
+        (vec!["lamp.toml", "--answer", "large.csv"], "it is longer than"),
+        (vec!["-", "--answer", "-"], "cannot both come from standard input"),
+        (vec!["right.csv"], "needs its edges too"),
+        (vec!["lamp.toml", "--edges", "right.csv", "--format", "funicular"], "--edges is for nets"),
+        (vec!["lamp.toml", "--answer", "right.csv", "--tolerance", "2"], "must lie between"),
+        (vec!["lamp.toml", "--answer", "right.csv", "--tolerance", "nan"], "must lie between"),
+    ] {
+        let (code, _, err) = judge(&folder, &arguments);
+        let err = err.split_whitespace().collect::<Vec<_>>().join(" ").replace("│ ", "");
+        assert_eq!(code, Some(2), "{arguments:?}: {err}");
+        assert!(err.contains(says), "{arguments:?}: {err}");
+    }
+}
+
+#[test]
+fn standard_input_may_be_the_answer_or_the_system() {
+    let folder = folder("judge-stdin");
+    let run = |arguments: &[&str], input: &str| {
+        command(&folder, arguments).write_stdin(input).output().unwrap().status.code()
+    };
+    assert_eq!(run(&["judge", "lamp.toml", "--answer", "-"], RIGHT), Some(0));
+    assert_eq!(run(&["judge", "-", "--answer", "right.csv"], LAMP), Some(0));
+    assert_eq!(run(&["judge", "lamp.toml", "--answer", "-"], ""), Some(2));
+}
+
+/// A line of forty segments that hangs free between two points; only its answer is computed here.
+const LINE: &str = "---- MoorDyn Input File ----\na hanging line\n---- LINE TYPES ----\n\
+    Name Diam Mass/m EA BA/-zeta EI Cd Ca CdAx CaAx\n(-) (m) (kg/m) (N) (-) (-) (-) (-) (-) (-)\n\
+    wire 0.05 20 1e7 -1 0 1 1 1 1\n---- POINTS ----\nID Type X Y Z Mass Volume CdA Ca\n\
+    (-) (-) (m) (m) (m) (kg) (m3) (m2) (-)\n1 Fixed 0 0 -20 0 0 0 0\n2 Vessel 60 0 0 0 0 0 0\n\
+    ---- LINES ----\nID LineType AttachA AttachB UnstrLen NumSegs LineOutputs\n(-) (-) (-) (-) (m) (-) (-)\n\
+    1 wire 1 2 70 40 -\n---- OPTIONS ----\n1000 WtrDnsty\n9.81 g\n200 WtrDpth\n---- need this line ----\n";
+
+fn solved_line(text: &str) -> String {
+    let foreign = parse_moordyn(text, "line.txt").unwrap();
+    let answer = funicular::Solve::new().run_system(&foreign.system).unwrap();
+    assert!(answer.agrees());
+    let joints = foreign.system.joints().iter().zip(&answer.equilibria()[0].joints_m);
+    let rows = joints.map(|(joint, [x, y, z])| format!("{},{x:?},{y:?},{z:?}\n", joint.name));
+    format!("joint,x_m,y_m,z_m\n{}", rows.collect::<String>())
+}
+
+#[test]
+fn a_mooring_line_is_judged_and_one_on_the_floor_is_not() {
+    let folder = folder("judge-moordyn");
+    write(&folder, "line.txt", LINE);
+    write(&folder, "answer.csv", &solved_line(LINE));
+    let (code, out, err) = judge(&folder, &["line.txt", "--answer", "answer.csv"]);
+    assert_eq!(code, Some(0), "{out}{err}");
+    assert!(out.contains("line 1: 40 elastic cables of 1.75 m"), "{out}");
+    // The same with the floor where the line hangs through it.
+    write(&folder, "shallow.txt", &LINE.replace("200 WtrDpth", "20 WtrDpth"));
+    let (code, out, _) = judge(&folder, &["shallow.txt", "--answer", "answer.csv"]);
+    assert_eq!(code, Some(3), "{out}");
+    assert!(out.contains("on or below the floor"), "{out}");
+    let (code, _, err) =
+        judge(&folder, &["line.txt", "--answer", "answer.csv", "--format", "compas"]);
+    assert_eq!(code, Some(2), "{err}");
+}
+
+#[test]
+fn the_net_of_olympia_is_in_balance_and_one_force_changed_is_not() {
+    let folder = folder("judge-olympia");
+    let data =
+        Path::new(env!("CARGO_MANIFEST_DIR")).join("../../validation/external/force-density");
+    let text = |name: &str| std::fs::read_to_string(data.join(name)).unwrap();
+    let (nodes, edges) = (text("olympia-nodes.csv"), text("olympia-edges.csv"));
+    write(&folder, "nodes.csv", &nodes);
+    write(&folder, "edges.csv", &edges);
+    let (code, out, err) = judge(&folder, &["nodes.csv", "--edges", "edges.csv"]);
+    assert_eq!(code, Some(0), "{out}{err}");
+    // Force density and force of one edge a tenth larger.
+    assert!(edges.contains("77,4,5,5,9.086835826\n"));
+    write(
+        &folder,
+        "edges.csv",
+        &edges.replace("77,4,5,5,9.086835826\n", "77,4,5,5.5,9.9955194086\n"),
+    );
+    let (code, out, _) = judge(&folder, &["nodes.csv", "--edges", "edges.csv"]);
+    assert_eq!(code, Some(1), "{out}");
+    assert!(out.contains("joint 4 ") && out.contains("joint 77 "), "{out}");
+    // A column that the other net has misspelt is named.
+    write(&folder, "nodes.csv", &text("stuttgart21-nodes.csv"));
+    let (code, _, err) = judge(&folder, &["nodes.csv", "--edges", "edges.csv"]);
+    assert_eq!(code, Some(2));
+    assert!(err.contains("the column \"6\" is not understood"), "{err}");
+}
+
+#[test]
+fn names_from_files_do_not_steer_the_terminal() {
+    let folder = folder("judge-escapes");
+    let name = "\u{1b}[2JP";
+    write(
+        &folder,
+        "lamp.toml",
+        &LAMP.replace("P = {", "\"\\u001B[2JP\" = {").replace("\"P\"", "\"\\u001B[2JP\""),
+    );
+    write(&folder, "answer.csv", &RIGHT.replace("P,0,0,-4", &format!("\"{name}\",0,0,-5")));
+    let (code, out, _) = judge(&folder, &["lamp.toml", "--answer", "answer.csv"]);
+    assert_eq!(code, Some(1), "{out}");
+    assert!(!out.contains('\u{1b}'), "{out:?}");
+    write(&folder, "answer.csv", &RIGHT.replace("P,0,0,-4", "\"\u{1b}]0;X\u{7}\",0,0,-5"));
+    let (code, _, err) = judge(&folder, &["lamp.toml", "--answer", "answer.csv"]);
+    assert_eq!(code, Some(2));
+    assert!(!err.contains('\u{7}') && !err.contains("\u{1b}]"), "{err:?}");
+}
