@@ -1,7 +1,7 @@
 //! Drawings of answers: joints, supports, loads, reactions and axial forces, to scale.
 
 use figures::{StructureError, SystemShape};
-use model::Equilibrium;
+use model::{Equilibrium, Vector};
 use model::system::{System, SystemEquilibrium};
 
 /// An equilibrium of a system as an SVG file.

@@ -5,6 +5,8 @@ use std::time::Instant;
 use model::{Equilibrium, Ladder, NoAnswer, Rung, SolverName, Stability, cases};
 use serde::Serialize;
 use validate::answer::judge;
+use validate::field::entry::Entry;
+use validate::field::record::field;
 use validate::table::{CaseResult, Row, table};
 use validate::tolerances::Tolerances;
 
@@ -41,6 +43,8 @@ pub struct Reproduction {
     pub cases: Vec<CaseResult>,
     /// Both solvers from many random seeds.
     pub seeds: Vec<Survey>,
+    /// What others have published of cables and nets, judged by the same means.
+    pub field: Vec<Entry>,
     /// What there is to draw.
     pub figures: Figures,
     /// The same in a few numbers.
@@ -157,6 +161,8 @@ pub fn reproduce_with(
     let equations = audit(&e1_state(&example));
     progress("both solvers on every case");
     let cases = table(cases::all(), &Tolerances::project());
+    progress("what others have published of cables and nets");
+    let field = field();
     let summary = Summary::new(&paper, &claims, &equations, &cases);
     Ok(Reproduction {
         schema_version: SCHEMA_VERSION,
@@ -169,6 +175,7 @@ pub fn reproduce_with(
         equations,
         cases,
         seeds,
+        field,
         figures: Figures::compute(&example),
         summary,
         seconds: clock.elapsed().as_secs_f64(),

@@ -7,7 +7,7 @@ use validate::gallery::Piece;
 
 use crate::block::Block;
 use crate::chapters::{
-    cases, citing, claims, equations, gallery, method, overview, positions, run, scan,
+    cases, citing, claims, equations, field, gallery, method, overview, positions, run, scan,
 };
 use crate::environment::Environment;
 use crate::view::View;
@@ -104,6 +104,7 @@ impl Report {
             method::blocks(r),
             cases::blocks(r),
             gallery::blocks(&self.gallery),
+            field::blocks(r),
             citing::blocks(),
         ]
         .concat()

@@ -28,6 +28,7 @@ pub mod compare;
 pub mod completeness;
 pub mod consistency;
 mod differences;
+pub mod field;
 pub mod force_family;
 pub mod foreign;
 mod free;

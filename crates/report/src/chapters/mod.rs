@@ -4,6 +4,7 @@ pub(crate) mod cases;
 pub(crate) mod citing;
 pub(crate) mod claims;
 pub(crate) mod equations;
+pub(crate) mod field;
 pub(crate) mod gallery;
 pub(crate) mod method;
 pub(crate) mod overview;

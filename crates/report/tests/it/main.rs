@@ -151,8 +151,8 @@ fn cells_beside_a_verdict_name_their_column() {
         );
         tables += 1;
     }
-    // Rungs, claims, the equations by verdict, statements, cases, two of the gallery.
-    assert_eq!(tables, 7);
+    // Rungs, claims, the equations by verdict, statements, cases, two of the gallery, the field.
+    assert_eq!(tables, 8);
 }
 
 #[test]

@@ -11,6 +11,7 @@ mod chains_catenary;
 mod chains_million;
 mod chains_stability;
 mod external;
+mod field;
 mod first_tries;
 mod gallery;
 mod independence;

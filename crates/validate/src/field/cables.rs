@@ -1,0 +1,259 @@
+//! Heavy elastic cables: the catenary table of MoorPy's tests, and two tests of code_aster.
+
+use model::system::{Joint, Member, Support, System, SystemError};
+use model::{Bar, SolverName};
+use serde::Deserialize;
+
+use super::elastic_catenary::{ElasticCatenary, EndForces};
+use super::entry::{BothSolvers, Compared, Entry, HandCheck};
+use super::run_of_members::{end_forces, run_of_members};
+use crate::answer::Solvers;
+use crate::foreign::{Finding, ForeignAnswer, judge_foreign};
+use crate::systems::ask;
+
+const MOORPY: &str = "NREL MoorPy, tests/test_catenary.py, \
+    github.com/NREL/MoorPy, commit 9881074d9c75";
+const HEAVY_CABLE: &str =
+    "EDF, code_aster, validation manual V6.02.114 (input) and V6.05.116, section 2.2 (number)";
+const STAYED_FRAME: &str = "EDF, code_aster, validation manual V6.02.105 (SSNL105), section 2";
+/// Members of a run for the report.
+const MEMBERS: usize = 100;
+
+#[derive(Deserialize)]
+struct Table {
+    tolerance: f64,
+    case: Vec<Case>,
+}
+
+#[derive(Deserialize)]
+struct Case {
+    index: usize,
+    #[serde(default)]
+    floor: bool,
+    #[serde(default)]
+    x_m: f64,
+    #[serde(default)]
+    z_m: f64,
+    #[serde(default)]
+    length_m: f64,
+    #[serde(default)]
+    stiffness_n: f64,
+    #[serde(default)]
+    weight_n_m: f64,
+    #[serde(default)]
+    expected: Vec<String>,
+}
+
+/// A half of the last digit of a number as printed.
+pub(super) fn half_digit(printed: &str) -> f64 {
+    let digits = printed.split(['e', 'E']).next().unwrap_or_default();
+    let decimals = digits.split_once('.').map_or(0, |(_, decimals)| decimals.len());
+    0.5 * 10.0_f64.powi(-i32::try_from(decimals).unwrap_or(0))
+}
+
+/// The table of MoorPy's tests.
+///
+/// # Panics
+///
+/// Never: a test reads the file that is compiled in.
+#[must_use]
+pub fn moorpy() -> Vec<Entry> {
+    let table: Table = toml::from_str(include_str!("../../data/external/moorpy-catenary.toml"))
+        .expect("moorpy-catenary.toml is read by a test");
+    table.case.iter().map(|case| moorpy_case(case, table.tolerance)).collect()
+}
+
+fn moorpy_case(case: &Case, tolerance: f64) -> Entry {
+    let title = format!("mooring line, index {}", case.index);
+    if case.floor {
+        let because = "part of the line lies on the floor, which is not part of our systems";
+        return Entry::not_judged(title, MOORPY, because);
+    }
+    // A line lighter than water hangs upwards: the mirror image has the lower end above.
+    let upwards = case.weight_n_m < 0.0;
+    let cable = ElasticCatenary {
+        x_m: case.x_m,
+        z_m: case.z_m,
+        length_m: case.length_m,
+        stiffness_n: case.stiffness_n,
+        weight_n_m: case.weight_n_m.abs(),
+    };
+    let Some(found) = cable.solve() else {
+        return Entry::not_judged(title, MOORPY, "the closed form was not found");
+    };
+    let EndForces { horizontal_n, upper_n, lower_n } = found;
+    // Forces on the line by MoorPy's signs: at A, the given end at the origin, and at B.
+    let ours = if upwards {
+        [horizontal_n, upper_n, -horizontal_n, lower_n]
+    } else {
+        [horizontal_n, -lower_n, -horizontal_n, -upper_n]
+    };
+    let names = ["H at A / N", "V at A / N", "H at B / N", "V at B / N"];
+    let numbers: Vec<Compared> = names
+        .iter()
+        .zip(&case.expected)
+        .zip(ours)
+        .map(|((what, printed), ours)| {
+            let published = printed.parse().unwrap_or(f64::NAN);
+            let allowed = tolerance * published.abs();
+            let (what, printed) = ((*what).to_owned(), printed.clone());
+            Compared { what, printed, published, ours, allowed, at_most: false }
+        })
+        .collect();
+    let weight_n = case.weight_n_m * case.length_m;
+    let [a, b] = [1, 3].map(|k| numbers.get(k).map_or(f64::NAN, |number| number.published));
+    let by_hand = HandCheck {
+        law: "the vertical forces at both ends together are the weight of the line",
+        broken_n: (a + b + weight_n).abs(),
+        allowed_n: tolerance * (a.abs() + b.abs()),
+    };
+    let solvers = by_both(&cable, &found);
+    Entry { title, source: MOORPY, numbers, by_hand: Some(by_hand), solvers, not_judged: None }
+}
+
+/// What both solvers make of a run of members, against the closed form.
+fn by_both(cable: &ElasticCatenary, closed: &EndForces) -> Option<BothSolvers> {
+    let system = run_of_members(cable, MEMBERS).ok()?;
+    let answer = ask(&system, Solvers::Both, &|_| {});
+    let wanted = [closed.horizontal_n, closed.upper_n, closed.lower_n];
+    let largest = wanted.iter().fold(0.0, |most: f64, force| most.max(force.abs()));
+    let off = |forces: [f64; 3]| {
+        forces.iter().zip(wanted).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max) / largest
+    };
+    let by = |solver: SolverName| {
+        let found = answer.by(&solver).and_then(end_forces).map(off);
+        (solver, found)
+    };
+    let off = vec![by(SolverName::LAGRANGE), by(SolverName::ENERGY)];
+    Some(BothSolvers::Run { members: MEMBERS, off })
+}
+
+#[derive(Deserialize)]
+struct Aster {
+    heavy_cable: HeavyCable,
+    stayed_frame: StayedFrame,
+}
+
+#[derive(Deserialize)]
+struct HeavyCable {
+    span_m: f64,
+    length_m: f64,
+    area_m2: f64,
+    modulus_pa: f64,
+    density_kg_m3: f64,
+    gravity_m_s2: f64,
+    sag_m: String,
+}
+
+#[derive(Deserialize)]
+struct StayedFrame {
+    force_n: f64,
+    tolerance: f64,
+    diagonal_n: String,
+    bar_n: String,
+}
+
+/// The two tests of code_aster.
+///
+/// # Panics
+///
+/// Never: a test reads the file that is compiled in.
+#[must_use]
+pub fn code_aster() -> Vec<Entry> {
+    let Aster { heavy_cable, stayed_frame } =
+        toml::from_str(include_str!("../../data/external/code-aster.toml"))
+            .expect("code-aster.toml is read by a test");
+    vec![heavy(&heavy_cable), frame(&stayed_frame)]
+}
+
+fn heavy(cable: &HeavyCable) -> Entry {
+    let title = "cable of 325 m between level ends 325 m apart";
+    let closed = ElasticCatenary {
+        x_m: cable.span_m,
+        z_m: 0.0,
+        length_m: cable.length_m,
+        stiffness_n: cable.modulus_pa * cable.area_m2,
+        weight_n_m: cable.density_kg_m3 * cable.area_m2 * cable.gravity_m_s2,
+    };
+    let Some(found) = closed.solve() else {
+        return Entry::not_judged(title, HEAVY_CABLE, "the closed form was not found");
+    };
+    let number = Compared {
+        what: "height of the middle / m".to_owned(),
+        printed: cable.sag_m.clone(),
+        published: cable.sag_m.parse().unwrap_or(f64::NAN),
+        ours: -found.sag_m(&closed),
+        allowed: half_digit(&cable.sag_m),
+        at_most: false,
+    };
+    Entry {
+        title: title.to_owned(),
+        source: HEAVY_CABLE,
+        numbers: vec![number],
+        by_hand: None,
+        solvers: by_both(&closed, &found),
+        not_judged: None,
+    }
+}
+
+/// A square of bars with cables on its diagonals, in the plane: one is taut, the other slack.
+fn square(force_n: f64) -> Result<System, SystemError> {
+    let at = [[0.0, 0.0, 0.0], [0.0, 1.0, 0.0], [1.0, 1.0, 0.0], [1.0, 0.0, 0.0]];
+    let in_plane = |k: usize| Support::Plane { at_m: at[k], normal: [0.0, 0.0, 1.0] };
+    let held = |name: &str, support| Joint { support, ..Joint::free(name) };
+    let joints = vec![
+        Joint::anchor("1", at[0]),
+        held("2", in_plane(1)),
+        held("3", in_plane(2)).with_force([force_n, 0.0, 0.0]),
+        held("4", Support::Line { at_m: at[3], direction: [1.0, 0.0, 0.0] }),
+    ];
+    let length = |length_m| {
+        Bar::homogeneous(length_m, 0.0)
+            .map_err(|_| SystemError::Overflow { quantity: "length of a member" })
+    };
+    let (side, diagonal) = (length(1.0)?, length(std::f64::consts::SQRT_2)?);
+    let mut members: Vec<Member> =
+        [[0, 1], [1, 2], [2, 3], [3, 0]].map(|[a, b]| Member::bar(a, b, side)).into();
+    members.extend([[0, 2], [1, 3]].map(|[a, b]| Member::cable(a, b, diagonal)));
+    System::new("stayed frame", model::STANDARD_GRAVITY_M_S2, joints, members)
+}
+
+fn frame(published: &StayedFrame) -> Entry {
+    let title = "square frame with two stays";
+    let diagonal_n: f64 = published.diagonal_n.parse().unwrap_or(f64::NAN);
+    let bar_n: f64 = published.bar_n.parse().unwrap_or(f64::NAN);
+    let judged = square(published.force_n).ok().and_then(|system| {
+        let joints_m = system.joints().iter().filter_map(|joint| joint.support.at_m()).collect();
+        let forces = vec![0.0, 0.0, bar_n, 0.0, diagonal_n, 0.0];
+        let answer = ForeignAnswer::in_order(&system, "code_aster", joints_m, Some(forces)).ok()?;
+        judge_foreign(&system, &answer, published.tolerance, &|_| {}).ok()
+    });
+    let Some(judged) = judged else {
+        return Entry::not_judged(title, STAYED_FRAME, "the frame could not be judged");
+    };
+    let number = |what: &str, printed: &String, published_n: f64, ours: f64| Compared {
+        what: what.to_owned(),
+        printed: printed.clone(),
+        published: published_n,
+        ours,
+        allowed: published.tolerance * published_n.abs(),
+        at_most: false,
+    };
+    // The stay is the diagonal of a square with the force along a side.
+    let diagonal = published.force_n * std::f64::consts::SQRT_2;
+    Entry {
+        title: title.to_owned(),
+        source: STAYED_FRAME,
+        numbers: vec![
+            number("force of the taut stay / N", &published.diagonal_n, diagonal_n, diagonal),
+            number("force of bar 3-4 / N", &published.bar_n, bar_n, -published.force_n),
+        ],
+        by_hand: Some(HandCheck {
+            law: "all forces on every joint balance, and no stay pushes",
+            broken_n: if judged.finding == Finding::Refuted { judged.largest } else { 0.0 },
+            allowed_n: 1.0,
+        }),
+        solvers: None,
+        not_judged: None,
+    }
+}

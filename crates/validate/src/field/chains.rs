@@ -1,0 +1,108 @@
+//! Hanging chains of collections of optimisation problems: CUTEst and COPS.
+
+use model::{Anchors, Bar, Chain, Problem};
+use serde::Deserialize;
+
+use super::cables::half_digit;
+use super::entry::{BothSolvers, Compared, Entry};
+
+const CATENA: &str = "CATENA of CUTEst, github.com/ralna/CUTEst (SIF file by Ph. L. Toint, 1993)";
+const COPS: &str = "E. D. Dolan, J. J. More, T. S. Munson, COPS 3.0, ANL/MCS-TM-273 (2004)";
+
+#[derive(Deserialize)]
+struct Catena {
+    fraction: f64,
+    total_mass_kg: f64,
+    gravity_m_s2: f64,
+    published: Vec<Optimum>,
+}
+
+#[derive(Deserialize)]
+struct Optimum {
+    beams: usize,
+    energy_j: String,
+}
+
+/// The optima of CATENA, each half of a chain between level anchors.
+///
+/// # Panics
+///
+/// Never: a test reads the file that is compiled in.
+#[must_use]
+pub fn cutest() -> Vec<Entry> {
+    let catena: Catena = toml::from_str(include_str!("../../data/external/cutest-catena.toml"))
+        .expect("cutest-catena.toml is read by a test");
+    catena.published.iter().map(|optimum| one(&catena, optimum)).collect()
+}
+
+fn one(catena: &Catena, optimum: &Optimum) -> Entry {
+    let title = format!("half of a chain of {} bars", 2 * optimum.beams);
+    let Some(problem) = chain(catena, optimum.beams) else {
+        return Entry::not_judged(title, CATENA, "the chain could not be built");
+    };
+    let first = lagrange::solve(&problem, &lagrange::Settings::default());
+    let second = energy::minimise(&problem, &energy::Settings::default());
+    let (Ok(first), Ok(second)) = (first, second) else {
+        return Entry::not_judged(title, CATENA, "a solver has no answer");
+    };
+    let energies = [first.equilibrium.energy_j, second.equilibrium.energy_j];
+    let number = Compared {
+        what: "least energy / J".to_owned(),
+        printed: optimum.energy_j.clone(),
+        published: optimum.energy_j.parse().unwrap_or(f64::NAN),
+        ours: 0.5 * energies[0],
+        allowed: half_digit(&optimum.energy_j),
+        at_most: false,
+    };
+    let apart_j = 0.5 * (energies[0] - energies[1]).abs();
+    let below_j = number.ours - number.published;
+    Entry {
+        title,
+        source: CATENA,
+        solvers: Some(BothSolvers::Least { apart_j, below_j }),
+        numbers: vec![number],
+        by_hand: None,
+        not_judged: None,
+    }
+}
+
+/// The chain and its mirror image.
+fn chain(catena: &Catena, beams: usize) -> Option<Problem> {
+    let mass_kg = catena.total_mass_kg / beams as f64;
+    let bar = Bar::homogeneous(1.0, mass_kg).ok()?;
+    let end_m = [2.0 * catena.fraction * beams as f64, 0.0, 0.0];
+    let anchors = Anchors { start_m: [0.0; 3], end_m };
+    let chain = Chain::new("CATENA", catena.gravity_m_s2, anchors, vec![bar; 2 * beams]).ok()?;
+    Problem::new(chain).ok()
+}
+
+/// What is published and not judged, with the reasons.
+#[must_use]
+pub fn not_judged() -> Vec<Entry> {
+    let incomplete = "input incomplete: no source with all of it was at hand";
+    vec![
+        Entry::not_judged(
+            "COPS, hanging chain",
+            COPS,
+            "the optima belong to a discretisation that is not a chain of bars; both tend to the same catenary",
+        ),
+        Entry::not_judged(
+            "CATENARY of CUTEst",
+            "CATENARY of CUTEst, github.com/ralna/CUTEst",
+            "its file has an index wrong, and describes no chain",
+        ),
+        Entry::not_judged(
+            "HANGING of CUTEst",
+            "HANGING of CUTEst, github.com/ralna/CUTEst",
+            incomplete,
+        ),
+        Entry::not_judged("cable with two loads", "O'Brien (1967)", incomplete),
+        Entry::not_judged("cable with one load", "Michalos and Birnstiel (1960)", incomplete),
+        Entry::not_judged("cable element", "Jayaraman and Knudson (1981)", incomplete),
+        Entry::not_judged(
+            "static lines of MoorDyn's tests",
+            "MoorDyn, tests/Mooring/QuasiStatic, github.com/FloatingArrayDesign/MoorDyn",
+            "the numbers are of a moving line that lies on the floor",
+        ),
+    ]
+}

@@ -1,0 +1,238 @@
+//! The elastic catenary in closed form: a heavy cable of constant stiffness between two points.
+//!
+//! With the horizontal force $H$ and the vertical force $V$ at the upper end, and $W = wL$,
+//!
+//! $$ x = \\frac{HL}{EA} + \\frac Hw\\Big(\\operatorname{asinh}\\frac VH - \\operatorname{asinh}\\frac{V-W}H\\Big), \\qquad
+//!    z = \\frac{L}{EA}\\Big(V - \\frac W2\\Big) + \\frac Hw\\bigg(\\sqrt{1 + \\frac{V^2}{H^2}} -
+//!    \\sqrt{1 + \\frac{(V-W)^2}{H^2}}\\bigg) . $$
+//!
+//! Both are derivatives of a convex function of $(H, V)$, so that Newton's method with halved steps
+//! finds them. The module stands by itself: neither solver knows it.
+//!
+//! # References
+//!
+//! H. M. Irvine, Cable Structures, MIT Press (1981), section 1.3.
+
+/// A heavy elastic cable between two points.
+///
+/// ```
+/// use validate::field::elastic_catenary::ElasticCatenary;
+/// // Level ends, hardly any stretch: 2 H/w asinh(W/2H) = x, here with H = w = 1 and W = 2 sinh(1).
+/// let length_m = 2.0 * 1.0_f64.sinh();
+/// let cable = ElasticCatenary { x_m: 2.0, z_m: 0.0, length_m, stiffness_n: 1e15, weight_n_m: 1.0 };
+/// let forces = cable.solve().unwrap();
+/// assert!((forces.horizontal_n - 1.0).abs() < 1e-12);
+/// assert!((forces.sag_m(&cable) - (1.0_f64.cosh() - 1.0)).abs() < 1e-12);
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ElasticCatenary {
+    /// Horizontal distance of the upper end from the lower, m; positive.
+    pub x_m: f64,
+    /// Height of the upper end above the lower, m; zero or positive.
+    pub z_m: f64,
+    /// Unstretched length, m.
+    pub length_m: f64,
+    /// Axial stiffness EA, N.
+    pub stiffness_n: f64,
+    /// Weight per unstretched length, N/m; positive.
+    pub weight_n_m: f64,
+}
+
+/// The forces at its ends.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct EndForces {
+    /// Horizontal force, N, the same all along.
+    pub horizontal_n: f64,
+    /// Vertical force of the upper support on the cable, upwards, N.
+    pub upper_n: f64,
+    /// Vertical force of the lower support on the cable, upwards, N: the weight less that of the
+    /// upper.
+    pub lower_n: f64,
+}
+
+/// Steps of Newton's method; it takes some ten.
+const STEPS: usize = 200;
+/// Halvings of a step before rounding is all that is left.
+const HALVINGS: i32 = 50;
+/// How far the upper end may be off at the last step, in units of the length: far above the
+/// rounding of the two functions, and far below what a wrong branch would leave.
+const CLOSED: f64 = 1e-12;
+
+/// `asinh a − asinh b` without cancellation, from `a − b`.
+fn asinh_difference(a: f64, b: f64, difference: f64) -> f64 {
+    if a + b < 0.0 {
+        // asinh is odd.
+        return asinh_difference(-b, -a, difference);
+    }
+    if b <= 0.0 {
+        return a.asinh() - b.asinh();
+    }
+    ((difference + root_difference(a, b, difference)) / (b + b.hypot(1.0))).ln_1p()
+}
+
+/// `√(1 + a²) − √(1 + b²)` without cancellation, from `a − b`.
+fn root_difference(a: f64, b: f64, difference: f64) -> f64 {
+    difference * (a + b) / (a.hypot(1.0) + b.hypot(1.0))
+}
+
+impl ElasticCatenary {
+    /// Where the upper end is under these forces, m.
+    fn end_m(&self, [h, v]: [f64; 2]) -> [f64; 2] {
+        let Self { length_m, stiffness_n, weight_n_m, .. } = *self;
+        let weight_n = weight_n_m * length_m;
+        let (a, b, difference) = (v / h, (v - weight_n) / h, weight_n / h);
+        let stretch = length_m / stiffness_n;
+        [
+            h * stretch + h / weight_n_m * asinh_difference(a, b, difference),
+            (v - 0.5 * weight_n) * stretch + h / weight_n_m * root_difference(a, b, difference),
+        ]
+    }
+
+    /// The flexibility: `∂x/∂H`, `∂x/∂V = ∂z/∂H`, `∂z/∂V`.
+    fn flexibility(&self, [h, v]: [f64; 2]) -> [f64; 3] {
+        let Self { length_m, stiffness_n, weight_n_m, .. } = *self;
+        let weight_n = weight_n_m * length_m;
+        let (a, b, difference) = (v / h, (v - weight_n) / h, weight_n / h);
+        let (cos_a, cos_b) = (1.0 / a.hypot(1.0), 1.0 / b.hypot(1.0));
+        // a/√(1+a²) − b/√(1+b²) = (a² − b²)/((1+a²)(1+b²)) over the sum of the two, where they have
+        // one sign.
+        let sines = if a * b > 0.0 {
+            let (sin_a, sin_b) = (a * cos_a, b * cos_b);
+            difference * (a + b) * (cos_a * cos_b).powi(2) / (sin_a + sin_b)
+        } else {
+            a * cos_a - b * cos_b
+        };
+        let stretch = length_m / stiffness_n;
+        let cosines = -root_difference(a, b, difference) * cos_a * cos_b;
+        [
+            stretch + (asinh_difference(a, b, difference) - sines) / weight_n_m,
+            cosines / weight_n_m,
+            stretch + sines / weight_n_m,
+        ]
+    }
+
+    /// A start: Irvine's parabola, as mooring programs have it.
+    fn start(&self) -> [f64; 2] {
+        let Self { x_m, z_m, length_m, weight_n_m, .. } = *self;
+        let slack = (length_m * length_m - z_m * z_m) / (x_m * x_m) - 1.0;
+        // A taut cable has no parabola.
+        let lambda = if slack > 0.0 { (3.0 * slack).sqrt() } else { 0.2 };
+        let horizontal = weight_n_m * x_m / (2.0 * lambda);
+        [horizontal, 0.5 * weight_n_m * (z_m / lambda.tanh() + length_m)]
+    }
+
+    /// The forces; nothing where Newton's method does not end, or a number is out of range.
+    #[must_use]
+    pub fn solve(&self) -> Option<EndForces> {
+        let positive = [self.x_m, self.length_m, self.stiffness_n, self.weight_n_m];
+        if positive.iter().any(|x| !(x.is_finite() && *x > 0.0)) || !(self.z_m >= 0.0) {
+            return None;
+        }
+        let misfit = |force: [f64; 2]| {
+            let [x, z] = self.end_m(force);
+            [x - self.x_m, z - self.z_m]
+        };
+        let mut force = self.start();
+        for _ in 0..STEPS {
+            let left = misfit(force);
+            let [xx, xz, zz] = self.flexibility(force);
+            let determinant = xx * zz - xz * xz;
+            let step = [
+                (xz * left[1] - zz * left[0]) / determinant,
+                (xz * left[0] - xx * left[1]) / determinant,
+            ];
+            let size = |v: [f64; 2]| v[0].hypot(v[1]);
+            let moved = |part: f64| [force[0] + part * step[0], force[1] + part * step[1]];
+            // Halved until the horizontal force stays positive and the end comes nearer.
+            let nearer =
+                |part: &f64| moved(*part)[0] > 0.0 && size(misfit(moved(*part))) < size(left);
+            let Some(part) = (0..HALVINGS).map(|k| 0.5_f64.powi(k)).find(nearer) else {
+                let [horizontal_n, upper_n] = force;
+                let lower_n = self.weight_n_m * self.length_m - upper_n;
+                let closed = size(left) <= CLOSED * self.length_m;
+                return closed.then_some(EndForces { horizontal_n, upper_n, lower_n });
+            };
+            force = moved(part);
+        }
+        None
+    }
+}
+
+impl EndForces {
+    /// How far the lowest point of the cable is below its lower end, m; 0 where that end is the
+    /// lowest.
+    #[must_use]
+    pub fn sag_m(&self, cable: &ElasticCatenary) -> f64 {
+        let ElasticCatenary { stiffness_n, weight_n_m, .. } = *cable;
+        if self.lower_n <= 0.0 {
+            return 0.0;
+        }
+        let (h, v) = (self.horizontal_n, self.lower_n);
+        // The part of the cable whose weight the lower end bears, up to where it is level.
+        0.5 * v * v / (weight_n_m * stiffness_n) + h / weight_n_m * ((v / h).hypot(1.0) - 1.0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{ElasticCatenary, asinh_difference};
+
+    /// The near-taut line of MoorPy's table, to the digits of an evaluation in extended precision.
+    #[test]
+    fn a_nearly_taut_line_to_its_digits() {
+        let cable = ElasticCatenary {
+            x_m: 246.224_209_400_329_47,
+            z_m: 263.557_663_308_431_64,
+            length_m: 360.635_662_623_969_27,
+            stiffness_n: 700e6,
+            weight_n_m: 3.087_35,
+        };
+        let found = cable.solve().unwrap();
+        // The inputs are rounded to 17 digits, and the force of a nearly taut line has lost seven
+        // of them.
+        for (value, wanted) in [
+            (found.horizontal_n, 58_377.241_422_650),
+            (found.upper_n, 63_044.412_955_917),
+            (-found.lower_n, 61_931.004_442_948),
+        ] {
+            assert!((value / wanted - 1.0).abs() < 1e-9, "{value} {wanted}");
+        }
+        assert!((found.upper_n + found.lower_n - 3.087_35 * 360.635_662_623_969_27).abs() < 1e-9);
+    }
+
+    #[test]
+    fn differences_keep_their_digits() {
+        for (b, difference) in [(0.5, 1e-9), (-0.5, 1e-9), (-1e-3, 2e-3), (2.0, 1.0), (-3.0, 1.0)] {
+            let a = b + difference;
+            let found = asinh_difference(a, b, difference);
+            // By the mean value; its second derivative is below 1/2.
+            let middle = 0.5_f64.mul_add(difference, b);
+            let wanted = difference / middle.hypot(1.0);
+            assert!(
+                (found - wanted).abs() <= 0.1 * difference.powi(3) + 1e-15 * difference.max(0.1),
+                "{b}"
+            );
+        }
+    }
+
+    #[test]
+    fn what_is_no_cable_has_no_forces() {
+        let cable = ElasticCatenary {
+            x_m: 1.0,
+            z_m: 0.0,
+            length_m: 2.0,
+            stiffness_n: 1.0,
+            weight_n_m: 1.0,
+        };
+        assert!(cable.solve().is_some());
+        for wrong in [
+            ElasticCatenary { x_m: 0.0, ..cable },
+            ElasticCatenary { z_m: -1.0, ..cable },
+            ElasticCatenary { length_m: f64::NAN, ..cable },
+            ElasticCatenary { weight_n_m: 0.0, ..cable },
+            ElasticCatenary { stiffness_n: f64::INFINITY, ..cable },
+        ] {
+            assert_eq!(wrong.solve(), None, "{wrong:?}");
+        }
+    }
+}
