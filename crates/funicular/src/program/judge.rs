@@ -81,6 +81,13 @@ pub struct OneJudged {
 pub fn run(arguments: &Judge) -> Result<Exit, Failure> {
     end_on_interrupt()?;
     threads::install(0)?;
+    let standard = |path: &Option<PathBuf>| path.as_deref() == Some(Path::new("-"));
+    let readers = [&arguments.file, &arguments.answer, &arguments.members, &arguments.edges];
+    if readers.into_iter().filter(|path| standard(path)).count() > 1 {
+        return Err(Failure::bad_input(miette!(
+            "the system and its answer cannot both come from standard input"
+        )));
+    }
     let progress = Progress::start();
     progress.say("reading");
     let (given, mut files) = foreign_input::system(arguments)?;
@@ -134,11 +141,6 @@ fn answers(
             .map(|answer| vec![answer])
             .ok_or_else(|| Failure::bad_input(miette!("an answer is needed: --answer FILE")));
     };
-    if path == Path::new("-") && arguments.file.as_deref() == Some(Path::new("-")) {
-        return Err(Failure::bad_input(miette!(
-            "the system and its answer cannot both come from standard input"
-        )));
-    }
     let (text, name) = foreign_input::text(path)?;
     let mut answers = formats::answer::parse(&text, &name).map_err(funicular::Error::from)?;
     files.push(path.clone());

@@ -5,8 +5,7 @@
 use std::process::Command;
 
 /// The examples that the tests below run.
-const RUN: [&str; 8] =
-    ["batch", "census", "modes", "simulate", "solve", "sweep", "third_solver", "trace"];
+const RUN: [&str; 9] = ["batch", "census", "judge", "modes", "simulate", "solve", "sweep", "third_solver", "trace"];
 
 /// Standard output and standard error of an example.
 fn run(name: &str) -> (String, String) {
@@ -58,6 +57,14 @@ fn solve() {
     let weight_n = number(rows[0][7]) + number(rows[5][7]);
     assert!((weight_n - 3.4 * 9.80665).abs() < 1e-12, "{weight_n}");
     assert!(said.ends_with("agreed: true\n"), "{said}");
+}
+
+#[test]
+fn judge() {
+    let (text, _) = run("judge");
+    assert!(text.starts_with("refuted: "), "{text}");
+    assert!(text.contains("member 1 (A - lamp): its joints are 5.008"), "{text}");
+    assert!(text.contains("up to 1.000e-2 m away, at joint lamp"), "{text}");
 }
 
 #[test]

@@ -18,7 +18,7 @@ pub(crate) fn blocks(r: &Reproduction) -> Vec<Block<'_>> {
              solvers, and where there is one against a law that anyone can check by hand. **Confirmed**: what is computed here, to the \
              tolerance of the source. **Corrected**: off by more, the right number stands beside it. **Refuted**: it breaks the law. \
              Forces of a line are those on its ends; a line as a run of members tends to the closed form with the square of \
-             their number.",
+             their number, and what it is off by is told in units of the largest of them.",
         ),
         Block::Table(Table {
             caption: "What was judged.".to_owned(),
@@ -41,13 +41,6 @@ pub(crate) fn blocks(r: &Reproduction) -> Vec<Block<'_>> {
     ]
 }
 
-/// A number with as many digits as an inverse problem leaves.
-fn told(value: f64) -> String {
-    /// The force of a nearly taut line loses seven of its sixteen digits.
-    const DIGITS: usize = 9;
-    format!("{:#}", Number::significant(value, DIGITS))
-}
-
 fn row(entry: &Entry) -> Vec<Cell> {
     let column = |of: &dyn Fn(usize) -> String| {
         (0..entry.numbers.len()).map(of).collect::<Vec<_>>().join("; ")
@@ -58,7 +51,7 @@ fn row(entry: &Entry) -> Vec<Cell> {
         entry.title.clone().into(),
         column(&|k| number(k).what.clone()).into(),
         column(&|k| format!("{}{}", limit(k), number(k).printed)).into(),
-        column(&|k| told(number(k).ours)).into(),
+        column(&|k| format!("{:#}", Number::significant(number(k).ours, number(k).digits))).into(),
         entry.by_hand.as_ref().map(by_hand).into(),
         entry.solvers.as_ref().map(solvers).into(),
         badge(entry.verdict()).into(),
@@ -84,7 +77,15 @@ fn by_hand(check: &HandCheck) -> String {
 }
 
 fn solvers(both: &BothSolvers) -> String {
-    let small = |value: f64| format!("{:#}", Number::significant(value, 1));
+    /// Below this is rounding, or the digits of a file.
+    const NOTHING: f64 = 1e-6;
+    let small = |value: f64| {
+        if value.abs() < NOTHING {
+            "less than 10⁻⁶".to_owned()
+        } else {
+            format!("{:#}", Number::significant(value, 1))
+        }
+    };
     match both {
         BothSolvers::Run { members, off } => {
             let off: Vec<_> = off

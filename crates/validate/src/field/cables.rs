@@ -8,7 +8,7 @@ use super::elastic_catenary::{ElasticCatenary, EndForces};
 use super::entry::{BothSolvers, Compared, Entry, HandCheck};
 use super::run_of_members::{end_forces, run_of_members};
 use crate::answer::Solvers;
-use crate::foreign::{Finding, ForeignAnswer, judge_foreign};
+use crate::foreign::{ForeignAnswer, judge_foreign};
 use crate::systems::ask;
 
 const MOORPY: &str = "NREL MoorPy, tests/test_catenary.py, \
@@ -16,6 +16,8 @@ const MOORPY: &str = "NREL MoorPy, tests/test_catenary.py, \
 const HEAVY_CABLE: &str =
     "EDF, code_aster, validation manual V6.02.114 (input) and V6.05.116, section 2.2 (number)";
 const STAYED_FRAME: &str = "EDF, code_aster, validation manual V6.02.105 (SSNL105), section 2";
+/// The force of a nearly taut line loses seven of the sixteen digits of its length.
+const TAUT_DIGITS: usize = 8;
 /// Members of a run for the report.
 const MEMBERS: usize = 100;
 
@@ -97,7 +99,8 @@ fn moorpy_case(case: &Case, tolerance: f64) -> Entry {
             let published = printed.parse().unwrap_or(f64::NAN);
             let allowed = tolerance * published.abs();
             let (what, printed) = ((*what).to_owned(), printed.clone());
-            Compared { what, printed, published, ours, allowed, at_most: false }
+            let digits = TAUT_DIGITS;
+            Compared { what, printed, published, ours, allowed, at_most: false, digits }
         })
         .collect();
     let weight_n = case.weight_n_m * case.length_m;
@@ -185,6 +188,7 @@ fn heavy(cable: &HeavyCable) -> Entry {
         ours: -found.sag_m(&closed),
         allowed: half_digit(&cable.sag_m),
         at_most: false,
+        digits: TAUT_DIGITS,
     };
     Entry {
         title: title.to_owned(),
@@ -238,8 +242,11 @@ fn frame(published: &StayedFrame) -> Entry {
         ours,
         allowed: published.tolerance * published_n.abs(),
         at_most: false,
+        digits: TAUT_DIGITS,
     };
     // The stay is the diagonal of a square with the force along a side.
+    let half = diagonal_n * std::f64::consts::FRAC_1_SQRT_2;
+    let left_n = (published.force_n - half).hypot(bar_n + half);
     let diagonal = published.force_n * std::f64::consts::SQRT_2;
     Entry {
         title: title.to_owned(),
@@ -249,11 +256,15 @@ fn frame(published: &StayedFrame) -> Entry {
             number("force of bar 3-4 / N", &published.bar_n, bar_n, -published.force_n),
         ],
         by_hand: Some(HandCheck {
-            law: "all forces on every joint balance, and no stay pushes",
-            broken_n: if judged.finding == Finding::Refuted { judged.largest } else { 0.0 },
-            allowed_n: 1.0,
+            law: "stay, bar and load balance at the corner where they meet",
+            broken_n: left_n,
+            allowed_n: published.tolerance * published.force_n,
         }),
-        solvers: None,
+        solvers: judged.nearest().map(|nearest| BothSolvers::Judged {
+            finding: judged.finding.word(),
+            joints_m: nearest.joints_m,
+            rung: judged.ladder.highest(),
+        }),
         not_judged: None,
     }
 }

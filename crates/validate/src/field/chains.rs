@@ -53,6 +53,8 @@ fn one(catena: &Catena, optimum: &Optimum) -> Entry {
         ours: 0.5 * energies[0],
         allowed: half_digit(&optimum.energy_j),
         at_most: false,
+        // The energy is flat at its minimum, and known to rounding.
+        digits: 11,
     };
     let apart_j = 0.5 * (energies[0] - energies[1]).abs();
     let below_j = number.ours - number.published;

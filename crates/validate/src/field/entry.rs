@@ -46,6 +46,8 @@ pub struct Compared {
     pub allowed: f64,
     /// Whether the source only says that the number is no larger than this.
     pub at_most: bool,
+    /// Significant digits of our number that do not hang on the rounding of a processor.
+    pub digits: usize,
 }
 
 impl Compared {

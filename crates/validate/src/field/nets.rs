@@ -60,6 +60,7 @@ fn net(name: &str, nodes: &str, edges: &str) -> Entry {
         ours: MICRO * left_n,
         allowed: 0.0,
         at_most: true,
+        digits: 3,
     };
     let solvers = judged.nearest().map(|nearest| BothSolvers::Judged {
         finding: judged.finding.word(),

@@ -95,6 +95,7 @@ fn a_verdict_needs_its_numbers() {
         ours,
         allowed: 0.5,
         at_most: false,
+        digits: 3,
     };
     let of = |numbers: Vec<Compared>| {
         let open = Entry::not_judged("x", "y", "z");
