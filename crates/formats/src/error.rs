@@ -9,7 +9,7 @@ pub struct FormatError {
     /// The line, from 1.
     pub line: Option<usize>,
     /// What is wrong.
-    pub what: Wrong,
+    pub what: Box<Wrong>,
     /// What is allowed instead, or what to do about it.
     pub help: Option<String>,
 }
@@ -86,7 +86,7 @@ pub enum Wrong {
 
 impl FormatError {
     pub(crate) fn new(file: &str, line: Option<usize>, what: Wrong) -> Self {
-        Self { file: file.to_owned(), line, what, help: None }
+        Self { file: file.to_owned(), line, what: Box::new(what), help: None }
     }
 
     pub(crate) fn with_help(self, help: impl Into<String>) -> Self {

@@ -98,21 +98,21 @@ struct Collected {
     reactions_n: Vec<(String, [f64; 3])>,
 }
 
+/// Axial forces by the names of the two joints of each member, N, and whose they are if that is said.
+pub type MemberForces = (Option<String>, Vec<(String, String, f64)>);
+
 /// Parse the forces of members as CSV, `from,to,axial_n`: by the name in the column `solver`, or
 /// one list for all.
 ///
 /// # Errors
 ///
 /// [`FormatError`] with the line and the reason.
-pub fn parse_member_forces(
-    text: &str,
-    file: &str,
-) -> Result<Vec<(Option<String>, Vec<(String, String, f64)>)>, FormatError> {
+pub fn parse_member_forces(text: &str, file: &str) -> Result<Vec<MemberForces>, FormatError> {
     let sheet = Sheet::parse(file, text, MEMBERS, &[])?;
     for name in &MEMBERS[..3] {
         sheet.need(name)?;
     }
-    let mut lists: Vec<(Option<String>, Vec<_>)> = Vec::new();
+    let mut lists: Vec<MemberForces> = Vec::new();
     for row in sheet.rows() {
         let solver = Some(row.text("solver").to_owned()).filter(|name| !name.is_empty());
         let index = lists.iter().position(|(name, _)| *name == solver).unwrap_or_else(|| {

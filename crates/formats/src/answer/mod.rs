@@ -14,7 +14,7 @@ use model::Vector;
 
 use crate::error::{FormatError, Wrong};
 
-pub use csv::{parse_csv, parse_member_forces};
+pub use csv::{MemberForces, parse_csv, parse_member_forces};
 pub use json::parse_json;
 pub use vtu::parse_vtu;
 

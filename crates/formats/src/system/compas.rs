@@ -9,7 +9,7 @@
 //!
 //! COMPAS, <https://compas.dev>, data of `compas.datastructures.Graph` and `Mesh`.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use serde_json::{Map, Value};
 
@@ -238,17 +238,17 @@ impl Reader<'_> {
             }
         }
         let mut edges: Vec<Edge> = Vec::new();
-        let mut seen = HashMap::new();
+        let mut seen = HashSet::new();
         for (key, face) in ordered(self.object("face", data.get("face"))?) {
             let wanted = "a list of vertices";
             let list = face.as_array().filter(|list| list.len() > 2);
             let list = list.ok_or_else(|| self.wrong(format!("face {key}"), wanted, face))?;
             let names: Vec<_> =
                 list.iter().map(|v| v.to_string().trim_matches('"').to_owned()).collect();
-            for k in 0..names.len() {
-                let ends = [names[k].as_str(), names[(k + 1) % names.len()].as_str()];
+            for (k, name) in names.iter().enumerate() {
+                let ends = [name.as_str(), names[(k + 1) % names.len()].as_str()];
                 let pair = sorted([self.end(ends[0], numbers)?, self.end(ends[1], numbers)?]);
-                if seen.insert(pair, ()).is_none() {
+                if seen.insert(pair) {
                     let own = own.get(&pair).copied();
                     edges.push(self.edge(ends, numbers, Attributes { own, defaults })?);
                 }

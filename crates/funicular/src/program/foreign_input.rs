@@ -4,7 +4,7 @@ use std::fs::File;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
-use formats::answer::{Answer, Forces, Joints};
+use formats::answer::{Answer, Forces, Joints, MemberForces};
 use formats::system::{ForceDensityNet, ForeignSystem, parse_compas, parse_moordyn, parse_net};
 use funicular::Error;
 use miette::miette;
@@ -156,15 +156,11 @@ pub fn text(path: &Path) -> Result<(String, String), Failure> {
     Ok((text, name))
 }
 
-/// Forces by the name of a solver.
-type Lists = Vec<(Option<String>, Vec<(String, String, f64)>)>;
-
 /// Give each answer the forces of its solver, or the one list there is.
-pub fn attach(answers: &mut [Answer], lists: Lists, file: &str) -> Result<(), Failure> {
+pub fn attach(answers: &mut [Answer], lists: &[MemberForces], file: &str) -> Result<(), Failure> {
     let mut taken = vec![false; lists.len()];
     for answer in answers.iter_mut() {
-        let of =
-            |(name, _): &(Option<String>, _)| name.as_deref().is_none_or(|n| n == answer.source);
+        let of = |(name, _): &MemberForces| name.as_deref().is_none_or(|n| n == answer.source);
         let Some(k) = lists.iter().position(of) else {
             let (file, source) = (crate::printable::Printable(file), &answer.source);
             return Err(Failure::bad_input(miette!("{file} has no forces of {source:?}")));

@@ -148,7 +148,7 @@ fn answers(
         let (text, name) = foreign_input::text(path)?;
         let lists =
             formats::answer::parse_member_forces(&text, &name).map_err(funicular::Error::from)?;
-        foreign_input::attach(&mut answers, lists, &name)?;
+        foreign_input::attach(&mut answers, &lists, &name)?;
         files.push(path.clone());
     }
     Ok(answers)

@@ -125,7 +125,10 @@ impl ElasticCatenary {
     #[must_use]
     pub fn solve(&self) -> Option<EndForces> {
         let positive = [self.x_m, self.length_m, self.stiffness_n, self.weight_n_m];
-        if positive.iter().any(|x| !(x.is_finite() && *x > 0.0)) || !(self.z_m >= 0.0) {
+        if positive.iter().any(|x| !(x.is_finite() && *x > 0.0))
+            || self.z_m.is_nan()
+            || self.z_m < 0.0
+        {
             return None;
         }
         let misfit = |force: [f64; 2]| {

@@ -142,7 +142,8 @@ impl Entry {
     #[must_use]
     pub fn verdict(&self) -> FieldVerdict {
         // NaN breaks the law.
-        let broken = |check: &HandCheck| !(check.broken_n <= check.allowed_n);
+        let broken =
+            |check: &HandCheck| check.broken_n.is_nan() || check.broken_n > check.allowed_n;
         if self.not_judged.is_some() || self.numbers.is_empty() {
             FieldVerdict::NotJudged
         } else if self.by_hand.as_ref().is_some_and(broken) {

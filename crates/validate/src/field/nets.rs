@@ -4,6 +4,7 @@ use formats::system::parse_net;
 
 use super::entry::{BothSolvers, Compared, Entry};
 use crate::foreign::{ForcesJudged, ForeignAnswer, judge_foreign};
+use crate::vector::{minus, norm, plus, times, worse};
 
 const SOURCE: &str = "R. Pastrana, jax_fdm, tests/test_reference_solver.py and tests/data/reference, \
     github.com/arpastrana/jax_fdm, commit 71d449076d73";
@@ -85,12 +86,10 @@ fn largest_left_n(net: &formats::system::ForceDensityNet) -> f64 {
     let mut left: Vec<[f64; 3]> = net.nodes.iter().map(|node| node.force_n).collect();
     for edge in &net.edges {
         let (a, b) = (net.nodes[edge.from].at_m, net.nodes[edge.to].at_m);
-        for c in 0..3 {
-            let pull = edge.density_n_m * (b[c] - a[c]);
-            left[edge.from][c] += pull;
-            left[edge.to][c] -= pull;
-        }
+        let pull = times(edge.density_n_m, minus(b, a));
+        left[edge.from] = plus(left[edge.from], pull);
+        left[edge.to] = minus(left[edge.to], pull);
     }
     let free = net.nodes.iter().zip(left).filter(|(node, _)| !node.held);
-    free.map(|(_, force)| crate::vector::norm(force)).fold(0.0, crate::vector::worse)
+    free.map(|(_, force)| norm(force)).fold(0.0, worse)
 }

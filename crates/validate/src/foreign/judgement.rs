@@ -167,14 +167,13 @@ pub fn judge_foreign(
         return Err(ToleranceError { tolerance });
     }
     let bounds = Bounds::of_positions(system, &answer.joints_m, tolerance);
-    let (forces, axial_n) = match &answer.axial_n {
-        Some(axial_n) => (ForcesJudged::Given, axial_n.clone()),
-        None => {
-            watch("the forces that leave the joints least out of balance");
-            let best = best_forces(system, &answer.joints_m, &bounds);
-            let axial_n = best.axial_n.clone();
-            (ForcesJudged::Found(best), axial_n)
-        }
+    let (forces, axial_n) = if let Some(axial_n) = &answer.axial_n {
+        (ForcesJudged::Given, axial_n.clone())
+    } else {
+        watch("the forces that leave the joints least out of balance");
+        let best = best_forces(system, &answer.joints_m, &bounds);
+        let axial_n = best.axial_n.clone();
+        (ForcesJudged::Found(best), axial_n)
     };
     watch("the laws, member by member");
     let completed = complete(system, &answer.source, &answer.joints_m, &axial_n);

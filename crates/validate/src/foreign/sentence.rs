@@ -83,7 +83,7 @@ struct Force([f64; 3]);
 
 impl Display for Force {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        let [x, y, z] = self.0.map(|x| format!("{:.6e}", x).parse::<f64>().unwrap_or(x));
+        let [x, y, z] = self.0.map(|x| format!("{x:.6e}").parse::<f64>().unwrap_or(x));
         write!(f, "({x:e}, {y:e}, {z:e}) N")
     }
 }
