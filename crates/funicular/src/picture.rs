@@ -1,8 +1,8 @@
 //! Drawings of answers: joints, supports, loads, reactions and axial forces, to scale.
 
 use figures::{StructureError, SystemShape};
-use model::{Equilibrium, Vector};
 use model::system::{System, SystemEquilibrium};
+use model::{Equilibrium, Vector};
 
 /// An equilibrium of a system as an SVG file.
 ///

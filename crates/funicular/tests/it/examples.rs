@@ -5,7 +5,8 @@
 use std::process::Command;
 
 /// The examples that the tests below run.
-const RUN: [&str; 9] = ["batch", "census", "judge", "modes", "simulate", "solve", "sweep", "third_solver", "trace"];
+const RUN: [&str; 9] =
+    ["batch", "census", "judge", "modes", "simulate", "solve", "sweep", "third_solver", "trace"];
 
 /// Standard output and standard error of an example.
 fn run(name: &str) -> (String, String) {
