@@ -61,8 +61,12 @@ pub(super) fn html(judged: &Judged, notes: &[String]) -> String {
 }
 
 fn list(items: &[String]) -> String {
-    let items: String = items.iter().map(|item| format!("<li>{}</li>\n", Escaped(item))).collect();
-    format!("<ul>\n{items}</ul>\n")
+    let mut text = String::new();
+    for item in items {
+        // Writing to a String cannot fail.
+        let _ = writeln!(text, "<li>{}</li>", Escaped(item));
+    }
+    format!("<ul>\n{text}</ul>\n")
 }
 
 /// What is broken, a row each.
@@ -101,17 +105,17 @@ fn broken(judged: &Judged) -> String {
 /// The rungs of the answer.
 fn rungs(judged: &Judged) -> String {
     let statements = judged.judgement().ladder.statements();
-    let rows: String = statements
-        .iter()
-        .map(|statement| {
-            let reached = if statement.reached { "reached" } else { "not reached" };
-            format!(
-                "<tr><th scope=\"row\">{}</th><td>{reached}</td><td>{}</td></tr>\n",
-                statement.rung,
-                Escaped(&statement.how)
-            )
-        })
-        .collect();
+    let mut rows = String::new();
+    for statement in &statements {
+        let reached = if statement.reached { "reached" } else { "not reached" };
+        // Writing to a String cannot fail.
+        let _ = writeln!(
+            rows,
+            "<tr><th scope=\"row\">{}</th><td>{reached}</td><td>{}</td></tr>",
+            statement.rung,
+            Escaped(&statement.how)
+        );
+    }
     format!(
         "<h2>How far the answer is proved</h2>\n<table>\n<thead><tr><th scope=\"col\">rung</th><th scope=\"col\"></th>\
          <th scope=\"col\">how, or why not</th></tr></thead>\n<tbody>\n{rows}</tbody>\n</table>\n"
