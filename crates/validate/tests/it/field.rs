@@ -67,7 +67,7 @@ fn the_record_says_what_its_numbers_say() {
     let refuted = entry(&record, "mooring line, index 7");
     assert_eq!(refuted.verdict(), FieldVerdict::Refuted);
     let left_n = refuted.by_hand.as_ref().unwrap().broken_n;
-    assert!((left_n - 1113.408_5).abs() < 1e-3, "{left_n}");
+    assert!((left_n - 1_113.408_5).abs() < 1e-3, "{left_n}");
     let [h, a, _, b] = &refuted.numbers[..] else { panic!("four forces") };
     for (found, wanted) in [(h, 58_377.241_42), (a, 61_931.004_44), (b, -63_044.412_96)] {
         assert!((found.ours / wanted - 1.0).abs() < 1e-8, "{found:?}");
