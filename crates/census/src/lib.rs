@@ -66,6 +66,7 @@ mod count;
 mod enclosure;
 mod equilibrium;
 mod error;
+pub mod network;
 mod plane;
 mod search;
 mod settings;

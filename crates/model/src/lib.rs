@@ -53,9 +53,9 @@ pub use ends::{Ends, Finish};
 pub use equilibrium::{Equilibrium, Reactions};
 pub use evidence::{
     Agreed, Complete, Convergence, Disagreement, Evidence, Excess, ForceChoice, ForceFamily,
-    ForceUncertainty, FreeJoints, Ladder, NoAnswer, NoCensus, NoCertificate, Optimal, Place,
+    ForceUncertainty, FreeJoints, Ladder, NoAnswer, NoBox, NoCensus, NoCertificate, Optimal, Place,
     Quantity, Reason, Rung, SelfStresses, StabilityDifference, Statement, Status, UncertaintyCause,
-    Verified,
+    Verified, VerifiedSystem,
 };
 pub use problem::{Problem, Refusal, STRAIGHT_TOLERANCE};
 pub use solver_name::SolverName;

@@ -35,6 +35,7 @@ pub fn certify_by_census(problem: &Problem, census: &Census, answer: &mut Equili
             box_width: proven.width(),
             distance: place.beyond,
             circle: proven.circle,
+            system: None,
         });
         ladder.complete = census.completeness();
     } else {

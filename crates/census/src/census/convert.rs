@@ -78,6 +78,7 @@ impl Census {
             box_width: proven.width(),
             distance: 0.0,
             circle: proven.circle,
+            system: None,
         });
         ladder.complete = self.completeness();
         ladder.optimal = if proven.optimal {

@@ -47,7 +47,7 @@ pub use reason::{NoAnswer, Reason};
 pub use rung::Rung;
 pub use self_stresses::SelfStresses;
 pub use status::Status;
-pub use verified::Verified;
+pub use verified::{NoBox, Verified, VerifiedSystem};
 
 /// How far an equilibrium is proved, and what it cost.
 #[derive(Debug, Clone, PartialEq, Deserialize)]

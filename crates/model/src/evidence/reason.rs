@@ -7,6 +7,7 @@ use super::certificate::NoCertificate;
 use super::complete::NoCensus;
 use super::convergence::Convergence;
 use super::finite;
+use super::verified::NoBox;
 use crate::solver_name::SolverName;
 
 /// Why a rung was not reached.
@@ -87,6 +88,8 @@ pub enum Reason {
         /// Number of bars and the line between the anchors.
         sides: usize,
     },
+    /// No box around the answer is proved to hold exactly one equilibrium.
+    NoBox(NoBox),
     /// There is no certificate.
     NoCertificate(NoCertificate),
 }

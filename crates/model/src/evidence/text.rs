@@ -14,7 +14,7 @@ use super::force_family::{ForceChoice, ForceFamily};
 use super::reason::{NoAnswer, Reason};
 use super::rung::Rung;
 use super::status::Status;
-use super::verified::Verified;
+use super::verified::{NoBox, Verified, VerifiedSystem};
 use crate::number::Number;
 
 impl Display for Rung {
@@ -213,7 +213,86 @@ impl Display for Verified {
             "Krawczyk's test in intervals: exactly one equilibrium{} in a box of relative width {width}, and this \
              answer within {distance} of the total length of it",
             if self.circle { " (a circle of them, turned about the anchors)" } else { "" },
-        )
+        )?;
+        self.system.map_or(Ok(()), |system| system.write(f))
+    }
+}
+
+impl VerifiedSystem {
+    fn write(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let Self { turns, slack, loose_joints, .. } = *self;
+        let [width_m, width_n, distance_n] =
+            [self.width_m, self.width_n, self.distance_n].map(|value| size(f, value));
+        write!(f, "; {width_m} m and {width_n} N wide, forces within {distance_n} N")?;
+        if turns > 0 {
+            write!(
+                f,
+                "; one for each turn of what turns freely about a vertical, {}",
+                counted(turns, "turn")
+            )?;
+        }
+        if slack > 0 {
+            write!(f, "; {} proved slack", counted(slack, "member"))?;
+        }
+        if loose_joints > 0 {
+            let joints = counted(loose_joints, "joint");
+            write!(
+                f,
+                "; one for each place near by of {joints} without load between slack members"
+            )?;
+        }
+        Ok(())
+    }
+}
+
+/// A number of things.
+fn counted(number: usize, thing: &str) -> String {
+    format!("{number} {thing}{}", if number == 1 { "" } else { "s" })
+}
+
+impl Display for NoBox {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        f.write_str("no box is proved to hold exactly one equilibrium: ")?;
+        match self {
+            Self::TooLarge { unknowns, limit } => {
+                write!(f, "{unknowns} unknowns, and the limit is {limit}")
+            }
+            Self::SelfStresses { dimension } => write!(
+                f,
+                "the members bear {} without any load, so the forces are a family",
+                counted(*dimension, "independent state")
+            ),
+            Self::FreeMotions { dimension } => write!(
+                f,
+                "nothing brings the joints back, to first order, from {}",
+                counted(*dimension, "independent motion")
+            ),
+            Self::Degenerate { member } => {
+                write!(f, "member {member} has just its length and bears no force")
+            }
+            Self::WrongSign { member } => {
+                write!(
+                    f,
+                    "member {member} is not proved to bear a force of the sign that its kind allows"
+                )
+            }
+            Self::NotSlack { member } => write!(f, "member {member} is not proved to be slack"),
+            Self::BetweenAnchors { member } => {
+                write!(f, "member {member} connects two anchors, and nothing tells its force")
+            }
+            Self::NotConverged => f.write_str(
+                "no equilibrium with the same members in action is found next to the answer",
+            ),
+            Self::Singular => f.write_str("the derivative of the equations is singular"),
+            Self::NotContracting => f.write_str(
+                "Krawczyk's test fails, as it does next to places with a singular derivative",
+            ),
+            Self::Elsewhere { distance_m, distance_n } => write!(
+                f,
+                "the equilibrium that is proved is {distance_m:.1e} m and {distance_n:.1e} N away"
+            ),
+            Self::NotFinite => f.write_str("the answer is incomplete or not finite"),
+        }
     }
 }
 
@@ -313,6 +392,7 @@ impl Display for Reason {
                 f,
                 "the number of equilibria is not checked: the topology of a polygon of {sides} sides is not counted"
             ),
+            Self::NoBox(because) => because.fmt(f),
             Self::NoCertificate(because) => because.fmt(f),
         }
     }

@@ -223,8 +223,12 @@ fn reasons_read_back() {
                 cause: UncertaintyCause::ParallelBars,
             });
         evidence.ladder.agreed = Status::Open(reason);
-        evidence.ladder.verified =
-            Status::Reached(Verified { box_width: 1e-15, distance: 0.0, circle: true });
+        evidence.ladder.verified = Status::Reached(Verified {
+            box_width: 1e-15,
+            distance: 0.0,
+            circle: true,
+            system: None,
+        });
         let json = serde_json::to_string(&evidence).unwrap();
         let back: Evidence = serde_json::from_str(&json).unwrap();
         assert_eq!(back, evidence, "{json}");

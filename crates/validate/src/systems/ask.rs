@@ -5,6 +5,7 @@ use model::{NoAnswer, Reason, SolverName, Status};
 use serde::Serialize;
 
 use super::compare::{SystemAgreement, compare, judge_alone};
+use super::verified::verify;
 use crate::answer::Solvers;
 use crate::tolerances::Tolerances;
 
@@ -93,6 +94,8 @@ pub fn ask(system: &System, solvers: Solvers, watch: &dyn Fn(&str)) -> SystemAns
         }
     }
     let agreement = judged(system, &mut equilibria, &failures);
+    watch("proofs in interval arithmetic");
+    verify(system, &mut equilibria);
     SystemAnswer { equilibria, failures, agreement }
 }
 

@@ -113,7 +113,7 @@ fn certify_rung(system: &System, answer: &mut SystemEquilibrium) {
         Err(because) => Status::Open(Reason::NoCertificate(because)),
     };
     let ladder = &mut answer.evidence.ladder;
-    // No proof by intervals is known for systems of more than one chain.
+    // Proofs in intervals are asked for apart.
     ladder.verified = Status::Open(Reason::NotTried);
     ladder.complete = Status::Open(Reason::NotTried);
     ladder.optimal = optimal;

@@ -10,8 +10,10 @@ mod statics;
 #[cfg(test)]
 mod tests;
 pub(crate) mod turn;
+mod verified;
 
 pub use ask::{SystemAnswer, SystemFailure, ask};
 pub use certificate::certify;
 pub use compare::{SystemAgreement, compare, judge_alone};
 pub use statics::{SystemStatics, judge};
+pub use verified::verify;

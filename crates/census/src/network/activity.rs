@@ -1,0 +1,55 @@
+//! Which members act in an answer.
+
+use model::NoBox;
+use model::system::{Kind, Member, System};
+
+use super::frame::Frame;
+
+/// What a member does.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Activity {
+    /// It has a force: an unknown.
+    Acts,
+    /// A cable shorter than its length, or a strut longer: no force.
+    Slack,
+    /// Both ends are held: what it bears moves nothing.
+    Idle,
+}
+
+/// Below this part of the largest force, and nearer than this part to its length, a cable or strut is neither taut
+/// nor slack as far as an answer in double precision can tell.
+const DEGENERATE: f64 = 1e-9;
+
+/// What each member does in an answer.
+pub(super) fn activities(
+    system: &System,
+    frame: &Frame,
+    joints_m: &[model::Vector],
+    axial_n: &[f64],
+) -> Result<Vec<Activity>, NoBox> {
+    let of_member = |(k, member): (usize, &Member)| {
+        let held = |joint: usize| system.joints()[joint].support.is_fixed();
+        if held(member.from) && held(member.to) {
+            return Ok(Activity::Idle);
+        }
+        let [x, y, z]: [f64; 3] =
+            std::array::from_fn(|i| joints_m[member.to][i] - joints_m[member.from][i]);
+        let length_m = member.body.length_m();
+        let stretch = x.hypot(y).hypot(z) / length_m - 1.0;
+        // How far the member is on the side on which it is slack, and how much it bears.
+        let (spare, borne) = match member.kind {
+            Kind::Bar => return Ok(Activity::Acts),
+            Kind::Cable => (-stretch, axial_n[k]),
+            Kind::Strut => (stretch, -axial_n[k]),
+        };
+        let borne = borne / frame.force_n;
+        if borne < -DEGENERATE {
+            return Err(NoBox::WrongSign { member: k + 1 });
+        }
+        if spare.max(borne) < DEGENERATE {
+            return Err(NoBox::Degenerate { member: k + 1 });
+        }
+        Ok(if borne > spare { Activity::Acts } else { Activity::Slack })
+    };
+    system.members().iter().enumerate().map(of_member).collect()
+}

@@ -1,0 +1,82 @@
+//! Vectors of intervals, exact zeros and ones kept exact.
+
+use intervals::Interval;
+
+/// A vector of intervals.
+pub(super) type Vector = [Interval; 3];
+
+/// The vector 0.
+pub(super) const NOWHERE: Vector = [Interval::ZERO; 3];
+
+/// `a + b`, without rounding where one of them is 0.
+pub(super) fn sum(a: Interval, b: Interval) -> Interval {
+    if a == Interval::ZERO {
+        b
+    } else if b == Interval::ZERO {
+        a
+    } else {
+        a + b
+    }
+}
+
+/// `a − b`, without rounding where one of them is 0 or both are the same number.
+pub(super) fn difference(a: Interval, b: Interval) -> Interval {
+    if a == b && a.width() <= 0.0 { Interval::ZERO } else { sum(a, -b) }
+}
+
+/// `a b`, without rounding where one of them is 0, 1 or −1.
+pub(super) fn product(a: Interval, b: Interval) -> Interval {
+    const MINUS_ONE: Interval = Interval::ONE.negated();
+    match (a, b) {
+        _ if a == Interval::ZERO || b == Interval::ZERO => Interval::ZERO,
+        (x, Interval::ONE) | (Interval::ONE, x) => x,
+        (x, MINUS_ONE) | (MINUS_ONE, x) => -x,
+        _ => a * b,
+    }
+}
+
+/// `a + b`.
+pub(super) fn plus(a: Vector, b: Vector) -> Vector {
+    std::array::from_fn(|k| sum(a[k], b[k]))
+}
+
+/// `a − b`.
+pub(super) fn minus(a: Vector, b: Vector) -> Vector {
+    std::array::from_fn(|k| difference(a[k], b[k]))
+}
+
+/// `c a`.
+pub(super) fn times(c: Interval, a: Vector) -> Vector {
+    a.map(|part| product(c, part))
+}
+
+/// `a · b`.
+pub(super) fn dot(a: Vector, b: Vector) -> Interval {
+    (0..3).fold(Interval::ZERO, |all, k| sum(all, product(a[k], b[k])))
+}
+
+/// `a × b`.
+pub(super) fn cross(a: Vector, b: Vector) -> Vector {
+    std::array::from_fn(|k| {
+        let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+        difference(product(a[i], b[j]), product(a[j], b[i]))
+    })
+}
+
+/// `|a|²`.
+pub(super) fn squared(a: Vector) -> Interval {
+    a.into_iter()
+        .filter(|part| *part != Interval::ZERO)
+        .map(Interval::square)
+        .fold(Interval::ZERO, sum)
+}
+
+/// `|a|`.
+pub(super) fn norm(a: Vector) -> Interval {
+    squared(a).sqrt()
+}
+
+/// Three numbers that are exact as they stand.
+pub(super) fn points(a: model::Vector) -> Vector {
+    a.map(Interval::point)
+}

@@ -1,0 +1,133 @@
+//! Units in which lengths and forces of a system are of order one, and its loads in them.
+
+use intervals::Interval;
+use model::system::{Member, System};
+use model::{Bar, Vector as Point};
+
+use super::arithmetic::{NOWHERE, Vector, plus, points, sum, times};
+
+/// Powers of two, so that scaling rounds nothing.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Frame {
+    /// Unit of length, m.
+    pub(super) length_m: f64,
+    /// Unit of force, N.
+    pub(super) force_n: f64,
+    /// The point from which places are counted, m.
+    pub(super) origin_m: Point,
+}
+
+/// The power of two next to a positive number, far from overflow and underflow.
+fn power_of_two(x: f64) -> f64 {
+    const EXPONENT: u64 = 0x7ff << 52;
+    /// 2⁻⁵⁰⁰ and 2⁵⁰⁰: products of two are normal numbers.
+    const SMALLEST: f64 = f64::from_bits((1023 - 500) << 52);
+    const LARGEST: f64 = f64::from_bits((1023 + 500) << 52);
+    f64::from_bits(x.clamp(SMALLEST, LARGEST).to_bits() & EXPONENT)
+}
+
+impl Frame {
+    /// Units for a system with these axial forces.
+    pub(super) fn new(system: &System, axial_n: &[f64]) -> Self {
+        let forces = system.joints().iter().map(|joint| joint.force_n);
+        let forces =
+            forces.chain(system.members().iter().flat_map(|m| m.loads.iter().map(|l| l.force_n)));
+        let loads_n = model::sum(forces.map(|[x, y, z]| x.hypot(y).hypot(z)))
+            + system.total_mass_kg() * system.gravity_m_s2();
+        let largest_n = axial_n.iter().fold(loads_n, |most, axial| most.max(axial.abs()));
+        Self {
+            length_m: power_of_two(system.total_length_m()),
+            force_n: power_of_two(largest_n),
+            origin_m: system.reference_m(),
+        }
+    }
+
+    /// A length in units.
+    pub(super) fn length(&self, metres: Interval) -> Interval {
+        metres.scale(self.length_m.recip())
+    }
+
+    /// A force in units.
+    pub(super) fn force(&self, newtons: Interval) -> Interval {
+        newtons.scale(self.force_n.recip())
+    }
+
+    /// A place in units.
+    pub(super) fn place(&self, at_m: Point) -> Vector {
+        std::array::from_fn(|k| {
+            // Equal as numbers: 0 and −0 too.
+            if at_m[k] <= self.origin_m[k] && at_m[k] >= self.origin_m[k] {
+                Interval::ZERO
+            } else {
+                self.length(Interval::point(at_m[k]) - Interval::point(self.origin_m[k]))
+            }
+        })
+    }
+
+    /// A place in metres.
+    pub(super) fn place_m(&self, place: Vector) -> Vector {
+        std::array::from_fn(|k| {
+            sum(place[k].scale(self.length_m), Interval::point(self.origin_m[k]))
+        })
+    }
+
+    /// Loads of all joints in units: those of the joint, and what the lever rule leaves it of the members'.
+    pub(super) fn loads(&self, system: &System) -> Vec<Vector> {
+        let g = Interval::point(system.gravity_m_s2());
+        let weight = |mass: Interval| [Interval::ZERO, Interval::ZERO, -(mass * g)];
+        let mut loads: Vec<Vector> = system
+            .joints()
+            .iter()
+            .map(|joint| {
+                let own = if joint.mass_kg > 0.0 {
+                    weight(Interval::point(joint.mass_kg))
+                } else {
+                    NOWHERE
+                };
+                plus(own, points(joint.force_n))
+            })
+            .collect();
+        for member in system.members() {
+            for (joint, end) in [(member.from, End::Start), (member.to, End::End)] {
+                let mass = end.share(&member.body, member.body.centre_m());
+                if member.body.mass_kg() > 0.0 && mass != Interval::ZERO {
+                    let load = weight(Interval::point(member.body.mass_kg()) * mass);
+                    loads[joint] = plus(loads[joint], load);
+                }
+                for load in &member.loads {
+                    let share = end.share(&member.body, load.at_m);
+                    loads[joint] = plus(loads[joint], times(share, points(load.force_n)));
+                }
+            }
+        }
+        loads.into_iter().map(|load| load.map(|part| self.force(part))).collect()
+    }
+
+    /// `l/EA` of a member in units; exactly 0 for an inextensible one.
+    pub(super) fn compliance(&self, member: &Member) -> Interval {
+        member.stiffness_n.map_or(Interval::ZERO, |stiffness_n| {
+            self.length(Interval::point(member.body.length_m()))
+                / self.force(Interval::point(stiffness_n))
+        })
+    }
+}
+
+/// An end of a member.
+#[derive(Debug, Clone, Copy)]
+enum End {
+    Start,
+    End,
+}
+
+impl End {
+    /// The part of a load at a point of a bar that this end takes; exactly 0 if the point is the other end.
+    fn share(self, bar: &Bar, at_m: f64) -> Interval {
+        let (length, at) = (Interval::point(bar.length_m()), Interval::point(at_m));
+        match self {
+            Self::Start if at_m >= bar.length_m() => Interval::ZERO,
+            Self::Start => (length - at) / length,
+            Self::End if at_m <= 0.0 => Interval::ZERO,
+            Self::End => at / length,
+        }
+    }
+}

@@ -1,0 +1,112 @@
+//! What is proved.
+
+use intervals::Interval;
+use model::system::{Kind, Member, System};
+use serde::{Deserialize, Serialize};
+
+use super::activity::Activity;
+use super::arithmetic::{Vector, minus, norm, product};
+use super::equations::Equations;
+use super::krawczyk::Zero;
+
+/// A box that holds exactly one equilibrium of a system, in metres and newtons; every number is an enclosure of the
+/// exact value.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct SystemBox {
+    /// Places of all joints, world frame, m.
+    pub joints_m: Vec<[Interval; 3]>,
+    /// Axial force of each member with its loads lumped to its joints, tension positive, N.
+    pub axial_n: Vec<Interval>,
+    /// Largest width of the places, m.
+    pub width_m: f64,
+    /// Largest width of the axial forces, N.
+    pub width_n: f64,
+    /// How far around there is no other equilibrium in which the same members act: least distance of a joint, m.
+    pub alone_m: f64,
+    /// Independent free turns about verticals: the equilibrium stands for all that these turns make of it.
+    pub turns: usize,
+    /// Cables and struts proved to be slack, from 0.
+    pub slack: Vec<usize>,
+    /// Joints without load all of whose members are slack: held where the answer has them, from 0.
+    pub loose_joints: Vec<usize>,
+}
+
+impl SystemBox {
+    /// A proved zero in metres and newtons.
+    pub(super) fn new(
+        system: &System,
+        equations: &Equations,
+        activities: &[Activity],
+        loose: &[bool],
+        zero: &Zero,
+    ) -> Self {
+        let frame = &equations.frame;
+        let [places, around] =
+            [&zero.tight, &zero.alone_in].map(|unknowns| equations.places(unknowns));
+        let of_idle = |(activity, member)| match activity {
+            &Activity::Idle => idle_n(member, &places, frame.length_m),
+            _ => Interval::ZERO,
+        };
+        let mut axial_n: Vec<Interval> =
+            activities.iter().zip(system.members()).map(of_idle).collect();
+        for acting in &equations.acting {
+            let [a, b] = acting.ends.map(|joint| places[joint]);
+            let axial = product(zero.tight[acting.density], norm(minus(b, a)));
+            axial_n[acting.member] = axial.scale(frame.force_n);
+        }
+        let joints_m: Vec<_> = places.iter().map(|place| frame.place_m(*place)).collect();
+        let room = around.iter().flatten().zip(places.iter().flatten());
+        let room = room.filter(|(outer, _)| outer.width() > 0.0);
+        let room =
+            room.map(|(outer, inner)| (inner.lo() - outer.lo()).min(outer.hi() - inner.hi()));
+        let widest = |numbers: &mut dyn Iterator<Item = &Interval>| {
+            numbers.map(|x| x.width()).fold(0.0, f64::max)
+        };
+        Self {
+            width_m: widest(&mut joints_m.iter().flatten()),
+            width_n: widest(&mut axial_n.iter()),
+            alone_m: room.fold(f64::INFINITY, f64::min).max(0.0) * frame.length_m,
+            turns: equations.holds.len(),
+            slack: (0..activities.len()).filter(|k| activities[*k] == Activity::Slack).collect(),
+            loose_joints: (0..loose.len()).filter(|k| loose[*k]).collect(),
+            joints_m,
+            axial_n,
+        }
+    }
+
+    /// How far outside of the box the joints of an answer lie, m; NaN where it is not finite.
+    #[must_use]
+    pub fn beyond_m(&self, joints_m: &[model::Vector]) -> f64 {
+        let places = self.joints_m.iter().flatten().zip(joints_m.iter().flatten());
+        worst(places.map(|(enclosure, x)| beyond(*enclosure, *x)))
+    }
+
+    /// How far outside of the box the axial forces of an answer lie, N; NaN where it is not finite.
+    #[must_use]
+    pub fn beyond_n(&self, axial_n: &[f64]) -> f64 {
+        let forces = self.axial_n.iter().zip(axial_n);
+        worst(forces.map(|(enclosure, x)| beyond(*enclosure, *x)))
+    }
+}
+
+/// The force of an elastic member between two anchors by its law alone, N; a rigid one there is slack.
+fn idle_n(member: &Member, places: &[Vector], length_unit_m: f64) -> Interval {
+    let distance = norm(minus(places[member.to], places[member.from])).scale(length_unit_m);
+    let stretch = distance / Interval::point(member.body.length_m()) - Interval::ONE;
+    let [least, most] = match member.kind {
+        Kind::Bar => [f64::NEG_INFINITY, f64::INFINITY],
+        Kind::Cable => [0.0, f64::INFINITY],
+        Kind::Strut => [f64::NEG_INFINITY, 0.0],
+    };
+    let stretch = Interval::new(stretch.lo().clamp(least, most), stretch.hi().clamp(least, most));
+    member.stiffness_n.map_or(Interval::ZERO, |stiffness_n| Interval::point(stiffness_n) * stretch)
+}
+
+fn beyond(enclosure: Interval, x: f64) -> f64 {
+    if x.is_nan() { f64::NAN } else { (enclosure.lo() - x).max(x - enclosure.hi()).max(0.0) }
+}
+
+/// The largest; NaN is the worst of all.
+fn worst(distances: impl Iterator<Item = f64>) -> f64 {
+    distances.fold(0.0, |most, x| if x.is_nan() || x > most { x } else { most })
+}

@@ -1,0 +1,72 @@
+//! The rung `verified` for systems: interval arithmetic proves that exactly one equilibrium lies in a box, and the
+//! answers are held against it.
+
+use census::network::{SystemBox, prove};
+use model::system::{System, SystemEquilibrium};
+use model::{NoBox, Reason, Status, Verified, VerifiedSystem};
+
+use super::certificate::{largest_force_n, size_m, total_load_n};
+use crate::tolerances::Tolerances;
+use crate::vector::worse;
+
+/// Prove each answer and say so on its ladder. Answers in one box share the proof.
+pub fn verify(system: &System, answers: &mut [SystemEquilibrium]) {
+    let mut proved: Option<SystemBox> = None;
+    for answer in answers {
+        // A box whose turns are held fast is that of one answer.
+        let shared = proved.take().filter(|proof| proof.turns == 0).and_then(|proof| {
+            let status = held_against(system, &proof, answer);
+            status.is_reached().then_some((proof, status))
+        });
+        let found = shared.map_or_else(
+            || {
+                prove(system, &answer.joints_m, &answer.axial_n).map(|proof| {
+                    let status = held_against(system, &proof, answer);
+                    (proof, status)
+                })
+            },
+            Ok,
+        );
+        answer.evidence.ladder.verified = match found {
+            Ok((proof, status)) => {
+                proved = Some(proof);
+                status
+            }
+            Err(because) => Status::Open(Reason::NoBox(because)),
+        };
+    }
+}
+
+/// Whether an answer is the equilibrium of a box, to the accuracy that answers are asked to agree to.
+fn held_against(
+    system: &System,
+    proof: &SystemBox,
+    answer: &SystemEquilibrium,
+) -> Status<Verified> {
+    let length_m = system.total_length_m();
+    let size_m = worse(size_m(system, answer), f64::MIN_POSITIVE);
+    let force_n = worse(largest_force_n(answer), total_load_n(system)).max(f64::MIN_POSITIVE);
+    let distance_m = proof.beyond_m(&answer.joints_m);
+    let distance_n = proof.beyond_n(&answer.axial_n);
+    let tolerances = Tolerances::project();
+    let near = distance_m <= tolerances.joints.value * length_m
+        && distance_n <= tolerances.forces.value * force_n;
+    // NaN is near to nothing.
+    if !near {
+        return Status::Open(Reason::NoBox(NoBox::Elsewhere { distance_m, distance_n }));
+    }
+    let SystemBox { width_m, width_n, turns, .. } = *proof;
+    Status::Reached(Verified {
+        box_width: (width_m / size_m).max(width_n / force_n),
+        distance: distance_m / length_m,
+        circle: false,
+        system: Some(VerifiedSystem {
+            width_m,
+            width_n,
+            distance_n,
+            turns,
+            slack: proof.slack.len(),
+            loose_joints: proof.loose_joints.len(),
+        }),
+    })
+}
