@@ -1,5 +1,7 @@
 //! What can go wrong.
 
+use model::NoCensus;
+
 /// Why a census was not taken.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -35,6 +37,19 @@ pub enum CensusError {
         /// Estimated memory, GB; good to an order of magnitude.
         estimate_gb: f64,
     },
+}
+
+impl CensusError {
+    /// The same as evidence.
+    #[must_use]
+    pub fn reason(&self) -> NoCensus {
+        match self {
+            Self::TooManyBars { bars, max_bars, .. } => {
+                NoCensus::TooManyBars { bars: *bars, limit: *max_bars }
+            }
+            Self::Setting { .. } => NoCensus::Settings,
+        }
+    }
 }
 
 /// Numbers from here on are read more easily as a power of ten.

@@ -96,7 +96,7 @@ struct Readme;
 pub use self::animation::Animation;
 #[cfg(feature = "sweep")]
 pub use self::basins::{Basins, BasinsAnswer};
-pub use self::census::{Census, CensusAnswer};
+pub use self::census::{Census, CensusAnswer, SystemCensusAnswer};
 #[cfg(feature = "paper")]
 pub use self::reproduce::Reproduce;
 #[cfg(feature = "sweep")]

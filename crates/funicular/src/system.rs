@@ -194,14 +194,7 @@ impl SystemSolution {
         let named = |equilibrium| Named { system: &self.system, equilibrium, bare };
         Object {
             schema_version: SCHEMA_VERSION,
-            system: Summary {
-                name: self.system.name(),
-                joints: self.system.joints().len(),
-                bars: self.system.members().len(),
-                total_length_m: self.system.total_length_m(),
-                total_mass_kg: self.system.total_mass_kg(),
-                gravity_m_s2: self.system.gravity_m_s2(),
-            },
+            system: Summary::of(&self.system),
             equilibria: self.equilibria().iter().map(named).collect(),
             agreement: self.agreement(),
             failures: self.failures().iter().map(Failure::of_system).collect(),
@@ -226,7 +219,7 @@ struct Object<'a> {
 }
 
 #[derive(Serialize)]
-struct Summary<'a> {
+pub(crate) struct Summary<'a> {
     name: &'a str,
     joints: usize,
     bars: usize,
@@ -235,11 +228,24 @@ struct Summary<'a> {
     gravity_m_s2: f64,
 }
 
+impl<'a> Summary<'a> {
+    pub(crate) fn of(system: &'a System) -> Self {
+        Self {
+            name: system.name(),
+            joints: system.joints().len(),
+            bars: system.members().len(),
+            total_length_m: system.total_length_m(),
+            total_mass_kg: system.total_mass_kg(),
+            gravity_m_s2: system.gravity_m_s2(),
+        }
+    }
+}
+
 /// An equilibrium with the names of its joints.
-struct Named<'a> {
-    system: &'a System,
-    equilibrium: &'a SystemEquilibrium,
-    bare: bool,
+pub(crate) struct Named<'a> {
+    pub(crate) system: &'a System,
+    pub(crate) equilibrium: &'a SystemEquilibrium,
+    pub(crate) bare: bool,
 }
 
 impl Serialize for Named<'_> {

@@ -52,10 +52,10 @@ pub use chain::{
 pub use ends::{Ends, Finish};
 pub use equilibrium::{Equilibrium, Reactions};
 pub use evidence::{
-    Agreed, Complete, Convergence, Disagreement, Evidence, Excess, ForceChoice, ForceFamily,
-    ForceUncertainty, FreeJoints, Ladder, NoAnswer, NoBox, NoCensus, NoCertificate, Optimal, Place,
-    Quantity, Reason, Rung, SelfStresses, StabilityDifference, Statement, Status, UncertaintyCause,
-    Verified, VerifiedSystem,
+    Agreed, Complete, CompleteSystem, Convergence, Disagreement, Evidence, Excess, ForceChoice,
+    ForceFamily, ForceUncertainty, FreeJoints, Ladder, NoAnswer, NoBox, NoCensus, NoCertificate,
+    Optimal, Place, Quantity, Reason, Rung, SelfStresses, StabilityDifference, Statement, Status,
+    UncertaintyCause, Verified, VerifiedSystem,
 };
 pub use problem::{Problem, Refusal, STRAIGHT_TOLERANCE};
 pub use solver_name::SolverName;

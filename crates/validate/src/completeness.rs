@@ -2,7 +2,7 @@
 //! list.
 
 use census::{Census, CensusError, SlackFamily};
-use model::{Chain, Equilibrium, NoCensus, Problem, Reason, Status, Verified};
+use model::{Chain, Equilibrium, Problem, Reason, Status, Verified};
 
 use crate::census_checks::{Nearest, nearest, placed};
 use crate::tolerances::Tolerances;
@@ -51,12 +51,7 @@ pub fn certify_by_census(problem: &Problem, census: &Census, answer: &mut Equili
 
 /// Say on an answer that there is no census, and why.
 pub fn without_census(error: &CensusError, answer: &mut Equilibrium) {
-    let reason = Reason::NoCensus(match error {
-        CensusError::TooManyBars { bars, max_bars, .. } => {
-            NoCensus::TooManyBars { bars: *bars, limit: *max_bars }
-        }
-        _ => NoCensus::Settings,
-    });
+    let reason = Reason::NoCensus(error.reason());
     let ladder = &mut answer.evidence.ladder;
     ladder.verified = Status::Open(reason.clone());
     ladder.complete = Status::Open(reason);

@@ -16,7 +16,7 @@
 //! the family are in tension, or all in compression.
 
 use intervals::Interval;
-use model::Problem;
+use model::{Chain, Problem};
 
 use crate::census::Census;
 use crate::census::by_energy_and_angles;
@@ -27,6 +27,7 @@ use crate::enclosure::polish::{PreciseSystem, polish};
 use crate::equilibrium::ProvenEquilibrium;
 use crate::plane::cell::Cell;
 use crate::plane::face::Face;
+use crate::plane::loads::JointLoads;
 use crate::plane::system::System;
 use crate::slack::families::families;
 use crate::slack::unloaded::with_signs;
@@ -142,12 +143,18 @@ impl Census {
     ///
     /// The first thing that is wrong or not proved, as [`CheckError`].
     pub fn check(&self, problem: &Problem) -> Result<(), CheckError> {
-        if problem.chain().bars().len() != self.statistics.bars {
+        self.check_chain(problem.chain(), JointLoads::NONE)
+    }
+
+    /// Judge this census of a chain with loads at its joints.
+    pub(crate) fn check_chain(&self, chain: &Chain, loads: &JointLoads) -> Result<(), CheckError> {
+        if chain.bars().len() != self.statistics.bars {
             return Err(CheckError::Claim { quantity: "the number of bars" });
         }
-        let system = System::new(problem);
+        let system = System::new(chain, loads);
+        let precise = PreciseSystem::new(chain, loads, &system);
         for (k, equilibrium) in self.equilibria.iter().enumerate() {
-            check_one(problem, &system, k + 1, equilibrium)?;
+            check_one(&precise, &system, k + 1, equilibrium)?;
             let in_order = k == 0 || {
                 let before = &self.equilibria[k - 1];
                 by_energy_and_angles(before, equilibrium).is_lt()
@@ -200,7 +207,7 @@ impl Census {
 }
 
 fn check_one(
-    problem: &Problem,
+    precise: &PreciseSystem,
     system: &System,
     number: usize,
     stated: &ProvenEquilibrium,
@@ -223,14 +230,14 @@ fn check_one(
         }
         computed
     } else {
-        proved_again(problem, system, number, signs, around)?
+        proved_again(precise, system, number, signs, around)?
     };
     compared(system, number, stated, &computed)
 }
 
 /// The equilibrium in a neighbourhood.
 fn proved_again(
-    problem: &Problem,
+    precise: &PreciseSystem,
     system: &System,
     number: usize,
     signs: &[i8],
@@ -244,9 +251,8 @@ fn proved_again(
     if !inside(&image, &around) {
         return Err(not_one);
     }
-    let precise = PreciseSystem::new(problem, system);
     let tight = narrow(system, signs, &image);
-    let tight = polish(system, &precise, signs, &Zero { tight, alone_in: around }).tight;
+    let tight = polish(system, precise, signs, &Zero { tight, alone_in: around }).tight;
     // `new` shows a circle by its other point if bar 1 leans the other way.
     let flip = |cell: Cell| if system.vertical && signs[0] < 0 { cell.mirrored() } else { cell };
     let zero = Zero { tight: flip(tight), alone_in: flip(around) };

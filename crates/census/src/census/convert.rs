@@ -109,6 +109,7 @@ impl Census {
                 families: self.families.len(),
                 patterns: self.patterns(),
                 cells: self.statistics.cells,
+                system: None,
             });
         }
         Status::Open(match &self.topology {

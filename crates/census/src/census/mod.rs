@@ -7,7 +7,7 @@ pub(crate) mod position;
 
 use std::time::Instant;
 
-use model::Problem;
+use model::{Chain, Problem};
 use serde::{Deserialize, Serialize};
 
 use crate::count::morse::{self, MorseError};
@@ -15,6 +15,7 @@ use crate::count::topology::{Topology, TopologyError};
 use crate::enclosure::polish::{PreciseSystem, polish};
 use crate::equilibrium::ProvenEquilibrium;
 use crate::error::CensusError;
+use crate::plane::loads::JointLoads;
 use crate::plane::system::System;
 use crate::search::merge::merge;
 use crate::search::undecided::{Reason, Undecided, gather};
@@ -104,10 +105,20 @@ impl Census {
         settings: &Settings,
         watch: &dyn Fn(Progress),
     ) -> Result<Self, CensusError> {
+        Self::of_chain(problem.chain(), JointLoads::NONE, settings, watch)
+    }
+
+    /// Take the census of a chain with loads at its joints.
+    pub(crate) fn of_chain(
+        chain: &Chain,
+        loads: &JointLoads,
+        settings: &Settings,
+        watch: &dyn Fn(Progress),
+    ) -> Result<Self, CensusError> {
         let start = Instant::now();
         settings.validate()?;
-        refuse_long(problem, settings)?;
-        let system = System::new(problem);
+        refuse_long(chain, settings)?;
+        let system = System::new(chain, loads);
         let unloaded = unloaded(&system);
         let search = search(&system, settings, &unloaded, watch);
 
@@ -127,7 +138,7 @@ impl Census {
             undecided.push(Undecided::new(&system, Reason::Unclear, &zero.tight, &[pattern]));
         }
         let mut equilibria = unloaded.equilibria;
-        let precise = PreciseSystem::new(problem, &system);
+        let precise = PreciseSystem::new(chain, loads, &system);
         for (pattern, zero) in zeros {
             let signs: Vec<i8> = pattern.signs(system.bars()).collect();
             let zero = polish(&system, &precise, &signs, &zero);
@@ -236,7 +247,7 @@ pub(crate) fn by_energy_and_angles(
     })
 }
 
-fn refuse_long(problem: &Problem, settings: &Settings) -> Result<(), CensusError> {
+fn refuse_long(chain: &Chain, settings: &Settings) -> Result<(), CensusError> {
     /// Processor time of a census of ten bars, and the factor for each bar more: t = 0.3 s · 2.1^(n
     /// − 10). Measured on random chains of 8 to 16 bars (`examples/census_speed.rs`); good to an
     /// order of magnitude, chains of one length differing by that. The number of equilibria doubles
@@ -245,7 +256,7 @@ fn refuse_long(problem: &Problem, settings: &Settings) -> Result<(), CensusError
     const FACTOR: f64 = 2.1;
     /// Memory of a census of sixteen bars (some 100,000 equilibria of 5 kB): 0.5 GB · 2.1^(n − 16).
     const SIXTEEN_BARS_GB: f64 = 0.5;
-    let bars = problem.chain().bars().len();
+    let bars = chain.bars().len();
     if bars <= settings.max_bars {
         return Ok(());
     }

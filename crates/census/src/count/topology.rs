@@ -25,6 +25,7 @@ use intervals::Interval;
 use model::Problem;
 use serde::{Deserialize, Serialize};
 
+use crate::plane::loads::JointLoads;
 use crate::plane::system::System;
 
 /// Betti numbers and Euler characteristic of a closed manifold.
@@ -82,7 +83,7 @@ impl Topology {
     /// assert_eq!((topology.betti, topology.euler), (vec![1, 1], 0));
     /// ```
     pub fn of(problem: &Problem) -> Result<Self, TopologyError> {
-        Self::of_system(&System::shape(problem))
+        Self::of_system(&System::shape(problem.chain(), JointLoads::NONE))
     }
 
     pub(crate) fn of_system(system: &System) -> Result<Self, TopologyError> {

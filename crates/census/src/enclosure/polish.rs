@@ -1,13 +1,13 @@
 //! Enclosures as narrow as doubles allow, however ill-conditioned the pull.
 
 use intervals::{DoubleDouble, Interval, lever};
-use model::{Bar, Problem};
+use model::{Bar, Chain};
 
 use crate::closure::Closure;
 use crate::enclosure::krawczyk::{Zero, image, inside, inverse};
 use crate::plane::cell::Cell;
 use crate::plane::face::Face;
-
+use crate::plane::loads::JointLoads;
 use crate::plane::system::System;
 
 /// Newton steps with the precise closure: the first one brings the last place of a double.
@@ -27,26 +27,30 @@ pub(crate) struct PreciseSystem {
 }
 
 impl PreciseSystem {
-    pub(crate) fn new(problem: &Problem, system: &System) -> Self {
-        let bars = problem.chain().bars();
+    pub(crate) fn new(chain: &Chain, loads: &JointLoads, system: &System) -> Self {
+        let bars = chain.bars();
         let mass =
             |bar: &Bar| DoubleDouble::point(bar.mass_kg()).scale(system.mass_unit_kg.recip());
         let [length, centre] =
             [Bar::length_m, Bar::centre_m].map(|of| move |bar| DoubleDouble::point(of(bar)));
         let shares = |bar| lever(length(bar), centre(bar));
+        let with_load = |weight: DoubleDouble, bar: usize| match loads.precisely_at(bar + 1) {
+            Some(load) => weight + load.scale(system.mass_unit_kg.recip()),
+            None => weight,
+        };
         // As in `System`: what joint 0 carries is left out.
-        let mut carried = mass(&bars[0]) * shares(&bars[0])[1];
+        let mut carried = with_load(mass(&bars[0]) * shares(&bars[0])[1], 0);
         let mut weight = vec![DoubleDouble::ZERO];
-        for bar in &bars[1..] {
+        for (k, bar) in bars.iter().enumerate().skip(1) {
             weight.push(carried + mass(bar) * shares(bar)[0]);
-            carried = carried + mass(bar);
+            carried = with_load(carried + mass(bar), k);
         }
         for group in &system.groups {
             let first = weight[group.start];
             weight[group.clone()].fill(first);
         }
         let shorten = |x: DoubleDouble| x.scale(system.length_unit_m.recip());
-        let anchors = problem.chain().anchors();
+        let anchors = chain.anchors();
         let [x, y, z] = std::array::from_fn(|k| {
             shorten(DoubleDouble::point(anchors.end_m[k]) - DoubleDouble::point(anchors.start_m[k]))
         });

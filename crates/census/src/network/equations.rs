@@ -5,9 +5,7 @@ use model::system::System;
 use model::{NoBox, Vector as Point};
 
 use super::activity::Activity;
-use super::arithmetic::{
-    NOWHERE, Vector, difference, dot, minus, norm, plus, product, squared, sum, times,
-};
+use super::arithmetic::{Vector, difference, dot, minus, norm, plus, product, squared, sum, times};
 use super::coordinates::Coordinates;
 use super::frame::Frame;
 use super::turns::Turn;

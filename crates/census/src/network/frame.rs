@@ -73,34 +73,40 @@ impl Frame {
 
     /// Loads of all joints in units: those of the joint, and what the lever rule leaves it of the members'.
     pub(super) fn loads(&self, system: &System) -> Vec<Vector> {
-        let g = Interval::point(system.gravity_m_s2());
-        let weight = |mass: Interval| [Interval::ZERO, Interval::ZERO, -(mass * g)];
         let mut loads: Vec<Vector> = system
             .joints()
             .iter()
             .map(|joint| {
                 let own = if joint.mass_kg > 0.0 {
-                    weight(Interval::point(joint.mass_kg))
+                    weight(system, Interval::point(joint.mass_kg))
                 } else {
                     NOWHERE
                 };
-                plus(own, points(joint.force_n))
+                plus(own, points(joint.force_n)).map(|part| self.force(part))
             })
             .collect();
         for member in system.members() {
-            for (joint, end) in [(member.from, End::Start), (member.to, End::End)] {
-                let mass = end.share(&member.body, member.body.centre_m());
-                if member.body.mass_kg() > 0.0 && mass != Interval::ZERO {
-                    let load = weight(Interval::point(member.body.mass_kg()) * mass);
-                    loads[joint] = plus(loads[joint], load);
-                }
-                for load in &member.loads {
-                    let share = end.share(&member.body, load.at_m);
-                    loads[joint] = plus(loads[joint], times(share, points(load.force_n)));
-                }
+            for (joint, is_start) in [(member.from, true), (member.to, false)] {
+                loads[joint] = plus(loads[joint], self.share(system, member, is_start));
             }
         }
-        loads.into_iter().map(|load| load.map(|part| self.force(part))).collect()
+        loads
+    }
+
+    /// What the lever rule leaves one end of a member of its loads, in units.
+    pub(super) fn share(&self, system: &System, member: &Member, is_start: bool) -> Vector {
+        let body = &member.body;
+        let end = if is_start { End::Start } else { End::End };
+        let part = end.share(body, body.centre_m());
+        let mut share = if body.mass_kg() > 0.0 && part != Interval::ZERO {
+            weight(system, Interval::point(body.mass_kg()) * part)
+        } else {
+            NOWHERE
+        };
+        for load in &member.loads {
+            share = plus(share, times(end.share(body, load.at_m), points(load.force_n)));
+        }
+        share.map(|part| self.force(part))
     }
 
     /// `l/EA` of a member in units; exactly 0 for an inextensible one.
@@ -110,6 +116,12 @@ impl Frame {
                 / self.force(Interval::point(stiffness_n))
         })
     }
+}
+
+/// The weight of a mass, N.
+fn weight(system: &System, mass_kg: Interval) -> Vector {
+    let g = Interval::point(system.gravity_m_s2());
+    [Interval::ZERO, Interval::ZERO, -(mass_kg * g)]
 }
 
 /// An end of a member.

@@ -31,10 +31,8 @@ const NARROW: usize = 3;
 
 /// A zero, proved.
 pub(super) struct Zero {
-    /// Where it is.
+    /// Where it is, and no other.
     pub(super) tight: Vec<Interval>,
-    /// A box around that with no other zero.
-    pub(super) alone_in: Vec<Interval>,
 }
 
 /// Prove the zero next to a refined point.
@@ -67,7 +65,7 @@ pub(super) fn prove_zero(equations: &Equations, refined: &Refined) -> Result<Zer
                 inner =
                     inner.iter().zip(&next).map(|(a, b)| a.intersect(*b).unwrap_or(*a)).collect();
             }
-            return Ok(Zero { tight: boxed(at, &inner), alone_in: boxed(at, &outer) });
+            return Ok(Zero { tight: boxed(at, &inner) });
         }
         if inner.iter().any(|part| !part.mag().is_finite()) {
             break;

@@ -30,6 +30,7 @@
 
 mod activity;
 mod arithmetic;
+mod census;
 mod coordinates;
 mod diagnosis;
 mod equations;
@@ -42,5 +43,6 @@ mod proven;
 mod tests;
 mod turns;
 
+pub use census::{ChainCensus, MAX_POSITIONS, PartCensus, SystemCensus, SystemPosition};
 pub use prove::{MAX_UNKNOWNS, prove};
 pub use proven::SystemBox;

@@ -21,8 +21,6 @@ pub struct SystemBox {
     pub width_m: f64,
     /// Largest width of the axial forces, N.
     pub width_n: f64,
-    /// How far around there is no other equilibrium in which the same members act: least distance of a joint, m.
-    pub alone_m: f64,
     /// Independent free turns about verticals: the equilibrium stands for all that these turns make of it.
     pub turns: usize,
     /// Cables and struts proved to be slack, from 0.
@@ -41,8 +39,7 @@ impl SystemBox {
         zero: &Zero,
     ) -> Self {
         let frame = &equations.frame;
-        let [places, around] =
-            [&zero.tight, &zero.alone_in].map(|unknowns| equations.places(unknowns));
+        let places = equations.places(&zero.tight);
         let of_idle = |(activity, member)| match activity {
             &Activity::Idle => idle_n(member, &places, frame.length_m),
             _ => Interval::ZERO,
@@ -55,17 +52,12 @@ impl SystemBox {
             axial_n[acting.member] = axial.scale(frame.force_n);
         }
         let joints_m: Vec<_> = places.iter().map(|place| frame.place_m(*place)).collect();
-        let room = around.iter().flatten().zip(places.iter().flatten());
-        let room = room.filter(|(outer, _)| outer.width() > 0.0);
-        let room =
-            room.map(|(outer, inner)| (inner.lo() - outer.lo()).min(outer.hi() - inner.hi()));
         let widest = |numbers: &mut dyn Iterator<Item = &Interval>| {
             numbers.map(|x| x.width()).fold(0.0, f64::max)
         };
         Self {
             width_m: widest(&mut joints_m.iter().flatten()),
             width_n: widest(&mut axial_n.iter()),
-            alone_m: room.fold(f64::INFINITY, f64::min).max(0.0) * frame.length_m,
             turns: equations.holds.len(),
             slack: (0..activities.len()).filter(|k| activities[*k] == Activity::Slack).collect(),
             loose_joints: (0..loose.len()).filter(|k| loose[*k]).collect(),
@@ -90,7 +82,7 @@ impl SystemBox {
 }
 
 /// The force of an elastic member between two anchors by its law alone, N; a rigid one there is slack.
-fn idle_n(member: &Member, places: &[Vector], length_unit_m: f64) -> Interval {
+pub(super) fn idle_n(member: &Member, places: &[Vector], length_unit_m: f64) -> Interval {
     let distance = norm(minus(places[member.to], places[member.from])).scale(length_unit_m);
     let stretch = distance / Interval::point(member.body.length_m()) - Interval::ONE;
     let [least, most] = match member.kind {

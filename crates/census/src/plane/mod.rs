@@ -2,4 +2,5 @@
 
 pub(crate) mod cell;
 pub(crate) mod face;
+pub(crate) mod loads;
 pub(crate) mod system;

@@ -3,9 +3,10 @@
 use std::ops::Range;
 
 use intervals::{Interval, lever};
-use model::{Bar, Problem, Vector};
+use model::{Bar, Chain, Vector};
 
 use crate::plane::face::Face;
+use crate::plane::loads::JointLoads;
 
 /// A chain in units in which the total length and the spread of the weights are of order one. Units
 /// are powers of two, so that scaling rounds nothing.
@@ -65,33 +66,36 @@ fn power_of_two_above(x: f64) -> f64 {
 const PAPER_PLANE: [Interval; 2] = [Interval::ZERO, Interval::ONE];
 
 impl System {
-    /// The chain of a problem in its units. Some joint between the anchors carries weight: a
-    /// [`Problem`] where none does is refused.
-    pub(crate) fn new(problem: &Problem) -> Self {
-        let mut system = Self::shape(problem);
+    /// A chain with loads at its joints in its units. Some joint between the anchors carries weight:
+    /// a problem where none does is refused.
+    pub(crate) fn new(chain: &Chain, loads: &JointLoads) -> Self {
+        let mut system = Self::shape(chain, loads);
         system.local =
-            system.groups.iter().map(|group| system.weights_from(problem, group)).collect();
+            system.groups.iter().map(|group| system.weights_from(chain, loads, group)).collect();
         system
     }
 
-    /// The chain of a problem in its units; the weights make sense only after [`new`](Self::new).
-    pub(crate) fn shape(problem: &Problem) -> Self {
-        let chain = problem.chain();
+    /// A chain in its units; the weights make sense only after [`new`](Self::new).
+    pub(crate) fn shape(chain: &Chain, loads: &JointLoads) -> Self {
         let bars = chain.bars();
         let length_unit_m = power_of_two_above(chain.total_length_m());
 
         // c_i is all that hangs at the joints 1 to i-1. What joint 0 carries would be the same part
-        // of every c_i: a large one would cost them their digits.
+        // of every c_i: a large one would cost them their digits. What hangs at a joint is counted with
+        // the bar before it, what hangs at the last joint not at all.
+        let with_load = |weight: Interval, bar: usize| {
+            if bar + 1 < bars.len() { loads.added_to(weight, bar + 1) } else { weight }
+        };
         let mut added: Vec<Interval> =
-            bars.iter().map(|bar| Interval::point(bar.mass_kg())).collect();
-        added[0] = at_second_joint(&bars[0]);
+            (0..bars.len()).map(|k| with_load(Interval::point(bars[k].mass_kg()), k)).collect();
+        added[0] = with_load(at_second_joint(&bars[0]), 0);
         let mut carried = added[0];
         let mut raw = vec![Interval::ZERO];
-        for bar in &bars[1..] {
+        for (bar, added) in bars.iter().zip(&added).skip(1) {
             raw.push(carried + at_first_joint(bar));
-            carried = carried + Interval::point(bar.mass_kg());
+            carried = carried + *added;
         }
-        let groups = groups(problem);
+        let groups = groups(bars, loads);
         for group in &groups {
             let common = group.clone().map(|i| raw[i]).fold(raw[group.start], |all, c| {
                 // The exact values are equal, so each enclosure holds it.
@@ -177,11 +181,16 @@ impl System {
     }
 
     /// The weights of all bars less that of the bars of a group, from the masses in between.
-    fn weights_from(&self, problem: &Problem, group: &Range<usize>) -> Vec<Interval> {
-        let bars = problem.chain().bars();
+    fn weights_from(
+        &self,
+        chain: &Chain,
+        loads: &JointLoads,
+        group: &Range<usize>,
+    ) -> Vec<Interval> {
+        let bars = chain.bars();
         let unit = self.mass_unit_kg.recip();
         let between = |from: usize, to: usize| {
-            at_second_joint(&bars[from]).scale(unit)
+            loads.added_to(at_second_joint(&bars[from]), from + 1).scale(unit)
                 + self.added[from + 1..to].iter().copied().sum()
                 + at_first_joint(&bars[to]).scale(unit)
         };
@@ -242,16 +251,16 @@ fn shares(bar: &Bar) -> [Interval; 2] {
 
 /// Runs of bars joined by joints without weight.
 ///
-/// Joint i carries nothing if and only if `m_i r_i = 0` and `m_{i+1} (l_{i+1} - r_{i+1}) = 0`: a
-/// question about the data as they stand, without rounding.
-fn groups(problem: &Problem) -> Vec<Range<usize>> {
-    let bars = problem.chain().bars();
+/// Joint i carries nothing if and only if nothing hangs there, `m_i r_i = 0` and
+/// `m_{i+1} (l_{i+1} - r_{i+1}) = 0`: a question about the data as they stand, without rounding.
+fn groups(bars: &[Bar], loads: &JointLoads) -> Vec<Range<usize>> {
     let mut groups = vec![];
     let mut start = 0;
     for joint in 1..=bars.len() {
         let weightless = joint < bars.len() && {
             let (before, after) = (&bars[joint - 1], &bars[joint]);
-            (before.mass_kg() <= 0.0 || before.centre_m() <= 0.0)
+            loads.none_at(joint)
+                && (before.mass_kg() <= 0.0 || before.centre_m() <= 0.0)
                 && (after.mass_kg() <= 0.0 || after.centre_m() >= after.length_m())
         };
         if !weightless {

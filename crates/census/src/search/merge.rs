@@ -68,10 +68,11 @@ fn apart(system: &System, a: &Cell, b: &Cell) -> bool {
 mod tests {
     use super::*;
     use crate::plane::face::Face;
+    use crate::plane::loads::JointLoads;
     use intervals::Interval;
 
     fn system() -> System {
-        System::new(&model::cases::paper())
+        System::new(model::cases::paper().chain(), JointLoads::NONE)
     }
 
     fn zero(face: Face, at: [f64; 2], reach: f64) -> Zero {

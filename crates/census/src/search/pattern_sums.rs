@@ -230,6 +230,7 @@ impl PatternSums {
 
 #[cfg(test)]
 mod tests {
+    use crate::plane::loads::JointLoads;
     use rand::{RngExt, SeedableRng};
     use rand_chacha::ChaCha8Rng;
 
@@ -257,7 +258,7 @@ mod tests {
         let mut contracted = 0;
         for round in 0..20_000 {
             let problem = if round % 4 == 0 { &problem } else { &others[round % 4 - 1] };
-            let system = System::new(problem);
+            let system = System::new(problem.chain(), JointLoads::NONE);
             let faces =
                 [Face::Near, Face::Left, Face::Right, Face::Below, Face::Above, Face::Around(1)];
             let face = faces[round % faces.len()];

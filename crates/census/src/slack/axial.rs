@@ -227,7 +227,8 @@ fn dot(a: [Interval; 2], b: [Interval; 2]) -> Interval {
 
 #[cfg(test)]
 mod tests {
-    use model::{Anchors, Bar, Chain, Problem};
+    use crate::plane::loads::JointLoads;
+    use model::{Anchors, Bar, Chain};
     use proptest::prelude::*;
 
     use super::*;
@@ -256,7 +257,7 @@ mod tests {
         let bars = bars.map(|(l, m, r)| Bar::new(l, m, r, [0.0; 3]).unwrap());
         let anchors = Anchors { start_m: [0.0; 3], end_m: [1.0, 0.0, -0.5] };
         let chain = Chain::new("four", 9.81, anchors, bars.to_vec()).unwrap();
-        System::new(&Problem::new(chain).unwrap())
+        System::new(&chain, JointLoads::NONE)
     }
 
     fn axis() -> impl Strategy<Value = [f64; 2]> {

@@ -1,11 +1,15 @@
-//! Every equilibrium of a chain, with proof.
+//! Every equilibrium of a chain or a system, with proof.
 
 mod answer;
 mod csv;
+mod system;
 
 pub use answer::{CensusAnswer, Check, Enclosure, Enclosures, Found, Open, Slack, Summary};
+pub use system::SystemCensusAnswer;
 
+use census::network::SystemCensus;
 use census::{Progress, Settings};
+use model::system::System;
 
 use crate::error::Error;
 use crate::problem::Problem;
@@ -80,6 +84,40 @@ impl Census {
             let census = census::Census::take_watched(problem, &self.settings, watch)?;
             let verdict = census.check(problem);
             Ok(CensusAnswer::new(problem, census, verdict))
+        })?
+    }
+
+    /// Take the census of a system of joints and members: trees, chains of bars between anchors with trees and weights
+    /// at their joints, and any number of such parts.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::SystemRefused`] when the system has no equilibrium, [`Error::SystemCensus`] when it has no census:
+    /// more closures, level loads on a chain, elastic members in it. What cannot be decided is no error: it is listed,
+    /// and the census is not complete.
+    ///
+    /// ```
+    /// use funicular::prelude::*;
+    /// // A pendulum of two bars hangs, stands, and folds up twice.
+    /// let joints = vec![
+    ///     Joint::anchor("A", [0.0, 0.0, 0.0]),
+    ///     Joint::free("P").with_mass(1.0),
+    ///     Joint::free("Q").with_mass(1.0),
+    /// ];
+    /// let body = Bar::homogeneous(1.0, 0.0)?;
+    /// let members = vec![Member::bar(0, 1, body), Member::bar(1, 2, body)];
+    /// let system = System::new("double pendulum", 10.0, joints, members)?;
+    /// let found = Census::new().run_system(&system)?;
+    /// assert!(found.proven().complete);
+    /// let energies: Vec<f64> = found.equilibria().iter().map(|e| e.energy_j.round()).collect();
+    /// assert_eq!(energies, [-30.0, -10.0, 10.0, 30.0]);
+    /// # Ok::<(), Error>(())
+    /// ```
+    pub fn run_system(&self, system: &System) -> Result<SystemCensusAnswer, Error> {
+        system.refusal()?;
+        threads::on(self.threads, || {
+            let census = SystemCensus::take(system, &self.settings).map_err(Error::SystemCensus)?;
+            Ok(SystemCensusAnswer::new(system, census))
         })?
     }
 }

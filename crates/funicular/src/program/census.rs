@@ -1,5 +1,6 @@
-//! `funicular census`: every equilibrium of a chain, with proof.
+//! `funicular census`: every equilibrium of a chain or a system, with proof.
 
+mod system;
 mod table;
 
 use std::path::PathBuf;
@@ -8,6 +9,7 @@ use census::{CensusError, Settings, rough_time};
 use clap::Args;
 use funicular::Error;
 use miette::miette;
+use model::system::System;
 
 use crate::exit::{Exit, Failure};
 use crate::input::{self, Input};
@@ -57,6 +59,9 @@ pub fn run(arguments: &Census) -> Result<Exit, Failure> {
     progress.say("reading");
     let Input { problem, files } =
         input::problem(arguments.file.as_deref(), arguments.case.as_deref())?;
+    if let Some(system) = problem.as_system() {
+        return of_system(arguments, settings, system, progress);
+    }
     let outputs = [&arguments.svg, &arguments.csv];
     output::check(outputs.into_iter().flatten().map(PathBuf::as_path), &files)?;
     let answer = funicular::Census::new()
@@ -89,6 +94,31 @@ pub fn run(arguments: &Census) -> Result<Exit, Failure> {
     } else {
         Exit::Undecided
     })
+}
+
+/// The census of a system of joints and members.
+fn of_system(
+    arguments: &Census,
+    settings: Settings,
+    system: &System,
+    progress: Progress,
+) -> Result<Exit, Failure> {
+    if arguments.svg.is_some() || arguments.csv.is_some() {
+        return Err(Failure::bad_input(miette!(
+            help = "`--json` has every equilibrium of a system",
+            "--svg and --csv of a census are for chains"
+        )));
+    }
+    progress.say("the chains and trees of the system");
+    let answer = funicular::Census::new().settings(settings).run_system(system)?;
+    drop(progress);
+    if arguments.json {
+        output::print_json(&answer)?;
+    } else {
+        output::print(&system::text(&answer))?;
+    }
+    let passed = answer.check_passed() && answer.proven().complete;
+    Ok(if passed { Exit::Done } else { Exit::Undecided })
 }
 
 /// Why there is no census, and how to go on.

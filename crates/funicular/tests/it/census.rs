@@ -461,3 +461,86 @@ fn an_interruption_leaves_nothing_half_written() {
     assert_eq!(child.wait().unwrap().code(), Some(130));
     assert_eq!(std::fs::read_dir(out).unwrap().count(), 0);
 }
+
+/// A chain of two bars of 5 m without mass over 6 m, with a lamp of 2 N at its joint and one of 1 N on a bar of 1 m
+/// below: by name, both stable and not.
+const LAMPS: &str = r#"
+gravity_m_s2 = 10.0
+[joints]
+A = { at_m = [-3, 0, 0] }
+B = { at_m = [3, 0, 0] }
+P = { mass_kg = 0.2 }
+lamp = { mass_kg = 0.1 }
+[[bars]]
+from = "A"
+to = "P"
+length_m = 5
+mass_kg = 0
+[[bars]]
+from = "P"
+to = "B"
+length_m = 5
+mass_kg = 0
+[[bars]]
+from = "P"
+to = "lamp"
+length_m = 1
+mass_kg = 0
+"#;
+
+#[test]
+fn a_system_by_name_has_its_list() {
+    let path = folder("lamps").join("lamps.toml");
+    std::fs::write(&path, LAMPS).unwrap();
+    let path = path.to_str().unwrap();
+    let value = json(&[path], 0);
+    assert_eq!(
+        (&value["census"]["complete"], &value["census"]["count"]),
+        (&true.into(), &4.into())
+    );
+    let energies: Vec<f64> = value["equilibria"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|e| e["energy_j"].as_f64().unwrap())
+        .collect();
+    // 3 N at -4 m or 4 m, 1 N of them 1 m below or above that.
+    for (energy, expected) in energies.iter().zip([-13.0, -11.0, 11.0, 13.0]) {
+        assert!((energy - expected).abs() < ROUNDING, "{energies:?}");
+    }
+    let lowest = &value["equilibria"][0];
+    assert_eq!(
+        (&lowest["joints"][3]["name"], &lowest["bars"][2]["from"]),
+        (&"lamp".into(), &"P".into())
+    );
+    assert!((lowest["bars"][0]["axial_n"].as_f64().unwrap() - 1.875).abs() < ROUNDING);
+    assert_eq!(lowest["evidence"]["rung"], "complete");
+    let chain = &value["census"]["parts"][0]["chain"];
+    assert_eq!((&chain["check"], &chain["count_in_plane"]), (&Value::Null, &2.into()));
+    let text = stdout(&funicular(&[path]));
+    assert!(text.contains("4 equilibria: proved to be all.") && text.contains("lamp"), "{text}");
+}
+
+#[test]
+fn a_chain_with_a_lamp_has_its_list() {
+    let path = folder("lamp").join("lamp.toml");
+    let bars = "[[bars]]\nlength_m = 1\nmass_kg = 1\ncount = 3\n";
+    let anchors = "[anchors]\nstart_m = [0, 0, 0]\nend_m = [1.3, 0, -0.5]\n";
+    std::fs::write(&path, format!("{anchors}{bars}[[loads]]\njoint = 2\nmass_kg = 5\n")).unwrap();
+    let value = json(&[path.to_str().unwrap()], 0);
+    let chain = &value["census"]["parts"][0]["chain"];
+    assert_eq!(chain["alternating_sum"], chain["euler_characteristic"]);
+    let stable = |e: &&Value| e["stability"]["in_space"] == "stable";
+    assert_eq!(value["equilibria"].as_array().unwrap().iter().filter(stable).count(), 1);
+}
+
+#[test]
+fn systems_without_a_census_are_told_why() {
+    let path = folder("net").join("net.toml");
+    let mut text = LAMPS.to_owned();
+    text += "[[bars]]\nfrom = \"lamp\"\nto = \"A\"\nlength_m = 5.5\nmass_kg = 1\n";
+    std::fs::write(&path, text).unwrap();
+    let output = funicular(&[path.to_str().unwrap()]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("2 independent closures"), "{}", stderr(&output));
+}

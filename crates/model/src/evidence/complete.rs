@@ -13,6 +13,20 @@ pub struct Complete {
     pub patterns: u64,
     /// Cells of pulls that this took.
     pub cells: u64,
+    /// What there is to say besides of the list of a system.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub system: Option<CompleteSystem>,
+}
+
+/// The list of all equilibria of a system of bars, cables, struts and springs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub struct CompleteSystem {
+    /// Isolated equilibria, each standing for all that free turns make of it.
+    pub positions: usize,
+    /// Parts that move without each other.
+    pub parts: usize,
+    /// Members in trees, each of which pulls or pushes whatever the others do.
+    pub hanging: usize,
 }
 
 /// Why there is no census.
@@ -31,4 +45,41 @@ pub enum NoCensus {
     },
     /// The census refuses its settings.
     Settings,
+    /// The system is refused as an equilibrium problem.
+    Refused,
+    /// A part of the system has several independent closures, and is not built up joint by joint.
+    Closures {
+        /// Members less joints that move, without the trees.
+        closures: usize,
+    },
+    /// A chain between anchors bears a force that is not straight down.
+    LoadsNotDown {
+        /// The joint that feels it, from 0.
+        joint: usize,
+    },
+    /// A member of a chain between anchors is no inextensible bar.
+    NotABar {
+        /// The member, from 1.
+        member: usize,
+    },
+    /// A member of a tree is not proved to bear a force, and may point anywhere.
+    Limp {
+        /// The member, from 1.
+        member: usize,
+    },
+    /// The members that hold a joint may lie flat in a line or plane, or nothing may pull it aside.
+    Flat {
+        /// The joint, from 0.
+        joint: usize,
+    },
+    /// A joint slides on a line or in a plane.
+    Slider {
+        /// The joint, from 0.
+        joint: usize,
+    },
+    /// The system has more equilibria than are listed.
+    TooManyPositions {
+        /// The limit.
+        limit: usize,
+    },
 }

@@ -39,7 +39,7 @@ use serde::{Deserialize, Serialize};
 
 pub use agreed::{Agreed, Disagreement, Excess, FreeJoints, Place, Quantity, StabilityDifference};
 pub use certificate::{NoCertificate, Optimal};
-pub use complete::{Complete, NoCensus};
+pub use complete::{Complete, CompleteSystem, NoCensus};
 pub use convergence::{Convergence, ForceUncertainty, UncertaintyCause};
 pub use force_family::{ForceChoice, ForceFamily};
 pub use ladder::{Ladder, Statement};

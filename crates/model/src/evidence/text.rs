@@ -8,7 +8,7 @@ use super::agreed::{
     Agreed, Disagreement, Excess, FreeJoints, Place, Quantity, StabilityDifference,
 };
 use super::certificate::{NoCertificate, Optimal};
-use super::complete::{Complete, NoCensus};
+use super::complete::{Complete, CompleteSystem, NoCensus};
 use super::convergence::{Convergence, ForceUncertainty, UncertaintyCause};
 use super::force_family::{ForceChoice, ForceFamily};
 use super::reason::{NoAnswer, Reason};
@@ -298,8 +298,13 @@ impl Display for NoBox {
 
 impl Display for Complete {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        let Self { in_plane, families, patterns, cells } = self;
-        write!(f, "one of {in_plane} in the plane")?;
+        let Self { in_plane, families, patterns, cells, system } = self;
+        match system {
+            None => write!(f, "one of {in_plane} in the plane")?,
+            Some(CompleteSystem { positions, .. }) => {
+                write!(f, "one of {positions}, free turns apart")?
+            }
+        }
         match families {
             0 => {}
             1 => write!(f, ", besides a family with slack bars")?,
@@ -415,6 +420,33 @@ impl Display for NoCensus {
                 write!(f, "no census: {bars} bars, and the limit is {limit}")
             }
             Self::Settings => f.write_str("no census: its settings are out of range"),
+            Self::Refused => f.write_str("no census: the system is no equilibrium problem"),
+            Self::Closures { closures } => write!(
+                f,
+                "no census: {closures} independent closures in one part, which is no frame built up joint by joint"
+            ),
+            Self::LoadsNotDown { joint } => write!(
+                f,
+                "no census: joint number {joint} of a chain between anchors bears a force that is not straight down"
+            ),
+            Self::NotABar { member } => write!(
+                f,
+                "no census: member {member} of a chain between anchors is no inextensible bar"
+            ),
+            Self::Limp { member } => write!(
+                f,
+                "no census: member {member} bears nothing that is proved to turn it, and may point anywhere"
+            ),
+            Self::Flat { joint } => write!(
+                f,
+                "no census: the members that hold joint number {joint} may lie flat, or nothing pulls it aside"
+            ),
+            Self::Slider { joint } => {
+                write!(f, "no census: joint number {joint} slides")
+            }
+            Self::TooManyPositions { limit } => {
+                write!(f, "no census: more than {limit} equilibria")
+            }
         }
     }
 }

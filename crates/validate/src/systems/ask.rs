@@ -5,6 +5,7 @@ use model::{NoAnswer, Reason, SolverName, Status};
 use serde::Serialize;
 
 use super::compare::{SystemAgreement, compare, judge_alone};
+use super::completeness::look_up;
 use super::verified::verify;
 use crate::answer::Solvers;
 use crate::tolerances::Tolerances;
@@ -96,6 +97,7 @@ pub fn ask(system: &System, solvers: Solvers, watch: &dyn Fn(&str)) -> SystemAns
     let agreement = judged(system, &mut equilibria, &failures);
     watch("proofs in interval arithmetic");
     verify(system, &mut equilibria);
+    look_up(system, &mut equilibria);
     SystemAnswer { equilibria, failures, agreement }
 }
 

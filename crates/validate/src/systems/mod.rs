@@ -5,6 +5,8 @@
 mod ask;
 mod certificate;
 pub(crate) mod compare;
+mod compare;
+mod completeness;
 mod family;
 mod statics;
 #[cfg(test)]
@@ -15,5 +17,6 @@ mod verified;
 pub use ask::{SystemAnswer, SystemFailure, ask};
 pub use certificate::certify;
 pub use compare::{SystemAgreement, compare, judge_alone};
+pub use completeness::{certify_by_census, look_up};
 pub use statics::{SystemStatics, judge};
 pub use verified::verify;

@@ -17,5 +17,6 @@ mod gallery;
 mod independence;
 mod integer_chains;
 mod networks;
+mod networks_census;
 mod paper;
 mod statics;

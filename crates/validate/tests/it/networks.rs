@@ -5,8 +5,10 @@
 //! of them, and lists those that do not agree: 6 of these, by energies or by the statics of members
 //! next to stiff springs a little beyond their budgets.
 
+use std::collections::BTreeMap;
+
 use model::system::{Joint, Kind, Member, System};
-use model::{Bar, Excess, Quantity};
+use model::{Bar, Excess, NoBox, Quantity, Reason, Status, Verified};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
@@ -224,9 +226,11 @@ fn both_solvers_agree_on_random_systems_or_say_why_not() {
             let kind = kinds[usize::try_from(seed / 4 % 4).unwrap()];
             let system = shapes[shape](kind, seed);
             if system.refusal().is_err() {
-                return (seed, shape, Outcome::NoProblem, String::new());
+                return (seed, shape, Outcome::NoProblem, String::new(), vec![]);
             }
             let answer = ask(&system, Solvers::Both, &|_| {});
+            let verified =
+                answer.equilibria.iter().map(|e| e.evidence.ladder.verified.clone()).collect();
             let found = outcome(&system, &answer);
             let why = match &answer.agreement {
                 Some(agreement) => agreement.disagreement.to_string(),
@@ -234,12 +238,12 @@ fn both_solvers_agree_on_random_systems_or_say_why_not() {
                     answer.failures.iter().map(ToString::to_string).collect::<Vec<_>>().join("; ")
                 }
             };
-            (seed, shape, found, format!("{kind:?}: {why}"))
+            (seed, shape, found, format!("{kind:?}: {why}"), verified)
         })
         .collect();
     for (shape, name) in ["bridle", "tree", "net", "ring"].into_iter().enumerate() {
         let of = |wanted: Outcome| {
-            outcomes.iter().filter(|(_, s, found, _)| *s == shape && *found == wanted).count()
+            outcomes.iter().filter(|(_, s, found, ..)| *s == shape && *found == wanted).count()
         };
         println!(
             "{name}: {} agreed, {} told, {} refused, {} other minima, {} no problem, {} disagreed",
@@ -251,13 +255,13 @@ fn both_solvers_agree_on_random_systems_or_say_why_not() {
             of(Outcome::Disagreed),
         );
     }
-    for (seed, _, found, why) in &outcomes {
+    for (seed, _, found, why, _) in &outcomes {
         if !matches!(found, Outcome::Agreed | Outcome::NoProblem) {
             println!("{seed} {found:?} {why}");
         }
     }
     let share = |wanted: Outcome| {
-        let these = outcomes.iter().filter(|(_, _, found, _)| *found == wanted).count();
+        let these = outcomes.iter().filter(|(_, _, found, ..)| *found == wanted).count();
         100.0 * these as f64 / outcomes.len() as f64
     };
     assert!(share(Outcome::Disagreed) <= 0.0);
@@ -265,4 +269,37 @@ fn both_solvers_agree_on_random_systems_or_say_why_not() {
         assert!(share(rare) <= FEW, "{rare:?}: {} %", share(rare));
     }
     assert!(share(Outcome::Agreed) > 90.0);
+    let agreed = outcomes.iter().filter(|(_, _, found, ..)| *found == Outcome::Agreed);
+    proofs(&agreed.map(|(seed, _, _, _, verified)| (*seed, verified.clone())).collect::<Vec<_>>());
+}
+
+/// Answers on which both solvers agree that have to be verified, of a hundred; the others are families of forces, free
+/// motions and members without force.
+const VERIFIED: f64 = 70.0;
+
+/// How many answers are proved to be the only equilibria of their boxes, and why the others are not: never because the
+/// equilibrium next to two answers that agree lies elsewhere.
+fn proofs(verified: &[(u64, Vec<Status<Verified>>)]) {
+    let mut reasons: BTreeMap<String, Vec<u64>> = BTreeMap::new();
+    let (mut reached, mut all) = (0, 0);
+    let mut widest: f64 = 0.0;
+    for (seed, answers) in verified {
+        for status in answers {
+            all += 1;
+            match status {
+                Status::Reached(proof) => {
+                    reached += 1;
+                    widest = widest.max(proof.box_width);
+                }
+                Status::Open(reason) => reasons.entry(reason.to_string()).or_default().push(*seed),
+            }
+            let elsewhere = matches!(status.reason(), Some(Reason::NoBox(NoBox::Elsewhere { .. })));
+            assert!(!elsewhere, "{seed}: {status}");
+        }
+    }
+    println!("{reached} of {all} answers verified, boxes at most {widest:.1e} wide");
+    for (reason, seeds) in reasons {
+        println!("{:5} {reason}, e.g. {:?}", seeds.len(), &seeds[..seeds.len().min(4)]);
+    }
+    assert!(100.0 * f64::from(reached) > VERIFIED * f64::from(all), "{reached} of {all}");
 }

@@ -1,0 +1,45 @@
+//! Positions of a part, one after the other.
+
+use intervals::Interval;
+use model::system::System;
+
+use super::parts::Part;
+use crate::network::arithmetic::Vector;
+use crate::network::frame::Frame;
+
+/// One position of some joints and the forces of some members, in the units of the frame.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Choice {
+    pub(super) places: Vec<(usize, Vector)>,
+    pub(super) axial: Vec<(usize, Interval)>,
+    /// Independent directions in which the energy falls, in the plane and out of it.
+    pub(super) index: [usize; 2],
+    /// Whether the part turns freely about the vertical through its anchors.
+    pub(super) circle: bool,
+}
+
+impl Choice {
+    /// The anchors on which the trees of a part hang.
+    pub(super) fn anchor(system: &System, frame: &Frame, part: &Part) -> Self {
+        let place =
+            |joint: usize| Some((joint, frame.place(system.joints()[joint].support.at_m()?)));
+        let places = part.hanging.iter().filter_map(|hanging| place(hanging.parent)).collect();
+        Self { places, ..Self::default() }
+    }
+
+    pub(super) fn place(&self, joint: usize) -> Option<Vector> {
+        self.places.iter().find(|(k, _)| *k == joint).map(|(_, place)| *place)
+    }
+
+    /// This and another one together.
+    pub(super) fn and(&self, other: &Self) -> Self {
+        let mut both = self.clone();
+        both.places.extend_from_slice(&other.places);
+        both.axial.extend_from_slice(&other.axial);
+        for (sum, part) in both.index.iter_mut().zip(other.index) {
+            *sum += part;
+        }
+        both.circle |= other.circle;
+        both
+    }
+}

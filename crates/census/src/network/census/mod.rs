@@ -1,0 +1,201 @@
+//! Every equilibrium of a system, with proof, where its closures are few.
+//!
+//! Parts of a system that are connected over anchors alone have equilibria of their own, and the system has all
+//! combinations of theirs. In each part the trees are taken off first: what a member alone holds tells its force, and
+//! the force its direction (module `tree`). What is left has
+//! closures = members − joints that move. Without any the part is a tree. A chain between two anchors
+//! has one, and hangs in a vertical plane if all that it bears is weight: its equilibria are those of the census of a
+//! chain, with weights at the joints (module `core`). Frames that are built up joint by joint, a tripod among them, have
+//! closed forms whatever their closures (module `truss`). Other parts have no census.
+
+mod choice;
+mod core;
+mod parts;
+mod position;
+#[cfg(test)]
+mod tests;
+mod tree;
+mod truss;
+mod weights;
+
+use std::time::Instant;
+
+use intervals::Interval;
+use model::NoCensus;
+use model::system::{Support, System};
+use serde::{Deserialize, Serialize};
+
+pub use self::position::SystemPosition;
+
+use self::choice::Choice;
+use self::core::{LoadedChain, choices};
+use self::parts::{Core, Part, parts};
+use self::tree::{borne, hung};
+use self::truss::{order, positions};
+use super::frame::Frame;
+use crate::census::Census;
+use crate::settings::Settings;
+
+/// Most positions that are listed.
+pub const MAX_POSITIONS: usize = 4096;
+
+/// All equilibria of a system, and how far that is proved.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct SystemCensus {
+    /// The isolated equilibria by energy, each standing for all that free turns about verticals make of it.
+    pub equilibria: Vec<SystemPosition>,
+    /// The parts, each with the equilibria that it has whatever the others do.
+    pub parts: Vec<PartCensus>,
+    /// Whether every equilibrium is in the list, or in a family of slack bars of a chain.
+    pub complete: bool,
+    /// Wall-clock time, s.
+    pub seconds: f64,
+}
+
+/// A part of a system, connected not over anchors alone.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct PartCensus {
+    /// Its isolated equilibria.
+    pub positions: usize,
+    /// Members in trees, from 0: each pulls or pushes, whatever the others do.
+    pub hanging: Vec<usize>,
+    /// The chain between anchors that bears the trees, if there is one.
+    pub chain: Option<ChainCensus>,
+    /// Joints of a frame that is built up joint by joint, placed by closed forms.
+    pub framed: usize,
+}
+
+/// The chain of a part with its census.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct ChainCensus {
+    /// Its joints from anchor to anchor, from 0.
+    pub joints: Vec<usize>,
+    /// Its members in that order, from 0.
+    pub members: Vec<usize>,
+    /// Its equilibria; bars without mass, all weights at the joints.
+    pub census: Census,
+    /// Whether every one of them is proved again without the search, and the count of them is what topology asks
+    /// for; else what is missing or wrong.
+    pub check: Result<(), String>,
+}
+
+impl SystemCensus {
+    /// Take the census of a system.
+    ///
+    /// # Errors
+    ///
+    /// [`NoCensus`], why there is none.
+    ///
+    /// ```
+    /// use model::Bar;
+    /// use model::system::{Joint, Member, System};
+    /// // A lamp on two bars of 5 m between anchors 6 m apart hangs 4 m below them or stands 4 m above.
+    /// let joints = vec![
+    ///     Joint::anchor("A", [-3.0, 0.0, 0.0]),
+    ///     Joint::anchor("B", [3.0, 0.0, 0.0]),
+    ///     Joint::free("lamp").with_mass(0.2),
+    /// ];
+    /// let bar = Bar::homogeneous(5.0, 0.0)?;
+    /// let members = vec![Member::bar(0, 2, bar), Member::bar(1, 2, bar)];
+    /// let system = System::new("lamp", 10.0, joints, members)?;
+    /// let census = census::network::SystemCensus::take(&system, &census::Settings::default())?;
+    /// assert!(census.complete && census.equilibria.len() == 2);
+    /// let lowest = &census.equilibria[0];
+    /// assert!(lowest.joints_m[2][2].contains(-4.0) && lowest.axial_n[1].contains(1.25));
+    /// assert!(census.equilibria[1].energy_j.contains(8.0));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn take(system: &System, settings: &Settings) -> Result<Self, NoCensus> {
+        let start = Instant::now();
+        system.refusal().map_err(|_| NoCensus::Refused)?;
+        let moves_freely =
+            |support: &Support| matches!(support, Support::Free | Support::Fixed { .. });
+        if let Some(joint) = system.joints().iter().position(|j| !moves_freely(&j.support)) {
+            return Err(NoCensus::Slider { joint });
+        }
+        let frame = Frame::new(system, &[]);
+        let mut positions = vec![Choice::default()];
+        let mut found = vec![];
+        for part in parts(system) {
+            let (part, own) = of_part(system, &frame, &part, settings)?;
+            if positions.len().saturating_mul(own.len()) > MAX_POSITIONS {
+                return Err(NoCensus::TooManyPositions { limit: MAX_POSITIONS });
+            }
+            positions =
+                positions.iter().flat_map(|all| own.iter().map(|one| all.and(one))).collect();
+            found.push(part);
+        }
+        // One vertical plane holds a chain and plumb trees on it, or plumb trees on one anchor.
+        let plane = found.len() <= 1
+            && found.iter().all(|part| part.framed == 0)
+            && frame.loads(system).iter().all(|[x, y, _]| [*x, *y] == [Interval::ZERO; 2]);
+        let mut equilibria: Vec<SystemPosition> = positions
+            .iter()
+            .map(|choice| SystemPosition::new(system, &frame, choice, plane))
+            .collect();
+        equilibria.sort_by(|a, b| a.energy_j.mid().total_cmp(&b.energy_j.mid()));
+        let proved =
+            |part: &PartCensus| part.chain.as_ref().is_none_or(|chain| chain.census.complete);
+        Ok(Self {
+            complete: found.iter().all(proved),
+            equilibria,
+            parts: found,
+            seconds: start.elapsed().as_secs_f64(),
+        })
+    }
+
+    /// Cells of pulls that could not be decided.
+    #[must_use]
+    pub fn undecided(&self) -> usize {
+        self.chains().map(|chain| chain.census.undecided.len()).sum()
+    }
+
+    /// Families of equilibria with slack bars.
+    #[must_use]
+    pub fn families(&self) -> usize {
+        self.chains().map(|chain| chain.census.families.len()).sum()
+    }
+
+    /// Cells of pulls looked at.
+    #[must_use]
+    pub fn cells(&self) -> u64 {
+        self.chains().map(|chain| chain.census.statistics.cells).sum()
+    }
+
+    /// The chains of all parts.
+    pub fn chains(&self) -> impl Iterator<Item = &ChainCensus> {
+        self.parts.iter().filter_map(|part| part.chain.as_ref())
+    }
+}
+
+/// One part and its positions.
+fn of_part(
+    system: &System,
+    frame: &Frame,
+    part: &Part,
+    settings: &Settings,
+) -> Result<(PartCensus, Vec<Choice>), NoCensus> {
+    let (mut chain, mut framed) = (None, 0);
+    let cores = match &part.core {
+        Core::Net { joints, members } => {
+            let closures = members.len().saturating_sub(joints.len());
+            let order = order(system, joints, members).ok_or(NoCensus::Closures { closures })?;
+            let loads = borne(system, frame, &part.hanging);
+            framed = joints.len();
+            positions(system, frame, &order, &loads, MAX_POSITIONS)?
+        }
+        Core::Anchor => vec![Choice::anchor(system, frame, part)],
+        Core::Chain { joints, members } => {
+            let loaded = LoadedChain::new(system, joints, members, &part.hanging)?;
+            let census = loaded.census(settings)?;
+            let check = loaded.check(&census);
+            let cores = choices(&census, frame, joints, members);
+            let (joints, members) = (joints.clone(), members.clone());
+            chain = Some(ChainCensus { joints, members, census, check });
+            cores
+        }
+    };
+    let positions = hung(system, frame, &part.hanging, cores, MAX_POSITIONS)?;
+    let hanging = part.hanging.iter().map(|hanging| hanging.member).collect();
+    Ok((PartCensus { positions: positions.len(), hanging, chain, framed }, positions))
+}

@@ -1,0 +1,212 @@
+//! One equilibrium of a system, proved.
+
+use intervals::Interval;
+use model::system::{Kind, System, SystemEquilibrium, SystemStability};
+use model::{
+    Complete, CompleteSystem, Evidence, InSpace, NoCertificate, Reason, SolverName, Status,
+    Vector as Point, Verified, VerifiedSystem,
+};
+use serde::{Deserialize, Serialize};
+
+use super::SystemCensus;
+use super::choice::Choice;
+use crate::network::arithmetic::{NOWHERE, dot, minus, norm, plus, product, sum, times};
+use crate::network::frame::Frame;
+use crate::network::proven::idle_n;
+
+/// An equilibrium of a system whose existence is proved; every number is an enclosure of the exact value.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct SystemPosition {
+    /// Places of all joints, world frame, m. Of what turns freely one position is shown.
+    pub joints_m: Vec<[Interval; 3]>,
+    /// Axial force of each member with its loads lumped to its joints, tension positive, N.
+    pub axial_n: Vec<Interval>,
+    /// Force of the ground on each joint, N; zero at joints that move.
+    pub reactions_n: Vec<[Interval; 3]>,
+    /// Energy relative to [`System::reference_m`], J.
+    pub energy_j: Interval,
+    /// Independent directions in which the energy falls.
+    pub index_in_space: usize,
+    /// The same among the motions in the vertical plane of the one chain; nothing where there is no such plane.
+    pub index_in_plane: Option<usize>,
+    /// Whether a chain turns freely about the vertical through its anchors.
+    pub circle: bool,
+}
+
+impl SystemPosition {
+    /// A position of all parts in metres and newtons.
+    pub(super) fn new(system: &System, frame: &Frame, choice: &Choice, plane: bool) -> Self {
+        let mut places: Vec<_> = system
+            .joints()
+            .iter()
+            .map(|joint| joint.support.at_m().map_or(NOWHERE, |at_m| frame.place(at_m)))
+            .collect();
+        for (joint, place) in &choice.places {
+            if !system.joints()[*joint].support.is_fixed() {
+                places[*joint] = *place;
+            }
+        }
+        let mut axial: Vec<Interval> = system
+            .members()
+            .iter()
+            .map(|member| frame.force(idle_n(member, &places, frame.length_m)))
+            .collect();
+        for (member, force) in &choice.axial {
+            axial[*member] = *force;
+        }
+        let loads = frame.loads(system);
+        let mut forces = loads.clone();
+        let mut energy = Interval::ZERO;
+        for (place, load) in places.iter().zip(&loads) {
+            energy = sum(energy, -dot(*place, *load));
+        }
+        for (member, axial) in system.members().iter().zip(&axial) {
+            let span = minus(places[member.to], places[member.from]);
+            let size = norm(span);
+            let pull = span.map(|part| {
+                product(*axial, if part == Interval::ZERO { part } else { part / size })
+            });
+            forces[member.from] = plus(forces[member.from], pull);
+            forces[member.to] = minus(forces[member.to], pull);
+            let stored = product(frame.compliance(member), axial.square()).scale(0.5);
+            energy = sum(energy, stored);
+        }
+        let reactions = system.joints().iter().zip(forces).map(|(joint, force)| {
+            if joint.support.is_fixed() {
+                force.map(|part| (-part).scale(frame.force_n))
+            } else {
+                NOWHERE
+            }
+        });
+        let [in_plane, out_of_plane] = choice.index;
+        Self {
+            joints_m: places.iter().map(|place| frame.place_m(*place)).collect(),
+            axial_n: axial.iter().map(|force| force.scale(frame.force_n)).collect(),
+            reactions_n: reactions.collect(),
+            energy_j: energy.scale(frame.force_n).scale(frame.length_m),
+            index_in_space: in_plane + out_of_plane,
+            index_in_plane: plane.then_some(in_plane),
+            circle: choice.circle,
+        }
+    }
+
+    /// Largest width of the place of a joint, m.
+    #[must_use]
+    pub fn width_m(&self) -> f64 {
+        self.joints_m.iter().flatten().map(|x| x.width()).fold(0.0, f64::max)
+    }
+
+    /// Largest width of an axial force, N.
+    #[must_use]
+    pub fn width_n(&self) -> f64 {
+        self.axial_n.iter().map(|x| x.width()).fold(0.0, f64::max)
+    }
+}
+
+impl SystemCensus {
+    /// The isolated equilibria as answers of a solver, in the order of the census: middles of the enclosures, and how
+    /// far each is proved.
+    #[must_use]
+    pub fn to_model(&self, system: &System) -> Vec<SystemEquilibrium> {
+        let frame = Frame::new(system, &[]);
+        self.equilibria.iter().map(|position| self.one_to_model(system, &frame, position)).collect()
+    }
+
+    fn one_to_model(
+        &self,
+        system: &System,
+        frame: &Frame,
+        position: &SystemPosition,
+    ) -> SystemEquilibrium {
+        let middles = |vectors: &[[Interval; 3]]| -> Vec<Point> {
+            vectors.iter().map(|vector| vector.map(Interval::mid)).collect()
+        };
+        let end = |is_start: bool| {
+            let members = system.members().iter().zip(&position.axial_n);
+            let forces = members.map(|(member, axial_n)| {
+                let [a, b] = [member.from, member.to].map(|joint| position.joints_m[joint]);
+                let span = minus(b, a);
+                let size = norm(span);
+                let pull = span.map(|part| product(*axial_n, part / size));
+                let share = frame.share(system, member, is_start);
+                let share_n = share.map(|part| part.scale(frame.force_n));
+                let pull = if is_start { times(-Interval::ONE, pull) } else { pull };
+                minus(pull, share_n)
+            });
+            middles(&forces.collect::<Vec<_>>())
+        };
+        SystemEquilibrium {
+            solver: SolverName::CENSUS,
+            energy_j: position.energy_j.mid(),
+            joints_m: middles(&position.joints_m),
+            start_forces_n: end(true),
+            end_forces_n: end(false),
+            axial_n: position.axial_n.iter().map(|force| force.mid()).collect(),
+            reactions_n: middles(&position.reactions_n),
+            stability: SystemStability {
+                in_space: if position.index_in_space == 0 {
+                    InSpace::Stable
+                } else {
+                    InSpace::Unstable
+                },
+                index_in_space: position.index_in_space,
+                index_in_plane: position.index_in_plane,
+                neutral: usize::from(position.circle),
+            },
+            evidence: self.evidence(system, position),
+        }
+    }
+
+    fn evidence(&self, system: &System, position: &SystemPosition) -> Evidence {
+        let (width_m, width_n) = (position.width_m(), position.width_n());
+        let largest_n = position.axial_n.iter().map(|x| x.mag()).fold(f64::MIN_POSITIVE, f64::max);
+        let width = (width_m / system.total_length_m()).max(width_n / largest_n);
+        let mut evidence =
+            Evidence::enclosed("width of the enclosures of joints and forces", width);
+        evidence.solve_s = self.seconds;
+        let ladder = &mut evidence.ladder;
+        ladder.verified = Status::Reached(Verified {
+            box_width: width,
+            distance: 0.0,
+            circle: false,
+            system: Some(VerifiedSystem {
+                width_m,
+                width_n,
+                distance_n: 0.0,
+                turns: usize::from(position.circle),
+                slack: 0,
+                loose_joints: 0,
+            }),
+        });
+        ladder.complete = self.completeness(system);
+        ladder.optimal = Status::Open(Reason::NoCertificate(match position.index_in_space {
+            0 => NoCertificate::PivotsUndecided,
+            directions => NoCertificate::EnergyFalls { directions },
+        }));
+        evidence
+    }
+
+    /// The rung `complete` of every equilibrium of this list.
+    #[must_use]
+    pub fn completeness(&self, system: &System) -> Status<Complete> {
+        if !self.complete {
+            let open = self.chains().find(|chain| !chain.census.complete);
+            return open.map_or(Status::default(), |chain| chain.census.completeness());
+        }
+        let two_sided = |member: &usize| system.members()[*member].kind == Kind::Bar;
+        let hanging = self.parts.iter().flat_map(|part| &part.hanging);
+        let free = hanging.clone().filter(|member| two_sided(member)).count();
+        let free = free + self.chains().map(|chain| chain.members.len()).sum::<usize>();
+        Status::Reached(Complete {
+            in_plane: self.equilibria.len(),
+            families: self.families(),
+            patterns: 2_u64.saturating_pow(u32::try_from(free).unwrap_or(u32::MAX)),
+            cells: self.cells(),
+            system: Some(CompleteSystem {
+                positions: self.equilibria.len(),
+                parts: self.parts.len(),
+                hanging: hanging.count(),
+            }),
+        })
+    }
+}

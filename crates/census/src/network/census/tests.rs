@@ -1,0 +1,228 @@
+//! Lists of equilibria against closed forms, and against the census of chains.
+
+use model::system::{Joint, Kind, Member, PointLoad, System};
+use model::{Bar, NoCensus};
+
+use super::SystemCensus;
+use crate::census::Census;
+use crate::equilibrium::ProvenEquilibrium;
+use crate::network::prove;
+use crate::settings::Settings;
+
+const G: f64 = 10.0;
+
+fn light(length_m: f64) -> Bar {
+    Bar::homogeneous(length_m, 0.0).unwrap()
+}
+
+fn system(joints: Vec<Joint>, members: Vec<Member>) -> System {
+    System::new("test", G, joints, members).unwrap()
+}
+
+fn taken(system: &System) -> SystemCensus {
+    let census = SystemCensus::take(system, &Settings::default()).unwrap();
+    for chain in census.chains() {
+        assert_eq!(chain.check, Ok(()));
+    }
+    // Each of the list is proved by the test that knows nothing of the search.
+    for equilibrium in census.to_model(system) {
+        let proof = prove(system, &equilibrium.joints_m, &equilibrium.axial_n).unwrap();
+        assert!(proof.beyond_m(&equilibrium.joints_m) < 1e-13 * system.total_length_m());
+        assert!(proof.turns >= equilibrium.stability.neutral);
+    }
+    census
+}
+
+/// The cases of chains without slack bars, as systems: the same list.
+#[test]
+fn a_chain_as_a_system_has_the_list_of_the_chain() {
+    let mut compared = 0;
+    for case in model::cases::all() {
+        let problem = case.problem();
+        if problem.chain().bars().len() > 6 {
+            continue;
+        }
+        let Ok(alone) = Census::take(&problem, &Settings::default()) else { continue };
+        if !alone.complete || !alone.families.is_empty() {
+            continue;
+        }
+        let census = taken(&System::from(problem.chain()));
+        assert_eq!((census.equilibria.len(), census.complete), (alone.equilibria.len(), true));
+        for one in &census.equilibria {
+            let same = |other: &&ProvenEquilibrium| {
+                let joints = one.joints_m.iter().flatten().zip(other.joints_m.iter().flatten());
+                joints.into_iter().all(|(a, b)| !a.disjoint(*b))
+            };
+            let other = alone.equilibria.iter().find(same).unwrap();
+            assert!(!one.energy_j.disjoint(other.energy_j), "{}", case.name);
+            assert_eq!(one.index_in_space, other.index_in_space());
+        }
+        compared += 1;
+    }
+    assert!(compared >= 5, "{compared}");
+}
+
+/// Loads of 16 N and 9 N and the horizontal pull 12 N: slopes 4/3, 0, 3/4 of bars of 5 m. The chain is told from both
+/// ends to the middle; half of the load of 9 N is a force at the very end of a bar.
+#[test]
+fn the_loaded_string_is_in_the_list() {
+    let joints = vec![
+        Joint::anchor("A", [1.0, 0.0, 2.0]),
+        Joint::free("P").with_mass(1.6),
+        Joint::free("Q").with_mass(0.45),
+        Joint::anchor("B", [13.0, 0.0, 1.0]),
+    ];
+    let mut members: Vec<Member> =
+        [(0, 1), (2, 1), (3, 2)].into_iter().map(|(a, b)| Member::bar(a, b, light(5.0))).collect();
+    members[2].loads.push(PointLoad { at_m: 5.0, force_n: [0.0, 0.0, -4.5] });
+    let string = system(joints.clone(), members.clone());
+    let census = taken(&string);
+    assert!(census.complete && census.families() == 0);
+    let lowest = &census.equilibria[0];
+    let at = [[1.0, 2.0], [4.0, -2.0], [9.0, -2.0], [13.0, 1.0]];
+    for (joint, [x, z]) in lowest.joints_m.iter().zip(at) {
+        assert!(
+            joint[0].contains(x) && joint[1].contains(0.0) && joint[2].contains(z),
+            "{joint:?}"
+        );
+    }
+    for (axial, n) in lowest.axial_n.iter().zip([20.0, 12.0, 15.0]) {
+        assert!(axial.contains(n) && axial.width() < 1e-12, "{axial:?}");
+    }
+    assert!(lowest.reactions_n[0][2].contains(16.0) && lowest.reactions_n[3][0].contains(12.0));
+    assert_eq!((lowest.index_in_space, lowest.index_in_plane), (0, Some(0)));
+    // -16 N times -4 m and -9 N times -4 m below A.
+    assert!(lowest.energy_j.contains(-100.0));
+    // A wind, an elastic member, and a cable are other questions.
+    let mut windy = joints.clone();
+    windy[1].force_n[1] = 0.5;
+    let refused = SystemCensus::take(&system(windy, members.clone()), &Settings::default());
+    assert_eq!(refused.unwrap_err(), NoCensus::LoadsNotDown { joint: 1 });
+    members[1] = members[1].clone().with_stiffness(1e5);
+    let refused = SystemCensus::take(&system(joints, members), &Settings::default());
+    assert_eq!(refused.unwrap_err(), NoCensus::NotABar { member: 2 });
+}
+
+/// A tree in a level wind: every bar along the force that it carries, or against it. A cable only along.
+#[test]
+fn trees_have_all_their_signs() {
+    let joints = vec![
+        Joint::anchor("A", [0.0, 0.0, 0.0]),
+        Joint::free("P").with_mass(0.1),
+        Joint::free("Q").with_force([3.0, 0.0, -4.0]),
+        Joint::free("R").with_mass(0.2),
+    ];
+    let mut members = vec![
+        Member::bar(0, 1, light(1.0)),
+        Member::bar(2, 1, light(5.0)),
+        Member::bar(1, 3, light(2.0)).with_stiffness(4.0),
+    ];
+    let tree = system(joints.clone(), members.clone());
+    let census = taken(&tree);
+    assert_eq!((census.equilibria.len(), census.complete), (8, true));
+    let by_index =
+        |index: usize| census.equilibria.iter().filter(|e| e.index_in_space == index).count();
+    // The configuration space is a product of spheres: Poincaré polynomial (1 + t²)³.
+    assert_eq!([0, 2, 4, 6].map(by_index), [1, 3, 3, 1]);
+    let lowest = &census.equilibria[0];
+    // 5 N along (3, 0, -4)/5, and a spring of 2 m and 4 N that 2 N stretch to 3 m.
+    let between = |a: usize, b: usize, k: usize| lowest.joints_m[b][k] - lowest.joints_m[a][k];
+    assert!(between(1, 2, 0).contains(3.0) && between(1, 2, 2).contains(-4.0));
+    assert!(between(1, 3, 2).contains(-3.0) && lowest.axial_n[1].contains(5.0));
+    // All of 3 N aside and 7 N down hangs on the first.
+    assert!(lowest.axial_n[0].square().contains(58.0));
+    assert!(lowest.reactions_n[0][0].contains(-3.0) && lowest.reactions_n[0][2].contains(7.0));
+    members[1].kind = Kind::Cable;
+    assert_eq!(taken(&system(joints.clone(), members.clone())).equilibria.len(), 4);
+    // A bar that bears nothing points anywhere.
+    members.push(Member::bar(3, 4, light(1.0)));
+    let mut limp = joints;
+    limp.push(Joint::free("S"));
+    let refused = SystemCensus::take(&system(limp, members), &Settings::default());
+    assert_eq!(refused.unwrap_err(), NoCensus::Limp { member: 4 });
+}
+
+/// Two hangers over the same anchors, one of them with a pendulum at its lamp: 2 times 2 times 2.
+#[test]
+fn parts_are_combined_and_trees_hang_on_chains() {
+    let joints = vec![
+        Joint::anchor("A", [-3.0, 0.0, 0.0]),
+        Joint::anchor("B", [3.0, 0.0, 0.0]),
+        Joint::free("P"),
+        Joint::free("Q").with_mass(0.2),
+        Joint::free("lamp").with_mass(0.2),
+    ];
+    let members = vec![
+        Member::bar(0, 2, light(5.0)),
+        Member::bar(1, 2, light(5.0)),
+        Member::bar(3, 0, light(5.0)),
+        Member::bar(1, 3, light(5.0)),
+        Member::bar(2, 4, light(1.0)),
+    ];
+    let both = system(joints, members);
+    let census = taken(&both);
+    assert!(census.complete);
+    assert_eq!(census.parts.iter().map(|part| part.positions).collect::<Vec<_>>(), [4, 2]);
+    assert_eq!(census.equilibria.len(), 8);
+    let lowest = &census.equilibria[0];
+    assert!(lowest.joints_m[4][2].contains(-5.0) && lowest.joints_m[3][2].contains(-4.0));
+    for axial in &lowest.axial_n[..4] {
+        assert!(axial.contains(1.25));
+    }
+    assert_eq!((lowest.index_in_space, lowest.index_in_plane), (0, None));
+    // Above and inverted: each hanger falls aside, the pendulum in two directions.
+    assert_eq!(census.equilibria[7].index_in_space, 4);
+}
+
+/// A tripod with a lamp on a bar below it, in a wind: 2 times 2 positions, none of the four movable but by its lamp.
+#[test]
+fn a_tripod_has_its_two_places() {
+    let corners = [[3.0, 0.0, 0.0], [-3.0, 0.0, 0.0], [0.0, 3.0, 0.0]];
+    let mut joints: Vec<Joint> =
+        corners.iter().enumerate().map(|(k, at)| Joint::anchor(k.to_string(), *at)).collect();
+    joints.push(Joint::free("P"));
+    joints.push(Joint::free("lamp").with_mass(1.6));
+    let mut members: Vec<Member> = (0..3).map(|k| Member::bar(k, 3, light(5.0))).collect();
+    members.push(Member::bar(4, 3, light(1.0)));
+    let census = taken(&system(joints.clone(), members.clone()));
+    assert_eq!((census.equilibria.len(), census.complete), (4, true));
+    let lowest = &census.equilibria[0];
+    assert!(lowest.joints_m[3][2].contains(-4.0) && lowest.joints_m[4][2].contains(-5.0));
+    // The third bar is not needed: twice 10 N times 4/5.
+    for (axial, n) in lowest.axial_n.iter().zip([10.0, 10.0, 0.0, 16.0]) {
+        assert!(axial.contains(n) && axial.width() < 1e-11, "{axial:?}");
+    }
+    assert_eq!(
+        census.equilibria.iter().map(|e| e.index_in_space).collect::<Vec<_>>(),
+        [0, 2, 0, 2]
+    );
+    // A hanger between the top and an anchor swings: below it hangs, above it stands, by the closed form for a chain.
+    joints.truncate(4);
+    members.truncate(3);
+    joints.push(Joint::anchor("C", [0.0, 6.0, -4.0]));
+    joints.push(Joint::free("Q").with_mass(0.2));
+    members.push(Member::bar(3, 5, light(5.0)));
+    members.push(Member::bar(4, 5, light(5.0)));
+    let swing = taken(&system(joints, members));
+    assert_eq!(swing.equilibria.len(), 4);
+    let lowest = &swing.equilibria[0];
+    // Between the top 4 m below and C, 6 m apart and level: 3, 4, 5 again.
+    assert!(lowest.joints_m[5][1].contains(3.0) && lowest.joints_m[5][2].contains(-8.0));
+    assert!(lowest.axial_n[3].contains(1.25) && lowest.axial_n[4].contains(1.25));
+    assert_eq!(lowest.index_in_space, 0);
+}
+
+/// Three strands of two bars each.
+#[test]
+fn more_closures_have_no_census() {
+    let mut joints = vec![Joint::free("knot").with_mass(1.0)];
+    let mut members = vec![];
+    for (k, at) in [[2.0, 0.0, 0.0], [-1.0, 1.5, 0.0], [-1.0, -1.5, 0.0]].into_iter().enumerate() {
+        joints.push(Joint::anchor(format!("A{k}"), at));
+        joints.push(Joint::free(format!("P{k}")).with_mass(1.0));
+        members.push(Member::bar(2 * k + 1, 2 * k + 2, light(1.5)));
+        members.push(Member::bar(2 * k + 2, 0, light(1.5)));
+    }
+    let refused = SystemCensus::take(&system(joints, members), &Settings::default());
+    assert_eq!(refused.unwrap_err(), NoCensus::Closures { closures: 2 });
+}

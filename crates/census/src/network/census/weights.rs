@@ -1,0 +1,80 @@
+//! Loads of joints that are weights alone, to twice the usual precision.
+
+use intervals::DoubleDouble;
+use model::system::{PointLoad, System};
+use model::{NoCensus, Vector};
+
+/// What hangs at each joint in kg, all loads of joints and members shared by the lever rule; nothing where nothing
+/// hangs, exactly.
+pub(super) fn weights_kg(
+    system: &System,
+    joints: &[usize],
+) -> Result<Vec<Option<DoubleDouble>>, NoCensus> {
+    let mut weights = Weights { system, kg: vec![None; system.joints().len()] };
+    for joint in joints {
+        let own = &system.joints()[*joint];
+        weights.add_mass(*joint, own.mass_kg, DoubleDouble::point(1.0));
+        weights.add_force(*joint, own.force_n, DoubleDouble::point(1.0))?;
+    }
+    let wanted = |joint: usize| joints.contains(&joint);
+    for member in system.members().iter().filter(|m| wanted(m.from) || wanted(m.to)) {
+        let length_m = member.body.length_m();
+        for (joint, is_start) in [(member.from, true), (member.to, false)] {
+            if !wanted(joint) {
+                continue;
+            }
+            if let Some(share) = share(length_m, member.body.centre_m(), is_start) {
+                weights.add_mass(joint, member.body.mass_kg(), share);
+            }
+            for PointLoad { at_m, force_n } in &member.loads {
+                match share(length_m, *at_m, is_start) {
+                    Some(share) => weights.add_force(joint, *force_n, share)?,
+                    None => {}
+                }
+            }
+        }
+    }
+    Ok(weights.kg)
+}
+
+/// The part of a load at a point of a member that one end takes; nothing if the point is the other end.
+fn share(length_m: f64, at_m: f64, is_start: bool) -> Option<DoubleDouble> {
+    let [length, at] = [length_m, at_m].map(DoubleDouble::point);
+    match is_start {
+        true => (at_m < length_m).then(|| (length - at) / length),
+        false => (at_m > 0.0).then(|| at / length),
+    }
+}
+
+struct Weights<'a> {
+    system: &'a System,
+    kg: Vec<Option<DoubleDouble>>,
+}
+
+impl Weights<'_> {
+    fn add(&mut self, joint: usize, weight_kg: DoubleDouble) {
+        self.kg[joint] = Some(self.kg[joint].map_or(weight_kg, |before| before + weight_kg));
+    }
+
+    fn add_mass(&mut self, joint: usize, mass_kg: f64, share: DoubleDouble) {
+        if mass_kg > 0.0 {
+            self.add(joint, DoubleDouble::point(mass_kg) * share);
+        }
+    }
+
+    fn add_force(
+        &mut self,
+        joint: usize,
+        [x, y, z]: Vector,
+        share: DoubleDouble,
+    ) -> Result<(), NoCensus> {
+        if x.abs() > 0.0 || y.abs() > 0.0 || z > 0.0 {
+            return Err(NoCensus::LoadsNotDown { joint });
+        }
+        if z < 0.0 {
+            let g = DoubleDouble::point(self.system.gravity_m_s2());
+            self.add(joint, DoubleDouble::point(-z) / g * share);
+        }
+        Ok(())
+    }
+}

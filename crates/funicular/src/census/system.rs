@@ -1,0 +1,145 @@
+//! What a census of a system says, as `funicular census --json` prints it.
+
+use census::network::{ChainCensus, PartCensus, SystemCensus};
+use model::system::{System, SystemEquilibrium};
+use serde::Serialize;
+
+use crate::solve::SCHEMA_VERSION;
+use crate::system::{Named, Summary};
+
+/// All equilibria of a system with their proofs, and what is known of the list.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SystemCensusAnswer {
+    system: System,
+    census: SystemCensus,
+    equilibria: Vec<SystemEquilibrium>,
+}
+
+impl SystemCensusAnswer {
+    /// Put together from a census.
+    #[must_use]
+    pub fn new(system: &System, census: SystemCensus) -> Self {
+        let equilibria = census.to_model(system);
+        Self { system: system.clone(), census, equilibria }
+    }
+
+    /// What it is the census of.
+    #[must_use]
+    pub fn system(&self) -> &System {
+        &self.system
+    }
+
+    /// The census itself, with the enclosures.
+    #[must_use]
+    pub fn proven(&self) -> &SystemCensus {
+        &self.census
+    }
+
+    /// The isolated equilibria by energy, from the middles of the enclosures.
+    #[must_use]
+    pub fn equilibria(&self) -> &[SystemEquilibrium] {
+        &self.equilibria
+    }
+
+    /// Whether the list of every chain was judged again, and passed.
+    #[must_use]
+    pub fn check_passed(&self) -> bool {
+        self.census.chains().all(|chain| chain.check.is_ok())
+    }
+}
+
+impl Serialize for SystemCensusAnswer {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let system = &self.system;
+        let named = |equilibrium| Named { system, equilibrium, bare: false };
+        Object {
+            schema_version: SCHEMA_VERSION,
+            system: Summary::of(system),
+            equilibria: self.equilibria.iter().map(named).collect(),
+            census: Whole {
+                complete: self.census.complete,
+                count: self.equilibria.len(),
+                circles: self.census.equilibria.iter().any(|position| position.circle),
+                undecided_boxes: self.census.undecided(),
+                slack_families: self.census.families(),
+                check_passed: self.check_passed(),
+                parts: self.census.parts.iter().map(|part| One::of(system, part)).collect(),
+                seconds: self.census.seconds,
+            },
+        }
+        .serialize(serializer)
+    }
+}
+
+#[derive(Serialize)]
+struct Object<'a> {
+    schema_version: u32,
+    system: Summary<'a>,
+    equilibria: Vec<Named<'a>>,
+    census: Whole<'a>,
+}
+
+#[derive(Serialize)]
+struct Whole<'a> {
+    complete: bool,
+    count: usize,
+    circles: bool,
+    undecided_boxes: usize,
+    slack_families: usize,
+    check_passed: bool,
+    parts: Vec<One<'a>>,
+    seconds: f64,
+}
+
+/// One part.
+#[derive(Serialize)]
+struct One<'a> {
+    count: usize,
+    /// Numbers of the members in trees, from 1.
+    hanging: Vec<usize>,
+    chain: Option<Chain<'a>>,
+    /// Joints placed by closed forms.
+    framed: usize,
+}
+
+/// The chain of a part.
+#[derive(Serialize)]
+struct Chain<'a> {
+    joints: Vec<&'a str>,
+    complete: bool,
+    count_in_plane: usize,
+    count_by_index: Vec<i64>,
+    alternating_sum: i64,
+    euler_characteristic: Option<i64>,
+    undecided_boxes: usize,
+    check: Option<&'a str>,
+    statistics: census::Statistics,
+}
+
+impl<'a> One<'a> {
+    fn of(system: &'a System, part: &'a PartCensus) -> Self {
+        Self {
+            count: part.positions,
+            hanging: part.hanging.iter().map(|member| member + 1).collect(),
+            chain: part.chain.as_ref().map(|chain| Chain::of(system, chain)),
+            framed: part.framed,
+        }
+    }
+}
+
+impl<'a> Chain<'a> {
+    fn of(system: &'a System, chain: &'a ChainCensus) -> Self {
+        let census = &chain.census;
+        Self {
+            joints: chain.joints.iter().map(|k| system.joints()[*k].name.as_str()).collect(),
+            complete: census.complete,
+            count_in_plane: census.count_in_plane(),
+            count_by_index: census.count_by_index(),
+            alternating_sum: census.alternating_sum(),
+            euler_characteristic: census.topology.as_ref().ok().map(|known| known.euler),
+            undecided_boxes: census.undecided.len(),
+            check: chain.check.as_ref().err().map(String::as_str),
+            statistics: census.statistics,
+        }
+    }
+}

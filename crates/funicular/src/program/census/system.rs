@@ -1,0 +1,132 @@
+//! The census of a system, for people.
+
+use std::fmt::Write as _;
+
+use funicular::SystemCensusAnswer;
+use model::system::{System, SystemEquilibrium};
+
+use crate::answer::ladder;
+use crate::printable::Printable;
+use crate::tables::{duration, long, numbers_from, rung, short, table, vector, word};
+
+/// So many equilibria are printed, and so many joints and members of them one by one; `--json` has all.
+const PRINTED: usize = 40;
+
+/// The whole answer.
+pub fn text(answer: &SystemCensusAnswer) -> String {
+    let system = answer.system();
+    let mut text = format!(
+        "{}: {} members, {} joints\n",
+        Printable(system.name()),
+        system.members().len(),
+        system.joints().len()
+    );
+    text += &headline(answer);
+    let equilibria = answer.equilibria();
+    text += &overview(equilibria);
+    let mut lines = 0;
+    for (k, e) in equilibria.iter().enumerate() {
+        lines += system.joints().len() + system.members().len();
+        if lines > 2 * PRINTED && k > 0 {
+            let _ = writeln!(text, "({} more in --json)", equilibria.len() - k);
+            break;
+        }
+        text += &one(system, k + 1, e);
+    }
+    text += &chains(answer);
+    if let Some(first) = equilibria.first() {
+        text += &ladder(std::iter::once((&first.solver, &first.evidence)));
+    }
+    text
+}
+
+/// What was found, in a sentence.
+fn headline(answer: &SystemCensusAnswer) -> String {
+    let census = answer.proven();
+    let count = answer.equilibria().len();
+    let mut text = format!("{count} {}", if count == 1 { "equilibrium" } else { "equilibria" });
+    if census.equilibria.iter().any(|position| position.circle) {
+        text += ", each with all its turns about the vertical through the anchors of a chain";
+    }
+    if census.parts.len() > 1 {
+        let parts: Vec<_> = census.parts.iter().map(|part| part.positions.to_string()).collect();
+        let _ = write!(text, " ({} of parts that move without each other)", parts.join(" times "));
+    }
+    match census.families() {
+        0 => {}
+        families => {
+            let _ = write!(text, ", besides {families} families of slack bars");
+        }
+    }
+    text + if census.complete { ": proved to be all.\n\n" } else { ": NOT proved to be all.\n\n" }
+}
+
+fn overview(equilibria: &[SystemEquilibrium]) -> String {
+    let mut table = table(["#", "energy / J", "in space", "lowest joint / m", "rung"]);
+    for (k, e) in equilibria.iter().take(PRINTED).enumerate() {
+        let lowest = e.joints_m.iter().map(|at| at[2]).fold(f64::INFINITY, f64::min);
+        table.add_row([
+            (k + 1).to_string(),
+            long(e.energy_j),
+            format!("{} ({})", word(&e.stability.in_space), e.stability.index_in_space),
+            short(lowest),
+            rung(&e.evidence),
+        ]);
+    }
+    numbers_from(&mut table, 1);
+    let mut text = format!("{table}\n");
+    if equilibria.len() > PRINTED {
+        let _ = writeln!(text, "({} more in --json)", equilibria.len() - PRINTED);
+    }
+    text + "(in brackets: the number of directions in which the energy falls)\n\n"
+}
+
+/// Joints and members of one equilibrium.
+fn one(system: &System, number: usize, e: &SystemEquilibrium) -> String {
+    let name = |joint: usize| Printable(&system.joints()[joint].name).to_string();
+    let mut joints = table(["joint", "place / m", "force of the ground / N"]);
+    for (k, joint) in system.joints().iter().enumerate() {
+        let held = joint.support.at_m().map(|_| vector(e.reactions_n[k]));
+        joints.add_row([name(k), vector(e.joints_m[k]), held.unwrap_or_default()]);
+    }
+    let mut members = table(["from", "to", "axial force / N"]);
+    for (member, axial) in system.members().iter().zip(&e.axial_n) {
+        members.add_row([name(member.from), name(member.to), short(*axial)]);
+    }
+    numbers_from(&mut members, 2);
+    format!("Equilibrium {number}:\n{joints}\n{members}\n\n")
+}
+
+/// What is known of the chains.
+fn chains(answer: &SystemCensusAnswer) -> String {
+    let mut text = String::new();
+    for chain in answer.proven().chains() {
+        let census = &chain.census;
+        let names: Vec<_> = [chain.joints.first(), chain.joints.last()]
+            .into_iter()
+            .flatten()
+            .map(|joint| Printable(&answer.system().joints()[*joint].name).to_string())
+            .collect();
+        let _ = write!(
+            text,
+            "The chain from {}: {} in the plane, alternating sum {}",
+            names.join(" to "),
+            census.count_in_plane(),
+            census.alternating_sum()
+        );
+        if let Ok(topology) = &census.topology {
+            let _ = write!(text, ", Euler characteristic {}", topology.euler);
+        }
+        let _ = writeln!(
+            text,
+            "; {} cells in {}{}.",
+            census.statistics.cells,
+            duration(census.statistics.seconds),
+            match &chain.check {
+                Ok(()) => ", every one proved again".to_owned(),
+                Err(failure) => format!(". The check: {failure}"),
+            }
+        );
+    }
+    if text.is_empty() { text } else { text + "\n" }
+}

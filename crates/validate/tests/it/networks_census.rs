@@ -1,0 +1,180 @@
+//! Newton's method from many starts finds no equilibrium of a small system that its complete census lacks, and the
+//! answers of both solvers are in the list.
+
+use census::Settings;
+use census::network::SystemCensus;
+use lagrange::network::{Seed, solve_from};
+use model::Bar;
+use model::system::{Joint, Member, System, SystemEquilibrium};
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use validate::answer::Solvers;
+use validate::systems::{ask, certify_by_census};
+
+struct Draft {
+    random: ChaCha8Rng,
+    joints: Vec<Joint>,
+    members: Vec<Member>,
+}
+
+impl Draft {
+    fn new(seed: u64) -> Self {
+        Self { random: ChaCha8Rng::seed_from_u64(seed), joints: vec![], members: vec![] }
+    }
+
+    fn between(&mut self, low: f64, high: f64) -> f64 {
+        self.random.random_range(low..high)
+    }
+
+    fn anchor(&mut self) -> usize {
+        let at_m = [(); 3].map(|()| self.between(-1.0, 1.0));
+        self.joints.push(Joint::anchor(format!("anchor {}", self.joints.len()), at_m));
+        self.joints.len() - 1
+    }
+
+    /// A joint with a mass or a force downwards, or neither.
+    fn free(&mut self) -> usize {
+        let mut joint = Joint::free(format!("joint {}", self.joints.len()));
+        match self.random.random_range(0..3) {
+            0 => joint = joint.with_mass(self.between(0.1, 5.0)),
+            1 => joint = joint.with_force([0.0, 0.0, -self.between(1.0, 20.0)]),
+            _ => {}
+        }
+        self.joints.push(joint);
+        self.joints.len() - 1
+    }
+
+    fn bar(&mut self, from: usize, to: usize) {
+        let length_m = self.between(1.0, 2.0);
+        let mass_kg = self.between(0.1, 2.0);
+        let centre_m = self.between(0.2, 0.8) * length_m;
+        let body = Bar::new(length_m, mass_kg, centre_m, [0.0; 3]).unwrap();
+        // Told in either direction.
+        let [from, to] = if self.random.random_range(0..2) == 0 { [from, to] } else { [to, from] };
+        self.members.push(Member::bar(from, to, body));
+    }
+
+    fn chain(&mut self, from: usize, to: usize, bars: usize) {
+        let mut here = from;
+        for k in 1..=bars {
+            let there = if k == bars { to } else { self.free() };
+            self.bar(here, there);
+            here = there;
+        }
+    }
+
+    fn finish(self) -> System {
+        System::new("drawn", 9.80665, self.joints, self.members).unwrap()
+    }
+}
+
+/// A chain of two to four bars between anchors, with a branch on one of its joints.
+fn branched_chain(seed: u64) -> System {
+    let mut draft = Draft::new(seed);
+    let (start, end) = (draft.anchor(), draft.anchor());
+    let bars = draft.random.random_range(2..=4);
+    draft.chain(start, end, bars);
+    let tip = draft.free();
+    draft.bar(2, tip);
+    draft.finish()
+}
+
+/// A tripod, with a hanger from its top to a fourth anchor and a pendulum on that.
+fn tripod(seed: u64) -> System {
+    let mut draft = Draft::new(seed);
+    let top = draft.free();
+    for _ in 0..3 {
+        let foot = draft.anchor();
+        draft.bar(foot, top);
+    }
+    let fourth = draft.anchor();
+    draft.chain(top, fourth, 2);
+    let tip = draft.free();
+    draft.bar(5, tip);
+    draft.finish()
+}
+
+/// Whether a list has this position; of circles the heights count alone.
+fn has(census: &SystemCensus, answer: &SystemEquilibrium) -> bool {
+    /// What Newton's method leaves of places of order one: measured below 1e-12.
+    const NEAR: f64 = 1e-9;
+    census.equilibria.iter().any(|position| {
+        let places = position.joints_m.iter().zip(&answer.joints_m);
+        let first = if position.circle { 2 } else { 0 };
+        places.into_iter().all(|(enclosure, at)| {
+            (first..3).all(|k| at[k] > enclosure[k].lo() - NEAR && at[k] < enclosure[k].hi() + NEAR)
+        })
+    })
+}
+
+#[test]
+fn newton_from_many_starts_finds_nothing_that_a_complete_census_lacks() {
+    /// Starts of each system; most of them end in an equilibrium.
+    const STARTS: usize = 60;
+    let (mut lists, mut listed, mut reached, mut ends) = (0, 0, 0, 0);
+    for seed in 0..24 {
+        let system = if seed % 2 == 0 { branched_chain(seed) } else { tripod(seed) };
+        if system.refusal().is_err() {
+            continue;
+        }
+        let census = SystemCensus::take(&system, &Settings::default()).unwrap();
+        if !census.complete || census.families() > 0 {
+            continue;
+        }
+        lists += 1;
+        listed += census.equilibria.len();
+        let mut seen = vec![false; census.equilibria.len()];
+        let mut random = ChaCha8Rng::seed_from_u64(seed);
+        for _ in 0..STARTS {
+            let places = system.joints().iter();
+            let start = Seed::at(
+                places.map(|_| [(); 3].map(|()| random.random_range(-3.0..3.0))).collect(),
+            );
+            let Ok(found) = solve_from(&system, &start, &lagrange::network::Settings::default())
+            else {
+                continue;
+            };
+            ends += 1;
+            assert!(has(&census, &found.equilibrium), "{seed}: {:?}", found.equilibrium.joints_m);
+            for (seen, position) in seen.iter_mut().zip(&census.equilibria) {
+                let same = position.energy_j.lo() - 1e-9 < found.equilibrium.energy_j
+                    && found.equilibrium.energy_j < position.energy_j.hi() + 1e-9;
+                *seen |= same;
+            }
+        }
+        reached += seen.into_iter().filter(|seen| *seen).count();
+    }
+    println!(
+        "{lists} lists of {listed} equilibria, of which {ends} ends of Newton's method reach {reached}"
+    );
+    assert!(
+        lists >= 8 && ends > 4 * lists && 2 * reached > listed,
+        "{lists} {listed} {ends} {reached}"
+    );
+}
+
+#[test]
+fn both_answers_are_in_the_list_and_a_wrong_one_is_refuted() {
+    let mut complete = 0;
+    for seed in 0..12 {
+        let system = if seed % 2 == 0 { branched_chain(seed) } else { tripod(seed) };
+        if system.refusal().is_err() {
+            continue;
+        }
+        let answer = ask(&system, Solvers::Both, &|_| {});
+        for equilibrium in &answer.equilibria {
+            let ladder = &equilibrium.evidence.ladder;
+            assert!(ladder.verified.is_reached(), "{seed}: {}", ladder.verified);
+            assert!(!ladder.failed(), "{seed}: {}", ladder.complete);
+            complete += usize::from(ladder.complete.is_reached());
+        }
+        let census = SystemCensus::take(&system, &Settings::default()).unwrap();
+        let Some(mut wrong) = answer.equilibria.first().cloned().filter(|_| census.complete) else {
+            continue;
+        };
+        wrong.joints_m[2][2] += 1e-6;
+        certify_by_census(&system, &census, &mut wrong);
+        assert!(wrong.evidence.ladder.failed(), "{seed}: {}", wrong.evidence.ladder.complete);
+    }
+    assert!(complete >= 10, "{complete}");
+}
