@@ -16,8 +16,8 @@ pub(super) enum Activity {
     Idle,
 }
 
-/// Below this part of the largest force, and nearer than this part to its length, a cable or strut is neither taut
-/// nor slack as far as an answer in double precision can tell.
+/// Below this part of the largest force, and nearer than this part to its length, a cable or strut
+/// is neither taut nor slack as far as an answer in double precision can tell.
 const DEGENERATE: f64 = 1e-9;
 
 /// What each member does in an answer.

@@ -30,7 +30,8 @@ impl Coordinates {
             Support::Plane { at_m, normal } => {
                 let least = (0..3).min_by(|a, b| normal[*a].abs().total_cmp(&normal[*b].abs()));
                 let normal = points(*normal);
-                // Products with 0 and 1 alone: the first axis is normal to the normal without rounding.
+                // Products with 0 and 1 alone: the first axis is normal to the normal without
+                // rounding.
                 let across = cross(normal, unit(least.unwrap_or(0)));
                 let axes = vec![across, cross(normal, across)];
                 Self { first, origin: frame.place(*at_m), axes }

@@ -36,7 +36,8 @@ pub(super) struct Hold {
     number: usize,
 }
 
-/// As many equations as unknowns: coordinates of joints, force densities, forces that hold free turns.
+/// As many equations as unknowns: coordinates of joints, force densities, forces that hold free
+/// turns.
 #[derive(Debug, Clone)]
 pub(super) struct Equations {
     pub(super) frame: Frame,

@@ -55,8 +55,8 @@ impl Frame {
     /// A place in units.
     pub(super) fn place(&self, at_m: Point) -> Vector {
         std::array::from_fn(|k| {
-            // Equal as numbers: 0 and −0 too.
-            if at_m[k] <= self.origin_m[k] && at_m[k] >= self.origin_m[k] {
+            // The difference of doubles is zero only if they are equal.
+            if (at_m[k] - self.origin_m[k]).abs() <= 0.0 {
                 Interval::ZERO
             } else {
                 self.length(Interval::point(at_m[k]) - Interval::point(self.origin_m[k]))
@@ -71,7 +71,8 @@ impl Frame {
         })
     }
 
-    /// Loads of all joints in units: those of the joint, and what the lever rule leaves it of the members'.
+    /// Loads of all joints in units: those of the joint, and what the lever rule leaves it of the
+    /// members'.
     pub(super) fn loads(&self, system: &System) -> Vec<Vector> {
         let mut loads: Vec<Vector> = system
             .joints()
@@ -132,7 +133,8 @@ enum End {
 }
 
 impl End {
-    /// The part of a load at a point of a bar that this end takes; exactly 0 if the point is the other end.
+    /// The part of a load at a point of a bar that this end takes; exactly 0 if the point is the
+    /// other end.
     fn share(self, bar: &Bar, at_m: f64) -> Interval {
         let (length, at) = (Interval::point(bar.length_m()), Interval::point(at_m));
         match self {

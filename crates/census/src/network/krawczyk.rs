@@ -5,13 +5,14 @@
 //!
 //! $$ K(D) = z + (I - Y F'(\tilde x + D))\, D $$
 //!
-//! lies inside D, then $\tilde x + D$ holds exactly one zero of F, and that lies in $\tilde x + K(D)$. The box D
-//! is found by inflating $K$ a little, again and again.
+//! lies inside D, then $\tilde x + D$ holds exactly one zero of F, and that lies in $\tilde x +
+//! K(D)$. The box D is found by inflating $K$ a little, again and again.
 //!
 //! # References
 //!
-//! R. Krawczyk, Computing 4 (1969) 187-201, doi:10.1007/BF02234767; S. M. Rump, "Verification methods", Acta Numerica 19
-//! (2010) 287-449, doi:10.1017/S096249291000005X, section 13 (inflation).
+//! R. Krawczyk, Computing 4 (1969) 187-201, doi:10.1007/BF02234767; S. M. Rump, "Verification
+//! methods", Acta Numerica 19 (2010) 287-449, doi:10.1017/S096249291000005X, section 13
+//! (inflation).
 
 use faer::Mat;
 use intervals::Interval;

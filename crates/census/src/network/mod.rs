@@ -2,22 +2,24 @@
 //!
 //! # One equilibrium in a box
 //!
-//! [`prove`] takes the answer of any solver and proves with Krawczyk's test that exactly one equilibrium, shape and
-//! forces, lies in a small box around it. With the places $x_j$ of the joints that move, the span
-//! $d_e = x_b - x_a$ of a member from joint a to joint b and its force density $w_e = N_e/|d_e|$, the equations are
+//! [`prove`] takes the answer of any solver and proves with Krawczyk's test that exactly one
+//! equilibrium, shape and forces, lies in a small box around it. With the places $x_j$ of the
+//! joints that move, the span $d_e = x_b - x_a$ of a member from joint a to joint b and its force
+//! density $w_e = N_e/|d_e|$, the equations are
 //!
 //! $$ f_j + \sum_e w_e (x_k - x_j) = 0 \qquad (1), \qquad
 //!    \tfrac12(|d_e|^2 - l_e^2) = 0 \qquad (2), \qquad
 //!    (1 - c_e w_e)|d_e| - l_e = 0 \qquad (3): $$
 //!
-//! balance of each joint along each direction in which it can move (1), the length of each inextensible member that
-//! acts (2), the law of each elastic one with the compliance $c_e = l_e/EA_e$ (3). As many equations as unknowns. A
-//! cable that is slack has no unknown; that it is slack is proved of the whole box, and so is the sign of the force of
-//! each cable and strut that acts.
+//! balance of each joint along each direction in which it can move (1), the length of each
+//! inextensible member that acts (2), the law of each elastic one with the compliance $c_e =
+//! l_e/EA_e$ (3). As many equations as unknowns. A cable that is slack has no unknown; that it is
+//! slack is proved of the whole box, and so is the sign of the force of each cable and strut that
+//! acts.
 //!
-//! Where a system has self-stresses the derivative is singular and there is no such proof; where it turns freely about
-//! verticals each turn is held fast (module `turns`), and where an unloaded joint has slack members alone it stays
-//! where the answer has it.
+//! Where a system has self-stresses the derivative is singular and there is no such proof; where it
+//! turns freely about verticals each turn is held fast (module `turns`), and where an unloaded
+//! joint has slack members alone it stays where the answer has it.
 //!
 //! | symbol | code | shape | unit | meaning |
 //! |---|---|---|---|---|

@@ -1,4 +1,5 @@
-//! Newton's method on the equations, in double precision: from an answer to the zero next to it. No proof.
+//! Newton's method on the equations, in double precision: from an answer to the zero next to it. No
+//! proof.
 
 use faer::Mat;
 use faer::linalg::solvers::DenseSolveCore;
@@ -24,9 +25,10 @@ pub(super) struct Refined {
 ///
 /// # Errors
 ///
-/// [`NoBox::Singular`] when the derivative is singular, [`NoBox::NotConverged`] when the steps lead away.
-pub(super) fn refine(equations: &Equations, start: Vec<f64>) -> Result<Refined, NoBox> {
-    let mut at = start.clone();
+/// [`NoBox::Singular`] when the derivative is singular, [`NoBox::NotConverged`] when the steps lead
+/// away.
+pub(super) fn refine(equations: &Equations, start: &[f64]) -> Result<Refined, NoBox> {
+    let mut at = start.to_vec();
     let mut last = f64::INFINITY;
     for _ in 0..STEPS {
         let point: Vec<Interval> = at.iter().copied().map(Interval::point).collect();
@@ -36,7 +38,7 @@ pub(super) fn refine(equations: &Equations, start: Vec<f64>) -> Result<Refined, 
         let step = &inverse * value;
         let next: Vec<f64> = at.iter().enumerate().map(|(k, x)| x - step[(k, 0)]).collect();
         let size = (0..at.len()).map(|k| step[(k, 0)].abs()).fold(0.0, f64::max);
-        let away = next.iter().zip(&start).any(|(x, from)| {
+        let away = next.iter().zip(start).any(|(x, from)| {
             let distance = (x - from).abs();
             distance.is_nan() || distance > REACH * (1.0 + from.abs())
         });

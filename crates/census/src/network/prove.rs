@@ -14,15 +14,15 @@ use super::newton::refine;
 use super::proven::SystemBox;
 use super::turns::turns;
 
-/// Most unknowns that the proof takes: the dense inverse and its product grow with their cube. Some hundred bars in
-/// space.
+/// Most unknowns that the proof takes: the dense inverse and its product grow with their cube. Some
+/// hundred bars in space.
 pub const MAX_UNKNOWNS: usize = 640;
 
 /// Prove that exactly one equilibrium, shape and forces, lies in a box next to an answer.
 ///
-/// The answer (places of all joints, m, and axial forces of all members, N, tension positive) may come from anywhere:
-/// it only says where to look, and which members act. Whether it lies in the box is for the caller to ask
-/// ([`SystemBox::beyond_m`]).
+/// The answer (places of all joints, m, and axial forces of all members, N, tension positive) may
+/// come from anywhere: it only says where to look, and which members act. Whether it lies in the
+/// box is for the caller to ask ([`SystemBox::beyond_m`]).
 ///
 /// # Errors
 ///
@@ -72,7 +72,7 @@ pub fn prove(system: &System, joints_m: &[Point], axial_n: &[f64]) -> Result<Sys
     let turns = turns(system, &activities, joints_m, &held);
     let equations = Equations::new(system, frame, &activities, &turns, joints_m, &held);
     let start = equations.start(joints_m, axial_n);
-    let zero = refine(&equations, start.clone())
+    let zero = refine(&equations, &start)
         .and_then(|refined| prove_zero(&equations, &refined))
         .map_err(|failure| diagnosed(&equations, &start, failure))?;
     complementarity(system, &equations, &activities, &zero)?;
@@ -111,7 +111,8 @@ fn loose_joints(system: &System, activities: &[Activity]) -> Vec<bool> {
     loose
 }
 
-/// Prove the signs: cables that act pull, struts push, the others are slack, and no free turn is held by a force.
+/// Prove the signs: cables that act pull, struts push, the others are slack, and no free turn is
+/// held by a force.
 fn complementarity(
     system: &System,
     equations: &Equations,

@@ -9,8 +9,8 @@ use super::arithmetic::{Vector, minus, norm, product};
 use super::equations::Equations;
 use super::krawczyk::Zero;
 
-/// A box that holds exactly one equilibrium of a system, in metres and newtons; every number is an enclosure of the
-/// exact value.
+/// A box that holds exactly one equilibrium of a system, in metres and newtons; every number is an
+/// enclosure of the exact value.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct SystemBox {
     /// Places of all joints, world frame, m.
@@ -21,7 +21,8 @@ pub struct SystemBox {
     pub width_m: f64,
     /// Largest width of the axial forces, N.
     pub width_n: f64,
-    /// Independent free turns about verticals: the equilibrium stands for all that these turns make of it.
+    /// Independent free turns about verticals: the equilibrium stands for all that these turns make
+    /// of it.
     pub turns: usize,
     /// Cables and struts proved to be slack, from 0.
     pub slack: Vec<usize>,
@@ -81,7 +82,8 @@ impl SystemBox {
     }
 }
 
-/// The force of an elastic member between two anchors by its law alone, N; a rigid one there is slack.
+/// The force of an elastic member between two anchors by its law alone, N; a rigid one there is
+/// slack.
 pub(super) fn idle_n(member: &Member, places: &[Vector], length_unit_m: f64) -> Interval {
     let distance = norm(minus(places[member.to], places[member.from])).scale(length_unit_m);
     let stretch = distance / Interval::point(member.body.length_m()) - Interval::ONE;

@@ -15,7 +15,8 @@ fn system(joints: Vec<Joint>, members: Vec<Member>) -> System {
     System::new("test", G, joints, members).unwrap()
 }
 
-/// The proof at a closed form, which must lie in a box narrower than 1e-12 of lengths and forces of order one.
+/// The proof at a closed form, which must lie in a box narrower than 1e-12 of lengths and forces of
+/// order one.
 fn proved(system: &System, joints_m: &[Vector], axial_n: &[f64]) -> SystemBox {
     let proof = prove(system, joints_m, axial_n).unwrap();
     // The closed forms themselves are rounded.
@@ -75,7 +76,8 @@ fn what_is_no_equilibrium_is_not_proved() {
     assert_eq!(prove(&system, &below(-4.0)[..2], &[1.25; 2]), Err(NoBox::NotFinite));
 }
 
-/// A string with loads of 16 N and 9 N and the horizontal pull 12 N: slopes 4/3, 0, 3/4 of bars of 5 m.
+/// A string with loads of 16 N and 9 N and the horizontal pull 12 N: slopes 4/3, 0, 3/4 of bars of
+/// 5 m.
 #[test]
 fn a_loaded_string() {
     let joints = vec![
@@ -89,8 +91,8 @@ fn a_loaded_string() {
     proved(&system(joints, members), &at, &[20.0, 12.0, 15.0]);
 }
 
-/// Three strands from the corners of a triangle to a ring, and a lamp of 12 N below it: each strand reaches 3 m in
-/// and 4 m down, so it bears a third of the load times 5/4.
+/// Three strands from the corners of a triangle to a ring, and a lamp of 12 N below it: each strand
+/// reaches 3 m in and 4 m down, so it bears a third of the load times 5/4.
 #[test]
 fn a_symmetric_bridle_and_a_tripod() {
     let half = 0.5 * 3.0_f64.sqrt();
@@ -120,7 +122,8 @@ fn a_hanger_of_springs() {
     let members = vec![spring(0, 2), Member { kind: Kind::Cable, ..spring(2, 1) }];
     let springs = system(joints.clone(), members);
     proved(&springs, &below(-4.0), &[1.25; 2]);
-    // A third one between the anchors bears what its law says, 5 (6 - 4)/4 N, and a cable of 7 m nothing.
+    // A third one between the anchors bears what its law says, 5 (6 - 4)/4 N, and a cable of 7 m
+    // nothing.
     let mut members = vec![spring(0, 2), spring(2, 1), spring(0, 1)];
     let with_third = system(joints.clone(), members.clone());
     proved(&with_third, &below(-4.0), &[1.25, 1.25, 2.5]);
@@ -147,7 +150,8 @@ fn sliders() {
         let joints = vec![Joint::anchor("A", at[0]), slider];
         proved(&system(joints, vec![Member::bar(0, 1, light(5.0))]), &at, &[1.25]);
     }
-    // A floor that slopes by 3/4: the bar is drawn down along it by 1 N (3/5), normal to it nothing is asked.
+    // A floor that slopes by 3/4: the bar is drawn down along it by 1 N (3/5), normal to it nothing
+    // is asked.
     let normal = [-0.6, 0.0, 0.8];
     let slider = Joint {
         support: Support::Plane { at_m: [0.0; 3], normal },
@@ -169,8 +173,8 @@ fn self_stresses_and_free_motions_are_counted() {
     at.push([0.0, 0.0, -4.0]);
     let pyramid = system(joints.clone(), members.clone());
     assert_eq!(prove(&pyramid, &at, &[5.0; 4]), Err(NoBox::SelfStresses { dimension: 1 }));
-    // Three bars and a massless one that nothing loads: it points anywhere, and the turn about the vertical is
-    // held fast.
+    // Three bars and a massless one that nothing loads: it points anywhere, and the turn about the
+    // vertical is held fast.
     let mut three = members[..3].to_vec();
     three.push(Member::bar(4, 5, light(1.0)));
     joints.push(Joint::free("Q"));
@@ -194,7 +198,8 @@ fn a_part_that_turns_is_held_fast() {
     let upright = system(joints.clone(), members.clone());
     let at = [[1.0, 2.0, 0.0], [1.0, 2.0, -6.0], [1.0 + 4.0 * 0.6, 2.0 + 4.0 * 0.8, -3.0]];
     assert_eq!(proved(&upright, &at, &[5.0 / 3.0, -5.0 / 3.0]).turns, 1);
-    // With anchors that miss the vertical by a little there is no free turn, and next to none is no proof.
+    // With anchors that miss the vertical by a little there is no free turn, and next to none is no
+    // proof.
     let mut off = joints;
     off[1] = Joint::anchor("B", [1.0 + 1e-13, 2.0, -6.0]);
     let off = system(off, members);
@@ -202,8 +207,9 @@ fn a_part_that_turns_is_held_fast() {
     assert!(matches!(found, Err(NoBox::FreeMotions { dimension: 1 })), "{found:?}");
 }
 
-/// A mobile: a bar hangs from A, a triangle on it, and on a corner of that another one. Each triangle turns about the
-/// vertical through the joint on which it hangs; plumb bars have nothing to turn.
+/// A mobile: a bar hangs from A, a triangle on it, and on a corner of that another one. Each
+/// triangle turns about the vertical through the joint on which it hangs; plumb bars have nothing
+/// to turn.
 #[test]
 fn what_hangs_on_one_joint_turns() {
     let joints = vec![

@@ -1,16 +1,18 @@
 //! Parts that turn freely about a vertical.
 //!
-//! Two kinds of sets of joints turn without any change of energy, if all their loads are exactly vertical: what hangs
-//! on anchors that stand exactly on one vertical, and what hangs on one joint alone. The forces of the members
-//! inside have no moment about the vertical, those of the members that hold the set act through it: the moments of
-//! the left-hand sides of (1) over the set add up to zero at every place and with every force. So one equation is
-//! superfluous and one coordinate free.
+//! Two kinds of sets of joints turn without any change of energy, if all their loads are exactly
+//! vertical: what hangs on anchors that stand exactly on one vertical, and what hangs on one joint
+//! alone. The forces of the members inside have no moment about the vertical, those of the members
+//! that hold the set act through it: the moments of the left-hand sides of (1) over the set add up
+//! to zero at every place and with every force. So one equation is superfluous and one coordinate
+//! free.
 //!
-//! The azimuth of one joint p of the set is therefore fixed by the equation $e \cdot (x_p - x_c) = 0$, e being the
-//! horizontal direction across the answer's arm from the vertical to p, and $\mu e$ is added to the forces at p
-//! with an unknown $\mu$. In a solution of these equations the identity of moments reads
-//! $\mu\, e \times (x_p - x_c) = 0$, and as the arm is proved not to vanish, $\mu = 0$: it is an equilibrium. Sets
-//! are nested or apart; p is in none of the sets inside, so that this holds for one set after the other.
+//! The azimuth of one joint p of the set is therefore fixed by the equation $e \cdot (x_p - x_c) =
+//! 0$, e being the horizontal direction across the answer's arm from the vertical to p, and $\mu e$
+//! is added to the forces at p with an unknown $\mu$. In a solution of these equations the identity
+//! of moments reads $\mu\, e \times (x_p - x_c) = 0$, and as the arm is proved not to vanish, $\mu
+//! = 0$: it is an equilibrium. Sets are nested or apart; p is in none of the sets inside, so that
+//! this holds for one set after the other.
 
 use std::collections::HashSet;
 
@@ -32,7 +34,8 @@ pub(super) struct Turn {
     pub(super) across: [f64; 2],
 }
 
-/// An arm below this part of the size of the system may be no arm: a set that hangs plumb has nothing to turn.
+/// An arm below this part of the size of the system may be no arm: a set that hangs plumb has
+/// nothing to turn.
 const NO_ARM: f64 = 1e-7;
 /// A turn that is the sum of others up to this part of it is no turn of its own.
 const DEPENDENT: f64 = 1e-6;
@@ -93,7 +96,9 @@ fn independent(vector: &mut [f64], basis: &[Vec<f64>]) -> bool {
         vector.iter_mut().zip(unit).for_each(|(x, u)| *x -= part * u);
     }
     let after = norm(vector);
-    vector.iter_mut().for_each(|x| *x /= after);
+    for x in vector.iter_mut() {
+        *x /= after;
+    }
     after > DEPENDENT * before
 }
 
@@ -150,7 +155,8 @@ impl<'a> Net<'a> {
         found
     }
 
-    /// A joint on the vertical through all that holds a component, if there is one and all loads are vertical.
+    /// A joint on the vertical through all that holds a component, if there is one and all loads
+    /// are vertical.
     fn axis(&self, component: &[usize]) -> Option<usize> {
         let mut centre: Option<(usize, Vector)> = None;
         for joint in

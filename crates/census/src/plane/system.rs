@@ -81,8 +81,8 @@ impl System {
         let length_unit_m = power_of_two_above(chain.total_length_m());
 
         // c_i is all that hangs at the joints 1 to i-1. What joint 0 carries would be the same part
-        // of every c_i: a large one would cost them their digits. What hangs at a joint is counted with
-        // the bar before it, what hangs at the last joint not at all.
+        // of every c_i: a large one would cost them their digits. What hangs at a joint is counted
+        // with the bar before it, what hangs at the last joint not at all.
         let with_load = |weight: Interval, bar: usize| {
             if bar + 1 < bars.len() { loads.added_to(weight, bar + 1) } else { weight }
         };

@@ -87,14 +87,14 @@ impl Census {
         })?
     }
 
-    /// Take the census of a system of joints and members: trees, chains of bars between anchors with trees and weights
-    /// at their joints, and any number of such parts.
+    /// Take the census of a system of joints and members: trees, chains of bars between anchors
+    /// with trees and weights at their joints, and any number of such parts.
     ///
     /// # Errors
     ///
-    /// [`Error::SystemRefused`] when the system has no equilibrium, [`Error::SystemCensus`] when it has no census:
-    /// more closures, level loads on a chain, elastic members in it. What cannot be decided is no error: it is listed,
-    /// and the census is not complete.
+    /// [`Error::SystemRefused`] when the system has no equilibrium, [`Error::SystemCensus`] when it
+    /// has no census: more closures, level loads on a chain, elastic members in it. What cannot be
+    /// decided is no error: it is listed, and the census is not complete.
     ///
     /// ```
     /// use funicular::prelude::*;

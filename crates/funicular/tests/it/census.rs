@@ -462,8 +462,8 @@ fn an_interruption_leaves_nothing_half_written() {
     assert_eq!(std::fs::read_dir(out).unwrap().count(), 0);
 }
 
-/// A chain of two bars of 5 m without mass over 6 m, with a lamp of 2 N at its joint and one of 1 N on a bar of 1 m
-/// below: by name, both stable and not.
+/// A chain of two bars of 5 m without mass over 6 m, with a lamp of 2 N at its joint and one of 1 N
+/// on a bar of 1 m below: by name, both stable and not.
 const LAMPS: &str = r#"
 gravity_m_s2 = 10.0
 [joints]

@@ -302,7 +302,7 @@ impl Display for Complete {
         match system {
             None => write!(f, "one of {in_plane} in the plane")?,
             Some(CompleteSystem { positions, .. }) => {
-                write!(f, "one of {positions}, free turns apart")?
+                write!(f, "one of {positions}, free turns apart")?;
             }
         }
         match families {

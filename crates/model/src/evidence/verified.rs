@@ -33,11 +33,13 @@ pub struct VerifiedSystem {
     /// How far outside of the box the axial forces of the answer lie, N; 0 inside.
     #[serde(with = "finite")]
     pub distance_n: f64,
-    /// Independent free turns of parts about verticals: the box stands for all that they make of it.
+    /// Independent free turns of parts about verticals: the box stands for all that they make of
+    /// it.
     pub turns: usize,
     /// Cables and struts proved to be slack.
     pub slack: usize,
-    /// Joints without load between slack members alone: the box holds one equilibrium for each of their places near by.
+    /// Joints without load between slack members alone: the box holds one equilibrium for each of
+    /// their places near by.
     pub loose_joints: usize,
 }
 
@@ -58,8 +60,8 @@ pub enum NoBox {
         /// Number of independent ones.
         dimension: usize,
     },
-    /// Occurs when joints move in directions in which no force, to first order, brings them back, besides free turns
-    /// about verticals.
+    /// Occurs when joints move in directions in which no force, to first order, brings them back,
+    /// besides free turns about verticals.
     FreeMotions {
         /// Number of independent ones.
         dimension: usize,
@@ -79,7 +81,8 @@ pub enum NoBox {
         /// The member, from 1.
         member: usize,
     },
-    /// Occurs when an inextensible member connects two anchors and is not proved to be slack: no joint tells its force.
+    /// Occurs when an inextensible member connects two anchors and is not proved to be slack: no
+    /// joint tells its force.
     BetweenAnchors {
         /// The member, from 1.
         member: usize,
@@ -88,7 +91,8 @@ pub enum NoBox {
     NotConverged,
     /// Occurs when the derivative of the equations is singular in double precision.
     Singular,
-    /// Occurs when Krawczyk's test does not succeed: the answer is too near to one where the derivative is singular.
+    /// Occurs when Krawczyk's test does not succeed: the answer is too near to one where the
+    /// derivative is singular.
     NotContracting,
     /// Occurs when the equilibrium that is proved is further away than answers may be.
     Elsewhere {

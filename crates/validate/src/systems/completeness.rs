@@ -1,4 +1,5 @@
-//! The rung `complete` for systems: a census lists every equilibrium, and an answer is one of them or refuted.
+//! The rung `complete` for systems: a census lists every equilibrium, and an answer is one of them
+//! or refuted.
 
 use census::Settings;
 use census::network::{SystemCensus, SystemPosition};
@@ -10,7 +11,8 @@ use crate::tolerances::Tolerances;
 /// Systems of up to this many members are looked up in their census without being asked to.
 const MEMBERS: usize = 24;
 
-/// Chains in them of up to this many bars, with so many tests for each pattern of signs: a second at most.
+/// Chains in them of up to this many bars, with so many tests for each pattern of signs: a second
+/// at most.
 const BARS: usize = 8;
 const TESTS: u64 = 2_000;
 
@@ -36,8 +38,8 @@ pub fn look_up(system: &System, answers: &mut [SystemEquilibrium]) {
     }
 }
 
-/// Say on an answer how far a census carries it. One that a complete list refutes loses what it had reached above
-/// `converged`.
+/// Say on an answer how far a census carries it. One that a complete list refutes loses what it had
+/// reached above `converged`.
 pub fn certify_by_census(system: &System, census: &SystemCensus, answer: &mut SystemEquilibrium) {
     let distances = census.equilibria.iter().map(|position| distance(system, position, answer));
     let nearest = distances.min_by(f64::total_cmp);
@@ -53,8 +55,8 @@ pub fn certify_by_census(system: &System, census: &SystemCensus, answer: &mut Sy
     }
 }
 
-/// How far outside of a listed position the worst coordinate of an answer lies, in units of the total length; of
-/// what turns freely the heights alone count. NaN is infinitely far.
+/// How far outside of a listed position the worst coordinate of an answer lies, in units of the
+/// total length; of what turns freely the heights alone count. NaN is infinitely far.
 fn distance(system: &System, position: &SystemPosition, answer: &SystemEquilibrium) -> f64 {
     if position.joints_m.len() != answer.joints_m.len() {
         return f64::INFINITY;

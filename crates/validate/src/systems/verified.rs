@@ -1,5 +1,5 @@
-//! The rung `verified` for systems: interval arithmetic proves that exactly one equilibrium lies in a box, and the
-//! answers are held against it.
+//! The rung `verified` for systems: interval arithmetic proves that exactly one equilibrium lies in
+//! a box, and the answers are held against it.
 
 use census::network::{SystemBox, prove};
 use model::system::{System, SystemEquilibrium};
@@ -37,7 +37,8 @@ pub fn verify(system: &System, answers: &mut [SystemEquilibrium]) {
     }
 }
 
-/// Whether an answer is the equilibrium of a box, to the accuracy that answers are asked to agree to.
+/// Whether an answer is the equilibrium of a box, to the accuracy that answers are asked to agree
+/// to.
 fn held_against(
     system: &System,
     proof: &SystemBox,

@@ -273,12 +273,12 @@ fn both_solvers_agree_on_random_systems_or_say_why_not() {
     proofs(&agreed.map(|(seed, _, _, _, verified)| (*seed, verified.clone())).collect::<Vec<_>>());
 }
 
-/// Answers on which both solvers agree that have to be verified, of a hundred; the others are families of forces, free
-/// motions and members without force.
-const VERIFIED: f64 = 70.0;
+/// Answers on which both solvers agree that have to be verified, of a hundred: of 1,832 it is all
+/// but ten, which are families of forces and cables that are just taut.
+const VERIFIED: f64 = 98.0;
 
-/// How many answers are proved to be the only equilibria of their boxes, and why the others are not: never because the
-/// equilibrium next to two answers that agree lies elsewhere.
+/// How many answers are proved to be the only equilibria of their boxes, and why the others are
+/// not: never because the equilibrium next to two answers that agree lies elsewhere.
 fn proofs(verified: &[(u64, Vec<Status<Verified>>)]) {
     let mut reasons: BTreeMap<String, Vec<u64>> = BTreeMap::new();
     let (mut reached, mut all) = (0, 0);

@@ -1,5 +1,5 @@
-//! Newton's method from many starts finds no equilibrium of a small system that its complete census lacks, and the
-//! answers of both solvers are in the list.
+//! Newton's method from many starts finds no equilibrium of a small system that its complete census
+//! lacks, and the answers of both solvers are in the list.
 
 use census::Settings;
 use census::network::SystemCensus;

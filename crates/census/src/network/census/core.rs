@@ -1,8 +1,9 @@
 //! A chain of bars between two anchors with weights at its joints: the census of a chain.
 //!
-//! What hangs at a joint adds to the weight $c_i$ that all further bars carry, and to nothing else; the search is the one
-//! for chains. All weights, those of the bars too, are handed over at the joints, to twice the usual precision: a bar that
-//! is told against the direction of the chain would have its centre rounded.
+//! What hangs at a joint adds to the weight $c_i$ that all further bars carry, and to nothing else;
+//! the search is the one for chains. All weights, those of the bars too, are handed over at the
+//! joints, to twice the usual precision: a bar that is told against the direction of the chain
+//! would have its centre rounded.
 
 use intervals::{DoubleDouble, Interval};
 use model::system::{Kind, System};

@@ -1,12 +1,13 @@
 //! Every equilibrium of a system, with proof, where its closures are few.
 //!
-//! Parts of a system that are connected over anchors alone have equilibria of their own, and the system has all
-//! combinations of theirs. In each part the trees are taken off first: what a member alone holds tells its force, and
-//! the force its direction (module `tree`). What is left has
-//! closures = members − joints that move. Without any the part is a tree. A chain between two anchors
-//! has one, and hangs in a vertical plane if all that it bears is weight: its equilibria are those of the census of a
-//! chain, with weights at the joints (module `core`). Frames that are built up joint by joint, a tripod among them, have
-//! closed forms whatever their closures (module `truss`). Other parts have no census.
+//! Parts of a system that are connected over anchors alone have equilibria of their own, and the
+//! system has all combinations of theirs. In each part the trees are taken off first: what a member
+//! alone holds tells its force, and the force its direction (module `tree`). What is left has
+//! closures = members − joints that move. Without any the part is a tree. A chain between two
+//! anchors has one, and hangs in a vertical plane if all that it bears is weight: its equilibria
+//! are those of the census of a chain, with weights at the joints (module `core`). Frames that are
+//! built up joint by joint, a tripod among them, have closed forms whatever their closures (module
+//! `truss`). Other parts have no census.
 
 mod choice;
 mod core;
@@ -42,7 +43,8 @@ pub const MAX_POSITIONS: usize = 4096;
 /// All equilibria of a system, and how far that is proved.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct SystemCensus {
-    /// The isolated equilibria by energy, each standing for all that free turns about verticals make of it.
+    /// The isolated equilibria by energy, each standing for all that free turns about verticals
+    /// make of it.
     pub equilibria: Vec<SystemPosition>,
     /// The parts, each with the equilibria that it has whatever the others do.
     pub parts: Vec<PartCensus>,
@@ -74,8 +76,8 @@ pub struct ChainCensus {
     pub members: Vec<usize>,
     /// Its equilibria; bars without mass, all weights at the joints.
     pub census: Census,
-    /// Whether every one of them is proved again without the search, and the count of them is what topology asks
-    /// for; else what is missing or wrong.
+    /// Whether every one of them is proved again without the search, and the count of them is what
+    /// topology asks for; else what is missing or wrong.
     pub check: Result<(), String>,
 }
 

@@ -1,4 +1,5 @@
-//! A system taken apart: parts that move without each other, and in each the trees that hang and what they hang on.
+//! A system taken apart: parts that move without each other, and in each the trees that hang and
+//! what they hang on.
 
 use std::collections::VecDeque;
 

@@ -14,7 +14,8 @@ use crate::network::arithmetic::{NOWHERE, dot, minus, norm, plus, product, sum, 
 use crate::network::frame::Frame;
 use crate::network::proven::idle_n;
 
-/// An equilibrium of a system whose existence is proved; every number is an enclosure of the exact value.
+/// An equilibrium of a system whose existence is proved; every number is an enclosure of the exact
+/// value.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct SystemPosition {
     /// Places of all joints, world frame, m. Of what turns freely one position is shown.
@@ -27,7 +28,8 @@ pub struct SystemPosition {
     pub energy_j: Interval,
     /// Independent directions in which the energy falls.
     pub index_in_space: usize,
-    /// The same among the motions in the vertical plane of the one chain; nothing where there is no such plane.
+    /// The same among the motions in the vertical plane of the one chain; nothing where there is no
+    /// such plane.
     pub index_in_plane: Option<usize>,
     /// Whether a chain turns freely about the vertical through its anchors.
     pub circle: bool,
@@ -104,8 +106,8 @@ impl SystemPosition {
 }
 
 impl SystemCensus {
-    /// The isolated equilibria as answers of a solver, in the order of the census: middles of the enclosures, and how
-    /// far each is proved.
+    /// The isolated equilibria as answers of a solver, in the order of the census: middles of the
+    /// enclosures, and how far each is proved.
     #[must_use]
     pub fn to_model(&self, system: &System) -> Vec<SystemEquilibrium> {
         let frame = Frame::new(system, &[]);

@@ -62,8 +62,9 @@ fn a_chain_as_a_system_has_the_list_of_the_chain() {
     assert!(compared >= 5, "{compared}");
 }
 
-/// Loads of 16 N and 9 N and the horizontal pull 12 N: slopes 4/3, 0, 3/4 of bars of 5 m. The chain is told from both
-/// ends to the middle; half of the load of 9 N is a force at the very end of a bar.
+/// Loads of 16 N and 9 N and the horizontal pull 12 N: slopes 4/3, 0, 3/4 of bars of 5 m. The chain
+/// is told from both ends to the middle; half of the load of 9 N is a force at the very end of a
+/// bar.
 #[test]
 fn the_loaded_string_is_in_the_list() {
     let joints = vec![
@@ -103,7 +104,8 @@ fn the_loaded_string_is_in_the_list() {
     assert_eq!(refused.unwrap_err(), NoCensus::NotABar { member: 2 });
 }
 
-/// A tree in a level wind: every bar along the force that it carries, or against it. A cable only along.
+/// A tree in a level wind: every bar along the force that it carries, or against it. A cable only
+/// along.
 #[test]
 fn trees_have_all_their_signs() {
     let joints = vec![
@@ -174,7 +176,8 @@ fn parts_are_combined_and_trees_hang_on_chains() {
     assert_eq!(census.equilibria[7].index_in_space, 4);
 }
 
-/// A tripod with a lamp on a bar below it, in a wind: 2 times 2 positions, none of the four movable but by its lamp.
+/// A tripod with a lamp on a bar below it, in a wind: 2 times 2 positions, none of the four movable
+/// but by its lamp.
 #[test]
 fn a_tripod_has_its_two_places() {
     let corners = [[3.0, 0.0, 0.0], [-3.0, 0.0, 0.0], [0.0, 3.0, 0.0]];
@@ -196,7 +199,8 @@ fn a_tripod_has_its_two_places() {
         census.equilibria.iter().map(|e| e.index_in_space).collect::<Vec<_>>(),
         [0, 2, 0, 2]
     );
-    // A hanger between the top and an anchor swings: below it hangs, above it stands, by the closed form for a chain.
+    // A hanger between the top and an anchor swings: below it hangs, above it stands, by the closed
+    // form for a chain.
     joints.truncate(4);
     members.truncate(3);
     joints.push(Joint::anchor("C", [0.0, 6.0, -4.0]));

@@ -1,10 +1,11 @@
 //! Trees: every member hangs in the direction of the force that it carries, or stands against it.
 //!
-//! The member e alone holds all that hangs further out, with the sum $F_e$ of the loads there. So its direction from
-//! parent to child is $s_e F_e/|F_e|$ with $s_e = +1$ in tension and −1 in compression, whatever the others do: $2^k$
-//! positions for k members, no other ones, as long as no $F_e$ vanishes. The energy is
-//! $-\sum_e F_e \cdot d_e$: it rises in both directions across a member in tension and falls in both across one in
-//! compression. An elastic member is as long as its force makes it, $l_e (1 + s_e |F_e|/EA)$.
+//! The member e alone holds all that hangs further out, with the sum $F_e$ of the loads there. So
+//! its direction from parent to child is $s_e F_e/|F_e|$ with $s_e = +1$ in tension and −1 in
+//! compression, whatever the others do: $2^k$ positions for k members, no other ones, as long as no
+//! $F_e$ vanishes. The energy is $-\sum_e F_e \cdot d_e$: it rises in both directions across a
+//! member in tension and falls in both across one in compression. An elastic member is as long as
+//! its force makes it, $l_e (1 + s_e |F_e|/EA)$.
 
 use intervals::Interval;
 use model::NoCensus;

@@ -1,15 +1,17 @@
-//! Frames that are built up joint by joint: three bars to joints whose places are known fix a joint, two let it swing.
+//! Frames that are built up joint by joint: three bars to joints whose places are known fix a
+//! joint, two let it swing.
 //!
-//! A joint held by three bars of the lengths $r_i$ to known places $a_i$ is where three spheres meet: with
-//! $e_i = a_i - a_1$ and $p = x - a_1$,
+//! A joint held by three bars of the lengths $r_i$ to known places $a_i$ is where three spheres
+//! meet: with $e_i = a_i - a_1$ and $p = x - a_1$,
 //!
 //! $$ p \cdot e_2 = \tfrac12(r_1^2 - r_2^2 + |e_2|^2), \quad p \cdot e_3 = \tfrac12(r_1^2 - r_3^2 + |e_3|^2), \quad
 //!    |p|^2 = r_1^2, $$
 //!
-//! two places, mirror images in the plane of the $a_i$, or none. It cannot move, and its three forces follow from its
-//! balance. A joint held by two bars alone goes round in a circle about the line through both ends; it is in balance where
-//! the part of its load across that line points along the radius: outward, a minimum, or inward, a maximum. So a frame with
-//! k joints of the one and the other kind has at most $2^k$ positions, by closed forms.
+//! two places, mirror images in the plane of the $a_i$, or none. It cannot move, and its three
+//! forces follow from its balance. A joint held by two bars alone goes round in a circle about the
+//! line through both ends; it is in balance where the part of its load across that line points
+//! along the radius: outward, a minimum, or inward, a maximum. So a frame with k joints of the one
+//! and the other kind has at most $2^k$ positions, by closed forms.
 
 use intervals::Interval;
 use model::NoCensus;
@@ -113,7 +115,8 @@ fn placed_on(
         let radius = frame.length(Interval::point(system.members()[*member].body.length_m()));
         spheres.push((choice.place(*other).ok_or(flat)?, radius));
     }
-    // The place of the joint on the plane or line of the others, and how far off it is in which direction.
+    // The place of the joint on the plane or line of the others, and how far off it is in which
+    // direction.
     let found = match spheres[..] {
         [a, b] => off_line(a, b, loads[placed.joint]),
         [a, b, c] => off_plane(a, b, c),

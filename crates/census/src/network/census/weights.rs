@@ -4,8 +4,8 @@ use intervals::DoubleDouble;
 use model::system::{PointLoad, System};
 use model::{NoCensus, Vector};
 
-/// What hangs at each joint in kg, all loads of joints and members shared by the lever rule; nothing where nothing
-/// hangs, exactly.
+/// What hangs at each joint in kg, all loads of joints and members shared by the lever rule;
+/// nothing where nothing hangs, exactly.
 pub(super) fn weights_kg(
     system: &System,
     joints: &[usize],
@@ -27,9 +27,8 @@ pub(super) fn weights_kg(
                 weights.add_mass(joint, member.body.mass_kg(), share);
             }
             for PointLoad { at_m, force_n } in &member.loads {
-                match share(length_m, *at_m, is_start) {
-                    Some(share) => weights.add_force(joint, *force_n, share)?,
-                    None => {}
+                if let Some(share) = share(length_m, *at_m, is_start) {
+                    weights.add_force(joint, *force_n, share)?;
                 }
             }
         }
@@ -37,12 +36,14 @@ pub(super) fn weights_kg(
     Ok(weights.kg)
 }
 
-/// The part of a load at a point of a member that one end takes; nothing if the point is the other end.
+/// The part of a load at a point of a member that one end takes; nothing if the point is the other
+/// end.
 fn share(length_m: f64, at_m: f64, is_start: bool) -> Option<DoubleDouble> {
     let [length, at] = [length_m, at_m].map(DoubleDouble::point);
-    match is_start {
-        true => (at_m < length_m).then(|| (length - at) / length),
-        false => (at_m > 0.0).then(|| at / length),
+    if is_start {
+        (at_m < length_m).then(|| (length - at) / length)
+    } else {
+        (at_m > 0.0).then(|| at / length)
     }
 }
 

@@ -9,7 +9,8 @@ use crate::answer::ladder;
 use crate::printable::Printable;
 use crate::tables::{duration, long, numbers_from, rung, short, table, vector, word};
 
-/// So many equilibria are printed, and so many joints and members of them one by one; `--json` has all.
+/// So many equilibria are printed, and so many joints and members of them one by one; `--json` has
+/// all.
 const PRINTED: usize = 40;
 
 /// The whole answer.
