@@ -57,7 +57,12 @@ pub enum NoCensus {
         /// The joint that feels it, from 0.
         joint: usize,
     },
-    /// A member of a chain between anchors is no inextensible bar.
+    /// A member of a chain between anchors is elastic.
+    Elastic {
+        /// The member, from 1.
+        member: usize,
+    },
+    /// A member of a frame is no inextensible bar.
     NotABar {
         /// The member, from 1.
         member: usize,

@@ -429,10 +429,12 @@ impl Display for NoCensus {
                 f,
                 "no census: joint number {joint} of a chain between anchors bears a force that is not straight down"
             ),
-            Self::NotABar { member } => write!(
-                f,
-                "no census: member {member} of a chain between anchors is no inextensible bar"
-            ),
+            Self::Elastic { member } => {
+                write!(f, "no census: member {member} of a chain between anchors is elastic")
+            }
+            Self::NotABar { member } => {
+                write!(f, "no census: member {member} of a frame is no inextensible bar")
+            }
             Self::Limp { member } => write!(
                 f,
                 "no census: member {member} bears nothing that is proved to turn it, and may point anywhere"

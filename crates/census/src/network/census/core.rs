@@ -1,4 +1,4 @@
-//! A chain of bars between two anchors with weights at its joints: the census of a chain.
+//! A chain between two anchors with weights at its joints: the census of a chain of bars.
 //!
 //! What hangs at a joint adds to the weight $c_i$ that all further bars carry, and to nothing else;
 //! the search is the one for chains. All weights, those of the bars too, are handed over at the
@@ -13,6 +13,7 @@ use super::choice::Choice;
 use super::parts::Hanging;
 use super::weights::weights_kg;
 use crate::census::Census;
+use crate::equilibrium::ProvenEquilibrium;
 use crate::network::frame::Frame;
 use crate::plane::loads::JointLoads;
 use crate::settings::Settings;
@@ -33,8 +34,8 @@ impl LoadedChain {
     ) -> Result<Self, NoCensus> {
         for number in members {
             let member = &system.members()[*number];
-            if member.kind != Kind::Bar || member.stiffness_n.is_some() {
-                return Err(NoCensus::NotABar { member: number + 1 });
+            if member.stiffness_n.is_some() {
+                return Err(NoCensus::Elastic { member: number + 1 });
             }
         }
         let moving: Vec<usize> = joints[1..joints.len() - 1]
@@ -75,29 +76,49 @@ impl LoadedChain {
     }
 }
 
-/// The isolated positions of a census in the units of a frame.
+/// The isolated positions of a census in the units of a frame in which cables pull and struts push.
 pub(super) fn choices(
     census: &Census,
+    system: &System,
+    frame: &Frame,
+    [joints, members]: [&[usize]; 2],
+) -> Result<Vec<Choice>, NoCensus> {
+    let mut found = vec![];
+    for proven in &census.equilibria {
+        let mut allowed = true;
+        for (sign, number) in proven.signs.iter().zip(members) {
+            let kind = system.members()[*number].kind;
+            // Next to nothing may be nothing.
+            if *sign == 0 && kind != Kind::Bar {
+                return Err(NoCensus::Limp { member: number + 1 });
+            }
+            allowed &= match kind {
+                Kind::Bar => true,
+                Kind::Cable => *sign > 0,
+                Kind::Strut => *sign < 0,
+            };
+        }
+        if allowed {
+            found.push(choice(proven, frame, joints, members));
+        }
+    }
+    Ok(found)
+}
+
+fn choice(
+    proven: &ProvenEquilibrium,
     frame: &Frame,
     joints: &[usize],
     members: &[usize],
-) -> Vec<Choice> {
-    let listed = census.equilibria.iter();
-    listed
-        .map(|proven| {
-            let place = |at_m: &[Interval; 3]| {
-                std::array::from_fn(|k| frame.length(at_m[k] - Interval::point(frame.origin_m[k])))
-            };
-            Choice {
-                places: joints.iter().copied().zip(proven.joints_m.iter().map(place)).collect(),
-                axial: members
-                    .iter()
-                    .copied()
-                    .zip(proven.axial_n.iter().map(|axial| frame.force(*axial)))
-                    .collect(),
-                index: [proven.index_in_plane, proven.index_out_of_plane],
-                circle: proven.circle,
-            }
-        })
-        .collect()
+) -> Choice {
+    let place = |at_m: &[Interval; 3]| {
+        std::array::from_fn(|k| frame.length(at_m[k] - Interval::point(frame.origin_m[k])))
+    };
+    let axial = proven.axial_n.iter().map(|axial| frame.force(*axial));
+    Choice {
+        places: joints.iter().copied().zip(proven.joints_m.iter().map(place)).collect(),
+        axial: members.iter().copied().zip(axial).collect(),
+        index: [proven.index_in_plane, proven.index_out_of_plane],
+        circle: proven.circle,
+    }
 }

@@ -13,6 +13,7 @@ mod choice;
 mod core;
 mod parts;
 mod position;
+mod slack;
 #[cfg(test)]
 mod tests;
 mod tree;
@@ -31,6 +32,7 @@ pub use self::position::SystemPosition;
 use self::choice::Choice;
 use self::core::{LoadedChain, choices};
 use self::parts::{Core, Part, parts};
+use self::slack::slackened;
 use self::tree::{borne, hung};
 use self::truss::{order, positions};
 use super::frame::Frame;
@@ -91,7 +93,8 @@ impl SystemCensus {
     /// ```
     /// use model::Bar;
     /// use model::system::{Joint, Member, System};
-    /// // A lamp on two bars of 5 m between anchors 6 m apart hangs 4 m below them or stands 4 m above.
+    /// // A lamp on two bars of 5 m between anchors 6 m apart hangs 4 m below them or stands 4 m
+    /// // above.
     /// let joints = vec![
     ///     Joint::anchor("A", [-3.0, 0.0, 0.0]),
     ///     Joint::anchor("B", [3.0, 0.0, 0.0]),
@@ -191,7 +194,9 @@ fn of_part(
             let loaded = LoadedChain::new(system, joints, members, &part.hanging)?;
             let census = loaded.census(settings)?;
             let check = loaded.check(&census);
-            let cores = choices(&census, frame, joints, members);
+            let both = [joints.as_slice(), members.as_slice()];
+            let mut cores = choices(&census, system, frame, both)?;
+            cores.extend(slackened(system, frame, &loaded, both)?);
             let (joints, members) = (joints.clone(), members.clone());
             chain = Some(ChainCensus { joints, members, census, check });
             cores

@@ -1,5 +1,6 @@
 //! Lists of equilibria against closed forms, and against the census of chains.
 
+use intervals::Interval;
 use model::system::{Joint, Kind, Member, PointLoad, System};
 use model::{Bar, NoCensus};
 
@@ -101,7 +102,7 @@ fn the_loaded_string_is_in_the_list() {
     assert_eq!(refused.unwrap_err(), NoCensus::LoadsNotDown { joint: 1 });
     members[1] = members[1].clone().with_stiffness(1e5);
     let refused = SystemCensus::take(&system(joints, members), &Settings::default());
-    assert_eq!(refused.unwrap_err(), NoCensus::NotABar { member: 2 });
+    assert_eq!(refused.unwrap_err(), NoCensus::Elastic { member: 2 });
 }
 
 /// A tree in a level wind: every bar along the force that it carries, or against it. A cable only
@@ -176,8 +177,46 @@ fn parts_are_combined_and_trees_hang_on_chains() {
     assert_eq!(census.equilibria[7].index_in_space, 4);
 }
 
-/// A tripod with a lamp on a bar below it, in a wind: 2 times 2 positions, none of the four movable
-/// but by its lamp.
+/// Two weights of 1 N, on cables of 2 m from level anchors 3 m apart, and between them a cable of 4
+/// m: taut, or each hangs plumb and what is between is slack. A bar between them never is; as long
+/// as the anchors are apart a cable is both.
+#[test]
+fn cables_are_taut_or_slack() {
+    let hung = |kind: Kind, length_m: f64| {
+        let joints = vec![
+            Joint::anchor("A", [0.0, 0.0, 0.0]),
+            Joint::free("P").with_mass(0.1),
+            Joint::free("Q").with_mass(0.1),
+            Joint::anchor("B", [3.0, 0.0, 0.0]),
+        ];
+        let members = vec![
+            Member::cable(0, 1, light(2.0)),
+            Member { kind, ..Member::bar(1, 2, light(length_m)) },
+            Member::cable(2, 3, light(2.0)),
+        ];
+        system(joints, members)
+    };
+    let cables = taken(&hung(Kind::Cable, 4.0));
+    assert_eq!((cables.equilibria.len(), cables.complete), (1, true));
+    let only = &cables.equilibria[0];
+    assert!(only.joints_m[1][2].contains(-2.0) && only.joints_m[2][0].contains(3.0));
+    assert!(only.axial_n[0].contains(1.0) && only.axial_n[1] == Interval::ZERO);
+    assert_eq!(only.index_in_space, 0);
+    // A shorter one is pulled level: 2 m across the middle of 3 m.
+    let taut = taken(&hung(Kind::Cable, 2.0));
+    assert_eq!(taut.equilibria.len(), 1);
+    assert!(taut.equilibria[0].axial_n[1].lo() > 0.0);
+    assert!(taut.equilibria[0].joints_m[1][0].contains(0.5));
+    // A bar of 4 m spreads them: 1/2 m outward on either side, in compression.
+    let spread = taken(&hung(Kind::Bar, 4.0));
+    let lowest = &spread.equilibria[0];
+    assert!(lowest.joints_m[1][0].contains(-0.5) && lowest.axial_n[1].hi() < 0.0);
+    let even = SystemCensus::take(&hung(Kind::Cable, 3.0), &Settings::default());
+    assert_eq!(even.unwrap_err(), NoCensus::Limp { member: 2 });
+}
+
+/// A tripod with a lamp on a bar below it: 2 times 2 positions, none of the four movable but by its
+/// lamp.
 #[test]
 fn a_tripod_has_its_two_places() {
     let corners = [[3.0, 0.0, 0.0], [-3.0, 0.0, 0.0], [0.0, 3.0, 0.0]];
@@ -203,17 +242,18 @@ fn a_tripod_has_its_two_places() {
     // form for a chain.
     joints.truncate(4);
     members.truncate(3);
-    joints.push(Joint::anchor("C", [0.0, 6.0, -4.0]));
+    joints.push(Joint::anchor("C", [0.0, 8.0, -4.0]));
     joints.push(Joint::free("Q").with_mass(0.2));
     members.push(Member::bar(3, 5, light(5.0)));
     members.push(Member::bar(4, 5, light(5.0)));
     let swing = taken(&system(joints, members));
-    assert_eq!(swing.equilibria.len(), 4);
+    // With the top 4 m above, C is out of reach.
+    assert_eq!((swing.equilibria.len(), swing.complete), (2, true));
     let lowest = &swing.equilibria[0];
-    // Between the top 4 m below and C, 6 m apart and level: 3, 4, 5 again.
-    assert!(lowest.joints_m[5][1].contains(3.0) && lowest.joints_m[5][2].contains(-8.0));
-    assert!(lowest.axial_n[3].contains(1.25) && lowest.axial_n[4].contains(1.25));
-    assert_eq!(lowest.index_in_space, 0);
+    // Between the top 4 m below and C, 8 m apart and level: 3, 4, 5 again.
+    assert!(lowest.joints_m[5][1].contains(4.0) && lowest.joints_m[5][2].contains(-7.0));
+    assert!((lowest.axial_n[3].mid() - 5.0 / 3.0).abs() < 1e-12);
+    assert_eq!((lowest.index_in_space, swing.equilibria[1].index_in_space), (0, 1));
 }
 
 /// Three strands of two bars each.
