@@ -1,6 +1,6 @@
 //! Units in which lengths and forces of a system are of order one, and its loads in them.
 
-use intervals::Interval;
+use intervals::{Interval, lever};
 use model::system::{Member, System};
 use model::{Bar, Vector as Point};
 
@@ -139,9 +139,9 @@ impl End {
         let (length, at) = (Interval::point(bar.length_m()), Interval::point(at_m));
         match self {
             Self::Start if at_m >= bar.length_m() => Interval::ZERO,
-            Self::Start => (length - at) / length,
+            Self::Start => lever(length, at)[0],
             Self::End if at_m <= 0.0 => Interval::ZERO,
-            Self::End => at / length,
+            Self::End => lever(length, at)[1],
         }
     }
 }

@@ -50,6 +50,9 @@ impl LoadedChain {
                 kg[*parent] = Some(kg[*parent].map_or(weight, |own| own + weight));
             }
         }
+        if joints[1..joints.len() - 1].iter().all(|joint| kg[*joint].is_none()) {
+            return Err(NoCensus::Limp { member: members[0] + 1 });
+        }
         let light = |number: &usize| {
             Bar::homogeneous(system.members()[*number].body.length_m(), 0.0)
                 .map_err(|_| NoCensus::Settings)

@@ -39,7 +39,7 @@ pub(super) fn slackened(
     if (0..members.len()).all(|k| kind(k) == Kind::Bar) {
         return Ok(found);
     }
-    let plane = Plane::new(&loaded.chain, &loaded.loads).map_err(|error| error.reason())?;
+    let plane = Plane::new(&loaded.chain, &loaded.loads);
     for (number, group) in plane.groups.iter().enumerate() {
         let Some(slack) = group.clone().find(|k| kind(*k) != Kind::Bar) else { continue };
         // Several members without force between joints without load need not be straight.

@@ -1,6 +1,6 @@
 //! Loads of joints that are weights alone, to twice the usual precision.
 
-use intervals::DoubleDouble;
+use intervals::{DoubleDouble, lever};
 use model::system::{PointLoad, System};
 use model::{NoCensus, Vector};
 
@@ -41,9 +41,9 @@ pub(super) fn weights_kg(
 fn share(length_m: f64, at_m: f64, is_start: bool) -> Option<DoubleDouble> {
     let [length, at] = [length_m, at_m].map(DoubleDouble::point);
     if is_start {
-        (at_m < length_m).then(|| (length - at) / length)
+        (at_m < length_m).then(|| lever(length, at)[0])
     } else {
-        (at_m > 0.0).then(|| at / length)
+        (at_m > 0.0).then(|| lever(length, at)[1])
     }
 }
 
