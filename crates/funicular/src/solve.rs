@@ -104,6 +104,10 @@ impl Solve {
         self.solvers
     }
 
+    pub(crate) fn census_asked(&self) -> UseCensus {
+        self.census
+    }
+
     pub(crate) fn one(
         &self,
         problem: &Problem,

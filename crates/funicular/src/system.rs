@@ -7,7 +7,7 @@ use model::system::{System, SystemEquilibrium, SystemStability};
 use model::{Evidence, Rung, SolverName, Vector};
 use serde::Serialize;
 use serde::ser::SerializeSeq;
-use validate::systems::{SystemAgreement, SystemAnswer, SystemFailure, ask};
+use validate::systems::{SystemAgreement, SystemAnswer, SystemFailure, ask_with};
 
 use crate::csv::{Numbers, quoted};
 use crate::error::Error;
@@ -60,7 +60,7 @@ impl Solve {
     ) -> Result<SystemSolution, Error> {
         system.refusal()?;
         threads::on(self.threads_asked(), || {
-            let answer = ask(system, self.solvers_asked(), watch);
+            let answer = ask_with(system, self.solvers_asked(), self.census_asked(), watch);
             let answer = SystemSolution { system: system.clone(), answer };
             if answer.equilibria().is_empty() {
                 return Err(Error::UnsolvedSystem(Box::new(answer)));

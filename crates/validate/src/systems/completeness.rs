@@ -6,6 +6,7 @@ use census::network::{SystemCensus, SystemPosition};
 use model::system::{System, SystemEquilibrium};
 use model::{NoCensus, Reason, Status};
 
+use crate::answer::UseCensus;
 use crate::tolerances::Tolerances;
 
 /// Systems of up to this many members are looked up in their census without being asked to.
@@ -19,14 +20,13 @@ const TESTS: u64 = 2_000;
 /// The accuracy to which a solver may place a joint, in units of the total length.
 const PLACED: f64 = 1e-12;
 
-/// Look the answers up in a census, where one is quick, and say so on their ladders.
-pub fn look_up(system: &System, answers: &mut [SystemEquilibrium]) {
-    let census = if system.members().len() <= MEMBERS {
-        let settings =
-            Settings { max_bars: BARS, max_tests_per_pattern: TESTS, ..Settings::default() };
-        SystemCensus::take(system, &settings)
-    } else {
-        Err(NoCensus::NotAsked)
+/// Look the answers up in a census, where one is quick or asked for, and say so on their ladders.
+pub fn look_up(system: &System, census: UseCensus, answers: &mut [SystemEquilibrium]) {
+    let quick = Settings { max_bars: BARS, max_tests_per_pattern: TESTS, ..Settings::default() };
+    let census = match census {
+        UseCensus::Always => SystemCensus::take(system, &Settings::default()),
+        UseCensus::Auto if system.members().len() <= MEMBERS => SystemCensus::take(system, &quick),
+        UseCensus::Auto | UseCensus::Never => Err(NoCensus::NotAsked),
     };
     for answer in answers {
         match &census {

@@ -14,7 +14,7 @@ mod tests;
 pub(crate) mod turn;
 mod verified;
 
-pub use ask::{SystemAnswer, SystemFailure, ask};
+pub use ask::{SystemAnswer, SystemFailure, ask, ask_with};
 pub use certificate::certify;
 pub use compare::{SystemAgreement, compare, judge_alone};
 pub use completeness::{certify_by_census, look_up};
