@@ -39,6 +39,10 @@ use super::frame::Frame;
 use crate::census::Census;
 use crate::settings::Settings;
 
+/// Most joints of a frame: with two places for each of them there are more positions than are
+/// listed.
+const MAX_FRAMED: usize = 64;
+
 /// Most positions that are listed.
 pub const MAX_POSITIONS: usize = 4096;
 
@@ -184,13 +188,20 @@ fn of_part(
     let cores = match &part.core {
         Core::Net { joints, members } => {
             let closures = members.len().saturating_sub(joints.len());
-            let order = order(system, joints, members).ok_or(NoCensus::Closures { closures })?;
+            let order = (joints.len() <= MAX_FRAMED)
+                .then(|| order(system, joints, members))
+                .flatten()
+                .ok_or(NoCensus::Closures { closures })?;
             let loads = borne(system, frame, &part.hanging);
             framed = joints.len();
             positions(system, frame, &order, &loads, MAX_POSITIONS)?
         }
         Core::Anchor => vec![Choice::anchor(system, frame, part)],
         Core::Chain { joints, members } => {
+            let (bars, limit) = (members.len(), settings.max_bars);
+            if bars > limit {
+                return Err(NoCensus::TooManyBars { bars, limit });
+            }
             let loaded = LoadedChain::new(system, joints, members, &part.hanging)?;
             let census = loaded.census(settings)?;
             let check = loaded.check(&census);
