@@ -488,12 +488,24 @@ length_m = 1
 mass_kg = 0
 "#;
 
+/// The JSON of a complete census of a system.
+fn json_of_system(path: &str) -> Value {
+    let output = funicular(&[path, "--json"]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let value: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(
+        (&value["schema_version"], &value["census"]["check_passed"]),
+        (&2.into(), &true.into())
+    );
+    value
+}
+
 #[test]
 fn a_system_by_name_has_its_list() {
     let path = folder("lamps").join("lamps.toml");
     std::fs::write(&path, LAMPS).unwrap();
     let path = path.to_str().unwrap();
-    let value = json(&[path], 0);
+    let value = json_of_system(path);
     assert_eq!(
         (&value["census"]["complete"], &value["census"]["count"]),
         (&true.into(), &4.into())
@@ -527,7 +539,7 @@ fn a_chain_with_a_lamp_has_its_list() {
     let bars = "[[bars]]\nlength_m = 1\nmass_kg = 1\ncount = 3\n";
     let anchors = "[anchors]\nstart_m = [0, 0, 0]\nend_m = [1.3, 0, -0.5]\n";
     std::fs::write(&path, format!("{anchors}{bars}[[loads]]\njoint = 2\nmass_kg = 5\n")).unwrap();
-    let value = json(&[path.to_str().unwrap()], 0);
+    let value = json_of_system(path.to_str().unwrap());
     let chain = &value["census"]["parts"][0]["chain"];
     assert_eq!(chain["alternating_sum"], chain["euler_characteristic"]);
     let stable = |e: &&Value| e["stability"]["in_space"] == "stable";
