@@ -1,11 +1,13 @@
 //! Newton's method from many starts finds no equilibrium of a small system that its complete census
 //! lacks, and the answers of both solvers are in the list.
 
+use std::time::Instant;
+
 use census::Settings;
-use census::network::SystemCensus;
+use census::network::{SystemCensus, prove};
 use lagrange::network::{Seed, solve_from};
-use model::Bar;
 use model::system::{Joint, Member, System, SystemEquilibrium};
+use model::{Bar, Ladder};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use validate::answer::Solvers;
@@ -177,4 +179,46 @@ fn both_answers_are_in_the_list_and_a_wrong_one_is_refuted() {
         assert!(wrong.evidence.ladder.failed(), "{seed}: {}", wrong.evidence.ladder.complete);
     }
     assert!(complete >= 10, "{complete}");
+}
+
+/// The gallery: which answers are proved to be alone in their boxes, and which in lists.
+#[test]
+fn the_gallery_is_proved() {
+    let mut proved = vec![];
+    for exhibit in model::cases::gallery() {
+        let answer = ask(&exhibit.system(), Solvers::Both, &|_| {});
+        for e in &answer.equilibria {
+            let ladder = &e.evidence.ladder;
+            println!("{} {}: {}; {}", exhibit.name, e.solver, ladder.verified, ladder.complete);
+            assert!(!ladder.failed(), "{}", exhibit.name);
+        }
+        let all = |reached: &dyn Fn(&Ladder) -> bool| {
+            answer.equilibria.iter().all(|e| reached(&e.evidence.ladder))
+        };
+        let verified = all(&|ladder| ladder.verified.is_reached());
+        let complete = all(&|ladder| ladder.complete.is_reached());
+        proved.push((exhibit.name, verified, complete));
+    }
+    let names = |wanted: &dyn Fn(&(&str, bool, bool)) -> bool| -> Vec<&str> {
+        proved.iter().filter(|one| wanted(one)).map(|(name, ..)| *name).collect()
+    };
+    assert_eq!(names(&|(_, verified, _)| !verified), [] as [&str; 0]);
+    for name in ["lamp", "tripod", "pendulum-chain"] {
+        assert!(names(&|(_, _, complete)| *complete).contains(&name), "{name}");
+    }
+}
+
+/// A hundred bars: 397 unknowns.
+#[test]
+fn a_hundred_bars_are_verified() {
+    let chain = model::cases::get("hundred-bars").unwrap().problem().into_chain();
+    let system = System::from(&chain);
+    let answer = ask(&system, Solvers::Lagrange, &|_| {});
+    let found = &answer.equilibria[0];
+    let start = Instant::now();
+    let proof = prove(&system, &found.joints_m, &found.axial_n).unwrap();
+    let seconds = start.elapsed().as_secs_f64();
+    println!("{seconds} s, {:e} m and {:e} N wide", proof.width_m, proof.width_n);
+    assert!(proof.width_m < 1e-10 * chain.total_length_m(), "{:e}", proof.width_m);
+    assert!(found.evidence.ladder.verified.is_reached());
 }
