@@ -5,7 +5,6 @@
 mod ask;
 mod certificate;
 pub(crate) mod compare;
-mod compare;
 mod completeness;
 mod family;
 mod statics;
