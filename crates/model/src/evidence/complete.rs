@@ -88,3 +88,5 @@ pub enum NoCensus {
         limit: usize,
     },
 }
+
+impl std::error::Error for NoCensus {}
