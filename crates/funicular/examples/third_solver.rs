@@ -1,5 +1,4 @@
-//! A third solver of one's own, held against ours: two equal bars between level anchors, by
-//! trigonometry.
+//! A third solver of one's own, held against ours: two equal bars, level anchors, by trigonometry.
 
 use funicular::prelude::*;
 use model::{Evidence, InPlane, InSpace, Reactions, Stability};

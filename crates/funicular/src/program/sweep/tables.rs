@@ -6,7 +6,7 @@ use ::sweep::{Comparison, Failure, Manifest, SolverTally, StoreSummary, rate_int
 use serde_json::{Value, json};
 
 use crate::printable::Printable;
-use crate::tables::{numbers_from, short, table, word};
+use crate::tables::{numbers_from, short, significant, table, word};
 
 /// Seeds named one by one in the terminal; `summary.json` has more.
 const NAMED: usize = 20;
@@ -67,10 +67,10 @@ fn outcomes(manifest: &Manifest, solver: &SolverTally, all: u64) -> comfy_table:
         "energy / J",
         "index",
         "seeds",
-        "rate / %",
+        "rate\n/ %",
         "95 % interval",
-        "iterations: median",
-        "most",
+        "median\nsteps",
+        "most\nsteps",
     ]);
     // Equilibria first, then failures from the most harmless on.
     let (failed, reached): (Vec<_>, Vec<_>) = solver.0.iter().partition(|(code, _)| **code < 0);
@@ -84,7 +84,8 @@ fn outcomes(manifest: &Manifest, solver: &SolverTally, all: u64) -> comfy_table:
             index.map_or_else(String::new, |index| index.to_string()),
             row.count.to_string(),
             short(percent(row.count, all)),
-            format!("{} to {}", short(100.0 * low), short(100.0 * high)),
+            // More digits than the interval is wide for would say nothing.
+            format!("{} to {}", significant(100.0 * low, 4), significant(100.0 * high, 4)),
             row.median_iterations().to_string(),
             row.max_iterations().to_string(),
         ]);
