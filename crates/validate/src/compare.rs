@@ -1,8 +1,8 @@
 //! Answers held against each other, and each against Newton's laws.
 
 use model::{
-    Agreed, Chain, Disagreement, Equilibrium, Excess, ForceFamily, FreeJoints, NoAnswer, NoCensus,
-    Problem, Quantity, Reason, SolverName, StabilityDifference, Status,
+    Agreed, Chain, Disagreement, Equilibrium, Excess, ForceFamily, FreeJoints, Ladder, NoAnswer,
+    NoCensus, Problem, Quantity, Reason, SolverName, StabilityDifference, Status,
 };
 use serde::{Serialize, Serializer};
 
@@ -171,14 +171,17 @@ pub fn judge_without(
     because: NoAnswer,
 ) -> Statics {
     let judged = judge_alone(problem, answer);
-    let agreed = &mut answer.evidence.ladder.agreed;
-    // What the judge refuses stays refused.
-    if let Some(Reason::OneSolverOnly { statics, .. }) = agreed.reason() {
-        let statics = *statics;
-        *agreed =
-            Status::Open(Reason::OtherSolverWithoutAnswer { solver: other, because, statics });
-    }
+    other_has_none(&mut answer.evidence.ladder, other, because);
     judged
+}
+
+/// Say on an answer judged alone that another solver was asked. What the judge refuses stays
+/// refused.
+pub(crate) fn other_has_none(ladder: &mut Ladder, solver: SolverName, because: NoAnswer) {
+    if let Some(Reason::OneSolverOnly { statics, .. }) = ladder.agreed.reason() {
+        let statics = *statics;
+        ladder.agreed = Status::Open(Reason::OtherSolverWithoutAnswer { solver, because, statics });
+    }
 }
 
 /// The rungs above `agreed`.

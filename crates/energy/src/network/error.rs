@@ -96,6 +96,17 @@ pub enum Error {
         /// Number of independent directions in which the energy falls.
         index: usize,
     },
+    /// Occurs when joints balance with a cable that pushes or a strut that pulls alone.
+    #[error(
+        "no minimum found: the joints would balance with {force_n} N in member {member}, which it cannot \
+         bear (a cable pulls, a strut pushes)"
+    )]
+    WrongSign {
+        /// Number of the member, from 1.
+        member: usize,
+        /// The axial force that would balance, tension positive, N.
+        force_n: f64,
+    },
     /// Occurs when a number of the computation is infinite or not a number.
     #[error("the {quantity} is not a finite number")]
     NotFinite {
@@ -131,6 +142,7 @@ impl Error {
             Self::IterationLimit { .. } => "iteration limit",
             Self::Stalled { .. } => "stalled",
             Self::NoMinimum { .. } => "no minimum",
+            Self::WrongSign { .. } => "wrong sign of a force",
             Self::NotFinite { .. } => "not finite",
             Self::Memory { .. } => "out of memory",
             Self::Ended { .. } => "ended by argmin",

@@ -60,6 +60,10 @@ pub struct Work {
     pub misfit: f64,
 }
 
+/// Error of a force over the largest that the residual may leave where the matrix is ill-conditioned:
+/// far above the tolerance, far below a force that carries anything. The statics judge sees the rest.
+const FORCE_ERROR: f64 = 1e-8;
+
 /// What `Evidence::residual` means here.
 const RESIDUAL_OF: &str =
     "largest unbalanced force at a joint over the largest force, or misfit of a length";
@@ -83,9 +87,13 @@ impl Solution {
         if let Some(force) = second.least.clone() {
             let other = Shape { x: shape.x.clone(), force };
             let there = frame.slope(&other);
-            if there.residual() <= tolerance {
+            if there.residual() <= tolerance && wrong_sign(frame, &other).is_none() {
                 (shape, slope, least) = (other, Arc::new(there), true);
             }
+        }
+        if let Some(member) = wrong_sign(frame, &shape) {
+            let force_n = shape.force[member] * frame.force_n;
+            return Err(Error::WrongSign { member: member + 1, force_n });
         }
         let forces = match second.rigidity {
             Some(rigidity) if rigidity.self_stresses == 0 => Forces::Unique(rigidity),
@@ -110,6 +118,16 @@ impl Solution {
         solution.equilibrium.evidence.solve_s = clock.elapsed().as_secs_f64();
         Ok(solution)
     }
+}
+
+/// A cable that pushes or a strut that pulls, by more than the error of a force: what balances the
+/// joints with such a force is no minimum, however small the residual.
+fn wrong_sign(frame: &Frame, shape: &Shape) -> Option<usize> {
+    let error = FORCE_ERROR * frame.largest_force(&shape.force);
+    let forces = frame.rods.iter().zip(&shape.force);
+    forces.enumerate().find_map(|(member, (rod, force))| {
+        (force.abs() > error && !rod.resists(*force)).then_some(member)
+    })
 }
 
 /// What equilibrium leaves open of the forces, and which of them are named.

@@ -221,3 +221,14 @@ fn a_bead_on_a_slope_without_end_falls() {
     };
     close(force_n, 16.0);
 }
+
+/// A weight below its anchor on a strut falls: no force that a strut bears holds it.
+#[test]
+fn a_weight_below_its_anchor_on_a_strut_falls() {
+    let joints = vec![Joint::anchor("A", [0.0; 3]), Joint::free("P").with_mass(5.0)];
+    let system = System::new("strut", G, joints, vec![weightless(0, 1, 1.0, Kind::Strut)]);
+    let failed = minimise(&system.unwrap(), &Settings::default()).unwrap_err();
+    let Error::WrongSign { member: 1, force_n } = failed else { panic!("{failed}") };
+    // The weight is what would have to be borne.
+    close(force_n, 5.0 * G);
+}

@@ -13,7 +13,8 @@
 //! of (33), where `B` and the dot of `B` are missing; and (39), where the second bracket has
 //! `[Q]ᵀ` without a dot:
 //!
-//! $$ \tilde F_\beta = -[Q]^T \left( [J_C] [\dot Q] + [\omega] [J_C] [Q] \right) \dot\beta . $$
+//! $$ \tilde F_\beta = -\mathbf{Q}^T \left( \mathbf{J}_C \dot{\mathbf{Q}}
+//!    + \tilde\omega \mathbf{J}_C \mathbf{Q} \right) \dot\beta . $$
 //!
 //! | paper | code | shape | unit | equation |
 //! |---|---|---|---|---|

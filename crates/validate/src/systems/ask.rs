@@ -4,7 +4,7 @@ use model::system::{System, SystemEquilibrium};
 use model::{NoAnswer, NoCensus, Reason, SolverName, Status};
 use serde::Serialize;
 
-use super::compare::{SystemAgreement, compare, judge_alone};
+use super::compare::{SystemAgreement, compare, judge_alone, judge_without};
 use super::completeness::look_up;
 use super::verified::verify;
 use crate::answer::{Solvers, UseCensus};
@@ -129,11 +129,13 @@ fn judged(
     match equilibria {
         [] => None,
         [answer] => {
-            let statics = judge_alone(system, answer).largest();
-            if let Some(failure) = failures.first() {
-                let (solver, because) = (failure.solver(), NoAnswer::Refused);
-                let reason = Reason::OtherSolverWithoutAnswer { solver, because, statics };
-                answer.evidence.ladder.agreed = Status::Open(reason);
+            match failures.first() {
+                Some(failure) => {
+                    judge_without(system, answer, failure.solver(), NoAnswer::Refused);
+                }
+                None => {
+                    judge_alone(system, answer);
+                }
             }
             None
         }

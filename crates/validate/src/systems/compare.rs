@@ -1,14 +1,14 @@
 //! Answers for one system held against each other, and each against Newton's laws.
 
 use model::system::{Part, System, SystemEquilibrium};
-use model::{Agreed, Disagreement, Excess, Quantity, Reason, SolverName, Status, Vector};
+use model::{Agreed, Disagreement, Excess, NoAnswer, Quantity, Reason, SolverName, Status, Vector};
 use serde::Serialize;
 
 use super::certificate::{certify, largest_force_n, size_m, total_load_n};
 use super::family::Family;
 use super::statics::{SystemStatics, judge};
 use super::turn::{Turn, turns};
-use crate::compare::{Verdict, with_sentences};
+use crate::compare::{Verdict, other_has_none, with_sentences};
 use crate::tolerances::Tolerances;
 use crate::vector::{minus, norm, plus, worse};
 
@@ -97,13 +97,29 @@ pub fn compare(
 
 /// Judge one answer that has no second to compare with.
 pub fn judge_alone(system: &System, answer: &mut SystemEquilibrium) -> SystemStatics {
+    let (tolerances, alone) = (Tolerances::project(), std::slice::from_ref(&*answer));
+    let found = Judgement::new(system, alone, &tolerances).run(alone);
     let statics = judge(system, answer);
-    answer.evidence.ladder.agreed = Status::Open(Reason::OneSolverOnly {
-        solver: answer.solver.clone(),
-        statics: statics.largest(),
+    let excesses = found.disagreement.excesses;
+    answer.evidence.ladder.agreed = Status::Open(if excesses.is_empty() {
+        Reason::OneSolverOnly { solver: answer.solver.clone(), statics: statics.largest() }
+    } else {
+        Reason::JudgeRefuses { excesses }
     });
     certify_rung(system, answer);
     statics
+}
+
+/// Judge one answer where another solver was asked and has none.
+pub fn judge_without(
+    system: &System,
+    answer: &mut SystemEquilibrium,
+    other: SolverName,
+    because: NoAnswer,
+) -> SystemStatics {
+    let judged = judge_alone(system, answer);
+    other_has_none(&mut answer.evidence.ladder, other, because);
+    judged
 }
 
 /// The rungs above `agreed`.

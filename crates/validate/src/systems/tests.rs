@@ -2,10 +2,11 @@
 
 use model::system::{Joint, Member, System, SystemEquilibrium, SystemStability};
 use model::{
-    Bar, Evidence, Excess, ForceChoice, InSpace, NoCertificate, Place, Quantity, SelfStresses,
-    SolverName,
+    Bar, Evidence, Excess, ForceChoice, InSpace, NoAnswer, NoCertificate, Place, Quantity, Reason,
+    SelfStresses, SolverName,
 };
 
+use super::compare::{judge_alone, judge_without};
 use super::{certify, compare, judge};
 use crate::tolerances::Tolerances;
 
@@ -266,4 +267,23 @@ fn a_named_self_stress_that_is_none_is_seen() {
         assert_eq!(agreement.disagreement.excesses.iter().any(told), !is_one, "{stress:?}");
         assert_eq!(agreement.agrees(), is_one);
     }
+}
+
+/// What the judge refuses of one answer alone stays refused, whatever became of the other solver.
+#[test]
+fn an_answer_alone_out_of_balance_is_refused() {
+    let without = |answer: &mut SystemEquilibrium, system: &System| {
+        judge_without(system, answer, SolverName::ENERGY, NoAnswer::Refused);
+        answer.evidence.ladder.agreed.reason().cloned()
+    };
+    let (system, mut answer) = lamp();
+    judge_alone(&system, &mut answer);
+    let alone = answer.evidence.ladder.agreed.reason();
+    assert!(matches!(alone, Some(Reason::OneSolverOnly { .. })), "{alone:?}");
+    let reason = without(&mut answer, &system);
+    assert!(matches!(reason, Some(Reason::OtherSolverWithoutAnswer { .. })), "{reason:?}");
+    answer.reactions_n[0][2] += 1e-3;
+    let reason = without(&mut answer, &system);
+    assert!(matches!(reason, Some(Reason::JudgeRefuses { .. })), "{reason:?}");
+    assert!(answer.evidence.ladder.failed());
 }
