@@ -1,6 +1,7 @@
 //! How long the positions-first solver takes for systems of growing size.
 //!
-//! `cargo run --release -p energy --example network_speed [kind [n ...]]` prints a line for each size *n*:
+//! `cargo run --release -p energy --example network_speed [kind [n ...]]` prints a line for each
+//! size *n*:
 //!
 //! | kind | system |
 //! |---|---|
@@ -68,7 +69,8 @@ impl Draft {
     }
 }
 
-/// A net hung from four corners that are `span` of a side apart, with lengths that differ by `rough`.
+/// A net hung from four corners that are `span` of a side apart, with lengths that differ by
+/// `rough`.
 fn net(n: usize, span: f64, rough: f64, cables: bool) -> Result<System, Failure> {
     let mut random = ChaCha8Rng::seed_from_u64(1);
     let step = 1.0 / (n as f64 - 1.0);
@@ -105,7 +107,8 @@ fn cells(n: usize) -> impl Iterator<Item = (usize, usize)> {
     (0..n * n).map(move |k| (k / n, k % n))
 }
 
-/// A net of cables in a ring of diameter one. Joints whose neighbour would be outside are anchors on the ring.
+/// A net of cables in a ring of diameter one. Joints whose neighbour would be outside are anchors
+/// on the ring.
 fn ring(n: usize) -> Result<System, Failure> {
     let step = 1.0 / (n as f64 - 1.0);
     let at = |k: usize| k as f64 * step - 0.5;
@@ -144,7 +147,8 @@ fn bridle(n: usize) -> Result<System, Failure> {
     draft.finish("bridle")
 }
 
-/// A trunk of ten branchings between two anchors; from each branching a strand to an anchor of its own.
+/// A trunk of ten branchings between two anchors; from each branching a strand to an anchor of its
+/// own.
 fn branches(n: usize) -> Result<System, Failure> {
     let mut draft = Draft::default();
     let bars = n / 21;

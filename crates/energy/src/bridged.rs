@@ -1,10 +1,10 @@
 //! Bars that carry nothing because they just bridge a gap.
 //!
-//! Bars without load between them whose lengths add up to the distance of their ends, in a chain that
-//! is in balance without them, lie straight and carry nothing. The energy then rises only with the
-//! fourth power of their angles, and a minimiser leaves them by the fourth root of rounding off
-//! the line. On the line the rest of the chain answers for itself: its gradient is rounding, and the chain
-//! closes. Of a single bar without force the closure alone knows the direction.
+//! Bars without load between them whose lengths add up to the distance of their ends, in a chain
+//! that is in balance without them, lie straight and carry nothing. The energy then rises only with
+//! the fourth power of their angles, and a minimiser leaves them by the fourth root of rounding off
+//! the line. On the line the rest of the chain answers for itself: its gradient is rounding, and
+//! the chain closes. Of a single bar without force the closure alone knows the direction.
 
 use std::ops::Range;
 
@@ -12,8 +12,8 @@ use crate::refine::{NO_FORCE, Point};
 use crate::slope::Slope;
 use crate::vector::{along, dot, norm, unit};
 
-/// Force along bars, over the largest of the chain, by which a minimiser leaves bars unsettled that carry nothing:
-/// their angle is the fourth root of rounding, the force its square.
+/// Force along bars, over the largest of the chain, by which a minimiser leaves bars unsettled that
+/// carry nothing: their angle is the fourth root of rounding, the force its square.
 const SOFT: f64 = 1e-6;
 
 /// Angle, rad, within which such bars are left of their line.
@@ -29,8 +29,8 @@ const CLOSED: f64 = 1e-13;
 const OPEN: f64 = 1e-12;
 
 impl Point {
-    /// Lay bars that just bridge a gap on a line, if the chain is in balance and closed there. The angle, rad,
-    /// by which roundings of lengths leave such bars unknown.
+    /// Lay bars that just bridge a gap on a line, if the chain is in balance and closed there. The
+    /// angle, rad, by which roundings of lengths leave such bars unknown.
     pub(crate) fn straightened(&mut self) -> Option<f64> {
         let pull = norm(self.multiplier).max(1.0);
         let mut shape = self.shape.clone();

@@ -45,7 +45,8 @@ pub enum Error {
         /// Number of answers.
         answers: usize,
     },
-    /// Occurs when every solver that was asked gave up: the answer has no equilibrium, and says why.
+    /// Occurs when every solver that was asked gave up: the answer has no equilibrium, and says
+    /// why.
     #[error("{}", reasons(.0.failures()))]
     Unsolved(Box<SolveAnswer>),
     /// Occurs when every solver that was asked about a system gave up.

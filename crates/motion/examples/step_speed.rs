@@ -2,7 +2,8 @@
 //!
 //! `cargo run --release -p motion --example step_speed [largest]`
 //!
-//! Time is that on the processor, where the system tells it (Linux): other programs take none of it.
+//! Time is that on the processor, where the system tells it (Linux): other programs take none of
+//! it.
 
 use std::time::Instant;
 

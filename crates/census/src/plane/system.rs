@@ -66,8 +66,8 @@ fn power_of_two_above(x: f64) -> f64 {
 const PAPER_PLANE: [Interval; 2] = [Interval::ZERO, Interval::ONE];
 
 impl System {
-    /// A chain with loads at its joints in its units. Some joint between the anchors carries weight:
-    /// a problem where none does is refused.
+    /// A chain with loads at its joints in its units. Some joint between the anchors carries
+    /// weight: a problem where none does is refused.
     pub(crate) fn new(chain: &Chain, loads: &JointLoads) -> Self {
         let mut system = Self::shape(chain, loads);
         system.local =

@@ -53,8 +53,8 @@ pub enum Error {
         /// Finite places of the seed.
         given: usize,
     },
-    /// Occurs when no configuration is found that keeps the lengths: supports too far apart, or a loop that
-    /// cannot be closed.
+    /// Occurs when no configuration is found that keeps the lengths: supports too far apart, or a
+    /// loop that cannot be closed.
     #[error(
         "the lengths cannot all be kept: member {member} is {misfit_m} m off in the best configuration found"
     )]

@@ -40,16 +40,17 @@ enum Kept {
     Signed,
 }
 
-/// A symmetric matrix with a block for each joint and each pair of joints that a member connects, and
-/// its factorisation.
+/// A symmetric matrix with a block for each joint and each pair of joints that a member connects,
+/// and its factorisation.
 ///
 /// The order of elimination is one of joints (approximate minimum degree): trees and chains are
 /// eliminated without fill-in, plane nets of *n* joints in about `n^1.5` operations.
 pub(super) struct Factor {
     pattern: SymbolicSparseColMat<usize>,
     symbolic: SymbolicCholesky<usize>,
-    /// For each member the joint that comes first in the matrix, the other one, and how many rows of the
-    /// first one's columns stand between the diagonal block and theirs; nothing for a support that is fixed.
+    /// For each member the joint that comes first in the matrix, the other one, and how many rows
+    /// of the first one's columns stand between the diagonal block and theirs; nothing for a
+    /// support that is fixed.
     pairs: Vec<Option<(usize, usize, usize)>>,
     values: Vec<f64>,
     lower: Vec<f64>,
@@ -222,14 +223,15 @@ impl Factor {
             MemStack::new(&mut self.memory),
             Spec::default(),
         );
-        // A pivot that is no number passes for a positive one; whatever is none ends up in a later pivot.
+        // A pivot that is no number passes for a positive one; whatever is none ends up in a later
+        // pivot.
         let definite = done.is_ok() && self.pivots().iter().all(|value| value.is_finite());
         self.kept = if definite { Kept::Cholesky } else { Kept::Nothing };
         definite
     }
 
-    /// The factorisation `L D Lᵀ` and its number of negative pivots: by Sylvester's law that of negative
-    /// eigenvalues. Nothing where a pivot vanishes.
+    /// The factorisation `L D Lᵀ` and its number of negative pivots: by Sylvester's law that of
+    /// negative eigenvalues. Nothing where a pivot vanishes.
     pub(super) fn negative_pivots(&mut self) -> Option<usize> {
         self.count += 1;
         let matrix = SparseColMatRef::new(self.pattern.as_ref(), &self.values);

@@ -1,7 +1,8 @@
 //! The convex relaxation, by a primal-dual interior point method.
 //!
-//! With every bar taken for a cable the energy has one minimum, on a convex set of configurations. Where all
-//! bars pull there, it is the global minimum for bars as well; elsewhere it is a start. With slacks `s`,
+//! With every bar taken for a cable the energy has one minimum, on a convex set of configurations.
+//! Where all bars pull there, it is the global minimum for bars as well; elsewhere it is a start.
+//! With slacks `s`,
 //!
 //! `sum F J = load,   c - phi F + s = 0,   F s = sigma,   F > 0, s > 0,   sigma -> 0`.
 //!
@@ -29,7 +30,8 @@ use crate::network::shape::Shape;
 /// First slack of a member that is as long as it may be or longer, over its length.
 const FIRST_SLACK: f64 = 0.05;
 
-/// The mean of `F s` over that of `F l` at which Newton's method does the rest: all bars are active.
+/// The mean of `F s` over that of `F l` at which Newton's method does the rest: all bars are
+/// active.
 const GAP: f64 = 1e-7;
 
 /// The same where cables may be slack: so small that forces and slacks tell which are.
@@ -132,8 +134,8 @@ impl Interior {
         change
     }
 
-    /// Predictor: straight to the boundary. Corrector: towards the centre, with the second order of the
-    /// predictor.
+    /// Predictor: straight to the boundary. Corrector: towards the centre, with the second order of
+    /// the predictor.
     fn mehrotra(&mut self, shape: &Shape) -> Option<(Shape, f64)> {
         let frame = Arc::clone(&self.frame);
         let excess = frame.excesses(&shape.x);
@@ -175,8 +177,8 @@ impl Interior {
         Some((Shape { x, force: force.collect() }, part_x.min(part_f)))
     }
 
-    /// The shape with the forces of slack cables taken for zero. Bars keep theirs: small or not, they have to
-    /// keep their lengths.
+    /// The shape with the forces of slack cables taken for zero. Bars keep theirs: small or not,
+    /// they have to keep their lengths.
     pub(super) fn settled(&self, shape: &Shape) -> Shape {
         let mean = shape.force.iter().sum::<f64>() / shape.force.len() as f64;
         let force = self.frame.rods.iter().enumerate().map(|(e, rod)| {

@@ -7,10 +7,11 @@
 //! | inextensible | `(d·d - l²) / 2l` | `d / l` | `I / l` |
 //! | elastic | `|d| - l` | `u = d / |d|` | `(I - u uᵀ) / |d|` |
 //!
-//! An elastic member of force `F` is longer by `phi F`, `phi = l / EA`; the Lagrangian of a member is
-//! `F c - phi F² / 2`, and `c = phi F` wherever the member resists. A bar always resists, a cable where
-//! `F > 0`, a strut where `F < 0`; elsewhere `F = 0`. The force of an inextensible member is the
-//! multiplier of its length: the derivative of the least energy by that length, with the sign changed.
+//! An elastic member of force `F` is longer by `phi F`, `phi = l / EA`; the Lagrangian of a member
+//! is `F c - phi F² / 2`, and `c = phi F` wherever the member resists. A bar always resists, a
+//! cable where `F > 0`, a strut where `F < 0`; elsewhere `F = 0`. The force of an inextensible
+//! member is the multiplier of its length: the derivative of the least energy by that length, with
+//! the sign changed.
 
 use model::Vector;
 use model::system::Kind;
@@ -69,8 +70,8 @@ impl Rod {
         }
     }
 
-    /// What the length says against the law, over the unstretched length: too long, too short, or not
-    /// as long as its force makes it.
+    /// What the length says against the law, over the unstretched length: too long, too short, or
+    /// not as long as its force makes it.
     pub(super) fn misfit(&self, excess: f64, force: f64) -> f64 {
         let off = excess - self.flexibility * force;
         let misfit = match self.kind {
@@ -100,8 +101,8 @@ impl Excess {
     }
 }
 
-/// A member in the augmented Lagrangian: its force `F` is an estimate, and a spring of stiffness `kappa`
-/// stands in series with the member.
+/// A member in the augmented Lagrangian: its force `F` is an estimate, and a spring of stiffness
+/// `kappa` stands in series with the member.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Softened {
     /// Force with the spring.

@@ -20,8 +20,8 @@ use crate::network::solution::Solution;
 use crate::network::start::hanging;
 use crate::vector::{along, dot, scaled};
 
-/// Starts elsewhere where the lengths could not be kept from the first one: a loop that closes may have places
-/// where it nearly closes.
+/// Starts elsewhere where the lengths could not be kept from the first one: a loop that closes may
+/// have places where it nearly closes.
 const RESTARTS: u32 = 4;
 
 /// The golden section: its multiples are spread evenly.
@@ -29,13 +29,13 @@ const GOLDEN: f64 = 0.618_033_988_75;
 
 /// Find a configuration of least energy from no guess.
 ///
-/// The start is the minimum of the relaxation in which bars are cables. Where every bar pulls there, it is
-/// the global minimum and no more than a few steps are left.
+/// The start is the minimum of the relaxation in which bars are cables. Where every bar pulls
+/// there, it is the global minimum and no more than a few steps are left.
 ///
 /// # Errors
 ///
-/// [`Error`]; `Ok` means a local minimum: forces in balance and lengths kept to their tolerance, and no
-/// direction in which the energy falls.
+/// [`Error`]; `Ok` means a local minimum: forces in balance and lengths kept to their tolerance,
+/// and no direction in which the energy falls.
 ///
 /// ```
 /// use model::Bar;

@@ -4,17 +4,18 @@
 //!
 //! `M(x; F) = sum (F + kappa c)² / 2 kappa (1 + kappa phi) - sum load . x`,
 //!
-//! a function without constraints. Newton's method with a shift that keeps its matrix positive definite
-//! lowers it step by step, so no maximum and no saddle attracts it. Where its gradient is small the
-//! estimates `F` become the forces with the springs, and the springs become stiffer where the lengths do
-//! not improve. At a stationary point whose matrix is indefinite the step is one along the lowest mode.
+//! a function without constraints. Newton's method with a shift that keeps its matrix positive
+//! definite lowers it step by step, so no maximum and no saddle attracts it. Where its gradient is
+//! small the estimates `F` become the forces with the springs, and the springs become stiffer where
+//! the lengths do not improve. At a stationary point whose matrix is indefinite the step is one
+//! along the lowest mode.
 //!
-//! Near a solution `kappa` is large and every step updates the forces: that is Newton's method for places and
-//! forces together, in a matrix that is positive definite exactly where the second derivative of the
-//! energy is, on the motions that keep the lengths.
+//! Near a solution `kappa` is large and every step updates the forces: that is Newton's method for
+//! places and forces together, in a matrix that is positive definite exactly where the second
+//! derivative of the energy is, on the motions that keep the lengths.
 //!
-//! M. J. D. Powell in R. Fletcher (ed.), Optimization (1969) 283-298; P. E. Gill and D. P. Robinson,
-//! Comput. Optim. Appl. 51 (2012) 1-25, doi:10.1007/s10589-010-9339-1
+//! M. J. D. Powell in R. Fletcher (ed.), Optimization (1969) 283-298; P. E. Gill and D. P.
+//! Robinson, Comput. Optim. Appl. 51 (2012) 1-25, doi:10.1007/s10589-010-9339-1
 
 use std::sync::Arc;
 
@@ -63,8 +64,8 @@ const FAIR: f64 = 1e-4;
 /// Rounding of the energy, over its size.
 const NOISE: f64 = 64.0 * f64::EPSILON;
 
-/// Largest relative displacement of the ends of a member in one step, over its length; of a strut, which must not
-/// be turned inside out: its energy falls for ever on the other side.
+/// Largest relative displacement of the ends of a member in one step, over its length; of a strut,
+/// which must not be turned inside out: its energy falls for ever on the other side.
 const STEP: f64 = 2.0;
 const STRUT_STEP: f64 = 0.3;
 
@@ -121,8 +122,8 @@ impl Local {
 }
 
 impl Newton {
-    /// From a start that is `relaxed` (the solution of the relaxation) or anything else, with springs of
-    /// some strain under the largest force.
+    /// From a start that is `relaxed` (the solution of the relaxation) or anything else, with
+    /// springs of some strain under the largest force.
     pub(super) fn new(
         frame: Arc<Frame>,
         factor: Factor,
@@ -233,8 +234,8 @@ impl Newton {
         Error::Stalled { unbalance: slope.unbalance, misfit: slope.misfit }
     }
 
-    /// At a stationary point of the augmented Lagrangian whose second derivative is indefinite: a step along
-    /// its lowest mode.
+    /// At a stationary point of the augmented Lagrangian whose second derivative is indefinite: a
+    /// step along its lowest mode.
     fn leave_saddle(&mut self, shape: &Shape, local: &Local) -> Option<Shape> {
         let mut shift = FIRST_SHIFT;
         while !self.factorise(local, shift) {

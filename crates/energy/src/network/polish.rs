@@ -1,13 +1,13 @@
 //! Newton's method for places and forces together, down to rounding level.
 //!
-//! The springs of the augmented Lagrangian are stiff here and every step updates the forces, so that a step
-//! leaves next to nothing of the springs: it is the step of the system of balances and lengths. Its matrix is
-//! positive definite exactly where the second derivative of the energy is, on the motions that keep the lengths:
-//! at saddles and maxima it is refused.
+//! The springs of the augmented Lagrangian are stiff here and every step updates the forces, so
+//! that a step leaves next to nothing of the springs: it is the step of the system of balances and
+//! lengths. Its matrix is positive definite exactly where the second derivative of the energy is,
+//! on the motions that keep the lengths: at saddles and maxima it is refused.
 //!
-//! Which cables and struts resist is read off their forces, afresh for each factorisation, and not off the stiff
-//! springs: the second order of a step leaves errors of the lengths that such springs would take for
-//! forces, larger than those of most members of a net.
+//! Which cables and struts resist is read off their forces, afresh for each factorisation, and not
+//! off the stiff springs: the second order of a step leaves errors of the lengths that such springs
+//! would take for forces, larger than those of most members of a net.
 //!
 //! M. Hintermueller, K. Ito and K. Kunisch, SIAM J. Optim. 13 (2002) 865-888,
 //! doi:10.1137/S1052623401383558
@@ -25,7 +25,8 @@ use crate::vector::{dot, scaled};
 /// Strain of the springs in Newton's method for places and forces: what a step leaves of the error.
 const STIFF_STRAIN: f64 = 1e-6;
 
-/// Diagonal added there, over the size of the matrix: where a motion is neutral the step has no part of it.
+/// Diagonal added there, over the size of the matrix: where a motion is neutral the step has no
+/// part of it.
 pub(super) const NEUTRAL: f64 = 1e-10;
 
 /// Steps of Newton's method for places and forces, and with one factorisation.
@@ -35,15 +36,16 @@ const CHORDS: usize = 6;
 /// Steps more for each change of the members that resist; changes that are allowed.
 const CHANGES: usize = 40;
 
-/// Misfit above which members have turned too far for the factorisation of the step before: its stiff springs
-/// point the old way.
+/// Misfit above which members have turned too far for the factorisation of the step before: its
+/// stiff springs point the old way.
 const CHORD_NEAR: f64 = 1e-8;
 
 /// A chord step must leave at most this part of the residual.
 const CHORD_PROGRESS: f64 = 0.3;
 
 impl Newton {
-    /// Newton's method for places and forces. Nothing where it does not converge, or not to a minimum.
+    /// Newton's method for places and forces. Nothing where it does not converge, or not to a
+    /// minimum.
     pub(super) fn polish(&mut self, shape: &Shape) -> Option<Shape> {
         let frame = Arc::clone(&self.frame);
         let (mut shape, mut slope) = (shape.clone(), frame.slope(shape));
@@ -97,7 +99,8 @@ impl Newton {
         None
     }
 
-    /// Factorise the matrix with stiff springs in the members that resist; whether it is positive definite.
+    /// Factorise the matrix with stiff springs in the members that resist; whether it is positive
+    /// definite.
     fn factorise_stiff(&mut self, shape: &Shape, stiffness: f64, active: &[bool]) -> bool {
         let frame = Arc::clone(&self.frame);
         let excess = frame.excesses(&shape.x);

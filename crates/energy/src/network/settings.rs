@@ -10,9 +10,9 @@ use crate::network::error::Error;
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Settings {
-    /// Largest unbalanced force at a joint over the largest force of the system, and largest misfit of a
-    /// length over the length, that count as none. Where the rounding of the places leaves more, the run
-    /// ends there and says so in the residual. Default 1e-12; from 1e-15 to 1e-3.
+    /// Largest unbalanced force at a joint over the largest force of the system, and largest misfit
+    /// of a length over the length, that count as none. Where the rounding of the places leaves
+    /// more, the run ends there and says so in the residual. Default 1e-12; from 1e-15 to 1e-3.
     pub tolerance: f64,
     /// Iterations of Newton's method. Default 1000; at least 1.
     pub max_iterations: u64,

@@ -82,8 +82,8 @@ impl Frame {
             + model::sum(elastic.map(|(rod, force)| 0.5 * rod.flexibility * force * force))
     }
 
-    /// For each joint the sum of `force / length` over its members: the size of the second derivative of
-    /// the Lagrangian there, in which shifts are measured.
+    /// For each joint the sum of `force / length` over its members: the size of the second
+    /// derivative of the Lagrangian there, in which shifts are measured.
     pub(super) fn sizes(&self, force: impl Fn(usize) -> f64) -> Vec<f64> {
         let mut sizes = vec![0.0; self.spots.len()];
         for (e, rod) in self.rods.iter().enumerate() {

@@ -60,8 +60,9 @@ pub struct Work {
     pub misfit: f64,
 }
 
-/// Error of a force over the largest that the residual may leave where the matrix is ill-conditioned:
-/// far above the tolerance, far below a force that carries anything. The statics judge sees the rest.
+/// Error of a force over the largest that the residual may leave where the matrix is
+/// ill-conditioned: far above the tolerance, far below a force that carries anything. The statics
+/// judge sees the rest.
 const FORCE_ERROR: f64 = 1e-8;
 
 /// What `Evidence::residual` means here.

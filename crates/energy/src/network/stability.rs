@@ -50,7 +50,8 @@ pub(super) struct SecondOrder {
     pub(super) neutral: usize,
     pub(super) index_in_plane: Option<usize>,
     pub(super) rigidity: Option<Rigidity>,
-    /// Orthonormal self-stresses, one force for each member; none where forces are unique or not counted.
+    /// Orthonormal self-stresses, one force for each member; none where forces are unique or not
+    /// counted.
     pub(super) self_stresses: Vec<Vec<f64>>,
     /// Forces of the least norm, where they are not unique.
     pub(super) least: Option<Vec<f64>>,

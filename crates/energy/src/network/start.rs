@@ -1,9 +1,9 @@
 //! A configuration to start from: force densities.
 //!
 //! With the same force per length in every member the joints lie where a linear system says. The
-//! multiplicative iteration `F/l <- F/l · |d|/l` brings the lengths towards the members' own while every
-//! member keeps pulling: it ascends the dual of the problem in which all members are cables. It costs a
-//! scalar factorisation each, a small part of one of the matrix of all coordinates.
+//! multiplicative iteration `F/l <- F/l · |d|/l` brings the lengths towards the members' own while
+//! every member keeps pulling: it ascends the dual of the problem in which all members are cables.
+//! It costs a scalar factorisation each, a small part of one of the matrix of all coordinates.
 //!
 //! H.-J. Schek, Comput. Methods Appl. Mech. Eng. 3 (1974) 115-134, doi:10.1016/0045-7825(74)90045-0
 
@@ -25,7 +25,8 @@ const CLAMP: f64 = 20.0;
 /// Part of the diagonal added where supports leave a translation free.
 const SHIFT: f64 = 1e-9;
 
-/// A joint that moves has this one coordinate in the scalar system, for each of the three axes alike.
+/// A joint that moves has this one coordinate in the scalar system, for each of the three axes
+/// alike.
 const SCALAR: Spot = Spot { first: 0, freedom: 1, axes: [[1.0, 0.0, 0.0]; 3] };
 
 /// The linear system of the force densities: scalar where joints are free or fixed, else with all

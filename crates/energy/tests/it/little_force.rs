@@ -62,7 +62,8 @@ fn massless_bars_that_just_bridge_their_gap() {
 fn bars_that_exactly_bridge_a_gap_and_carry_nothing() {
     type Case<'a> = (&'a [(f64, f64, f64)], Vector, &'a [Vector]);
     let cases: [Case; 4] = [
-        // All weight is plumb below the first anchor, and 5 m and 1 m reach from it to the other one.
+        // All weight is plumb below the first anchor, and 5 m and 1 m reach from it to the other
+        // one.
         (
             &[(1.0, 3.0, 1.0), (5.0, 2.0, 0.0), (1.0, 0.0, 0.25)],
             [6.0, 0.0, -1.0],

@@ -8,8 +8,8 @@ use crate::network_support::{G, bar, check, close, net, solve};
 
 #[test]
 fn a_lamp_on_a_v_of_heavy_bars() {
-    // Two bars of 5 m and 2 kg between anchors 8 m apart: the lamp is 3 m down. By the lever rule 5 kg + 2 kg hang
-    // there, 35 N on each side along (4, -3)/5.
+    // Two bars of 5 m and 2 kg between anchors 8 m apart: the lamp is 3 m down. By the lever rule 5
+    // kg + 2 kg hang there, 35 N on each side along (4, -3)/5.
     let joints = vec![
         Joint::anchor("A", [0.0; 3]),
         Joint::anchor("B", [8.0, 0.0, 0.0]),
@@ -53,8 +53,9 @@ fn a_tripod_hangs_from_three_anchors() {
 
 #[test]
 fn four_legs_share_a_load_as_equally_stiff_ones_would() {
-    // One leg too many: its forces are a family with one parameter, +1 -1 +1 -1 around the square. The member with
-    // the least sum of F² l has none of it: a quarter of the load each, on legs of 5 with feet 3 out and 4 up.
+    // One leg too many: its forces are a family with one parameter, +1 -1 +1 -1 around the square.
+    // The member with the least sum of F² l has none of it: a quarter of the load each, on legs of
+    // 5 with feet 3 out and 4 up.
     let mut joints: Vec<Joint> = [[3.0, 0.0], [0.0, 3.0], [-3.0, 0.0], [0.0, -3.0]]
         .iter()
         .enumerate()
@@ -92,8 +93,8 @@ fn a_tripod_stands_where_its_seed_stands() {
 
 #[test]
 fn a_symmetric_bridle_with_a_branch_point() {
-    // Two strands of 5 m from anchors 6 m apart carry a third of 2 m with 7 kg at its end: the branch
-    // point is 4 m down, the end 6 m. Strand weights 1 kg each, the third 3 kg.
+    // Two strands of 5 m from anchors 6 m apart carry a third of 2 m with 7 kg at its end: the
+    // branch point is 4 m down, the end 6 m. Strand weights 1 kg each, the third 3 kg.
     let joints = vec![
         Joint::anchor("A", [-3.0, 0.0, 0.0]),
         Joint::anchor("B", [3.0, 0.0, 0.0]),
@@ -134,8 +135,9 @@ fn a_hanging_tree_hangs_straight_down() {
 
 #[test]
 fn a_loaded_string_of_four_parts() {
-    // Massless bars; weights 40, 20, 40 N chosen for slopes 1/2 x 5 ... : the pull is H in each part, and the slopes
-    // are (50, 10, -10, -50) / H. With H = 30 the parts have lengths sqrt(H² + V²) / H times a run of 1 m.
+    // Massless bars; weights 40, 20, 40 N chosen for slopes 1/2 x 5 ... : the pull is H in each
+    // part, and the slopes are (50, 10, -10, -50) / H. With H = 30 the parts have lengths sqrt(H² +
+    // V²) / H times a run of 1 m.
     let h: f64 = 30.0;
     let vertical = [50.0_f64, 10.0, -10.0, -50.0];
     let mut joints = vec![Joint::anchor("A", [0.0; 3])];
@@ -157,8 +159,8 @@ fn a_loaded_string_of_four_parts() {
 
 #[test]
 fn the_papers_chain_as_a_network() {
-    // Reference: 40-digit root finding of the paper's example (three bars of length l and mass m between
-    // anchors 2 l apart on one vertical): E1, the global minimum, on a circle.
+    // Reference: 40-digit root finding of the paper's example (three bars of length l and mass m
+    // between anchors 2 l apart on one vertical): E1, the global minimum, on a circle.
     let joints = vec![
         Joint::anchor("O", [0.0; 3]),
         Joint::free("A"),
@@ -181,8 +183,8 @@ fn the_papers_chain_as_a_network() {
 
 #[test]
 fn an_upright_arch_collapses_into_a_hanging_one() {
-    // A seed with the exact symmetry of the standing arch, which is a saddle. The trapezium that hangs: spans 3 and
-    // 1, strands of 1.25, so 0.75 down.
+    // A seed with the exact symmetry of the standing arch, which is a saddle. The trapezium that
+    // hangs: spans 3 and 1, strands of 1.25, so 0.75 down.
     let joints = vec![
         Joint::anchor("A", [0.0; 3]),
         Joint::free("P").with_mass(1.0),
@@ -225,8 +227,9 @@ fn a_net_from_four_corners_has_the_symmetry_of_the_square() {
 
 #[test]
 fn reactions_are_derivatives_of_the_least_energy() {
-    // Central differences: the error is a third derivative times the square of the step, and the rounding of the
-    // energy over the step: 1e-10 + 1e-11 relative at a step of 1e-5, with the curvatures of this net.
+    // Central differences: the error is a third derivative times the square of the step, and the
+    // rounding of the energy over the step: 1e-10 + 1e-11 relative at a step of 1e-5, with the
+    // curvatures of this net.
     let n = 5;
     let energy = |corner: usize, axis: usize, by: f64| {
         let (mut joints, members) = net(n, 0.8);

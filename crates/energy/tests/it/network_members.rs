@@ -12,7 +12,8 @@ fn weightless(from: usize, to: usize, length_m: f64, kind: Kind) -> Member {
 
 #[test]
 fn a_spring_stretches_by_its_load() {
-    // Hooke: the elongation is W l / EA; soft enough to be five times as long, and as stiff as steel.
+    // Hooke: the elongation is W l / EA; soft enough to be five times as long, and as stiff as
+    // steel.
     for stiffness in [5.0, 1e2, 1e8] {
         for kind in [Kind::Bar, Kind::Cable] {
             let joints = vec![Joint::anchor("A", [0.0, 0.0, 1.0]), Joint::free("P").with_mass(2.0)];
@@ -32,7 +33,8 @@ fn a_spring_stretches_by_its_load() {
 
 #[test]
 fn a_lamp_on_a_v_of_springs() {
-    // In equilibrium each spring is 5 m long along (4, -3); 60 N hang on the two, so each pulls 50 N.
+    // In equilibrium each spring is 5 m long along (4, -3); 60 N hang on the two, so each pulls 50
+    // N.
     for stiffness in [20.0, 1e3, 1e7] {
         let length = 5.0 / (1.0 + 50.0 / stiffness);
         let joints = vec![
@@ -110,7 +112,8 @@ fn solve_loose(
 
 #[test]
 fn a_bar_that_would_push_is_slack_as_a_cable() {
-    // A lamp on a short cable; the other cable is too long to matter until a side wind blows the lamp over.
+    // A lamp on a short cable; the other cable is too long to matter until a side wind blows the
+    // lamp over.
     let lamp = |wind: f64| {
         let joints = vec![
             Joint::anchor("A", [0.0; 3]),
@@ -121,8 +124,9 @@ fn a_bar_that_would_push_is_slack_as_a_cable() {
         System::new("lamp", G, joints, members).expect("a system")
     };
     let weak = minimise(&lamp(30.0), &Settings::default()).expect("a minimum").equilibrium;
-    // Along (3, -4)/5 with 50 N; at (3, 0, -4) the distance to B is sqrt(64 + 16) = 8.94: too far, so both cables
-    // are taut where circles of 5 about A and of 8 about B meet: x = (64 - 25 - 25) / 10 = 1.4, z = -4.8.
+    // Along (3, -4)/5 with 50 N; at (3, 0, -4) the distance to B is sqrt(64 + 16) = 8.94: too far,
+    // so both cables are taut where circles of 5 about A and of 8 about B meet: x = (64 - 25 - 25)
+    // / 10 = 1.4, z = -4.8.
     close(weak.joints_m[2][0], 1.4);
     close(weak.joints_m[2][2], -4.8);
     let calm = minimise(&lamp(10.0), &Settings::default()).expect("a minimum").equilibrium;
@@ -135,9 +139,9 @@ fn a_bar_that_would_push_is_slack_as_a_cable() {
 
 #[test]
 fn an_elastic_line_tends_to_the_elastic_catenary() {
-    // The hardest line of MoorPy's own test (catenary, index 7), whose printed answer is none; reference: the
-    // elastic catenary in closed form: H 58377.241422650, V 63044.412955917 at the upper end, N. Elements of equal
-    // length err by the square of their number.
+    // The hardest line of MoorPy's own test (catenary, index 7), whose printed answer is none;
+    // reference: the elastic catenary in closed form: H 58377.241422650, V 63044.412955917 at the
+    // upper end, N. Elements of equal length err by the square of their number.
     let (x, z, length, stiffness, weight) =
         (246.224_209_400_329_47, 263.557_663_308_431_64, 360.635_662_623_969_27, 700e6, 3.087_35);
     let ends = |n: usize| {
@@ -161,8 +165,8 @@ fn an_elastic_line_tends_to_the_elastic_catenary() {
     for (k, exact) in [58_377.241_422_650, 63_044.412_955_917].into_iter().enumerate() {
         let ratio = (coarse[k] - exact) / (fine[k] - exact);
         assert!((3.9..4.1).contains(&ratio), "{ratio}: {coarse:?} {fine:?}");
-        // What is left of the square is the fourth power; the lengths are known to 1e-15 of 360 m, which is 3e-13 m
-        // over an elongation of 0.044 m: 1e-11 of the force.
+        // What is left of the square is the fourth power; the lengths are known to 1e-15 of 360 m,
+        // which is 3e-13 m over an elongation of 0.044 m: 1e-11 of the force.
         let limit = fine[k] + (fine[k] - coarse[k]) / 3.0;
         assert!((limit - exact).abs() < 1e-8 * exact, "{limit} {exact} {coarse:?} {fine:?}");
     }
@@ -170,7 +174,8 @@ fn an_elastic_line_tends_to_the_elastic_catenary() {
 
 #[test]
 fn a_bead_on_a_level_line_pulled_aside() {
-    // 12 N along the line pull the cable taut at (4, -3): 15 N in it, and of the 20 N weight 9 N are carried.
+    // 12 N along the line pull the cable taut at (4, -3): 15 N in it, and of the 20 N weight 9 N
+    // are carried.
     let joints = vec![
         Joint::anchor("A", [0.0; 3]),
         Joint {
@@ -190,7 +195,8 @@ fn a_bead_on_a_level_line_pulled_aside() {
 
 #[test]
 fn a_bead_on_a_wall_hangs_as_low_as_its_bar_lets_it() {
-    // In the plane x = 3 on a bar of 5 m: 4 m below the anchor; the bar pulls W 5/4, the wall pushes W 3/4.
+    // In the plane x = 3 on a bar of 5 m: 4 m below the anchor; the bar pulls W 5/4, the wall
+    // pushes W 3/4.
     let joints = vec![
         Joint::anchor("A", [0.0; 3]),
         Joint {

@@ -92,8 +92,9 @@ fn net(rng: &mut ChaCha8Rng, crumple: f64) -> System {
     fitted(rng, &at, 4, &pairs)
 }
 
-/// The systems fit a configuration, so each has a minimum, and it must be found. Balance and lengths to 1e-11: these
-/// systems have up to 80 bars, some of them nearly in one line, whose forces are hundreds of times the loads.
+/// The systems fit a configuration, so each has a minimum, and it must be found. Balance and
+/// lengths to 1e-11: these systems have up to 80 bars, some of them nearly in one line, whose
+/// forces are hundreds of times the loads.
 fn all_found(make: impl Fn(&mut ChaCha8Rng) -> System, count: u64) {
     for stream in 0..count {
         let mut rng = ChaCha8Rng::seed_from_u64(stream);

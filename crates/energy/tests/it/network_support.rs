@@ -7,8 +7,8 @@ use model::{Bar, Vector};
 /// Gravity of the tests, m/s²: round numbers of newtons.
 pub const G: f64 = 10.0;
 
-/// Rounding of places and forces of order one: some units in the last place times the condition of these
-/// small systems, at most some hundreds.
+/// Rounding of places and forces of order one: some units in the last place times the condition of
+/// these small systems, at most some hundreds.
 pub const ROUNDING: f64 = 1e-12;
 
 pub fn bar(from: usize, to: usize, length_m: f64, mass_kg: f64) -> Member {
@@ -22,13 +22,14 @@ pub fn solve(joints: Vec<Joint>, members: Vec<Member>) -> (System, Solution) {
     (system, solution)
 }
 
-/// What holds for every answer: a minimum, each length, the balance of each member and each joint, by
-/// Newton's laws alone.
+/// What holds for every answer: a minimum, each length, the balance of each member and each joint,
+/// by Newton's laws alone.
 pub fn check(system: &System, solution: &Solution) {
     check_but(system, solution, &[], ROUNDING);
 }
 
-/// The same, to a part of the largest force and of each length, with some members slack or stretched.
+/// The same, to a part of the largest force and of each length, with some members slack or
+/// stretched.
 pub fn check_but(system: &System, solution: &Solution, slack: &[usize], rounding: f64) {
     let found = &solution.equilibrium;
     assert_eq!(found.stability.index_in_space, 0);

@@ -98,7 +98,8 @@ struct Collected {
     reactions_n: Vec<(String, [f64; 3])>,
 }
 
-/// Axial forces by the names of the two joints of each member, N, and whose they are if that is said.
+/// Axial forces by the names of the two joints of each member, N, and whose they are if that is
+/// said.
 pub type MemberForces = (Option<String>, Vec<(String, String, f64)>);
 
 /// Parse the forces of members as CSV, `from,to,axial_n`: by the name in the column `solver`, or

@@ -6,8 +6,8 @@ use super::answer::CensusAnswer;
 
 impl CensusAnswer {
     /// A line per equilibrium and joint as CSV: position, force of bar k+1 on bar k (at joint 0 of
-    /// the ground on bar 1, at joint n of the ground on bar n), and angle and axial force of the bar
-    /// that ends there.
+    /// the ground on bar 1, at joint n of the ground on bar n), and angle and axial force of the
+    /// bar that ends there.
     ///
     /// # Errors
     ///

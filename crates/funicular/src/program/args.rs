@@ -81,10 +81,12 @@ pub enum Command {
     /// Find every equilibrium of a chain, stable or not, and prove that there is no other
     #[command(after_help = ALL_OR_NOTHING)]
     Census(crate::census::Census),
-    /// Judge joint positions, and forces if there are some, from any program: what is broken, and how large the error is
+    /// Judge joint positions, and forces if there are some, from any program: what is broken, and
+    /// how large the error is
     ///
-    /// Reads answers as JSON, CSV and VTU, and systems of our own files, MoorDyn, COMPAS and the force density method.
-    /// Ends with 0 where the answer is confirmed, 1 where it is refuted, 3 where it is neither.
+    /// Reads answers as JSON, CSV and VTU, and systems of our own files, MoorDyn, COMPAS and the
+    /// force density method. Ends with 0 where the answer is confirmed, 1 where it is refuted, 3
+    /// where it is neither.
     #[command(after_help = ALL_OR_NOTHING)]
     Judge(crate::judge::Judge),
     /// Run millions of starts through the solvers: which start leads where

@@ -212,8 +212,8 @@ centre_m = 0.23910237774903406
 }
 
 /// Two equal bars between anchors a billionth of their length apart, on a slope, are beyond the
-/// equations in angles and beyond the second solver; a mass on a strut, which cannot pull, falls for
-/// ever: JSON says so, and is JSON all the same.
+/// equations in angles and beyond the second solver; a mass on a strut, which cannot pull, falls
+/// for ever: JSON says so, and is JSON all the same.
 #[test]
 fn where_no_solver_has_an_answer_json_holds_the_refusals() {
     let folded = "anchors = { start_m = [0, 0, 0], end_m = [1e-9, 0, 1e-9] }\n\

@@ -109,8 +109,8 @@ pub enum Quantity {
         /// The two solvers.
         between: [SolverName; 2],
     },
-    /// What the self-stresses that a solver names leave at a joint, dimensionless: they are in balance with no
-    /// load.
+    /// What the self-stresses that a solver names leave at a joint, dimensionless: they are in
+    /// balance with no load.
     SelfStresses {
         /// The solver.
         solver: SolverName,

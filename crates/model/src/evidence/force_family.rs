@@ -29,8 +29,8 @@ pub enum ForceChoice {
     /// The limit of the forces between anchors that are moved apart level, as they come back: a
     /// convention of `lagrange` and `energy`.
     AnchorsMovedApart,
-    /// Of a system, those with the least `sum F² l`: the limit of the forces in members of equal stiffness as
-    /// these become rigid; a convention of `energy`.
+    /// Of a system, those with the least `sum F² l`: the limit of the forces in members of equal
+    /// stiffness as these become rigid; a convention of `energy`.
     EquallyStiff,
     /// The solver's own, of which nothing is known.
     Unknown,

@@ -325,7 +325,8 @@ fn values_of_stranger_types() {
         "f:5:12: bars[1].length_m: the length of a bar must be positive and finite, got 0 m",
         "1e-400",
     );
-    // The length and the mass are numbers, their moment of inertia is infinite; there is no key for it.
+    // The length and the mass are numbers, their moment of inertia is infinite; there is no key for
+    // it.
     check(
         &anchored("[[bars]]\nlength_m = 1e200\nmass_kg = 1\n"),
         "f:4:1: bars[1].inertia_kg_m2: a moment of inertia must be zero or positive, and finite, got inf kg m^2",

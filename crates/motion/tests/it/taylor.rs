@@ -1,5 +1,6 @@
 //! The double pendulum of two equal point masses against its Taylor series in double-double
-//! arithmetic (31 digits): the equations for the two angles, which the natural coordinates never see.
+//! arithmetic (31 digits): the equations for the two angles, which the natural coordinates never
+//! see.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -107,8 +108,8 @@ fn circular_at(x: Twin) -> (Twin, Twin) {
     (sin, cos)
 }
 
-/// Degree of the series: with steps of 1/64 s it is off by 1e-20 after 10 s, of 1/128 s by less than
-/// 1e-25 (a test below).
+/// Degree of the series: with steps of 1/64 s it is off by 1e-20 after 10 s, of 1/128 s by less
+/// than 1e-25 (a test below).
 const DEGREE: usize = 24;
 
 /// A step of the series for angles and velocities of two unit masses on unit links.
@@ -128,7 +129,8 @@ fn step(state: [Twin; 4], h: Twin) -> [Twin; 4] {
         let [uu, vv, below, first, second, du, dv] = &mut series;
         uu.push(product(&u, &u, n));
         vv.push(product(&v, &v, n));
-        // (2 − cos² e) a'' = −2 g sin a + g cos e sin b − sin e (v² + u² cos e), sin b = sin(a − e).
+        // (2 − cos² e) a'' = −2 g sin a + g cos e sin b − sin e (v² + u² cos e), sin b = sin(a −
+        // e).
         let sb: Vec<Twin> = (0..=n).map(|m| product(&sa, &ce, m) - product(&ca, &se, m)).collect();
         let one = if n == 0 { two } else { ZERO };
         below.push(one - product(&ce, &ce, n));

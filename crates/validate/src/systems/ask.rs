@@ -77,7 +77,8 @@ pub fn ask(system: &System, solvers: Solvers, watch: &dyn Fn(&str)) -> SystemAns
     ask_with(system, solvers, UseCensus::Auto, watch)
 }
 
-/// The same, with or without the proofs in interval arithmetic: the rungs `verified` and `complete`.
+/// The same, with or without the proofs in interval arithmetic: the rungs `verified` and
+/// `complete`.
 #[must_use]
 pub fn ask_with(
     system: &System,

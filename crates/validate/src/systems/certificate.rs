@@ -68,8 +68,8 @@ pub(super) fn largest_force_n(answer: &SystemEquilibrium) -> f64 {
 ///
 /// # Errors
 ///
-/// [`NoCertificate`]: compressed members that the others do not outweigh, a gap that is too large, or an answer
-/// that is incomplete.
+/// [`NoCertificate`]: compressed members that the others do not outweigh, a gap that is too large,
+/// or an answer that is incomplete.
 pub fn certify(system: &System, answer: &SystemEquilibrium) -> Result<Optimal, NoCertificate> {
     let fits = answer.joints_m.len() == system.joints().len()
         && answer.axial_n.len() == system.members().len()

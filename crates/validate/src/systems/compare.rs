@@ -19,16 +19,17 @@ pub struct SystemAgreement {
     /// Largest distance of a joint in one answer from the same joint in another, m. Parts that turn
     /// freely about a vertical are turned onto each other first.
     pub joints_m: f64,
-    /// Largest difference of a force at an end of a member or of a support, N; where the forces are a family,
-    /// of what is not a self-stress in the difference.
+    /// Largest difference of a force at an end of a member or of a support, N; where the forces are
+    /// a family, of what is not a self-stress in the difference.
     pub forces_n: f64,
     /// Largest difference of the energies, J.
     pub energy_j: f64,
     /// Joints without load whose members are all slack in every answer, so that they may be
     /// anywhere near: their places are judged by the members' laws alone.
     pub free_joints: usize,
-    /// Independent self-stresses of the shape: with any, the forces are one of a family, and that both answers name
-    /// the same of them is no evidence. Nothing where the system is too large to count them.
+    /// Independent self-stresses of the shape: with any, the forces are one of a family, and that
+    /// both answers name the same of them is no evidence. Nothing where the system is too large to
+    /// count them.
     pub self_stresses: Option<usize>,
     /// Violations of geometry and of Newton's laws by each answer.
     pub statics: Vec<SystemStatics>,
@@ -208,7 +209,8 @@ impl<'a> Judgement<'a> {
         };
         let left = named.basis.iter().map(left).fold(0.0, worse);
         let solver = answer.solver.clone();
-        // As small as the solver's own threshold, which is the judge's at a shape apart by rounding.
+        // As small as the solver's own threshold, which is the judge's at a shape apart by
+        // rounding.
         let budget = 2.0 * family.rounding;
         self.hold(Quantity::SelfStresses { solver }, left, budget);
     }

@@ -1,8 +1,9 @@
-//! Forces that the shape of a system leaves open: its self-stresses, from the places of its joints alone.
+//! Forces that the shape of a system leaves open: its self-stresses, from the places of its joints
+//! alone.
 //!
-//! A self-stress is a set of axial forces of inextensible members that balances at every joint along its free
-//! motions. Where there are some, the forces of an equilibrium are one point of an affine space; two answers
-//! are one if their difference is a self-stress.
+//! A self-stress is a set of axial forces of inextensible members that balances at every joint
+//! along its free motions. Where there are some, the forces of an equilibrium are one point of an
+//! affine space; two answers are one if their difference is a self-stress.
 //!
 //! S. Pellegrino and C. R. Calladine, Int. J. Solids Struct. 22 (1986) 409-428,
 //! doi:10.1016/0020-7683(86)90014-4
@@ -19,8 +20,8 @@ const COUNTED: usize = 240;
 /// A member this near its length, as a part of it, may carry force.
 const TAUT: f64 = 1e-9;
 
-/// Singular values of the balances below this part of the largest are zero: by the forces that go with them the
-/// balances of joints change by less than what two answers may differ by.
+/// Singular values of the balances below this part of the largest are zero: by the forces that go
+/// with them the balances of joints change by less than what two answers may differ by.
 const RANK: f64 = 1e-9;
 
 /// The self-stresses of a shape.
@@ -133,7 +134,8 @@ fn motions(support: &Support) -> Vec<Vector> {
     }
 }
 
-/// An orthonormal basis of the vectors whose combination of rows vanishes, and what counts as vanishing.
+/// An orthonormal basis of the vectors whose combination of rows vanishes, and what counts as
+/// vanishing.
 fn null_rows(matrix: &Mat<f64>) -> Option<(Vec<Vec<f64>>, f64)> {
     let (rows, columns) = (matrix.nrows(), matrix.ncols());
     if rows == 0 {

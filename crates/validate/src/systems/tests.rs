@@ -184,7 +184,8 @@ fn a_part_that_turns_is_turned_before_it_is_compared() {
     assert!(certify(&system, &both[0]).is_err());
 }
 
-/// 16 N on four bars of 5 m from the corners of a square (3, 4, 5): those along x may take any part of it.
+/// 16 N on four bars of 5 m from the corners of a square (3, 4, 5): those along x may take any part
+/// of it.
 fn four_legs(along_x: f64) -> (System, SystemEquilibrium) {
     let corners = [[3.0, 0.0, 0.0], [-3.0, 0.0, 0.0], [0.0, 3.0, 0.0], [0.0, -3.0, 0.0]];
     let mut joints: Vec<Joint> = corners

@@ -1,8 +1,8 @@
-//! Chains of small integers: the numbers that people try first, and the ones on which bars fit into straight lines,
-//! close gaps exactly, and carry nothing.
+//! Chains of small integers: the numbers that people try first, and the ones on which bars fit into
+//! straight lines, close gaps exactly, and carry nothing.
 //!
-//! `CHAINS=3000 cargo test --release -p validate --test it integer -- --nocapture` tries more of them, and
-//! lists those that do not agree.
+//! `CHAINS=3000 cargo test --release -p validate --test it integer -- --nocapture` tries more of
+//! them, and lists those that do not agree.
 
 use model::{Anchors, Bar, Chain, Equilibrium, Problem};
 use rand::{RngExt, SeedableRng};
