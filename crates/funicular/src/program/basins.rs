@@ -9,7 +9,7 @@ use miette::miette;
 use model::SolverName;
 
 use crate::exit::{Exit, Failure};
-use crate::input::{self, Input};
+use crate::input::{Input, Source};
 use crate::interrupt::end_on_interrupt;
 use crate::output;
 use crate::progress::Progress;
@@ -39,12 +39,8 @@ const FIELDS: [(Field, &str); 2] = [(Field::Outcome, ""), (Field::Iterations, "-
 #[derive(Debug, Args)]
 #[command(after_help = NOTES)]
 pub struct Arguments {
-    /// The system file (TOML); see `funicular cases three-equal-bars` for one
-    #[arg(value_name = "FILE", required_unless_present = "case")]
-    pub file: Option<PathBuf>,
-    /// A named case instead of a file
-    #[arg(long, value_name = "NAME", conflicts_with = "file")]
-    pub case: Option<String>,
+    #[command(flatten)]
+    pub source: Source,
     /// Starts along each side
     #[arg(long, value_name = "N", default_value_t = 300, value_parser = clap::value_parser!(u32).range(2..=i64::from(LARGEST)))]
     pub size: u32,
@@ -63,8 +59,7 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
     end_on_interrupt()?;
     threads::install(0)?;
-    let Input { problem, files } =
-        input::problem(arguments.file.as_deref(), arguments.case.as_deref())?;
+    let Input { problem, files } = arguments.source.read()?;
     let [i, j] = arguments.bars[..] else {
         return Err(Failure::bad_input(miette!("--bars wants two bars, as in --bars 1,2")));
     };

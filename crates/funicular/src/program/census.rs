@@ -12,7 +12,7 @@ use miette::miette;
 use model::system::System;
 
 use crate::exit::{Exit, Failure};
-use crate::input::{self, Input};
+use crate::input::{Input, Source};
 use crate::interrupt::end_on_interrupt;
 use crate::output;
 use crate::progress::Progress;
@@ -25,12 +25,8 @@ const SHAPES: usize = 70;
 /// `funicular census`.
 #[derive(Debug, Args)]
 pub struct Census {
-    /// The system file (TOML); see `funicular cases three-equal-bars` for one
-    #[arg(value_name = "FILE", required_unless_present = "case")]
-    pub file: Option<PathBuf>,
-    /// Take the census of a named case instead of a file
-    #[arg(long, value_name = "NAME", conflicts_with = "file")]
-    pub case: Option<String>,
+    #[command(flatten)]
+    pub source: Source,
     /// Print one JSON object (schema_version 2) instead of tables
     #[arg(long)]
     pub json: bool,
@@ -57,8 +53,7 @@ pub fn run(arguments: &Census) -> Result<Exit, Failure> {
     threads::install(arguments.threads)?;
     let progress = Progress::start();
     progress.say("reading");
-    let Input { problem, files } =
-        input::problem(arguments.file.as_deref(), arguments.case.as_deref())?;
+    let Input { problem, files } = arguments.source.read()?;
     if let Some(system) = problem.as_system() {
         return of_system(arguments, settings, system, progress);
     }

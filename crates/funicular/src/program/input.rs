@@ -3,11 +3,30 @@
 use std::io::Read as _;
 use std::path::{Path, PathBuf};
 
+use clap::Args;
 use funicular::{Error, Problem};
 use miette::miette;
 use model::system_file::MAX_FILE_BYTES;
 
 use crate::exit::Failure;
+
+/// Where a command that takes one system takes it from.
+#[derive(Debug, Args)]
+pub struct Source {
+    /// The system file (TOML or JSON, - for standard input); see `funicular cases lamp` for one
+    #[arg(value_name = "FILE", required_unless_present = "case")]
+    pub file: Option<PathBuf>,
+    /// A named case instead of a file
+    #[arg(long, value_name = "NAME", conflicts_with = "file")]
+    pub case: Option<String>,
+}
+
+impl Source {
+    /// The system, and the files that were read.
+    pub fn read(&self) -> Result<Input, Failure> {
+        problem(self.file.as_deref(), self.case.as_deref())
+    }
+}
 
 /// A system and where it comes from.
 pub struct Input {

@@ -1,13 +1,12 @@
 //! `funicular modes`: small oscillations about equilibria.
 
 use std::fmt::Write as _;
-use std::path::PathBuf;
 
 use clap::Args;
 use funicular::ModesAnswer;
 
 use crate::exit::{Exit, Failure};
-use crate::input::{self, Input};
+use crate::input::{Input, Source};
 use crate::interrupt::end_on_interrupt;
 use crate::output;
 use crate::printable::Printable;
@@ -18,12 +17,8 @@ use crate::threads;
 /// `funicular modes`.
 #[derive(Debug, Args)]
 pub struct Modes {
-    /// The system file (TOML or JSON, - for standard input)
-    #[arg(value_name = "FILE", required_unless_present = "case")]
-    pub file: Option<PathBuf>,
-    /// A named case instead of a file
-    #[arg(long, value_name = "NAME", conflicts_with = "file")]
-    pub case: Option<String>,
+    #[command(flatten)]
+    pub source: Source,
     /// Print one JSON object (schema_version 2) with the shapes instead of tables
     #[arg(long)]
     pub json: bool,
@@ -42,8 +37,7 @@ pub fn run(arguments: &Modes) -> Result<Exit, Failure> {
     threads::install(arguments.threads)?;
     let progress = Progress::start();
     progress.say("reading");
-    let Input { problem, .. } =
-        input::problem(arguments.file.as_deref(), arguments.case.as_deref())?;
+    let Input { problem, .. } = arguments.source.read()?;
     progress.say("equilibria and their modes");
     let answer = funicular::Modes::new().max_bars(arguments.max_bars).run(&problem)?;
     drop(progress);

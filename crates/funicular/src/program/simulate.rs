@@ -15,7 +15,7 @@ use model::system::System;
 
 use self::columns::Rows;
 use crate::exit::{Exit, Failure};
-use crate::input::{self, Input};
+use crate::input::{Input, Source};
 use crate::interrupt::on_interrupt;
 use crate::output;
 use crate::printable::Printable;
@@ -25,12 +25,8 @@ use crate::tables::short;
 /// `funicular simulate`.
 #[derive(Debug, Args)]
 pub struct Simulate {
-    /// The system file (TOML or JSON, - for standard input)
-    #[arg(value_name = "FILE", required_unless_present = "case")]
-    pub file: Option<PathBuf>,
-    /// A named case instead of a file
-    #[arg(long, value_name = "NAME", conflicts_with = "file")]
-    pub case: Option<String>,
+    #[command(flatten)]
+    pub source: Source,
     /// Where it begins, at rest: `rest` (the stable equilibrium), `equilibrium:2` (as `modes` and
     /// `census` number them), `angles=0,60,-60` (bars of a chain from the descending vertical,
     /// degrees), `seed:7` (at random)
@@ -114,8 +110,7 @@ pub fn run(arguments: &Simulate) -> Result<Exit, Failure> {
     let interrupt = on_interrupt()?;
     let progress = Progress::start();
     progress.say("reading");
-    let Input { problem, files } =
-        input::problem(arguments.file.as_deref(), arguments.case.as_deref())?;
+    let Input { problem, files } = arguments.source.read()?;
     let outputs = [&arguments.out, &arguments.html];
     output::check(outputs.into_iter().flatten().map(PathBuf::as_path), &files)?;
     let system = funicular::system_of(&problem);

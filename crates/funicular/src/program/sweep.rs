@@ -14,7 +14,6 @@ use serde_json::{Value, json};
 pub use self::arguments::Sweep;
 use crate::diagnostics::tell;
 use crate::exit::{Exit, Failure};
-use crate::input;
 use crate::interrupt::on_interrupt;
 use crate::output;
 use crate::progress::Progress;
@@ -28,7 +27,7 @@ pub fn run(arguments: &Sweep) -> Result<Exit, Failure> {
     let threads = threads::resolve(arguments.threads)?;
     threads::install(threads)?;
     let interrupt = on_interrupt()?;
-    let problem = input::problem(arguments.file.as_deref(), arguments.case.as_deref())?.problem;
+    let problem = arguments.source.read()?.problem;
     let progress = Progress::start();
     progress.say("the list of equilibria");
     let sweep = funicular::Sweep::new(arguments.seeds)

@@ -10,7 +10,7 @@ use funicular::{Problem, Trace, TraceAnswer};
 use miette::miette;
 
 use crate::exit::{Exit, Failure};
-use crate::input;
+use crate::input::Source;
 use crate::interrupt::end_on_interrupt;
 use crate::output;
 use crate::progress::Progress;
@@ -63,12 +63,8 @@ A pair of branches that begins and ends between two censuses, meeting no other, 
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Arguments {
-    /// The system file (TOML); see `funicular cases three-equal-bars` for one
-    #[arg(value_name = "FILE", required_unless_present = "case")]
-    pub file: Option<PathBuf>,
-    /// Trace a named case instead of a file
-    #[arg(long, value_name = "NAME", conflicts_with = "file")]
-    pub case: Option<String>,
+    #[command(flatten)]
+    pub source: Source,
     /// A number of the system file and its values: `anchors.end_m.z=-2.9..-0.1:500` (repeatable)
     #[arg(long, value_name = "KEY=VALUES", required = true, allow_hyphen_values = true)]
     pub vary: Vec<String>,
@@ -101,7 +97,7 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
     end_on_interrupt()?;
     threads::install(0)?;
-    let input = input::problem(arguments.file.as_deref(), arguments.case.as_deref())?;
+    let input = arguments.source.read()?;
     let files = input.files.clone();
     let chain = input.into_chain("trace")?;
     let system = chain.chain().summary();

@@ -10,7 +10,7 @@ use super::document::bar;
 use super::error::SystemFileError;
 use super::kind::SystemFileErrorKind as Kind;
 use super::limits::MAX_BARS;
-use super::network_rows::{self, FREE, KINDS};
+use super::network_rows::{self, FREE, member_kind};
 use super::row_table::Row;
 use super::sheet::SheetFile;
 use super::suggest::nearest;
@@ -18,8 +18,7 @@ use super::table::{Table, Value};
 use crate::STANDARD_GRAVITY_M_S2;
 use crate::Vector;
 use crate::system::{
-    Joint, Kind as MemberKind, Member, PointLoad, Support, System, SystemError, SystemRefusal,
-    UNIT_TOLERANCE,
+    Joint, Member, PointLoad, Support, System, SystemError, SystemRefusal, UNIT_TOLERANCE,
 };
 
 const ROOT_KEYS: &[&str] = &["name", "gravity_m_s2", "joints", "joints_file", "bars", "bars_file"];
@@ -362,16 +361,7 @@ fn unit(table: &Table<'_>, key: &'static str) -> Result<Vector, SystemFileError>
 fn member(table: &Table<'_>) -> Result<Member, SystemFileError> {
     let length = table.require("length_m", "a length in metres")?;
     let body = bar(table, length)?;
-    let kind = match table.text("kind")? {
-        None | Some("bar") => MemberKind::Bar,
-        Some("cable") => MemberKind::Cable,
-        Some("strut") => MemberKind::Strut,
-        Some(other) => {
-            let suggestion = nearest(other, KINDS);
-            let kind = Kind::UnknownKind { found: other.to_owned(), allowed: KINDS, suggestion };
-            return Err(table.error(kind, "kind"));
-        }
-    };
+    let kind = member_kind(table.text("kind")?).map_err(|kind| table.error(kind, "kind"))?;
     let mut loads = Vec::new();
     if let Some(value) = table.get("forces") {
         const WANTED: &str = "an array of forces, such as [{ force_n = [0, 12, 0] }]";

@@ -49,8 +49,22 @@ pub(super) const BARS: Known = Known {
     ],
 };
 
-/// The words for the kinds of members.
-pub(super) const KINDS: &[&str] = &["bar", "cable", "strut"];
+/// The kinds of members by their words; the first is meant where none is named.
+const KINDS: [(&str, MemberKind); 3] =
+    [("bar", MemberKind::Bar), ("cable", MemberKind::Cable), ("strut", MemberKind::Strut)];
+/// The words alone.
+const KIND_WORDS: &[&str] = &[KINDS[0].0, KINDS[1].0, KINDS[2].0];
+
+/// The kind that a word names, in a table or in a row.
+pub(super) fn member_kind(word: Option<&str>) -> Result<MemberKind, Kind> {
+    let Some(word) = word else { return Ok(KINDS[0].1) };
+    let known = KINDS.iter().find(|(name, _)| *name == word).map(|(_, kind)| *kind);
+    known.ok_or_else(|| Kind::UnknownKind {
+        found: word.to_owned(),
+        allowed: KIND_WORDS,
+        suggestion: nearest(word, KIND_WORDS),
+    })
+}
 
 /// What `free` may be.
 pub(super) const FREE: &str = "\"x\", \"y\", \"z\" (a line), \"xy\", \"xz\" or \"yz\" (a plane)";
@@ -141,16 +155,8 @@ pub(super) fn member(
         };
         (Some(column), Kind::Bar(error))
     })?;
-    let kind = match row.word("kind")?.as_deref() {
-        None | Some("bar") => MemberKind::Bar,
-        Some("cable") => MemberKind::Cable,
-        Some("strut") => MemberKind::Strut,
-        Some(other) => {
-            let suggestion = nearest(other, KINDS);
-            let kind = Kind::UnknownKind { found: other.to_owned(), allowed: KINDS, suggestion };
-            return Err((Some("kind"), kind));
-        }
-    };
+    let kind = row.word("kind")?;
+    let kind = member_kind(kind.as_deref()).map_err(|kind| (Some("kind"), kind))?;
     Ok(Member {
         from,
         to,

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use ::sweep::{MOST_SEEDS, Shard};
 use clap::{Args, ValueEnum};
 
+use crate::input::Source;
 use crate::threads;
 use crate::which::Which;
 
@@ -38,12 +39,8 @@ the documentation of the crate sweep: crates/sweep/src/lib.rs, or `cargo doc --o
 #[derive(Debug, Args)]
 #[command(after_help = EXIT_CODES, after_long_help = format!("{EXAMPLES}\n\n{EXIT_CODES}"))]
 pub struct Sweep {
-    /// The system file (TOML); see `funicular cases three-equal-bars` for one
-    #[arg(value_name = "FILE", required_unless_present = "case")]
-    pub file: Option<PathBuf>,
-    /// Sweep a named case instead of a file
-    #[arg(long, value_name = "NAME", conflicts_with = "file")]
-    pub case: Option<String>,
+    #[command(flatten)]
+    pub source: Source,
     /// How many starts: 1000000, 1_000_000 or 1e6
     #[arg(long, value_name = "N", value_parser = count, allow_negative_numbers = true)]
     pub seeds: u64,
