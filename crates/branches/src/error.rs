@@ -7,13 +7,13 @@ pub enum ContinuationError {
     /// Occurs when a setting of the census is out of range, or the chain is too long for one.
     #[error(transparent)]
     Census(#[from] census::CensusError),
-    /// Occurs when a path has more points than the settings allow.
+    /// Occurs when a path, or several together, have more points than the settings allow.
     #[error(
         "{points} points are more than the {most} allowed: all that is found is held in memory, about {} kB for \
          each equilibrium at each point", crate::continuation::ContinuationSettings::BYTES / 1000
     )]
     TooManyPoints {
-        /// Points of the path.
+        /// Points of the path or paths.
         points: usize,
         /// Most.
         most: usize,

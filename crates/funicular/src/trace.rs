@@ -3,8 +3,8 @@
 use std::io::{self, Write};
 
 use branches::{
-    Abscissa, Checks, Combine, Continuation, ContinuationSettings, Parameter, PointStatus,
-    Progress, Study,
+    Abscissa, Checks, Combine, Continuation, ContinuationError, ContinuationSettings, Parameter,
+    PointStatus, Progress, Study,
 };
 
 use model::SystemSummary;
@@ -93,7 +93,9 @@ impl Trace {
     /// # Errors
     ///
     /// As [`study`](Self::study), and [`Error::Continuation`] when the chain is too long for a
-    /// census. A point that is refused or undecided is no error: it says so.
+    /// census, or the paths have more points together than
+    /// [`max_points`](Self::max_points) allows. A point that is refused or undecided is no error: it
+    /// says so.
     pub fn run(&self, problem: &Problem) -> Result<TraceAnswer, Error> {
         self.run_watched(problem, &|_, _| {})
     }
@@ -109,6 +111,11 @@ impl Trace {
         watch: &(dyn Fn(usize, Progress) + Sync),
     ) -> Result<TraceAnswer, Error> {
         let study = self.study(problem)?;
+        let (points, most) =
+            (study.paths().iter().map(Vec::len).sum::<usize>(), self.settings.max_points);
+        if points > most {
+            return Err(ContinuationError::TooManyPoints { points, most }.into());
+        }
         threads::on(self.threads, || {
             let follow = |path| {
                 let watch = |progress| watch(path, progress);

@@ -20,7 +20,12 @@ const NOTE: &str =
 /// let joints_m = [[0.0; 3], [0.0, 0.0, -5.0]];
 /// let reactions_n = [[0.0, 0.0, 20.0], [0.0; 3]];
 /// let shape =
-///     SystemShape { system: &system, joints_m: &joints_m, axial_n: &[20.0], reactions_n: &reactions_n };
+///     SystemShape {
+///         system: &system,
+///         joints_m: &joints_m,
+///         axial_n: &[20.0],
+///         reactions_n: &reactions_n,
+///     };
 /// assert!(shape.svg()?.contains("20 N"));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```

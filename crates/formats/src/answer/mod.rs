@@ -76,3 +76,43 @@ pub fn parse(text: &str, file: &str) -> Result<Vec<Answer>, FormatError> {
         Some(_) => parse_csv(text, file),
     }
 }
+
+/// Give each answer the forces of its source, or the one list there is; `file` names the lists in
+/// errors.
+///
+/// # Errors
+///
+/// When an answer has no list, or a list no answer.
+///
+/// ```
+/// use formats::answer::{attach_forces, parse_csv, parse_member_forces};
+/// let mut answers = parse_csv("joint,x_m,y_m,z_m\n0,0,0,0\n1,0,0,-1\n", "joints.csv")?;
+/// let lists = parse_member_forces("from,to,axial_n\n0,1,9.81\n", "forces.csv")?;
+/// attach_forces(&mut answers, &lists, "forces.csv")?;
+/// let forces = vec![("0".into(), "1".into(), 9.81)];
+/// assert_eq!(answers[0].forces, formats::answer::Forces::Named(forces));
+/// # Ok::<(), formats::FormatError>(())
+/// ```
+pub fn attach_forces(
+    answers: &mut [Answer],
+    lists: &[MemberForces],
+    file: &str,
+) -> Result<(), FormatError> {
+    let missing = |what| Err(FormatError::new(file, None, Wrong::Missing { what }));
+    let mut taken = vec![false; lists.len()];
+    for answer in answers.iter_mut() {
+        let of = |(name, _): &MemberForces| name.as_deref().is_none_or(|n| n == answer.source);
+        let Some(k) = lists.iter().position(of) else {
+            return missing(format!("list of the forces of {:?}", answer.source));
+        };
+        taken[k] = true;
+        answer.forces = Forces::Named(lists[k].1.clone());
+    }
+    match taken.iter().position(|taken| !taken) {
+        None => Ok(()),
+        Some(k) => {
+            let name = lists[k].0.as_deref().unwrap_or_default();
+            missing(format!("answer of {name:?}, whose forces are here"))
+        }
+    }
+}

@@ -67,7 +67,9 @@ impl ForceDensityNet {
     ///
     /// ```
     /// use formats::system::{Edge, ForceDensityNet, Node};
-    /// let node = |name: &str, at_m, held, z| Node { name: name.into(), at_m, held, force_n: [0.0, 0.0, z] };
+    /// let node = |name: &str, at_m, held, z| {
+    ///     Node { name: name.into(), at_m, held, force_n: [0.0, 0.0, z] }
+    /// };
     /// let nodes = vec![
     ///     node("A", [-3.0, 0.0, 0.0], true, 0.0),
     ///     node("B", [3.0, 0.0, 0.0], true, 0.0),

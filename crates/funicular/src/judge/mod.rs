@@ -2,6 +2,7 @@
 
 mod object;
 mod page;
+mod subject;
 
 use ::formats::answer::{Answer, Forces, Joints};
 use model::system::System;
@@ -10,6 +11,7 @@ use validate::foreign::judge_foreign;
 
 pub use validate::foreign::{Finding, ForeignAnswer, GivenError, Judgement, Law, Violation};
 
+pub use self::subject::{Ruling, Subject};
 use crate::error::Error;
 use crate::threads;
 
@@ -19,7 +21,8 @@ use crate::threads;
 /// ```
 /// use funicular::prelude::*;
 /// use funicular::judge::ForeignAnswer;
-/// // A lamp of 2 kg on two cables of 5 m between anchors 6 m apart, read off a drawing to a millimetre.
+/// // A lamp of 2 kg on two cables of 5 m between anchors 6 m apart, read off a drawing to a
+/// // millimetre.
 /// let joints = vec![
 ///     Joint::anchor("A", [-3.0, 0.0, 0.0]),
 ///     Joint::anchor("B", [3.0, 0.0, 0.0]),

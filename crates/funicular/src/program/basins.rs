@@ -40,7 +40,7 @@ const FIELDS: [(Field, &str); 2] = [(Field::Outcome, ""), (Field::Iterations, "-
 #[command(after_help = NOTES)]
 pub struct Arguments {
     #[command(flatten)]
-    pub source: Source,
+    pub input: Source,
     /// Starts along each side
     #[arg(long, value_name = "N", default_value_t = 300, value_parser = clap::value_parser!(u32).range(2..=i64::from(LARGEST)))]
     pub size: u32,
@@ -59,7 +59,7 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
     end_on_interrupt()?;
     threads::install(0)?;
-    let Input { problem, files } = arguments.source.read()?;
+    let Input { problem, files } = arguments.input.read()?;
     let [i, j] = arguments.bars[..] else {
         return Err(Failure::bad_input(miette!("--bars wants two bars, as in --bars 1,2")));
     };

@@ -26,7 +26,7 @@ const SHAPES: usize = 70;
 #[derive(Debug, Args)]
 pub struct Census {
     #[command(flatten)]
-    pub source: Source,
+    pub input: Source,
     /// Print one JSON object (schema_version 2) instead of tables
     #[arg(long)]
     pub json: bool,
@@ -53,7 +53,7 @@ pub fn run(arguments: &Census) -> Result<Exit, Failure> {
     threads::install(arguments.threads)?;
     let progress = Progress::start();
     progress.say("reading");
-    let Input { problem, files } = arguments.source.read()?;
+    let Input { problem, files } = arguments.input.read()?;
     if let Some(system) = problem.as_system() {
         return of_system(arguments, settings, system, progress);
     }

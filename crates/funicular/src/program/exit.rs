@@ -1,6 +1,6 @@
 //! How the program ends.
 
-use branches::ParameterError;
+use branches::{ContinuationError, ParameterError};
 use funicular::Error;
 use funicular::judge::GivenError;
 use miette::{LabeledSpan, miette};
@@ -108,6 +108,10 @@ impl Failure {
                 Self::bad_input(miette!(help = help, "{error}"))
             }
             Error::Parameter(error) => Self::parameter(&error),
+            Error::Continuation(ContinuationError::TooManyPoints { points, .. }) => {
+                let help = format!("with --max-points {points} it is done all the same");
+                Self::bad_input(miette!(help = help, "{error}"))
+            }
             Error::Format(error) => {
                 let message = error.to_string();
                 match error.help {

@@ -4,69 +4,21 @@ use std::fs::File;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
-use formats::answer::{Answer, Forces, Joints, MemberForces};
-use formats::system::{ForceDensityNet, ForeignSystem, parse_compas, parse_moordyn, parse_net};
+use formats::system::{parse_compas, parse_moordyn, parse_net};
 use funicular::Error;
+use funicular::judge::Subject;
 use miette::miette;
-use model::system::System;
 use model::system_file::MAX_FILE_BYTES;
 
 use crate::exit::Failure;
 use crate::input;
 use crate::judge::{Format, Judge};
 
-/// A system, or a net of force densities that becomes one at the places that are judged.
-pub enum Given {
-    /// A system.
-    System {
-        /// The system.
-        system: System,
-        /// How it was read.
-        notes: Vec<String>,
-        /// Height of a floor that is not part of it, m.
-        floor_m: Option<f64>,
-    },
-    /// A net, and its file.
-    Net(ForceDensityNet, String),
-}
-
-impl Given {
-    /// How the file was read.
-    pub fn notes(&self) -> Vec<String> {
-        match self {
-            Self::System { notes, .. } => notes.clone(),
-            Self::Net(..) => vec![
-                "each edge is an elastic member that carries its force density times its length at the places judged"
-                    .to_owned(),
-            ],
-        }
-    }
-
-    /// Height of a floor that is not part of the system, m.
-    pub fn floor_m(&self) -> Option<f64> {
-        match self {
-            Self::System { floor_m, .. } => *floor_m,
-            Self::Net(..) => None,
-        }
-    }
-
-    /// The answer that the file of the system has itself.
-    pub fn own_answer(&self) -> Option<Answer> {
-        let Self::Net(net, file) = self else { return None };
-        Some(Answer {
-            source: file.clone(),
-            joints: Joints::InOrder(net.places_m()),
-            forces: Forces::None,
-            reactions_n: None,
-        })
-    }
-}
-
 /// The system that the arguments name, and the files that were read for it.
-pub fn system(arguments: &Judge) -> Result<(Given, Vec<PathBuf>), Failure> {
+pub fn system(arguments: &Judge) -> Result<(Subject, Vec<PathBuf>), Failure> {
     let Some(path) = arguments.file.as_deref() else {
         let input::Input { problem, files } = input::problem(None, arguments.case.as_deref())?;
-        return Ok((own(&problem), files));
+        return Ok((Subject::from(&problem), files));
     };
     let format = match arguments.format {
         Format::Auto => guess(path, arguments.edges.is_some())?,
@@ -75,16 +27,14 @@ pub fn system(arguments: &Judge) -> Result<(Given, Vec<PathBuf>), Failure> {
     if format != Format::ForceDensity && arguments.edges.is_some() {
         return Err(Failure::bad_input(miette!("--edges is for nets of force densities")));
     }
-    let given = match format {
+    let subject = match format {
         Format::Moordyn => {
             let (text, name) = text(path)?;
-            let ForeignSystem { system, notes, floor_m } =
-                parse_moordyn(&text, &name).map_err(Error::from)?;
-            Given::System { system, notes, floor_m }
+            Subject::from(parse_moordyn(&text, &name).map_err(Error::from)?)
         }
         Format::Compas => {
             let (text, name) = text(path)?;
-            Given::Net(parse_compas(&text, &name).map_err(Error::from)?, name)
+            Subject::net(parse_compas(&text, &name).map_err(Error::from)?, &name)
         }
         Format::ForceDensity => {
             let Some(edges) = arguments.edges.as_deref() else {
@@ -94,25 +44,15 @@ pub fn system(arguments: &Judge) -> Result<(Given, Vec<PathBuf>), Failure> {
             };
             let (nodes, edges) = (text(path)?, text(edges)?);
             let net = parse_net((&nodes.0, &nodes.1), (&edges.0, &edges.1), &nodes.1);
-            Given::Net(net.map_err(Error::from)?, nodes.1)
+            Subject::net(net.map_err(Error::from)?, &nodes.1)
         }
         Format::Auto | Format::Funicular => {
             let input::Input { problem, files } = input::problem(Some(path), None)?;
-            return Ok((own(&problem), files));
+            return Ok((Subject::from(&problem), files));
         }
     };
     let files = [Some(path.to_owned()), arguments.edges.clone()];
-    Ok((given, files.into_iter().flatten().collect()))
-}
-
-/// A system of our own file.
-fn own(problem: &funicular::Problem) -> Given {
-    let system = match (problem.as_system(), problem.as_chain()) {
-        (Some(system), _) => system.clone(),
-        (None, Some(chain)) => System::from(chain.chain()),
-        (None, None) => unreachable!("a problem is a chain or a system"),
-    };
-    Given::System { system, notes: vec![], floor_m: None }
+    Ok((subject, files.into_iter().flatten().collect()))
 }
 
 /// Which format a file is in.
@@ -154,26 +94,4 @@ pub fn text(path: &Path) -> Result<(String, String), Failure> {
     }
     let text = String::from_utf8(bytes).map_err(|error| unreadable(&error.utf8_error()))?;
     Ok((text, name))
-}
-
-/// Give each answer the forces of its solver, or the one list there is.
-pub fn attach(answers: &mut [Answer], lists: &[MemberForces], file: &str) -> Result<(), Failure> {
-    let mut taken = vec![false; lists.len()];
-    for answer in answers.iter_mut() {
-        let of = |(name, _): &MemberForces| name.as_deref().is_none_or(|n| n == answer.source);
-        let Some(k) = lists.iter().position(of) else {
-            let (file, source) = (crate::printable::Printable(file), &answer.source);
-            return Err(Failure::bad_input(miette!("{file} has no forces of {source:?}")));
-        };
-        taken[k] = true;
-        answer.forces = Forces::Named(lists[k].1.clone());
-    }
-    if let Some(k) = taken.iter().position(|taken| !taken) {
-        let (file, name) = (crate::printable::Printable(file), &lists[k].0);
-        return Err(Failure::bad_input(miette!(
-            "{file} has forces of {:?}, of whom there is no answer",
-            name.as_deref().unwrap_or_default()
-        )));
-    }
-    Ok(())
 }

@@ -4,12 +4,11 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 use formats::answer::Answer;
-use funicular::judge::{Finding, ForeignAnswer, Judged, fit};
+use funicular::judge::{Ruling, Subject};
 use miette::miette;
-use model::system::System;
 
 use crate::exit::{Exit, Failure};
-use crate::foreign_input::{self, Given};
+use crate::foreign_input;
 use crate::interrupt::end_on_interrupt;
 use crate::judged;
 use crate::output;
@@ -67,16 +66,6 @@ pub enum Format {
     ForceDensity,
 }
 
-/// One answer with how the system was read for it.
-pub struct OneJudged {
-    /// The judgement.
-    pub judged: Judged,
-    /// Sentences about the reading, and about what the judgement leaves out.
-    pub notes: Vec<String>,
-    /// A joint below a floor that is not part of the system.
-    pub on_floor: Option<String>,
-}
-
 /// Run the command.
 pub fn run(arguments: &Judge) -> Result<Exit, Failure> {
     end_on_interrupt()?;
@@ -90,13 +79,12 @@ pub fn run(arguments: &Judge) -> Result<Exit, Failure> {
     }
     let progress = Progress::start();
     progress.say("reading");
-    let (given, mut files) = foreign_input::system(arguments)?;
-    let answers = answers(arguments, &given, &mut files)?;
+    let (subject, mut files) = foreign_input::system(arguments)?;
+    let answers = answers(arguments, &subject, &mut files)?;
     output::check(arguments.html.as_deref(), &files)?;
-    let mut all = Vec::new();
-    for answer in answers {
-        all.push(one(arguments, &given, answer, &progress)?);
-    }
+    let judge = funicular::Judge::new().tolerance(arguments.tolerance);
+    let one = |answer| subject.judge(&judge, answer, &|what| progress.say(what));
+    let all = answers.into_iter().map(one).collect::<Result<Vec<_>, _>>()?;
     if let Some(path) = &arguments.html {
         write_pages(path, &all)?;
     }
@@ -116,13 +104,10 @@ pub fn run(arguments: &Judge) -> Result<Exit, Failure> {
 }
 
 /// A refutation is worse than what is not decided.
-fn exit(all: &[OneJudged]) -> Exit {
-    let refuted = |one: &OneJudged| one.judged.judgement().is_refuted() && one.on_floor.is_none();
-    let confirmed =
-        |one: &OneJudged| one.judged.judgement().is_confirmed() && one.on_floor.is_none();
-    if all.iter().any(refuted) {
+fn exit(all: &[Ruling]) -> Exit {
+    if all.iter().any(Ruling::is_refuted) {
         Exit::CheckFailed
-    } else if all.iter().all(confirmed) {
+    } else if all.iter().all(Ruling::is_confirmed) {
         Exit::Done
     } else {
         Exit::Undecided
@@ -132,11 +117,11 @@ fn exit(all: &[OneJudged]) -> Exit {
 /// The answers that are to be judged: those of the file, or the places of a net.
 fn answers(
     arguments: &Judge,
-    given: &Given,
+    subject: &Subject,
     files: &mut Vec<PathBuf>,
 ) -> Result<Vec<Answer>, Failure> {
     let Some(path) = &arguments.answer else {
-        return given
+        return subject
             .own_answer()
             .map(|answer| vec![answer])
             .ok_or_else(|| Failure::bad_input(miette!("an answer is needed: --answer FILE")));
@@ -148,56 +133,17 @@ fn answers(
         let (text, name) = foreign_input::text(path)?;
         let lists =
             formats::answer::parse_member_forces(&text, &name).map_err(funicular::Error::from)?;
-        foreign_input::attach(&mut answers, &lists, &name)?;
+        formats::answer::attach_forces(&mut answers, &lists, &name)
+            .map_err(funicular::Error::from)?;
         files.push(path.clone());
     }
     Ok(answers)
 }
 
-fn one(
-    arguments: &Judge,
-    given: &Given,
-    answer: Answer,
-    progress: &Progress,
-) -> Result<OneJudged, Failure> {
-    let fitted = |system: &System, answer| fit(system, answer).map_err(funicular::Error::from);
-    let (system, answer): (System, ForeignAnswer) = match given {
-        Given::System { system, .. } => (system.clone(), fitted(system, answer)?),
-        Given::Net(net, file) => {
-            let own = net.system_at(&net.places_m(), file).map_err(funicular::Error::from)?;
-            let answer = fitted(&own, answer)?;
-            let there = net.system_at(&answer.joints_m, file).map_err(funicular::Error::from)?;
-            (there, answer)
-        }
-    };
-    let judge = funicular::Judge::new().tolerance(arguments.tolerance);
-    let judged = judge.run_watched(&system, &answer, &|what| progress.say(what))?;
-    let mut notes = given.notes();
-    let on_floor = given.floor_m().and_then(|floor_m| below(&judged, floor_m));
-    if let Some(joint) = &on_floor {
-        notes.push(format!(
-            "undecided: joint {joint} is on or below the floor, which is not part of the system"
-        ));
-    }
-    Ok(OneJudged { judged, notes, on_floor })
-}
-
-/// A free joint of the answer, or of the nearest equilibrium, that is not above the floor.
-fn below(judged: &Judged, floor_m: f64) -> Option<String> {
-    let judgement = judged.judgement();
-    let least_m = floor_m + judgement.bounds.position_m;
-    let nearest = judgement.nearest().map(|one| &one.equilibrium.joints_m);
-    let lists = std::iter::once(&judgement.joints_m).chain(nearest);
-    lists
-        .flat_map(|places| places.iter().zip(judged.system().joints()))
-        .find(|(place, joint)| joint.support.at_m().is_none() && place[2] <= least_m)
-        .map(|(_, joint)| joint.name.clone())
-}
-
 /// One page, or a page for each answer with its number before the ending.
-fn write_pages(path: &Path, all: &[OneJudged]) -> Result<(), Failure> {
+fn write_pages(path: &Path, all: &[Ruling]) -> Result<(), Failure> {
     for (k, one) in all.iter().enumerate() {
-        let page = one.judged.html(&one.notes);
+        let page = one.html();
         if k == 0 {
             output::write_whole(path, &page)?;
             continue;
@@ -209,17 +155,4 @@ fn write_pages(path: &Path, all: &[OneJudged]) -> Result<(), Failure> {
         output::write_whole(&numbered, &page)?;
     }
     Ok(())
-}
-
-/// The finding, with the floor's word on it.
-pub fn finding(one: &OneJudged) -> String {
-    match (&one.on_floor, one.judged.judgement().finding) {
-        (Some(joint), Finding::Confirmed | Finding::Refuted) => {
-            let joint = crate::printable::Printable(joint);
-            format!(
-                "undecided: joint {joint} is on or below the floor, which is not part of the system"
-            )
-        }
-        (_, finding) => finding.to_string(),
-    }
 }

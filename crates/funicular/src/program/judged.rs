@@ -2,7 +2,8 @@
 
 use std::fmt::Write as _;
 
-use crate::judge::{OneJudged, finding};
+use funicular::judge::Ruling;
+
 use crate::printable::Printable;
 use crate::tables::{table, wrapped};
 
@@ -12,7 +13,7 @@ const PRINTED: usize = 40;
 const INDENT: usize = 2;
 
 /// The whole judgement.
-pub fn text(one: &OneJudged) -> String {
+pub fn text(one: &Ruling) -> String {
     let (system, judgement) = (one.judged.system(), one.judged.judgement());
     let bounds = judgement.bounds;
     let mut text = format!(
@@ -25,7 +26,7 @@ pub fn text(one: &OneJudged) -> String {
         bounds.position_m,
         bounds.force_n,
     );
-    text += &paragraph(&format!("Verdict: {}.", finding(one)));
+    text += &paragraph(&format!("Verdict: {}.", Printable(&one.finding())));
     text += &paragraph(&judgement.forces_sentence());
     text.push('\n');
     text += &broken(one);
@@ -50,7 +51,7 @@ fn paragraph(text: &str) -> String {
 }
 
 /// What is broken, a line each.
-fn broken(one: &OneJudged) -> String {
+fn broken(one: &Ruling) -> String {
     let (system, violations) = (one.judged.system(), &one.judged.judgement().violations);
     if violations.is_empty() {
         return String::new();

@@ -18,7 +18,7 @@ use crate::threads;
 #[derive(Debug, Args)]
 pub struct Modes {
     #[command(flatten)]
-    pub source: Source,
+    pub input: Source,
     /// Print one JSON object (schema_version 2) with the shapes instead of tables
     #[arg(long)]
     pub json: bool,
@@ -37,7 +37,7 @@ pub fn run(arguments: &Modes) -> Result<Exit, Failure> {
     threads::install(arguments.threads)?;
     let progress = Progress::start();
     progress.say("reading");
-    let Input { problem, .. } = arguments.source.read()?;
+    let Input { problem, .. } = arguments.input.read()?;
     progress.say("equilibria and their modes");
     let answer = funicular::Modes::new().max_bars(arguments.max_bars).run(&problem)?;
     drop(progress);

@@ -26,7 +26,7 @@ use crate::tables::short;
 #[derive(Debug, Args)]
 pub struct Simulate {
     #[command(flatten)]
-    pub source: Source,
+    pub input: Source,
     /// Where it begins, at rest: `rest` (the stable equilibrium), `equilibrium:2` (as `modes` and
     /// `census` number them), `angles=0,60,-60` (bars of a chain from the descending vertical,
     /// degrees), `seed:7` (at random)
@@ -110,7 +110,7 @@ pub fn run(arguments: &Simulate) -> Result<Exit, Failure> {
     let interrupt = on_interrupt()?;
     let progress = Progress::start();
     progress.say("reading");
-    let Input { problem, files } = arguments.source.read()?;
+    let Input { problem, files } = arguments.input.read()?;
     let outputs = [&arguments.out, &arguments.html];
     output::check(outputs.into_iter().flatten().map(PathBuf::as_path), &files)?;
     let system = funicular::system_of(&problem);

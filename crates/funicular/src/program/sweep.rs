@@ -27,7 +27,7 @@ pub fn run(arguments: &Sweep) -> Result<Exit, Failure> {
     let threads = threads::resolve(arguments.threads)?;
     threads::install(threads)?;
     let interrupt = on_interrupt()?;
-    let problem = arguments.source.read()?.problem;
+    let problem = arguments.input.read()?.problem;
     let progress = Progress::start();
     progress.say("the list of equilibria");
     let sweep = funicular::Sweep::new(arguments.seeds)

@@ -4,7 +4,7 @@ mod text;
 
 use std::path::{Path, PathBuf};
 
-use branches::{Abscissa, Combine, ContinuationSettings};
+use branches::{Abscissa, Combine};
 use clap::Args;
 use funicular::{Problem, Trace, TraceAnswer};
 use miette::miette;
@@ -64,7 +64,7 @@ A pair of branches that begins and ends between two censuses, meeting no other, 
 #[command(after_help = EXAMPLES)]
 pub struct Arguments {
     #[command(flatten)]
-    pub source: Source,
+    pub input: Source,
     /// A number of the system file and its values: `anchors.end_m.z=-2.9..-0.1:500` (repeatable)
     #[arg(long, value_name = "KEY=VALUES", required = true, allow_hyphen_values = true)]
     pub vary: Vec<String>,
@@ -97,7 +97,7 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
     end_on_interrupt()?;
     threads::install(0)?;
-    let input = arguments.source.read()?;
+    let input = arguments.input.read()?;
     let files = input.files.clone();
     let chain = input.into_chain("trace")?;
     let system = chain.chain().summary();
@@ -114,18 +114,8 @@ pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
     for text in &arguments.vary {
         trace = trace.vary(text)?;
     }
-    let study = trace.study(&problem)?;
-    let (paths, points) = (study.paths().len(), study.paths().iter().map(Vec::len).sum::<usize>());
-    if points > arguments.max_points {
-        let kilobytes = ContinuationSettings::BYTES / 1000;
-        return Err(Failure::bad_input(miette!(
-            help = format!("with --max-points {points} it is done all the same"),
-            "{points} points are more than the {} allowed: all that is found is held in memory, about {kilobytes} kB \
-             for each equilibrium at each point",
-            arguments.max_points
-        )));
-    }
-    let trace = trace.max_points(points);
+    let trace = trace.max_points(arguments.max_points);
+    let paths = trace.study(&problem)?.paths().len();
     let diagrams = diagrams(arguments.svg.as_deref(), paths);
     let outputs = arguments.csv.iter().chain(&diagrams).map(PathBuf::as_path);
     output::check(outputs, &files)?;

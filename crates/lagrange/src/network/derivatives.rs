@@ -102,7 +102,8 @@ pub struct Gradient {
 ///     Joint::free("P").with_force([0.0, 0.0, -8.0]),
 /// ];
 /// let bar = Bar::homogeneous(5.0, 0.0)?;
-/// let system = System::new("V", 9.80665, joints, vec![Member::bar(0, 2, bar), Member::bar(1, 2, bar)])?;
+/// let members = vec![Member::bar(0, 2, bar), Member::bar(1, 2, bar)];
+/// let system = System::new("V", 9.80665, joints, members)?;
 /// let solution = solve(&system, &Settings::default())?;
 /// let mut derivatives = Derivatives::new(&system, &solution)?;
 /// // W l²/(4 h³) of the ground's force on B by a move of B along X.

@@ -50,7 +50,8 @@ pub enum ForceRange {
 /// // A weight of 1 N on three cables in a plane, of sqrt 2, 1 and sqrt 2 m:
 /// // sqrt 2 a + b = 1 with a, b >= 0.
 /// let side = 2.0_f64.sqrt();
-/// let mut joints: Vec<_> = [-1.0, 0.0, 1.0].map(|x| Joint::anchor(x.to_string(), [x, 0.0, 0.0])).into();
+/// let anchor = |x: f64| Joint::anchor(x.to_string(), [x, 0.0, 0.0]);
+/// let mut joints: Vec<_> = [-1.0, 0.0, 1.0].map(anchor).into();
 /// joints.push(Joint::free("P").with_force([0.0, 0.0, -1.0]));
 /// let cable = |from, length| -> Result<Member, Box<dyn std::error::Error>> {
 ///     Ok(Member { kind: Kind::Cable, ..Member::bar(from, 3, Bar::homogeneous(length, 0.0)?) })

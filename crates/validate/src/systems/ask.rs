@@ -65,8 +65,8 @@ impl SystemAnswer {
 ///
 /// ```
 /// use validate::{answer::Solvers, systems::ask};
-/// // The paper's chain as a system of joints and members: its hanging shape has V = 2.33546865 mgl above
-/// // three lengths below joint 0, 2.33546865 - 6 from joint 0 itself.
+/// // The paper's chain as a system of joints and members: its hanging shape has
+/// // V = 2.33546865 mgl above three lengths below joint 0, 2.33546865 - 6 from joint 0 itself.
 /// let chain = model::cases::paper().into_chain();
 /// let answer = ask(&(&chain).into(), Solvers::Both, &|_| {});
 /// let energy_mgl = answer.equilibria[0].energy_j / chain.gravity_m_s2();

@@ -40,7 +40,7 @@ the documentation of the crate sweep: crates/sweep/src/lib.rs, or `cargo doc --o
 #[command(after_help = EXIT_CODES, after_long_help = format!("{EXAMPLES}\n\n{EXIT_CODES}"))]
 pub struct Sweep {
     #[command(flatten)]
-    pub source: Source,
+    pub input: Source,
     /// How many starts: 1000000, 1_000_000 or 1e6
     #[arg(long, value_name = "N", value_parser = count, allow_negative_numbers = true)]
     pub seeds: u64,
