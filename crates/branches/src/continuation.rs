@@ -14,7 +14,7 @@ use crate::error::ContinuationError;
 use crate::event::{Event, EventKind};
 use crate::path::Path;
 use crate::segment::Segment;
-use crate::study::Study;
+use crate::variation::Variation;
 
 /// What can be chosen.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -83,7 +83,7 @@ const ROUNDS: usize = 6;
 const NEARER: f64 = 0.125;
 
 impl Continuation {
-    /// Follow all equilibria along one path of a study. `watch` is told of each census.
+    /// Follow all equilibria along one path of a variation. `watch` is told of each census.
     ///
     /// # Errors
     ///
@@ -91,33 +91,33 @@ impl Continuation {
     /// point that is refused or undecided is no error: it says so.
     ///
     /// ```
-    /// use branches::{Combine, Continuation, ContinuationSettings, EventKind, Study};
+    /// use branches::{Combine, Continuation, ContinuationSettings, EventKind, Variation};
     /// // Two bars of 1 m: two positions, which meet where the anchors are 2 m apart.
     /// let vary = ["anchors.end_m.x=1.5..2.1:7".parse()?];
     /// let chain = model::system_file::parse_system(
     ///     "anchors = { start_m = [0, 0, 0], end_m = [1, 0, 0] }\n\
     ///      bars = [{ length_m = 1, mass_kg = 1, count = 2 }]", "two.toml")?;
-    /// let study = Study::new(chain, &vary, Combine::Product)?;
-    /// let found = Continuation::follow(&study, 0, &ContinuationSettings::default(), &|_| {})?;
+    /// let variation = Variation::new(chain, &vary, Combine::Product)?;
+    /// let found = Continuation::follow(&variation, 0, &ContinuationSettings::default(), &|_| {})?;
     /// assert_eq!((found.branches.len(), found.events.len()), (2, 1));
     /// assert_eq!(found.events[0].kind, EventKind::Straight);
     /// assert!((found.events[0].values[0] - 2.0).abs() < 1e-12);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn follow(
-        study: &Study,
+        variation: &Variation,
         path: usize,
         settings: &ContinuationSettings,
         watch: &(dyn Fn(Progress) + Sync),
     ) -> Result<Self, ContinuationError> {
-        let paths = study.paths();
+        let paths = variation.paths();
         let values =
             paths.get(path).ok_or(ContinuationError::NoPath { path, paths: paths.len() })?;
         let (points, most) = (values.len(), settings.max_points);
         if points > most {
             return Err(ContinuationError::TooManyPoints { points, most });
         }
-        let path = Path::new(study, values);
+        let path = Path::new(variation, values);
         let grid: Vec<_> = (0..values.len()).map(|k| (path.position(k), Some(k))).collect();
         let mut work = Work {
             path: &path,
@@ -165,8 +165,8 @@ impl Continuation {
             },
         );
         Ok(Self {
-            parameters: study.numbers().iter().map(ToString::to_string).collect(),
-            units: study.numbers().iter().map(|number| number.unit()).collect(),
+            parameters: variation.numbers().iter().map(ToString::to_string).collect(),
+            units: variation.numbers().iter().map(|number| number.unit()).collect(),
             points: points.collect(),
             directions: path.frames.direction.clone(),
             branches,

@@ -18,8 +18,8 @@ pub enum ContinuationError {
         /// Most.
         most: usize,
     },
-    /// Occurs when the path of the study that was asked for does not exist.
-    #[error("the study has {paths} paths, there is no path {path}")]
+    /// Occurs when the path of the variation that was asked for does not exist.
+    #[error("the variation has {paths} paths, there is no path {path}")]
     NoPath {
         /// The path as asked for, from 0.
         path: usize,

@@ -2,11 +2,11 @@
 //! stability.
 //!
 //! ```
-//! use branches::{Combine, Continuation, ContinuationSettings, EventKind, Study};
+//! use branches::{Combine, Continuation, ContinuationSettings, EventKind, Variation};
 //! // Three bars of 1 m between level anchors, which move from 1.1 m to 1.3 m apart.
 //! let vary = ["anchors.end_m.z=0".parse()?, "anchors.end_m.x=1.1..1.3:3".parse()?];
-//! let study = Study::new(model::cases::paper().into_chain(), &vary, Combine::Product)?;
-//! let found = Continuation::follow(&study, 0, &ContinuationSettings::default(), &|_| {})?;
+//! let variation = Variation::new(model::cases::paper().into_chain(), &vary, Combine::Product)?;
+//! let found = Continuation::follow(&variation, 0, &ContinuationSettings::default(), &|_| {})?;
 //! // The asymmetric shapes end in folds where the squared distance is 3/2.
 //! let folds = found.events.iter().filter(|event| event.kind == EventKind::Fold);
 //! let places: Vec<f64> = folds.map(|fold| fold.values[1]).collect();
@@ -85,7 +85,7 @@ mod observables;
 mod parameter;
 mod path;
 mod segment;
-mod study;
+mod variation;
 
 pub use branch::{Branch, BranchEnd, BranchPoint};
 pub use census_point::{PathPoint, PointStatus};
@@ -98,4 +98,4 @@ pub use parameter::apply::PointError;
 pub use parameter::error::ParameterError;
 pub use parameter::number::{AnchorEnd, BarField, Number, Which};
 pub use parameter::values::{MAX_POINTS, Parameter};
-pub use study::{Combine, Study};
+pub use variation::{Combine, Variation};

@@ -8,11 +8,11 @@ use model::Problem;
 
 use crate::frame::Frames;
 use crate::parameter::apply::{PointError, UncheckedChain};
-use crate::study::Study;
+use crate::variation::Variation;
 
 /// A path and the planar chains along it.
 pub(crate) struct Path<'a> {
-    study: &'a Study,
+    variation: &'a Variation,
     pub(crate) values: &'a [Vec<f64>],
     pub(crate) frames: Arc<Frames>,
     /// The interval between two points whose straight line the path is taken for, everywhere.
@@ -50,15 +50,15 @@ impl PlanarChain {
 const BEND: f64 = 1e-9;
 
 impl<'a> Path<'a> {
-    pub(crate) fn new(study: &'a Study, values: &'a [Vec<f64>]) -> Self {
+    pub(crate) fn new(variation: &'a Variation, values: &'a [Vec<f64>]) -> Self {
         let spans: Vec<[f64; 2]> = values
             .iter()
             .map(|values| {
-                let [x, y, _] = Self::chain(study, values).anchors.difference_m();
+                let [x, y, _] = Self::chain(variation, values).anchors.difference_m();
                 [x, y]
             })
             .collect();
-        Self { study, values, frames: Arc::new(Frames::new(&spans)), only: None }
+        Self { variation, values, frames: Arc::new(Frames::new(&spans)), only: None }
     }
 
     /// The path between two positions, going on straight beyond them: what comes after a bend says
@@ -68,7 +68,7 @@ impl<'a> Path<'a> {
         let (interval, _) = self.interval(0.5 * (low + high));
         let inside = self.position(interval) <= low && high <= self.position(interval + 1);
         Self {
-            study: self.study,
+            variation: self.variation,
             values: self.values,
             frames: Arc::clone(&self.frames),
             only: inside.then_some(interval),
@@ -96,7 +96,7 @@ impl<'a> Path<'a> {
 
     /// Number of bars.
     pub(crate) fn bars(&self) -> usize {
-        self.study.base().bars().len()
+        self.variation.base().bars().len()
     }
 
     /// Position of a point on the path.
@@ -136,17 +136,18 @@ impl<'a> Path<'a> {
 
     /// The problem at some values.
     pub(crate) fn problem(&self, values: &[f64]) -> Result<Problem, PointError> {
-        self.study.problem(values)
+        self.variation.problem(values)
     }
 
-    fn chain(study: &Study, values: &[f64]) -> UncheckedChain {
-        let numbers: Vec<_> = study.numbers().iter().copied().zip(values.iter().copied()).collect();
-        UncheckedChain::new(study.base(), &numbers)
+    fn chain(variation: &Variation, values: &[f64]) -> UncheckedChain {
+        let numbers: Vec<_> =
+            variation.numbers().iter().copied().zip(values.iter().copied()).collect();
+        UncheckedChain::new(variation.base(), &numbers)
     }
 
     /// The planar chain at a position; nothing is checked.
     pub(crate) fn plane(&self, position: f64) -> PlanarChain {
-        let chain = Self::chain(self.study, &self.values_at(position));
+        let chain = Self::chain(self.variation, &self.values_at(position));
         let [x, y, z] = chain.anchors.difference_m();
         let horizontal = self.frames.signed(self.interval(position).0, [x, y]);
         let unit = model::sum(chain.bars.iter().map(|bar| bar.length_m));

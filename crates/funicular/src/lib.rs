@@ -29,6 +29,7 @@
 //! | the same of any system of bars, cables and struts, elastic or not | [`Solve::run_system`] |
 //! | the same of many chains and systems in parallel | [`Solve::run_all`] |
 //! | every equilibrium, stable or not, and the proof that there is no other | [`Census`] |
+//! | the hanging shape over a parameter: sag, forces, angles | [`Study`] |
 //! | all equilibria over a parameter: branches, folds, exchanges of stability | [`Trace`] |
 //! | which start leads where, by millions | [`Sweep`] |
 //! | the same as a picture | [`Basins`] |
@@ -51,7 +52,7 @@
 //! |---|---|
 //! | `columns` | bars from Parquet |
 //! | `sweep` | [`Sweep`], [`Basins`] |
-//! | `branches` | [`Trace`] |
+//! | `branches` | [`Study`], [`Trace`] |
 //! | `paper` | [`Reproduce`] |
 //! | `program` | the program `funicular` |
 //!
@@ -68,6 +69,7 @@ mod compare;
 mod csv;
 mod equilibria;
 mod error;
+mod extremes;
 pub mod judge;
 mod modes;
 pub mod picture;
@@ -79,6 +81,8 @@ mod solution;
 mod solve;
 #[cfg(feature = "sweep")]
 pub mod starts;
+#[cfg(feature = "branches")]
+mod study;
 #[cfg(feature = "sweep")]
 mod sweep;
 mod system;
@@ -99,6 +103,8 @@ pub use self::basins::{Basins, BasinsAnswer};
 pub use self::census::{Census, CensusAnswer, SystemCensusAnswer};
 #[cfg(feature = "paper")]
 pub use self::reproduce::Reproduce;
+#[cfg(feature = "branches")]
+pub use self::study::{NoShape, Study, StudyAnswer, StudyPoint, StudyShape};
 #[cfg(feature = "sweep")]
 pub use self::sweep::{Format, PreparedSweep, Spread, Sweep, SweepAnswer};
 #[cfg(feature = "branches")]
@@ -108,6 +114,7 @@ pub use ::sweep::Field;
 pub use compare::compare;
 pub use equilibria::system_of;
 pub use error::Error;
+pub use extremes::Extremes;
 pub use judge::{Judge, Judged};
 pub use modes::{JointAt, Mode, Modes, ModesAnswer, Summary, WithModes};
 pub use problem::{Problem, case, case_text};

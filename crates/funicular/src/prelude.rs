@@ -17,6 +17,8 @@ pub use crate::reproduce::Reproduce;
 pub use crate::simulate::{Simulate, Start};
 pub use crate::solution::Solution;
 pub use crate::solve::Solve;
+#[cfg(feature = "branches")]
+pub use crate::study::Study;
 #[cfg(feature = "sweep")]
 pub use crate::sweep::{Spread, Sweep};
 pub use crate::system::SystemSolution;

@@ -4,7 +4,7 @@ use std::io::{self, Write};
 
 use branches::{
     Abscissa, Checks, Combine, Continuation, ContinuationError, ContinuationSettings, Parameter,
-    PointStatus, Progress, Study,
+    PointStatus, Progress, Variation,
 };
 
 use model::SystemSummary;
@@ -83,16 +83,16 @@ impl Trace {
     /// # Errors
     ///
     /// [`Error::Parameter`] when a parameter does not fit the chain.
-    pub fn study(&self, problem: &Problem) -> Result<Study, Error> {
+    pub fn variation(&self, problem: &Problem) -> Result<Variation, Error> {
         let chain = problem.chain_for("a trace")?.chain().clone();
-        Ok(Study::new(chain, &self.parameters, self.combine)?)
+        Ok(Variation::new(chain, &self.parameters, self.combine)?)
     }
 
     /// Follow all equilibria.
     ///
     /// # Errors
     ///
-    /// As [`study`](Self::study), and [`Error::Continuation`] when the chain is too long for a
+    /// As [`variation`](Self::variation), and [`Error::Continuation`] when the chain is too long for a
     /// census, or the paths have more points together than
     /// [`max_points`](Self::max_points) allows. A point that is refused or undecided is no error: it
     /// says so.
@@ -110,19 +110,19 @@ impl Trace {
         problem: &Problem,
         watch: &(dyn Fn(usize, Progress) + Sync),
     ) -> Result<TraceAnswer, Error> {
-        let study = self.study(problem)?;
+        let variation = self.variation(problem)?;
         let (points, most) =
-            (study.paths().iter().map(Vec::len).sum::<usize>(), self.settings.max_points);
+            (variation.paths().iter().map(Vec::len).sum::<usize>(), self.settings.max_points);
         if points > most {
             return Err(ContinuationError::TooManyPoints { points, most }.into());
         }
         threads::on(self.threads, || {
             let follow = |path| {
                 let watch = |progress| watch(path, progress);
-                Continuation::follow(&study, path, &self.settings, &watch)
+                Continuation::follow(&variation, path, &self.settings, &watch)
             };
-            let paths = (0..study.paths().len()).map(follow).collect::<Result<_, _>>()?;
-            Ok(TraceAnswer { system: study.base().summary(), paths })
+            let paths = (0..variation.paths().len()).map(follow).collect::<Result<_, _>>()?;
+            Ok(TraceAnswer { system: variation.base().summary(), paths })
         })?
     }
 }

@@ -4,7 +4,7 @@ use model::{Anchors, Bar, BarError, Chain, ChainError, Problem, Refusal};
 
 use crate::parameter::number::{AnchorEnd, BarField, Number, Which};
 
-/// Why a point of a study is refused: the values describe no problem.
+/// Why a point of a variation is refused: the values describe no problem.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum PointError {

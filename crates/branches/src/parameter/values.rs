@@ -8,7 +8,7 @@ use model::Chain;
 use crate::parameter::error::ParameterError;
 use crate::parameter::number::{Number, Which};
 
-/// Most values of one parameter, and most points of a study: each costs a census.
+/// Most values of one parameter, and most points of a variation: each costs a census.
 pub const MAX_POINTS: usize = 1_000_000;
 
 /// One number of the system file and the values it takes.

@@ -1,7 +1,8 @@
 //! Branches, folds and exchanges against closed forms and independent censuses.
 
 use branches::{
-    Branch, BranchEnd, Combine, Continuation, ContinuationSettings, EventKind, PointStatus, Study,
+    Branch, BranchEnd, Combine, Continuation, ContinuationSettings, EventKind, PointStatus,
+    Variation,
 };
 
 /// Positions of events must be this good: the issue asks for 1e-10 in the parameter.
@@ -10,8 +11,8 @@ const PARAMETER: f64 = 1e-10;
 fn run(case: &str, vary: &[&str], path: usize) -> Continuation {
     let chain = model::cases::get(case).unwrap().problem().into_chain();
     let vary: Vec<_> = vary.iter().map(|text| text.parse().unwrap()).collect();
-    let study = Study::new(chain, &vary, Combine::Product).unwrap();
-    Continuation::follow(&study, path, &ContinuationSettings::default(), &|_| {}).unwrap()
+    let variation = Variation::new(chain, &vary, Combine::Product).unwrap();
+    Continuation::follow(&variation, path, &ContinuationSettings::default(), &|_| {}).unwrap()
 }
 
 /// The checks of the trace itself, and those that need only its data.
@@ -264,6 +265,6 @@ fn a_number_is_set_once() {
     let chain = model::cases::get("three-equal-bars").unwrap().problem().into_chain();
     let vary = ["bars.1.length_m=0.5,0.6,0.7", "bars.*.length_m=1.0"];
     let vary: Vec<_> = vary.iter().map(|text| text.parse().unwrap()).collect();
-    let error = Study::new(chain, &vary, Combine::Product).unwrap_err();
+    let error = Variation::new(chain, &vary, Combine::Product).unwrap_err();
     assert!(error.what.contains("`bars.1.length_m` and `bars.*.length_m` set one number"));
 }

@@ -2,7 +2,7 @@
 
 use branches::{
     Combine, Continuation, ContinuationError, ContinuationSettings, Parameter, ParameterError,
-    Study,
+    Variation,
 };
 use model::Chain;
 
@@ -26,9 +26,10 @@ fn paths_reach_every_number_of_a_system_file() {
         ("bars.1.centre_m", 0.125, "centre_m = 0.125"),
         ("bars.1.inertia_kg_m2.2", 3.0, "inertia_kg_m2 = [0.0, 3.0"),
     ] {
-        let study = Study::new(paper(), &[vary(&format!("{path}={value}"))], Combine::Product);
-        let study = study.unwrap();
-        let problem = study.problem(&study.paths()[0][0]).unwrap();
+        let variation =
+            Variation::new(paper(), &[vary(&format!("{path}={value}"))], Combine::Product);
+        let variation = variation.unwrap();
+        let problem = variation.problem(&variation.paths()[0][0]).unwrap();
         let text = model::system_file::write_system(problem.chain());
         assert!(text.contains(wanted), "{path}: {wanted} is not in\n{text}");
     }
@@ -36,12 +37,13 @@ fn paths_reach_every_number_of_a_system_file() {
 
 #[test]
 fn a_centre_in_the_middle_stays_there() {
-    let study = Study::new(paper(), &[vary("bars.*.length_m=2")], Combine::Product).unwrap();
-    let problem = study.problem(&[2.0]).unwrap();
+    let variation =
+        Variation::new(paper(), &[vary("bars.*.length_m=2")], Combine::Product).unwrap();
+    let problem = variation.problem(&[2.0]).unwrap();
     assert!(problem.chain().bars().iter().all(|bar| bar.centre_m().to_bits() == 1.0_f64.to_bits()));
     let moved = [vary("bars.1.centre_m=0.9"), vary("bars.1.length_m=0.8")];
-    let study = Study::new(paper(), &moved, Combine::Product).unwrap();
-    let error = study.problem(&[0.9, 0.8]).unwrap_err();
+    let variation = Variation::new(paper(), &moved, Combine::Product).unwrap();
+    let error = variation.problem(&[0.9, 0.8]).unwrap_err();
     assert!(error.to_string().starts_with("bar 1: the centre of weight must lie on the bar"));
 }
 
@@ -58,14 +60,14 @@ fn ranges_have_exact_ends_and_an_exact_zero() {
 #[test]
 fn products_and_steps() {
     let two = [vary("bars.2.mass_kg=1,2"), vary("anchors.end_m.z=-2,-1.5,-1.2")];
-    let study = Study::new(paper(), &two, Combine::Product).unwrap();
-    assert_eq!(study.paths().len(), 2);
-    assert_eq!(study.paths()[1][2], [2.0, -1.2]);
-    let error = Study::new(paper(), &two, Combine::Zip).unwrap_err();
+    let variation = Variation::new(paper(), &two, Combine::Product).unwrap();
+    assert_eq!(variation.paths().len(), 2);
+    assert_eq!(variation.paths()[1][2], [2.0, -1.2]);
+    let error = Variation::new(paper(), &two, Combine::Zip).unwrap_err();
     assert!(error.to_string().contains("3 values, but `bars.2.mass_kg` has 2"), "{error}");
     let two = [vary("bars.2.mass_kg=1,2"), vary("anchors.end_m.z=-2,-1.5")];
-    let study = Study::new(paper(), &two, Combine::Zip).unwrap();
-    assert_eq!(study.paths(), [[[1.0, -2.0], [2.0, -1.5]]]);
+    let variation = Variation::new(paper(), &two, Combine::Zip).unwrap();
+    assert_eq!(variation.paths(), [[[1.0, -2.0], [2.0, -1.5]]]);
 }
 
 #[test]
@@ -106,15 +108,15 @@ fn errors_say_what_where_and_what_is_allowed() {
 
 #[test]
 fn errors_of_the_chain_and_of_the_whole() {
-    let study = |texts: &[&str]| -> ParameterError {
+    let variation = |texts: &[&str]| -> ParameterError {
         let all: Vec<Parameter> = texts.iter().map(|text| vary(text)).collect();
-        Study::new(paper(), &all, Combine::Product).unwrap_err()
+        Variation::new(paper(), &all, Combine::Product).unwrap_err()
     };
-    let error = study(&["bars.12.mass_kg=1"]);
+    let error = variation(&["bars.12.mass_kg=1"]);
     assert_eq!((error.column(), error.span.len()), (6, 2));
     assert_eq!(error.what, "there is no bar 12");
-    assert!(study(&["gravity_m_s2=1", "gravity_m_s2=2"]).what.contains("varied twice"));
-    let error = study(&["gravity_m_s2=1..2:1001", "bars.1.mass_kg=1..2:1000"]);
+    assert!(variation(&["gravity_m_s2=1", "gravity_m_s2=2"]).what.contains("varied twice"));
+    let error = variation(&["gravity_m_s2=1..2:1001", "bars.1.mass_kg=1..2:1000"]);
     assert!(error.what.contains("too many combinations"), "{error}");
 }
 
@@ -145,9 +147,10 @@ fn random_bytes_never_panic() {
 /// Before a census is taken.
 #[test]
 fn more_points_than_memory_are_refused() {
-    let study = Study::new(paper(), &[vary("anchors.end_m.z=-2.5..-0.5:101")], Combine::Product);
+    let variation =
+        Variation::new(paper(), &[vary("anchors.end_m.z=-2.5..-0.5:101")], Combine::Product);
     let settings = ContinuationSettings { max_points: 100, ..ContinuationSettings::default() };
     let watched = |_| panic!("a census was taken");
-    let error = Continuation::follow(&study.unwrap(), 0, &settings, &watched).unwrap_err();
+    let error = Continuation::follow(&variation.unwrap(), 0, &settings, &watched).unwrap_err();
     assert_eq!(error, ContinuationError::TooManyPoints { points: 101, most: 100 });
 }

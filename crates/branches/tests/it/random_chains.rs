@@ -1,7 +1,7 @@
 //! Chains nobody chose: branches against censuses and closed forms, on coarse grids and on fine
 //! ones.
 
-use branches::{Combine, Continuation, ContinuationSettings, EventKind, Study};
+use branches::{Combine, Continuation, ContinuationSettings, EventKind, Variation};
 use census::{Census, Settings};
 
 /// Positions of events must be this good.
@@ -39,9 +39,9 @@ fn draw(random: &mut Random) -> Drawn {
     Drawn { lengths, height, text }
 }
 
-fn study(text: &str, vary: &str) -> Study {
+fn variation(text: &str, vary: &str) -> Variation {
     let chain = model::system_file::parse_system(text, "random").unwrap();
-    Study::new(chain, &[vary.parse().unwrap()], Combine::Product).unwrap()
+    Variation::new(chain, &[vary.parse().unwrap()], Combine::Product).unwrap()
 }
 
 fn places(trace: &Continuation, kind: EventKind) -> Vec<f64> {
@@ -76,11 +76,11 @@ fn indices(branches: &Continuation, position: f64) -> Vec<usize> {
 }
 
 /// The branches at as many values as given, none of them a value of the trace.
-fn counts(study: &Study, trace: &Continuation, range: [f64; 2], values: usize) {
+fn counts(variation: &Variation, trace: &Continuation, range: [f64; 2], values: usize) {
     let mut compared = 0;
     for k in 0..values {
         let position = (k as f64 + 0.371_9) / values as f64;
-        let problem = study.problem(&[range[0] + position * (range[1] - range[0])]);
+        let problem = variation.problem(&[range[0] + position * (range[1] - range[0])]);
         let Ok(problem) = problem else { continue };
         let census = Census::take(&problem, &Settings::default()).unwrap();
         if !census.complete {
@@ -103,10 +103,13 @@ fn random_chains_have_the_branches_of_their_censuses() {
         let range = [0.1, (0.97 * total * 1e3).round() / 1e3];
         let mut coarse_folds = None;
         for points in [9, 70] {
-            let study =
-                study(&drawn.text, &format!("anchors.end_m.x={}..{}:{points}", range[0], range[1]));
+            let variation = variation(
+                &drawn.text,
+                &format!("anchors.end_m.x={}..{}:{points}", range[0], range[1]),
+            );
             let trace =
-                Continuation::follow(&study, 0, &ContinuationSettings::default(), &|_| {}).unwrap();
+                Continuation::follow(&variation, 0, &ContinuationSettings::default(), &|_| {})
+                    .unwrap();
             let which = format!("{points} points of\n{}", drawn.text);
             assert!(trace.checks.agree(), "{:?} {which}", trace.checks);
             // Without symmetry nothing branches.
@@ -116,7 +119,7 @@ fn random_chains_have_the_branches_of_their_censuses() {
             for (found, wanted) in found.iter().zip(&wanted) {
                 assert!((found - wanted).abs() <= PARAMETER, "{found} {wanted} {which}");
             }
-            counts(&study, &trace, range, 60);
+            counts(&variation, &trace, range, 60);
             let folds = places(&trace, EventKind::Fold);
             let coarse: &Vec<f64> = coarse_folds.get_or_insert_with(|| folds.clone());
             assert_eq!(folds.len(), coarse.len(), "{folds:?} {coarse:?} {which}");
@@ -137,9 +140,9 @@ fn a_fold_next_to_a_straight_chain_is_not_stepped_over() {
     let straight: [f64; 2] = [0.436 + 1.076 - 0.53, 1.076 + 0.53 - 0.436];
     let straight = straight.map(|reach| (reach * reach - 0.22 * 0.22).sqrt());
     for points in [7, 100, 233, 700] {
-        let study = study(TEXT, &format!("anchors.end_m.x=0.1..1.94:{points}"));
+        let variation = variation(TEXT, &format!("anchors.end_m.x=0.1..1.94:{points}"));
         let trace =
-            Continuation::follow(&study, 0, &ContinuationSettings::default(), &|_| {}).unwrap();
+            Continuation::follow(&variation, 0, &ContinuationSettings::default(), &|_| {}).unwrap();
         assert!(trace.checks.agree(), "{points}: {:?}", trace.checks);
         let found = places(&trace, EventKind::Straight);
         assert_eq!(found.len(), straight.len(), "{points}: {found:?}");

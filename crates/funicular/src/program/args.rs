@@ -38,6 +38,7 @@ Examples:
   funicular judge net.toml --answer theirs.csv --html verdict.html    somebody else's answer, judged
   funicular census chain.toml --svg shapes.svg   every equilibrium, and the proof that there is no other
   funicular sweep chain.toml --seeds 1000000 --out starts    which start leads where
+  funicular study chain.toml --vary anchors.end_m.x=0.5..2.6:50 --svg sag.svg
   funicular trace chain.toml --vary anchors.end_m.z=-2.9..-0.1:200 --svg diagram.svg
   funicular modes chain.toml                 frequencies, and rates of leaving
   funicular simulate chain.toml --from seed:7 --damping 0.5 --html motion.html    released, it comes to rest
@@ -93,6 +94,8 @@ pub enum Command {
     Sweep(crate::sweep::Sweep),
     /// Join the shards of a sweep, and prove that nothing is missing or double
     Merge(crate::merge::Merge),
+    /// Solve a chain over numbers of its file: sag, forces and angles of the hanging shape
+    Study(crate::study::Arguments),
     /// Follow all equilibria over a parameter: branches, folds, exchanges of stability
     Trace(crate::trace::Arguments),
     /// Draw which start leads where, by both solvers

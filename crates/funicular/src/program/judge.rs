@@ -45,7 +45,8 @@ pub struct Judge {
     /// Print one JSON object (schema_version 2) instead of tables
     #[arg(long)]
     pub json: bool,
-    /// Write the judgement as a page that needs nothing else
+    /// Write the judgement as a page that needs nothing else (of several answers: FILE-1.html,
+    /// FILE-2.html, ...)
     #[arg(long, value_name = "FILE")]
     pub html: Option<PathBuf>,
 }
@@ -81,12 +82,16 @@ pub fn run(arguments: &Judge) -> Result<Exit, Failure> {
     progress.say("reading");
     let (subject, mut files) = foreign_input::system(arguments)?;
     let answers = answers(arguments, &subject, &mut files)?;
-    output::check(arguments.html.as_deref(), &files)?;
+    let pages = arguments
+        .html
+        .as_deref()
+        .map_or_else(Vec::new, |path| output::numbered(path, answers.len()));
+    output::check(pages.iter().map(PathBuf::as_path), &files)?;
     let judge = funicular::Judge::new().tolerance(arguments.tolerance);
     let one = |answer| subject.judge(&judge, answer, &|what| progress.say(what));
     let all = answers.into_iter().map(one).collect::<Result<Vec<_>, _>>()?;
-    if let Some(path) = &arguments.html {
-        write_pages(path, &all)?;
+    for (page, one) in pages.iter().zip(&all) {
+        output::write_whole(page, &one.html())?;
     }
     drop(progress);
     if arguments.json {
@@ -138,21 +143,4 @@ fn answers(
         files.push(path.clone());
     }
     Ok(answers)
-}
-
-/// One page, or a page for each answer with its number before the ending.
-fn write_pages(path: &Path, all: &[Ruling]) -> Result<(), Failure> {
-    for (k, one) in all.iter().enumerate() {
-        let page = one.html();
-        if k == 0 {
-            output::write_whole(path, &page)?;
-            continue;
-        }
-        let stem = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-        let ending = path.extension().unwrap_or_default().to_string_lossy().into_owned();
-        let numbered = path.with_file_name(format!("{stem}-{}.{ending}", k + 1));
-        output::check([numbered.as_path()], &[])?;
-        output::write_whole(&numbered, &page)?;
-    }
-    Ok(())
 }

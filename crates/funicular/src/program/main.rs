@@ -27,6 +27,7 @@ mod reproduce;
 mod shape;
 mod simulate;
 mod solve;
+mod study;
 mod sweep;
 mod system;
 mod tables;
@@ -49,6 +50,7 @@ fn main() -> std::process::ExitCode {
         Command::Judge(arguments) => judge::run(&arguments),
         Command::Sweep(arguments) => sweep::run(&arguments),
         Command::Merge(arguments) => merge::run(&arguments),
+        Command::Study(arguments) => study::run(&arguments),
         Command::Trace(arguments) => trace::run(&arguments),
         Command::Basins(arguments) => basins::run(&arguments),
         Command::Modes(arguments) => modes::run(&arguments),

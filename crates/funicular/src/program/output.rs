@@ -117,6 +117,20 @@ pub fn not_written(what: &str, error: &io::Error) -> Failure {
     }
 }
 
+/// The files for several results: the path itself for one, `name-1.svg`, `name-2.svg`, ... for
+/// more.
+pub fn numbered(path: &Path, results: usize) -> Vec<PathBuf> {
+    if results == 1 {
+        return vec![path.to_owned()];
+    }
+    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+    let name = |number: usize| match path.extension() {
+        Some(extension) => format!("{stem}-{number}.{}", extension.to_string_lossy()),
+        None => format!("{stem}-{number}"),
+    };
+    (1..=results).map(|number| path.with_file_name(name(number))).collect()
+}
+
 /// Write a file, so that an interruption leaves the old file or the new one and never half of
 /// either.
 pub fn write_whole(path: &Path, text: &str) -> Result<(), Failure> {

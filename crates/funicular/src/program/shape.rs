@@ -2,6 +2,7 @@
 
 use std::fmt::Write as _;
 
+use funicular::Extremes;
 use model::Vector;
 
 use crate::tables::{numbers_from, short, table, wrapped};
@@ -155,33 +156,25 @@ impl Shape<'_> {
 
     /// Sag, lowest joint, largest forces and where.
     fn summary(&self) -> String {
-        let mut text = String::new();
+        let supports = self.reactions_n.iter().map(|(joint, _)| *joint);
+        let Some(extremes) = Extremes::of(self.joints_m, supports, self.axial_n) else {
+            return "\n".to_owned();
+        };
         let places = Rounded::of(self.joints_m.as_flattened());
-        let lowest = (0..self.joints_m.len())
-            .min_by(|a, b| self.joints_m[*a][2].total_cmp(&self.joints_m[*b][2]));
-        if let Some(joint) = lowest {
-            let at = self.joints_m[joint].map(|x| places.short(x)).join(", ");
-            // Writing to a String cannot fail.
-            let _ = writeln!(text, "Lowest joint: {}, at ({at}) m.", (self.name)(joint));
-            let held = self.reactions_n.iter().map(|(joint, _)| self.joints_m[*joint][2]);
-            if let Some(support) = held.min_by(f64::total_cmp) {
-                let sag = places.number(support - self.joints_m[joint][2]);
-                let _ = writeln!(text, "Sag: {} m below the lowest support.", short(sag));
-            }
+        let at = extremes.lowest_m.map(|x| places.short(x)).join(", ");
+        let mut text =
+            format!("Lowest joint: {}, at ({at}) m.\n", (self.name)(extremes.lowest_joint));
+        // Writing to a String cannot fail.
+        if let Some(sag_m) = extremes.sag_m {
+            let sag = places.short(sag_m);
+            let _ = writeln!(text, "Sag: {sag} m below the lowest support.");
         }
-        let axial = Rounded::of(self.axial_n);
-        let bars = || 0..self.axial_n.len();
-        let by_force = |a: &usize, b: &usize| self.axial_n[*a].total_cmp(&self.axial_n[*b]);
-        let ends = [("tension", bars().max_by(by_force)), ("compression", bars().min_by(by_force))];
-        for (what, bar) in ends {
-            let Some(bar) = bar else { continue };
-            let force = axial.number(self.axial_n[bar]);
-            if (force > 0.0) == (what == "tension") && force.abs() > 0.0 {
-                let [from, to] = (self.ends)(bar).map(|joint| (self.name)(joint));
-                let size = short(force.abs());
-                let _ =
-                    writeln!(text, "Largest {what}: {size} N, in the member from {from} to {to}.");
-            }
+        let ends = [("tension", extremes.tension_n), ("compression", extremes.compression_n)];
+        for (what, largest) in ends {
+            let Some((bar, force_n)) = largest else { continue };
+            let [from, to] = (self.ends)(bar).map(|joint| (self.name)(joint));
+            let size = short(force_n);
+            let _ = writeln!(text, "Largest {what}: {size} N, in the member from {from} to {to}.");
         }
         text + "\n"
     }

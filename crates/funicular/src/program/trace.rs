@@ -2,7 +2,7 @@
 
 mod text;
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use branches::{Abscissa, Combine};
 use clap::Args;
@@ -115,8 +115,9 @@ pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
         trace = trace.vary(text)?;
     }
     let trace = trace.max_points(arguments.max_points);
-    let paths = trace.study(&problem)?.paths().len();
-    let diagrams = diagrams(arguments.svg.as_deref(), paths);
+    let paths = trace.variation(&problem)?.paths().len();
+    let diagrams =
+        arguments.svg.as_deref().map_or_else(Vec::new, |path| output::numbered(path, paths));
     let outputs = arguments.csv.iter().chain(&diagrams).map(PathBuf::as_path);
     output::check(outputs, &files)?;
     let progress = Progress::start();
@@ -162,23 +163,4 @@ fn verdict(found: &TraceAnswer) -> Result<Exit, Failure> {
     } else {
         Exit::Undecided
     })
-}
-
-/// Where the diagrams go, one for each path.
-fn diagrams(svg: Option<&Path>, paths: usize) -> Vec<PathBuf> {
-    match svg {
-        None => Vec::new(),
-        Some(path) if paths == 1 => vec![path.to_owned()],
-        Some(path) => (1..=paths).map(|number| numbered(path, number)).collect(),
-    }
-}
-
-/// `name.svg` with a number: `name-2.svg`.
-fn numbered(path: &Path, number: usize) -> PathBuf {
-    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
-    let name = match path.extension() {
-        Some(extension) => format!("{stem}-{number}.{}", extension.to_string_lossy()),
-        None => format!("{stem}-{number}"),
-    };
-    path.with_file_name(name)
 }

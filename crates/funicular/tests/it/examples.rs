@@ -5,8 +5,18 @@
 use std::process::Command;
 
 /// The examples that the tests below run.
-const RUN: [&str; 9] =
-    ["batch", "census", "judge", "modes", "simulate", "solve", "sweep", "third_solver", "trace"];
+const RUN: [&str; 10] = [
+    "batch",
+    "census",
+    "judge",
+    "modes",
+    "simulate",
+    "solve",
+    "study",
+    "sweep",
+    "third_solver",
+    "trace",
+];
 
 /// Standard output and standard error of an example.
 fn run(name: &str) -> (String, String) {
@@ -122,6 +132,20 @@ fn trace() {
     assert!(text.ends_with("every census between agrees: true\n"), "{text}");
     // The chain is straight where the anchors are as far apart as its bars reach.
     assert!(text.contains("straight at x = 2.500000000 m"), "{text}");
+}
+
+#[test]
+fn study() {
+    let (text, _) = run("study");
+    assert!(text.ends_with("both solvers agree everywhere: true\n"), "{text}");
+    let rows = rows(&text);
+    // By the triangles 3, 4, 5 and 4, 3, 5: the middle joint carries 20 N.
+    for (row, sag, half) in [(&rows[0], 0.8, 0.6), (&rows[1], 0.6, 0.8)] {
+        assert!((row[1].parse::<f64>().unwrap() - sag).abs() < 1e-6, "{text}");
+        assert!((row[2].parse::<f64>().unwrap() - 10.0 * half / sag).abs() < 1e-6, "{text}");
+    }
+    // Out of reach.
+    assert_eq!(&rows[3][..2], &["2.2", ""], "{text}");
 }
 
 #[test]

@@ -11,6 +11,7 @@ mod motion;
 mod pages;
 mod program;
 mod starts;
+mod study;
 mod sweep;
 mod systems;
 mod trace;

@@ -3,10 +3,10 @@
 use model::Vector;
 use nalgebra::{DMatrix, DVector, Matrix3, SymmetricEigen, Vector3};
 
-use super::planes::Sector;
+use super::planes::{Direction, FLAT, Sector};
 use crate::mechanism::{Link, Mechanism};
 use crate::state::State;
-use crate::vector::{dot, norm};
+use crate::vector::{dot, norm, times};
 
 /// Rows of the constraints whose part independent of the others is less than this, relative, are
 /// dependent.
@@ -137,20 +137,29 @@ impl<'a> Stiffness<'a> {
     fn rows(&self, sector: &Sector) -> DMatrix<f64> {
         let (moving, axes) = (self.mechanism.moving, &sector.axes);
         let mut rows = DMatrix::zeros(self.vectors.len(), moving * axes.len());
-        let mut put = |row: usize, slot: usize, sign: f64, unit: f64| {
+        // In the plane of an equilibrium bars have no part across it, and supports are along it or
+        // across: what is left of these parts is rounding, and would be taken for a constraint.
+        let part = |axis: Vector, unit: Vector| {
+            let part = dot(axis, unit);
+            if part.abs() > FLAT { part } else { 0.0 }
+        };
+        let mut put = |row: usize, slot: usize, sign: f64, unit: Vector| {
             if slot < moving {
                 for (k, axis) in axes.iter().enumerate() {
-                    rows[(row, slot * axes.len() + k)] =
-                        sign * dot(*axis, self.vectors[row]) / unit;
+                    rows[(row, slot * axes.len() + k)] = sign * part(*axis, unit);
                 }
             }
         };
-        for (row, link) in self.mechanism.bars.iter().enumerate() {
-            put(row, link.a, -1.0, link.length_m);
-            put(row, link.b, 1.0, link.length_m);
+        if sector.direction != Direction::Across {
+            for (row, link) in self.mechanism.bars.iter().enumerate() {
+                let unit = times(1.0 / link.length_m, self.vectors[row]);
+                put(row, link.a, -1.0, unit);
+                put(row, link.b, 1.0, unit);
+            }
         }
         for (k, slide) in self.mechanism.slides.iter().enumerate() {
-            put(self.mechanism.bars.len() + k, slide.slot, 1.0, 1.0);
+            let row = self.mechanism.bars.len() + k;
+            put(row, slide.slot, 1.0, self.vectors[row]);
         }
         rows
     }

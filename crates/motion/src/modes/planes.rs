@@ -18,7 +18,7 @@ pub enum Direction {
 }
 
 /// How far from a plane joints may be and still lie in it, relative to the total length: rounding.
-const FLAT: f64 = 1e-11;
+pub(super) const FLAT: f64 = 1e-11;
 
 /// Directions of displacement that the others do not act on: the same for every joint.
 #[derive(Debug, Clone)]

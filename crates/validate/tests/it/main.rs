@@ -16,6 +16,7 @@ mod first_tries;
 mod gallery;
 mod independence;
 mod integer_chains;
+mod moving;
 mod networks;
 mod networks_census;
 mod paper;

@@ -10,11 +10,11 @@ use crate::parameter::values::{MAX_POINTS, Parameter};
 /// How several parameters are combined.
 ///
 /// ```
-/// use branches::{Combine, Study};
+/// use branches::{Combine, Variation};
 /// let vary = ["bars.1.mass_kg=1,2".parse()?, "bars.3.mass_kg=3,4".parse()?];
 /// let paths = |combine| {
-///     let study = Study::new(model::cases::paper().into_chain(), &vary, combine);
-///     study.map(|study| study.paths().to_vec())
+///     let variation = Variation::new(model::cases::paper().into_chain(), &vary, combine);
+///     variation.map(|variation| variation.paths().to_vec())
 /// };
 /// assert_eq!(paths(Combine::Product)?, [[[1.0, 3.0], [1.0, 4.0]], [[2.0, 3.0], [2.0, 4.0]]]);
 /// assert_eq!(paths(Combine::Zip)?, [[[1.0, 3.0], [2.0, 4.0]]]);
@@ -34,15 +34,15 @@ pub enum Combine {
 /// Along a path the branches of equilibria are followed. In a product the last parameter runs along
 /// the path, and each combination of the others has a path of its own; in step there is one path.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Study {
+pub struct Variation {
     base: Chain,
     numbers: Vec<Number>,
     /// For each path, for each point, for each number.
     paths: Vec<Vec<Vec<f64>>>,
 }
 
-impl Study {
-    /// The study of a chain over parameters.
+impl Variation {
+    /// The variation of a chain over parameters.
     ///
     /// # Errors
     ///
@@ -50,12 +50,12 @@ impl Study {
     /// differ in length, or there are more than [`MAX_POINTS`] points.
     ///
     /// ```
-    /// use branches::{Combine, Study};
+    /// use branches::{Combine, Variation};
     /// let chain = model::cases::paper().into_chain();
     /// let vary = ["bars.2.mass_kg=1,2,3".parse()?, "anchors.end_m.z=-2.5..-0.5:5".parse()?];
-    /// let study = Study::new(chain.clone(), &vary, Combine::Product)?;
-    /// assert_eq!((study.paths().len(), study.paths()[0].len()), (3, 5));
-    /// assert!(Study::new(chain, &vary, Combine::Zip).is_err());
+    /// let variation = Variation::new(chain.clone(), &vary, Combine::Product)?;
+    /// assert_eq!((variation.paths().len(), variation.paths()[0].len()), (3, 5));
+    /// assert!(Variation::new(chain, &vary, Combine::Zip).is_err());
     /// # Ok::<(), branches::ParameterError>(())
     /// ```
     pub fn new(base: Chain, vary: &[Parameter], combine: Combine) -> Result<Self, ParameterError> {
@@ -105,12 +105,12 @@ impl Study {
     /// [`PointError`] when the values describe no problem.
     ///
     /// ```
-    /// use branches::{Combine, PointError, Study};
+    /// use branches::{Combine, PointError, Variation};
     /// let vary = ["anchors.end_m.z=-3.1..-0.1:61".parse()?];
-    /// let study = Study::new(model::cases::paper().into_chain(), &vary, Combine::Product)?;
-    /// assert_eq!(study.problem(&[-2.5])?.chain().anchors().span_m(), 2.5);
+    /// let variation = Variation::new(model::cases::paper().into_chain(), &vary, Combine::Product)?;
+    /// assert_eq!(variation.problem(&[-2.5])?.chain().anchors().span_m(), 2.5);
     /// // Three bars of 1 m reach no farther than 3 m.
-    /// assert!(study.problem(&[-3.1]).is_err());
+    /// assert!(variation.problem(&[-3.1]).is_err());
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn problem(&self, values: &[f64]) -> Result<Problem, PointError> {

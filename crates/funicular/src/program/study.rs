@@ -1,0 +1,246 @@
+//! `funicular study`: the hanging shape over a parameter.
+
+use std::fmt::Write as _;
+use std::path::PathBuf;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use branches::Combine;
+use clap::Args;
+use funicular::{Study, StudyAnswer, StudyPoint};
+use miette::miette;
+
+use crate::exit::{Exit, Failure};
+use crate::input::{Input, Source};
+use crate::interrupt::end_on_interrupt;
+use crate::output;
+use crate::printable::Printable;
+use crate::progress::Progress;
+use crate::tables::{numbers_from, short, table, wrapped};
+use crate::threads;
+
+/// What `--csv` writes, in `--help`; the head of the file is tested against it.
+const CSV: &str = "\
+Write a line per point to this CSV file
+
+Columns:
+  path                       number of the path, from 1: each combination of all parameters but the last
+  one for each parameter     its value, in the unit of the system file
+  span_m                     distance of the anchors
+  agrees                     whether both solvers agree and the judge finds both in balance
+  evidence                   the highest rung reached
+  energy_j, sag_m            energy above the first joint; depth of the lowest joint below the lower anchor
+  lowest_joint, lowest_x_m, lowest_y_m, lowest_z_m
+                             the lowest joint, from 0, and where it is
+  tension_n, tension_bar, compression_n, compression_bar
+                             the largest axial forces and their bars, from 1; empty where there is none
+  start_x_n, start_y_n, start_z_n, end_x_n, end_y_n, end_z_n
+                             forces of the ground on the chain
+  rise_1_deg, ...            how steeply each bar rises, from the level
+  refused                    why there is no shape; else empty";
+
+const EXAMPLES: &str = "\
+A parameter is any number of the system file and its values, as in `funicular trace`:
+  --vary anchors.end_m.x=0.5..2.6:50        --vary bars.2.mass_kg=0.1,1,10
+
+Examples:
+  funicular study chain.toml --vary anchors.end_m.x=0.5..2.6:50 --svg sag.svg
+  funicular study --case three-equal-bars --vary anchors.end_m.z=-2.9..-0.1:100 --csv study.csv
+
+Exit codes:
+  0  done; both solvers agree wherever a chain can hang
+  1  a check failed: the solvers disagree somewhere
+  2  bad input or usage, or no point describes a chain
+  3  a solver has no answer somewhere
+130  interrupted; no file is half written";
+
+/// Points of a path printed one by one; of more, as many spread over the path.
+const PRINTED: usize = 24;
+
+/// `funicular study`.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub struct Arguments {
+    #[command(flatten)]
+    pub input: Source,
+    /// A number of the system file and its values: `anchors.end_m.x=0.5..2.6:50` (repeatable)
+    #[arg(long, value_name = "KEY=VALUES", required = true, allow_hyphen_values = true)]
+    pub vary: Vec<String>,
+    /// Take the values of several parameters in step instead of in all combinations
+    #[arg(long)]
+    pub zip: bool,
+    /// Print one JSON object (schema_version 2) instead of tables
+    #[arg(long)]
+    pub json: bool,
+    /// Write a line per point to this CSV file (columns: --help)
+    #[arg(long, value_name = "FILE", long_help = CSV)]
+    pub csv: Option<PathBuf>,
+    /// Draw sag, forces and angles over the last parameter to this SVG file (with several paths:
+    /// FILE-1.svg, FILE-2.svg, ...)
+    #[arg(long, value_name = "FILE")]
+    pub svg: Option<PathBuf>,
+    /// Threads that share the work; 0 for one per processor
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub threads: usize,
+}
+
+/// Run the command.
+pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
+    end_on_interrupt()?;
+    threads::install(arguments.threads)?;
+    let Input { problem, files } = arguments.input.read()?;
+    let combine = if arguments.zip { Combine::Zip } else { Combine::Product };
+    let mut study = Study::new().combine(combine);
+    for text in &arguments.vary {
+        study = study.vary(text)?;
+    }
+    let variation = study.variation(&problem)?;
+    let (paths, points) =
+        (variation.paths().len(), variation.paths().iter().map(Vec::len).sum::<usize>());
+    let figures =
+        arguments.svg.as_deref().map_or_else(Vec::new, |path| output::numbered(path, paths));
+    output::check(arguments.csv.iter().chain(&figures).map(PathBuf::as_path), &files)?;
+    let progress = Progress::start();
+    let done = AtomicUsize::new(0);
+    let found = study.run_watched(&problem, &|| {
+        let done = done.fetch_add(1, Ordering::Relaxed) + 1;
+        progress.say(&format!("{done} of {points} points"));
+    })?;
+    drop(progress);
+    // Results are replaced by results alone: a refusal comes before any file.
+    if let Some(reason) = found.refused_everywhere() {
+        return Err(Failure::bad_input(miette!(
+            "no value of the parameters describes a chain that can hang; the first: {reason}"
+        )));
+    }
+    if let Some(path) = &arguments.csv {
+        output::write_stream(path, |file| found.write_csv(file))?;
+    }
+    for (path, file) in figures.iter().enumerate() {
+        output::write_whole(file, &found.figure(path + 1))?;
+    }
+    if arguments.json {
+        output::print_json(&found)?;
+    } else {
+        output::print(&text(&found))?;
+    }
+    Ok(if found.check_failed() {
+        Exit::CheckFailed
+    } else if found.is_decided() {
+        Exit::Done
+    } else {
+        Exit::Undecided
+    })
+}
+
+/// The tables of all paths, and what is said of all points.
+fn text(found: &StudyAnswer) -> String {
+    let mut text = format!(
+        "{}: {} points of {}\n",
+        Printable(&found.system().name),
+        found.points().len(),
+        found.parameters().join(", ")
+    );
+    for path in 1..=found.paths() {
+        let points: Vec<_> = found.points().iter().filter(|point| point.path == path).collect();
+        text += &one_path(found, &points);
+    }
+    let shapes = found.shapes().count();
+    let refused = found.points().len() - shapes;
+    let agreed = found.shapes().filter(|shape| shape.agrees).count();
+    let most = found.shapes().filter_map(|shape| shape.joints_differ_m).fold(0.0, f64::max);
+    text += &wrapped(
+        &format!(
+            "\n{shapes} shapes, of which both solvers agree on {agreed} (joints to {most:.1e} m at worst); \
+             {refused} points without a shape"
+        ),
+        0,
+    );
+    text.push('\n');
+    if let Some((values, reason)) = found
+        .points()
+        .iter()
+        .find_map(|point| point.shape.as_ref().err().map(|none| (&point.values, &none.reason)))
+    {
+        let values = values.iter().map(|value| short(*value)).collect::<Vec<_>>().join(", ");
+        text += &wrapped(&format!("the first of these, at {values}: {}", Printable(reason)), 2);
+        text.push('\n');
+    }
+    text
+}
+
+/// A table over the last parameter.
+fn one_path(found: &StudyAnswer, points: &[&StudyPoint]) -> String {
+    let last = found.parameters().len() - 1;
+    let mut text = String::new();
+    if let (Some(first), true) = (points.first(), last > 0) {
+        let fixed = (0..last).map(|k| {
+            format!("{} = {} {}", found.parameters()[k], short(first.values[k]), found.units()[k])
+        });
+        // Writing to a String cannot fail.
+        let _ = writeln!(text, "\n{}", fixed.collect::<Vec<_>>().join(", "));
+    }
+    let unit = format!("value / {}", found.units()[last]);
+    let mut table = table([
+        unit.as_str(),
+        "sag / m",
+        "lowest",
+        "tension / N",
+        "bar",
+        "start / N",
+        "end / N",
+        "evidence",
+    ]);
+    for point in spread(points) {
+        let mut row = vec![short(point.values[last])];
+        match &point.shape {
+            Ok(shape) => {
+                let size = |[x, y, z]: model::Vector| short(x.hypot(y).hypot(z));
+                let tension = shape.extremes.tension_n;
+                row.extend([
+                    shape.extremes.sag_m.map_or_else(String::new, short),
+                    shape.extremes.lowest_joint.to_string(),
+                    tension.map_or_else(|| "none".to_owned(), |(_, force)| short(force)),
+                    tension.map_or_else(String::new, |(bar, _)| (bar + 1).to_string()),
+                    size(shape.reactions_n.start),
+                    size(shape.reactions_n.end),
+                    match (shape.agrees, shape.rung) {
+                        (true, Some(rung)) => rung.to_string(),
+                        _ => "no agreement".to_owned(),
+                    },
+                ]);
+            }
+            Err(_) => row.push("no shape".to_owned()),
+        }
+        table.add_row(row);
+    }
+    numbers_from(&mut table, 0);
+    let _ = writeln!(text, "{table}");
+    if points.len() > PRINTED {
+        let _ = writeln!(text, "({PRINTED} of {} points; --csv and --json have all)", points.len());
+    }
+    text
+}
+
+/// At most [`PRINTED`] of the points, the first and the last among them.
+fn spread<'a>(points: &'a [&'a StudyPoint]) -> impl Iterator<Item = &'a StudyPoint> {
+    let shown = points.len().min(PRINTED);
+    (0..shown).map(move |k| points[k * (points.len() - 1) / (shown - 1).max(1)])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_printed_points_are_spread_over_all() {
+        let point = StudyPoint {
+            path: 1,
+            values: vec![],
+            shape: Err(funicular::NoShape { refused: true, reason: String::new() }),
+        };
+        for (count, shown) in [(0, 0), (1, 1), (2, 2), (24, 24), (25, 24), (1000, 24)] {
+            let points = vec![&point; count];
+            assert_eq!(spread(&points).count(), shown);
+        }
+    }
+}

@@ -1,0 +1,132 @@
+//! A study as a picture.
+
+use figures::{Anchor, Axes, Axis, BLUE, Colour, GREEN, Look, ORANGE, Svg, Unit, VERMILION};
+
+use super::{StudyAnswer, StudyPoint, StudyShape};
+
+const WIDTH: f64 = 900.0;
+const LEFT: f64 = 100.0;
+const RIGHT: f64 = 870.0;
+/// Upper and lower edge of the panels: sag, forces, angles.
+const PANELS: [[f64; 2]; 3] = [[70.0, 270.0], [330.0, 530.0], [590.0, 790.0]];
+const HEIGHT: f64 = 860.0;
+
+/// How wide the curves are, px.
+const STROKE: f64 = 2.0;
+
+/// A curve of a panel: what it is called, how it is drawn, its value where there is one.
+type Curve = (&'static str, Colour, fn(&StudyShape) -> Option<f64>);
+
+const SAG: [Curve; 1] = [("sag", BLUE, |shape| shape.extremes.sag_m)];
+
+const FORCES: [Curve; 4] = [
+    ("largest tension", BLUE, |shape| shape.extremes.tension_n.map(|(_, force)| force)),
+    ("largest compression", VERMILION, |shape| {
+        shape.extremes.compression_n.map(|(_, force)| force)
+    }),
+    ("force at start", GREEN, |shape| Some(size(shape.reactions_n.start))),
+    ("force at end", ORANGE, |shape| Some(size(shape.reactions_n.end))),
+];
+
+const ANGLES: [Curve; 2] = [
+    ("first bar", BLUE, |shape| shape.rises_deg.first().copied()),
+    ("last bar", ORANGE, |shape| shape.rises_deg.last().copied()),
+];
+
+fn size([x, y, z]: model::Vector) -> f64 {
+    x.hypot(y).hypot(z)
+}
+
+/// The figure of one path, from 1.
+pub(super) fn figure(found: &StudyAnswer, path: usize) -> String {
+    let points: Vec<&StudyPoint> =
+        found.points().iter().filter(|point| point.path == path).collect();
+    let last = found.parameters().len().saturating_sub(1);
+    let over = |point: &StudyPoint| point.values.get(last).copied().unwrap_or(0.0);
+    let x = Axis::around(points.iter().map(|point| over(point)), 0.02, [LEFT, RIGHT]);
+    let title = &found.system().name;
+    let mut svg = Svg::new([WIDTH, HEIGHT], title);
+    svg.text(Look::PLAIN.size(17.0).bold(), [LEFT, 28.0], Anchor::Start, title);
+    svg.text(Look::PLAIN, [LEFT, 48.0], Anchor::Start, &constants(found, &points));
+    let name = match (found.parameters().get(last), found.units().get(last)) {
+        (Some(name), Some(unit)) => format!("{name} / {unit}"),
+        _ => String::new(),
+    };
+    let panels: [(&[Curve], &str, &str, Unit); 3] = [
+        (&SAG, "", "sag / m", Unit::Decimal),
+        (&FORCES, "", "force / N", Unit::Decimal),
+        (&ANGLES, &name, "angle above the level / \u{b0}", Unit::Degrees),
+    ];
+    for ((curves, x_name, y_name, unit), [top, bottom]) in panels.into_iter().zip(PANELS) {
+        let shapes = points.iter().filter_map(|point| point.shape.as_ref().ok());
+        let values = shapes.flat_map(|shape| curves.iter().filter_map(|curve| curve.2(shape)));
+        let y = Axis::around(values, 0.05, [bottom, top]);
+        let axes = Axes { x, y, names: [x_name, y_name] };
+        for (_, colour, value) in curves {
+            draw(
+                &mut svg,
+                &axes,
+                *colour,
+                points.iter().map(|point| {
+                    let value = point.shape.as_ref().ok().and_then(value)?;
+                    Some([over(point), value])
+                }),
+            );
+        }
+        axes.frame(&mut svg, [Unit::Decimal, unit]);
+        if curves.len() > 1 {
+            legend(&mut svg, curves, top - 12.0);
+        }
+    }
+    svg.finish()
+}
+
+/// A line for each run of points that have a value; a point alone is a dot.
+fn draw(
+    svg: &mut Svg,
+    axes: &Axes<'_>,
+    colour: Colour,
+    points: impl Iterator<Item = Option<[f64; 2]>>,
+) {
+    let mut run: Vec<[f64; 2]> = vec![];
+    let mut end = |run: &mut Vec<[f64; 2]>| {
+        match run[..] {
+            [] => {}
+            [alone] => svg.circle(Look::fill(colour), alone, STROKE),
+            _ => svg.polyline(Look::stroke(colour, STROKE), run.iter().copied()),
+        }
+        run.clear();
+    };
+    for point in points {
+        match point {
+            Some(at) => run.push(axes.at(at)),
+            None => end(&mut run),
+        }
+    }
+    end(&mut run);
+}
+
+/// What the curves are, above the right end of a panel.
+fn legend(svg: &mut Svg, curves: &[Curve], y: f64) {
+    /// Room for one entry, px.
+    const ENTRY: f64 = 165.0;
+    let left = RIGHT - ENTRY * curves.len() as f64;
+    for (k, (name, colour, _)) in curves.iter().enumerate() {
+        let x = left + ENTRY * k as f64;
+        svg.line(Look::stroke(*colour, STROKE), [x, y - 5.0], [x + 22.0, y - 5.0]);
+        svg.text(Look::PLAIN, [x + 28.0, y], Anchor::Start, name);
+    }
+}
+
+/// The parameters that stay the same along the path, with their values.
+fn constants(found: &StudyAnswer, points: &[&StudyPoint]) -> String {
+    let Some(first) = points.first() else { return String::new() };
+    let constant = |k: usize| {
+        let same = points.iter().all(|p| (p.values[k] - first.values[k]).abs() <= 0.0);
+        same.then(|| {
+            format!("{} = {} {}", found.parameters()[k], first.values[k], found.units()[k])
+        })
+    };
+    let others = 0..found.parameters().len().saturating_sub(1);
+    others.filter_map(constant).collect::<Vec<_>>().join(", ")
+}
