@@ -2,6 +2,7 @@
 
 #![expect(clippy::unwrap_used, reason = "helpers of tests")]
 
+use std::path::Path;
 use std::process::Command;
 
 /// The examples that the tests below run.
@@ -21,8 +22,14 @@ const RUN: [&str; 10] = [
 /// Standard output and standard error of an example.
 fn run(name: &str) -> (String, String) {
     assert!(RUN.contains(&name), "{name}");
-    let arguments = ["run", "--quiet", "--locked", "--package", "funicular", "--example", name];
-    let output = Command::new(env!("CARGO")).args(arguments).output().unwrap();
+    // With all packages, as the tests of the workspace are built: for one alone the features of the
+    // dependencies differ, and all of them would be compiled again.
+    let build = ["build", "--quiet", "--locked", "--workspace", "--example", name];
+    let built = Command::new(env!("CARGO")).args(build).output().unwrap();
+    assert!(built.status.success(), "{name}: {}", String::from_utf8_lossy(&built.stderr));
+    let tests = std::env::current_exe().unwrap();
+    let folder = tests.parent().and_then(Path::parent).unwrap();
+    let output = Command::new(folder.join("examples").join(name)).output().unwrap();
     let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
     let (stdout, stderr) = (text(output.stdout), text(output.stderr));
     assert!(output.status.success(), "{name}: {stderr}");
