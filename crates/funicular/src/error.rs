@@ -165,8 +165,8 @@ pub enum Error {
 impl Error {
     pub(crate) fn unknown_case(name: &str) -> Self {
         let cases = model::cases::all().iter().map(|case| case.name);
-        let gallery = model::cases::gallery().iter().map(|exhibit| exhibit.name);
-        let names: Vec<_> = cases.chain(gallery).collect();
+        let systems = model::cases::systems().map(|exhibit| exhibit.name);
+        let names: Vec<_> = cases.chain(systems).collect();
         let suggestion = model::system_file::nearest(name, &names);
         Self::UnknownCase { name: name.to_owned(), suggestion }
     }

@@ -104,13 +104,33 @@ const GALLERY: &[Exhibit] = registry! {
     "four-bar-linkage": "two cranks and a coupler with a load",
 };
 
+const TENSEGRITIES: &[Exhibit] = registry! {
+    Exhibit,
+    "x-cross": "four cables around two crossed struts",
+    "prism": "three struts, nine cables: the simplex, twisted by 150°",
+    "expandable-octahedron": "six struts, twenty-four cables",
+    "simplex-tower": "two prisms, one on the other",
+};
+
+/// Tensegrities that no load holds up: cables of a given prestress around rigid struts, each with
+/// the stress that is known of it in a closed form.
+#[must_use]
+pub fn tensegrities() -> &'static [Exhibit] {
+    TENSEGRITIES
+}
+
 /// The gallery: systems of joints and members, each with what is known of it in a closed form.
 #[must_use]
 pub fn gallery() -> &'static [Exhibit] {
     GALLERY
 }
 
-/// The system of the gallery of this name.
+/// All systems of joints and members: the gallery and the tensegrities.
+pub fn systems() -> impl Iterator<Item = &'static Exhibit> {
+    GALLERY.iter().chain(TENSEGRITIES)
+}
+
+/// The system of this name.
 ///
 /// ```
 /// // A rigid truss of three legs.
@@ -119,7 +139,7 @@ pub fn gallery() -> &'static [Exhibit] {
 /// ```
 #[must_use]
 pub fn exhibit(name: &str) -> Option<&'static Exhibit> {
-    GALLERY.iter().find(|exhibit| exhibit.name == name)
+    systems().find(|exhibit| exhibit.name == name)
 }
 
 /// All cases: chains.
@@ -175,12 +195,12 @@ mod tests {
     }
 
     #[test]
-    fn every_system_of_the_gallery_can_be_asked_about_and_has_a_name_of_its_own() {
-        for (k, exhibit) in gallery().iter().enumerate() {
+    fn every_system_can_be_asked_about_and_has_a_name_of_its_own() {
+        for (k, exhibit) in systems().enumerate() {
             assert!(exhibit.system().refusal().is_ok());
             let name = exhibit.name;
             assert!(name.chars().all(|c| c.is_ascii_lowercase() || c == '-'), "{name}");
-            assert!(gallery()[..k].iter().all(|other| other.name != name), "{name}");
+            assert!(systems().take(k).all(|other| other.name != name), "{name}");
             assert!(get(name).is_none(), "{name}");
             assert!(
                 exhibit.text.starts_with("# ") && exhibit.text.contains("# Reference:"),

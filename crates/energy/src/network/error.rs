@@ -23,8 +23,8 @@ pub enum Error {
     /// Occurs when a system has no member.
     #[error("the system has no member")]
     NoMember,
-    /// Occurs when no force acts and no member is elastic: every configuration has the same energy.
-    #[error("no force acts on the system, and no member is elastic: nothing decides its shape")]
+    /// Occurs when no force acts and no member is strained: nothing decides the shape.
+    #[error("no force acts on the system, and no member is strained: nothing decides its shape")]
     NoLoad,
     /// Occurs when the direction of a support is zero, infinite or not a number.
     #[error("the support of joint {joint} has a direction that points nowhere: [{}, {}, {}]", direction[0], direction[1], direction[2])]

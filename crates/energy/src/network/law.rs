@@ -70,6 +70,12 @@ impl Rod {
         }
     }
 
+    /// The force of an elastic member at an excess; none of an inextensible one, whose length does
+    /// not say.
+    pub(super) fn prestress(&self, excess: f64) -> f64 {
+        if self.elastic() && self.resists(excess) { excess / self.flexibility } else { 0.0 }
+    }
+
     /// What the length says against the law, over the unstretched length: too long, too short, or
     /// not as long as its force makes it.
     pub(super) fn misfit(&self, excess: f64, force: f64) -> f64 {

@@ -115,7 +115,8 @@ pub fn minimise_from(
     Solution::new(system, &frame, minimum, settings, clock)
 }
 
-/// The seed in the solver's units, on the supports; no forces.
+/// The seed in the solver's units, on the supports. Elastic members bear what their lengths say
+/// where no load gives a scale of the forces, the others nothing.
 fn seeded(frame: &Frame, seed_m: &[Vector]) -> Result<Shape, Error> {
     let joints = frame.spots.len();
     let scale = 1.0 / frame.length_m;
@@ -131,10 +132,15 @@ fn seeded(frame: &Frame, seed_m: &[Vector]) -> Result<Shape, Error> {
         let free = spot.axes[..spot.freedom].iter();
         free.fold(support, |sum, axis| along(sum, dot(away, *axis), *axis))
     };
-    Ok(Shape {
-        x: x.into_iter().enumerate().map(onto).collect(),
-        force: vec![0.0; frame.rods.len()],
-    })
+    let x: Vec<Vector> = x.into_iter().enumerate().map(onto).collect();
+    let mut force = vec![0.0; frame.rods.len()];
+    if frame.largest_force(&force) <= 0.0 {
+        let excesses = frame.excesses(&x);
+        for ((force, rod), excess) in force.iter_mut().zip(&frame.rods).zip(excesses) {
+            *force = rod.prestress(excess.value);
+        }
+    }
+    Ok(Shape { x, force })
 }
 
 /// What a search has cost.

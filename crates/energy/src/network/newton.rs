@@ -133,7 +133,7 @@ impl Newton {
         strain: f64,
     ) -> Self {
         Self {
-            stiffness: frame.largest_force(force) / strain,
+            stiffness: frame.force_scale(force) / strain,
             frame,
             factor,
             settings,

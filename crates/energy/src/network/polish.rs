@@ -49,7 +49,7 @@ impl Newton {
     pub(super) fn polish(&mut self, shape: &Shape) -> Option<Shape> {
         let frame = Arc::clone(&self.frame);
         let (mut shape, mut slope) = (shape.clone(), frame.slope(shape));
-        let stiffness = frame.largest_force(&shape.force) / STIFF_STRAIN;
+        let stiffness = frame.force_scale(&shape.force) / STIFF_STRAIN;
         let (mut steps, mut changes) = (POLISH, CHANGES);
         let mut active = frame.active(&shape);
         while steps > 0 {

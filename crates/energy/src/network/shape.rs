@@ -33,6 +33,9 @@ impl Slope {
     }
 }
 
+/// Strain that is rounding.
+pub(super) const NO_STRAIN: f64 = 1e-12;
+
 /// The largest entry by magnitude.
 pub(super) fn largest(values: &[f64]) -> f64 {
     values.iter().fold(
@@ -55,6 +58,12 @@ impl Frame {
         loads.fold(largest(force), f64::max)
     }
 
+    /// The same as what is divided by: the unit of force at the strain [`NO_STRAIN`] where there is
+    /// no force at all, as at the rest of an elastic system without loads.
+    pub(super) fn force_scale(&self, force: &[f64]) -> f64 {
+        self.largest_force(force).max(NO_STRAIN)
+    }
+
     /// Gradient of the Lagrangian `sum F c - sum load . x` by the coordinates.
     pub(super) fn lagrangian_gradient(&self, excess: &[Excess], force: &[f64]) -> Vec<f64> {
         self.gradient(|e| scaled(force[e], excess[e].gradient))
@@ -71,7 +80,7 @@ impl Frame {
                 (misfit, worst) = (off, e);
             }
         }
-        let unbalance = largest(&gradient) / self.largest_force(&shape.force);
+        let unbalance = largest(&gradient) / self.force_scale(&shape.force);
         Slope { unbalance, misfit, worst }
     }
 

@@ -11,7 +11,7 @@ use crate::network::frame::{Frame, end_loads_n};
 use crate::network::minimise::Minimum;
 use crate::network::polish::rounding_floor;
 use crate::network::settings::Settings;
-use crate::network::shape::Shape;
+use crate::network::shape::{NO_STRAIN, Shape};
 use crate::network::stability::{Rigidity, SecondOrder, second_order};
 use crate::vector::{along, dot, norm, scaled};
 
@@ -96,6 +96,9 @@ impl Solution {
             let force_n = shape.force[member] * frame.force_n;
             return Err(Error::WrongSign { member: member + 1, force_n });
         }
+        if system.is_unloaded() && frame.unstrained(&shape) {
+            return Err(Error::NoLoad);
+        }
         let forces = match second.rigidity {
             Some(rigidity) if rigidity.self_stresses == 0 => Forces::Unique(rigidity),
             Some(rigidity) => Forces::Family { rigidity, least },
@@ -129,6 +132,14 @@ fn wrong_sign(frame: &Frame, shape: &Shape) -> Option<usize> {
     forces.enumerate().find_map(|(member, (rod, force))| {
         (force.abs() > error && !rod.resists(*force)).then_some(member)
     })
+}
+
+impl Frame {
+    /// Whether no elastic member is longer or shorter than it would be by itself.
+    fn unstrained(&self, shape: &Shape) -> bool {
+        let mut members = self.rods.iter().zip(&shape.force);
+        members.all(|(rod, force)| rod.flexibility * force.abs() <= NO_STRAIN * rod.length)
+    }
 }
 
 /// What equilibrium leaves open of the forces, and which of them are named.

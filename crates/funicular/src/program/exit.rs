@@ -78,8 +78,8 @@ impl Failure {
             Error::File(error) => Self::bad_input(SystemFileReport::from(error)),
             Error::UnknownCase { suggestion, .. } => {
                 let chains = model::cases::all().iter().map(|case| case.name);
-                let gallery = model::cases::gallery().iter().map(|exhibit| exhibit.name);
-                let names: Vec<_> = chains.chain(gallery).collect();
+                let systems = model::cases::systems().map(|exhibit| exhibit.name);
+                let names: Vec<_> = chains.chain(systems).collect();
                 let all = format!("the cases are: {}", names.join(", "));
                 let help = match suggestion {
                     Some(name) => format!("did you mean `{name}`? {all}"),

@@ -31,14 +31,14 @@ pub fn numbers_from(table: &mut Table, first: usize) {
     }
 }
 
-/// The registry: chains, and the systems of the gallery.
+/// The registry: chains and systems.
 pub fn cases() -> String {
     let mut chains = table(["case", "what it is"]);
     for case in cases::all() {
         chains.add_row([case.name, case.about]);
     }
     let mut systems = table(["system of bars", "what it is"]);
-    for exhibit in cases::gallery() {
+    for exhibit in cases::systems() {
         systems.add_row([exhibit.name, exhibit.about]);
     }
     format!("{chains}\n\n{systems}\n")

@@ -80,7 +80,9 @@ pub enum Error {
         distance_m: f64,
     },
     /// Occurs when no load acts and no member is stretched: every shape is in equilibrium.
-    #[error("no load acts on any joint that can move: nothing decides the shape")]
+    #[error(
+        "no load acts on any joint that can move, and no member is stretched: nothing decides the shape"
+    )]
     Unloaded,
     /// Occurs when the iteration ends before balance and lengths hold.
     #[error(

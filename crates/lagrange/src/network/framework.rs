@@ -10,6 +10,10 @@ use model::Vector;
 use model::system::{Joint, Kind, Member, Support, System};
 use nalgebra::{Matrix3, Vector3};
 
+/// A strain of prestressed members: the unit of force of a system without loads need only be near
+/// its forces.
+const STRAIN: f64 = 1e-2;
+
 /// A joint: where it may be, and the force that acts on it.
 #[derive(Debug, Clone)]
 pub(super) struct Node {
@@ -61,7 +65,8 @@ impl Link {
 pub(super) struct Units {
     /// Mean length of the members, m.
     pub length_m: f64,
-    /// Mean load of the joints, N; 1 N where there is none.
+    /// Mean load of the joints, N; where there is none, the force of elastic members at some
+    /// strain.
     pub force_n: f64,
     /// Origin of places, m.
     pub origin_m: Vector3<f64>,
@@ -145,12 +150,20 @@ fn end_loads_n(system: &System, member: &Member) -> [Vector3<f64>; 2] {
 }
 
 fn units(system: &System, loads: &[Vector3<f64>]) -> Units {
-    let mean = |total: f64, count: usize| if total > 0.0 { total / count as f64 } else { 1.0 };
+    let mean = |total: f64, count: usize| (total > 0.0).then(|| total / count as f64);
+    let load_n = mean(model::sum(loads.iter().map(Vector3::norm)), loads.len());
     Units {
-        length_m: mean(system.total_length_m(), system.members().len()),
-        force_n: mean(model::sum(loads.iter().map(Vector3::norm)), loads.len()),
+        length_m: mean(system.total_length_m(), system.members().len()).unwrap_or(1.0),
+        force_n: load_n.or_else(|| prestress_n(system)).unwrap_or(1.0),
         origin_m: system.reference_m().into(),
     }
+}
+
+/// The force of the mean stiffness at [`STRAIN`], N; nothing where no member is elastic.
+fn prestress_n(system: &System) -> Option<f64> {
+    let stiffnesses: Vec<f64> = system.members().iter().filter_map(|m| m.stiffness_n).collect();
+    let mean = model::sum(stiffnesses.iter().copied()) / stiffnesses.len() as f64;
+    (mean > 0.0).then_some(STRAIN * mean)
 }
 
 fn node(joint: &Joint, load_n: &Vector3<f64>, units: Units) -> Node {

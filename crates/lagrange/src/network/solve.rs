@@ -7,7 +7,7 @@ use nalgebra::Vector3;
 
 use super::elements;
 use super::error::Error;
-use super::framework::Framework;
+use super::framework::{Framework, Link};
 use super::hanging::{FIRST_END, Hanging, LAST_END};
 use super::law::by_direction;
 use super::newton::{Run, polish};
@@ -31,6 +31,9 @@ const SLACK_LENGTH: f64 = 1e-3;
 const ESCAPES: usize = 4;
 /// Such moves, in units of the mean length: the next one where the last one led nowhere.
 const KICKS: [f64; 5] = [0.01, 0.1, 0.5, 1.0, 2.0];
+/// A system without loads whose elastic members all bear less than this part of their stiffness is
+/// not prestressed: that much is rounding.
+const NO_STRAIN: f64 = 1e-12;
 /// Ridge of the least squares for the forces of a seed, in units of the stiffness.
 const RIDGE: f64 = 1e-9;
 
@@ -45,9 +48,20 @@ pub fn solve(system: &System, settings: &Settings) -> Result<Solution, Error> {
     let began = Instant::now();
     let framework = Framework::new(system);
     check(system, &framework)?;
-    if let Some(solution) = by_runs(&framework, settings, began) {
-        return Ok(solution);
-    }
+    let solution = match by_runs(&framework, settings, began) {
+        Some(solution) => solution,
+        None => hang(system, framework, settings, began)?,
+    };
+    decided(system, solution)
+}
+
+/// By all members at once.
+fn hang(
+    system: &System,
+    framework: Framework,
+    settings: &Settings,
+    began: Instant,
+) -> Result<Solution, Error> {
     let mut hanging = Hanging::new(&framework)?;
     let stiffness = Stiffness::new(&framework, false)?;
     let mut solver = Solver::new(system, framework, *settings, stiffness, began);
@@ -92,7 +106,16 @@ pub fn solve_from(system: &System, seed: &Seed, settings: &Settings) -> Result<S
     let start = solver.start(seed);
     let run = solver.with_signs(start)?;
     let second_order = solver.second_order(&run.state);
-    Ok(solver.solution(run, second_order))
+    decided(system, solver.solution(run, second_order))
+}
+
+/// Refuse a rest without loads and without prestress: the shape is one of many.
+fn decided(system: &System, solution: Solution) -> Result<Solution, Error> {
+    let members = || system.members().iter().zip(&solution.equilibrium.axial_n);
+    let idle = || {
+        members().all(|(m, axial_n)| m.stiffness_n.is_none_or(|ea| axial_n.abs() <= NO_STRAIN * ea))
+    };
+    if system.is_unloaded() && idle() { Err(Error::Unloaded) } else { Ok(solution) }
 }
 
 /// The hanging equilibrium with runs of members as elements, where that pays and every member
@@ -227,6 +250,7 @@ impl<'a> Solver<'a> {
         let mut state = State::new(places.collect(), vec![0.0; members], vec![true; members]);
         state.axial = match &seed.axial_n {
             Some(axial_n) => axial_n.iter().map(|axial| axial / units.force_n).collect(),
+            None if self.system.is_unloaded() => self.prestress(&state),
             None => self.best_forces(&state),
         };
         let directions = state.directions(&self.framework);
@@ -242,6 +266,21 @@ impl<'a> Solver<'a> {
             }
         }
         state
+    }
+
+    /// Forces of the elastic members at their lengths: where no load acts, nothing else says what
+    /// the forces are. Inextensible members have none yet.
+    fn prestress(&self, state: &State) -> Vec<f64> {
+        let directions = state.directions(&self.framework);
+        let force = |(link, (_, distance)): (&Link, &(Vector3<f64>, f64))| {
+            let force = if link.compliance > 0.0 {
+                (distance - link.length) / link.compliance
+            } else {
+                0.0
+            };
+            if link.bears(force) { force } else { 0.0 }
+        };
+        self.framework.links.iter().zip(&directions).map(force).collect()
     }
 
     /// Axial forces that leave the joints least out of balance.

@@ -19,6 +19,7 @@ mod error;
 mod graph;
 mod joint;
 mod member;
+mod prestress;
 mod refusal;
 mod symmetry;
 
@@ -27,6 +28,7 @@ pub use error::SystemError;
 pub(crate) use error::UNIT_TOLERANCE;
 pub use joint::{Joint, Support};
 pub use member::{Kind, Member, PointLoad};
+pub use prestress::PrestressError;
 pub use refusal::SystemRefusal;
 pub use symmetry::Part;
 

@@ -33,7 +33,8 @@ pub enum SystemRefusal {
     /// Occurs when no joint can move.
     #[error("every joint is an anchor: nothing can move")]
     NothingMoves,
-    /// Occurs when there is neither mass nor force: every position is an equilibrium.
+    /// Occurs when there is neither mass nor force nor an elastic member: every position is an
+    /// equilibrium.
     #[error(
         "no mass and no force act on the system: without load every position is an equilibrium"
     )]
@@ -162,10 +163,12 @@ impl System {
         if self.joints().iter().all(|joint| joint.support.is_fixed()) {
             return Err(SystemRefusal::NothingMoves);
         }
-        if self.is_unloaded() {
+        // Elastic members have an energy of their own, without any load.
+        let elastic = self.members().iter().any(|member| member.stiffness_n.is_some());
+        if self.is_unloaded() && !elastic {
             return Err(SystemRefusal::NoLoad);
         }
-        if self.is_loaded_on_anchors_alone() {
+        if self.is_loaded_on_anchors_alone() && !elastic {
             return Err(SystemRefusal::LoadOnAnchors);
         }
         self.anchors_in_reach(&graph)?;

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use crate::readable::Readable;
-use crate::system::{SystemError, SystemRefusal};
+use crate::system::{PrestressError, SystemError, SystemRefusal};
 use crate::{BarError, ChainError, Refusal};
 
 /// What the program knows, and what it does not.
@@ -239,6 +239,9 @@ pub enum SystemFileErrorKind {
     /// Occurs when a bar cannot be built.
     #[error(transparent)]
     Bar(BarError),
+    /// Occurs when a member has no unstretched length that goes with its prestress.
+    #[error(transparent)]
+    Prestress(PrestressError),
     /// Occurs when the chain cannot be built.
     #[error(transparent)]
     Chain(ChainError),
@@ -323,6 +326,7 @@ impl SystemFileErrorKind {
             Self::Bar(BarError::Inertia { .. }) => {
                 "without inertia_kg_m2 a bar has the moments [0, m l^2/12, m l^2/12] of a slender one"
             }
+            Self::Prestress(error) => return prestress_help(*error).map(str::to_owned),
             Self::Chain(error) => return chain_help(error).map(str::to_owned),
             Self::Refused(refusal) => refusal_help(refusal),
             Self::Json(_) => {
@@ -357,6 +361,17 @@ fn chain_help(error: &ChainError) -> Option<&'static str> {
     }
 }
 
+fn prestress_help(error: PrestressError) -> Option<&'static str> {
+    match error {
+        PrestressError::Inextensible => Some(
+            "give the member a stiffness_n (EA); the forces of inextensible members follow from the \
+             equilibrium",
+        ),
+        PrestressError::Sign { .. } => Some("tension is positive; a bar takes both"),
+        _ => None,
+    }
+}
+
 fn system_help(error: &SystemError) -> Option<&'static str> {
     match error {
         SystemError::Parallel { .. } => {
@@ -375,7 +390,9 @@ fn system_refusal_help(refusal: &SystemRefusal) -> &'static str {
         SystemRefusal::Unconnected { .. } => "remove the joint, or connect it by a bar",
         SystemRefusal::Falls { .. } => "give one of its joints a place: at_m = [x, y, z]",
         SystemRefusal::NothingMoves => "leave one joint without at_m",
-        SystemRefusal::NoLoad => "give a bar or a joint a mass, or a joint a force",
+        SystemRefusal::NoLoad => {
+            "give a bar or a joint a mass, a joint a force, or members a stiffness and a prestress"
+        }
         SystemRefusal::LoadOnAnchors => "give a load to a joint that can move",
         SystemRefusal::OutOfReach { .. } | SystemRefusal::Taut { .. } => {
             "move the anchors together or lengthen the bars"

@@ -33,6 +33,7 @@ const MEMBER_KEYS: &[&str] = &[
     "count",
     "kind",
     "stiffness_n",
+    "prestress_n",
     "forces",
 ];
 const FORCE_KEYS: &[&str] = &["force_n", "at_m"];
@@ -371,7 +372,10 @@ fn member(table: &Table<'_>) -> Result<Member, SystemFileError> {
             loads.push(force(&table.table(&format!("forces[{}]", k + 1), item)?, body.length_m())?);
         }
     }
-    Ok(Member { from: 0, to: 0, kind, body, stiffness_n: table.number("stiffness_n")?, loads })
+    let stiffness_n = table.number("stiffness_n")?;
+    let member = Member { from: 0, to: 0, kind, body, stiffness_n, loads };
+    network_rows::prestressed(member, table.number("prestress_n")?)
+        .map_err(|(key, kind)| table.error(kind, key))
 }
 
 /// A force on a bar; in the middle if no place is given.

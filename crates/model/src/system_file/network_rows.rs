@@ -3,7 +3,7 @@
 use super::kind::SystemFileErrorKind as Kind;
 use super::row_table::{Known, Row, Wrong};
 use super::suggest::nearest;
-use crate::system::{Joint, Kind as MemberKind, Member, PointLoad, Support};
+use crate::system::{Joint, Kind as MemberKind, Member, PointLoad, PrestressError, Support};
 use crate::{Bar, BarError, Vector};
 
 const PLACE: [&str; 3] = ["x_m", "y_m", "z_m"];
@@ -36,6 +36,7 @@ pub(super) const BARS: Known = Known {
         "centre_m",
         "kind",
         "stiffness_n",
+        "prestress_n",
         "force_x_n",
         "force_y_n",
         "force_z_n",
@@ -157,13 +158,25 @@ pub(super) fn member(
     })?;
     let kind = row.word("kind")?;
     let kind = member_kind(kind.as_deref()).map_err(|kind| (Some("kind"), kind))?;
-    Ok(Member {
-        from,
-        to,
-        kind,
-        body,
-        stiffness_n: row.number("stiffness_n")?,
-        loads: load(row, length_m)?,
+    let stiffness_n = row.number("stiffness_n")?;
+    let member = Member { from, to, kind, body, stiffness_n, loads: load(row, length_m)? };
+    prestressed(member, row.number("prestress_n")?).map_err(|(column, kind)| (Some(column), kind))
+}
+
+/// The member with the unstretched length that goes with its prestress, if it has one; else the key
+/// or column that is wrong.
+pub(super) fn prestressed(
+    member: Member,
+    prestress_n: Option<f64>,
+) -> Result<Member, (&'static str, Kind)> {
+    let Some(prestress_n) = prestress_n else { return Ok(member) };
+    member.with_prestress(prestress_n).map_err(|error| {
+        let key = match error {
+            PrestressError::Stiffness { .. } => "stiffness_n",
+            PrestressError::Bar(_) => "length_m",
+            _ => "prestress_n",
+        };
+        (key, Kind::Prestress(error))
     })
 }
 

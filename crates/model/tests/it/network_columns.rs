@@ -14,10 +14,10 @@ const JOINTS: &str = "name,x_m,y_m,z_m,fixed,free,mass_kg,force_x_n,force_y_n,fo
                       C,2,0,0.5,,xz,,,,\n\
                       4,,,,,,,,,\n";
 
-const BARS: &str = "to,from,length_m,mass_kg,centre_m,kind,stiffness_n,force_x_n,force_y_n,force_z_n,force_at_m\n\
-                    \"lamp, old\",A,1.5,1,0.5,,,,,,\n\
-                    C,\"lamp, old\",1.5,1,,cable,1e5,1,0,0,\n\
-                    4,C,0.25,1,,strut,,0,0,1,0.25\n";
+const BARS: &str = "to,from,length_m,mass_kg,centre_m,kind,stiffness_n,prestress_n,force_x_n,force_y_n,force_z_n,force_at_m\n\
+                    \"lamp, old\",A,1.5,1,0.5,,,,,,,\n\
+                    C,\"lamp, old\",1.5,1,,cable,1e5,25000,1,0,0,\n\
+                    4,C,0.25,1,,strut,,,0,0,1,0.25\n";
 
 const SYSTEM: &str = "joints_file = \"joints.csv\"\nbars_file = \"bars.csv\"\n";
 
@@ -56,10 +56,11 @@ fn every_column_arrives_where_it_belongs() {
     let bar = |length: f64| Bar::homogeneous(length, 1.0).unwrap();
     let load = |at_m, force_n| vec![PointLoad { at_m, force_n }];
     let off = Bar::new(1.5, 1.0, 0.5, Bar::slender_inertia(1.5, 1.0)).unwrap();
-    let cable = Member::cable(1, 2, bar(1.5)).with_stiffness(1e5);
+    // A quarter of its stiffness makes it a quarter longer.
+    let cable = Member::cable(1, 2, bar(1.2)).with_stiffness(1e5);
     let members = vec![
         Member::bar(0, 1, off),
-        Member { loads: load(0.75, [1.0, 0.0, 0.0]), ..cable },
+        Member { loads: load(0.6, [1.0, 0.0, 0.0]), ..cable },
         Member {
             kind: Kind::Strut,
             loads: load(0.25, [0.0, 0.0, 1.0]),
@@ -166,7 +167,7 @@ fn errors_name_file_row_and_column() {
     check(
         "parallel",
         JOINTS,
-        &(BARS.to_owned() + "A,\"lamp, old\",1,1,,,,,,,\n"),
+        &(BARS.to_owned() + "A,\"lamp, old\",1,1,,,,,,,,\n"),
         "bars.csv",
         "5:1: two members connect joint \"lamp, old\" with joint \"A\" (numbers 1 and 4): how they share a \
          force is indeterminate",
@@ -185,6 +186,33 @@ fn errors_name_file_row_and_column() {
         "joints.csv",
         "6:1: no member meets joint \"E\"",
     );
+}
+
+#[test]
+fn a_prestress_needs_a_stiffness_and_the_sign_of_its_member() {
+    for (name, cells, wanted) in [
+        (
+            "push",
+            "1e5,-1",
+            "3:32: prestress_n: a cable cannot push, as it would under a prestress of -1 N",
+        ),
+        (
+            "rigid",
+            ",25000",
+            "3:29: prestress_n: a prestress needs a stiffness: an inextensible member has its length \
+             whatever it bears",
+        ),
+        (
+            "soft",
+            "0,25000",
+            "3:28: stiffness_n: the stiffness EA of a member must be positive and finite, got 0 N",
+        ),
+    ] {
+        let bars = BARS.replacen("1e5,25000", cells, 1);
+        let error = described(name, [SYSTEM, JOINTS, &bars]).unwrap_err();
+        let path = folder_of(name).join("bars.csv").display().to_string();
+        assert_eq!(error.to_string(), format!("{path}:{wanted}"), "{name}");
+    }
 }
 
 fn folder_of(name: &str) -> PathBuf {

@@ -1,5 +1,6 @@
 //! Systems of bars: texts that describe one, and texts that do not, each with its exact error.
 
+use model::Bar;
 use model::system::{Joint, Kind, PointLoad, Support, System};
 use model::system_file::{Described, parse, write_network};
 
@@ -209,4 +210,74 @@ fn systems_read_back_as_they_were() {
     let first = system(&text);
     let again = system(&write_network(&first));
     assert_eq!(again, first);
+}
+
+/// A strand that hangs from a wall, with these keys more.
+fn strand(keys: &str) -> String {
+    format!(
+        "[joints]\nA = {{ at_m = [0, 0, 0] }}\nP = {{}}\n\n[[bars]]\nfrom = \"A\"\nto = \"P\"\n\
+         length_m = 5\nmass_kg = 3\n{keys}\n"
+    )
+}
+
+#[test]
+fn a_prestress_gives_the_unstretched_length() {
+    // Under a quarter of EA a member is a quarter longer, under minus a half half as long.
+    let text = strand(
+        "stiffness_n = 1e3\nprestress_n = 250\ncentre_m = 2\nforces = [{ force_n = [0, 1, 0] }]",
+    );
+    let read = system(&text);
+    let member = &read.members()[0];
+    assert_eq!(member.body, Bar::new(4.0, 3.0, 1.6, Bar::slender_inertia(4.0, 3.0)).unwrap());
+    assert_eq!(member.loads, [PointLoad { at_m: 2.0, force_n: [0.0, 1.0, 0.0] }]);
+    assert_eq!(member.stiffness_n, Some(1e3));
+    let pressed =
+        system(&strand("kind = \"strut\"\nstiffness_n = 1e3\nprestress_n = -500\ncount = 2"));
+    assert_eq!(pressed.members()[1].body, Bar::homogeneous(10.0, 3.0).unwrap());
+    // What is written has the unstretched length, and is the same system.
+    assert_eq!(system(&write_network(&pressed)), pressed);
+}
+
+#[test]
+fn a_prestress_that_contradicts_the_member_is_refused() {
+    for (keys, message) in [
+        (
+            "prestress_n = 1",
+            "f:10:15: bars[1].prestress_n: a prestress needs a stiffness: an inextensible member has \
+             its length whatever it bears",
+        ),
+        (
+            "prestress_n = -1\nstiffness_n = 9\nkind = \"cable\"",
+            "f:10:15: bars[1].prestress_n: a cable cannot push, as it would under a prestress of -1 N",
+        ),
+        (
+            "prestress_n = 1\nstiffness_n = 9\nkind = \"strut\"",
+            "f:10:15: bars[1].prestress_n: a strut cannot pull, as it would under a prestress of 1 N",
+        ),
+        (
+            "prestress_n = -9\nstiffness_n = 9",
+            "f:10:15: bars[1].prestress_n: a prestress must be greater than -EA = -9 N, which no \
+             length bears, got -9 N",
+        ),
+        (
+            "prestress_n = 1\nstiffness_n = -9",
+            "f:11:15: bars[1].stiffness_n: the stiffness EA of a member must be positive and finite, \
+             got -9 N",
+        ),
+    ] {
+        check(&strand(keys), message);
+    }
+    let error = parse(&strand("prestress_n = \"1\"\nstiffness_n = 9"), "f").unwrap_err();
+    assert!(error.to_string().contains("expected a number"), "{error}");
+}
+
+#[test]
+fn prestressed_systems_need_no_load() {
+    let text = "[joints]\nA = { at_m = [0, 0, 0] }\nB = { at_m = [1, 0, 0] }\nP = {}\n\
+        [[bars]]\nfrom = \"A\"\nto = \"P\"\nlength_m = 0.4\nmass_kg = 0\nstiffness_n = 1e4\nprestress_n = 100\n\
+        [[bars]]\nfrom = \"P\"\nto = \"B\"\nlength_m = 0.6\nmass_kg = 0\nstiffness_n = 1e4\nprestress_n = 100\n";
+    assert!(system(text).is_unloaded());
+    let rigid = text.replace("stiffness_n = 1e4\nprestress_n = 100\n", "");
+    let error = parse(&rigid, "f").unwrap_err();
+    assert!(error.to_string().contains("no mass and no force"), "{error}");
 }

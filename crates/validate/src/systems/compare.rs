@@ -145,7 +145,7 @@ impl<'a> Judgement<'a> {
             tolerances,
             length_m: size_m,
             force_n,
-            energy_j: total_load_n(system) * size_m,
+            energy_j: if system.is_unloaded() { force_n } else { total_load_n(system) } * size_m,
             parts: system.parts(),
             free: free_joints(system, answers),
             family: None,

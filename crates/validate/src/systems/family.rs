@@ -116,7 +116,7 @@ fn unit(member: usize, members: usize) -> Vec<f64> {
 }
 
 /// Orthonormal directions in which a joint may move.
-fn motions(support: &Support) -> Vec<Vector> {
+pub(super) fn motions(support: &Support) -> Vec<Vector> {
     let axes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
     match *support {
         Support::Free => axes.to_vec(),

@@ -7,6 +7,7 @@ mod certificate;
 pub(crate) mod compare;
 mod completeness;
 mod family;
+mod prestress;
 mod statics;
 #[cfg(test)]
 mod tests;
@@ -17,5 +18,6 @@ pub use ask::{SystemAnswer, SystemFailure, ask, ask_with};
 pub use certificate::certify;
 pub use compare::{SystemAgreement, compare, judge_alone};
 pub use completeness::{certify_by_census, look_up};
+pub use prestress::{Held, PrestressStability, Standing, Stress, prestress_stability};
 pub use statics::{SystemStatics, judge};
 pub use verified::verify;

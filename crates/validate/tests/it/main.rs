@@ -21,3 +21,4 @@ mod networks;
 mod networks_census;
 mod paper;
 mod statics;
+mod tensegrities;

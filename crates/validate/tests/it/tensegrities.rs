@@ -1,0 +1,272 @@
+//! Tensegrities that nothing but their prestress holds: known stresses, by both solvers, and
+//! whether the stress holds the motions that lengths alone leave free.
+
+use energy::network::Settings as ByEnergy;
+use lagrange::network::Settings as ByForces;
+use model::cases::exhibit;
+use model::system::{Joint, Kind, Member, System, SystemEquilibrium};
+use model::{Bar, Rung, Vector};
+use validate::answer::Solvers;
+use validate::systems::{Held, Standing, Stress, ask, prestress_stability};
+
+/// Relative to the largest number of its kind: both solvers reach 3e-14.
+const DIGITS: f64 = 1e-11;
+
+/// The system, and both answers, which agree and are proved to be the only ones near.
+fn answers(name: &str) -> (System, Vec<SystemEquilibrium>) {
+    let system = exhibit(name).unwrap().system();
+    assert!(system.is_unloaded() && system.refusal().is_ok());
+    let answer = ask(&system, Solvers::Both, &|_| {});
+    assert!(answer.agrees(), "{name}: {:?}, {:?}", answer.agreement, answer.failures);
+    for e in &answer.equilibria {
+        assert!(e.evidence.rung() >= Some(Rung::Verified), "{name}: {:#?}", e.evidence.ladder);
+        let most = e.axial_n.iter().fold(0.0, |most: f64, n| most.max(n.abs()));
+        // It stands by itself: no support bears a force.
+        let borne = e.reactions_n.iter().flatten().fold(0.0, |most: f64, n| most.max(n.abs()));
+        assert!(borne <= DIGITS * most, "{name}: {borne} N on a support");
+    }
+    (system, answer.equilibria)
+}
+
+/// Force densities, N/m, each with the names of the ends of its member.
+fn densities(system: &System, e: &SystemEquilibrium) -> Vec<(Kind, String, f64)> {
+    let members = system.members().iter().zip(&e.axial_n);
+    members
+        .map(|(member, axial_n)| {
+            let [a, b] = [member.from, member.to];
+            let d = [0, 1, 2].map(|c| e.joints_m[b][c] - e.joints_m[a][c]);
+            let name = format!("{}-{}", system.joints()[a].name, system.joints()[b].name);
+            (member.kind, name, axial_n / d[0].hypot(d[1]).hypot(d[2]))
+        })
+        .collect()
+}
+
+#[track_caller]
+fn close(found: f64, wanted: f64) {
+    assert!((found - wanted).abs() <= DIGITS * wanted.abs(), "{found} is not {wanted}");
+}
+
+/// What the answer's stress holds, and what some stress does.
+fn held(system: &System, e: &SystemEquilibrium, counts: (usize, usize)) -> f64 {
+    let of = |stress| prestress_stability(system, &e.joints_m, Standing::Free, stress).unwrap();
+    let (given, free) = (of(Stress::Given(&e.axial_n)), of(Stress::Free));
+    for found in [&given, &free] {
+        assert_eq!((found.self_stresses, found.mechanisms), counts);
+        assert!(found.super_stable, "{found:?}");
+        assert!(matches!(found.held, Held::ByStress { .. }), "{found:?}");
+    }
+    let Held::ByStress { stiffness_n_m } = given.held else { unreachable!() };
+    stiffness_n_m
+}
+
+/// The stress matrix of the square is q v vᵀ with v = (1, -1, 1, -1), and v is its motion out of
+/// the plane: 4 q.
+#[test]
+fn the_cross_has_force_densities_of_one_and_minus_one() {
+    let (system, answers) = answers("x-cross");
+    for e in &answers {
+        for (kind, _, density) in densities(&system, e) {
+            close(density, if kind == Kind::Cable { 500.0 } else { -500.0 });
+        }
+        close(held(&system, e, (1, 1)), 4.0 * 500.0);
+    }
+}
+
+/// The mechanism of the prism is a screw of its triangles: a turn by δ lifts by -r² δ / 2h, and
+/// the energy changes by 3√3 q r² δ²/2, its size is 3/2 r² δ² (1 + r²/4h²).
+#[test]
+fn the_prism_stands_twisted_by_150_degrees() {
+    let (system, answers) = answers("prism");
+    let (q, r, h) = (900.0, 1.0_f64, 1.5);
+    for e in &answers {
+        for (kind, name, density) in densities(&system, e) {
+            let level = name.matches('B').count() != 1;
+            close(
+                density,
+                match kind {
+                    Kind::Cable if level => q / 3.0_f64.sqrt(),
+                    Kind::Cable => q,
+                    _ => -q,
+                },
+            );
+        }
+        let top = e.joints_m[system.joint("T1").unwrap()];
+        let angle = 270.0_f64.to_radians();
+        for (found, wanted) in top.into_iter().zip([r * angle.cos(), r * angle.sin(), h]) {
+            assert!((found - wanted).abs() < DIGITS, "{found} is not {wanted}");
+        }
+        close(held(&system, e, (1, 1)), 2.0 * 3.0_f64.sqrt() * q / (1.0 + r * r / (4.0 * h * h)));
+    }
+}
+
+#[test]
+fn the_struts_of_the_expandable_octahedron_have_minus_three_halves_of_its_cables() {
+    let (system, answers) = answers("expandable-octahedron");
+    for e in &answers {
+        for (kind, _, density) in densities(&system, e) {
+            close(density, if kind == Kind::Cable { 400.0 } else { -600.0 });
+        }
+        assert!(held(&system, e, (1, 1)) > 1.0);
+    }
+}
+
+/// Each prism has a stress of its own: two, and any sum of them holds the tower.
+#[test]
+fn the_stresses_of_the_prisms_of_a_tower_add_up() {
+    let (system, answers) = answers("simplex-tower");
+    let q = 900.0;
+    for e in &answers {
+        for (kind, name, density) in densities(&system, e) {
+            let storeys: Vec<char> = name.chars().filter(|c| c.is_alphabetic()).collect();
+            close(
+                density,
+                match (kind, storeys[0] == storeys[1]) {
+                    (Kind::Cable, true) if storeys[0] == 'T' => 2.0 * q / 3.0_f64.sqrt(),
+                    (Kind::Cable, true) => q / 3.0_f64.sqrt(),
+                    (Kind::Cable, false) => q,
+                    _ => -q,
+                },
+            );
+        }
+        let given =
+            prestress_stability(&system, &e.joints_m, Standing::Free, Stress::Given(&e.axial_n));
+        let free = prestress_stability(&system, &e.joints_m, Standing::Free, Stress::Free);
+        for found in [given.unwrap(), free.unwrap()] {
+            assert_eq!((found.self_stresses, found.mechanisms), (2, 2));
+            assert!(matches!(found.held, Held::ByStress { .. }), "{found:?}");
+            // Each prism may be sheared alone by an affine motion: no rank is left for more.
+            assert!(!found.super_stable);
+        }
+    }
+}
+
+/// With cables and struts exchanged the stress of the cross turns its sign: it pushes the square
+/// out of its plane. As bars the square may choose.
+#[test]
+fn the_wrong_sign_of_a_stress_holds_nothing() {
+    let (system, answers) = answers("x-cross");
+    let at: &[Vector] = &answers[0].joints_m;
+    let with = |kinds: [Kind; 2]| {
+        let exchanged = |member: &Member| Member {
+            kind: kinds[usize::from(member.kind == Kind::Strut)],
+            ..member.clone()
+        };
+        let members = system.members().iter().map(exchanged).collect();
+        System::new("exchanged", 9.81, system.joints().to_vec(), members).unwrap()
+    };
+    let free =
+        |kinds| prestress_stability(&with(kinds), at, Standing::Free, Stress::Free).unwrap().held;
+    assert_eq!(free([Kind::Strut, Kind::Cable]), Held::NotFound);
+    assert!(matches!(free([Kind::Cable, Kind::Strut]), Held::ByStress { .. }));
+    assert!(matches!(free([Kind::Bar, Kind::Bar]), Held::ByStress { .. }));
+    let reversed: Vec<f64> = answers[0].axial_n.iter().map(|n| -n).collect();
+    let given = prestress_stability(&system, at, Standing::Free, Stress::Given(&reversed)).unwrap();
+    let Held::NotByThis { stiffness_n_m } = given.held else { panic!("{given:?}") };
+    close(stiffness_n_m, -2000.0);
+    assert!(!given.super_stable);
+    let none = Stress::Given(&[0.0; 6]);
+    let none = prestress_stability(&system, at, Standing::Free, none).unwrap();
+    assert!(matches!(none.held, Held::NotByThis { .. }) && !none.super_stable);
+    assert_eq!(prestress_stability(&system, at, Standing::Free, Stress::Given(&[1.0])), None);
+    assert_eq!(prestress_stability(&system, &at[1..], Standing::Free, Stress::Free), None);
+}
+
+/// A tripod needs no stress; a joint in the middle of a taut string is held across by its tension
+/// alone, with N (1/a + 1/b).
+#[test]
+fn supports_count_where_it_stands_on_them() {
+    let body = |length: f64| Bar::homogeneous(length, 0.0).unwrap();
+    let joints =
+        vec![Joint::anchor("A", [0.0; 3]), Joint::anchor("B", [1.0, 0.0, 0.0]), Joint::free("P")];
+    let cable = |from, to, length| {
+        Member::cable(from, to, body(length)).with_stiffness(1e4).with_prestress(100.0).unwrap()
+    };
+    let members = vec![cable(0, 2, 0.4), cable(2, 1, 0.6)];
+    let string = System::new("string", 9.81, joints, members).unwrap();
+    let answer = ask(&string, Solvers::Both, &|_| {});
+    assert!(answer.agrees(), "{answer:?}");
+    for e in &answer.equilibria {
+        close(e.axial_n[0], 100.0);
+        close(e.axial_n[1], 100.0);
+        close(e.joints_m[2][0], 0.4);
+        let stress = Stress::Given(&e.axial_n);
+        let held = prestress_stability(&string, &e.joints_m, Standing::Supported, stress).unwrap();
+        assert_eq!((held.self_stresses, held.mechanisms), (1, 2));
+        let Held::ByStress { stiffness_n_m } = held.held else { panic!("{held:?}") };
+        close(stiffness_n_m, 100.0 / 0.4 + 100.0 / 0.6);
+    }
+    let tripod = exhibit("tripod").unwrap().system();
+    let at = ask(&tripod, Solvers::Lagrange, &|_| {}).equilibria[0].joints_m.clone();
+    let held = prestress_stability(&tripod, &at, Standing::Supported, Stress::Free).unwrap();
+    assert_eq!((held.held, held.mechanisms), (Held::ByLengths, 0));
+}
+
+/// Elastic members without load and without prestress: nothing decides the shape, and both solvers
+/// say so.
+#[test]
+fn without_load_and_prestress_there_is_no_answer() {
+    let joints =
+        vec![Joint::anchor("A", [0.0; 3]), Joint::anchor("B", [1.0, 0.0, 0.0]), Joint::free("P")];
+    let slack =
+        |from, to| Member::cable(from, to, Bar::homogeneous(0.8, 0.0).unwrap()).with_stiffness(1e4);
+    let system = System::new("loose", 9.81, joints, vec![slack(0, 2), slack(2, 1)]).unwrap();
+    assert!(system.refusal().is_ok());
+    let answer = ask(&system, Solvers::Both, &|_| {});
+    assert!(answer.equilibria.is_empty(), "{answer:?}");
+    assert_eq!(answer.failures.len(), 2);
+}
+
+/// A prestressed net from other places: elastic systems without loads have no force to begin with
+/// but that of their lengths.
+#[test]
+fn both_solvers_come_back_from_displaced_places() {
+    let (system, answers) = answers("prism");
+    let aside = |k: usize| (1.0 + 7.0 * k as f64).sin();
+    let start: Vec<Vector> = answers[0]
+        .joints_m
+        .iter()
+        .enumerate()
+        .map(|(k, x)| {
+            [x[0] + 0.2 * aside(k), x[1] + 0.2 * aside(k + 50), x[2] + 0.2 * aside(k + 99)]
+        })
+        .collect();
+    let found = energy::network::minimise_from(&system, &start, &ByEnergy::default()).unwrap();
+    let seed = lagrange::network::Seed { joints_m: start, axial_n: None };
+    let other = lagrange::network::solve_from(&system, &seed, &ByForces::default()).unwrap();
+    for e in [found.equilibrium, other.equilibrium] {
+        for (found, wanted) in e.axial_n.iter().zip(&answers[0].axial_n) {
+            close(*found, *wanted);
+        }
+    }
+}
+
+/// A net without loads, of which one force density is changed: the places of the file are no
+/// equilibrium of it, and the minimiser that begins there has the forces of their lengths alone.
+#[test]
+fn a_prestressed_net_is_minimised_from_places_that_are_not_its_own() {
+    let nodes = include_str!("../../data/external/force-density/olympia-nodes.csv");
+    let edges = include_str!("../../data/external/force-density/olympia-edges.csv");
+    let net = formats::system::parse_net((nodes, "nodes"), (edges, "edges"), "Olympia").unwrap();
+    let rested = |factor: f64| {
+        let mut net = net.clone();
+        net.edges[100].density_n_m *= factor;
+        let system = net.system_at(&net.places_m(), "Olympia").unwrap();
+        assert!(system.is_unloaded());
+        let places_m = net.places_m();
+        let found =
+            energy::network::minimise_from(&system, &places_m, &ByEnergy::default()).unwrap();
+        let seed = lagrange::network::Seed { joints_m: net.places_m(), axial_n: None };
+        let other = lagrange::network::solve_from(&system, &seed, &ByForces::default()).unwrap();
+        let far = |a: &[Vector], b: &[Vector]| {
+            let distances =
+                a.iter().zip(b).map(|(a, b)| (a[0] - b[0]).hypot(a[1] - b[1]).hypot(a[2] - b[2]));
+            distances.fold(0.0, f64::max)
+        };
+        let (mine, others) = (&found.equilibrium.joints_m, &other.equilibrium.joints_m);
+        // Tens of metres wide: 1e-9 m is the digits of the file.
+        assert!(far(mine, others) < 1e-9, "{}", far(mine, others));
+        far(mine, &net.places_m())
+    };
+    assert!(rested(1.0) < 1e-6);
+    assert!(rested(5.0) > 1e-3);
+}
