@@ -115,6 +115,8 @@ pub enum Command {
     Format,
     /// List the named cases, or print the system file of one (a start for a file of your own)
     Cases(crate::cases::Cases),
+    /// Write the manual pages, for `man` to read
+    Man(crate::man::Man),
     /// Print a completion script for a shell
     Completions {
         /// The shell

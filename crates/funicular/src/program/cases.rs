@@ -2,6 +2,7 @@
 
 use clap::Args;
 
+use crate::case_name::CaseName;
 use crate::exit::{Exit, Failure};
 use crate::output;
 use crate::tables;
@@ -10,7 +11,7 @@ use crate::tables;
 #[derive(Debug, Args)]
 pub struct Cases {
     /// Print the system file of this case
-    #[arg(value_name = "NAME")]
+    #[arg(value_name = "NAME", value_parser = CaseName, hide_possible_values = true)]
     pub name: Option<String>,
 }
 

@@ -8,6 +8,7 @@ use funicular::{Error, Problem};
 use miette::miette;
 use model::system_file::MAX_FILE_BYTES;
 
+use crate::case_name::CaseName;
 use crate::exit::Failure;
 
 /// Where a command that takes one system takes it from.
@@ -17,7 +18,7 @@ pub struct Source {
     #[arg(value_name = "FILE", required_unless_present = "case")]
     pub file: Option<PathBuf>,
     /// A named case instead of a file
-    #[arg(long, value_name = "NAME", conflicts_with = "file")]
+    #[arg(long, value_name = "NAME", value_parser = CaseName, hide_possible_values = true, conflicts_with = "file")]
     pub case: Option<String>,
 }
 

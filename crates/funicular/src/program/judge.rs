@@ -7,6 +7,7 @@ use formats::answer::Answer;
 use funicular::judge::{Ruling, Subject};
 use miette::miette;
 
+use crate::case_name::CaseName;
 use crate::exit::{Exit, Failure};
 use crate::foreign_input;
 use crate::interrupt::end_on_interrupt;
@@ -23,7 +24,7 @@ pub struct Judge {
     #[arg(value_name = "FILE", required_unless_present = "case")]
     pub file: Option<PathBuf>,
     /// Judge against a named case instead of a file
-    #[arg(long, value_name = "NAME", conflicts_with = "file")]
+    #[arg(long, value_name = "NAME", value_parser = CaseName, hide_possible_values = true, conflicts_with = "file")]
     pub case: Option<String>,
     /// How FILE is written
     #[arg(long, value_enum, default_value_t = Format::Auto)]

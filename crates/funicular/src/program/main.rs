@@ -6,6 +6,7 @@
 mod answer;
 mod args;
 mod basins;
+mod case_name;
 mod cases;
 mod census;
 mod diagnostics;
@@ -17,6 +18,7 @@ mod input;
 mod interrupt;
 mod judge;
 mod judged;
+mod man;
 mod merge;
 mod modes;
 mod new;
@@ -58,6 +60,7 @@ fn main() -> std::process::ExitCode {
         Command::New => new::run(),
         Command::Format => format::run(),
         Command::Cases(arguments) => cases::run(&arguments),
+        Command::Man(arguments) => man::run(&arguments),
         Command::Completions { shell } => {
             let mut script = Vec::new();
             clap_complete::generate(shell, &mut Cli::command(), "funicular", &mut script);

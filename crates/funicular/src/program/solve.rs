@@ -13,6 +13,7 @@ use miette::miette;
 use validate::answer::{Equations, Solvers, UseCensus};
 
 use crate::answer;
+use crate::case_name::CaseName;
 use crate::exit::{Exit, Failure};
 use crate::input::{self, Input};
 use crate::interrupt::end_on_interrupt;
@@ -30,7 +31,7 @@ pub struct Solve {
     #[arg(value_name = "FILE", required_unless_present_any = ["case", "batch"])]
     pub files: Vec<PathBuf>,
     /// Solve a named case instead of a file
-    #[arg(long, value_name = "NAME", conflicts_with = "files")]
+    #[arg(long, value_name = "NAME", value_parser = CaseName, hide_possible_values = true, conflicts_with = "files")]
     pub case: Option<String>,
     /// Solve every line of this file (- for standard input): each is a system as one JSON object,
     /// and is answered by one line of JSON, in the same order

@@ -47,7 +47,7 @@ fn number(cell: &str) -> f64 {
 
 #[test]
 fn examples_are_short_and_all_of_them_are_run() {
-    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("examples");
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples");
     let mut names = vec![];
     for entry in std::fs::read_dir(folder).unwrap() {
         let path = entry.unwrap().path();

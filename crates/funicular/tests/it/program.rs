@@ -375,7 +375,12 @@ fn help_version_and_completions() {
     let version = format!("funicular {}\n", env!("CARGO_PKG_VERSION"));
     assert_eq!(stdout(&funicular(&["--version"])), version);
     for shell in ["bash", "zsh", "fish", "powershell", "elvish"] {
-        assert!(stdout(&funicular(&["completions", shell])).contains("reproduce"), "{shell}");
+        let script = stdout(&funicular(&["completions", shell]));
+        assert!(script.contains("reproduce"), "{shell}");
+        // Cases by name, chains and systems; the scripts for two shells complete no values.
+        let names =
+            ["three-equal-bars", "footbridge"].into_iter().all(|name| script.contains(name));
+        assert!(names || ["powershell", "elvish"].contains(&shell), "{shell}");
     }
     let cases = stdout(&funicular(&["cases"]));
     assert!(model::cases::all().iter().all(|case| cases.contains(case.name)));
@@ -450,4 +455,29 @@ fn threads_are_capped_wherever_they_are_asked_for() {
     }
     let none = funicular(&["census", "--case", "two-bars", "--threads", "0"]);
     assert_eq!(none.status.code(), Some(0), "{}", stderr(&none));
+}
+
+#[test]
+fn every_command_has_a_manual_page() {
+    let folder = std::path::PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("man");
+    let _ = std::fs::remove_dir_all(&folder);
+    let output = funicular(&["man", "--out", folder.to_str().unwrap()]);
+    assert_eq!(output.status.code(), Some(0));
+    let page = |name: &str| std::fs::read_to_string(folder.join(format!("{name}.1"))).unwrap();
+    let whole = page("funicular");
+    let help = stdout(&funicular(&["--help"]));
+    let commands = help.lines().skip_while(|line| *line != "Commands:").skip(1);
+    let names = commands.take_while(|line| !line.is_empty()).filter_map(|line| {
+        let name = line.strip_prefix("  ")?.split(' ').next()?;
+        (!name.is_empty()).then_some(name)
+    });
+    let mut pages = 0;
+    for name in names.filter(|name| *name != "help") {
+        assert!(page(&format!("funicular-{name}")).contains(".SH SYNOPSIS"), "{name}");
+        assert!(whole.contains(&format!("funicular\\-{name}(1)")), "{name}");
+        pages += 1;
+    }
+    assert!(pages >= 14, "{help}");
+    assert_eq!(std::fs::read_dir(&folder).unwrap().count(), pages + 1);
+    assert!(page("funicular-solve").contains("\\-\\-batch"));
 }
