@@ -15,6 +15,9 @@ use crate::problem::Problem;
 use crate::starts::solvers;
 use crate::threads::MOST_THREADS;
 
+/// Starts after which whoever watches is told: a fraction of a second.
+const TOLD: u64 = 1_000_000;
+
 /// Runs starts with random angles through the solvers and tells which equilibrium each reaches.
 ///
 /// ```
@@ -148,8 +151,29 @@ impl Sweep {
     ///
     /// As [`prepare`](Self::prepare), and [`Error::Sweep`] when the threads cannot be started.
     pub fn run(&self, problem: &Problem) -> Result<SweepAnswer, Error> {
+        self.run_watched(problem, &|_| {})
+    }
+
+    /// The same, with `watch` told every million starts how many are done.
+    ///
+    /// # Errors
+    ///
+    /// As [`run`](Self::run).
+    pub fn run_watched(
+        &self,
+        problem: &Problem,
+        watch: &dyn Fn(u64),
+    ) -> Result<SweepAnswer, Error> {
         let prepared = self.prepare(problem)?;
-        let summary = prepared.sweep.run(0..self.seeds, self.threads)?;
+        let mut summary = prepared.sweep.run(0..self.seeds.min(TOLD), self.threads)?;
+        let mut done = self.seeds.min(TOLD);
+        watch(done);
+        while done < self.seeds {
+            let next = self.seeds.min(done.saturating_add(TOLD));
+            summary.merge(&prepared.sweep.run(done..next, self.threads)?);
+            done = next;
+            watch(done);
+        }
         let members = prepared.sweep.members();
         Ok(SweepAnswer {
             equilibria: members.list().to_vec(),

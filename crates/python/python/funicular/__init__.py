@@ -1,0 +1,86 @@
+"""Where do bars that hang from their anchors come to rest, with which forces, and how sure can we be?
+
+>>> import funicular as fn
+>>> a = fn.solve(lengths=[1, 1, 1], masses=[1, 1, 1], end=(0, 0, -2))
+>>> a.rung, round(a.energy_j, 6), a.reactions_n[0].round(6).tolist()
+('optimal', -35.936776, [0.0, -6.363975, 22.682235])
+
+Every equilibrium is found twice, by two solvers that share no mechanics; a third judge checks both from Newton's laws;
+and every answer says how far it is proved. World frame, Z up, gravity along -Z, SI units in every name.
+
+| to do | with |
+|---|---|
+| the hanging equilibrium | :func:`solve`, :meth:`System.solve` |
+| many chains at a time | :func:`solve_many` |
+| every equilibrium, with proof | :meth:`System.census` |
+| all equilibria over a parameter | :meth:`System.trace` |
+| which start leads where | :func:`sweep` |
+| motion, small oscillations | :func:`simulate`, :meth:`System.modes` |
+| somebody else's answer, judged | :func:`judge` |
+| the paper, judged | :func:`reproduce` |
+"""
+
+from ._interpreter import refuse_others
+
+refuse_others()
+
+# Whatever loads numpy or the native half comes behind that.
+from ._native import __version__, get_threads, set_threads
+from .answer import Answer, Equilibrium, solve
+from .batch import Batch, solve_many
+from .census import Census
+from .errors import *  # noqa: F403
+from .errors import __all__ as _errors
+from .evidence import Evidence, Proof, Proofs, Record
+from .judge import Judgement, judge
+from .motion import Modes, ModesOf, Motion, simulate
+from .reproduce import Reproduction, reproduce
+from .sweep import Sweep, sweep
+from .system import STANDARD_GRAVITY, System
+from .table import Table
+from .trace import Trace
+
+
+def cases() -> list[str]:
+    """The names of the examples that :meth:`System.case` knows.
+
+    >>> import funicular as fn
+    >>> "three-equal-bars" in fn.cases()
+    True
+    """
+    from ._native import Problem
+
+    return Problem.cases()
+
+
+__all__ = [
+    "STANDARD_GRAVITY",
+    "Answer",
+    "Batch",
+    "Census",
+    "Equilibrium",
+    "Evidence",
+    "Judgement",
+    "Modes",
+    "ModesOf",
+    "Motion",
+    "Proof",
+    "Proofs",
+    "Record",
+    "Reproduction",
+    "Sweep",
+    "System",
+    "Table",
+    "Trace",
+    "__version__",
+    "cases",
+    "get_threads",
+    "judge",
+    "reproduce",
+    "set_threads",
+    "simulate",
+    "solve",
+    "solve_many",
+    "sweep",
+    *_errors,
+]

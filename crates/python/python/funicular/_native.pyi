@@ -1,0 +1,139 @@
+"""The native half of the package; see the other modules for what it is used for."""
+
+from collections.abc import Callable, Sequence
+from os import PathLike
+from typing import Any, Optional, Union
+
+import numpy as np
+import numpy.typing as npt
+
+_Array = npt.NDArray[np.float64]
+_Vector = tuple[float, float, float]
+_Progress = Optional[Callable[[str, int, int], None]]
+_Path = Union[str, PathLike[str]]
+
+__version__: str
+
+class Problem:
+    @staticmethod
+    def chain(
+        name: str,
+        gravity_m_s2: float,
+        start_m: _Vector,
+        end_m: _Vector,
+        lengths_m: _Array,
+        masses_kg: _Array,
+        centres_m: _Array | None,
+        inertias_kg_m2: _Array | None,
+    ) -> Problem: ...
+    @staticmethod
+    def network(
+        name: str,
+        gravity_m_s2: float,
+        names: list[str],
+        supports: list[int],
+        at_m: _Array,
+        directions: _Array,
+        joint_masses_kg: _Array,
+        forces_n: _Array,
+        from_: list[int],
+        to: list[int],
+        kinds: list[int],
+        lengths_m: _Array,
+        masses_kg: _Array,
+        centres_m: _Array | None,
+        stiffnesses_n: _Array | None,
+        /,
+    ) -> Problem: ...
+    @staticmethod
+    def parse(text: str, name: str) -> Problem: ...
+    @staticmethod
+    def read(path: _Path) -> Problem: ...
+    @staticmethod
+    def case(name: str) -> Problem: ...
+    @staticmethod
+    def cases() -> list[str]: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def is_chain(self) -> bool: ...
+    @property
+    def gravity_m_s2(self) -> float: ...
+    def toml(self) -> str: ...
+    def joint_names(self) -> list[str]: ...
+    def supports_m(self) -> _Array: ...
+    def member_joints(self) -> list[tuple[int, int]]: ...
+    def member_kinds(self) -> list[str]: ...
+    def lengths_m(self) -> _Array: ...
+    def masses_kg(self) -> _Array: ...
+
+def set_threads(threads: int) -> None: ...
+def get_threads() -> int: ...
+def solve(
+    problem: Problem, solver: str, equations: str, census: str, threads: int, progress: _Progress
+) -> tuple[str, list[dict[str, Any]]]: ...
+def draw(problem: Problem, joints_m: _Array, axial_n: _Array, reactions_n: _Array) -> str: ...
+def solve_many(
+    chains: int,
+    bars: int,
+    lengths_m: _Array,
+    masses_kg: _Array,
+    centres_m: _Array | None,
+    starts_m: _Array,
+    ends_m: _Array,
+    gravity_m_s2: float,
+    solver: str,
+    threads: int,
+    progress: _Progress,
+) -> dict[str, Any]: ...
+def census(
+    problem: Problem, max_bars: int | None, threads: int, progress: _Progress
+) -> tuple[str, list[dict[str, Any]]]: ...
+def trace(
+    problem: Problem, vary: list[str], max_points: int | None, threads: int, progress: _Progress
+) -> tuple[str, str, bool, bool]: ...
+def sweep(
+    problem: Problem, seeds: int, number: int, spread: str, solver: str, threads: int, progress: _Progress
+) -> str: ...
+def sweep_write(
+    problem: Problem,
+    seeds: int,
+    number: int,
+    spread: str,
+    solver: str,
+    shard: tuple[int, int],
+    angles: bool,
+    file_format: str,
+    folder: _Path,
+    resume: bool,
+    threads: int,
+    progress: _Progress,
+) -> str | None: ...
+def sweep_merge(folders: Sequence[_Path], out: _Path, threads: int, progress: _Progress) -> str | None: ...
+def simulate(
+    problem: Problem,
+    start_word: str,
+    start_joints_m: _Array | None,
+    time_s: float,
+    step_s: float,
+    store_s: float | None,
+    fourth_order: bool,
+    drag_1_s: float,
+    friction_n_m_s: float,
+    pushes: list[tuple[str, _Vector]],
+    threads: int,
+    progress: _Progress,
+) -> tuple[dict[str, Any], str]: ...
+def modes(problem: Problem, max_bars: int | None, threads: int, progress: _Progress) -> str: ...
+def judge(
+    problem: Problem,
+    joints_m: _Array,
+    axial_n: _Array | None,
+    reactions_n: list[tuple[str, _Vector]] | None,
+    source: str,
+    tolerance: float | None,
+    threads: int,
+    progress: _Progress,
+) -> tuple[str, bool, bool, str]: ...
+def arrow_stream(names: list[str], columns: list[Any]) -> object: ...
+def reproduce(threads: int, progress: _Progress) -> tuple[str, str]: ...

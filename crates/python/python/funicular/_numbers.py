@@ -1,0 +1,79 @@
+"""Numbers and arrays as they come from outside, checked."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any, Union
+
+import numpy as np
+import numpy.typing as npt
+
+from .errors import SettingError, ShapeError
+
+if TYPE_CHECKING:
+    from typing_extensions import TypeAlias
+
+Array: TypeAlias = "npt.NDArray[np.float64]"
+Vector = Union[Sequence[float], "npt.NDArray[Any]"]
+Numbers = Union[Sequence[Any], "npt.NDArray[Any]", float]
+
+MOST_WIDTH = 8
+"""Bytes of the widest numbers that a double can stand for: longer ones would lose digits silently."""
+
+
+def array(argument: str, value: Any, shape: tuple[int | str, ...]) -> Array:
+    """A contiguous array of doubles of this shape, whatever it was before; letters stand for any size."""
+    try:
+        given = np.asarray(value)
+    except Exception as error:
+        raise _misshapen(argument, shape, "no rectangular array") from error
+    if given.dtype.kind not in "iuf" or given.dtype.itemsize > MOST_WIDTH:
+        raise _misshapen(argument, shape, f"numbers of the type {given.dtype}")
+    # A number stays one: `ascontiguousarray` would make a list of it.
+    found: Array = np.array(given, dtype=np.float64, order="C")
+    fits = found.ndim == len(shape) and all(
+        isinstance(wanted, str) or wanted == size for wanted, size in zip(shape, found.shape)
+    )
+    if not fits:
+        raise _misshapen(argument, shape, f"an array of shape {found.shape}")
+    return found
+
+
+def _misshapen(argument: str, shape: tuple[int | str, ...], found: str) -> ShapeError:
+    expected = f"real numbers of shape ({', '.join(map(str, shape))}{',' if len(shape) == 1 else ''})"
+    message = f"{argument}: {expected} wanted, got {found}"
+    return ShapeError(message, argument=argument, expected=expected, found=found)
+
+
+def vector(argument: str, value: Any) -> tuple[float, float, float]:
+    """Three numbers."""
+    x, y, z = array(argument, value, (3,)).tolist()
+    return x, y, z
+
+
+def number(argument: str, value: Any) -> float:
+    """One number."""
+    return float(array(argument, value, ()))
+
+
+def whole(argument: str, value: Any, least: int = 0) -> int:
+    """A whole number that is not below the least."""
+    if isinstance(value, (bool, np.bool_)):
+        found = None
+    elif isinstance(value, (int, np.integer)):
+        found = int(value)
+    elif isinstance(value, (float, np.floating)) and float(value).is_integer():
+        found = int(value)
+    else:
+        found = None
+    if found is None or not least <= found < 2**63:
+        message = f"{argument}: a whole number from {least} wanted, got {value!r:.80}"
+        raise SettingError(message, setting=argument, value=value)
+    return found
+
+
+def same_length(wanted: int, **others: Array | None) -> None:
+    """Refuse arrays that are not as long as another."""
+    for argument, other in others.items():
+        if other is not None and len(other) != wanted:
+            raise _misshapen(argument, (wanted, *other.shape[1:]), f"an array of shape {other.shape}")

@@ -1,0 +1,340 @@
+"""The hanging equilibrium, with the evidence for it."""
+
+from __future__ import annotations
+
+import json
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from . import _native
+from ._html import ladder, page
+from ._numbers import Array, Numbers, Vector, whole
+from ._progress import Progress, shown
+from .errors import InputError
+from .evidence import Evidence, Proofs, Record
+from .plot import plot
+from .system import STANDARD_GRAVITY, System, printable
+from .table import Table, vectors
+
+
+class Equilibrium:
+    """One equilibrium: places of the joints, forces, and how far it is proved.
+
+    All arrays are in the order of the joints or members of the system, world frame, Z up:
+
+    ``joints_m``
+        (joints, 3) places, m.
+    ``axial_n``
+        (members,) axial forces, tension positive, N; weights lumped to the joints by the lever rule.
+    ``start_forces_n``, ``end_forces_n``
+        (members, 3) forces on each member at the joint where it begins, and ends, N.
+    ``reactions_n``
+        (joints, 3) forces of the ground, N; zero at free joints.
+    ``multipliers_n``
+        (n + 1, 3) for chains: entry 0 the force of the ground on bar 1, entry k that of bar k+1 on bar k, the last that
+        of the ground on bar n, N; ``None`` for other systems.
+    """
+
+    joints_m: Array
+    axial_n: Array
+    start_forces_n: Array
+    end_forces_n: Array
+    reactions_n: Array
+    multipliers_n: Array | None
+
+    def __init__(self, system: System, data: dict[str, Any], arrays: dict[str, Any]) -> None:
+        self.system = system
+        self.data = data
+        for name in ("joints_m", "axial_n", "start_forces_n", "end_forces_n", "reactions_n", "multipliers_n"):
+            setattr(self, name, arrays[name])
+
+    @property
+    def solver(self) -> str:
+        """Who found it."""
+        return str(self.data["solver"])
+
+    @property
+    def energy_j(self) -> float:
+        """Potential energy, J, above the height of the first anchor."""
+        return float(self.data["energy_j"])
+
+    @cached_property
+    def stability(self) -> Record:
+        """``in_space`` (``stable`` or ``unstable``), ``index_in_space``, ``in_plane``, ``index_in_plane``."""
+        return Record(self.data["stability"])
+
+    @property
+    def is_stable(self) -> bool:
+        """Whether the energy falls in no direction of space."""
+        return bool(self.stability.in_space == "stable")
+
+    @cached_property
+    def evidence(self) -> Evidence:
+        """Residual, iterations, condition, and the ladder."""
+        return Evidence(self.data["evidence"])
+
+    @property
+    def proofs(self) -> Proofs:
+        """The evidence ladder, rung by rung."""
+        return self.evidence.proofs
+
+    @property
+    def rung(self) -> str | None:
+        """The highest rung reached."""
+        return self.evidence.rung
+
+    @property
+    def joints(self) -> Table:
+        """A row for each joint: name, place, force of the ground."""
+        columns = {"joint": self.system.joint_names, **vectors("", "_m", self.joints_m)}
+        return Table({**columns, **vectors("reaction_", "_n", self.reactions_n)})
+
+    @property
+    def bars(self) -> Table:
+        """A row for each member: joints, axial force, forces on it at both ends."""
+        names = self.system.joint_names
+        ends = self.system.member_joints
+        return Table(
+            {
+                "member": np.arange(1, len(ends) + 1),
+                "from": [names[a] for a, _ in ends],
+                "to": [names[b] for _, b in ends],
+                "axial_n": self.axial_n,
+                **vectors("start_", "_n", self.start_forces_n),
+                **vectors("end_", "_n", self.end_forces_n),
+            }
+        )
+
+    def reaction(self, joint: str | int) -> Array:
+        """(3,) Force of the ground on a joint, by its name or number, N."""
+        names = self.system.joint_names
+        if isinstance(joint, str):
+            if joint not in names:
+                raise InputError(f"there is no joint {joint!r:.80}")
+            number = names.index(joint)
+        else:
+            number = whole("joint", joint)
+            if number >= len(names):
+                raise InputError(f"there is no joint {number}: the last is {len(names) - 1}")
+        force: Array = self.reactions_n[number]
+        return force
+
+    def svg(self) -> str:
+        """The picture to scale: joints, supports, loads, reactions, tension and compression."""
+        arrays = (np.ascontiguousarray(a) for a in (self.joints_m, self.axial_n, self.reactions_n))
+        return _native.draw(self.system._problem, *arrays)
+
+    def plot(self, ax: Any = None, *, space: bool | None = None, forces: bool = True) -> Any:
+        """Draw into axes of matplotlib, which must be installed; see :func:`funicular.plot.plot`."""
+        return plot(self, ax, space=space, forces=forces)
+
+    def __repr__(self) -> str:
+        where = printable(self.system.name)
+        return f"<Equilibrium of {where!r} by {self.solver}: {self.energy_j:.6g} J, {self.rung}>"
+
+    def _repr_html_(self) -> str:
+        return page(self)
+
+
+class Answer:
+    """What the solvers found, compared, judged and proved as far as it goes.
+
+    ``equilibria`` has one :class:`Equilibrium` for each solver that has an answer, ``lagrange`` first. All that an
+    equilibrium has (``joints_m``, ``axial_n``, ``energy_j``, ``proofs``, ``rung``, ``plot()``, ...) the answer has
+    too: it is that of the first.
+    """
+
+    def __init__(self, system: System, text: str, arrays: list[dict[str, Any]]) -> None:
+        self.system = system
+        self._text = text
+        self._arrays = arrays
+
+    @cached_property
+    def data(self) -> dict[str, Any]:
+        """The object that ``funicular solve --summary --json`` prints."""
+        found: dict[str, Any] = json.loads(self._text)
+        return found
+
+    @cached_property
+    def equilibria(self) -> list[Equilibrium]:
+        """One for each solver that has an answer."""
+        pairs = zip(self.data["equilibria"], self._arrays)
+        return [Equilibrium(self.system, data, arrays) for data, arrays in pairs]
+
+    def by(self, solver: str) -> Equilibrium:
+        """The answer of ``lagrange`` or ``energy``."""
+        for equilibrium in self.equilibria:
+            if equilibrium.solver == solver:
+                return equilibrium
+        raise InputError(f"{solver!r:.80} has no answer here")
+
+    @property
+    def failures(self) -> list[dict[str, Any]]:
+        """Why solvers that were asked have no answer: ``solver``, ``reason``, ``refusal`` with its numbers."""
+        return list(self.data["failures"])
+
+    @property
+    def agreement(self) -> Record | None:
+        """The comparison of both answers, with its numbers; ``None`` if there is one answer."""
+        return Record(self.data["agreement"]) if self.data["agreement"] else None
+
+    @property
+    def agrees(self) -> bool:
+        """Whether both solvers answered and agree, and the judge finds both in balance."""
+        return len(self.equilibria) > 1 and all(e.proofs.agreed.reached for e in self.equilibria)
+
+    @property
+    def joints_m(self) -> Array:
+        """(joints, 3) places of the joints, m."""
+        return self.equilibria[0].joints_m
+
+    @property
+    def axial_n(self) -> Array:
+        """(members,) axial forces, tension positive, N."""
+        return self.equilibria[0].axial_n
+
+    @property
+    def start_forces_n(self) -> Array:
+        """(members, 3) forces on the members where they begin, N."""
+        return self.equilibria[0].start_forces_n
+
+    @property
+    def end_forces_n(self) -> Array:
+        """(members, 3) forces on the members where they end, N."""
+        return self.equilibria[0].end_forces_n
+
+    @property
+    def reactions_n(self) -> Array:
+        """(joints, 3) forces of the ground, N."""
+        return self.equilibria[0].reactions_n
+
+    @property
+    def multipliers_n(self) -> Array | None:
+        """(n + 1, 3) the multipliers of a chain, N."""
+        return self.equilibria[0].multipliers_n
+
+    @property
+    def energy_j(self) -> float:
+        """Potential energy above the first anchor, J."""
+        return self.equilibria[0].energy_j
+
+    @property
+    def stability(self) -> Record:
+        """Second-order behaviour."""
+        return self.equilibria[0].stability
+
+    @property
+    def is_stable(self) -> bool:
+        """Whether the energy falls in no direction of space."""
+        return self.equilibria[0].is_stable
+
+    @property
+    def evidence(self) -> Evidence:
+        """Residual, iterations, condition, and the ladder of the first answer."""
+        return self.equilibria[0].evidence
+
+    @property
+    def proofs(self) -> Proofs:
+        """The evidence ladder, rung by rung."""
+        return self.equilibria[0].proofs
+
+    @property
+    def rung(self) -> str | None:
+        """The highest rung reached."""
+        return self.equilibria[0].rung
+
+    @property
+    def joints(self) -> Table:
+        """A row for each joint."""
+        return self.equilibria[0].joints
+
+    @property
+    def bars(self) -> Table:
+        """A row for each member."""
+        return self.equilibria[0].bars
+
+    def reaction(self, joint: str | int) -> Array:
+        """(3,) Force of the ground on a joint, by its name or number, N."""
+        return self.equilibria[0].reaction(joint)
+
+    def svg(self) -> str:
+        """The picture to scale."""
+        return self.equilibria[0].svg()
+
+    def plot(self, ax: Any = None, *, space: bool | None = None, forces: bool = True) -> Any:
+        """Draw into axes of matplotlib, which must be installed."""
+        return self.equilibria[0].plot(ax, space=space, forces=forces)
+
+    def __repr__(self) -> str:
+        agreed = "agreed" if self.agrees else ", ".join(e.solver for e in self.equilibria)
+        return f"<Answer of {printable(self.system.name)!r}: {self.energy_j:.6g} J, {self.rung} ({agreed})>"
+
+    def _repr_html_(self) -> str:
+        rest = "".join(f"<h4>{e.solver}</h4>{ladder(e)}" for e in self.equilibria[1:])
+        return page(self.equilibria[0]) + rest
+
+
+def solve(
+    system: System | None = None,
+    *,
+    lengths: Numbers | None = None,
+    masses: Numbers | None = None,
+    end: Vector | None = None,
+    start: Vector = (0.0, 0.0, 0.0),
+    centres: Numbers | None = None,
+    gravity: float = STANDARD_GRAVITY,
+    name: str = "chain",
+    solver: str = "both",
+    equations: str = "condensed",
+    census: str = "auto",
+    threads: int = 0,
+    progress: Progress = None,
+) -> Answer:
+    """The hanging equilibrium, by two solvers that share no mechanics, compared, judged and proved as far as it goes.
+
+    Parameters
+    ----------
+    system : a :class:`System`; or give a chain by ``lengths``, ``masses``, ``end`` and what else its arrays need
+    solver : ``both``, ``lagrange`` or ``energy``
+    equations : ``condensed``, or ``full`` for all coordinates and multipliers of the paper (some 30 bars)
+    census : ``auto`` looks up chains of up to 8 bars in the list of all equilibria, ``never`` none, ``always`` all
+    threads : how many share the work, 0 for what :func:`set_threads` says; no answer depends on it
+    progress : ``True`` for a bar, or a function of (what, done, total)
+
+    Returns
+    -------
+    Answer
+
+    Raises
+    ------
+    ShapeError, BarError, ChainError : numbers out of range
+    Refused : no equilibrium problem: OutOfReach, Taut, BarTooLong, Folded, SingleBar, NoLoad, ...
+    Unsolved : no solver that was asked has an answer; ``failures`` says why
+
+    Examples
+    --------
+    The example of the paper: three bars of 1 m and 1 kg, anchors 2 m apart on one vertical.
+
+    >>> import funicular as fn
+    >>> a = fn.solve(lengths=[1, 1, 1], masses=[1, 1, 1], end=(0, 0, -2))
+    >>> a.rung, a.agrees
+    ('optimal', True)
+    >>> round(float(a.multipliers_n[0, 2]) / 9.80665, 12)    # λ₃ in mg, as a root finder of 40 digits has it
+    2.312944292242
+    """
+    if system is None:
+        if lengths is None or masses is None or end is None:
+            raise InputError("give a system, or lengths, masses and end")
+        chain = {"lengths": lengths, "masses": masses, "end": end, "start": start, "centres": centres}
+        system = System(**chain, gravity=gravity, name=name)  # type: ignore[arg-type]
+    elif lengths is not None or masses is not None or end is not None:
+        raise InputError("give a system or the arrays of a chain, not both")
+    if not isinstance(system, System):
+        raise InputError(f"a System is wanted, got {type(system).__name__}")
+    with shown(progress) as callback:
+        found = _native.solve(
+            system._problem, str(solver), str(equations), str(census), whole("threads", threads), callback
+        )
+    return Answer(system, *found)

@@ -1,0 +1,195 @@
+"""Systems in motion: simulation, and small oscillations."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from html import escape
+from typing import Any, Union
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _native
+from ._numbers import Array, Vector, array, number, vector, whole
+from ._progress import Progress, shown
+from .system import System, printable
+from .table import Table
+
+Start = Union[str, "npt.NDArray[Any]", list[Any]]
+
+TIMES = ("time_s", "joints_m", "velocities_m_s", "reactions_n", "axial_n", "kinetic_j", "potential_j")
+
+
+class Motion:
+    """A motion at its stored times.
+
+    ``time_s`` (t,) s; ``joints_m``, ``velocities_m_s``, ``reactions_n`` (t, joints, 3); ``axial_n`` (t, members) N,
+    tension positive; ``kinetic_j``, ``potential_j``, ``energy_j`` (t,) J. ``laws_off`` and ``lengths_off`` (t,): what
+    is left over in Newton's and Euler's laws and in the lengths, dimensionless.
+    """
+
+    time_s: Array
+    joints_m: Array
+    velocities_m_s: Array
+    reactions_n: Array
+    axial_n: Array
+    kinetic_j: Array
+    potential_j: Array
+    laws_off: Array
+    lengths_off: Array
+
+    def __init__(self, system: System, arrays: dict[str, Any], page: str) -> None:
+        self.system = system
+        self._page = page
+        for name in (*TIMES, "laws_off", "lengths_off"):
+            setattr(self, name, arrays[name])
+
+    @property
+    def energy_j(self) -> Array:
+        """(t,) Mechanical energy, J."""
+        found: Array = self.kinetic_j + self.potential_j
+        return found
+
+    @property
+    def table(self) -> Table:
+        """A row for each time: energies, and the places of all joints."""
+        columns: dict[str, Any] = {name: getattr(self, name) for name in ("time_s", "kinetic_j", "potential_j")}
+        for k, joint in enumerate(self.system.joint_names):
+            columns |= {f"{joint}_{axis}_m": self.joints_m[:, k, i] for i, axis in enumerate("xyz")}
+        return Table(columns)
+
+    def html(self) -> str:
+        """An animation in one page that needs nothing else."""
+        return self._page
+
+    def __repr__(self) -> str:
+        return f"<Motion of {printable(self.system.name)!r}: {self.time_s[-1]:g} s, {len(self.time_s)} stored times>"
+
+    def _repr_html_(self) -> str:
+        frame = "width: 100%; height: 34rem; border: 0"
+        return f'<iframe sandbox="allow-scripts" style="{frame}" srcdoc="{escape(self._page)}"></iframe>'
+
+
+def simulate(
+    system: System,
+    *,
+    start: Start = "rest",
+    time: float = 10.0,
+    step: float = 1e-3,
+    store: float | None = None,
+    fourth_order: bool = False,
+    drag: float = 0.0,
+    friction: float = 0.0,
+    pushes: Mapping[Any, Vector] | None = None,
+    threads: int = 0,
+    progress: Progress = None,
+) -> Motion:
+    """Set a system in motion, and follow it with rigid bars (RATTLE).
+
+    Parameters
+    ----------
+    start : ``rest`` (the stable equilibrium), ``equilibrium:2``, ``angles=0,60,-60`` (bars from the descending
+        vertical, degrees), ``seed:7`` (at random), or (joints, 3) places, m
+    time, step, store : s; ``store`` is the time between stored times, a thousandth of the whole if not given
+    fourth_order : fourth order in the step instead of second, for five times the work
+    drag : 1/s, momentum falls at this rate; friction : N m s, in the joints
+    pushes : {joint: (3,) N s}, impulses at the beginning
+
+    Raises
+    ------
+    MotionError, SettingError, and the errors of :func:`solve`
+
+    >>> import funicular as fn
+    >>> m = fn.System.case("three-equal-bars").simulate(start="angles=0,60,-60", time=2)
+    >>> m.joints_m.shape
+    (1001, 4, 3)
+    >>> bool(abs(m.energy_j - m.energy_j[0]).max() < 1e-4)    # kept to the order of the step squared
+    True
+    """
+    word, joints = (start, None) if isinstance(start, str) else ("rest", array("start", start, ("joints", 3)))
+    impulses = [(str(joint), vector(f"pushes[{joint!r}]", push)) for joint, push in (pushes or {}).items()]
+    with shown(progress) as callback:
+        found = _native.simulate(
+            system._problem,
+            word,
+            joints,
+            number("time", time),
+            number("step", step),
+            None if store is None else number("store", store),
+            bool(fourth_order),
+            number("drag", drag),
+            number("friction", friction),
+            impulses,
+            whole("threads", threads),
+            callback,
+        )
+    return Motion(system, *found)
+
+
+class Modes:
+    """Small oscillations about all equilibria of a chain where a census is complete, else about the stable one.
+
+    ``equilibria``: for each its ``label``, ``energy_j``, ``joints_m`` and :class:`ModesOf`.
+
+    >>> import funicular as fn
+    >>> m = fn.System.from_toml('''
+    ... anchors = { start_m = [0, 0, 0], end_m = [1, 0, 0] }
+    ... bars = [{ length_m = 1, mass_kg = 1, count = 2 }]
+    ... ''').modes()
+    >>> told = 2 * 9.80665 * (3**0.5 / 4) / 0.5      # a plate that swings about its upper edge: M g h / J
+    >>> abs(float(m[0].omega2_s2[0]) - told) < 1e-9, m.complete
+    (True, True)
+    """
+
+    def __init__(self, system: System, text: str) -> None:
+        self.system = system
+        self.data: dict[str, Any] = json.loads(text)
+        self.equilibria = [ModesOf(found) for found in self.data["equilibria"]]
+
+    @property
+    def complete(self) -> bool:
+        """Whether a census proves that there are no other equilibria."""
+        return bool(self.data["complete"])
+
+    def __len__(self) -> int:
+        return len(self.equilibria)
+
+    def __getitem__(self, k: int) -> ModesOf:
+        return self.equilibria[k]
+
+    def __repr__(self) -> str:
+        return f"<Modes of {printable(self.system.name)!r}: {len(self)} equilibria>"
+
+
+class ModesOf:
+    """The modes of one equilibrium, by ascending ω², zero and negative ones included.
+
+    ``omega2_s2`` (modes,) 1/s²; ``frequencies_hz`` (modes,) Hz, NaN where it does not oscillate; ``shapes`` (modes,
+    joints, 3), the largest displacement 1; ``what`` each mode is, in words; ``joints_m`` (joints, 3) m.
+    """
+
+    def __init__(self, data: dict[str, Any]) -> None:
+        self.data = data
+        self.label: str = data["label"]
+        self.energy_j: float = data["energy_j"]
+        self.joints_m: Array = np.array([joint["at_m"] for joint in data["joints"]], dtype=np.float64)
+        modes = data["modes"]
+        self.omega2_s2: Array = np.array([mode["omega2_s2"] for mode in modes], dtype=np.float64)
+        shapes = np.array([mode["shape"] for mode in modes], dtype=np.float64)
+        self.shapes: Array = shapes.reshape(len(modes), len(self.joints_m), 3)
+        self.what: list[str] = [mode["what"] for mode in modes]
+        self.frequencies_hz: Array = np.array([mode.get("frequency_hz", np.nan) for mode in modes], dtype=np.float64)
+        self.rates_1_s: Array = np.array([mode.get("rate_1_s", np.nan) for mode in modes], dtype=np.float64)
+
+    @property
+    def table(self) -> Table:
+        """A row for each mode."""
+        return Table({"omega2_s2": self.omega2_s2, "frequency_hz": self.frequencies_hz, "what": self.what})
+
+
+def modes(system: System, *, max_bars: int | None = None, threads: int = 0, progress: Progress = None) -> Modes:
+    """Small oscillations. ``max_bars``: take a census of chains of up to so many (8). Raises MotionError."""
+    bars = None if max_bars is None else whole("max_bars", max_bars)
+    with shown(progress) as callback:
+        return Modes(system, _native.modes(system._problem, bars, whole("threads", threads), callback))

@@ -1,0 +1,104 @@
+"""Tables of results: columns with units in their names, for pandas, Arrow, polars, DuckDB and others."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from html import escape
+from typing import TYPE_CHECKING, Any, Union
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _native
+from ._numbers import MOST_WIDTH
+from .errors import ShapeError
+
+if TYPE_CHECKING:
+    import pandas
+
+Column = Union["npt.NDArray[np.float64]", "npt.NDArray[np.int64]", "list[str]"]
+
+SHOWN = 20
+"""Rows that a notebook shows."""
+
+
+class Table(Mapping[str, Column]):
+    """Columns of equal length by their names: one-dimensional arrays of doubles or integers, or lists of texts.
+
+    Whatever reads the Arrow PyCapsule interface reads a table: ``pyarrow.table(t)``, ``polars.DataFrame(t)``,
+    ``duckdb.sql("from t")``. ``to_pandas()`` makes a data frame.
+
+    >>> import funicular as fn
+    >>> a = fn.solve(lengths=[1, 1], masses=[1, 1], end=(1, 0, 0))
+    >>> a.joints
+    Table of 3 rows: joint, x_m, y_m, z_m, reaction_x_n, reaction_y_n, reaction_z_n
+    >>> a.joints["z_m"].round(4).tolist()
+    [0.0, -0.866, 0.0]
+    """
+
+    def __init__(self, columns: Mapping[str, Any]) -> None:
+        self._columns: dict[str, Column] = {name: _column(values) for name, values in columns.items()}
+
+    def __getitem__(self, name: str) -> Column:
+        return self._columns[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._columns)
+
+    def __len__(self) -> int:
+        return len(self._columns)
+
+    @property
+    def rows(self) -> int:
+        """Number of rows."""
+        return len(next(iter(self._columns.values()), []))
+
+    def __arrow_c_stream__(self, requested_schema: object = None) -> object:
+        """The table as an Arrow stream of one batch (a requested schema is not met, as the interface allows)."""
+        return _native.arrow_stream(list(self._columns), list(self._columns.values()))
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """A data frame of pandas, which must be installed."""
+        import pandas
+
+        frame: pandas.DataFrame = pandas.DataFrame(dict(self._columns))
+        return frame
+
+    def __repr__(self) -> str:
+        return f"Table of {self.rows} rows: {', '.join(self)}"
+
+    def _repr_html_(self) -> str:
+        head = "".join(f"<th>{escape(name)}</th>" for name in self)
+        lines = []
+        for k in range(min(self.rows, SHOWN)):
+            cells = (_shown(column[k]) for column in self._columns.values())
+            lines.append("<tr>" + "".join(f"<td>{escape(cell)}</td>" for cell in cells) + "</tr>")
+        more = f"<p>{self.rows} rows</p>" if self.rows > SHOWN else ""
+        return f"<table><thead><tr>{head}</tr></thead><tbody>{''.join(lines)}</tbody></table>{more}"
+
+
+def _shown(value: Any) -> str:
+    return f"{value:.6g}" if isinstance(value, (float, np.floating)) else str(value)
+
+
+def _column(values: Any) -> Column:
+    if isinstance(values, np.ndarray):
+        if values.ndim != 1 or values.dtype.kind not in "fiub" or values.dtype.itemsize > MOST_WIDTH:
+            found = f"an array of {values.dtype} of shape {values.shape}"
+            raise ShapeError(f"a column is one list of numbers or texts, got {found}", argument="columns", found=found)
+        if values.dtype.kind == "f":
+            return np.require(values, np.float64, ["C", "A"])
+        return np.require(values, np.int64, ["C", "A"])
+    listed: Sequence[Any] = list(values)
+    if all(isinstance(value, str) for value in listed):
+        return [str(value) for value in listed]
+    try:
+        found_array = np.asarray(listed)
+    except ValueError as error:
+        raise ShapeError("a column is one list of numbers or texts", argument="columns") from error
+    return _column(found_array)
+
+
+def vectors(prefix: str, unit: str, values: npt.NDArray[np.float64]) -> dict[str, npt.NDArray[np.float64]]:
+    """Three columns of an array of shape (n, 3)."""
+    return {f"{prefix}{axis}{unit}": values[:, k] for k, axis in enumerate("xyz")}

@@ -1,0 +1,38 @@
+//! Every equilibrium, with proof.
+
+use std::sync::Arc;
+
+use funicular::prelude::Census;
+use pyo3::prelude::*;
+
+use crate::problem::Problem;
+use crate::raise::{raise, unwritten};
+use crate::solve::{Arrays, Told, told};
+use crate::work;
+
+/// What `funicular census --json` prints, and the arrays of the equilibria.
+#[pyfunction]
+pub fn census<'py>(
+    py: Python<'py>,
+    problem: &Problem,
+    max_bars: Option<usize>,
+    threads: usize,
+    progress: Option<Bound<'py, PyAny>>,
+) -> PyResult<Told<'py>> {
+    let of = Arc::clone(&problem.of);
+    let census = max_bars.map_or_else(Census::new, |bars| Census::new().max_bars(bars));
+    let found = work::run(py, threads, progress.as_ref(), move |watch| {
+        if let Some(system) = of.as_system() {
+            let found = census.run_system(system)?;
+            let arrays: Vec<_> = found.equilibria().iter().map(Arrays::of_system).collect();
+            return Ok((serde_json::to_string(&found), arrays));
+        }
+        let found =
+            census.run_watched(&of, &|at| watch.tell("cells", at.done, at.done + at.waiting))?;
+        let arrays = found.equilibria.iter().map(|found| Arrays::of_chain(&found.equilibrium));
+        let arrays = arrays.collect();
+        Ok((serde_json::to_string(&found), arrays))
+    })?;
+    let (text, arrays) = found.map_err(|error: funicular::Error| raise(&error))?;
+    told(py, text.map_err(|error| unwritten(&error))?, arrays)
+}

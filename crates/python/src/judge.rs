@@ -1,0 +1,49 @@
+//! Answers from elsewhere.
+
+use std::sync::Arc;
+
+use funicular::judge::{ForeignAnswer, Judge};
+use funicular::prelude::Vector;
+use funicular::system_of;
+use numpy::PyReadonlyArrayDyn;
+use pyo3::prelude::*;
+
+use crate::arrays::{numbers, vectors};
+use crate::problem::Problem;
+use crate::raise::{raise, unwritten};
+use crate::work;
+
+/// What `funicular judge --json` prints, whether the answer is confirmed and whether refuted, and
+/// the judgement as a page.
+#[pyfunction]
+#[expect(clippy::too_many_arguments, reason = "arrays, one for each quantity")]
+pub fn judge<'py>(
+    py: Python<'py>,
+    problem: &Problem,
+    joints_m: PyReadonlyArrayDyn<'py, f64>,
+    axial_n: Option<PyReadonlyArrayDyn<'py, f64>>,
+    reactions_n: Option<Vec<(String, Vector)>>,
+    source: String,
+    tolerance: Option<f64>,
+    threads: usize,
+    progress: Option<Bound<'py, PyAny>>,
+) -> PyResult<(String, bool, bool, String)> {
+    let joints = vectors(&joints_m)?;
+    let axial = axial_n.as_ref().map(numbers).transpose()?;
+    let of = Arc::clone(&problem.of);
+    let judge = tolerance.map_or_else(Judge::new, |tolerance| Judge::new().tolerance(tolerance));
+    let found = work::run(py, threads, progress.as_ref(), move |watch| {
+        let system = system_of(&of);
+        let mut answer = ForeignAnswer::in_order(&system, source, joints, axial)?;
+        if let Some(reactions) = reactions_n {
+            answer = answer.with_reactions(&system, reactions)?;
+        }
+        let judged = judge.run_watched(&system, &answer, &|what| watch.tell(what, 0, 0))?;
+        let judgement = judged.judgement();
+        let verdict = (judgement.is_confirmed(), judgement.is_refuted());
+        Ok((serde_json::to_string(&judged), verdict, judged.html(&[])))
+    })?;
+    let (text, (confirmed, refuted), page) =
+        found.map_err(|error: funicular::Error| raise(&error))?;
+    Ok((text.map_err(|error| unwritten(&error))?, confirmed, refuted, page))
+}

@@ -1,0 +1,26 @@
+//! Small oscillations.
+
+use std::sync::Arc;
+
+use funicular::prelude::Modes;
+use pyo3::prelude::*;
+
+use crate::problem::Problem;
+use crate::raise::{raise, unwritten};
+use crate::work;
+
+/// What `funicular modes --json` prints.
+#[pyfunction]
+pub fn modes<'py>(
+    py: Python<'py>,
+    problem: &Problem,
+    max_bars: Option<usize>,
+    threads: usize,
+    progress: Option<Bound<'py, PyAny>>,
+) -> PyResult<String> {
+    let of = Arc::clone(&problem.of);
+    let modes = max_bars.map_or_else(Modes::new, |bars| Modes::new().max_bars(bars));
+    let found = work::run(py, threads, progress.as_ref(), move |_| modes.run(&of))?;
+    let found = found.map_err(|error| raise(&error))?;
+    serde_json::to_string(&found).map_err(|error| unwritten(&error))
+}

@@ -1,0 +1,144 @@
+//! A system in motion.
+
+use std::ops::ControlFlow;
+use std::sync::Arc;
+use std::sync::atomic::Ordering;
+
+use funicular::Animation;
+use funicular::prelude::{Simulate, Start, Vector};
+use numpy::{PyArrayMethods as _, PyReadonlyArrayDyn};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+use crate::arrays::{column, vectors};
+use crate::problem::Problem;
+use crate::raise::{exception, raise};
+use crate::told::{Field, Told};
+use crate::work;
+
+/// What is stored of a motion: an entry for each time.
+#[derive(Default)]
+struct Stored {
+    time_s: Vec<f64>,
+    joints_m: Vec<Vector>,
+    velocities_m_s: Vec<Vector>,
+    axial_n: Vec<f64>,
+    reactions_n: Vec<Vector>,
+    kinetic_j: Vec<f64>,
+    potential_j: Vec<f64>,
+    laws_off: Vec<f64>,
+    lengths_off: Vec<f64>,
+}
+
+/// Times are in parts of the whole for whoever waits.
+const PARTS: f64 = 1000.0;
+
+/// Where a motion begins: as words, or as places of all joints.
+fn start(word: &str, joints_m: Option<PyReadonlyArrayDyn<'_, f64>>) -> PyResult<Start> {
+    if let Some(joints) = joints_m {
+        return Ok(Start::Joints(vectors(&joints)?));
+    }
+    word.parse().map_err(|why: String| {
+        let message = format!("start: {why}");
+        let fields = vec![("setting", Field::from("start")), ("value", Field::from(word))];
+        exception(Told::new("SettingError", message, fields))
+    })
+}
+
+/// Arrays over the stored times, and an animation as a page.
+#[pyfunction]
+#[expect(clippy::too_many_arguments, reason = "one for each setting")]
+pub fn simulate<'py>(
+    py: Python<'py>,
+    problem: &Problem,
+    start_word: &str,
+    start_joints_m: Option<PyReadonlyArrayDyn<'py, f64>>,
+    time_s: f64,
+    step_s: f64,
+    store_s: Option<f64>,
+    fourth_order: bool,
+    drag_1_s: f64,
+    friction_n_m_s: f64,
+    pushes: Vec<(String, Vector)>,
+    threads: usize,
+    progress: Option<Bound<'py, PyAny>>,
+) -> PyResult<(Bound<'py, PyDict>, String)> {
+    let mut simulate = Simulate::new()
+        .start(start(start_word, start_joints_m)?)
+        .time_s(time_s)
+        .step_s(step_s)
+        .drag_1_s(drag_1_s)
+        .friction_n_m_s(friction_n_m_s);
+    if fourth_order {
+        simulate = simulate.fourth_order();
+    }
+    if let Some(store_s) = store_s {
+        simulate = simulate.store_s(store_s);
+    }
+    for (joint, impulse) in pushes {
+        simulate = simulate.push(joint, impulse);
+    }
+    let of = Arc::clone(&problem.of);
+    let system = problem.system();
+    let (joints, members) = (system.joints().len(), system.members().len());
+    let found = work::run(py, threads, progress.as_ref(), move |watch| {
+        let mut stored = Stored::default();
+        let mut animation = Animation::new(&system);
+        let moved = simulate.run_watched(&of, &mut |now| {
+            stored.add(
+                now.time_s,
+                now.kinetic_j,
+                now.potential_j,
+                [now.laws.largest(), now.lengths_off],
+            );
+            stored.joints_m.extend_from_slice(&now.joints_m);
+            stored.velocities_m_s.extend_from_slice(&now.velocities_m_s);
+            stored.axial_n.extend_from_slice(&now.axial_n);
+            stored.reactions_n.extend_from_slice(&now.reactions_n);
+            animation.add(now);
+            #[expect(
+                clippy::cast_possible_truncation,
+                clippy::cast_sign_loss,
+                reason = "it saturates"
+            )]
+            let done = (now.time_s / time_s * PARTS) as u64;
+            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "1000")]
+            watch.tell("thousandths of the time", done, PARTS as u64);
+            if watch.stop().load(Ordering::Relaxed) {
+                ControlFlow::Break(())
+            } else {
+                ControlFlow::Continue(())
+            }
+        });
+        moved.map(|_| (stored, animation.page()))
+    })?;
+    let (stored, page) = found.map_err(|error| raise(&error))?;
+    Ok((stored.dict(py, joints, members)?, page))
+}
+
+impl Stored {
+    fn add(&mut self, time_s: f64, kinetic_j: f64, potential_j: f64, off: [f64; 2]) {
+        self.time_s.push(time_s);
+        self.kinetic_j.push(kinetic_j);
+        self.potential_j.push(potential_j);
+        self.laws_off.push(off[0]);
+        self.lengths_off.push(off[1]);
+    }
+
+    fn dict(self, py: Python<'_>, joints: usize, members: usize) -> PyResult<Bound<'_, PyDict>> {
+        let times = self.time_s.len();
+        let cube =
+            |vectors: Vec<Vector>| column(py, vectors.into_flattened()).reshape([times, joints, 3]);
+        let dict = PyDict::new(py);
+        dict.set_item("time_s", column(py, self.time_s))?;
+        dict.set_item("joints_m", cube(self.joints_m)?)?;
+        dict.set_item("velocities_m_s", cube(self.velocities_m_s)?)?;
+        dict.set_item("reactions_n", cube(self.reactions_n)?)?;
+        dict.set_item("axial_n", column(py, self.axial_n).reshape([times, members])?)?;
+        dict.set_item("kinetic_j", column(py, self.kinetic_j))?;
+        dict.set_item("potential_j", column(py, self.potential_j))?;
+        dict.set_item("laws_off", column(py, self.laws_off))?;
+        dict.set_item("lengths_off", column(py, self.lengths_off))?;
+        Ok(dict)
+    }
+}

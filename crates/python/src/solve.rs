@@ -1,0 +1,143 @@
+//! The hanging equilibrium.
+
+use std::sync::Arc;
+
+use funicular::prelude::{Equilibrium, Solve, Vector};
+use funicular::{Error, Solution, picture};
+use model::system::SystemEquilibrium;
+use numpy::PyReadonlyArrayDyn;
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyList};
+
+use crate::arrays::{column, numbers, rows, vectors};
+use crate::problem::Problem;
+use crate::raise::{internal, raise, unwritten};
+use crate::{words, work};
+
+/// One equilibrium in arrays, in the order of joints and members.
+pub struct Arrays {
+    joints_m: Vec<Vector>,
+    /// Those of a chain alone.
+    multipliers_n: Option<Vec<Vector>>,
+    axial_n: Vec<f64>,
+    start_forces_n: Vec<Vector>,
+    end_forces_n: Vec<Vector>,
+    reactions_n: Vec<Vector>,
+}
+
+impl Arrays {
+    /// Of a chain.
+    pub fn of_chain(found: &Equilibrium) -> Self {
+        let forces = &found.multipliers_n;
+        let mut reactions_n = vec![[0.0; 3]; found.joints_m.len()];
+        if let [first, .., last] = &mut reactions_n[..] {
+            (*first, *last) = (found.reactions_n.start, found.reactions_n.end);
+        }
+        let inner = found.axial_n.len().saturating_sub(1);
+        let opposite = forces.iter().skip(1).take(inner).map(|force| force.map(|x| -x));
+        Self {
+            start_forces_n: forces.iter().take(1).copied().chain(opposite).collect(),
+            end_forces_n: forces.iter().skip(1).copied().collect(),
+            joints_m: found.joints_m.clone(),
+            multipliers_n: Some(forces.clone()),
+            axial_n: found.axial_n.clone(),
+            reactions_n,
+        }
+    }
+
+    /// Of another system.
+    pub fn of_system(found: &SystemEquilibrium) -> Self {
+        Self {
+            joints_m: found.joints_m.clone(),
+            multipliers_n: None,
+            axial_n: found.axial_n.clone(),
+            start_forces_n: found.start_forces_n.clone(),
+            end_forces_n: found.end_forces_n.clone(),
+            reactions_n: found.reactions_n.clone(),
+        }
+    }
+
+    /// As a dictionary of arrays, which take over the memory.
+    pub fn dict(self, py: Python<'_>) -> PyResult<Bound<'_, PyDict>> {
+        let dict = PyDict::new(py);
+        dict.set_item("joints_m", rows(py, self.joints_m)?)?;
+        let multipliers =
+            self.multipliers_n.map(|multipliers| rows(py, multipliers)).transpose()?;
+        dict.set_item("multipliers_n", multipliers)?;
+        dict.set_item("axial_n", column(py, self.axial_n))?;
+        dict.set_item("start_forces_n", rows(py, self.start_forces_n)?)?;
+        dict.set_item("end_forces_n", rows(py, self.end_forces_n)?)?;
+        dict.set_item("reactions_n", rows(py, self.reactions_n)?)?;
+        Ok(dict)
+    }
+}
+
+/// A text of JSON, and the arrays of all equilibria.
+pub type Told<'py> = (String, Bound<'py, PyList>);
+
+/// The same for Python.
+pub fn told(py: Python<'_>, text: String, all: Vec<Arrays>) -> PyResult<Told<'_>> {
+    let all: Vec<_> = all.into_iter().map(|arrays| arrays.dict(py)).collect::<PyResult<_>>()?;
+    Ok((text, PyList::new(py, all)?))
+}
+
+/// The summary as `funicular solve --summary --json` prints it, and the arrays of the equilibria,
+/// one for each solver that has an answer.
+#[pyfunction]
+pub fn solve<'py>(
+    py: Python<'py>,
+    problem: &Problem,
+    solver: &str,
+    equations: &str,
+    census: &str,
+    threads: usize,
+    progress: Option<Bound<'py, PyAny>>,
+) -> PyResult<Told<'py>> {
+    let solve = Solve::new()
+        .solvers(words::solvers(solver)?)
+        .equations(words::equations(equations)?)
+        .census(words::census(census)?);
+    let of = Arc::clone(&problem.of);
+    let found = work::run(py, threads, progress.as_ref(), move |watch| {
+        let found = solve.run_any_watched(&of, &|what| watch.tell(what, 0, 0))?;
+        Ok::<_, Error>(parts(&found))
+    })?;
+    let (text, all) = found.map_err(|error| raise(&error))?;
+    told(py, text.map_err(|error| unwritten(&error))?, all)
+}
+
+/// The summary and the arrays.
+fn parts(found: &Solution) -> (serde_json::Result<String>, Vec<Arrays>) {
+    match found {
+        Solution::Chain(answer) => (
+            answer.summary().map(|value| value.to_string()),
+            answer.equilibria().iter().map(Arrays::of_chain).collect(),
+        ),
+        Solution::System(answer) => (
+            serde_json::to_string(&answer.summary()),
+            answer.equilibria().iter().map(Arrays::of_system).collect(),
+        ),
+    }
+}
+
+/// A drawing of joints, axial forces and forces of the ground to scale, as SVG.
+#[pyfunction]
+pub fn draw(
+    py: Python<'_>,
+    problem: &Problem,
+    joints_m: PyReadonlyArrayDyn<'_, f64>,
+    axial_n: PyReadonlyArrayDyn<'_, f64>,
+    reactions_n: PyReadonlyArrayDyn<'_, f64>,
+) -> PyResult<String> {
+    let (joints, reactions) = (vectors(&joints_m)?, vectors(&reactions_n)?);
+    let axial = numbers(&axial_n)?;
+    let system = problem.system();
+    if joints.len() != system.joints().len()
+        || reactions.len() != joints.len()
+        || axial.len() != system.members().len()
+    {
+        return Err(internal("the arrays are not those of the system"));
+    }
+    let drawn = py.detach(|| picture::of_answer(&system, &joints, &axial, &reactions));
+    drawn.map_err(|error| internal(&error.to_string()))
+}

@@ -1,0 +1,48 @@
+//! Many starts, and where each of them leads.
+
+use std::sync::Arc;
+
+use funicular::prelude::Sweep;
+use funicular::{Error, SweepAnswer};
+use pyo3::prelude::*;
+use serde_json::json;
+
+use crate::outcomes::outcomes;
+use crate::problem::Problem;
+use crate::raise::raise;
+use crate::{words, work};
+
+/// The equilibria and the counts of outcomes, in memory.
+#[pyfunction]
+#[expect(clippy::too_many_arguments, reason = "one for each setting")]
+pub fn sweep<'py>(
+    py: Python<'py>,
+    problem: &Problem,
+    seeds: u64,
+    number: u64,
+    spread: &str,
+    solver: &str,
+    threads: usize,
+    progress: Option<Bound<'py, PyAny>>,
+) -> PyResult<String> {
+    let sweep = Sweep::new(seeds)
+        .number(number)
+        .spread(words::spread(spread)?)
+        .solvers(words::solvers(solver)?);
+    let of = Arc::clone(&problem.of);
+    let found = work::run(py, threads, progress.as_ref(), move |watch| {
+        sweep.threads(rayon::current_num_threads()).run_watched(&of, &|done| {
+            watch.tell("starts", done, seeds);
+        })
+    })?;
+    let found: SweepAnswer = found.map_err(|error: Error| raise(&error))?;
+    let SweepAnswer { equilibria, complete, left_out, summary } = &found;
+    let object = json!({
+        "seeds": seeds,
+        "equilibria": equilibria,
+        "complete": complete,
+        "left_out": left_out,
+        "outcomes": outcomes(summary),
+    });
+    Ok(object.to_string())
+}

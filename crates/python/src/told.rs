@@ -1,0 +1,294 @@
+//! Errors of the library as the exceptions of the package have them: a class, a sentence, and the
+//! numbers under the names that the library gives them.
+
+use funicular::{Error, SimulateError};
+use model::system::{SystemError, SystemRefusal};
+use model::system_file::{SystemFileError, SystemFileErrorKind};
+use model::{BarError, ChainError, NoCensus, Refusal};
+use validate::foreign::GivenError;
+
+/// What an exception is made of.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Told {
+    /// The class, in `funicular.errors`.
+    pub class: &'static str,
+    /// The sentence.
+    pub message: String,
+    /// The attributes.
+    pub fields: Vec<(&'static str, Field)>,
+}
+
+/// The value of an attribute.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Field {
+    /// A number, NaN and infinity too.
+    Number(f64),
+    /// A count.
+    Count(u64),
+    /// A text.
+    Text(String),
+    /// Texts.
+    List(Vec<String>),
+    /// An object, as JSON.
+    Json(String),
+    /// `None`.
+    Nothing,
+}
+
+impl From<f64> for Field {
+    fn from(number: f64) -> Self {
+        Self::Number(number)
+    }
+}
+
+impl From<usize> for Field {
+    fn from(count: usize) -> Self {
+        Self::Count(count as u64)
+    }
+}
+
+impl From<u64> for Field {
+    fn from(count: u64) -> Self {
+        Self::Count(count)
+    }
+}
+
+impl From<&str> for Field {
+    fn from(text: &str) -> Self {
+        Self::Text(text.to_owned())
+    }
+}
+
+impl From<String> for Field {
+    fn from(text: String) -> Self {
+        Self::Text(text)
+    }
+}
+
+impl From<Vec<String>> for Field {
+    fn from(list: Vec<String>) -> Self {
+        Self::List(list)
+    }
+}
+
+impl<T> From<Option<T>> for Field
+where
+    Self: From<T>,
+{
+    fn from(value: Option<T>) -> Self {
+        value.map_or(Self::Nothing, Self::from)
+    }
+}
+
+/// Attributes of the names of these variables.
+macro_rules! fields {
+    ($($name:ident),*) => { vec![$((stringify!($name), Field::from($name.clone()))),*] };
+}
+
+impl Told {
+    /// From its parts.
+    pub fn new(class: &'static str, message: String, fields: Vec<(&'static str, Field)>) -> Self {
+        Self { class, message, fields }
+    }
+
+    /// Of any error of the library.
+    pub fn of(error: &Error) -> Self {
+        let (class, fields) = parts(error);
+        Self::new(class, error.to_string(), fields)
+    }
+}
+
+type Parts = (&'static str, Vec<(&'static str, Field)>);
+
+fn parts(error: &Error) -> Parts {
+    match error {
+        Error::File(error) => file(error),
+        Error::Bar(error) => bar(error),
+        Error::Chain(error) => chain(error),
+        Error::System(error) => system(error),
+        Error::Refused(refusal) => refused(refusal),
+        Error::SystemRefused(refusal) => system_refused(refusal),
+        Error::UnknownCase { name, suggestion } => ("UnknownCase", fields!(name, suggestion)),
+        Error::ChainsOnly { what } => ("ChainsOnly", fields!(what)),
+        Error::Unsolved(answer) => {
+            ("Unsolved", failures(answer.failures().iter().map(funicular::Failure::of)))
+        }
+        Error::UnsolvedSystem(answer) => {
+            ("Unsolved", failures(answer.failures().iter().map(funicular::Failure::of_system)))
+        }
+        Error::Given(error) => given(error),
+        Error::Tolerance(error) => {
+            let tolerance = error.tolerance;
+            ("SettingError", fields!(tolerance))
+        }
+        Error::Census(error) => no_census(error.reason()),
+        Error::SystemCensus(because) => no_census(*because),
+        Error::Parameter(error) => {
+            let (text, help, column) = (&error.text, &error.help, error.column());
+            ("ParameterError", fields!(text, help, column))
+        }
+        Error::Simulate(error) => simulate(error),
+        Error::Store(error) => {
+            ("StoreError", vec![("may_pass", Field::Count(u64::from(error.may_pass())))])
+        }
+        Error::GridSeeds { seeds, bars, .. } => ("SettingError", fields!(seeds, bars)),
+        Error::TooManyThreads { threads } => ("SettingError", fields!(threads)),
+        Error::Motion(_) => ("MotionError", vec![]),
+        Error::Sweep(_) | Error::Solvers(_) => ("SweepError", vec![]),
+        Error::Continuation(_) => ("TraceError", vec![]),
+        Error::Format(_) => ("InputError", vec![]),
+        _ => ("Error", vec![]),
+    }
+}
+
+fn failures(failures: impl Iterator<Item = funicular::Failure>) -> Vec<(&'static str, Field)> {
+    let failures: Vec<_> = failures.collect();
+    let text = serde_json::to_string(&failures).unwrap_or_else(|_| "[]".to_owned());
+    vec![("failures", Field::Json(text))]
+}
+
+/// An error in a file or text: that of what it describes where it is one, with its place.
+fn file(error: &SystemFileError) -> Parts {
+    let (class, mut all) = match error.kind() {
+        SystemFileErrorKind::Bar(error) => bar(error),
+        SystemFileErrorKind::Chain(error) => chain(error),
+        SystemFileErrorKind::System(error) => system(error),
+        SystemFileErrorKind::Refused(refusal) => refused(refusal),
+        SystemFileErrorKind::SystemRefused(refusal) => system_refused(refusal),
+        _ => ("FileError", vec![]),
+    };
+    let (file, key, help) = (error.file(), error.key(), error.help());
+    let file = file.to_owned();
+    let position = error.position();
+    let line = position.map(|at| at.line);
+    let column = position.map(|at| at.column);
+    all.extend(fields!(file, key, help, line, column));
+    (class, all)
+}
+
+fn bar(error: &BarError) -> Parts {
+    let fields = match error {
+        BarError::Length { length_m } => fields!(length_m),
+        BarError::Mass { mass_kg } => fields!(mass_kg),
+        BarError::Centre { centre_m, length_m } => fields!(centre_m, length_m),
+        BarError::Inertia { moment_kg_m2 } => fields!(moment_kg_m2),
+        _ => vec![],
+    };
+    ("BarError", fields)
+}
+
+fn chain(error: &ChainError) -> Parts {
+    let fields = match error {
+        ChainError::Gravity { gravity_m_s2 } => fields!(gravity_m_s2),
+        ChainError::Anchor { coordinate_m } => fields!(coordinate_m),
+        ChainError::Overflow { quantity } => fields!(quantity),
+        ChainError::Underflow { quantity, total } => fields!(quantity, total),
+        _ => vec![],
+    };
+    ("ChainError", fields)
+}
+
+fn system(error: &SystemError) -> Parts {
+    let fields = match error {
+        SystemError::Gravity { gravity_m_s2 } => fields!(gravity_m_s2),
+        SystemError::DuplicateName { name, joint } => fields!(name, joint),
+        SystemError::Coordinate { name, joint, coordinate_m } => fields!(name, joint, coordinate_m),
+        SystemError::Direction { name, joint, length } => fields!(name, joint, length),
+        SystemError::Mass { name, joint, mass_kg } => fields!(name, joint, mass_kg),
+        SystemError::Force { name, joint, component_n } => fields!(name, joint, component_n),
+        SystemError::NoSuchJoint { member, joint, joints } => fields!(member, joint, joints),
+        SystemError::SelfLoop { member, joint } => fields!(member, joint),
+        _ => vec![],
+    };
+    ("SystemError", fields)
+}
+
+fn refused(refusal: &Refusal) -> Parts {
+    match refusal {
+        Refusal::SingleBar { length_m, span_m } => ("SingleBar", fields!(length_m, span_m)),
+        Refusal::OutOfReach { span_m, total_length_m } => {
+            let missing_m = span_m - total_length_m;
+            ("OutOfReach", fields!(span_m, total_length_m, missing_m))
+        }
+        Refusal::Taut { span_m, total_length_m } => ("Taut", fields!(span_m, total_length_m)),
+        Refusal::BarTooLong { bar, length_m, rest_m, span_m } => {
+            ("BarTooLong", fields!(bar, length_m, rest_m, span_m))
+        }
+        Refusal::Folded { bar, length_m, rest_m, span_m } => {
+            ("Folded", fields!(bar, length_m, rest_m, span_m))
+        }
+        Refusal::Unresolved { coordinate_m, rounding_m, margin_m } => {
+            ("Unresolved", fields!(coordinate_m, rounding_m, margin_m))
+        }
+        Refusal::NoMass => ("NoLoad", vec![]),
+        Refusal::WeightOnAnchors => ("LoadOnAnchors", vec![]),
+        _ => ("Refused", vec![]),
+    }
+}
+
+fn system_refused(refusal: &SystemRefusal) -> Parts {
+    match refusal {
+        SystemRefusal::Unconnected { name, joint } => ("Unconnected", fields!(name, joint)),
+        SystemRefusal::Falls { name, joint, joints } => ("Falls", fields!(name, joint, joints)),
+        SystemRefusal::NothingMoves => ("NothingMoves", vec![]),
+        SystemRefusal::NoLoad => ("NoLoad", vec![]),
+        SystemRefusal::LoadOnAnchors => ("LoadOnAnchors", vec![]),
+        SystemRefusal::OutOfReach { from, to, distance_m, reach_m, .. } => {
+            let (span_m, total_length_m) = (*distance_m, *reach_m);
+            let (from_joint, to_joint, missing_m) = (from, to, span_m - total_length_m);
+            ("OutOfReach", fields!(span_m, total_length_m, missing_m, from_joint, to_joint))
+        }
+        SystemRefusal::Taut { from, to, distance_m, reach_m, .. } => {
+            let (span_m, total_length_m) = (*distance_m, *reach_m);
+            let (from_joint, to_joint) = (from, to);
+            ("Taut", fields!(span_m, total_length_m, from_joint, to_joint))
+        }
+        SystemRefusal::TooLong { member, from, to, length_m, rest_m, way } => {
+            let (bar, from_joint, to_joint) = (member, from, to);
+            let bar = *bar;
+            ("BarTooLong", fields!(bar, length_m, rest_m, from_joint, to_joint, way))
+        }
+        SystemRefusal::Folded { member, from, to, length_m, way } => {
+            let (bar, from_joint, to_joint) = (*member, from, to);
+            ("Folded", fields!(bar, length_m, from_joint, to_joint, way))
+        }
+        _ => ("Refused", vec![]),
+    }
+}
+
+fn given(error: &GivenError) -> Parts {
+    let fields = match error {
+        GivenError::UnknownJoint { name, suggestion } => fields!(name, suggestion),
+        GivenError::Repeated { name } => fields!(name),
+        GivenError::MissingJoints { names, count } | GivenError::MissingForces { names, count } => {
+            fields!(names, count)
+        }
+        GivenError::NotFinite { what } => fields!(what),
+        GivenError::UnknownMember { from, to } | GivenError::RepeatedMember { from, to } => {
+            let (from_joint, to_joint) = (from, to);
+            fields!(from_joint, to_joint)
+        }
+        GivenError::Count { of, wanted, found } => fields!(of, wanted, found),
+        _ => vec![],
+    };
+    ("AnswerError", fields)
+}
+
+fn simulate(error: &SimulateError) -> Parts {
+    let fields = match error {
+        SimulateError::Time { what, value_s } => fields!(what, value_s),
+        SimulateError::Steps { steps } => fields!(steps),
+        SimulateError::NoSuchJoint { name } => fields!(name),
+        SimulateError::NoSuchEquilibrium { label, labels } => fields!(label, labels),
+        SimulateError::AngleCount { given, bars } => fields!(given, bars),
+        SimulateError::Angles { off } => fields!(off),
+        _ => vec![],
+    };
+    ("SettingError", fields)
+}
+
+/// The reason with its numbers is the object of its JSON.
+fn no_census(because: NoCensus) -> Parts {
+    let text = serde_json::to_string(&because).unwrap_or_else(|_| "null".to_owned());
+    ("NoCensus", vec![("reason", Field::Json(text))])
+}

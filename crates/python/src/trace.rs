@@ -1,0 +1,43 @@
+//! All equilibria over a parameter.
+
+use std::sync::Arc;
+
+use funicular::prelude::Trace;
+use pyo3::prelude::*;
+
+use crate::problem::Problem;
+use crate::raise::{raise, unwritten};
+use crate::work;
+
+/// What `funicular trace --json` prints, the points of the branches as CSV, and whether the checks
+/// agree and are decided.
+#[pyfunction]
+pub fn trace<'py>(
+    py: Python<'py>,
+    problem: &Problem,
+    vary: Vec<String>,
+    max_points: Option<usize>,
+    threads: usize,
+    progress: Option<Bound<'py, PyAny>>,
+) -> PyResult<(String, String, bool, bool)> {
+    let of = Arc::clone(&problem.of);
+    let found = work::run(py, threads, progress.as_ref(), move |watch| {
+        let mut trace = Trace::new();
+        if let Some(points) = max_points {
+            trace = trace.max_points(points);
+        }
+        for text in vary {
+            trace = trace.vary(&text)?;
+        }
+        let found = trace
+            .run_watched(&of, &|_, at| watch.tell("censuses", at.done as u64, at.total as u64))?;
+        let mut csv = vec![];
+        // A vector takes all that is written.
+        let _ = found.write_csv(&mut csv);
+        let agree = (found.checks_agree(), found.checks_decided());
+        Ok((serde_json::to_string(&found), csv, agree))
+    })?;
+    let (text, csv, (agree, decided)) = found.map_err(|error: funicular::Error| raise(&error))?;
+    let text = text.map_err(|error| unwritten(&error))?;
+    Ok((text, String::from_utf8_lossy(&csv).into_owned(), agree, decided))
+}

@@ -1,0 +1,46 @@
+//! Settings that Python says in words.
+
+use funicular::Spread;
+use funicular::prelude::{Equations, Solvers, UseCensus};
+use pyo3::PyErr;
+
+use crate::raise::bad_word;
+
+/// `both`, `lagrange` or `energy`.
+pub fn solvers(word: &str) -> Result<Solvers, PyErr> {
+    match word {
+        "both" => Ok(Solvers::Both),
+        "lagrange" => Ok(Solvers::Lagrange),
+        "energy" => Ok(Solvers::Energy),
+        _ => Err(bad_word("solver", word, &["both", "lagrange", "energy"])),
+    }
+}
+
+/// `condensed` or `full`.
+pub fn equations(word: &str) -> Result<Equations, PyErr> {
+    match word {
+        "condensed" => Ok(Equations::Condensed),
+        "full" => Ok(Equations::Full),
+        _ => Err(bad_word("equations", word, &["condensed", "full"])),
+    }
+}
+
+/// `auto`, `always` or `never`.
+pub fn census(word: &str) -> Result<UseCensus, PyErr> {
+    match word {
+        "auto" => Ok(UseCensus::Auto),
+        "always" => Ok(UseCensus::Always),
+        "never" => Ok(UseCensus::Never),
+        _ => Err(bad_word("census", word, &["auto", "always", "never"])),
+    }
+}
+
+/// `uniform`, `sobol` or `grid`.
+pub fn spread(word: &str) -> Result<Spread, PyErr> {
+    match word {
+        "uniform" => Ok(Spread::Uniform),
+        "sobol" => Ok(Spread::Sobol),
+        "grid" => Ok(Spread::Grid),
+        _ => Err(bad_word("spread", word, &["uniform", "sobol", "grid"])),
+    }
+}

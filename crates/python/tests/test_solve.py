@@ -1,0 +1,248 @@
+"""One system: chains, networks, results, evidence."""
+
+import json
+import pickle
+import subprocess
+import sys
+
+import funicular as fn
+import networkx as nx
+import numpy as np
+import pytest
+
+# λ of the paper's example at its minimum, in mg: a root finder of 40 digits.
+HORIZONTAL, VERTICAL = 0.6489448359339336, 2.312944292241838
+WEIGHT_N = 9.80665
+
+
+def test_the_example_of_the_paper():
+    a = fn.solve(lengths=[1, 1, 1], masses=[1, 1, 1], end=(0, 0, -2))
+    assert a.rung == "optimal" and a.agrees and a.is_stable
+    assert [e.solver for e in a.equilibria] == ["lagrange", "energy"]
+    assert abs(np.hypot(*a.multipliers_n[0, :2]) / WEIGHT_N - HORIZONTAL) < 1e-12
+    assert abs(a.multipliers_n[0, 2] / WEIGHT_N - VERTICAL) < 1e-12
+    assert a.proofs.verified.width < 1e-12 and a.proofs.verified.circle is True
+    assert [p.reached for p in a.proofs] == [True] * 5
+    assert a.data["schema_version"] == 2
+
+
+def test_forces_of_a_chain_balance_every_bar():
+    a = fn.solve(lengths=[0.7, 0.9, 0.5, 0.8], masses=[2, 1, 0.1, 3], end=(1.2, 0.7, -0.5), start=(0.1, 0.2, 0.3))
+    weights = np.zeros((4, 3))
+    weights[:, 2] = np.multiply([2, 1, 0.1, 3], WEIGHT_N)
+    assert np.abs(a.start_forces_n + a.end_forces_n - weights).max() < 1e-12
+    assert np.allclose(a.reactions_n.sum(axis=0), weights.sum(axis=0))
+    assert np.allclose(a.joints_m[0], (0.1, 0.2, 0.3)) and np.allclose(a.joints_m[-1], (1.2, 0.7, -0.5))
+    assert np.allclose(np.linalg.norm(np.diff(a.joints_m, axis=0), axis=1), [0.7, 0.9, 0.5, 0.8])
+    assert np.array_equal(a.reaction("0"), a.reactions_n[0])
+
+
+def test_the_same_system_in_five_ways():
+    toml = """
+    name = "lamp"
+    [joints]
+    A = { at_m = [0, 0, 0] }
+    B = { at_m = [4, 0, 0] }
+    P = { mass_kg = 20, force_n = [0, 30, 0] }
+    [[bars]]
+    from = "A"
+    to = "P"
+    length_m = 3
+    mass_kg = 1
+    kind = "cable"
+    [[bars]]
+    from = "P"
+    to = "B"
+    length_m = 2
+    mass_kg = 0.5
+    """
+    read = fn.System.from_toml(toml)
+    members = [
+        {"from": "A", "to": "P", "length_m": np.float64(3), "mass_kg": 1, "kind": "cable"},
+        {"from": "P", "to": "B", "length_m": 2, "mass_kg": 0.5},
+    ]
+    joints = {"A": {"at_m": np.zeros(3)}, "B": {"at_m": (4, 0, 0)}, "P": {"mass_kg": 20, "force_n": [0, 30, 0]}}
+    data = fn.System.from_dict({"name": "lamp", "joints": joints, "bars": members})
+    arrays = fn.System.from_arrays(
+        joints=["A", "B", "P"],
+        anchors={"A": (0, 0, 0), 1: (4, 0, 0)},
+        bars=[[0, 2], [2, 1]],
+        lengths=[3, 2],
+        masses=[1, 0.5],
+        joint_masses={"P": 20},
+        forces={2: (0, 30, 0)},
+        kinds=["cable", "bar"],
+        name="lamp",
+    )
+    graph = nx.Graph(name="lamp")
+    for name, about in joints.items():
+        graph.add_node(name, **about)
+    for member in members:
+        graph.add_edge(member["from"], member["to"], **{k: v for k, v in member.items() if k not in ("from", "to")})
+    drawn = fn.System.from_networkx(graph)
+    again = fn.System.from_toml(arrays.to_toml())
+    answers = [system.solve(census="never") for system in (read, data, arrays, again, pickle.loads(pickle.dumps(read)))]
+    assert read == data == arrays == again
+    for other in answers[1:]:
+        assert np.array_equal(answers[0].joints_m, other.joints_m)
+        assert np.array_equal(answers[0].axial_n, other.axial_n)
+    # A graph has no directions: its members may run the other way.
+    assert np.allclose(drawn.solve(census="never").joints_m, answers[0].joints_m, atol=1e-12)
+    assert answers[0].multipliers_n is None and answers[0].agrees
+
+
+def test_chains_as_cases_files_and_text(tmp_path):
+    case = fn.System.case("three-equal-bars")
+    path = tmp_path / "chain.toml"
+    path.write_text(case.to_toml())
+    assert fn.System.read(path) == case == fn.System.read(str(path))
+    assert case.is_chain and case.joint_names == ["0", "1", "2", "3"]
+    assert set(fn.cases()) >= {"three-equal-bars", "two-bars", "footbridge"}
+    assert not fn.System.case("footbridge").is_chain
+
+
+def test_one_solver_alone_gets_no_comparison():
+    for solver in ("lagrange", "energy"):
+        a = fn.solve(lengths=[1, 1], masses=[1, 1], end=(1, 0, 0), solver=solver, census="never")
+        assert [e.solver for e in a.equilibria] == [solver] and a.agreement is None and not a.agrees
+        assert a.proofs.agreed.reason["kind"]
+    full = fn.solve(lengths=[1, 1], masses=[1, 1], end=(1, 0, 0), equations="full")
+    assert full.agrees
+
+
+def test_answers_do_not_depend_on_threads():
+    system = fn.System(lengths=np.linspace(0.5, 1.5, 300), masses=np.linspace(1, 2, 300), end=(120, 3, -40))
+    one, two = (system.solve(threads=threads) for threads in (1, 2))
+    assert one.joints_m.tobytes() == two.joints_m.tobytes()
+    assert one.axial_n.tobytes() == two.axial_n.tobytes()
+    fn.set_threads(1)
+    assert fn.get_threads() == 1
+    assert system.solve().joints_m.tobytes() == one.joints_m.tobytes()
+    fn.set_threads(0)
+
+
+def test_results_own_their_memory():
+    a = fn.solve(lengths=[1, 1], masses=[1, 1], end=(1, 0, 0))
+    joints = a.joints_m
+    assert joints.flags.c_contiguous and joints.flags.writeable and joints.dtype == np.float64
+    del a
+    joints += 1
+    assert np.isfinite(joints).all()
+
+
+def test_tables_are_read_by_others_without_our_knowing_them():
+    import pandas
+    import polars
+    import pyarrow
+
+    a = fn.System.case("footbridge").solve(census="never")
+    for table in (a.joints, a.bars, a.system.members, a.system.joints):
+        arrow, frame = pyarrow.table(table), polars.DataFrame(table)
+        pandas_frame = table.to_pandas()
+        assert arrow.column_names == list(table) == list(frame.columns) == list(pandas_frame.columns)
+        assert arrow.num_rows == len(frame) == len(pandas_frame) == table.rows
+        for name, column in table.items():
+            assert arrow[name].to_pylist() == list(column) or np.array_equal(arrow[name], column, equal_nan=True)
+        assert pyarrow.table(table) == arrow or any("nan" in str(c) for c in table.values())
+    assert isinstance(pandas_frame, pandas.DataFrame)
+    empty = fn.Table({"a": np.zeros(0), "b": []})
+    assert pyarrow.table(empty).num_rows == 0
+    names = fn.Table({"joint": ["ä", "", "λ₃ \U0001f4a1"]})
+    assert pyarrow.table(names)["joint"].to_pylist() == names["joint"]
+
+
+def test_streams_that_nobody_reads_are_freed():
+    table = fn.Table({"a": np.zeros(1000), "b": ["x"] * 1000})
+    for _ in range(1000):
+        table.__arrow_c_stream__()
+
+
+def test_notebooks_show_the_picture_and_the_ladder():
+    a = fn.System.from_toml(
+        """
+        name = "<script>alert(1)</script>"
+        anchors = { start_m = [0, 0, 0], end_m = [1, 0, 0] }
+        bars = [{ length_m = 1, mass_kg = 1, count = 2 }]
+        """
+    ).solve()
+    shown = a._repr_html_()
+    assert "<svg" in shown and "optimal" in shown and "no configuration" in a.proofs.optimal.how
+    assert "<script>" not in shown
+    assert "<svg" in a.equilibria[1]._repr_html_() and "<table>" in a.joints._repr_html_()
+    assert "<svg" in a.system.census()._repr_html_()
+
+
+def test_plots_only_with_matplotlib():
+    import matplotlib
+
+    matplotlib.use("agg")
+    from matplotlib import pyplot
+
+    a = fn.solve(lengths=[1, 1, 1], masses=[1, 1, 1], end=(1, 0, -1))
+    axes = a.plot()
+    assert axes.name == "rectilinear" and len(axes.lines) == 4
+    assert a.plot(forces=False, space=True).name == "3d"
+    assert fn.System.case("footbridge").solve(census="never").plot().name in ("rectilinear", "3d")
+    pyplot.close("all")
+    code = """
+import sys
+sys.modules["matplotlib"] = None
+import funicular as fn
+a = fn.solve(lengths=[1, 1], masses=[1, 1], end=(1, 0, 0))
+try:
+    a.plot()
+except fn.Error as error:
+    print("matplotlib" in str(error))
+print([name for name in ("pandas", "networkx", "pyarrow", "tqdm", "distributed") if name in sys.modules])
+"""
+    said = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert said.stdout.split("\n")[:2] == ["True", "[]"]
+
+
+def test_census_trace_sweep_modes_motion():
+    system = fn.System.case("three-equal-bars")
+    census = system.census()
+    assert census.complete and [e.data["label"] for e in census] == ["1", "1'", "2", "2'"]
+    assert (census.energy_bounds_j()[:, 1] - census.energy_bounds_j()[:, 0] < 1e-12).all()
+    assert census.table["in_space"] == ["stable", "stable", "unstable", "unstable"]
+    pendulum = {"A": {"at_m": [0, 0, 0]}, "P": {"mass_kg": 1}, "Q": {"mass_kg": 1}}
+    bars = [{"from": a, "to": b, "length_m": 1, "mass_kg": 0} for a, b in ("AP", "PQ")]
+    double = fn.System.from_dict({"gravity_m_s2": 10, "joints": pendulum, "bars": bars})
+    assert [round(e.energy_j) for e in double.census()] == [-30, -10, 10, 30]
+    trace = system.trace("anchors.end_m.z=-2.9..-1:20")
+    table = trace.table
+    assert trace.checks_agree and table.rows > 40 and table["energy_j"].min() < -40
+    sweep = system.sweep(5000, solver="lagrange", number=3)
+    assert set(sweep.counts("lagrange")) == {0, 1, 2, 3} and sweep.seeds == 5000
+    modes = system.modes()
+    assert modes.complete and len(modes) == 4 and (modes[0].omega2_s2 > -1e-9).all()
+    motion = system.simulate(start="seed:7", time=0.5, store=0.1, drag=1.0)
+    assert motion.time_s.tolist() == pytest.approx([0, 0.1, 0.2, 0.3, 0.4, 0.5])
+    assert motion.laws_off.max() < 1e-9 and motion.html().startswith("<!DOCTYPE html>")
+    still = system.simulate(start=census[0].joints_m, time=0.01)
+    assert np.abs(still.joints_m - census[0].joints_m).max() < 1e-9
+
+
+def test_what_the_program_prints_is_what_the_package_knows():
+    a = fn.System.case("two-bars").solve()
+    text = json.dumps(a.data)
+    assert {"schema_version", "system", "equilibria", "agreement"} <= a.data.keys() and "NaN" not in text
+
+
+def test_judging():
+    system = fn.System(lengths=[5, 5], masses=[1, 1], end=(6, 0, 0))
+    places = [[0, 0, 0], [3, 0, -4], [6, 0, 0]]
+    right = fn.judge(system, places)
+    assert right.confirmed and not right.refuted and right.finding == "confirmed"
+    # Each bar leans 3 to 4 and carries half its weight to the middle: 5/4 of half a bar's weight, both sides alike.
+    axial = 0.5 * 9.80665 * 5 / 4
+    assert fn.judge(system, places, [axial, axial]).confirmed
+    assert not fn.judge(system, places, [axial, -axial]).confirmed
+    named = dict(zip(("0", "1", "2"), places))
+    assert fn.judge(system, named).confirmed
+    assert fn.judge(system, [[0, 0, 0], [3, 0, 4], [6, 0, 0]]).proofs.optimal.reached is False
+    with pytest.raises(fn.AnswerError) as error:
+        fn.judge(system, places[:2])
+    assert (error.value.wanted, error.value.found) == (3, 2)
+    with pytest.raises(fn.SettingError):
+        fn.judge(system, places, tolerance=1.0)
