@@ -145,6 +145,12 @@ impl SolveAnswer {
         &self.answer.equilibria
     }
 
+    /// The same, given away: no array is copied.
+    #[must_use]
+    pub fn into_equilibria(self) -> Vec<Equilibrium> {
+        self.answer.equilibria
+    }
+
     /// The answer of one solver, if it has one.
     #[must_use]
     pub fn by(&self, solver: &SolverName) -> Option<&Equilibrium> {

@@ -56,6 +56,11 @@ struct Stream {
     private_data: *mut c_void,
 }
 
+/// A number of things in memory, of which there are fewer than 2^63.
+fn count(things: usize) -> i64 {
+    i64::try_from(things).unwrap_or(i64::MAX)
+}
+
 /// The values of a column.
 #[derive(Clone)]
 enum Values {
@@ -105,20 +110,20 @@ struct Table {
 
 /// What a schema owns.
 struct SchemaOwner {
-    _format: CString,
-    _name: CString,
+    format: CString,
+    name: CString,
     children: Vec<*mut Schema>,
 }
 
 fn schema(format: &str, name: CString, children: Vec<Schema>) -> Schema {
-    let n_children = children.len() as i64;
+    let n_children = count(children.len());
     let children = children.into_iter().map(|child| Box::into_raw(Box::new(child))).collect();
     // The formats are literals without zeros.
     let format = CString::new(format).unwrap_or_default();
-    let mut owner = Box::new(SchemaOwner { _format: format, _name: name, children });
+    let mut owner = Box::new(SchemaOwner { format, name, children });
     Schema {
-        format: owner._format.as_ptr(),
-        name: owner._name.as_ptr(),
+        format: owner.format.as_ptr(),
+        name: owner.name.as_ptr(),
         metadata: ptr::null(),
         flags: 0,
         n_children,
@@ -164,12 +169,12 @@ struct ArrayOwner {
 fn array(rows: usize, values: Option<Values>, children: Vec<Array>) -> Array {
     // A struct has its validity alone.
     let buffers = values.as_ref().map_or_else(|| vec![ptr::null()], Values::buffers);
-    let n_children = children.len() as i64;
+    let n_children = count(children.len());
     let children = children.into_iter().map(|child| Box::into_raw(Box::new(child))).collect();
-    let n_buffers = buffers.len() as i64;
+    let n_buffers = count(buffers.len());
     let mut owner = Box::new(ArrayOwner { _values: values, buffers, children });
     Array {
-        length: rows as i64,
+        length: count(rows),
         null_count: 0,
         offset: 0,
         n_buffers,
@@ -326,7 +331,7 @@ fn values(column: &Bound<'_, PyAny>) -> PyResult<Values> {
     let (mut ends, mut bytes) = (vec![0], vec![]);
     for text in texts {
         bytes.extend_from_slice(text.as_bytes());
-        ends.push(bytes.len() as i64);
+        ends.push(count(bytes.len()));
     }
     Ok(Values::Texts(ends, bytes))
 }

@@ -198,7 +198,7 @@ pub fn solve_many<'py>(
         gravity_m_s2,
         solvers: words::solvers(solver)?,
     };
-    let all = chains.checked_mul(bars).unwrap_or(usize::MAX);
+    let all = chains.saturating_mul(bars);
     for (what, wanted, found) in [
         ("lengths", all, batch.lengths_m.len()),
         ("masses", all, batch.masses_kg.len()),

@@ -24,12 +24,14 @@ pub fn census<'py>(
     let found = work::run(py, threads, progress.as_ref(), move |watch| {
         if let Some(system) = of.as_system() {
             let found = census.run_system(system)?;
-            let arrays: Vec<_> = found.equilibria().iter().map(Arrays::of_system).collect();
+            let arrays: Vec<_> =
+                found.equilibria().iter().cloned().map(Arrays::of_system).collect();
             return Ok((serde_json::to_string(&found), arrays));
         }
         let found =
             census.run_watched(&of, &|at| watch.tell("cells", at.done, at.done + at.waiting))?;
-        let arrays = found.equilibria.iter().map(|found| Arrays::of_chain(&found.equilibrium));
+        let arrays =
+            found.equilibria.iter().map(|found| Arrays::of_chain(found.equilibrium.clone()));
         let arrays = arrays.collect();
         Ok((serde_json::to_string(&found), arrays))
     })?;

@@ -27,8 +27,8 @@ pub struct Arrays {
 
 impl Arrays {
     /// Of a chain.
-    pub fn of_chain(found: &Equilibrium) -> Self {
-        let forces = &found.multipliers_n;
+    pub fn of_chain(found: Equilibrium) -> Self {
+        let forces = found.multipliers_n;
         let mut reactions_n = vec![[0.0; 3]; found.joints_m.len()];
         if let [first, .., last] = &mut reactions_n[..] {
             (*first, *last) = (found.reactions_n.start, found.reactions_n.end);
@@ -38,22 +38,22 @@ impl Arrays {
         Self {
             start_forces_n: forces.iter().take(1).copied().chain(opposite).collect(),
             end_forces_n: forces.iter().skip(1).copied().collect(),
-            joints_m: found.joints_m.clone(),
-            multipliers_n: Some(forces.clone()),
-            axial_n: found.axial_n.clone(),
+            joints_m: found.joints_m,
+            multipliers_n: Some(forces),
+            axial_n: found.axial_n,
             reactions_n,
         }
     }
 
     /// Of another system.
-    pub fn of_system(found: &SystemEquilibrium) -> Self {
+    pub fn of_system(found: SystemEquilibrium) -> Self {
         Self {
-            joints_m: found.joints_m.clone(),
+            joints_m: found.joints_m,
             multipliers_n: None,
-            axial_n: found.axial_n.clone(),
-            start_forces_n: found.start_forces_n.clone(),
-            end_forces_n: found.end_forces_n.clone(),
-            reactions_n: found.reactions_n.clone(),
+            axial_n: found.axial_n,
+            start_forces_n: found.start_forces_n,
+            end_forces_n: found.end_forces_n,
+            reactions_n: found.reactions_n,
         }
     }
 
@@ -100,23 +100,23 @@ pub fn solve<'py>(
     let of = Arc::clone(&problem.of);
     let found = work::run(py, threads, progress.as_ref(), move |watch| {
         let found = solve.run_any_watched(&of, &|what| watch.tell(what, 0, 0))?;
-        Ok::<_, Error>(parts(&found))
+        Ok::<_, Error>(parts(found))
     })?;
     let (text, all) = found.map_err(|error| raise(&error))?;
     told(py, text.map_err(|error| unwritten(&error))?, all)
 }
 
 /// The summary and the arrays.
-fn parts(found: &Solution) -> (serde_json::Result<String>, Vec<Arrays>) {
+fn parts(found: Solution) -> (serde_json::Result<String>, Vec<Arrays>) {
     match found {
-        Solution::Chain(answer) => (
-            answer.summary().map(|value| value.to_string()),
-            answer.equilibria().iter().map(Arrays::of_chain).collect(),
-        ),
-        Solution::System(answer) => (
-            serde_json::to_string(&answer.summary()),
-            answer.equilibria().iter().map(Arrays::of_system).collect(),
-        ),
+        Solution::Chain(answer) => {
+            let text = answer.summary().map(|value| value.to_string());
+            (text, answer.into_equilibria().into_iter().map(Arrays::of_chain).collect())
+        }
+        Solution::System(answer) => {
+            let text = serde_json::to_string(&answer.summary());
+            (text, answer.into_equilibria().into_iter().map(Arrays::of_system).collect())
+        }
     }
 }
 

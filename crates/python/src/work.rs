@@ -96,13 +96,16 @@ enum Message<T> {
     Ended(thread::Result<T>),
 }
 
+/// Hands on what the work tells.
+type HandOn = Box<dyn Fn(String, u64, u64) + Send + Sync>;
+
 /// Told by the work how far it is; ends the work where it is cancelled.
 pub struct Watch {
     cancelled: AtomicBool,
     begun: Instant,
     /// Milliseconds from the beginning to the last time that something was handed on.
     told_ms: AtomicU64,
-    hand_on: Option<Box<dyn Fn(String, u64, u64) + Send + Sync>>,
+    hand_on: Option<HandOn>,
 }
 
 /// What unwinds through work that is cancelled.
@@ -163,9 +166,7 @@ pub fn run<T: Send + 'static>(
     found
 }
 
-fn hand_on<T: Send + 'static>(
-    sender: Sender<Message<T>>,
-) -> Box<dyn Fn(String, u64, u64) + Send + Sync> {
+fn hand_on<T: Send + 'static>(sender: Sender<Message<T>>) -> HandOn {
     Box::new(move |what, done, total| {
         let _ = sender.send(Message::Told(what, done, total));
     })

@@ -30,6 +30,19 @@ def test_pages(page, tmp_path, monkeypatch):
     assert math.isfinite(found.attempted)
 
 
+def test_three_lines_of_the_readme(capsys):
+    """The README of the project shows the same lamp in TOML, in Rust and in Python."""
+    code = re.findall(r"^```python\n(.*?)^```", (TOP.parents[1] / "README.md").read_text(), re.MULTILINE | re.DOTALL)
+    assert len(code) == 1 and len(code[0].splitlines()) == 3
+    names = {}
+    exec(code[0], names)
+    answer = names["a"]
+    assert "optimal" in capsys.readouterr().out
+    # As the README has them of the program.
+    assert abs(answer.energy_j + 26.5889945211324) < 1e-12
+    assert abs(answer.reactions_n[0] - (-8.09867, 0, 25.6669)).max() < 1e-4
+
+
 @pytest.mark.parametrize("name", MODULES)
 def test_docstrings(name):
     found = doctest.testmod(import_module(name), optionflags=FLAGS)

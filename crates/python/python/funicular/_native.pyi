@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Sequence
 from os import PathLike
-from typing import Any, Optional, Union
+from typing import Any, Optional, Union, final
 
 import numpy as np
 import numpy.typing as npt
@@ -12,8 +12,10 @@ _Vector = tuple[float, float, float]
 _Progress = Optional[Callable[[str, int, int], None]]
 _Path = Union[str, PathLike[str]]
 
+__all__: list[str]
 __version__: str
 
+@final
 class Problem:
     @staticmethod
     def chain(
