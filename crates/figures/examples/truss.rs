@@ -31,7 +31,8 @@ fn main() -> Result<(), StructureError> {
     ];
     let members = forces.map(|(joints, axial_n)| Member { joints, axial_n: Some(axial_n) });
     let note = "weights left out";
-    let truss = Structure { title: "a truss", note, joints: &joints, members: &members };
+    let truss =
+        Structure { title: "a truss", note, joints: &joints, members: &members, floor_m: None };
     print!("{}", truss.svg()?);
     Ok(())
 }

@@ -273,7 +273,10 @@ impl Serialize for Named<'_> {
         let all = |wanted: bool| wanted.then_some(());
         let lists = all(!self.bare);
         let supported = self.system.joints().iter().zip(&e.reactions_n);
-        let supported = supported.filter(|(joint, _)| joint.support.at_m().is_some());
+        // A joint without support has a force of the ground where it lies on the floor.
+        let lies = |force: &Vector| force.iter().any(|n| n.abs() > 0.0);
+        let supported =
+            supported.filter(|(joint, force)| joint.support.at_m().is_some() || lies(force));
         Keys {
             solver: &e.solver,
             energy_j: e.energy_j,

@@ -18,6 +18,9 @@ pub enum MotionError {
         /// `cable` or `strut`.
         kind: &'static str,
     },
+    /// Occurs when there is a floor: joints meet it with impacts, for which no law is given.
+    #[error("there is a floor: joints fall onto it with impacts, and no law of impact is given")]
+    Floor,
     /// Occurs when the two moments across a bar differ: its spin then acts on its direction, and
     /// the places of its ends do not describe its motion.
     #[error(

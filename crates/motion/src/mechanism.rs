@@ -76,6 +76,9 @@ impl Mechanism {
     /// [`MotionError`] when the system has members or joints whose motion is indeterminate:
     /// inextensible cables and struts, bars with different moments across, joints without inertia.
     pub fn new(system: &System) -> Result<Self, MotionError> {
+        if system.floor_m().is_some() {
+            return Err(MotionError::Floor);
+        }
         for (k, member) in system.members().iter().enumerate() {
             check(k + 1, member)?;
         }

@@ -56,6 +56,9 @@ pub fn prove(system: &System, joints_m: &[Point], axial_n: &[f64]) -> Result<Sys
     if !(finite && fits) {
         return Err(NoBox::NotFinite);
     }
+    if system.floor_m().is_some() {
+        return Err(NoBox::Floor);
+    }
     let frame = Frame::new(system, axial_n);
     let activities = activities(system, &frame, joints_m, axial_n)?;
     let loose = loose_joints(system, &activities);

@@ -24,7 +24,7 @@ fn root(parent: &mut [usize], mut joint: usize) -> usize {
 /// For each joint the smallest number of a joint of its part.
 fn parts(frame: &Frame) -> Vec<usize> {
     let mut parent: Vec<usize> = (0..frame.spots.len()).collect();
-    for rod in &frame.rods {
+    for rod in frame.rods.iter().filter(|rod| !rod.ground) {
         let (a, b) = (root(&mut parent, rod.from), root(&mut parent, rod.to));
         parent[a.max(b)] = a.min(b);
     }

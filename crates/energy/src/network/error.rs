@@ -107,6 +107,16 @@ pub enum Error {
         /// The axial force that would balance, tension positive, N.
         force_n: f64,
     },
+    /// Occurs when joints balance with a floor that pulls alone.
+    #[error(
+        "no minimum found: joint {joint} would balance with {force_n} N from the floor, which only pushes"
+    )]
+    FloorPulls {
+        /// Number of the joint, from 0.
+        joint: usize,
+        /// The force that would balance, up positive, N.
+        force_n: f64,
+    },
     /// Occurs when a number of the computation is infinite or not a number.
     #[error("the {quantity} is not a finite number")]
     NotFinite {
@@ -143,6 +153,7 @@ impl Error {
             Self::Stalled { .. } => "stalled",
             Self::NoMinimum { .. } => "no minimum",
             Self::WrongSign { .. } => "wrong sign of a force",
+            Self::FloorPulls { .. } => "floor pulls",
             Self::NotFinite { .. } => "not finite",
             Self::Memory { .. } => "out of memory",
             Self::Ended { .. } => "ended by argmin",

@@ -17,7 +17,7 @@ pub(super) struct Spot {
     pub(super) axes: [Vector; 3],
 }
 
-/// A member without its weight, which acts at the joints.
+/// A member without its weight, which acts at the joints; or what keeps a joint above the floor.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Rod {
     pub(super) from: usize,
@@ -27,6 +27,9 @@ pub(super) struct Rod {
     pub(super) kind: Kind,
     /// Elongation by a unit force; zero where inextensible.
     pub(super) flexibility: f64,
+    /// No member: its second joint is not to get below its first one, a point of the floor. It acts
+    /// as a cable whose excess length is the depth, and whose pull is the push of the floor.
+    pub(super) ground: bool,
 }
 
 /// The system without units: lengths in the longest member's, forces in the sum of all loads.
@@ -42,6 +45,10 @@ pub(super) struct Frame {
     pub(super) length_m: f64,
     /// The unit of force, N.
     pub(super) force_n: f64,
+    /// Number of joints; a point of the floor may stand behind them.
+    pub(super) joints: usize,
+    /// Number of members; what keeps joints above the floor stands behind them.
+    pub(super) members: usize,
     pub(super) spots: Vec<Spot>,
     /// Where supports are; the origin for free joints.
     pub(super) supports: Vec<Vector>,
@@ -51,6 +58,9 @@ pub(super) struct Frame {
     /// Number of coordinates.
     pub(super) freedom: usize,
 }
+
+/// A direction that rises less than this is level: the floor cannot hold it.
+const LEVEL: f64 = 1e-9;
 
 /// The loads of a member divided between its joints, N.
 pub(super) fn end_loads_n(member: &Member, gravity_m_s2: f64) -> [Vector; 2] {
@@ -137,17 +147,48 @@ impl Frame {
             flexibility: member
                 .stiffness_n
                 .map_or(0.0, |stiffness| member.body.length_m() / length_m * total / stiffness),
+            ground: false,
         });
-        Ok(Self {
+        let mut frame = Self {
             origin_m,
             length_m,
             force_n: total,
+            joints: spots.len(),
+            members: system.members().len(),
             spots,
             supports: supports.collect(),
             rods: rods.collect(),
             loads: loads_n.iter().map(|load| scaled(1.0 / total, *load)).collect(),
             freedom,
-        })
+        };
+        if let Some(floor_m) = system.floor_m() {
+            frame.put_floor((floor_m - origin_m[2]) / length_m);
+        }
+        Ok(frame)
+    }
+
+    /// Keep every joint that can rise or fall above a height.
+    fn put_floor(&mut self, height: f64) {
+        let point = self.joints;
+        self.spots.push(Spot { first: self.freedom, freedom: 0, axes: [[0.0; 3]; 3] });
+        self.supports.push([0.0, 0.0, height]);
+        self.loads.push([0.0; 3]);
+        for to in 0..self.joints {
+            let spot = &self.spots[to];
+            if spot.axes[..spot.freedom].iter().all(|axis| axis[2].abs() <= LEVEL) {
+                continue;
+            }
+            let kind = Kind::Cable;
+            // The unit of length: depths are held against the longest member.
+            self.rods.push(Rod {
+                from: point,
+                to,
+                length: 1.0,
+                kind,
+                flexibility: 0.0,
+                ground: true,
+            });
+        }
     }
 
     /// From one end of a member to the other.

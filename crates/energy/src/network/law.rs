@@ -11,7 +11,8 @@
 //! is `F c - phi F² / 2`, and `c = phi F` wherever the member resists. A bar always resists, a
 //! cable where `F > 0`, a strut where `F < 0`; elsewhere `F = 0`. The force of an inextensible
 //! member is the multiplier of its length: the derivative of the least energy by that length, with
-//! the sign changed.
+//! the sign changed. The floor under a joint is a cable whose excess is the depth, `c = -d_z`, linear
+//! in the places.
 
 use model::Vector;
 use model::system::Kind;
@@ -41,7 +42,9 @@ impl Rod {
 
     /// The excess length at the difference `d` of the ends.
     pub(super) fn excess(&self, d: Vector) -> Excess {
-        if self.elastic() {
+        if self.ground {
+            Excess { value: -d[2], gradient: [0.0, 0.0, -1.0], bend: 0.0, stiff: 0.0 }
+        } else if self.elastic() {
             let length = norm(d).max(f64::MIN_POSITIVE);
             Excess {
                 value: length - self.length,

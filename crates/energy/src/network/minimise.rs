@@ -118,7 +118,7 @@ pub fn minimise_from(
 /// The seed in the solver's units, on the supports. Elastic members bear what their lengths say
 /// where no load gives a scale of the forces, the others nothing.
 fn seeded(frame: &Frame, seed_m: &[Vector]) -> Result<Shape, Error> {
-    let joints = frame.spots.len();
+    let joints = frame.joints;
     let scale = 1.0 / frame.length_m;
     let x: Vec<Vector> =
         seed_m.iter().map(|at_m| scaled(scale, along(*at_m, -1.0, frame.origin_m))).collect();
@@ -126,13 +126,15 @@ fn seeded(frame: &Frame, seed_m: &[Vector]) -> Result<Shape, Error> {
         let given = x.iter().filter(|x| finite(&[**x])).count();
         return Err(Error::Seed { joints, given });
     }
+    // What stands behind the joints stays where it is.
+    let behind = frame.supports[joints..].iter().copied();
     let onto = |(joint, x): (usize, Vector)| {
         let (spot, support) = (&frame.spots[joint], frame.supports[joint]);
         let away = along(x, -1.0, support);
         let free = spot.axes[..spot.freedom].iter();
         free.fold(support, |sum, axis| along(sum, dot(away, *axis), *axis))
     };
-    let x: Vec<Vector> = x.into_iter().enumerate().map(onto).collect();
+    let x: Vec<Vector> = x.into_iter().chain(behind).enumerate().map(onto).collect();
     let mut force = vec![0.0; frame.rods.len()];
     if frame.largest_force(&force) <= 0.0 {
         let excesses = frame.excesses(&x);

@@ -77,7 +77,7 @@ impl Frame {
         for (e, rod) in self.rods.iter().enumerate() {
             let off = rod.misfit(excess[e].value, shape.force[e]);
             if off > misfit || off.is_nan() {
-                (misfit, worst) = (off, e);
+                (misfit, worst) = (off, e.min(self.members - 1));
             }
         }
         let unbalance = largest(&gradient) / self.force_scale(&shape.force);

@@ -94,6 +94,9 @@ impl Solution {
         }
         if let Some(member) = wrong_sign(frame, &shape) {
             let force_n = shape.force[member] * frame.force_n;
+            if frame.rods[member].ground {
+                return Err(Error::FloorPulls { joint: frame.rods[member].to, force_n });
+            }
             return Err(Error::WrongSign { member: member + 1, force_n });
         }
         if system.is_unloaded() && frame.unstrained(&shape) {
@@ -190,6 +193,13 @@ fn equilibrium(
         }
         if spot.freedom == 3 {
             *reaction = [0.0; 3];
+        }
+    }
+    for (rod, force) in frame.rods.iter().zip(&shape.force).skip(frame.members) {
+        let spot = &frame.spots[rod.to];
+        for axis in &spot.axes[..spot.freedom] {
+            let push = force * frame.force_n * axis[2];
+            reactions_n[rod.to] = along(reactions_n[rod.to], push, *axis);
         }
     }
     let place = |x: &Vector| along(frame.origin_m, frame.length_m, *x);

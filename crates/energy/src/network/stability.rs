@@ -68,7 +68,7 @@ pub(super) fn second_order(frame: &Frame, shape: &Shape, factor: &mut Factor) ->
             index,
             neutral,
             index_in_plane: None,
-            self_stresses: dense.self_stresses(frame.rods.len()),
+            self_stresses: dense.self_stresses(frame),
             least: dense.least_forces(frame, shape),
             rigidity: Some(dense.rigidity),
             condition,
@@ -258,12 +258,13 @@ impl Dense {
     }
 
     /// The basis of the self-stresses by members.
-    fn self_stresses(&self, members: usize) -> Vec<Vec<f64>> {
+    fn self_stresses(&self, frame: &Frame) -> Vec<Vec<f64>> {
         let stress = |k| {
-            let mut stress = vec![0.0; members];
+            let mut stress = vec![0.0; frame.rods.len()];
             for (row, &e) in self.taut.iter().enumerate() {
                 stress[e] = self.stresses[(row, k)];
             }
+            stress.truncate(frame.members);
             stress
         };
         (0..self.stresses.ncols()).map(stress).collect()

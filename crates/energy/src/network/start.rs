@@ -11,7 +11,7 @@ use model::Vector;
 
 use crate::network::error::Error;
 use crate::network::factor::{Block, Factor};
-use crate::network::frame::{Frame, Spot};
+use crate::network::frame::{Frame, Rod, Spot};
 use crate::network::shape::Shape;
 use crate::vector::norm;
 
@@ -101,23 +101,27 @@ impl Densities {
 /// A hanging configuration in which all members pull, lengths not quite kept.
 pub(super) fn hanging(frame: &Frame) -> Result<Shape, Error> {
     let mut densities = Densities::new(frame)?;
-    let mut density: Vec<f64> = frame.rods.iter().map(|rod| 1.0 / rod.length).collect();
+    let free = |rod: &Rod| if rod.ground { 0.0 } else { 1.0 / rod.length };
+    let mut density: Vec<f64> = frame.rods.iter().map(free).collect();
     let mut x = densities.places(frame, &density)?;
     for update in 0..UPDATES {
         let stretch: Vec<f64> = frame
             .rods
             .iter()
             .enumerate()
-            .map(|(e, rod)| norm(frame.span(&x, e)) / rod.length)
+            .map(|(e, rod)| if rod.ground { 1.0 } else { norm(frame.span(&x, e)) / rod.length })
             .collect();
         // At first all alike: the sag is that of the mean length.
-        let mean = stretch.iter().sum::<f64>() / stretch.len() as f64;
+        let mean = stretch[..frame.members].iter().sum::<f64>() / frame.members as f64;
         for (density, stretch) in density.iter_mut().zip(stretch) {
             let ratio = if update == 0 { mean } else { stretch };
             *density *= ratio.clamp(1.0 / CLAMP, CLAMP);
         }
         x = densities.places(frame, &density)?;
     }
-    let force = (0..density.len()).map(|e| density[e] * frame.rods[e].length).collect();
+    // The floor pushes each joint with a part of the loads, whose sum is one.
+    let push = 1.0 / frame.joints as f64;
+    let force = frame.rods.iter().zip(&density);
+    let force = force.map(|(rod, w)| if rod.ground { push } else { w * rod.length }).collect();
     Ok(Shape { x, force })
 }

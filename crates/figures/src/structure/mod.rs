@@ -75,7 +75,7 @@ pub struct Member {
 ///     Joint { support: held, reaction_n: [3.0, 0.0, 4.0], ..Joint::free("B", [6.0, 0.0, 0.0]) },
 /// ];
 /// let members = [[0, 1], [1, 2]].map(|joints| Member { joints, axial_n: Some(5.0) });
-/// let structure = Structure { title: "two bars", note: "", joints: &joints, members: &members };
+/// let structure = Structure { title: "two bars", note: "", joints: &joints, members: &members, floor_m: None };
 /// assert!(structure.svg()?.contains("5 N"));
 /// # Ok::<(), figures::StructureError>(())
 /// ```
@@ -89,6 +89,8 @@ pub struct Structure<'a> {
     pub joints: &'a [Joint<'a>],
     /// The members.
     pub members: &'a [Member],
+    /// Height of a floor, m; none where there is none.
+    pub floor_m: Option<f64>,
 }
 
 /// Why a structure cannot be drawn.

@@ -32,6 +32,8 @@ pub(crate) struct Scene {
     pub(crate) force_scale: f64,
     /// The joints, px.
     pub(crate) joints: Vec<[f64; 2]>,
+    /// The corners of the floor under them, px; none where there is no floor.
+    pub(crate) floor: Vec<[f64; 2]>,
     /// How much smaller marks and lines are than in a roomy drawing, from 0 to 1.
     pub(crate) detail: f64,
 }
@@ -42,7 +44,9 @@ impl Scene {
         let forces: Vec<[f64; 3]> =
             structure.joints.iter().flat_map(|joint| [joint.load_n, joint.reaction_n]).collect();
         let view = View::of(&points, &forces);
-        let seen: Vec<[f64; 2]> = points.iter().map(|point| view.seen(*point)).collect();
+        let floor = structure.floor_m.map_or_else(Vec::new, |height| corners(&points, height));
+        let seen: Vec<[f64; 2]> =
+            points.iter().chain(&floor).map(|point| view.seen(*point)).collect();
         let bound = |start: f64, best: fn(f64, f64) -> f64, k: usize| {
             seen.iter().fold(start, |bound, point| best(bound, point[k]))
         };
@@ -58,11 +62,12 @@ impl Scene {
         ];
         let left = 0.5 * (size[0] - width * scale);
         let place = |[x, y]: [f64; 2]| [left + scale * (x - low[0]), ABOVE + scale * (high[1] - y)];
-        let joints: Vec<[f64; 2]> = seen.into_iter().map(place).collect();
+        let mut joints: Vec<[f64; 2]> = seen.into_iter().map(place).collect();
+        let floor = joints.split_off(points.len());
         let largest = forces.iter().map(|force| length(view.seen(*force))).fold(0.0, f64::max);
         let force_scale = if largest > 0.0 { LONGEST_ARROW / largest } else { 0.0 };
         let detail = (median_length(structure, &joints) / ROOMY).min(1.0);
-        Self { size, view, scale, force_scale, joints, detail }
+        Self { size, view, scale, force_scale, joints, floor, detail }
     }
 
     /// The ends of a member, px.
@@ -82,6 +87,17 @@ impl Scene {
         let size = length([x, y]);
         (size > 1e-3).then(|| [x / size, -y / size])
     }
+}
+
+/// The corners of a level rectangle under all points, m.
+fn corners(points: &[[f64; 3]], height: f64) -> Vec<[f64; 3]> {
+    let bound = |k: usize, best: fn(f64, f64) -> f64| {
+        points.iter().map(|point| point[k]).reduce(best).unwrap_or_default()
+    };
+    let [west, south] = [0, 1].map(|k| bound(k, f64::min));
+    let [east, north] = [0, 1].map(|k| bound(k, f64::max));
+    let at = |[x, y]: [f64; 2]| [x, y, height];
+    [[west, south], [east, south], [east, north], [west, north]].map(at).to_vec()
 }
 
 /// Width that the lines above the drawing need, px.

@@ -22,6 +22,10 @@ const JOINTS: f64 = 0.45;
 
 /// Supports, below everything else.
 pub(crate) fn draw(svg: &mut Svg, structure: &Structure<'_>, scene: &Scene) {
+    if !scene.floor.is_empty() {
+        let ground = Look::stroke(DARK, 1.4).filled(Colour::grey(0xf0)).class("floor");
+        svg.polygon(ground, &scene.floor);
+    }
     for (joint, at) in structure.joints.iter().zip(&scene.joints) {
         if let Some(support) = joint.support {
             support_at(svg, support, *at, scene);

@@ -92,7 +92,9 @@ impl SystemShape<'_> {
             })
             .collect();
         let title = self.system.name();
-        let structure = Structure { title, note: NOTE, joints: &joints, members: &members };
+        let floor_m = self.system.floor_m();
+        let structure =
+            Structure { title, note: NOTE, joints: &joints, members: &members, floor_m };
         match id {
             None => structure.svg(),
             Some(id) => structure.in_page(id),

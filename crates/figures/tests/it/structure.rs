@@ -33,7 +33,7 @@ fn chain(bars: usize, sign: f64) -> (Vec<Joint<'static>>, Vec<Member>) {
 }
 
 fn draw(joints: &[Joint<'_>], members: &[Member]) -> String {
-    Structure { title: "a & b", note: "note", joints, members }.svg().unwrap()
+    Structure { title: "a & b", note: "note", joints, members, floor_m: None }.svg().unwrap()
 }
 
 /// The lines of a path in a drawing, by its class.
@@ -127,7 +127,7 @@ fn a_million_members_make_a_small_picture() {
 fn what_cannot_be_drawn_is_refused() {
     let (mut joints, members) = tripod();
     let refused = |joints: &[Joint<'_>], members: &[Member]| {
-        Structure { title: "", note: "", joints, members }.svg().unwrap_err()
+        Structure { title: "", note: "", joints, members, floor_m: None }.svg().unwrap_err()
     };
     assert_eq!(refused(&joints, &[]), StructureError::Empty);
     let error = StructureError::NoJoint { member: 0, joint: 3, joints: 2 };

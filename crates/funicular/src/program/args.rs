@@ -50,8 +50,8 @@ Examples:
 /// potential energy), and judged by a third party that knows only Newton's laws.
 ///
 /// Scope: bars, cables and struts between joints without friction, rigid or with a stiffness, in
-/// space, at rest or in motion under their weight, masses at joints and constant forces; no contact
-/// and no bending. All but `solve`, `judge`, `modes` and `simulate` is for chains of rigid bars
+/// space, at rest or in motion under their weight, masses at joints and constant forces, at rest
+/// above a flat floor; no other contact and no bending. All but `solve`, `judge`, `modes` and `simulate` is for chains of rigid bars
 /// between two anchors.
 #[derive(Debug, Parser)]
 #[command(name = "funicular", version, after_help = EXIT_CODES, after_long_help = format!("{EXAMPLES}\n\n{EXIT_CODES}"))]
@@ -70,10 +70,10 @@ pub enum Command {
     /// Find the hanging equilibrium of a system file by both solvers, and compare them
     ///
     /// Known are bars, cables and struts between joints without friction, rigid or with a
-    /// stiffness, in space, at rest under their weight, masses at joints and constant forces; not
-    /// known are friction, contact, bending, damping and a sea bed. A file is a chain between two
-    /// anchors, or joints by name with members between them (`funicular cases footbridge` prints
-    /// one).
+    /// stiffness, in space, at rest under their weight, masses at joints and constant forces, above
+    /// a flat floor without friction; not known are friction, other contact, bending and damping. A
+    /// file is a chain between two anchors, or joints by name with members between them
+    /// (`funicular cases footbridge` prints one).
     ///
     /// One answer is printed whole, the other solver's compared with it. Time and memory grow with
     /// the number of bars: a chain of a million takes about a second, and some 240 bytes each.

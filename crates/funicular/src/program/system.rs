@@ -59,7 +59,8 @@ fn overview(equilibria: &[SystemEquilibrium]) -> String {
 
 fn shape(system: &System, e: &SystemEquilibrium, summary: bool) -> String {
     let held = system.joints().iter().zip(&e.reactions_n).enumerate();
-    let held = held.filter(|(_, (joint, _))| joint.support.at_m().is_some());
+    let lies = |force: &[f64; 3]| force.iter().any(|n| n.abs() > 0.0);
+    let held = held.filter(|(_, (joint, force))| joint.support.at_m().is_some() || lies(force));
     let shape = Shape {
         name: &|joint| Printable(&system.joints()[joint].name).to_string(),
         ends: &|bar| [system.members()[bar].from, system.members()[bar].to],

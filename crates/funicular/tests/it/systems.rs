@@ -185,3 +185,30 @@ fn every_answer_of_the_gallery_fits_eighty_columns() {
     let output = run(&folder, &["cases"]);
     assert!(String::from_utf8(output.stdout).unwrap().contains("footbridge"));
 }
+
+/// A weight on a rod of 5 m, drawn aside on a floor 4 m below the anchor: 3, 4, 5.
+#[test]
+fn a_floor_pushes_what_lies_on_it() {
+    let folder = folder("systems-floor");
+    let text = "name = \"drawn aside\"\ngravity_m_s2 = 10\nfloor_m = -4\n[joints]\n\
+        A = { at_m = [0, 0, 0] }\nP = { mass_kg = 1, force_n = [3, 0, 0] }\n\
+        [[bars]]\nfrom = \"A\"\nto = \"P\"\nlength_m = 5\nmass_kg = 0\n";
+    std::fs::write(folder.join("floor.toml"), text).unwrap();
+    let output = run(&folder, &["solve", "floor.toml", "--json", "--svg", "floor.svg"]);
+    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    let answer: Value = serde_json::from_slice(&output.stdout).unwrap();
+    for e in answer["equilibria"].as_array().unwrap() {
+        assert!((number(&e["reactions_n"]["P"][2]) - 6.0).abs() < 1e-9, "{e}");
+        assert!((number(&e["bars"][0]["axial_n"]) - 5.0).abs() < 1e-9, "{e}");
+        assert_eq!(e["evidence"]["rung"], "optimal", "{e}");
+    }
+    let picture = std::fs::read_to_string(folder.join("floor.svg")).unwrap();
+    assert!(picture.contains("class=\"floor\""));
+    // Motion and census know no floor, and say so.
+    let output = run(&folder, &["modes", "floor.toml"]);
+    assert_ne!(output.status.code(), Some(0));
+    assert!(String::from_utf8_lossy(&output.stderr).contains("floor"));
+    let output = run(&folder, &["census", "floor.toml"]);
+    assert_ne!(output.status.code(), Some(0));
+    assert!(String::from_utf8_lossy(&output.stderr).contains("floor"));
+}

@@ -101,6 +101,12 @@ pub enum Error {
         /// How far, m.
         misfit_m: f64,
     },
+    /// Occurs when the set of joints that lie on the floor does not settle.
+    #[error("which joints lie on the floor is still open after {rounds} rounds")]
+    Floor {
+        /// Rounds made.
+        rounds: usize,
+    },
     /// Occurs when only unstable equilibria were found, though the hanging one was asked for.
     #[error("only unstable equilibria found, the last of index {index}")]
     Unstable {

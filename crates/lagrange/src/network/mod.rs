@@ -54,6 +54,7 @@ mod coarse;
 mod derivatives;
 mod elements;
 mod error;
+mod floor;
 mod framework;
 mod hanging;
 mod law;

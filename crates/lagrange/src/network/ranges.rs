@@ -69,7 +69,7 @@ pub enum ForceRange {
 #[must_use]
 pub fn force_ranges(system: &System, solution: &Solution) -> Option<Vec<ForceRange>> {
     solution.self_stresses.as_ref()?;
-    let framework = Framework::new(system);
+    let framework = Framework::of(system, &solution.equilibrium);
     let mut state = State::of(&framework, solution);
     for &member in &solution.limp {
         state.taut[member] = true;

@@ -7,6 +7,7 @@ use nalgebra::Vector3;
 
 use super::elements;
 use super::error::Error;
+use super::floor::{above, below};
 use super::framework::{Framework, Link};
 use super::hanging::{FIRST_END, Hanging, LAST_END};
 use super::law::by_direction;
@@ -46,12 +47,13 @@ const RIDGE: f64 = 1e-9;
 pub fn solve(system: &System, settings: &Settings) -> Result<Solution, Error> {
     settings.validate()?;
     let began = Instant::now();
-    let framework = Framework::new(system);
-    check(system, &framework)?;
-    let solution = match by_runs(&framework, settings, began) {
-        Some(solution) => solution,
-        None => hang(system, framework, settings, began)?,
-    };
+    let solution = above(system, Framework::new(system), None, |framework| {
+        check(system, &framework)?;
+        match by_runs(&framework, settings, began) {
+            Some(solution) => Ok(solution),
+            None => hang(system, framework, settings, began),
+        }
+    })?;
     decided(system, solution)
 }
 
@@ -100,13 +102,17 @@ pub fn solve_from(system: &System, seed: &Seed, settings: &Settings) -> Result<S
     seed.check(system)?;
     let began = Instant::now();
     let framework = Framework::new(system);
-    check(system, &framework)?;
-    let stiffness = Stiffness::new(&framework, false)?;
-    let mut solver = Solver::new(system, framework, *settings, stiffness, began);
-    let start = solver.start(seed);
-    let run = solver.with_signs(start)?;
-    let second_order = solver.second_order(&run.state);
-    decided(system, solver.solution(run, second_order))
+    let lies = below(system, &framework, &seed.joints_m);
+    let solution = above(system, framework, Some(lies), |framework| {
+        check(system, &framework)?;
+        let stiffness = Stiffness::new(&framework, false)?;
+        let mut solver = Solver::new(system, framework, *settings, stiffness, began);
+        let start = solver.start(seed);
+        let run = solver.with_signs(start)?;
+        let second_order = solver.second_order(&run.state);
+        Ok(solver.solution(run, second_order))
+    })?;
+    decided(system, solution)
 }
 
 /// Refuse a rest without loads and without prestress: the shape is one of many.

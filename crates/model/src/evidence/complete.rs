@@ -77,6 +77,8 @@ pub enum NoCensus {
         /// The joint, from 0.
         joint: usize,
     },
+    /// There is a floor, which no census knows.
+    Floor,
     /// A joint slides on a line or in a plane.
     Slider {
         /// The joint, from 0.

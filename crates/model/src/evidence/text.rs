@@ -280,6 +280,7 @@ impl Display for NoBox {
             Self::BetweenAnchors { member } => {
                 write!(f, "member {member} connects two anchors, and nothing tells its force")
             }
+            Self::Floor => f.write_str("the proof knows no floor"),
             Self::NotConverged => f.write_str(
                 "no equilibrium with the same members in action is found next to the answer",
             ),
@@ -443,6 +444,7 @@ impl Display for NoCensus {
                 f,
                 "no census: the members that hold joint number {joint} may lie flat, or nothing pulls it aside"
             ),
+            Self::Floor => f.write_str("no census knows a floor"),
             Self::Slider { joint } => {
                 write!(f, "no census: joint number {joint} slides")
             }

@@ -87,6 +87,8 @@ pub enum NoBox {
         /// The member, from 1.
         member: usize,
     },
+    /// Occurs when there is a floor: the proof knows none.
+    Floor,
     /// Occurs when no equilibrium in which the same members act is found next to the answer.
     NotConverged,
     /// Occurs when the derivative of the equations is singular in double precision.

@@ -30,6 +30,7 @@ impl From<&Chain> for System {
             gravity_m_s2: chain.gravity_m_s2(),
             joints: joints.collect(),
             members: members.collect(),
+            floor_m: None,
         }
     }
 }

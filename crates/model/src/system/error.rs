@@ -129,6 +129,26 @@ pub enum SystemError {
         /// The component of largest size, or the first that is not finite.
         component_n: f64,
     },
+    /// Occurs when the height of the floor is infinite or not a number.
+    #[error("the height of the floor must be finite, got {floor_m} m")]
+    Floor {
+        /// The height as given.
+        floor_m: f64,
+    },
+    /// Occurs when a support holds a joint below the floor.
+    #[error(
+        "joint {name:?} is held at the height {} m, below the floor at {} m", Readable(*height_m), Readable(*floor_m)
+    )]
+    BelowFloor {
+        /// Name of the joint.
+        name: String,
+        /// Number of the joint, from 0.
+        joint: usize,
+        /// The greatest height to which its support lets it.
+        height_m: f64,
+        /// Height of the floor.
+        floor_m: f64,
+    },
     /// Occurs when every number is finite and a total is not: lengths, loads, or their product.
     #[error("the {quantity} of this system is larger than a double can hold")]
     Overflow {
@@ -233,6 +253,27 @@ fn check_member(number: usize, member: &Member, joints: &[Joint]) -> Result<(), 
             let component_n = component_n.unwrap_or(largest);
             let at_m = load.at_m;
             return Err(SystemError::PointLoad { member: number, at_m, length_m, component_n });
+        }
+    }
+    Ok(())
+}
+
+/// Refuse a floor above what a support holds.
+pub(super) fn check_floor(floor_m: f64, joints: &[Joint]) -> Result<(), SystemError> {
+    if !floor_m.is_finite() {
+        return Err(SystemError::Floor { floor_m });
+    }
+    for (number, joint) in joints.iter().enumerate() {
+        // The height of what moves level alone.
+        let height_m = match joint.support {
+            Support::Fixed { at_m } => at_m[2],
+            Support::Line { at_m, direction } if direction[2].abs() <= 0.0 => at_m[2],
+            Support::Plane { at_m, normal } if normal[0].hypot(normal[1]) <= 0.0 => at_m[2],
+            _ => continue,
+        };
+        if height_m < floor_m {
+            let name = joint.name.clone();
+            return Err(SystemError::BelowFloor { name, joint: number, height_m, floor_m });
         }
     }
     Ok(())

@@ -57,6 +57,7 @@ pub struct System {
     gravity_m_s2: f64,
     joints: Vec<Joint>,
     members: Vec<Member>,
+    floor_m: Option<f64>,
 }
 
 impl System {
@@ -72,7 +73,36 @@ impl System {
         members: Vec<Member>,
     ) -> Result<Self, SystemError> {
         error::check(gravity_m_s2, &joints, &members)?;
-        Ok(Self { name: name.into(), gravity_m_s2, joints, members })
+        Ok(Self { name: name.into(), gravity_m_s2, joints, members, floor_m: None })
+    }
+
+    /// The same system above a flat floor without friction: no joint gets below the height
+    /// `floor_m`, m, and what lies there the floor pushes up. Members are straight: where both ends
+    /// are above the floor all of them is.
+    ///
+    /// # Errors
+    ///
+    /// [`SystemError`] when the height is not finite, or a support holds a joint below it.
+    ///
+    /// ```
+    /// use model::system::{Joint, Member, System};
+    /// use model::Bar;
+    /// let joints = vec![Joint::anchor("A", [0.0, 0.0, 3.0]), Joint::free("P").with_mass(1.0)];
+    /// let members = vec![Member::cable(0, 1, Bar::homogeneous(5.0, 0.0)?)];
+    /// let system = System::new("a weight on a line", 9.81, joints, members)?;
+    /// assert_eq!(system.clone().with_floor(-1.0)?.floor_m(), Some(-1.0));
+    /// assert!(system.with_floor(4.0).is_err());
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn with_floor(self, floor_m: f64) -> Result<Self, SystemError> {
+        error::check_floor(floor_m, &self.joints)?;
+        Ok(Self { floor_m: Some(floor_m), ..self })
+    }
+
+    /// Height of the floor below which no joint gets, m; nothing where there is none.
+    #[must_use]
+    pub fn floor_m(&self) -> Option<f64> {
+        self.floor_m
     }
 
     /// The name, for people.

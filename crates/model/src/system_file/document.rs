@@ -18,8 +18,17 @@ use super::source::Source;
 use super::table::{Table, Value};
 use crate::{Anchors, Bar, BarError, Chain, ChainError, Problem, Refusal, STANDARD_GRAVITY_M_S2};
 
-const ROOT_KEYS: &[&str] =
-    &["name", "gravity_m_s2", "anchors", "bars", "bars_file", "loads", "joints", "joints_file"];
+const ROOT_KEYS: &[&str] = &[
+    "name",
+    "gravity_m_s2",
+    "floor_m",
+    "anchors",
+    "bars",
+    "bars_file",
+    "loads",
+    "joints",
+    "joints_file",
+];
 const ANCHOR_KEYS: &[&str] = &["start_m", "end_m"];
 const BAR_KEYS: &[&str] = &["length_m", "mass_kg", "centre_m", "inertia_kg_m2", "count"];
 
@@ -68,7 +77,7 @@ impl Source<'_> {
             return network::read(&root).map(Described::System);
         }
         let (chain, places) = self.chain_of(&root)?;
-        if root.get("loads").is_none() {
+        if root.get("loads").is_none() && root.get("floor_m").is_none() {
             let problem = Problem::new(chain);
             return problem.map(Described::Chain).map_err(|refusal| self.refusal(refusal, &places));
         }
@@ -80,7 +89,10 @@ impl Source<'_> {
         }
         match loaded.refusal() {
             Ok(()) => Ok(Described::System(loaded)),
-            Err(refusal) => Err(root.error(Kind::SystemRefused(refusal), "loads")),
+            Err(refusal) => {
+                let key = if root.get("loads").is_some() { "loads" } else { "floor_m" };
+                Err(root.error(Kind::SystemRefused(refusal), key))
+            }
         }
     }
 
@@ -129,7 +141,7 @@ impl Source<'_> {
         let tree = self.tree()?;
         let root = Table::root(self, tree.get_ref());
         root.only(ROOT_KEYS)?;
-        for key in ["joints", "joints_file", "loads"] {
+        for key in ["joints", "joints_file", "loads", "floor_m"] {
             if root.get(key).is_some() {
                 return Err(root.error(Kind::NotAChain { key }, key));
             }

@@ -8,12 +8,12 @@ use crate::{BarError, ChainError, Refusal};
 
 /// What the program knows, and what it does not.
 pub const SCOPE: &str = "known are joints without friction, bars, cables and struts, rigid or with a stiffness \
-     stiffness_n (EA), their weight, masses at joints and constant forces; not known are friction, \
-     contact, bending, damping and a sea bed";
+     stiffness_n (EA), their weight, masses at joints, constant forces and a flat floor without \
+     friction (floor_m); not known are friction, other contact, bending and damping";
 
 /// Keys that ask for what is not modelled.
 pub const NOT_MODELLED: &[&str] =
-    &["stiffness", "seabed", "floor", "friction", "damping", "contact", "bending", "temperature"];
+    &["stiffness", "friction", "damping", "contact", "bending", "temperature"];
 
 /// What is wrong.
 #[derive(Debug, thiserror::Error)]

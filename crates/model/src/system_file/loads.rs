@@ -11,8 +11,19 @@ use crate::system::System;
 const LOAD_KEYS: &[&str] = &["joint", "mass_kg", "force_n"];
 const WANTED: &str = "one or more tables [[loads]] with joint, and mass_kg or force_n";
 
-/// The chain as a system with the loads of the file at its joints.
+/// The chain as a system with the loads of the file at its joints, above its floor.
 pub(super) fn put(root: &Table<'_>, chain: &Chain) -> Result<System, SystemFileError> {
+    let system =
+        if root.get("loads").is_some() { loaded(root, chain)? } else { System::from(chain) };
+    match root.number("floor_m")? {
+        None => Ok(system),
+        Some(floor_m) => {
+            system.with_floor(floor_m).map_err(|error| root.error(Kind::System(error), "floor_m"))
+        }
+    }
+}
+
+fn loaded(root: &Table<'_>, chain: &Chain) -> Result<System, SystemFileError> {
     let value = root.require("loads", WANTED)?;
     let tables = value.get_ref().as_array();
     let tables: &DeArray<'_> = tables.ok_or_else(|| root.wrong_type("loads", value, WANTED))?;

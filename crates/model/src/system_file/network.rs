@@ -21,7 +21,8 @@ use crate::system::{
     Joint, Member, PointLoad, Support, System, SystemError, SystemRefusal, UNIT_TOLERANCE,
 };
 
-const ROOT_KEYS: &[&str] = &["name", "gravity_m_s2", "joints", "joints_file", "bars", "bars_file"];
+const ROOT_KEYS: &[&str] =
+    &["name", "gravity_m_s2", "floor_m", "joints", "joints_file", "bars", "bars_file"];
 const JOINT_KEYS: &[&str] = &["at_m", "free", "along", "normal", "mass_kg", "force_n"];
 const MEMBER_KEYS: &[&str] = &[
     "from",
@@ -239,13 +240,21 @@ impl Reading<'_> {
             let span = tables[table - 1].1.clone();
             root.error_at(kind, &format!("bars[{table}]"), span)
         };
-        let system =
-            System::new(name, gravity_m_s2, joints, members).map_err(|error| match &error {
+        let floor_m = root.number("floor_m")?;
+        let above_floor = |system: System| match floor_m {
+            Some(floor_m) => system.with_floor(floor_m),
+            None => Ok(system),
+        };
+        let system = System::new(name, gravity_m_s2, joints, members)
+            .and_then(above_floor)
+            .map_err(|error| match &error {
+                SystemError::Floor { .. } => root.error(Kind::System(error), "floor_m"),
                 SystemError::Gravity { .. } => root.error(Kind::System(error), "gravity_m_s2"),
                 SystemError::DuplicateName { joint, .. }
                 | SystemError::Coordinate { joint, .. }
                 | SystemError::Direction { joint, .. }
                 | SystemError::Mass { joint, .. }
+                | SystemError::BelowFloor { joint, .. }
                 | SystemError::Force { joint, .. } => {
                     let joint = *joint;
                     at_joint(Kind::System(error), joint)

@@ -17,11 +17,15 @@ use crate::system::{Joint, Kind, Member, Support, System};
 #[must_use]
 pub fn write_network(system: &System) -> String {
     let mut text = format!(
-        "name = {}\ngravity_m_s2 = {:?}\n\n[joints]\n",
+        "name = {}\ngravity_m_s2 = {:?}\n",
         toml::Value::from(system.name()),
         system.gravity_m_s2(),
     );
     // Writing to a String cannot fail.
+    if let Some(floor_m) = system.floor_m() {
+        let _ = writeln!(text, "floor_m = {floor_m:?}");
+    }
+    text.push_str("\n[joints]\n");
     for joint in system.joints() {
         let _ = writeln!(text, "{} = {}", toml::Value::from(joint.name.as_str()), entry(joint));
     }

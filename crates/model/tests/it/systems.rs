@@ -281,3 +281,44 @@ fn prestressed_systems_need_no_load() {
     let error = parse(&rigid, "f").unwrap_err();
     assert!(error.to_string().contains("no mass and no force"), "{error}");
 }
+
+#[test]
+fn a_floor_is_read_and_written() {
+    let text = format!("floor_m = -2.5\n{LAMP}");
+    let lamp = system(&text);
+    assert_eq!(lamp.floor_m(), Some(-2.5));
+    assert_eq!(system(&write_network(&lamp)), lamp);
+    assert_eq!(system(LAMP).floor_m(), None);
+    // A chain above a floor is a system.
+    let chain = "floor_m = -1\nanchors = { start_m = [0, 0, 0], end_m = [1, 0, 0] }\n\
+        bars = [{ length_m = 1, mass_kg = 1, count = 4 }]\n";
+    assert_eq!(system(chain).floor_m(), Some(-1.0));
+    let error = model::system_file::parse_problem(chain, "f").unwrap_err();
+    assert!(error.to_string().contains("floor_m"), "{error}");
+}
+
+#[test]
+fn floors_above_a_support_and_heights_that_are_none_are_refused() {
+    check(
+        &format!("floor_m = 1\n{LAMP}"),
+        "f:5:5: joints.A: joint \"A\" is held at the height 0 m, below the floor at 1 m",
+    );
+    let flat = changed("P = { mass_kg = 5 }", "P = { at_m = [1, 0, -1], free = \"xy\" }");
+    check(
+        &format!("floor_m = -0.5\n{flat}"),
+        "f:7:5: joints.P: joint \"P\" is held at the height -1 m, below the floor at -0.5 m",
+    );
+    let rises = flat.replace("free = \"xy\"", "free = \"z\"");
+    assert_eq!(system(&format!("floor_m = -0.5\n{rises}")).floor_m(), Some(-0.5));
+    check(
+        &format!("floor_m = inf\n{LAMP}"),
+        "f:1:11: floor_m: the height of the floor must be finite, got inf m",
+    );
+    check(
+        &format!("floor_m = \"low\"\n{LAMP}"),
+        "f:1:11: floor_m: expected a number, found a string",
+    );
+    let chain = "floor_m = 1\nanchors = { start_m = [0, 0, 0], end_m = [1, 0, 0] }\n\
+        bars = [{ length_m = 1, mass_kg = 1, count = 4 }]\n";
+    check(chain, "f:1:11: floor_m: joint \"0\" is held at the height 0 m, below the floor at 1 m");
+}

@@ -10,6 +10,7 @@ use serde::Serialize;
 use super::best_forces::{BestForces, best_forces, joint_loads};
 use super::bounds::{Bounds, IMPLAUSIBLE};
 use super::complete::{complete, largest_n};
+use super::floor::{above_floor, laid};
 use super::given::ForeignAnswer;
 use super::nearest::{Nearest, NearestEquilibrium, nearest};
 use super::violation::{
@@ -167,20 +168,22 @@ pub fn judge_foreign(
         return Err(ToleranceError { tolerance });
     }
     let bounds = Bounds::of_positions(system, &answer.joints_m, tolerance);
+    let laid = laid(system, &answer.joints_m, &bounds);
     let (forces, axial_n) = if let Some(axial_n) = &answer.axial_n {
         (ForcesJudged::Given, axial_n.clone())
     } else {
         watch("the forces that leave the joints least out of balance");
-        let best = best_forces(system, &answer.joints_m, &bounds);
+        let best = best_forces(&laid, &answer.joints_m, &bounds);
         let axial_n = best.axial_n.clone();
         (ForcesJudged::Found(best), axial_n)
     };
     watch("the laws, member by member");
-    let completed = complete(system, &answer.source, &answer.joints_m, &axial_n);
+    let completed = complete(&laid, &answer.source, &answer.joints_m, &axial_n);
     let given = answer.reactions_n.iter().flatten();
     let largest = given.map(|force| norm(*force)).fold(largest_n(system, &completed), f64::max);
     let bounds = bounds.with_largest_force(largest);
-    let measured = measure(system, answer, &completed, &forces, &bounds);
+    let mut measured = measure(&laid, answer, &completed, &forces, &bounds);
+    above_floor(system, &completed, &bounds, &mut measured);
     let nearest = nearest(system, &completed, bounds.position_m, watch);
     let finding = finding(system, answer, &forces, &measured, &nearest, &bounds);
     watch("the rungs");

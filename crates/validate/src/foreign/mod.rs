@@ -39,6 +39,7 @@
 pub mod best_forces;
 pub mod bounds;
 mod complete;
+mod floor;
 mod given;
 mod judgement;
 mod least_squares;

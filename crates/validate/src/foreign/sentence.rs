@@ -61,6 +61,8 @@ impl Law {
             Self::Balance { .. } => "balance",
             Self::Reaction { .. } => "force of the ground",
             Self::Whole { .. } => "balance of the whole",
+            Self::BelowFloor => "floor",
+            Self::FloorPulls { .. } => "push of the floor",
         }
     }
 }
@@ -110,6 +112,10 @@ impl Violation {
     pub fn what(&self) -> String {
         match self.law {
             Law::Support => format!("{} m off its support", Digits(self.value)),
+            Law::BelowFloor => format!("{} m below the floor", Digits(self.value)),
+            Law::FloorPulls { force_n } => {
+                format!("the floor would have to pull it down with {} N", Digits(force_n))
+            }
             Law::Length { length_m, distance_m } => {
                 let more = if distance_m > length_m { "more" } else { "less" };
                 format!(

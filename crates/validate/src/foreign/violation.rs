@@ -29,6 +29,13 @@ pub struct Violation {
 pub enum Law {
     /// A supported joint lies on its support; by how many m it does not.
     Support,
+    /// No joint is below the floor; by how many m it is.
+    BelowFloor,
+    /// The floor does not pull a joint down; N.
+    FloorPulls {
+        /// What balances the joint, down positive, N.
+        force_n: f64,
+    },
     /// An inextensible member keeps its length; m.
     Length {
         /// The length, m.
@@ -81,7 +88,7 @@ impl Law {
     #[must_use]
     pub fn unit(&self) -> &'static str {
         match self {
-            Self::Support | Self::Length { .. } => "m",
+            Self::Support | Self::BelowFloor | Self::Length { .. } => "m",
             _ => "N",
         }
     }
@@ -95,7 +102,7 @@ pub(super) struct Measured {
 }
 
 impl Measured {
-    fn note(&mut self, place: Place, law: Law, value: f64, allowed: f64) {
+    pub(super) fn note(&mut self, place: Place, law: Law, value: f64, allowed: f64) {
         let ratio = if value > 0.0 { value / allowed } else { 0.0 };
         self.largest = self.largest.max(ratio);
         if value > allowed {

@@ -17,6 +17,10 @@
 //!
 //! $$ V(x) \\ge Q(\\tilde x) - \\frac{|r|^2}{2c} \\quad \\text{for every } x . $$
 //!
+//! A floor below which no joint gets, $z_j \\ge h$, pushes with $N_j \\ge 0$: as
+//! $N_j (z_j - h) \\ge 0$ in every configuration, $V \\ge V - \\sum N_j (z_j - h)$, and the bound is
+//! that of the system without a floor under the loads $f_j + N_j e_z$, and the constant.
+//!
 //! The $w_e$ are those of the answer, $N_e/d_e$; whatever their rounding, the bound holds, and the
 //! better the answer, the smaller the gap.
 //!
@@ -38,6 +42,7 @@ use faer::sparse::{SparseColMat, Triplet};
 use model::system::{Kind, Member, Support, System, SystemEquilibrium};
 use model::{NoCertificate, Optimal, Vector, sum};
 
+use super::floor::push_n;
 use crate::vector::{dot, minus, norm, plus, times, worse};
 
 /// The largest gap that still counts as none, in units of the loads times the size of the system:
@@ -73,6 +78,7 @@ pub(super) fn largest_force_n(answer: &SystemEquilibrium) -> f64 {
 pub fn certify(system: &System, answer: &SystemEquilibrium) -> Result<Optimal, NoCertificate> {
     let fits = answer.joints_m.len() == system.joints().len()
         && answer.axial_n.len() == system.members().len()
+        && answer.reactions_n.len() == system.joints().len()
         && answer.joints_m.iter().flatten().chain(&answer.axial_n).all(|x| x.is_finite());
     if !fits || !answer.energy_j.is_finite() {
         return Err(NoCertificate::Unusable);
@@ -172,7 +178,19 @@ const TERM_ULPS: f64 = 16.0;
 fn bound_j(system: &System, answer: &SystemEquilibrium, densities: &[f64], least: f64) -> f64 {
     let origin = system.reference_m();
     let place = |k: usize| minus(answer.joints_m[k], origin);
-    let loads = joint_loads(system);
+    let mut loads = joint_loads(system);
+    let pushed = system.floor_m().map(|floor_m| {
+        // Whatever is pushed the bound holds; what the answer's floor pulls is none.
+        loads
+            .iter_mut()
+            .enumerate()
+            .map(|(k, load)| {
+                let push_n = push_n(system, answer, k).max(0.0);
+                load[2] += push_n;
+                push_n * (floor_m - origin[2])
+            })
+            .collect::<Vec<_>>()
+    });
     let mut gradient: Vec<Vector> = loads.iter().map(|load| times(-1.0, *load)).collect();
     let mut sizes_n: Vec<f64> = loads.iter().map(|load| norm(*load)).collect();
     let mut terms = Vec::with_capacity(densities.len() + loads.len());
@@ -191,6 +209,7 @@ fn bound_j(system: &System, answer: &SystemEquilibrium, densities: &[f64], least
         (-dot(*load, at), norm(*load) * norm(at))
     });
     terms.extend(works);
+    terms.extend(pushed.into_iter().flatten().map(|energy_j| (energy_j, energy_j.abs())));
     let ulps = TERM_ULPS * f64::EPSILON;
     let rounding_j = ulps * sum(terms.iter().map(|(_, size)| *size));
     // As many additions as members meet in a joint, each rounded.

@@ -6,6 +6,7 @@ use serde::Serialize;
 
 use super::certificate::{certify, largest_force_n, size_m, total_load_n};
 use super::family::Family;
+use super::floor::push_n;
 use super::statics::{SystemStatics, judge};
 use super::turn::{Turn, turns};
 use crate::compare::{Verdict, other_has_none, with_sentences};
@@ -305,9 +306,37 @@ impl<'a> Judgement<'a> {
     }
 }
 
+/// Which joints nothing but the floor acts on in every answer: it lets them slide.
+fn lie_loose(system: &System, answers: &[SystemEquilibrium]) -> Vec<bool> {
+    /// A force below this part of the largest is none: far above the error of forces.
+    const NONE: f64 = 1e-8;
+    let mut loose: Vec<bool> = system
+        .joints()
+        .iter()
+        .enumerate()
+        .map(|(k, joint)| {
+            joint.support.at_m().is_none()
+                && answers.iter().all(|answer| push_n(system, answer, k) > 0.0)
+        })
+        .collect();
+    if !loose.contains(&true) {
+        return loose;
+    }
+    let least: Vec<f64> = answers.iter().map(|answer| NONE * largest_force_n(answer)).collect();
+    for (k, member) in system.members().iter().enumerate() {
+        if answers.iter().zip(&least).any(|(answer, least)| answer.axial_n[k].abs() > *least) {
+            loose[member.from] = false;
+            loose[member.to] = false;
+        }
+    }
+    loose
+}
+
 /// Which joints nothing loads and no member holds, because all that meet there are slack in every
-/// answer: such a joint can be moved a little without any change of energy.
+/// answer, or which lie on the floor with members that bear nothing: such a joint can be moved a
+/// little without any change of energy.
 pub(crate) fn free_joints(system: &System, answers: &[SystemEquilibrium]) -> Vec<bool> {
+    let loose = lie_loose(system, answers);
     let still = |force: Vector| force.iter().all(|x| x.abs() <= 0.0);
     let mut free: Vec<bool> = system
         .joints()
@@ -323,7 +352,7 @@ pub(crate) fn free_joints(system: &System, answers: &[SystemEquilibrium]) -> Vec
             free[member.to] = false;
         }
     }
-    free
+    free.iter().zip(loose).map(|(free, loose)| *free || loose).collect()
 }
 
 /// Whether a member is slack by more than any rounding.

@@ -7,6 +7,7 @@ mod certificate;
 pub(crate) mod compare;
 mod completeness;
 mod family;
+mod floor;
 mod prestress;
 mod statics;
 #[cfg(test)]

@@ -16,6 +16,7 @@ use model::system::{Kind, Member, Support, System, SystemEquilibrium};
 use model::{Place, Vector, sum};
 use serde::Serialize;
 
+use super::floor::{push_n, rising};
 use crate::vector::{beyond, cross, dot, minus, norm, plus, times, worse};
 
 /// Largest violations of geometry and of Newton's laws by an answer, dimensionless.
@@ -59,6 +60,8 @@ struct Units {
     rounding_n: f64,
     /// Size of the system, m.
     size_m: f64,
+    /// Largest force on a member or of the ground, N.
+    largest_n: f64,
 }
 
 impl SystemStatics {
@@ -141,6 +144,7 @@ impl Units {
             rounding_m: ulps * far_m.max(longest_m),
             rounding_n: ulps * largest_n,
             size_m: reach.fold(longest_m, worse),
+            largest_n,
         }
     }
 
@@ -279,7 +283,7 @@ fn joint_balances(system: &System, answer: &SystemEquilibrium, units: &Units) ->
 }
 
 /// A supported joint lies on its support, whose force is normal to the motion that it leaves free;
-/// a free joint gets no force.
+/// a free joint gets no force but that of the floor.
 fn support(
     system: &System,
     answer: &SystemEquilibrium,
@@ -303,7 +307,27 @@ fn support(
     };
     let off = beyond(norm(off), units.rounding_m) / units.size_m;
     found.note(|s| &mut s.support, off, Place::Joint(k));
+    let push_n = push_n(system, answer, k);
+    let along = minus(along, times(push_n, rising(system, k)));
     found.note(|s| &mut s.joint, units.of_force(along, [reaction]), Place::Joint(k));
+    if let Some(floor_m) = system.floor_m() {
+        on_floor(answer.joints_m[k][2] - floor_m, push_n, k, units, found);
+    }
+}
+
+/// A joint at a height above the floor, which pushes it: not below, not pulled, and pushed on the
+/// floor alone.
+fn on_floor(above_m: f64, push_n: f64, k: usize, units: &Units, found: &mut SystemStatics) {
+    let place = Place::Joint(k);
+    let height = |above_m: f64| beyond(above_m, units.rounding_m) / units.size_m;
+    let force = |push_n: f64| {
+        let excess = beyond(push_n, units.rounding_n);
+        if excess <= 0.0 { 0.0 } else { excess / units.largest_n }
+    };
+    found.note(|s| &mut s.support, height(-above_m), place);
+    found.note(|s| &mut s.joint, force(-push_n), place);
+    // Of a joint that is pushed above the floor the smaller of both is wrong.
+    found.note(|s| &mut s.joint, force(push_n).min(height(above_m)), place);
 }
 
 /// Forces of all supports and all loads together, in units of their sizes.

@@ -13,6 +13,7 @@ mod chains_stability;
 mod external;
 mod field;
 mod first_tries;
+mod floor;
 mod gallery;
 mod independence;
 mod integer_chains;

@@ -117,6 +117,9 @@ impl SystemCensus {
     pub fn take(system: &System, settings: &Settings) -> Result<Self, NoCensus> {
         let start = Instant::now();
         system.refusal().map_err(|_| NoCensus::Refused)?;
+        if system.floor_m().is_some() {
+            return Err(NoCensus::Floor);
+        }
         let moves_freely =
             |support: &Support| matches!(support, Support::Free | Support::Fixed { .. });
         if let Some(joint) = system.joints().iter().position(|j| !moves_freely(&j.support)) {

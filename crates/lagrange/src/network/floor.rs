@@ -1,0 +1,183 @@
+//! A flat floor without friction, by the set of joints that lie on it.
+//!
+//! The floor pushes a joint up and lets it slide: $z_j \ge h$, $N_j \ge 0$ and $N_j (z_j - h) = 0$.
+//! Joints that are known to lie on it have one freedom less each, and the system is solved as any
+//! other. Then joints below the floor are laid down, those that it would have to pull are lifted,
+//! until no sign is wrong: a primal-dual active set method. What pulls a joint off the floor lifts
+//! its neighbours with it, as many as it can bear; a joint at the edge of what lies tells how many
+//! that are, so that a line of many members takes few rounds.
+//!
+//! M. Hintermueller, K. Ito and K. Kunisch, SIAM J. Optim. 13 (2002) 865-888,
+//! doi:10.1137/S1052623401383558
+
+use std::collections::VecDeque;
+
+use model::system::{System, SystemEquilibrium};
+use nalgebra::{Matrix3, Vector3};
+
+use super::error::Error;
+use super::framework::{Framework, Node, across};
+use super::solution::{NO_FORCE, Solution};
+
+/// Rounds in all, and those in which neighbours are lifted as well: then joints one by one, which
+/// ends where the estimate of how many are lifted goes to and fro.
+const ROUNDS: usize = 200;
+const TOGETHER: usize = 30;
+/// A joint this part of the mean length below the floor lies on it, and is not below it.
+const ON_FLOOR: f64 = 1e-10;
+/// A free direction that rises less than this is level: the floor cannot hold it.
+const LEVEL: f64 = 1e-9;
+
+/// What of a push straight up moves a joint: its free part; nothing where it moves level alone.
+fn lift(node: &Node) -> Option<Vector3<f64>> {
+    let free = node.axes * node.axes.tr_mul(&Vector3::z());
+    (free.norm() > LEVEL).then_some(free)
+}
+
+/// A joint that lies on a floor at this height.
+fn laid(node: &Node, floor: f64) -> Node {
+    let Some(free) = lift(node) else { return node.clone() };
+    let rise = free.norm_squared();
+    let base = node.base + free * ((floor - node.base.z) / rise);
+    let up = free / rise.sqrt();
+    // What is left of the free directions normal to the rising one.
+    let (mut axes, mut freedom) = (Matrix3::zeros(), 0);
+    for level in across(&up) {
+        let rest = node.axes * node.axes.tr_mul(&level);
+        let rest = rest - axes * axes.tr_mul(&rest);
+        if rest.norm() > 0.5 {
+            axes.set_column(freedom, &rest.normalize());
+            freedom += 1;
+        }
+    }
+    Node { base, axes, freedom, load: node.load }
+}
+
+/// Force of the floor on a joint, N: what of its reaction the support cannot bear.
+fn push_n(node: &Node, reaction_n: [f64; 3]) -> f64 {
+    lift(node).map_or(0.0, |free| Vector3::from(reaction_n).dot(&free) / free.norm_squared())
+}
+
+impl Framework {
+    /// Height of the floor in units, if there is one.
+    fn floor(&self, system: &System) -> Option<f64> {
+        system.floor_m().map(|floor_m| (floor_m - self.units.origin_m.z) / self.units.length_m)
+    }
+
+    /// The framework with these joints on the floor.
+    fn with_laid(&self, floor: f64, lies: &[bool]) -> Self {
+        let mut framework = self.clone();
+        for (node, _) in framework.nodes.iter_mut().zip(lies).filter(|(_, lies)| **lies) {
+            *node = laid(node, floor);
+        }
+        framework
+    }
+
+    /// The framework of an answer: the joints that the floor pushes lie on it.
+    pub fn of(system: &System, answer: &SystemEquilibrium) -> Self {
+        let framework = Self::new(system);
+        let Some(floor) = framework.floor(system) else { return framework };
+        let least = NO_FORCE * largest_n(&framework, answer);
+        let nodes = framework.nodes.iter().zip(&answer.reactions_n);
+        let lies: Vec<bool> = nodes.map(|(node, force)| push_n(node, *force) > least).collect();
+        framework.with_laid(floor, &lies)
+    }
+}
+
+/// Largest force of a member or load, N.
+fn largest_n(framework: &Framework, answer: &SystemEquilibrium) -> f64 {
+    let loads = framework.nodes.iter().map(|node| node.load.norm() * framework.units.force_n);
+    answer.axial_n.iter().map(|axial| axial.abs()).chain(loads).fold(0.0, f64::max)
+}
+
+/// Solve above the floor, if there is one, by solving with joints that lie on it. `begin` are those
+/// of the first round.
+pub(super) fn above(
+    system: &System,
+    framework: Framework,
+    begin: Option<Vec<bool>>,
+    mut solve: impl FnMut(Framework) -> Result<Solution, Error>,
+) -> Result<Solution, Error> {
+    let Some(floor) = framework.floor(system) else { return solve(framework) };
+    let mut lies = begin.unwrap_or_else(|| vec![false; framework.nodes.len()]);
+    let mut factorisations = 0;
+    for round in 0..ROUNDS {
+        let mut solution = solve(framework.with_laid(floor, &lies))?;
+        factorisations += solution.factorisations;
+        let next = mended(system, &framework, &solution.equilibrium, &lies, round < TOGETHER);
+        if next == lies {
+            solution.factorisations = factorisations;
+            return Ok(solution);
+        }
+        lies = next;
+    }
+    Err(Error::Floor { rounds: ROUNDS })
+}
+
+/// Which joints lie below the floor or on it, m.
+pub(super) fn below(system: &System, framework: &Framework, joints_m: &[[f64; 3]]) -> Vec<bool> {
+    let floor_m = system.floor_m().unwrap_or(f64::NEG_INFINITY);
+    let joints = joints_m.iter().zip(&framework.nodes);
+    joints.map(|(at_m, node)| at_m[2] <= floor_m && lift(node).is_some()).collect()
+}
+
+/// The joints that lie on the floor in the next round.
+fn mended(
+    system: &System,
+    framework: &Framework,
+    answer: &SystemEquilibrium,
+    lies: &[bool],
+    together: bool,
+) -> Vec<bool> {
+    let floor_m = system.floor_m().unwrap_or(f64::NEG_INFINITY);
+    let depth_m = ON_FLOOR * framework.units.length_m;
+    let least_n = NO_FORCE * largest_n(framework, answer);
+    let mut next = lies.to_vec();
+    let mut pulled = Vec::new();
+    for (k, node) in framework.nodes.iter().enumerate() {
+        if lies[k] {
+            let push_n = push_n(node, answer.reactions_n[k]);
+            if push_n < -least_n {
+                pulled.push((k, -push_n));
+            }
+        } else if answer.joints_m[k][2] < floor_m - depth_m && lift(node).is_some() {
+            next[k] = true;
+        }
+    }
+    let mut neighbours = vec![Vec::new(); if together { lies.len() } else { 0 }];
+    if together && !pulled.is_empty() {
+        for link in &framework.links {
+            neighbours[link.from].push(link.to);
+            neighbours[link.to].push(link.from);
+        }
+    }
+    for (joint, force_n) in pulled {
+        next[joint] = false;
+        if together {
+            lift_neighbours(framework, &neighbours, &mut next, joint, force_n);
+        }
+    }
+    next
+}
+
+/// Lift what lies next to a joint, until its weight comes to this force.
+fn lift_neighbours(
+    framework: &Framework,
+    neighbours: &[Vec<usize>],
+    lies: &mut [bool],
+    joint: usize,
+    force_n: f64,
+) {
+    let mut left = force_n / framework.units.force_n;
+    let mut queue = VecDeque::from([joint]);
+    while let Some(joint) = queue.pop_front() {
+        for &next in &neighbours[joint] {
+            let weight = -framework.nodes[next].load.z;
+            if lies[next] && weight > 0.0 && left >= weight {
+                left -= weight;
+                lies[next] = false;
+                queue.push_back(next);
+            }
+        }
+    }
+}

@@ -1,0 +1,28 @@
+//! The floor under a system: how strongly it pushes the joints of an answer.
+
+use model::Vector;
+use model::system::{System, SystemEquilibrium};
+
+use super::family::motions;
+use crate::vector::{dot, plus, times};
+
+/// A direction that rises less than this is level: the floor cannot push along it.
+const LEVEL: f64 = 1e-9;
+
+/// What of a push straight up a joint's support leaves to it.
+pub(super) fn rising(system: &System, joint: usize) -> Vector {
+    let free = motions(&system.joints()[joint].support);
+    free.into_iter().fold([0.0; 3], |sum, axis| plus(sum, times(axis[2], axis)))
+}
+
+/// Force of the floor on a joint of an answer, up positive, N. Of the force of the ground there the
+/// support can bear only what is normal to the motions that it leaves free, and the floor only what
+/// is straight up.
+pub(super) fn push_n(system: &System, answer: &SystemEquilibrium, joint: usize) -> f64 {
+    let rising = rising(system, joint);
+    let rate = dot(rising, rising);
+    if system.floor_m().is_none() || rate <= LEVEL * LEVEL {
+        return 0.0;
+    }
+    dot(answer.reactions_n[joint], rising) / rate
+}
