@@ -67,6 +67,12 @@ pub enum BoundError {
         /// What was given.
         value: f64,
     },
+    /// Occurs when a system has a strut, which no convex programme knows.
+    #[error("member {member} is a strut, and the least energy of struts is no convex problem")]
+    Strut {
+        /// Number of the member, from 1.
+        member: usize,
+    },
     /// Occurs when clarabel does not accept the programme, which would be a bug here.
     #[error("the cone programme was not accepted")]
     Refused(#[source] Box<clarabel::solver::SolverError>),

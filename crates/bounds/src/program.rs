@@ -40,6 +40,8 @@ impl Affine {
 #[derive(Debug, Default)]
 pub(crate) struct Program {
     cost: Vec<f64>,
+    /// Variables with a quadratic cost, and its second derivative.
+    curves: Vec<(usize, f64)>,
     rows: Vec<usize>,
     columns: Vec<usize>,
     values: Vec<f64>,
@@ -94,6 +96,17 @@ impl Program {
         }
     }
 
+    /// Plus `curvature / 2` times the square of a variable, which has no such cost yet.
+    pub(crate) fn curve(&mut self, variable: usize, curvature: f64) {
+        self.curves.push((variable, curvature));
+    }
+
+    /// The entry is zero or positive.
+    pub(crate) fn positive(&mut self, entry: &Affine) {
+        self.row(1.0, entry);
+        self.cones.push(SupportedConeT::NonnegativeConeT(1));
+    }
+
     /// |(s_1, s_2, ...)| ≤ s_0. Returns the first row.
     pub(crate) fn second_order(&mut self, entries: &[Affine]) -> usize {
         let first = self.constants.len();
@@ -143,8 +156,11 @@ impl Program {
             max_threads: 1,
             ..DefaultSettings::default()
         };
+        let (at, curvatures): (Vec<usize>, Vec<f64>) = self.curves.into_iter().unzip();
+        let quadratic =
+            CscMatrix::new_from_triplets(variables, variables, at.clone(), at, curvatures);
         let mut solver = DefaultSolver::new(
-            &CscMatrix::zeros((variables, variables)),
+            &quadratic,
             &self.cost,
             &matrix,
             &self.constants,

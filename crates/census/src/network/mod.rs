@@ -36,6 +36,7 @@ mod census;
 mod coordinates;
 mod diagnosis;
 mod equations;
+mod floor;
 mod frame;
 mod krawczyk;
 mod newton;

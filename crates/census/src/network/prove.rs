@@ -8,6 +8,7 @@ use super::activity::{Activity, activities};
 use super::arithmetic::{dot, minus, squared};
 use super::diagnosis::diagnosed;
 use super::equations::Equations;
+use super::floor::prove_above;
 use super::frame::Frame;
 use super::krawczyk::{Zero, prove_zero};
 use super::newton::refine;
@@ -56,9 +57,18 @@ pub fn prove(system: &System, joints_m: &[Point], axial_n: &[f64]) -> Result<Sys
     if !(finite && fits) {
         return Err(NoBox::NotFinite);
     }
-    if system.floor_m().is_some() {
-        return Err(NoBox::Floor);
+    match system.floor_m() {
+        None => prove_without_floor(system, joints_m, axial_n),
+        Some(floor_m) => prove_above(system, floor_m, joints_m, axial_n),
     }
+}
+
+/// The same for the joints and members alone.
+pub(super) fn prove_without_floor(
+    system: &System,
+    joints_m: &[Point],
+    axial_n: &[f64],
+) -> Result<SystemBox, NoBox> {
     let frame = Frame::new(system, axial_n);
     let activities = activities(system, &frame, joints_m, axial_n)?;
     let loose = loose_joints(system, &activities);

@@ -280,7 +280,10 @@ impl Display for NoBox {
             Self::BetweenAnchors { member } => {
                 write!(f, "member {member} connects two anchors, and nothing tells its force")
             }
-            Self::Floor => f.write_str("the proof knows no floor"),
+            Self::Floor { joint } => write!(
+                f,
+                "joint {joint} is not proved to be above the floor, nor to be pushed by it"
+            ),
             Self::NotConverged => f.write_str(
                 "no equilibrium with the same members in action is found next to the answer",
             ),

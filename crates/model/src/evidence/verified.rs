@@ -87,8 +87,12 @@ pub enum NoBox {
         /// The member, from 1.
         member: usize,
     },
-    /// Occurs when there is a floor: the proof knows none.
-    Floor,
+    /// Occurs when the floor is not proved to push a joint that lies on it, or a joint not to be
+    /// above it.
+    Floor {
+        /// The joint, from 0.
+        joint: usize,
+    },
     /// Occurs when no equilibrium in which the same members act is found next to the answer.
     NotConverged,
     /// Occurs when the derivative of the equations is singular in double precision.

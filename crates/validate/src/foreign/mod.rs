@@ -29,7 +29,8 @@
 //! # How large the error is
 //!
 //! Both solvers start at the answer's positions; the equilibrium that is nearest says how large the
-//! error is, and its own evidence how far that is proved.
+//! error is, and its own evidence how far that is proved. Where interval arithmetic proves that
+//! exactly one equilibrium lies in a box next to it, the error is enclosed ([`ProvedError`]).
 //!
 //! # References
 //!
@@ -44,6 +45,7 @@ mod given;
 mod judgement;
 mod least_squares;
 mod nearest;
+mod proved;
 mod sentence;
 #[cfg(test)]
 mod tests;
@@ -52,4 +54,5 @@ mod violation;
 pub use given::{ForeignAnswer, GivenError};
 pub use judgement::{Finding, ForcesJudged, Judgement, ToleranceError, judge_foreign};
 pub use nearest::{Nearest, NearestEquilibrium};
+pub use proved::ProvedError;
 pub use violation::{Law, Violation};

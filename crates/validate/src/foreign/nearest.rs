@@ -4,6 +4,7 @@ use model::system::{System, SystemEquilibrium};
 use model::{SolverName, Vector};
 use serde::{Serialize, Serializer};
 
+use super::proved::{ProvedError, proved_error};
 use crate::systems::compare::{compare, free_joints, judge_alone};
 use crate::systems::turn::{Turn, turns};
 use crate::systems::{SystemFailure, ask};
@@ -29,6 +30,8 @@ pub struct NearestEquilibrium {
     pub energy_j: f64,
     /// Whether equilibrium determines the forces; nothing where that was not counted.
     pub forces_unique: Option<bool>,
+    /// The errors with proof, of the nearest equilibrium alone and where there is one.
+    pub proved: Option<ProvedError>,
 }
 
 /// What both solvers say about the surroundings of an answer.
@@ -101,6 +104,10 @@ pub(super) fn nearest(
     let mut equilibria: Vec<_> =
         measured.map(|(found, unique)| measure(system, answer, found, unique)).collect();
     equilibria.sort_by(|a, b| a.joints_m.total_cmp(&b.joints_m));
+    if let Some(first) = equilibria.first_mut() {
+        watch("a box around the nearest equilibrium");
+        first.proved = proved_error(system, answer, &first.equilibrium);
+    }
     Nearest { equilibria, failures, without_guess }
 }
 
@@ -159,7 +166,17 @@ fn measure(
     let forces = answer.axial_n.iter().zip(&equilibrium.axial_n).enumerate();
     let (forces_n, member) = largest(forces.map(|(k, (a, b))| ((a - b).abs(), k + 1)));
     let energy_j = answer.energy_j - equilibrium.energy_j;
-    NearestEquilibrium { equilibrium, joints_m, joint, forces_n, member, energy_j, forces_unique }
+    let proved = None;
+    NearestEquilibrium {
+        equilibrium,
+        joints_m,
+        joint,
+        forces_n,
+        member,
+        energy_j,
+        forces_unique,
+        proved,
+    }
 }
 
 impl Serialize for NearestEquilibrium {
@@ -173,10 +190,21 @@ impl Serialize for NearestEquilibrium {
             member: usize,
             energy_j: f64,
             forces_unique: Option<bool>,
+            #[serde(skip_serializing_if = "Option::is_none")]
+            proved: Option<ProvedError>,
             index_in_space: usize,
             evidence: &'a model::Evidence,
         }
-        let Self { equilibrium, joints_m, joint, forces_n, member, energy_j, forces_unique } = self;
+        let Self {
+            equilibrium,
+            joints_m,
+            joint,
+            forces_n,
+            member,
+            energy_j,
+            forces_unique,
+            proved,
+        } = self;
         Keys {
             solver: &equilibrium.solver,
             joints_m: *joints_m,
@@ -185,6 +213,7 @@ impl Serialize for NearestEquilibrium {
             member: *member,
             energy_j: *energy_j,
             forces_unique: *forces_unique,
+            proved: *proved,
             index_in_space: equilibrium.stability.index_in_space,
             evidence: &equilibrium.evidence,
         }

@@ -240,3 +240,32 @@ fn tolerances_out_of_range_are_refused() {
         assert!(judge_foreign(&system, &answer, tolerance, &|_| {}).is_err());
     }
 }
+
+/// A lamp on two cables, 4 m deep: the error of an answer a centimetre too low is enclosed, in
+/// places and in forces.
+#[test]
+fn the_error_of_an_answer_is_enclosed_by_proof() {
+    let joints = vec![
+        Joint::anchor("A", [-3.0, 0.0, 0.0]),
+        Joint::anchor("B", [3.0, 0.0, 0.0]),
+        Joint::free("lamp").with_mass(0.2).with_force([0.0, 1.0, 0.0]),
+    ];
+    let body = Bar::homogeneous(5.0, 0.0).unwrap();
+    let members = vec![Member::cable(0, 2, body), Member::cable(2, 1, body)];
+    let system = System::new("lamp", 10.0, joints, members).unwrap();
+    // The plane of the cables leans by 1 to 2, and they bear |load| 5/8.
+    let load = 5.0_f64.sqrt();
+    let (aside, down) = (4.0 / load, 8.0 / load);
+    let at = vec![[-3.0, 0.0, 0.0], [3.0, 0.0, 0.0], [0.0, aside, -down - 0.01]];
+    let axial_n = Some(vec![0.625 * load, 0.625 * load + 0.25]);
+    let answer = ForeignAnswer::in_order(&system, "a table", at, axial_n).unwrap();
+    let judged = judge_foreign(&system, &answer, 1e-6, &|_| {}).unwrap();
+    let nearest = judged.nearest().unwrap();
+    let proved = nearest.proved.unwrap();
+    for ([least, most], wanted) in [(proved.joints_m, 0.01), (proved.forces_n, 0.25)] {
+        assert!(least <= wanted + 1e-15 && wanted <= most + 1e-15, "{proved:?}");
+        assert!(most - least < 1e-12, "{proved:?}");
+    }
+    let json = serde_json::to_value(nearest).unwrap();
+    assert!(json["proved"]["joints_m"][0].as_f64().unwrap() > 0.0099);
+}

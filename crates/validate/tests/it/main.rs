@@ -21,5 +21,7 @@ mod moving;
 mod networks;
 mod networks_census;
 mod paper;
+mod prescribed;
 mod statics;
 mod tensegrities;
+mod third_road;

@@ -1,0 +1,79 @@
+//! Systems above a floor: a proof for the joints that lie on it, and of which way it pushes.
+//!
+//! A free joint that lies on the floor is one that slides in its level. The box of that system is
+//! one of the system above the floor as well, if in all of it the floor pushes what lies and the
+//! other joints are above.
+
+use intervals::Interval;
+use model::system::{Joint, Support, System};
+use model::{NoBox, Vector as Point};
+
+use super::arithmetic::{minus, norm};
+use super::frame::Frame;
+use super::prove::prove_without_floor;
+use super::proven::SystemBox;
+
+/// A joint that is this near to the floor, in units of the mean length of the members, is taken to
+/// lie on it: far above the error of answers, far below what else is likely. The proof does not
+/// rest on it.
+const NEAR: f64 = 1e-7;
+
+/// Prove that exactly one equilibrium above the floor lies in a box next to an answer.
+///
+/// Another equilibrium in the box would have the same joints above the floor, and those that lie
+/// could not rise: the push is positive in all of the box.
+pub(super) fn prove_above(
+    system: &System,
+    floor_m: f64,
+    joints_m: &[Point],
+    axial_n: &[f64],
+) -> Result<SystemBox, NoBox> {
+    let near_m = NEAR * system.total_length_m() / system.members().len() as f64;
+    let joints = || system.joints().iter().zip(joints_m);
+    let near = |at_m: &Point| at_m[2] <= floor_m + near_m;
+    let lies: Vec<bool> =
+        joints().map(|(joint, at_m)| joint.support == Support::Free && near(at_m)).collect();
+    let laid = joints().zip(&lies).map(|((joint, at_m), lies)| {
+        let support = if *lies {
+            Support::Plane { at_m: [at_m[0], at_m[1], floor_m], normal: [0.0, 0.0, 1.0] }
+        } else {
+            joint.support
+        };
+        Joint { support, ..joint.clone() }
+    });
+    let members = system.members().to_vec();
+    let laid = System::new(system.name(), system.gravity_m_s2(), laid.collect(), members)
+        .map_err(|_| NoBox::NotFinite)?;
+    let found = prove_without_floor(&laid, joints_m, axial_n)?;
+    let pushes = pushes_n(system, &found, axial_n);
+    for (k, joint) in system.joints().iter().enumerate() {
+        let height = found.joints_m[k][2];
+        let right = if lies[k] {
+            pushes[k].lo() > 0.0
+        } else {
+            joint.support.is_fixed() || height.lo() >= floor_m
+        };
+        if !right {
+            return Err(NoBox::Floor { joint: k });
+        }
+    }
+    Ok(found)
+}
+
+/// What the members and loads of each joint leave for the floor to bear, up positive, N.
+fn pushes_n(system: &System, found: &SystemBox, axial_n: &[f64]) -> Vec<Interval> {
+    let frame = Frame::new(system, axial_n);
+    let loads = frame.loads(system);
+    let mut pushes: Vec<Interval> =
+        loads.iter().map(|load| -load[2].scale(frame.force_n)).collect();
+    for (member, axial) in system.members().iter().zip(&found.axial_n) {
+        if *axial == Interval::ZERO {
+            continue;
+        }
+        let span = minus(found.joints_m[member.to], found.joints_m[member.from]);
+        let rising = *axial * span[2] / norm(span);
+        pushes[member.from] = pushes[member.from] - rising;
+        pushes[member.to] = pushes[member.to] + rising;
+    }
+    pushes
+}
