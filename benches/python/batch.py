@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """100,000 chains of 10 bars: the package beside a loop over SciPy, in one run on one machine.
 
-    .venv/bin/python benches/python/batch.py [--chains N] [--scipy N]     (after crates/python/environment)
+    crates/python/environment && .venv/bin/pip install -r benches/python/requirements.txt
+    .venv/bin/python benches/python/batch.py [--chains N] [--scipy N]
 
 Both get the same chains, which hang with all bars in tension, and both give all joints and forces. SciPy solves, chain
 by chain, for the pull on the first anchor (two unknowns in the plane of the anchors): ``scipy.optimize.root`` with the

@@ -69,6 +69,27 @@ def test_a_batch_is_the_same_bytes(client):
     assert told[-1] == (7, 7) and list(shared.failures) == [4321]
 
 
+def test_a_batch_with_a_worker_killed_is_the_same_bytes(client):
+    random = np.random.default_rng(2)
+    lengths, masses = random.uniform(0.5, 1.5, (20_000, 8)), random.uniform(0.1, 2, (20_000, 8))
+    ends = random.uniform(-2, 2, (20_000, 3))
+    one = fn.solve_many(lengths, masses, ends, solver="both")
+    killed = []
+
+    def kill(what, done, total):
+        # The first part is done, the others are on both workers.
+        if not killed:
+            address = sorted(client.nthreads())[0]
+            process = client.run(os.getpid, workers=[address])[address]
+            psutil.Process(process).kill()
+            killed.append(process)
+
+    shared = fn.solve_many(lengths, masses, ends, solver="both", client=client, parts=12, progress=kill)
+    assert killed and not psutil.pid_exists(killed[0])
+    for name in ("joints_m", "forces_n", "axial_n", "energy_j", "residual", "statics", "rung"):
+        assert getattr(one, name).tobytes() == getattr(shared, name).tobytes()
+
+
 def test_bad_input_is_told_and_not_retried(client, tmp_path):
     with pytest.raises(fn.SettingError):
         fn.System.case("two-bars").sweep(10, spread="nonsense", out=tmp_path / "bad", client=client, shards=2)

@@ -13,8 +13,12 @@ import numpy.typing as npt
 from . import _native
 from ._numbers import Array, Vector, array, number, vector, whole
 from ._progress import Progress, shown
+from .errors import SettingError
 from .system import System, printable
 from .table import Table
+
+MOST_BYTES = 16e9
+"""Memory that the stored times of a motion may take."""
 
 Start = Union[str, "npt.NDArray[Any]", list[Any]]
 
@@ -109,6 +113,7 @@ def simulate(
     """
     word, joints = (start, None) if isinstance(start, str) else ("rest", array("start", start, ("joints", 3)))
     impulses = [(str(joint), vector(f"pushes[{joint!r}]", push)) for joint, push in (pushes or {}).items()]
+    _affordable(system, number("time", time), number("step", step), store)
     with shown(progress) as callback:
         found = _native.simulate(
             system._problem,
@@ -125,6 +130,18 @@ def simulate(
             callback,
         )
     return Motion(system, *found)
+
+
+def _affordable(system: System, time: float, step: float, store: float | None) -> None:
+    """Refuse more stored times than memory has room for."""
+    kept = step if store is None else max(step, number("store", store))
+    if store is None or not (time > 0.0 and kept > 0.0):
+        return
+    numbers = 9 * len(system.joint_names) + len(system.member_joints) + len(TIMES)
+    wanted = time / kept * numbers * np.dtype(np.float64).itemsize
+    if not wanted <= MOST_BYTES:
+        message = f"the stored times would take {wanted / 1e9:.3g} GB: store fewer (store = {kept:g} s now)"
+        raise SettingError(message, setting="store", value=kept)
 
 
 class Modes:

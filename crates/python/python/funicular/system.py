@@ -196,12 +196,15 @@ class System:
 
         Raises ShapeError, BarError, SystemError, or a class of Refused.
         """
-        if isinstance(joints, (int, np.integer)) and not isinstance(joints, bool):
-            names = [str(k) for k in range(whole("joints", joints, 1))]
-        else:
-            names = [_text("joints", joint) for joint in joints]  # type: ignore[union-attr]
-        count = len(names)
         ends = array("bars", bars, ("m", 2))
+        if isinstance(joints, Sequence) and not isinstance(joints, str):
+            names = [_text("joints", joint) for joint in joints]
+        elif whole("joints", joints, 1) > 2 * len(ends):
+            message = f"joints: {len(ends)} members meet {2 * len(ends)} joints at most, got {joints}"
+            raise ShapeError(message, argument="joints", found=str(joints))
+        else:
+            names = [str(k) for k in range(whole("joints", joints, 1))]
+        count = len(names)
         if not (np.all(ends == np.floor(ends)) and np.all((ends >= 0) & (ends < count))):
             raise ShapeError(
                 f"bars: numbers of joints from 0 to {count - 1} wanted", argument="bars", found="other numbers"
