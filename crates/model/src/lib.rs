@@ -54,8 +54,8 @@ pub use equilibrium::{Equilibrium, Reactions};
 pub use evidence::{
     Agreed, Complete, CompleteSystem, Convergence, Disagreement, Evidence, Excess, ForceChoice,
     ForceFamily, ForceUncertainty, FreeJoints, Ladder, NoAnswer, NoBox, NoCensus, NoCertificate,
-    Optimal, Place, Quantity, Reason, Rung, SelfStresses, StabilityDifference, Statement, Status,
-    UncertaintyCause, Verified, VerifiedSystem,
+    Optimal, Place, Quantity, Reason, Rigidity, Room, Rung, SelfStresses, StabilityDifference,
+    Statement, Status, UncertaintyCause, Verified, VerifiedSystem,
 };
 pub use problem::{Problem, Refusal, STRAIGHT_TOLERANCE};
 pub use solver_name::SolverName;

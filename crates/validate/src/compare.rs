@@ -100,6 +100,7 @@ impl Agreement {
             energy_j: self.energy_j,
             statics: worst(self.statics.iter().map(Statics::largest)),
             free_joints: self.free,
+            room: None,
             shape_only: self.force_family.is_some(),
         })
     }

@@ -35,8 +35,8 @@
 //!
 //! # Cost
 //!
-//! Processor time of one core (AMD EPYC), by `cargo run --release -p energy --example network_speed
-//! KIND n ...`:
+//! Processor time of one core (AMD EPYC), by
+//! `cargo run --release -p energy --example network_minimise_speed KIND n ...`:
 //!
 //! | kind | members | factorisations | time / s | µs a member |
 //! |---|---|---|---|---|

@@ -113,6 +113,12 @@ impl Solution {
         evidence.nullity = second.neutral;
         evidence.condition = second.condition;
         evidence.self_stresses = self_stresses(&second, least);
+        evidence.rigidity = second.rigidity.map(|counted| model::Rigidity {
+            rank: counted.rank,
+            mechanisms: counted.mechanisms,
+            self_stresses: counted.self_stresses,
+            gap: counted.gap,
+        });
         let equilibrium = equilibrium(system, frame, &shape, &second, evidence);
         let work = Work {
             relaxation: effort.relaxation,

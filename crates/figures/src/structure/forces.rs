@@ -4,7 +4,7 @@
 use crate::look::{Colour, Look};
 use crate::palette::GREEN;
 use crate::structure::Structure;
-use crate::structure::labels::{Crossing, Labels, short};
+use crate::structure::labels::{Crossing, Labels, half_extent, short};
 use crate::structure::scene::{LONGEST_ARROW, Scene, length};
 use crate::svg::{Anchor, Svg};
 
@@ -32,23 +32,52 @@ struct Arrow {
 }
 
 pub(crate) fn draw(svg: &mut Svg, structure: &Structure<'_>, scene: &Scene, labels: &mut Labels) {
-    let arrows = arrows(structure, scene);
     // All arrows before the first label: none is to be crossed.
-    let drawn: Vec<_> = arrows
-        .iter()
-        .map(|arrow| {
-            let at = scene.joints[arrow.joint];
-            let inwards = arrow.nearest[0] > ALONG && arrow.nearest[1] < arrow.nearest[0];
-            let sign = if inwards { -1.0 } else { 1.0 };
-            let far = [0, 1].map(|k| at[k] + sign * arrow.force[k]);
-            let ends = if inwards { [far, at] } else { [at, far] };
-            svg.arrow(arrow.look, ends[0], ends[1]);
-            labels.line(ends);
-            (arrow.newton, far, at)
-        })
-        .collect();
-    for (newton, far, at) in drawn {
-        labels.write(svg, &format!("{} N", short(newton)), &places(far, at), Crossing::Allowed);
+    let arrows = arrows(structure, scene);
+    for arrow in &arrows {
+        let (at, far) = (scene.joints[arrow.joint], arrow.far(scene));
+        let ends = if arrow.inwards() { [far, at] } else { [at, far] };
+        svg.arrow(arrow.look, ends[0], ends[1]);
+        labels.line(ends);
+    }
+    for arrow in &arrows {
+        let places = places(arrow.far(scene), scene.joints[arrow.joint]);
+        labels.write(svg, &arrow.label(), &places, Crossing::Allowed);
+    }
+}
+
+/// How far arrows and their labels reach beyond the picture, px, to the left and to the right.
+pub(crate) fn overhang(structure: &Structure<'_>, scene: &Scene) -> [f64; 2] {
+    /// Room between a label and the edge, px.
+    const EDGE: f64 = 4.0;
+    arrows(structure, scene).iter().fold([0.0, 0.0], |[left, right]: [f64; 2], arrow| {
+        let [([x, _], anchor), ..] = places(arrow.far(scene), scene.joints[arrow.joint]);
+        let width = 2.0 * half_extent(&arrow.label())[0];
+        let begin = x - width
+            * match anchor {
+                Anchor::Start => 0.0,
+                Anchor::Middle => 0.5,
+                Anchor::End => 1.0,
+            };
+        [left.max(EDGE - begin), right.max(begin + width + EDGE - scene.size[0])]
+    })
+}
+
+impl Arrow {
+    /// Whether it is drawn towards its joint.
+    fn inwards(&self) -> bool {
+        self.nearest[0] > ALONG && self.nearest[1] < self.nearest[0]
+    }
+
+    /// The end that is not at its joint.
+    fn far(&self, scene: &Scene) -> [f64; 2] {
+        let at = scene.joints[self.joint];
+        let sign = if self.inwards() { -1.0 } else { 1.0 };
+        [0, 1].map(|k| at[k] + sign * self.force[k])
+    }
+
+    fn label(&self) -> String {
+        format!("{} N", short(self.newton))
     }
 }
 

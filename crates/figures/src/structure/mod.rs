@@ -141,6 +141,8 @@ impl Structure<'_> {
     fn draw(&self, begin: impl FnOnce([f64; 2], &str) -> Svg) -> Result<String, StructureError> {
         self.check()?;
         let scene = Scene::new(self);
+        let overhang = forces::overhang(self, &scene);
+        let scene = scene.widened(overhang);
         let mut svg = begin(scene.size, &self.description(&scene));
         let heading = Look::PLAIN.size(17.0).bold();
         svg.text(heading, [scene::SIDE, 30.0], Anchor::Start, self.title);
@@ -152,7 +154,7 @@ impl Structure<'_> {
         if scene.detail >= 1.0 {
             self.members.iter().for_each(|member| labels.line(scene.ends(member.joints)));
         }
-        supports::draw(&mut svg, self, &scene);
+        supports::draw(&mut svg, self, &scene, &mut labels);
         members::draw(&mut svg, self, &scene);
         supports::joints(&mut svg, self, &scene, &mut labels);
         forces::draw(&mut svg, self, &scene, &mut labels);

@@ -70,6 +70,15 @@ impl Scene {
         Self { size, view, scale, force_scale, joints, floor, detail }
     }
 
+    /// The same with more room to the left and to the right, px.
+    pub(crate) fn widened(mut self, [left, right]: [f64; 2]) -> Self {
+        self.size[0] = (self.size[0] + left + right).round();
+        for point in self.joints.iter_mut().chain(&mut self.floor) {
+            point[0] += left;
+        }
+        self
+    }
+
     /// The ends of a member, px.
     pub(crate) fn ends(&self, joints: [usize; 2]) -> [[f64; 2]; 2] {
         joints.map(|joint| self.joints[joint])

@@ -21,7 +21,7 @@ const RAIL: [f64; 2] = [18.0, 6.0];
 const JOINTS: f64 = 0.45;
 
 /// Supports, below everything else.
-pub(crate) fn draw(svg: &mut Svg, structure: &Structure<'_>, scene: &Scene) {
+pub(crate) fn draw(svg: &mut Svg, structure: &Structure<'_>, scene: &Scene, labels: &mut Labels) {
     if !scene.floor.is_empty() {
         let ground = Look::stroke(DARK, 1.4).filled(Colour::grey(0xf0)).class("floor");
         svg.polygon(ground, &scene.floor);
@@ -29,6 +29,12 @@ pub(crate) fn draw(svg: &mut Svg, structure: &Structure<'_>, scene: &Scene) {
     for (joint, at) in structure.joints.iter().zip(&scene.joints) {
         if let Some(support) = joint.support {
             support_at(svg, support, *at, scene);
+            if support == Support::Fixed {
+                let [height, half] = FOOT;
+                for y in [at[1] + 0.5 * height, at[1] + height] {
+                    labels.line([[at[0] - half, y], [at[0] + half, y]]);
+                }
+            }
         }
     }
 }

@@ -139,3 +139,26 @@ fn what_cannot_be_drawn_is_refused() {
     let member = Member { joints: [0, 1], axial_n: Some(f64::NAN) };
     assert!(!draw(&joints, &[member]).contains("NaN"));
 }
+
+/// The force at a wide span's end reaches beyond its anchor, and its size stands beyond that.
+#[test]
+fn the_picture_has_room_for_the_sizes_of_forces() {
+    let end = |name, x: f64| Joint {
+        support: Some(Support::Fixed),
+        reaction_n: [x.signum() * 123.4, 0.0, 0.1],
+        ..Joint::free(name, [x, 0.0, 0.0])
+    };
+    let joints = [end("A", -5.0), Joint::free("P", [0.0, 0.0, -0.1]), end("B", 5.0)];
+    let members = [[0, 1], [1, 2]].map(|joints| Member { joints, axial_n: Some(123.4) });
+    let svg = draw(&joints, &members);
+    let number = |text: &str, key: &str| -> f64 {
+        let after = text.split(&format!("{key}=\"")).nth(1).unwrap();
+        after.split(['"', ',']).next().unwrap().parse().unwrap()
+    };
+    let heads = svg.lines().filter(|line| line.contains("class=\"reaction head\""));
+    let tips: Vec<f64> = heads.map(|head| number(head, "points")).collect();
+    let labels: Vec<&str> = svg.lines().filter(|line| line.ends_with(">123.4 N</text>")).collect();
+    // Those of the members stand at these, those of the reactions beyond the arrows.
+    let at: Vec<f64> = labels.iter().map(|label| number(label, " x")).collect();
+    assert!(at.iter().any(|x| *x < tips[0]) && at.iter().any(|x| *x > tips[1]), "{at:?} {tips:?}");
+}

@@ -102,9 +102,18 @@ pub fn ladder<'a>(answers: impl Iterator<Item = (&'a SolverName, &'a Evidence)>)
             text += &wrapped(&line, LADDER_INDENT);
             text.push('\n');
         }
-        if let Some(family) = evidence.force_family {
-            text += &wrapped(&format!("  ! {:<10} {family}", "forces"), LADDER_INDENT);
+        let mut more = |mark: char, of: &str, what: &dyn std::fmt::Display| {
+            text += &wrapped(&format!("  {mark} {of:<10} {what}"), LADDER_INDENT);
             text.push('\n');
+        };
+        if let Some(family) = &evidence.force_family {
+            more('!', "forces", family);
+        }
+        if let Some(stresses) = &evidence.self_stresses {
+            more('!', "forces", stresses);
+        }
+        if let Some(rigidity) = &evidence.rigidity {
+            more(' ', "rigidity", rigidity);
         }
     }
     text + "\n"

@@ -1,7 +1,7 @@
 //! The answer for a system.
 
 use model::system::{SystemEquilibrium, SystemStability};
-use model::{Evidence, InSpace, SolverName, Vector};
+use model::{Evidence, ForceChoice, InSpace, Rigidity, SelfStresses, SolverName, Vector};
 use nalgebra::Vector3;
 
 use super::framework::Framework;
@@ -86,6 +86,8 @@ impl Solution {
         evidence.solve_s = solve_s;
         evidence.nullity =
             second_order.neutral + second_order.self_stresses.as_ref().map_or(0, Vec::len);
+        evidence.self_stresses = named(second_order.self_stresses.as_deref(), forces);
+        evidence.rigidity = rigidity(framework, &second_order);
         let largest = state.largest_force(framework);
         let members = 0..framework.links.len();
         let slack = members.clone().filter(|&k| !state.taut[k]).collect();
@@ -110,6 +112,24 @@ impl Solution {
             limp,
         }
     }
+}
+
+/// What equilibrium leaves open of the forces, and which of them are shown.
+fn named(basis: Option<&[Vec<f64>]>, forces: Forces) -> Option<SelfStresses> {
+    let choice = match forces {
+        Forces::LeastNorm => ForceChoice::EquallyStiff,
+        Forces::Unique | Forces::Found | Forces::Uncounted => ForceChoice::Unknown,
+    };
+    let basis = basis.filter(|basis| !basis.is_empty())?.to_vec();
+    Some(SelfStresses { dimension: basis.len(), basis, choice })
+}
+
+/// The counts, where there are any.
+fn rigidity(framework: &Framework, second_order: &SecondOrder) -> Option<Rigidity> {
+    let (mechanisms, gap) = (second_order.mechanisms?, second_order.rank_gap?);
+    let self_stresses = second_order.self_stresses.as_ref()?.len();
+    let rank = framework.freedoms().saturating_sub(mechanisms);
+    Some(Rigidity { rank, mechanisms, self_stresses, gap })
 }
 
 /// The member of the family of forces that is shown: least $\sum N^2 l$.

@@ -26,9 +26,31 @@ pub struct Agreed {
     /// Joints that an equilibrium leaves free, which are not compared: see [`FreeJoints`].
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub free_joints: Option<FreeJoints>,
+    /// What the equilibrium of a system leaves open, if anything.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub room: Option<Room>,
     /// Whether agreement is evidence for the shape alone: the forces are one of a family, chosen by
     /// convention (see [`ForceFamily`](super::ForceFamily)).
     pub shape_only: bool,
+}
+
+/// What the equilibrium of a system leaves open.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Room {
+    /// Parts that turn freely about verticals: they are turned onto each other before answers are
+    /// compared.
+    pub turning_parts: usize,
+    /// Joints without load whose members are proved to bear no force, and which the lengths of
+    /// these let move: they are not compared.
+    pub free_joints: usize,
+}
+
+impl Room {
+    /// Nothing where nothing is open.
+    #[must_use]
+    pub fn of(turning_parts: usize, free_joints: usize) -> Option<Self> {
+        (turning_parts + free_joints > 0).then_some(Self { turning_parts, free_joints })
+    }
 }
 
 /// The joints between bars that are proved to carry no force: all else hangs plumb from the two

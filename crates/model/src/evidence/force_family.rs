@@ -30,7 +30,7 @@ pub enum ForceChoice {
     /// convention of `lagrange` and `energy`.
     AnchorsMovedApart,
     /// Of a system, those with the least `sum F² l`: the limit of the forces in members of equal
-    /// stiffness as these become rigid; a convention of `energy`.
+    /// stiffness as these become rigid; a convention of `lagrange` and `energy`.
     EquallyStiff,
     /// The solver's own, of which nothing is known.
     Unknown,

@@ -27,6 +27,7 @@ mod finite;
 mod force_family;
 mod ladder;
 mod reason;
+mod rigidity;
 mod rung;
 mod self_stresses;
 mod status;
@@ -37,13 +38,16 @@ use std::borrow::Cow;
 
 use serde::{Deserialize, Serialize};
 
-pub use agreed::{Agreed, Disagreement, Excess, FreeJoints, Place, Quantity, StabilityDifference};
+pub use agreed::{
+    Agreed, Disagreement, Excess, FreeJoints, Place, Quantity, Room, StabilityDifference,
+};
 pub use certificate::{NoCertificate, Optimal};
 pub use complete::{Complete, CompleteSystem, NoCensus};
 pub use convergence::{Convergence, ForceUncertainty, UncertaintyCause};
 pub use force_family::{ForceChoice, ForceFamily};
 pub use ladder::{Ladder, Statement};
 pub use reason::{NoAnswer, Reason};
+pub use rigidity::Rigidity;
 pub use rung::Rung;
 pub use self_stresses::SelfStresses;
 pub use status::Status;
@@ -74,6 +78,9 @@ pub struct Evidence {
     /// Where equilibrium does not determine the forces in a system: what may be added to them.
     #[serde(default)]
     pub self_stresses: Option<SelfStresses>,
+    /// In a system: how the lengths determine shape and forces, where the solver has counted that.
+    #[serde(default)]
+    pub rigidity: Option<Rigidity>,
     /// The five rungs.
     pub ladder: Ladder,
 }
@@ -120,6 +127,7 @@ impl Evidence {
             solve_s: 0.0,
             force_family: None,
             self_stresses: None,
+            rigidity: None,
             ladder: Ladder { converged: convergence.judged(), ..Ladder::default() },
         }
     }
@@ -163,6 +171,8 @@ struct Keys<'a> {
     force_family: Option<ForceFamily>,
     #[serde(skip_serializing_if = "Option::is_none")]
     self_stresses: Option<&'a SelfStresses>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    rigidity: Option<Rigidity>,
     ladder: &'a Ladder,
 }
 
@@ -178,6 +188,7 @@ impl Serialize for Evidence {
             solve_s: self.solve_s,
             force_family: self.force_family,
             self_stresses: self.self_stresses.as_ref(),
+            rigidity: self.rigidity,
             ladder: &self.ladder,
         }
         .serialize(serializer)

@@ -5,14 +5,16 @@
 use std::fmt::{self, Display, Formatter};
 
 use super::agreed::{
-    Agreed, Disagreement, Excess, FreeJoints, Place, Quantity, StabilityDifference,
+    Agreed, Disagreement, Excess, FreeJoints, Place, Quantity, Room, StabilityDifference,
 };
 use super::certificate::{NoCertificate, Optimal};
 use super::complete::{Complete, CompleteSystem, NoCensus};
 use super::convergence::{Convergence, ForceUncertainty, UncertaintyCause};
 use super::force_family::{ForceChoice, ForceFamily};
 use super::reason::{NoAnswer, Reason};
+use super::rigidity::Rigidity;
 use super::rung::Rung;
+use super::self_stresses::SelfStresses;
 use super::status::Status;
 use super::verified::{NoBox, Verified, VerifiedSystem};
 use crate::number::Number;
@@ -95,6 +97,9 @@ impl Display for Agreed {
         if let Some(free) = self.free_joints {
             write!(f, "; {free}, and they are not compared")?;
         }
+        if let Some(room) = self.room {
+            write!(f, "; {room}")?;
+        }
         if self.shape_only {
             f.write_str(
                 "; of the shape alone: the forces are one of a family, chosen by convention",
@@ -113,6 +118,63 @@ impl Display for FreeJoints {
             write!(f, "joints {first} to {last} are free")?;
         }
         f.write_str(" (its bars carry no force, and their lengths leave room)")
+    }
+}
+
+impl Display for Room {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let Self { turning_parts, free_joints } = *self;
+        match turning_parts {
+            0 => {}
+            1 => f.write_str("one part turns freely about a vertical and was turned first")?,
+            _ => write!(
+                f,
+                "{turning_parts} parts turn freely about verticals and were turned onto each other first"
+            )?,
+        }
+        if turning_parts > 0 && free_joints > 0 {
+            f.write_str("; ")?;
+        }
+        match free_joints {
+            0 => Ok(()),
+            1 => f.write_str(
+                "one joint without load, whose members bear no force, is free to move and not compared",
+            ),
+            _ => write!(
+                f,
+                "{free_joints} joints without load, whose members bear no force, are free to move and not \
+                 compared"
+            ),
+        }
+    }
+}
+
+impl Display for Rigidity {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let Self { rank, mechanisms, self_stresses, gap: [counted, left] } = *self;
+        let counted = Number::size(counted, 1);
+        let left = size(f, left);
+        let plural = |n: usize| if n == 1 { "" } else { "s" };
+        write!(
+            f,
+            "{rank} independent length{}, {mechanisms} mechanism{}, {self_stresses} self-stress{}; singular \
+             values from {counted} of the largest count, up to {left} do not",
+            plural(rank),
+            plural(mechanisms),
+            if self_stresses == 1 { "" } else { "es" },
+        )
+    }
+}
+
+impl Display for SelfStresses {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let Self { dimension, choice, .. } = self;
+        let them = if *dimension == 1 { "a self-stress" } else { "self-stresses" };
+        write!(
+            f,
+            "one family of dimension {dimension}: {them} may be added without a change of shape or balance; the \
+             forces told are {choice}"
+        )
     }
 }
 

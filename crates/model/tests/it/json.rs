@@ -17,6 +17,7 @@ fn agreed() -> Agreed {
         energy_j: 0.0,
         statics: 3e-16,
         free_joints: Some(FreeJoints { first: 2, last: 3 }),
+        room: None,
         shape_only: true,
     }
 }

@@ -5,8 +5,9 @@ use model::{SolverName, Vector};
 use serde::{Serialize, Serializer};
 
 use super::proved::{ProvedError, proved_error};
-use crate::systems::compare::{compare, free_joints, judge_alone};
-use crate::systems::turn::{Turn, turns};
+use crate::systems::compare::{compare, judge_alone};
+use crate::systems::free::free_joints;
+use crate::systems::turn::turned_onto;
 use crate::systems::{SystemFailure, ask};
 use crate::tolerances::Tolerances;
 use crate::vector::{minus, norm, worse};
@@ -114,9 +115,9 @@ pub(super) fn nearest(
 /// Two answers that are one are compared; two equilibria are judged each by itself.
 fn judged(system: &System, found: &mut [SystemEquilibrium], position_m: f64) {
     if let [first, second] = found {
-        let parts = turns_onto(system, first, second);
         let free = free_joints(system, &[first.clone(), second.clone()]);
-        let apart = apart_m(first, second, &parts, &free).0;
+        let (turned, _) = turned_onto(system, first, second, &free);
+        let apart = apart_m(first, &turned, &free).0;
         if apart <= position_m {
             // What it finds stands in the evidence of both.
             let _ = compare(system, found, &Tolerances::project());
@@ -128,19 +129,10 @@ fn judged(system: &System, found: &mut [SystemEquilibrium], position_m: f64) {
     }
 }
 
-fn turns_onto(system: &System, first: &SystemEquilibrium, second: &SystemEquilibrium) -> Vec<Turn> {
-    turns(&system.parts(), &first.joints_m, &second.joints_m, system.joints().len())
-}
-
 /// Largest distance of a joint that something holds, and which.
-fn apart_m(
-    first: &SystemEquilibrium,
-    second: &SystemEquilibrium,
-    turns: &[Turn],
-    free: &[bool],
-) -> (f64, usize) {
-    let places = first.joints_m.iter().zip(&second.joints_m).zip(turns);
-    let distance = |((a, b), turn): ((&Vector, &Vector), &Turn)| norm(minus(*a, turn.place(*b)));
+fn apart_m(first: &SystemEquilibrium, second: &SystemEquilibrium, free: &[bool]) -> (f64, usize) {
+    let places = first.joints_m.iter().zip(&second.joints_m);
+    let distance = |(a, b): (&Vector, &Vector)| norm(minus(*a, *b));
     let held = places.map(distance).enumerate().filter(|(k, _)| !free[*k]);
     largest(held.map(|(k, distance)| (distance, k)))
 }
@@ -158,11 +150,11 @@ fn measure(
     equilibrium: SystemEquilibrium,
     forces_unique: Option<bool>,
 ) -> NearestEquilibrium {
-    let turns = turns_onto(system, answer, &equilibrium);
     let both = [answer.clone(), equilibrium];
     let free = free_joints(system, &both);
     let [_, equilibrium] = both;
-    let (joints_m, joint) = apart_m(answer, &equilibrium, &turns, &free);
+    let (turned, _) = turned_onto(system, answer, &equilibrium, &free);
+    let (joints_m, joint) = apart_m(answer, &turned, &free);
     let forces = answer.axial_n.iter().zip(&equilibrium.axial_n).enumerate();
     let (forces_n, member) = largest(forces.map(|(k, (a, b))| ((a - b).abs(), k + 1)));
     let energy_j = answer.energy_j - equilibrium.energy_j;

@@ -1,14 +1,16 @@
 //! Answers for one system held against each other, and each against Newton's laws.
 
-use model::system::{Part, System, SystemEquilibrium};
-use model::{Agreed, Disagreement, Excess, NoAnswer, Quantity, Reason, SolverName, Status, Vector};
+use model::system::{System, SystemEquilibrium};
+use model::{
+    Agreed, Disagreement, Excess, NoAnswer, Quantity, Reason, Room, SolverName, Status, Vector,
+};
 use serde::Serialize;
 
 use super::certificate::{certify, largest_force_n, size_m, total_load_n};
 use super::family::Family;
-use super::floor::push_n;
+use super::free::free_joints;
 use super::statics::{SystemStatics, judge};
-use super::turn::{Turn, turns};
+use super::turn::turned_onto;
 use crate::compare::{Verdict, other_has_none, with_sentences};
 use crate::tolerances::Tolerances;
 use crate::vector::{minus, norm, plus, worse};
@@ -18,16 +20,20 @@ use crate::vector::{minus, norm, plus, worse};
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct SystemAgreement {
     /// Largest distance of a joint in one answer from the same joint in another, m. Parts that turn
-    /// freely about a vertical are turned onto each other first.
+    /// freely about a vertical, through an anchor or another joint, are turned onto each other
+    /// first.
     pub joints_m: f64,
     /// Largest difference of a force at an end of a member or of a support, N; where the forces are
     /// a family, of what is not a self-stress in the difference.
     pub forces_n: f64,
     /// Largest difference of the energies, J.
     pub energy_j: f64,
-    /// Joints without load whose members are all slack in every answer, so that they may be
-    /// anywhere near: their places are judged by the members' laws alone.
+    /// Joints without load whose members are proved to bear no force, and which these let move:
+    /// their places are judged by the members' laws alone.
     pub free_joints: usize,
+    /// Parts that turn freely about verticals and were turned onto each other before the answers
+    /// were compared; a part may hang on another one that turns.
+    pub turned_parts: usize,
     /// Independent self-stresses of the shape: with any, the forces are one of a family, and that
     /// both answers name the same of them is no evidence. Nothing where the system is too large to
     /// count them.
@@ -56,7 +62,6 @@ struct Judgement<'a> {
     length_m: f64,
     force_n: f64,
     energy_j: f64,
-    parts: Vec<Part>,
     free: Vec<bool>,
     /// The self-stresses of the first answer's shape.
     family: Option<Family>,
@@ -85,6 +90,7 @@ pub fn compare(
             energy_j: agreement.energy_j,
             statics: agreement.statics.iter().map(SystemStatics::largest).fold(0.0, worse),
             free_joints: None,
+            room: Room::of(agreement.turned_parts, agreement.free_joints),
             shape_only: agreement.self_stresses.is_some_and(|dimension| dimension > 0),
         })
     } else {
@@ -147,7 +153,6 @@ impl<'a> Judgement<'a> {
             length_m: size_m,
             force_n,
             energy_j: if system.is_unloaded() { force_n } else { total_load_n(system) } * size_m,
-            parts: system.parts(),
             free: free_joints(system, answers),
             family: None,
             agreement: SystemAgreement {
@@ -155,6 +160,7 @@ impl<'a> Judgement<'a> {
                 forces_n: 0.0,
                 energy_j: 0.0,
                 free_joints: 0,
+                turned_parts: 0,
                 self_stresses: None,
                 statics: Vec::new(),
                 verdict: Verdict::Agreed,
@@ -218,15 +224,15 @@ impl<'a> Judgement<'a> {
 
     /// Two answers: their differences, and their second-order behaviour.
     fn pair(&mut self, first: &SystemEquilibrium, second: &SystemEquilibrium) {
-        let turns =
-            turns(&self.parts, &first.joints_m, &second.joints_m, self.system.joints().len());
-        let joints_m = self.joints_apart_m(first, second, &turns);
-        let forces_n = self.forces_apart_n(first, second, &turns);
+        let (turned, parts) = turned_onto(self.system, first, second, &self.free);
+        let joints_m = self.joints_apart_m(first, &turned);
+        let forces_n = self.forces_apart_n(first, &turned);
         let energy_j = (first.energy_j - second.energy_j).abs();
         let agreement = &mut self.agreement;
         agreement.joints_m = worse(agreement.joints_m, joints_m);
         agreement.forces_n = worse(agreement.forces_n, forces_n);
         agreement.energy_j = worse(agreement.energy_j, energy_j);
+        agreement.turned_parts = agreement.turned_parts.max(parts);
         let between = [&first.solver, &second.solver].map(SolverName::clone);
         let tolerances = self.tolerances;
         let budget = tolerances.joints.value * self.length_m;
@@ -239,52 +245,41 @@ impl<'a> Judgement<'a> {
         self.hold(Quantity::MorseIndex { between }, indices[0].abs_diff(indices[1]) as f64, 0.0);
     }
 
-    fn joints_apart_m(
-        &self,
-        first: &SystemEquilibrium,
-        second: &SystemEquilibrium,
-        turns: &[Turn],
-    ) -> f64 {
-        if [first.joints_m.len(), second.joints_m.len()] != [turns.len(); 2] {
+    fn joints_apart_m(&self, first: &SystemEquilibrium, second: &SystemEquilibrium) -> f64 {
+        let joints = self.free.len();
+        if [first.joints_m.len(), second.joints_m.len()] != [joints; 2] {
             return f64::NAN;
         }
-        let held = (0..turns.len()).filter(|k| !self.free[*k]);
-        held.map(|k| norm(minus(first.joints_m[k], turns[k].place(second.joints_m[k]))))
-            .fold(0.0, worse)
+        let held = (0..joints).filter(|k| !self.free[*k]);
+        held.map(|k| norm(minus(first.joints_m[k], second.joints_m[k]))).fold(0.0, worse)
     }
 
     /// The largest difference of forces that is not a self-stress.
-    fn forces_apart_n(
-        &self,
-        first: &SystemEquilibrium,
-        second: &SystemEquilibrium,
-        turns: &[Turn],
-    ) -> f64 {
+    fn forces_apart_n(&self, first: &SystemEquilibrium, second: &SystemEquilibrium) -> f64 {
         let members = self.system.members();
+        let joints = self.free.len();
         let counts = |answer: &SystemEquilibrium| {
             let of_members =
                 [&answer.start_forces_n, &answer.end_forces_n].map(Vec::len) == [members.len(); 2];
             of_members
                 && answer.axial_n.len() == members.len()
-                && answer.reactions_n.len() == turns.len()
+                && answer.reactions_n.len() == joints
         };
         if !counts(first) || !counts(second) {
             return f64::NAN;
         }
         let part = self.self_stress_between(first, second);
         let mut apart = 0.0;
-        let mut reactions: Vec<Vector> = (0..turns.len())
-            .map(|k| minus(first.reactions_n[k], turns[k].vector(second.reactions_n[k])))
-            .collect();
+        let mut reactions: Vec<Vector> =
+            (0..joints).map(|k| minus(first.reactions_n[k], second.reactions_n[k])).collect();
         for (k, member) in members.iter().enumerate() {
-            let turn = turns[member.from];
             let pull = match (&self.family, &part) {
                 (Some(family), Some(part)) if part[k].abs() > 0.0 => family.pull(k, part[k]),
                 _ => [0.0; 3],
             };
             // The joints pull at the member's ends, outwards.
-            let start = minus(first.start_forces_n[k], turn.vector(second.start_forces_n[k]));
-            let end = minus(first.end_forces_n[k], turn.vector(second.end_forces_n[k]));
+            let start = minus(first.start_forces_n[k], second.start_forces_n[k]);
+            let end = minus(first.end_forces_n[k], second.end_forces_n[k]);
             apart = worse(apart, norm(plus(start, pull)));
             apart = worse(apart, norm(minus(end, pull)));
             reactions[member.from] = plus(reactions[member.from], pull);
@@ -303,69 +298,5 @@ impl<'a> Judgement<'a> {
         let apart: Vec<f64> =
             first.axial_n.iter().zip(&second.axial_n).map(|(a, b)| a - b).collect();
         Some(family.part_of(&apart))
-    }
-}
-
-/// Which joints nothing but the floor acts on in every answer: it lets them slide.
-fn lie_loose(system: &System, answers: &[SystemEquilibrium]) -> Vec<bool> {
-    /// A force below this part of the largest is none: far above the error of forces.
-    const NONE: f64 = 1e-8;
-    let mut loose: Vec<bool> = system
-        .joints()
-        .iter()
-        .enumerate()
-        .map(|(k, joint)| {
-            joint.support.at_m().is_none()
-                && answers.iter().all(|answer| push_n(system, answer, k) > 0.0)
-        })
-        .collect();
-    if !loose.contains(&true) {
-        return loose;
-    }
-    let least: Vec<f64> = answers.iter().map(|answer| NONE * largest_force_n(answer)).collect();
-    for (k, member) in system.members().iter().enumerate() {
-        if answers.iter().zip(&least).any(|(answer, least)| answer.axial_n[k].abs() > *least) {
-            loose[member.from] = false;
-            loose[member.to] = false;
-        }
-    }
-    loose
-}
-
-/// Which joints nothing loads and no member holds, because all that meet there are slack in every
-/// answer, or which lie on the floor with members that bear nothing: such a joint can be moved a
-/// little without any change of energy.
-pub(crate) fn free_joints(system: &System, answers: &[SystemEquilibrium]) -> Vec<bool> {
-    let loose = lie_loose(system, answers);
-    let still = |force: Vector| force.iter().all(|x| x.abs() <= 0.0);
-    let mut free: Vec<bool> = system
-        .joints()
-        .iter()
-        .map(|j| j.support.at_m().is_none() && j.mass_kg <= 0.0 && still(j.force_n))
-        .collect();
-    for member in system.members() {
-        let unloaded =
-            member.body.mass_kg() <= 0.0 && member.loads.iter().all(|l| still(l.force_n));
-        let slack = unloaded && answers.iter().all(|answer| member_is_slack(member, answer));
-        if !slack {
-            free[member.from] = false;
-            free[member.to] = false;
-        }
-    }
-    free.iter().zip(loose).map(|(free, loose)| *free || loose).collect()
-}
-
-/// Whether a member is slack by more than any rounding.
-fn member_is_slack(member: &model::system::Member, answer: &SystemEquilibrium) -> bool {
-    /// Far above the rounding of places, far below what anybody calls slack.
-    const CLEAR: f64 = 1e-6;
-    use model::system::Kind;
-    let places = (answer.joints_m.get(member.from), answer.joints_m.get(member.to));
-    let (Some(a), Some(b)) = places else { return false };
-    let (distance_m, length_m) = (norm(minus(*b, *a)), member.body.length_m());
-    match member.kind {
-        Kind::Bar => false,
-        Kind::Cable => distance_m < length_m * (1.0 - CLEAR),
-        Kind::Strut => distance_m > length_m * (1.0 + CLEAR),
     }
 }

@@ -3,17 +3,22 @@
 //! observables alone.
 
 mod ask;
+mod bodies;
 mod certificate;
 pub(crate) mod compare;
 mod completeness;
 mod family;
 mod floor;
+pub(crate) mod free;
+#[cfg(test)]
+mod free_tests;
 mod prestress;
 mod statics;
 #[cfg(test)]
 mod tests;
 pub(crate) mod turn;
 mod verified;
+mod verticals;
 
 pub use ask::{SystemAnswer, SystemFailure, ask, ask_with};
 pub use certificate::certify;

@@ -12,7 +12,7 @@ use crate::tolerances::Tolerances;
 
 /// A lamp of 2 N on two massless bars of 5 m between anchors 6 m apart (3, 4, 5): each bar pulls
 /// with 5/4 N.
-fn lamp() -> (System, SystemEquilibrium) {
+pub(super) fn lamp() -> (System, SystemEquilibrium) {
     let joints = vec![
         Joint::anchor("A", [-3.0, 0.0, 0.0]),
         Joint::anchor("B", [3.0, 0.0, 0.0]),

@@ -1,54 +1,189 @@
-//! Turns about verticals: parts of a system that turn freely are turned onto each other before
-//! their places are compared.
+//! Free turns: the bodies of one answer are turned onto those of another before the two are
+//! compared.
 
 use model::Vector;
-use model::system::Part;
+use model::system::{Support, System, SystemEquilibrium};
 
-/// A turn about a vertical.
-#[derive(Clone, Copy)]
+use super::bodies::Bodies;
+use super::statics::judge;
+use super::verticals::firsts;
+use crate::tolerances::Tolerances;
+use crate::vector::{minus, norm, plus, worse};
+
+/// Verticals through several joints are looked at where their number times that of the joints is
+/// at most this: each costs a visit of the joints.
+const MOST_VISITS: usize = 4_000_000;
+
+/// A turn about the vertical through one place, and a level move of that to another place.
+#[derive(Debug, Clone, Copy)]
 pub(crate) struct Turn {
-    axis_m: [f64; 2],
+    from_m: [f64; 2],
+    to_m: [f64; 2],
     cos: f64,
     sin: f64,
 }
 
-/// For every joint the turn of its part that brings the second places closest to the first.
-pub(crate) fn turns(
-    parts: &[Part],
-    first_m: &[Vector],
-    second_m: &[Vector],
-    joints: usize,
-) -> Vec<Turn> {
-    let mut turns = vec![Turn::NONE; joints];
-    for part in parts {
-        let Some([x, y]) = part.axis_m else { continue };
-        let (mut along, mut across) = (0.0, 0.0);
-        for joint in &part.joints {
-            let (Some(a), Some(b)) = (first_m.get(*joint), second_m.get(*joint)) else {
-                continue;
-            };
-            let (ax, ay, bx, by) = (a[0] - x, a[1] - y, b[0] - x, b[1] - y);
-            along += ax * bx + ay * by;
-            across += bx * ay - by * ax;
-        }
-        let (sin, cos) = f64::atan2(across, along).sin_cos();
-        for joint in &part.joints {
-            turns[*joint] = Turn { axis_m: [x, y], cos, sin };
-        }
-    }
-    turns
-}
-
 impl Turn {
-    const NONE: Self = Self { axis_m: [0.0; 2], cos: 1.0, sin: 0.0 };
+    const NONE: Self = Self { from_m: [0.0; 2], to_m: [0.0; 2], cos: 1.0, sin: 0.0 };
 
     pub(crate) fn vector(&self, [x, y, z]: Vector) -> Vector {
         [self.cos * x - self.sin * y, self.sin * x + self.cos * y, z]
     }
 
     pub(crate) fn place(&self, [x, y, z]: Vector) -> Vector {
-        let [ox, oy] = self.axis_m;
-        let [x, y, z] = self.vector([x - ox, y - oy, z]);
-        [x + ox, y + oy, z]
+        let [x, y, z] = self.vector([x - self.from_m[0], y - self.from_m[1], z]);
+        [x + self.to_m[0], y + self.to_m[1], z]
     }
+}
+
+/// The second answer with its freely turning bodies turned onto those of the first, and how many
+/// of these there are. Joints of `left_out` count for nothing in that.
+///
+/// What comes out is an answer as good as the one that went in: where the judge of statics finds a
+/// larger violation in it than its budget, nothing is turned.
+pub(crate) fn turned_onto(
+    system: &System,
+    first: &SystemEquilibrium,
+    second: &SystemEquilibrium,
+    left_out: &[bool],
+) -> (SystemEquilibrium, usize) {
+    let joints = system.joints().len();
+    let complete = [&first.joints_m, &second.joints_m].map(Vec::len) == [joints; 2]
+        && [&second.start_forces_n, &second.end_forces_n].map(Vec::len)
+            == [system.members().len(); 2]
+        && second.reactions_n.len() == joints;
+    if !complete {
+        return (second.clone(), 0);
+    }
+    let budget = Tolerances::project().statics.value;
+    let mut bodies = Bodies::new(system);
+    let before = bodies.bodies.len();
+    add_hinged(system, first, second, &mut bodies);
+    if bodies.bodies.len() == 1 {
+        return (second.clone(), 0);
+    }
+    let turned = turned(system, second, &bodies, &turns(&bodies, first, second, left_out));
+    let untouched = judge(system, second).largest();
+    let sound = |answer: &SystemEquilibrium| {
+        let largest = judge(system, answer).largest();
+        largest <= budget || largest <= untouched
+    };
+    if sound(&turned) {
+        return (turned, bodies.bodies.len() - 1);
+    }
+    if before == bodies.bodies.len() || before == 1 {
+        return (second.clone(), 0);
+    }
+    // What hangs on single joints, without what hinges on several.
+    let bodies = Bodies::new(system);
+    let turned = self::turned(system, second, &bodies, &turns(&bodies, first, second, left_out));
+    if sound(&turned) { (turned, before - 1) } else { (second.clone(), 0) }
+}
+
+/// Bodies that hinge on joints of one vertical in both answers.
+fn add_hinged(
+    system: &System,
+    first: &SystemEquilibrium,
+    second: &SystemEquilibrium,
+    bodies: &mut Bodies,
+) {
+    let tolerances = Tolerances::project();
+    let origin_m = system.reference_m();
+    let reach = second.joints_m.iter().map(|place| norm(minus(*place, origin_m)));
+    let near_m = tolerances.joints.value * reach.fold(0.0, worse);
+    let level = |answer: &SystemEquilibrium| -> Vec<usize> {
+        let places = answer.joints_m.iter().map(|x| [x[0] - origin_m[0], x[1] - origin_m[1]]);
+        firsts(places, near_m)
+    };
+    let both = level(first).into_iter().zip(level(second)).enumerate();
+    let mut verticals: std::collections::BTreeMap<(usize, usize), Vec<usize>> = Default::default();
+    for (joint, key) in both {
+        verticals.entry(key).or_default().push(joint);
+    }
+    let free = |joint: &usize| !system.joints()[*joint].support.is_fixed();
+    let several = |joints: &Vec<usize>| joints.len() > 1 && joints.iter().any(free);
+    let verticals: Vec<Vec<usize>> = verticals.into_values().filter(several).collect();
+    if verticals.len().saturating_mul(system.joints().len()) > MOST_VISITS {
+        return;
+    }
+    let forces = second.start_forces_n.iter().chain(&second.end_forces_n);
+    let largest_n = forces.map(|force| norm(*force)).fold(0.0, worse);
+    let mut ends = vec![Vec::new(); system.joints().len()];
+    for (k, member) in system.members().iter().enumerate() {
+        ends[member.from].push((member.to, second.start_forces_n[k]));
+        ends[member.to].push((member.from, second.end_forces_n[k]));
+    }
+    let level_n = |joint: usize, part: &[bool]| {
+        if system.joints()[joint].support.is_fixed() {
+            return 0.0;
+        }
+        let pulls = ends[joint].iter().filter(|(other, _)| part[*other]).map(|(_, force)| *force);
+        let [x, y, _] = pulls.fold([0.0; 3], plus);
+        x.hypot(y)
+    };
+    bodies.add_hinged(&verticals, level_n, tolerances.forces.value * largest_n);
+}
+
+/// For every body the turn that brings the second places closest to the first, when what it hangs
+/// on has been turned already.
+fn turns(
+    bodies: &Bodies,
+    first: &SystemEquilibrium,
+    second: &SystemEquilibrium,
+    left_out: &[bool],
+) -> Vec<Turn> {
+    let mut joints = vec![Vec::new(); bodies.bodies.len()];
+    for (joint, body) in bodies.of_joint.iter().enumerate() {
+        if !left_out[joint] {
+            joints[*body].push(joint);
+        }
+    }
+    let mut order: Vec<usize> = (0..bodies.bodies.len()).collect();
+    order.sort_by_key(|body| bodies.bodies[*body].depth);
+    let mut turns = vec![Turn::NONE; bodies.bodies.len()];
+    for body in order {
+        let Some(pivot) = bodies.bodies[body].pivot else { continue };
+        let at_m = second.joints_m[pivot];
+        let to_m = turns[bodies.of_joint[pivot]].place(at_m);
+        let (mut along, mut across) = (0.0, 0.0);
+        for joint in &joints[body] {
+            let [ax, ay, _] = minus(first.joints_m[*joint], to_m);
+            let [bx, by, _] = minus(second.joints_m[*joint], at_m);
+            along += ax * bx + ay * by;
+            across += bx * ay - by * ax;
+        }
+        let (sin, cos) = f64::atan2(across, along).sin_cos();
+        turns[body] = Turn { from_m: [at_m[0], at_m[1]], to_m: [to_m[0], to_m[1]], cos, sin };
+    }
+    turns
+}
+
+/// An answer with its bodies turned.
+fn turned(
+    system: &System,
+    answer: &SystemEquilibrium,
+    bodies: &Bodies,
+    turns: &[Turn],
+) -> SystemEquilibrium {
+    let mut turned = answer.clone();
+    for (joint, place) in turned.joints_m.iter_mut().enumerate() {
+        *place = turns[bodies.of_joint[joint]].place(*place);
+    }
+    let depth = |joint: usize| bodies.bodies[bodies.of_joint[joint]].depth;
+    for (k, member) in system.members().iter().enumerate() {
+        // A member turns with its joint that is further from the ground.
+        let (from, to) = (member.from, member.to);
+        let turn = &turns[bodies.of_joint[if depth(from) > depth(to) { from } else { to }]];
+        let ends = [(from, &mut turned.start_forces_n[k]), (to, &mut turned.end_forces_n[k])];
+        for (joint, force) in ends {
+            let after = turn.vector(*force);
+            // The ground takes what has changed.
+            if !matches!(system.joints()[joint].support, Support::Free) {
+                let reaction = plus(turned.reactions_n[joint], minus(after, *force));
+                turned.reactions_n[joint] = reaction;
+            }
+            *force = after;
+        }
+    }
+    turned
 }

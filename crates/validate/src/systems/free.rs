@@ -1,0 +1,232 @@
+//! Joints whose places equilibrium leaves open.
+//!
+//! A joint that nothing loads, and whose members bear no force, is in equilibrium wherever the
+//! lengths of these members let it be. That no force is borne is proved joint by joint: a slack
+//! member bears none, and at a joint without load neither do members in independent directions.
+//! What room the lengths leave follows from their derivative: with independent rows, fewer than
+//! there are coordinates, the places are a manifold (implicit function theorem), and the joints
+//! that its tangents move are free. So are joints that lie on the floor with members that bear
+//! nothing.
+
+use faer::Mat;
+use model::Vector;
+use model::system::{Kind, Member, System, SystemEquilibrium};
+
+use super::certificate::largest_force_n;
+use super::floor::push_n;
+use crate::vector::{cross, dot, minus, norm, times};
+
+/// Slack by this part of the length: far above the rounding of places, far below what anybody calls
+/// slack.
+const CLEAR: f64 = 1e-6;
+/// Directions, or rows of lengths, with a volume or a singular value above this part of the largest
+/// are independent: far above the rounding of places.
+const INDEPENDENT: f64 = 1e-6;
+/// Joints of which the room is looked at together: dense singular values.
+const TOGETHER: usize = 80;
+
+/// Which joints an equilibrium leaves free, by every one of the answers: on which nothing acts but
+/// the floor perhaps.
+pub(crate) fn free_joints(system: &System, answers: &[SystemEquilibrium]) -> Vec<bool> {
+    let joints = system.joints().len();
+    let complete = |answer: &SystemEquilibrium| {
+        [answer.joints_m.len(), answer.reactions_n.len()] == [joints; 2]
+            && answer.axial_n.len() == system.members().len()
+    };
+    if !answers.iter().all(complete) {
+        return vec![false; joints];
+    }
+    let members_of = members_of(system);
+    let unloaded = unloaded(system, answers);
+    let bears = bearing(system, answers, &members_of, &unloaded);
+    let idle: Vec<bool> = (0..joints)
+        .map(|joint| unloaded[joint] && members_of[joint].iter().all(|k| !bears[*k]))
+        .collect();
+    let mut free = vec![false; joints];
+    for part in parts(system, &members_of, &idle) {
+        let room = answers.iter().map(|answer| with_room(system, answer, &members_of, &part));
+        let all = room.reduce(|a, b| a.into_iter().zip(b).map(|(a, b)| a && b).collect());
+        for (joint, open) in part.iter().zip(all.unwrap_or_default()) {
+            free[*joint] = open;
+        }
+    }
+    free.iter().zip(lie_loose(system, answers)).map(|(free, loose)| *free || loose).collect()
+}
+
+/// Which joints nothing but the floor acts on in every answer: it lets them slide.
+fn lie_loose(system: &System, answers: &[SystemEquilibrium]) -> Vec<bool> {
+    /// A force below this part of the largest is none: far above the error of forces.
+    const NONE: f64 = 1e-8;
+    let mut loose: Vec<bool> = system
+        .joints()
+        .iter()
+        .enumerate()
+        .map(|(k, joint)| {
+            joint.support.at_m().is_none()
+                && answers.iter().all(|answer| push_n(system, answer, k) > 0.0)
+        })
+        .collect();
+    if !loose.contains(&true) {
+        return loose;
+    }
+    let least: Vec<f64> = answers.iter().map(|answer| NONE * largest_force_n(answer)).collect();
+    for (k, member) in system.members().iter().enumerate() {
+        if answers.iter().zip(&least).any(|(answer, least)| answer.axial_n[k].abs() > *least) {
+            loose[member.from] = false;
+            loose[member.to] = false;
+        }
+    }
+    loose
+}
+
+fn members_of(system: &System) -> Vec<Vec<usize>> {
+    let mut members_of = vec![Vec::new(); system.joints().len()];
+    for (k, member) in system.members().iter().enumerate() {
+        members_of[member.from].push(k);
+        members_of[member.to].push(k);
+    }
+    members_of
+}
+
+/// Joints without support, on which and on whose members nothing acts.
+fn unloaded(system: &System, answers: &[SystemEquilibrium]) -> Vec<bool> {
+    let still = |force: Vector| force.iter().all(|x| x.abs() <= 0.0);
+    let mut unloaded: Vec<bool> = system
+        .joints()
+        .iter()
+        .map(|j| j.support.at_m().is_none() && j.mass_kg <= 0.0 && still(j.force_n))
+        .collect();
+    for (k, unloaded) in unloaded.iter_mut().enumerate() {
+        *unloaded &= answers.iter().all(|answer| push_n(system, answer, k) <= 0.0);
+    }
+    for member in system.members() {
+        let light = member.body.mass_kg() <= 0.0 && member.loads.iter().all(|l| still(l.force_n));
+        if !light {
+            unloaded[member.from] = false;
+            unloaded[member.to] = false;
+        }
+    }
+    unloaded
+}
+
+/// Which members may bear a force.
+fn bearing(
+    system: &System,
+    answers: &[SystemEquilibrium],
+    members_of: &[Vec<usize>],
+    unloaded: &[bool],
+) -> Vec<bool> {
+    let members = system.members();
+    let mut bears: Vec<bool> =
+        members.iter().map(|member| !answers.iter().all(|a| is_slack(member, a))).collect();
+    let mut open: Vec<usize> = (0..unloaded.len()).filter(|joint| unloaded[*joint]).collect();
+    while let Some(joint) = open.pop() {
+        let here: Vec<usize> = members_of[joint].iter().copied().filter(|k| bears[*k]).collect();
+        let apart = |answer: &SystemEquilibrium| {
+            let along = here.iter().map(|k| direction(&members[*k], answer));
+            independent(&along.collect::<Vec<_>>())
+        };
+        if !here.is_empty() && answers.iter().all(apart) {
+            for k in here {
+                bears[k] = false;
+                let ends = [members[k].from, members[k].to];
+                open.extend(ends.into_iter().filter(|end| *end != joint && unloaded[*end]));
+            }
+        }
+    }
+    bears
+}
+
+fn direction(member: &Member, answer: &SystemEquilibrium) -> Vector {
+    let along = minus(answer.joints_m[member.to], answer.joints_m[member.from]);
+    times(1.0 / norm(along), along)
+}
+
+/// Whether unit vectors are independent; NaN never is.
+fn independent(along: &[Vector]) -> bool {
+    match *along {
+        [one] => norm(one) > INDEPENDENT,
+        [a, b] => norm(cross(a, b)) > INDEPENDENT,
+        [a, b, c] => dot(cross(a, b), c).abs() > INDEPENDENT,
+        _ => false,
+    }
+}
+
+/// Whether a member is slack by more than any rounding.
+fn is_slack(member: &Member, answer: &SystemEquilibrium) -> bool {
+    let distance_m = norm(minus(answer.joints_m[member.to], answer.joints_m[member.from]));
+    let length_m = member.body.length_m();
+    match member.kind {
+        Kind::Bar => false,
+        Kind::Cable => distance_m < length_m * (1.0 - CLEAR),
+        Kind::Strut => distance_m > length_m * (1.0 + CLEAR),
+    }
+}
+
+/// Marked joints that members connect.
+fn parts(system: &System, members_of: &[Vec<usize>], marked: &[bool]) -> Vec<Vec<usize>> {
+    let mut seen = vec![false; marked.len()];
+    let mut parts = Vec::new();
+    for start in (0..marked.len()).filter(|joint| marked[*joint]) {
+        if seen[start] {
+            continue;
+        }
+        seen[start] = true;
+        let (mut part, mut next) = (vec![start], 0);
+        while let Some(&joint) = part.get(next) {
+            next += 1;
+            for &k in &members_of[joint] {
+                let member = &system.members()[k];
+                for end in [member.from, member.to] {
+                    if marked[end] && !std::mem::replace(&mut seen[end], true) {
+                        part.push(end);
+                    }
+                }
+            }
+        }
+        parts.push(part);
+    }
+    parts
+}
+
+/// Which of some joints can move, all others held, while no taut member changes its length.
+fn with_room(
+    system: &System,
+    answer: &SystemEquilibrium,
+    members_of: &[Vec<usize>],
+    part: &[usize],
+) -> Vec<bool> {
+    let mut taut: Vec<usize> = part.iter().flat_map(|joint| members_of[*joint].clone()).collect();
+    taut.retain(|k| !is_slack(&system.members()[*k], answer));
+    taut.sort_unstable();
+    taut.dedup();
+    if taut.is_empty() {
+        return vec![true; part.len()];
+    }
+    if part.len() > TOGETHER || taut.len() >= 3 * part.len() {
+        return vec![false; part.len()];
+    }
+    let mut rows = Mat::<f64>::zeros(taut.len(), 3 * part.len());
+    for (row, k) in taut.iter().enumerate() {
+        let member = &system.members()[*k];
+        let along = direction(member, answer);
+        for (end, sign) in [(member.from, -1.0), (member.to, 1.0)] {
+            if let Some(at) = part.iter().position(|joint| *joint == end) {
+                for axis in 0..3 {
+                    rows[(row, 3 * at + axis)] += sign * along[axis];
+                }
+            }
+        }
+    }
+    let Ok(svd) = rows.svd() else { return vec![false; part.len()] };
+    let rank = taut.len();
+    if !(svd.S()[rank - 1] > INDEPENDENT * svd.S()[0]) {
+        return vec![false; part.len()];
+    }
+    let moves = |at: usize| {
+        let of_motion = |motion: usize| (0..3).map(move |axis| (3 * at + axis, motion));
+        let entries = (rank..3 * part.len()).flat_map(of_motion);
+        entries.map(|entry| svd.V()[entry].powi(2)).sum::<f64>().sqrt() > INDEPENDENT
+    };
+    (0..part.len()).map(moves).collect()
+}
