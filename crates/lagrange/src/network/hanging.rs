@@ -30,6 +30,8 @@ const ROUNDING_FALL: f64 = 0.2;
 /// At this rounding the lengths of taut bars are right to 5e-7: often near enough for the final
 /// iteration.
 pub(super) const FIRST_END: f64 = 1e-3;
+/// Where it is not, as in nets of 100,000 members, this one is.
+pub(super) const SECOND_END: f64 = 2e-4;
 /// Here the stiffness along a taut member is 10^9 times that across, and rounding sets in.
 pub(super) const LAST_END: f64 = 2e-5;
 /// A member with this many times its rounding is clearly taut: `|d| > l (1 - 5e-5)`; at the end one

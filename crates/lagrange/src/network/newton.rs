@@ -32,6 +32,19 @@ const ARMIJO: f64 = 1e-4;
 /// A step is halved at most so many times.
 const HALVINGS: usize = 24;
 
+/// In this many steps the merit ought to fall to this part, or the start was too far away.
+const HALVED: f64 = 0.5;
+const SLOW_STEPS: usize = 3;
+
+/// When a run of Newton's method ends without success.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Patience {
+    /// As soon as the steps hardly help: there is a nearer start to be had.
+    Little,
+    /// When no step helps at all.
+    Full,
+}
+
 /// A run of Newton's method: the best state, its residual, and the steps it took.
 pub(super) struct Run {
     pub state: State,
@@ -62,8 +75,10 @@ pub(super) fn polish(
     stiffness: &mut Stiffness,
     settings: &Settings,
     state: State,
+    patience: Patience,
 ) -> Run {
     let mut run = Run::at(framework, with_held(framework, state));
+    let (mut merit, mut slow) = (run.residual.merit, 0);
     while run.steps < settings.max_iterations {
         let done = run.residual.size() <= settings.tolerance;
         let Residual { forces, lengths, .. } = &run.residual;
@@ -79,7 +94,11 @@ pub(super) fn polish(
         run.steps += 1;
         let Some((state, residual)) = search(framework, &run, &step, done) else { break };
         (run.state, run.residual) = (state, residual);
-        if done {
+        slow += 1;
+        if run.residual.merit <= HALVED * merit {
+            (merit, slow) = (run.residual.merit, 0);
+        }
+        if done || (patience == Patience::Little && slow >= SLOW_STEPS) {
             break;
         }
     }

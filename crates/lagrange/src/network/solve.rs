@@ -9,9 +9,9 @@ use super::elements;
 use super::error::Error;
 use super::floor::{above, below};
 use super::framework::{Framework, Link};
-use super::hanging::{FIRST_END, Hanging, LAST_END};
+use super::hanging::{FIRST_END, Hanging, LAST_END, SECOND_END};
 use super::law::by_direction;
-use super::newton::{Run, polish};
+use super::newton::{Patience, Run, polish};
 use super::possible::{check, too_short};
 use super::second_order::SecondOrder;
 use super::seed::Seed;
@@ -67,7 +67,13 @@ fn hang(
     let mut hanging = Hanging::new(&framework)?;
     let stiffness = Stiffness::new(&framework, false)?;
     let mut solver = Solver::new(system, framework, *settings, stiffness, began);
-    for end in [FIRST_END, LAST_END] {
+    let mut too_far = false;
+    for (end, patience) in
+        [(FIRST_END, Patience::Little), (SECOND_END, Patience::Little), (LAST_END, Patience::Full)]
+    {
+        if end < FIRST_END && end > LAST_END && !too_far {
+            continue;
+        }
         let before = hanging.steps;
         let reached = hanging.advance(&solver.framework, &mut solver.stiffness, end);
         solver.factorisations += hanging.steps - before;
@@ -77,11 +83,14 @@ fn hang(
         if end > LAST_END && !hanging.clear(&solver.framework) {
             continue;
         }
-        if let Ok(run) = solver.with_signs(hanging.state(&solver.framework)) {
-            let second_order = solver.second_order(&run.state);
-            if second_order.index == 0 {
-                return Ok(solver.solution(run, second_order));
+        match solver.with_signs(hanging.state(&solver.framework), patience) {
+            Ok(run) => {
+                let second_order = solver.second_order(&run.state);
+                if second_order.index == 0 {
+                    return Ok(solver.solution(run, second_order));
+                }
             }
+            Err(_) => too_far = true,
         }
     }
     if let Some(error) = too_short(system, &solver.framework) {
@@ -108,7 +117,7 @@ pub fn solve_from(system: &System, seed: &Seed, settings: &Settings) -> Result<S
         let stiffness = Stiffness::new(&framework, false)?;
         let mut solver = Solver::new(system, framework, *settings, stiffness, began);
         let start = solver.start(seed);
-        let run = solver.with_signs(start)?;
+        let run = solver.with_signs(start, Patience::Full)?;
         let second_order = solver.second_order(&run.state);
         Ok(solver.solution(run, second_order))
     })?;
@@ -163,7 +172,7 @@ impl<'a> Solver<'a> {
     }
 
     /// Newton's method, with the set of taut members changed until all signs are right.
-    fn with_signs(&mut self, mut state: State) -> Result<Run, Error> {
+    fn with_signs(&mut self, mut state: State, patience: Patience) -> Result<Run, Error> {
         let settings = self.settings;
         let one_sided = self.framework.links.iter().any(|link| link.kind != Kind::Bar);
         let mut tight = !one_sided;
@@ -171,7 +180,7 @@ impl<'a> Solver<'a> {
             let tolerance =
                 if tight { settings.tolerance } else { settings.tolerance.max(SIGNS_SEEN) };
             let settings = Settings { tolerance, ..settings };
-            let run = polish(&self.framework, &mut self.stiffness, &settings, state);
+            let run = polish(&self.framework, &mut self.stiffness, &settings, state, patience);
             self.factorisations += run.steps;
             if run.residual.size().is_nan() || run.residual.size() > tolerance {
                 let (system, framework) = (self.system, &self.framework);
@@ -211,7 +220,7 @@ impl<'a> Solver<'a> {
                 return Err(Error::Escapes { joint, distance_m });
             }
             let fits = rest.fits;
-            result = self.with_signs(rest.state);
+            result = self.with_signs(rest.state, Patience::Full);
             if fits && result.is_ok() {
                 break;
             }

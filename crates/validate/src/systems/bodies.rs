@@ -33,7 +33,7 @@ pub(super) struct Bodies {
     /// Number of its body, by joint.
     pub of_joint: Vec<usize>,
     /// The bodies.
-    pub bodies: Vec<Body>,
+    pub all: Vec<Body>,
     /// Joints that feel a turn: by a load that is not vertical, or a support.
     fixed: Vec<bool>,
     /// Neighbours of each joint.
@@ -64,7 +64,7 @@ impl Bodies {
         }
         let fixed = feeling_turns(system);
         let node = nodes(system);
-        let mut new = Self { of_joint: vec![0; joints], bodies: vec![], fixed, neighbours };
+        let mut new = Self { of_joint: vec![0; joints], all: vec![], fixed, neighbours };
         let walk = new.walk(&node);
         new.divide(&node, &walk);
         new
@@ -118,16 +118,16 @@ impl Bodies {
             // Where a walk begins, nothing turns by itself.
             held[parent] |= held[*v];
         }
-        self.bodies.push(Body { pivot: None, depth: 0 });
+        self.all.push(Body { pivot: None, depth: 0 });
         let mut body = vec![0; joints];
         for v in &walk.order {
             let parent = walk.parent[*v];
             let hangs = parent != *v && low[*v] >= walk.rank[parent] && !held[*v];
             body[*v] = body[parent];
             if hangs {
-                let depth = self.bodies[body[parent]].depth + 1;
-                body[*v] = self.bodies.len();
-                self.bodies.push(Body { pivot: Some(walk.door[*v]), depth });
+                let depth = self.all[body[parent]].depth + 1;
+                body[*v] = self.all.len();
+                self.all.push(Body { pivot: Some(walk.door[*v]), depth });
             }
         }
         self.of_joint = node.iter().map(|node| body[*node]).collect();
@@ -145,7 +145,9 @@ impl Bodies {
         let joints = self.of_joint.len();
         let marked = |joints_of: &[usize]| {
             let mut marks = vec![false; joints];
-            joints_of.iter().for_each(|joint| marks[*joint] = true);
+            for joint in joints_of {
+                marks[*joint] = true;
+            }
             marks
         };
         let mut found = Vec::new();
@@ -154,7 +156,7 @@ impl Bodies {
                 let marks = marked(&part);
                 let touches = |joint: &usize| self.neighbours[*joint].iter().any(|o| marks[*o]);
                 let at: Vec<usize> = vertical.iter().copied().filter(touches).collect();
-                let depth = |joint: &usize| self.bodies[self.of_joint[*joint]].depth;
+                let depth = |joint: &usize| self.all[self.of_joint[*joint]].depth;
                 let Some(pivot) = at.iter().copied().max_by_key(depth) else { continue };
                 let together = at.iter().all(|joint| self.moves_with(pivot, *joint));
                 let still = at.iter().all(|joint| level_n(*joint, &marks) <= tolerance_n);
@@ -169,13 +171,13 @@ impl Bodies {
         // The larger may hold the smaller.
         found.sort_by_key(|(_, part)| std::cmp::Reverse(part.len()));
         for (pivot, part) in found {
-            let (from, new) = (self.of_joint[pivot], self.bodies.len());
+            let (from, new) = (self.of_joint[pivot], self.all.len());
             for joint in part {
                 if self.of_joint[joint] == from {
                     self.of_joint[joint] = new;
                 }
             }
-            self.bodies.push(Body { pivot: Some(pivot), depth: 0 });
+            self.all.push(Body { pivot: Some(pivot), depth: 0 });
         }
         self.count_depths();
     }
@@ -212,7 +214,7 @@ impl Bodies {
         if self.of_joint[other] == body {
             return true;
         }
-        while let Some(pivot) = self.bodies[body].pivot {
+        while let Some(pivot) = self.all[body].pivot {
             if pivot == other {
                 return true;
             }
@@ -223,11 +225,11 @@ impl Bodies {
 
     /// Depths of bodies whose pivots are in any order.
     fn count_depths(&mut self) {
-        let mut depths: Vec<Option<usize>> = vec![None; self.bodies.len()];
+        let mut depths: Vec<Option<usize>> = vec![None; self.all.len()];
         for body in 0..depths.len() {
             let (mut at, mut way) = (body, vec![]);
             let ground = loop {
-                match (depths[at], self.bodies[at].pivot) {
+                match (depths[at], self.all[at].pivot) {
                     (Some(depth), _) => break depth + 1,
                     (None, None) => {
                         depths[at] = Some(0);
@@ -243,7 +245,7 @@ impl Bodies {
                 depths[body] = Some(ground + more);
             }
         }
-        for (body, depth) in self.bodies.iter_mut().zip(depths) {
+        for (body, depth) in self.all.iter_mut().zip(depths) {
             body.depth = depth.unwrap_or_default();
         }
     }

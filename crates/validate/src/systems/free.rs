@@ -220,7 +220,8 @@ fn with_room(
     }
     let Ok(svd) = rows.svd() else { return vec![false; part.len()] };
     let rank = taut.len();
-    if !(svd.S()[rank - 1] > INDEPENDENT * svd.S()[0]) {
+    let independent = svd.S()[rank - 1] > INDEPENDENT * svd.S()[0];
+    if !independent {
         return vec![false; part.len()];
     }
     let moves = |at: usize| {

@@ -1,6 +1,8 @@
 //! Free turns: the bodies of one answer are turned onto those of another before the two are
 //! compared.
 
+use std::collections::BTreeMap;
+
 use model::Vector;
 use model::system::{Support, System, SystemEquilibrium};
 
@@ -57,9 +59,9 @@ pub(crate) fn turned_onto(
     }
     let budget = Tolerances::project().statics.value;
     let mut bodies = Bodies::new(system);
-    let before = bodies.bodies.len();
+    let before = bodies.all.len();
     add_hinged(system, first, second, &mut bodies);
-    if bodies.bodies.len() == 1 {
+    if bodies.all.len() == 1 {
         return (second.clone(), 0);
     }
     let turned = turned(system, second, &bodies, &turns(&bodies, first, second, left_out));
@@ -69,9 +71,9 @@ pub(crate) fn turned_onto(
         largest <= budget || largest <= untouched
     };
     if sound(&turned) {
-        return (turned, bodies.bodies.len() - 1);
+        return (turned, bodies.all.len() - 1);
     }
-    if before == bodies.bodies.len() || before == 1 {
+    if before == bodies.all.len() || before == 1 {
         return (second.clone(), 0);
     }
     // What hangs on single joints, without what hinges on several.
@@ -96,7 +98,7 @@ fn add_hinged(
         firsts(places, near_m)
     };
     let both = level(first).into_iter().zip(level(second)).enumerate();
-    let mut verticals: std::collections::BTreeMap<(usize, usize), Vec<usize>> = Default::default();
+    let mut verticals: BTreeMap<(usize, usize), Vec<usize>> = BTreeMap::new();
     for (joint, key) in both {
         verticals.entry(key).or_default().push(joint);
     }
@@ -132,17 +134,17 @@ fn turns(
     second: &SystemEquilibrium,
     left_out: &[bool],
 ) -> Vec<Turn> {
-    let mut joints = vec![Vec::new(); bodies.bodies.len()];
+    let mut joints = vec![Vec::new(); bodies.all.len()];
     for (joint, body) in bodies.of_joint.iter().enumerate() {
         if !left_out[joint] {
             joints[*body].push(joint);
         }
     }
-    let mut order: Vec<usize> = (0..bodies.bodies.len()).collect();
-    order.sort_by_key(|body| bodies.bodies[*body].depth);
-    let mut turns = vec![Turn::NONE; bodies.bodies.len()];
+    let mut order: Vec<usize> = (0..bodies.all.len()).collect();
+    order.sort_by_key(|body| bodies.all[*body].depth);
+    let mut turns = vec![Turn::NONE; bodies.all.len()];
     for body in order {
-        let Some(pivot) = bodies.bodies[body].pivot else { continue };
+        let Some(pivot) = bodies.all[body].pivot else { continue };
         let at_m = second.joints_m[pivot];
         let to_m = turns[bodies.of_joint[pivot]].place(at_m);
         let (mut along, mut across) = (0.0, 0.0);
@@ -169,7 +171,7 @@ fn turned(
     for (joint, place) in turned.joints_m.iter_mut().enumerate() {
         *place = turns[bodies.of_joint[joint]].place(*place);
     }
-    let depth = |joint: usize| bodies.bodies[bodies.of_joint[joint]].depth;
+    let depth = |joint: usize| bodies.all[bodies.of_joint[joint]].depth;
     for (k, member) in system.members().iter().enumerate() {
         // A member turns with its joint that is further from the ground.
         let (from, to) = (member.from, member.to);

@@ -10,6 +10,7 @@ pub(super) fn firsts(points: impl Iterator<Item = [f64; 2]>, near_m: f64) -> Vec
     let mut firsts = Vec::new();
     for (k, [x, y]) in points.enumerate() {
         // A cast of what is too large saturates: such points share a cell.
+        #[expect(clippy::cast_possible_truncation, reason = "saturates, as said above")]
         let [column, row] = [x, y].map(|at| (at / side_m).floor() as i64);
         let around = [-1, 0, 1].into_iter().flat_map(|c| [-1, 0, 1].map(|r| [c, r]));
         let first = around
