@@ -14,8 +14,8 @@
 //! | a net | a sparse matrix over the joints, minimum degree first (`order`) | the factor of a planar graph |
 //!
 //! Processor's time of one solve on one core of a server, as
-//! `cargo run --release -p lagrange --example network_solve_speed -- net 32 50 71 100 141 200` and the
-//! same with `bridle 10000 100000` and `tree 100000 1000000` print it:
+//! `cargo run --release -p lagrange --example network_solve_speed -- net 32 50 71 100 141 200 316`
+//! and the same with `bridle 10000 100000` and `tree 100000 1000000` print it:
 //!
 //! | system | members | factorisations | time |
 //! |---|---|---|---|
@@ -24,7 +24,8 @@
 //! | | 9,940 | 18 | 0.28 s |
 //! | | 19,800 | 20 | 0.75 s |
 //! | | 39,480 | 22 | 1.8 s |
-//! | | 79,600 | 25 | 5.4 s |
+//! | | 79,600 | 27 | 5.4 s |
+//! | | 199,080 | 30 | 20 s |
 //! | three strands to one joint | 30,000 | 7 | 0.01 s |
 //! | | 300,000 | 7 | 0.19 s |
 //! | dangling tree | 100,000 | 1 | 0.08 s |
