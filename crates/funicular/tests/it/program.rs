@@ -459,7 +459,7 @@ fn threads_are_capped_wherever_they_are_asked_for() {
 
 #[test]
 fn every_command_has_a_manual_page() {
-    let folder = std::path::PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("man");
+    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("man");
     let _ = std::fs::remove_dir_all(&folder);
     let output = funicular(&["man", "--out", folder.to_str().unwrap()]);
     assert_eq!(output.status.code(), Some(0));
