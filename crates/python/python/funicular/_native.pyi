@@ -12,7 +12,25 @@ _Vector = tuple[float, float, float]
 _Progress = Optional[Callable[[str, int, int], None]]
 _Path = Union[str, PathLike[str]]
 
-__all__: list[str]
+__all__ = [
+    "Problem",
+    "__version__",
+    "arrow_stream",
+    "census",
+    "draw",
+    "get_threads",
+    "judge",
+    "modes",
+    "reproduce",
+    "set_threads",
+    "simulate",
+    "solve",
+    "solve_many",
+    "sweep",
+    "sweep_merge",
+    "sweep_write",
+    "trace",
+]
 __version__: str
 
 @final
