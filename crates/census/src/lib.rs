@@ -86,3 +86,4 @@ pub use search::Progress;
 pub use search::undecided::{Reason, Undecided};
 pub use settings::Settings;
 pub use slack::families::SlackFamily;
+pub use slack::straight::StraightPosition;

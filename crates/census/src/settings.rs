@@ -21,12 +21,18 @@ pub struct Settings {
     /// Tests of one cell for one pattern, per pattern on average, after which all cells left are
     /// listed as undecided. Generic chains need a few hundred; default 20,000, from 1 to 10⁹.
     pub max_tests_per_pattern: u64,
+    /// Nets of several closures whose knots have more independent motions than this are refused:
+    /// the cost grows with the power of their number. Default 3, from 1 to 6.
+    pub max_motions: usize,
 }
 
 impl Settings {
     /// No census of more bars, whatever the settings: patterns are the bits of a 32-bit number, and
     /// time and memory are exhausted long before.
     pub const MAX_BARS: usize = 24;
+
+    /// No census of nets whose knots have more motions.
+    pub const MAX_MOTIONS: usize = 6;
 
     /// Check every field.
     ///
@@ -65,6 +71,13 @@ impl Settings {
                 allowed: "from 1 to 1e9",
             });
         }
+        if !(1..=Self::MAX_MOTIONS).contains(&self.max_motions) {
+            return Err(CensusError::Setting {
+                name: "max_motions",
+                value: self.max_motions as f64,
+                allowed: "from 1 to 6",
+            });
+        }
         Ok(())
     }
 }
@@ -75,6 +88,7 @@ impl Default for Settings {
             max_bars: 12,
             min_width: f64::from_bits((1023 - 40) << 52),
             max_tests_per_pattern: 20_000,
+            max_motions: 3,
         }
     }
 }

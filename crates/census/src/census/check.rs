@@ -30,6 +30,7 @@ use crate::plane::face::Face;
 use crate::plane::loads::JointLoads;
 use crate::plane::system::System;
 use crate::slack::families::families;
+use crate::slack::straight::Straight;
 use crate::slack::unloaded::with_signs;
 
 /// A stated enclosure may be that much wider than the one computed by the check, both being at the
@@ -170,11 +171,15 @@ impl Census {
         }
         let claims = [
             ("the list of slack families", self.families == families(&system).0),
+            (
+                "the list of straight positions",
+                self.straight == Straight::of(&system, chain).positions,
+            ),
             ("the topology", self.topology == Topology::of_system(&system)),
             ("whether there are circles", self.circles == system.vertical),
             (
                 "completeness",
-                !self.complete || (self.undecided.is_empty() && self.topology.is_ok()),
+                !self.complete || (self.undecided.is_empty() && self.shape_is_known()),
             ),
         ];
         if let Some((quantity, _)) = claims.into_iter().find(|(_, holds)| !holds) {
@@ -198,7 +203,9 @@ impl Census {
             let families =
                 self.families.iter().filter(|f| f.signs.iter().all(|s| *s == sign || *s == 0));
             let found = equilibria.count() + families.count();
-            if found != 1 {
+            // An upright position may be the one.
+            let upright = self.straight.iter().any(|straight| straight.upright);
+            if found != 1 && !(found == 0 && upright) {
                 return Err(CheckError::Extreme { which, found });
             }
         }

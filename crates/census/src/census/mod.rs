@@ -19,9 +19,10 @@ use crate::plane::loads::JointLoads;
 use crate::plane::system::System;
 use crate::search::merge::merge;
 use crate::search::undecided::{Reason, Undecided, gather};
-use crate::search::{Progress, search};
+use crate::search::{Progress, Settled, search};
 use crate::settings::Settings;
 use crate::slack::families::{SlackFamily, families};
+use crate::slack::straight::{Straight, StraightPosition};
 use crate::slack::unloaded::unloaded;
 
 /// All equilibria of a chain, and how far that is proved.
@@ -32,10 +33,16 @@ pub struct Census {
     pub equilibria: Vec<ProvenEquilibrium>,
     /// Sets of equilibria with slack bars; most chains have none.
     pub families: Vec<SlackFamily>,
+    /// Positions in which all bars lie in the line between the anchors, as far as integers decide
+    /// whether the lengths fit into it. Upright ones are equilibria whose force is a family; no
+    /// force holds the others.
+    #[serde(default)]
+    pub straight: Vec<StraightPosition>,
     /// What could not be decided. Neither dropped nor counted.
     pub undecided: Vec<Undecided>,
-    /// Whether every equilibrium of the chain is in `equilibria` or `families`: nothing is
-    /// undecided, no straight position exists, and the Morse inequalities hold.
+    /// Whether every equilibrium of the chain is in `equilibria` or `families`, or upright in
+    /// `straight`: nothing is undecided, and the Morse inequalities hold (where a straight position
+    /// exists there are none).
     pub complete: bool,
     /// Whether each equilibrium stands for a circle, the anchors being on one vertical.
     pub circles: bool,
@@ -120,7 +127,9 @@ impl Census {
         refuse_long(chain, settings)?;
         let system = System::new(chain, loads);
         let unloaded = unloaded(&system);
-        let search = search(&system, settings, &unloaded, watch);
+        let straight = Straight::of(&system, chain);
+        let settled = Settled { unloaded: &unloaded, straight: &straight };
+        let search = search(&system, settings, &settled, watch);
 
         let mut undecided: Vec<Undecided> = vec![];
         for task in gather(search.undecided) {
@@ -155,6 +164,7 @@ impl Census {
         let mut census = Self {
             equilibria,
             families,
+            straight: straight.positions,
             undecided,
             complete: false,
             circles: system.vertical,
@@ -169,9 +179,14 @@ impl Census {
             },
         };
         census.complete =
-            census.undecided.is_empty() && census.topology.is_ok() && census.morse().is_ok();
+            census.undecided.is_empty() && census.shape_is_known() && census.morse().is_ok();
         census.statistics.seconds = start.elapsed().as_secs_f64();
         Ok(census)
+    }
+
+    /// Whether it is known what topology asks for: nothing where a straight position exists.
+    fn shape_is_known(&self) -> bool {
+        matches!(&self.topology, Ok(_) | Err(TopologyError::Straight { .. }))
     }
 
     /// Number of isolated equilibria in a vertical plane: with the anchors on one vertical, each

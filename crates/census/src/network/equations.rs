@@ -90,6 +90,11 @@ impl Equations {
         Self { frame, joints, acting, holds, loads: frame.loads(system), size }
     }
 
+    /// The same under other loads of the joints, in units.
+    pub(super) fn with_loads(self, loads: Vec<Vector>) -> Self {
+        Self { loads, ..self }
+    }
+
     /// The unknowns next to an answer; NaN where that is not finite.
     pub(super) fn start(&self, joints_m: &[Point], axial_n: &[f64]) -> Vec<f64> {
         let mut at = vec![0.0; self.size];

@@ -46,6 +46,9 @@ mod proven;
 mod tests;
 mod turns;
 
-pub use census::{ChainCensus, MAX_POSITIONS, PartCensus, SystemCensus, SystemPosition};
+pub use census::{
+    ChainCensus, MAX_POSITIONS, NetCensus, Open, PartCensus, SystemCensus, SystemPosition,
+    UndecidedPlaces,
+};
 pub use prove::{MAX_UNKNOWNS, prove};
 pub use proven::SystemBox;

@@ -17,6 +17,7 @@ use crate::plane::system::System;
 use crate::search::pattern_sums::PatternSums;
 use crate::settings::Settings;
 use crate::slack::exclusion;
+use crate::slack::straight::Straight;
 use crate::slack::unloaded::Unloaded;
 
 /// Below so many tests in a level, threads cost more than they save: waking one takes microseconds,
@@ -73,12 +74,18 @@ struct Outcome {
     proofs: u64,
 }
 
-/// Search the whole half cube, but for what is settled with the unloaded bars. `watch` hears of the
-/// progress after each level.
+/// What is settled before the search.
+pub(crate) struct Settled<'a> {
+    pub(crate) unloaded: &'a Unloaded,
+    pub(crate) straight: &'a Straight,
+}
+
+/// Search the whole half cube, but for what is settled with unloaded bars and straight positions.
+/// `watch` hears of the progress after each level.
 pub(crate) fn search(
     system: &System,
     settings: &Settings,
-    unloaded: &Unloaded,
+    settled: &Settled,
     watch: &dyn Fn(Progress),
 ) -> Search {
     let patterns: Vec<Pattern> = (0..1_u32 << system.bars()).map(Pattern).collect();
@@ -94,7 +101,7 @@ pub(crate) fn search(
             search.undecided.append(&mut level);
             break;
         }
-        let work = |task: &Task| examine_cell(system, settings, unloaded, task);
+        let work = |task: &Task| examine_cell(system, settings, settled, task);
         let tests: usize = level.iter().map(|task| task.patterns.len()).sum();
         let outcomes: Vec<Outcome> = if tests < WORTH_THREADS {
             level.iter().map(work).collect()
@@ -122,11 +129,12 @@ pub(crate) fn search(
 }
 
 /// Exclude, contract, prove, cut.
-fn examine_cell(system: &System, settings: &Settings, unloaded: &Unloaded, task: &Task) -> Outcome {
+fn examine_cell(system: &System, settings: &Settings, settled: &Settled, task: &Task) -> Outcome {
     let cell = task.cell.recentred(system);
     let mut outcome = Outcome::default();
     let mut noisy = [true; 2];
-    let asked = unloaded.left(system, &cell, &task.patterns);
+    let asked = settled.unloaded.left(system, &cell, &task.patterns);
+    let asked = settled.straight.left(system, &cell, asked);
     let (patterns, left, across) = match PatternSums::over(system, &cell) {
         None => {
             noisy = [false; 2];

@@ -17,8 +17,9 @@ use crate::search::Task;
 /// ```
 /// use census::{Census, Reason, Settings};
 /// use model::{Anchors, Bar, Chain, Problem};
-/// // 1 + 1 + 1 - 1 = 2: the chain can lie straight, and the force along it is then any.
-/// let anchors = Anchors { start_m: [0.0; 3], end_m: [2.0, 0.0, 0.0] };
+/// // 1 + 1 + 1 - 1 = 2, and these anchors are 2 m apart but for rounding: whether the chain can lie
+/// // straight, where the force along it is then any, hangs on the last digits.
+/// let anchors = Anchors { start_m: [0.0; 3], end_m: [1.2, 0.0, 1.6] };
 /// let chain = Chain::new("straight", 9.81, anchors, vec![Bar::homogeneous(1.0, 1.0)?; 4])?;
 /// let census = Census::take(&Problem::new(chain)?, &Settings::default())?;
 /// assert!(!census.complete);

@@ -1,6 +1,7 @@
 //! The census from outside, in one program.
 
 mod degenerate;
+mod integers;
 mod mutations;
 mod paper;
 mod random;

@@ -107,7 +107,7 @@ fn round_problem(bars: usize, seed: u64) -> Option<Problem> {
 /// nothing else, and the check and the Morse inequalities hold.
 #[test]
 fn a_complete_census_of_a_degenerate_chain_misses_nothing() {
-    let (mut complete, mut open, mut found, mut straight) = (0, 0, 0, 0);
+    let (mut complete, mut open, mut found, mut straight, mut decided) = (0, 0, 0, 0, 0);
     for (bars, seed) in (3..=5).flat_map(|bars| (0..50).map(move |seed| (bars, seed))) {
         let Some(problem) = round_problem(bars, seed) else { continue };
         // All weight on the anchors is refused.
@@ -121,7 +121,9 @@ fn a_complete_census_of_a_degenerate_chain_misses_nothing() {
             continue;
         }
         complete += 1;
-        assert!(census.topology.is_ok() && census.morse().is_ok(), "{bars} bars, seed {seed}");
+        assert!(census.morse().is_ok(), "{bars} bars, seed {seed}");
+        assert!(census.topology.is_ok() || !census.straight.is_empty(), "{bars} bars, seed {seed}");
+        decided += u32::from(census.topology.is_err());
         let mut rng = ChaCha8Rng::seed_from_u64(2000 + seed);
         for _ in 0..200 {
             let start: Vec<f64> = (0..bars).map(|_| rng.random_range(-3.15..3.15)).collect();
@@ -139,12 +141,23 @@ fn a_complete_census_of_a_degenerate_chain_misses_nothing() {
             let in_family = census.families.iter().any(|family| {
                 family.signs.iter().zip(&angles).all(|(sign, a)| *sign == 0 || a.sin().abs() < 1e-6)
             });
-            assert!(listed || in_family, "{bars} bars, seed {seed}: {angles:?} {problem:?}");
+            // All bars upright, under any force.
+            let upright = census.straight.iter().any(|straight| {
+                let way = |(along, a): (&i8, &f64)| f64::from(*along) * a.cos();
+                let ways: Vec<f64> = straight.along.iter().zip(&angles).map(way).collect();
+                straight.upright && ways.iter().all(|way| (way - ways[0]).abs() < 1e-6)
+            });
+            assert!(
+                listed || in_family || upright,
+                "{bars} bars, seed {seed}: {angles:?} {problem:?}"
+            );
             found += 1;
         }
     }
-    println!("{complete} complete, {open} open, {straight} straight, {found} found");
-    assert!(complete > 30 && open > 10 && straight > 10 && found > 3000);
+    println!(
+        "{complete} complete, {open} open, {straight} straight, of these {decided} decided, {found} found"
+    );
+    assert!(complete > 30 && open > 10 && decided > 4 && found > 3000);
 }
 
 /// Solve the planar equations: with angles φ from the descending vertical and multipliers (H, V),

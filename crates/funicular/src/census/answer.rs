@@ -2,7 +2,8 @@
 //! same.
 
 use census::{
-    CheckError, Interval, Position, ProvenEquilibrium, SlackFamily, Statistics, Undecided,
+    CheckError, Interval, Position, ProvenEquilibrium, SlackFamily, Statistics, StraightPosition,
+    Undecided,
 };
 use model::{Anchors, Equilibrium, Problem, Reason, SolverName, Status, SystemSummary};
 use serde::Serialize;
@@ -78,7 +79,7 @@ pub struct Enclosures {
 /// The census as a whole.
 #[derive(Debug, Clone, Serialize)]
 pub struct Summary {
-    /// Whether every equilibrium is in `equilibria` or `slack_families`.
+    /// Whether every equilibrium is in `equilibria`, `slack_families`, or upright in `straight`.
     pub complete: bool,
     /// Number of isolated equilibria in one vertical plane: the length of `equilibria`.
     pub count: usize,
@@ -96,6 +97,8 @@ pub struct Summary {
     pub betti: Option<Vec<u64>>,
     /// Why `euler_characteristic` is not known.
     pub topology_unknown: Option<String>,
+    /// Positions in which all bars lie in the line between the anchors.
+    pub straight: Vec<StraightPosition>,
     /// How many boxes could not be decided.
     pub undecided_boxes: usize,
     /// Those boxes.
@@ -201,6 +204,7 @@ impl CensusAnswer {
                 euler_characteristic: topology.ok().map(|topology| topology.euler),
                 betti: topology.ok().map(|topology| topology.betti.clone()),
                 topology_unknown: topology.err().map(ToString::to_string),
+                straight: census.straight.clone(),
                 undecided_boxes: census.undecided.len(),
                 undecided: census.undecided.iter().map(open).collect(),
                 slack_families: census.families.iter().map(slack).collect(),

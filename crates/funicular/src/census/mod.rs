@@ -88,13 +88,14 @@ impl Census {
     }
 
     /// Take the census of a system of joints and members: trees, chains of bars between anchors
-    /// with trees and weights at their joints, and any number of such parts.
+    /// with trees and weights at their joints, frames, nets of several closures whose joints move
+    /// in few ways (a bridle whose strands have one or two bars), and any number of such parts.
     ///
     /// # Errors
     ///
     /// [`Error::SystemRefused`] when the system has no equilibrium, [`Error::SystemCensus`] when it
-    /// has no census: more closures, level loads on a chain, elastic members in it. What cannot be
-    /// decided is no error: it is listed, and the census is not complete.
+    /// has no census: nets that move in too many ways, level loads on a chain, elastic members.
+    /// What cannot be decided is no error: it is listed, and the census is not complete.
     ///
     /// ```
     /// use funicular::prelude::*;
@@ -114,9 +115,23 @@ impl Census {
     /// # Ok::<(), Error>(())
     /// ```
     pub fn run_system(&self, system: &System) -> Result<SystemCensusAnswer, Error> {
+        self.run_system_watched(system, &|_| {})
+    }
+
+    /// The same, with `watch` told how far the search of each part is.
+    ///
+    /// # Errors
+    ///
+    /// As [`run_system`](Self::run_system).
+    pub fn run_system_watched(
+        &self,
+        system: &System,
+        watch: &(dyn Fn(Progress) + Sync),
+    ) -> Result<SystemCensusAnswer, Error> {
         system.refusal()?;
         threads::on(self.threads, || {
-            let census = SystemCensus::take(system, &self.settings).map_err(Error::SystemCensus)?;
+            let census = SystemCensus::take_watched(system, &self.settings, watch)
+                .map_err(Error::SystemCensus)?;
             Ok(SystemCensusAnswer::new(system, census))
         })?
     }

@@ -1,6 +1,6 @@
 //! What a census of a system says, as `funicular census --json` prints it.
 
-use census::network::{ChainCensus, PartCensus, SystemCensus};
+use census::network::{ChainCensus, NetCensus, PartCensus, SystemCensus};
 use model::system::{System, SystemEquilibrium};
 use serde::Serialize;
 
@@ -100,6 +100,22 @@ struct One<'a> {
     chain: Option<Chain<'a>>,
     /// Joints placed by closed forms.
     framed: usize,
+    net: Option<Net<'a>>,
+}
+
+/// The net of a part.
+#[derive(Serialize)]
+struct Net<'a> {
+    closures: usize,
+    /// Joints whose places were searched.
+    knots: Vec<&'a str>,
+    /// Joints that follow from their two neighbours.
+    swings: Vec<&'a str>,
+    /// Whether only equilibria in the vertical plane of the anchors were looked for.
+    in_plane: bool,
+    cells: u64,
+    tests: u64,
+    undecided_boxes: usize,
 }
 
 /// The chain of a part.
@@ -123,6 +139,24 @@ impl<'a> One<'a> {
             hanging: part.hanging.iter().map(|member| member + 1).collect(),
             chain: part.chain.as_ref().map(|chain| Chain::of(system, chain)),
             framed: part.framed,
+            net: part.net.as_ref().map(|net| Net::of(system, net)),
+        }
+    }
+}
+
+impl<'a> Net<'a> {
+    fn of(system: &'a System, net: &'a NetCensus) -> Self {
+        let names = |joints: &[usize]| -> Vec<&'a str> {
+            joints.iter().map(|k| system.joints()[*k].name.as_str()).collect()
+        };
+        Self {
+            closures: net.closures,
+            knots: names(&net.knots),
+            swings: names(&net.swings),
+            in_plane: net.in_plane,
+            cells: net.cells,
+            tests: net.tests,
+            undecided_boxes: net.undecided.len(),
         }
     }
 }

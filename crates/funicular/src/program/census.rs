@@ -9,6 +9,7 @@ use census::{CensusError, Settings, rough_time};
 use clap::Args;
 use funicular::Error;
 use miette::miette;
+use model::NoCensus;
 use model::system::System;
 
 use crate::exit::{Exit, Failure};
@@ -33,6 +34,10 @@ pub struct Census {
     /// Refuse longer chains, with an estimate of what they would cost (at most 24)
     #[arg(long, value_name = "N", default_value_t = Settings::default().max_bars)]
     pub max_bars: usize,
+    /// Refuse nets of several closures whose joints move in more independent ways than this (at most
+    /// 6); joints between two bars that follow from their neighbours are not counted
+    #[arg(long, value_name = "N", default_value_t = Settings::default().max_motions)]
+    pub max_motions: usize,
     /// Draw the shapes side by side into this SVG file: all up to 70, of more the first 70 by
     /// energy
     #[arg(long, value_name = "FILE")]
@@ -48,7 +53,11 @@ pub struct Census {
 /// Run the command.
 pub fn run(arguments: &Census) -> Result<Exit, Failure> {
     end_on_interrupt()?;
-    let settings = Settings { max_bars: arguments.max_bars, ..Settings::default() };
+    let settings = Settings {
+        max_bars: arguments.max_bars,
+        max_motions: arguments.max_motions,
+        ..Settings::default()
+    };
     settings.validate().map_err(Error::from)?;
     threads::install(arguments.threads)?;
     let progress = Progress::start();
@@ -61,12 +70,7 @@ pub fn run(arguments: &Census) -> Result<Exit, Failure> {
     output::check(outputs.into_iter().flatten().map(PathBuf::as_path), &files)?;
     let answer = funicular::Census::new()
         .settings(settings)
-        .run_watched(&problem, &|now| {
-            progress.say(&format!(
-                "{} cells done, {} waiting, {} undecided, {} zeros proved",
-                now.done, now.waiting, now.undecided, now.proved
-            ));
-        })
+        .run_watched(&problem, &|now| progress.say(&how_far(now)))
         .map_err(refuse)?;
 
     if let Some(path) = &arguments.svg {
@@ -91,6 +95,13 @@ pub fn run(arguments: &Census) -> Result<Exit, Failure> {
     })
 }
 
+fn how_far(now: census::Progress) -> String {
+    format!(
+        "{} cells done, {} waiting, {} undecided, {} zeros proved",
+        now.done, now.waiting, now.undecided, now.proved
+    )
+}
+
 /// The census of a system of joints and members.
 fn of_system(
     arguments: &Census,
@@ -104,8 +115,11 @@ fn of_system(
             "--svg and --csv of a census are for chains"
         )));
     }
-    progress.say("the chains and trees of the system");
-    let answer = funicular::Census::new().settings(settings).run_system(system)?;
+    progress.say("the chains, nets and trees of the system");
+    let answer = funicular::Census::new()
+        .settings(settings)
+        .run_system_watched(system, &|now| progress.say(&how_far(now)))
+        .map_err(refuse)?;
     drop(progress);
     if arguments.json {
         output::print_json(&answer)?;
@@ -118,6 +132,18 @@ fn of_system(
 
 /// Why there is no census, and how to go on.
 fn refuse(error: Error) -> Failure {
+    if let Error::SystemCensus(NoCensus::Motions { motions, .. }) = error {
+        let help = if motions <= Settings::MAX_MOTIONS {
+            format!(
+                "--max-motions {motions} tries it all the same. A net of three motions takes seconds at most, each \
+                 motion more about a hundred times as long; what is not decided then is told. `funicular solve` \
+                 finds equilibria of nets of any size"
+            )
+        } else {
+            "`funicular solve` finds equilibria of nets of any size; nobody knows how many there are".to_owned()
+        };
+        return Failure::bad_input(miette!(help = help, "{error}"));
+    }
     let Error::Census(CensusError::TooManyBars { bars, estimate_s, .. }) = error else {
         return error.into();
     };

@@ -282,10 +282,27 @@ fn coincident_anchors_are_circles() {
     assert!(text.contains("circles in space") && text.contains("proved to be all"), "{text}");
 }
 
+/// Six bars of 0.5 m between level anchors 2 m apart: the lengths fit into a straight line, in six
+/// ways, and no equilibrium is near it.
 #[test]
-fn a_straight_closure_is_undecided_and_says_so() {
-    // 1 + 1 + 1 - 1 = 2.
-    let file = chain("straight", [2.0, 0.0, 0.0], &[(1.0, 1.0); 4]);
+fn a_straight_position_is_named_and_apart_from_all_equilibria() {
+    let file = chain("classroom", [2.0, 0.0, 0.0], &[(0.5, 1.0); 6]);
+    let value = json(&[&file], 0);
+    let census = &value["census"];
+    assert_eq!((&census["complete"], &census["undecided_boxes"]), (&true.into(), &0.into()));
+    let straight = census["straight"].as_array().unwrap();
+    assert_eq!(straight.len(), 6);
+    assert_eq!(straight[0]["along"], serde_json::json!([1, 1, 1, 1, 1, -1]));
+    assert_eq!(straight[0]["upright"], false);
+    let text = stdout(&funicular(&[&file]));
+    assert!(text.contains("In 6 positions the bars lie in the line"), "{text}");
+    assert!(text.contains("no equilibrium is near") && text.contains("the search alone"), "{text}");
+}
+
+#[test]
+fn a_nearly_straight_closure_is_undecided_and_says_so() {
+    // 1 + 1 + 1 - 1 = 2, which is next to the distance of these anchors, but not that.
+    let file = chain("straight", [1.2, 0.0, -1.6], &[(1.0, 1.0); 4]);
     let value = json(&[&file], 3);
     let census = &value["census"];
     assert!(census["undecided_boxes"].as_u64().unwrap() > 0);
@@ -546,13 +563,37 @@ fn a_chain_with_a_lamp_has_its_list() {
     assert_eq!(value["equilibria"].as_array().unwrap().iter().filter(stable).count(), 1);
 }
 
+/// The lamp is held by a third bar to A: two closures.
+#[test]
+fn a_net_has_its_list() {
+    let path = folder("held").join("held.toml");
+    let bar = "[[bars]]\nfrom = \"lamp\"\nto = \"A\"\nlength_m = 5.5\nmass_kg = 1\n";
+    std::fs::write(&path, format!("{LAMPS}{bar}")).unwrap();
+    let path = path.to_str().unwrap();
+    let value = json_of_system(path);
+    let net = &value["census"]["parts"][0]["net"];
+    assert_eq!(
+        (&net["closures"], &net["knots"], &net["swings"]),
+        (&2.into(), &serde_json::json!(["P"]), &serde_json::json!(["lamp"]))
+    );
+    assert_eq!((&net["undecided_boxes"], &value["census"]["complete"]), (&0.into(), &true.into()));
+    let stable = |e: &&Value| e["stability"]["in_space"] == "stable";
+    assert!(value["equilibria"].as_array().unwrap().iter().any(|e| stable(&e)));
+    let text = stdout(&funicular(&[path]));
+    assert!(
+        text.contains("The net of 2 closures: all places of P; lamp by closed forms"),
+        "{text}"
+    );
+}
+
 #[test]
 fn systems_without_a_census_are_told_why() {
     let path = folder("net").join("net.toml");
     let mut text = LAMPS.to_owned();
-    text += "[[bars]]\nfrom = \"lamp\"\nto = \"A\"\nlength_m = 5.5\nmass_kg = 1\n";
+    text += "[[bars]]\nfrom = \"lamp\"\nto = \"A\"\nlength_m = 1.5\nmass_kg = 1\ncount = 4\n";
     std::fs::write(&path, text).unwrap();
     let output = funicular(&[path.to_str().unwrap()]);
     assert_eq!(output.status.code(), Some(2));
-    assert!(stderr(&output).contains("2 independent closures"), "{}", stderr(&output));
+    let told = stderr(&output);
+    assert!(told.contains("2 closures") && told.contains("independent ways"), "{told}");
 }

@@ -47,7 +47,30 @@ pub enum NoCensus {
     Settings,
     /// The system is refused as an equilibrium problem.
     Refused,
-    /// A part of the system has several independent closures, and is not built up joint by joint.
+    /// The joints of a net with several closures have more independent motions than are searched.
+    Motions {
+        /// Members less joints that move, without the trees.
+        closures: usize,
+        /// Independent motions of the joints, but for those that follow from their neighbours.
+        motions: usize,
+        /// The limit.
+        limit: usize,
+    },
+    /// The list of a net leaves boxes of places of its joints undecided.
+    Undecided {
+        /// How many.
+        boxes: usize,
+    },
+    /// Only the equilibria of a net in the vertical plane of its anchors are listed.
+    PlaneOnly,
+    /// A net has a part that turns freely about the vertical through a joint: its equilibria are
+    /// circles.
+    Turns {
+        /// The joint, from 0.
+        joint: usize,
+    },
+    /// A net with several closures has more joints than are searched, or more members than its
+    /// joints need to be held: its forces are a family.
     Closures {
         /// Members less joints that move, without the trees.
         closures: usize,

@@ -489,7 +489,22 @@ impl Display for NoCensus {
             Self::Refused => f.write_str("no census: the system is no equilibrium problem"),
             Self::Closures { closures } => write!(
                 f,
-                "no census: {closures} independent closures in one part, which is no frame built up joint by joint"
+                "no census: {closures} independent closures in one part, with more joints than are searched or self-stresses"
+            ),
+            Self::Motions { closures, motions, limit } => write!(
+                f,
+                "no census: a net of {closures} closures whose joints move in {motions} independent ways, and the limit \
+                 is {limit}"
+            ),
+            Self::Undecided { boxes } => {
+                write!(f, "{boxes} boxes of places of the joints of a net are undecided")
+            }
+            Self::PlaneOnly => f.write_str(
+                "the list has the equilibria in the vertical plane of the anchors; no others were looked for",
+            ),
+            Self::Turns { joint } => write!(
+                f,
+                "no census: what hangs at joint number {joint} turns freely about the vertical"
             ),
             Self::LoadsNotDown { joint } => write!(
                 f,

@@ -11,6 +11,7 @@
 
 mod choice;
 mod core;
+mod net;
 mod parts;
 mod position;
 mod slack;
@@ -27,6 +28,7 @@ use model::NoCensus;
 use model::system::{Support, System};
 use serde::{Deserialize, Serialize};
 
+pub use self::net::{NetCensus, Open, UndecidedPlaces};
 pub use self::position::SystemPosition;
 
 use self::choice::Choice;
@@ -37,6 +39,7 @@ use self::tree::{borne, hung};
 use self::truss::{order, positions};
 use super::frame::Frame;
 use crate::census::Census;
+use crate::search::Progress;
 use crate::settings::Settings;
 
 /// Most joints of a frame: with two places for each of them there are more positions than are
@@ -71,6 +74,8 @@ pub struct PartCensus {
     pub chain: Option<ChainCensus>,
     /// Joints of a frame that is built up joint by joint, placed by closed forms.
     pub framed: usize,
+    /// The net of several closures that bears the trees, if there is one.
+    pub net: Option<NetCensus>,
 }
 
 /// The chain of a part with its census.
@@ -115,6 +120,19 @@ impl SystemCensus {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn take(system: &System, settings: &Settings) -> Result<Self, NoCensus> {
+        Self::take_watched(system, settings, &|_| {})
+    }
+
+    /// Take the census of a system, and tell `watch` of the progress of every search.
+    ///
+    /// # Errors
+    ///
+    /// As [`take`](Self::take).
+    pub fn take_watched(
+        system: &System,
+        settings: &Settings,
+        watch: &dyn Fn(Progress),
+    ) -> Result<Self, NoCensus> {
         let start = Instant::now();
         system.refusal().map_err(|_| NoCensus::Refused)?;
         if system.floor_m().is_some() {
@@ -129,7 +147,7 @@ impl SystemCensus {
         let mut positions = vec![Choice::default()];
         let mut found = vec![];
         for part in parts(system) {
-            let (part, own) = of_part(system, &frame, &part, settings)?;
+            let (part, own) = of_part(system, &frame, &part, settings, watch)?;
             if positions.len().saturating_mul(own.len()) > MAX_POSITIONS {
                 return Err(NoCensus::TooManyPositions { limit: MAX_POSITIONS });
             }
@@ -139,15 +157,17 @@ impl SystemCensus {
         }
         // One vertical plane holds a chain and plumb trees on it, or plumb trees on one anchor.
         let plane = found.len() <= 1
-            && found.iter().all(|part| part.framed == 0)
+            && found.iter().all(|part| part.framed == 0 && part.net.is_none())
             && frame.loads(system).iter().all(|[x, y, _]| [*x, *y] == [Interval::ZERO; 2]);
         let mut equilibria: Vec<SystemPosition> = positions
             .iter()
             .map(|choice| SystemPosition::new(system, &frame, choice, plane))
             .collect();
         equilibria.sort_by(|a, b| a.energy_j.mid().total_cmp(&b.energy_j.mid()));
-        let proved =
-            |part: &PartCensus| part.chain.as_ref().is_none_or(|chain| chain.census.complete);
+        let proved = |part: &PartCensus| {
+            part.chain.as_ref().is_none_or(|chain| chain.census.complete)
+                && part.net.as_ref().is_none_or(|net| net.undecided.is_empty() && !net.in_plane)
+        };
         Ok(Self {
             complete: found.iter().all(proved),
             equilibria,
@@ -156,10 +176,11 @@ impl SystemCensus {
         })
     }
 
-    /// Cells of pulls that could not be decided.
+    /// Cells of pulls of chains and boxes of places of nets that could not be decided.
     #[must_use]
     pub fn undecided(&self) -> usize {
-        self.chains().map(|chain| chain.census.undecided.len()).sum()
+        let chains: usize = self.chains().map(|chain| chain.census.undecided.len()).sum();
+        chains + self.nets().map(|net| net.undecided.len()).sum::<usize>()
     }
 
     /// Families of equilibria with slack bars.
@@ -168,15 +189,21 @@ impl SystemCensus {
         self.chains().map(|chain| chain.census.families.len()).sum()
     }
 
-    /// Cells of pulls looked at.
+    /// Cells of pulls and boxes of places looked at.
     #[must_use]
     pub fn cells(&self) -> u64 {
-        self.chains().map(|chain| chain.census.statistics.cells).sum()
+        let chains: u64 = self.chains().map(|chain| chain.census.statistics.cells).sum();
+        chains + self.nets().map(|net| net.cells).sum::<u64>()
     }
 
     /// The chains of all parts.
     pub fn chains(&self) -> impl Iterator<Item = &ChainCensus> {
         self.parts.iter().filter_map(|part| part.chain.as_ref())
+    }
+
+    /// The nets of all parts.
+    pub fn nets(&self) -> impl Iterator<Item = &NetCensus> {
+        self.parts.iter().filter_map(|part| part.net.as_ref())
     }
 }
 
@@ -186,18 +213,23 @@ fn of_part(
     frame: &Frame,
     part: &Part,
     settings: &Settings,
+    watch: &dyn Fn(Progress),
 ) -> Result<(PartCensus, Vec<Choice>), NoCensus> {
-    let (mut chain, mut framed) = (None, 0);
+    let (mut chain, mut framed, mut net) = (None, 0, None);
     let cores = match &part.core {
         Core::Net { joints, members } => {
-            let closures = members.len().saturating_sub(joints.len());
-            let order = (joints.len() <= MAX_FRAMED)
-                .then(|| order(system, joints, members))
-                .flatten()
-                .ok_or(NoCensus::Closures { closures })?;
             let loads = borne(system, frame, &part.hanging);
-            framed = joints.len();
-            positions(system, frame, &order, &loads, MAX_POSITIONS)?
+            let order =
+                (joints.len() <= MAX_FRAMED).then(|| order(system, joints, members)).flatten();
+            if let Some(order) = order {
+                framed = joints.len();
+                positions(system, frame, &order, &loads, MAX_POSITIONS)?
+            } else {
+                let core = net::Core { system, frame, joints, members, loads: &loads };
+                let (taken, cores) = net::taken(&core, settings, watch)?;
+                net = Some(taken);
+                cores
+            }
         }
         Core::Anchor => vec![Choice::anchor(system, frame, part)],
         Core::Chain { joints, members } => {
@@ -218,5 +250,5 @@ fn of_part(
     };
     let positions = hung(system, frame, &part.hanging, cores, MAX_POSITIONS)?;
     let hanging = part.hanging.iter().map(|hanging| hanging.member).collect();
-    Ok((PartCensus { positions: positions.len(), hanging, chain, framed }, positions))
+    Ok((PartCensus { positions: positions.len(), hanging, chain, framed, net }, positions))
 }

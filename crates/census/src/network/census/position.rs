@@ -3,8 +3,8 @@
 use intervals::Interval;
 use model::system::{Kind, System, SystemEquilibrium, SystemStability};
 use model::{
-    Complete, CompleteSystem, Evidence, InSpace, NoCertificate, Reason, SolverName, Status,
-    Vector as Point, Verified, VerifiedSystem,
+    Complete, CompleteSystem, Evidence, InSpace, NoCensus, NoCertificate, Reason, SolverName,
+    Status, Vector as Point, Verified, VerifiedSystem,
 };
 use serde::{Deserialize, Serialize};
 
@@ -193,12 +193,19 @@ impl SystemCensus {
     pub fn completeness(&self, system: &System) -> Status<Complete> {
         if !self.complete {
             let open = self.chains().find(|chain| !chain.census.complete);
-            return open.map_or(Status::default(), |chain| chain.census.completeness());
+            let boxes = self.nets().map(|net| net.undecided.len()).sum();
+            let of_nets = match boxes {
+                0 => NoCensus::PlaneOnly,
+                boxes => NoCensus::Undecided { boxes },
+            };
+            let of_nets = Status::Open(Reason::NoCensus(of_nets));
+            return open.map_or(of_nets, |chain| chain.census.completeness());
         }
         let two_sided = |member: &usize| system.members()[*member].kind == Kind::Bar;
         let hanging = self.parts.iter().flat_map(|part| &part.hanging);
         let free = hanging.clone().filter(|member| two_sided(member)).count();
         let free = free + self.chains().map(|chain| chain.members.len()).sum::<usize>();
+        let free = free + self.nets().map(|net| net.swings.len()).sum::<usize>();
         Status::Reached(Complete {
             in_plane: self.equilibria.len(),
             families: self.families(),

@@ -35,6 +35,7 @@ pub fn text(answer: &SystemCensusAnswer) -> String {
         text += &one(system, k + 1, e);
     }
     text += &chains(answer);
+    text += &nets(answer);
     if let Some(first) = equilibria.first() {
         text += &ladder(std::iter::once((&first.solver, &first.evidence)));
     }
@@ -128,6 +129,45 @@ fn chains(answer: &SystemCensusAnswer) -> String {
                 Err(failure) => format!(". The check: {failure}"),
             }
         );
+    }
+    if text.is_empty() { text } else { text + "\n" }
+}
+
+/// What is known of the nets.
+fn nets(answer: &SystemCensusAnswer) -> String {
+    /// So many undecided boxes are printed.
+    const OPEN: usize = 5;
+    let names = |joints: &[usize]| -> String {
+        let name = |k: &usize| Printable(&answer.system().joints()[*k].name).to_string();
+        joints.iter().map(name).collect::<Vec<_>>().join(", ")
+    };
+    let mut text = String::new();
+    for net in answer.proven().nets() {
+        let _ = write!(
+            text,
+            "The net of {} closures: all places of {}",
+            net.closures,
+            names(&net.knots)
+        );
+        if !net.swings.is_empty() {
+            let _ = write!(text, "; {} by closed forms", names(&net.swings));
+        }
+        let _ = writeln!(text, "; {} boxes, {} undecided.", net.cells, net.undecided.len());
+        if net.in_plane {
+            text += "Only equilibria in the vertical plane of its anchors were looked for: in space it moves in too many ways.\n";
+        }
+        for open in net.undecided.iter().take(OPEN) {
+            let places: Vec<String> = net
+                .knots
+                .iter()
+                .zip(&open.knots_m)
+                .map(|(knot, at)| {
+                    let at = at.map(|part| format!("{:.4} to {:.4}", part.lo(), part.hi()));
+                    format!("{} at ({}) m", names(std::slice::from_ref(knot)), at.join(", "))
+                })
+                .collect();
+            let _ = writeln!(text, "Undecided ({}): {}", open.reason, places.join("; "));
+        }
     }
     if text.is_empty() { text } else { text + "\n" }
 }

@@ -288,6 +288,9 @@ fn undecided(census: &Summary) -> String {
 fn check_line(census: &Summary) -> String {
     let listed = "Check: every equilibrium listed is proved again without the search";
     match (&census.check.failure, census.check.refuted) {
+        (None, _) if census.complete && census.euler_characteristic.is_none() => {
+            format!("{listed}. That the list is complete rests on the search alone.")
+        }
         (None, _) if census.complete => format!(
             "{listed}. That the list is complete rests on the search:\nthe check would see if one alone, the lowest \
              or the highest were missing, not every pair."
@@ -298,6 +301,27 @@ fn check_line(census: &Summary) -> String {
             format!("Check NOT DECIDED: {failure}. Nothing is shown to be wrong.")
         }
     }
+}
+
+/// Positions in which the bars lie in one line.
+fn straight(census: &Summary) -> String {
+    let Some(first) = census.straight.first() else { return String::new() };
+    let count = census.straight.len();
+    let ways = format!(
+        "In {count} {} the bars lie in the line between the anchors ({}: + towards the last, - back",
+        plural(count, "position", "positions"),
+        pattern(&first.along)
+    );
+    let what = match (first.upright, census.complete) {
+        (true, _) => {
+            "). They hang or stand upright: equilibria too,\nbut the force along them is not determined"
+        }
+        (false, true) => {
+            "). No force holds them there, the energy\nrises and falls from them, and no equilibrium is near"
+        }
+        (false, false) => ").\nNo force holds them there, and the energy rises and falls from them",
+    };
+    format!("{ways}{what}.\n")
 }
 
 /// The cross-checks, and what it took.
@@ -321,6 +345,7 @@ fn sums(census: &Summary) -> String {
             );
         }
     }
+    text += &straight(census);
     let _ = writeln!(text, "{}", check_line(census));
     let s = &census.statistics;
     let _ = writeln!(

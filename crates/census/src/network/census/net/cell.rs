@@ -1,0 +1,176 @@
+//! The balance of the knots and the lengths between them, over a box of their places.
+//!
+//! With the force densities w of the bars between knots the equations are, for a pattern σ of the
+//! swinging joints,
+//!
+//! $$ f_j + \sum_e w_e (x_k - x_j) + \sum_s G_s(\sigma_s; x) = 0, \qquad
+//!    \tfrac12(|x_b - x_a|^2 - l_e^2) = 0. $$
+
+use std::array::from_fn;
+
+use intervals::Interval;
+
+use super::dense::Dense;
+use super::jet::{Jets, minus, values};
+use super::layout::{End, Layout};
+use super::swing::{Swung, added, place};
+use crate::network::arithmetic::{self, Vector, difference, plus, squared, sum, times};
+
+/// Which way each swinging joint lies: a bit is set where σ = −1.
+pub(super) type Pattern = u32;
+
+/// A box of places of the knots with all that it makes of the forces.
+pub(super) struct Cell<'a, const N: usize> {
+    pub(super) layout: &'a Layout,
+    pub(super) at: [Interval; N],
+    pub(super) swung: Vec<Swung<N>>,
+    /// From the one end of each bar to the other.
+    pub(super) spans: Vec<Vector>,
+}
+
+/// σ of a joint.
+pub(super) fn sign(pattern: Pattern, swing: usize) -> f64 {
+    if pattern >> swing & 1 == 0 { 1.0 } else { -1.0 }
+}
+
+fn signed(sign: f64, x: Interval) -> Interval {
+    if sign < 0.0 { -x } else { x }
+}
+
+impl<'a, const N: usize> Cell<'a, N> {
+    /// Nothing where two bars cannot meet anywhere in the box.
+    pub(super) fn over(layout: &'a Layout, at: [Interval; N]) -> Option<Self> {
+        let swung = layout.swings.iter().map(|swing| Swung::over(swing, layout.dim, &at));
+        let swung = swung.collect::<Option<Vec<_>>>()?;
+        let span = |ends: [End; 2]| {
+            let [a, b] = ends.map(|end| place::<N>(end, layout.dim, &at));
+            values(minus(b, a))
+        };
+        let spans = layout.bars.iter().map(|bar| span(bar.ends)).collect();
+        Some(Self { layout, at, swung, spans })
+    }
+
+    /// Whether everything can be differentiated in the whole box.
+    pub(super) fn smooth(&self) -> bool {
+        self.swung.iter().all(|swung| swung.smooth.is_some())
+    }
+
+    /// The rows of an end, if it is a knot.
+    pub(super) fn rows(&self, end: End) -> Option<usize> {
+        match end {
+            End::Knot(knot) => Some(self.layout.dim * knot),
+            End::Held(_) => None,
+        }
+    }
+
+    /// Add a force to the rows of an end.
+    pub(super) fn push(&self, forces: &mut [Interval], end: End, force: Vector) {
+        if let Some(row) = self.rows(end) {
+            added(&mut forces[row..row + self.layout.dim], force);
+        }
+    }
+
+    /// Loads of the knots.
+    pub(super) fn loads(&self) -> Vec<Interval> {
+        let dim = self.layout.dim;
+        self.layout.loads.iter().flat_map(|load| load[..dim].to_vec()).collect()
+    }
+
+    /// Left-hand sides of all equations; all swings must be smooth.
+    pub(super) fn residual(&self, pattern: Pattern, densities: &[Interval]) -> Vec<Interval> {
+        let mut all = self.loads();
+        for (s, (swing, swung)) in self.layout.swings.iter().zip(&self.swung).enumerate() {
+            let Some([base, taken]) = &swung.smooth else { continue };
+            let turn = sign(pattern, s);
+            let pull: Vector = from_fn(|k| difference(base[k].value, signed(turn, taken[k].value)));
+            self.push(&mut all, swing.ends[1], pull);
+            self.push(&mut all, swing.ends[0], arithmetic::minus(swing.load, pull));
+        }
+        for ((bar, span), density) in self.layout.bars.iter().zip(&self.spans).zip(densities) {
+            let pull = times(*density, *span);
+            self.push(&mut all, bar.ends[0], pull);
+            self.push(&mut all, bar.ends[1], pull.map(|part| -part));
+        }
+        for (bar, span) in self.layout.bars.iter().zip(&self.spans) {
+            all.push(difference(squared(*span), bar.length.square()).scale(0.5));
+        }
+        all
+    }
+
+    /// Their derivative by places and densities; all swings must be smooth.
+    pub(super) fn derivative(&self, pattern: Pattern, densities: &[Interval]) -> Dense<Interval> {
+        let size = N + densities.len();
+        let mut slope = Dense::filled(size, size, Interval::ZERO);
+        for (s, (swing, swung)) in self.layout.swings.iter().zip(&self.swung).enumerate() {
+            let Some([base, taken]) = &swung.smooth else { continue };
+            let turn = sign(pattern, s);
+            for column in 0..N {
+                let part = |jets: &Jets<N>, k: usize| jets[k].slope[column];
+                let pull: Vector = from_fn(|k| sum(part(base, k), -signed(turn, part(taken, k))));
+                for (end, pull) in [(1, pull), (0, pull.map(|part| -part))] {
+                    if let Some(row) = self.rows(swing.ends[end]) {
+                        slope.add_to_column([row, column], pull[..self.layout.dim].iter().copied());
+                    }
+                }
+            }
+        }
+        let bars = self.layout.bars.iter().zip(&self.spans).zip(densities);
+        for (number, ((bar, span), density)) in bars.enumerate() {
+            let (extra, [a, b]) = (N + number, bar.ends);
+            for (here, there, span) in [(a, b, *span), (b, a, span.map(|part| -part))] {
+                let Some(row) = self.rows(here) else { continue };
+                for (k, part) in span[..self.layout.dim].iter().enumerate() {
+                    slope.add(row + k, extra, *part);
+                    slope.add(extra, row + k, -*part);
+                    slope.add(row + k, row + k, -*density);
+                    if let Some(other) = self.rows(there) {
+                        slope.add(row + k, other + k, *density);
+                    }
+                }
+            }
+        }
+        slope
+    }
+
+    /// Of each swing whose ends are apart what it pulls at its second end with σ = 0, and what it
+    /// takes off that times σ, but for a tension that has no bound.
+    pub(super) fn rough_parts(&self, unbounded: &[bool]) -> Vec<Option<[Vector; 2]>> {
+        let swings = self.swung.iter().zip(unbounded);
+        swings
+            .map(|(swung, unbounded)| {
+                let along = times(swung.tension, swung.span);
+                let off = if *unbounded { swung.sideways } else { plus(swung.sideways, along) };
+                (!swung.folded).then_some([swung.base, off])
+            })
+            .collect()
+    }
+
+    /// The forces at the knots for one pattern; perhaps without those of one swing.
+    pub(super) fn rough(
+        &self,
+        rough: &[Option<[Vector; 2]>],
+        pattern: Pattern,
+        without: Option<usize>,
+    ) -> Vec<Interval> {
+        let mut all = self.loads();
+        for (s, (swing, parts)) in self.layout.swings.iter().zip(rough).enumerate() {
+            let Some([base, off]) = parts.filter(|_| without != Some(s)) else { continue };
+            self.push(&mut all, swing.ends[1], base);
+            self.push(&mut all, swing.ends[0], arithmetic::minus(swing.load, base));
+            let off = off.map(|part| signed(sign(pattern, s), part));
+            self.push(&mut all, swing.ends[1], off.map(|part| -part));
+            self.push(&mut all, swing.ends[0], off);
+        }
+        all
+    }
+
+    /// The tension along a swing with its sign.
+    pub(super) fn tension(&self, pattern: Pattern, swing: usize) -> Interval {
+        signed(sign(pattern, swing), self.swung[swing].tension)
+    }
+
+    /// The force on the knot whose first row this is.
+    pub(super) fn at_rows(&self, forces: &[Interval], row: usize) -> Vector {
+        from_fn(|k| if k < self.layout.dim { forces[row + k] } else { Interval::ZERO })
+    }
+}

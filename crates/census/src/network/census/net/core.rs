@@ -1,0 +1,111 @@
+//! What a net is made of.
+
+use intervals::Interval;
+use model::Vector as Point;
+use model::system::System;
+
+use crate::network::arithmetic::Vector;
+use crate::network::frame::Frame;
+
+/// Joints and members of a part without its trees, and the loads of all joints.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::network::census) struct Core<'a> {
+    pub(in crate::network::census) system: &'a System,
+    pub(in crate::network::census) frame: &'a Frame,
+    pub(in crate::network::census) joints: &'a [usize],
+    pub(in crate::network::census) members: &'a [usize],
+    pub(in crate::network::census) loads: &'a [Vector],
+}
+
+impl Core<'_> {
+    pub(super) fn ends(&self, member: usize) -> [usize; 2] {
+        let member = &self.system.members()[member];
+        [member.from, member.to]
+    }
+
+    /// Members of the core at a joint, each with the joint at its other end.
+    pub(super) fn meeting(&self, joint: usize) -> Vec<(usize, usize)> {
+        let at = |member: &usize| match self.ends(*member) {
+            [a, b] if a == joint => Some((*member, b)),
+            [a, b] if b == joint => Some((*member, a)),
+            _ => None,
+        };
+        self.members.iter().filter_map(at).collect()
+    }
+
+    pub(super) fn held(&self, joint: usize) -> bool {
+        self.system.joints()[joint].support.is_fixed()
+    }
+
+    /// The length of a member in units.
+    pub(super) fn length(&self, member: usize) -> Interval {
+        let body = &self.system.members()[member].body;
+        self.frame.length(Interval::point(body.length_m()))
+    }
+
+    fn anchors(&self) -> Vec<usize> {
+        let ends = self.members.iter().flat_map(|member| self.ends(*member));
+        ends.filter(|joint| self.held(*joint)).collect()
+    }
+
+    /// The axes of the vertical plane of all anchors and loads, and its normal last, if it is a
+    /// plane of constant x or y.
+    pub(super) fn plane(&self) -> Option<[usize; 3]> {
+        let anchors = self.anchors();
+        let at_m = |joint: usize| self.system.joints()[joint].support.at_m();
+        let first = at_m(*anchors.first()?)?;
+        let holds = |normal: usize| {
+            let level = |joint: &usize| {
+                at_m(*joint).is_some_and(|at| (at[normal] - first[normal]).abs() <= 0.0)
+            };
+            let loads = |joint: &usize| self.loads[*joint][normal] == Interval::ZERO;
+            anchors.iter().all(level) && self.joints.iter().all(loads)
+        };
+        [[0, 2, 1], [1, 2, 0]].into_iter().find(|axes| holds(axes[2]))
+    }
+
+    /// The place of an anchor, m.
+    pub(super) fn anchor_m(&self) -> Option<Point> {
+        self.system.joints()[*self.anchors().first()?].support.at_m()
+    }
+
+    /// A joint at which something turns freely about the vertical: the net itself between anchors
+    /// on one vertical, or what hangs on the net at this joint alone.
+    pub(super) fn turning(&self) -> Option<usize> {
+        let level = |load: &Vector| load[0] == Interval::ZERO && load[1] == Interval::ZERO;
+        if !self.joints.iter().all(|joint| level(&self.loads[*joint])) {
+            return None;
+        }
+        let anchors = self.anchors();
+        let at_m = |joint: usize| self.system.joints()[joint].support.at_m();
+        let on_one_vertical = |joint: &usize| match (at_m(*joint), at_m(anchors[0])) {
+            (Some([x, y, _]), Some([p, q, _])) => (x - p).abs() <= 0.0 && (y - q).abs() <= 0.0,
+            _ => false,
+        };
+        if anchors.iter().all(on_one_vertical) {
+            return anchors.first().copied();
+        }
+        self.joints.iter().copied().find(|joint| self.hangs_at(*joint))
+    }
+
+    /// Whether a part of the net is held by this joint alone.
+    fn hangs_at(&self, joint: usize) -> bool {
+        // Whatever is connected with an anchor, not over the joint.
+        let mut reached: Vec<usize> = vec![];
+        let mut next: Vec<usize> = self
+            .joints
+            .iter()
+            .copied()
+            .filter(|other| self.meeting(*other).iter().any(|(_, end)| self.held(*end)))
+            .collect();
+        while let Some(here) = next.pop() {
+            if here == joint || reached.contains(&here) {
+                continue;
+            }
+            reached.push(here);
+            let on = self.meeting(here).into_iter().map(|(_, other)| other);
+            next.extend(on.filter(|other| !self.held(*other)));
+        }
+        reached.len() + 1 < self.joints.len()
+    }
+}

@@ -1,0 +1,128 @@
+//! From a zero found by the search to places of all joints and forces of all members, enclosed by
+//! the proof that knows nothing of the search; and its index.
+
+use intervals::Interval;
+use model::Vector as Point;
+
+use super::cell;
+use super::core::Core;
+use super::examine::Found;
+use super::inertia::index;
+use super::jet::values;
+use super::layout::Layout;
+use super::swing::{Swung, place};
+use crate::network::activity::Activity;
+use crate::network::arithmetic::{dot, minus, norm, product, sum};
+use crate::network::census::choice::Choice;
+use crate::network::equations::Equations;
+use crate::network::krawczyk::prove_zero;
+use crate::network::newton::refine;
+
+/// An equilibrium of the net, enclosed.
+pub(super) struct Enclosed {
+    pub(super) choice: Choice,
+    /// Places of the knots, in the coordinates of the search.
+    pub(super) knots: Vec<Interval>,
+}
+
+/// Enclose a zero; nothing if that is not proved, or if it may not be the one of the search.
+pub(super) fn enclosed<const N: usize>(
+    core: &Core,
+    layout: &Layout,
+    found: &Found<N>,
+) -> Option<Enclosed> {
+    let equations = equations(core);
+    let (joints_m, axial_n) = start(core, layout, found)?;
+    let start = equations.start(&joints_m, &axial_n);
+    let refined = refine(&equations, &start).ok()?;
+    let zero = prove_zero(&equations, &refined).ok()?;
+    let places = equations.places(&zero.tight);
+    let knots: Vec<Interval> = layout
+        .knots
+        .iter()
+        .flat_map(|knot| layout.turned(places[*knot])[..layout.dim].to_vec())
+        .collect();
+    if !knots.iter().zip(&found.alone_in).all(|(tight, all)| all.encloses(*tight)) {
+        return None;
+    }
+    // The pattern is that of the search, too.
+    for (s, swing) in layout.swings.iter().enumerate() {
+        let sign = if layout.dim == 2 {
+            let [a, b] = swing.ends.map(|end| values(place::<N>(end, 2, &tight_array(&knots))));
+            let (span, arm) = (minus(b, a), minus(layout.turned(places[swing.joint]), a));
+            dot([-span[1], span[0], Interval::ZERO], arm).sign()
+        } else {
+            let of = |member: usize| equations.acting.iter().find(|acting| acting.member == member);
+            let densities = swing.members.map(|member| of(member).map(|a| zero.tight[a.density]));
+            densities.into_iter().flatten().fold(Interval::ZERO, sum).sign()
+        };
+        if f64::from(sign?) * cell::sign(found.pattern, s) < 0.5 {
+            return None;
+        }
+    }
+    let mut choice = Choice::default();
+    choice.places.extend(core.joints.iter().map(|joint| (*joint, places[*joint])));
+    for acting in &equations.acting {
+        let [a, b] = acting.ends.map(|joint| places[joint]);
+        let axial = product(zero.tight[acting.density], norm(minus(b, a)));
+        choice.axial.push((acting.member, axial));
+    }
+    choice.index = [index(&equations, &zero.tight)?, 0];
+    Some(Enclosed { choice, knots })
+}
+
+fn tight_array<const N: usize>(knots: &[Interval]) -> [Interval; N] {
+    std::array::from_fn(|k| knots[k])
+}
+
+/// The equations of the net alone, with what its joints bear.
+fn equations(core: &Core) -> Equations {
+    let activities: Vec<Activity> = (0..core.system.members().len())
+        .map(|member| if core.members.contains(&member) { Activity::Acts } else { Activity::Idle })
+        .collect();
+    let joints = core.system.joints();
+    let held: Vec<bool> = (0..joints.len()).map(|joint| !core.joints.contains(&joint)).collect();
+    // Other joints that move are in no equation.
+    let places_m: Vec<Point> =
+        joints.iter().map(|joint| joint.support.at_m().unwrap_or(core.frame.origin_m)).collect();
+    Equations::new(core.system, *core.frame, &activities, &[], &places_m, &held)
+        .with_loads(core.loads.to_vec())
+}
+
+/// Places of all joints, m, and axial forces, N, next to a zero.
+fn start<const N: usize>(
+    core: &Core,
+    layout: &Layout,
+    found: &Found<N>,
+) -> Option<(Vec<Point>, Vec<f64>)> {
+    let frame = core.frame;
+    let joints = core.system.joints();
+    let mut joints_m: Vec<Point> =
+        joints.iter().map(|joint| joint.support.at_m().unwrap_or(frame.origin_m)).collect();
+    let mut axial_n = vec![0.0; core.system.members().len()];
+    let point = found.at.map(Interval::point);
+    let anchor_m = core.anchor_m()?;
+    let mut put = |joint: usize, at: &dyn Fn(usize) -> f64| {
+        joints_m[joint] = anchor_m;
+        for k in 0..layout.dim {
+            let axis = layout.axes[k];
+            joints_m[joint][axis] = at(k) * frame.length_m + frame.origin_m[axis];
+        }
+    };
+    for (number, knot) in layout.knots.iter().enumerate() {
+        put(*knot, &|k| found.at[layout.dim * number + k]);
+    }
+    for (bar, density) in layout.bars.iter().zip(&found.densities) {
+        axial_n[bar.member] = density * bar.length.mid() * frame.force_n;
+    }
+    for (s, swing) in layout.swings.iter().enumerate() {
+        let hung = Swung::at_point(swing, layout.dim, &point, cell::sign(found.pattern, s))?;
+        put(swing.joint, &|k| hung.place[k]);
+        for ((member, density), length) in
+            swing.members.iter().zip(hung.densities).zip(swing.lengths)
+        {
+            axial_n[*member] = density * length.mid() * frame.force_n;
+        }
+    }
+    Some((joints_m, axial_n))
+}

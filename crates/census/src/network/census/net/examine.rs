@@ -1,0 +1,270 @@
+//! One box and one pattern: excluded, narrowed, or proved to hold one equilibrium at most.
+
+use intervals::Interval;
+
+use super::cell::{self, Cell, Pattern};
+use super::columns::{Columns, Forces};
+use super::layout::{Layout, Swing};
+use super::swing::Swung;
+use crate::network::arithmetic::{Vector, cross, dot, minus, norm, plus, sum, times};
+
+/// Steps of Newton's method in double precision to a zero.
+const STEPS: usize = 30;
+
+/// A step of this part of the unknowns is rounding.
+const CONVERGED: f64 = 1e-13;
+
+/// How far outside of a box, in its widths, Newton's method may end to be worth a proof.
+const OUTSIDE: f64 = 0.75;
+
+/// Room about a box and a zero for the proof, relative to it.
+const ROOM: f64 = 0.125;
+
+/// Room in units of length.
+const LEAST_ROOM: f64 = 1e-9;
+
+/// What is known of a box for a pattern.
+pub(super) enum Verdict<const N: usize> {
+    Empty,
+    /// All equilibria of the box lie in this part of it.
+    Within([Interval; N]),
+    /// No other equilibrium than the one next to a point lies in a box, which has this one in it.
+    One(Found<N>),
+}
+
+/// Next to the only equilibrium of a box with its pattern.
+#[derive(Debug, Clone)]
+pub(super) struct Found<const N: usize> {
+    pub(super) pattern: Pattern,
+    pub(super) alone_in: [Interval; N],
+    pub(super) at: [f64; N],
+    /// Force densities of the bars between knots.
+    pub(super) densities: Vec<f64>,
+}
+
+/// A box with what all patterns share.
+pub(super) struct Examined<'a, const N: usize> {
+    cell: Cell<'a, N>,
+    columns: Columns,
+    rough: Vec<Option<[Vector; 2]>>,
+    middle: Option<Cell<'a, N>>,
+}
+
+impl<'a, const N: usize> Examined<'a, N> {
+    /// Nothing where bars cannot meet.
+    pub(super) fn new(layout: &'a Layout, at: [Interval; N]) -> Option<Self> {
+        let cell = Cell::over(layout, at)?;
+        let columns = Columns::new(&cell);
+        let rough = cell.rough_parts(&columns.unbounded);
+        let middle = if cell.smooth() {
+            Cell::over(layout, at.map(|part| Interval::point(part.mid())))
+        } else {
+            None
+        };
+        Some(Self { cell, columns, rough, middle: middle.filter(Cell::smooth) })
+    }
+
+    /// What is known for one pattern.
+    pub(super) fn pattern(&self, pattern: Pattern) -> Verdict<N> {
+        if self.swing_is_impossible(pattern) {
+            return Verdict::Empty;
+        }
+        if self.cell.swung.iter().any(|swung| swung.folded) {
+            return Verdict::Within(self.cell.at);
+        }
+        let loads = self.cell.rough(&self.rough, pattern, None);
+        let densities = match self.columns.forces(&self.cell, pattern, &loads) {
+            Forces::Impossible => return Verdict::Empty,
+            Forces::Unknown => return Verdict::Within(self.cell.at),
+            Forces::Within(densities) => densities,
+        };
+        let Some(middle) = &self.middle else { return Verdict::Within(self.cell.at) };
+        match newton(&self.cell, middle, pattern, &densities) {
+            None => Verdict::Within(self.cell.at),
+            Some(Newton { left: None, .. }) => Verdict::Empty,
+            Some(Newton { left: Some(left), single: true }) => {
+                self.one(pattern, &densities).map_or(Verdict::Within(left), Verdict::One)
+            }
+            Some(Newton { left: Some(left), single: false }) => Verdict::Within(left),
+        }
+    }
+
+    /// Whether the force of some swing alone is proved impossible at one of its ends.
+    fn swing_is_impossible(&self, pattern: Pattern) -> bool {
+        let cell = &self.cell;
+        let swings = || cell.layout.swings.iter().zip(&cell.swung).enumerate();
+        swings().any(|(number, (swing, swung))| {
+            if !swung.near && swung.round.is_none() {
+                return false;
+            }
+            let loads = cell.rough(&self.rough, pattern, Some(number));
+            (0..2).any(|end| {
+                let Some(row) = cell.rows(swing.ends[end]) else { return false };
+                let folds = |other: &(usize, (&Swing, &Swung<N>))| {
+                    let (k, (other, swung)) = *other;
+                    k != number && swung.folded && other.ends.contains(&swing.ends[end])
+                };
+                let known = swings().all(|other| !folds(&other))
+                    && self.columns.free_but_of(number, row..row + cell.layout.dim);
+                let pull = cell.at_rows(&loads, row);
+                let sign = cell::sign(pattern, number);
+                known
+                    && (swung.near && folded_is_impossible(swing, swung, end, pull)
+                        || round_is_impossible(swing, swung, end, pull, sign))
+            })
+        })
+    }
+
+    /// The proof that one equilibrium at most is in a box around this one and the zero next to it.
+    fn one(&self, pattern: Pattern, densities: &[Interval]) -> Option<Found<N>> {
+        let layout = self.cell.layout;
+        let middle = self.cell.at.map(Interval::mid);
+        let start: Vec<f64> = densities.iter().map(|density| density.mid()).collect();
+        let (at, densities) = zero(layout, pattern, middle, start)?;
+        let near = self.cell.at.iter().zip(at).all(|(part, x)| {
+            let room = OUTSIDE * part.width() + LEAST_ROOM;
+            part.lo() - room <= x && x <= part.hi() + room
+        });
+        if !near {
+            return None;
+        }
+        let alone_in: [Interval; N] = std::array::from_fn(|k| {
+            let both = self.cell.at[k].hull(Interval::point(at[k]));
+            both + Interval::around(0.0, ROOM * both.width() + LEAST_ROOM)
+        });
+        let around = Examined::new(layout, alone_in)?;
+        if around.cell.swung.iter().any(|swung| swung.folded) {
+            return None;
+        }
+        let loads = around.cell.rough(&around.rough, pattern, None);
+        let Forces::Within(bounds) = around.columns.forces(&around.cell, pattern, &loads) else {
+            return None;
+        };
+        let newton = newton(&around.cell, around.middle.as_ref()?, pattern, &bounds)?;
+        newton.single.then_some(Found { pattern, alone_in, at, densities })
+    }
+}
+
+/// Two bars all but folded onto each other, $a \approx b$: with the pull $G = w_2 r$ at b, $|r| =
+/// l_2$, balance $f = (w_1 + w_2) r + w_1 c$ gives $|G \times f| = |w_1| |G \times c|$, and
+/// $|w_1| l_1 \le |f| + |G|$. So G is all but parallel to f where c is small; if the other forces
+/// at b are not, no equilibrium is there.
+fn folded_is_impossible<const N: usize>(
+    swing: &Swing,
+    swung: &Swung<N>,
+    end: usize,
+    pull: Vector,
+) -> bool {
+    let (size, load) = (norm(pull), norm(swing.load));
+    let density = (size + load) / swing.lengths[1 - end];
+    let most = size * density * norm(swung.span);
+    norm(cross(pull, swing.load)).lo() > most.hi()
+}
+
+/// Where the joint may go round freely n is any direction, but of the size 1: the other forces at
+/// an end, with what the swing pulls there besides, are as large as $\varrho h n$, and across c.
+fn round_is_impossible<const N: usize>(
+    swing: &Swing,
+    swung: &Swung<N>,
+    end: usize,
+    pull: Vector,
+    sign: f64,
+) -> bool {
+    let Some(size) = swung.round.filter(|_| swung.tension.mag().is_finite()) else { return false };
+    let tension = if sign < 0.0 { -swung.tension } else { swung.tension };
+    let along = times(tension, swung.span);
+    let rest = if end == 1 {
+        minus(plus(pull, swung.base), along)
+    } else {
+        plus(plus(pull, minus(swing.load, swung.base)), along)
+    };
+    norm(rest).disjoint(size) || !dot(rest, swung.span).contains(0.0)
+}
+
+/// A step of the interval Newton method.
+struct Newton<const N: usize> {
+    /// What is left of the box; nothing if it holds no zero.
+    left: Option<[Interval; N]>,
+    /// Whether the derivative is regular over the box: one zero at most.
+    single: bool,
+}
+
+/// With $F(y) \in F(m) + F'(Y)(y - m)$ and an approximate inverse of the derivative: nothing where
+/// there is no inverse.
+fn newton<const N: usize>(
+    cell: &Cell<N>,
+    middle: &Cell<N>,
+    pattern: Pattern,
+    densities: &[Interval],
+) -> Option<Newton<N>> {
+    let middles: Vec<Interval> = densities.iter().map(|w| Interval::point(w.mid())).collect();
+    let slope = cell.derivative(pattern, densities);
+    let inverse = slope.middle().inverse()?;
+    let value = inverse.times(&middle.residual(pattern, &middles));
+    let slope = inverse.times_matrix(&slope);
+    let whole: Vec<Interval> = cell.at.iter().chain(densities).copied().collect();
+    let mut off: Vec<Interval> =
+        whole.iter().map(|part| *part - Interval::point(part.mid())).collect();
+    let radius: Vec<f64> = off.iter().map(|part| part.mag()).collect();
+    let single = (0..whole.len()).all(|row| {
+        let mut moved = Interval::ZERO;
+        for (column, radius) in radius.iter().enumerate() {
+            let unit = if row == column { Interval::ONE } else { Interval::ZERO };
+            let part = sum(unit, -slope.at(row, column));
+            moved = moved + Interval::point(part.mag()) * Interval::point(*radius);
+        }
+        moved.hi() < radius[row]
+    });
+    for row in 0..whole.len() {
+        let others = (0..whole.len()).filter(|column| *column != row);
+        let terms = others.map(|column| slope.at(row, column) * off[column]);
+        let rest = terms.fold(value[row], sum);
+        let own = slope.at(row, row);
+        if own.contains(0.0) {
+            if !(rest + own * off[row]).contains(0.0) {
+                return Some(Newton { left: None, single });
+            }
+            continue;
+        }
+        match off[row].intersect(-(rest / own)) {
+            Some(part) => off[row] = part,
+            None => return Some(Newton { left: None, single }),
+        }
+    }
+    let mut left = cell.at;
+    for (k, part) in left.iter_mut().enumerate() {
+        let narrowed = Interval::point(whole[k].mid()) + off[k];
+        match part.intersect(narrowed) {
+            Some(narrowed) => *part = narrowed,
+            None => return Some(Newton { left: None, single }),
+        }
+    }
+    Some(Newton { left: Some(left), single })
+}
+
+/// Newton's method in double precision.
+fn zero<const N: usize>(
+    layout: &Layout,
+    pattern: Pattern,
+    mut at: [f64; N],
+    mut densities: Vec<f64>,
+) -> Option<([f64; N], Vec<f64>)> {
+    for _ in 0..STEPS {
+        let cell = Cell::over(layout, at.map(Interval::point)).filter(Cell::smooth)?;
+        let points: Vec<Interval> = densities.iter().copied().map(Interval::point).collect();
+        let inverse = cell.derivative(pattern, &points).middle().inverse()?;
+        let step = inverse.times(&cell.residual(pattern, &points));
+        let mut size = 0.0_f64;
+        for (x, step) in at.iter_mut().chain(&mut densities).zip(step) {
+            *x -= step.mid();
+            size = size.max(step.mid().abs() / x.abs().max(1.0));
+        }
+        if size.is_nan() {
+            return None;
+        }
+        if size < CONVERGED {
+            return Some((at, densities));
+        }
+    }
+    None
+}

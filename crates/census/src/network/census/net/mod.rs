@@ -1,0 +1,258 @@
+//! All equilibria of a net of bars with several closures, by the places of few of its joints.
+//!
+//! A joint that two bars hold and a load turns, such as the middle of a strand of two bars, has its
+//! place and its forces from those of its two neighbours by a closed form, up to a sign (module
+//! `swing`). As many joints as possible are taken out like this; the places of the others, the
+//! knots, are the unknowns, with the force densities of the bars between knots. A bridle whose
+//! strands have two bars each has one knot: three unknowns, whatever the number of strands, and a
+//! sign for each strand.
+//!
+//! Branch and bound (module `search`) goes through all places of the knots that bars can reach. The
+//! places are bounded, so no bound for the forces is needed. In each box of places
+//!
+//! - distances that bars must bridge narrow the box (`reach`);
+//! - forces follow from the linear balance, as enclosures; where they have no solution the box
+//!   holds no equilibrium (`columns`). Where the bars of a strand may lie straight its tension has no
+//!   bound: it is then an unknown of the linear balance, and what comes out must not be less than
+//!   straight bars make it at least;
+//! - where all is smooth, the interval Newton method narrows the box, or proves that it has one
+//!   equilibrium at most for a pattern of signs (`examine`).
+//!
+//! Every equilibrium is then proved again in all its places and forces by Krawczyk's test on the
+//! equations of the system (`enclose`), which share nothing with the search, and its index by the
+//! inertia of the bordered second derivative (`inertia`).
+//!
+//! # References
+//!
+//! R. B. Kearfott, "Rigorous Global Search: Continuous Problems" (1996),
+//! doi:10.1007/978-1-4757-2495-0; A. Neumaier, "Interval Methods for Systems of Equations" (1990),
+//! doi:10.1017/CBO9780511526473, sections 4.1 (linear equations) and 5.1 (Newton's method); the use
+//! of distances: J.-P. Merlet, "Parallel Robots", 2nd ed. (2006), doi:10.1007/1-4020-4133-0,
+//! section 4.4
+
+mod cell;
+mod columns;
+mod core;
+mod dense;
+mod enclose;
+mod examine;
+mod inertia;
+mod jet;
+mod layout;
+mod reach;
+mod search;
+mod swing;
+#[cfg(test)]
+mod tests;
+
+use intervals::Interval;
+use model::NoCensus;
+use serde::{Deserialize, Serialize};
+
+pub(super) use self::core::Core;
+use self::enclose::{Enclosed, enclosed};
+use self::examine::Found;
+use self::layout::Layout;
+use self::search::{Search, search};
+use super::choice::Choice;
+use crate::network::arithmetic::NOWHERE;
+use crate::search::Progress;
+use crate::settings::Settings;
+
+/// Tests of a box for a pattern against one of a cell of pulls: three coordinates instead of two.
+const TESTS: u64 = 10;
+
+/// Most joints that swing: each doubles the patterns.
+const MOST_SWINGS: usize = 12;
+
+/// The net of a part with what its census took.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct NetCensus {
+    /// Its joints that move, from 0.
+    pub joints: Vec<usize>,
+    /// Its members, from 0.
+    pub members: Vec<usize>,
+    /// Members less joints that move.
+    pub closures: usize,
+    /// Joints whose places were searched, from 0.
+    pub knots: Vec<usize>,
+    /// Joints between two bars each that follow from those, from 0; each doubles the patterns.
+    pub swings: Vec<usize>,
+    /// Whether only equilibria in the vertical plane of the anchors were looked for: in space the
+    /// joints move in too many ways. The list is then not complete, whatever is undecided.
+    pub in_plane: bool,
+    /// Boxes of places looked at.
+    pub cells: u64,
+    /// Tests of one box for one pattern.
+    pub tests: u64,
+    /// What could not be decided.
+    pub undecided: Vec<UndecidedPlaces>,
+}
+
+/// A box of places of the knots for which the census does not say how many equilibria it holds,
+/// besides those that are listed.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct UndecidedPlaces {
+    /// Why.
+    pub reason: Open,
+    /// The places of the knots, m.
+    pub knots_m: Vec<[Interval; 3]>,
+    /// How many patterns are in question.
+    pub patterns: usize,
+}
+
+/// Why places of knots are undecided.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+#[non_exhaustive]
+pub enum Open {
+    /// The box is as small as boxes get: a degenerate equilibrium, straight bars, or nearly so.
+    Degenerate,
+    /// The budget of tests was spent.
+    Budget,
+    /// One equilibrium at most lies there, and it or its index is not proved.
+    Unproved,
+}
+
+impl std::fmt::Display for Open {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            Self::Degenerate => {
+                "as small as boxes get: a degenerate equilibrium, straight bars, or nearly so"
+            }
+            Self::Budget => "the budget of tests was spent",
+            Self::Unproved => "one equilibrium at most, which or whose index is not proved",
+        })
+    }
+}
+
+/// Equilibria of a net.
+pub(super) fn taken(
+    core: &Core,
+    settings: &Settings,
+    watch: &dyn Fn(Progress),
+) -> Result<(NetCensus, Vec<Choice>), NoCensus> {
+    if let Some(joint) = core.turning() {
+        return Err(NoCensus::Turns { joint });
+    }
+    let space = Layout::new(core, 3, [0, 1, 2])?;
+    // In a plane where that is all that can be searched.
+    let plane = core.plane().filter(|_| space.motions() > settings.max_motions);
+    let layout = match plane {
+        Some(axes) => Layout::new(core, 2, axes)?,
+        None => space,
+    };
+    let closures = core.members.len().saturating_sub(core.joints.len());
+    let (motions, limit) = (layout.motions(), settings.max_motions);
+    if motions > limit {
+        return Err(NoCensus::Motions { closures, motions, limit });
+    }
+    // Self-stresses: forces are a family.
+    if layout.bars.len() > layout.coordinates() || layout.swings.len() > MOST_SWINGS {
+        return Err(NoCensus::Closures { closures });
+    }
+    match layout.coordinates() {
+        2 => searched::<2>(core, &layout, settings, watch),
+        4 => searched::<4>(core, &layout, settings, watch),
+        8 => searched::<8>(core, &layout, settings, watch),
+        10 => searched::<10>(core, &layout, settings, watch),
+        3 => searched::<3>(core, &layout, settings, watch),
+        6 => searched::<6>(core, &layout, settings, watch),
+        9 => searched::<9>(core, &layout, settings, watch),
+        12 => searched::<12>(core, &layout, settings, watch),
+        _ => Err(NoCensus::Closures { closures }),
+    }
+}
+
+fn searched<const N: usize>(
+    core: &Core,
+    layout: &Layout,
+    settings: &Settings,
+    watch: &dyn Fn(Progress),
+) -> Result<(NetCensus, Vec<Choice>), NoCensus> {
+    let patterns = 1_u64 << layout.swings.len();
+    let budget = settings.max_tests_per_pattern.saturating_mul(patterns).saturating_mul(TESTS);
+    let Search { found, undecided, cells, tests, exhausted } = search::<N>(layout, budget, watch);
+    let reason = if exhausted { Open::Budget } else { Open::Degenerate };
+    let mut open: Vec<UndecidedPlaces> = vec![];
+    for (at, patterns) in gathered(undecided.into_iter().map(|task| (task.at, task.patterns))) {
+        open.push(UndecidedPlaces { reason, ..places(core, layout, &at, patterns.len()) });
+    }
+    let mut once: Vec<(Found<N>, Enclosed)> = vec![];
+    for found in found {
+        let known = |(other, enclosed): &(Found<N>, Enclosed)| {
+            other.pattern == found.pattern
+                && found
+                    .alone_in
+                    .iter()
+                    .zip(&enclosed.knots)
+                    .all(|(all, tight)| all.encloses(*tight))
+        };
+        // It is alone where it is: whatever else lies there is the same.
+        if once.iter().any(known) {
+            continue;
+        }
+        match enclosed(core, layout, &found) {
+            Some(enclosed) => once.push((found, enclosed)),
+            None => open.push(UndecidedPlaces {
+                reason: Open::Unproved,
+                ..places(core, layout, &found.alone_in, 1)
+            }),
+        }
+    }
+    let net = NetCensus {
+        joints: core.joints.to_vec(),
+        members: core.members.to_vec(),
+        closures: core.members.len().saturating_sub(core.joints.len()),
+        knots: layout.knots.clone(),
+        swings: layout.swings.iter().map(|swing| swing.joint).collect(),
+        in_plane: layout.dim == 2,
+        cells,
+        tests,
+        undecided: open,
+    };
+    Ok((net, once.into_iter().map(|(_, enclosed)| enclosed.choice).collect()))
+}
+
+/// A box of the search in metres.
+fn places<const N: usize>(
+    core: &Core,
+    layout: &Layout,
+    at: &[Interval; N],
+    patterns: usize,
+) -> UndecidedPlaces {
+    let knots = at.chunks_exact(layout.dim).map(|parts| {
+        let mut place = core.anchor_m().map_or(NOWHERE, |at_m| core.frame.place(at_m));
+        for (axis, part) in layout.axes.iter().zip(parts) {
+            place[*axis] = *part;
+        }
+        core.frame.place_m(place)
+    });
+    UndecidedPlaces { reason: Open::Degenerate, knots_m: knots.collect(), patterns }
+}
+
+/// More boxes than this are not told apart: joining them takes the square of their number.
+const MOST_OPEN: usize = 512;
+
+/// Boxes that touch become one, with all their patterns.
+fn gathered<const N: usize>(
+    tasks: impl Iterator<Item = ([Interval; N], Vec<cell::Pattern>)>,
+) -> Vec<([Interval; N], Vec<cell::Pattern>)> {
+    let mut all: Vec<([Interval; N], Vec<cell::Pattern>)> = vec![];
+    for (mut at, mut patterns) in tasks {
+        let many = all.len() >= MOST_OPEN;
+        let touching = |all: &[([Interval; N], Vec<cell::Pattern>)], at: &[Interval; N]| {
+            all.iter()
+                .position(|(other, _)| many || other.iter().zip(at).all(|(a, b)| !a.disjoint(*b)))
+        };
+        while let Some(k) = touching(&all, &at) {
+            let (other, more) = all.swap_remove(k);
+            at = std::array::from_fn(|k| at[k].hull(other[k]));
+            patterns.extend(more);
+        }
+        patterns.sort_unstable();
+        patterns.dedup();
+        all.push((at, patterns));
+    }
+    all
+}

@@ -1,0 +1,289 @@
+//! Lists of equilibria of nets against closed forms, topology, and Newton's method.
+
+use faer::Mat;
+use faer::linalg::solvers::Solve;
+use intervals::Interval;
+use model::system::{Joint, Member, System};
+use model::{Bar, NoCensus, Reason, Status, Vector};
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+
+use crate::network::{SystemCensus, prove};
+use crate::settings::Settings;
+
+const G: f64 = 10.0;
+
+fn light(length_m: f64) -> Bar {
+    Bar::homogeneous(length_m, 0.0).unwrap()
+}
+
+/// A census whose every equilibrium is proved by the test that knows nothing of the search.
+fn taken(system: &System) -> SystemCensus {
+    let census = SystemCensus::take(system, &Settings::default()).unwrap();
+    for equilibrium in census.to_model(system) {
+        let proof = prove(system, &equilibrium.joints_m, &equilibrium.axial_n).unwrap();
+        assert!(proof.beyond_m(&equilibrium.joints_m) < 1e-12 * system.total_length_m());
+    }
+    census
+}
+
+/// Strands of bars of these lengths from anchors to one knot; weights at all joints, growing from
+/// strand to strand.
+fn bridle(anchors: &[Vector], strands: &[&[f64]], knot_kg: f64, kg: f64) -> System {
+    let mut joints = vec![Joint::free("knot").with_mass(knot_kg)];
+    let mut members = vec![];
+    let mut mass_kg = kg;
+    for (at, lengths) in anchors.iter().zip(strands) {
+        let mut here = joints.len();
+        joints.push(Joint::anchor(format!("A{here}"), *at));
+        for (i, length_m) in lengths.iter().enumerate() {
+            let there = if i + 1 == lengths.len() { 0 } else { joints.len() };
+            if there > 0 {
+                joints.push(Joint::free(format!("P{there}")).with_mass(mass_kg));
+            }
+            members.push(Member::bar(here, there, light(*length_m)));
+            here = there;
+        }
+        mass_kg *= 1.1;
+    }
+    System::new("bridle", G, joints, members).unwrap()
+}
+
+const CORNERS: [Vector; 3] = [[2.0, 0.0, 0.0], [-1.0, 1.5, 0.2], [-1.1, -1.6, -0.1]];
+
+/// The alternating sum of the indices.
+fn alternating(census: &SystemCensus) -> i64 {
+    census.equilibria.iter().map(|e| if e.index_in_space % 2 == 0 { 1 } else { -1 }).sum()
+}
+
+/// By Morse theory the alternating sum of the indices is the Euler characteristic of the
+/// configurations, whatever the loads.
+#[test]
+fn the_alternating_sum_does_not_depend_on_the_loads() {
+    for strands in [
+        [&[1.5, 1.4][..], &[1.9], &[2.1]],
+        [&[1.5, 1.4][..], &[1.3, 1.2], &[2.2]],
+        [&[1.5, 1.4][..], &[1.3, 1.2], &[1.6, 1.1]],
+        [&[1.5, 1.5][..], &[1.5, 1.5], &[1.5, 1.5]],
+    ] {
+        let mut sums = vec![];
+        for (knot_kg, kg) in [(1.0, 0.5), (0.0, 1.0), (0.3, 2.0), (9.0, 0.1)] {
+            let census = taken(&bridle(&CORNERS, &strands, knot_kg, kg));
+            assert!(census.complete);
+            let lowest = &census.equilibria[0];
+            assert_eq!(lowest.index_in_space, 0);
+            assert!(lowest.axial_n.iter().all(|axial| axial.lo() > 0.0));
+            sums.push(alternating(&census));
+        }
+        assert!(sums.iter().all(|sum| *sum == sums[0]), "{strands:?}: {sums:?}");
+    }
+}
+
+/// Level anchors at the corners of an equilateral triangle, strands of two equal bars: the lowest
+/// equilibrium has the symmetry of the triangle. Each strand bears its own weight P and a third of
+/// the load W: with the pull H, slopes (P + W/3)/H and W/(3H).
+#[test]
+fn a_symmetric_bridle_hangs_by_its_closed_form() {
+    let half = 0.5 * 3.0_f64.sqrt();
+    let (load_n, weight_n, pull_n) = (12.0, 5.0, 3.0);
+    let steep: f64 = f64::hypot(pull_n, weight_n + load_n / 3.0);
+    let flat: f64 = f64::hypot(pull_n, load_n / 3.0);
+    // Bars of 1 m: how far each reaches in and down.
+    let reach = pull_n / steep + pull_n / flat;
+    let depth = (weight_n + load_n / 3.0) / steep + (load_n / 3.0) / flat;
+    let mut joints = vec![Joint::free("knot").with_mass(load_n / G)];
+    let mut members = vec![];
+    for (k, [x, y]) in [[1.0, 0.0], [-0.5, half], [-0.5, -half]].into_iter().enumerate() {
+        joints.push(Joint::anchor(format!("A{k}"), [reach * x, reach * y, 0.0]));
+        joints.push(Joint::free(format!("P{k}")).with_mass(weight_n / G));
+        members.push(Member::bar(2 * k + 1, 2 * k + 2, light(1.0)));
+        members.push(Member::bar(2 * k + 2, 0, light(1.0)));
+    }
+    let census = taken(&System::new("symmetric", G, joints, members).unwrap());
+    assert!(census.complete);
+    let lowest = &census.equilibria[0];
+    assert!((lowest.joints_m[0][2].mid() + depth).abs() < 1e-13);
+    for (axial, n) in lowest.axial_n.iter().zip([steep, flat].into_iter().cycle()) {
+        assert!((axial.mid() - n).abs() < 1e-12 && axial.width() < 1e-12, "{axial:?}");
+    }
+    // Its mirror image in the level plane stands.
+    let highest = census.equilibria.last().unwrap();
+    assert!((highest.joints_m[0][2].mid() - depth).abs() < 1e-13);
+}
+
+/// Two anchors bear two rows of two joints: six bars, two closures. In space the joints move in five
+/// ways, in the plane of the anchors in two.
+#[test]
+fn a_mesh_is_searched_in_its_plane() {
+    let mut joints: Vec<Joint> = [[-1.0, 0.5, 0.0], [0.3, 0.5, 0.2]]
+        .into_iter()
+        .enumerate()
+        .map(|(k, at)| Joint::anchor(format!("A{k}"), at))
+        .collect();
+    for k in 0..4 {
+        joints.push(Joint::free(format!("P{k}")).with_mass(0.3 + 0.1 * f64::from(k)));
+    }
+    let down = [(0, 2, 0.9), (1, 3, 1.0), (2, 4, 0.7), (3, 5, 0.75)];
+    let level = [(2, 3, 1.05), (4, 5, 0.95)];
+    let members = down.into_iter().chain(level).map(|(a, b, l)| Member::bar(a, b, light(l)));
+    let mesh = System::new("mesh", G, joints, members.collect()).unwrap();
+    let census = taken(&mesh);
+    let net = census.nets().next().unwrap();
+    println!("{} {:?}", census.equilibria.len(), net);
+    assert!(net.in_plane && net.undecided.is_empty() && !census.complete);
+    assert_eq!(net.closures, 2);
+    let lowest = &census.equilibria[0];
+    assert_eq!(lowest.index_in_space, 0);
+    let flat = |at: &[Interval; 3]| at[1].contains(0.5) && at[1].width() < 1e-12;
+    assert!(census.equilibria.iter().all(|one| one.joints_m.iter().all(flat)));
+    let open = census.completeness(&mesh);
+    assert_eq!(open, Status::Open(Reason::NoCensus(NoCensus::PlaneOnly)));
+}
+
+/// What turns freely is named, and so are self-stresses and bars that nothing turns.
+#[test]
+fn what_has_no_list_is_named() {
+    let refusal = |system: &System| SystemCensus::take(system, &Settings::default()).unwrap_err();
+    let upright = [[0.0, 0.0, 0.0], [0.0, 0.0, 0.5], [0.0, 0.0, 1.0]];
+    let strands = [&[1.5, 1.4][..], &[1.3, 1.2], &[1.6, 1.1]];
+    assert_eq!(refusal(&bridle(&upright, &strands, 1.0, 1.0)), NoCensus::Turns { joint: 1 });
+    assert_eq!(refusal(&bridle(&CORNERS, &strands, 1.0, 0.0)), NoCensus::Limp { member: 1 });
+    // A triangle that hangs at the knot.
+    let whole = bridle(&CORNERS, &strands, 1.0, 1.0);
+    let (mut joints, mut members) = (whole.joints().to_vec(), whole.members().to_vec());
+    let n = joints.len();
+    joints.extend([Joint::free("L").with_mass(1.0), Joint::free("R").with_mass(1.0)]);
+    members.extend([(0, n), (0, n + 1), (n, n + 1)].map(|(a, b)| Member::bar(a, b, light(1.0))));
+    let mobile = System::new("mobile", G, joints, members).unwrap();
+    assert_eq!(refusal(&mobile), NoCensus::Turns { joint: 0 });
+}
+
+/// Newton's method in plain double precision on balance and lengths, written for these tests alone.
+struct Newton<'a> {
+    system: &'a System,
+    moving: Vec<usize>,
+    places: Vec<Vector>,
+    densities: Vec<f64>,
+}
+
+impl<'a> Newton<'a> {
+    /// At random places under random forces.
+    fn new(system: &'a System, random: &mut ChaCha8Rng) -> Self {
+        let mut place = || [(); 3].map(|()| random.random_range(-3.0..3.0));
+        let joints = system.joints();
+        let places = joints.iter().map(|j| j.support.at_m().unwrap_or_else(&mut place)).collect();
+        let densities = system.members().iter().map(|_| random.random_range(-20.0..20.0)).collect();
+        let moving = (0..joints.len()).filter(|k| !joints[*k].support.is_fixed()).collect();
+        Self { system, moving, places, densities }
+    }
+
+    fn row(&self, joint: usize) -> Option<usize> {
+        self.moving.iter().position(|k| *k == joint).map(|k| 3 * k)
+    }
+
+    fn equations(&self) -> (Mat<f64>, Mat<f64>) {
+        let first = 3 * self.moving.len();
+        let size = first + self.densities.len();
+        let (mut slope, mut value) = (Mat::<f64>::zeros(size, size), Mat::<f64>::zeros(size, 1));
+        for (k, joint) in self.moving.iter().enumerate() {
+            let joint = &self.system.joints()[*joint];
+            for (i, force) in joint.force_n.into_iter().enumerate() {
+                value[(3 * k + i, 0)] = force;
+            }
+            value[(3 * k + 2, 0)] -= joint.mass_kg * G;
+        }
+        for (e, member) in self.system.members().iter().enumerate() {
+            let (a, b, w) = (member.from, member.to, self.densities[e]);
+            let span: Vector = std::array::from_fn(|i| self.places[b][i] - self.places[a][i]);
+            let length = member.body.length_m();
+            value[(first + e, 0)] =
+                0.5 * (span.iter().map(|x| x * x).sum::<f64>() - length * length);
+            for (here, there, sign) in [(a, b, 1.0), (b, a, -1.0)] {
+                let Some(row) = self.row(here) else { continue };
+                for i in 0..3 {
+                    value[(row + i, 0)] += sign * w * span[i];
+                    slope[(row + i, row + i)] -= w;
+                    slope[(row + i, first + e)] += sign * span[i];
+                    slope[(first + e, row + i)] -= sign * span[i];
+                    if let Some(other) = self.row(there) {
+                        slope[(row + i, other + i)] += w;
+                    }
+                }
+            }
+        }
+        (slope, value)
+    }
+
+    /// Steps of a metre at most; the places where all equations hold.
+    fn run(mut self) -> Option<Vec<Vector>> {
+        for _ in 0..60 {
+            let (slope, value) = self.equations();
+            let step = slope.partial_piv_lu().solve(&value);
+            let first = 3 * self.moving.len();
+            let far = (0..first).map(|k| step[(k, 0)].abs()).fold(0.0, f64::max);
+            if !far.is_finite() {
+                return None;
+            }
+            if value.norm_max() < 1e-12 {
+                return Some(self.places);
+            }
+            let part = (1.0 / far).min(1.0);
+            for (k, joint) in self.moving.iter().enumerate() {
+                for i in 0..3 {
+                    self.places[*joint][i] -= part * step[(3 * k + i, 0)];
+                }
+            }
+            for (e, density) in self.densities.iter_mut().enumerate() {
+                *density -= part * step[(first + e, 0)];
+            }
+        }
+        None
+    }
+}
+
+/// How many of a list Newton's method finds; it must find nothing else.
+fn found_of(system: &System, census: &SystemCensus, starts: usize, seed: u64) -> usize {
+    let mut random = ChaCha8Rng::seed_from_u64(seed);
+    let mut seen = vec![false; census.equilibria.len()];
+    for at in (0..starts).filter_map(|_| Newton::new(system, &mut random).run()) {
+        let listed = census.equilibria.iter().position(|one| {
+            let places = one.joints_m.iter().flatten().zip(at.iter().flatten());
+            places.into_iter().all(|(all, x)| (all.mid() - x).abs() < 1e-6)
+        });
+        seen[listed.unwrap_or_else(|| panic!("{at:?} is not listed"))] = true;
+    }
+    seen.into_iter().filter(|seen| *seen).count()
+}
+
+/// A bridle of three or four strands of one or two bars, drawn at random.
+fn drawn(random: &mut ChaCha8Rng) -> System {
+    let strands = random.random_range(3..=4);
+    let (mut anchors, mut lengths) = (vec![], vec![]);
+    for k in 0..strands {
+        let part = (f64::from(k) + random.random_range(-0.3..0.3)) / f64::from(strands);
+        let angle = part * std::f64::consts::TAU;
+        anchors.push([2.0 * angle.cos(), 2.0 * angle.sin(), random.random_range(-0.5..0.5)]);
+        let bars = if k < 2 { 2 } else { random.random_range(1..=2) };
+        let total = random.random_range(2.3..3.5);
+        let cut = random.random_range(0.35..0.65) * total;
+        lengths.push(if bars == 1 { vec![total] } else { vec![cut, total - cut] });
+    }
+    let strands: Vec<&[f64]> = lengths.iter().map(Vec::as_slice).collect();
+    bridle(&anchors, &strands, random.random_range(0.0..1.0), random.random_range(0.1..1.0))
+}
+
+#[test]
+fn newton_from_many_starts_finds_nothing_that_is_not_listed() {
+    /// Measured: 500 starts find all equilibria of these.
+    const STARTS: usize = 300;
+    let mut random = ChaCha8Rng::seed_from_u64(3);
+    let (mut found, mut listed, mut complete) = (0, 0, 0);
+    for seed in 0..10 {
+        let system = drawn(&mut random);
+        let Ok(census) = SystemCensus::take(&system, &Settings::default()) else { continue };
+        complete += usize::from(census.complete);
+        listed += census.equilibria.len();
+        found += found_of(&system, &census, STARTS, seed);
+    }
+    assert!(complete >= 8 && 10 * found > 9 * listed, "{complete}, {found} of {listed}");
+}

@@ -1,0 +1,127 @@
+//! Which patterns of bars fit into a straight line between the anchors, exactly.
+//!
+//! Doubles are integers times powers of two. Where the lengths and the span of a chain have a common
+//! power of two of which all of them are integers of not too many digits (integers, halves, and
+//! most numbers with a decimal point too), the sums are exact in integers of 128 bits.
+
+use model::Chain;
+
+use crate::closure::Pattern;
+
+/// Bits of the integers: three squares of differences of two add up to less than 2¹²⁷.
+const LARGEST: u32 = 61;
+
+/// The lengths and the distance of the anchors, exactly.
+#[derive(Debug, Clone)]
+pub(crate) struct ExactSides {
+    lengths: Vec<i128>,
+    /// The distance, if that is an integer too.
+    span: Option<i128>,
+}
+
+/// A double as an odd integer times a power of two; nothing for zero.
+fn odd(x: f64) -> Option<(i128, i32)> {
+    /// Bits behind the exponent.
+    const DIGITS: i32 = 52;
+    /// What the exponent of a normal double is more than its power.
+    const BIAS: i32 = 1023;
+    if x.abs() <= 0.0 {
+        return None;
+    }
+    let bits = x.to_bits();
+    let exponent = i32::try_from(bits >> DIGITS & 0x7ff).unwrap_or(0);
+    let fraction = i128::from(bits & ((1 << DIGITS) - 1));
+    let (integer, power) = if exponent == 0 {
+        (fraction, 1 - BIAS - DIGITS)
+    } else {
+        (fraction | 1 << DIGITS, exponent - BIAS - DIGITS)
+    };
+    let zeros = integer.trailing_zeros();
+    let integer = integer >> zeros;
+    Some((if x < 0.0 { -integer } else { integer }, power + i32::try_from(zeros).unwrap_or(0)))
+}
+
+/// All numbers in units of the largest power of two of which they are integers; nothing if some
+/// have too many digits then.
+fn integers(numbers: &[f64]) -> Option<Vec<i128>> {
+    let parts: Vec<Option<(i128, i32)>> = numbers.iter().map(|x| odd(*x)).collect();
+    let unit = parts.iter().flatten().map(|(_, power)| *power).min()?;
+    parts
+        .into_iter()
+        .map(|part| {
+            let Some((integer, power)) = part else { return Some(0) };
+            let digits = i128::BITS - integer.unsigned_abs().leading_zeros();
+            let shift = u32::try_from(power - unit).ok()?;
+            (digits + shift <= LARGEST).then(|| integer << shift)
+        })
+        .collect()
+}
+
+impl ExactSides {
+    /// Nothing where the numbers of a chain have too many digits.
+    pub(crate) fn new(chain: &Chain) -> Option<Self> {
+        let anchors = chain.anchors();
+        let bars = chain.bars().iter().map(model::Bar::length_m);
+        let numbers: Vec<f64> = bars.chain(anchors.start_m).chain(anchors.end_m).collect();
+        let mut lengths = integers(&numbers)?;
+        let places = lengths.split_off(chain.bars().len());
+        let square = (0..3).map(|k| (places[k + 3] - places[k]).pow(2)).sum::<i128>();
+        let root = square.isqrt();
+        let span = (root * root == square).then_some(root);
+        Some(Self { lengths, span })
+    }
+
+    /// All ways in which the bars fit into the line between the anchors: patterns whose sum of
+    /// lengths, −1 for each bar that is in the pattern, is the distance.
+    pub(crate) fn fits(&self) -> Vec<Pattern> {
+        let Some(span) = self.span else { return vec![] };
+        let bars = self.lengths.len();
+        let mut sum: i128 = self.lengths.iter().sum();
+        let mut found = vec![];
+        let mut gray = 0_u32;
+        // One bar is turned at a time.
+        for number in 1..=1_u32 << bars {
+            if sum == span {
+                found.push(Pattern(gray));
+            }
+            let turned = number.trailing_zeros();
+            if turned >= u32::try_from(bars).unwrap_or(0) {
+                break;
+            }
+            gray ^= 1 << turned;
+            let bar = bars - 1 - turned as usize;
+            let sign = if gray >> turned & 1 == 1 { -2 } else { 2 };
+            sum += sign * self.lengths[bar];
+        }
+        found.sort_unstable();
+        found
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use model::{Anchors, Bar};
+
+    fn fits(lengths: &[f64], end_m: [f64; 3]) -> Option<Vec<u32>> {
+        let bars = lengths.iter().map(|l| Bar::homogeneous(*l, 1.0).unwrap()).collect();
+        let anchors = Anchors { start_m: [0.0; 3], end_m };
+        let chain = Chain::new("exact", 9.81, anchors, bars).unwrap();
+        ExactSides::new(&chain).map(|sides| sides.fits().into_iter().map(|p| p.0).collect())
+    }
+
+    #[test]
+    fn fits_are_found_exactly() {
+        // One of four against the others; bar 1 is the first bit from the left.
+        assert_eq!(fits(&[1.0; 4], [2.0, 0.0, 0.0]), Some(vec![1, 2, 4, 8]));
+        assert_eq!(fits(&[0.5; 6], [0.0, 0.0, -2.0]).map(|all| all.len()), Some(6));
+        // 3, 4, 5: of 6 and 1 the second against the first.
+        assert_eq!(fits(&[6.0, 1.0], [3.0, 0.0, 4.0]), Some(vec![1]));
+        assert_eq!(fits(&[6.0, 1.0], [3.0, 0.0, 4.5]), Some(vec![]));
+        // In doubles 0.1 + 0.2 is not 0.3, and 0.5 + 0.25 is 0.75.
+        assert_eq!(fits(&[0.1, 0.2, 0.5, 0.5], [0.3, 0.0, 0.0]), Some(vec![]));
+        assert_eq!(fits(&[0.5, 0.25, 1.0, 1.0], [0.75, 0.0, 0.0]), Some(vec![1, 2]));
+        // Too many digits between the largest and the smallest.
+        assert_eq!(fits(&[1.0, 1e-17], [1.0, 0.0, 0.0]), None);
+    }
+}
