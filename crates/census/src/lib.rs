@@ -53,6 +53,13 @@
 //! test proves a zero (module `krawczyk`). All arithmetic that a proof rests on is rounded outward
 //! ([`Interval`]). The indices follow from signs of small determinants (module `inertia`).
 //!
+//! Where the lengths fit into the line between the anchors the closure has singular zeros at
+//! infinity. Whether they fit is decided in integers (module `exact`); the zeros are blown up, and
+//! proved to be apart from all equilibria (module `straight`).
+//!
+//! Systems of joints and members, nets of several closures among them, are the business of
+//! [`network`].
+//!
 //! # What is independent of the search
 //!
 //! [`Topology`] knows from the lengths alone which numbers of equilibria of each index are

@@ -179,7 +179,7 @@ impl Census {
             ("whether there are circles", self.circles == system.vertical),
             (
                 "completeness",
-                !self.complete || (self.undecided.is_empty() && self.shape_is_known()),
+                !self.complete || (self.undecided.is_empty() && self.may_be_complete()),
             ),
         ];
         if let Some((quantity, _)) = claims.into_iter().find(|(_, holds)| !holds) {
@@ -203,9 +203,7 @@ impl Census {
             let families =
                 self.families.iter().filter(|f| f.signs.iter().all(|s| *s == sign || *s == 0));
             let found = equilibria.count() + families.count();
-            // An upright position may be the one.
-            let upright = self.straight.iter().any(|straight| straight.upright);
-            if found != 1 && !(found == 0 && upright) {
+            if found != 1 {
                 return Err(CheckError::Extreme { which, found });
             }
         }

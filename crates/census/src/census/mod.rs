@@ -40,9 +40,9 @@ pub struct Census {
     pub straight: Vec<StraightPosition>,
     /// What could not be decided. Neither dropped nor counted.
     pub undecided: Vec<Undecided>,
-    /// Whether every equilibrium of the chain is in `equilibria` or `families`, or upright in
-    /// `straight`: nothing is undecided, and the Morse inequalities hold (where a straight position
-    /// exists there are none).
+    /// Whether every equilibrium of the chain is in `equilibria` or `families`: nothing is
+    /// undecided, no straight position is an equilibrium, and the Morse inequalities hold (where a
+    /// straight position exists there are none).
     pub complete: bool,
     /// Whether each equilibrium stands for a circle, the anchors being on one vertical.
     pub circles: bool,
@@ -179,14 +179,16 @@ impl Census {
             },
         };
         census.complete =
-            census.undecided.is_empty() && census.shape_is_known() && census.morse().is_ok();
+            census.undecided.is_empty() && census.may_be_complete() && census.morse().is_ok();
         census.statistics.seconds = start.elapsed().as_secs_f64();
         Ok(census)
     }
 
-    /// Whether it is known what topology asks for: nothing where a straight position exists.
-    fn shape_is_known(&self) -> bool {
-        matches!(&self.topology, Ok(_) | Err(TopologyError::Straight { .. }))
+    /// Whether no equilibrium is upright with a force that is any, and it is known what topology
+    /// asks for: nothing where a straight position exists.
+    fn may_be_complete(&self) -> bool {
+        let known = matches!(&self.topology, Ok(_) | Err(TopologyError::Straight { .. }));
+        known && self.straight.iter().all(|straight| !straight.upright)
     }
 
     /// Number of isolated equilibria in a vertical plane: with the anchors on one vertical, each

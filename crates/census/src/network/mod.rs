@@ -29,6 +29,28 @@
 //! | $c_e$ | `compliance` | members | length/force | 0 for inextensible ones |
 //! | $\mu_i$ | | free turns | force | moment that holds a turn; proved to be zero |
 //! | Y | `inverse` | n × n | | approximate inverse of the derivative |
+//!
+//! # All equilibria
+//!
+//! [`SystemCensus::take`] takes a system apart. Trees, chains and frames that are built up joint by
+//! joint have closed forms, or the census of a chain. A net of several closures is searched over
+//! the places of its knots. A joint P that two bars of the lengths $l_1$, $l_2$ hold to a and b is
+//! no knot: with $c = b - a$, $q = |c|^2$, its load f and $f_\perp$, the part of it across c,
+//!
+//! $$ P = a + \alpha c \pm h \frac{f_\perp}{|f_\perp|}, \qquad
+//!    \alpha = \frac12 + \frac{l_1^2 - l_2^2}{2q}, \qquad
+//!    h^2 = \frac{((l_1 + l_2)^2 - q)(q - (l_1 - l_2)^2)}{4q}, $$
+//!
+//! with the force densities $w_1 = \pm|f_\perp|(1 - \alpha)/h + f\cdot c/q$ and $w_2 =
+//! \pm|f_\perp|\alpha/h - f\cdot c/q$. So a bridle whose strands have two bars each has one knot,
+//! three unknowns and a sign for each strand, whatever the number of strands. Branch and bound goes
+//! through all places of the knots within reach of their anchors. Boxes are narrowed by distances,
+//! excluded by the linear balance of forces in intervals, and where all is smooth by the interval
+//! Newton method, which also proves that a box has one equilibrium at most for a pattern of signs.
+//! Each equilibrium is then enclosed by Krawczyk's test on (1) and (2), and its index follows from
+//! the inertia of the bordered second derivative. Nets with more motions than
+//! [`Settings::max_motions`](crate::Settings::max_motions) are refused; what cannot be decided is
+//! listed.
 
 mod activity;
 mod arithmetic;

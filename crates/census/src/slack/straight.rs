@@ -45,6 +45,7 @@
 //! \sum_i s_i l_i c_i/|F_i|$: where that sum does not vanish, the pull is upright or infinite.
 
 use std::borrow::Cow;
+use std::collections::HashMap;
 
 use intervals::Interval;
 use model::Chain;
@@ -83,11 +84,25 @@ pub(crate) struct Straight {
     exact: bool,
 }
 
-/// Pulls that hold no equilibrium with these signs.
+/// Rectangles about a pull without bound, one for each pattern, that hold no equilibrium with these
+/// signs.
 #[derive(Debug)]
 struct Settled {
-    pattern: Pattern,
-    cell: Cell,
+    cells: HashMap<Pattern, Cell>,
+    /// Around all of them, on the same chart.
+    hull: Cell,
+}
+
+impl Settled {
+    fn new(cells: HashMap<Pattern, Cell>) -> Option<Self> {
+        let unite = |all: Cell, cell: &Cell| Cell {
+            face: all.face,
+            at: std::array::from_fn(|k| all.at[k].hull(cell.at[k])),
+        };
+        let first = *cells.values().next()?;
+        let hull = cells.values().fold(first, unite);
+        Some(Self { cells, hull })
+    }
 }
 
 impl Straight {
@@ -100,9 +115,10 @@ impl Straight {
         let mut settled = vec![];
         if !system.vertical {
             // Along the line, and against it with all signs turned.
-            for pattern in &fits {
-                settled.extend(isolated(system, *pattern, 1));
-                settled.extend(isolated(system, Pattern(all & !pattern.0), -1));
+            for (way, turned) in [(1, 0), (-1, all)] {
+                let patterns = fits.iter().map(|pattern| Pattern(pattern.0 ^ turned));
+                let cells = patterns.filter_map(|p| Some((p, isolated(system, p, way)?)));
+                settled.extend(Settled::new(cells.collect()));
             }
         }
         let positions = fits.iter().map(|pattern| StraightPosition {
@@ -120,11 +136,11 @@ impl Straight {
         patterns: Cow<'a, [Pattern]>,
     ) -> Cow<'a, [Pattern]> {
         let mut left = patterns;
-        for Settled { pattern, cell: settled } in &self.settled {
-            let near = cell.on(settled.face, system);
-            if near.is_some_and(|near| settled.encloses(&near)) && left.contains(pattern) {
-                left.to_mut().retain(|other| other != pattern);
-            }
+        for Settled { cells, hull } in &self.settled {
+            let Some(near) = cell.on(hull.face, system).filter(|near| hull.encloses(near)) else {
+                continue;
+            };
+            left.to_mut().retain(|p| !cells.get(p).is_some_and(|cell| cell.encloses(&near)));
         }
         if !self.exact || !system.vertical || self.positions.is_empty() {
             return left;
@@ -140,7 +156,7 @@ impl Straight {
 }
 
 /// A rectangle about the pull along the span, or against it, without an equilibrium of a pattern.
-fn isolated(system: &System, pattern: Pattern, way: i8) -> Option<Settled> {
+fn isolated(system: &System, pattern: Pattern, way: i8) -> Option<Cell> {
     let f = system.span.map(|part| signed(way, part));
     // The chart on which the pull is largest.
     let along = usize::from(f[1].mid().abs() > f[0].mid().abs());
@@ -156,7 +172,7 @@ fn isolated(system: &System, pattern: Pattern, way: i8) -> Option<Settled> {
         let at = [Interval::around(centre, size), Interval::new(-size, size)];
         let cell = Cell { face, at };
         if is_isolated(system, &cell, f, pattern) == Some(true) {
-            return Some(Settled { pattern, cell });
+            return Some(cell);
         }
         size *= NEXT;
     }

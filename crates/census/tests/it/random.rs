@@ -141,23 +141,14 @@ fn a_complete_census_of_a_degenerate_chain_misses_nothing() {
             let in_family = census.families.iter().any(|family| {
                 family.signs.iter().zip(&angles).all(|(sign, a)| *sign == 0 || a.sin().abs() < 1e-6)
             });
-            // All bars upright, under any force.
-            let upright = census.straight.iter().any(|straight| {
-                let way = |(along, a): (&i8, &f64)| f64::from(*along) * a.cos();
-                let ways: Vec<f64> = straight.along.iter().zip(&angles).map(way).collect();
-                straight.upright && ways.iter().all(|way| (way - ways[0]).abs() < 1e-6)
-            });
-            assert!(
-                listed || in_family || upright,
-                "{bars} bars, seed {seed}: {angles:?} {problem:?}"
-            );
+            assert!(listed || in_family, "{bars} bars, seed {seed}: {angles:?} {problem:?}");
             found += 1;
         }
     }
     println!(
         "{complete} complete, {open} open, {straight} straight, of these {decided} decided, {found} found"
     );
-    assert!(complete > 30 && open > 10 && decided > 4 && found > 3000);
+    assert!(complete > 30 && open > 10 && decided > 2 && found > 3000);
 }
 
 /// Solve the planar equations: with angles φ from the descending vertical and multipliers (H, V),

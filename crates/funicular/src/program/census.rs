@@ -135,9 +135,9 @@ fn refuse(error: Error) -> Failure {
     if let Error::SystemCensus(NoCensus::Motions { motions, .. }) = error {
         let help = if motions <= Settings::MAX_MOTIONS {
             format!(
-                "--max-motions {motions} tries it all the same. A net of three motions takes seconds at most, each \
-                 motion more about a hundred times as long; what is not decided then is told. `funicular solve` \
-                 finds equilibria of nets of any size"
+                "--max-motions {motions} tries it all the same. A net of three motions takes seconds, each motion more \
+                 many times as long; what is not decided when the budget is spent is told. `funicular solve` finds \
+                 equilibria of nets of any size"
             )
         } else {
             "`funicular solve` finds equilibria of nets of any size; nobody knows how many there are".to_owned()

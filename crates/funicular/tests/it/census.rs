@@ -590,7 +590,7 @@ fn a_net_has_its_list() {
 fn systems_without_a_census_are_told_why() {
     let path = folder("net").join("net.toml");
     let mut text = LAMPS.to_owned();
-    text += "[[bars]]\nfrom = \"lamp\"\nto = \"A\"\nlength_m = 1.5\nmass_kg = 1\ncount = 4\n";
+    text += "[[bars]]\nfrom = \"lamp\"\nto = \"A\"\nlength_m = 1\nmass_kg = 1\ncount = 7\n";
     std::fs::write(&path, text).unwrap();
     let output = funicular(&[path.to_str().unwrap()]);
     assert_eq!(output.status.code(), Some(2));
