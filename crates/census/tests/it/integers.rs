@@ -11,17 +11,17 @@ use rand_chacha::ChaCha8Rng;
 fn drawn(random: &mut ChaCha8Rng, bars: usize) -> Problem {
     loop {
         let bars: Vec<Bar> = (0..bars)
-            .map(|_| {
+            .filter_map(|_| {
                 let [l, m] = [(); 2].map(|()| f64::from(random.random_range(1..=5)));
-                Bar::homogeneous(l, m).unwrap()
+                Bar::homogeneous(l, m).ok()
             })
             .collect();
         // Every other span is level.
         let [x, z] = [0..=10, -10..=10].map(|range| f64::from(random.random_range(range)));
         let z = if random.random_range(0..2) == 0 { 0.0 } else { z };
         let anchors = Anchors { start_m: [0.0; 3], end_m: [x, 0.0, z] };
-        let chain = Chain::new("integers", 9.81, anchors, bars).unwrap();
-        if let Ok(problem) = Problem::new(chain) {
+        let chain = Chain::new("integers", 9.81, anchors, bars).map(Problem::new);
+        if let Ok(Ok(problem)) = chain {
             return problem;
         }
     }

@@ -152,14 +152,14 @@ pub(super) fn taken(
         return Err(NoCensus::Closures { closures });
     }
     match layout.coordinates() {
-        2 => searched::<2>(core, &layout, settings, watch),
-        4 => searched::<4>(core, &layout, settings, watch),
-        8 => searched::<8>(core, &layout, settings, watch),
-        10 => searched::<10>(core, &layout, settings, watch),
-        3 => searched::<3>(core, &layout, settings, watch),
-        6 => searched::<6>(core, &layout, settings, watch),
-        9 => searched::<9>(core, &layout, settings, watch),
-        12 => searched::<12>(core, &layout, settings, watch),
+        2 => Ok(searched::<2>(core, &layout, settings, watch)),
+        4 => Ok(searched::<4>(core, &layout, settings, watch)),
+        8 => Ok(searched::<8>(core, &layout, settings, watch)),
+        10 => Ok(searched::<10>(core, &layout, settings, watch)),
+        3 => Ok(searched::<3>(core, &layout, settings, watch)),
+        6 => Ok(searched::<6>(core, &layout, settings, watch)),
+        9 => Ok(searched::<9>(core, &layout, settings, watch)),
+        12 => Ok(searched::<12>(core, &layout, settings, watch)),
         _ => Err(NoCensus::Closures { closures }),
     }
 }
@@ -169,7 +169,7 @@ fn searched<const N: usize>(
     layout: &Layout,
     settings: &Settings,
     watch: &dyn Fn(Progress),
-) -> Result<(NetCensus, Vec<Choice>), NoCensus> {
+) -> (NetCensus, Vec<Choice>) {
     let patterns = 1_u64 << layout.swings.len();
     let budget = settings.max_tests_per_pattern.saturating_mul(patterns).saturating_mul(TESTS);
     let Search { found, undecided, cells, tests, exhausted } = search::<N>(layout, budget, watch);
@@ -211,7 +211,7 @@ fn searched<const N: usize>(
         tests,
         undecided: open,
     };
-    Ok((net, once.into_iter().map(|(_, enclosed)| enclosed.choice).collect()))
+    (net, once.into_iter().map(|(_, enclosed)| enclosed.choice).collect())
 }
 
 /// A box of the search in metres.
