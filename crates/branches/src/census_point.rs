@@ -41,9 +41,10 @@ pub enum PointStatus {
         /// Families of equilibria with slack bars; they are not followed.
         families: usize,
     },
-    /// The census leaves something undecided: a degenerate point. Branches are followed past it.
+    /// A degenerate point: the census leaves something undecided, or the chain fits into the line of
+    /// its anchors. Branches are followed past it.
     Undecided {
-        /// Why, once for each cell.
+        /// Why, once for each cell and straight position.
         reasons: Vec<census::Reason>,
         /// What is known all the same: the number of equilibria in the plane that are proved.
         proved: usize,
@@ -107,7 +108,8 @@ impl CensusPoint {
         };
         let census = Census::take(&problem, settings)?;
         census_point.vertical = census.circles;
-        if census.complete {
+        // At a straight position pulls are without bound: there branches meet, or pass it.
+        if census.complete && census.straight.is_empty() {
             census_point.nodes = Some(nodes(path, position, &census));
             census_point.status = PointStatus::Complete {
                 count: census.count_in_plane(),
@@ -119,7 +121,12 @@ impl CensusPoint {
             };
         } else {
             census_point.status = PointStatus::Undecided {
-                reasons: census.undecided.iter().map(|undecided| undecided.reason).collect(),
+                reasons: census
+                    .undecided
+                    .iter()
+                    .map(|undecided| undecided.reason)
+                    .chain(census.straight.iter().map(|_| census::Reason::Degenerate))
+                    .collect(),
                 proved: census.count_in_plane(),
             };
         }

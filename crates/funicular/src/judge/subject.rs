@@ -16,7 +16,7 @@ use crate::problem::Problem;
 /// use formats::system::parse_net;
 /// use funicular::judge::{Judge, Subject};
 /// // A node of 10 N between two fixed ones 2 m apart; both edges carry 5 N/m times their length.
-/// let nodes = "node,x_m,y_m,z_m,fixed,fz_n\n0,-1,0,0,1,0\n1,1,0,0,1,0\n2,0,0,-1,0,-10\n";
+/// let nodes = "joint,x_m,y_m,z_m,free,force_z_n\n0,-1,0,0,0,0\n1,1,0,0,0,0\n2,0,0,-1,1,-10\n";
 /// let edges = "from,to,q_n_m\n0,2,5\n2,1,5\n";
 /// let net = parse_net((nodes, "nodes.csv"), (edges, "edges.csv"), "nodes.csv")?;
 /// let subject = Subject::net(net, "nodes.csv");
