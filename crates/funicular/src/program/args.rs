@@ -51,8 +51,9 @@ Examples:
 ///
 /// Scope: bars, cables and struts between joints without friction, rigid or with a stiffness, in
 /// space, at rest or in motion under their weight, masses at joints and constant forces, at rest
-/// above a flat floor; no other contact and no bending. All but `solve`, `judge`, `modes` and `simulate` is for chains of rigid bars
-/// between two anchors.
+/// above a flat floor; no other contact and no bending. `solve`, `judge`, `modes` and `simulate`
+/// take any such system, `census` what has few closures; the other commands are for chains of rigid
+/// bars between two anchors.
 #[derive(Debug, Parser)]
 #[command(name = "funicular", version, after_help = EXIT_CODES, after_long_help = format!("{EXAMPLES}\n\n{EXIT_CODES}"))]
 pub struct Cli {
@@ -79,7 +80,7 @@ pub enum Command {
     /// the number of bars: a chain of a million takes about a second, and some 240 bytes each.
     #[command(after_help = ALL_OR_NOTHING)]
     Solve(crate::solve::Solve),
-    /// Find every equilibrium of a chain, stable or not, and prove that there is no other
+    /// Find every equilibrium, stable or not, and prove that there is no other
     #[command(after_help = ALL_OR_NOTHING)]
     Census(crate::census::Census),
     /// Judge joint positions, and forces if there are some, from any program: what is broken, and
