@@ -12,6 +12,7 @@ use crate::census_point::{CensusPoint, PathPoint, PointStatus};
 use crate::checks::{Checks, agrees, incomplete};
 use crate::error::ContinuationError;
 use crate::event::{Event, EventKind};
+use crate::parameter::number::Number;
 use crate::path::Path;
 use crate::segment::Segment;
 use crate::variation::Variation;
@@ -166,7 +167,7 @@ impl Continuation {
         );
         Ok(Self {
             parameters: variation.numbers().iter().map(ToString::to_string).collect(),
-            units: variation.numbers().iter().map(|number| number.unit()).collect(),
+            units: variation.numbers().iter().map(Number::unit).collect(),
             points: points.collect(),
             directions: path.frames.direction.clone(),
             branches,

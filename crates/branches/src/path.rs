@@ -141,7 +141,7 @@ impl<'a> Path<'a> {
 
     fn chain(variation: &Variation, values: &[f64]) -> UncheckedChain {
         let numbers: Vec<_> =
-            variation.numbers().iter().copied().zip(values.iter().copied()).collect();
+            variation.numbers().iter().cloned().zip(values.iter().copied()).collect();
         UncheckedChain::new(variation.base(), &numbers)
     }
 

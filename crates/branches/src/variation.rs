@@ -1,10 +1,13 @@
 //! Several parameters: every combination, or in step.
 
+use model::system::System;
 use model::{Chain, Problem};
 
 use crate::parameter::apply::{PointError, apply};
+use crate::parameter::base::Base;
 use crate::parameter::error::ParameterError;
 use crate::parameter::number::Number;
+use crate::parameter::system;
 use crate::parameter::values::{MAX_POINTS, Parameter};
 
 /// How several parameters are combined.
@@ -29,24 +32,24 @@ pub enum Combine {
     Zip,
 }
 
-/// A chain with parameters: a list of paths, each a row of points.
+/// A chain or a system with parameters: a list of paths, each a row of points.
 ///
 /// Along a path the branches of equilibria are followed. In a product the last parameter runs along
 /// the path, and each combination of the others has a path of its own; in step there is one path.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Variation {
-    base: Chain,
+pub struct Variation<B = Chain> {
+    base: B,
     numbers: Vec<Number>,
     /// For each path, for each point, for each number.
     paths: Vec<Vec<Vec<f64>>>,
 }
 
-impl Variation {
-    /// The variation of a chain over parameters.
+impl<B: Base> Variation<B> {
+    /// The variation of a chain or a system over parameters.
     ///
     /// # Errors
     ///
-    /// [`ParameterError`] when a bar is missing, a number is named twice, lists to be taken in step
+    /// [`ParameterError`] when a bar or a joint is missing, a number is named twice, lists to be taken in step
     /// differ in length, or there are more than [`MAX_POINTS`] points.
     ///
     /// ```
@@ -58,10 +61,10 @@ impl Variation {
     /// assert!(Variation::new(chain, &vary, Combine::Zip).is_err());
     /// # Ok::<(), branches::ParameterError>(())
     /// ```
-    pub fn new(base: Chain, vary: &[Parameter], combine: Combine) -> Result<Self, ParameterError> {
+    pub fn new(base: B, vary: &[Parameter], combine: Combine) -> Result<Self, ParameterError> {
         for (k, one) in vary.iter().enumerate() {
-            one.check(&base)?;
-            let earlier = vary[..k].iter().find(|other| other.number.overlaps(one.number));
+            base.check(one)?;
+            let earlier = vary[..k].iter().find(|other| other.number.overlaps(&one.number));
             if let Some(earlier) = earlier {
                 let what = if earlier.number == one.number {
                     format!("`{}` is varied twice", one.number)
@@ -72,7 +75,7 @@ impl Variation {
                 return Err(ParameterError::new(one.text(), span, what, "name each number once"));
             }
         }
-        let numbers = vary.iter().map(|one| one.number).collect();
+        let numbers = vary.iter().map(|one| one.number.clone()).collect();
         let paths = match combine {
             Combine::Product => product(vary)?,
             Combine::Zip => vec![zip(vary)?],
@@ -92,12 +95,18 @@ impl Variation {
         &self.paths
     }
 
-    /// The chain whose numbers vary.
+    /// What has the numbers that vary.
     #[must_use]
-    pub fn base(&self) -> &Chain {
+    pub fn base(&self) -> &B {
         &self.base
     }
 
+    fn at(&self, values: &[f64]) -> Vec<(Number, f64)> {
+        self.numbers.iter().cloned().zip(values.iter().copied()).collect()
+    }
+}
+
+impl Variation<Chain> {
     /// The problem at some values of the numbers, on or off the grid.
     ///
     /// # Errors
@@ -114,8 +123,32 @@ impl Variation {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn problem(&self, values: &[f64]) -> Result<Problem, PointError> {
-        let numbers: Vec<_> = self.numbers.iter().copied().zip(values.iter().copied()).collect();
-        apply(&self.base, &numbers)
+        apply(&self.base, &self.at(values))
+    }
+}
+
+impl Variation<System> {
+    /// The system at some values of the numbers, on or off the grid.
+    ///
+    /// # Errors
+    ///
+    /// [`PointError`] when the values describe no system, or one without an equilibrium.
+    ///
+    /// ```
+    /// use branches::{Combine, Variation};
+    /// use model::{Bar, system::{Joint, Member, System}};
+    /// let joints = vec![Joint::anchor("A", [0.0; 3]), Joint::free("P").with_mass(1.0)];
+    /// let members = vec![Member::cable(0, 1, Bar::homogeneous(2.0, 0.0)?)];
+    /// let system = System::new("a weight", 9.81, joints, members)?;
+    /// let vary = ["joints.P.mass_kg=1,2".parse()?, "bars.1.stiffness_n=100".parse()?];
+    /// let variation = Variation::new(system, &vary, Combine::Product)?;
+    /// let heavier = variation.system(&[3.0, 50.0])?;
+    /// assert_eq!((heavier.joints()[1].mass_kg, heavier.members()[0].stiffness_n), (3.0, Some(50.0)));
+    /// assert!(variation.system(&[-1.0, 50.0]).is_err());
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn system(&self, values: &[f64]) -> Result<System, PointError> {
+        system::apply(&self.base, &self.at(values))
     }
 }
 

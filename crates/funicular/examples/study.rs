@@ -16,7 +16,8 @@ fn main() -> Result<(), Error> {
         match &point.shape {
             Ok(StudyShape { extremes, reactions_n, .. }) => {
                 let sag_m = extremes.sag_m.unwrap_or(0.0);
-                println!("{},{sag_m:.6},{:.6}", point.values[0], reactions_n.end[0]);
+                let pull_n = reactions_n.last().map_or(0.0, |[x, _, _]| *x);
+                println!("{},{sag_m:.6},{pull_n:.6}", point.values[0]);
             }
             Err(none) => println!("{},,: {}", point.values[0], none.reason),
         }

@@ -72,6 +72,8 @@ mod error;
 mod extremes;
 pub mod judge;
 mod modes;
+#[cfg(feature = "branches")]
+mod parameters;
 pub mod picture;
 mod problem;
 #[cfg(feature = "paper")]
@@ -101,6 +103,8 @@ pub use self::animation::Animation;
 #[cfg(feature = "sweep")]
 pub use self::basins::{Basins, BasinsAnswer};
 pub use self::census::{Census, CensusAnswer, SystemCensusAnswer};
+#[cfg(feature = "branches")]
+pub use self::parameters::Parameters;
 #[cfg(feature = "paper")]
 pub use self::reproduce::Reproduce;
 #[cfg(feature = "branches")]

@@ -3,14 +3,15 @@
 use std::io::{self, Write};
 
 use branches::{
-    Abscissa, Checks, Combine, Continuation, ContinuationError, ContinuationSettings, Parameter,
-    PointStatus, Progress, Variation,
+    Abscissa, Checks, Continuation, ContinuationError, ContinuationSettings, PointStatus, Progress,
+    Variation,
 };
 
 use model::SystemSummary;
 use serde::Serialize;
 
 use crate::error::Error;
+use crate::parameters::Parameters;
 use crate::problem::Problem;
 use crate::solve::SCHEMA_VERSION;
 use crate::threads;
@@ -34,8 +35,7 @@ use crate::threads;
 /// ```
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Trace {
-    parameters: Vec<Parameter>,
-    combine: Combine,
+    parameters: Parameters,
     settings: ContinuationSettings,
     threads: usize,
 }
@@ -47,21 +47,20 @@ impl Trace {
         Self::default()
     }
 
-    /// A number of the system file and its values, as `anchors.end_m.z=-2.9..-0.1:500`. Branches
-    /// are followed along the last one; each combination of the others is a path of its own.
+    /// Over one more number of the system file, as [`Parameters::vary`] reads it. Branches are
+    /// followed along the last one; each combination of the others is a path of its own.
     ///
     /// # Errors
     ///
     /// [`Error::Parameter`] with the place in the text.
-    pub fn vary(mut self, text: &str) -> Result<Self, Error> {
-        self.parameters.push(text.parse()?);
-        Ok(self)
+    pub fn vary(self, text: &str) -> Result<Self, Error> {
+        Ok(Self { parameters: self.parameters.vary(text)?, ..self })
     }
 
-    /// How several parameters are combined.
+    /// Over these parameters.
     #[must_use]
-    pub fn combine(self, combine: Combine) -> Self {
-        Self { combine, ..self }
+    pub fn over(self, parameters: Parameters) -> Self {
+        Self { parameters, ..self }
     }
 
     /// Most points of all paths together: all that is found is held in memory.
@@ -84,8 +83,7 @@ impl Trace {
     ///
     /// [`Error::Parameter`] when a parameter does not fit the chain.
     pub fn variation(&self, problem: &Problem) -> Result<Variation, Error> {
-        let chain = problem.chain_for("a trace")?.chain().clone();
-        Ok(Variation::new(chain, &self.parameters, self.combine)?)
+        self.parameters.of(problem, "a trace")
     }
 
     /// Follow all equilibria.

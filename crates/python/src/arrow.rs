@@ -117,7 +117,7 @@ struct SchemaOwner {
 
 fn schema(format: &str, name: CString, children: Vec<Schema>) -> Schema {
     let n_children = count(children.len());
-    let children = children.into_iter().map(|child| Box::into_raw(Box::new(child))).collect();
+    let children = boxed(children);
     // The formats are literals without zeros.
     let format = CString::new(format).unwrap_or_default();
     let mut owner = Box::new(SchemaOwner { format, name, children });
@@ -129,33 +129,74 @@ fn schema(format: &str, name: CString, children: Vec<Schema>) -> Schema {
         n_children,
         children: owner.children.as_mut_ptr(),
         dictionary: ptr::null_mut(),
-        release: Some(release_schema),
+        release: Some(release::<Schema>),
         private_data: Box::into_raw(owner).cast(),
     }
 }
 
-/// Frees what [`schema`] made, children that nobody has taken included.
+/// A struct of the interface that owns children of its own kind.
+trait Node: Sized {
+    /// What `private_data` points to.
+    type Owner;
+
+    /// Where the release callback and the owner stand.
+    fn slots(&mut self) -> (&mut Option<unsafe extern "C" fn(*mut Self)>, &mut *mut c_void);
+
+    /// The children, which nobody but the owner frees.
+    fn children(owner: Self::Owner) -> Vec<*mut Self>;
+}
+
+impl Node for Schema {
+    type Owner = SchemaOwner;
+
+    fn slots(&mut self) -> (&mut Option<unsafe extern "C" fn(*mut Self)>, &mut *mut c_void) {
+        (&mut self.release, &mut self.private_data)
+    }
+
+    fn children(owner: SchemaOwner) -> Vec<*mut Self> {
+        owner.children
+    }
+}
+
+impl Node for Array {
+    type Owner = ArrayOwner;
+
+    fn slots(&mut self) -> (&mut Option<unsafe extern "C" fn(*mut Self)>, &mut *mut c_void) {
+        (&mut self.release, &mut self.private_data)
+    }
+
+    fn children(owner: ArrayOwner) -> Vec<*mut Self> {
+        owner.children
+    }
+}
+
+/// Children in memory of their own.
+fn boxed<T: Node>(children: Vec<T>) -> Vec<*mut T> {
+    children.into_iter().map(|child| Box::into_raw(Box::new(child))).collect()
+}
+
+/// Frees what [`schema`] or [`array`] made, children that nobody has taken included.
 ///
 /// # Safety
 ///
-/// `of` is null or a schema of this file that was not released.
-unsafe extern "C" fn release_schema(of: *mut Schema) {
-    // SAFETY: as promised by the caller; the owner was made by `Box::into_raw` in `schema`.
+/// `of` is null or a struct of this file that was not released.
+unsafe extern "C" fn release<T: Node>(of: *mut T) {
+    // SAFETY: as promised by the caller; the owner was made by `Box::into_raw` in `schema` or
+    // `array`, the children in `boxed`.
     unsafe {
         let Some(of) = of.as_mut() else { return };
-        if of.private_data.is_null() {
+        let (callback, private_data) = of.slots();
+        if private_data.is_null() {
             return;
         }
-        let owner = Box::from_raw(of.private_data.cast::<SchemaOwner>());
-        for child in owner.children {
+        for child in T::children(*Box::from_raw(private_data.cast::<T::Owner>())) {
             // Null where a consumer has moved the child out.
-            if let Some(release) = (*child).release {
+            if let Some(release) = *(*child).slots().0 {
                 release(child);
             }
             drop(Box::from_raw(child));
         }
-        of.private_data = ptr::null_mut();
-        of.release = None;
+        (*callback, *private_data) = (None, ptr::null_mut());
     }
 }
 
@@ -170,7 +211,7 @@ fn array(rows: usize, values: Option<Values>, children: Vec<Array>) -> Array {
     // A struct has its validity alone.
     let buffers = values.as_ref().map_or_else(|| vec![ptr::null()], Values::buffers);
     let n_children = count(children.len());
-    let children = children.into_iter().map(|child| Box::into_raw(Box::new(child))).collect();
+    let children = boxed(children);
     let n_buffers = count(buffers.len());
     let mut owner = Box::new(ArrayOwner { _values: values, buffers, children });
     Array {
@@ -182,33 +223,8 @@ fn array(rows: usize, values: Option<Values>, children: Vec<Array>) -> Array {
         buffers: owner.buffers.as_mut_ptr(),
         children: owner.children.as_mut_ptr(),
         dictionary: ptr::null_mut(),
-        release: Some(release_array),
+        release: Some(release::<Array>),
         private_data: Box::into_raw(owner).cast(),
-    }
-}
-
-/// Frees what [`array`] made.
-///
-/// # Safety
-///
-/// `of` is null or an array of this file that was not released.
-unsafe extern "C" fn release_array(of: *mut Array) {
-    // SAFETY: as promised by the caller; the owner was made by `Box::into_raw` in `array`.
-    unsafe {
-        let Some(of) = of.as_mut() else { return };
-        if of.private_data.is_null() {
-            return;
-        }
-        let owner = Box::from_raw(of.private_data.cast::<ArrayOwner>());
-        for child in owner.children {
-            // Null where a consumer has moved the child out.
-            if let Some(release) = (*child).release {
-                release(child);
-            }
-            drop(Box::from_raw(child));
-        }
-        of.private_data = ptr::null_mut();
-        of.release = None;
     }
 }
 

@@ -22,14 +22,14 @@ pub fn census<'py>(
     let of = Arc::clone(&problem.of);
     let census = max_bars.map_or_else(Census::new, |bars| Census::new().max_bars(bars));
     let found = work::run(py, threads, progress.as_ref(), move |watch| {
+        let tell = |done, waiting| watch.tell("cells", done, done + waiting);
         if let Some(system) = of.as_system() {
-            let found = census.run_system(system)?;
+            let found = census.run_system_watched(system, &|at| tell(at.done, at.waiting))?;
             let arrays: Vec<_> =
                 found.equilibria().iter().cloned().map(Arrays::of_system).collect();
             return Ok((serde_json::to_string(&found), arrays));
         }
-        let found =
-            census.run_watched(&of, &|at| watch.tell("cells", at.done, at.done + at.waiting))?;
+        let found = census.run_watched(&of, &|at| tell(at.done, at.waiting))?;
         let arrays =
             found.equilibria.iter().map(|found| Arrays::of_chain(found.equilibrium.clone()));
         let arrays = arrays.collect();

@@ -1,11 +1,12 @@
 //! From numbers to chains.
 
+use model::system::{SystemError, SystemRefusal};
 use model::{Anchors, Bar, BarError, Chain, ChainError, Problem, Refusal};
 
 use crate::parameter::number::{AnchorEnd, BarField, Number, Which};
 
 /// Why a point of a variation is refused: the values describe no problem.
-#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum PointError {
     /// Occurs when a number of a bar is out of range.
@@ -22,6 +23,12 @@ pub enum PointError {
     /// Occurs when the chain is no equilibrium problem: out of reach, straight, without mass.
     #[error(transparent)]
     Refused(#[from] Refusal),
+    /// Occurs when a number of a system is out of range.
+    #[error(transparent)]
+    System(#[from] SystemError),
+    /// Occurs when the system has no equilibrium: a part falls, lengths do not close a loop.
+    #[error(transparent)]
+    SystemRefused(#[from] Box<SystemRefusal>),
 }
 
 /// The chain with these numbers in place of its own, validated.
@@ -56,24 +63,26 @@ impl UncheckedChain {
             bars: base.bars().iter().map(UncheckedBar::new).collect(),
         };
         for (number, value) in numbers {
-            chain.set(*number, *value);
+            chain.set(number, *value);
         }
         chain
     }
 
-    fn set(&mut self, number: Number, value: f64) {
+    fn set(&mut self, number: &Number, value: f64) {
         match number {
             Number::Gravity => self.gravity_m_s2 = value,
-            Number::Anchor(AnchorEnd::Start, axis) => self.anchors.start_m[axis] = value,
-            Number::Anchor(AnchorEnd::End, axis) => self.anchors.end_m[axis] = value,
+            Number::Anchor(AnchorEnd::Start, axis) => self.anchors.start_m[*axis] = value,
+            Number::Anchor(AnchorEnd::End, axis) => self.anchors.end_m[*axis] = value,
+            // A chain has neither; its variations are refused before.
+            Number::Floor | Number::Joint(..) => {}
             Number::Bar(Which::All, field) => {
                 for bar in &mut self.bars {
-                    bar.set(field, value);
+                    bar.set(*field, value);
                 }
             }
             Number::Bar(Which::One(bar), field) => {
                 if let Some(bar) = bar.checked_sub(1).and_then(|k| self.bars.get_mut(k)) {
-                    bar.set(field, value);
+                    bar.set(*field, value);
                 }
             }
         }
@@ -90,7 +99,7 @@ pub(crate) struct UncheckedBar {
 }
 
 impl UncheckedBar {
-    fn new(bar: &Bar) -> Self {
+    pub(super) fn new(bar: &Bar) -> Self {
         let same = |a: f64, b: f64| a.to_bits() == b.to_bits();
         let (length_m, mass_kg) = (bar.length_m(), bar.mass_kg());
         let centre = bar.centre_m();
@@ -105,7 +114,7 @@ impl UncheckedBar {
         }
     }
 
-    fn set(&mut self, field: BarField, value: f64) {
+    pub(super) fn set(&mut self, field: BarField, value: f64) {
         match field {
             BarField::Length => self.length_m = value,
             BarField::Mass => self.mass_kg = value,
@@ -114,6 +123,8 @@ impl UncheckedBar {
                 let slender = Bar::slender_inertia(self.length_m, self.mass_kg);
                 self.inertia_kg_m2.get_or_insert(slender)[axis] = value;
             }
+            // Of the member around the bar.
+            BarField::Stiffness => {}
         }
     }
 
@@ -122,7 +133,7 @@ impl UncheckedBar {
         self.centre_m.unwrap_or(0.5 * self.length_m)
     }
 
-    fn bar(&self) -> Result<Bar, BarError> {
+    pub(super) fn bar(&self) -> Result<Bar, BarError> {
         let slender = Bar::slender_inertia(self.length_m, self.mass_kg);
         Bar::new(
             self.length_m,

@@ -16,14 +16,30 @@ use crate::parameter::error::ParameterError;
 /// assert_eq!((vary.number.to_string().as_str(), vary.number.unit()), ("bars.*.length_m", "m"));
 /// # Ok::<(), branches::ParameterError>(())
 /// ```
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Number {
     /// `gravity_m_s2`.
     Gravity,
+    /// `floor_m`, of a system.
+    Floor,
     /// A coordinate of an anchor, 0 for x to 2 for z: `anchors.end_m.z`.
     Anchor(AnchorEnd, usize),
     /// A number of a bar or of all bars: `bars.2.mass_kg`, `bars.*.length_m`.
     Bar(Which, BarField),
+    /// A number of a joint of a system, by its name: `joints.P.mass_kg`. A name with dots or
+    /// brackets stands in quotes: `joints."A-P.1".force_n.x`.
+    Joint(String, JointField),
+}
+
+/// Which number of a joint.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum JointField {
+    /// `at_m` of a joint that is held, 0 for x to 2 for z.
+    Place(usize),
+    /// `mass_kg`.
+    Mass,
+    /// `force_n`, 0 for x to 2 for z.
+    Force(usize),
 }
 
 /// Which anchor.
@@ -56,30 +72,37 @@ pub enum BarField {
     Centre,
     /// `inertia_kg_m2`, 0 for x (along the bar) to 2: no equilibrium depends on it.
     Inertia(usize),
+    /// `stiffness_n`, of a system.
+    Stiffness,
 }
 
-const TOP: &[&str] = &["gravity_m_s2", "anchors", "bars"];
+const TOP: &[&str] = &["gravity_m_s2", "floor_m", "anchors", "joints", "bars"];
 const ANCHORS: &[&str] = &["start_m", "end_m"];
-const BAR: &[&str] = &["length_m", "mass_kg", "centre_m", "inertia_kg_m2"];
+const JOINT: &[&str] = &["at_m", "mass_kg", "force_n"];
+const BAR: &[&str] = &["length_m", "mass_kg", "centre_m", "inertia_kg_m2", "stiffness_n"];
 const AXES: [&str; 3] = ["x", "y", "z"];
 
 impl Number {
     /// The unit of this number.
     #[must_use]
-    pub fn unit(self) -> &'static str {
+    pub fn unit(&self) -> &'static str {
         match self {
             Self::Gravity => "m/s^2",
-            Self::Anchor(..) | Self::Bar(_, BarField::Length | BarField::Centre) => "m",
-            Self::Bar(_, BarField::Mass) => "kg",
+            Self::Floor
+            | Self::Anchor(..)
+            | Self::Bar(_, BarField::Length | BarField::Centre)
+            | Self::Joint(_, JointField::Place(_)) => "m",
+            Self::Bar(_, BarField::Mass) | Self::Joint(_, JointField::Mass) => "kg",
             Self::Bar(_, BarField::Inertia(_)) => "kg m^2",
+            Self::Bar(_, BarField::Stiffness) | Self::Joint(_, JointField::Force(_)) => "N",
         }
     }
 
     /// Whether both set one number of a system file: `bars.1.length_m` and `bars.*.length_m` do.
-    pub(crate) fn overlaps(self, other: Self) -> bool {
+    pub(crate) fn overlaps(&self, other: &Self) -> bool {
         match (self, other) {
             (Self::Bar(one, field), Self::Bar(two, same)) => {
-                field == same && (one == two || one == Which::All || two == Which::All)
+                field == same && (one == two || *one == Which::All || *two == Which::All)
             }
             _ => self == other,
         }
@@ -91,6 +114,16 @@ impl Number {
         let top = parts.key(TOP, "a path")?;
         let number = match top {
             "gravity_m_s2" => Self::Gravity,
+            "floor_m" => Self::Floor,
+            "joints" => {
+                let joint = parts.joint()?;
+                let field = match parts.key(JOINT, "a joint")? {
+                    "at_m" => JointField::Place(parts.axis()?),
+                    "mass_kg" => JointField::Mass,
+                    _ => JointField::Force(parts.axis()?),
+                };
+                Self::Joint(joint, field)
+            }
             "anchors" => {
                 let which = match parts.key(ANCHORS, "`anchors`")? {
                     "start_m" => AnchorEnd::Start,
@@ -104,6 +137,7 @@ impl Number {
                     "length_m" => BarField::Length,
                     "mass_kg" => BarField::Mass,
                     "centre_m" => BarField::Centre,
+                    "stiffness_n" => BarField::Stiffness,
                     _ => BarField::Inertia(parts.axis()?),
                 };
                 Self::Bar(which, field)
@@ -125,6 +159,7 @@ impl fmt::Display for Number {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Gravity => f.write_str("gravity_m_s2"),
+            Self::Floor => f.write_str("floor_m"),
             Self::Anchor(AnchorEnd::Start, axis) => write!(f, "anchors.start_m.{}", AXES[*axis]),
             Self::Anchor(AnchorEnd::End, axis) => write!(f, "anchors.end_m.{}", AXES[*axis]),
             Self::Bar(which, field) => {
@@ -137,21 +172,52 @@ impl fmt::Display for Number {
                     BarField::Mass => f.write_str("mass_kg"),
                     BarField::Centre => f.write_str("centre_m"),
                     BarField::Inertia(axis) => write!(f, "inertia_kg_m2.{}", AXES[*axis]),
+                    BarField::Stiffness => f.write_str("stiffness_n"),
+                }
+            }
+            Self::Joint(joint, field) => {
+                if joint.contains(['.', '[', ']', '=', ',']) {
+                    write!(f, "joints.\"{joint}\".")?;
+                } else {
+                    write!(f, "joints.{joint}.")?;
+                }
+                match field {
+                    JointField::Place(axis) => write!(f, "at_m.{}", AXES[*axis]),
+                    JointField::Mass => f.write_str("mass_kg"),
+                    JointField::Force(axis) => write!(f, "force_n.{}", AXES[*axis]),
                 }
             }
         }
     }
 }
 
+/// Where the first `=` outside quotes is.
+pub(super) fn equals(text: &str) -> Option<usize> {
+    let mut quoted = false;
+    let mut characters = text.char_indices();
+    let found = characters.find(|(_, c)| {
+        quoted ^= *c == '"';
+        *c == '=' && !quoted
+    });
+    found.map(|(at, _)| at)
+}
+
 /// The words of the path up to `end`, as byte ranges: separated by dots, and by brackets around
-/// numbers.
+/// numbers. What stands in quotes is one word.
 fn words(text: &str, end: usize) -> Result<Vec<Range<usize>>, ParameterError> {
     const HELP: &str = "brackets enclose one number, as in `bars[2].mass_kg`";
     let mut words = vec![];
     let mut start = 0;
     // Where the open bracket is, and whether one was closed just before.
     let (mut open, mut closed) = (None, false);
+    let mut quote = None;
     for (at, c) in text[..end].char_indices() {
+        if c == '"' {
+            quote = if quote.is_some() { None } else { Some(at) };
+        }
+        if quote.is_some() {
+            continue;
+        }
         let wrong = match (c, open) {
             ('.' | '[', Some(bracket)) => Some((bracket, "this bracket is not closed")),
             (']', None) => Some((at, "this bracket is not opened")),
@@ -172,6 +238,11 @@ fn words(text: &str, end: usize) -> Result<Vec<Range<usize>>, ParameterError> {
             open = (c == '[').then_some(at);
             closed = c == ']';
         }
+    }
+    if let Some(at) = quote {
+        let what = "this quotation mark is not closed";
+        let help = "a name with dots stands in quotes, as in `joints.\"A-P.1\".mass_kg`";
+        return Err(ParameterError::new(text, at..at + 1, what, help));
     }
     if let Some(bracket) = open {
         return Err(ParameterError::new(
@@ -243,6 +314,23 @@ impl Parts<'_> {
         })
     }
 
+    fn joint(&mut self) -> Result<String, ParameterError> {
+        const ALLOWED: &str = "the name of a joint, with dots in quotes";
+        let (word, span) = self.next("`joints`", ALLOWED)?;
+        let quoted = word.strip_prefix('"').and_then(|word| word.strip_suffix('"'));
+        let name = quoted.unwrap_or(&word);
+        if name.is_empty() {
+            let help = format!("allowed here: {ALLOWED}");
+            return Err(ParameterError::new(
+                self.text,
+                span,
+                "the name of a joint is missing",
+                help,
+            ));
+        }
+        Ok(name.to_owned())
+    }
+
     fn bar(&mut self) -> Result<Which, ParameterError> {
         const ALLOWED: &str = "the number of a bar, from 1, or * for all";
         let (word, span) = self.next("`bars`", ALLOWED)?;
@@ -271,6 +359,8 @@ mod tests {
             ("bars[2]mass_kg=1", 8, "a dot is missing"),
             ("anchors.end_m[3]]=1", 17, "not opened"),
             ("bars[2]..mass_kg=1", 9, "unknown key ``"),
+            ("joints.\"A.1.mass_kg", 8, "quotation mark is not closed"),
+            ("joints..mass_kg", 8, "name of a joint is missing"),
         ] {
             let end = text.find('=').unwrap();
             let error = Number::parse(text, end).unwrap_err();
@@ -281,6 +371,10 @@ mod tests {
             ("bars[2].inertia_kg_m2[3]", "bars.2.inertia_kg_m2.z"),
             ("bars[*].mass_kg", "bars.*.mass_kg"),
             ("anchors.start_m[1]", "anchors.start_m.x"),
+            ("joints.P.force_n[2]", "joints.P.force_n.y"),
+            ("joints.\"A-P.1\".mass_kg", "joints.\"A-P.1\".mass_kg"),
+            ("joints.\"P\".at_m.z", "joints.P.at_m.z"),
+            ("bars.1.stiffness_n", "bars.1.stiffness_n"),
         ] {
             assert_eq!(Number::parse(text, text.len()).unwrap().to_string(), wanted);
         }
@@ -290,9 +384,10 @@ mod tests {
     fn all_bars_overlap_each() {
         let number = |text: &str| Number::parse(text, text.len()).unwrap();
         let all = number("bars.*.length_m");
-        assert!(all.overlaps(number("bars.1.length_m")) && number("bars.1.length_m").overlaps(all));
-        assert!(!all.overlaps(number("bars.1.mass_kg")) && !all.overlaps(number("gravity_m_s2")));
-        assert!(!number("bars.2.length_m").overlaps(number("bars.1.length_m")));
-        assert!(number("gravity_m_s2").overlaps(number("gravity_m_s2")));
+        let first = number("bars.1.length_m");
+        assert!(all.overlaps(&first) && first.overlaps(&all));
+        assert!(!all.overlaps(&number("bars.1.mass_kg")) && !all.overlaps(&number("gravity_m_s2")));
+        assert!(!number("bars.2.length_m").overlaps(&first));
+        assert!(number("gravity_m_s2").overlaps(&number("gravity_m_s2")));
     }
 }

@@ -3,10 +3,8 @@
 use std::ops::Range;
 use std::str::FromStr;
 
-use model::Chain;
-
 use crate::parameter::error::ParameterError;
-use crate::parameter::number::{Number, Which};
+use crate::parameter::number::{Number, equals};
 
 /// Most values of one parameter, and most points of a variation: each costs a census.
 pub const MAX_POINTS: usize = 1_000_000;
@@ -36,29 +34,6 @@ const VALUES: &str = "values are a list, `0.1,1,10`, or a range with the number 
                       `-2.9..-0.1:500`";
 
 impl Parameter {
-    /// Check that the chain has what is to vary.
-    ///
-    /// # Errors
-    ///
-    /// [`ParameterError`] when the chain has no such bar.
-    pub fn check(&self, chain: &Chain) -> Result<(), ParameterError> {
-        let bars = chain.bars().len();
-        match self.number {
-            Number::Bar(Which::One(bar), _) if bar > bars => {
-                let path = self.text.split('=').next().unwrap_or_default();
-                let at = path.find(|c: char| c.is_ascii_digit()).unwrap_or(0);
-                let digits = path[at..].chars().take_while(char::is_ascii_digit).count();
-                Err(ParameterError::new(
-                    &self.text,
-                    at..at + digits,
-                    format!("there is no bar {bar}"),
-                    format!("the chain has {bars} bars, numbered from 1"),
-                ))
-            }
-            _ => Ok(()),
-        }
-    }
-
     /// The text it was read from.
     #[must_use]
     pub fn text(&self) -> &str {
@@ -70,7 +45,7 @@ impl FromStr for Parameter {
     type Err = ParameterError;
 
     fn from_str(text: &str) -> Result<Self, ParameterError> {
-        let Some(equals) = text.find('=') else {
+        let Some(equals) = equals(text) else {
             let span = text.len()..text.len();
             return Err(ParameterError::new(text, span, "`=` and the values are missing", VALUES));
         };

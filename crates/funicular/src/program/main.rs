@@ -35,6 +35,7 @@ mod system;
 mod tables;
 mod threads;
 mod trace;
+mod varied;
 mod verdicts;
 mod which;
 

@@ -4,7 +4,6 @@ use std::fmt::Write as _;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use branches::Combine;
 use clap::Args;
 use funicular::{Study, StudyAnswer, StudyPoint};
 use miette::miette;
@@ -17,6 +16,7 @@ use crate::printable::Printable;
 use crate::progress::Progress;
 use crate::tables::{numbers_from, short, table, wrapped};
 use crate::threads;
+use crate::varied::Varied;
 
 /// What `--csv` writes, in `--help`; the head of the file is tested against it.
 const CSV: &str = "\
@@ -25,31 +25,36 @@ Write a line per point to this CSV file
 Columns:
   path                       number of the path, from 1: each combination of all parameters but the last
   one for each parameter     its value, in the unit of the system file
-  span_m                     distance of the anchors
+  span_m                     of a chain: distance of the anchors
   agrees                     whether both solvers agree and the judge finds both in balance
   evidence                   the highest rung reached
-  energy_j, sag_m            energy above the first joint; depth of the lowest joint below the lower anchor
+  energy_j, sag_m            energy above the first support; depth of the lowest joint below the lowest support
   lowest_joint, lowest_x_m, lowest_y_m, lowest_z_m
-                             the lowest joint, from 0, and where it is
+                             the lowest joint, by name or in a chain from 0, and where it is
   tension_n, tension_bar, compression_n, compression_bar
                              the largest axial forces and their bars, from 1; empty where there is none
   start_x_n, start_y_n, start_z_n, end_x_n, end_y_n, end_z_n
-                             forces of the ground on the chain
+                             forces of the ground on a chain; of a system NAME_x_n, ... for each support
   rise_1_deg, ...            how steeply each bar rises, from the level
   refused                    why there is no shape; else empty";
 
 const EXAMPLES: &str = "\
 A parameter is any number of the system file and its values, as in `funicular trace`:
   --vary anchors.end_m.x=0.5..2.6:50        --vary bars.2.mass_kg=0.1,1,10
+A system with joints by name has besides
+  --vary joints.P.force_n.x=0..50:51        --vary joints.B.at_m.x=1..3:21
+  --vary 'bars.*.stiffness_n=1e4,1e6'       --vary floor_m=-3..-1:5
+Bars are numbered from 1 as they are solved: a table with count = 3 is three bars.
 
 Examples:
   funicular study chain.toml --vary anchors.end_m.x=0.5..2.6:50 --svg sag.svg
   funicular study --case three-equal-bars --vary anchors.end_m.z=-2.9..-0.1:100 --csv study.csv
+  funicular study --case lamp --vary joints.lamp.mass_kg=1..5:21
 
 Exit codes:
-  0  done; both solvers agree wherever a chain can hang
+  0  done; both solvers agree wherever the system can hang
   1  a check failed: the solvers disagree somewhere
-  2  bad input or usage, or no point describes a chain
+  2  bad input or usage, or no point describes what can hang
   3  a solver has no answer somewhere
 130  interrupted; no file is half written";
 
@@ -62,12 +67,8 @@ const PRINTED: usize = 24;
 pub struct Arguments {
     #[command(flatten)]
     pub input: Source,
-    /// A number of the system file and its values: `anchors.end_m.x=0.5..2.6:50` (repeatable)
-    #[arg(long, value_name = "KEY=VALUES", required = true, allow_hyphen_values = true)]
-    pub vary: Vec<String>,
-    /// Take the values of several parameters in step instead of in all combinations
-    #[arg(long)]
-    pub zip: bool,
+    #[command(flatten)]
+    pub varied: Varied,
     /// Print one JSON object (schema_version 2) instead of tables
     #[arg(long)]
     pub json: bool,
@@ -88,14 +89,9 @@ pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
     end_on_interrupt()?;
     threads::install(arguments.threads)?;
     let Input { problem, files } = arguments.input.read()?;
-    let combine = if arguments.zip { Combine::Zip } else { Combine::Product };
-    let mut study = Study::new().combine(combine);
-    for text in &arguments.vary {
-        study = study.vary(text)?;
-    }
-    let variation = study.variation(&problem)?;
-    let (paths, points) =
-        (variation.paths().len(), variation.paths().iter().map(Vec::len).sum::<usize>());
+    let study = Study::new().over(arguments.varied.parameters()?);
+    let lengths = study.points(&problem)?;
+    let (paths, points) = (lengths.len(), lengths.iter().sum::<usize>());
     let figures =
         arguments.svg.as_deref().map_or_else(Vec::new, |path| output::numbered(path, paths));
     output::check(arguments.csv.iter().chain(&figures).map(PathBuf::as_path), &files)?;
@@ -109,7 +105,7 @@ pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
     // Results are replaced by results alone: a refusal comes before any file.
     if let Some(reason) = found.refused_everywhere() {
         return Err(Failure::bad_input(miette!(
-            "no value of the parameters describes a chain that can hang; the first: {reason}"
+            "no value of the parameters describes what can hang; the first: {reason}"
         )));
     }
     if let Some(path) = &arguments.csv {
@@ -136,7 +132,7 @@ pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
 fn text(found: &StudyAnswer) -> String {
     let mut text = format!(
         "{}: {} points of {}\n",
-        Printable(&found.system().name),
+        Printable(found.name()),
         found.points().len(),
         found.parameters().join(", ")
     );
@@ -180,34 +176,39 @@ fn one_path(found: &StudyAnswer, points: &[&StudyPoint]) -> String {
         let _ = writeln!(text, "\n{}", fixed.collect::<Vec<_>>().join(", "));
     }
     let unit = format!("value / {}", found.units()[last]);
-    let mut table = table([
-        unit.as_str(),
-        "sag / m",
-        "lowest",
-        "tension / N",
-        "bar",
-        "start / N",
-        "end / N",
-        "evidence",
-    ]);
+    let mut head = vec![unit.as_str(), "sag / m", "lowest", "tension / N", "bar"];
+    let supports = found.supports();
+    // Two supports have a column each, of more the largest force is shown.
+    let two = supports.len() == 2;
+    let grounds: Vec<String> = if two {
+        supports.iter().map(|name| format!("{} / N", cut(name))).collect()
+    } else {
+        vec!["ground / N".to_owned()]
+    };
+    head.extend(grounds.iter().map(String::as_str));
+    head.push("evidence");
+    let mut table = table(head);
     for point in spread(points) {
         let mut row = vec![short(point.values[last])];
         match &point.shape {
             Ok(shape) => {
-                let size = |[x, y, z]: model::Vector| short(x.hypot(y).hypot(z));
                 let tension = shape.extremes.tension_n;
                 row.extend([
                     shape.extremes.sag_m.map_or_else(String::new, short),
-                    shape.extremes.lowest_joint.to_string(),
+                    cut(&found.joint(shape.extremes.lowest_joint)),
                     tension.map_or_else(|| "none".to_owned(), |(_, force)| short(force)),
                     tension.map_or_else(String::new, |(bar, _)| (bar + 1).to_string()),
-                    size(shape.reactions_n.start),
-                    size(shape.reactions_n.end),
-                    match (shape.agrees, shape.rung) {
-                        (true, Some(rung)) => rung.to_string(),
-                        _ => "no agreement".to_owned(),
-                    },
                 ]);
+                let number = |force: Option<f64>| force.map_or_else(String::new, short);
+                if two {
+                    row.extend([0, 1].map(|support| number(shape.support_n(support))));
+                } else {
+                    row.push(number(shape.largest_support_n()));
+                }
+                row.push(match (shape.agrees, shape.rung) {
+                    (true, Some(rung)) => rung.to_string(),
+                    _ => "no agreement".to_owned(),
+                });
             }
             Err(_) => row.push("no shape".to_owned()),
         }
@@ -219,6 +220,16 @@ fn one_path(found: &StudyAnswer, points: &[&StudyPoint]) -> String {
         let _ = writeln!(text, "({PRINTED} of {} points; --csv and --json have all)", points.len());
     }
     text
+}
+
+/// A name that fits into a column.
+fn cut(name: &str) -> String {
+    const WIDTH: usize = 8;
+    let name = Printable(name).to_string();
+    match name.char_indices().nth(WIDTH) {
+        Some((at, _)) => format!("{}\u{2026}", &name[..at]),
+        None => name,
+    }
 }
 
 /// At most [`PRINTED`] of the points, the first and the last among them.

@@ -10,12 +10,12 @@ use crate::printable::Printable;
 const WIDTH: u16 = 80;
 
 /// A table in the house style: thin rules, as wide as its content or the terminal.
-pub fn table<const N: usize>(head: [&str; N]) -> Table {
+pub fn table<'a>(head: impl IntoIterator<Item = &'a str>) -> Table {
     let mut table = Table::new();
     table
         .load_style(presets::UTF8_HORIZONTAL_ONLY.row_separator(LineStyle::none()))
         .set_content_arrangement(ContentArrangement::Dynamic)
-        .set_header(head);
+        .set_header(head.into_iter().collect::<Vec<_>>());
     if table.width().is_none() {
         table.set_width(WIDTH);
     }

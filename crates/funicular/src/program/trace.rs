@@ -4,7 +4,7 @@ mod text;
 
 use std::path::PathBuf;
 
-use branches::{Abscissa, Combine};
+use branches::Abscissa;
 use clap::Args;
 use funicular::{Problem, Trace, TraceAnswer};
 use miette::miette;
@@ -15,6 +15,7 @@ use crate::interrupt::end_on_interrupt;
 use crate::output;
 use crate::progress::Progress;
 use crate::threads;
+use crate::varied::Varied;
 
 /// What `--csv` writes, in `--help`; the head of the file is tested against it.
 const CSV: &str = "\
@@ -65,12 +66,8 @@ A pair of branches that begins and ends between two censuses, meeting no other, 
 pub struct Arguments {
     #[command(flatten)]
     pub input: Source,
-    /// A number of the system file and its values: `anchors.end_m.z=-2.9..-0.1:500` (repeatable)
-    #[arg(long, value_name = "KEY=VALUES", required = true, allow_hyphen_values = true)]
-    pub vary: Vec<String>,
-    /// Take the values of several parameters in step instead of in all combinations
-    #[arg(long)]
-    pub zip: bool,
+    #[command(flatten)]
+    pub varied: Varied,
     /// Print one JSON object (schema_version 2) instead of tables
     #[arg(long)]
     pub json: bool,
@@ -109,12 +106,7 @@ pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
             arguments.bar
         )));
     }
-    let combine = if arguments.zip { Combine::Zip } else { Combine::Product };
-    let mut trace = Trace::new().combine(combine);
-    for text in &arguments.vary {
-        trace = trace.vary(text)?;
-    }
-    let trace = trace.max_points(arguments.max_points);
+    let trace = Trace::new().over(arguments.varied.parameters()?).max_points(arguments.max_points);
     let paths = trace.variation(&problem)?.paths().len();
     let diagrams =
         arguments.svg.as_deref().map_or_else(Vec::new, |path| output::numbered(path, paths));

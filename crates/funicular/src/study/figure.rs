@@ -14,27 +14,39 @@ const HEIGHT: f64 = 860.0;
 /// How wide the curves are, px.
 const STROKE: f64 = 2.0;
 
-/// A curve of a panel: what it is called, how it is drawn, its value where there is one.
-type Curve = (&'static str, Colour, fn(&StudyShape) -> Option<f64>);
+/// The value of a curve at a shape, where there is one.
+type Value = fn(&StudyShape) -> Option<f64>;
 
-const SAG: [Curve; 1] = [("sag", BLUE, |shape| shape.extremes.sag_m)];
+/// A curve of a panel: what it is called, how it is drawn, its value.
+type Curve = (String, Colour, Value);
 
-const FORCES: [Curve; 4] = [
-    ("largest tension", BLUE, |shape| shape.extremes.tension_n.map(|(_, force)| force)),
-    ("largest compression", VERMILION, |shape| {
-        shape.extremes.compression_n.map(|(_, force)| force)
-    }),
-    ("force at start", GREEN, |shape| Some(size(shape.reactions_n.start))),
-    ("force at end", ORANGE, |shape| Some(size(shape.reactions_n.end))),
-];
+fn sag() -> Vec<Curve> {
+    vec![("sag".to_owned(), BLUE, |shape| shape.extremes.sag_m)]
+}
 
-const ANGLES: [Curve; 2] = [
-    ("first bar", BLUE, |shape| shape.rises_deg.first().copied()),
-    ("last bar", ORANGE, |shape| shape.rises_deg.last().copied()),
-];
+fn forces(found: &StudyAnswer) -> Vec<Curve> {
+    let mut all: Vec<Curve> = vec![
+        ("largest tension".to_owned(), BLUE, |shape| {
+            shape.extremes.tension_n.map(|(_, force)| force)
+        }),
+        ("largest compression".to_owned(), VERMILION, |shape| {
+            shape.extremes.compression_n.map(|(_, force)| force)
+        }),
+    ];
+    if let [first, second] = found.supports()[..] {
+        all.push((format!("force at {first}"), GREEN, |shape| shape.support_n(0)));
+        all.push((format!("force at {second}"), ORANGE, |shape| shape.support_n(1)));
+    } else {
+        all.push(("largest of the ground".to_owned(), GREEN, StudyShape::largest_support_n));
+    }
+    all
+}
 
-fn size([x, y, z]: model::Vector) -> f64 {
-    x.hypot(y).hypot(z)
+fn angles() -> Vec<Curve> {
+    vec![
+        ("first bar".to_owned(), BLUE, |shape| shape.rises_deg.first().copied()),
+        ("last bar".to_owned(), ORANGE, |shape| shape.rises_deg.last().copied()),
+    ]
 }
 
 /// The figure of one path, from 1.
@@ -44,7 +56,7 @@ pub(super) fn figure(found: &StudyAnswer, path: usize) -> String {
     let last = found.parameters().len().saturating_sub(1);
     let over = |point: &StudyPoint| point.values.get(last).copied().unwrap_or(0.0);
     let x = Axis::around(points.iter().map(|point| over(point)), 0.02, [LEFT, RIGHT]);
-    let title = &found.system().name;
+    let title = found.name();
     let mut svg = Svg::new([WIDTH, HEIGHT], title);
     svg.text(Look::PLAIN.size(17.0).bold(), [LEFT, 28.0], Anchor::Start, title);
     svg.text(Look::PLAIN, [LEFT, 48.0], Anchor::Start, &constants(found, &points));
@@ -52,17 +64,17 @@ pub(super) fn figure(found: &StudyAnswer, path: usize) -> String {
         (Some(name), Some(unit)) => format!("{name} / {unit}"),
         _ => String::new(),
     };
-    let panels: [(&[Curve], &str, &str, Unit); 3] = [
-        (&SAG, "", "sag / m", Unit::Decimal),
-        (&FORCES, "", "force / N", Unit::Decimal),
-        (&ANGLES, &name, "angle above the level / \u{b0}", Unit::Degrees),
+    let panels: [(Vec<Curve>, &str, &str, Unit); 3] = [
+        (sag(), "", "sag / m", Unit::Decimal),
+        (forces(found), "", "force / N", Unit::Decimal),
+        (angles(), &name, "angle above the level / \u{b0}", Unit::Degrees),
     ];
     for ((curves, x_name, y_name, unit), [top, bottom]) in panels.into_iter().zip(PANELS) {
         let shapes = points.iter().filter_map(|point| point.shape.as_ref().ok());
         let values = shapes.flat_map(|shape| curves.iter().filter_map(|curve| curve.2(shape)));
         let y = Axis::around(values, 0.05, [bottom, top]);
         let axes = Axes { x, y, names: [x_name, y_name] };
-        for (_, colour, value) in curves {
+        for (_, colour, value) in &curves {
             draw(
                 &mut svg,
                 &axes,
@@ -75,7 +87,7 @@ pub(super) fn figure(found: &StudyAnswer, path: usize) -> String {
         }
         axes.frame(&mut svg, [Unit::Decimal, unit]);
         if curves.len() > 1 {
-            legend(&mut svg, curves, top - 12.0);
+            legend(&mut svg, &curves, top - 12.0);
         }
     }
     svg.finish()

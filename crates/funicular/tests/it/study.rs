@@ -148,11 +148,84 @@ fn what_is_refused_everywhere_leaves_files_alone() {
         (&far[..], "no value of the parameters"),
         (&["two.toml", "--vary", "bars.3.mass_kg=1"], "bars.3"),
         (&["two.toml", "--vary", "anchors.end_m.x=1", "--csv", "two.toml"], "two.toml"),
-        (&["--case", "lamp", "--vary", "gravity_m_s2=1"], "chains between two anchors"),
+        (&["--case", "lamp", "--vary", "joints.lamps.mass_kg=1"], "did you mean `lamp`"),
+        (&["--case", "lamp", "--vary", "joints.P.mass_kg=1"], "joints: A, B, lamp"),
+        (&["--case", "lamp", "--vary", "joints.lamp.at_m.x=1"], "joint `lamp` is free"),
+        (&["--case", "lamp", "--vary", "joints.A.mass_kg=1"], "joint `A` is an anchor"),
+        (&["--case", "lamp", "--vary", "joints.B.at_m.x=8,9"], "no value of the parameters"),
+        (&["--case", "bridle", "--vary", "anchors.end_m.x=1"], "no chain between two anchors"),
+        (&["two.toml", "--vary", "bars.1.stiffness_n=1"], "a chain has no `bars.1.stiffness_n`"),
     ] {
         let output = study(&folder, arguments);
         assert_eq!(output.status.code(), Some(2), "{arguments:?}");
         assert!(text(&output.stderr).contains(wanted), "{}", text(&output.stderr));
     }
     assert_eq!(std::fs::read_to_string(folder.join("kept.csv")).unwrap(), "mine");
+}
+
+/// Cells of a CSV file by the names of their columns, line by line.
+fn columns(path: &Path) -> Vec<std::collections::BTreeMap<String, String>> {
+    let csv = std::fs::read_to_string(path).unwrap();
+    let mut lines = csv.lines().map(|line| line.split(',').map(str::to_owned));
+    let head: Vec<String> = lines.next().unwrap().collect();
+    lines.map(|line| head.iter().cloned().zip(line).collect()).collect()
+}
+
+#[test]
+fn systems_by_name_vary_in_loads_supports_and_stiffness() {
+    let folder = folder("systems");
+    // Cables of 3 and 4 m over 5 m: a right angle, so that they pull with 4/5 and 3/5 of the weight.
+    let vary = ["--case", "lamp", "--vary", "joints.lamp.mass_kg=1..3:3", "--csv", "lamp.csv"];
+    let output = study(&folder, &vary);
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    let said = text(&output.stdout);
+    assert!(said.lines().all(|line| line.chars().count() <= 80), "{said}");
+    let rows = columns(&folder.join("lamp.csv"));
+    assert_eq!(rows.len(), 3);
+    for (k, row) in rows.iter().enumerate() {
+        let number = |name: &str| row[name].parse::<f64>().unwrap();
+        let weight = 9.80665 * (k + 1) as f64;
+        for (name, wanted) in [
+            ("tension_n", 0.8 * weight),
+            ("sag_m", 2.4),
+            ("lowest_x_m", 1.8),
+            ("A_z_n", 0.64 * weight),
+            ("B_z_n", 0.36 * weight),
+            ("B_x_n", 0.48 * weight),
+            ("rise_2_deg", (0.6_f64).asin().to_degrees()),
+        ] {
+            assert!((number(name) - wanted).abs() < 1e-9 * weight.max(60.0), "{name}");
+        }
+        assert_eq!((row["lowest_joint"].as_str(), row["agrees"].as_str()), ("lamp", "true"));
+        assert!(!row.contains_key("span_m"));
+    }
+
+    // A weight on an elastic thread of 2 m is (m g / EA) 2 m lower, on the floor if that is nearer.
+    let thread = "gravity_m_s2 = 10\njoints = { A = { at_m = [0, 0, 0] }, P = { mass_kg = 3 } }\n\
+                  bars = [{ from = \"A\", to = \"P\", length_m = 2, mass_kg = 0, kind = \"cable\" }]\n";
+    std::fs::write(folder.join("thread.toml"), thread).unwrap();
+    let vary = ["thread.toml", "--vary", "bars.*.stiffness_n=60,300", "--json"];
+    let floor = ["--vary", "floor_m=-5,-2.5"];
+    let output = study(&folder, &[&vary[..], &floor].concat());
+    let json: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let points = json["points"].as_array().unwrap();
+    let depth = |k: usize| -points[k]["lowest_m"][2].as_f64().unwrap();
+    for (k, wanted) in [3.0, 2.5, 2.2, 2.2].into_iter().enumerate() {
+        assert!((depth(k) - wanted).abs() < 1e-9, "{k}: {}", depth(k));
+    }
+    // Half a metre longer the thread bears 60 N / 4, the floor the rest.
+    assert!((points[1]["reactions_n"]["A"][2].as_f64().unwrap() - 15.0).abs() < 1e-8);
+    assert_eq!(json["system"]["joints"], 2);
+
+    // A chain with a lamp at its middle joint is a system, with its anchors where they were.
+    let lamp = "gravity_m_s2 = 10\nanchors = { start_m = [0, 0, 0], end_m = [1, 0, 0] }\n\
+                bars = [{ length_m = 1, mass_kg = 0, count = 2 }]\nloads = [{ joint = 1, mass_kg = 4 }]\n";
+    std::fs::write(folder.join("loaded.toml"), lamp).unwrap();
+    let vary = ["loaded.toml", "--vary", "anchors.end_m.x=1.2,1.6", "--csv", "loaded.csv"];
+    let output = study(&folder, &vary);
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    let rows = columns(&folder.join("loaded.csv"));
+    for (row, wanted) in rows.iter().zip([20.0 / 0.8, 20.0 / 0.6]) {
+        assert!((row["tension_n"].parse::<f64>().unwrap() - wanted).abs() < 1e-9, "{row:?}");
+    }
 }

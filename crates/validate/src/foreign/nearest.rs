@@ -13,9 +13,10 @@ use crate::tolerances::Tolerances;
 use crate::vector::{minus, norm, worse};
 
 /// What a solver that starts at the answer's positions finds.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct NearestEquilibrium {
     /// The equilibrium with its evidence.
+    #[serde(flatten, serialize_with = "about")]
     pub equilibrium: SystemEquilibrium,
     /// Largest distance of a joint of the answer from the same joint of the equilibrium, m. Parts
     /// that turn freely about a vertical are turned onto each other first; joints that nothing
@@ -32,6 +33,7 @@ pub struct NearestEquilibrium {
     /// Whether equilibrium determines the forces; nothing where that was not counted.
     pub forces_unique: Option<bool>,
     /// The errors with proof, of the nearest equilibrium alone and where there is one.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub proved: Option<ProvedError>,
 }
 
@@ -171,46 +173,16 @@ fn measure(
     }
 }
 
-impl Serialize for NearestEquilibrium {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        #[derive(Serialize)]
-        struct Keys<'a> {
-            solver: &'a SolverName,
-            joints_m: f64,
-            joint: usize,
-            forces_n: f64,
-            member: usize,
-            energy_j: f64,
-            forces_unique: Option<bool>,
-            #[serde(skip_serializing_if = "Option::is_none")]
-            proved: Option<ProvedError>,
-            index_in_space: usize,
-            evidence: &'a model::Evidence,
-        }
-        let Self {
-            equilibrium,
-            joints_m,
-            joint,
-            forces_n,
-            member,
-            energy_j,
-            forces_unique,
-            proved,
-        } = self;
-        Keys {
-            solver: &equilibrium.solver,
-            joints_m: *joints_m,
-            joint: *joint,
-            forces_n: *forces_n,
-            member: *member,
-            energy_j: *energy_j,
-            forces_unique: *forces_unique,
-            proved: *proved,
-            index_in_space: equilibrium.stability.index_in_space,
-            evidence: &equilibrium.evidence,
-        }
-        .serialize(serializer)
+/// Of the equilibrium, what the places and forces of the system do not say.
+fn about<S: Serializer>(equilibrium: &SystemEquilibrium, serializer: S) -> Result<S::Ok, S::Error> {
+    #[derive(Serialize)]
+    struct Keys<'a> {
+        solver: &'a SolverName,
+        index_in_space: usize,
+        evidence: &'a model::Evidence,
     }
+    let SystemEquilibrium { solver, stability, evidence, .. } = equilibrium;
+    Keys { solver, index_in_space: stability.index_in_space, evidence }.serialize(serializer)
 }
 
 impl Serialize for Nearest {

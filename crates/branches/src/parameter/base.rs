@@ -1,0 +1,109 @@
+//! What a parameter needs to be there.
+
+use model::Chain;
+use model::system::{Joint, System};
+use model::system_file::nearest;
+
+use crate::parameter::error::ParameterError;
+use crate::parameter::number::{BarField, JointField, Number, Which};
+use crate::parameter::system::ends;
+use crate::parameter::values::Parameter;
+
+/// So many names of joints are listed.
+const MOST_NAMES: usize = 12;
+
+/// What has numbers that vary: a [`Chain`] or a [`System`].
+pub trait Base {
+    /// Check that the number of a parameter is there.
+    ///
+    /// # Errors
+    ///
+    /// [`ParameterError`] with what is missing and what there is.
+    fn check(&self, parameter: &Parameter) -> Result<(), ParameterError>;
+}
+
+impl Base for Chain {
+    fn check(&self, parameter: &Parameter) -> Result<(), ParameterError> {
+        match &parameter.number {
+            Number::Floor | Number::Joint(..) | Number::Bar(_, BarField::Stiffness) => {
+                let what = format!("a chain has no `{}`", parameter.number);
+                Err(of_path(parameter, what, "it belongs to systems with `[joints]`"))
+            }
+            Number::Bar(which, _) => bar(parameter, *which, self.bars().len(), "chain"),
+            Number::Gravity | Number::Anchor(..) => Ok(()),
+        }
+    }
+}
+
+impl Base for System {
+    fn check(&self, parameter: &Parameter) -> Result<(), ParameterError> {
+        match &parameter.number {
+            Number::Gravity | Number::Floor => Ok(()),
+            Number::Bar(which, _) => bar(parameter, *which, self.members().len(), "system"),
+            Number::Anchor(..) if ends(self).is_some() => Ok(()),
+            Number::Anchor(..) => {
+                let what = "the system is no chain between two anchors";
+                Err(of_path(parameter, what, "its supports are `joints.NAME.at_m`"))
+            }
+            Number::Joint(name, field) => {
+                if let Some(number) = self.joint(name) {
+                    return held(parameter, &self.joints()[number], *field);
+                }
+                let names: Vec<_> = self.joints().iter().map(|joint| joint.name.as_str()).collect();
+                let help = match nearest(name, &names) {
+                    Some(meant) => format!("did you mean `{meant}`?"),
+                    None if names.len() <= MOST_NAMES => format!("joints: {}", names.join(", ")),
+                    None => format!("there are {} joints", names.len()),
+                };
+                Err(of_path(parameter, format!("there is no joint `{name}`"), help))
+            }
+        }
+    }
+}
+
+/// Whether a joint has the number: places are those of supports, anchors bear no loads.
+fn held(parameter: &Parameter, joint: &Joint, field: JointField) -> Result<(), ParameterError> {
+    let name = &joint.name;
+    match field {
+        JointField::Place(_) if joint.support.at_m().is_none() => {
+            let what = format!("joint `{name}` is free and has no `at_m`");
+            Err(of_path(parameter, what, "joints that are held have a place"))
+        }
+        JointField::Mass | JointField::Force(_) if joint.support.is_fixed() => {
+            let what = format!("joint `{name}` is an anchor");
+            Err(of_path(parameter, what, "its load would rest on the ground"))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Whether there are so many bars.
+fn bar(parameter: &Parameter, which: Which, bars: usize, what: &str) -> Result<(), ParameterError> {
+    match which {
+        Which::One(bar) if bar > bars => {
+            let path = path(parameter);
+            let at = path.find(|c: char| c.is_ascii_digit()).unwrap_or(0);
+            let digits = path[at..].chars().take_while(char::is_ascii_digit).count();
+            Err(ParameterError::new(
+                parameter.text(),
+                at..at + digits,
+                format!("there is no bar {bar}"),
+                format!("the {what} has {bars} bars, numbered from 1"),
+            ))
+        }
+        _ => Ok(()),
+    }
+}
+
+fn path(parameter: &Parameter) -> &str {
+    parameter.text().split('=').next().unwrap_or_default()
+}
+
+/// An error about the whole path.
+fn of_path(
+    parameter: &Parameter,
+    what: impl Into<String>,
+    help: impl Into<String>,
+) -> ParameterError {
+    ParameterError::new(parameter.text(), 0..path(parameter).len(), what, help)
+}

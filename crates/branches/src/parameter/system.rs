@@ -1,0 +1,100 @@
+//! From numbers to systems.
+
+use model::Vector;
+use model::system::{Joint, Member, Support, System};
+
+use crate::parameter::apply::{PointError, UncheckedBar};
+use crate::parameter::number::{AnchorEnd, BarField, JointField, Number, Which};
+
+/// The system with these numbers in place of its own, validated.
+///
+/// A force in the middle of a bar stays in the middle, others stay where they are.
+///
+/// # Errors
+///
+/// [`PointError`] when a number is out of range or the system has no equilibrium.
+pub fn apply(base: &System, numbers: &[(Number, f64)]) -> Result<System, PointError> {
+    let (mut joints, mut members) = (base.joints().to_vec(), base.members().to_vec());
+    let (mut gravity_m_s2, mut floor_m) = (base.gravity_m_s2(), base.floor_m());
+    for (number, value) in numbers {
+        match number {
+            Number::Gravity => gravity_m_s2 = *value,
+            Number::Floor => floor_m = Some(*value),
+            Number::Anchor(end, axis) => {
+                let ends = ends(base).map(|[start, last]| match end {
+                    AnchorEnd::Start => start,
+                    AnchorEnd::End => last,
+                });
+                if let Some(joint) = ends {
+                    set_joint(&mut joints[joint], JointField::Place(*axis), *value);
+                }
+            }
+            Number::Joint(name, field) => {
+                if let Some(joint) = base.joint(name) {
+                    set_joint(&mut joints[joint], *field, *value);
+                }
+            }
+            Number::Bar(which, field) => {
+                for (k, member) in members.iter_mut().enumerate() {
+                    if *which == Which::All || *which == Which::One(k + 1) {
+                        set_member(member, *field, *value)
+                            .map_err(|error| PointError::Bar { bar: k + 1, error })?;
+                    }
+                }
+            }
+        }
+    }
+    let mut system = System::new(base.name(), gravity_m_s2, joints, members)?;
+    if let Some(floor_m) = floor_m {
+        system = system.with_floor(floor_m)?;
+    }
+    system.refusal().map_err(Box::new)?;
+    Ok(system)
+}
+
+/// The two anchors of a system that is one row of bars between them, in the order of its bars.
+pub(super) fn ends(system: &System) -> Option<[usize; 2]> {
+    let (joints, members) = (system.joints(), system.members());
+    let row = members.iter().enumerate().all(|(k, member)| [member.from, member.to] == [k, k + 1]);
+    let last = members.len();
+    let held = |joint: usize| joints.get(joint).is_some_and(|j| j.support.is_fixed());
+    (row && joints.len() == last + 1 && held(0) && held(last)).then_some([0, last])
+}
+
+fn set_joint(joint: &mut Joint, field: JointField, value: f64) {
+    match field {
+        JointField::Place(axis) => {
+            if let Some(at_m) = place(&mut joint.support) {
+                at_m[axis] = value;
+            }
+        }
+        JointField::Mass => joint.mass_kg = value,
+        JointField::Force(axis) => joint.force_n[axis] = value,
+    }
+}
+
+fn place(support: &mut Support) -> Option<&mut Vector> {
+    match support {
+        Support::Free => None,
+        Support::Fixed { at_m } | Support::Line { at_m, .. } | Support::Plane { at_m, .. } => {
+            Some(at_m)
+        }
+    }
+}
+
+fn set_member(member: &mut Member, field: BarField, value: f64) -> Result<(), model::BarError> {
+    if field == BarField::Stiffness {
+        member.stiffness_n = Some(value);
+        return Ok(());
+    }
+    let half_m = 0.5 * member.body.length_m();
+    let mut bar = UncheckedBar::new(&member.body);
+    bar.set(field, value);
+    member.body = bar.bar()?;
+    for load in &mut member.loads {
+        if load.at_m.to_bits() == half_m.to_bits() {
+            load.at_m = 0.5 * member.body.length_m();
+        }
+    }
+    Ok(())
+}

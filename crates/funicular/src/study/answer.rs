@@ -1,0 +1,293 @@
+//! All points of a study, as CSV and JSON.
+
+use std::collections::BTreeMap;
+use std::io::{self, Write};
+
+use model::system::System;
+use model::{Chain, SystemSummary, Vector};
+use serde::Serialize;
+
+use super::figure;
+use super::shape::{NoShape, StudyShape};
+use crate::csv::quoted;
+use crate::solve::SCHEMA_VERSION;
+use crate::system::Summary;
+
+/// The columns of every study between its parameters and its supports.
+const COLUMNS: [&str; 12] = [
+    "agrees",
+    "evidence",
+    "energy_j",
+    "sag_m",
+    "lowest_joint",
+    "lowest_x_m",
+    "lowest_y_m",
+    "lowest_z_m",
+    "tension_n",
+    "tension_bar",
+    "compression_n",
+    "compression_bar",
+];
+
+/// What varies.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Subject {
+    Chain(SystemSummary),
+    System(System),
+}
+
+impl Subject {
+    pub(super) fn of_chain(chain: &Chain) -> Self {
+        Self::Chain(chain.summary())
+    }
+
+    pub(super) fn of_system(system: &System) -> Self {
+        Self::System(system.clone())
+    }
+}
+
+/// A point of a study.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct StudyPoint {
+    /// Number of its path, from 1: each combination of all parameters but the last has one.
+    pub path: usize,
+    /// Values of the parameters.
+    pub values: Vec<f64>,
+    /// The hanging shape, or why there is none.
+    #[serde(flatten, serialize_with = "either")]
+    pub shape: Result<StudyShape, NoShape>,
+}
+
+/// One of the two, its keys in place.
+fn either<S: serde::Serializer>(
+    shape: &Result<StudyShape, NoShape>,
+    serializer: S,
+) -> Result<S::Ok, S::Error> {
+    match shape {
+        Ok(shape) => shape.serialize(serializer),
+        Err(none) => none.serialize(serializer),
+    }
+}
+
+/// The hanging shape at every point.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StudyAnswer {
+    pub(super) subject: Subject,
+    pub(super) parameters: Vec<String>,
+    pub(super) units: Vec<&'static str>,
+    pub(super) paths: usize,
+    pub(super) points: Vec<StudyPoint>,
+}
+
+impl StudyAnswer {
+    /// The names of the parameters, as in the system file.
+    #[must_use]
+    pub fn parameters(&self) -> &[String] {
+        &self.parameters
+    }
+
+    /// The units of the parameters.
+    #[must_use]
+    pub fn units(&self) -> &[&'static str] {
+        &self.units
+    }
+
+    /// The name of the chain or the system whose numbers vary.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        match &self.subject {
+            Subject::Chain(summary) => &summary.name,
+            Subject::System(system) => system.name(),
+        }
+    }
+
+    /// What to call a joint by its number: its name, or in a chain the number.
+    #[must_use]
+    pub fn joint(&self, number: usize) -> String {
+        match &self.subject {
+            Subject::Chain(_) => number.to_string(),
+            Subject::System(system) => {
+                system.joints().get(number).map_or_else(String::new, |joint| joint.name.clone())
+            }
+        }
+    }
+
+    /// The supports by name, in the order of [`StudyShape::reactions_n`]: `start` and `end` of a
+    /// chain, the joints of a system that are held.
+    #[must_use]
+    pub fn supports(&self) -> Vec<&str> {
+        match &self.subject {
+            Subject::Chain(_) => vec!["start", "end"],
+            Subject::System(system) => {
+                let held = system.joints().iter().filter(|joint| joint.support.at_m().is_some());
+                held.map(|joint| joint.name.as_str()).collect()
+            }
+        }
+    }
+
+    fn bars(&self) -> usize {
+        match &self.subject {
+            Subject::Chain(summary) => summary.bars,
+            Subject::System(system) => system.members().len(),
+        }
+    }
+
+    /// The points, the last parameter changing fastest.
+    #[must_use]
+    pub fn points(&self) -> &[StudyPoint] {
+        &self.points
+    }
+
+    /// How many paths there are: combinations of all parameters but the last.
+    #[must_use]
+    pub fn paths(&self) -> usize {
+        self.paths
+    }
+
+    /// The shapes that were found.
+    pub fn shapes(&self) -> impl Iterator<Item = &StudyShape> {
+        self.points.iter().filter_map(|point| point.shape.as_ref().ok())
+    }
+
+    /// Whether a check failed at some point.
+    #[must_use]
+    pub fn check_failed(&self) -> bool {
+        self.shapes().any(|shape| shape.check_failed)
+    }
+
+    /// Whether every point is solved and agreed on, or refused because nothing can hang there.
+    #[must_use]
+    pub fn is_decided(&self) -> bool {
+        self.points.iter().all(|point| match &point.shape {
+            Ok(shape) => shape.joints_differ_m.is_none() || shape.agrees,
+            Err(none) => none.refused,
+        })
+    }
+
+    /// Why no value of the parameters describes what can hang, if none does.
+    #[must_use]
+    pub fn refused_everywhere(&self) -> Option<&str> {
+        let mut reasons = self.points.iter().map(|point| match &point.shape {
+            Err(NoShape { refused: true, reason }) => Some(reason.as_str()),
+            _ => None,
+        });
+        let first = reasons.next()??;
+        reasons.all(|reason| reason.is_some()).then_some(first)
+    }
+
+    /// A line per point as CSV, units in the names of the columns; what a refused point has not is
+    /// empty.
+    ///
+    /// # Errors
+    ///
+    /// When `to` cannot be written.
+    pub fn write_csv(&self, mut to: impl Write) -> io::Result<()> {
+        write!(to, "path")?;
+        for parameter in &self.parameters {
+            write!(to, ",{}", quoted(parameter))?;
+        }
+        let mut columns: Vec<String> = COLUMNS.iter().map(ToString::to_string).collect();
+        if matches!(self.subject, Subject::Chain(_)) {
+            columns.insert(0, "span_m".to_owned());
+        }
+        for support in self.supports() {
+            columns.extend(["x", "y", "z"].map(|axis| format!("{support}_{axis}_n")));
+        }
+        columns.extend((1..=self.bars()).map(|bar| format!("rise_{bar}_deg")));
+        for column in &columns {
+            write!(to, ",{}", quoted(column))?;
+        }
+        writeln!(to, ",refused")?;
+        for point in &self.points {
+            write!(to, "{}", point.path)?;
+            for value in &point.values {
+                write!(to, ",{value:?}")?;
+            }
+            match &point.shape {
+                Ok(shape) => self.write_shape(shape, &mut to)?,
+                Err(none) => {
+                    write!(to, "{}", ",".repeat(columns.len()))?;
+                    writeln!(to, ",{}", quoted(&none.reason))?;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// The cells of a line after the values of the parameters.
+    fn write_shape(&self, shape: &StudyShape, to: &mut impl Write) -> io::Result<()> {
+        let StudyShape { agrees, energy_j, extremes, .. } = shape;
+        if let Some(span_m) = shape.span_m {
+            write!(to, ",{span_m:?}")?;
+        }
+        let rung = shape.rung.map_or_else(String::new, |rung| rung.to_string());
+        write!(to, ",{agrees},{rung},{energy_j:?},")?;
+        if let Some(sag_m) = extremes.sag_m {
+            write!(to, "{sag_m:?}")?;
+        }
+        write!(to, ",{}", quoted(&self.joint(extremes.lowest_joint)))?;
+        for x in extremes.lowest_m {
+            write!(to, ",{x:?}")?;
+        }
+        for largest in [extremes.tension_n, extremes.compression_n] {
+            match largest {
+                Some((bar, force_n)) => write!(to, ",{force_n:?},{}", bar + 1)?,
+                None => write!(to, ",,")?,
+            }
+        }
+        for force in shape.reactions_n.as_flattened() {
+            write!(to, ",{force:?}")?;
+        }
+        for rise in &shape.rises_deg {
+            write!(to, ",{rise:?}")?;
+        }
+        writeln!(to, ",")
+    }
+
+    /// Sag, forces and angles over the last parameter as SVG, for one path, from 1.
+    #[must_use]
+    pub fn figure(&self, path: usize) -> String {
+        figure::figure(self, path)
+    }
+}
+
+/// As `funicular study --json` prints it.
+impl Serialize for StudyAnswer {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        #[derive(Serialize)]
+        #[serde(untagged)]
+        enum About<'a> {
+            Chain(&'a SystemSummary),
+            System(Summary<'a>),
+        }
+        #[derive(Serialize)]
+        struct Point<'a> {
+            #[serde(flatten)]
+            point: &'a StudyPoint,
+            #[serde(skip_serializing_if = "Option::is_none")]
+            reactions_n: Option<BTreeMap<&'a str, Vector>>,
+        }
+        #[derive(Serialize)]
+        struct Object<'a> {
+            schema_version: u32,
+            system: About<'a>,
+            parameters: &'a [String],
+            units: &'a [&'static str],
+            points: Vec<Point<'a>>,
+        }
+        let Self { subject, parameters, units, points, .. } = self;
+        let system = match subject {
+            Subject::Chain(summary) => About::Chain(summary),
+            Subject::System(system) => About::System(Summary::of(system)),
+        };
+        let supports = self.supports();
+        let reactions =
+            |shape: &StudyShape| supports.iter().copied().zip(shape.reactions_n.clone()).collect();
+        let points = points
+            .iter()
+            .map(|point| Point { point, reactions_n: point.shape.as_ref().ok().map(reactions) });
+        let points = points.collect();
+        Object { schema_version: SCHEMA_VERSION, system, parameters, units, points }
+            .serialize(serializer)
+    }
+}
