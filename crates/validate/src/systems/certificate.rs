@@ -26,28 +26,28 @@
 //!
 //! # Rounding
 //!
-//! That $\\Omega \\ge c$ is proved by a Cholesky factorisation of $\\Omega - 2c\\, I$ in floating
-//! point that runs to its end: then $\\Omega - 2c I + E \\ge 0$ with $|E| \\le c$, as long as $c$
-//! is above the rounding bound $\\gamma_{m+2}\\,\\mathrm{tr}(\\Omega)$ of the factorisation and of
-//! the entries, with $m$ the number of joints.
+//! That $\\Omega \\ge c$ is proved by a Cholesky factorisation of $\\Omega - 2c\, I$ in floating
+//! point that runs to its end, and by what the rows of its factor say of its rounding (module
+//! `definite`). The larger $c$, the smaller what the gradient costs: $c$ is as large as the gap
+//! needs, where the matrix allows, else as small as rounding does.
 //!
 //! # References
 //!
-//! R. Connelly, Invent. Math. 66 (1982) 11-33, doi:10.1007/BF01404753 (stress matrices); S. M.
-//! Rump, BIT Numer. Math. 46 (2006) 433-452, doi:10.1007/s10543-006-0056-1 (positive definiteness
-//! by floating-point Cholesky).
+//! R. Connelly, Invent. Math. 66 (1982) 11-33, doi:10.1007/BF01404753 (stress matrices).
 
-use faer::Side;
-use faer::sparse::{SparseColMat, Triplet};
 use model::system::{Kind, Member, Support, System, SystemEquilibrium};
 use model::{NoCertificate, Optimal, Vector, sum};
 
+use super::definite::{Symmetric, gamma};
 use super::floor::push_n;
 use crate::vector::{dot, minus, norm, plus, times, worse};
 
 /// The largest gap that still counts as none, in units of the loads times the size of the system:
 /// what the solvers' own budget of energies allows.
 const GAP: f64 = 1e-9;
+
+/// What the gradient may add to the gap, in the same units: nothing that anyone sees.
+const SMALL_GAP: f64 = 1e-15;
 
 /// Largest distance of a joint from the reference of the energy, or length of a member, m.
 pub(super) fn size_m(system: &System, answer: &SystemEquilibrium) -> f64 {
@@ -84,12 +84,16 @@ pub fn certify(system: &System, answer: &SystemEquilibrium) -> Result<Optimal, N
         return Err(NoCertificate::Unusable);
     }
     let densities = densities(system, answer);
-    let least = least_eigenvalue(system, &densities).ok_or_else(|| NoCertificate::NotDefinite {
-        compressed: densities.iter().filter(|w| **w < 0.0).count(),
-    })?;
     let unit_j = total_load_n(system) * size_m(system, answer);
     let unit_j = if unit_j > 0.0 { unit_j } else { elastic_unit_j(system) };
-    let gap = (answer.energy_j - bound_j(system, answer, &densities, least)) / unit_j;
+    let tangent = tangent(system, answer, &densities);
+    let wanted = tangent.squared_gradient / (2.0 * SMALL_GAP * unit_j);
+    let matrix = stress_matrix(system, &densities);
+    let least = matrix.least_eigenvalue(wanted).ok_or_else(|| NoCertificate::NotDefinite {
+        compressed: densities.iter().filter(|w| **w < 0.0).count(),
+    })?;
+    let bound_j = tangent.value_j - tangent.squared_gradient / (2.0 * least);
+    let gap = (answer.energy_j - bound_j) / unit_j;
     // NaN is no proof.
     if gap <= GAP {
         Ok(Optimal { gap: Some(gap), singular: false })
@@ -122,8 +126,8 @@ fn densities(system: &System, answer: &SystemEquilibrium) -> Vec<f64> {
     system.members().iter().zip(&answer.axial_n).map(of_member).collect()
 }
 
-/// A proved lower bound of the least eigenvalue of the stress matrix, if it is proved positive.
-fn least_eigenvalue(system: &System, densities: &[f64]) -> Option<f64> {
+/// The stress matrix over the joints that can move.
+fn stress_matrix(system: &System, densities: &[f64]) -> Symmetric {
     let mut rows = vec![usize::MAX; system.joints().len()];
     let mut size = 0;
     for (row, joint) in rows.iter_mut().zip(system.joints()) {
@@ -132,31 +136,24 @@ fn least_eigenvalue(system: &System, densities: &[f64]) -> Option<f64> {
             size += 1;
         }
     }
-    let mut diagonal = vec![0.0; size];
-    let mut entries = Vec::with_capacity(2 * densities.len() + size);
+    let (mut diagonal, mut terms) = (vec![0.0; size], vec![0.0_f64; size]);
+    let mut below = Vec::with_capacity(densities.len());
     for (member, density) in system.members().iter().zip(densities) {
         let (a, b) = (rows[member.from], rows[member.to]);
         for row in [a, b] {
-            if let Some(sum) = diagonal.get_mut(row) {
-                *sum += density;
+            if row < size {
+                diagonal[row] += density;
+                terms[row] += density.abs();
             }
         }
         if a < size && b < size {
-            entries.push(Triplet::new(a.max(b), a.min(b), -density));
+            below.push((a.max(b), a.min(b), -density));
         }
     }
-    // Rounding of the entries (sums of at most as many terms as members) and of the factorisation,
-    // against the sum of the sizes of all terms on the diagonal: twice the trace of the matrix
-    // of |w|.
-    let terms = 2.0 * sum(densities.iter().map(|w| w.abs()));
-    let most = largest_degree(system) as f64 + size as f64 + 4.0;
-    let unit = 0.5 * f64::EPSILON * most;
-    let rounding = unit / (1.0 - 2.0 * unit) * terms;
-    let shift = 2.0 * rounding;
-    entries.extend((0..size).map(|k| Triplet::new(k, k, diagonal[k] - shift)));
-    let matrix = SparseColMat::<usize, f64>::try_new_from_triplets(size, size, &entries).ok()?;
-    matrix.sp_cholesky(Side::Lower).ok()?;
-    (rounding > 0.0).then_some(shift - rounding)
+    // Sums of at most as many terms as members meet in a joint, on the diagonal and beside it.
+    let largest = terms.into_iter().fold(0.0, f64::max);
+    let uncertainty = 2.0 * gamma(largest_degree(system)) * largest;
+    Symmetric { size, below, diagonal, uncertainty }
 }
 
 /// The most members that meet in a joint.
@@ -173,9 +170,17 @@ fn largest_degree(system: &System) -> usize {
 /// a unit each, and as many again for those of the bound itself.
 const TERM_ULPS: f64 = 16.0;
 
-/// A lower bound of the energy of every configuration, J. What is added is paired with the size of
-/// all that was rounded on the way: of differences, with the size of what was subtracted.
-fn bound_j(system: &System, answer: &SystemEquilibrium, densities: &[f64], least: f64) -> f64 {
+/// The quadratic function below the energy, at an answer.
+struct Tangent {
+    /// A lower bound of its value there, J.
+    value_j: f64,
+    /// An upper bound of the square of its gradient by the places that the joints may take, N².
+    squared_gradient: f64,
+}
+
+/// The quadratic function at an answer. What is added is paired with the size of all that was
+/// rounded on the way: of differences, with the size of what was subtracted.
+fn tangent(system: &System, answer: &SystemEquilibrium, densities: &[f64]) -> Tangent {
     let origin = system.reference_m();
     let place = |k: usize| minus(answer.joints_m[k], origin);
     let mut loads = joint_loads(system);
@@ -214,17 +219,19 @@ fn bound_j(system: &System, answer: &SystemEquilibrium, densities: &[f64], least
     let rounding_j = ulps * sum(terms.iter().map(|(_, size)| *size));
     // As many additions as members meet in a joint, each rounded.
     let ulps = ulps + f64::EPSILON * largest_degree(system) as f64;
-    let slope = sum(gradient.iter().zip(sizes_n).enumerate().map(|(k, (force, size))| {
-        let moving = match system.joints()[k].support {
-            Support::Fixed { .. } => return 0.0,
-            Support::Free => *force,
-            Support::Line { direction, .. } => times(dot(*force, direction), direction),
-            Support::Plane { normal, .. } => minus(*force, times(dot(*force, normal), normal)),
-        };
-        let most = norm(moving) + ulps * size;
-        most * most
-    }));
-    sum(terms.iter().map(|(term, _)| *term)) - rounding_j - slope / (2.0 * least)
+    let squared_gradient =
+        sum(gradient.iter().zip(sizes_n).enumerate().map(|(k, (force, size))| {
+            let moving = match system.joints()[k].support {
+                Support::Fixed { .. } => return 0.0,
+                Support::Free => *force,
+                Support::Line { direction, .. } => times(dot(*force, direction), direction),
+                Support::Plane { normal, .. } => minus(*force, times(dot(*force, normal), normal)),
+            };
+            let most = norm(moving) + ulps * size;
+            most * most
+        }));
+    let value_j = sum(terms.iter().map(|(term, _)| *term)) - rounding_j;
+    Tangent { value_j, squared_gradient }
 }
 
 /// The tangent to a member's potential with the slope `w/2`, at the squared distance `t`, and the

@@ -7,6 +7,7 @@ mod bodies;
 mod certificate;
 pub(crate) mod compare;
 mod completeness;
+mod definite;
 mod family;
 mod floor;
 pub(crate) mod free;
