@@ -7,12 +7,14 @@
 //! (H. C. Andersen, J. Comput. Phys. 52 (1983) 24-34; symplectic and symmetric: B. Leimkuhler, R.
 //! Skeel, J. Comput. Phys. 112 (1994) 117-125). The nonlinear equation is solved by the iteration
 //! with the matrix of the beginning of the step, which is factorised already: each iteration costs
-//! one elimination without factorisation and gains the factor `h |v| / l`.
+//! one elimination without factorisation and gains the factor `h |v| / l`. Where that is not less
+//! than one, near positions where constraints depend on each other, corrections are Newton's.
 
 use model::Vector;
 
 use crate::error::MotionError;
 use crate::force::Forces;
+use crate::krylov;
 use crate::mechanism::Mechanism;
 use crate::saddle::{Saddle, Singular};
 use crate::state::{State, half_excess};
@@ -27,6 +29,13 @@ const ROUNDING: f64 = 8.0 * f64::EPSILON;
 
 /// Corrections after which a step is given up: at a gain of 1.4 each they reach the rounding.
 const MOST_CORRECTIONS: usize = 100;
+
+/// A correction that leaves more of the violation than this is followed by one of Newton's.
+const SLOW: f64 = 0.5;
+
+/// Part of its length that an end of a bar turns at most in a step that needs Newton's corrections:
+/// they would also find the positions that a motion does not lead to.
+const LARGEST_TURN: f64 = 0.5;
 
 /// What a step needs and keeps.
 pub(crate) struct Stepper {
@@ -110,8 +119,17 @@ impl Stepper {
             if off.is_nan() || corrections > MOST_CORRECTIONS {
                 return Err(Failure::NotMet { corrections, off });
             }
-            self.x[..moving].fill([0.0; 3]);
-            self.correct(moving);
+            // The first one had the forces in it, and corrected what the velocities violate.
+            if corrections > 1 && off > SLOW * before {
+                if off > before {
+                    self.undo(moving);
+                    self.excess(mechanism);
+                }
+                self.newton(mechanism).map_err(|()| Failure::NotMet { corrections, off })?;
+            } else {
+                self.x[..moving].fill([0.0; 3]);
+                self.correct(moving);
+            }
             before = off;
         }
         state.displace(&self.by[..moving]);
@@ -152,6 +170,57 @@ impl Stepper {
         for (by, x) in self.by.iter_mut().zip(&self.x[..moving]) {
             *by = plus(*by, *x);
         }
+    }
+
+    /// Take back the last correction.
+    fn undo(&mut self, moving: usize) {
+        for (by, x) in self.by.iter_mut().zip(&self.x[..moving]) {
+            *by = minus(*by, *x);
+        }
+    }
+
+    /// A correction with the vectors at the displaced places (of the momentum, those of the
+    /// beginning of the step stay), where the iteration with the old ones gains too little: the
+    /// step passes a position where constraints depend on each other.
+    ///
+    /// The equation `R₁ M⁻¹ R₀ᵀ ν = −g` is solved with the factors of `R₀ M⁻¹ R₀ᵀ` as
+    /// preconditioner. The product of the two has its eigenvalues near 1 and, for the directions
+    /// that lose their constraint at a distance `δ` from where they do, near `δ₁/δ₀`: two clusters.
+    fn newton(&mut self, mechanism: &Mechanism) -> Result<(), ()> {
+        let moving = mechanism.moving;
+        let bars = &mechanism.bars;
+        let mut ahead = self.vectors.clone();
+        for (link, d) in bars.iter().zip(&mut ahead) {
+            let turned = minus(self.by[link.b], self.by[link.a]);
+            if dot(turned, turned) > (LARGEST_TURN * link.length_m).powi(2) {
+                return Err(());
+            }
+            *d = plus(*d, turned);
+        }
+        let far = mechanism.system.total_length_m();
+        let mut unit: Vec<f64> = bars.iter().map(|link| link.length_m * link.length_m).collect();
+        unit.resize(self.rows.len(), far);
+        let right: Vec<f64> = self.rows.iter().zip(&unit).map(|(row, unit)| row / unit).collect();
+        let (saddle, x, rows) = (&mut self.saddle, &mut self.x, &mut self.rows);
+        let mut displaced = |z: &[f64]| {
+            for ((row, z), unit) in rows.iter_mut().zip(z).zip(&unit) {
+                *row = z * unit;
+            }
+            x[..moving].fill([0.0; 3]);
+            saddle.solve(&mut x[..moving], rows);
+            // Slots of anchors are never displaced.
+            let of_bars = bars.iter().zip(&ahead);
+            let mut out: Vec<f64> = of_bars.map(|(l, d)| dot(*d, minus(x[l.b], x[l.a]))).collect();
+            out.extend(mechanism.slides.iter().map(|slide| dot(slide.normal, x[slide.slot])));
+            out.iter_mut().zip(&unit).for_each(|(out, unit)| *out /= unit);
+            out
+        };
+        let found = krylov::solve(&mut displaced, &right);
+        displaced(&found);
+        for (by, x) in self.by.iter_mut().zip(&self.x[..moving]) {
+            *by = plus(*by, *x);
+        }
+        Ok(())
     }
 
     /// Add `x` to the velocities as an impulse (its inertia divided out), and take out what changes

@@ -11,6 +11,9 @@ pub enum Order {
     /// Five steps of RATTLE of the lengths `p h, p h, (1 − 4p) h, p h, p h`, `p = 1/(4 − 4^(1/3))`
     /// (Suzuki, Phys. Lett. A 146 (1990) 319-323).
     Fourth,
+    /// Seventeen steps of RATTLE (W. Kahan, R.-C. Li, Math. Comp. 66 (1997) 1089-1099), for motions
+    /// to many digits.
+    Eighth,
 }
 
 /// Settings of an integration.

@@ -3,12 +3,13 @@
 use model::Vector;
 use model::system::System;
 
+use crate::composition::parts;
 use crate::damping;
 use crate::error::MotionError;
 use crate::force::{ForceOfTime, Forces, kinetic_j, potential_j};
 use crate::mechanism::Mechanism;
 use crate::rattle::{Failure, Stepper};
-use crate::settings::{Order, Settings};
+use crate::settings::Settings;
 use crate::snapshot::Snapshot;
 use crate::state::State;
 
@@ -46,6 +47,8 @@ const MOST_CORRECTIONS: usize = 20;
 pub struct Simulation {
     mechanism: Mechanism,
     settings: Settings,
+    /// Lengths of the steps of RATTLE in a step, in units of it.
+    parts: Vec<f64>,
     forces: Forces,
     state: State,
     stepper: Stepper,
@@ -78,7 +81,8 @@ impl Simulation {
         stepper.assemble(&mechanism, &mut state, MOST_CORRECTIONS).map_err(begin)?;
         let forces = Forces { of_time: Vec::new() };
         stepper.arrive(&mechanism, &state, &forces, 0.0).map_err(begin)?;
-        Ok(Self { mechanism, settings, forces, state, stepper, time_s: 0.0 })
+        let parts = parts(settings.order);
+        Ok(Self { mechanism, settings, parts, forces, state, stepper, time_s: 0.0 })
     }
 
     /// Add a force at a joint as a function of time, N; with the damping of [`Settings`] and the
@@ -133,16 +137,10 @@ impl Simulation {
     /// [`MotionError`] when the constraints cannot be met: the step is too long, or the bars lie on
     /// a taut line.
     pub fn step(&mut self, step_s: f64) -> Result<(), MotionError> {
-        match self.settings.order {
-            Order::Second => self.part(step_s),
-            Order::Fourth => {
-                let p = 1.0 / (4.0 - 4.0_f64.cbrt());
-                for part in [p, p, 1.0 - 4.0 * p, p, p] {
-                    self.part(part * step_s)?;
-                }
-                Ok(())
-            }
+        for k in 0..self.parts.len() {
+            self.part(self.parts[k] * step_s)?;
         }
+        Ok(())
     }
 
     /// A symmetric step of order two: half of the damping, RATTLE, half of the damping.

@@ -18,14 +18,19 @@
 
 use model::Vector;
 
+use super::orthogonal::eliminate;
 use super::{Layout, Singular};
 use crate::vector::{add_times, dot, times};
 
 /// Symmetric 3 × 3 matrix: xx, xy, xz, yy, yz, zz.
-type Symmetric = [f64; 6];
+pub(super) type Symmetric = [f64; 6];
 
 /// Least pivot of `T`, relative to its diagonal before elimination: below it is rounding.
 const LEAST_PIVOT: f64 = 1e-14;
+
+/// Least pivot of `T` up to which products serve: there they have lost four digits of what the next
+/// joint gets, the square of the pivot.
+const CLOSE_PIVOT: f64 = 1e-2;
 
 /// Where the bar of a joint towards its parent leads.
 #[derive(Debug, Clone, Copy)]
@@ -51,8 +56,8 @@ struct Own {
 #[derive(Debug, Clone)]
 pub(crate) struct Forest {
     up: Vec<Option<Up>>,
-    /// Rows of joint p: `rows[begin[p]..begin[p + 1]]`.
-    begin: Vec<usize>,
+    /// Rows of joint p: `rows[first[p]..first[p + 1]]`.
+    first: Vec<usize>,
     rows: Vec<usize>,
     /// Where the m × m matrix of joint p begins.
     square: Vec<usize>,
@@ -67,6 +72,8 @@ pub(crate) struct Forest {
     a: Vec<Symmetric>,
     w: Vec<Vector>,
     s: Vec<f64>,
+    /// Least pivot of a `T`, relative to its diagonal before elimination.
+    closest: f64,
 }
 
 impl Forest {
@@ -108,7 +115,7 @@ impl Forest {
         let squares = square[n];
         Self {
             up,
-            begin,
+            first: begin,
             rows: in_order,
             square,
             own,
@@ -120,12 +127,23 @@ impl Forest {
             a: vec![[0.0; 6]; n],
             w: vec![[0.0; 3]; rows],
             s: vec![0.0; rows],
+            closest: 1.0,
         }
     }
 
     /// Factors for the given vectors of the rows (`+d` at the second joint of a bar, the normal of
     /// a support).
     pub(super) fn factor(&mut self, vectors: &[Vector]) -> Result<(), Singular> {
+        self.closest = 1.0;
+        let factored = self.by_products(vectors);
+        if factored.is_err() || self.closest < CLOSE_PIVOT {
+            return self.by_reflections(vectors);
+        }
+        Ok(())
+    }
+
+    /// What all joints begin with.
+    fn begin(&mut self, vectors: &[Vector]) {
         for (a, &m) in self.a.iter_mut().zip(&self.mass) {
             *a = [m, 0.0, 0.0, m, 0.0, m];
         }
@@ -133,34 +151,65 @@ impl Forest {
             self.w[own.place] = times(own.sign, vectors[own.row]);
             self.s[own.place] = 0.0;
         }
+    }
+
+    /// Factors where rows nearly depend on each other: positions at which bars are about to lie on
+    /// one taut line.
+    fn by_reflections(&mut self, vectors: &[Vector]) -> Result<(), Singular> {
+        self.begin(vectors);
         for slot in 0..self.p.len() {
-            let inverse = inverse(self.a[slot]).map_err(|pivot| Singular { slot, pivot })?;
-            let (first, end) = (self.begin[slot], self.begin[slot + 1]);
-            self.p[slot] = match end - first {
-                0 => inverse,
-                1 => self.one_row(slot, inverse)?,
-                _ => self.rows_of(slot, inverse)?,
-            };
-            if let Some(up) = self.up[slot] {
-                let p = self.p[slot];
-                let b = up.between;
-                for (a, p) in self.a[up.parent].iter_mut().zip(p) {
-                    *a -= b * b * p;
-                }
-                if let Some(place) = up.place {
-                    let d = times(up.sign, vectors[up.row]);
-                    let pd = product(p, d);
-                    self.to_parent[slot] = d;
-                    self.w[place] = add_times(d, b, pd);
-                    self.s[place] = dot(d, pd);
-                }
+            let (first, end) = (self.first[slot], self.first[slot + 1]);
+            // The roots of what children left.
+            let (w, roots) = (&self.w[first..end], &self.s[first..end]);
+            let found =
+                eliminate(self.a[slot], w, roots).map_err(|pivot| Singular { slot, pivot })?;
+            self.p[slot] = found.p();
+            self.h[first..end].copy_from_slice(&found.h);
+            let square = self.square[slot]..self.square[slot + 1];
+            self.t_inverse[square].copy_from_slice(&found.t_inverse);
+            self.hand_up(slot, vectors);
+            if let Some(Up { place: Some(place), .. }) = self.up[slot] {
+                self.s[place] = found.root(self.to_parent[slot]);
             }
         }
         Ok(())
     }
 
+    fn by_products(&mut self, vectors: &[Vector]) -> Result<(), Singular> {
+        self.begin(vectors);
+        for slot in 0..self.p.len() {
+            let inverse = inverse(self.a[slot]).map_err(|pivot| Singular { slot, pivot })?;
+            let (first, end) = (self.first[slot], self.first[slot + 1]);
+            self.p[slot] = match end - first {
+                0 => inverse,
+                1 => self.one_row(slot, inverse)?,
+                _ => self.rows_of(slot, inverse)?,
+            };
+            self.hand_up(slot, vectors);
+        }
+        Ok(())
+    }
+
+    /// What the parent gets from an eliminated joint.
+    #[inline]
+    fn hand_up(&mut self, slot: usize, vectors: &[Vector]) {
+        let Some(up) = self.up[slot] else { return };
+        let p = self.p[slot];
+        let b = up.between;
+        for (a, p) in self.a[up.parent].iter_mut().zip(p) {
+            *a -= b * b * p;
+        }
+        if let Some(place) = up.place {
+            let d = times(up.sign, vectors[up.row]);
+            let pd = product(p, d);
+            self.to_parent[slot] = d;
+            self.w[place] = add_times(d, b, pd);
+            self.s[place] = dot(d, pd);
+        }
+    }
+
     fn one_row(&mut self, slot: usize, inverse: Symmetric) -> Result<Symmetric, Singular> {
-        let place = self.begin[slot];
+        let place = self.first[slot];
         let w = self.w[place];
         let g = product(inverse, w);
         let t = self.s[place] + dot(w, g);
@@ -174,7 +223,7 @@ impl Forest {
     }
 
     fn rows_of(&mut self, slot: usize, inverse: Symmetric) -> Result<Symmetric, Singular> {
-        let (first, end) = (self.begin[slot], self.begin[slot + 1]);
+        let (first, end) = (self.first[slot], self.first[slot + 1]);
         let m = end - first;
         let g: Vec<Vector> = self.w[first..end].iter().map(|&w| product(inverse, w)).collect();
         let t = &mut self.t_inverse[self.square[slot]..self.square[slot + 1]];
@@ -184,7 +233,8 @@ impl Forest {
             }
             t[i * m + i] += self.s[first + i];
         }
-        invert(t, m).map_err(|pivot| Singular { slot, pivot })?;
+        let pivot = invert(t, m).map_err(|pivot| Singular { slot, pivot })?;
+        self.closest = self.closest.min(pivot);
         let mut p = inverse;
         for i in 0..m {
             let mut h = [0.0; 3];
@@ -201,7 +251,7 @@ impl Forest {
     pub(super) fn solve(&self, x: &mut [Vector], rows: &mut [f64]) {
         let mut small = Vec::new();
         for slot in 0..self.p.len() {
-            let (first, end) = (self.begin[slot], self.begin[slot + 1]);
+            let (first, end) = (self.first[slot], self.first[slot + 1]);
             let f = x[slot];
             let mut z = product(self.p[slot], f);
             if end == first + 1 {
@@ -237,7 +287,7 @@ impl Forest {
                 u = add_times(u, rows[up.row], self.to_parent[slot]);
             }
             x[slot] = add_times(x[slot], 1.0, product(self.p[slot], u));
-            for place in self.begin[slot]..self.begin[slot + 1] {
+            for place in self.first[slot]..self.first[slot + 1] {
                 rows[self.rows[place]] += dot(self.h[place], u);
             }
         }
@@ -287,11 +337,13 @@ fn inverse(m: Symmetric) -> Result<Symmetric, f64> {
 }
 
 /// Invert a symmetric positive definite m × m matrix in place (Gauss-Jordan without pivoting); the
-/// relative pivot that fails otherwise.
-fn invert(t: &mut [f64], m: usize) -> Result<(), f64> {
+/// least relative pivot, or that which fails.
+fn invert(t: &mut [f64], m: usize) -> Result<f64, f64> {
     let diagonal: Vec<f64> = (0..m).map(|k| t[k * m + k]).collect();
+    let mut least = 1.0_f64;
     for k in 0..m {
         let pivot = t[k * m + k];
+        least = least.min(pivot / diagonal[k]);
         if pivot.is_nan() || pivot <= LEAST_PIVOT * diagonal[k] {
             return Err(if diagonal[k] > 0.0 { pivot / diagonal[k] } else { 0.0 });
         }
@@ -308,5 +360,5 @@ fn invert(t: &mut [f64], m: usize) -> Result<(), f64> {
             }
         }
     }
-    Ok(())
+    Ok(least)
 }

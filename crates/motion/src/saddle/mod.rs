@@ -9,6 +9,7 @@
 //! onto the rows alone.
 
 mod forest;
+mod orthogonal;
 mod sparse;
 
 use model::Vector;

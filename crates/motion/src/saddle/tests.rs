@@ -102,3 +102,41 @@ fn a_row_that_stands_twice_is_told() {
     assert_eq!(Forest::new(&layout).factor(&vectors).unwrap_err().slot, 1);
     assert_eq!(Sparse::new(&layout).factor(&vectors).unwrap_err().slot, 1);
 }
+
+/// A pair of chains between anchors whose bars lie on one line but for angles of 1e-6.
+#[test]
+fn rows_that_nearly_depend_on_each_other_keep_their_digits() {
+    let mut rng = ChaCha8Rng::seed_from_u64(4);
+    let edge = |a: usize| Edge { a, b: a + 1, between: 0.2, row: Some(a) };
+    let own = |slot, row, sign| OwnRow { slot, row, sign };
+    let n = 12;
+    let layout = Layout {
+        mass: vec![1.0; n],
+        edges: (0..n - 1).map(edge).collect(),
+        own: vec![own(0, n - 1, 1.0), own(n - 1, n, -1.0)],
+    };
+    for bend in [1e-2, 1e-4, 1e-6] {
+        let vectors: Vec<Vector> = (0..=n)
+            .map(|_| [1.0, bend * rng.random_range(-1.0..1.0), bend * rng.random_range(-1.0..1.0)])
+            .collect();
+        let mut forest = Forest::new(&layout);
+        forest.factor(&vectors).unwrap();
+        let x: Vec<Vector> = layout.mass.iter().map(|_| random(&mut rng)).collect();
+        let rho: Vec<f64> = vectors.iter().map(|_| rng.random_range(-1.0..1.0)).collect();
+        let (f, phi) = apply(&layout, &vectors, &x, &rho);
+        let (mut found, mut forces) = (f.clone(), phi.clone());
+        forest.solve(&mut found, &mut forces);
+        let (f_found, phi_found) = apply(&layout, &vectors, &found, &forces);
+        // The rows are met to rounding; forces lose the digits of the square of the bend, which are
+        // those of the multipliers.
+        for (found, wanted) in phi_found.iter().zip(&phi) {
+            assert!((found - wanted).abs() < 1e-14, "{bend:e} {found} {wanted}");
+        }
+        let allowed = 1e-16 / (bend * bend);
+        for (found, wanted) in f_found.iter().zip(&f) {
+            for k in 0..3 {
+                assert!((found[k] - wanted[k]).abs() < allowed.max(1e-13), "{bend:e}");
+            }
+        }
+    }
+}

@@ -3,7 +3,10 @@
 #![expect(clippy::unwrap_used, reason = "helpers of tests")]
 
 mod common;
+mod elliptic;
 mod energy;
+mod folded;
+mod four_bars;
 mod laws;
 mod modes;
 mod order;
@@ -11,4 +14,5 @@ mod paper;
 mod pendulum;
 mod positions;
 mod refused;
+mod second_opinion;
 mod taylor;

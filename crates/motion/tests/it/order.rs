@@ -35,6 +35,12 @@ fn the_composition_is_of_fourth_order() {
 }
 
 #[test]
+fn the_longer_composition_is_of_eighth_order() {
+    let order = measured(Order::Eighth, [40.0, 80.0]);
+    assert!((order - 8.0).abs() < 0.4, "{order}");
+}
+
+#[test]
 fn a_motion_runs_back_to_where_it_began() {
     let at = closed(0.8, 1.0);
     let mut simulation = at_rest(&paper(), &at, Order::Second);

@@ -3,36 +3,14 @@
 use motion::Order;
 
 use crate::common::{G, at_rest, hanging, links, run};
-
-/// `sn(u, k)` and the quarter period by arithmetic-geometric means (Abramowitz and Stegun 16.4,
-/// 17.6).
-fn elliptic(k: f64) -> (f64, impl Fn(f64) -> f64) {
-    let (mut a, mut c) = (vec![1.0_f64], vec![k]);
-    let mut b = (1.0 - k * k).sqrt();
-    while c[c.len() - 1].abs() > 1e-15 {
-        let last = a[a.len() - 1];
-        a.push(0.5 * (last + b));
-        c.push(0.5 * (last - b));
-        b = (last * b).sqrt();
-    }
-    let top = a.len() - 1;
-    let quarter = std::f64::consts::FRAC_PI_2 / a[top];
-    let sn = move |u: f64| {
-        let mut phi = f64::powi(2.0, i32::try_from(top).unwrap()) * a[top] * u;
-        for n in (1..=top).rev() {
-            phi = 0.5 * (phi + (c[n] / a[n] * phi.sin()).asin());
-        }
-        phi.sin()
-    };
-    (quarter, sn)
-}
+use crate::elliptic::elliptic;
 
 /// Angle of a pendulum of length 1 released at `start` from rest.
 fn angle(start: f64, time_s: f64) -> f64 {
-    let (quarter, sn) = elliptic((0.5 * start).sin());
+    let (quarter, amplitude) = elliptic((0.5 * start).sin());
     // The phase is reduced to one period, where the recursion keeps its digits.
     let phase = (quarter + G.sqrt() * time_s) % (4.0 * quarter);
-    2.0 * ((0.5 * start).sin() * sn(phase)).asin()
+    2.0 * ((0.5 * start).sin() * amplitude(phase).sin()).asin()
 }
 
 #[test]

@@ -1,0 +1,138 @@
+//! Elimination of one joint by reflections, for rows that nearly depend on each other.
+//!
+//! With `A = L Lᵀ`, `W̃ = L⁻¹ W` and the roots of what the children left,
+//!
+//! $$ \begin{bmatrix} \tilde W \\ S^{1/2} \end{bmatrix} = \begin{bmatrix} Q_1 & Q_2 \\ \cdot & \cdot
+//!    \end{bmatrix} \begin{bmatrix} U \\ 0 \end{bmatrix} : \quad T = U^T U, \quad
+//!    H = L^{-T} Q_1 U^{-T}, \quad P = F F^T, \quad F = L^{-T} Q_2 . $$
+//!
+//! Nothing is subtracted from `A⁻¹`: where rows are dependent up to an angle `δ`, `T` formed by
+//! products has lost the digits of `δ²`, and the `s = dᵀ P d` of the next joint those of `δ⁴`; here
+//! `√s = |Fᵀ d|` loses those of `δ` alone (the square-root form of G. J. Bierman, *Factorization
+//! Methods for Discrete Sequential Estimation*, 1977).
+
+use model::Vector;
+
+use super::forest::Symmetric;
+use crate::vector::{add_times, dot, times};
+
+/// Least diagonal of `U` relative to its column: below it is rounding.
+const LEAST_DIAGONAL: f64 = 1e-13;
+
+/// What the elimination of a joint leaves.
+pub(super) struct Eliminated {
+    /// Columns of `F`.
+    pub f: [Vector; 3],
+    /// Columns of `H`.
+    pub h: Vec<Vector>,
+    /// `T⁻¹`, by rows.
+    pub t_inverse: Vec<f64>,
+}
+
+impl Eliminated {
+    /// `P = F Fᵀ`.
+    pub(super) fn p(&self) -> Symmetric {
+        let f = &self.f;
+        let sum = |i: usize, j: usize| f.iter().map(|c| c[i] * c[j]).sum();
+        [sum(0, 0), sum(0, 1), sum(0, 2), sum(1, 1), sum(1, 2), sum(2, 2)]
+    }
+
+    /// `|Fᵀ d|`, the root of what is left on a row.
+    pub(super) fn root(&self, d: Vector) -> f64 {
+        let [x, y, z] = self.f.map(|column| dot(column, d));
+        x.hypot(y).hypot(z)
+    }
+}
+
+/// Eliminate a joint with the inertia `a`, the columns `w` of its rows and the roots of what its
+/// children left on them; the relative diagonal (or pivot of `a`) that fails otherwise.
+pub(super) fn eliminate(a: Symmetric, w: &[Vector], roots: &[f64]) -> Result<Eliminated, f64> {
+    let l = cholesky(a)?;
+    let m = w.len();
+    // Columns to reflect: those of the rows, then the unit vectors of the joint, which become the
+    // rows of Q.
+    let mut columns: Vec<Vec<f64>> = Vec::with_capacity(m + 3);
+    for (k, (&w, &root)) in w.iter().zip(roots).enumerate() {
+        let mut column = vec![0.0; 3 + m];
+        column[..3].copy_from_slice(&forwards(l, w));
+        column[3 + k] = root;
+        columns.push(column);
+    }
+    for axis in 0..3 {
+        let mut unit = vec![0.0; 3 + m];
+        unit[axis] = 1.0;
+        columns.push(unit);
+    }
+    for k in 0..m {
+        reflect(&mut columns, k)?;
+    }
+    let q = &columns[m..];
+    let backwards = |k: usize| backwards(l, [q[0][k], q[1][k], q[2][k]]);
+    let mut h: Vec<Vector> = (0..m).map(backwards).collect();
+    // The inverse of U, by columns.
+    let mut inverse = vec![vec![0.0; m]; m];
+    for k in (0..m).rev() {
+        let diagonal = columns[k][k];
+        for j in k + 1..m {
+            h[k] = add_times(h[k], -columns[j][k], h[j]);
+        }
+        h[k] = times(1.0 / diagonal, h[k]);
+        inverse[k][k] = 1.0 / diagonal;
+        for i in (0..k).rev() {
+            let sum: f64 = (i + 1..=k).map(|j| columns[j][i] * inverse[k][j]).sum();
+            inverse[k][i] = -sum / columns[i][i];
+        }
+    }
+    let mut t_inverse = vec![0.0; m * m];
+    for i in 0..m {
+        for j in 0..m {
+            t_inverse[i * m + j] = inverse.iter().map(|column| column[i] * column[j]).sum();
+        }
+    }
+    Ok(Eliminated { f: [backwards(m), backwards(m + 1), backwards(m + 2)], h, t_inverse })
+}
+
+/// Reflect column `k` onto its first `k + 1` entries, and all later columns with it.
+fn reflect(columns: &mut [Vec<f64>], k: usize) -> Result<(), f64> {
+    let (whole, below) = (norm(&columns[k]), norm(&columns[k][k..]));
+    if below.is_nan() || below <= LEAST_DIAGONAL * whole {
+        return Err(if whole > 0.0 { below / whole } else { 0.0 });
+    }
+    let mut mirror = columns[k][k..].to_vec();
+    mirror[0] += below.copysign(mirror[0]);
+    let size: f64 = mirror.iter().map(|x| x * x).sum();
+    for column in &mut columns[k..] {
+        let along: f64 = column[k..].iter().zip(&mirror).map(|(x, v)| x * v).sum();
+        let part = 2.0 * along / size;
+        column[k..].iter_mut().zip(&mirror).for_each(|(x, v)| *x -= part * v);
+    }
+    Ok(())
+}
+
+fn norm(x: &[f64]) -> f64 {
+    x.iter().map(|x| x * x).sum::<f64>().sqrt()
+}
+
+/// `A = L Lᵀ`: xx, yx, yy, zx, zy, zz of `L`.
+fn cholesky([xx, xy, xz, yy, yz, zz]: Symmetric) -> Result<Symmetric, f64> {
+    let root = |pivot: f64| if pivot > 0.0 { Ok(pivot.sqrt()) } else { Err(pivot) };
+    let a = root(xx)?;
+    let (b, d) = (xy / a, xz / a);
+    let c = root(yy - b * b)?;
+    let e = (yz - b * d) / c;
+    Ok([a, b, c, d, e, root(zz - d * d - e * e)?])
+}
+
+/// `L⁻¹ v`.
+fn forwards([a, b, c, d, e, f]: Symmetric, v: Vector) -> Vector {
+    let x = v[0] / a;
+    let y = (v[1] - b * x) / c;
+    [x, y, (v[2] - d * x - e * y) / f]
+}
+
+/// `L⁻ᵀ v`.
+fn backwards([a, b, c, d, e, f]: Symmetric, v: Vector) -> Vector {
+    let z = v[2] / f;
+    let y = (v[1] - e * z) / c;
+    [(v[0] - b * y - d * z) / a, y, z]
+}
