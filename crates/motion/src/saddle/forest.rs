@@ -28,9 +28,13 @@ pub(super) type Symmetric = [f64; 6];
 /// Least pivot of `T`, relative to its diagonal before elimination: below it is rounding.
 const LEAST_PIVOT: f64 = 1e-14;
 
-/// Least pivot of `T` up to which products serve: there they have lost four digits of what the next
-/// joint gets, the square of the pivot.
+/// Least relative pivot of `T` up to which products serve at a joint with a parent: they have lost
+/// four digits of what that gets, the square of the pivot.
 const CLOSE_PIVOT: f64 = 1e-2;
+
+/// The same at a root, which hands nothing on: half of the digits, and less than the pivot of a
+/// closed chain of 10^5 bars, which falls with their number.
+const CLOSE_ROOT: f64 = 1e-7;
 
 /// Where the bar of a joint towards its parent leads.
 #[derive(Debug, Clone, Copy)]
@@ -72,8 +76,8 @@ pub(crate) struct Forest {
     a: Vec<Symmetric>,
     w: Vec<Vector>,
     s: Vec<f64>,
-    /// Least pivot of a `T`, relative to its diagonal before elimination.
-    closest: f64,
+    /// Whether rows nearly depend on each other.
+    is_close: bool,
 }
 
 impl Forest {
@@ -127,16 +131,16 @@ impl Forest {
             a: vec![[0.0; 6]; n],
             w: vec![[0.0; 3]; rows],
             s: vec![0.0; rows],
-            closest: 1.0,
+            is_close: false,
         }
     }
 
     /// Factors for the given vectors of the rows (`+d` at the second joint of a bar, the normal of
     /// a support).
     pub(super) fn factor(&mut self, vectors: &[Vector]) -> Result<(), Singular> {
-        self.closest = 1.0;
+        self.is_close = false;
         let factored = self.by_products(vectors);
-        if factored.is_err() || self.closest < CLOSE_PIVOT {
+        if factored.is_err() || self.is_close {
             return self.by_reflections(vectors);
         }
         Ok(())
@@ -234,7 +238,8 @@ impl Forest {
             t[i * m + i] += self.s[first + i];
         }
         let pivot = invert(t, m).map_err(|pivot| Singular { slot, pivot })?;
-        self.closest = self.closest.min(pivot);
+        let close = if self.up[slot].is_some() { CLOSE_PIVOT } else { CLOSE_ROOT };
+        self.is_close |= pivot < close;
         let mut p = inverse;
         for i in 0..m {
             let mut h = [0.0; 3];

@@ -103,7 +103,7 @@ fn a_row_that_stands_twice_is_told() {
     assert_eq!(Sparse::new(&layout).factor(&vectors).unwrap_err().slot, 1);
 }
 
-/// A pair of chains between anchors whose bars lie on one line but for angles of 1e-6.
+/// A chain between anchors whose bars lie on one line but for small angles.
 #[test]
 fn rows_that_nearly_depend_on_each_other_keep_their_digits() {
     let mut rng = ChaCha8Rng::seed_from_u64(4);
@@ -115,7 +115,7 @@ fn rows_that_nearly_depend_on_each_other_keep_their_digits() {
         edges: (0..n - 1).map(edge).collect(),
         own: vec![own(0, n - 1, 1.0), own(n - 1, n, -1.0)],
     };
-    for bend in [1e-2, 1e-4, 1e-6] {
+    for bend in [1e-5, 1e-6, 1e-7] {
         let vectors: Vec<Vector> = (0..=n)
             .map(|_| [1.0, bend * rng.random_range(-1.0..1.0), bend * rng.random_range(-1.0..1.0)])
             .collect();
@@ -135,7 +135,7 @@ fn rows_that_nearly_depend_on_each_other_keep_their_digits() {
         let allowed = 1e-16 / (bend * bend);
         for (found, wanted) in f_found.iter().zip(&f) {
             for k in 0..3 {
-                assert!((found[k] - wanted[k]).abs() < allowed.max(1e-13), "{bend:e}");
+                assert!((found[k] - wanted[k]).abs() < allowed, "{bend:e}");
             }
         }
     }
