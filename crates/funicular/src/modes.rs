@@ -34,15 +34,22 @@ use crate::threads;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Modes {
     max_bars: usize,
+    lowest: Option<usize>,
     threads: usize,
 }
 
 /// Chains of at most so many bars get a census: it takes about a second.
 const CENSUS_BARS: usize = 8;
 
+/// Systems of at most so many joints have all their modes found where nothing else is asked for.
+const ALL_JOINTS: usize = 100;
+
+/// Modes found of larger systems where nothing else is asked for.
+const LOWEST: usize = 20;
+
 impl Default for Modes {
     fn default() -> Self {
-        Self { max_bars: CENSUS_BARS, threads: 0 }
+        Self { max_bars: CENSUS_BARS, lowest: None, threads: 0 }
     }
 }
 
@@ -57,6 +64,27 @@ impl Modes {
     #[must_use]
     pub fn max_bars(self, max_bars: usize) -> Self {
         Self { max_bars, ..self }
+    }
+
+    /// Find so many modes of each equilibrium, the lowest: negative `ω²` first. Without it all modes
+    /// of systems of up to 100 joints, and the lowest 20 of larger ones.
+    ///
+    /// ```
+    /// use funicular::prelude::*;
+    /// let problem = Problem::parse(
+    ///     "anchors = { start_m = [0, 0, 0], end_m = [1, 0, 0] }\n\
+    ///      bars = [{ length_m = 0.01, mass_kg = 0.01, count = 200 }]",
+    ///     "long.toml",
+    /// )?;
+    /// let found = Modes::new().lowest(4).run(&problem)?;
+    /// let hanging = &found.equilibria[0];
+    /// // 199 joints, two directions, 200 lengths kept in the plane.
+    /// assert_eq!((hanging.modes.len(), hanging.modes_in_all), (4, 199 + 198));
+    /// # Ok::<(), Error>(())
+    /// ```
+    #[must_use]
+    pub fn lowest(self, count: usize) -> Self {
+        Self { lowest: Some(count), ..self }
     }
 
     /// How many threads share the census, 0 (the default) for those of the pool that it is called
@@ -79,7 +107,7 @@ impl Modes {
             let equilibria = found
                 .list
                 .iter()
-                .map(|located| with_modes(&system, located))
+                .map(|located| self.with_modes(&system, located))
                 .collect::<Result<_, _>>()?;
             Ok(ModesAnswer {
                 schema_version: SCHEMA_VERSION,
@@ -88,6 +116,32 @@ impl Modes {
                 complete: found.complete,
             })
         })?
+    }
+
+    fn with_modes(&self, system: &System, located: &Located) -> Result<WithModes, Error> {
+        let (joints_m, axial_n) = (located.joints_m(), Some(located.axial_n()));
+        let is_large = system.joints().len() > ALL_JOINTS;
+        let found = match self.lowest.or(is_large.then_some(LOWEST)) {
+            Some(count) => motion::lowest_modes(system, joints_m, axial_n, count)?,
+            None => motion::modes(system, joints_m, axial_n)?,
+        };
+        let joints = system.joints().iter().zip(located.joints_m());
+        let joints = joints.map(|(joint, at_m)| JointAt { name: joint.name.clone(), at_m: *at_m });
+        let (solver, energy_j) = match located {
+            Located::Chain(_, e) => (e.solver.clone(), e.energy_j),
+            Located::System(e) => (e.solver.clone(), e.energy_j),
+        };
+        Ok(WithModes {
+            label: located.label().to_owned(),
+            solver,
+            energy_j,
+            joints: joints.collect(),
+            index_in_space: located.index(),
+            index_by_modes: found.index(),
+            out_of_balance: found.out_of_balance,
+            modes_in_all: found.total,
+            modes: found.modes.into_iter().map(Mode::from).collect(),
+        })
     }
 }
 
@@ -138,7 +192,10 @@ pub struct WithModes {
     pub index_by_modes: usize,
     /// Largest force left over at a joint, relative to the largest force.
     pub out_of_balance: f64,
-    /// The modes by ascending `ω²`, zero and negative ones included.
+    /// How many modes there are, listed or not.
+    pub modes_in_all: usize,
+    /// The modes by ascending `ω²`, zero and negative ones included: all, or the lowest; that none
+    /// below the last is left out is counted by Sylvester's law of inertia.
     pub modes: Vec<Mode>,
 }
 
@@ -156,6 +213,8 @@ pub struct JointAt {
 pub struct Mode {
     /// `ω²`, 1/s²; negative where it leaves the equilibrium.
     pub omega2_s2: f64,
+    /// Within this of it the linearised equations have an `ω²`, but for rounding, 1/s².
+    pub residual_s2: f64,
     /// Displacement of each joint, the largest of length 1.
     pub shape: Vec<Vector>,
     /// What it is, in words.
@@ -189,26 +248,6 @@ impl Summary {
     }
 }
 
-fn with_modes(system: &System, located: &Located) -> Result<WithModes, Error> {
-    let found = motion::modes(system, located.joints_m(), Some(located.axial_n()))?;
-    let joints = system.joints().iter().zip(located.joints_m());
-    let joints = joints.map(|(joint, at_m)| JointAt { name: joint.name.clone(), at_m: *at_m });
-    let (solver, energy_j) = match located {
-        Located::Chain(_, e) => (e.solver.clone(), e.energy_j),
-        Located::System(e) => (e.solver.clone(), e.energy_j),
-    };
-    Ok(WithModes {
-        label: located.label().to_owned(),
-        solver,
-        energy_j,
-        joints: joints.collect(),
-        index_in_space: located.index(),
-        index_by_modes: found.index(),
-        out_of_balance: found.out_of_balance,
-        modes: found.modes.into_iter().map(Mode::from).collect(),
-    })
-}
-
 impl From<motion::Mode> for Mode {
     fn from(mode: motion::Mode) -> Self {
         Self {
@@ -216,6 +255,7 @@ impl From<motion::Mode> for Mode {
             frequency_hz: mode.frequency_hz(),
             rate_1_s: mode.rate_1_s(),
             omega2_s2: mode.omega2_s2,
+            residual_s2: mode.residual_s2,
             shape: mode.shape,
         }
     }

@@ -103,15 +103,27 @@ pub enum MotionError {
         /// That force, relative to the largest force in the system.
         off: f64,
     },
-    /// Occurs when modes are asked for of a system with too many joints for dense linear algebra.
+    /// Occurs when all modes are asked for of a system with too many joints for dense linear algebra.
     #[error(
-        "modes are found by dense linear algebra, for at most {most} joints that move; this system has \
-         {joints}"
+        "all modes are found by dense linear algebra, for at most {most} joints that move, and this \
+         system has {joints}: ask for the lowest"
     )]
     TooLarge {
         /// Number of joints that move.
         joints: usize,
         /// Most of them.
         most: usize,
+    },
+    /// Occurs when the modes that are found are not as many as the inertia of the shifted stiffness
+    /// counts.
+    #[error(
+        "{found} modes are found where {asked} are asked for, and the inertia of the stiffness does \
+         not confirm them"
+    )]
+    ModesUncounted {
+        /// Number of modes found.
+        found: usize,
+        /// Number asked for.
+        asked: usize,
     },
 }

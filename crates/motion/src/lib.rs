@@ -88,7 +88,7 @@ pub use force::ForceOfTime;
 pub use inertia::EndInertia;
 pub use laws::Laws;
 pub use mechanism::Mechanism;
-pub use modes::{Direction, Mode, Modes, What, modes};
+pub use modes::{Direction, Mode, Modes, What, lowest_modes, modes};
 pub use rattle::CONSTRAINT_TOLERANCE;
 pub use settings::{Order, Settings};
 pub use simulation::{CLOSED_TOLERANCE, Simulation};

@@ -26,9 +26,18 @@ pub struct Modes {
     /// of other systems
     #[arg(long, value_name = "N", default_value_t = 8)]
     pub max_bars: usize,
+    /// How many modes of each equilibrium, the lowest (negative omega^2 first); if not given, all of
+    /// systems of up to 100 joints and 20 of larger ones
+    #[arg(long = "modes", value_name = "K", value_parser = count, allow_negative_numbers = true)]
+    pub lowest: Option<usize>,
     /// How many threads; 0 means one per processor. The answer does not depend on it
     #[arg(long, value_name = "T", default_value_t = 0, value_parser = threads::parse, allow_negative_numbers = true)]
     pub threads: usize,
+}
+
+/// A number of modes.
+fn count(text: &str) -> Result<usize, String> {
+    text.parse().ok().filter(|&k| k > 0).ok_or_else(|| "a number from 1 on is wanted".to_owned())
 }
 
 /// Run the command.
@@ -39,7 +48,11 @@ pub fn run(arguments: &Modes) -> Result<Exit, Failure> {
     progress.say("reading");
     let Input { problem, .. } = arguments.input.read()?;
     progress.say("equilibria and their modes");
-    let answer = funicular::Modes::new().max_bars(arguments.max_bars).run(&problem)?;
+    let mut modes = funicular::Modes::new().max_bars(arguments.max_bars);
+    if let Some(count) = arguments.lowest {
+        modes = modes.lowest(count);
+    }
+    let answer = modes.run(&problem)?;
     drop(progress);
     if arguments.json {
         output::print_json(&answer)?;
@@ -52,15 +65,21 @@ pub fn run(arguments: &Modes) -> Result<Exit, Failure> {
 fn text(answer: &ModesAnswer) -> String {
     let mut out = format!("{}\n", Printable(&answer.system.name));
     for found in &answer.equilibria {
-        let joints = found.modes.len();
+        let (listed, all) = (found.modes.len(), found.modes_in_all);
         let _ = writeln!(
             out,
-            "\nequilibrium {}, {} J, by {}: {joints} modes, {} leave it",
+            "\nequilibrium {}, {} J, by {}: {all} modes, {} leave it",
             found.label,
             short(found.energy_j),
             found.solver,
             found.index_by_modes
         );
+        if listed < all {
+            let _ = writeln!(
+                out,
+                "the lowest {listed}; the inertia of the factorised stiffness counts no other below"
+            );
+        }
         let mut rows = table(["mode", "omega^2, 1/s^2", "frequency, Hz", "rate, 1/s", "what"]);
         for (k, mode) in found.modes.iter().enumerate() {
             let cell = |x: Option<f64>| x.map(short).unwrap_or_default();

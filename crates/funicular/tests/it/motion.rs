@@ -156,3 +156,27 @@ fn simulate_refuses_what_it_cannot_do_and_says_why() {
         assert!(said.contains(told), "{all:?}: {said}");
     }
 }
+
+#[test]
+fn the_lowest_modes_of_a_long_chain_are_counted() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = "anchors = { start_m = [0, 0, 0], end_m = [1, 0, 0] }\n\
+                bars = [{ length_m = 0.001, mass_kg = 0.001, count = 2000 }]\n";
+    let path = file(folder.path(), "long.toml", text);
+    let found = json(&["modes", &path, "--json", "--modes", "6"]);
+    let equilibrium = &found["equilibria"][0];
+    let modes = equilibrium["modes"].as_array().unwrap();
+    // 1999 joints in two directions, less 2000 lengths kept in the plane.
+    assert_eq!((modes.len(), &equilibrium["modes_in_all"]), (6, &Value::from(1999 + 1998)));
+    let omega2: Vec<f64> = modes.iter().map(|m| m["omega2_s2"].as_f64().unwrap()).collect();
+    assert!(omega2[0] > 0.0 && omega2.windows(2).all(|pair| pair[0] <= pair[1]), "{omega2:?}");
+    assert_eq!(equilibrium["index_by_modes"], 0);
+    // The first is the swing about the line of the anchors.
+    assert!(modes[0]["what"].as_str().unwrap().contains("across the plane"));
+    for mode in modes {
+        let (omega2, residual) = (&mode["omega2_s2"], &mode["residual_s2"]);
+        assert!(residual.as_f64().unwrap() < 1e-6 * omega2.as_f64().unwrap(), "{mode}");
+    }
+    let text = String::from_utf8(funicular(&["modes", &path]).stdout).unwrap();
+    assert!(text.contains("3997 modes") && text.contains("the lowest 20"), "{text}");
+}

@@ -12,8 +12,13 @@
 //! √(−ω²))`; there are as many of these as the Morse index says.
 
 mod dense;
+mod lanczos;
+mod lowest;
 mod planes;
 mod shape;
+mod shifted;
+mod solved;
+mod stiffness;
 
 use model::Vector;
 use model::system::System;
@@ -24,15 +29,21 @@ use crate::mechanism::Mechanism;
 use crate::rattle::Stepper;
 use crate::state::State;
 use crate::vector::{add_times, dot, norm, plus, times, worse};
-use dense::Stiffness;
+use planes::Sector;
+use solved::Solved;
+use stiffness::Stiffness;
 
 pub use planes::Direction;
 
 /// The modes of an equilibrium, ascending.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Modes {
-    /// The modes, by ascending `ω²`.
+    /// The modes, by ascending `ω²`: all, or the lowest of them.
     pub modes: Vec<Mode>,
+    /// How many there are in all.
+    pub total: usize,
+    /// How many of all have `ω² < 0`.
+    pub negative: usize,
     /// Largest force left over at a joint, relative to the largest force.
     pub out_of_balance: f64,
 }
@@ -42,6 +53,8 @@ pub struct Modes {
 pub struct Mode {
     /// `ω²`, 1/s²; what is rounding is exactly zero.
     pub omega2_s2: f64,
+    /// Within this of `omega2_s2` the linearised equations have an `ω²`, but for rounding, 1/s².
+    pub residual_s2: f64,
     /// Displacement of each joint, world frame, scaled so that the largest has the length 1.
     pub shape: Vec<Vector>,
     /// What it is.
@@ -85,10 +98,10 @@ impl Modes {
     /// Number of modes in which the energy falls (the Morse index).
     #[must_use]
     pub fn index(&self) -> usize {
-        self.modes.iter().filter(|mode| mode.what == What::Leaving).count()
+        self.negative
     }
 
-    /// Number of modes without any change of the energy to second order.
+    /// Number of the modes that are given without any change of the energy to second order.
     #[must_use]
     pub fn neutral(&self) -> usize {
         let zero = |what: &What| matches!(what, What::Turn { .. } | What::Neutral);
@@ -96,8 +109,12 @@ impl Modes {
     }
 }
 
-/// Most joints that move: a thousand coordinates take some ten seconds.
+/// Most joints that move for all modes at once: a thousand coordinates take some ten seconds.
 const MOST_JOINTS: usize = 350;
+
+/// Systems of at most so many joints that move are solved by dense linear algebra, whatever is
+/// asked for: it takes some hundredths of a second.
+const DENSE_JOINTS: usize = 60;
 
 /// Largest violation of a length, relative, in an equilibrium.
 const LENGTHS: f64 = 1e-8;
@@ -112,7 +129,7 @@ const BALANCE: f64 = 1e-7;
 /// tension positive.
 ///
 /// All modes are found, by dense linear algebra: the time grows with the cube of the number of
-/// joints.
+/// joints. For the lowest of a large system see [`lowest_modes`].
 ///
 /// # Errors
 ///
@@ -145,22 +162,84 @@ pub fn modes(
     if mechanism.moving > MOST_JOINTS {
         return Err(MotionError::TooLarge { joints: mechanism.moving, most: MOST_JOINTS });
     }
+    about(&mechanism, joints_m, axial_n, &|stiffness, sector| Ok(dense::solve(stiffness, sector)))
+}
+
+/// The lowest `count` modes of a system about an equilibrium, by ascending `ω²`; negative ones are
+/// the lowest. That none is left out is proved, but for rounding, by Sylvester's law of inertia:
+/// the pivots of the factorised stiffness count the modes below the last.
+///
+/// For any number of joints: the factorisation is sparse. See [`modes`] for what is given.
+///
+/// # Errors
+///
+/// As [`modes`], and [`MotionError::ModesUncounted`] when the count does not confirm what is
+/// found.
+///
+/// ```
+/// use model::Bar;
+/// use model::system::{Joint, Member, System};
+///
+/// // A rope of 1 m as 1000 rods: ω² = (j/2)² g/L with the first zero j of the Bessel function J0,
+/// // in both directions.
+/// let n = 1000_u32;
+/// let rod = Bar::homogeneous(1.0 / f64::from(n), 1.0 / f64::from(n))?;
+/// let mut joints = vec![Joint::anchor("O", [0.0; 3])];
+/// joints.extend((1..=n).map(|k| Joint::free(k.to_string())));
+/// let members = (0..n as usize).map(|k| Member::bar(k, k + 1, rod)).collect();
+/// let rope = System::new("rope", 9.81, joints, members)?;
+/// let at: Vec<[f64; 3]> = (0..=n).map(|k| [0.0, 0.0, -f64::from(k) / f64::from(n)]).collect();
+/// let found = motion::lowest_modes(&rope, &at, None, 2)?;
+/// let told = (2.404_825_557_695_773_f64 / 2.0).powi(2) * 9.81;
+/// assert!(found.modes.iter().all(|mode| (mode.omega2_s2 / told - 1.0).abs() < 1e-6));
+/// assert_eq!((found.modes.len(), found.total), (2, 2000));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn lowest_modes(
+    system: &System,
+    joints_m: &[Vector],
+    axial_n: Option<&[f64]>,
+    count: usize,
+) -> Result<Modes, MotionError> {
+    let mechanism = Mechanism::new(system)?;
+    let is_small = mechanism.moving <= DENSE_JOINTS;
+    let mut found = about(&mechanism, joints_m, axial_n, &|stiffness, sector| {
+        let size = mechanism.moving * sector.axes.len();
+        if is_small || size < lowest::LEAST_SIZE || 4 * count > size {
+            Ok(dense::solve(stiffness, sector))
+        } else {
+            lowest::solve(stiffness, sector, count)
+        }
+    })?;
+    found.modes.truncate(count);
+    Ok(found)
+}
+
+/// The modes of an equilibrium, sector by sector.
+fn about(
+    mechanism: &Mechanism,
+    joints_m: &[Vector],
+    axial_n: Option<&[f64]>,
+    solve: &dyn Fn(&Stiffness<'_>, &Sector) -> Result<Solved, MotionError>,
+) -> Result<Modes, MotionError> {
     let state = State::at_rest(mechanism.places(joints_m)?);
     let mut vectors = vec![[0.0; 3]; mechanism.constraints()];
-    let off = state.rows(&mechanism, &mut vectors);
+    let off = state.rows(mechanism, &mut vectors);
     if off.is_nan() || off > LENGTHS {
         return Err(MotionError::NotClosed { iterations: 0, off });
     }
-    let densities = densities(&mechanism, &state, axial_n)?;
-    let out_of_balance = balance(&mechanism, &state, &vectors, &densities)?;
-    let stiffness = Stiffness::new(&mechanism, &state, &vectors, densities);
-    let mut modes = Vec::new();
-    for sector in planes::sectors(&mechanism, &state) {
-        let solved = stiffness.solve(&sector);
-        modes.extend(shape::modes(&mechanism, &state, &sector, &solved));
+    let densities = densities(mechanism, &state, axial_n)?;
+    let out_of_balance = balance(mechanism, &state, &vectors, &densities)?;
+    let stiffness = Stiffness::new(mechanism, &state, &vectors, densities);
+    let mut found = Modes { modes: Vec::new(), total: 0, negative: 0, out_of_balance };
+    for sector in planes::sectors(mechanism, &state) {
+        let solved = solve(&stiffness, &sector)?;
+        found.total += solved.total;
+        found.negative += solved.negative;
+        found.modes.extend(shape::modes(mechanism, &state, &sector, &solved));
     }
-    modes.sort_by(|a, b| a.omega2_s2.total_cmp(&b.omega2_s2));
-    Ok(Modes { modes, out_of_balance })
+    found.modes.sort_by(|a, b| a.omega2_s2.total_cmp(&b.omega2_s2));
+    Ok(found)
 }
 
 /// Force densities of the rigid bars, N/m.

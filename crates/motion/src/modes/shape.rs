@@ -3,8 +3,8 @@
 use model::Vector;
 use nalgebra::{DMatrix, DVector};
 
-use super::dense::Solved;
 use super::planes::Sector;
+use super::solved::Solved;
 use super::{Mode, What};
 use crate::mechanism::Mechanism;
 use crate::state::State;
@@ -20,15 +20,17 @@ pub(super) fn modes(
     sector: &Sector,
     solved: &Solved,
 ) -> Vec<Mode> {
-    let is_zero = |omega2: &f64| omega2.abs() <= solved.zero;
     let mut found = Vec::new();
-    for (k, &omega2_s2) in solved.omega2.iter().enumerate().filter(|(_, o)| !is_zero(o)) {
+    for (k, &omega2_s2) in solved.omega2.iter().enumerate().filter(|(k, _)| !solved.zero[*k]) {
         let what = if omega2_s2 > 0.0 { What::Oscillation } else { What::Leaving };
         let column = solved.shapes.column(k).into_owned();
-        found.push(mode(mechanism, sector, omega2_s2, &column, what));
+        let of = (omega2_s2, solved.residual[k]);
+        found.push(mode(mechanism, sector, of, &column, what));
     }
-    let zeros: Vec<usize> =
-        (0..solved.omega2.len()).filter(|&k| is_zero(&solved.omega2[k])).collect();
+    let zeros: Vec<usize> = (0..solved.omega2.len()).filter(|&k| solved.zero[k]).collect();
+    // What the zeros came out as, and how far that is to be trusted.
+    let rounding = zeros.iter().map(|&k| solved.omega2[k].abs() + solved.residual[k]);
+    let of_zero = (0.0, rounding.fold(0.0, f64::max));
     if zeros.is_empty() {
         return found;
     }
@@ -43,7 +45,7 @@ pub(super) fn modes(
         let coefficients = zero_shapes.transpose() * inertial / size;
         if (coefficients.norm() - 1.0).abs() <= IS_A_TURN {
             named.push(coefficients.normalize());
-            found.push(mode(mechanism, sector, 0.0, &turn, What::Turn { axis_m }));
+            found.push(mode(mechanism, sector, of_zero, &turn, What::Turn { axis_m }));
         }
     }
     // What is left of the zero modes when the turns are taken out.
@@ -62,7 +64,7 @@ pub(super) fn modes(
     }
     for other in others {
         let shape = &zero_shapes * other;
-        found.push(mode(mechanism, sector, 0.0, &shape, What::Neutral));
+        found.push(mode(mechanism, sector, of_zero, &shape, What::Neutral));
     }
     found
 }
@@ -117,7 +119,7 @@ fn inertia_times(mechanism: &Mechanism, sector: &Sector, y: &DVector<f64>) -> DV
 fn mode(
     mechanism: &Mechanism,
     sector: &Sector,
-    omega2_s2: f64,
+    (omega2_s2, residual_s2): (f64, f64),
     y: &DVector<f64>,
     what: What,
 ) -> Mode {
@@ -143,5 +145,5 @@ fn mode(
     for x in &mut shape {
         *x = times(scale, *x);
     }
-    Mode { omega2_s2, shape, what, direction: sector.direction }
+    Mode { omega2_s2, residual_s2, shape, what, direction: sector.direction }
 }

@@ -8,6 +8,7 @@ mod energy;
 mod folded;
 mod four_bars;
 mod laws;
+mod lowest;
 mod modes;
 mod order;
 mod paper;

@@ -1,0 +1,299 @@
+//! The lowest modes of a large system: Lanczos' method with shift and inversion.
+//!
+//! With `M = GᵀG`, member by member, and `S` the solution operator of the shifted, constrained
+//! stiffness ([`Shifted`]), the operator `G S Gᵀ` is symmetric and has the eigenvalues `1/(ω² −
+//! σ)`: with the shift below all modes the lowest are the largest of these. Lanczos' method may
+//! miss a mode of a multiple frequency; how many lie below a shift between two that are found is
+//! told by Sylvester's law of inertia, and what is missing is looked for across those found.
+//!
+//! T. Ericsson, A. Ruhe, Math. Comp. 35 (1980) 1251-1268; R. G. Grimes, J. G. Lewis, H. D. Simon,
+//! SIAM J. Matrix Anal. Appl. 15 (1994) 228-272.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::lanczos::{Operator, divide, dot, largest};
+use super::planes::Sector;
+use super::shifted::Shifted;
+use super::solved::Solved;
+use super::stiffness::{Entries, Stiffness};
+use crate::error::MotionError;
+use crate::mechanism::Mechanism;
+
+/// Shift of the first attempt, in units of [`Stiffness::unit`]: below zero, where a mode may be.
+const FIRST_SHIFT: f64 = -0.1;
+
+/// Factor of the next shift where modes lie below one.
+const LOWER: f64 = 4.0;
+
+/// Shifts tried: from `g/L` to 10³⁰ times it.
+const MOST_SHIFTS: usize = 50;
+
+/// Modes beyond those asked for: between some of them there is a gap for the shift that counts.
+const BEYOND: usize = 4;
+
+/// Searches for modes that are missing, beside one for each mode asked for: as many as modes of
+/// one frequency may need.
+const MOST_SEARCHES: usize = 8;
+
+/// Modes nearer to each other than this, relative, are of one frequency: no shift between them
+/// counts.
+const ONE_FREQUENCY: f64 = 1e-6;
+
+/// A mode whose energy is less than this part of what the members' parts amount to is rounding of a
+/// zero.
+const ZERO: f64 = 1e-10;
+
+/// Systems of fewer coordinates in a sector are solved by dense linear algebra: Lanczos' method
+/// needs room.
+pub(super) const LEAST_SIZE: usize = 160;
+
+/// The lowest `count` modes of a sector.
+pub(super) fn solve(
+    stiffness: &Stiffness<'_>,
+    sector: &Sector,
+    count: usize,
+) -> Result<Solved, MotionError> {
+    let entries = stiffness.entries(sector);
+    let axes = sector.axes.len();
+    let unit = stiffness.unit();
+    let (shift, below_all) = below_all(&entries, axes, unit)?;
+    let total = entries.size - below_all.independent;
+    let count = count.min(total);
+    let root = Root::new(stiffness.mechanism, axes);
+    let mut search = Search { root, shifted: &below_all, unit: -shift, found: Vec::new() };
+    let mut missing = (count + BEYOND).min(total);
+    for _ in 0..MOST_SEARCHES + count {
+        search.add(missing);
+        let mut pairs = search.pairs(stiffness, sector, shift);
+        pairs.sort_by(|a, b| a.omega2.total_cmp(&b.omega2));
+        let lacking = if pairs.len() < count {
+            count - pairs.len()
+        } else {
+            let (shift, expected) = counting_shift(&pairs, count, total, unit);
+            let below = Shifted::new(&entries, axes, shift).and_then(|shifted| shifted.below);
+            let failed = MotionError::ModesUncounted { found: pairs.len(), asked: count };
+            below.and_then(|below| below.checked_sub(expected)).ok_or(failed)?
+        };
+        if lacking == 0 {
+            pairs.truncate(count);
+            let negative = negative(&entries, axes, &pairs)?;
+            return Ok(solved(&entries, &pairs, total, negative));
+        }
+        missing = lacking;
+    }
+    Err(MotionError::ModesUncounted { found: search.found.len(), asked: count })
+}
+
+/// A mode as it is found.
+struct Pair {
+    omega2: f64,
+    residual: f64,
+    is_zero: bool,
+    y: Vec<f64>,
+}
+
+/// A shift below all modes.
+fn below_all(entries: &Entries, axes: usize, unit: f64) -> Result<(f64, Shifted), MotionError> {
+    let mut shift = FIRST_SHIFT * if unit > 0.0 { unit } else { 1.0 };
+    for _ in 0..MOST_SHIFTS {
+        if let Some(shifted) = Shifted::new(entries, axes, shift)
+            && shifted.below == Some(0)
+        {
+            return Ok((shift, shifted));
+        }
+        shift *= LOWER;
+    }
+    Err(MotionError::ModesUncounted { found: 0, asked: 0 })
+}
+
+/// A shift that counts the modes below it, and how many of those found lie there: the middle of
+/// the widest gap behind those asked for. Where all behind them are of one frequency it is below
+/// that frequency: then any of them are the lowest.
+fn counting_shift(pairs: &[Pair], count: usize, total: usize, unit: f64) -> (f64, usize) {
+    let near = |omega2: f64| ONE_FREQUENCY * omega2.abs().max(unit);
+    let last = pairs[count.max(1) - 1].omega2;
+    if pairs.len() >= total {
+        let highest = pairs[pairs.len() - 1].omega2;
+        return (highest + near(highest), pairs.len());
+    }
+    let gap = |k: &usize| pairs[k + 1].omega2 - pairs[*k].omega2;
+    let widest = (count.max(1) - 1..pairs.len() - 1).max_by(|a, b| gap(a).total_cmp(&gap(b)));
+    match widest {
+        Some(k) if gap(&k) > 2.0 * near(pairs[k].omega2) => {
+            (0.5 * (pairs[k].omega2 + pairs[k + 1].omega2), k + 1)
+        }
+        _ => {
+            let shift = last - 1.5 * near(last);
+            (shift, pairs.iter().filter(|pair| pair.omega2 < shift).count())
+        }
+    }
+}
+
+/// Number of all modes with `ω² < 0`: where those found reach above zero, they are the ones.
+fn negative(entries: &Entries, axes: usize, pairs: &[Pair]) -> Result<usize, MotionError> {
+    let leaving = pairs.iter().filter(|pair| pair.omega2 < 0.0 && !pair.is_zero).count();
+    match pairs.last() {
+        Some(last) if last.omega2 < 0.0 && !last.is_zero => {
+            // Below zero by less than any that is none.
+            let shifted = Shifted::new(entries, axes, ZERO * last.omega2);
+            let failed = MotionError::ModesUncounted { found: pairs.len(), asked: pairs.len() };
+            shifted.and_then(|shifted| shifted.below).ok_or(failed)
+        }
+        _ => Ok(leaving),
+    }
+}
+
+fn solved(entries: &Entries, pairs: &[Pair], total: usize, negative: usize) -> Solved {
+    let columns: Vec<DVector<f64>> =
+        pairs.iter().map(|pair| DVector::from_column_slice(&pair.y)).collect();
+    let shapes = if columns.is_empty() {
+        DMatrix::zeros(entries.size, 0)
+    } else {
+        DMatrix::from_columns(&columns)
+    };
+    Solved {
+        omega2: pairs.iter().map(|pair| pair.omega2).collect(),
+        zero: pairs.iter().map(|pair| pair.is_zero).collect(),
+        residual: pairs.iter().map(|pair| pair.residual).collect(),
+        shapes,
+        total,
+        negative,
+    }
+}
+
+/// `G` of `M = GᵀG`: each row has a part in at most two slots, the same for every axis.
+struct Root {
+    rows: Vec<[(usize, f64); 2]>,
+    axes: usize,
+    size: usize,
+}
+
+impl Root {
+    fn new(mechanism: &Mechanism, axes: usize) -> Self {
+        let moving = mechanism.moving;
+        let joints = mechanism.system.joints();
+        let mut rows = Vec::new();
+        let mut put = |first: (usize, f64), second: (usize, f64)| {
+            if first.1.abs() > 0.0 || second.1.abs() > 0.0 {
+                rows.push([first, second]);
+            }
+        };
+        for slot in 0..moving {
+            put((slot, joints[mechanism.joint_at[slot]].mass_kg.sqrt()), (slot, 0.0));
+        }
+        for link in mechanism.links() {
+            let m = link.inertia;
+            match (link.a < moving, link.b < moving) {
+                (true, true) if m.from > 0.0 => {
+                    let root = m.from.sqrt();
+                    let across = m.between / root;
+                    put((link.a, root), (link.b, across));
+                    put((link.b, (m.to - across * across).max(0.0).sqrt()), (link.b, 0.0));
+                }
+                (true, false) => put((link.a, m.from.sqrt()), (link.a, 0.0)),
+                (_, true) => put((link.b, m.to.sqrt()), (link.b, 0.0)),
+                (_, false) => {}
+            }
+        }
+        Self { rows, axes, size: moving * axes }
+    }
+
+    fn times(&self, y: &[f64]) -> Vec<f64> {
+        let axes = 0..self.axes;
+        let rows = self.rows.iter().flat_map(|[(a, by_a), (b, by_b)]| {
+            axes.clone().map(move |k| by_a * y[a * self.axes + k] + by_b * y[b * self.axes + k])
+        });
+        rows.collect()
+    }
+
+    fn transposed_times(&self, w: &[f64]) -> Vec<f64> {
+        let mut f = vec![0.0; self.size];
+        for (row, w) in self.rows.iter().zip(w.chunks(self.axes)) {
+            for (slot, by) in row {
+                for (k, w) in w.iter().enumerate() {
+                    f[slot * self.axes + k] += by * w;
+                }
+            }
+        }
+        f
+    }
+}
+
+/// Eigenvectors of the operator found so far.
+struct Search<'a> {
+    root: Root,
+    shifted: &'a Shifted,
+    /// The operator is multiplied by this, 1/s²: its eigenvalues are then about one and below.
+    unit: f64,
+    /// `w` of length one, and their eigenvalues.
+    found: Vec<(f64, Vec<f64>)>,
+}
+
+impl Search<'_> {
+    fn operate(&self, w: &[f64]) -> Vec<f64> {
+        let y = self.shifted.solve(&self.root.transposed_times(w));
+        let mut out = self.root.times(&y);
+        divide(&mut out, 1.0 / self.unit);
+        out
+    }
+
+    /// The operator with what is found taken out.
+    fn rest(&self, w: &[f64]) -> Vec<f64> {
+        let mut out = self.operate(w);
+        for (theta, q) in &self.found {
+            let part = theta * dot(q, w);
+            out.iter_mut().zip(q).for_each(|(x, q)| *x -= part * q);
+        }
+        out
+    }
+
+    /// Look for so many more.
+    fn add(&mut self, count: usize) {
+        for (theta, mut w) in largest(self, count, self.found.len()) {
+            for _ in 0..2 {
+                for (_, q) in &self.found {
+                    let part = dot(q, &w);
+                    w.iter_mut().zip(q).for_each(|(x, q)| *x -= part * q);
+                }
+            }
+            let length = dot(&w, &w).sqrt();
+            if length > 0.5 {
+                divide(&mut w, length);
+                self.found.push((theta, w));
+            }
+        }
+    }
+
+    /// The modes found, each after one more step of inverse iteration.
+    fn pairs(&self, stiffness: &Stiffness<'_>, sector: &Sector, shift: f64) -> Vec<Pair> {
+        let pair = |(_, w): &(f64, Vec<f64>)| {
+            let mut y = self.shifted.solve(&self.root.transposed_times(w));
+            let mut w = self.root.times(&y);
+            let length = dot(&w, &w).sqrt();
+            divide(&mut y, length);
+            divide(&mut w, length);
+            let [omega2, made_of] = stiffness.energy(sector, &y);
+            let by = self.operate(&w);
+            let theta = dot(&w, &by);
+            let left: f64 = by.iter().zip(&w).map(|(by, w)| (by - theta * w).powi(2)).sum();
+            let off = left.sqrt();
+            // There is an eigenvalue of the operator within `off` of theta.
+            let of = |theta: f64| shift + self.unit / theta;
+            let low = (of(theta + off) - omega2).abs();
+            let high = if theta > off { (of(theta - off) - omega2).abs() } else { f64::MAX };
+            let is_zero = omega2.abs() <= ZERO * made_of;
+            Pair { omega2, residual: low.max(high), is_zero, y }
+        };
+        self.found.iter().map(pair).collect()
+    }
+}
+
+impl Operator for Search<'_> {
+    fn size(&self) -> usize {
+        self.root.rows.len() * self.root.axes
+    }
+
+    fn apply(&self, w: &[f64]) -> Vec<f64> {
+        self.rest(w)
+    }
+}

@@ -1,0 +1,176 @@
+//! Stiffness, inertia and constraints about an equilibrium, as entries of sparse matrices.
+
+use model::Vector;
+use nalgebra::{Matrix3, Vector3};
+
+use super::planes::{Direction, FLAT, Sector};
+use crate::mechanism::{Link, Mechanism};
+use crate::state::State;
+use crate::vector::{dot, norm, times};
+
+/// Stiffness, inertia and constraints about an equilibrium.
+pub(super) struct Stiffness<'a> {
+    pub mechanism: &'a Mechanism,
+    vectors: &'a [Vector],
+    /// Each member with the 3 × 3 matrix of its stiffness, N/m.
+    members: Vec<(&'a Link, Matrix3<f64>)>,
+    densities: Vec<f64>,
+}
+
+/// Row, column, value; equal places are added.
+pub(super) type Entry = (usize, usize, f64);
+
+/// The matrices in the coordinates of a sector: those of slot 0, of slot 1, and so on.
+pub(super) struct Entries {
+    pub size: usize,
+    /// `M` and `K`, both triangles.
+    pub inertia: Vec<Entry>,
+    pub stiffness: Vec<Entry>,
+    /// `R`; rows may be empty.
+    pub rows: Vec<Entry>,
+}
+
+impl<'a> Stiffness<'a> {
+    pub(super) fn new(
+        mechanism: &'a Mechanism,
+        state: &State,
+        vectors: &'a [Vector],
+        densities: Vec<f64>,
+    ) -> Self {
+        let rigid = mechanism.bars.iter().zip(&densities);
+        let mut members: Vec<_> =
+            rigid.map(|(link, rho)| (link, Matrix3::identity() * *rho)).collect();
+        for spring in &mechanism.springs {
+            let d = state.between(spring.link.a, spring.link.b);
+            let length = norm(d);
+            let u = Vector3::from(d) / length;
+            let density = spring.force_density(length);
+            let along = spring.slope(length) - density;
+            let block = Matrix3::identity() * density + u * u.transpose() * along;
+            members.push((&spring.link, block));
+        }
+        Self { mechanism, vectors, members, densities }
+    }
+
+    /// Number of rows of the constraints, empty ones included.
+    pub(super) fn row_count(&self) -> usize {
+        self.vectors.len()
+    }
+
+    /// Inertia, stiffness and constraints in the coordinates of a sector.
+    pub(super) fn entries(&self, sector: &Sector) -> Entries {
+        let (moving, axes) = (self.mechanism.moving, &sector.axes);
+        let size = moving * axes.len();
+        let mut inertia = Vec::new();
+        let mut stiffness = Vec::new();
+        for slot in 0..moving {
+            for k in 0..axes.len() {
+                let at = slot * axes.len() + k;
+                inertia.push((at, at, self.mechanism.mass[slot]));
+            }
+        }
+        for (link, block) in &self.members {
+            for (i, row) in axes.iter().enumerate() {
+                for (j, column) in axes.iter().enumerate() {
+                    let value = Vector3::from(*row).dot(&(block * Vector3::from(*column)));
+                    for (a, b, sign) in [
+                        (link.a, link.a, 1.0),
+                        (link.b, link.b, 1.0),
+                        (link.a, link.b, -1.0),
+                        (link.b, link.a, -1.0),
+                    ] {
+                        if a < moving && b < moving {
+                            let (row, column) = (a * axes.len() + i, b * axes.len() + j);
+                            stiffness.push((row, column, sign * value));
+                        }
+                    }
+                }
+                if link.a < moving && link.b < moving {
+                    let (a, b) = (link.a * axes.len() + i, link.b * axes.len() + i);
+                    inertia.push((a, b, link.inertia.between));
+                    inertia.push((b, a, link.inertia.between));
+                }
+            }
+        }
+        Entries { size, inertia, stiffness, rows: self.rows(sector) }
+    }
+
+    /// The constraints in the coordinates of a sector.
+    fn rows(&self, sector: &Sector) -> Vec<Entry> {
+        let (moving, axes) = (self.mechanism.moving, &sector.axes);
+        let mut rows = Vec::new();
+        // In the plane of an equilibrium bars have no part across it, and supports are along it or
+        // across: what is left of these parts is rounding, and would be taken for a constraint.
+        let part = |axis: Vector, unit: Vector| {
+            let part = dot(axis, unit);
+            if part.abs() > FLAT { part } else { 0.0 }
+        };
+        let mut put = |row: usize, slot: usize, sign: f64, unit: Vector| {
+            if slot < moving {
+                for (k, axis) in axes.iter().enumerate() {
+                    rows.push((row, slot * axes.len() + k, sign * part(*axis, unit)));
+                }
+            }
+        };
+        if sector.direction != Direction::Across {
+            for (row, link) in self.mechanism.bars.iter().enumerate() {
+                let unit = times(1.0 / link.length_m, self.vectors[row]);
+                put(row, link.a, -1.0, unit);
+                put(row, link.b, 1.0, unit);
+            }
+        }
+        for (k, slide) in self.mechanism.slides.iter().enumerate() {
+            let row = self.mechanism.bars.len() + k;
+            put(row, slide.slot, 1.0, self.vectors[row]);
+        }
+        rows
+    }
+
+    /// `yᵀ K y` of displacements in the coordinates of a sector, N/m times m², and the sum of the
+    /// absolute values of the members' parts: member by member, so that the parts of a long system,
+    /// which nearly cancel in the matrix, keep their digits.
+    pub(super) fn energy(&self, sector: &Sector, y: &[f64]) -> [f64; 2] {
+        let (moving, axes) = (self.mechanism.moving, &sector.axes);
+        let at = |slot: usize, k: usize| {
+            if slot < moving { y[slot * axes.len() + k] } else { 0.0 }
+        };
+        let (mut sum, mut made_of) = (0.0, 0.0);
+        for (link, block) in &self.members {
+            let mut by = Vector3::zeros();
+            for (k, axis) in axes.iter().enumerate() {
+                by += Vector3::from(*axis) * (at(link.b, k) - at(link.a, k));
+            }
+            let part = by.dot(&(block * by));
+            sum += part;
+            made_of += part.abs();
+        }
+        [sum, made_of]
+    }
+
+    /// A bound on the `ω²` that the forces of the rigid bars make, 1/s²: stiffness over inertia,
+    /// joint by joint.
+    pub(super) fn largest_of_forces(&self) -> f64 {
+        let mut around = vec![0.0; self.mechanism.joint_at.len()];
+        for (link, rho) in self.mechanism.bars.iter().zip(&self.densities) {
+            around[link.a] += 2.0 * rho.abs();
+            around[link.b] += 2.0 * rho.abs();
+        }
+        for spring in &self.mechanism.springs {
+            let weight = self.mechanism.load[spring.link.a];
+            around[spring.link.a] += norm(weight) / spring.link.length_m;
+        }
+        let moving = around.iter().zip(&self.mechanism.mass).take(self.mechanism.moving);
+        moving.map(|(k, m)| k / m).fold(0.0, f64::max)
+    }
+
+    /// What `ω²` are of the order of, 1/s²: the forces over the whole mass and the whole length, as
+    /// `g/L` of a hanging chain.
+    pub(super) fn unit(&self) -> f64 {
+        let mechanism = self.mechanism;
+        let loads: f64 = mechanism.load.iter().map(|f| norm(*f)).sum();
+        let tension = mechanism.bars.iter().zip(&self.densities);
+        let tension = tension.map(|(link, rho)| rho.abs() * link.length_m).fold(0.0, f64::max);
+        let mass: f64 = mechanism.mass.iter().sum();
+        (loads + tension) / (mass * mechanism.system.total_length_m())
+    }
+}
