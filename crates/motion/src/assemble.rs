@@ -38,7 +38,7 @@ const GUESSES: u64 = 50;
 /// # Ok::<(), motion::MotionError>(())
 /// ```
 pub fn assemble(system: &System, guess_m: &[Vector]) -> Result<Vec<Vector>, MotionError> {
-    let mechanism = Mechanism::new(system)?;
+    let mechanism = Mechanism::for_places(system)?;
     let mut stepper = Stepper::new(&mechanism)?;
     let mut state = State::at_rest(mechanism.places(guess_m)?);
     close(&mechanism, &mut stepper, &mut state)?;
@@ -52,7 +52,7 @@ pub fn assemble(system: &System, guess_m: &[Vector]) -> Result<Vec<Vector>, Moti
 ///
 /// [`MotionError`] when the system cannot be moved here, or no guess of fifty can be closed.
 pub fn random_position(system: &System, seed: u64) -> Result<Vec<Vector>, MotionError> {
-    let mechanism = Mechanism::new(system)?;
+    let mechanism = Mechanism::for_places(system)?;
     let mut stepper = Stepper::new(&mechanism)?;
     let mut failed = MotionError::NotClosed { iterations: 0, off: f64::NAN };
     for stream in 0..GUESSES {

@@ -85,12 +85,17 @@ fn moments(
         return found;
     }
     let v = &state.velocity;
+    let [_, of_system] = mechanism.given();
     let mut turning = vec![[0.0; 3]; found.len()];
     let mut pins = vec![Pin::default(); v.len()];
     for (number, link) in mechanism.links().enumerate() {
         let d = vectors.get(number).filter(|_| number < mechanism.bars.len());
         let d = d.copied().unwrap_or_else(|| vector(state, link));
         let omega = times(1.0 / dot(d, d), cross(d, minus(v[link.b], v[link.a])));
+        if link.member >= of_system {
+            // A bar of a corner has no pins.
+            continue;
+        }
         turning[link.member] = omega;
         for slot in [link.a, link.b] {
             pins[slot].add(d, omega);
@@ -99,7 +104,7 @@ fn moments(
     let pins: Vec<Vector> = (0..v.len())
         .map(|slot| if slot < mechanism.moving { pins[slot].turning() } else { [0.0; 3] })
         .collect();
-    for link in mechanism.links() {
+    for link in mechanism.links().filter(|link| link.member < of_system) {
         let d = vector(state, link);
         let moment = |slot: usize| {
             let against = minus(turning[link.member], pins[slot]);

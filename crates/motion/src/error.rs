@@ -21,19 +21,18 @@ pub enum MotionError {
     /// Occurs when there is a floor: joints meet it with impacts, for which no law is given.
     #[error("there is a floor: joints fall onto it with impacts, and no law of impact is given")]
     Floor,
-    /// Occurs when the two moments across a bar differ: its spin then acts on its direction, and
-    /// the places of its ends do not describe its motion.
+    /// Occurs when the two moments across a bar differ where that is not provided for (small
+    /// oscillations, members with a stiffness), or when no body has its moments.
     #[error(
-        "the moments of member {member} across it are {jy_kg_m2} and {jz_kg_m2} kg m^2: the motion of its \
-         ends is described only where they are equal"
+        "the moments of member {member} are {moments_kg_m2:?} kg m^2: those across it differ; \
+         a rigid bar in motion may have such if each is less than the sum of the other two, \
+         other members and small oscillations may not"
     )]
     UnequalMoments {
         /// Number of the member, from 1.
         member: usize,
-        /// `J_y`.
-        jy_kg_m2: f64,
-        /// `J_z`.
-        jz_kg_m2: f64,
+        /// `J_x`, `J_y`, `J_z`.
+        moments_kg_m2: [f64; 3],
     },
     /// Occurs when a joint can be moved without moving any mass.
     #[error(

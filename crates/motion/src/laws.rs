@@ -8,7 +8,8 @@
 //! $$ J\, u \times \ddot u = (x_a - x_C) \times F_a + (x_b - x_C) \times F_b +
 //!    \sum (x_k - x_C) \times F_k + M_a + M_b - c J \omega $$
 //!
-//! across the member (its spin is apart), and for the whole system the rates of momentum and of
+//! across the member (its spin is apart); where the moments across differ, in all directions with
+//! the rate of `Σ J_i (ω · e_i) e_i` on the left. For the whole system the rates of momentum and of
 //! angular momentum about the reference equal the forces and moments of the ground and the loads.
 
 use model::Vector;
@@ -49,6 +50,8 @@ struct Balance {
     force: Vector,
     moment: Vector,
     direction: Vector,
+    /// Whether the moment along the member is in it.
+    spins: bool,
     /// Rate of momentum less given forces (all but those of its ends), and the same about the
     /// reference.
     needed: Vector,
@@ -69,9 +72,9 @@ pub(crate) fn judge(system: &System, at: &Snapshot, drag_1_s: f64, of_time: &[Ve
     for (number, member) in system.members().iter().enumerate() {
         let balance = member_balance(system, member, number, at, drag_1_s);
         found.force = worse(found.force, norm(balance.force));
-        let along = dot(balance.moment, balance.direction);
-        let across = add_times(balance.moment, -along, balance.direction);
-        found.moment = worse(found.moment, norm(across));
+        let along = if balance.spins { 0.0 } else { dot(balance.moment, balance.direction) };
+        let left = add_times(balance.moment, -along, balance.direction);
+        found.moment = worse(found.moment, norm(left));
         needed = plus(needed, balance.needed);
         turning = plus(turning, balance.turning);
     }
@@ -129,11 +132,16 @@ fn member_balance(
     let j = body.inertia_kg_m2()[1] / body.length_m() / body.length_m();
     let w = minus(at.velocities_m_s[b], at.velocities_m_s[a]);
     let turned = minus(at.accelerations_m_s2[b], at.accelerations_m_s2[a]);
-    let spin_rate = times(j, cross(d, turned));
+    let found = at.turning.binary_search_by_key(&number, |turning| turning.member);
+    let turning = found.ok().map(|found| &at.turning[found]);
+    let [spin, spin_rate] = turning.map_or_else(
+        || [times(j, cross(d, w)), times(j, cross(d, turned))],
+        |turning| turning.momentum(body.inertia_kg_m2()),
+    );
     let mass = body.mass_kg();
     let weight = [0.0, 0.0, -mass * system.gravity_m_s2()];
     let mut given = add_times(weight, -drag_1_s * mass, v_c);
-    let mut moment = times(-drag_1_s * j, cross(d, w));
+    let mut moment = times(-drag_1_s, spin);
     for load in &member.loads {
         let fraction = load.at_m / body.length_m();
         given = plus(given, load.force_n);
@@ -142,7 +150,7 @@ fn member_balance(
     let rate = times(mass, a_c);
     let arm = minus(x_c, system.reference_m());
     let needed = minus(rate, given);
-    let turning = plus(cross(arm, needed), minus(spin_rate, moment));
+    let of_whole = plus(cross(arm, needed), minus(spin_rate, moment));
     let (f_a, f_b) = (at.start_forces_n[number], at.end_forces_n[number]);
     let ends = plus(cross(times(-far, d), f_a), cross(times(1.0 - far, d), f_b));
     let pins = plus(at.pin_moments_n_m[number][0], at.pin_moments_n_m[number][1]);
@@ -150,8 +158,9 @@ fn member_balance(
         force: minus(plus(f_a, f_b), needed),
         moment: minus(plus(plus(ends, pins), moment), spin_rate),
         direction: u,
+        spins: turning.is_some(),
         needed,
-        turning,
+        turning: of_whole,
     }
 }
 

@@ -58,12 +58,14 @@
 //! # What is left out
 //!
 //! Inextensible cables and struts are refused: becoming taut they need a law of impact. Members
-//! with a stiffness, unilateral ones too, move by their potential. Bars whose two moments across
-//! differ are refused, and so are joints without any inertia. Bars do not spin about their own
-//! axes: where the two moments across are equal, a bar without spin never gets any.
+//! with a stiffness, unilateral ones too, move by their potential. Joints without any inertia are
+//! refused. Where the two moments across a bar are equal its spin is apart, and a bar without spin
+//! never gets any; where they differ the bar has four points for two ([`Turning`]), and begins
+//! without spin, its second axis level. Modes are those of bars with equal moments.
 
 mod assemble;
 mod composition;
+mod corners;
 mod damping;
 mod error;
 mod force;
@@ -83,6 +85,7 @@ mod state;
 mod vector;
 
 pub use assemble::{assemble, random_position};
+pub use corners::Turning;
 pub use error::MotionError;
 pub use force::ForceOfTime;
 pub use inertia::EndInertia;

@@ -1,15 +1,13 @@
 //! A system of bars as the mechanics of the places of its joints.
 
 use model::Vector;
-use model::system::{Joint, Kind, Member, Support, System};
+use model::system::{Kind, Member, Support, System};
 
+use crate::corners::{Cornered, Expanded, expand, is_symmetric, unequal};
 use crate::error::MotionError;
 use crate::inertia::EndInertia;
 use crate::order::order;
 use crate::vector::{add_times, minus};
-
-/// Largest relative difference of the two moments across a bar that counts as rounding.
-const EQUAL_MOMENTS: f64 = 1e-12;
 
 /// A system of bars as the mechanics of the places of its joints (natural coordinates).
 ///
@@ -18,7 +16,11 @@ const EQUAL_MOMENTS: f64 = 1e-12;
 /// keeps its digits.
 #[derive(Debug, Clone)]
 pub struct Mechanism {
+    /// With the corners of bars that have some.
     pub(crate) system: System,
+    /// The system as given, where it has fewer joints.
+    given: Option<System>,
+    pub(crate) cornered: Vec<Cornered>,
     /// Slot of each joint, and joint of each slot.
     pub(crate) slot_of: Vec<usize>,
     pub(crate) joint_at: Vec<usize>,
@@ -76,7 +78,30 @@ impl Mechanism {
     /// [`MotionError`] when the system has members or joints whose motion is indeterminate:
     /// inextensible cables and struts, bars with different moments across, joints without inertia.
     pub fn new(system: &System) -> Result<Self, MotionError> {
-        if system.floor_m().is_some() {
+        let members = system.members().iter().enumerate();
+        if let Some((k, member)) = members.into_iter().find(|(_, m)| !is_symmetric(&m.body)) {
+            check(k + 1, member)?;
+            return Err(unequal(k, &member.body));
+        }
+        Self::for_places(system)
+    }
+
+    /// For places alone, where nothing depends on how bars spin.
+    pub(crate) fn for_places(system: &System) -> Result<Self, MotionError> {
+        let inertia = system.members().iter().map(|m| EndInertia::new(&m.body)).collect();
+        Self::build(Expanded { system: system.clone(), inertia, cornered: Vec::new() }, None)
+    }
+
+    /// For motions: with corners at bars whose moments across differ.
+    pub(crate) fn for_motion(system: &System) -> Result<Self, MotionError> {
+        let expanded = expand(system)?;
+        let given = (!expanded.cornered.is_empty()).then(|| system.clone());
+        Self::build(expanded, given)
+    }
+
+    fn build(expanded: Expanded, given: Option<System>) -> Result<Self, MotionError> {
+        let Expanded { system, inertia, cornered } = expanded;
+        if given.as_ref().unwrap_or(&system).floor_m().is_some() {
             return Err(MotionError::Floor);
         }
         for (k, member) in system.members().iter().enumerate() {
@@ -96,7 +121,8 @@ impl Mechanism {
             slot_of[joint] = slot;
         }
         let mut found = Self {
-            system: system.clone(),
+            given,
+            cornered,
             slot_of,
             joint_at,
             moving,
@@ -106,9 +132,10 @@ impl Mechanism {
             slides: Vec::new(),
             mass: vec![0.0; joints.len()],
             load: vec![[0.0; 3]; joints.len()],
+            system,
         };
-        found.add_joints(joints);
-        found.add_members(system.members());
+        found.add_joints();
+        found.add_members(&inertia);
         if let Some(link) = found.bars.iter().find(|link| link.a.min(link.b) >= moving) {
             return Err(MotionError::Redundant { joint: found.name(link.a), pivot: 0.0 });
         }
@@ -118,7 +145,7 @@ impl Mechanism {
     /// The system.
     #[must_use]
     pub fn system(&self) -> &System {
-        &self.system
+        self.given.as_ref().unwrap_or(&self.system)
     }
 
     /// Number of constraints: rigid bars, and directions that supports of sliders take.
@@ -133,10 +160,10 @@ impl Mechanism {
         3 * self.moving
     }
 
-    fn add_joints(&mut self, joints: &[Joint]) {
+    fn add_joints(&mut self) {
         let gravity = self.system.gravity_m_s2();
         let reference = self.system.reference_m();
-        for (joint, data) in joints.iter().enumerate() {
+        for (joint, data) in self.system.joints().iter().enumerate() {
             let slot = self.slot_of[joint];
             self.mass[slot] += data.mass_kg;
             let weight = [0.0, 0.0, -data.mass_kg * gravity];
@@ -151,14 +178,14 @@ impl Mechanism {
         }
     }
 
-    fn add_members(&mut self, members: &[Member]) {
-        for (number, member) in members.iter().enumerate() {
+    fn add_members(&mut self, inertia: &[EndInertia]) {
+        for (number, member) in self.system.members().iter().enumerate() {
             let link = Link {
                 a: self.slot_of[member.from],
                 b: self.slot_of[member.to],
                 length_m: member.body.length_m(),
                 member: number,
-                inertia: EndInertia::new(&member.body),
+                inertia: inertia[number],
             };
             self.mass[link.a] += link.inertia.from;
             self.mass[link.b] += link.inertia.to;
@@ -186,6 +213,18 @@ impl Mechanism {
         self.bars.iter().chain(self.springs.iter().map(|spring| &spring.link))
     }
 
+    /// Number of joints and members of the system as given, without corners.
+    pub(crate) fn given(&self) -> [usize; 2] {
+        let given = self.system();
+        [given.joints().len(), given.members().len()]
+    }
+
+    /// Number of the member that a member belongs to: itself, or that with the corner it holds.
+    pub(crate) fn owner(&self, number: usize) -> usize {
+        let before = self.cornered.partition_point(|cornered| cornered.first <= number);
+        before.checked_sub(1).map_or(number, |last| self.cornered[last].member)
+    }
+
     /// Places by slot, relative to the reference, of places by joint in the world frame.
     ///
     /// # Errors
@@ -193,8 +232,13 @@ impl Mechanism {
     /// [`MotionError::Input`] when their number is not that of the joints, or one is not finite.
     pub(crate) fn places(&self, joints_m: &[Vector]) -> Result<Vec<Vector>, MotionError> {
         let reference = self.system.reference_m();
-        let by_slot = self.by_slot(joints_m, "places of the joints")?;
-        let mut places: Vec<Vector> = by_slot.into_iter().map(|x| minus(x, reference)).collect();
+        self.check_vectors(joints_m, "places of the joints")?;
+        let mut joints_m = joints_m.to_vec();
+        for cornered in &self.cornered {
+            cornered.place(&self.system.members()[cornered.member].body, &mut joints_m);
+        }
+        let by_slot = self.joint_at.iter().map(|&joint| joints_m[joint]);
+        let mut places: Vec<Vector> = by_slot.map(|x| minus(x, reference)).collect();
         let anchors = places.iter_mut().zip(&self.joint_at).skip(self.moving);
         for (place, &joint) in anchors {
             if let Some(at_m) = self.system.joints()[joint].support.at_m() {
@@ -204,29 +248,35 @@ impl Mechanism {
         Ok(places)
     }
 
-    /// Vectors by slot of vectors by joint.
+    /// Vectors by slot of vectors by joint; none at corners.
     pub(crate) fn by_slot(
         &self,
         by_joint: &[Vector],
         what: &'static str,
     ) -> Result<Vec<Vector>, MotionError> {
-        if by_joint.len() != self.joint_at.len() {
-            let reason = format!("{} given for {} joints", by_joint.len(), self.joint_at.len());
+        self.check_vectors(by_joint, what)?;
+        let of = |&joint: &usize| by_joint.get(joint).copied().unwrap_or_default();
+        Ok(self.joint_at.iter().map(of).collect())
+    }
+
+    /// Refuse vectors that are not as many as the joints as given, or not finite.
+    fn check_vectors(&self, by_joint: &[Vector], what: &'static str) -> Result<(), MotionError> {
+        let [joints, _] = self.given();
+        if by_joint.len() != joints {
+            let reason = format!("{} given for {joints} joints", by_joint.len());
             return Err(MotionError::Input { what, reason });
         }
         if let Some(joint) = by_joint.iter().position(|x| x.iter().any(|x| !x.is_finite())) {
             let name = &self.system.joints()[joint].name;
-            return Err(MotionError::Input {
-                what,
-                reason: format!("not finite at joint {name:?}"),
-            });
+            let reason = format!("not finite at joint {name:?}");
+            return Err(MotionError::Input { what, reason });
         }
-        Ok(self.joint_at.iter().map(|&joint| by_joint[joint]).collect())
+        Ok(())
     }
 
-    /// Vectors by joint of vectors by slot.
+    /// Vectors by joint of vectors by slot, without corners.
     pub(crate) fn by_joint(&self, by_slot: &[Vector]) -> Vec<Vector> {
-        self.slot_of.iter().map(|&slot| by_slot[slot]).collect()
+        self.slot_of[..self.given()[0]].iter().map(|&slot| by_slot[slot]).collect()
     }
 }
 
@@ -252,10 +302,6 @@ fn check(number: usize, member: &Member) -> Result<(), MotionError> {
     };
     if let (Some(kind), None) = (unilateral, member.stiffness_n) {
         return Err(MotionError::Unilateral { member: number, kind });
-    }
-    let [_, jy_kg_m2, jz_kg_m2] = member.body.inertia_kg_m2();
-    if (jy_kg_m2 - jz_kg_m2).abs() > EQUAL_MOMENTS * jy_kg_m2.max(jz_kg_m2) {
-        return Err(MotionError::UnequalMoments { member: number, jy_kg_m2, jz_kg_m2 });
     }
     Ok(())
 }

@@ -12,6 +12,7 @@ use crate::rattle::{Failure, Stepper};
 use crate::settings::Settings;
 use crate::snapshot::Snapshot;
 use crate::state::State;
+use crate::vector::{add_times, cross, dot, minus, plus, times};
 
 /// Largest relative violation of a length in places that a motion may begin with; what is less is
 /// taken for the rounding of printed digits, and corrected.
@@ -70,7 +71,7 @@ impl Simulation {
         settings: Settings,
     ) -> Result<Self, MotionError> {
         settings.validate()?;
-        let mechanism = Mechanism::new(system)?;
+        let mechanism = Mechanism::for_motion(system)?;
         let mut state = State::at_rest(mechanism.places(joints_m)?);
         let mut stepper = Stepper::new(&mechanism)?;
         let off = state.rows(&mechanism, &mut stepper.vectors);
@@ -102,7 +103,7 @@ impl Simulation {
     }
 
     /// Give velocities to the joints, m/s; what of them changes lengths is taken out (least change
-    /// in the metric of the inertia).
+    /// in the metric of the inertia). Bars do not spin about themselves then.
     ///
     /// # Errors
     ///
@@ -110,6 +111,19 @@ impl Simulation {
     pub fn set_velocities(&mut self, velocities_m_s: &[Vector]) -> Result<(), MotionError> {
         let mut velocity = self.mechanism.by_slot(velocities_m_s, "velocities of the joints")?;
         velocity[self.mechanism.moving..].fill([0.0; 3]);
+        for cornered in &self.mechanism.cornered {
+            let slot = |joint: usize| self.mechanism.slot_of[joint];
+            let [a, b, p] = cornered.joints.map(slot);
+            let body = &self.mechanism.system.members()[cornered.member].body;
+            let d = self.state.between(a, b);
+            let omega = times(1.0 / dot(d, d), cross(d, minus(velocity[b], velocity[a])));
+            let f = body.centre_m() / body.length_m();
+            let centre = add_times(velocity[a], f, minus(velocity[b], velocity[a]));
+            for corner in [p, slot(cornered.joints[2] + 1)] {
+                let arm = add_times(self.state.between(a, corner), -f, d);
+                velocity[corner] = plus(centre, cross(omega, arm));
+            }
+        }
         self.state.velocity = velocity;
         let nothing = vec![[0.0; 3]; self.mechanism.joint_at.len()];
         self.push_slots(&nothing)
@@ -187,7 +201,7 @@ impl Simulation {
     pub fn joints_m(&self) -> Vec<Vector> {
         let reference = self.mechanism.system().reference_m();
         let places = self.mechanism.by_joint(&self.state.at);
-        places.into_iter().map(|x| crate::vector::plus(x, reference)).collect()
+        places.into_iter().map(|x| plus(x, reference)).collect()
     }
 
     /// Velocities of the joints, m/s.
@@ -248,7 +262,7 @@ impl Simulation {
     pub(crate) fn forces_of_time(&self) -> Vec<Vector> {
         let mut found = vec![[0.0; 3]; self.mechanism.joint_at.len()];
         for (slot, of_time) in &self.forces.of_time {
-            found[*slot] = crate::vector::plus(found[*slot], of_time(self.time_s));
+            found[*slot] = plus(found[*slot], of_time(self.time_s));
         }
         found
     }

@@ -2,11 +2,12 @@
 
 use model::Vector;
 
+use crate::corners::Turning;
 use crate::damping::Damping;
 use crate::laws::{self, Laws};
 use crate::mechanism::end_loads;
 use crate::simulation::Simulation;
-use crate::vector::{add_times, minus, norm, plus, times};
+use crate::vector::{add_times, dot, minus, norm, plus, times};
 
 /// Everything about a motion at one time. Arrays are by joint, or by member, in the order of the
 /// system.
@@ -32,6 +33,8 @@ pub struct Snapshot {
     pub reactions_n: Vec<Vector>,
     /// Moments of the joints' pins on both ends of each member, N m: zero without friction.
     pub pin_moments_n_m: Vec<[Vector; 2]>,
+    /// How the bars turn whose moments across differ.
+    pub turning: Vec<Turning>,
     /// Kinetic energy, J.
     pub kinetic_j: f64,
     /// Potential energy, J, relative to
@@ -65,16 +68,45 @@ impl Snapshot {
             let density = density.copied().unwrap_or_else(|| {
                 mechanism.springs[k - mechanism.bars.len()].force_density(norm(d))
             });
-            let (number, m) = (link.member, link.inertia);
+            let m = link.inertia;
+            let number = mechanism.owner(link.member);
             let (a, b) = (accelerations[link.a], accelerations[link.b]);
-            let [load_a, load_b] = end_loads(&members[number], system.gravity_m_s2());
-            let [damping_a, damping_b] = damping.on_members[number];
-            axial_n[number] = density * norm(d);
+            let member = &mechanism.system.members()[link.member];
+            let [load_a, load_b] = end_loads(member, system.gravity_m_s2());
+            let [damping_a, damping_b] = damping.on_members[link.member];
             let at_a = minus(plus(times(m.from, a), times(m.between, b)), plus(load_a, damping_a));
             let at_b = minus(plus(times(m.between, a), times(m.to, b)), plus(load_b, damping_b));
-            start_forces_n[number] = add_times(at_a, -density, d);
-            end_forces_n[number] = add_times(at_b, density, d);
+            let at_a = add_times(at_a, -density, d);
+            let at_b = add_times(at_b, density, d);
+            if link.member == number {
+                axial_n[number] += density * norm(d);
+                start_forces_n[number] = plus(start_forces_n[number], at_a);
+                end_forces_n[number] = plus(end_forces_n[number], at_b);
+                continue;
+            }
+            // A bar of a corner: what it brings to an end of the member it belongs to.
+            let [start, end] = [members[number].from, members[number].to];
+            let [start, end] = [mechanism.slot_of[start], mechanism.slot_of[end]];
+            for (slot, force, sign) in [(link.a, at_a, 1.0), (link.b, at_b, -1.0)] {
+                if slot == start {
+                    start_forces_n[number] = plus(start_forces_n[number], force);
+                    let along = state.between(start, end);
+                    axial_n[number] += sign * density * dot(d, along) / norm(along);
+                } else if slot == end {
+                    end_forces_n[number] = plus(end_forces_n[number], force);
+                }
+            }
         }
+        let all = |by_slot: &[Vector]| -> Vec<Vector> {
+            mechanism.slot_of.iter().map(|&slot| by_slot[slot]).collect()
+        };
+        let (at, velocity) = (all(&state.at), all(&state.velocity));
+        let acceleration = all(accelerations);
+        let turning = mechanism.cornered.iter().map(|cornered| {
+            let body = &members[cornered.member].body;
+            Turning::new(cornered, body, &at, &velocity, &acceleration)
+        });
+        let turning = turning.collect();
         let of_time = mechanism.by_joint(&simulation.forces_of_time());
         let drag = mechanism.by_joint(&damping.on_joints);
         let accelerations_m_s2 = mechanism.by_joint(accelerations);
@@ -100,7 +132,8 @@ impl Snapshot {
             start_forces_n,
             end_forces_n,
             reactions_n,
-            pin_moments_n_m: damping.moments.clone(),
+            pin_moments_n_m: damping.moments[..members.len()].to_vec(),
+            turning,
             kinetic_j: simulation.kinetic_j(),
             potential_j: simulation.potential_j(),
             lengths_off,

@@ -88,6 +88,28 @@ fn loads_springs_sliders_loops_damping_and_forces_of_time_obey_the_laws() {
 }
 
 #[test]
+fn bars_with_three_moments_obey_the_laws() {
+    let (system, at) = mixed();
+    let mut members = system.members().to_vec();
+    for member in [0, 1, 3] {
+        let body = members[member].body;
+        let j = body.inertia_kg_m2()[1];
+        let [l, m, r] = [body.length_m(), body.mass_kg(), body.centre_m()];
+        members[member].body = Bar::new(l, m, r, [0.6 * j, j, 1.3 * j]).unwrap();
+    }
+    let system = System::new("mixed", 9.81, system.joints().to_vec(), members).unwrap();
+    let settings = Settings { drag_1_s: 0.4, friction_n_m_s: 0.01, ..Settings::default() };
+    let mut simulation = Simulation::new(&system, &at, settings).unwrap();
+    simulation.push(&[[0.1, 0.3, -0.2]; 5]).unwrap();
+    for _ in 0..20 {
+        run(&mut simulation, 0.02, 1e-3);
+        let now = simulation.snapshot();
+        assert!(now.laws.largest() < LAWS, "{:?}", now.laws);
+        assert_eq!([now.joints_m.len(), now.axial_n.len(), now.turning.len()], [5, 6, 3]);
+    }
+}
+
+#[test]
 fn accelerations_are_the_derivatives_of_the_velocities() {
     let (system, at) = mixed();
     let settings = Settings { order: Order::Fourth, drag_1_s: 0.4, friction_n_m_s: 0.05 };
