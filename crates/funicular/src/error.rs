@@ -128,6 +128,13 @@ pub enum Error {
     #[cfg(feature = "branches")]
     #[error(transparent)]
     Parameter(#[from] branches::ParameterError),
+    /// Occurs when derivatives are asked for of or by what has none.
+    #[cfg(feature = "branches")]
+    #[error(transparent)]
+    Derivatives(#[from] crate::derivatives::DerivativesError),
+    /// Occurs when `lagrange`, asked alone for a system, has no answer or no derivatives of it.
+    #[error(transparent)]
+    Network(#[from] lagrange::network::Error),
     /// Occurs when no equilibrium can be followed.
     #[cfg(feature = "branches")]
     #[error(transparent)]

@@ -52,7 +52,7 @@
 //! |---|---|
 //! | `columns` | bars from Parquet |
 //! | `sweep` | [`Sweep`], [`Basins`] |
-//! | `branches` | [`Study`], [`Trace`] |
+//! | `branches` | [`Study`], [`Derivatives`], [`Trace`] |
 //! | `paper` | [`Reproduce`] |
 //! | `program` | the program `funicular` |
 //!
@@ -67,6 +67,8 @@ mod basins;
 pub mod census;
 mod compare;
 mod csv;
+#[cfg(feature = "branches")]
+mod derivatives;
 mod equilibria;
 mod error;
 mod extremes;
@@ -103,6 +105,10 @@ pub use self::animation::Animation;
 #[cfg(feature = "sweep")]
 pub use self::basins::{Basins, BasinsAnswer};
 pub use self::census::{Census, CensusAnswer, SystemCensusAnswer};
+#[cfg(feature = "branches")]
+pub use self::derivatives::{
+    AnchorStiffness, Derivative, Derivatives, DerivativesError, NumberGradient, ParameterChange,
+};
 #[cfg(feature = "branches")]
 pub use self::parameters::Parameters;
 #[cfg(feature = "paper")]

@@ -160,7 +160,8 @@ impl SystemSolution {
         writeln!(to, "solver,joint,x_m,y_m,z_m,reaction_x_n,reaction_y_n,reaction_z_n")?;
         for e in self.equilibria() {
             let places = Numbers::of(e.joints_m.as_flattened());
-            let forces = Numbers::of(e.reactions_n.as_flattened());
+            // A support that bears nothing has the rounding of the members' forces.
+            let forces = Numbers::of(e.reactions_n.as_flattened().iter().chain(&e.axial_n));
             let joints = self.system.joints().iter().zip(&e.joints_m).zip(&e.reactions_n);
             for ((joint, at_m), force_n) in joints {
                 let (place, force) = (places.cells(*at_m), forces.cells(*force_n));

@@ -97,6 +97,8 @@ pub enum Command {
     Merge(crate::merge::Merge),
     /// Solve a chain over numbers of its file: sag, forces and angles of the hanging shape
     Study(crate::study::Arguments),
+    /// Derivatives of the hanging shape: stiffness of anchors, gradients by all parameters
+    Derivatives(crate::derivatives::Arguments),
     /// Follow all equilibria over a parameter: branches, folds, exchanges of stability
     Trace(crate::trace::Arguments),
     /// Draw which start leads where, by both solvers

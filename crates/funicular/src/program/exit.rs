@@ -91,7 +91,8 @@ impl Failure {
             | Error::UnsolvedSystem(_)
             | Error::Lagrange(_)
             | Error::Condensed(_)
-            | Error::Energy(_) => Self::undecided(miette!("{error}")),
+            | Error::Energy(_)
+            | Error::Network(_) => Self::undecided(miette!("{error}")),
             // A disk that fails says nothing about the input, and those who run many may try again.
             Error::Store(error) => {
                 let message = error.to_string();
@@ -136,7 +137,7 @@ impl Failure {
         let report = miette!(
             labels = vec![label],
             help = error.help.clone(),
-            "--vary {}, character {}: {}",
+            "{}, character {}: {}",
             error.text,
             error.column(),
             error.what

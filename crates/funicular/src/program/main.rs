@@ -9,6 +9,7 @@ mod basins;
 mod case_name;
 mod cases;
 mod census;
+mod derivatives;
 mod diagnostics;
 mod exit;
 mod foreign_input;
@@ -54,6 +55,7 @@ fn main() -> std::process::ExitCode {
         Command::Sweep(arguments) => sweep::run(&arguments),
         Command::Merge(arguments) => merge::run(&arguments),
         Command::Study(arguments) => study::run(&arguments),
+        Command::Derivatives(arguments) => derivatives::run(&arguments),
         Command::Trace(arguments) => trace::run(&arguments),
         Command::Basins(arguments) => basins::run(&arguments),
         Command::Modes(arguments) => modes::run(&arguments),

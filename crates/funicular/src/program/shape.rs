@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use funicular::Extremes;
-use model::Vector;
+use model::{ForceRange, Vector};
 
 use crate::tables::{numbers_from, short, table, wrapped};
 
@@ -19,6 +19,21 @@ const EXTREMES: usize = 5;
 /// to less.
 const ROUNDING: f64 = 1e-12;
 
+/// What balance and signs leave open of a force.
+fn open(range: ForceRange, rounded: &Rounded) -> String {
+    let number = |n: f64| rounded.short(n);
+    match range {
+        ForceRange::Unique => "only this".to_owned(),
+        ForceRange::Free => "any".to_owned(),
+        ForceRange::Bounded { least_n, most_n } => match (least_n, most_n) {
+            (Some(least), Some(most)) => format!("{} to {}", number(least), number(most)),
+            (Some(least), None) => format!("from {}", number(least)),
+            (None, Some(most)) => format!("to {}", number(most)),
+            (None, None) => "any".to_owned(),
+        },
+    }
+}
+
 /// An equilibrium of a chain or of a system, as the tables have it.
 pub struct Shape<'a> {
     /// The name of a joint, for a terminal.
@@ -33,6 +48,8 @@ pub struct Shape<'a> {
     pub reactions_n: Vec<(usize, Vector)>,
     /// Forces at the joints of a chain, N: on the bar before, at joint 0 on bar 1.
     pub forces_n: Option<&'a [Vector]>,
+    /// What is open of the forces of the bars, where they are a family.
+    pub ranges: Option<&'a [ForceRange]>,
     /// Who found it.
     pub solver: &'a model::SolverName,
 }
@@ -78,7 +95,11 @@ impl Shape<'_> {
     /// Some bars, each with its axial force and how steeply it rises from its first joint to its
     /// second.
     fn bars(&self, title: &str, bars: Vec<usize>) -> String {
-        let mut table = table(["bar", "from", "to", "axial / N", "", "rises / deg"]);
+        let mut head = vec!["bar", "from", "to", "axial / N", "", "rises / deg"];
+        if self.ranges.is_some() {
+            head.push("may be / N");
+        }
+        let mut table = table(head);
         let axial = Rounded::of(self.axial_n);
         for bar in bars {
             let [from, to] = (self.ends)(bar);
@@ -88,14 +109,16 @@ impl Shape<'_> {
                 n if n < 0.0 => "compression",
                 _ => "no force",
             };
-            table.add_row([
+            let mut row = vec![
                 (bar + 1).to_string(),
                 (self.name)(from),
                 (self.name)(to),
                 short(force),
                 what.to_owned(),
                 self.rise([from, to]),
-            ]);
+            ];
+            row.extend(self.ranges.map(|ranges| open(ranges[bar], &axial)));
+            table.add_row(row);
         }
         numbers_from(&mut table, 3);
         if let Some(words) = table.column_mut(4) {
@@ -136,7 +159,8 @@ impl Shape<'_> {
     fn reactions(&self) -> String {
         let mut table = table(["joint", "Fx / N", "Fy / N", "Fz / N", "size / N"]);
         let all: Vec<Vector> = self.reactions_n.iter().map(|(_, force)| *force).collect();
-        let forces = Rounded::of(all.as_flattened());
+        // A support that bears nothing has the rounding of the bars' forces.
+        let forces = Rounded::of(all.as_flattened().iter().chain(self.axial_n));
         let mut shown: Vec<_> = self.reactions_n.iter().collect();
         let hidden = shown.len() > PRINTED;
         if hidden {
@@ -195,8 +219,8 @@ struct Rounded {
 }
 
 impl Rounded {
-    fn of(numbers: &[f64]) -> Self {
-        let largest = numbers.iter().fold(0.0, |a: f64, b| a.max(b.abs()));
+    fn of<'a>(numbers: impl IntoIterator<Item = &'a f64>) -> Self {
+        let largest = numbers.into_iter().fold(0.0, |a: f64, b| a.max(b.abs()));
         Self { rounding: ROUNDING * largest }
     }
 

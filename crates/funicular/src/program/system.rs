@@ -68,6 +68,7 @@ fn shape(system: &System, e: &SystemEquilibrium, summary: bool) -> String {
         axial_n: &e.axial_n,
         reactions_n: held.map(|(k, (_, force))| (k, *force)).collect(),
         forces_n: None,
+        ranges: e.evidence.self_stresses.as_ref().and_then(|family| family.ranges.as_deref()),
         solver: &e.solver,
     };
     shape.text(summary)

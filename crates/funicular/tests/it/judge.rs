@@ -121,6 +121,11 @@ fn the_page_needs_nothing_else_and_tells_the_verdict_first() {
     }
     let place = |text: &str| page.find(text).unwrap_or_else(|| panic!("{text}"));
     assert!(place("refuted: a law is broken") < place("member 1 (A - P)"));
+    // The enclosure of the error of 1 cm, its ends rounded outwards.
+    let proved = "Proved: the largest error of a joint is between ";
+    let ends = page[place(proved) + proved.len()..].split(" m,").next().unwrap();
+    let ends: Vec<f64> = ends.split(" and ").map(|end| end.parse().unwrap()).collect();
+    assert!(ends[0] < 0.01 && 0.01 < ends[1] && ends[1] - ends[0] < 2.5e-5, "{ends:?}");
     assert!(place("member 1 (A - P)") < place("<svg"));
     // A page that would overwrite the answer is refused.
     let (code, _, err) = judge(&folder, &["lamp.toml", "--answer", "low.csv", "--html", "low.csv"]);

@@ -2,6 +2,7 @@
 
 mod batch;
 mod census;
+mod derivatives;
 mod escapes;
 mod examples;
 mod files;

@@ -212,3 +212,44 @@ fn a_floor_pushes_what_lies_on_it() {
     assert_ne!(output.status.code(), Some(0));
     assert!(String::from_utf8_lossy(&output.stderr).contains("floor"));
 }
+
+/// A weight of 1 N on three cables in a plane: with the force densities a, b, a of the family
+/// 2 a + b = 1 the outer ones bear 0 to 1/√2 N, the middle one 0 to 1 N, the hanger its weight.
+#[test]
+fn what_is_open_of_forces_is_told_bar_by_bar() {
+    let folder = tempfile::tempdir().unwrap();
+    let side = 2.0_f64.sqrt();
+    let bar = |from: &str, to: &str, length: f64| {
+        format!(
+            "[[bars]]\nfrom = \"{from}\"\nto = \"{to}\"\nlength_m = {length:?}\nmass_kg = 0\nkind = \"cable\"\n"
+        )
+    };
+    let text = "gravity_m_s2 = 1\n[joints]\nA = { at_m = [-1, 0, 0] }\nB = { at_m = [0, 0, 0] }\n\
+                C = { at_m = [1, 0, 0] }\nP = {}\nQ = { mass_kg = 1 }\n"
+        .to_owned()
+        + &bar("A", "P", side)
+        + &bar("B", "P", 1.0)
+        + &bar("C", "P", side)
+        + &bar("P", "Q", 0.5);
+    let path = folder.path().join("fan.toml");
+    std::fs::write(&path, text).unwrap();
+    let solve = |more: &[&str]| {
+        let mut command = Command::cargo_bin("funicular").unwrap();
+        command.env("NO_COLOR", "1").arg("solve").arg(&path).args(more).output().unwrap()
+    };
+    let said = String::from_utf8(solve(&[]).stdout).unwrap();
+    assert!(said.lines().all(|line| line.chars().count() <= 80), "{said}");
+    for words in ["may be / N", "0 to 0.707107", "0 to 1 ", "only this"] {
+        assert!(said.contains(words), "{words}: {said}");
+    }
+    let json: Value = serde_json::from_slice(&solve(&["--json"]).stdout).unwrap();
+    let first = &json["equilibria"][0];
+    assert_eq!(first["solver"], "lagrange");
+    let ranges = first["evidence"]["self_stresses"]["ranges"].as_array().unwrap();
+    for (range, most) in ranges.iter().zip([0.5 * side, 1.0, 0.5 * side]) {
+        assert_eq!(range["kind"], "bounded");
+        assert!(range["least_n"].as_f64().unwrap().abs() < 1e-9);
+        assert!((range["most_n"].as_f64().unwrap() - most).abs() < 1e-9);
+    }
+    assert_eq!(ranges[3]["kind"], "unique");
+}

@@ -78,7 +78,7 @@ mod stiffness;
 pub use derivatives::{Change, Derivatives, Gradient, Parameter};
 pub use error::Error;
 pub use paper::{PaperUnknowns, paper_residual};
-pub use ranges::{ForceRange, force_ranges};
+pub use ranges::force_ranges;
 pub use seed::Seed;
 pub use settings::{Settings, SettingsError};
 pub use solution::{Forces, Solution};

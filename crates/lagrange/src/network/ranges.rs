@@ -6,6 +6,7 @@
 //! obey all signs, so one table serves them all: every member's force as a linear function of the
 //! unknowns, which an exchange step (Dantzig) replaces one by one by members at their limits.
 
+use model::ForceRange;
 use model::system::{Kind, System};
 
 use super::framework::Framework;
@@ -19,22 +20,6 @@ const NO_ENTRY: f64 = 1e-9;
 /// are the rule.
 const MOST_EXCHANGES: usize = 50;
 
-/// What balance and signs leave open of the axial force of a member.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum ForceRange {
-    /// The force is what the answer shows, in every member of the family.
-    Unique,
-    /// Any force, pull or push.
-    Free,
-    /// From the least to the largest force, N, each included; without one where there is none.
-    Bounded {
-        /// Least force, N.
-        least_n: Option<f64>,
-        /// Largest force, N.
-        most_n: Option<f64>,
-    },
-}
-
 /// The range of every member's axial force over all forces in balance with the right signs: cables
 /// pull, struts push, bars do either. Nothing where the self-stresses were not counted (see
 /// [`Settings::dense_freedoms`](super::Settings::dense_freedoms)).
@@ -44,8 +29,8 @@ pub enum ForceRange {
 /// [`Solution::self_stresses`].
 ///
 /// ```
-/// use lagrange::network::{ForceRange, Settings, force_ranges, solve};
-/// use model::Bar;
+/// use lagrange::network::{Settings, force_ranges, solve};
+/// use model::{Bar, ForceRange};
 /// use model::system::{Joint, Kind, Member, System};
 /// // A weight of 1 N on three cables in a plane, of sqrt 2, 1 and sqrt 2 m:
 /// // sqrt 2 a + b = 1 with a, b >= 0.
@@ -70,13 +55,23 @@ pub enum ForceRange {
 pub fn force_ranges(system: &System, solution: &Solution) -> Option<Vec<ForceRange>> {
     solution.self_stresses.as_ref()?;
     let framework = Framework::of(system, &solution.equilibrium);
-    let mut state = State::of(&framework, solution);
-    for &member in &solution.limp {
+    let state = State::of(&framework, solution);
+    ranges(&framework, state, &solution.limp)
+}
+
+/// The same of a state and the members that have their length and bear nothing.
+pub(super) fn ranges(
+    framework: &Framework,
+    mut state: State,
+    limp: &[usize],
+) -> Option<Vec<ForceRange>> {
+    for &member in limp {
         state.taut[member] = true;
     }
-    let basis = self_stresses(&framework, &state);
-    let mut table = Table::new(system, &solution.equilibrium.axial_n, &basis);
-    (0..system.members().len()).map(|member| table.range(member)).collect()
+    let basis = self_stresses(framework, &state);
+    let axial: Vec<f64> = state.axial.iter().map(|n| n * framework.units.force_n).collect();
+    let mut table = Table::new(framework, &axial, &basis);
+    (0..framework.links.len()).map(|member| table.range(member)).collect()
 }
 
 /// Forces of all members as functions of the unknowns, $N_k = d_k + \sum_j T_{kj} t_j$. An unknown
@@ -103,13 +98,13 @@ enum Extreme {
 }
 
 impl Table {
-    fn new(system: &System, axial_n: &[f64], basis: &[Vec<f64>]) -> Self {
+    fn new(framework: &Framework, axial_n: &[f64], basis: &[Vec<f64>]) -> Self {
         let largest = axial_n.iter().fold(0.0_f64, |most, axial| most.max(axial.abs()));
         let largest = if largest > 0.0 { largest } else { 1.0 };
-        let signs: Vec<f64> = system
-            .members()
+        let signs: Vec<f64> = framework
+            .links
             .iter()
-            .map(|member| match member.kind {
+            .map(|link| match link.kind {
                 Kind::Bar => 0.0,
                 Kind::Cable => 1.0,
                 Kind::Strut => -1.0,

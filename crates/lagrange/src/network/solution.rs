@@ -1,10 +1,13 @@
 //! The answer for a system.
 
 use model::system::{SystemEquilibrium, SystemStability};
-use model::{Evidence, ForceChoice, InSpace, Rigidity, SelfStresses, SolverName, Vector};
+use model::{
+    Evidence, ForceChoice, ForceRange, InSpace, Rigidity, SelfStresses, SolverName, Vector,
+};
 use nalgebra::Vector3;
 
 use super::framework::Framework;
+use super::ranges::ranges;
 use super::residual::Residual;
 use super::second_order::SecondOrder;
 use super::state::State;
@@ -86,7 +89,6 @@ impl Solution {
         evidence.solve_s = solve_s;
         evidence.nullity =
             second_order.neutral + second_order.self_stresses.as_ref().map_or(0, Vec::len);
-        evidence.self_stresses = named(second_order.self_stresses.as_deref(), forces);
         evidence.rigidity = rigidity(framework, &second_order);
         let largest = state.largest_force(framework);
         let members = 0..framework.links.len();
@@ -99,7 +101,10 @@ impl Solution {
                 let reaches = (directions[k].1 - link.length).abs() <= NO_SLACK * link.length;
                 rigid && reaches && state.axial[k].abs() <= NO_FORCE * largest
             })
-            .collect();
+            .collect::<Vec<_>>();
+        evidence.self_stresses = named(second_order.self_stresses.as_deref(), forces, || {
+            ranges(framework, state.clone(), &limp)
+        });
         Self {
             equilibrium: equilibrium(framework, &state, &second_order, evidence),
             residual,
@@ -115,13 +120,17 @@ impl Solution {
 }
 
 /// What equilibrium leaves open of the forces, and which of them are shown.
-fn named(basis: Option<&[Vec<f64>]>, forces: Forces) -> Option<SelfStresses> {
+fn named(
+    basis: Option<&[Vec<f64>]>,
+    forces: Forces,
+    ranges: impl FnOnce() -> Option<Vec<ForceRange>>,
+) -> Option<SelfStresses> {
     let choice = match forces {
         Forces::LeastNorm => ForceChoice::EquallyStiff,
         Forces::Unique | Forces::Found | Forces::Uncounted => ForceChoice::Unknown,
     };
     let basis = basis.filter(|basis| !basis.is_empty())?.to_vec();
-    Some(SelfStresses { dimension: basis.len(), basis, choice })
+    Some(SelfStresses { dimension: basis.len(), basis, choice, ranges: ranges() })
 }
 
 /// The counts, where there are any.

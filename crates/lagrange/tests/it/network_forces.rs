@@ -1,6 +1,7 @@
 //! Systems whose forces are one family: ranges of the members' forces.
 
-use lagrange::network::{ForceRange, Forces, Seed, Settings, force_ranges, solve, solve_from};
+use lagrange::network::{Forces, Seed, Settings, force_ranges, solve, solve_from};
+use model::ForceRange;
 use model::system::{Joint, Kind, Member, Support, System};
 
 use crate::network::{bar, cable, system};

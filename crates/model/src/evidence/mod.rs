@@ -49,7 +49,7 @@ pub use ladder::{Ladder, Statement};
 pub use reason::{NoAnswer, Reason};
 pub use rigidity::Rigidity;
 pub use rung::Rung;
-pub use self_stresses::SelfStresses;
+pub use self_stresses::{ForceRange, SelfStresses};
 pub use status::Status;
 pub use verified::{NoBox, Verified, VerifiedSystem};
 

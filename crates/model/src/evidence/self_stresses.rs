@@ -17,4 +17,25 @@ pub struct SelfStresses {
     pub basis: Vec<Vec<f64>>,
     /// Which of the forces the answer names.
     pub choice: ForceChoice,
+    /// What is open of the axial force of each member, where the solver tells it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub ranges: Option<Vec<ForceRange>>,
+}
+
+/// What balance and signs leave open of the axial force of a member: cables pull, struts push, bars
+/// do either.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "kind", rename_all = "snake_case")]
+pub enum ForceRange {
+    /// The force is what the answer shows, in every member of the family.
+    Unique,
+    /// Any force, pull or push.
+    Free,
+    /// From the least to the largest force, N, each included; without one where there is none.
+    Bounded {
+        /// Least force, N.
+        least_n: Option<f64>,
+        /// Largest force, N.
+        most_n: Option<f64>,
+    },
 }

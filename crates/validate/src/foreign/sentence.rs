@@ -183,8 +183,17 @@ impl Judgement {
                 ),
                 _ => String::new(),
             };
+            // The bounds are rounded outwards: by less than a unit of the last digit told.
+            let proved = one.proved.as_ref().map_or_else(String::new, |proved| {
+                let [nearest_m, farthest_m] = outwards(proved.joints_m);
+                let [least_n, most_n] = outwards(proved.forces_n);
+                format!(
+                    " Proved: the largest error of a joint is between {nearest_m:.3e} and {farthest_m:.3e} \
+                     m, of a force between {least_n:.3e} and {most_n:.3e} N."
+                )
+            });
             format!(
-                "{}, {start}, finds an equilibrium ({rung}) up to {:.3e} m away, at joint {joint}{forces}.",
+                "{}, {start}, finds an equilibrium ({rung}) up to {:.3e} m away, at joint {joint}{forces}.{proved}",
                 one.equilibrium.solver, one.joints_m
             )
         });
@@ -192,4 +201,10 @@ impl Judgement {
             self.nearest.failures.iter().map(|failure| format!("No equilibrium by {failure}."));
         found.chain(failed).collect()
     }
+}
+
+/// An enclosure that stays one when its ends are told with four digits.
+fn outwards([least, most]: [f64; 2]) -> [f64; 2] {
+    const HALF_A_UNIT: f64 = 5e-4;
+    [least * (1.0 - HALF_A_UNIT), most * (1.0 + HALF_A_UNIT)]
 }

@@ -262,6 +262,7 @@ fn a_named_self_stress_that_is_none_is_seen() {
             dimension: 1,
             basis: vec![stress.to_vec()],
             choice: ForceChoice::Unknown,
+            ranges: None,
         });
         let agreement = compare(&system, &mut [first, second], &Tolerances::project());
         let told = |e: &Excess| matches!(e.what, Quantity::SelfStresses { .. });

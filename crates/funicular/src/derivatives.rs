@@ -1,0 +1,376 @@
+//! How an equilibrium changes with the numbers of its system.
+
+use std::io::{self, Write};
+
+use branches::{AnchorEnd, BarField, Base, JointField, Number, Parameter, ParameterError, Which};
+use lagrange::network::{self, Settings};
+use model::Vector;
+use model::system::System;
+use serde::{Serialize, Serializer};
+
+use crate::csv::quoted;
+use crate::equilibria::system_of;
+use crate::error::Error;
+use crate::problem::Problem;
+
+/// Derivatives of the hanging equilibrium of a chain or a system: stiffness matrices of its anchors,
+/// gradients of one number by all parameters, changes of everything by one parameter.
+///
+/// They follow from one factorisation of the equations of equilibrium, by the solver `lagrange`
+/// (see [`lagrange::network::Derivatives`]), and hold as long as no slack member becomes taut and
+/// no taut one slack.
+///
+/// ```
+/// use funicular::Derivatives;
+/// use funicular::prelude::*;
+/// // Two massless bars of 5 m over a span of 6 m with 8 N in the middle: depth 4 m.
+/// let problem = Problem::parse(
+///     "gravity_m_s2 = 10\n\
+///      joints = { A = { at_m = [-3, 0, 0] }, B = { at_m = [3, 0, 0] }, P = { mass_kg = 0.8 } }\n\
+///      bars = [{ from = \"A\", to = \"P\", length_m = 5, mass_kg = 0 },\n\
+///              { from = \"P\", to = \"B\", length_m = 5, mass_kg = 0 }]",
+///     "v.toml",
+/// )?;
+/// let derivatives = Derivatives::of(&problem)?;
+/// // The pull 8/2 * a/sqrt(l² - a²) of half the span a grows by W l²/(4 h³) with the span.
+/// let own = &derivatives.anchor_stiffness()?[3];
+/// assert_eq!((own.of.as_str(), own.by.as_str()), ("B", "B"));
+/// assert!((own.stiffness_n_m[0][0] - 8.0 * 25.0 / (4.0 * 64.0)).abs() < 1e-10);
+/// // The joint is half of l/h deeper for each metre of a bar.
+/// let depth = derivatives.gradient("joints.P.at_m.z")?;
+/// let by = depth.by("bars.1.length_m").expect("a length");
+/// assert!((by.value + 5.0 / 8.0).abs() < 1e-10);
+/// # Ok::<(), Error>(())
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct Derivatives {
+    system: System,
+    solution: network::Solution,
+}
+
+/// The stiffness matrix of a pair of anchors.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct AnchorStiffness {
+    /// The anchor whose force changes.
+    pub of: String,
+    /// The anchor that moves.
+    pub by: String,
+    /// Entry (i, k) is the derivative of component i of the force of the ground on the one by
+    /// coordinate k of the other, N/m.
+    pub stiffness_n_m: [[f64; 3]; 3],
+}
+
+/// The derivative of a number by a parameter.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Derivative {
+    /// The parameter by its path in a system file, such as `bars.2.length_m`.
+    pub parameter: String,
+    /// The derivative.
+    pub value: f64,
+    /// Its unit.
+    pub unit: String,
+}
+
+/// The derivatives of one number of the equilibrium by all parameters.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct NumberGradient {
+    /// The number: `joints.P.at_m.z`, or `bars.2.axial_n`.
+    pub of: String,
+    /// Its value, in m or N.
+    pub value: f64,
+    /// By lengths, masses and stiffnesses of bars, forces on free joints and places of anchors.
+    pub derivatives: Vec<Derivative>,
+}
+
+/// The derivatives of an equilibrium by one parameter.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ParameterChange {
+    /// The parameter.
+    pub by: String,
+    /// Its unit: all below is per unit of it.
+    pub unit: &'static str,
+    /// Of the joints, m, by name.
+    #[serde(serialize_with = "by_name")]
+    pub joints_m: Vec<(String, Vector)>,
+    /// Of the axial forces of the bars, N.
+    pub axial_n: Vec<f64>,
+    /// Of the forces of the ground at the supports, N, by name.
+    #[serde(serialize_with = "by_name")]
+    pub reactions_n: Vec<(String, Vector)>,
+}
+
+/// A list of vectors as an object with the names as keys.
+fn by_name<S: Serializer>(list: &[(String, Vector)], serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_map(list.iter().map(|(name, vector)| (name, vector)))
+}
+
+/// Why a derivative cannot be asked for.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum DerivativesError {
+    /// Occurs when the text names no number of an equilibrium.
+    #[error(
+        "`{text}` is no number of the equilibrium: `joints.NAME.at_m.x` (y, z) is a coordinate of a \
+         joint that moves, `bars.K.axial_n` the axial force of bar K, from 1"
+    )]
+    NoNumber {
+        /// The text.
+        text: String,
+    },
+    /// Occurs when derivatives by a parameter are not known.
+    #[error(
+        "there are no derivatives by `{text}`: there are some by `length_m`, `mass_kg` and \
+         `stiffness_n` of one bar, `mass_kg` and `force_n` of a joint, `at_m` of an anchor"
+    )]
+    NoParameter {
+        /// The text.
+        text: String,
+    },
+}
+
+impl Derivatives {
+    /// Of the hanging equilibrium of a problem.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::SystemRefused`] when there is none, [`Error::Network`] when it is not found.
+    pub fn of(problem: &Problem) -> Result<Self, Error> {
+        let system = system_of(problem);
+        system.refusal()?;
+        let solution = network::solve(&system, &Settings::default())?;
+        Ok(Self { system, solution })
+    }
+
+    /// The system; a chain has joints named by their numbers, from `0`.
+    #[must_use]
+    pub fn system(&self) -> &System {
+        &self.system
+    }
+
+    /// The stiffness matrices of all pairs of anchors.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Network`] where the equilibrium has no derivatives: it is degenerate, or an anchor
+    /// cannot move alone.
+    pub fn anchor_stiffness(&self) -> Result<Vec<AnchorStiffness>, Error> {
+        let mut derivatives = network::Derivatives::new(&self.system, &self.solution)?;
+        let joints = self.system.joints();
+        let anchors: Vec<usize> =
+            (0..joints.len()).filter(|k| joints[*k].support.is_fixed()).collect();
+        // Column by column: one solve serves the forces of all anchors.
+        let mut columns = Vec::with_capacity(anchors.len());
+        for joint in &anchors {
+            let mut moved = Vec::with_capacity(3);
+            for axis in 0..3 {
+                let parameter = network::Parameter::Anchor { joint: *joint, axis };
+                moved.push(derivatives.change(parameter)?.reactions_n);
+            }
+            columns.push(moved);
+        }
+        let pair = |of: usize, by: usize| AnchorStiffness {
+            of: joints[anchors[of]].name.clone(),
+            by: joints[anchors[by]].name.clone(),
+            stiffness_n_m: std::array::from_fn(|i| {
+                std::array::from_fn(|k| columns[by][k][anchors[of]][i])
+            }),
+        };
+        let all = 0..anchors.len();
+        Ok(all
+            .clone()
+            .flat_map(|of| all.clone().map(move |by| (of, by)))
+            .map(|(of, by)| pair(of, by))
+            .collect())
+    }
+
+    /// The derivatives of one number by all parameters: `joints.P.at_m.z`, a coordinate of a joint,
+    /// or `bars.2.axial_n`, an axial force.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Derivatives`] when the text names no such number, [`Error::Parameter`] when the
+    /// joint is not there, [`Error::Network`] where there are no derivatives.
+    pub fn gradient(&self, of: &str) -> Result<NumberGradient, Error> {
+        let found = &self.solution.equilibrium;
+        let mut by_joints = vec![[0.0; 3]; self.system.joints().len()];
+        let mut by_axial = vec![0.0; self.system.members().len()];
+        let (value, unit) = match self.number(of)? {
+            Of::Place(joint, axis) => {
+                by_joints[joint][axis] = 1.0;
+                (found.joints_m[joint][axis], "m")
+            }
+            Of::Axial(member) => {
+                by_axial[member] = 1.0;
+                (found.axial_n[member], "N")
+            }
+        };
+        let mut derivatives = network::Derivatives::new(&self.system, &self.solution)?;
+        let gradient = derivatives.gradient(&by_joints, &by_axial)?;
+        Ok(NumberGradient { of: of.to_owned(), value, derivatives: self.listed(&gradient, unit) })
+    }
+
+    /// A gradient with the names of the parameters.
+    fn listed(&self, gradient: &network::Gradient, unit: &str) -> Vec<Derivative> {
+        let mut list = Vec::new();
+        let mut add = |number: Number, value: f64| {
+            let unit = format!("{unit}/{}", number.unit());
+            list.push(Derivative { parameter: number.to_string(), value, unit });
+        };
+        let bar = |k: usize, field| Number::Bar(Which::One(k + 1), field);
+        for (k, member) in self.system.members().iter().enumerate() {
+            add(bar(k, BarField::Length), gradient.by_length[k]);
+            add(bar(k, BarField::Mass), gradient.by_mass[k]);
+            if member.stiffness_n.is_some() {
+                add(bar(k, BarField::Stiffness), gradient.by_stiffness[k]);
+            }
+        }
+        for (k, joint) in self.system.joints().iter().enumerate() {
+            let number = |field| Number::Joint(joint.name.clone(), field);
+            if joint.support.is_fixed() {
+                for axis in 0..3 {
+                    add(number(JointField::Place(axis)), gradient.by_anchor[k][axis]);
+                }
+                continue;
+            }
+            let weight = -self.system.gravity_m_s2() * gradient.by_force[k][2];
+            add(number(JointField::Mass), weight);
+            for axis in 0..3 {
+                add(number(JointField::Force(axis)), gradient.by_force[k][axis]);
+            }
+        }
+        list
+    }
+
+    /// The derivatives of joints and forces by one parameter, such as `bars.2.length_m`.
+    ///
+    /// The mass and the stiffness of a bar stay when its length changes, and so do the relative
+    /// places of its centre and its loads.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Parameter`] when the system has no such number, [`Error::Derivatives`] when there
+    /// are no derivatives by it, [`Error::Network`] where the equilibrium has none.
+    pub fn change(&self, by: &str) -> Result<ParameterChange, Error> {
+        let (number, parameter, scale) = self.parameter(by)?;
+        let mut derivatives = network::Derivatives::new(&self.system, &self.solution)?;
+        let change = derivatives.change(parameter)?;
+        let joints = self.system.joints();
+        let scaled = |v: Vector| v.map(|x| scale * x);
+        let named = |k: usize, v: Vector| (joints[k].name.clone(), scaled(v));
+        let held = (0..joints.len()).filter(|k| joints[*k].support.at_m().is_some());
+        Ok(ParameterChange {
+            by: number.to_string(),
+            unit: number.unit(),
+            joints_m: change.joints_m.iter().enumerate().map(|(k, v)| named(k, *v)).collect(),
+            axial_n: change.axial_n.iter().map(|n| scale * n).collect(),
+            reactions_n: held.map(|k| named(k, change.reactions_n[k])).collect(),
+        })
+    }
+
+    /// A parameter as the solver has it, and what its derivatives are multiplied by.
+    fn parameter(&self, text: &str) -> Result<(Number, network::Parameter, f64), Error> {
+        let number = self.checked(text)?;
+        let joint = |name: &str| self.system.joint(name);
+        let (parameter, scale) = match &number {
+            Number::Bar(Which::One(bar), BarField::Length) => {
+                (Some(network::Parameter::Length { member: bar - 1 }), 1.0)
+            }
+            Number::Bar(Which::One(bar), BarField::Mass) => {
+                (Some(network::Parameter::Mass { member: bar - 1 }), 1.0)
+            }
+            Number::Bar(Which::One(bar), BarField::Stiffness) => {
+                (Some(network::Parameter::Stiffness { member: bar - 1 }), 1.0)
+            }
+            Number::Joint(name, JointField::Place(axis)) => {
+                let of = |joint| network::Parameter::Anchor { joint, axis: *axis };
+                (joint(name).map(of), 1.0)
+            }
+            Number::Joint(name, JointField::Force(axis)) => {
+                let of = |joint| network::Parameter::Force { joint, axis: *axis };
+                (joint(name).map(of), 1.0)
+            }
+            Number::Joint(name, JointField::Mass) => {
+                let of = |joint| network::Parameter::Force { joint, axis: 2 };
+                (joint(name).map(of), -self.system.gravity_m_s2())
+            }
+            Number::Anchor(end, axis) => {
+                let joint = match end {
+                    AnchorEnd::Start => 0,
+                    AnchorEnd::End => self.system.members().len(),
+                };
+                (Some(network::Parameter::Anchor { joint, axis: *axis }), 1.0)
+            }
+            _ => (None, 1.0),
+        };
+        let parameter =
+            parameter.ok_or_else(|| DerivativesError::NoParameter { text: text.to_owned() })?;
+        Ok((number, parameter, scale))
+    }
+
+    /// The number of the system that a path names.
+    fn checked(&self, path: &str) -> Result<Number, Error> {
+        let parameter = parsed(path)?;
+        self.system.check(&parameter).map_err(|error| without_value(error, path))?;
+        Ok(parameter.number)
+    }
+
+    /// The number of the equilibrium that a path names.
+    fn number(&self, text: &str) -> Result<Of, Error> {
+        let none = || DerivativesError::NoNumber { text: text.to_owned() };
+        if let Some(bar) = text.strip_prefix("bars.").and_then(|rest| rest.strip_suffix(".axial_n"))
+        {
+            let bar = bar.parse::<usize>().ok().and_then(|bar| bar.checked_sub(1));
+            let bar = bar.filter(|bar| *bar < self.system.members().len());
+            return Ok(Of::Axial(bar.ok_or_else(none)?));
+        }
+        let parameter = parsed(text)?;
+        let Number::Joint(name, JointField::Place(axis)) = parameter.number else {
+            return Err(none().into());
+        };
+        let joint = self.system.joint(&name).ok_or_else(none)?;
+        if self.system.joints()[joint].support.is_fixed() {
+            return Err(none().into());
+        }
+        Ok(Of::Place(joint, axis))
+    }
+}
+
+/// A parameter has values; what they are does not matter here.
+fn parsed(path: &str) -> Result<Parameter, Error> {
+    let parameter = format!("{path}=0").parse();
+    parameter.map_err(|error| without_value(error, path).into())
+}
+
+/// The error about the path alone.
+fn without_value(error: ParameterError, path: &str) -> ParameterError {
+    let end = |at: usize| at.min(path.len());
+    let span = end(error.span.start)..end(error.span.end);
+    ParameterError { text: path.to_owned(), span, ..error }
+}
+
+/// A number of an equilibrium: by joint and axis, or by member.
+enum Of {
+    Place(usize, usize),
+    Axial(usize),
+}
+
+impl NumberGradient {
+    /// The derivative by the parameter of this path.
+    #[must_use]
+    pub fn by(&self, parameter: &str) -> Option<&Derivative> {
+        self.derivatives.iter().find(|derivative| derivative.parameter == parameter)
+    }
+
+    /// A line per parameter as CSV.
+    ///
+    /// # Errors
+    ///
+    /// When `to` cannot be written.
+    pub fn write_csv(&self, mut to: impl Write) -> io::Result<()> {
+        writeln!(to, "parameter,derivative,unit")?;
+        for Derivative { parameter, value, unit } in &self.derivatives {
+            writeln!(to, "{},{value:?},{unit}", quoted(parameter))?;
+        }
+        Ok(())
+    }
+}

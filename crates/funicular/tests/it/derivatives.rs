@@ -1,0 +1,211 @@
+//! `funicular derivatives`: by `lagrange`, against differences of answers of `energy`.
+
+#![expect(clippy::unwrap_used, reason = "helpers of tests")]
+
+use assert_cmd::Command;
+use branches::{Combine, Variation};
+use funicular::Derivatives;
+use funicular::prelude::*;
+use serde_json::Value;
+
+/// A bridle in space with a cable, a spring, a slider and a force: nothing about it is symmetric.
+const BRIDLE: &str = r#"
+gravity_m_s2 = 9.81
+[joints]
+A = { at_m = [-2, -1, 0.3] }
+B = { at_m = [2, -0.5, 0] }
+C = { at_m = [0.2, 2, -0.2] }
+S = { at_m = [0, -2, -1], along = [0, 3, -4], mass_kg = 0.5 }
+P = { mass_kg = 2, force_n = [0.3, 0.1, 0] }
+Q = { mass_kg = 0.7 }
+[[bars]]
+from = "A"
+to = "Q"
+length_m = 1.5
+mass_kg = 0.8
+[[bars]]
+from = "Q"
+to = "P"
+length_m = 1.4
+mass_kg = 0.5
+stiffness_n = 300
+[[bars]]
+from = "B"
+to = "P"
+length_m = 2.6
+mass_kg = 1
+[[bars]]
+from = "C"
+to = "P"
+length_m = 2.7
+mass_kg = 0.4
+kind = "cable"
+stiffness_n = 500
+[[bars]]
+from = "S"
+to = "P"
+length_m = 1.9
+mass_kg = 0.6
+"#;
+
+fn bridle() -> Problem {
+    Problem::parse(BRIDLE, "bridle.toml").unwrap()
+}
+
+/// What `energy` finds with one number changed: joints, axial forces, forces of the ground.
+fn hanging(parameter: &str, value: f64) -> [Vec<f64>; 3] {
+    let vary = [format!("{parameter}={value:?}").parse().unwrap()];
+    let system = bridle().as_system().unwrap().clone();
+    let system = Variation::new(system, &vary, Combine::Zip).unwrap().system(&[value]).unwrap();
+    let answer = Solve::new().solvers(Solvers::Energy).run_system(&system).unwrap();
+    let found = &answer.equilibria()[0];
+    [found.joints_m.concat(), found.axial_n.clone(), found.reactions_n.concat()]
+}
+
+#[test]
+fn changes_and_gradients_are_the_differences_of_the_other_solver() {
+    let derivatives = Derivatives::of(&bridle()).unwrap();
+    let height = derivatives.gradient("joints.P.at_m.z").unwrap();
+    let pull = derivatives.gradient("bars.4.axial_n").unwrap();
+    for (parameter, at) in [
+        ("bars.1.length_m", 1.5),
+        ("bars.2.stiffness_n", 300.0),
+        ("bars.3.mass_kg", 1.0),
+        ("joints.P.mass_kg", 2.0),
+        ("joints.P.force_n.x", 0.3),
+        ("joints.Q.force_n.y", 0.0),
+        ("joints.C.at_m.y", 2.0),
+        ("joints.A.at_m.z", 0.3),
+    ] {
+        let step = 1e-3_f64 * f64::max(at, 1.0);
+        let (above, below) = (hanging(parameter, at + step), hanging(parameter, at - step));
+        let change = derivatives.change(parameter).unwrap();
+        let told = [
+            change.joints_m.iter().flat_map(|(_, v)| *v).collect::<Vec<_>>(),
+            change.axial_n.clone(),
+            change.reactions_n.iter().flat_map(|(_, v)| *v).collect(),
+        ];
+        for (kind, told) in told.iter().enumerate() {
+            let difference = above[kind].iter().zip(&below[kind]);
+            let difference: Vec<_> = difference.map(|(a, b)| (a - b) / (2.0 * step)).collect();
+            let size = difference.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+            // The error of the differences: the square of the step, and the solver's own over it.
+            let close = |a: f64, b: f64| (a - b).abs() < 2e-4 * size + 1e-8;
+            // The supports are told, the joints differ in all.
+            for (k, told) in told.iter().enumerate() {
+                assert!(
+                    close(*told, difference[k]),
+                    "{parameter} {kind} {k}: {told} {difference:?}"
+                );
+            }
+        }
+        for (gradient, wanted) in [(&height, told[0][3 * 4 + 2]), (&pull, told[1][3])] {
+            let by = gradient.by(parameter).unwrap().value;
+            assert!((by - wanted).abs() < 1e-9 * wanted.abs().max(1.0), "{parameter}: {by}");
+        }
+    }
+}
+
+#[test]
+fn stiffness_of_anchors_is_symmetric_and_that_of_a_closed_form() {
+    let derivatives = Derivatives::of(&bridle()).unwrap();
+    let pairs = derivatives.anchor_stiffness().unwrap();
+    assert_eq!(pairs.len(), 9);
+    let pair = |of: &str, by: &str| {
+        pairs.iter().find(|pair| pair.of == of && pair.by == by).unwrap().stiffness_n_m
+    };
+    for (a, b) in [("A", "B"), ("A", "C"), ("B", "B")] {
+        for i in 0..3 {
+            for k in 0..3 {
+                assert!((pair(a, b)[i][k] - pair(b, a)[k][i]).abs() < 1e-8);
+            }
+        }
+    }
+    // An elastic thread of 2 m alone: EA / l along it, F / d across it.
+    let thread = "gravity_m_s2 = 10\njoints = { A = { at_m = [0, 0, 0] }, B = { at_m = [0, 0, -5] }, \
+                  P = { mass_kg = 1 } }\n\
+                  bars = [{ from = \"A\", to = \"P\", length_m = 2, mass_kg = 0, stiffness_n = 400 },\n\
+                  { from = \"P\", to = \"B\", length_m = 2, mass_kg = 0, stiffness_n = 400 }]";
+    let problem = Problem::parse(thread, "thread.toml").unwrap();
+    let pairs = Derivatives::of(&problem).unwrap().anchor_stiffness().unwrap();
+    // Two springs of 200 N/m in a row.
+    assert!((pairs[0].stiffness_n_m[2][2] - 100.0).abs() < 1e-8, "{pairs:?}");
+    assert!((pairs[1].stiffness_n_m[2][2] + 100.0).abs() < 1e-8, "{pairs:?}");
+}
+
+fn derivatives(arguments: &[&str]) -> std::process::Output {
+    let mut command = Command::cargo_bin("funicular").unwrap();
+    command.env("NO_COLOR", "1").arg("derivatives").args(arguments).output().unwrap()
+}
+
+#[test]
+fn the_program_prints_tables_json_and_csv() {
+    let folder = tempfile::tempdir().unwrap();
+    let csv = folder.path().join("gradient.csv");
+    let csv = csv.to_str().unwrap();
+    // Two cables of 3 and 4 m at a right angle with the weight W: in 3/5 and 4/5 of it.
+    let output = derivatives(&["--case", "lamp", "--of", "bars.1.axial_n", "--csv", csv, "--json"]);
+    assert_eq!(output.status.code(), Some(0));
+    let json: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!((&json["schema_version"], &json["system"]), (&2.into(), &"lamp".into()));
+    assert!((json["value"].as_f64().unwrap() - 0.8 * 2.0 * 9.80665).abs() < 1e-9);
+    let list = json["derivatives"].as_array().unwrap();
+    let by = |name: &str| list.iter().find(|one| one["parameter"] == name).unwrap();
+    let mass = by("joints.lamp.mass_kg");
+    assert!((mass["value"].as_f64().unwrap() - 0.8 * 9.80665).abs() < 1e-9);
+    assert_eq!(mass["unit"], "N/kg");
+    let written = std::fs::read_to_string(csv).unwrap();
+    assert_eq!(written.lines().count(), 1 + list.len());
+    let line = written.lines().find(|line| line.starts_with("joints.lamp.mass_kg,")).unwrap();
+    let cells: Vec<_> = line.split(',').collect();
+    assert!((cells[1].parse::<f64>().unwrap() - 0.8 * 9.80665).abs() < 1e-9);
+    assert_eq!((written.lines().next(), cells[2]), (Some("parameter,derivative,unit"), "N/kg"));
+
+    let change = derivatives(&["--case", "lamp", "--by", "joints.lamp.mass_kg", "--json"]);
+    let json: Value = serde_json::from_slice(&change.stdout).unwrap();
+    assert!((json["axial_n"][0].as_f64().unwrap() - 0.8 * 9.80665).abs() < 1e-9);
+    assert!((json["reactions_n"]["A"][2].as_f64().unwrap() - 0.64 * 9.80665).abs() < 1e-9);
+    assert!(json["joints_m"]["lamp"][2].as_f64().unwrap().abs() < 1e-12);
+    assert_eq!((&json["by"], &json["unit"]), (&"joints.lamp.mass_kg".into(), &"kg".into()));
+
+    let chain = derivatives(&["--case", "two-bars", "--json"]);
+    let json: Value = serde_json::from_slice(&chain.stdout).unwrap();
+    let anchors = json["anchors"].as_array().unwrap();
+    assert_eq!(
+        (anchors.len(), &anchors[1]["of"], &anchors[1]["by"]),
+        (4, &"0".into(), &"2".into())
+    );
+    for arguments in [
+        &["--case", "bridle"][..],
+        &["--case", "bridle", "--by", "bars.1.length_m"],
+        &["--case", "net", "--of", "bars.1.axial_n"],
+    ] {
+        let output = derivatives(arguments);
+        let said = String::from_utf8(output.stdout).unwrap();
+        assert_eq!(output.status.code(), Some(0), "{said}");
+        assert!(said.lines().all(|line| line.chars().count() <= 80), "{said}");
+    }
+}
+
+#[test]
+fn what_has_no_derivative_is_refused() {
+    // The example of the paper hangs from anchors above each other and turns freely.
+    let output = derivatives(&["--case", "three-equal-bars"]);
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(3), "{said}");
+    assert!(said.contains("no derivative here"), "{said}");
+
+    for (arguments, wanted) in [
+        (["--case", "lamp", "--of", "joints.A.at_m.x"], "no number of the equilibrium"),
+        (["--case", "lamp", "--of", "bars.9.axial_n"], "no number of the equilibrium"),
+        (["--case", "lamp", "--by", "gravity_m_s2"], "no derivatives by `gravity_m_s2`"),
+        (["--case", "lamp", "--by", "bars.*.mass_kg"], "no derivatives by `bars.*.mass_kg`"),
+        (["--case", "lamp", "--by", "joints.lamps.mass_kg"], "did you mean `lamp`"),
+        (["--case", "lamp", "--by", "bars.3.mass_kg"], "there is no bar 3"),
+    ] {
+        let output = derivatives(&arguments);
+        let said = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(2), "{said}");
+        assert!(said.contains(wanted), "{said}");
+    }
+}
