@@ -6,7 +6,7 @@ use serde::Deserialize;
 
 use super::elastic_catenary::{ElasticCatenary, EndForces};
 use super::entry::{BothSolvers, Compared, Entry, HandCheck};
-use super::run_of_members::{end_forces, run_of_members};
+use super::run_of_members::{end_forces, run_of_members, run_on_floor};
 use crate::answer::Solvers;
 use crate::foreign::{ForeignAnswer, judge_foreign};
 use crate::systems::ask;
@@ -30,20 +30,17 @@ struct Table {
 #[derive(Deserialize)]
 struct Case {
     index: usize,
-    #[serde(default)]
-    floor: bool,
-    #[serde(default)]
     x_m: f64,
-    #[serde(default)]
     z_m: f64,
-    #[serde(default)]
     length_m: f64,
-    #[serde(default)]
     stiffness_n: f64,
-    #[serde(default)]
     weight_n_m: f64,
+    /// Of a floor at the height of the lower end, where there is one.
+    friction: Option<f64>,
     #[serde(default)]
     expected: Vec<String>,
+    /// Length that lies on the floor.
+    on_floor_m: Option<String>,
 }
 
 /// A half of the last digit of a number as printed.
@@ -67,8 +64,9 @@ pub fn moorpy() -> Vec<Entry> {
 
 fn moorpy_case(case: &Case, tolerance: f64) -> Entry {
     let title = format!("mooring line, index {}", case.index);
-    if case.floor {
-        let because = "part of the line lies on the floor, which is not part of our systems";
+    if case.friction.is_some_and(|friction| friction > 0.0) {
+        let because =
+            "part of the line lies on a floor with friction, which is not part of our systems";
         return Entry::not_judged(title, MOORPY, because);
     }
     // A line lighter than water hangs upwards: the mirror image has the lower end above.
@@ -80,7 +78,8 @@ fn moorpy_case(case: &Case, tolerance: f64) -> Entry {
         stiffness_n: case.stiffness_n,
         weight_n_m: case.weight_n_m.abs(),
     };
-    let Some(found) = cable.solve() else {
+    let floor = case.friction.and_then(|_| cable.solve_on_floor());
+    let Some(found) = floor.map(|floor| floor.ends).or_else(|| cable.solve()) else {
         return Entry::not_judged(title, MOORPY, "the closed form was not found");
     };
     let EndForces { horizontal_n, upper_n, lower_n } = found;
@@ -91,7 +90,7 @@ fn moorpy_case(case: &Case, tolerance: f64) -> Entry {
         [horizontal_n, -lower_n, -horizontal_n, -upper_n]
     };
     let names = ["H at A / N", "V at A / N", "H at B / N", "V at B / N"];
-    let numbers: Vec<Compared> = names
+    let mut numbers: Vec<Compared> = names
         .iter()
         .zip(&case.expected)
         .zip(ours)
@@ -103,25 +102,43 @@ fn moorpy_case(case: &Case, tolerance: f64) -> Entry {
             Compared { what, printed, published, ours, allowed, at_most: false, digits }
         })
         .collect();
-    let weight_n = case.weight_n_m * case.length_m;
+    let printed = case.on_floor_m.as_ref().zip(floor);
+    numbers.extend(printed.map(|(printed, floor)| {
+        let published = printed.parse().unwrap_or(f64::NAN);
+        Compared {
+            what: "length on the floor / m".to_owned(),
+            printed: printed.clone(),
+            published,
+            ours: floor.lies_m,
+            allowed: tolerance * published.abs(),
+            at_most: false,
+            digits: TAUT_DIGITS,
+        }
+    }));
+    // What lies bears on the floor.
+    let lies_m = numbers.get(4).map_or(0.0, |number| number.published);
+    let weight_n = case.weight_n_m * (case.length_m - lies_m);
     let [a, b] = [1, 3].map(|k| numbers.get(k).map_or(f64::NAN, |number| number.published));
     let by_hand = HandCheck {
-        law: "the vertical forces at both ends together are the weight of the line",
+        law: "the vertical forces at both ends together are the weight of the line that hangs",
         broken_n: (a + b + weight_n).abs(),
         allowed_n: tolerance * (a.abs() + b.abs()),
     };
-    let solvers = by_both(&cable, &found);
+    let solvers = by_both(&cable, &found, floor.is_some());
     Entry { title, source: MOORPY, numbers, by_hand: Some(by_hand), solvers, not_judged: None }
 }
 
 /// What both solvers make of a run of members, against the closed form.
-fn by_both(cable: &ElasticCatenary, closed: &EndForces) -> Option<BothSolvers> {
-    let system = run_of_members(cable, MEMBERS).ok()?;
-    let answer = ask(&system, Solvers::Both, &|_| {});
+fn by_both(cable: &ElasticCatenary, closed: &EndForces, on_floor: bool) -> Option<BothSolvers> {
+    let run = if on_floor { run_on_floor } else { run_of_members };
+    let answer = ask(&run(cable, MEMBERS).ok()?, Solvers::Both, &|_| {});
+    // A lower end on the floor bears half of its first member.
+    let counted = if on_floor { 2 } else { 3 };
     let wanted = [closed.horizontal_n, closed.upper_n, closed.lower_n];
     let largest = wanted.iter().fold(0.0, |most: f64, force| most.max(force.abs()));
     let off = |forces: [f64; 3]| {
-        forces.iter().zip(wanted).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max) / largest
+        forces.iter().zip(wanted).take(counted).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+            / largest
     };
     let by = |solver: SolverName| {
         let found = answer.by(&solver).and_then(end_forces).map(off);
@@ -195,7 +212,7 @@ fn heavy(cable: &HeavyCable) -> Entry {
         source: HEAVY_CABLE,
         numbers: vec![number],
         by_hand: None,
-        solvers: by_both(&closed, &found),
+        solvers: by_both(&closed, &found, false),
         not_judged: None,
     }
 }

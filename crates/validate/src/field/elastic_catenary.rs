@@ -161,6 +161,82 @@ impl ElasticCatenary {
     }
 }
 
+/// A cable whose lower part lies on a floor.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct OnFloor {
+    /// The forces at its ends; the lower end is drawn level.
+    pub ends: EndForces,
+    /// Unstretched length of the part that lies, m.
+    pub lies_m: f64,
+}
+
+impl ElasticCatenary {
+    /// The cable with its lower end on a level floor without friction, on which its lower part
+    /// lies. The part $V/w$ hangs, with $\\operatorname{asinh}(V/H)$ as above, and $H$ stretches all
+    /// of it:
+    ///
+    /// $$ z = \\frac Hw\\Big(\\sqrt{1 + V^2/H^2} - 1\\Big) + \\frac{V^2}{2 w\\,EA}, \\qquad
+    ///    x = L - \\frac Vw + \\frac{HL}{EA} + \\frac Hw \\operatorname{asinh}\\frac VH . $$
+    ///
+    /// Nothing where no part lies, or a number is out of range. Source: J. M. J. Journée and
+    /// W. W. Massie, Offshore Hydromechanics, TU Delft (2001), chapter on mooring; the rigid limit
+    /// is $(V/w)^2 = z^2 + 2 z H/w$.
+    ///
+    /// ```
+    /// use validate::field::elastic_catenary::ElasticCatenary;
+    /// // Hardly any stretch, H = w = 1: cosh u - 1 = 1 m of height, 3 m lie.
+    /// let u = 2.0_f64.acosh();
+    /// let (x_m, length_m) = (3.0 + u, 3.0 + u.sinh());
+    /// let cable = ElasticCatenary { x_m, z_m: 1.0, length_m, stiffness_n: 1e15, weight_n_m: 1.0 };
+    /// let found = cable.solve_on_floor().unwrap();
+    /// assert!((found.ends.horizontal_n - 1.0).abs() < 1e-9 && (found.lies_m - 3.0).abs() < 1e-9);
+    /// ```
+    #[must_use]
+    pub fn solve_on_floor(&self) -> Option<OnFloor> {
+        let Self { x_m, z_m, length_m, stiffness_n, weight_n_m } = *self;
+        let numbers = [x_m, z_m, length_m, stiffness_n, weight_n_m];
+        if numbers.iter().any(|x| !(x.is_finite() && *x > 0.0)) {
+            return None;
+        }
+        let weight_n = weight_n_m * length_m;
+        // Both functions rise: with the force that hangs at H, and with H where that force is V.
+        let height = |h: f64, v: f64| {
+            (v.hypot(h) - h) / weight_n_m + v * v / (2.0 * weight_n_m * stiffness_n)
+        };
+        let hanging = |h: f64| bisect([0.0, weight_n], |v| height(h, v) - z_m);
+        let width = |h: f64, v: f64| {
+            length_m * (1.0 + h / stiffness_n) - v / weight_n_m + h / weight_n_m * (v / h).asinh()
+        };
+        // All of it hangs, and the lower end is level, where √(W² + H²) = H + w z', with z' without
+        // the stretch.
+        let taut_n = weight_n_m * z_m - weight_n * weight_n / (2.0 * stiffness_n);
+        let most = (weight_n - taut_n) * (weight_n + taut_n) / (2.0 * taut_n);
+        if !(taut_n > 0.0 && most > 0.0) {
+            return None;
+        }
+        let span = |h: f64| hanging(h).map_or(f64::NAN, |v| width(h, v) - x_m);
+        let horizontal_n = bisect([f64::EPSILON * most, most * (1.0 - f64::EPSILON)], span)?;
+        let upper_n = hanging(horizontal_n)?;
+        let ends = EndForces { horizontal_n, upper_n, lower_n: 0.0 };
+        Some(OnFloor { ends, lies_m: length_m - upper_n / weight_n_m })
+    }
+}
+
+/// A zero of a rising function between two places, to rounding; nothing where the signs at both are
+/// one.
+fn bisect([mut low, mut high]: [f64; 2], rises: impl Fn(f64) -> f64) -> Option<f64> {
+    if rises(low) > 0.0 || rises(high) < 0.0 {
+        return None;
+    }
+    loop {
+        let middle = 0.5 * (low + high);
+        if middle <= low || middle >= high {
+            return Some(low);
+        }
+        if rises(middle) > 0.0 { high = middle } else { low = middle }
+    }
+}
+
 impl EndForces {
     /// How far the lowest point of the cable is below its lower end, m; 0 where that end is the
     /// lowest.

@@ -38,3 +38,12 @@ pub fn end_forces(answer: &SystemEquilibrium) -> Option<[f64; 3]> {
     let (lower, upper) = (answer.reactions_n.first()?, answer.reactions_n.last()?);
     Some([upper[0], upper[2], lower[2]])
 }
+
+/// The same run with its lower end on a level floor without friction.
+///
+/// # Errors
+///
+/// [`SystemError`] when a number is out of range.
+pub fn run_on_floor(cable: &ElasticCatenary, members: usize) -> Result<System, SystemError> {
+    run_of_members(cable, members)?.with_floor(0.0)
+}
