@@ -75,7 +75,7 @@ fn close(
     let told = |failure| at_the_beginning(mechanism, failure);
     stepper.assemble(mechanism, state, MOST_CORRECTIONS).map_err(told)?;
     // A position where forces are indeterminate is no beginning.
-    stepper.arrive(mechanism, state, &Forces { of_time: Vec::new() }, 0.0).map_err(told)
+    stepper.arrive(mechanism, state, &Forces::default(), 0.0).map_err(told)
 }
 
 fn world(mechanism: &Mechanism, state: &State) -> Vec<Vector> {

@@ -12,7 +12,7 @@
 use model::Vector;
 use nalgebra::{Matrix3, Vector3};
 
-use crate::force::kinetic_j;
+use crate::force::{couple, kinetic_j};
 use crate::mechanism::{Link, Mechanism};
 use crate::rattle::{Failure, Stepper};
 use crate::settings::Settings;
@@ -62,7 +62,10 @@ pub(crate) fn forces(
     };
     for link in mechanism.links() {
         let m = link.inertia;
-        let couple = couple(&found.moments[link.member], vector(state, link));
+        let couple = couple(
+            plus(found.moments[link.member][0], found.moments[link.member][1]),
+            vector(state, link),
+        );
         let drag_a = plus(times(m.from, v[link.a]), times(m.between, v[link.b]));
         let drag_b = plus(times(m.between, v[link.a]), times(m.to, v[link.b]));
         found.on_members[link.member] =
@@ -138,11 +141,6 @@ impl Pin {
         let closed = self.resists + Matrix3::identity() * (OPEN_TURN * self.resists.trace());
         closed.cholesky().map_or([0.0; 3], |factors| factors.solve(&self.turning).into())
     }
-}
-
-/// Force at the second end of a member that its moments amount to; the opposite acts at the first.
-fn couple(moments: &[Vector; 2], d: Vector) -> Vector {
-    times(1.0 / dot(d, d), cross(plus(moments[0], moments[1]), d))
 }
 
 fn vector(state: &State, link: &Link) -> Vector {

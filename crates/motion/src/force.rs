@@ -5,19 +5,37 @@ use model::system::Kind;
 
 use crate::mechanism::{Mechanism, Spring};
 use crate::state::State;
-use crate::vector::{add_times, dot, norm};
+use crate::vector::{add_times, cross, dot, minus, norm, plus, times};
 
 /// A force at a joint as a function of time, N.
 pub type ForceOfTime = Box<dyn Fn(f64) -> Vector + Send + Sync>;
 
-/// Forces on the slots.
+/// Forces on the slots and moments on the members as functions of time.
+#[derive(Default)]
 pub(crate) struct Forces {
     /// Slot and force.
     pub of_time: Vec<(usize, ForceOfTime)>,
+    pub moments: Vec<MomentOfTime>,
+}
+
+/// A moment on a member, N m.
+pub(crate) struct MomentOfTime {
+    /// Slots of its ends.
+    pub a: usize,
+    pub b: usize,
+    /// Its number.
+    pub member: usize,
+    pub of_time: ForceOfTime,
+}
+
+/// Force at the second end of a member that a moment on it amounts to; the opposite acts at the
+/// first.
+pub(crate) fn couple(moment: Vector, d: Vector) -> Vector {
+    times(1.0 / dot(d, d), cross(moment, d))
 }
 
 impl Forces {
-    /// All forces at a time by slot, N: loads, springs, and the forces of time.
+    /// All forces at a time by slot, N: loads, springs, and the forces and moments of time.
     pub(crate) fn at(
         &self,
         mechanism: &Mechanism,
@@ -25,7 +43,7 @@ impl Forces {
         time_s: f64,
         force: &mut [Vector],
     ) {
-        if self.of_time.is_empty() && mechanism.springs.is_empty() {
+        if self.of_time.is_empty() && self.moments.is_empty() && mechanism.springs.is_empty() {
             return;
         }
         force.copy_from_slice(&mechanism.load);
@@ -37,6 +55,11 @@ impl Forces {
         }
         for (slot, of_time) in &self.of_time {
             force[*slot] = add_times(force[*slot], 1.0, of_time(time_s));
+        }
+        for moment in &self.moments {
+            let pull = couple((moment.of_time)(time_s), state.between(moment.a, moment.b));
+            force[moment.a] = minus(force[moment.a], pull);
+            force[moment.b] = plus(force[moment.b], pull);
         }
     }
 }

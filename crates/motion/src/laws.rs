@@ -13,7 +13,7 @@
 //! angular momentum about the reference equal the forces and moments of the ground and the loads.
 
 use model::Vector;
-use model::system::{Member, System};
+use model::system::System;
 
 use crate::snapshot::Snapshot;
 use crate::vector::{add_times, cross, dot, minus, norm, plus, times, worse};
@@ -59,8 +59,14 @@ struct Balance {
 }
 
 /// Judge the laws at one time. `drag_1_s` is the drag of the medium, `of_time` the forces of time
-/// by joint, N.
-pub(crate) fn judge(system: &System, at: &Snapshot, drag_1_s: f64, of_time: &[Vector]) -> Laws {
+/// by joint, N, and `moments` those on the members, N m.
+pub(crate) fn judge(
+    system: &System,
+    at: &Snapshot,
+    drag_1_s: f64,
+    of_time: &[Vector],
+    moments: &[Vector],
+) -> Laws {
     let reference = system.reference_m();
     let mut unit_n = system.total_mass_kg() * system.gravity_m_s2();
     let forces = at.start_forces_n.iter().chain(&at.end_forces_n).chain(&at.reactions_n);
@@ -69,8 +75,8 @@ pub(crate) fn judge(system: &System, at: &Snapshot, drag_1_s: f64, of_time: &[Ve
     }
     let mut found = Laws::default();
     let (mut needed, mut turning) = ([0.0; 3], [0.0; 3]);
-    for (number, member) in system.members().iter().enumerate() {
-        let balance = member_balance(system, member, number, at, drag_1_s);
+    for (number, given) in moments.iter().enumerate() {
+        let balance = member_balance(system, number, at, drag_1_s, *given);
         found.force = worse(found.force, norm(balance.force));
         let along = if balance.spins { 0.0 } else { dot(balance.moment, balance.direction) };
         let left = add_times(balance.moment, -along, balance.direction);
@@ -112,11 +118,12 @@ pub(crate) fn judge(system: &System, at: &Snapshot, drag_1_s: f64, of_time: &[Ve
 
 fn member_balance(
     system: &System,
-    member: &Member,
     number: usize,
     at: &Snapshot,
     drag_1_s: f64,
+    own_n_m: Vector,
 ) -> Balance {
+    let member = &system.members()[number];
     let (a, b) = (member.from, member.to);
     let body = &member.body;
     let x = [at.joints_m[a], at.joints_m[b]];
@@ -141,7 +148,9 @@ fn member_balance(
     let mass = body.mass_kg();
     let weight = [0.0, 0.0, -mass * system.gravity_m_s2()];
     let mut given = add_times(weight, -drag_1_s * mass, v_c);
-    let mut moment = times(-drag_1_s, spin);
+    // What of the member's own moment is along it is taken by nothing, and does nothing.
+    let own_n_m = add_times(own_n_m, -dot(own_n_m, u), u);
+    let mut moment = add_times(own_n_m, -drag_1_s, spin);
     for load in &member.loads {
         let fraction = load.at_m / body.length_m();
         given = plus(given, load.force_n);

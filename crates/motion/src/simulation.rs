@@ -1,12 +1,12 @@
 //! A motion in time.
 
 use model::Vector;
-use model::system::System;
+use model::system::{Member, System};
 
 use crate::composition::parts;
 use crate::damping;
 use crate::error::MotionError;
-use crate::force::{ForceOfTime, Forces, kinetic_j, potential_j};
+use crate::force::{ForceOfTime, Forces, MomentOfTime, kinetic_j, potential_j};
 use crate::mechanism::Mechanism;
 use crate::rattle::{Failure, Stepper};
 use crate::settings::Settings;
@@ -80,7 +80,7 @@ impl Simulation {
         }
         let begin = |failure| at_the_beginning(&mechanism, failure);
         stepper.assemble(&mechanism, &mut state, MOST_CORRECTIONS).map_err(begin)?;
-        let forces = Forces { of_time: Vec::new() };
+        let forces = Forces::default();
         stepper.arrive(&mechanism, &state, &forces, 0.0).map_err(begin)?;
         let parts = parts(settings.order);
         Ok(Self { mechanism, settings, parts, forces, state, stepper, time_s: 0.0 })
@@ -98,6 +98,28 @@ impl Simulation {
             return Err(MotionError::Input { what: "a force of time", reason });
         };
         self.forces.of_time.push((slot, of_time));
+        self.forces.at(&self.mechanism, &self.state, self.time_s, &mut self.stepper.force);
+        Ok(())
+    }
+
+    /// Add a moment on a member as a function of time, N m, world frame; what of it is along the
+    /// member does nothing (its spin is apart).
+    ///
+    /// # Errors
+    ///
+    /// [`MotionError::Input`] when there is no such member, or its moments across differ: then its
+    /// spin is not apart.
+    pub fn add_moment(&mut self, member: usize, of_time: ForceOfTime) -> Result<(), MotionError> {
+        let refused = |reason| MotionError::Input { what: "a moment of time", reason };
+        let system = self.mechanism.system();
+        let Some(Member { from, to, .. }) = system.members().get(member) else {
+            return Err(refused(format!("there is no member number {member}")));
+        };
+        if self.mechanism.cornered.iter().any(|cornered| cornered.member == member) {
+            return Err(refused(format!("the moments across member number {member} differ")));
+        }
+        let [a, b] = [*from, *to].map(|joint| self.mechanism.slot_of[joint]);
+        self.forces.moments.push(MomentOfTime { a, b, member, of_time });
         self.forces.at(&self.mechanism, &self.state, self.time_s, &mut self.stepper.force);
         Ok(())
     }
@@ -256,6 +278,15 @@ impl Simulation {
 
     pub(crate) fn state(&self) -> &State {
         &self.state
+    }
+
+    /// Moments of time by member at the present time, N m.
+    pub(crate) fn moments_of_time(&self) -> Vec<Vector> {
+        let mut found = vec![[0.0; 3]; self.mechanism.given()[1]];
+        for moment in &self.forces.moments {
+            found[moment.member] = plus(found[moment.member], (moment.of_time)(self.time_s));
+        }
+        found
     }
 
     /// Forces of time by slot at the present time, N.

@@ -4,6 +4,7 @@ use model::Vector;
 
 use crate::corners::Turning;
 use crate::damping::Damping;
+use crate::force::couple;
 use crate::laws::{self, Laws};
 use crate::mechanism::end_loads;
 use crate::simulation::Simulation;
@@ -62,6 +63,7 @@ impl Snapshot {
         let mut axial_n = vec![0.0; members.len()];
         let mut start_forces_n = vec![[0.0; 3]; members.len()];
         let mut end_forces_n = vec![[0.0; 3]; members.len()];
+        let moments = simulation.moments_of_time();
         for (k, link) in mechanism.links().enumerate() {
             let d = state.between(link.a, link.b);
             let density = multipliers.get(k).filter(|_| k < mechanism.bars.len());
@@ -79,6 +81,8 @@ impl Snapshot {
             let at_a = add_times(at_a, -density, d);
             let at_b = add_times(at_b, density, d);
             if link.member == number {
+                let pull = couple(moments[number], d);
+                let (at_a, at_b) = (plus(at_a, pull), minus(at_b, pull));
                 axial_n[number] += density * norm(d);
                 start_forces_n[number] = plus(start_forces_n[number], at_a);
                 end_forces_n[number] = plus(end_forces_n[number], at_b);
@@ -140,7 +144,7 @@ impl Snapshot {
             rates_off,
             laws: Laws::default(),
         };
-        found.laws = laws::judge(system, &found, simulation.drag_1_s(), &of_time);
+        found.laws = laws::judge(system, &found, simulation.drag_1_s(), &of_time, &moments);
         found
     }
 

@@ -249,7 +249,7 @@ fn densities(
     axial_n: Option<&[f64]>,
 ) -> Result<Vec<f64>, MotionError> {
     let mut stepper = Stepper::new(mechanism)?;
-    let forces = force::Forces { of_time: Vec::new() };
+    let forces = force::Forces::default();
     match stepper.arrive(mechanism, state, &forces, 0.0) {
         Ok(()) => {
             let nothing = vec![[0.0; 3]; mechanism.joint_at.len()];

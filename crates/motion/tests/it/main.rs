@@ -16,4 +16,5 @@ mod pendulum;
 mod positions;
 mod refused;
 mod second_opinion;
+mod squeezer;
 mod taylor;
