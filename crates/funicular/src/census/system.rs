@@ -1,9 +1,12 @@
 //! What a census of a system says, as `funicular census --json` prints it.
 
+use std::io::{self, Write};
+
 use census::network::{ChainCensus, NetCensus, PartCensus, SystemCensus};
 use model::system::{System, SystemEquilibrium};
 use serde::Serialize;
 
+use crate::csv::{Numbers, quoted};
 use crate::solve::SCHEMA_VERSION;
 use crate::system::{Named, Summary};
 
@@ -39,6 +42,29 @@ impl SystemCensusAnswer {
     #[must_use]
     pub fn equilibria(&self) -> &[SystemEquilibrium] {
         &self.equilibria
+    }
+
+    /// Joints as CSV, a line per equilibrium, from 1, and joint: its place, and the force of the
+    /// ground on it. What is zero but for rounding is written as 0.
+    ///
+    /// # Errors
+    ///
+    /// When `to` cannot be written.
+    pub fn write_csv(&self, mut to: impl Write) -> io::Result<()> {
+        write!(to, "equilibrium,energy_j,index_in_space,joint,x_m,y_m,z_m")?;
+        writeln!(to, ",reaction_x_n,reaction_y_n,reaction_z_n")?;
+        for (k, e) in self.equilibria.iter().enumerate() {
+            let places = Numbers::of(e.joints_m.as_flattened());
+            let forces = Numbers::of(e.reactions_n.as_flattened().iter().chain(&e.axial_n));
+            let (energy_j, index) = (e.energy_j, e.stability.index_in_space);
+            let joints = self.system.joints().iter().zip(&e.joints_m).zip(&e.reactions_n);
+            for ((joint, at_m), force_n) in joints {
+                let (name, place) = (quoted(&joint.name), places.cells(*at_m));
+                let force = forces.cells(*force_n);
+                writeln!(to, "{},{energy_j:?},{index},{name},{place},{force}", k + 1)?;
+            }
+        }
+        Ok(())
     }
 
     /// Whether the list of every chain was judged again, and passed.

@@ -86,6 +86,7 @@ fn shape(e: &Equilibrium) -> Shape<'_> {
         axial_n: &e.axial_n,
         reactions_n: vec![(0, e.reactions_n.start), (last, e.reactions_n.end)],
         forces_n: Some(&e.multipliers_n),
+        idle: &|_| "no force",
         ranges: None,
         solver: &e.solver,
     }

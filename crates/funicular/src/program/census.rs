@@ -38,8 +38,8 @@ pub struct Census {
     /// 6); joints between two bars that follow from their neighbours are not counted
     #[arg(long, value_name = "N", default_value_t = Settings::default().max_motions)]
     pub max_motions: usize,
-    /// Draw the shapes side by side into this SVG file: all up to 70, of more the first 70 by
-    /// energy
+    /// Draw the shapes into this SVG file: all up to 70, of more the first 70 by energy; those of a
+    /// chain side by side, of a system each into a file of its own (FILE-1.svg, FILE-2.svg, ...)
     #[arg(long, value_name = "FILE")]
     pub svg: Option<PathBuf>,
     /// Write joints and forces, a line per equilibrium and joint, to this CSV file
@@ -64,7 +64,7 @@ pub fn run(arguments: &Census) -> Result<Exit, Failure> {
     progress.say("reading");
     let Input { problem, files } = arguments.input.read()?;
     if let Some(system) = problem.as_system() {
-        return of_system(arguments, settings, system, progress);
+        return of_system(arguments, settings, system, (&files, progress));
     }
     let outputs = [&arguments.svg, &arguments.csv];
     output::check(outputs.into_iter().flatten().map(PathBuf::as_path), &files)?;
@@ -107,19 +107,28 @@ fn of_system(
     arguments: &Census,
     settings: Settings,
     system: &System,
-    progress: Progress,
+    (files, progress): (&[PathBuf], Progress),
 ) -> Result<Exit, Failure> {
-    if arguments.svg.is_some() || arguments.csv.is_some() {
-        return Err(Failure::bad_input(miette!(
-            help = "`--json` has every equilibrium of a system",
-            "--svg and --csv of a census are for chains"
-        )));
-    }
+    let most =
+        arguments.svg.as_deref().map_or_else(Vec::new, |path| output::numbered(path, SHAPES));
+    let outputs = arguments.csv.iter().chain(&arguments.svg).chain(&most);
+    output::check(outputs.map(PathBuf::as_path), files)?;
     progress.say("the chains, nets and trees of the system");
     let answer = funicular::Census::new()
         .settings(settings)
         .run_system_watched(system, &|now| progress.say(&how_far(now)))
         .map_err(refuse)?;
+    if let Some(path) = &arguments.csv {
+        output::write_stream(path, |file| answer.write_csv(file))?;
+    }
+    let shown = &answer.equilibria()[..answer.equilibria().len().min(SHAPES)];
+    let drawings =
+        arguments.svg.as_deref().map_or_else(Vec::new, |path| output::numbered(path, shown.len()));
+    for (path, shape) in drawings.iter().zip(shown) {
+        let drawn = funicular::picture::of_system(system, shape)
+            .map_err(|error| Failure::undecided(miette!("no picture: {error}")))?;
+        output::write_whole(path, &drawn)?;
+    }
     drop(progress);
     if arguments.json {
         output::print_json(&answer)?;

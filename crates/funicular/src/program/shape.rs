@@ -48,6 +48,8 @@ pub struct Shape<'a> {
     pub reactions_n: Vec<(usize, Vector)>,
     /// Forces at the joints of a chain, N: on the bar before, at joint 0 on bar 1.
     pub forces_n: Option<&'a [Vector]>,
+    /// A word for a bar without force.
+    pub idle: &'a dyn Fn(usize) -> &'static str,
     /// What is open of the forces of the bars, where they are a family.
     pub ranges: Option<&'a [ForceRange]>,
     /// Who found it.
@@ -107,7 +109,7 @@ impl Shape<'_> {
             let what = match force {
                 n if n > 0.0 => "tension",
                 n if n < 0.0 => "compression",
-                _ => "no force",
+                _ => (self.idle)(bar),
             };
             let mut row = vec![
                 (bar + 1).to_string(),

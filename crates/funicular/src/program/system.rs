@@ -3,7 +3,8 @@
 use std::fmt::Write as _;
 
 use funicular::SystemSolution;
-use model::system::{System, SystemEquilibrium};
+use model::Vector;
+use model::system::{Kind, Member, System, SystemEquilibrium};
 
 use crate::answer::ladder;
 use crate::printable::Printable;
@@ -68,8 +69,26 @@ fn shape(system: &System, e: &SystemEquilibrium, summary: bool) -> String {
         axial_n: &e.axial_n,
         reactions_n: held.map(|(k, (_, force))| (k, *force)).collect(),
         forces_n: None,
+        idle: &|bar| idle(&system.members()[bar], &e.joints_m),
         ranges: e.evidence.self_stresses.as_ref().and_then(|family| family.ranges.as_deref()),
         solver: &e.solver,
     };
     shape.text(summary)
+}
+
+/// What a member without force does: a cable or a strut may be away from its length, or have it and
+/// bear nothing, which decides nothing about either.
+fn idle(member: &Member, joints_m: &[Vector]) -> &'static str {
+    /// A member whose length is off by less than this part of it has it.
+    const JUST: f64 = 1e-10;
+    let [a, b] = [joints_m[member.from], joints_m[member.to]];
+    let distance_m = (b[0] - a[0]).hypot(b[1] - a[1]).hypot(b[2] - a[2]);
+    let longer = distance_m / member.body.length_m() - 1.0;
+    match member.kind {
+        Kind::Cable if longer < -JUST => "slack",
+        Kind::Cable => "just taut",
+        Kind::Strut if longer > JUST => "loose",
+        Kind::Strut => "just tight",
+        Kind::Bar => "no force",
+    }
 }

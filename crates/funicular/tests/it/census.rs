@@ -597,3 +597,34 @@ fn systems_without_a_census_are_told_why() {
     let told = stderr(&output);
     assert!(told.contains("2 closures") && told.contains("independent ways"), "{told}");
 }
+
+#[test]
+fn positions_of_a_system_are_drawn_and_written() {
+    let out = folder("tripod");
+    let [svg, csv] = ["shapes.svg", "shapes.csv"].map(|name| out.join(name));
+    let [svg_path, csv_path] = [&svg, &csv].map(|path| path.to_str().unwrap());
+    let output = funicular(&["--case", "tripod", "--svg", svg_path, "--csv", csv_path]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    // Legs of 3 m on a circle of 1.8 m: the load is 2.4 m below or above it.
+    let table = std::fs::read_to_string(&csv).unwrap();
+    let rows: Vec<Vec<&str>> = table.lines().map(|line| line.split(',').collect()).collect();
+    assert_eq!(
+        rows[0].join(","),
+        "equilibrium,energy_j,index_in_space,joint,x_m,y_m,z_m,reaction_x_n,reaction_y_n,reaction_z_n"
+    );
+    assert_eq!(rows.len(), 1 + 2 * 4);
+    for (row, sign) in [(4, -1.0), (8, 1.0)] {
+        let number = |column: usize| rows[row][column].parse::<f64>().unwrap();
+        assert_eq!((rows[row][3], rows[row][2]), ("top", "0"));
+        assert!((number(6) - sign * 2.4).abs() < 1e-9, "{:?}", rows[row]);
+        let energy = 30.0 * 9.80665 * sign * 2.4;
+        assert!((number(1) - energy).abs() < 1e-9 * energy.abs(), "{:?}", rows[row]);
+    }
+    // Each leg bears a third of the weight.
+    assert!((rows[1][9].parse::<f64>().unwrap() - 10.0 * 9.80665).abs() < 1e-9);
+    for name in ["shapes-1.svg", "shapes-2.svg"] {
+        let text = std::fs::read_to_string(out.join(name)).unwrap();
+        roxmltree::Document::parse(&text).unwrap();
+    }
+    assert_eq!(std::fs::read_dir(&out).unwrap().count(), 3);
+}

@@ -242,6 +242,7 @@ fn what_is_open_of_forces_is_told_bar_by_bar() {
     for words in ["may be / N", "0 to 0.707107", "0 to 1 ", "only this"] {
         assert!(said.contains(words), "{words}: {said}");
     }
+    assert!(!said.contains("slack") && !said.contains("just taut"), "{said}");
     let json: Value = serde_json::from_slice(&solve(&["--json"]).stdout).unwrap();
     let first = &json["equilibria"][0];
     assert_eq!(first["solver"], "lagrange");
@@ -252,4 +253,23 @@ fn what_is_open_of_forces_is_told_bar_by_bar() {
         assert!((range["most_n"].as_f64().unwrap() - most).abs() < 1e-9);
     }
     assert_eq!(ranges[3]["kind"], "unique");
+}
+
+#[test]
+fn members_without_force_are_named() {
+    let folder = folder("systems-idle");
+    // The lamp hangs 4 m deep: a third cable to it may be longer, and a strut shorter.
+    let more = |kind: &str, length: f64| {
+        let text = LAMP.replace("[joints]\n", "[joints]\nC = { at_m = [0, 0, 0] }\n")
+            + &format!(
+                "[[bars]]\nfrom = \"C\"\nto = \"the, lamp\"\nlength_m = {length:?}\nmass_kg = 0\nkind = \"{kind}\"\n"
+            );
+        std::fs::write(folder.join("more.toml"), text).unwrap();
+        let output = run(&folder, &["solve", "more.toml"]);
+        String::from_utf8(output.stdout).unwrap()
+    };
+    let said = more("cable", 4.5);
+    assert!(said.contains(" slack "), "{said}");
+    let said = more("strut", 3.5);
+    assert!(said.contains(" loose "), "{said}");
 }

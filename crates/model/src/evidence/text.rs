@@ -514,7 +514,7 @@ impl Display for NoCensus {
                 write!(f, "no census: member {member} of a chain between anchors is elastic")
             }
             Self::NotABar { member } => {
-                write!(f, "no census: member {member} of a frame is no inextensible bar")
+                write!(f, "no census: member {member} is no inextensible bar")
             }
             Self::Limp { member } => write!(
                 f,
