@@ -31,6 +31,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         seed_number: 1,
         source: "uniform".to_owned(),
         solvers: sweep.solvers().names().map(str::to_owned).collect(),
+        release: None,
         angles: Vec::new(),
         equilibria: sweep.members().list().to_vec(),
         equilibria_complete: sweep.members().complete(),

@@ -51,7 +51,7 @@
 //! | feature | what |
 //! |---|---|
 //! | `columns` | bars from Parquet |
-//! | `sweep` | [`Sweep`], [`Basins`] |
+//! | `sweep` | [`Sweep`], [`Basins`], [`Ensemble`] |
 //! | `branches` | [`Study`], [`Derivatives`], [`Trace`] |
 //! | `paper` | [`Reproduce`] |
 //! | `program` | the program `funicular` |
@@ -69,6 +69,8 @@ mod compare;
 mod csv;
 #[cfg(feature = "branches")]
 mod derivatives;
+#[cfg(feature = "sweep")]
+mod ensemble;
 mod equilibria;
 mod error;
 mod extremes;
@@ -80,6 +82,8 @@ pub mod picture;
 mod problem;
 #[cfg(feature = "paper")]
 mod reproduce;
+#[cfg(feature = "sweep")]
+mod resting;
 mod simulate;
 mod solution;
 mod solve;
@@ -109,6 +113,8 @@ pub use self::census::{Census, CensusAnswer, SystemCensusAnswer};
 pub use self::derivatives::{
     AnchorStiffness, Derivative, Derivatives, DerivativesError, NumberGradient, ParameterChange,
 };
+#[cfg(feature = "sweep")]
+pub use self::ensemble::{Ensemble, PreparedEnsemble};
 #[cfg(feature = "branches")]
 pub use self::parameters::Parameters;
 #[cfg(feature = "paper")]

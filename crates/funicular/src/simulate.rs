@@ -47,6 +47,9 @@ pub enum SimulateError {
         /// Their number.
         steps: f64,
     },
+    /// Occurs when many positions are to come to rest, and there is no damping.
+    #[error("without damping nothing comes to rest: give a drag or friction in the joints")]
+    NoDamping,
     /// Occurs when a joint that is to be pushed is not there.
     #[error("there is no joint {name:?} to push")]
     NoSuchJoint {
@@ -81,7 +84,7 @@ pub enum SimulateError {
 }
 
 /// Chains of at most so many bars have their equilibria numbered by a census.
-const CENSUS_BARS: usize = 12;
+pub(crate) const CENSUS_BARS: usize = 12;
 
 /// How far from its anchor a chain of given angles may end, relative to its length: angles in whole
 /// degrees.
@@ -132,10 +135,10 @@ impl FromStr for Start {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Simulate {
     start: Start,
-    time_s: f64,
+    pub(crate) time_s: f64,
     step_s: f64,
     store_s: Option<f64>,
-    settings: Settings,
+    pub(crate) settings: Settings,
     pushes: Vec<(String, Vector)>,
 }
 
@@ -267,7 +270,7 @@ impl Simulate {
     }
 
     /// Number of steps, and every how many the state is stored.
-    fn steps(&self) -> Result<(u64, u64), Error> {
+    pub(crate) fn steps(&self) -> Result<(u64, u64), Error> {
         let store_s = self.store_s.unwrap_or(self.time_s / STORED);
         for (what, value_s) in [
             ("the time", self.time_s),

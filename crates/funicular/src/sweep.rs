@@ -232,6 +232,7 @@ impl Sweep {
             seed_number: self.number,
             source: self.spread.name().to_owned(),
             solvers: sweep.solvers().names().map(str::to_owned).collect(),
+            release: None,
             angles: (1..=angles).map(|bar| format!("theta_{bar}_rad")).collect(),
             equilibria: sweep.members().list().to_vec(),
             equilibria_complete: sweep.members().complete(),

@@ -58,6 +58,9 @@ pub struct Member {
     /// With the anchors on one vertical: whether this is the mirror image of the entry that the
     /// census shows, half a turn away on the same circle of equilibria.
     pub mirrored: bool,
+    /// Of what is released: the places of the joints, world frame, m.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub joints_m: Option<Vec<model::Vector>>,
 }
 
 /// All entries, by energy and then by angles, and what it takes to find one. Equal for equal
@@ -223,6 +226,7 @@ impl Members {
             angles_rad: u.iter().map(|u| Some(u[0].atan2(-u[1]))).collect(),
             index_in_plane: index,
             mirrored: false,
+            joints_m: None,
         };
         let at = self.list.partition_point(|other| by_energy_and_angles(other, &member).is_lt());
         self.list.insert(at, member);
@@ -337,6 +341,7 @@ fn isolated(equilibrium: &ProvenEquilibrium, mirrored: bool) -> Member {
         angles_rad: equilibrium.angles_rad.iter().map(|angle| Some(sign * angle.mid())).collect(),
         index_in_plane: Some(equilibrium.index_in_plane),
         mirrored,
+        joints_m: None,
     }
 }
 
@@ -347,6 +352,7 @@ fn family(slack: &SlackFamily, problem: &Problem) -> Member {
         angles_rad: slack.angles_rad(problem),
         index_in_plane: Some(slack.index_in_plane),
         mirrored: false,
+        joints_m: None,
     }
 }
 

@@ -66,7 +66,7 @@ pub use store::compute::Compute;
 pub use store::description::SCHEMA_VERSION;
 pub use store::error::StoreError;
 pub use store::finished::{PartRecord, StoreSummary};
-pub use store::manifest::{Manifest, SystemText};
+pub use store::manifest::{Manifest, Release, SystemText};
 pub use store::merge::merge;
 pub use store::part::schema;
 pub use store::run::{Run, RunSettings, run};

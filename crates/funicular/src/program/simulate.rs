@@ -1,6 +1,7 @@
 //! `funicular simulate`: a system in motion.
 
 mod columns;
+mod ensemble;
 
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
@@ -24,6 +25,7 @@ use crate::tables::short;
 
 /// `funicular simulate`.
 #[derive(Debug, Args)]
+#[command(after_long_help = ensemble::HELP)]
 pub struct Simulate {
     #[command(flatten)]
     pub input: Source,
@@ -32,7 +34,7 @@ pub struct Simulate {
     /// degrees), `seed:7` (at random)
     #[arg(long, value_name = "START", default_value = "rest", allow_hyphen_values = true)]
     pub from: Start,
-    /// How long, s
+    /// How long, s; with --seeds the longest time until rest
     #[arg(long, value_name = "S", default_value_t = 10.0)]
     pub time: f64,
     /// Length of a step, s
@@ -54,12 +56,15 @@ pub struct Simulate {
     /// called 0, 1, 2 ... May be given several times
     #[arg(long, value_name = "PUSH", value_parser = push, allow_hyphen_values = true)]
     pub push: Vec<(String, Vector)>,
-    /// Write the stored times as columns with units: `.csv` or `.parquet`
+    /// Write the stored times as columns with units: `.csv` or `.parquet`; with --seeds the folder
+    /// of the rows, new or empty, or with --resume one that holds them
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
     /// Write an animation in one HTML file
     #[arg(long, value_name = "FILE")]
     pub html: Option<PathBuf>,
+    #[command(flatten)]
+    pub ensemble: ensemble::Arguments,
 }
 
 /// `JOINT=X,Y,Z`.
@@ -107,6 +112,9 @@ struct Kept {
 
 /// Run the command.
 pub fn run(arguments: &Simulate) -> Result<Exit, Failure> {
+    if let Some(seeds) = arguments.ensemble.seeds {
+        return ensemble::run(arguments, seeds);
+    }
     let interrupt = on_interrupt()?;
     let progress = Progress::start();
     progress.say("reading");

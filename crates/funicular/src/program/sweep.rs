@@ -6,15 +6,17 @@ mod tables;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use ::sweep::{Manifest, RunSettings, SCHEMA_VERSION, StoreSummary};
+use ::sweep::{Manifest, Run, RunSettings, SCHEMA_VERSION, StoreSummary};
+use funicular::Error;
 use indicatif::{HumanCount, ProgressBar, ProgressState, ProgressStyle};
 use miette::miette;
 use serde_json::{Value, json};
 
 pub use self::arguments::Sweep;
+pub(crate) use self::arguments::{Format, count};
 use crate::diagnostics::tell;
 use crate::exit::{Exit, Failure};
-use crate::interrupt::on_interrupt;
+use crate::interrupt::{Interrupt, on_interrupt};
 use crate::output;
 use crate::progress::Progress;
 use crate::threads;
@@ -39,41 +41,71 @@ pub fn run(arguments: &Sweep) -> Result<Exit, Failure> {
         .format(arguments.format.into())
         .prepare(&problem)?;
     drop(progress);
-    let manifest = sweep.manifest();
-    tell_cost(manifest);
-    let stop = interrupt.keep_what_is_done();
-    let all = sweep.range().end - sweep.range().start;
-    let bar = seeds_bar(all);
-    let start = Instant::now();
-    let done = |seeds| bar.inc(seeds);
-    let settings = RunSettings { threads, resume: arguments.resume, stop, done: &done };
-    let run = sweep.write(&arguments.out, &settings);
-    bar.finish_and_clear();
-    let run = run?;
-    let seconds = start.elapsed().as_secs_f64();
-    for (file, damage) in &run.repaired {
-        tell(format_args!("{file} could not be trusted and has been computed again: {damage}"));
-    }
-    let Some(summary) = &run.summary else {
-        tell(format_args!(
-            "Stopped: {} of {all} seeds are done and whole in {}. The same command with --resume goes on.",
-            run.seeds,
-            arguments.out.display()
-        ));
-        return Ok(Exit::Interrupted);
+    let folder = Folder {
+        manifest: sweep.manifest(),
+        system: json!(sweep.system()),
+        out: &arguments.out,
+        threads,
+        resume: arguments.resume,
+        json: arguments.json,
     };
-    let computed = run.seeds - run.seeds_before;
-    if arguments.json {
-        let mut object = json_object(manifest, summary, &arguments.out);
-        object["system"] = json!(sweep.system());
-        object["seeds_before"] = json!(run.seeds_before);
-        object["seconds"] = json!(seconds);
-        print_json(&object)?;
-    } else {
-        let rate = tables::rate(computed, run.seeds, seconds);
-        output::print(&(tables::summary(manifest, summary) + &rate + &written(&arguments.out)))?;
+    folder.run(interrupt, &|settings| sweep.write(&arguments.out, settings))
+}
+
+/// A folder of rows to be written.
+pub(crate) struct Folder<'a> {
+    pub manifest: &'a Manifest,
+    /// The numbers of the system, for JSON.
+    pub system: Value,
+    pub out: &'a Path,
+    pub threads: usize,
+    pub resume: bool,
+    pub json: bool,
+}
+
+impl Folder<'_> {
+    /// Write it, with a bar, until it is done or interrupted, and say what it holds.
+    pub(crate) fn run(
+        &self,
+        interrupt: Interrupt,
+        write: &dyn Fn(&RunSettings<'_>) -> Result<Run, Error>,
+    ) -> Result<Exit, Failure> {
+        let manifest = self.manifest;
+        tell_cost(manifest);
+        let stop = interrupt.keep_what_is_done();
+        let all = manifest.range.end - manifest.range.start;
+        let bar = seeds_bar(all);
+        let start = Instant::now();
+        let done = |seeds| bar.inc(seeds);
+        let settings =
+            RunSettings { threads: self.threads, resume: self.resume, stop, done: &done };
+        let run = write(&settings);
+        bar.finish_and_clear();
+        let run = run?;
+        let seconds = start.elapsed().as_secs_f64();
+        for (file, damage) in &run.repaired {
+            tell(format_args!("{file} could not be trusted and has been computed again: {damage}"));
+        }
+        let Some(summary) = &run.summary else {
+            tell(format_args!(
+                "Stopped: {} of {all} seeds are done and whole in {}. The same command with --resume goes on.",
+                run.seeds,
+                self.out.display()
+            ));
+            return Ok(Exit::Interrupted);
+        };
+        if self.json {
+            let mut object = json_object(manifest, summary, self.out);
+            object["system"] = self.system.clone();
+            object["seeds_before"] = json!(run.seeds_before);
+            object["seconds"] = json!(seconds);
+            print_json(&object)?;
+        } else {
+            let rate = tables::rate(run.seeds - run.seeds_before, run.seeds, seconds);
+            output::print(&(tables::summary(manifest, summary) + &rate + &written(self.out)))?;
+        }
+        Ok(verdict(manifest, summary))
     }
-    Ok(verdict(manifest, summary))
 }
 
 /// So many seeds and more have their cost told beforehand.
@@ -119,7 +151,7 @@ pub(crate) fn json_object(manifest: &Manifest, summary: &StoreSummary, out: &Pat
         "equilibria": manifest.equilibria,
         "equilibria_complete": manifest.equilibria_complete,
         "equilibria_left_out": manifest.equilibria_left_out,
-        "solvers": tables::solvers_json(summary),
+        "solvers": tables::solvers_json(manifest, summary),
         "comparisons": tables::comparisons_json(summary),
         "disagreements": summary.outcomes.named_disagreements().collect::<Vec<_>>(),
         "parts": summary.parts.len(),

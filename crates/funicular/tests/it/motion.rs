@@ -180,3 +180,57 @@ fn the_lowest_modes_of_a_long_chain_are_counted() {
     let text = String::from_utf8(funicular(&["modes", &path]).stdout).unwrap();
     assert!(text.contains("3997 modes") && text.contains("the lowest 20"), "{text}");
 }
+
+/// The files of a folder, with their bytes.
+fn folder_bytes(folder: &Path) -> Vec<(String, Vec<u8>)> {
+    let mut all: Vec<_> = std::fs::read_dir(folder)
+        .unwrap()
+        .map(|entry| entry.unwrap())
+        .map(|entry| {
+            let name = entry.file_name().into_string().unwrap();
+            (name, std::fs::read(entry.path()).unwrap())
+        })
+        .collect();
+    all.sort();
+    all
+}
+
+#[test]
+fn released_positions_come_to_rest_and_the_folder_does_not_depend_on_threads_or_shards() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    let run = |out: &str, more: &[&str]| {
+        let mut arguments = vec!["simulate", "--case", "three-equal-bars", "--seeds", "1100"];
+        arguments.extend(["--damping", "3", "--step", "0.02", "--time", "25", "--out", out]);
+        arguments.extend(more);
+        funicular(&arguments)
+    };
+    let one = run(&at("one"), &["--threads", "1", "--json"]);
+    assert_eq!(one.status.code(), Some(0), "{}", String::from_utf8_lossy(&one.stderr));
+    let told: Value = serde_json::from_slice(&one.stdout).unwrap();
+    let rows = told["solvers"]["motion"].as_array().unwrap();
+    let count = |outcome: i64| {
+        let row = rows.iter().find(|row| row["outcome"] == outcome);
+        row.map_or(0, |row| row["count"].as_u64().unwrap())
+    };
+    // All end on the circle of the stable equilibrium, none at the unstable one.
+    assert_eq!((count(0), rows.len()), (1100, 1), "{rows:?}");
+    // Two parts, as two shards, joined; and the second after an interruption.
+    assert_eq!(run(&at("first"), &["--shard", "1/2"]).status.code(), Some(0));
+    assert_eq!(run(&at("second"), &["--shard", "2/2"]).status.code(), Some(0));
+    std::fs::remove_file(folder.path().join("second/summary.json")).unwrap();
+    std::fs::remove_file(folder.path().join("second/part-000001.parquet")).unwrap();
+    let present = run(&at("second"), &["--shard", "2/2"]);
+    assert_eq!(present.status.code(), Some(2), "{}", String::from_utf8_lossy(&present.stderr));
+    assert_eq!(run(&at("second"), &["--shard", "2/2", "--resume"]).status.code(), Some(0));
+    let merged = funicular(&["merge", &at("first"), &at("second"), "--out", &at("both")]);
+    assert_eq!(merged.status.code(), Some(0), "{}", String::from_utf8_lossy(&merged.stderr));
+    let text = String::from_utf8(merged.stdout).unwrap();
+    assert!(text.contains("released seeds") && text.contains("time / s"), "{text}");
+    let [one, both] = ["one", "both"].map(|name| folder_bytes(&folder.path().join(name)));
+    assert_eq!(one, both);
+    // Where nothing takes energy away nothing comes to rest.
+    let free = funicular(&["simulate", "--case", "two-bars", "--seeds", "5", "--out", &at("free")]);
+    let said = String::from_utf8_lossy(&free.stderr).into_owned();
+    assert!(free.status.code() == Some(2) && said.contains("without damping"), "{said}");
+}

@@ -6,6 +6,12 @@ use crate::record::Chunk;
 
 /// What computes seeds. The same seeds must give the same bits, whatever the thread and the cut.
 pub trait Compute: Sync {
+    /// Seeds to be computed at a time: some milliseconds of work, so that an interruption is heard
+    /// soon.
+    fn chunk_seeds(&self) -> u64 {
+        1 << 13
+    }
+
     /// What becomes of these seeds.
     fn chunk(&self, seeds: Range<u64>) -> Chunk;
 

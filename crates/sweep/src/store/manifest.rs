@@ -31,10 +31,14 @@ pub struct Manifest {
     pub seeds: u64,
     /// The number that all of them come from.
     pub seed_number: u64,
-    /// How they are spread: `uniform`, `sobol` or `grid`.
+    /// How they are spread: `uniform`, `sobol` or `grid`; `released` where a system is let go from
+    /// positions at random.
     pub source: String,
-    /// Who was asked: `lagrange`, `energy`, or both in this order.
+    /// Who was asked: `lagrange`, `energy`, or both in this order; `motion` of what is released.
     pub solvers: Vec<String>,
+    /// How what is released moves; nothing where no motion is followed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub release: Option<Release>,
     /// Names of the columns of starting values, if they are written.
     pub angles: Vec<String>,
     /// The equilibria that outcomes 0, 1, 2, ... stand for.
@@ -52,6 +56,24 @@ pub struct Manifest {
     pub shard: Shard,
     /// The seeds of this shard.
     pub range: Range<u64>,
+}
+
+/// How systems move that are let go from positions at random, until they are at rest.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Release {
+    /// Longest time followed, s.
+    pub time_s: f64,
+    /// Length of a step, s.
+    pub step_s: f64,
+    /// Time between two looks at whether it is at rest, s.
+    pub span_s: f64,
+    /// Drag of a medium, 1/s.
+    pub drag_1_s: f64,
+    /// Friction in the joints, N m s.
+    pub friction_n_m_s: f64,
+    /// At rest are joints that are slower than this times `sqrt(g L)` and gain less speed than this
+    /// times `g`.
+    pub rest: f64,
 }
 
 /// A system as text.
@@ -78,6 +100,19 @@ impl SystemText {
             sha256: digest(text.as_bytes()),
             text,
             unit_j: energy_unit_j(chain),
+        }
+    }
+}
+
+impl From<&model::system::System> for SystemText {
+    fn from(system: &model::system::System) -> Self {
+        let text = model::system_file::write_network(system);
+        let weight_n = system.total_mass_kg() * system.gravity_m_s2();
+        Self {
+            name: system.name().to_owned(),
+            sha256: digest(text.as_bytes()),
+            text,
+            unit_j: weight_n * system.total_length_m(),
         }
     }
 }

@@ -16,15 +16,34 @@ use crate::store::finished::PartRecord;
 use crate::store::manifest::{Manifest, hexadecimal};
 use crate::summary::Summary;
 
-/// Seeds computed at a time: some milliseconds of work, so that an interruption is heard soon.
-const CHUNK_SEEDS: u64 = 1 << 13;
-
 /// Rows of a row group: some megabytes of columns, held per thread until they are encoded.
 const GROUP_SEEDS: u64 = 1 << 17;
 
 const OUTCOME: &str = "the equilibrium reached, as its number in `equilibria` of the manifest; or -1: \
     the iteration limit was reached, -2: stalled, -3: a number overflowed or was undefined, -4: \
     converged to something that is in no list";
+
+const RESTING: &str = "where it comes to rest, as its number in `equilibria` of the manifest; or -1: \
+    not at rest when the time is up, -2: no step can be taken, or no position found to begin with, \
+    -4: at rest where nothing is listed";
+
+/// What the four columns of a solver say: outcome, iterations, residual, energy.
+fn abouts(manifest: &Manifest) -> [String; 4] {
+    let Some(release) = &manifest.release else {
+        let iterations = "iterations spent".to_owned();
+        let residual = "the solver's own residual where it stopped".to_owned();
+        let energy = "potential energy where it stopped, above the height of joint 0".to_owned();
+        return [OUTCOME.to_owned(), iterations, residual, energy];
+    };
+    [
+        RESTING.to_owned(),
+        format!("time until it was at rest, in spans of {} s", release.span_s),
+        "largest acceleration of a joint at the end, in units of gravity, or largest speed in units of \
+         sqrt(g L) if that is more"
+            .to_owned(),
+        "potential energy at the end, above the height of the first support".to_owned(),
+    ]
+}
 
 /// The columns of a sweep.
 #[must_use]
@@ -39,16 +58,15 @@ pub fn schema(manifest: &Manifest) -> Schema {
     for name in &manifest.angles {
         columns.push(Column::new(name, Kind::F64, Spread::Many, "rad", "angle of the start"));
     }
+    let [outcome, iterations, residual, energy] = abouts(manifest);
     for solver in &manifest.solvers {
         let mut push = |name, kind, spread, unit, about: &str| {
             columns.push(Column::new(&format!("{solver}_{name}"), kind, spread, unit, about));
         };
-        push("outcome", Kind::I16, Spread::Few, "1", OUTCOME);
-        push("iterations", Kind::U16, Spread::Few, "1", "iterations spent");
-        let about = "the solver's own residual where it stopped";
-        push("residual", Kind::F64, Spread::Many, "1", about);
-        let about = "potential energy where it stopped, above the height of joint 0";
-        push("energy_j", Kind::F64, Spread::Many, "J", about);
+        push("outcome", Kind::I16, Spread::Few, "1", &outcome);
+        push("iterations", Kind::U16, Spread::Few, "1", &iterations);
+        push("residual", Kind::F64, Spread::Many, "1", &residual);
+        push("energy_j", Kind::F64, Spread::Many, "J", &energy);
     }
     let notes = [
         ("program", manifest.program.clone()),
@@ -81,7 +99,7 @@ pub fn write(
     let mut summary = manifest.summary();
     for group in steps(&seeds, GROUP_SEEDS) {
         let mut rows: Vec<Data> = Vec::new();
-        for range in steps(&group, CHUNK_SEEDS) {
+        for range in steps(&group, compute.chunk_seeds().max(1)) {
             if stop.load(Ordering::Relaxed) {
                 return Ok(None);
             }

@@ -17,7 +17,14 @@ pub const SEEDS: u64 = 4 * 1024 + 1;
 fn member(energy_j: f64) -> Member {
     let angles_rad = vec![Some(1.0 / 3.0), None];
     let origin = Origin::Discovered;
-    Member { origin, energy_j, angles_rad, index_in_plane: Some(0), mirrored: false }
+    Member {
+        origin,
+        energy_j,
+        angles_rad,
+        index_in_plane: Some(0),
+        mirrored: false,
+        joints_m: None,
+    }
 }
 
 pub fn manifest() -> Manifest {
@@ -29,6 +36,7 @@ pub fn manifest() -> Manifest {
         seed_number: 7,
         source: "uniform".to_owned(),
         solvers: vec!["lagrange".to_owned(), "energy".to_owned()],
+        release: None,
         angles: vec!["theta_1_rad".to_owned(), "theta_2_rad".to_owned()],
         equilibria: vec![member(0.1 + 0.2), member(-1.0e-300)],
         equilibria_complete: true,

@@ -116,7 +116,7 @@ impl From<Format> for funicular::Format {
 }
 
 /// A count as people write it: digits, with underscores between them, or with a power of ten.
-fn count(text: &str) -> Result<u64, String> {
+pub(crate) fn count(text: &str) -> Result<u64, String> {
     let wanted = || format!("a whole number from 1 to {MOST_SEEDS} is wanted, as 1000000 or 1e6");
     let digits = |text: &str| {
         let plain = text.starts_with(|c: char| c.is_ascii_digit())

@@ -37,6 +37,16 @@ pub fn summary(manifest: &Manifest, summary: &StoreSummary) -> String {
         }
     };
     let listed = manifest.equilibria.len();
+    if let Some(release) = &manifest.release {
+        let _ = writeln!(
+            text,
+            "let go at rest, followed for at most {} s in steps of {} s; drag {} 1/s, friction {} N m s",
+            short(release.time_s),
+            short(release.step_s),
+            short(release.drag_1_s),
+            short(release.friction_n_m_s)
+        );
+    }
     let _ = writeln!(text, "{listed} equilibria in the list{left_out}; {proof}\n");
     let tally = summary.outcomes.tally();
     for (name, solver) in &tally.solvers {
@@ -62,6 +72,17 @@ pub fn rate(computed: u64, all: u64, seconds: f64) -> String {
 }
 
 fn outcomes(manifest: &Manifest, solver: &SolverTally, all: u64) -> comfy_table::Table {
+    let release = manifest.release.as_ref();
+    let [median, most] = if release.is_some() {
+        ["median\ntime / s", "longest\n/ s"]
+    } else {
+        ["median\nsteps", "most\nsteps"]
+    };
+    // What is released is looked at after spans of time.
+    let spans = |count: u16| match release {
+        Some(release) => short(f64::from(count) * release.span_s),
+        None => count.to_string(),
+    };
     let mut table = table([
         "outcome",
         "energy / J",
@@ -69,8 +90,8 @@ fn outcomes(manifest: &Manifest, solver: &SolverTally, all: u64) -> comfy_table:
         "seeds",
         "rate\n/ %",
         "95 % interval",
-        "median\nsteps",
-        "most\nsteps",
+        median,
+        most,
     ]);
     // Equilibria first, then failures from the most harmless on.
     let (failed, reached): (Vec<_>, Vec<_>) = solver.0.iter().partition(|(code, _)| **code < 0);
@@ -79,15 +100,15 @@ fn outcomes(manifest: &Manifest, solver: &SolverTally, all: u64) -> comfy_table:
         let (low, high) = rate_interval(row.count, all);
         let index = member.and_then(|member| member.index_in_plane);
         table.add_row([
-            outcome(*code),
+            outcome(manifest, *code),
             member.map_or_else(String::new, |member| short(member.energy_j)),
             index.map_or_else(String::new, |index| index.to_string()),
             row.count.to_string(),
             short(percent(row.count, all)),
             // More digits than the interval is wide for would say nothing.
             format!("{} to {}", significant(100.0 * low, 4), significant(100.0 * high, 4)),
-            row.median_iterations().to_string(),
-            row.max_iterations().to_string(),
+            spans(row.median_iterations()),
+            spans(row.max_iterations()),
         ]);
     }
     numbers_from(&mut table, 1);
@@ -95,13 +116,22 @@ fn outcomes(manifest: &Manifest, solver: &SolverTally, all: u64) -> comfy_table:
 }
 
 /// The words for an outcome.
-fn outcome(code: i16) -> String {
-    let failures = [
-        (Failure::IterationLimit, "iteration limit"),
-        (Failure::Stalled, "stalled"),
-        (Failure::NonFinite, "a number overflowed"),
-        (Failure::Unlisted, "in no list"),
-    ];
+fn outcome(manifest: &Manifest, code: i16) -> String {
+    let failures = if manifest.release.is_some() {
+        [
+            (Failure::IterationLimit, "not at rest in time"),
+            (Failure::Stalled, "no step possible"),
+            (Failure::NonFinite, "a number overflowed"),
+            (Failure::Unlisted, "at rest elsewhere"),
+        ]
+    } else {
+        [
+            (Failure::IterationLimit, "iteration limit"),
+            (Failure::Stalled, "stalled"),
+            (Failure::NonFinite, "a number overflowed"),
+            (Failure::Unlisted, "in no list"),
+        ]
+    };
     let failure = failures.iter().find(|(failure, _)| *failure as i16 == code);
     failure.map_or_else(|| format!("equilibrium {code}"), |(_, words)| (*words).to_owned())
 }
@@ -134,7 +164,8 @@ fn comparisons(manifest: &Manifest, summary: &StoreSummary) -> String {
     let solvers: Vec<&str> = summary.outcomes.tally().names().collect();
     for disagreement in listed.iter().take(NAMED) {
         let said = solvers.iter().zip(disagreement.outcomes);
-        let said: Vec<_> = said.map(|(name, code)| format!("{name}: {}", outcome(code))).collect();
+        let said: Vec<_> =
+            said.map(|(name, code)| format!("{name}: {}", outcome(manifest, code))).collect();
         let (seed, what) = (disagreement.seed, words(disagreement.comparison));
         let _ = writeln!(text, "seed {seed}: {what} ({})", said.join("; "));
     }
@@ -158,7 +189,7 @@ fn words(comparison: Comparison) -> &'static str {
 }
 
 /// Outcomes by solver, with rates and intervals.
-pub fn solvers_json(summary: &StoreSummary) -> Value {
+pub fn solvers_json(manifest: &Manifest, summary: &StoreSummary) -> Value {
     let all = summary.outcomes.seeds();
     let tally = summary.outcomes.tally();
     let rows = |solver: &SolverTally| {
@@ -166,7 +197,7 @@ pub fn solvers_json(summary: &StoreSummary) -> Value {
             let (low, high) = rate_interval(row.count, all);
             json!({
                 "outcome": code,
-                "meaning": outcome(*code),
+                "meaning": outcome(manifest, *code),
                 "count": row.count,
                 "rate": percent(row.count, all) / 100.0,
                 "rate_95": [low, high],

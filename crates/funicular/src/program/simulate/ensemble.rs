@@ -1,0 +1,94 @@
+//! `funicular simulate --seeds`: many positions released, and where each comes to rest.
+
+use ::sweep::Shard;
+use clap::Args;
+use funicular::Ensemble;
+use miette::miette;
+use serde_json::json;
+
+use super::{Simulate, simulate};
+use crate::exit::{Exit, Failure};
+use crate::input::Input;
+use crate::interrupt::on_interrupt;
+use crate::progress::Progress;
+use crate::sweep::{Folder, Format, count};
+use crate::threads;
+
+/// The columns, for the help.
+pub const HELP: &str = "\
+Columns of --out FILE: time_s; kinetic_j, potential_j, energy_j; joint0_x_m ... the places of all joints,
+joint0_vx_m_s ... their velocities; bar1_axial_n ... the axial forces, tension positive; joint0_fx_n ... the forces of
+the ground on the joints that are held. Parquet holds unit and description of each.
+
+With --seeds the folder --out holds manifest.json, part-000000.parquet and so on, and at the end summary.json, the same to
+the last byte for any number of threads and shards, interrupted or not; `funicular merge` joins shards. Columns: seed;
+motion_outcome, a number in `equilibria` of the manifest, or -1 not at rest when the time is up, -2 no step possible,
+-4 at rest where nothing is listed; motion_iterations, the time until rest in spans of `release.span_s` of the manifest;
+motion_residual, what is left of motion; motion_energy_j.
+
+  funicular simulate chain.toml --seeds 1e5 --damping 2 --time 60 --step 5e-3 --out ends   which position ends where";
+
+/// What a release of many positions asks for.
+#[derive(Debug, Args)]
+pub struct Arguments {
+    /// Release so many positions at random and tell where each comes to rest: 100000 or 1e5
+    #[arg(long, value_name = "N", value_parser = count, allow_negative_numbers = true,
+          requires = "out", conflicts_with_all = ["from", "store", "push", "html"])]
+    pub seeds: Option<u64>,
+    /// The number that all positions come from; another one gives others
+    #[arg(long, value_name = "S", default_value_t = 1, requires = "seeds")]
+    pub seed: u64,
+    /// How many threads; 0 means one per processor. The result does not depend on it
+    #[arg(long, value_name = "T", default_value_t = 0, value_parser = threads::parse,
+          allow_negative_numbers = true, requires = "seeds")]
+    pub threads: usize,
+    /// Only the K-th of N parts, to be joined by `funicular merge`
+    #[arg(long, value_name = "K/N", default_value_t = Shard::WHOLE, requires = "seeds")]
+    pub shard: Shard,
+    /// Go on with what is in the folder, if there is something
+    #[arg(long, requires = "seeds")]
+    pub resume: bool,
+    /// The form of the rows
+    #[arg(long, value_enum, default_value_t = Format::Parquet, requires = "seeds")]
+    pub format: Format,
+    /// Print one JSON object (schema_version 1) instead of tables
+    #[arg(long, requires = "seeds")]
+    pub json: bool,
+}
+
+/// Release so many positions.
+pub fn run(arguments: &Simulate, seeds: u64) -> Result<Exit, Failure> {
+    let own = &arguments.ensemble;
+    let threads = threads::resolve(own.threads)?;
+    threads::install(threads)?;
+    let interrupt = on_interrupt()?;
+    let Some(out) = &arguments.out else {
+        return Err(Failure::bad_input(miette!("--seeds writes a folder: --out is missing")));
+    };
+    let Input { problem, .. } = arguments.input.read()?;
+    let progress = Progress::start();
+    progress.say("the equilibria");
+    let prepared = Ensemble::new(simulate(arguments), seeds)
+        .number(own.seed)
+        .shard(own.shard)
+        .format(own.format.into())
+        .prepare(&problem)?;
+    drop(progress);
+    let system = funicular::system_of(&problem);
+    let folder = Folder {
+        manifest: prepared.manifest(),
+        system: json!({
+            "name": system.name(),
+            "joints": system.joints().len(),
+            "bars": system.members().len(),
+            "total_length_m": system.total_length_m(),
+            "total_mass_kg": system.total_mass_kg(),
+            "gravity_m_s2": system.gravity_m_s2(),
+        }),
+        out,
+        threads,
+        resume: own.resume,
+        json: own.json,
+    };
+    folder.run(interrupt, &|settings| prepared.write(out, settings))
+}
