@@ -1,11 +1,12 @@
 //! Time of one solve against the size of a system of rigid bars.
 //!
-//! `cargo run --release -p lagrange --example network_solve_speed -- net 32 100` takes square nets hung
-//! from their four corners, by their joints a side; `cables` the same of cables; `bridle 1000`
+//! `cargo run --release -p lagrange --example network_solve_speed -- net 32 100` takes square nets
+//! hung from their four corners, by their joints a side; `cables` the same of cables; `bridle 1000`
 //! takes three chains of so many bars that meet in a joint; `tree 1000` a dangling tree of so many
 //! bars; `crumpled` nets of cables with all their edges held, the cables between as long as their
-//! places are apart up to 1.5 times that. Each prints a line: members, time, time of the processor
-//! (on Linux, in steps of 10 ms), factorisations, residual, members in compression, slack ones; for
+//! places are apart up to 1.5 times that; `ring` such nets of massless cables of 1.05 m with 1 kg
+//! at each joint. Each prints a line: members, time, time of the processor (on Linux, in steps of
+//! 10 ms), factorisations, residual, members in compression, slack ones; for
 //! a bridle also the times of one chain of as many bars, by `lagrange::solve` (the paper's 6n
 //! coordinates) and by `lagrange::condensed`.
 
@@ -22,7 +23,7 @@ const SPAN: f64 = 0.8;
 fn main() -> Result<(), Box<dyn Error>> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let Some((shape, sizes)) = arguments.split_first() else {
-        return Err("say `net`, `cables`, `crumpled`, `bridle` or `tree`, and sizes".into());
+        return Err("say `net`, `cables`, `crumpled`, `ring`, `bridle` or `tree`, and sizes".into());
     };
     println!(
         "{:>8} {:>10} {:>10} {:>15} {:>10} {:>9} {:>9}",
@@ -34,12 +35,14 @@ fn main() -> Result<(), Box<dyn Error>> {
             "net" => net(size, Kind::Bar, SPAN)?,
             "cables" => net(size, Kind::Cable, SPAN)?,
             "crumpled" => crumpled(size)?,
+            "ring" => ring(size)?,
             "bridle" => bridle(size)?,
             "tree" => tree(size)?,
             other => {
-                return Err(
-                    format!("`{other}` is none of net, cables, crumpled, bridle, tree").into()
-                );
+                return Err(format!(
+                    "`{other}` is none of net, cables, crumpled, ring, bridle, tree"
+                )
+                .into());
             }
         };
         let (began, used) = (Instant::now(), processor_s());
@@ -159,6 +162,30 @@ fn crumpled(n: usize) -> Result<System, Box<dyn Error>> {
         }
     }
     Ok(System::new("crumpled", 9.806_65, joints, members)?)
+}
+
+/// A net of `n` by `n` joints with all joints of the edges held 1 m apart, massless cables of
+/// 1.05 m between them, and 1 kg at each.
+fn ring(n: usize) -> Result<System, Box<dyn Error>> {
+    let edge = |k: usize| k == 0 || k + 1 == n;
+    let cable = Bar::homogeneous(1.05, 0.0)?;
+    let (mut joints, mut members) = (Vec::new(), Vec::new());
+    for k in 0..n * n {
+        let (x, y) = (k % n, k / n);
+        let name = k.to_string();
+        joints.push(if edge(x) || edge(y) {
+            Joint::anchor(name, [x as f64, y as f64, 0.0])
+        } else {
+            Joint::free(name).with_mass(1.0)
+        });
+        if x + 1 < n && !edge(y) {
+            members.push(Member::cable(k, k + 1, cable));
+        }
+        if y + 1 < n && !edge(x) {
+            members.push(Member::cable(k, k + n, cable));
+        }
+    }
+    Ok(System::new("ring", 9.81, joints, members)?)
 }
 
 /// A net of `n` by `n` joints, members of 1 m and 1 kg between neighbours.

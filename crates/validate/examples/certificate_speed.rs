@@ -12,10 +12,17 @@
 //!
 //! The systems are in equilibrium by their making: with a force density given to each member the
 //! places of the joints follow from linear equations, and the members are as long as their joints
-//! are apart. The certificate knows nothing of that; it is given lengths, places and forces, as from
-//! any solver. Each line has the time of the certificate alone, by the clock and of the processor
+//! are apart. The certificate knows nothing of that; it is given lengths, places and forces, as
+//! from any solver. Each line has the time of the certificate alone, by the clock and of the processor
 //! (on Linux, in steps of 10 ms), the gap that it leaves in units of the loads times the size, and
-//! the most memory that the process has had so far, before the certificate and after it.
+//! the most memory that the process has had so far, before the certificate and after it. One run on
+//! a server (AMD EPYC):
+//!
+//! | kind | members | joints | clock | processor | gap | memory after |
+//! |---|---|---|---|---|---|---|
+//! | `net` | 998,284 | 501,264 | 2.2 s | 1.0 s | 4e-15 | 605 MB |
+//! | `corners` | 1,003,944 | 502,681 | 1.9 s | 1.0 s | 7e-15 | 652 MB |
+//! | `chain` | 1,000,000 | 1,000,001 | 1.1 s | 0.5 s | 7e-10 | 652 MB |
 
 use std::error::Error;
 use std::time::Instant;

@@ -175,9 +175,14 @@ impl Newton {
         self.factor.cholesky()
     }
 
+    /// Rounding of the augmented Lagrangian.
+    fn noise(&self, shape: &Shape, local: &Local) -> f64 {
+        NOISE * (local.value.abs() + self.frame.largest_force(&shape.force))
+    }
+
     /// One step down the augmented Lagrangian.
     fn descend(&mut self, shape: &Shape, local: &Local) -> Result<Shape, Error> {
-        let noise = NOISE * (local.value.abs() + self.frame.largest_force(&shape.force));
+        let noise = self.noise(shape, local);
         loop {
             if self.factorise(local, self.shift.max(NEUTRAL)) {
                 let mut step: Vec<f64> = local.gradient.iter().map(|g| -g).collect();
@@ -260,9 +265,11 @@ impl Newton {
             part = -part;
         }
         self.shift = shift;
+        // Along a motion that nothing resists, as a free turn, nothing but rounding falls.
+        let noise = self.noise(shape, local);
         for _ in 0..40 {
             let x = self.frame.moved(&shape.x, part, &mode);
-            if self.value(&x, &shape.force).2 < local.value {
+            if self.value(&x, &shape.force).2 < local.value - noise {
                 return Some(Shape { x, force: shape.force.clone() });
             }
             part *= 0.5;

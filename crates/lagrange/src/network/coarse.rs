@@ -15,8 +15,8 @@ use model::system::Kind;
 /// Members of a run in the coarse system. With eight the pulls of the bridle of the speed
 /// measurements are right to 1 %, and Newton's method takes four steps from there.
 const PARTS: usize = 8;
-/// The rounding at which its shape is taken.
-const END: f64 = 0.01;
+/// The gap at which its shape is taken.
+const END: f64 = 1e-5;
 
 /// Places of the joints that stay, and pulls of the elements.
 pub(super) struct Start {
@@ -43,7 +43,8 @@ pub(super) fn start(framework: &Framework, runs: &Runs) -> Option<Start> {
     if !hanging.advance(&coarse, &mut stiffness, END) {
         return None;
     }
-    let pulls = firsts.iter().map(|(link, shift)| hanging.forces()[*link] + shift).collect();
+    let forces = hanging.forces();
+    let pulls = firsts.iter().map(|(link, shift)| forces[*link] + shift).collect();
     let places = hanging.places()[..runs.kept.len()].to_vec();
     Some(Start { places, pulls, factorisations: hanging.steps })
 }

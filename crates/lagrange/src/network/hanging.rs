@@ -1,64 +1,104 @@
-//! The hanging shape by its forces: least complementary energy.
+//! The hanging shape by its forces: least complementary energy, as a programme over cones.
 //!
 //! With every member in tension the forces $F$ of an equilibrium minimise the convex function
-//! $\sum_e \varphi^*_e(F_e)$ minus the work at the supports, subject to the balance of the joints,
-//! and the multipliers of that balance are the places of the joints. Newton's method with the law
-//! rounded off (module `law`) needs one sparse factorisation a step; the rounding falls step by
-//! step.
+//! $\sum_e l_e\,t_e + c_e\,t_e^2/2$ with $t_e \ge |F_e|$, minus the work at the supports, subject to
+//! the balance of the joints. The multipliers of that balance are the places $x$ of the joints, and
+//! with the pairs (module `cone`)
 //!
-//! It starts from force densities $w$: with $F = w\,d$ balance is a linear system for the places,
-//! and
-//! $w \leftarrow w\,|d|/l$ brings the lengths nearer to $l$ (the iteration of Weiszfeld).
+//! $$ z_e = (t_e, F_e), \qquad s_e = (l_e + c_e t_e,\ -d_e), \qquad d_e = x_b - x_a, $$
+//!
+//! a shape is the one sought if both are in the cone and $z_e \circ s_e = 0$: a taut member has
+//! $|d| = l + c|F|$ and its force along it, a slack one $|d| < l$ and none. The primal-dual interior
+//! point method follows $z_e \circ s_e = \mu (1, 0)$ to $\mu \to 0$. Its linear equations in the
+//! scaling of Nesterov and Todd are
+//!
+//! $$ W \Delta z + W^{-1} \Delta s = g, \qquad \Delta s = (c\,\Delta t,\ -\Delta d) - r, $$
+//!
+//! so that $\Delta F = K \Delta d + \dots$ with one symmetric positive definite 3 x 3 block $K$ a
+//! member, and balance is a system in the places alone. One factorisation serves the predictor,
+//! straight for $\mu = 0$, and the corrector with its second order. Some twelve steps do whatever
+//! the size, and however many members are slack.
+//!
+//! It starts from force densities (module `densities`).
+//!
+//! # References
+//!
+//! S. Mehrotra, SIAM J. Optim. 2 (1992) 575-601, doi:10.1137/0802028 (predictor and corrector); E.
+//! D. Andersen, C. Roos, T. Terlaky, Math. Program. 95 (2003) 249-277,
+//! doi:10.1007/s10107-002-0349-3 (cones of second order).
 
 use nalgebra::{Matrix3, Vector3};
 
+use super::cone::{Block, Pair, Scaling};
+use super::densities::{by_densities, pulls};
 use super::error::Error;
 use super::framework::{Framework, Link};
-use super::law::Tension;
 use super::state::State;
 use super::stiffness::Stiffness;
 use model::system::Kind;
 
-/// Force-density iterations before Newton's method. Each costs a scalar factorisation, a tenth of a
-/// Newton step; twenty save about as many Newton steps as they cost and start it inside the region
-/// where full steps are taken.
-const DENSITY_STEPS: usize = 20;
-/// First rounding, relative to the starting force of each member.
-const FIRST_ROUNDING: f64 = 0.1;
-/// Each rounding is this fraction of the last one.
-const ROUNDING_FALL: f64 = 0.2;
-/// At this rounding the lengths of taut bars are right to 5e-7: often near enough for the final
-/// iteration.
-pub(super) const FIRST_END: f64 = 1e-3;
-/// Where it is not, as in nets of 100,000 members, this one is.
-pub(super) const SECOND_END: f64 = 2e-4;
+/// First length of a member in the programme, where it is as long as it may be or longer: this
+/// much more than it is.
+const FIRST_SLACK: f64 = 0.05;
+/// The mean of $z \cdot s$ over that of $t\,l$ at which the lengths of taut bars are right to some
+/// 1e-7: often near enough for the final iteration.
+pub(super) const FIRST_END: f64 = 1e-7;
+/// Where it is not, this one is.
+pub(super) const SECOND_END: f64 = 1e-8;
 /// Here the stiffness along a taut member is 10^9 times that across, and rounding sets in.
-pub(super) const LAST_END: f64 = 2e-5;
-/// A member with this many times its rounding is clearly taut: `|d| > l (1 - 5e-5)`; at the end one
-/// with the second number counts as taut.
-const CLEARLY_TAUT: f64 = 100.0;
-const TAUT: f64 = 10.0;
-/// A member has at least this fraction of the mean starting force in its rounding.
-const LEAST_SCALE: f64 = 0.1;
-/// Next rounding when the step would gain less than this fraction of the rounding's own energy.
-const GAIN: f64 = 0.1;
-/// A step that would gain less than this fraction is rounding, however far it may go.
-const NO_GAIN: f64 = 1e-12;
-/// A step is halved while the slope at its end rises steeper than this fraction of the first slope.
-const SLOPE: f64 = 0.5;
-/// Newton steps in all; nets of 20,000 members take some 15.
-const MOST_STEPS: usize = 200;
+pub(super) const LAST_END: f64 = 1e-9;
+/// Where rounding lets no step go on, this is a start as well.
+const NEAR_END: f64 = 1e-6;
+/// Lengths are right to this part where the method has ended.
+const FEASIBLE: f64 = 1e-6;
+/// A member is clearly taut when its force, in units of the mean one, is this many times its slack,
+/// in units of its length.
+const CLEARLY_TAUT: f64 = 1e4;
+/// Where the forces have fallen to this part of those of the start, no member pulls: elastic ones
+/// without loads.
+const IDLE: f64 = 1e-9;
+/// Part of the way to the boundary that a step may go.
+const INSIDE: f64 = 0.99;
+/// Two steps on end shorter than this and there is no such shape.
+const STUCK: f64 = 1e-3;
+/// Stiffness given to every joint, in units of the mean $t/l$: one that nothing holds in some
+/// direction stays.
+const SHIFT: f64 = 1e-10;
+/// Steps in all; nets of 20,000 members take some twelve.
+const MOST_STEPS: usize = 60;
 
 /// The hanging shape with all bars taken as cables, as far as it has come.
 pub(super) struct Hanging {
-    shape: Shape,
-    /// Starting force of each member.
-    scales: Vec<f64>,
-    rounding: f64,
-    /// Newton steps so far.
+    places: Vec<Vector3<f64>>,
+    /// Force of each member with its size; no pair for one that takes no part.
+    forces: Vec<Option<Pair>>,
+    /// Their counterparts.
+    slacks: Vec<Pair>,
+    /// Steps so far.
     pub steps: usize,
-    /// Whether the shape belongs to its rounding.
-    settled: bool,
+    /// Mean of $z \cdot s$ over that of $t\,l$.
+    gap: f64,
+    /// Largest part of the length by which a span does not belong to its places.
+    misfit: f64,
+    /// Short steps on end.
+    short: usize,
+    /// Mean size of a force at the start.
+    first: f64,
+}
+
+/// Change of all unknowns.
+struct Step {
+    moves: Vec<Vector3<f64>>,
+    forces: Vec<Pair>,
+    slacks: Vec<Pair>,
+}
+
+/// A member in the linear equations of a step.
+struct Row {
+    scaling: Scaling,
+    block: Block,
+    /// What the counterpart has that places and force do not say.
+    off: Pair,
 }
 
 impl Hanging {
@@ -68,162 +108,76 @@ impl Hanging {
     ///
     /// [`Error::Memory`] when the factor cannot be held.
     pub fn new(framework: &Framework) -> Result<Self, Error> {
-        let shape = Shape::by_densities(framework)?;
-        let mean = mean_force(&shape.forces);
-        let scales =
-            shape.forces.iter().map(|force| force.norm().max(LEAST_SCALE * mean)).collect();
+        let (places, densities) = by_densities(framework)?;
+        let pairs = framework.links.iter().zip(&densities).map(|(link, density)| {
+            let span = link.span(&places);
+            // On the central path force and span are parallel, in the ratio of the density.
+            let own = link.stretched(density * link.length);
+            let head = own.max(span.norm() * (1.0 + FIRST_SLACK));
+            let force = Pair::new(density * head, span * *density);
+            (pulls(framework, link).then_some(force), Pair::new(head, -span))
+        });
+        let (forces, slacks): (Vec<_>, Vec<_>) = pairs.unzip();
+        let (gap, misfit, first) = (f64::INFINITY, 0.0, 0.0);
+        let mut hanging = Self { places, forces, slacks, steps: 0, gap, misfit, short: 0, first };
+        hanging.first = hanging.mean();
         // Without any force there is nothing to round off.
-        let (rounding, settled) = if mean > 0.0 { (FIRST_ROUNDING, false) } else { (0.0, true) };
-        Ok(Self { shape, scales, rounding, steps: 0, settled })
+        let forces = hanging.forces();
+        if forces.iter().all(|force| force.norm() <= 0.0) {
+            hanging.gap = 0.0;
+        } else {
+            hanging.measure(framework);
+        }
+        Ok(hanging)
     }
 
-    /// Go on to a rounding below `end`; whether it was reached.
+    /// Go on to a gap below `end`; whether it was reached, or is near and no step goes on.
     pub fn advance(&mut self, framework: &Framework, stiffness: &mut Stiffness, end: f64) -> bool {
-        while self.steps < MOST_STEPS && !(self.settled && self.rounding <= end) {
-            if self.settled {
-                self.rounding *= ROUNDING_FALL;
+        while !self.ended(end) && self.steps < MOST_STEPS && self.short < 2 {
+            if self.idle() || !self.step(framework, stiffness) {
+                break;
             }
-            self.settled = self.shape.step(framework, stiffness, &self.scales, self.rounding);
             self.steps += 1;
+            self.measure(framework);
         }
-        self.settled && self.rounding <= end
+        self.ended(end.max(NEAR_END))
+    }
+
+    /// Whether no member pulls.
+    fn idle(&self) -> bool {
+        self.mean() <= IDLE * self.first
+    }
+
+    fn ended(&self, end: f64) -> bool {
+        self.gap <= end && self.misfit <= FEASIBLE
     }
 
     /// Whether every cable is far from slack. Bars keep their lengths whatever their forces are.
     pub fn clear(&self, framework: &Framework) -> bool {
-        self.shape.clearly_taut(framework, &self.scales, self.rounding)
+        let mean = self.mean();
+        let mut links = framework.links.iter().enumerate();
+        links.all(|(k, link)| {
+            link.kind != Kind::Cable || self.tautness(link, k, mean) > CLEARLY_TAUT
+        })
     }
 
-    /// Places of the joints at the rounding it has come to.
+    /// Places of the joints as far as it has come.
     pub fn places(&self) -> &[Vector3<f64>] {
-        &self.shape.places
+        &self.places
     }
 
     /// Forces of the members there.
-    pub fn forces(&self) -> &[Vector3<f64>] {
-        &self.shape.forces
+    pub fn forces(&self) -> Vec<Vector3<f64>> {
+        self.forces.iter().map(|pair| pair.map_or(Vector3::zeros(), |z| z.tail)).collect()
     }
 
     /// Places, axial forces, and which members are taut.
     pub fn state(&self, framework: &Framework) -> State {
-        self.shape.state(framework, &self.scales, self.rounding)
-    }
-}
-
-/// Whether a member takes part: one that cannot pull does not.
-fn pulls(framework: &Framework, link: &Link) -> bool {
-    link.kind != Kind::Strut && framework.moves(link)
-}
-
-fn mean_force(forces: &[Vector3<f64>]) -> f64 {
-    forces.iter().map(Vector3::norm).sum::<f64>() / forces.len().max(1) as f64
-}
-
-/// Forces in balance, and the places that go with them.
-struct Shape {
-    places: Vec<Vector3<f64>>,
-    forces: Vec<Vector3<f64>>,
-}
-
-impl Shape {
-    /// Force densities, first `1 / l` times the mean load, improved some times.
-    fn by_densities(framework: &Framework) -> Result<Self, Error> {
-        let sliding = framework.nodes.iter().any(|node| matches!(node.freedom, 1 | 2));
-        let mut stiffness = Stiffness::new(framework, !sliding)?;
-        let mut densities: Vec<f64> = framework
-            .links
-            .iter()
-            .map(|link| if pulls(framework, link) { link.length.recip() } else { 0.0 })
-            .collect();
-        let mut places = Vec::new();
-        for step in 0..=DENSITY_STEPS {
-            places = by_density(framework, &mut stiffness, &densities, sliding);
-            if step < DENSITY_STEPS {
-                for (density, link) in densities.iter_mut().zip(&framework.links) {
-                    let span = link.span(&places).norm();
-                    *density *= span / (link.length + link.compliance * *density * span);
-                }
-            }
-        }
-        let forces = framework.links.iter().zip(&densities);
-        let forces = forces.map(|(link, w)| link.span(&places) * *w).collect();
-        Ok(Self { places, forces })
-    }
-
-    /// One Newton step at one rounding; whether the next one may follow.
-    fn step(
-        &mut self,
-        framework: &Framework,
-        stiffness: &mut Stiffness,
-        scales: &[f64],
-        rounding: f64,
-    ) -> bool {
-        let mu = |k: usize| rounding * scales[k];
-        let laws: Vec<Option<Tension>> = framework
-            .links
-            .iter()
-            .enumerate()
-            .map(|(k, link)| {
-                pulls(framework, link).then(|| Tension::new(link, &self.forces[k], mu(k)))
-            })
-            .collect();
-        let block = |law: &Option<Tension>| law.as_ref().map_or(Matrix3::zeros(), |l| l.stiffness);
-        stiffness.assemble(framework, laws.iter().map(block));
-        stiffness.factorise_definite();
-        // What the forces would be at the places as they are; the moves bring them into balance.
-        let now =
-            framework.links.iter().zip(&laws).zip(&self.forces).map(|((link, law), force)| {
-                let gap = law.as_ref().map(|law| link.span(&self.places) - law.span);
-                force + gap.map_or(Vector3::zeros(), |gap| block(law) * gap)
-            });
-        let mut moves = stiffness.gather(framework, &framework.unbalance(now));
-        stiffness.solve(&mut moves);
-        for (place, step) in self.places.iter_mut().zip(stiffness.scatter(framework, &moves)) {
-            *place += step;
-        }
-        let spans: Vec<_> = framework.links.iter().map(|link| link.span(&self.places)).collect();
-        let change: Vec<Vector3<f64>> = laws
-            .iter()
-            .zip(&spans)
-            .map(|(law, span)| {
-                law.as_ref().map_or(Vector3::zeros(), |l| l.stiffness * (span - l.span))
-            })
-            .collect();
-        let slope = |t: f64| -> f64 {
-            let links = framework.links.iter().enumerate().filter(|(k, _)| laws[*k].is_some());
-            let work = links.map(|(k, link)| {
-                let span = Tension::span(link, &(self.forces[k] + change[k] * t), mu(k));
-                change[k].dot(&(span - spans[k]))
-            });
-            work.sum()
-        };
-        let first = slope(0.0);
-        let mut t = 1.0;
-        while slope(t) > SLOPE * first.abs() && t > f64::EPSILON {
-            t *= 0.5;
-        }
-        for (force, change) in self.forces.iter_mut().zip(&change) {
-            *force += change * t;
-        }
-        let energy: f64 =
-            framework.links.iter().enumerate().map(|(k, link)| mu(k) * link.length).sum();
-        first.abs() < if t >= 1.0 { GAIN } else { NO_GAIN } * energy
-    }
-
-    /// Whether every cable is far from slack. Bars keep their lengths whatever their forces are.
-    fn clearly_taut(&self, framework: &Framework, scales: &[f64], rounding: f64) -> bool {
-        let mut links = framework.links.iter().zip(&self.forces).zip(scales);
-        links.all(|((link, force), scale)| {
-            link.kind != Kind::Cable || force.norm() > CLEARLY_TAUT * rounding * scale
-        })
-    }
-
-    /// Axial forces, and which members are taut: those with far more force than their rounding.
-    fn state(&self, framework: &Framework, scales: &[f64], rounding: f64) -> State {
-        let mut axial: Vec<f64> = self.forces.iter().map(Vector3::norm).collect();
+        let (mean, idle) = (self.mean(), self.idle());
+        let mut axial: Vec<f64> = self.forces().iter().map(Vector3::norm).collect();
         let mut taut = vec![false; axial.len()];
         for (k, link) in framework.links.iter().enumerate() {
-            let pulls = axial[k] > TAUT * rounding * scales[k];
+            let pulls = !idle && axial[k] > 0.0 && self.tautness(link, k, mean) > 1.0;
             taut[k] = link.kind == Kind::Bar || (link.kind == Kind::Cable && pulls);
             if !pulls {
                 axial[k] = 0.0;
@@ -231,43 +185,166 @@ impl Shape {
         }
         State::new(self.places.clone(), axial, taut)
     }
-}
 
-/// Places of the joints in balance for given force densities.
-fn by_density(
-    framework: &Framework,
-    stiffness: &mut Stiffness,
-    densities: &[f64],
-    sliding: bool,
-) -> Vec<Vector3<f64>> {
-    let bases: Vec<_> = framework.nodes.iter().map(|node| node.base).collect();
-    let pulls = framework.links.iter().zip(densities);
-    let unbalance = framework.unbalance(pulls.map(|(link, density)| link.span(&bases) * *density));
-    if sliding {
-        stiffness.assemble(framework, densities.iter().map(|w| Matrix3::identity() * *w));
-        stiffness.factorise_definite();
-        let mut moves = stiffness.gather(framework, &unbalance);
-        stiffness.solve(&mut moves);
-        let moves = stiffness.scatter(framework, &moves);
-        return bases.iter().zip(moves).map(|(base, step)| base + step).collect();
+    /// Mean size of a force.
+    fn mean(&self) -> f64 {
+        let sizes = self.forces.iter().flatten().map(|z| z.head);
+        sizes.sum::<f64>() / self.forces.len().max(1) as f64
     }
-    stiffness.assemble_scalar(densities.iter().copied());
-    stiffness.factorise_definite();
-    let size = stiffness.size();
-    let mut moves = vec![0.0; 3 * size];
-    let column_of = |joint: usize| stiffness.first_unknown(joint);
-    for (joint, force) in unbalance.iter().enumerate() {
-        if let Some(column) = column_of(joint) {
-            for axis in 0..3 {
-                moves[axis * size + column] = force[axis];
+
+    /// Force of a member in units of the mean one, over its slack in units of its length.
+    fn tautness(&self, link: &Link, member: usize, mean: f64) -> f64 {
+        let slack = &self.slacks[member];
+        let left = (slack.head - slack.tail.norm()) / link.length;
+        self.forces[member].map_or(0.0, |z| z.head / (mean * left))
+    }
+
+    /// Gap and misfit at the pairs as they are.
+    fn measure(&mut self, framework: &Framework) {
+        let (mut product, mut work, mut misfit) = (0.0, 0.0, 0.0_f64);
+        for (k, link) in framework.links.iter().enumerate() {
+            if let Some(z) = &self.forces[k] {
+                product += z.dot(&self.slacks[k]);
+                work += z.head * link.length;
+                let off = self.off(link, k, z);
+                misfit = misfit.max((off.head.abs() + off.tail.norm()) / link.length);
             }
         }
+        (self.gap, self.misfit) = (product / work, misfit);
     }
-    stiffness.solve(&mut moves);
-    let place = |(joint, base): (usize, &Vector3<f64>)| {
-        stiffness.first_unknown(joint).map_or(*base, |column| {
-            base + Vector3::new(moves[column], moves[size + column], moves[2 * size + column])
-        })
-    };
-    bases.iter().enumerate().map(place).collect()
+
+    /// What the counterpart of a member has that its force and places do not say.
+    fn off(&self, link: &Link, member: usize, z: &Pair) -> Pair {
+        let slack = &self.slacks[member];
+        let head = slack.head - link.stretched(z.head);
+        Pair::new(head, slack.tail + link.span(&self.places))
+    }
+
+    /// One step of the interior point method; whether there was one.
+    fn step(&mut self, framework: &Framework, stiffness: &mut Stiffness) -> bool {
+        let rows: Vec<Option<Row>> = framework
+            .links
+            .iter()
+            .enumerate()
+            .map(|(k, link)| {
+                self.forces[k].as_ref().map(|z| {
+                    let scaling = Scaling::new(z, &self.slacks[k]);
+                    let block = scaling.block(link.compliance);
+                    Row { scaling, block, off: self.off(link, k, z) }
+                })
+            })
+            .collect();
+        let block =
+            |row: &Option<Row>| row.as_ref().map_or(Matrix3::zeros(), |row| row.block.stiffness);
+        stiffness.assemble(framework, rows.iter().map(block));
+        let soft = rows.iter().flatten().map(|row| row.scaling.across()).sum::<f64>();
+        stiffness.shift(SHIFT * soft / rows.len().max(1) as f64);
+        stiffness.factorise_stiff();
+        // The predictor: straight for a product of zero.
+        let count = rows.iter().flatten().count() as f64;
+        let predictor =
+            self.solve(framework, stiffness, &rows, |_, z, _| Pair::new(-z.head, -z.tail));
+        let (ahead, aside) = self.ways(&predictor);
+        let (ahead, aside) = (ahead.min(1.0), aside.min(1.0));
+        let (mut product, mut left) = (0.0, 0.0);
+        for (k, z) in self.forces.iter().enumerate() {
+            if let Some(z) = z {
+                product += z.dot(&self.slacks[k]);
+                let z = z.plus(ahead, &predictor.forces[k]);
+                left += z.dot(&self.slacks[k].plus(aside, &predictor.slacks[k]));
+            }
+        }
+        let centre = (left / product).max(0.0).powi(3) * product / count;
+        // The corrector: towards the centre, less what the predictor's step leaves at second order.
+        let corrector = self.solve(framework, stiffness, &rows, |k, z, row: &Row| {
+            let lambda = row.scaling.apply(z);
+            let second = row
+                .scaling
+                .apply_inverse(&predictor.slacks[k])
+                .product(&row.scaling.apply(&predictor.forces[k]));
+            let target = Pair::new(centre - second.head, -second.tail);
+            row.scaling.apply_inverse(&lambda.divide(&target)).plus(-1.0, z)
+        });
+        let (ahead, aside) = self.ways(&corrector);
+        let (mut ahead, mut aside) = ((INSIDE * ahead).min(1.0), (INSIDE * aside).min(1.0));
+        if framework.links.iter().any(|link| link.compliance > 0.0) {
+            // Forces and lengths are in one equation.
+            (ahead, aside) = (ahead.min(aside), ahead.min(aside));
+        }
+        self.apply(&corrector, ahead, aside)
+    }
+
+    /// The step with the right side `target`, $W^{-1} g$, for each member.
+    fn solve(
+        &self,
+        framework: &Framework,
+        stiffness: &mut Stiffness,
+        rows: &[Option<Row>],
+        target: impl Fn(usize, &Pair, &Row) -> Pair,
+    ) -> Step {
+        let none = Pair::new(0.0, Vector3::zeros());
+        let constant = |(k, row): (usize, &Option<Row>)| match (row, &self.forces[k]) {
+            (Some(row), Some(z)) => {
+                target(k, z, row).plus(1.0, &row.scaling.squared_inverse(&row.off))
+            }
+            _ => none,
+        };
+        let constants: Vec<Pair> = rows.iter().enumerate().map(constant).collect();
+        let links = || framework.links.iter().zip(rows).zip(&constants);
+        let now = links().zip(&self.forces).map(|(((link, row), h), z)| match (row, z) {
+            (Some(row), Some(z)) => {
+                let taken = link.compliance * h.head / row.block.divisor;
+                z.tail + h.tail - row.block.row * taken
+            }
+            _ => Vector3::zeros(),
+        });
+        let mut moves = stiffness.gather(framework, &framework.unbalance(now));
+        stiffness.solve(&mut moves);
+        let moves = stiffness.scatter(framework, &moves);
+        let changes = links().map(|((link, row), h)| {
+            let Some(row) = row else { return (none, none) };
+            let span = link.span(&moves);
+            let head = (h.head + row.block.row.dot(&span)) / row.block.divisor;
+            let taken = link.compliance * h.head / row.block.divisor;
+            let tail = h.tail - row.block.row * taken + row.block.stiffness * span;
+            let slack = Pair::new(link.compliance * head, -span).plus(-1.0, &row.off);
+            (Pair::new(head, tail), slack)
+        });
+        let (forces, slacks) = changes.unzip();
+        Step { moves, forces, slacks }
+    }
+
+    /// How far forces and counterparts can go.
+    fn ways(&self, step: &Step) -> (f64, f64) {
+        let mut ways = (f64::INFINITY, f64::INFINITY);
+        for (k, z) in self.forces.iter().enumerate() {
+            if let Some(z) = z {
+                ways.0 = ways.0.min(z.way(&step.forces[k]));
+                ways.1 = ways.1.min(self.slacks[k].way(&step.slacks[k]));
+            }
+        }
+        ways
+    }
+
+    /// Go along a step; not where rounding has left the cone.
+    fn apply(&mut self, step: &Step, ahead: f64, aside: f64) -> bool {
+        let mut next = (self.forces.clone(), self.slacks.clone());
+        for (k, z) in self.forces.iter().enumerate() {
+            if let Some(z) = z {
+                let (z, slack) =
+                    (z.plus(ahead, &step.forces[k]), self.slacks[k].plus(aside, &step.slacks[k]));
+                // NaN is nowhere inside.
+                if !z.inside() || !slack.inside() {
+                    return false;
+                }
+                (next.0[k], next.1[k]) = (Some(z), slack);
+            }
+        }
+        (self.forces, self.slacks) = next;
+        for (place, step) in self.places.iter_mut().zip(&step.moves) {
+            *place += step * aside;
+        }
+        self.short = if ahead.min(aside) < STUCK { self.short + 1 } else { 0 };
+        true
+    }
 }

@@ -106,7 +106,7 @@ impl Solution {
             ranges(framework, state.clone(), &limp)
         });
         Self {
-            equilibrium: equilibrium(framework, &state, &second_order, evidence),
+            equilibrium: equilibrium(framework, &state, &directions, &second_order, evidence),
             residual,
             factorisations,
             mechanisms: second_order.mechanisms,
@@ -196,12 +196,12 @@ fn choose(
 fn equilibrium(
     framework: &Framework,
     state: &State,
+    directions: &[(Vector3<f64>, f64)],
     second_order: &SecondOrder,
     evidence: Evidence,
 ) -> SystemEquilibrium {
     let units = framework.units;
     let to_n = |force: Vector3<f64>| Vector::from(force * units.force_n);
-    let directions = state.directions(framework);
     let pulls: Vec<_> =
         directions.iter().zip(&state.axial).map(|((u, _), axial)| u * *axial).collect();
     let reactions = framework.unbalance(pulls.iter().copied()).into_iter().zip(&framework.nodes);

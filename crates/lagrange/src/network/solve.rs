@@ -318,24 +318,32 @@ impl<'a> Solver<'a> {
 /// The state with cables that push made slack and slack ones that are too long made taut,
 /// struts the other way round; nothing when there are none.
 fn signs_mended(framework: &Framework, settings: &Settings, run: &Run) -> Option<State> {
-    let mut state = run.state.clone();
-    let mut changed = false;
+    let state = &run.state;
     let least = NO_FORCE.max(run.residual.size()) * run.residual.unit;
     let longer = settings.tolerance.max(run.residual.size());
-    for (k, link) in framework.links.iter().enumerate() {
+    let wrong = |(k, link): (usize, &Link)| {
         if link.kind == Kind::Bar {
-            continue;
+            return None;
         }
         let axial = state.axial[k];
         let excess = run.residual.directions[k].1 - link.length;
         let outside = if link.kind == Kind::Cable { excess } else { -excess };
-        if state.taut[k] && axial.abs() > least && !link.bears(axial) {
-            (state.taut[k], state.axial[k], changed) = (false, 0.0, true);
-        } else if !state.taut[k] && outside > longer * link.length {
-            (state.taut[k], changed) = (true, true);
+        let pushes = state.taut[k] && axial.abs() > least && !link.bears(axial);
+        let reaches = !state.taut[k] && outside > longer * link.length;
+        (pushes || reaches).then_some(k)
+    };
+    let wrong: Vec<usize> = framework.links.iter().enumerate().filter_map(wrong).collect();
+    if wrong.is_empty() {
+        return None;
+    }
+    let mut state = state.clone();
+    for k in wrong {
+        state.taut[k] = !state.taut[k];
+        if !state.taut[k] {
+            state.axial[k] = 0.0;
         }
     }
-    changed.then_some(state)
+    Some(state)
 }
 
 fn solution(

@@ -24,6 +24,10 @@ use super::order::by_degree;
 /// of the solve. Some fifty rounding errors.
 const NO_PIVOT: f64 = 1e-14;
 
+/// The same for a matrix that is positive definite by its making, whose stiffness along the members
+/// is up to 10^11 times that across: half a rounding error.
+const NO_STIFF_PIVOT: f64 = 1e-16;
+
 /// Where the blocks of one member stand.
 #[derive(Debug, Clone, Copy)]
 struct Place {
@@ -160,23 +164,29 @@ impl Stiffness {
     /// a negative one, are left out of later solves.
     pub fn factorise_definite(&mut self) {
         let signs = vec![1; self.size()];
-        self.factorise(Some(&signs));
+        self.factorise(Some(&signs), NO_PIVOT);
+    }
+
+    /// The same where soft directions beside very stiff ones count.
+    pub fn factorise_stiff(&mut self) {
+        let signs = vec![1; self.size()];
+        self.factorise(Some(&signs), NO_STIFF_PIVOT);
     }
 
     /// Factorise a matrix as it is, positive and negative pivots alike; directions without
     /// stiffness are left out of later solves. Whether all came out finite.
     pub fn factorise_indefinite(&mut self) -> bool {
-        self.factorise(None)
+        self.factorise(None, NO_PIVOT)
     }
 
-    fn factorise(&mut self, signs: Option<&[i8]>) -> bool {
+    fn factorise(&mut self, signs: Option<&[i8]>, least: f64) -> bool {
         let (size, largest) = (self.size(), self.largest());
         let pattern =
             SymbolicSparseColMatRef::new_checked(size, size, &self.columns, None, &self.rows);
         let regularisation = LdltRegularization {
             dynamic_regularization_signs: signs,
-            dynamic_regularization_delta: if largest > 0.0 { largest / NO_PIVOT } else { 1.0 },
-            dynamic_regularization_epsilon: if largest > 0.0 { NO_PIVOT * largest } else { 1.0 },
+            dynamic_regularization_delta: if largest > 0.0 { largest / least } else { 1.0 },
+            dynamic_regularization_epsilon: if largest > 0.0 { least * largest } else { 1.0 },
         };
         let factored = self.symbolic.factorize_numeric_ldlt(
             &mut self.factor,
