@@ -11,6 +11,7 @@ mod four_bars;
 mod laws;
 mod lowest;
 mod modes;
+mod natural;
 mod order;
 mod paper;
 mod pendulum;
