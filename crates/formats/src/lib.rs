@@ -2,14 +2,16 @@
 //!
 //! [`answer`] reads joint positions, and forces if there are some: our own JSON, CSV, VTU.
 //! [`system`] reads systems: MoorDyn input files, COMPAS JSON, CSV of nodes and edges with force
-//! densities. What a file holds and this crate does not understand is named and refused, never
+//! densities. [`ForceTable`] reads forces over time. What a file holds and this crate does not understand is named and refused, never
 //! dropped; an error has the line it is about.
 //!
 //! Only data is moved here: nothing is solved and nothing judged.
 
 pub mod answer;
 mod error;
+mod force_table;
 mod sheet;
 pub mod system;
 
 pub use error::FormatError;
+pub use force_table::{ForceOverTime, ForceTable};

@@ -3,6 +3,7 @@
 use std::ops::ControlFlow;
 use std::str::FromStr;
 
+use formats::ForceTable;
 use model::Vector;
 use model::system::System;
 use motion::{Order, Settings, Simulation, Snapshot};
@@ -50,8 +51,8 @@ pub enum SimulateError {
     /// Occurs when many positions are to come to rest, and there is no damping.
     #[error("without damping nothing comes to rest: give a drag or friction in the joints")]
     NoDamping,
-    /// Occurs when a joint that is to be pushed is not there.
-    #[error("there is no joint {name:?} to push")]
+    /// Occurs when a joint that is to be pushed, or on which a force is to act, is not there.
+    #[error("there is no joint {name:?}")]
     NoSuchJoint {
         /// The name as given.
         name: String,
@@ -140,6 +141,7 @@ pub struct Simulate {
     store_s: Option<f64>,
     pub(crate) settings: Settings,
     pushes: Vec<(String, Vector)>,
+    forces: ForceTable,
 }
 
 impl Default for Simulate {
@@ -151,6 +153,7 @@ impl Default for Simulate {
             store_s: None,
             settings: Settings::default(),
             pushes: Vec::new(),
+            forces: ForceTable::default(),
         }
     }
 }
@@ -194,8 +197,14 @@ impl Simulate {
 
     /// Fourth order in the step instead of second: five times the work.
     #[must_use]
-    pub fn fourth_order(mut self) -> Self {
-        self.settings.order = Order::Fourth;
+    pub fn fourth_order(self) -> Self {
+        self.order(Order::Fourth)
+    }
+
+    /// Order in the length of the step.
+    #[must_use]
+    pub fn order(mut self, order: Order) -> Self {
+        self.settings.order = order;
         self
     }
 
@@ -219,6 +228,29 @@ impl Simulate {
     pub fn push(mut self, joint: impl Into<String>, impulse_n_s: Vector) -> Self {
         self.pushes.push((joint.into(), impulse_n_s));
         self
+    }
+
+    /// Let forces act at joints as functions of time.
+    ///
+    /// ```
+    /// use funicular::ForceTable;
+    /// use funicular::prelude::*;
+    /// // A weight of 1 kg that slides on a level line, drawn along it by 3 N for 2 s: 6 m/s.
+    /// let problem = Problem::parse(
+    ///     "joints = { S = { at_m = [0, 0, 0], free = \"x\", mass_kg = 1 }, P = { mass_kg = 1e-6 } }\n\
+    ///      bars = [{ from = \"S\", to = \"P\", length_m = 1, mass_kg = 0 }]",
+    ///     "slider.toml",
+    /// )?;
+    /// let forces = ForceTable::parse("time_s,joint,x_n,y_n,z_n\n0,S,3,0,0\n2,S,3,0,0\n", "f.csv")?;
+    /// let start = Start::Joints(vec![[0.0; 3], [0.0, 0.0, -1.0]]);
+    /// let moved = Simulate::new().start(start).time_s(2.0).forces(forces).run(&problem)?;
+    /// let speed = moved.stored.last().unwrap().velocities_m_s[0][0];
+    /// assert!((speed - 6.0).abs() < 1e-3);
+    /// # Ok::<(), Error>(())
+    /// ```
+    #[must_use]
+    pub fn forces(self, forces: ForceTable) -> Self {
+        Self { forces, ..self }
     }
 
     /// Follow the motion, and keep all stored times in memory.
@@ -252,6 +284,11 @@ impl Simulate {
         let at = self.position(problem, &system)?;
         let mut simulation = Simulation::new(&system, &at, self.settings)?;
         simulation.push(&self.impulses(&system)?)?;
+        for (name, force) in self.forces.joints() {
+            let force = force.clone();
+            let of_time = Box::new(move |time_s: f64| force.at(time_s));
+            simulation.add_force(joint(&system, name)?, of_time)?;
+        }
         let step_s = self.time_s / steps as f64;
         for step in 0..=steps {
             if step > 0 {
@@ -297,8 +334,7 @@ impl Simulate {
     fn impulses(&self, system: &System) -> Result<Vec<Vector>, Error> {
         let mut impulses = vec![[0.0; 3]; system.joints().len()];
         for (name, impulse) in &self.pushes {
-            let joint = system.joint(name);
-            let joint = joint.ok_or_else(|| SimulateError::NoSuchJoint { name: name.clone() })?;
+            let joint = joint(system, name)?;
             for k in 0..3 {
                 impulses[joint][k] += impulse[k];
             }
@@ -316,6 +352,10 @@ impl Simulate {
             Start::Joints(joints_m) => Ok(joints_m.clone()),
         }
     }
+}
+
+fn joint(system: &System, name: &str) -> Result<usize, SimulateError> {
+    system.joint(name).ok_or_else(|| SimulateError::NoSuchJoint { name: name.to_owned() })
 }
 
 fn named(found: equilibria::Equilibria, label: &str) -> Result<Vec<Vector>, Error> {

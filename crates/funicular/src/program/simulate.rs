@@ -9,13 +9,14 @@ use std::sync::atomic::Ordering;
 
 use ::columns::{ColumnsError, Format};
 use clap::Args;
-use funicular::{Animation, Start};
+use funicular::{Animation, Error, ForceTable, Order, Start};
 use miette::miette;
 use model::Vector;
 use model::system::System;
 
 use self::columns::Rows;
 use crate::exit::{Exit, Failure};
+use crate::foreign_input;
 use crate::input::{Input, Source};
 use crate::interrupt::on_interrupt;
 use crate::output;
@@ -43,9 +44,9 @@ pub struct Simulate {
     /// Time between stored times, s; a thousandth of the whole if not given
     #[arg(long, value_name = "S")]
     pub store: Option<f64>,
-    /// Fourth order in the step instead of second, for five times the work
-    #[arg(long)]
-    pub fourth_order: bool,
+    /// Order in the step: 2, or 4 for five times and 8 for seventeen times the work
+    #[arg(long, value_name = "P", default_value = "2", value_parser = order)]
+    pub order: Order,
     /// Drag of a medium, 1/s: momentum falls at this rate
     #[arg(long, value_name = "C", default_value_t = 0.0)]
     pub damping: f64,
@@ -56,6 +57,10 @@ pub struct Simulate {
     /// called 0, 1, 2 ... May be given several times
     #[arg(long, value_name = "PUSH", value_parser = push, allow_hyphen_values = true)]
     pub push: Vec<(String, Vector)>,
+    /// Forces at joints over time, from a CSV file with the columns time_s, joint, x_n, y_n, z_n;
+    /// linear between its times, zero before and after them
+    #[arg(long, value_name = "FILE")]
+    pub forces: Option<PathBuf>,
     /// Write the stored times as columns with units: `.csv` or `.parquet`; with --seeds the folder
     /// of the rows, new or empty, or with --resume one that holds them
     #[arg(long, value_name = "FILE")]
@@ -65,6 +70,16 @@ pub struct Simulate {
     pub html: Option<PathBuf>,
     #[command(flatten)]
     pub ensemble: ensemble::Arguments,
+}
+
+/// 2, 4 or 8.
+fn order(text: &str) -> Result<Order, String> {
+    match text {
+        "2" => Ok(Order::Second),
+        "4" => Ok(Order::Fourth),
+        "8" => Ok(Order::Eighth),
+        _ => Err("2, 4 or 8 is wanted".to_owned()),
+    }
 }
 
 /// `JOINT=X,Y,Z`.
@@ -118,13 +133,20 @@ pub fn run(arguments: &Simulate) -> Result<Exit, Failure> {
     let interrupt = on_interrupt()?;
     let progress = Progress::start();
     progress.say("reading");
-    let Input { problem, files } = arguments.input.read()?;
+    let Input { problem, mut files } = arguments.input.read()?;
+    let mut simulate = simulate(arguments);
+    if let Some(path) = &arguments.forces {
+        let (text, name) = foreign_input::text(path)?;
+        let forces = ForceTable::parse(&text, &name).map_err(Error::from)?;
+        simulate = simulate.forces(forces);
+        files.push(path.clone());
+    }
     let outputs = [&arguments.out, &arguments.html];
     output::check(outputs.into_iter().flatten().map(PathBuf::as_path), &files)?;
     let system = funicular::system_of(&problem);
     let mut kept = Kept::begin(arguments, &system)?;
     let stop = interrupt.keep_what_is_done();
-    let moved = simulate(arguments).run_watched(&problem, &mut |now| {
+    let moved = simulate.run_watched(&problem, &mut |now| {
         kept.add(now);
         progress.say(&format!("{} of {} s", short(now.time_s), short(arguments.time)));
         if kept.failed.is_some() || stop.load(Ordering::SeqCst) {
@@ -150,10 +172,8 @@ fn simulate(arguments: &Simulate) -> funicular::Simulate {
         .time_s(arguments.time)
         .step_s(arguments.step)
         .drag_1_s(arguments.damping)
-        .friction_n_m_s(arguments.friction);
-    if arguments.fourth_order {
-        simulate = simulate.fourth_order();
-    }
+        .friction_n_m_s(arguments.friction)
+        .order(arguments.order);
     if let Some(store_s) = arguments.store {
         simulate = simulate.store_s(store_s);
     }

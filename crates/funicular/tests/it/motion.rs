@@ -234,3 +234,40 @@ fn released_positions_come_to_rest_and_the_folder_does_not_depend_on_threads_or_
     let said = String::from_utf8_lossy(&free.stderr).into_owned();
     assert!(free.status.code() == Some(2) && said.contains("without damping"), "{said}");
 }
+
+/// A weight on a level line, pushed harder and harder: with 3 N more each second its speed is
+/// 3/2 t² m/s for a mass of 1 kg, and its way 1/2 t³; after the last time it keeps its speed.
+#[test]
+fn forces_of_a_table_drive_a_weight() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name);
+    let slider = "joints = { A = { at_m = [0, 0, 0], free = \"x\", mass_kg = 1 }, P = { mass_kg = 1e-9 } }\n\
+                  bars = [{ from = \"A\", to = \"P\", length_m = 1, mass_kg = 0 }]\n";
+    std::fs::write(path("slider.toml"), slider).unwrap();
+    std::fs::write(path("f.csv"), "time_s,joint,x_n,y_n,z_n\n0,A,0,0,0\n2,A,6,0,0\n").unwrap();
+    let run = |more: &[&str]| {
+        let mut command = Command::cargo_bin("funicular").unwrap();
+        command.current_dir(folder.path()).args(["simulate", "slider.toml", "--forces", "f.csv"]);
+        command.args(["--time", "3", "--store", "1", "--order", "4", "--out", "m.csv"]);
+        command.args(more).output().unwrap()
+    };
+    let output = run(&[]);
+    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    let csv = std::fs::read_to_string(path("m.csv")).unwrap();
+    let rows: Vec<Vec<&str>> = csv.lines().map(|line| line.split(',').collect()).collect();
+    let column = |name: &str| rows[0].iter().position(|column| *column == name).unwrap();
+    let number = |row: usize, name: &str| rows[row][column(name)].parse::<f64>().unwrap();
+    for (row, place, speed) in [(2, 0.5, 1.5), (3, 4.0, 6.0), (4, 10.0, 6.0)] {
+        assert!((number(row, "joint0_x_m") - place).abs() < 1e-2, "{:?}", rows[row]);
+        assert!((number(row, "joint0_vx_m_s") - speed).abs() < 1e-2, "{:?}", rows[row]);
+    }
+    std::fs::write(path("f.csv"), "time_s,joint,x_n,y_n,z_n\n0,A,0,0,0\n0,A,6,0,0\n").unwrap();
+    let output = run(&[]);
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(2), "{said}");
+    assert!(said.contains("f.csv:3: time_s must be later than"), "{said}");
+    std::fs::write(path("f.csv"), "time_s,joint,x_n,y_n,z_n\n0,B,0,0,0\n").unwrap();
+    let output = run(&[]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(String::from_utf8(output.stderr).unwrap().contains("there is no joint \"B\""));
+}

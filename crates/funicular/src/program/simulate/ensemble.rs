@@ -33,7 +33,7 @@ motion_residual, what is left of motion; motion_energy_j.
 pub struct Arguments {
     /// Release so many positions at random and tell where each comes to rest: 100000 or 1e5
     #[arg(long, value_name = "N", value_parser = count, allow_negative_numbers = true,
-          requires = "out", conflicts_with_all = ["from", "store", "push", "html"])]
+          requires = "out", conflicts_with_all = ["from", "store", "push", "forces", "html"])]
     pub seeds: Option<u64>,
     /// The number that all positions come from; another one gives others
     #[arg(long, value_name = "S", default_value_t = 1, requires = "seeds")]
