@@ -11,7 +11,7 @@ use crate::error::CensusError;
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Settings {
-    /// Chains with more bars are refused with an estimate of the cost. Default 12 (seconds, and
+    /// Chains and bridles with more bars are refused with an estimate of the cost. Default 12 (seconds, and
     /// some thousand equilibria), from 1 to [`Settings::MAX_BARS`].
     pub max_bars: usize,
     /// A cell narrower than this, on a face of the half cube of pulls (whose edges have length 2),
@@ -21,8 +21,8 @@ pub struct Settings {
     /// Tests of one cell for one pattern, per pattern on average, after which all cells left are
     /// listed as undecided. Generic chains need a few hundred; default 20,000, from 1 to 10⁹.
     pub max_tests_per_pattern: u64,
-    /// Nets of several closures whose knots have more independent motions than this are refused:
-    /// the cost grows with the power of their number. Default 3, from 1 to 6.
+    /// Nets of several closures whose knots have more independent motions than this are refused,
+    /// bridles of three strands excepted: the cost grows with the power of their number. Default 3, from 1 to 6.
     pub max_motions: usize,
 }
 

@@ -70,7 +70,7 @@ mod turns;
 
 pub use census::{
     ChainCensus, MAX_POSITIONS, NetCensus, Open, PartCensus, SystemCensus, SystemPosition,
-    UndecidedPlaces,
+    UndecidedPlaces, bridle_seconds,
 };
 pub use prove::{MAX_UNKNOWNS, prove};
 pub use proven::SystemBox;

@@ -70,7 +70,17 @@ pub(crate) struct Open {
 impl PatternSums {
     /// The terms of all bars over a cell; `None` where the force of some bar vanishes.
     pub(crate) fn over(system: &System, cell: &Cell) -> Option<Self> {
-        let bars = system.bars();
+        Self::of(&system.length, system.weights(cell.face), system.span, cell)
+    }
+
+    /// The same for bars of these lengths and weights, to any place of a range of spans.
+    pub(crate) fn of(
+        lengths: &[Interval],
+        weights: &[Interval],
+        span: [Interval; 2],
+        cell: &Cell,
+    ) -> Option<Self> {
+        let bars = lengths.len();
         let at = cell.middle();
         let point = Cell::point(cell.face, at);
         let mut sums = Self {
@@ -91,12 +101,12 @@ impl PatternSums {
             size[part] += middle.abs();
             middle
         };
-        for k in 0..2 {
+        for (k, span) in span.into_iter().enumerate() {
             for part in [k, 2 + k] {
-                sums.start[part] = add(&mut sums, part, -system.span[k]);
+                sums.start[part] = add(&mut sums, part, -span);
             }
         }
-        for (length, weight) in system.length.iter().zip(system.weights(cell.face)) {
+        for (length, weight) in lengths.iter().zip(weights) {
             let term = BarTerm::over(cell, *length, *weight)?;
             let centre = BarTerm::value_over(&point, *length, *weight);
             let terms = [
@@ -126,15 +136,21 @@ impl PatternSums {
 
     /// The coordinate of the cell to cut: the one whose width blurs the closure more.
     pub(crate) fn widest(&self, system: &System, cell: &Cell) -> usize {
+        let blur = self.blur(&system.length, system.weights(cell.face), cell);
+        usize::from(blur[1] > blur[0])
+    }
+
+    /// How far each coordinate of the cell moves the closure of any pattern, at most; plain numbers.
+    pub(crate) fn blur(&self, lengths: &[Interval], weights: &[Interval], cell: &Cell) -> [f64; 2] {
         let mut blur = [0.0_f64; 2];
-        for (length, weight) in system.length.iter().zip(system.weights(cell.face)) {
+        for (length, weight) in lengths.iter().zip(weights) {
             if let Some(term) = BarTerm::over(cell, *length, *weight) {
                 for (k, blur) in blur.iter_mut().enumerate() {
                     *blur += self.half[k] * (term.slope[0][k].mag() + term.slope[1][k].mag());
                 }
             }
         }
-        usize::from(blur[1] > blur[0])
+        blur
     }
 
     /// Those of the patterns, sorted, that the cell may hold a zero of.

@@ -137,6 +137,8 @@ struct Net<'a> {
     knots: Vec<&'a str>,
     /// Joints that follow from their two neighbours.
     swings: Vec<&'a str>,
+    /// Bars and joints of which both signs were tried.
+    signs: usize,
     /// Whether only equilibria in the vertical plane of the anchors were looked for.
     in_plane: bool,
     cells: u64,
@@ -179,6 +181,7 @@ impl<'a> Net<'a> {
             closures: net.closures,
             knots: names(&net.knots),
             swings: names(&net.swings),
+            signs: net.signs,
             in_plane: net.in_plane,
             cells: net.cells,
             tests: net.tests,

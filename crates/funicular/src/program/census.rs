@@ -5,6 +5,7 @@ mod table;
 
 use std::path::PathBuf;
 
+use census::network::bridle_seconds;
 use census::{CensusError, Settings, rough_time};
 use clap::Args;
 use funicular::Error;
@@ -31,11 +32,13 @@ pub struct Census {
     /// Print one JSON object (schema_version 2) instead of tables
     #[arg(long)]
     pub json: bool,
-    /// Refuse longer chains, with an estimate of what they would cost (at most 24)
+    /// Refuse chains of more bars, and bridles of more bars together, with an estimate of what they
+    /// would cost (at most 24)
     #[arg(long, value_name = "N", default_value_t = Settings::default().max_bars)]
     pub max_bars: usize,
-    /// Refuse nets of several closures whose joints move in more independent ways than this (at most
-    /// 6); joints between two bars that follow from their neighbours are not counted
+    /// Refuse nets of several closures, but for bridles of three strands, whose joints move in more
+    /// independent ways than this (at most 6); joints between two bars that follow from their
+    /// neighbours are not counted
     #[arg(long, value_name = "N", default_value_t = Settings::default().max_motions)]
     pub max_motions: usize,
     /// Draw the shapes into this SVG file: all up to 70, of more the first 70 by energy; those of a
@@ -150,6 +153,22 @@ fn refuse(error: Error) -> Failure {
             )
         } else {
             "`funicular solve` finds equilibria of nets of any size; nobody knows how many there are".to_owned()
+        };
+        return Failure::bad_input(miette!(help = help, "{error}"));
+    }
+    if let Error::SystemCensus(NoCensus::Bridle { bars, .. }) = error {
+        let time = rough_time(bridle_seconds(bars));
+        let help = if bars <= Settings::MAX_BARS {
+            format!(
+                "--max-bars {bars} takes it all the same, in about {time} of a processor (good to a factor of ten: the \
+                 cost doubles with each bar)"
+            )
+        } else {
+            format!(
+                "no census goes beyond {} bars, and this one would take about {time} of a processor. `funicular solve` \
+                 finds equilibria of nets of any size; nobody knows how many there are",
+                Settings::MAX_BARS
+            )
         };
         return Failure::bad_input(miette!(help = help, "{error}"));
     }

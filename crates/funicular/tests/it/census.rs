@@ -586,16 +586,41 @@ fn a_net_has_its_list() {
     );
 }
 
+/// The lamp is held by three bars to A besides: a bridle with a long strand.
+#[test]
+fn a_bridle_with_a_long_strand_has_its_list() {
+    let path = folder("long").join("long.toml");
+    let bars = "[[bars]]\nfrom = \"lamp\"\nto = \"A\"\nlength_m = 2\nmass_kg = 1\ncount = 3\n";
+    std::fs::write(&path, format!("{LAMPS}{bars}")).unwrap();
+    let path = path.to_str().unwrap();
+    let value = json_of_system(path);
+    let net = &value["census"]["parts"][0]["net"];
+    assert_eq!((&net["closures"], &net["knots"]), (&2.into(), &serde_json::json!(["P"])));
+    assert_eq!((&net["undecided_boxes"], &value["census"]["complete"]), (&0.into(), &true.into()));
+    let stable = |e: &&Value| e["stability"]["in_space"] == "stable";
+    assert!(value["equilibria"].as_array().unwrap().iter().any(|e| stable(&e)));
+    let text = stdout(&funicular(&[path]));
+    assert!(text.contains("pulls of the strands"), "{text}");
+    // What is too long is told with its time.
+    let output = funicular(&[path, "--max-bars", "5"]);
+    assert_eq!(output.status.code(), Some(2));
+    let told = stderr(&output);
+    assert!(told.contains("--max-bars 6") && told.contains("of a processor"), "{told}");
+}
+
 #[test]
 fn systems_without_a_census_are_told_why() {
     let path = folder("net").join("net.toml");
     let mut text = LAMPS.to_owned();
-    text += "[[bars]]\nfrom = \"lamp\"\nto = \"A\"\nlength_m = 1\nmass_kg = 1\ncount = 7\n";
+    for anchor in ["A", "B"] {
+        text += &format!("[[bars]]\nfrom = \"lamp\"\nto = \"{anchor}\"\n");
+        text += "length_m = 1\nmass_kg = 1\ncount = 7\n";
+    }
     std::fs::write(&path, text).unwrap();
     let output = funicular(&[path.to_str().unwrap()]);
     assert_eq!(output.status.code(), Some(2));
     let told = stderr(&output);
-    assert!(told.contains("2 closures") && told.contains("independent ways"), "{told}");
+    assert!(told.contains("3 closures") && told.contains("independent ways"), "{told}");
 }
 
 #[test]

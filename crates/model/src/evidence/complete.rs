@@ -56,6 +56,13 @@ pub enum NoCensus {
         /// The limit.
         limit: usize,
     },
+    /// A bridle of three strands has more bars than the census takes.
+    Bridle {
+        /// Number of bars of all strands.
+        bars: usize,
+        /// The limit.
+        limit: usize,
+    },
     /// The list of a net leaves boxes of places of its joints undecided.
     Undecided {
         /// How many.

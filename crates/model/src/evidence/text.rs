@@ -496,11 +496,14 @@ impl Display for NoCensus {
                 "no census: a net of {closures} closures whose joints move in {motions} independent ways, and the limit \
                  is {limit}"
             ),
+            Self::Bridle { bars, limit } => {
+                write!(f, "no census: the strands of a bridle have {bars} bars, and the limit is {limit}")
+            }
             Self::Undecided { boxes } => {
                 write!(f, "{boxes} boxes of places of the joints of a net are undecided")
             }
             Self::PlaneOnly => f.write_str(
-                "the list has the equilibria in the vertical plane of the anchors; no others were looked for",
+                "the list is complete among the configurations in the vertical plane of the anchors; no others were looked for",
             ),
             Self::Turns { joint } => write!(
                 f,

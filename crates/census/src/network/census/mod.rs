@@ -9,6 +9,7 @@
 //! built up joint by joint, a tripod among them, have closed forms whatever their closures (module
 //! `truss`). Other parts have no census.
 
+mod bridle;
 mod choice;
 mod core;
 mod net;
@@ -28,6 +29,7 @@ use model::NoCensus;
 use model::system::{Support, System};
 use serde::{Deserialize, Serialize};
 
+pub use self::bridle::bridle_seconds;
 pub use self::net::{NetCensus, Open, UndecidedPlaces};
 pub use self::position::SystemPosition;
 

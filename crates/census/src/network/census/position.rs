@@ -205,7 +205,7 @@ impl SystemCensus {
         let hanging = self.parts.iter().flat_map(|part| &part.hanging);
         let free = hanging.clone().filter(|member| two_sided(member)).count();
         let free = free + self.chains().map(|chain| chain.members.len()).sum::<usize>();
-        let free = free + self.nets().map(|net| net.swings.len()).sum::<usize>();
+        let free = free + self.nets().map(|net| net.signs).sum::<usize>();
         Status::Reached(Complete {
             in_plane: self.equilibria.len(),
             families: self.families(),

@@ -151,10 +151,18 @@ fn nets(answer: &SystemCensusAnswer) -> String {
         );
         if !net.swings.is_empty() {
             let _ = write!(text, "; {} by closed forms", names(&net.swings));
+        } else if net.signs > 0 {
+            let _ =
+                write!(text, " and all pulls of the strands of {} bars that hold it", net.signs);
         }
         let _ = writeln!(text, "; {} boxes, {} undecided.", net.cells, net.undecided.len());
         if net.in_plane {
-            text += "Only equilibria in the vertical plane of its anchors were looked for: in space it moves in too many ways.\n";
+            let among = "among the configurations in the vertical plane of its anchors";
+            let list = if net.undecided.is_empty() { "complete" } else { "not complete even" };
+            let _ = writeln!(
+                text,
+                "The list is {list} {among}; no others were looked for: in space it moves in too many ways."
+            );
         }
         for open in net.undecided.iter().take(OPEN) {
             let places: Vec<String> = net

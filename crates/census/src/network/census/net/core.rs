@@ -18,13 +18,13 @@ pub(in crate::network::census) struct Core<'a> {
 }
 
 impl Core<'_> {
-    pub(super) fn ends(&self, member: usize) -> [usize; 2] {
+    pub(in crate::network::census) fn ends(&self, member: usize) -> [usize; 2] {
         let member = &self.system.members()[member];
         [member.from, member.to]
     }
 
     /// Members of the core at a joint, each with the joint at its other end.
-    pub(super) fn meeting(&self, joint: usize) -> Vec<(usize, usize)> {
+    pub(in crate::network::census) fn meeting(&self, joint: usize) -> Vec<(usize, usize)> {
         let at = |member: &usize| match self.ends(*member) {
             [a, b] if a == joint => Some((*member, b)),
             [a, b] if b == joint => Some((*member, a)),
@@ -33,12 +33,12 @@ impl Core<'_> {
         self.members.iter().filter_map(at).collect()
     }
 
-    pub(super) fn held(&self, joint: usize) -> bool {
+    pub(in crate::network::census) fn held(&self, joint: usize) -> bool {
         self.system.joints()[joint].support.is_fixed()
     }
 
     /// The length of a member in units.
-    pub(super) fn length(&self, member: usize) -> Interval {
+    pub(in crate::network::census) fn length(&self, member: usize) -> Interval {
         let body = &self.system.members()[member].body;
         self.frame.length(Interval::point(body.length_m()))
     }
@@ -50,7 +50,7 @@ impl Core<'_> {
 
     /// The axes of the vertical plane of all anchors and loads, and its normal last, if it is a
     /// plane of constant x or y.
-    pub(super) fn plane(&self) -> Option<[usize; 3]> {
+    pub(in crate::network::census) fn plane(&self) -> Option<[usize; 3]> {
         let anchors = self.anchors();
         let at_m = |joint: usize| self.system.joints()[joint].support.at_m();
         let first = at_m(*anchors.first()?)?;
@@ -65,13 +65,13 @@ impl Core<'_> {
     }
 
     /// The place of an anchor, m.
-    pub(super) fn anchor_m(&self) -> Option<Point> {
+    pub(in crate::network::census) fn anchor_m(&self) -> Option<Point> {
         self.system.joints()[*self.anchors().first()?].support.at_m()
     }
 
     /// A joint at which something turns freely about the vertical: the net itself between anchors
     /// on one vertical, or what hangs on the net at this joint alone.
-    pub(super) fn turning(&self) -> Option<usize> {
+    pub(in crate::network::census) fn turning(&self) -> Option<usize> {
         let level = |load: &Vector| load[0] == Interval::ZERO && load[1] == Interval::ZERO;
         if !self.joints.iter().all(|joint| level(&self.loads[*joint])) {
             return None;

@@ -6,26 +6,26 @@ use crate::network::arithmetic::{product, sum};
 
 /// Row after row.
 #[derive(Debug, Clone)]
-pub(super) struct Dense<T> {
-    pub(super) rows: usize,
-    pub(super) columns: usize,
+pub(in crate::network::census) struct Dense<T> {
+    pub(in crate::network::census) rows: usize,
+    pub(in crate::network::census) columns: usize,
     entries: Vec<T>,
 }
 
 impl<T: Copy> Dense<T> {
-    pub(super) fn filled(rows: usize, columns: usize, entry: T) -> Self {
+    pub(in crate::network::census) fn filled(rows: usize, columns: usize, entry: T) -> Self {
         Self { rows, columns, entries: vec![entry; rows * columns] }
     }
 
-    pub(super) fn at(&self, row: usize, column: usize) -> T {
+    pub(in crate::network::census) fn at(&self, row: usize, column: usize) -> T {
         self.entries[row * self.columns + column]
     }
 
-    pub(super) fn set(&mut self, row: usize, column: usize, entry: T) {
+    pub(in crate::network::census) fn set(&mut self, row: usize, column: usize, entry: T) {
         self.entries[row * self.columns + column] = entry;
     }
 
-    pub(super) fn row(&self, row: usize) -> &[T] {
+    pub(in crate::network::census) fn row(&self, row: usize) -> &[T] {
         &self.entries[row * self.columns..(row + 1) * self.columns]
     }
 
@@ -37,18 +37,18 @@ impl<T: Copy> Dense<T> {
 }
 
 impl Dense<Interval> {
-    pub(super) fn middle(&self) -> Dense<f64> {
+    pub(in crate::network::census) fn middle(&self) -> Dense<f64> {
         let entries = self.entries.iter().map(|entry| entry.mid()).collect();
         Dense { rows: self.rows, columns: self.columns, entries }
     }
 
-    pub(super) fn add(&mut self, row: usize, column: usize, entry: Interval) {
+    pub(in crate::network::census) fn add(&mut self, row: usize, column: usize, entry: Interval) {
         let before = self.at(row, column);
         self.set(row, column, sum(before, entry));
     }
 
     /// Add the first of these numbers to a column, from a row on.
-    pub(super) fn add_to_column(
+    pub(in crate::network::census) fn add_to_column(
         &mut self,
         [row, column]: [usize; 2],
         parts: impl Iterator<Item = Interval>,
@@ -62,7 +62,7 @@ impl Dense<Interval> {
 impl Dense<f64> {
     /// The inverse of a square matrix, by elimination with the largest pivot of each column;
     /// nothing where one vanishes.
-    pub(super) fn inverse(&self) -> Option<Self> {
+    pub(in crate::network::census) fn inverse(&self) -> Option<Self> {
         let n = self.rows;
         let mut left = self.clone();
         let mut right = Self::filled(n, n, 0.0);
@@ -92,7 +92,7 @@ impl Dense<f64> {
     }
 
     /// An approximate left inverse of a matrix of full column rank, `(A^T A)^-1 A^T`.
-    pub(super) fn left_inverse(&self) -> Option<Self> {
+    pub(in crate::network::census) fn left_inverse(&self) -> Option<Self> {
         let mut normal = Self::filled(self.columns, self.columns, 0.0);
         for i in 0..self.columns {
             for j in 0..self.columns {
@@ -110,7 +110,7 @@ impl Dense<f64> {
     }
 
     /// The projection that takes out the columns of A, `I − A Y` with the left inverse Y.
-    pub(super) fn complement(&self, left_inverse: &Self) -> Self {
+    pub(in crate::network::census) fn complement(&self, left_inverse: &Self) -> Self {
         let mut rest = Self::filled(self.rows, self.rows, 0.0);
         for i in 0..self.rows {
             for j in 0..self.rows {
@@ -123,7 +123,7 @@ impl Dense<f64> {
     }
 
     /// The product with a vector of intervals.
-    pub(super) fn times(&self, vector: &[Interval]) -> Vec<Interval> {
+    pub(in crate::network::census) fn times(&self, vector: &[Interval]) -> Vec<Interval> {
         (0..self.rows)
             .map(|row| {
                 let terms = self.row(row).iter().zip(vector);
@@ -133,7 +133,10 @@ impl Dense<f64> {
     }
 
     /// The product with a matrix of intervals.
-    pub(super) fn times_matrix(&self, other: &Dense<Interval>) -> Dense<Interval> {
+    pub(in crate::network::census) fn times_matrix(
+        &self,
+        other: &Dense<Interval>,
+    ) -> Dense<Interval> {
         let mut all = Dense::filled(self.rows, other.columns, Interval::ZERO);
         for row in 0..self.rows {
             for (k, factor) in self.row(row).iter().enumerate().filter(|(_, c)| c.abs() > 0.0) {

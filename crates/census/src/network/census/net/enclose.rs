@@ -76,7 +76,7 @@ fn tight_array<const N: usize>(knots: &[Interval]) -> [Interval; N] {
 }
 
 /// The equations of the net alone, with what its joints bear.
-fn equations(core: &Core) -> Equations {
+pub(in crate::network::census) fn equations(core: &Core) -> Equations {
     let activities: Vec<Activity> = (0..core.system.members().len())
         .map(|member| if core.members.contains(&member) { Activity::Acts } else { Activity::Idle })
         .collect();

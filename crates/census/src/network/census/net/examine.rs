@@ -5,8 +5,9 @@ use intervals::Interval;
 use super::cell::{self, Cell, Pattern};
 use super::columns::{Columns, Forces};
 use super::layout::{Layout, Swing};
+use super::newton::{Newton, step};
 use super::swing::Swung;
-use crate::network::arithmetic::{Vector, cross, dot, minus, norm, plus, sum, times};
+use crate::network::arithmetic::{Vector, cross, dot, minus, norm, plus, times};
 
 /// Steps of Newton's method in double precision to a zero.
 const STEPS: usize = 30;
@@ -83,9 +84,12 @@ impl<'a, const N: usize> Examined<'a, N> {
             None => Verdict::Within(self.cell.at),
             Some(Newton { left: None, .. }) => Verdict::Empty,
             Some(Newton { left: Some(left), single: true }) => {
+                let left = std::array::from_fn(|k| left[k]);
                 self.one(pattern, &densities).map_or(Verdict::Within(left), Verdict::One)
             }
-            Some(Newton { left: Some(left), single: false }) => Verdict::Within(left),
+            Some(Newton { left: Some(left), single: false }) => {
+                Verdict::Within(std::array::from_fn(|k| left[k]))
+            }
         }
     }
 
@@ -181,65 +185,17 @@ fn round_is_impossible<const N: usize>(
     norm(rest).disjoint(size) || !dot(rest, swung.span).contains(0.0)
 }
 
-/// A step of the interval Newton method.
-struct Newton<const N: usize> {
-    /// What is left of the box; nothing if it holds no zero.
-    left: Option<[Interval; N]>,
-    /// Whether the derivative is regular over the box: one zero at most.
-    single: bool,
-}
-
-/// With $F(y) \in F(m) + F'(Y)(y - m)$ and an approximate inverse of the derivative: nothing where
-/// there is no inverse.
+/// A step over a box: nothing where the derivative has no inverse.
 fn newton<const N: usize>(
     cell: &Cell<N>,
     middle: &Cell<N>,
     pattern: Pattern,
     densities: &[Interval],
-) -> Option<Newton<N>> {
+) -> Option<Newton> {
     let middles: Vec<Interval> = densities.iter().map(|w| Interval::point(w.mid())).collect();
     let slope = cell.derivative(pattern, densities);
-    let inverse = slope.middle().inverse()?;
-    let value = inverse.times(&middle.residual(pattern, &middles));
-    let slope = inverse.times_matrix(&slope);
     let whole: Vec<Interval> = cell.at.iter().chain(densities).copied().collect();
-    let mut off: Vec<Interval> =
-        whole.iter().map(|part| *part - Interval::point(part.mid())).collect();
-    let radius: Vec<f64> = off.iter().map(|part| part.mag()).collect();
-    let single = (0..whole.len()).all(|row| {
-        let mut moved = Interval::ZERO;
-        for (column, radius) in radius.iter().enumerate() {
-            let unit = if row == column { Interval::ONE } else { Interval::ZERO };
-            let part = sum(unit, -slope.at(row, column));
-            moved = moved + Interval::point(part.mag()) * Interval::point(*radius);
-        }
-        moved.hi() < radius[row]
-    });
-    for row in 0..whole.len() {
-        let others = (0..whole.len()).filter(|column| *column != row);
-        let terms = others.map(|column| slope.at(row, column) * off[column]);
-        let rest = terms.fold(value[row], sum);
-        let own = slope.at(row, row);
-        if own.contains(0.0) {
-            if !(rest + own * off[row]).contains(0.0) {
-                return Some(Newton { left: None, single });
-            }
-            continue;
-        }
-        match off[row].intersect(-(rest / own)) {
-            Some(part) => off[row] = part,
-            None => return Some(Newton { left: None, single }),
-        }
-    }
-    let mut left = cell.at;
-    for (k, part) in left.iter_mut().enumerate() {
-        let narrowed = Interval::point(whole[k].mid()) + off[k];
-        match part.intersect(narrowed) {
-            Some(narrowed) => *part = narrowed,
-            None => return Some(Newton { left: None, single }),
-        }
-    }
-    Some(Newton { left: Some(left), single })
+    step(&whole, &slope, &middle.residual(pattern, &middles))
 }
 
 /// Newton's method in double precision.

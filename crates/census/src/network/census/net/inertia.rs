@@ -23,7 +23,10 @@ use super::dense::Dense;
 use crate::network::equations::Equations;
 
 /// Directions in which the energy falls; nothing if that is not proved.
-pub(super) fn index(equations: &Equations, tight: &[Interval]) -> Option<usize> {
+pub(in crate::network::census) fn index(
+    equations: &Equations,
+    tight: &[Interval],
+) -> Option<usize> {
     let size = equations.size;
     let lengths: Vec<usize> = equations.acting.iter().map(|acting| acting.density).collect();
     let mut matrix = Dense::filled(size, size, Interval::ZERO);

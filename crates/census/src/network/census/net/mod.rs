@@ -33,17 +33,18 @@
 mod cell;
 mod columns;
 mod core;
-mod dense;
-mod enclose;
+pub(super) mod dense;
+pub(super) mod enclose;
 mod examine;
-mod inertia;
+pub(super) mod inertia;
 mod jet;
 mod layout;
+pub(super) mod newton;
 mod reach;
 mod search;
 mod swing;
 #[cfg(test)]
-mod tests;
+pub(super) mod tests;
 
 use intervals::Interval;
 use model::NoCensus;
@@ -54,6 +55,7 @@ use self::enclose::{Enclosed, enclosed};
 use self::examine::Found;
 use self::layout::Layout;
 use self::search::{Search, search};
+use super::bridle;
 use super::choice::Choice;
 use crate::network::arithmetic::NOWHERE;
 use crate::search::Progress;
@@ -78,6 +80,8 @@ pub struct NetCensus {
     pub knots: Vec<usize>,
     /// Joints between two bars each that follow from those, from 0; each doubles the patterns.
     pub swings: Vec<usize>,
+    /// Bars of long strands and joints that swing of which the search tried both signs.
+    pub signs: usize,
     /// Whether only equilibria in the vertical plane of the anchors were looked for: in space the
     /// joints move in too many ways. The list is then not complete, whatever is undecided.
     pub in_plane: bool,
@@ -136,6 +140,9 @@ pub(super) fn taken(
         return Err(NoCensus::Turns { joint });
     }
     let space = Layout::new(core, 3, [0, 1, 2])?;
+    if let Some(taken) = bridle::taken(core, space.motions(), settings, watch)? {
+        return Ok(taken);
+    }
     // In a plane where that is all that can be searched.
     let plane = core.plane().filter(|_| space.motions() > settings.max_motions);
     let layout = match plane {
@@ -206,6 +213,7 @@ fn searched<const N: usize>(
         closures: core.members.len().saturating_sub(core.joints.len()),
         knots: layout.knots.clone(),
         swings: layout.swings.iter().map(|swing| swing.joint).collect(),
+        signs: layout.swings.len(),
         in_plane: layout.dim == 2,
         cells,
         tests,
@@ -235,7 +243,7 @@ fn places<const N: usize>(
 const MOST_OPEN: usize = 512;
 
 /// Boxes that touch become one, with all their patterns.
-fn gathered<const N: usize>(
+pub(super) fn gathered<const N: usize>(
     tasks: impl Iterator<Item = ([Interval; N], Vec<cell::Pattern>)>,
 ) -> Vec<([Interval; N], Vec<cell::Pattern>)> {
     let mut all: Vec<([Interval; N], Vec<cell::Pattern>)> = vec![];

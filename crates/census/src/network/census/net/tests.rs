@@ -18,7 +18,7 @@ fn light(length_m: f64) -> Bar {
 }
 
 /// A census whose every equilibrium is proved by the test that knows nothing of the search.
-fn taken(system: &System) -> SystemCensus {
+pub(in crate::network::census) fn taken(system: &System) -> SystemCensus {
     let census = SystemCensus::take(system, &Settings::default()).unwrap();
     for equilibrium in census.to_model(system) {
         let proof = prove(system, &equilibrium.joints_m, &equilibrium.axial_n).unwrap();
@@ -29,7 +29,12 @@ fn taken(system: &System) -> SystemCensus {
 
 /// Strands of bars of these lengths from anchors to one knot; weights at all joints, growing from
 /// strand to strand.
-fn bridle(anchors: &[Vector], strands: &[&[f64]], knot_kg: f64, kg: f64) -> System {
+pub(in crate::network::census) fn bridle(
+    anchors: &[Vector],
+    strands: &[&[f64]],
+    knot_kg: f64,
+    kg: f64,
+) -> System {
     let mut joints = vec![Joint::free("knot").with_mass(knot_kg)];
     let mut members = vec![];
     let mut mass_kg = kg;
@@ -49,10 +54,11 @@ fn bridle(anchors: &[Vector], strands: &[&[f64]], knot_kg: f64, kg: f64) -> Syst
     System::new("bridle", G, joints, members).unwrap()
 }
 
-const CORNERS: [Vector; 3] = [[2.0, 0.0, 0.0], [-1.0, 1.5, 0.2], [-1.1, -1.6, -0.1]];
+pub(in crate::network::census) const CORNERS: [Vector; 3] =
+    [[2.0, 0.0, 0.0], [-1.0, 1.5, 0.2], [-1.1, -1.6, -0.1]];
 
 /// The alternating sum of the indices.
-fn alternating(census: &SystemCensus) -> i64 {
+pub(in crate::network::census) fn alternating(census: &SystemCensus) -> i64 {
     census.equilibria.iter().map(|e| if e.index_in_space % 2 == 0 { 1 } else { -1 }).sum()
 }
 
@@ -242,7 +248,12 @@ impl<'a> Newton<'a> {
 }
 
 /// How many of a list Newton's method finds; it must find nothing else.
-fn found_of(system: &System, census: &SystemCensus, starts: usize, seed: u64) -> usize {
+pub(in crate::network::census) fn found_of(
+    system: &System,
+    census: &SystemCensus,
+    starts: usize,
+    seed: u64,
+) -> usize {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     let mut seen = vec![false; census.equilibria.len()];
     for at in (0..starts).filter_map(|_| Newton::new(system, &mut random).run()) {

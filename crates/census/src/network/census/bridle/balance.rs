@@ -1,0 +1,215 @@
+//! Balance at the knot: which pulls of the strands may hold its load together.
+//!
+//! Strand i pulls at the knot with minus the force of its last bar, $f_i = d_i/w_i$ with $d_i =
+//! (h_i e_i, v_i + c_i w_i)$ and $w_i \ge 0$; $\sum_i f_i$ is the load L of the knot. Where $w_i$
+//! may be zero, a strand that is all but straight, the force has no bound and only its direction is
+//! known. With b, what the forces that are bounded leave of the load, and one, two or three forces
+//! without bound,
+//!
+//! $$ d_1 \times b = 0; \qquad w_1\,(b \times d_2) = d_1 \times d_2, \quad
+//!    w_2\,(d_1 \times b) = d_1 \times d_2; \qquad
+//!    w_1 \det(b, d_2, d_3) = \det(d_1, d_2, d_3), \dots $$
+//!
+//! hold for every equilibrium, by Cramer's rule.
+
+use std::ops::ControlFlow;
+
+use intervals::Interval;
+
+use super::pulls::{Pulls, density};
+use super::strand::{Span, Strand};
+use crate::network::arithmetic::{Vector, cross, dot, minus, norm, plus, squared, times};
+
+/// The force of the last bar of a strand over a cell of pulls and a box of places.
+#[derive(Debug, Clone)]
+pub(super) struct Held {
+    force: Vector,
+    /// Of a bar alone that may pull or push, that of a pull.
+    direction: Vector,
+    w: Interval,
+    /// The size of the horizontal part where its direction is unknown.
+    turned: Option<Interval>,
+}
+
+impl Held {
+    pub(super) fn new(strand: &Strand, span: &Span, pulls: &Pulls) -> Self {
+        if strand.is_rod() {
+            let [t, w] = density(&pulls.cell);
+            let force = times(t, span.arm).map(|part| quotient(part, w));
+            let direction = if t.hi() < 0.0 { times(t, span.arm) } else { span.arm };
+            return Self { force, direction, w, turned: None };
+        }
+        let last = strand.weight[strand.weight.len() - 1];
+        let [h, _, w] = pulls.cell.homogeneous();
+        let [_, v] = pulls.cell.force(last);
+        let direction = span.world([h, v]);
+        let force = direction.map(|part| quotient(part, w));
+        let turned = span.toward.is_none().then(|| quotient(h.abs(), w));
+        Self { force, direction, w, turned }
+    }
+
+    fn bounded(&self) -> bool {
+        self.w.lo() > 0.0
+    }
+}
+
+/// `x/w` with `w ≥ 0`, the limits at w = 0 included.
+fn quotient(x: Interval, w: Interval) -> Interval {
+    if w == Interval::ONE {
+        return x;
+    }
+    if w.lo() > 0.0 {
+        return x / w;
+    }
+    let least = x / Interval::point(w.hi());
+    if w.hi() <= 0.0 {
+        Interval::LINE
+    } else if x.lo() > 0.0 {
+        Interval::new(least.lo(), f64::INFINITY)
+    } else if x.hi() < 0.0 {
+        Interval::new(f64::NEG_INFINITY, least.hi())
+    } else {
+        Interval::LINE
+    }
+}
+
+/// All choices of one pull for each strand that may hold the load, as their numbers in the lists;
+/// nothing if there are more than a limit.
+pub(super) fn balanced(load: Vector, lists: &[Vec<Held>], limit: usize) -> Option<Vec<Vec<usize>>> {
+    // The hull of all forces of the strands from one on.
+    let mut rest = vec![[Interval::ZERO; 3]];
+    for list in lists.iter().rev() {
+        let hull = list
+            .iter()
+            .map(|held| held.force)
+            .reduce(|a, b| std::array::from_fn(|k| a[k].hull(b[k])))?;
+        rest.push(plus(rest[rest.len() - 1], hull));
+    }
+    rest.reverse();
+    let mut choices = Choices { load, lists, rest, limit, chosen: vec![], found: vec![] };
+    match choices.extend(load) {
+        ControlFlow::Continue(()) => Some(choices.found),
+        ControlFlow::Break(()) => None,
+    }
+}
+
+struct Choices<'a> {
+    load: Vector,
+    lists: &'a [Vec<Held>],
+    rest: Vec<Vector>,
+    limit: usize,
+    chosen: Vec<usize>,
+    found: Vec<Vec<usize>>,
+}
+
+impl Choices<'_> {
+    /// One more strand; `left` is what the chosen ones leave of the load.
+    fn extend(&mut self, left: Vector) -> ControlFlow<()> {
+        let strand = self.chosen.len();
+        let apart = |a: &Vector, b: &Vector| (0..3).any(|k| a[k].disjoint(b[k]));
+        if strand == self.lists.len() {
+            if self.may_hold() {
+                self.found.push(self.chosen.clone());
+                if self.found.len() > self.limit {
+                    return ControlFlow::Break(());
+                }
+            }
+            return ControlFlow::Continue(());
+        }
+        if apart(&left, &self.rest[strand]) {
+            return ControlFlow::Continue(());
+        }
+        let is_last = strand + 1 == self.lists.len();
+        for (number, held) in self.lists[strand].iter().enumerate() {
+            if is_last && apart(&left, &held.force) {
+                continue;
+            }
+            self.chosen.push(number);
+            let left = if is_last { left } else { minus(left, held.force) };
+            self.extend(left)?;
+            self.chosen.pop();
+        }
+        ControlFlow::Continue(())
+    }
+
+    fn may_hold(&self) -> bool {
+        let all: Vec<&Held> =
+            self.lists.iter().zip(&self.chosen).map(|(list, number)| &list[*number]).collect();
+        let left_by = |which: &dyn Fn(usize) -> bool| {
+            let others = all.iter().enumerate().filter(|(k, _)| which(*k));
+            others.fold(self.load, |left, (_, held)| minus(left, held.force))
+        };
+        let unbounded: Vec<&Held> = all.iter().copied().filter(|held| !held.bounded()).collect();
+        let bounded = |k: usize| all[k].bounded();
+        let b = left_by(&bounded);
+        let may = match unbounded[..] {
+            [] => (0..all.len()).all(|k| {
+                let left = left_by(&|other| other != k);
+                cross(all[k].direction, left).iter().all(|part| part.contains(0.0))
+            }),
+            [one] => cross(one.direction, b).iter().all(|part| part.contains(0.0)),
+            [one, two] => two_may_hold(one, two, b),
+            [one, two, three] => three_may_hold([one, two, three], b),
+            _ => true,
+        };
+        may && all.iter().enumerate().all(|(k, held)| {
+            // Its horizontal part has any direction, but this size.
+            held.turned.is_none_or(|size| {
+                let left = left_by(&|other| other != k && all[other].bounded());
+                let others = (0..all.len()).all(|other| other == k || all[other].bounded());
+                !others || !norm([left[0], left[1], Interval::ZERO]).disjoint(size)
+            })
+        })
+    }
+}
+
+/// The force densities of the bars alone, with these arms, from what the forces of the other
+/// strands leave of the load; nothing where that is not known, or the arms may be dependent.
+pub(super) fn densities<'a>(
+    load: Vector,
+    others: impl Iterator<Item = &'a Held>,
+    arms: &[Vector],
+) -> Option<Vec<Interval>> {
+    let mut b = load;
+    for held in others {
+        if !held.bounded() {
+            return None;
+        }
+        b = minus(b, held.force);
+    }
+    let over = |part: Interval, whole: Interval| (whole.mig() > 0.0).then(|| part / whole);
+    match *arms {
+        [one] => Some(vec![over(dot(b, one), squared(one))?]),
+        [one, two] => {
+            let both = cross(one, two);
+            let whole = squared(both);
+            let first = over(dot(cross(b, two), both), whole)?;
+            Some(vec![first, over(dot(cross(one, b), both), whole)?])
+        }
+        [one, two, three] => {
+            let whole = det(one, two, three);
+            let parts = [det(b, two, three), det(one, b, three), det(one, two, b)];
+            parts.into_iter().map(|part| over(part, whole)).collect()
+        }
+        _ => None,
+    }
+}
+
+fn det(a: Vector, b: Vector, c: Vector) -> Interval {
+    dot(a, cross(b, c))
+}
+
+fn two_may_hold(one: &Held, two: &Held, b: Vector) -> bool {
+    let both = cross(one.direction, two.direction);
+    let meets = |a: Vector| (0..3).all(|k| !a[k].disjoint(both[k]));
+    dot(both, b).contains(0.0)
+        && meets(times(one.w, cross(b, two.direction)))
+        && meets(times(two.w, cross(one.direction, b)))
+}
+
+fn three_may_hold(all: [&Held; 3], b: Vector) -> bool {
+    let [one, two, three] = all.map(|held| held.direction);
+    let volume = det(one, two, three);
+    let parts = [det(b, two, three), det(one, b, three), det(one, two, b)];
+    parts.into_iter().zip(all).all(|(part, held)| !(held.w * part).disjoint(volume))
+}

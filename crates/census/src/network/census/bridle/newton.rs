@@ -1,0 +1,242 @@
+//! The interval Newton method on the closures of all strands and the balance of the knot.
+//!
+//! Unknowns: the place of the knot and two coordinates of the pull of each strand; of a bar alone
+//! its force density. Equations: two of closure for each strand, $\Phi_i(p_i) - (r_i, z_i) = 0$
+//! with the horizontal distance $r_i$ and the rise $z_i$ from its anchor to the knot, or the length
+//! of the bar; and three of balance, $\sum_i d_i/w_i - L = 0$.
+
+use intervals::Interval;
+
+use super::pulls::density;
+use super::strand::{Bridle, Span, Strand};
+use crate::closure::bar::BarTerm;
+use crate::closure::{Pattern, signed};
+use crate::network::arithmetic::squared;
+use crate::network::census::net::dense::Dense;
+use crate::network::census::net::newton::{Newton, step};
+use crate::plane::cell::Cell;
+use crate::plane::face::Face;
+
+/// Steps of Newton's method in double precision to a zero.
+const STEPS: usize = 30;
+
+/// A step of this part of the unknowns is rounding.
+const CONVERGED: f64 = 1e-13;
+
+/// How far outside of a box, in its widths, Newton's method may end to be worth a proof.
+const OUTSIDE: f64 = 0.75;
+
+/// Room about a box and a zero for the proof, relative to it.
+const ROOM: f64 = 0.125;
+
+/// Room in units of length and of pulls.
+const LEAST_ROOM: f64 = 1e-9;
+
+/// The charts of the pulls of all strands, and their patterns.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Charts {
+    pub(super) faces: Vec<Face>,
+    pub(super) patterns: Vec<Pattern>,
+}
+
+/// Next to the only equilibrium of a box.
+#[derive(Debug, Clone)]
+pub(super) struct Found {
+    pub(super) charts: Charts,
+    pub(super) alone_in: Vec<Interval>,
+    pub(super) at: Vec<f64>,
+}
+
+/// What is known of a box.
+pub(super) enum Verdict {
+    Empty,
+    /// All equilibria of the box lie in this part of it.
+    Within(Vec<Interval>),
+    /// No other equilibrium than the one next to a point lies in a box, which has this one in it.
+    One(Found),
+}
+
+/// Values and derivative over a box.
+struct Equations {
+    value: Vec<Interval>,
+    slope: Dense<Interval>,
+}
+
+/// What is known of a box; nothing can be said where a force may vanish or be infinite, or the
+/// knot stand over an anchor.
+pub(super) fn examine(bridle: &Bridle, charts: &Charts, at: &[Interval]) -> Verdict {
+    match narrowed(bridle, charts, at) {
+        None => Verdict::Within(at.to_vec()),
+        Some(Newton { left: None, .. }) => Verdict::Empty,
+        Some(Newton { left: Some(left), single }) => {
+            let found = if single { one(bridle, charts, &left) } else { None };
+            found.map_or(Verdict::Within(left), Verdict::One)
+        }
+    }
+}
+
+fn narrowed(bridle: &Bridle, charts: &Charts, at: &[Interval]) -> Option<Newton> {
+    let slope = equations(bridle, charts, at)?.slope;
+    let middle: Vec<Interval> = at.iter().map(|part| Interval::point(part.mid())).collect();
+    let value = equations(bridle, charts, &middle)?.value;
+    step(at, &slope, &value)
+}
+
+/// The proof that one equilibrium at most is in a box around this one and the zero next to it.
+fn one(bridle: &Bridle, charts: &Charts, at: &[Interval]) -> Option<Found> {
+    let zero = zero(bridle, charts, at.iter().map(|part| part.mid()).collect())?;
+    let near = at.iter().zip(&zero).all(|(part, x)| {
+        let room = OUTSIDE * part.width() + LEAST_ROOM;
+        part.lo() - room <= *x && *x <= part.hi() + room
+    });
+    if !near {
+        return None;
+    }
+    let room = |(part, x): (&Interval, &f64)| {
+        let both = part.hull(Interval::point(*x));
+        both + Interval::around(0.0, ROOM * both.width() + LEAST_ROOM)
+    };
+    let alone_in: Vec<Interval> = at.iter().zip(&zero).map(room).collect();
+    let newton = narrowed(bridle, charts, &alone_in)?;
+    newton.single.then_some(Found { charts: charts.clone(), alone_in, at: zero })
+}
+
+/// Newton's method in double precision.
+fn zero(bridle: &Bridle, charts: &Charts, mut at: Vec<f64>) -> Option<Vec<f64>> {
+    for _ in 0..STEPS {
+        let point: Vec<Interval> = at.iter().copied().map(Interval::point).collect();
+        let Equations { value, slope } = equations(bridle, charts, &point)?;
+        let step = slope.middle().inverse()?.times(&value);
+        let mut size = 0.0_f64;
+        for (x, step) in at.iter_mut().zip(step) {
+            *x -= step.mid();
+            size = size.max(step.mid().abs() / x.abs().max(1.0));
+        }
+        if size.is_nan() {
+            return None;
+        }
+        if size < CONVERGED {
+            return Some(at);
+        }
+    }
+    None
+}
+
+/// The cell of the pulls of a strand in a box of all unknowns.
+pub(super) fn cell(bridle: &Bridle, charts: &Charts, at: &[Interval], strand: usize) -> Cell {
+    let first = bridle.first(strand);
+    let second = if bridle.strands[strand].is_rod() { Interval::ZERO } else { at[first + 1] };
+    Cell { face: charts.faces[strand], at: [at[first], second] }
+}
+
+fn equations(bridle: &Bridle, charts: &Charts, at: &[Interval]) -> Option<Equations> {
+    let size = at.len();
+    let knot = [at[0], at[1], at[2]];
+    let mut all = Equations {
+        value: vec![Interval::ZERO; size],
+        slope: Dense::filled(size, size, Interval::ZERO),
+    };
+    for k in 0..3 {
+        all.value[size - 3 + k] = -bridle.load[k];
+    }
+    for (i, strand) in bridle.strands.iter().enumerate() {
+        let cell = cell(bridle, charts, at, i);
+        let span = Span::new(strand, &knot);
+        let own = bridle.first(i);
+        if strand.is_rod() {
+            rod(&mut all, strand, &span, &cell, own)?;
+        } else {
+            several(&mut all, strand, &span, &cell, own, charts.patterns[i])?;
+        }
+    }
+    Some(all)
+}
+
+/// The length of a bar alone and its force, with the density τ: $(|a|^2 - l^2)/2$ and $\tau a$.
+fn rod(all: &mut Equations, strand: &Strand, span: &Span, cell: &Cell, own: usize) -> Option<()> {
+    let (row, balance) = (own - 3, all.value.len() - 3);
+    let [t, w] = density(cell);
+    if w.lo() <= 0.0 {
+        return None;
+    }
+    let tau = if w == Interval::ONE { t } else { t / w };
+    let by = if w == Interval::ONE { Interval::ONE } else { -(tau / w) };
+    all.value[row] = (squared(span.arm) - strand.length[0].square()).scale(0.5);
+    for (k, arm) in span.arm.into_iter().enumerate() {
+        all.slope.set(row, k, arm);
+        all.value[balance + k] = all.value[balance + k] + tau * arm;
+        all.slope.add(balance + k, k, tau);
+        all.slope.set(balance + k, own, by * arm);
+    }
+    Some(())
+}
+
+/// The closure of a strand of several bars, and the force of its last one.
+fn several(
+    all: &mut Equations,
+    strand: &Strand,
+    span: &Span,
+    cell: &Cell,
+    own: usize,
+    pattern: Pattern,
+) -> Option<()> {
+    let (row, balance) = (own - 3, all.value.len() - 3);
+    let Equations { value, slope } = all;
+    let toward = span.toward?;
+    let [distance, rise] = span.way;
+    let mut gap = [-distance, -rise];
+    let bars = strand.length.len();
+    for (k, (length, weight)) in strand.length.iter().zip(&strand.weight).enumerate() {
+        let term = BarTerm::over(cell, *length, *weight)?;
+        let sign = if pattern.compressed(bars, k) { -1 } else { 1 };
+        for (part, gap) in gap.iter_mut().enumerate() {
+            *gap = *gap + signed(sign, term.value[part]);
+            for (coordinate, by) in term.slope[part].into_iter().enumerate() {
+                slope.add(row + part, own + coordinate, signed(sign, by));
+            }
+        }
+    }
+    value[row] = gap[0];
+    value[row + 1] = gap[1];
+    slope.set(row, 0, -toward[0]);
+    slope.set(row, 1, -toward[1]);
+    slope.set(row + 1, 2, -Interval::ONE);
+    let ([along, up], by) = force(cell, strand.weight[bars - 1])?;
+    for (k, part) in span.world([along, up]).into_iter().enumerate() {
+        value[balance + k] = value[balance + k] + part;
+    }
+    for (coordinate, by) in by.into_iter().enumerate() {
+        let part = span.world(by);
+        for (k, part) in part.into_iter().enumerate() {
+            slope.set(balance + k, own + coordinate, part);
+        }
+    }
+    // The horizontal direction turns with the knot.
+    let turning = along / distance;
+    let [x, y] = toward;
+    slope.add(balance, 0, turning * y.square());
+    slope.add(balance, 1, -(turning * x * y));
+    slope.add(balance + 1, 0, -(turning * x * y));
+    slope.add(balance + 1, 1, turning * x.square());
+    Some(())
+}
+
+/// The force of a bar, (H, V + c), and its derivatives, first by the one and then by the other
+/// coordinate of the cell; nothing where it may be infinite.
+fn force(cell: &Cell, weight: Interval) -> Option<([Interval; 2], [[Interval; 2]; 2])> {
+    let [h, v, w] = cell.homogeneous();
+    let (zero, one) = (Interval::ZERO, Interval::ONE);
+    if matches!(cell.face, Face::Near | Face::Around(_)) {
+        return Some(([h, v + weight], [[one, zero], [zero, one]]));
+    }
+    if w.lo() <= 0.0 {
+        return None;
+    }
+    let (along, up, inverse) = (h / w, v / w, one / w);
+    let by_w = [-(along * inverse), -(up * inverse)];
+    let by_other = match cell.face {
+        Face::Left | Face::Right => [zero, inverse],
+        _ => [inverse, zero],
+    };
+    Some(([along, up + weight], [by_other, by_w]))
+}

@@ -1,0 +1,228 @@
+//! The pulls with which a strand can reach a box of places of the knot.
+//!
+//! The forces of a strand lie in the vertical plane of its pull, and so do its bars. With the pull
+//! (H, V) at the anchor it ends at $\Phi_s = \sum_k s_k l_k F_k/|F_k|$, $F_k = (H, V + c_k)$, as in
+//! the census of a chain: two equations in two unknowns for each pattern of tension and
+//! compression. Cells of the half cube of pulls that miss the box are dropped, narrowed by Newton's
+//! method, or cut until they are no coarser than the box is.
+
+use intervals::Interval;
+
+use super::strand::{Span, Strand};
+use crate::closure::Pattern;
+use crate::closure::bar::BarTerm;
+use crate::network::arithmetic::norm;
+use crate::plane::cell::Cell;
+use crate::plane::face::Face;
+use crate::search::pattern_sums::PatternSums;
+use crate::slack::exclusion::reach;
+
+/// A part of a cell smaller than this is looked at by itself.
+const GOOD: f64 = 0.5;
+
+/// A cell is cut if it moves the end of the strand further than this, in widths of the box.
+const COARSE: f64 = 1.0;
+
+/// A cell narrower than this, in widths of the box, tells the force well enough.
+const FINE: f64 = 0.5;
+
+/// Most cells of a strand that are told apart.
+const MOST: usize = 4096;
+
+/// A cell of pulls, and the patterns with which they may reach the knot.
+#[derive(Debug, Clone)]
+pub(super) struct Pulls {
+    pub(super) cell: Cell,
+    pub(super) patterns: Vec<Pattern>,
+}
+
+impl Pulls {
+    /// All pulls and patterns of a strand.
+    pub(super) fn all(strand: &Strand) -> Vec<Self> {
+        let (full, half) = (Interval::new(-1.0, 1.0), Interval::new(0.0, 1.0));
+        if strand.is_rod() {
+            let rod = |(face, x)| Self {
+                cell: Cell { face, at: [x, Interval::ZERO] },
+                patterns: vec![Pattern(0)],
+            };
+            return [(Face::Near, full), (Face::Left, half), (Face::Right, half)].map(rod).into();
+        }
+        let patterns: Vec<Pattern> = (0..1 << strand.length.len()).map(Pattern).collect();
+        [
+            (Face::Near, full, full),
+            (Face::Left, full, half),
+            (Face::Right, full, half),
+            (Face::Below, full, half),
+            (Face::Above, full, half),
+        ]
+        .map(|(face, x, y)| Self { cell: Cell { face, at: [x, y] }, patterns: patterns.clone() })
+        .into()
+    }
+}
+
+/// The force density of a bar alone as a quotient t/w: on the face w = 1 the small ones, pushes on
+/// the left and pulls on the right face, with the first coordinate as the other number.
+pub(super) fn density(cell: &Cell) -> [Interval; 2] {
+    match cell.face {
+        Face::Left => [-Interval::ONE, cell.at[0]],
+        Face::Right => [Interval::ONE, cell.at[0]],
+        _ => [cell.at[0], Interval::ONE],
+    }
+}
+
+/// The part of a cell of a bar alone with these densities; nothing if there is none.
+pub(super) fn with_density(cell: &Cell, density: Interval) -> Option<Cell> {
+    let of_size = |density: Interval| {
+        if density.hi() <= 0.0 {
+            return None;
+        }
+        let least = (Interval::ONE / Interval::point(density.hi())).lo().max(0.0);
+        let most = if density.lo() > 0.0 {
+            (Interval::ONE / Interval::point(density.lo())).hi()
+        } else {
+            f64::INFINITY
+        };
+        cell.at[0].intersect(Interval::new(least, most))
+    };
+    let first = match cell.face {
+        Face::Left => of_size(-density)?,
+        Face::Right => of_size(density)?,
+        _ => cell.at[0].intersect(density)?,
+    };
+    Some(Cell { at: [first, cell.at[1]], ..*cell })
+}
+
+/// Those of the pulls that reach a box of places; also counts the tests of a cell for a pattern.
+pub(super) fn reaching(
+    strand: &Strand,
+    span: &Span,
+    width: f64,
+    pulls: &[Pulls],
+    tests: &mut u64,
+) -> Vec<Pulls> {
+    if strand.is_rod() {
+        let reaches = !norm(span.arm).disjoint(strand.length[0]);
+        return if reaches { pulls.to_vec() } else { vec![] };
+    }
+    let mut waiting: Vec<Pulls> = pulls.iter().rev().cloned().collect();
+    let (mut kept, mut alone) = (vec![], vec![]);
+    while let Some(Pulls { cell, patterns }) = waiting.pop() {
+        *tests += patterns.len() as u64;
+        let many = kept.len() + alone.len() + waiting.len() >= MOST;
+        let size = cell.at[0].width().max(cell.at[1].width());
+        let Some(sums) = PatternSums::of(&strand.length, &strand.weight, span.way, &cell) else {
+            let patterns = loose(strand, span, &cell, &patterns);
+            if patterns.is_empty() {
+                continue;
+            }
+            if many || size <= FINE * width {
+                kept.push(Pulls { cell, patterns });
+            } else {
+                let across = usize::from(cell.at[1].width() > cell.at[0].width());
+                waiting.extend(
+                    cell.cut(across).map(|cell| Pulls { cell, patterns: patterns.clone() }),
+                );
+            }
+            continue;
+        };
+        let mut rest = vec![];
+        let mut left: Option<[Interval; 2]> = None;
+        for open in sums.open(&patterns) {
+            if area(&open.left) < GOOD * area(&cell.at) {
+                let part = Cell { face: cell.face, at: open.left };
+                waiting.push(Pulls { cell: part, patterns: vec![open.pattern] });
+                continue;
+            }
+            if open.promising {
+                // As narrow as the box makes it.
+                alone.push(Pulls {
+                    cell: Cell { face: cell.face, at: open.left },
+                    patterns: vec![open.pattern],
+                });
+                continue;
+            }
+            rest.push(open.pattern);
+            left = Some(
+                left.map_or(open.left, |all| std::array::from_fn(|k| all[k].hull(open.left[k]))),
+            );
+        }
+        let Some(at) = left else { continue };
+        let cell = Cell { face: cell.face, at };
+        let blur = sums.blur(&strand.length, &strand.weight, &cell);
+        let coarse = blur[0].max(blur[1]) > COARSE * width && size > FINE * width;
+        if coarse && !many {
+            let across = usize::from(blur[1] > blur[0]);
+            waiting.extend(cell.cut(across).map(|cell| Pulls { cell, patterns: rest.clone() }));
+        } else {
+            kept.push(Pulls { cell, patterns: rest });
+        }
+    }
+    kept.extend(joined(strand, span, alone));
+    kept
+}
+
+/// Cells that touch, of one pattern each, become one where the closure is regular on both together.
+fn joined(strand: &Strand, span: &Span, alone: Vec<Pulls>) -> Vec<Pulls> {
+    let mut all: Vec<Pulls> = vec![];
+    for mut pulls in alone {
+        let mut from = 0;
+        while let Some(other) = all.get(from) {
+            if let Some(both) = both(strand, span, &pulls, other) {
+                all.swap_remove(from);
+                pulls.cell = both;
+                from = 0;
+            } else {
+                from += 1;
+            }
+        }
+        all.push(pulls);
+    }
+    all
+}
+
+fn both(strand: &Strand, span: &Span, one: &Pulls, other: &Pulls) -> Option<Cell> {
+    let touch = one.cell.face == other.cell.face
+        && one.patterns == other.patterns
+        && !one.cell.disjoint(&other.cell);
+    if !touch {
+        return None;
+    }
+    let at = std::array::from_fn(|k| one.cell.at[k].hull(other.cell.at[k]));
+    let cell = Cell { face: one.cell.face, at };
+    let sums = PatternSums::of(&strand.length, &strand.weight, span.way, &cell)?;
+    let [open] = sums.open(&one.patterns)[..] else { return None };
+    open.promising.then_some(Cell { face: cell.face, at: open.left })
+}
+
+fn area(at: &[Interval; 2]) -> f64 {
+    at[0].width() * at[1].width()
+}
+
+/// The patterns that may reach the knot from a cell in which the forces of some bars may vanish:
+/// these may then point anywhere, and bridge what the others leave.
+fn loose(strand: &Strand, span: &Span, cell: &Cell, patterns: &[Pattern]) -> Vec<Pattern> {
+    let bars = strand.length.len();
+    let mut free = vec![];
+    let mut held = vec![];
+    for (k, (length, weight)) in strand.length.iter().zip(&strand.weight).enumerate() {
+        let force = cell.force(*weight);
+        if force[0].contains(0.0) && force[1].contains(0.0) {
+            free.push(*length);
+        } else {
+            held.push((k, BarTerm::value_over(cell, *length, *weight)));
+        }
+    }
+    let [inner, outer] = reach(free.into_iter());
+    let may_reach = |pattern: &&Pattern| {
+        let mut gap = span.way;
+        for (bar, value) in &held {
+            for k in 0..2 {
+                let compressed = pattern.compressed(bars, *bar);
+                gap[k] = if compressed { gap[k] + value[k] } else { gap[k] - value[k] };
+            }
+        }
+        let distance = (gap[0].square() + gap[1].square()).sqrt();
+        !(distance.lo() > outer || distance.hi() < inner)
+    };
+    patterns.iter().filter(may_reach).copied().collect()
+}

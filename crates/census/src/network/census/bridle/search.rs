@@ -1,0 +1,291 @@
+//! Branch and bound over the places of the knot, with the pulls of each strand that reach them.
+//!
+//! A batch of boxes at a time, each box by itself and in parallel, the results taken in order: the
+//! answer does not depend on the number of threads.
+
+use intervals::Interval;
+use rayon::prelude::*;
+
+use super::balance::{Held, balanced, densities};
+use super::newton::{Charts, Found, Verdict, cell, examine};
+use super::pulls::{Pulls, reaching, with_density};
+use super::strand::{Bridle, Span};
+use crate::closure::Pattern;
+use crate::network::arithmetic::Vector;
+use crate::plane::cell::Cell;
+use crate::search::Progress;
+
+/// A box is not cut below this part of the unit of length, 2⁻²⁶: what is not decided there is
+/// degenerate, or all but.
+const LEAST_WIDTH: f64 = f64::from_bits((1023 - 26) << 52);
+
+/// A part of a box smaller than this one is looked at again before it is cut.
+const GOOD: f64 = 0.6;
+
+/// More choices of pulls than this are not looked at one by one: the box is cut first.
+const MOST_CHOICES: usize = 64;
+
+/// So many choices of pulls go on by themselves where the pulls are little known.
+const FEW_CHOICES: usize = 4;
+
+/// More products of the numbers of pulls than this are not even formed.
+const MOST_PRODUCTS: usize = 1 << 20;
+
+/// A cell of pulls wider than the box of places by this factor is cut first.
+const WIDE: f64 = 4.0;
+
+/// Boxes that are worked on together.
+const BATCH: usize = 512;
+
+/// A box of places, and for each strand the pulls that may reach it.
+#[derive(Debug, Clone)]
+pub(super) struct Task {
+    pub(super) at: Vector,
+    pub(super) pulls: Vec<Vec<Pulls>>,
+}
+
+impl Task {
+    /// Ways to choose a pull and a pattern for each strand.
+    pub(super) fn patterns(&self) -> usize {
+        let of = |list: &Vec<Pulls>| list.iter().map(|pulls| pulls.patterns.len()).sum::<usize>();
+        self.pulls.iter().map(of).fold(1, usize::saturating_mul)
+    }
+}
+
+/// All that the search found.
+#[derive(Debug, Default)]
+pub(super) struct Search {
+    pub(super) found: Vec<Found>,
+    pub(super) undecided: Vec<Task>,
+    pub(super) cells: u64,
+    pub(super) tests: u64,
+    /// Whether the budget of tests ended the search.
+    pub(super) exhausted: bool,
+}
+
+#[derive(Debug, Default)]
+struct Outcome {
+    found: Vec<Found>,
+    next: Vec<Task>,
+    undecided: Vec<Task>,
+    tests: u64,
+}
+
+/// Search all places, with at most so many tests of a cell of pulls for a pattern.
+pub(super) fn search(bridle: &Bridle, budget: u64, watch: &dyn Fn(Progress)) -> Search {
+    let mut search = Search::default();
+    let Some(at) = bridle.whole() else { return search };
+    let pulls = bridle.strands.iter().map(Pulls::all).collect();
+    let mut waiting = vec![Task { at, pulls }];
+    while !waiting.is_empty() {
+        if search.tests >= budget {
+            search.exhausted = true;
+            search.undecided.append(&mut waiting);
+            break;
+        }
+        let batch = waiting.split_off(waiting.len().saturating_sub(BATCH));
+        let outcomes: Vec<Outcome> =
+            batch.par_iter().map(|task| of_task(bridle, &search.found, task)).collect();
+        search.cells += batch.len() as u64;
+        for outcome in outcomes {
+            search.found.extend(outcome.found);
+            search.undecided.extend(outcome.undecided);
+            search.tests += outcome.tests;
+            waiting.extend(outcome.next);
+        }
+        watch(Progress {
+            done: search.cells,
+            waiting: waiting.len() as u64,
+            proved: search.found.len() as u64,
+            undecided: search.undecided.len() as u64,
+        });
+    }
+    search
+}
+
+/// Narrow, exclude, prove, cut.
+fn of_task(bridle: &Bridle, known: &[Found], task: &Task) -> Outcome {
+    let mut outcome = Outcome::default();
+    let width = widest(&task.at).1;
+    let mut lists: Vec<Vec<Pulls>> = vec![];
+    let mut held: Vec<Vec<Held>> = vec![];
+    for (strand, pulls) in bridle.strands.iter().zip(&task.pulls) {
+        let span = Span::new(strand, &task.at);
+        let left = reaching(strand, &span, width, pulls, &mut outcome.tests);
+        if left.is_empty() {
+            return outcome;
+        }
+        held.push(left.iter().map(|pulls| Held::new(strand, &span, pulls)).collect());
+        lists.push(left);
+    }
+    let products = lists.iter().map(Vec::len).fold(1, usize::saturating_mul);
+    if products > MOST_PRODUCTS {
+        cut(&task.at, lists, &mut outcome);
+        return outcome;
+    }
+    let Some(choices) = balanced(bridle.load, &held, MOST_PRODUCTS) else { return outcome };
+    if choices.is_empty() {
+        return outcome;
+    }
+    let mut stays: Vec<Vec<usize>> = vec![];
+    if choices.len() > MOST_CHOICES {
+        stays = choices;
+    } else {
+        for choice in choices {
+            of_choice(bridle, known, &task.at, &lists, choice, &mut stays, &mut outcome);
+        }
+    }
+    if !stays.is_empty() {
+        if stays.len() <= FEW_CHOICES {
+            stays.retain(|stay| {
+                let mut lists = chosen(&lists, std::slice::from_ref(stay));
+                match narrowed(bridle, &task.at, &lists) {
+                    Some(cells) => {
+                        for (list, cell) in lists.iter_mut().zip(cells) {
+                            list[0].cell = cell;
+                        }
+                        !cut_pulls(&task.at, width, &lists, &mut outcome)
+                    }
+                    None => false,
+                }
+            });
+        }
+        if !stays.is_empty() {
+            cut(&task.at, chosen(&lists, &stays), &mut outcome);
+        }
+    }
+    outcome
+}
+
+/// One pull for each strand: the interval Newton method for every choice of patterns.
+fn of_choice(
+    bridle: &Bridle,
+    known: &[Found],
+    place: &Vector,
+    lists: &[Vec<Pulls>],
+    choice: Vec<usize>,
+    stays: &mut Vec<Vec<usize>>,
+    outcome: &mut Outcome,
+) {
+    let Some(cells) = narrowed(bridle, place, &chosen(lists, std::slice::from_ref(&choice))) else {
+        return;
+    };
+    let pulls: Vec<&Pulls> = lists.iter().zip(&choice).map(|(list, k)| &list[*k]).collect();
+    let faces = pulls.iter().map(|pulls| pulls.cell.face).collect();
+    let unknowns = cells
+        .iter()
+        .zip(&bridle.strands)
+        .flat_map(|(cell, strand)| cell.at.into_iter().take(if strand.is_rod() { 1 } else { 2 }));
+    let at: Vec<Interval> = place.iter().copied().chain(unknowns).collect();
+    let mut charts = Charts { faces, patterns: vec![] };
+    let mut stay = false;
+    for patterns in combined(&pulls) {
+        charts.patterns = patterns;
+        let settled = known.iter().any(|found| {
+            found.charts == charts
+                && found.alone_in.iter().zip(&at).all(|(all, part)| all.encloses(*part))
+        });
+        if settled {
+            continue;
+        }
+        match examine(bridle, &charts, &at) {
+            Verdict::Empty => {}
+            Verdict::One(found) => outcome.found.push(found),
+            Verdict::Within(left) if widest(&left[..3]).1 < GOOD * widest(place).1 => {
+                let pulls = (0..pulls.len()).map(|i| {
+                    let patterns = vec![charts.patterns[i]];
+                    vec![Pulls { cell: cell(bridle, &charts, &left, i), patterns }]
+                });
+                let pulls = pulls.collect();
+                outcome.next.push(Task { at: [left[0], left[1], left[2]], pulls });
+            }
+            Verdict::Within(_) => stay = true,
+        }
+    }
+    if stay {
+        stays.push(choice);
+    }
+}
+
+/// The cells of one choice of pulls, those of bars alone narrowed by the balance; nothing where
+/// they cannot hold the load.
+fn narrowed(bridle: &Bridle, place: &Vector, lists: &[Vec<Pulls>]) -> Option<Vec<Cell>> {
+    let spans: Vec<Span> = bridle.strands.iter().map(|strand| Span::new(strand, place)).collect();
+    let held: Vec<Held> =
+        (0..lists.len()).map(|i| Held::new(&bridle.strands[i], &spans[i], &lists[i][0])).collect();
+    let rods: Vec<usize> = (0..lists.len()).filter(|i| bridle.strands[*i].is_rod()).collect();
+    let mut cells: Vec<Cell> = lists.iter().map(|list| list[0].cell).collect();
+    let arms: Vec<Vector> = rods.iter().map(|i| spans[*i].arm).collect();
+    let others = (0..held.len()).filter(|i| !rods.contains(i)).map(|i| &held[i]);
+    let Some(densities) = densities(bridle.load, others, &arms) else { return Some(cells) };
+    for (i, density) in rods.into_iter().zip(densities) {
+        cells[i] = with_density(&cells[i], density)?;
+    }
+    Some(cells)
+}
+
+/// All choices of a pattern for each strand.
+fn combined(pulls: &[&Pulls]) -> Vec<Vec<Pattern>> {
+    let mut all = vec![vec![]];
+    for pulls in pulls {
+        all = all
+            .into_iter()
+            .flat_map(|before: Vec<Pattern>| {
+                let more = pulls.patterns.iter();
+                more.map(move |pattern| before.iter().copied().chain([*pattern]).collect())
+            })
+            .collect();
+    }
+    all
+}
+
+/// The pulls that some choice takes.
+fn chosen(lists: &[Vec<Pulls>], choices: &[Vec<usize>]) -> Vec<Vec<Pulls>> {
+    let kept = |(strand, list): (usize, &Vec<Pulls>)| {
+        let mut taken = vec![false; list.len()];
+        for choice in choices {
+            taken[choice[strand]] = true;
+        }
+        let kept = list.iter().zip(taken).filter(|(_, taken)| *taken);
+        kept.map(|(pulls, _)| pulls.clone()).collect()
+    };
+    lists.iter().enumerate().map(kept).collect()
+}
+
+/// The coordinate with the largest width.
+fn widest(at: &[Interval]) -> (usize, f64) {
+    at.iter().enumerate().fold((0, 0.0), |(best, width), (k, part)| {
+        if part.width() > width { (k, part.width()) } else { (best, width) }
+    })
+}
+
+/// Two halves of the box of places.
+fn cut(at: &Vector, pulls: Vec<Vec<Pulls>>, outcome: &mut Outcome) {
+    let (across, width) = widest(at);
+    if width < LEAST_WIDTH {
+        outcome.undecided.push(Task { at: *at, pulls });
+        return;
+    }
+    let middle = at[across].mid();
+    for part in [Interval::new(at[across].lo(), middle), Interval::new(middle, at[across].hi())] {
+        let mut half = *at;
+        half[across] = part;
+        outcome.next.push(Task { at: half, pulls: pulls.clone() });
+    }
+}
+
+/// Two halves of a cell of pulls where one is much wider than the box of places.
+fn cut_pulls(at: &Vector, width: f64, lists: &[Vec<Pulls>], outcome: &mut Outcome) -> bool {
+    let cells: Vec<Interval> = lists.iter().flat_map(|list| list[0].cell.at).collect();
+    let (across, widest) = widest(&cells);
+    if widest <= WIDE * width {
+        return false;
+    }
+    let (strand, across) = (across / 2, across % 2);
+    for half in lists[strand][0].cell.cut(across) {
+        let mut pulls = lists.to_vec();
+        pulls[strand][0].cell = half;
+        outcome.next.push(Task { at: *at, pulls });
+    }
+    true
+}

@@ -1,0 +1,87 @@
+//! Lists of bridles with long strands against closed forms, topology, the search by places, and
+//! Newton's method from many starts.
+
+use model::system::System;
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+
+use crate::network::SystemCensus;
+use crate::network::census::net::tests::{CORNERS, alternating, bridle, found_of, taken};
+use crate::settings::Settings;
+
+/// Three strands of so many bars, about as long as the bridle asks for, drawn at random.
+fn drawn(random: &mut ChaCha8Rng, bars: [usize; 3]) -> System {
+    let (mut anchors, mut lengths) = (vec![], vec![]);
+    for (k, bars) in bars.into_iter().enumerate() {
+        let part = (k as f64 + random.random_range(-0.3..0.3)) / 3.0;
+        let angle = part * std::f64::consts::TAU;
+        anchors.push([2.0 * angle.cos(), 2.0 * angle.sin(), random.random_range(-0.5..0.5)]);
+        let total = random.random_range(2.3..3.5);
+        let parts: Vec<f64> = (0..bars).map(|_| random.random_range(0.7..1.3)).collect();
+        let whole: f64 = parts.iter().sum();
+        lengths.push(parts.into_iter().map(|part| part * total / whole).collect::<Vec<f64>>());
+    }
+    let strands: Vec<&[f64]> = lengths.iter().map(Vec::as_slice).collect();
+    bridle(&anchors, &strands, random.random_range(0.0..1.0), random.random_range(0.1..1.0))
+}
+
+/// The promise of the census: complete lists, of which Newton's method finds nothing more.
+#[test]
+fn newton_from_many_starts_finds_nothing_that_is_not_listed() {
+    const STARTS: usize = 1000;
+    let mut random = ChaCha8Rng::seed_from_u64(12);
+    let (mut found, mut listed) = (0, 0);
+    let shapes = [[3, 3, 3], [3, 3, 3], [3, 2, 1], [4, 1, 1], [3, 1, 1], [3, 3, 2]];
+    for (seed, bars) in shapes.into_iter().enumerate() {
+        let system = drawn(&mut random, bars);
+        let census = taken(&system);
+        let net = census.nets().next().unwrap();
+        let all = census.equilibria.len();
+        println!("{bars:?}: {all} complete {} in {} tests", census.complete, net.tests);
+        assert!(census.complete, "{bars:?}: {:?}", net.undecided);
+        let own = found_of(&system, &census, STARTS, seed as u64);
+        println!("  Newton finds {own}");
+        listed += all;
+        found += own;
+    }
+    assert!(10 * found > 9 * listed, "{found} of {listed}");
+}
+
+/// By Morse theory the alternating sum of the indices is the Euler characteristic of the
+/// configurations, whatever the loads.
+#[test]
+fn the_alternating_sum_does_not_depend_on_the_loads() {
+    for strands in [
+        [&[0.9, 0.95, 1.0][..], &[1.3, 1.2], &[2.2]],
+        [&[0.9, 0.95, 1.0][..], &[0.8, 0.85, 0.9], &[1.0, 1.05, 0.9]],
+    ] {
+        let mut sums = vec![];
+        for (knot_kg, kg) in [(1.0, 0.5), (0.0, 1.0), (9.0, 0.3)] {
+            let census = taken(&bridle(&CORNERS, &strands, knot_kg, kg));
+            println!("{} {}", census.equilibria.len(), alternating(&census));
+            assert!(census.complete, "{:?}", census.nets().next().unwrap().undecided);
+            let lowest = &census.equilibria[0];
+            assert_eq!(lowest.index_in_space, 0);
+            assert!(lowest.axial_n.iter().all(|axial| axial.lo() > 0.0));
+            sums.push(alternating(&census));
+        }
+        assert!(sums.iter().all(|sum| *sum == sums[0]), "{strands:?}: {sums:?}");
+    }
+}
+
+/// Both searches, over places with closed forms and over pulls, list the same equilibria.
+#[test]
+fn places_and_pulls_give_the_same_list() {
+    let mut random = ChaCha8Rng::seed_from_u64(5);
+    for bars in [[2, 2, 2], [2, 2, 1], [2, 1, 1]] {
+        let system = drawn(&mut random, bars);
+        let by_places = taken(&system);
+        let few = Settings { max_motions: 1, ..Settings::default() };
+        let by_pulls = SystemCensus::take(&system, &few).unwrap();
+        assert!(by_places.complete && by_pulls.complete, "{bars:?}");
+        assert_eq!(by_places.equilibria.len(), by_pulls.equilibria.len(), "{bars:?}");
+        for (a, b) in by_places.equilibria.iter().zip(&by_pulls.equilibria) {
+            assert!(!a.energy_j.disjoint(b.energy_j) && a.index_in_space == b.index_in_space);
+        }
+    }
+}
