@@ -1,10 +1,16 @@
-//! A motion as one HTML file: play, pause, scrub, the energies as curves.
+//! A motion as one HTML file: play, pause, scrub; the energies and the distances from the equilibria
+//! as curves.
 
 use std::fmt::Write as _;
 
 use model::Vector;
 use model::system::System;
 use motion::Snapshot;
+
+use crate::equilibria;
+use crate::problem::Problem;
+use crate::resting::Resting;
+use crate::simulate::CENSUS_BARS;
 
 /// The page, with `@TITLE@` and `@DATA@` to be filled in. It needs nothing but itself.
 const PAGE: &str = include_str!("animation.html");
@@ -28,6 +34,11 @@ pub struct Animation {
     frames: Vec<Vec<Vector>>,
     kinetic_j: Vec<f64>,
     potential_j: Vec<f64>,
+    /// Names of the equilibria, and what tells their distance.
+    labels: Vec<String>,
+    equilibria: Resting,
+    /// For each equilibrium the distances at the stored times, m.
+    distances_m: Vec<Vec<f64>>,
 }
 
 impl Animation {
@@ -40,7 +51,29 @@ impl Animation {
             frames: Vec::new(),
             kinetic_j: Vec::new(),
             potential_j: Vec::new(),
+            labels: Vec::new(),
+            equilibria: Resting::new(system, std::iter::empty()),
+            distances_m: Vec::new(),
         }
+    }
+
+    /// Show how far the system is from each of its equilibria, too: from those of a complete census,
+    /// elsewhere from the stable one. The distance is that of the joint farthest from its place, m;
+    /// parts that turn freely about a vertical are turned to face the same way. What the solvers
+    /// have no answer to has none. Before the first time is added.
+    #[must_use]
+    pub fn with_equilibria(mut self, problem: &Problem) -> Self {
+        let Ok(found) = equilibria::all(problem, CENSUS_BARS) else { return self };
+        self.equilibria = Resting::new(&self.system, std::iter::empty());
+        for located in &found.list {
+            // A mirror image of a chain that turns freely is the same place.
+            if self.equilibria.nearest(located.joints_m()).is_none() {
+                self.equilibria.add(located.joints_m());
+                self.labels.push(located.label().to_owned());
+                self.distances_m.push(Vec::new());
+            }
+        }
+        self
     }
 
     /// Add a stored time.
@@ -49,6 +82,10 @@ impl Animation {
         self.frames.push(at.joints_m.clone());
         self.kinetic_j.push(at.kinetic_j);
         self.potential_j.push(at.potential_j);
+        let length_m = self.system.total_length_m();
+        for (place, distances) in self.distances_m.iter_mut().enumerate() {
+            distances.push(length_m * self.equilibria.distance(place, &at.joints_m));
+        }
     }
 
     /// The HTML of the page.
@@ -57,7 +94,7 @@ impl Animation {
         PAGE.replace("@TITLE@", &escaped(self.system.name())).replace("@DATA@", &self.data())
     }
 
-    /// Everything that is drawn, as JSON of numbers alone.
+    /// Everything that is drawn, as JSON of numbers and of the numbers of equilibria.
     fn data(&self) -> String {
         let mut out = String::from("{\"t\":");
         list(&mut out, self.times_s.iter().copied());
@@ -65,8 +102,15 @@ impl Animation {
         list(&mut out, self.kinetic_j.iter().copied());
         out.push_str(",\"potential\":");
         list(&mut out, self.potential_j.iter().copied());
+        out.push_str(",\"equilibria\":[");
+        for (k, (label, distances)) in self.labels.iter().zip(&self.distances_m).enumerate() {
+            let comma = if k > 0 { "," } else { "" };
+            let _ = write!(out, "{comma}{{\"label\":\"{label}\",\"distance\":");
+            list(&mut out, distances.iter().copied());
+            out.push('}');
+        }
         let reference = self.system.reference_m();
-        out.push_str(",\"x\":[");
+        out.push_str("],\"x\":[");
         for (k, frame) in self.frames.iter().enumerate() {
             if k > 0 {
                 out.push(',');

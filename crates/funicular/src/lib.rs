@@ -82,7 +82,6 @@ pub mod picture;
 mod problem;
 #[cfg(feature = "paper")]
 mod reproduce;
-#[cfg(feature = "sweep")]
 mod resting;
 mod simulate;
 mod solution;

@@ -9,7 +9,7 @@ use std::sync::atomic::Ordering;
 
 use ::columns::{ColumnsError, Format};
 use clap::Args;
-use funicular::{Animation, Error, ForceTable, Order, Start};
+use funicular::{Animation, Error, ForceTable, Order, Problem, Start};
 use miette::miette;
 use model::Vector;
 use model::system::System;
@@ -144,7 +144,7 @@ pub fn run(arguments: &Simulate) -> Result<Exit, Failure> {
     let outputs = [&arguments.out, &arguments.html];
     output::check(outputs.into_iter().flatten().map(PathBuf::as_path), &files)?;
     let system = funicular::system_of(&problem);
-    let mut kept = Kept::begin(arguments, &system)?;
+    let mut kept = Kept::begin(arguments, &problem, &system)?;
     let stop = interrupt.keep_what_is_done();
     let moved = simulate.run_watched(&problem, &mut |now| {
         kept.add(now);
@@ -184,16 +184,17 @@ fn simulate(arguments: &Simulate) -> funicular::Simulate {
 }
 
 impl Kept {
-    fn begin(arguments: &Simulate, system: &System) -> Result<Self, Failure> {
+    fn begin(arguments: &Simulate, problem: &Problem, system: &System) -> Result<Self, Failure> {
         let rows = match &arguments.out {
             Some(path) => {
                 Some(Rows::create(path, format(path)?, system).map_err(|e| unwritten(&e))?)
             }
             None => None,
         };
+        let animated = arguments.html.is_some();
         Ok(Self {
             rows,
-            animation: arguments.html.is_some().then(|| Animation::new(system)),
+            animation: animated.then(|| Animation::new(system).with_equilibria(problem)),
             failed: None,
             stored: 0,
             first_j: 0.0,

@@ -128,6 +128,12 @@ fn simulate_writes_columns_and_an_animation_and_the_same_bytes_again() {
     assert!(column("bar3_axial_n") < column("joint3_fz_n"));
     let html = read("a.html");
     assert!(html.contains("<canvas") && !html.contains("http"), "the page needs nothing else");
+    // Two circles of equilibria, each with its distance at every stored time.
+    let data = html.split("application/json\">").nth(1).unwrap().split("</script>").next().unwrap();
+    let data: Value = serde_json::from_str(data).unwrap();
+    let near = data["equilibria"].as_array().unwrap();
+    assert_eq!((near.len(), &near[0]["label"], &near[1]["label"]), (2, &"1".into(), &"2".into()));
+    assert!(near.iter().all(|e| e["distance"].as_array().unwrap().len() == 1001));
     let parquet = name("a.parquet");
     let arguments = ["simulate", "--case", "two-bars", "--from", "seed:3", "--out", &parquet];
     assert_eq!(funicular(&arguments).status.code(), Some(0));

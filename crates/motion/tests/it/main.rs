@@ -2,6 +2,7 @@
 
 #![expect(clippy::unwrap_used, reason = "helpers of tests")]
 
+mod cable;
 mod common;
 mod elliptic;
 mod energy;
