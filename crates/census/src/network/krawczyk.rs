@@ -51,7 +51,8 @@ pub(super) fn prove_zero(equations: &Equations, refined: &Refined) -> Result<Zer
         .collect();
     let image = |around: &[Interval]| -> Vec<Interval> {
         let rest = defect(equations, inverse, &boxed(at, around));
-        let rows = rest.chunks_exact(around.len()).zip(&newton);
+        // Where nothing is unknown nothing has to be contracted.
+        let rows = rest.chunks_exact(around.len().max(1)).zip(&newton);
         rows.map(|(row, z)| *z + row.iter().zip(around).map(|(c, d)| *c * *d).sum()).collect()
     };
     let mut inner = newton.clone();
@@ -93,7 +94,7 @@ fn defect(equations: &Equations, inverse: &Mat<f64>, unknowns: &[Interval]) -> V
     let size = unknowns.len();
     let slope = equations.slope(unknowns);
     let mut rest = vec![Interval::ZERO; size * size];
-    for (k, row) in rest.chunks_exact_mut(size).enumerate() {
+    for (k, row) in rest.chunks_exact_mut(size.max(1)).enumerate() {
         row[k] = Interval::ONE;
         for (through, column, value) in &slope {
             row[*column] = row[*column] - Interval::point(inverse[(k, *through)]) * *value;

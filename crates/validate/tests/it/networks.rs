@@ -17,7 +17,7 @@ use validate::systems::{SystemAnswer, ask};
 
 /// Which kinds of members a system has.
 #[derive(Debug, Clone, Copy)]
-enum Members {
+pub enum Members {
     Bars,
     Cables,
     Springs,
@@ -95,7 +95,7 @@ impl Draft {
 }
 
 /// Strands from two to six anchors to one joint.
-fn bridle(kinds: Members, seed: u64) -> System {
+pub fn bridle(kinds: Members, seed: u64) -> System {
     let mut draft = Draft::new(kinds, seed);
     let strands = draft.random.random_range(2..=6);
     let knot = draft.free();
@@ -112,7 +112,7 @@ fn bridle(kinds: Members, seed: u64) -> System {
 }
 
 /// A tree under one anchor.
-fn tree(kinds: Members, seed: u64) -> System {
+pub fn tree(kinds: Members, seed: u64) -> System {
     let mut draft = Draft::new(kinds, seed);
     draft.anchor([0.0, 0.0, 0.0]);
     for _ in 0..draft.random.random_range(2..12) {
@@ -125,7 +125,7 @@ fn tree(kinds: Members, seed: u64) -> System {
 }
 
 /// A net hung from its four corners.
-fn net(kinds: Members, seed: u64) -> System {
+pub fn net(kinds: Members, seed: u64) -> System {
     let mut draft = Draft::new(kinds, seed);
     let cells = draft.random.random_range(1..=4);
     let spacing = draft.between(0.7, 0.95);
@@ -154,7 +154,7 @@ fn net(kinds: Members, seed: u64) -> System {
 }
 
 /// A ring held at one to three of its joints.
-fn ring(kinds: Members, seed: u64) -> System {
+pub fn ring(kinds: Members, seed: u64) -> System {
     let mut draft = Draft::new(kinds, seed);
     let anchors = draft.random.random_range(1..=3);
     let held: Vec<usize> = (0..anchors)

@@ -1,0 +1,139 @@
+//! What must not matter to a system of mixed members, and what elastic ones tend to.
+
+use model::Bar;
+use model::system::{Joint, Member, PointLoad, Support, System, SystemEquilibrium};
+use validate::answer::Solvers;
+use validate::systems::ask;
+
+use crate::networks::{Members, bridle, net, tree};
+
+/// What two answers to one question may differ by, in units of the length and of the largest force:
+/// the solvers' tolerance times the softness of the shapes drawn.
+const ROUNDING: f64 = 1e-8;
+
+/// Systems of bars, cables and springs whose shape both solvers agree on.
+fn systems() -> Vec<(System, Vec<SystemEquilibrium>)> {
+    let drawn = (0..12).flat_map(|seed| [bridle, tree, net].map(|draw| draw(Members::Mixed, seed)));
+    let solved = drawn.filter_map(|system| answers(&system).map(|found| (system, found)));
+    solved.collect()
+}
+
+/// The answers of both, where they agree.
+fn answers(system: &System) -> Option<Vec<SystemEquilibrium>> {
+    system.refusal().ok()?;
+    let answer = ask(system, Solvers::Both, &|_| {});
+    answer.agrees().then_some(answer.equilibria)
+}
+
+/// Whether forces and heights are the same: parts may turn freely about verticals.
+#[track_caller]
+fn same(found: &SystemEquilibrium, wanted: &SystemEquilibrium, [length, force]: [f64; 2]) {
+    let largest = wanted.axial_n.iter().fold(0.0, |most: f64, n| most.max(n.abs()));
+    for (a, b) in found.axial_n.iter().zip(&wanted.axial_n) {
+        assert!((a / force - b).abs() < ROUNDING * largest, "{a} {b} of {largest}");
+    }
+    let size = wanted.joints_m.iter().flatten().fold(0.0, |most: f64, x| most.max(x.abs()));
+    for (a, b) in found.joints_m.iter().zip(&wanted.joints_m) {
+        assert!((a[2] / length - b[2]).abs() < ROUNDING * size, "{a:?} {b:?}");
+    }
+    let (energy, wanted_j) = (found.energy_j / (length * force), wanted.energy_j);
+    assert!((energy - wanted_j).abs() < ROUNDING * largest * size, "{energy} {wanted_j}");
+    assert_eq!(found.stability.index_in_space, wanted.stability.index_in_space);
+}
+
+/// The same member from its other end.
+fn reversed(member: &Member) -> Member {
+    let body = &member.body;
+    let (length, centre) = (body.length_m(), body.length_m() - body.centre_m());
+    let turned = |load: &PointLoad| PointLoad { at_m: length - load.at_m, ..*load };
+    Member {
+        from: member.to,
+        to: member.from,
+        body: Bar::new(length, body.mass_kg(), centre, body.inertia_kg_m2()).unwrap(),
+        loads: member.loads.iter().map(turned).collect(),
+        ..member.clone()
+    }
+}
+
+#[test]
+fn members_may_run_either_way() {
+    let systems = systems();
+    assert!(systems.len() > 20, "{}", systems.len());
+    for (system, answers_before) in systems {
+        let every_second = system.members().iter().enumerate();
+        let members = every_second
+            .map(|(k, member)| if k % 2 == 0 { reversed(member) } else { member.clone() });
+        let joints = system.joints().to_vec();
+        let turned =
+            System::new("turned", system.gravity_m_s2(), joints, members.collect()).unwrap();
+        for (found, wanted) in answers(&turned).unwrap().iter().zip(&answers_before) {
+            same(found, wanted, [1.0, 1.0]);
+            // The force at the start of the one is that at the end of the other.
+            let largest = wanted.axial_n.iter().fold(0.0, |most: f64, n| most.max(n.abs()));
+            let (a, b) = (found.start_forces_n[0][2], wanted.end_forces_n[0][2]);
+            assert!((a - b).abs() < ROUNDING * largest, "{a} {b}");
+        }
+    }
+}
+
+/// Lengths in units of 1/8 m or 1024 m, masses in units of 1/32 or 256 kg: powers of two, so that
+/// the numbers of the system are the same.
+#[test]
+fn units_do_not_matter() {
+    for (length, mass) in [(0.125, 256.0), (1024.0, 0.03125)] {
+        for (system, answers_before) in systems() {
+            let place = |at_m: [f64; 3]| at_m.map(|x| length * x);
+            let joints = system.joints().iter().map(|joint| Joint {
+                support: match joint.support {
+                    Support::Fixed { at_m } => Support::Fixed { at_m: place(at_m) },
+                    other => other,
+                },
+                mass_kg: mass * joint.mass_kg,
+                force_n: joint.force_n.map(|n| mass * n),
+                ..joint.clone()
+            });
+            let members = system.members().iter().map(|member| {
+                let body = &member.body;
+                let [long, centre] = [body.length_m(), body.centre_m()].map(|x| length * x);
+                Member {
+                    body: Bar::new(long, mass * body.mass_kg(), centre, [0.0; 3]).unwrap(),
+                    stiffness_n: member.stiffness_n.map(|n| mass * n),
+                    ..member.clone()
+                }
+            });
+            let gravity = system.gravity_m_s2();
+            let scaled = System::new("scaled", gravity, joints.collect(), members.collect());
+            let found = answers(&scaled.unwrap()).unwrap();
+            for (found, wanted) in found.iter().zip(&answers_before) {
+                same(found, wanted, [length, mass]);
+            }
+        }
+    }
+}
+
+/// The shape of springs is that of bars up to their flexibility, to first order: ten times as stiff
+/// is ten times as near, by either solver.
+#[test]
+fn elastic_shapes_tend_to_the_rigid_one_at_order_one() {
+    let nets = (0..8).map(|seed| net(Members::Bars, seed));
+    let solved: Vec<_> =
+        nets.filter_map(|bars| answers(&bars).map(|found| (bars, found))).collect();
+    assert!(solved.len() >= 3, "{}", solved.len());
+    for (bars, rigid) in solved {
+        let soft = |stiffness_n: f64| {
+            let members = bars.members().iter().map(|bar| bar.clone().with_stiffness(stiffness_n));
+            let joints = bars.joints().to_vec();
+            let system = System::new("soft", bars.gravity_m_s2(), joints, members.collect());
+            answers(&system.unwrap()).unwrap()
+        };
+        let (near, nearer) = (soft(1e8), soft(1e9));
+        for solver in 0..2 {
+            let away = |answer: &SystemEquilibrium| {
+                let joints = answer.joints_m.iter().zip(&rigid[solver].joints_m);
+                joints.map(|(a, b)| (a[2] - b[2]).abs()).fold(0.0, f64::max)
+            };
+            let order = (away(&near[solver]) / away(&nearer[solver])).log10();
+            assert!((order - 1.0).abs() < 0.02, "{order}");
+        }
+    }
+}
