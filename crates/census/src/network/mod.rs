@@ -48,7 +48,15 @@
 //! excluded by the linear balance of forces in intervals, and where all is smooth by the interval
 //! Newton method, which also proves that a box has one equilibrium at most for a pattern of signs.
 //! Each equilibrium is then enclosed by Krawczyk's test on (1) and (2), and its index follows from
-//! the inertia of the bordered second derivative. Nets with more motions than
+//! the inertia of the bordered second derivative.
+//!
+//! A bridle of three strands of which one has three bars or more has two independent closures too,
+//! and six unknowns, the pulls of two strands, whatever the number of its bars: a strand under
+//! upright loads hangs in a plane, and its pull and a pattern of tension and compression tell its
+//! shape as they do that of a chain. Branch and bound goes through the places of the knot, and with
+//! each box goes the list of the cells of pulls with which each strand reaches it (module `bridle`).
+//!
+//! Other nets with more motions than
 //! [`Settings::max_motions`](crate::Settings::max_motions) are refused; what cannot be decided is
 //! listed.
 

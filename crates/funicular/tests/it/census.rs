@@ -611,11 +611,12 @@ fn a_bridle_with_a_long_strand_has_its_list() {
 #[test]
 fn systems_without_a_census_are_told_why() {
     let path = folder("net").join("net.toml");
-    let mut text = LAMPS.to_owned();
-    for anchor in ["A", "B"] {
-        text += &format!("[[bars]]\nfrom = \"lamp\"\nto = \"{anchor}\"\n");
-        text += "length_m = 1\nmass_kg = 1\ncount = 7\n";
-    }
+    let bars = ["A", "B"].map(|anchor| {
+        format!(
+            "[[bars]]\nfrom = \"lamp\"\nto = \"{anchor}\"\nlength_m = 1\nmass_kg = 1\ncount = 7\n"
+        )
+    });
+    let text = LAMPS.to_owned() + &bars.concat();
     std::fs::write(&path, text).unwrap();
     let output = funicular(&[path.to_str().unwrap()]);
     assert_eq!(output.status.code(), Some(2));
