@@ -215,7 +215,7 @@ pub struct Mode {
     pub omega2_s2: f64,
     /// Within this of it the linearised equations have an `ω²`, but for rounding, 1/s².
     pub residual_s2: f64,
-    /// Displacement of each joint, the largest of length 1.
+    /// Displacement of each joint, the largest of length 1; of the spin of a bar all are zero.
     pub shape: Vec<Vector>,
     /// What it is, in words.
     pub what: String,
@@ -269,6 +269,7 @@ fn words(mode: &motion::Mode) -> String {
         What::Turn { axis_m: [x, y] } => {
             return format!("turn about the vertical at x = {x} m, y = {y} m");
         }
+        What::Spin { member } => return format!("spin of bar {} about its axis", member + 1),
         _ => "neutral",
     };
     let direction = match mode.direction {

@@ -55,7 +55,8 @@ pub struct Mode {
     pub omega2_s2: f64,
     /// Within this of `omega2_s2` the linearised equations have an `ω²`, but for rounding, 1/s².
     pub residual_s2: f64,
-    /// Displacement of each joint, world frame, scaled so that the largest has the length 1.
+    /// Displacement of each joint, world frame, scaled so that the largest has the length 1; of a
+    /// spin all are zero.
     pub shape: Vec<Vector>,
     /// What it is.
     pub what: What,
@@ -75,6 +76,12 @@ pub enum What {
     Turn {
         /// Where the vertical stands.
         axis_m: [f64; 2],
+    },
+    /// `ω² = 0`: a bar with inertia about its own axis spins in its joints, which stay where they
+    /// are.
+    Spin {
+        /// Number of the member, from 0.
+        member: usize,
     },
     /// `ω² = 0` for another reason.
     Neutral,
@@ -101,7 +108,8 @@ impl Modes {
         self.negative
     }
 
-    /// Number of the modes that are given without any change of the energy to second order.
+    /// Number of the modes that are given without any change of the energy to second order, spins
+    /// left aside.
     #[must_use]
     pub fn neutral(&self) -> usize {
         let zero = |what: &What| matches!(what, What::Turn { .. } | What::Neutral);
@@ -162,14 +170,36 @@ pub fn modes(
     if mechanism.moving > MOST_JOINTS {
         return Err(MotionError::TooLarge { joints: mechanism.moving, most: MOST_JOINTS });
     }
-    about(&mechanism, joints_m, axial_n, &|stiffness, sector| Ok(dense::solve(stiffness, sector)))
+    let mut found = about(&mechanism, joints_m, axial_n, &|stiffness, sector| {
+        Ok(dense::solve(stiffness, sector))
+    })?;
+    let spins = spins(system);
+    found.total += spins.len();
+    let negative = found.modes.partition_point(|mode| mode.omega2_s2 < 0.0);
+    found.modes.splice(negative..negative, spins);
+    Ok(found)
+}
+
+/// The spins of bars that have inertia about their own axes.
+fn spins(system: &System) -> Vec<Mode> {
+    let members = system.members().iter().enumerate();
+    let spinning = members.filter(|(_, member)| member.body.inertia_kg_m2()[0] > 0.0);
+    let spin = |(member, _)| Mode {
+        omega2_s2: 0.0,
+        residual_s2: 0.0,
+        shape: vec![[0.0; 3]; system.joints().len()],
+        what: What::Spin { member },
+        direction: Direction::Space,
+    };
+    spinning.map(spin).collect()
 }
 
 /// The lowest `count` modes of a system about an equilibrium, by ascending `ω²`; negative ones are
 /// the lowest. That none is left out is proved, but for rounding, by Sylvester's law of inertia:
 /// the pivots of the factorised stiffness count the modes below the last.
 ///
-/// For any number of joints: the factorisation is sparse. See [`modes`] for what is given.
+/// For any number of joints: the factorisation is sparse. See [`modes`] for what is given. Spins of
+/// bars about their own axes, all with `ω² = 0`, are left out here.
 ///
 /// # Errors
 ///

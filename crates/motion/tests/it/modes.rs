@@ -175,3 +175,15 @@ fn a_v_of_two_rods_swings_across_its_plane_whichever_way_that_faces() {
         assert!((mode.omega2_s2 - 1.5 * g / depth).abs() < 1e-12, "{azimuth}: {mode:?}");
     }
 }
+
+#[test]
+fn a_bar_with_inertia_about_its_axis_spins_and_a_slender_one_does_not() {
+    let slender = Bar::homogeneous(1.0, 1.0).unwrap();
+    let thick = Bar::new(1.0, 1.0, 0.5, [1e-3, 0.1, 0.1]).unwrap();
+    let system = hanging(&[slender, thick], &[]);
+    let found = modes(&system, &string(&[1.0; 2], &[0.0; 2]), None).unwrap();
+    let named: Vec<What> = found.modes.iter().map(|mode| mode.what).collect();
+    assert_eq!((named.len(), found.total, found.index(), found.neutral()), (5, 5, 0, 0));
+    assert_eq!(named[0], What::Spin { member: 1 });
+    assert!(named[1..].iter().all(|what| *what == What::Oscillation), "{named:?}");
+}
