@@ -11,8 +11,9 @@ use crate::error::CensusError;
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Settings {
-    /// Chains and bridles with more bars are refused with an estimate of the cost. Default 12 (seconds, and
-    /// some thousand equilibria), from 1 to [`Settings::MAX_BARS`].
+    /// Chains, and joints held by three long strands, with more bars are refused with an estimate of
+    /// the cost. Default 12 (seconds for chains, and some thousand equilibria), from 1 to
+    /// [`Settings::MAX_BARS`].
     pub max_bars: usize,
     /// A cell narrower than this, on a face of the half cube of pulls (whose edges have length 2),
     /// is not cut any more but listed as undecided. Default 2⁻⁴⁰, from 2⁻⁴⁸ to 2⁻⁴: below, rounding
@@ -22,7 +23,8 @@ pub struct Settings {
     /// listed as undecided. Generic chains need a few hundred; default 20,000, from 1 to 10⁹.
     pub max_tests_per_pattern: u64,
     /// Nets of several closures whose knots have more independent motions than this are refused,
-    /// bridles of three strands excepted: the cost grows with the power of their number. Default 3, from 1 to 6.
+    /// bridles of three strands excepted: the cost grows with the power of their number. Default 3,
+    /// from 1 to 6.
     pub max_motions: usize,
 }
 

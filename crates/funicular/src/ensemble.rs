@@ -5,7 +5,7 @@ use std::path::Path;
 
 use model::Vector;
 use model::system::System;
-use motion::Simulation;
+use motion::{Order, Simulation};
 use rayon::prelude::*;
 use sweep::{
     Chunk, Compute, Failure, Manifest, Member, Origin, Outcomes, Release, Run, RunSettings,
@@ -97,6 +97,10 @@ impl Ensemble {
         }
         let (steps, _) = self.simulate.steps()?;
         let found = equilibria::all(problem, CENSUS_BARS)?;
+        // What cannot be moved is refused here, and is not the fate of every position.
+        if let Some(first) = found.list.first() {
+            Simulation::new(&system, first.joints_m(), settings)?;
+        }
         let text = match problem.as_chain() {
             Some(chain) => SystemText::of(chain.chain()),
             None => SystemText::from(&system),
@@ -122,6 +126,11 @@ impl Ensemble {
             span_s: step_s * steps_per_look as f64,
             drag_1_s: settings.drag_1_s,
             friction_n_m_s: settings.friction_n_m_s,
+            order: match settings.order {
+                Order::Second => 2,
+                Order::Fourth => 4,
+                Order::Eighth => 8,
+            },
             rest: REST,
         };
         let manifest = Manifest {
@@ -248,16 +257,20 @@ impl Released {
     fn unrest(&self, simulation: &mut Simulation) -> f64 {
         let largest = |vectors: &[Vector]| {
             let squares = vectors.iter().map(|v| v.iter().map(|x| x * x).sum::<f64>());
-            squares.fold(0.0, f64::max).sqrt()
+            // NaN is kept, and is no rest.
+            squares
+                .fold(0.0, |most: f64, x| if most.is_nan() || x <= most { most } else { x })
+                .sqrt()
         };
         let gravity = self.system.gravity_m_s2();
         let speed = largest(&simulation.velocities_m_s());
         let speed = speed / (gravity * self.system.total_length_m()).sqrt();
         // Accelerations cost as much as a step: they are asked for where it is slow.
-        if speed > REST {
+        if speed.is_nan() || speed > REST {
             return speed;
         }
-        speed.max(largest(&simulation.snapshot().accelerations_m_s2) / gravity)
+        let gain = largest(&simulation.snapshot().accelerations_m_s2) / gravity;
+        if gain.is_nan() || gain > speed { gain } else { speed }
     }
 
     fn end(&self, position: u64) -> End {

@@ -62,7 +62,8 @@ impl Resting {
             let square: f64 = (0..3).map(|k| (a[k] - b[k]).powi(2)).sum();
             square.sqrt()
         });
-        // Undefined distances are the largest.
-        off.fold(0.0, |most: f64, off| if off <= most { most } else { off }) / self.total_length_m
+        // NaN is kept: it is no distance within which anything is the same.
+        let worse = |most: f64, off: f64| if most.is_nan() || off <= most { most } else { off };
+        off.fold(0.0, worse) / self.total_length_m
     }
 }

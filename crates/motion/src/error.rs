@@ -83,6 +83,18 @@ pub enum MotionError {
         /// Largest relative violation left.
         off: f64,
     },
+    /// Occurs when speeds overflow: the step is too long for an elastic member, whose oscillations
+    /// grow in steps longer than about twice the inverse of their angular frequency.
+    #[error(
+        "at t = {time_s} s the motion in steps of {step_s} s grows beyond all numbers: take steps shorter \
+         than the oscillations of the elastic members"
+    )]
+    Overflow {
+        /// Time at the beginning of the step.
+        time_s: f64,
+        /// The step.
+        step_s: f64,
+    },
     /// Occurs when the number of places or velocities given is not that of the joints, or one is
     /// not finite.
     #[error("{what}: {reason}")]

@@ -185,8 +185,14 @@ impl Simulation {
         let stepped =
             self.stepper.step(&self.mechanism, &mut self.state, &self.forces, self.time_s, h);
         stepped.map_err(|failure| self.told(failure, h))?;
+        self.damp(0.5 * h)?;
+        // Members that stretch have no lengths to be met: beyond about 2/omega their oscillations
+        // grow until they overflow.
+        if !self.state.largest_speed().is_finite() {
+            return Err(MotionError::Overflow { time_s: self.time_s, step_s: h });
+        }
         self.time_s += h;
-        self.damp(0.5 * h)
+        Ok(())
     }
 
     fn damp(&mut self, h: f64) -> Result<(), MotionError> {

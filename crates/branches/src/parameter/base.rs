@@ -5,7 +5,7 @@ use model::system::{Joint, System};
 use model::system_file::nearest;
 
 use crate::parameter::error::ParameterError;
-use crate::parameter::number::{BarField, JointField, Number, Which};
+use crate::parameter::number::{BarField, JointField, Number, Which, equals};
 use crate::parameter::system::ends;
 use crate::parameter::values::Parameter;
 
@@ -96,7 +96,8 @@ fn bar(parameter: &Parameter, which: Which, bars: usize, what: &str) -> Result<(
 }
 
 fn path(parameter: &Parameter) -> &str {
-    parameter.text().split('=').next().unwrap_or_default()
+    let text = parameter.text();
+    equals(text).map_or(text, |at| &text[..at])
 }
 
 /// An error about the whole path.

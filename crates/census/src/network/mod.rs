@@ -56,8 +56,7 @@
 //! shape as they do that of a chain. Branch and bound goes through the places of the knot, and with
 //! each box goes the list of the cells of pulls with which each strand reaches it (module `bridle`).
 //!
-//! Other nets with more motions than
-//! [`Settings::max_motions`](crate::Settings::max_motions) are refused; what cannot be decided is
+//! Other nets with more motions than [`Settings::max_motions`](crate::Settings::max_motions) are refused; what cannot be decided is
 //! listed.
 
 mod activity;

@@ -89,7 +89,8 @@ impl Census {
 
     /// Take the census of a system of joints and members: trees, chains of bars between anchors
     /// with trees and weights at their joints, frames, nets of several closures whose joints move
-    /// in few ways (a bridle whose strands have one or two bars), and any number of such parts.
+    /// in few ways (one joint held by strands of one or two bars), three strands of any number of
+    /// bars under upright loads, and any number of such parts.
     ///
     /// # Errors
     ///

@@ -95,7 +95,7 @@ pub enum Command {
     Sweep(crate::sweep::Sweep),
     /// Join the shards of a sweep, and prove that nothing is missing or double
     Merge(crate::merge::Merge),
-    /// Solve a chain over numbers of its file: sag, forces and angles of the hanging shape
+    /// Solve a chain or a system over numbers of its file: sag, forces and angles of the hanging shape
     Study(crate::study::Arguments),
     /// Derivatives of the hanging shape: stiffness of anchors, gradients by all parameters
     Derivatives(crate::derivatives::Arguments),

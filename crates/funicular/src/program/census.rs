@@ -32,8 +32,8 @@ pub struct Census {
     /// Print one JSON object (schema_version 2) instead of tables
     #[arg(long)]
     pub json: bool,
-    /// Refuse chains of more bars, and bridles of more bars together, with an estimate of what they
-    /// would cost (at most 24)
+    /// Refuse chains of more bars, and bridles (one joint held by three strands of bars) of more bars
+    /// together, with an estimate of what they would cost (at most 24)
     #[arg(long, value_name = "N", default_value_t = Settings::default().max_bars)]
     pub max_bars: usize,
     /// Refuse nets of several closures, but for bridles of three strands, whose joints move in more
@@ -161,7 +161,7 @@ fn refuse(error: Error) -> Failure {
         let help = if bars <= Settings::MAX_BARS {
             format!(
                 "--max-bars {bars} takes it all the same, in about {time} of a processor (good to a factor of ten: the \
-                 cost doubles with each bar)"
+                 cost doubles with each bar, and is higher where all strands are long)"
             )
         } else {
             format!(

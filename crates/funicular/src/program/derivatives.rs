@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use clap::Args;
 use funicular::{AnchorStiffness, NumberGradient, ParameterChange};
 use model::Vector;
+use model::system::System;
 use serde::Serialize;
 
 use crate::exit::{Exit, Failure};
@@ -59,9 +60,16 @@ pub struct Arguments {
 #[derive(Serialize)]
 struct Object<'a, T> {
     schema_version: u32,
-    system: &'a str,
+    system: SystemName<'a>,
     #[serde(flatten)]
     found: T,
+}
+
+#[derive(Serialize)]
+struct SystemName<'a> {
+    name: &'a str,
+    joints: usize,
+    bars: usize,
 }
 
 #[derive(Serialize)]
@@ -75,28 +83,31 @@ pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
     let Input { problem, files } = arguments.input.read()?;
     output::check(arguments.csv.iter().map(PathBuf::as_path), &files)?;
     let derivatives = funicular::Derivatives::of(&problem)?;
-    let name = derivatives.system().name();
+    let system = derivatives.system();
     if let Some(of) = &arguments.of {
         let found = derivatives.gradient(of)?;
         if let Some(path) = &arguments.csv {
             output::write_stream(path, |file| found.write_csv(file))?;
         }
-        return print(arguments.json, name, &gradient(&found), &found);
+        return print(arguments.json, system, &gradient(&found), &found);
     }
     if let Some(by) = &arguments.by {
         let found = derivatives.change(by)?;
-        return print(arguments.json, name, &change(&found), &found);
+        return print(arguments.json, system, &change(&found), &found);
     }
     let anchors = Anchors { anchors: derivatives.anchor_stiffness()? };
-    print(arguments.json, name, &stiffness(&anchors.anchors), &anchors)
+    print(arguments.json, system, &stiffness(&anchors.anchors), &anchors)
 }
 
-fn print(json: bool, system: &str, text: &str, found: &impl Serialize) -> Result<Exit, Failure> {
+fn print(json: bool, system: &System, text: &str, found: &impl Serialize) -> Result<Exit, Failure> {
+    let name = system.name();
     if json {
         let schema_version = funicular::SCHEMA_VERSION;
+        let (joints, bars) = (system.joints().len(), system.members().len());
+        let system = SystemName { name, joints, bars };
         output::print_json(&Object { schema_version, system, found })?;
     } else {
-        output::print(&format!("{}\n{text}", Printable(system)))?;
+        output::print(&format!("{}\n{text}", Printable(name)))?;
     }
     Ok(Exit::Done)
 }
@@ -142,9 +153,10 @@ fn gradient(found: &NumberGradient) -> String {
     order.sort_by(|a, b| b.value.abs().total_cmp(&a.value.abs()));
     let mut text = format!("\n{} = {}\n", Printable(&found.of), short(found.value));
     let mut rows = table(["parameter", "derivative", "unit"]);
-    let most = order.first().map_or(0.0, |first| first.value.abs());
     for one in order.iter().take(PRINTED) {
-        let value = rounded(one.value, most);
+        // What is a zero depends on the unit.
+        let alike = found.derivatives.iter().filter(|other| other.unit == one.unit);
+        let value = rounded(one.value, alike.fold(0.0, |most, other| other.value.abs().max(most)));
         rows.add_row([Printable(&one.parameter).to_string(), value, one.unit.clone()]);
     }
     numbers_from(&mut rows, 1);

@@ -134,7 +134,7 @@ fn text(found: &StudyAnswer) -> String {
         "{}: {} points of {}\n",
         Printable(found.name()),
         found.points().len(),
-        found.parameters().join(", ")
+        Printable(&found.parameters().join(", "))
     );
     for path in 1..=found.paths() {
         let points: Vec<_> = found.points().iter().filter(|point| point.path == path).collect();
@@ -170,7 +170,8 @@ fn one_path(found: &StudyAnswer, points: &[&StudyPoint]) -> String {
     let mut text = String::new();
     if let (Some(first), true) = (points.first(), last > 0) {
         let fixed = (0..last).map(|k| {
-            format!("{} = {} {}", found.parameters()[k], short(first.values[k]), found.units()[k])
+            let name = Printable(&found.parameters()[k]);
+            format!("{name} = {} {}", short(first.values[k]), found.units()[k])
         });
         // Writing to a String cannot fail.
         let _ = writeln!(text, "\n{}", fixed.collect::<Vec<_>>().join(", "));

@@ -13,7 +13,7 @@ use crate::solve::Solve;
 /// Why a point has no hanging shape.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct NoShape {
-    /// Whether the values describe no chain that can hang; else no solver has an answer.
+    /// Whether the values describe nothing that can hang; else no solver has an answer.
     pub refused: bool,
     /// Why, in words.
     pub reason: String,

@@ -589,7 +589,7 @@ fn a_net_has_its_list() {
 /// The lamp is held by three bars to A besides: a bridle with a long strand.
 #[test]
 fn a_bridle_with_a_long_strand_has_its_list() {
-    let path = folder("long").join("long.toml");
+    let path = folder("long-strand").join("long.toml");
     let bars = "[[bars]]\nfrom = \"lamp\"\nto = \"A\"\nlength_m = 1.9\nmass_kg = 1\ncount = 3\n";
     std::fs::write(&path, format!("{LAMPS}{bars}")).unwrap();
     let path = path.to_str().unwrap();

@@ -277,3 +277,14 @@ fn forces_of_a_table_drive_a_weight() {
     assert_eq!(output.status.code(), Some(2));
     assert!(String::from_utf8(output.stderr).unwrap().contains("there is no joint \"B\""));
 }
+
+#[test]
+fn what_cannot_be_moved_is_refused_before_it_is_released() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("ends");
+    let release = ["simulate", "--case", "lamp", "--seeds", "10", "--damping", "1", "--out"];
+    let output = funicular(&[&release[..], &[out.to_str().unwrap()]].concat());
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(2), "{said}");
+    assert!(!out.exists(), "{said}");
+}

@@ -83,3 +83,23 @@ fn a_step_that_is_too_long_is_refused_and_not_taken_for_solved() {
     let failed = (0..100).find_map(|_| simulation.step(2.0).err());
     assert!(matches!(failed, Some(MotionError::StepTooLong { .. })), "{failed:?}");
 }
+
+/// A weight on two springs of 10⁷ N/m: a step of a millisecond is longer than 2/ω, and there are no
+/// lengths that could fail to be met.
+#[test]
+fn a_step_longer_than_the_oscillations_of_springs_is_refused() {
+    let joints = vec![
+        Joint::anchor("A", [0.0; 3]),
+        Joint::free("P").with_mass(1.0),
+        Joint::anchor("B", [2.1, 0.0, 0.0]),
+    ];
+    let spring = Bar::homogeneous(1.0, 0.0).unwrap();
+    let members = [0, 1].map(|k| Member::bar(k, k + 1, spring).with_stiffness(1e7));
+    let system = System::new("springs", 9.81, joints, members.into()).unwrap();
+    let places = [[0.0; 3], [1.0, 0.0, -0.1], [2.1, 0.0, 0.0]];
+    let mut simulation = Simulation::new(&system, &places, Settings::default()).unwrap();
+    let failed = (0..10_000).find_map(|_| simulation.step(1e-3).err());
+    assert!(matches!(failed, Some(MotionError::Overflow { .. })), "{failed:?}");
+    let mut simulation = Simulation::new(&system, &places, Settings::default()).unwrap();
+    assert!((0..10_000).all(|_| simulation.step(1e-4).is_ok()));
+}

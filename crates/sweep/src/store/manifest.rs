@@ -71,6 +71,8 @@ pub struct Release {
     pub drag_1_s: f64,
     /// Friction in the joints, N m s.
     pub friction_n_m_s: f64,
+    /// Order of the steps: 2, 4 or 8.
+    pub order: u8,
     /// At rest are joints that are slower than this times `sqrt(g L)` and gain less speed than this
     /// times `g`.
     pub rest: f64,

@@ -48,6 +48,13 @@ impl Enclosed {
         })
     }
 
+    /// Whether both are proved to be two: some place or force of theirs is apart.
+    pub(super) fn differs(&self, other: &Self) -> bool {
+        let apart = |(a, b): (&Interval, &Interval)| a.intersect(*b).is_none();
+        let places = self.places.as_flattened().iter().zip(other.places.as_flattened());
+        places.chain(self.axial.iter().zip(&other.axial)).any(apart)
+    }
+
     /// The pull of a strand in a chart; nothing if it is not one of this chart.
     fn pull(&self, bridle: &Bridle, i: usize, face: Face) -> Option<[Interval; 2]> {
         let strand = &bridle.strands[i];

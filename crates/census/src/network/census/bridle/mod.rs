@@ -111,8 +111,11 @@ pub(super) fn taken(
         match enclosed(core, &bridle, &found) {
             // Proved already in another chart, or from a neighbour.
             Some(enclosed) if once.iter().any(|(other, _)| enclosed.is(&bridle, other)) => {}
-            Some(enclosed) => once.push((found, enclosed)),
-            None => {
+            Some(enclosed) if once.iter().all(|(_, other)| enclosed.differs(other)) => {
+                once.push((found, enclosed));
+            }
+            // Not enclosed, or neither proved to be one of the others nor to be another.
+            _ => {
                 let at: Vec<Interval> = found.alone_in;
                 open.push(places([at[0], at[1], at[2]], 1, Open::Unproved));
             }

@@ -31,6 +31,10 @@ const FEW_CHOICES: usize = 4;
 /// More products of the numbers of pulls than this are not even formed.
 const MOST_PRODUCTS: usize = 1 << 20;
 
+/// More patterns of all strands together than this are not looked at one by one: those of three
+/// strands of four bars.
+const MOST_PATTERNS: usize = 1 << 12;
+
 /// A cell of pulls wider than the box of places by this factor is cut first.
 const WIDE: f64 = 4.0;
 
@@ -123,7 +127,10 @@ fn of_task(bridle: &Bridle, known: &[Found], task: &Task) -> Outcome {
         cut(&task.at, lists, &mut outcome);
         return outcome;
     }
-    let Some(choices) = balanced(bridle.load, &held, MOST_PRODUCTS) else { return outcome };
+    let Some(choices) = balanced(bridle.load, &held, MOST_PRODUCTS) else {
+        cut(&task.at, lists, &mut outcome);
+        return outcome;
+    };
     if choices.is_empty() {
         return outcome;
     }
@@ -171,6 +178,11 @@ fn of_choice(
         return;
     };
     let pulls: Vec<&Pulls> = lists.iter().zip(&choice).map(|(list, k)| &list[*k]).collect();
+    let patterns = pulls.iter().map(|pulls| pulls.patterns.len());
+    if patterns.fold(1, usize::saturating_mul) > MOST_PATTERNS {
+        stays.push(choice);
+        return;
+    }
     let faces = pulls.iter().map(|pulls| pulls.cell.face).collect();
     let unknowns = cells
         .iter()

@@ -36,8 +36,8 @@ impl Strand {
 }
 
 impl Bridle {
-    /// Nothing if the net has another shape, if a member is no bar, or or if a joint of a
-    /// strand bears nothing, or anything but an upright load.
+    /// Nothing if the net has another shape, if a member is no bar, or if a joint of a strand bears
+    /// no load or one that is not upright.
     pub(super) fn new(core: &Core) -> Option<Self> {
         let knots: Vec<usize> =
             core.joints.iter().copied().filter(|joint| core.meeting(*joint).len() != 2).collect();
