@@ -64,7 +64,9 @@ impl<B: Base> Variation<B> {
     pub fn new(base: B, vary: &[Parameter], combine: Combine) -> Result<Self, ParameterError> {
         for (k, one) in vary.iter().enumerate() {
             base.check(one)?;
-            let earlier = vary[..k].iter().find(|other| other.number.overlaps(&one.number));
+            let number = base.resolved(&one.number);
+            let same = |other: &&Parameter| base.resolved(&other.number).overlaps(&number);
+            let earlier = vary[..k].iter().find(same);
             if let Some(earlier) = earlier {
                 let what = if earlier.number == one.number {
                     format!("`{}` is varied twice", one.number)

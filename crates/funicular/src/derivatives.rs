@@ -2,7 +2,7 @@
 
 use std::io::{self, Write};
 
-use branches::{AnchorEnd, BarField, Base, JointField, Number, Parameter, ParameterError, Which};
+use branches::{BarField, Base, JointField, Number, Parameter, ParameterError, Which};
 use lagrange::network::{self, Settings};
 use model::Vector;
 use model::system::System;
@@ -21,7 +21,6 @@ use crate::problem::Problem;
 /// no taut one slack.
 ///
 /// ```
-/// use funicular::Derivatives;
 /// use funicular::prelude::*;
 /// // Two massless bars of 5 m over a span of 6 m with 8 N in the middle: depth 4 m.
 /// let problem = Problem::parse(
@@ -271,7 +270,7 @@ impl Derivatives {
     fn parameter(&self, text: &str) -> Result<(Number, network::Parameter, f64), Error> {
         let number = self.checked(text)?;
         let joint = |name: &str| self.system.joint(name);
-        let (parameter, scale) = match &number {
+        let (parameter, scale) = match &self.system.resolved(&number) {
             Number::Bar(Which::One(bar), BarField::Length) => {
                 (Some(network::Parameter::Length { member: bar - 1 }), 1.0)
             }
@@ -292,13 +291,6 @@ impl Derivatives {
             Number::Joint(name, JointField::Mass) => {
                 let of = |joint| network::Parameter::Force { joint, axis: 2 };
                 (joint(name).map(of), -self.system.gravity_m_s2())
-            }
-            Number::Anchor(end, axis) => {
-                let joint = match end {
-                    AnchorEnd::Start => 0,
-                    AnchorEnd::End => self.system.members().len(),
-                };
-                (Some(network::Parameter::Anchor { joint, axis: *axis }), 1.0)
             }
             _ => (None, 1.0),
         };

@@ -8,6 +8,8 @@ pub use validate::answer::{Equations, Solvers, UseCensus};
 pub use crate::basins::Basins;
 pub use crate::census::Census;
 pub use crate::compare::compare;
+#[cfg(feature = "branches")]
+pub use crate::derivatives::Derivatives;
 #[cfg(feature = "sweep")]
 pub use crate::ensemble::Ensemble;
 pub use crate::error::Error;

@@ -5,8 +5,7 @@ use model::system::{Joint, System};
 use model::system_file::nearest;
 
 use crate::parameter::error::ParameterError;
-use crate::parameter::number::{BarField, JointField, Number, Which, equals};
-use crate::parameter::system::ends;
+use crate::parameter::number::{AnchorEnd, BarField, JointField, Number, Which, equals};
 use crate::parameter::values::Parameter;
 
 /// So many names of joints are listed.
@@ -20,6 +19,11 @@ pub trait Base {
     ///
     /// [`ParameterError`] with what is missing and what there is.
     fn check(&self, parameter: &Parameter) -> Result<(), ParameterError>;
+
+    /// The number itself, where the path is another name for it.
+    fn resolved(&self, number: &Number) -> Number {
+        number.clone()
+    }
 }
 
 impl Base for Chain {
@@ -36,6 +40,17 @@ impl Base for Chain {
 }
 
 impl Base for System {
+    /// An end of a row of bars is a joint.
+    fn resolved(&self, number: &Number) -> Number {
+        let Number::Anchor(end, axis) = number else { return number.clone() };
+        let ends = ends(self).map(|[start, last]| match end {
+            AnchorEnd::Start => start,
+            AnchorEnd::End => last,
+        });
+        let field = JointField::Place(*axis);
+        ends.map_or(number.clone(), |k| Number::Joint(self.joints()[k].name.clone(), field))
+    }
+
     fn check(&self, parameter: &Parameter) -> Result<(), ParameterError> {
         match &parameter.number {
             Number::Gravity | Number::Floor => Ok(()),
@@ -107,4 +122,13 @@ fn of_path(
     help: impl Into<String>,
 ) -> ParameterError {
     ParameterError::new(parameter.text(), 0..path(parameter).len(), what, help)
+}
+
+/// The two anchors of a system that is one row of bars between them, in the order of its bars.
+fn ends(system: &System) -> Option<[usize; 2]> {
+    let (joints, members) = (system.joints(), system.members());
+    let row = members.iter().enumerate().all(|(k, member)| [member.from, member.to] == [k, k + 1]);
+    let last = members.len();
+    let held = |joint: usize| joints.get(joint).is_some_and(|j| j.support.is_fixed());
+    (row && joints.len() == last + 1 && held(0) && held(last)).then_some([0, last])
 }

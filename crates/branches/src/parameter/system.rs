@@ -4,7 +4,8 @@ use model::Vector;
 use model::system::{Joint, Member, Support, System};
 
 use crate::parameter::apply::{PointError, UncheckedBar};
-use crate::parameter::number::{AnchorEnd, BarField, JointField, Number, Which};
+use crate::parameter::base::Base;
+use crate::parameter::number::{BarField, JointField, Number, Which};
 
 /// The system with these numbers in place of its own, validated.
 ///
@@ -17,27 +18,20 @@ pub fn apply(base: &System, numbers: &[(Number, f64)]) -> Result<System, PointEr
     let (mut joints, mut members) = (base.joints().to_vec(), base.members().to_vec());
     let (mut gravity_m_s2, mut floor_m) = (base.gravity_m_s2(), base.floor_m());
     for (number, value) in numbers {
-        match number {
+        match base.resolved(number) {
             Number::Gravity => gravity_m_s2 = *value,
             Number::Floor => floor_m = Some(*value),
-            Number::Anchor(end, axis) => {
-                let ends = ends(base).map(|[start, last]| match end {
-                    AnchorEnd::Start => start,
-                    AnchorEnd::End => last,
-                });
-                if let Some(joint) = ends {
-                    set_joint(&mut joints[joint], JointField::Place(*axis), *value);
-                }
-            }
             Number::Joint(name, field) => {
-                if let Some(joint) = base.joint(name) {
-                    set_joint(&mut joints[joint], *field, *value);
+                if let Some(joint) = base.joint(&name) {
+                    set_joint(&mut joints[joint], field, *value);
                 }
             }
+            // Of no row of bars; such variations are refused before.
+            Number::Anchor(..) => {}
             Number::Bar(which, field) => {
                 for (k, member) in members.iter_mut().enumerate() {
-                    if *which == Which::All || *which == Which::One(k + 1) {
-                        set_member(member, *field, *value)
+                    if which == Which::All || which == Which::One(k + 1) {
+                        set_member(member, field, *value)
                             .map_err(|error| PointError::Bar { bar: k + 1, error })?;
                     }
                 }
@@ -50,15 +44,6 @@ pub fn apply(base: &System, numbers: &[(Number, f64)]) -> Result<System, PointEr
     }
     system.refusal().map_err(Box::new)?;
     Ok(system)
-}
-
-/// The two anchors of a system that is one row of bars between them, in the order of its bars.
-pub(super) fn ends(system: &System) -> Option<[usize; 2]> {
-    let (joints, members) = (system.joints(), system.members());
-    let row = members.iter().enumerate().all(|(k, member)| [member.from, member.to] == [k, k + 1]);
-    let last = members.len();
-    let held = |joint: usize| joints.get(joint).is_some_and(|j| j.support.is_fixed());
-    (row && joints.len() == last + 1 && held(0) && held(last)).then_some([0, last])
 }
 
 fn set_joint(joint: &mut Joint, field: JointField, value: f64) {

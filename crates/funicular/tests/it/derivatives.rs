@@ -4,7 +4,6 @@
 
 use assert_cmd::Command;
 use branches::{Combine, Variation};
-use funicular::Derivatives;
 use funicular::prelude::*;
 use serde_json::Value;
 

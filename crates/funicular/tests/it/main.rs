@@ -2,6 +2,7 @@
 
 mod batch;
 mod census;
+mod census_systems;
 mod derivatives;
 mod escapes;
 mod examples;

@@ -228,4 +228,9 @@ fn systems_by_name_vary_in_loads_supports_and_stiffness() {
     for (row, wanted) in rows.iter().zip([20.0 / 0.8, 20.0 / 0.6]) {
         assert!((row["tension_n"].parse::<f64>().unwrap() - wanted).abs() < 1e-9, "{row:?}");
     }
+    // Its end has two names.
+    let twice = ["loaded.toml", "--vary", "anchors.end_m.x=1.2,1.6", "--vary", "joints.2.at_m.x=1"];
+    let output = study(&folder, &twice);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(text(&output.stderr).contains("set one number"), "{}", text(&output.stderr));
 }

@@ -1,0 +1,179 @@
+//! `funicular census` of systems of joints and members: JSON, tables, drawings, columns, refusals.
+
+#![expect(clippy::unwrap_used, reason = "helpers of tests")]
+
+use std::path::PathBuf;
+
+use serde_json::Value;
+
+use crate::census::{folder, funicular, stderr, stdout};
+
+/// A chain of two bars of 5 m without mass over 6 m, with a lamp of 2 N at its joint and one of 1 N
+/// on a bar of 1 m below: by name, both stable and not.
+const LAMPS: &str = r#"
+gravity_m_s2 = 10.0
+[joints]
+A = { at_m = [-3, 0, 0] }
+B = { at_m = [3, 0, 0] }
+P = { mass_kg = 0.2 }
+lamp = { mass_kg = 0.1 }
+[[bars]]
+from = "A"
+to = "P"
+length_m = 5
+mass_kg = 0
+[[bars]]
+from = "P"
+to = "B"
+length_m = 5
+mass_kg = 0
+[[bars]]
+from = "P"
+to = "lamp"
+length_m = 1
+mass_kg = 0
+"#;
+
+/// The JSON of a complete census of a system.
+fn json_of_system(path: &str) -> Value {
+    let output = funicular(&[path, "--json"]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let value: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(
+        (&value["schema_version"], &value["census"]["check_passed"]),
+        (&2.into(), &true.into())
+    );
+    value
+}
+
+#[test]
+fn a_system_by_name_has_its_list() {
+    let path = folder("lamps").join("lamps.toml");
+    std::fs::write(&path, LAMPS).unwrap();
+    let path = path.to_str().unwrap();
+    let value = json_of_system(path);
+    assert_eq!(
+        (&value["census"]["complete"], &value["census"]["count"]),
+        (&true.into(), &4.into())
+    );
+    let energies: Vec<f64> = value["equilibria"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|e| e["energy_j"].as_f64().unwrap())
+        .collect();
+    // 3 N at -4 m or 4 m, 1 N of them 1 m below or above that.
+    for (energy, expected) in energies.iter().zip([-13.0, -11.0, 11.0, 13.0]) {
+        assert!((energy - expected).abs() < ROUNDING, "{energies:?}");
+    }
+    let lowest = &value["equilibria"][0];
+    assert_eq!(
+        (&lowest["joints"][3]["name"], &lowest["bars"][2]["from"]),
+        (&"lamp".into(), &"P".into())
+    );
+    assert!((lowest["bars"][0]["axial_n"].as_f64().unwrap() - 1.875).abs() < ROUNDING);
+    assert_eq!(lowest["evidence"]["rung"], "complete");
+    let chain = &value["census"]["parts"][0]["chain"];
+    assert_eq!((&chain["check"], &chain["count_in_plane"]), (&Value::Null, &2.into()));
+    let text = stdout(&funicular(&[path]));
+    assert!(text.contains("4 equilibria: proved to be all.") && text.contains("lamp"), "{text}");
+}
+
+#[test]
+fn a_chain_with_a_lamp_has_its_list() {
+    let path = folder("lamp").join("lamp.toml");
+    let bars = "[[bars]]\nlength_m = 1\nmass_kg = 1\ncount = 3\n";
+    let anchors = "[anchors]\nstart_m = [0, 0, 0]\nend_m = [1.3, 0, -0.5]\n";
+    std::fs::write(&path, format!("{anchors}{bars}[[loads]]\njoint = 2\nmass_kg = 5\n")).unwrap();
+    let value = json_of_system(path.to_str().unwrap());
+    let chain = &value["census"]["parts"][0]["chain"];
+    assert_eq!(chain["alternating_sum"], chain["euler_characteristic"]);
+    let stable = |e: &&Value| e["stability"]["in_space"] == "stable";
+    assert_eq!(value["equilibria"].as_array().unwrap().iter().filter(stable).count(), 1);
+}
+
+/// The file, and the list of a net of two closures: the chain with the lamp, and bars from the lamp
+/// to A besides.
+fn net(name: &str, bars: &str) -> (PathBuf, Value) {
+    let path = folder(name).join("net.toml");
+    std::fs::write(&path, format!("{LAMPS}[[bars]]\nfrom = \"lamp\"\nto = \"A\"\n{bars}")).unwrap();
+    let value = json_of_system(path.to_str().unwrap());
+    let net = &value["census"]["parts"][0]["net"];
+    assert_eq!((&net["closures"], &net["knots"]), (&2.into(), &serde_json::json!(["P"])));
+    assert_eq!((&net["undecided_boxes"], &value["census"]["complete"]), (&0.into(), &true.into()));
+    let stable = |e: &&Value| e["stability"]["in_space"] == "stable";
+    assert!(value["equilibria"].as_array().unwrap().iter().any(|e| stable(&e)));
+    (path, value)
+}
+
+#[test]
+fn a_net_has_its_list() {
+    let (path, value) = net("held", "length_m = 5.5\nmass_kg = 1\n");
+    let swings = &value["census"]["parts"][0]["net"]["swings"];
+    assert_eq!(swings, &serde_json::json!(["lamp"]));
+    let text = stdout(&funicular(&[path.to_str().unwrap()]));
+    assert!(
+        text.contains("The net of 2 closures: all places of P; lamp by closed forms"),
+        "{text}"
+    );
+}
+
+#[test]
+fn a_bridle_with_a_long_strand_has_its_list() {
+    let (path, _) = net("long-strand", "length_m = 1.9\nmass_kg = 1\ncount = 3\n");
+    let path = path.to_str().unwrap();
+    let text = stdout(&funicular(&[path]));
+    assert!(text.contains("pulls of the strands"), "{text}");
+    // What is too long is told with its time.
+    let output = funicular(&[path, "--max-bars", "5"]);
+    assert_eq!(output.status.code(), Some(2));
+    let told = stderr(&output);
+    assert!(told.contains("--max-bars 6") && told.contains("of a processor"), "{told}");
+}
+
+#[test]
+fn systems_without_a_census_are_told_why() {
+    let path = folder("net").join("net.toml");
+    let bars = ["A", "B"].map(|anchor| {
+        format!(
+            "[[bars]]\nfrom = \"lamp\"\nto = \"{anchor}\"\nlength_m = 1\nmass_kg = 1\ncount = 7\n"
+        )
+    });
+    let text = LAMPS.to_owned() + &bars.concat();
+    std::fs::write(&path, text).unwrap();
+    let output = funicular(&[path.to_str().unwrap()]);
+    assert_eq!(output.status.code(), Some(2));
+    let told = stderr(&output);
+    assert!(told.contains("3 closures") && told.contains("independent ways"), "{told}");
+}
+
+#[test]
+fn positions_of_a_system_are_drawn_and_written() {
+    let out = folder("tripod");
+    let [svg, csv] = ["shapes.svg", "shapes.csv"].map(|name| out.join(name));
+    let [svg_path, csv_path] = [&svg, &csv].map(|path| path.to_str().unwrap());
+    let output = funicular(&["--case", "tripod", "--svg", svg_path, "--csv", csv_path]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    // Legs of 3 m on a circle of 1.8 m: the load is 2.4 m below or above it.
+    let table = std::fs::read_to_string(&csv).unwrap();
+    let rows: Vec<Vec<&str>> = table.lines().map(|line| line.split(',').collect()).collect();
+    assert_eq!(
+        rows[0].join(","),
+        "equilibrium,energy_j,index_in_space,joint,x_m,y_m,z_m,reaction_x_n,reaction_y_n,reaction_z_n"
+    );
+    assert_eq!(rows.len(), 1 + 2 * 4);
+    for (row, sign) in [(4, -1.0), (8, 1.0)] {
+        let number = |column: usize| rows[row][column].parse::<f64>().unwrap();
+        assert_eq!((rows[row][3], rows[row][2]), ("top", "0"));
+        assert!((number(6) - sign * 2.4).abs() < 1e-9, "{:?}", rows[row]);
+        let energy = 30.0 * 9.80665 * sign * 2.4;
+        assert!((number(1) - energy).abs() < 1e-9 * energy.abs(), "{:?}", rows[row]);
+    }
+    // Each leg bears a third of the weight.
+    assert!((rows[1][9].parse::<f64>().unwrap() - 10.0 * 9.80665).abs() < 1e-9);
+    for name in ["shapes-1.svg", "shapes-2.svg"] {
+        let text = std::fs::read_to_string(out.join(name)).unwrap();
+        roxmltree::Document::parse(&text).unwrap();
+    }
+    assert_eq!(std::fs::read_dir(&out).unwrap().count(), 3);
+}
