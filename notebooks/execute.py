@@ -18,6 +18,7 @@ NUMBER = re.compile(r"(-?\d+(?:\.\d+)?(?:e[-+]?\d+)?)")
 
 def clean(notebook, here):
     """Drop what differs from run to run or names this machine; refuse what cannot be dropped."""
+    join_streams(notebook)
     notebook.metadata = {
         "kernelspec": {"display_name": "Python 3", "language": "python", "name": "python3"},
         "language_info": {"name": "python"},
@@ -35,13 +36,27 @@ def clean(notebook, here):
     return text + ("" if text.endswith("\n") else "\n")
 
 
+def join_streams(notebook):
+    """Make one output of what a cell writes to one stream: where the kernel cuts it is a matter of time alone."""
+    for cell in notebook.cells:
+        joined = []
+        for output in cell.get("outputs", []):
+            last = joined[-1] if joined else None
+            if last and output.output_type == "stream" == last.output_type and output.name == last.name:
+                last.text += output.text
+            else:
+                joined.append(output)
+        if "outputs" in cell:
+            cell.outputs = joined
+
+
 def told(notebook):
     """What the cells print, line by line, without those that measure times."""
     for cell in notebook.cells:
         if cell.cell_type != "code" or TIMED in cell.source:
             continue
-        for output in cell.get("outputs", []):
-            yield from output.get("text", "").splitlines()
+        text = "".join(output.get("text", "") for output in cell.get("outputs", []))
+        yield from text.splitlines()
 
 
 def alike(kept, found):
