@@ -22,7 +22,7 @@ const E1_PULL_MG: [f64; 2] = [-0.648_944_835_933_933_6, 2.312_944_292_241_837_6]
 const MGL: f64 = 9.80665;
 
 /// Values of order 10 in double precision, through a few operations.
-const ROUNDING: f64 = 1e-13;
+pub const ROUNDING: f64 = 1e-13;
 
 pub fn funicular(arguments: &[&str]) -> Output {
     let mut command = Command::cargo_bin("funicular").unwrap();

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 
 use serde_json::Value;
 
-use crate::census::{folder, funicular, stderr, stdout};
+use crate::census::{ROUNDING, folder, funicular, stderr, stdout};
 
 /// A chain of two bars of 5 m without mass over 6 m, with a lamp of 2 N at its joint and one of 1 N
 /// on a bar of 1 m below: by name, both stable and not.
