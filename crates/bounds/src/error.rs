@@ -91,6 +91,13 @@ pub enum BoundError {
         /// Relative dual residual.
         dual_residual: f64,
     },
+    /// Occurs when a shared library of the process defines routines of the BLAS or LAPACK under the
+    /// names by which the cone solver calls ours: which of the two answers is not known.
+    #[error("{library} has routines of the names that the cone solver is to call here")]
+    OtherLapack {
+        /// Its file.
+        library: String,
+    },
     /// Occurs when rounding the dual solution to a rigorous bound fails: the stress matrix is not
     /// positive semidefinite even after raising the force densities. A solved programme does not
     /// lead here unless its numbers differ by more orders of magnitude than doubles resolve.

@@ -10,8 +10,7 @@ use crate::program::{Affine, ConeEvidence, Program};
 use crate::settings::BoundSettings;
 use crate::stress::{Proof, certify};
 
-// Nothing is called by name: clarabel's calls find their routines there when the binary is linked.
-use dense_lapack as _;
+use dense_lapack::other_library;
 
 /// Gap between the energy of a configuration and a rigorous bound below which the configuration is
 /// taken for the optimum, of the largest force (or the total weight) times the total length, within
@@ -62,8 +61,8 @@ impl SemidefiniteBound {
 ///
 /// # Errors
 ///
-/// [`BoundError`]: a setting out of range, a programme that was not solved, or a dual solution that
-/// cannot be rounded to a proof.
+/// [`BoundError`]: a setting out of range, a programme that was not solved, a dual solution that
+/// cannot be rounded to a proof, or another BLAS or LAPACK in the process.
 ///
 /// ```
 /// use bounds::{BoundSettings, Sense, semidefinite};
@@ -81,6 +80,10 @@ pub fn semidefinite(
     sense: Sense,
     settings: &BoundSettings,
 ) -> Result<SemidefiniteBound, BoundError> {
+    // Clarabel's calls find their routines by name, so another library would answer some of them.
+    if let Some(library) = other_library() {
+        return Err(BoundError::OtherLapack { library });
+    }
     let data = Data::new(problem, sense);
     let plane = data.plane(problem);
     let (stress, evidence) = solve(&data, &plane, settings)?;

@@ -5,8 +5,8 @@ use std::ffi::{c_char, c_int};
 use nalgebra::{DMatrix, DVector};
 
 use crate::raw::{
-    Scalar, Shape, Triangle, ViewMut, copy, get, illegal, size, symmetric, transposed, triangle,
-    view_mut,
+    Scalar, Shape, Triangle, ViewMut, factor, get, illegal, size, symmetric_factor, transposed,
+    triangle, view_mut,
 };
 
 /// `new + β old`; with β = 0 what was there before is not looked at.
@@ -21,9 +21,10 @@ fn gemm<T: Scalar>(alpha: T, a: &DMatrix<T>, b: &DMatrix<T>, beta: T, c: &mut Vi
     }
 }
 
-/// y ← α A x + β y.
+/// y ← α A x + β y; with α = 0 x is not looked at.
 fn gemv<T: Scalar>(alpha: T, a: &DMatrix<T>, x: &Strided<T>, beta: T, y: &mut StridedMut<T>) {
-    let product = a * DVector::from_fn(x.length, |i, _| x.get(i));
+    let factor = |i| if alpha.is_zero() { T::zero() } else { x.get(i) };
+    let product = a * DVector::from_fn(x.length, |i, _| factor(i));
     for (i, value) in product.iter().enumerate() {
         let mut sum = if beta.is_zero() { T::zero() } else { y.0.get(i) };
         accumulate(&mut sum, alpha * *value, beta);
@@ -134,8 +135,8 @@ macro_rules! export {
                     let shape_a = if ta { (k, m) } else { (m, k) };
                     let shape_b = if tb { (n, k) } else { (k, n) };
                     Some((
-                        copy(a, Shape::new(shape_a.0, shape_a.1, get(lda))?, ta),
-                        copy(b, Shape::new(shape_b.0, shape_b.1, get(ldb))?, tb),
+                        factor(get(alpha), a, Shape::new(shape_a.0, shape_a.1, get(lda))?, ta),
+                        factor(get(alpha), b, Shape::new(shape_b.0, shape_b.1, get(ldb))?, tb),
                         view_mut(c, Shape::new(m, n, get(ldc))?),
                         get(alpha),
                         get(beta),
@@ -173,7 +174,7 @@ macro_rules! export {
                     let (m, n, transpose) = (size(get(m))?, size(get(n))?, transposed(trans)?);
                     let (length_x, length_y) = if transpose { (m, n) } else { (n, m) };
                     Some((
-                        copy(a, Shape::new(m, n, get(lda))?, transpose),
+                        factor(get(alpha), a, Shape::new(m, n, get(lda))?, transpose),
                         Strided::new(x, length_x, get(incx))?,
                         StridedMut::new(y, length_y, get(incy))?,
                         get(alpha),
@@ -209,8 +210,9 @@ macro_rules! export {
             let arguments = unsafe {
                 (|| {
                     let n = size(get(n))?;
+                    let (shape, uplo) = (Shape::new(n, n, get(lda))?, triangle(uplo)?);
                     Some((
-                        symmetric(a, Shape::new(n, n, get(lda))?, triangle(uplo)?),
+                        symmetric_factor(get(alpha), a, shape, uplo),
                         Strided::new(x, n, get(incx))?,
                         StridedMut::new(y, n, get(incy))?,
                         get(alpha),
@@ -249,7 +251,7 @@ macro_rules! export {
                     let (rows, columns) = if transpose { (k, n) } else { (n, k) };
                     Some((
                         triangle(uplo)?,
-                        copy(a, Shape::new(rows, columns, get(lda))?, transpose),
+                        factor(get(alpha), a, Shape::new(rows, columns, get(lda))?, transpose),
                         view_mut(c, Shape::new(n, n, get(ldc))?),
                         get(alpha),
                         get(beta),
@@ -291,8 +293,8 @@ macro_rules! export {
                     let (rows, columns) = if transpose { (k, n) } else { (n, k) };
                     Some((
                         triangle(uplo)?,
-                        copy(a, Shape::new(rows, columns, get(lda))?, transpose),
-                        copy(b, Shape::new(rows, columns, get(ldb))?, !transpose),
+                        factor(get(alpha), a, Shape::new(rows, columns, get(lda))?, transpose),
+                        factor(get(alpha), b, Shape::new(rows, columns, get(ldb))?, !transpose),
                         view_mut(c, Shape::new(n, n, get(ldc))?),
                         get(alpha),
                         get(beta),

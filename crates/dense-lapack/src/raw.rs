@@ -146,6 +146,45 @@ pub(crate) unsafe fn symmetric<T: Scalar>(a: *const T, shape: Shape, uplo: Trian
     full
 }
 
+/// The matrix that `alpha` multiplies, as [`copy`]. With α = 0 the BLAS does not reference it, so
+/// that it need not be set, nor be there: zeros stand for it.
+///
+/// # Safety
+///
+/// As [`copy`], unless α = 0.
+pub(crate) unsafe fn factor<T: Scalar>(
+    alpha: T,
+    a: *const T,
+    shape: Shape,
+    transpose: bool,
+) -> DMatrix<T> {
+    if alpha.is_zero() {
+        let (rows, columns) = (shape.rows, shape.columns);
+        let (rows, columns) = if transpose { (columns, rows) } else { (rows, columns) };
+        return DMatrix::zeros(rows, columns);
+    }
+    // SAFETY: the caller's promise.
+    unsafe { copy(a, shape, transpose) }
+}
+
+/// The symmetric matrix that `alpha` multiplies, as [`symmetric`] and [`factor`].
+///
+/// # Safety
+///
+/// As [`symmetric`], unless α = 0.
+pub(crate) unsafe fn symmetric_factor<T: Scalar>(
+    alpha: T,
+    a: *const T,
+    shape: Shape,
+    uplo: Triangle,
+) -> DMatrix<T> {
+    if alpha.is_zero() {
+        return DMatrix::zeros(shape.columns, shape.columns);
+    }
+    // SAFETY: the caller's promise.
+    unsafe { symmetric(a, shape, uplo) }
+}
+
 /// The matrix `a`, to be written.
 ///
 /// # Safety

@@ -1,6 +1,7 @@
 //! Eigenvalues and singular values.
 
 use std::ffi::{c_char, c_int};
+use std::ops::Range;
 
 use nalgebra::DMatrix;
 
@@ -16,16 +17,50 @@ const NOT_CONVERGED: c_int = 1;
 /// The answer to a workspace query: none is needed.
 const WORKSPACE: c_int = 1;
 
-/// Eigenvalues in ascending order, and the vectors if there is a place for them.
-fn syevr<T: Scalar>(full: DMatrix<T>, values: &mut [T], vectors: Option<&mut ViewMut<T>>) -> c_int {
-    let Some(eigen) = jacobi::eigen(full) else {
-        return NOT_CONVERGED;
-    };
-    values.copy_from_slice(eigen.values.as_slice());
-    if let Some(vectors) = vectors {
-        vectors.copy_from(&eigen.vectors);
+/// Which eigenvalues are wanted.
+#[derive(Debug, Clone, Copy)]
+enum Wanted<T> {
+    All,
+    /// Those in (lower, upper].
+    Between(T, T),
+    /// The first to the last of these, counted from 1 in ascending order.
+    Numbers(usize, usize),
+}
+
+impl<T: Scalar> Wanted<T> {
+    /// `range` with its four numbers; the number of the illegal argument, as the reference looks at
+    /// them.
+    fn new(range: u8, n: usize, between: (T, T), numbers: (c_int, c_int)) -> Result<Self, c_int> {
+        match range {
+            b'A' => Ok(Self::All),
+            b'V' if n > 0 && between.1 <= between.0 => Err(-8),
+            b'V' => Ok(Self::Between(between.0, between.1)),
+            b'I' => {
+                let (most, (first, last)) = (fortran(n), numbers);
+                if first < 1 || first > most.max(1) {
+                    return Err(-9);
+                }
+                if last < most.min(first) || last > most {
+                    return Err(-10);
+                }
+                Ok(Self::Numbers(size(first).ok_or(-9)?, size(last).ok_or(-10)?))
+            }
+            _ => Err(-2),
+        }
     }
-    0
+
+    /// The places of those wanted among all eigenvalues in ascending order.
+    fn places(self, values: &[T]) -> Range<usize> {
+        match self {
+            Self::All => 0..values.len(),
+            Self::Between(lower, upper) => {
+                let first = values.partition_point(|value| *value <= lower);
+                let last = values.partition_point(|value| *value <= upper);
+                first..last.max(first)
+            }
+            Self::Numbers(first, last) => (first - 1).min(last)..last,
+        }
+    }
 }
 
 /// Singular values in descending order, and thin factors A = U diag(s) Vᵀ if there are places for
@@ -59,8 +94,10 @@ fn wanted(job: u8) -> Option<bool> {
 
 macro_rules! export {
     ($T:ty, $syevr:ident, $gesdd:ident, $gesvd:ident) => {
-        /// All eigenvalues of a symmetric matrix, ascending, and its orthonormal eigenvectors if
-        /// `jobz` is 'V'. `info` > 0: the iteration did not converge.
+        /// The eigenvalues of a symmetric matrix that `range` asks for, ascending, their number
+        /// `m`, and their orthonormal eigenvectors if `jobz` is 'V'. `range` is 'A' for all, 'V' for
+        /// those in (`vl`, `vu`], 'I' for numbers `il` to `iu`. `info` > 0: the iteration did not
+        /// converge. `isuppz` is written where all are asked for, as by the reference.
         ///
         /// # Safety
         ///
@@ -73,10 +110,10 @@ macro_rules! export {
             n: *const c_int,
             a: *mut $T,
             lda: *const c_int,
-            _vl: *const $T,
-            _vu: *const $T,
-            _il: *const c_int,
-            _iu: *const c_int,
+            vl: *const $T,
+            vu: *const $T,
+            il: *const c_int,
+            iu: *const c_int,
             _abstol: *const $T,
             m: *mut c_int,
             w: *mut $T,
@@ -97,38 +134,55 @@ macro_rules! export {
                         b'N' => false,
                         _ => return Err(-1),
                     };
-                    if letter(range) != b'A' {
+                    let range = letter(range);
+                    // Numbers that the range does not ask for need not be set.
+                    let between = if range == b'V' { (get(vl), get(vu)) } else { (0.0, 0.0) };
+                    let numbers = if range == b'I' { (get(il), get(iu)) } else { (0, 0) };
+                    if !matches!(range, b'A' | b'V' | b'I') {
                         return Err(-2);
                     }
                     let uplo = triangle(uplo).ok_or(-3)?;
                     let n = size(get(n)).ok_or(-4)?;
-                    let shape_a = Shape::new(n, n, get(lda)).ok_or(-6)?;
-                    let shape_z =
-                        Shape::new(if vectors { n } else { 0 }, n, get(ldz)).ok_or(-15)?;
+                    let shape = Shape::new(n, n, get(lda)).ok_or(-6)?;
+                    let wanted = Wanted::new(range, n, between, numbers)?;
+                    Shape::new(if vectors { n } else { 0 }, n, get(ldz)).ok_or(-15)?;
                     if get(lwork) == -1 || get(liwork) == -1 {
                         set(work, <$T>::from(1u8));
                         set(iwork, WORKSPACE);
                         return Err(0);
                     }
-                    let z = vectors.then(|| view_mut(z, shape_z));
-                    let full = symmetric(a, shape_a, uplo);
-                    Ok((full, slice_mut(w, n), z, slice_mut(isuppz, 2 * n)))
+                    Ok((symmetric(a, shape, uplo), wanted, vectors))
                 })()
             };
-            let code = match arguments {
-                Ok((full, values, mut vectors, support)) => {
-                    // SAFETY: the LAPACK contract.
-                    unsafe { set(m, fortran(values.len())) };
-                    let rows = fortran(values.len());
-                    for ends in support.chunks_exact_mut(2) {
-                        ends.copy_from_slice(&[1, rows]);
-                    }
-                    syevr(full, values, vectors.as_mut())
-                }
-                Err(code) => code,
-            };
+            let found = arguments.and_then(|(full, wanted, vectors)| {
+                let eigen = jacobi::eigen(full).ok_or(NOT_CONVERGED)?;
+                Ok((wanted.places(eigen.values.as_slice()), eigen, vectors))
+            });
             // SAFETY: the LAPACK contract.
-            unsafe { set(info, code) }
+            unsafe {
+                let code = match found {
+                    Ok((places, eigen, vectors)) => {
+                        let (n, count) = (eigen.values.len(), places.len());
+                        set(m, fortran(count));
+                        slice_mut(w, count)
+                            .copy_from_slice(&eigen.values.as_slice()[places.clone()]);
+                        if let Some(shape) =
+                            Shape::new(n, count, get(ldz)).filter(|_| vectors && count > 0)
+                        {
+                            let columns = eigen.vectors.columns_range(places);
+                            view_mut(z, shape).copy_from(&columns);
+                        }
+                        if count == n {
+                            for ends in slice_mut(isuppz, 2 * n).chunks_exact_mut(2) {
+                                ends.copy_from_slice(&[1, fortran(n)]);
+                            }
+                        }
+                        0
+                    }
+                    Err(code) => code,
+                };
+                set(info, code);
+            }
         }
 
         /// Singular values of an m × n matrix, descending, and the thin factors U and Vᵀ if `jobz`

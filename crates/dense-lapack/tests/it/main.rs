@@ -8,5 +8,7 @@ mod support;
 mod triangles;
 
 mod factors;
+mod others;
 mod products;
+mod ranges;
 mod spectral;

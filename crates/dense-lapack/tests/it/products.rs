@@ -18,7 +18,7 @@ macro_rules! precision {
             #[test]
             fn gemm() {
                 let mut rng = rng();
-                for (m, n, k) in [(1, 1, 1), (2, 3, 4), (7, 5, 6), (40, 13, 21), (3, 40, 40)] {
+                for (m, n, k) in crate::support::PRODUCTS {
                     for (ta, tb) in [(b'N', b'N'), (b'T', b'N'), (b'N', b'T'), (b't', b'C')] {
                         let a = matrix(
                             &mut rng,
@@ -55,6 +55,100 @@ macro_rules! precision {
                             );
                         }
                         close(&pc.matrix(), &expected, "gemm");
+                    }
+                }
+            }
+
+            /// With α = 0 the factors are not looked at: they may hold no numbers.
+            #[test]
+            fn alpha_zero_does_not_look() {
+                let mut rng = rng();
+                let (n, beta) = (5, -0.75);
+                let start = matrix(&mut rng, n, n);
+                let unset = vec![GUARD; n * n];
+                let (size, expected) = (int(n), &start * beta);
+                for trans in [b'N', b'T'] {
+                    let mut c = Padded::new(&start, 0);
+                    // SAFETY: square arrays of size n.
+                    unsafe {
+                        $gemm(
+                            trans,
+                            trans,
+                            size,
+                            size,
+                            size,
+                            0.0,
+                            &unset,
+                            size,
+                            &unset,
+                            size,
+                            beta,
+                            &mut c.data,
+                            size,
+                        );
+                    }
+                    close(&c.matrix(), &expected, "gemm");
+                    for (what, two) in [("syrk", false), ("syr2k", true)] {
+                        let mut c = Padded::triangle(&start, b'L', 0);
+                        // SAFETY: square arrays of size n.
+                        unsafe {
+                            if two {
+                                $syr2k(
+                                    b'L',
+                                    trans,
+                                    size,
+                                    size,
+                                    0.0,
+                                    &unset,
+                                    size,
+                                    &unset,
+                                    size,
+                                    beta,
+                                    &mut c.data,
+                                    size,
+                                );
+                            } else {
+                                $syrk(
+                                    b'L',
+                                    trans,
+                                    size,
+                                    size,
+                                    0.0,
+                                    &unset,
+                                    size,
+                                    beta,
+                                    &mut c.data,
+                                    size,
+                                );
+                            }
+                        }
+                        close_triangle(&c, &expected, b'L', what);
+                    }
+                    for symmetric in [false, true] {
+                        let mut y = start.column(0).clone_owned();
+                        let y = y.as_mut_slice();
+                        // SAFETY: a square array and vectors of size n.
+                        unsafe {
+                            if symmetric {
+                                $symv(b'U', size, 0.0, &unset, size, &unset[..n], 1, beta, y, 1);
+                            } else {
+                                $gemv(
+                                    trans,
+                                    size,
+                                    size,
+                                    0.0,
+                                    &unset,
+                                    size,
+                                    &unset[..n],
+                                    1,
+                                    beta,
+                                    y,
+                                    1,
+                                );
+                            }
+                        }
+                        let error = (DVector::from_column_slice(y) - expected.column(0)).amax();
+                        assert!(error <= TOLERANCE, "{error:e}");
                     }
                 }
             }

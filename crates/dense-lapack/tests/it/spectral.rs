@@ -193,7 +193,7 @@ macro_rules! precision {
             #[test]
             fn singular_values_of_graded_matrices() {
                 let mut rng = rng();
-                for round in 0..200 {
+                for round in 0..crate::support::ROUNDS {
                     let n = 2 + round % 30;
                     let grade = |m: DMatrix<$T>, towards_end: bool| {
                         let m = m.lower_triangle();
@@ -243,7 +243,7 @@ macro_rules! precision {
             #[test]
             fn eigenvalues_of_graded_matrices() {
                 let mut rng = rng();
-                for round in 0..200 {
+                for round in 0..crate::support::ROUNDS {
                     let n = 2 + round % 30;
                     let m = matrix(&mut rng, n, n);
                     let size = |i: usize| <$T>::powi(0.5, i32::try_from(i).unwrap());
@@ -384,7 +384,7 @@ macro_rules! precision {
                     check(2, &mut |info| {
                         $syevr(
                             b'N',
-                            b'I',
+                            b'X',
                             b'U',
                             2,
                             &mut a,

@@ -16,7 +16,9 @@ macro_rules! helpers {
         /// What stands where no routine may look or write.
         const GUARD: $T = <$T>::NAN;
 
-        const SIZES: [usize; 7] = [1, 2, 3, 4, 7, 16, 40];
+        /// The interpreter that watches every access is a thousand times slower.
+        const SIZES: [usize; 7] =
+            if cfg!(miri) { [1, 2, 3, 4, 5, 6, 7] } else { [1, 2, 3, 4, 7, 16, 40] };
 
         fn rng() -> ChaCha8Rng {
             ChaCha8Rng::seed_from_u64(20_261_121)
@@ -93,6 +95,14 @@ macro_rules! helpers {
     };
 }
 
+/// Sizes of products.
+pub const PRODUCTS: [(usize, usize, usize); 5] = if cfg!(miri) {
+    [(1, 1, 1), (2, 3, 4), (7, 5, 6), (5, 3, 2), (3, 6, 6)]
+} else {
+    [(1, 1, 1), (2, 3, 4), (7, 5, 6), (40, 13, 21), (3, 40, 40)]
+};
+/// Matrices of a kind.
+pub const ROUNDS: usize = if cfg!(miri) { 4 } else { 200 };
 /// The tolerance in double precision, about 200 units in the last place.
 pub const DOUBLE: f64 = 4e-14;
 /// The same in single precision.
