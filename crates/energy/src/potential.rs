@@ -37,3 +37,26 @@ pub fn potential_j(problem: &Problem, directions: &Seed) -> f64 {
     }
     chain.gravity_m_s2() * sum.value()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use model::{Anchors, Bar, Chain};
+
+    /// By hand, with centres off the middle: each is measured from the joint before it.
+    #[test]
+    fn centres_count_from_the_first_joint_of_their_bar() {
+        let bar = |length, mass, centre| Bar::new(length, mass, centre, [0.0; 3]).unwrap();
+        let bars = vec![bar(2.0, 1.0, 0.5), bar(1.0, 3.0, 0.25), bar(1.5, 2.0, 1.25)];
+        let anchors = Anchors { start_m: [0.0; 3], end_m: [1.0, 0.0, -1.0] };
+        let chain = Chain::new("off the middle", 10.0, anchors, bars).unwrap();
+        let problem = Problem::new(chain).unwrap();
+        // Straight down: centres 0.5, 2.25 and 4.25 m below the first joint.
+        let down = Seed::angles(&problem, &[0.0; 3]).unwrap();
+        assert!((potential_j(&problem, &down) + 10.0 * (0.5 + 6.75 + 8.5)).abs() < 1e-12);
+        // Down, up, level: 0.5 below; 2 - 0.25 below; 1 below.
+        let turn = std::f64::consts::PI;
+        let bent = Seed::angles(&problem, &[0.0, turn, 0.5 * turn]).unwrap();
+        assert!((potential_j(&problem, &bent) + 10.0 * (0.5 + 5.25 + 2.0)).abs() < 1e-12);
+    }
+}

@@ -54,3 +54,25 @@ impl IntervalSum {
         Interval::point(self.head) + self.tail
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The sum is as wide as its terms together, whichever end of each is taken.
+    #[test]
+    fn widths_add_up() {
+        let mut sum = IntervalSum::ZERO;
+        let (mut lo, mut hi) = (0.0, 0.0);
+        // Sums of sixteenths are exact.
+        for k in 0..1000_i32 {
+            let at = f64::from(k * k % 97 - 48) / 16.0;
+            let term = Interval::new(at, at + f64::from(k % 5) / 4.0);
+            sum.add(term);
+            (lo, hi) = (lo + term.lo(), hi + term.hi());
+        }
+        let value = sum.value();
+        assert!(value.encloses(Interval::new(lo, hi)), "{value:?} does not enclose {lo} to {hi}");
+        assert!(value.width() <= (hi - lo) * (1.0 + 1e-12), "{value:?} beside {lo} to {hi}");
+    }
+}

@@ -318,6 +318,59 @@ fn joints_and_forces_as_csv() {
     assert_eq!(files, 2, "a temporary file is left behind");
 }
 
+/// The paper's chain, from 40 digits: the axial force of a bar is the mean of the forces at its
+/// ends, along it.
+#[test]
+fn the_files_of_an_answer_hold_the_numbers_of_the_paper() {
+    /// Across and up, in units of mg, at joints 0 to 3; bar 3 is pushed.
+    const ACROSS: f64 = 0.648_944_835_933_933_6;
+    const UP: [f64; 4] = [
+        2.312_944_292_241_837_6,
+        1.312_944_292_241_837_6,
+        0.312_944_292_241_837_6,
+        -0.687_055_707_758_162_4,
+    ];
+    /// Angles of the bars from the descending vertical, degrees.
+    const ANGLES: [f64; 3] = [19.694_867_976_133_02, 38.599_136_184_451_89, -73.920_588_792_231_34];
+    let folder = folder("paper-csv");
+    let [joints, bars] = ["joints.csv", "bars.csv"].map(|name| folder.join(name));
+    let [to_joints, to_bars] = [&joints, &bars].map(|path| path.to_str().unwrap());
+    let paper = ["solve", "--case", "three-equal-bars", "--csv", to_joints, "--bars-csv", to_bars];
+    assert_eq!(funicular(&paper).status.code(), Some(0));
+    let rows = |path: &PathBuf| -> Vec<Vec<String>> {
+        let text = std::fs::read_to_string(path).unwrap();
+        text.lines().skip(1).map(|line| line.split(',').map(str::to_owned).collect()).collect()
+    };
+    let number = |cell: &String| cell.parse::<f64>().unwrap();
+    let mg = model::STANDARD_GRAVITY_M_S2;
+    let bars = rows(&bars);
+    assert_eq!(bars.len(), 6);
+    for row in &bars {
+        let bar: usize = row[1].parse().unwrap();
+        assert_eq!([&row[2], &row[3]], [&(bar - 1).to_string(), &bar.to_string()]);
+        let sign = if bar == 3 { -1.0 } else { 1.0 };
+        let expected = sign * ACROSS.hypot(0.5 * (UP[bar - 1] + UP[bar])) * mg;
+        assert!((number(&row[4]) - expected).abs() < 1e-11, "{row:?}: {expected}");
+    }
+    let joints = rows(&joints);
+    assert_eq!(joints.len(), 8);
+    for row in &joints {
+        let joint: usize = row[1].parse().unwrap();
+        let (mut across, mut down) = (0.0, 0.0);
+        for angle in &ANGLES[..joint] {
+            across += angle.to_radians().sin();
+            down += angle.to_radians().cos();
+        }
+        let [x, y, z] = [&row[2], &row[3], &row[4]].map(number);
+        assert!((x.hypot(y) - across.abs()).abs() + (z + down).abs() < 1e-12, "{row:?}");
+        let [x, y, z] = [&row[5], &row[6], &row[7]].map(number);
+        assert!((x.hypot(y) - ACROSS * mg).abs() < 1e-11, "{row:?}");
+        // The ground lifts the first bar; at the others the next bar lifts the one before, less.
+        let up = if joint == 0 { UP[0] } else { -UP[joint] };
+        assert!((z - up * mg).abs() < 1e-11, "{row:?}");
+    }
+}
+
 #[test]
 fn bad_input_ends_with_code_2_and_shows_the_line() {
     let path = file(

@@ -62,6 +62,11 @@ fn the_level_chain_has_its_folds_and_branch_points() {
     let csv = std::fs::read_to_string(csv).unwrap();
     let head = csv.lines().next().unwrap();
     assert!(head.starts_with("path,branch,position,anchors.end_m.z,anchors.end_m.x,span_m,"));
+    // The anchors are level, the first one in the origin: the span is the parameter itself.
+    for line in csv.lines().skip(1) {
+        let cells: Vec<f64> = line.split(',').take(6).map(|cell| cell.parse().unwrap()).collect();
+        assert!((cells[5] - cells[4]).abs() <= 1e-15 && cells[3].abs() <= 0.0, "{line}");
+    }
     let points: usize = trace["branches"]
         .as_array()
         .unwrap()
@@ -213,6 +218,29 @@ fn more_points_than_memory_are_refused_beforehand() {
     let error = words.filter(|word| !word.is_empty()).collect::<Vec<_>>().join(" ");
     assert!(error.contains("100000 allowed") && error.contains("--max-points"), "{error}");
     assert!(start.elapsed().as_secs() < 20);
+}
+
+/// Twelve bars take a second or so at each point.
+#[test]
+fn a_long_trace_says_so_before_it_begins() {
+    let out = folder("long");
+    let text = "[anchors]\nstart_m = [0, 0, 0]\nend_m = [1, 0, -1]\n\n[[bars]]\nlength_m = 1\n\
+                mass_kg = 1\ncount = 12\n";
+    std::fs::write(out.join("twelve.toml"), text).unwrap();
+    let mut running = std::process::Command::new(assert_cmd::cargo::cargo_bin!("funicular"))
+        .args(["trace", "twelve.toml", "--vary", "anchors.end_m.x=1..5:1000"])
+        .current_dir(&out)
+        .stdout(std::process::Stdio::null())
+        .stderr(std::process::Stdio::piped())
+        .spawn()
+        .unwrap();
+    let mut line = String::new();
+    let mut said = std::io::BufReader::new(running.stderr.take().unwrap());
+    std::io::BufRead::read_line(&mut said, &mut line).unwrap();
+    running.kill().unwrap();
+    running.wait().unwrap();
+    // 0.3 s for ten bars, 2.1 times as long for each bar more.
+    assert!(line.contains("this trace: about 20 minutes of one processor"), "{line}");
 }
 
 #[test]

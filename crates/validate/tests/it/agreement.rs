@@ -164,6 +164,29 @@ fn each_budget_is_in_the_unit_that_its_file_says() {
     }
 }
 
+/// Errors a little above the budgets of the project are told, each in its own unit: a budget that
+/// is widened lets one of them through.
+#[test]
+fn errors_that_matter_are_not_within_the_budgets() {
+    let (problem, good) = long_and_light();
+    let (length_m, weight_n) = (2700.0, 6e-3 * 9.81);
+    let changes: [(f64, Change); 4] = [
+        (1e-9 * length_m, |e, by| e.joints_m[1][1] += by),
+        // The pull is several times the weight.
+        (1e-8 * weight_n, |e, by| e.multipliers_n[1][0] -= by),
+        (1e-11 * weight_n * length_m, |e, by| e.energy_j += by),
+        (1e-10 * weight_n, |e, by| e.reactions_n.end[2] += by),
+    ];
+    for (k, (by, change)) in changes.into_iter().enumerate() {
+        for which in 0..2 {
+            let mut answers = good.clone();
+            change(&mut answers[which], by);
+            let agreement = compare(&problem, &mut answers, &Tolerances::project());
+            assert!(!agreement.agrees(), "change {k} of answer {which} is within the budgets");
+        }
+    }
+}
+
 /// A joint without load between bars under tension is not free: the two bars are parallel.
 #[test]
 fn a_joint_without_load_is_held_by_bars_that_carry_force() {
