@@ -80,6 +80,7 @@ mod settings;
 mod slack;
 
 pub use census::check::CheckError;
+pub use census::expected_time_s;
 pub use census::position::Position;
 pub use census::{Census, Statistics};
 pub use count::morse::MorseError;

@@ -15,7 +15,7 @@ use arrow_array::types::{
 };
 use arrow_array::{Array, ArrayRef, RecordBatch, cast::AsArray};
 use arrow_schema::DataType;
-use model::system_file::MAX_BARS;
+use model::system_file::most_bars;
 use model::{Bar, BarError};
 
 use crate::error::ColumnsError;
@@ -38,7 +38,7 @@ pub const BATCH_ROWS: usize = 1 << 14;
 ///
 /// The rules are those of [`model::system_file::columns`]: a missing `centre_m` means half the
 /// length, the moments of inertia are those of a homogeneous slender bar, there are at most
-/// [`MAX_BARS`](model::system_file::MAX_BARS) rows, and a column of another name is an error.
+/// [`most_bars`](model::system_file::most_bars) rows, and a column of another name is an error.
 /// Numbers may be floating point or whole, of any width; pages may be plain or compressed by
 /// Snappy, Zstandard or LZ4.
 ///
@@ -136,8 +136,8 @@ pub fn check_rows(path: &Path, metadata: &ArrowReaderMetadata) -> Result<usize, 
         u64::try_from(said).map_err(|_| ColumnsError::damaged(path, &format!("{said} rows")))?;
     match usize::try_from(rows) {
         Ok(0) => Err(ColumnsError::NoBars { path: path.to_owned() }),
-        Ok(rows) if rows <= MAX_BARS => Ok(rows),
-        _ => Err(ColumnsError::TooManyBars { path: path.to_owned(), rows, limit: MAX_BARS }),
+        Ok(rows) if rows <= most_bars() => Ok(rows),
+        _ => Err(ColumnsError::TooManyBars { path: path.to_owned(), rows, limit: most_bars() }),
     }
 }
 

@@ -117,6 +117,18 @@ impl Basins {
         })?
     }
 
+    /// Processor time that the starts take, and making the list of equilibria where the chain is too
+    /// long for a census, s: from a few starts, good to a factor of three.
+    ///
+    /// # Errors
+    ///
+    /// As [`run`](Self::run).
+    pub fn expected_time_s(&self, problem: &Problem) -> Result<f64, Error> {
+        let chain = problem.chain_for("a picture of basins")?;
+        let starts = u64::from(self.size).pow(2);
+        Ok(sweep::expected_time_s(chain, &Settings::default(), &solvers(chain)?, starts)?)
+    }
+
     /// The two bars of the axes, the lower first: the grid runs along it.
     fn axes(&self, bars: usize) -> Result<[usize; 2], Error> {
         let [i, j] = self.bars;

@@ -211,6 +211,25 @@ impl Sweep {
         Ok(PreparedSweep { system: chain.chain().summary(), sweep, manifest })
     }
 
+    /// Processor time that the starts take, and making the list of equilibria where the chain is too
+    /// long for a census, s: from a few starts, good to a factor of three.
+    ///
+    /// # Errors
+    ///
+    /// As [`prepare`](Self::prepare).
+    pub fn expected_time_s(&self, problem: &Problem) -> Result<f64, Error> {
+        let chain = problem.chain_for("a sweep")?;
+        let both = solvers(chain)?;
+        let asked = match self.solvers {
+            Solvers::Lagrange => both.only(&["lagrange"]),
+            Solvers::Energy => both.only(&["energy"]),
+            Solvers::Both => both,
+        };
+        let settings = Settings { number: self.number, ..Settings::default() };
+        let shards = self.shard.of.max(1);
+        Ok(sweep::expected_time_s(chain, &settings, &asked, self.seeds.div_ceil(shards))?)
+    }
+
     fn grid(&self, bars: usize) -> Result<Source, Error> {
         let side = side_of(self.seeds, bars);
         let points = |side| points(side, bars);

@@ -86,6 +86,18 @@ impl Trace {
         self.parameters.of(problem, "a trace")
     }
 
+    /// Processor time of the censuses at all points, s, good to an order of magnitude, as the
+    /// estimate of a census is. Following the branches takes less.
+    ///
+    /// # Errors
+    ///
+    /// As [`variation`](Self::variation).
+    pub fn expected_time_s(&self, problem: &Problem) -> Result<f64, Error> {
+        let variation = self.variation(problem)?;
+        let points: usize = variation.paths().iter().map(Vec::len).sum();
+        Ok(points as f64 * census::expected_time_s(variation.base().bars().len()))
+    }
+
     /// Follow all equilibria.
     ///
     /// # Errors

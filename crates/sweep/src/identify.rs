@@ -11,6 +11,7 @@ use crate::error::SweepError;
 use crate::settings::Settings;
 use crate::solver::{Finds, Solvers};
 use crate::starts::Source;
+use crate::sweep::block;
 
 /// An outcome is an equilibrium of the list when no joint is farther from it than this, in total
 /// lengths. A converged seed is within its residual (1e-13) times the condition of the equilibrium;
@@ -25,6 +26,10 @@ const ENERGY_TOLERANCE: f64 = 1e-9;
 /// reaches another one: a list of those identifies nothing, and each costs as much text as a
 /// thousand rows.
 pub const DISCOVERED: usize = 1000;
+
+/// Most seeds that discover equilibria at a time. The list depends on it, as on the order in which
+/// the solvers are asked: of what is found twice the first is kept.
+const RUN: u64 = 1000;
 
 /// Seed number of the seeds that discover equilibria: always the same, whatever the sweep.
 const DISCOVERY: u64 = 0x0066_756e_6963_756c;
@@ -168,16 +173,16 @@ impl Members {
         settings: &Settings,
         solvers: &Solvers,
     ) -> Result<(), SweepError> {
-        const RUN: u64 = 1000;
         let bars = problem.chain().bars().len();
+        let run = block(bars, RUN);
         let starts = Source::Uniform.ready(DISCOVERY, bars)?;
         let mut angles = vec![];
         let mut ends = Ends::default();
         let all = u64::from(settings.discover);
         // Seeds that reached each entry.
         let mut seeds = vec![0; self.list.len()];
-        for start in (0..all).step_by(usize::try_from(RUN).unwrap_or(1)) {
-            starts.fill(start..all.min(start + RUN), bars, &mut angles);
+        for start in (0..all).step_by(usize::try_from(run).unwrap_or(1)) {
+            starts.fill(start..all.min(start + run), bars, &mut angles);
             for solver in &solvers.discover {
                 let index = (solver.finds() == Finds::Minima).then_some(0);
                 solver.solve(&angles, &mut ends);
@@ -363,4 +368,64 @@ fn by_energy_and_angles(a: &Member, b: &Member) -> Ordering {
         let less = |x: &Option<f64>| x.unwrap_or(f64::NEG_INFINITY);
         order.then(less(x).total_cmp(&less(y)))
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The paper's equilibria E1 and E2, from 40 digits.
+    fn members() -> Members {
+        let angles: [[f64; 3]; 2] = [
+            [19.694_867_976_133_02, 38.599_136_184_451_89, -73.920_588_792_231_34],
+            [73.920_588_792_231_34, -38.599_136_184_451_89, -19.694_867_976_133_02],
+        ];
+        let list: Vec<_> = angles
+            .into_iter()
+            .zip([2.335_468_651_999_305, 3.664_531_348_000_695])
+            .map(|(angles, mgl)| Member {
+                origin: Origin::Proven,
+                energy_j: (mgl - 6.0) * model::STANDARD_GRAVITY_M_S2,
+                angles_rad: angles.map(|angle| Some(angle.to_radians())).into(),
+                index_in_plane: Some(0),
+                mirrored: false,
+                joints_m: None,
+            })
+            .collect();
+        let lookup = Lookup::new(&model::cases::paper(), &list);
+        Members { list, complete: true, left_out: 0, lookup }
+    }
+
+    /// A millionth of the total length and no more: the last joint of the paper's chain moves by a
+    /// third of the turn of the last bar.
+    #[test]
+    fn outcomes_belong_to_an_entry_within_a_millionth_of_the_length() {
+        let members = members();
+        for entry in [0, 1] {
+            let member = &members.list()[entry];
+            let turned = |by: f64| {
+                let mut angles: Vec<f64> = member.angles_rad.iter().flatten().copied().collect();
+                angles[2] += 3.0 * by;
+                let directions: Vec<_> =
+                    angles.iter().map(|angle| [angle.sin(), -angle.cos()]).collect();
+                members.identify(&directions, member.energy_j)
+            };
+            let number = i16::try_from(entry).unwrap();
+            assert_eq!([0.0, 0.9e-6, -0.9e-6].map(turned), [Some(number); 3]);
+            assert_eq!([1.1e-6, -1.1e-6, 1e-3].map(turned), [None; 3]);
+        }
+    }
+
+    /// Energies tell entries apart as well: a billionth of total weight times total length.
+    #[test]
+    fn outcomes_belong_to_an_entry_of_their_energy() {
+        let members = members();
+        let member = &members.list()[0];
+        let angles = member.angles_rad.iter().flatten();
+        let directions: Vec<_> = angles.map(|angle| [angle.sin(), -angle.cos()]).collect();
+        let unit_j = 9.0 * model::STANDARD_GRAVITY_M_S2;
+        let off = |by: f64| members.identify(&directions, member.energy_j + by * unit_j);
+        assert_eq!([0.9e-9, -0.9e-9].map(off), [Some(0); 2]);
+        assert_eq!([1.1e-9, -1.1e-9].map(off), [None; 2]);
+    }
 }

@@ -19,7 +19,7 @@
 //! | file | what |
 //! |---|---|
 //! | `manifest.json` | [`Manifest`]: everything the rows depend on; written first |
-//! | `part-000000.parquet`, ... | the rows, [`part_seeds`] of them in each |
+//! | `part-000000.parquet`, ... | the rows, [`part_seeds`] of them in each, which keeps the summary short for any number |
 //! | `summary.json` | [`StoreSummary`]: counts of the outcomes, and the digest of every part; written last |
 //!
 //! and, until they are finished, `.digests`: the digests so far, as `sha256sum --check` reads them.
@@ -41,6 +41,7 @@
 //! `.system_sha256`, `.seed_number` and `.source`; CSV has the names alone.
 
 mod basins;
+mod cost;
 mod error;
 mod identify;
 mod record;
@@ -55,6 +56,7 @@ mod sweep;
 mod tally;
 
 pub use basins::{Basins, BasinsError, Field};
+pub use cost::expected_time_s;
 pub use error::SweepError;
 pub use identify::{DISCOVERED, JOINT_TOLERANCE, Member, Members, Origin};
 pub use record::{Chunk, Failure, Outcomes};
@@ -67,7 +69,7 @@ pub use store::description::SCHEMA_VERSION;
 pub use store::error::StoreError;
 pub use store::finished::{PartRecord, StoreSummary};
 pub use store::manifest::{Manifest, Release, SystemText};
-pub use store::merge::merge;
+pub use store::merge::{merge, merge_shard};
 pub use store::part::schema;
 pub use store::run::{Run, RunSettings, run};
 pub use store::shard::{MOST_SEEDS, Shard, ShardError, part_seeds};

@@ -28,8 +28,16 @@ pub struct Sweep {
     solvers: Solvers,
 }
 
-/// Seeds solved at a time, in the memory of one chunk: results do not depend on it.
+/// Most seeds solved at a time, in the memory of one chunk: results do not depend on it.
 const BLOCK: u64 = 1024;
+
+/// Most bars of seeds solved at a time: their angles and directions take 24 MB.
+const BLOCK_BARS: u64 = 1 << 20;
+
+/// Seeds of chains of so many bars that are solved at a time, of at most `most`.
+pub(crate) fn block(bars: usize, most: u64) -> u64 {
+    (BLOCK_BARS / (bars as u64).max(1)).clamp(1, most)
+}
 
 impl Sweep {
     /// Prepare a sweep: validate, and make the list of equilibria.
@@ -87,7 +95,7 @@ impl Sweep {
         let mut chunk = Chunk { seeds: seeds.clone(), outcomes };
         let mut start = seeds.start;
         while start < seeds.end {
-            let end = seeds.end.min(start.saturating_add(BLOCK));
+            let end = seeds.end.min(start.saturating_add(block(self.bars, BLOCK)));
             self.starts.fill(start..end, self.bars, &mut angles);
             for (solver, outcomes) in self.solvers.asked.iter().zip(&mut chunk.outcomes) {
                 solver.solve(&angles, &mut ends);
@@ -144,6 +152,10 @@ impl Sweep {
 }
 
 impl Compute for Sweep {
+    fn chunk_seeds(&self) -> u64 {
+        8 * block(self.bars, BLOCK)
+    }
+
     fn chunk(&self, seeds: Range<u64>) -> Chunk {
         self.run_chunk(seeds)
     }

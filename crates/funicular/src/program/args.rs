@@ -60,6 +60,11 @@ pub struct Cli {
     /// What to do.
     #[command(subcommand)]
     pub command: Command,
+    /// Refuse what would need more memory: 80 bytes for each byte of a system file, 300 for each bar
+    /// of a chain. A sweep needs 50 MB for each thread, basins 50 bytes for each start, a trace what
+    /// its --max-points says. If not given, files of 64 MiB and 20 million bars: some 6 GB
+    #[arg(long, value_name = "SIZE", global = true, hide_short_help = true, value_parser = crate::memory::parse)]
+    pub max_memory: Option<u64>,
 }
 
 /// The subcommands.

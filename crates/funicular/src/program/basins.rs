@@ -8,6 +8,7 @@ use funicular::{Basins, Field};
 use miette::miette;
 use model::SolverName;
 
+use crate::cost::tell_time;
 use crate::exit::{Exit, Failure};
 use crate::input::{Input, Source};
 use crate::interrupt::end_on_interrupt;
@@ -74,6 +75,7 @@ pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
         .flat_map(|solver| FIELDS.iter().map(|(_, suffix)| picture(solver, suffix)))
         .collect();
     output::check(pictures.iter().map(PathBuf::as_path), &files)?;
+    tell_time("these pictures", basins.expected_time_s(&problem)?);
     let progress = Progress::start();
     progress.say(&format!("{} starts", u64::from(arguments.size).pow(2)));
     let found = basins.run(&problem)?;

@@ -8,7 +8,7 @@ use formats::system::{parse_compas, parse_moordyn, parse_net};
 use funicular::Error;
 use funicular::judge::Subject;
 use miette::miette;
-use model::system_file::MAX_FILE_BYTES;
+use model::system_file::most_file_bytes;
 
 use crate::exit::Failure;
 use crate::input;
@@ -80,7 +80,8 @@ pub fn text(path: &Path) -> Result<(String, String), Failure> {
     };
     let mut bytes = Vec::new();
     // One byte more than is allowed shows that it is too long.
-    let limit = MAX_FILE_BYTES.saturating_add(1);
+    let most = most_file_bytes();
+    let limit = most.saturating_add(1);
     let read = if standard {
         std::io::stdin().lock().take(limit).read_to_end(&mut bytes)
     } else if path.is_dir() {
@@ -89,8 +90,8 @@ pub fn text(path: &Path) -> Result<(String, String), Failure> {
         File::open(path).and_then(|file| file.take(limit).read_to_end(&mut bytes))
     };
     read.map_err(|error| unreadable(&error))?;
-    if bytes.len() as u64 > MAX_FILE_BYTES {
-        return Err(unreadable(&format_args!("it is longer than {MAX_FILE_BYTES} bytes")));
+    if bytes.len() as u64 > most {
+        return Err(unreadable(&format_args!("it is longer than {most} bytes")));
     }
     let text = String::from_utf8(bytes).map_err(|error| unreadable(&error.utf8_error()))?;
     Ok((text, name))

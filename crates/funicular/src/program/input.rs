@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use funicular::{Error, Problem};
 use miette::miette;
-use model::system_file::MAX_FILE_BYTES;
+use model::system_file::most_file_bytes;
 
 use crate::case_name::CaseName;
 use crate::exit::Failure;
@@ -66,14 +66,15 @@ fn standard_input() -> Result<Problem, Failure> {
     };
     let mut text = vec![];
     // One byte more than is allowed shows that it is too long.
-    let limit = MAX_FILE_BYTES.saturating_add(1);
+    let most = most_file_bytes();
+    let limit = most.saturating_add(1);
     std::io::stdin()
         .lock()
         .take(limit)
         .read_to_end(&mut text)
         .map_err(|error| unreadable(&error))?;
-    if text.len() as u64 > MAX_FILE_BYTES {
-        return Err(unreadable(&format_args!("it is longer than {MAX_FILE_BYTES} bytes")));
+    if text.len() as u64 > most {
+        return Err(unreadable(&format_args!("it is longer than {most} bytes")));
     }
     let text = String::from_utf8(text).map_err(|error| unreadable(&error))?;
     Problem::parse(&text, NAME).map_err(|error: Error| error.into())

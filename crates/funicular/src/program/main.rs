@@ -9,6 +9,7 @@ mod basins;
 mod case_name;
 mod cases;
 mod census;
+mod cost;
 mod derivatives;
 mod diagnostics;
 mod exit;
@@ -20,6 +21,7 @@ mod interrupt;
 mod judge;
 mod judged;
 mod man;
+mod memory;
 mod merge;
 mod modes;
 mod new;
@@ -47,7 +49,9 @@ use crate::exit::Exit;
 
 fn main() -> std::process::ExitCode {
     diagnostics::install();
-    let exit = match Cli::parse().command {
+    let cli = Cli::parse();
+    memory::install(cli.max_memory);
+    let exit = match cli.command {
         Command::Reproduce(arguments) => reproduce::run(&arguments),
         Command::Solve(arguments) => solve::run(&arguments),
         Command::Census(arguments) => census::run(&arguments),

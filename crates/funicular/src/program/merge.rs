@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use ::sweep::Shard;
 use clap::Args;
 use funicular::Error;
 
@@ -29,6 +30,10 @@ pub struct Merge {
     /// The folders of all shards, in any order
     #[arg(value_name = "DIR", required = true)]
     pub folders: Vec<PathBuf>,
+    /// Join to the K-th of N shards instead of to the whole: for some of the folders on each of many
+    /// machines, and then for what these made
+    #[arg(long, value_name = "K/N", default_value_t = Shard::WHOLE)]
+    pub shard: Shard,
     /// How many threads; 0 means one per processor. The result does not depend on it
     #[arg(long, value_name = "T", default_value_t = 0, value_parser = threads::parse)]
     pub threads: usize,
@@ -47,7 +52,8 @@ pub fn run(arguments: &Merge) -> Result<Exit, Failure> {
     let bar = seeds_bar(seeds.map_or(0, |manifest| manifest.seeds));
     let done = |seeds| bar.inc(seeds);
     let threads = threads::resolve(arguments.threads)?;
-    let merged = ::sweep::merge(&arguments.folders, &arguments.out, threads, stop, &done);
+    let (folders, out) = (&arguments.folders, &arguments.out);
+    let merged = ::sweep::merge_shard(folders, out, arguments.shard, threads, stop, &done);
     bar.finish_and_clear();
     let Some(summary) = merged.map_err(Error::from)? else {
         tell("Stopped. The same command goes on.");

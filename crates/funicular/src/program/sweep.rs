@@ -14,6 +14,7 @@ use serde_json::{Value, json};
 
 pub use self::arguments::Sweep;
 pub(crate) use self::arguments::{Format, count};
+use crate::cost::tell_time;
 use crate::diagnostics::tell;
 use crate::exit::{Exit, Failure};
 use crate::interrupt::{Interrupt, on_interrupt};
@@ -31,15 +32,16 @@ pub fn run(arguments: &Sweep) -> Result<Exit, Failure> {
     let interrupt = on_interrupt()?;
     let problem = arguments.input.read()?.problem;
     let progress = Progress::start();
-    progress.say("the list of equilibria");
     let sweep = funicular::Sweep::new(arguments.seeds)
         .number(arguments.seed)
         .spread(arguments.source.into())
         .solvers(arguments.solver.into())
         .shard(arguments.shard)
         .angles(arguments.angles)
-        .format(arguments.format.into())
-        .prepare(&problem)?;
+        .format(arguments.format.into());
+    tell_time("this sweep", sweep.expected_time_s(&problem)?);
+    progress.say("the list of equilibria");
+    let sweep = sweep.prepare(&problem)?;
     drop(progress);
     let folder = Folder {
         manifest: sweep.manifest(),

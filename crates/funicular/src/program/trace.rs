@@ -9,6 +9,7 @@ use clap::Args;
 use funicular::{Problem, Trace, TraceAnswer};
 use miette::miette;
 
+use crate::cost::tell_time;
 use crate::exit::{Exit, Failure};
 use crate::input::Source;
 use crate::interrupt::end_on_interrupt;
@@ -112,6 +113,7 @@ pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
         arguments.svg.as_deref().map_or_else(Vec::new, |path| output::numbered(path, paths));
     let outputs = arguments.csv.iter().chain(&diagrams).map(PathBuf::as_path);
     output::check(outputs, &files)?;
+    tell_time("this trace", trace.expected_time_s(&problem)?);
     let progress = Progress::start();
     let found = trace.run_watched(&problem, &|path, branches::Progress { done, total }| {
         let which =

@@ -352,6 +352,47 @@ fn the_help_says_what_an_interruption_leaves() {
     }
 }
 
+/// What a limit of memory lets through keeps to it, and what it does not is refused before it is
+/// made: with less memory than that the program would be stopped.
+#[test]
+#[cfg(target_os = "linux")]
+fn a_limit_of_memory_is_kept() {
+    /// What the program is, its threads and their stacks, kB.
+    const PROGRAM: u64 = 400_000;
+    let folder = folder("memory");
+    let limited = |limit: &str, kilobytes: u64, file: &str| {
+        let script = format!("ulimit -v {kilobytes}; exec \"$@\"");
+        let mut command = Command::new("sh");
+        command.args(["-c", &script, "sh"]).arg(cargo_bin("funicular"));
+        command.args(["solve", file, "--summary", "--max-memory", limit]);
+        command.env("RAYON_NUM_THREADS", "2").current_dir(&folder).output().unwrap()
+    };
+    let chain = |count: u64| SYSTEM.replace("count = 3", &format!("count = {count}"));
+    fs::write(folder.join("chain.toml"), chain(500_000)).unwrap();
+    let output = limited("150MB", PROGRAM + 150_000, "chain.toml");
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    fs::write(folder.join("longer.toml"), chain(500_001)).unwrap();
+    let output = limited("150MB", PROGRAM, "longer.toml");
+    assert_eq!(output.status.code(), Some(2), "{}", stderr(&output));
+    assert!(stderr(&output).contains("500000"), "{}", stderr(&output));
+    fs::write(folder.join("most.toml"), chain(20_000_000)).unwrap();
+    assert_eq!(limited("1GB", PROGRAM, "most.toml").status.code(), Some(2));
+    // Lines of nothing, empty arrays, comments.
+    for (name, text) in [("lines", "\n"), ("arrays", "[],"), ("comments", "#\n")] {
+        let file = format!("{name}.toml");
+        let long = text.repeat(2_000_000 / text.len());
+        let long = if name == "arrays" { format!("a = [{long}]") } else { long };
+        fs::write(folder.join(&file), &long).unwrap();
+        let output = limited("200MB", PROGRAM + 200_000, &file);
+        assert_eq!(output.status.code(), Some(2), "{name}: {}", stderr(&output));
+        assert!(!stderr(&output).contains("longer than"), "{name}: {}", stderr(&output));
+        fs::write(folder.join(&file), long.repeat(2)).unwrap();
+        let output = limited("200MB", PROGRAM, &file);
+        assert_eq!(output.status.code(), Some(2), "{name}: {}", stderr(&output));
+        assert!(stderr(&output).contains("2500000"), "{name}: {}", stderr(&output));
+    }
+}
+
 /// A full disk is no bad input: the same command may be given again.
 #[test]
 #[cfg(target_os = "linux")]

@@ -167,6 +167,98 @@ fn a_list_with_gaps_is_no_check_that_failed() {
     assert!(files(&out)["manifest.json"].len() < 3_000_000);
 }
 
+/// Solvers that contradict each other, made up: whatever reads their rows ends with 1.
+#[test]
+fn solvers_that_contradict_each_other_are_a_check_that_failed() {
+    use ::sweep::{Chunk, Outcomes};
+    const WRONG: u64 = 1234;
+    let out = folder("contradiction");
+    let problem = funicular::Problem::case("three-equal-bars").unwrap();
+    let prepared = funicular::Sweep::new(2000).prepare(&problem).unwrap();
+    let manifest = prepared.manifest();
+    let least = &manifest.equilibria[0];
+    assert_eq!(least.index_in_plane, Some(0));
+    let top = manifest.equilibria.iter().position(|one| one.index_in_plane > Some(0)).unwrap();
+    let top = i16::try_from(top).unwrap();
+    let stop = std::sync::atomic::AtomicBool::new(false);
+    let settings = ::sweep::RunSettings { threads: 1, resume: false, stop: &stop, done: &|_| () };
+    // What `energy` says of one seed: its outcome, and its energy above that of `lagrange`.
+    for (name, (outcome, above_j), code) in [
+        ("agreed", (0, 0.0), 0),
+        ("failed", (-2, 0.0), 0),
+        ("energies", (0, 1e-6), 1),
+        ("no-minimum", (top, 0.0), 1),
+        ("unlisted", (-4, 0.0), 1),
+    ] {
+        let compute = |seeds: std::ops::Range<u64>| {
+            let rows = usize::try_from(seeds.end - seeds.start).unwrap();
+            let mut both = ["lagrange", "energy"].map(|solver| Outcomes {
+                solver: solver.to_owned(),
+                outcome: vec![0; rows],
+                iterations: vec![5; rows],
+                residual: vec![1e-15; rows],
+                energy_j: vec![least.energy_j; rows],
+            });
+            if seeds.contains(&WRONG) {
+                let row = usize::try_from(WRONG - seeds.start).unwrap();
+                both[1].outcome[row] = outcome;
+                both[1].energy_j[row] += above_j;
+            }
+            Chunk { seeds, outcomes: both.into() }
+        };
+        let shard = out.join(name);
+        ::sweep::run(&shard, manifest, &compute, &settings).unwrap();
+        let merged = out.join(format!("{name}-merged"));
+        let output =
+            funicular(&["merge", shard.to_str().unwrap(), "--out", merged.to_str().unwrap()]);
+        assert_eq!(output.status.code(), Some(code), "{name}: {}", stderr(&output));
+        let text = String::from_utf8(output.stdout).unwrap();
+        assert_eq!(text.contains("seed 1234: "), code == 1, "{name}: {text}");
+    }
+}
+
+/// The first line that a command says.
+fn first_line(arguments: &[&str], folder: &Path) -> String {
+    let mut running = program();
+    running.args(arguments).current_dir(folder).stdout(Stdio::null()).stderr(Stdio::piped());
+    let mut running = Running(running.spawn().unwrap());
+    let mut line = String::new();
+    let mut said = std::io::BufReader::new(running.0.stderr.take().unwrap());
+    std::io::BufRead::read_line(&mut said, &mut line).unwrap();
+    line
+}
+
+/// Thousands of bars take their time for every start, and twenty thousand starts make the list.
+#[test]
+fn sweeps_and_basins_of_long_chains_say_so_before_they_begin() {
+    let out = folder("long");
+    let text = "[anchors]\nstart_m = [0, 0, 0]\nend_m = [1800, 0, 0]\n\n[[bars]]\nlength_m = 1\n\
+                mass_kg = 1\ncount = 4_000\n";
+    fs::write(out.join("long.toml"), text).unwrap();
+    let line = first_line(&["sweep", "long.toml", "--seeds", "5", "--out", "s"], &out);
+    assert!(line.contains("this sweep: about ") && line.contains(" of one processor"), "{line}");
+    let line = first_line(&["basins", "long.toml", "--size", "40", "--out", "b"], &out);
+    assert!(line.contains("these pictures: about "), "{line}");
+    // A trillion: files and bytes, too.
+    let many = ["sweep", "--case", "two-bars", "--seeds", "1e12", "--out", "m"];
+    let line = first_line(&many, &out);
+    assert!(line.contains("this sweep: about ") && line.contains("days"), "{line}");
+    let one =
+        ["sweep", "--case", "two-bars", "--seeds", "1e12", "--shard", "7/100000", "--out", "o"];
+    let mut running = program();
+    running.args(one).current_dir(&out).stdout(Stdio::null()).stderr(Stdio::null());
+    let running = Running(running.spawn().unwrap());
+    let start = Instant::now();
+    while !out.join("o/manifest.json").exists() {
+        assert!(start.elapsed() < Duration::from_secs(300), "it does not begin");
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    drop(running);
+    let manifest: Value =
+        serde_json::from_slice(&fs::read(out.join("o/manifest.json")).unwrap()).unwrap();
+    assert_eq!(manifest["part_seeds"], 1 << 24);
+}
+
 #[test]
 fn an_empty_shard_says_that_it_is() {
     let out = folder("empty");

@@ -17,7 +17,7 @@ use std::path::Path;
 
 use super::error::SystemFileError;
 use super::kind::SystemFileErrorKind as Kind;
-use super::limits::{MAX_BARS, MAX_BARS_FILE_BYTES};
+use super::limits::{MAX_BARS_FILE_BYTES, most_bars};
 use super::load::{Loaded, load, without_mark};
 use super::location::span_of;
 use super::suggest::nearest;
@@ -87,10 +87,10 @@ impl<'a> Sheet<'a> {
         let header = self.header(lines.next().unwrap_or(&self.text[..0]))?;
         // Rows are of like length: the first tells how many there may be.
         let row = lines.clone().next().map_or(1, |line| line.len() + 1);
-        let mut bars = Vec::with_capacity((self.text.len() / row).min(MAX_BARS));
+        let mut bars = Vec::with_capacity((self.text.len() / row).min(most_bars()));
         for line in lines {
-            if bars.len() == MAX_BARS {
-                return Err(self.error(Kind::TooManyBars { limit: MAX_BARS }, None, line));
+            if bars.len() == most_bars() {
+                return Err(self.error(Kind::TooManyBars { limit: most_bars() }, None, line));
             }
             bars.push(self.bar(line, &header)?);
         }

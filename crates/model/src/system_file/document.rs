@@ -10,7 +10,7 @@ use super::described::Described;
 use super::duplicate;
 use super::error::SystemFileError;
 use super::kind::SystemFileErrorKind as Kind;
-use super::limits::{MAX_BARS, MAX_BARS_FILE_BYTES};
+use super::limits::{MAX_BARS_FILE_BYTES, most_bars};
 use super::load::{Loaded, load};
 use super::loads;
 use super::network;
@@ -234,8 +234,8 @@ fn bars(root: &Table<'_>, tables: &DeArray<'_>) -> Result<(Vec<Bar>, Origin), Sy
         let length = table.require("length_m", "a length in metres")?;
         let bar = bar(&table, length)?;
         let count = table.count("count")?;
-        if count > MAX_BARS - bars.len() {
-            return Err(table.error(Kind::TooManyBars { limit: MAX_BARS }, "count"));
+        if count > most_bars() - bars.len() {
+            return Err(table.error(Kind::TooManyBars { limit: most_bars() }, "count"));
         }
         let mass = table.get("mass_kg").map_or_else(|| length.span(), Spanned::span);
         places.push(BarsPlace { first: bars.len() + 1, length: length.span(), mass });

@@ -102,7 +102,10 @@ mod write_network;
 pub use described::Described;
 pub use error::SystemFileError;
 pub use kind::{NOT_MODELLED, SCOPE, SystemFileErrorKind};
-pub use limits::{MAX_BARS, MAX_BARS_FILE_BYTES, MAX_FILE_BYTES};
+pub use limits::{
+    BYTES_PER_BAR, BYTES_PER_FILE_BYTE, MAX_BARS, MAX_BARS_FILE_BYTES, MAX_FILE_BYTES,
+    limit_memory, most_bars, most_file_bytes,
+};
 pub use location::Position;
 pub use read::{
     parse, parse_problem, parse_system, read, read_problem, read_problem_with, read_system,

@@ -9,7 +9,7 @@ use toml::de::DeArray;
 use super::document::bar;
 use super::error::SystemFileError;
 use super::kind::SystemFileErrorKind as Kind;
-use super::limits::MAX_BARS;
+use super::limits::most_bars;
 use super::network_rows::{self, FREE, member_kind};
 use super::row_table::Row;
 use super::sheet::SheetFile;
@@ -159,8 +159,8 @@ impl Reading<'_> {
         let (to, to_name) = self.joint(table, "to")?;
         let model = member(table)?;
         let count = table.count("count")?;
-        if count > MAX_BARS - self.members.len() {
-            return Err(table.error(Kind::TooManyBars { limit: MAX_BARS }, "count"));
+        if count > most_bars() - self.members.len() {
+            return Err(table.error(Kind::TooManyBars { limit: most_bars() }, "count"));
         }
         let run = self.free_run(from_name, to_name, count);
         let mut here = from;

@@ -6,7 +6,7 @@ use super::described::Described;
 use super::error::SystemFileError;
 use super::json;
 use super::kind::SystemFileErrorKind as Kind;
-use super::limits::MAX_FILE_BYTES;
+use super::limits::most_file_bytes;
 use super::load::{Loaded, load, without_mark};
 use super::source::{BarsReader, Readers, Source};
 use crate::{Chain, Problem};
@@ -177,5 +177,5 @@ fn open(path: &Path) -> Result<Loaded, SystemFileError> {
         let file = path.display().to_string();
         SystemFileError::new(&file, "", None, None, Kind::Unreadable(error))
     };
-    load(path, MAX_FILE_BYTES).map_err(unreadable)?
+    load(path, most_file_bytes()).map_err(unreadable)?
 }

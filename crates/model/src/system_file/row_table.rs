@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 
 use super::kind::SystemFileErrorKind as Kind;
-use super::limits::MAX_BARS;
+use super::limits::most_bars;
 use super::rows::{Cell, Rows};
 use super::suggest::nearest;
 use crate::Vector;
@@ -107,8 +107,8 @@ impl Rows for RowTable<'_> {
     fn row(&mut self, cells: &[Cell<'_>]) -> bool {
         self.rows += 1;
         let number = self.rows;
-        if number > MAX_BARS {
-            return self.fail(number, None, Kind::TooManyBars { limit: MAX_BARS });
+        if number > most_bars() {
+            return self.fail(number, None, Kind::TooManyBars { limit: most_bars() });
         }
         let row = Row { number, known: self.known, places: &self.places, cells };
         match (self.take)(&row) {

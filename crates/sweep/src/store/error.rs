@@ -119,6 +119,24 @@ pub enum StoreError {
         /// How many shards the others are of.
         wanted: u64,
     },
+    /// Occurs when so many shards cannot be joined to shards of fewer.
+    #[error("{of} shards do not make shard {wanted}: their number must be a multiple of {}", wanted.of)]
+    Uneven {
+        /// How many shards there are.
+        of: u64,
+        /// The shard to be made.
+        wanted: Shard,
+    },
+    /// Occurs when a shard is no part of the one to be made.
+    #[error("{} is shard {found}, which is no part of shard {wanted}", path.display())]
+    Outside {
+        /// The folder.
+        path: PathBuf,
+        /// The shard there.
+        found: Shard,
+        /// The shard to be made.
+        wanted: Shard,
+    },
     /// Occurs when a shard is given twice.
     #[error("shard {shard} is there twice: {} and {}", first.display(), second.display())]
     Double {

@@ -46,9 +46,28 @@ pub fn merge(
     stop: &AtomicBool,
     done: &(dyn Fn(u64) + Sync),
 ) -> Result<Option<StoreSummary>, StoreError> {
-    let inputs = complete(folders.iter().map(|folder| Input::read(folder)))?;
+    merge_shard(folders, out, Shard::WHOLE, threads, stop, done)
+}
+
+/// The same for neighbouring shards, which become one shard of fewer: shards 4, 5 and 6 of 12 are
+/// shard 2 of 4. So each of many machines joins some, and the last joins what they made.
+///
+/// # Errors
+///
+/// As [`merge`], and [`StoreError::Uneven`] where the number of shards is no multiple.
+pub fn merge_shard(
+    folders: &[PathBuf],
+    out: &Path,
+    shard: Shard,
+    threads: usize,
+    stop: &AtomicBool,
+    done: &(dyn Fn(u64) + Sync),
+) -> Result<Option<StoreSummary>, StoreError> {
+    let inputs = complete(folders.iter().map(|folder| Input::read(folder)), shard)?;
     let Some(first) = inputs.values().next() else { return Err(StoreError::Nothing) };
-    let whole = first.manifest.clone().with_shard(Shard::WHOLE);
+    let whole = first.manifest.clone().with_shard(shard);
+    let parts = shard.parts(whole.parts());
+    let count = parts.end - parts.start;
     for input in inputs.values() {
         if is_same(&input.folder, out) {
             return Err(StoreError::SameFolder { path: out.to_owned() });
@@ -57,7 +76,7 @@ pub fn merge(
     let _lock = Lock::take(out, &whole, true)?;
     let proved = Mutex::new(BTreeMap::new());
     let each = |work: &(dyn Fn(u64, &Input) -> Result<(), StoreError> + Sync)| {
-        for_each_part(0..whole.parts(), threads, stop, &|part| {
+        for_each_part(parts.clone(), threads, stop, &|part| {
             // Every part is in a shard, and every shard is there.
             let input = inputs.values().find(|input| input.parts().contains(&part));
             input.map_or(Ok(()), |input| work(part, input))
@@ -73,7 +92,7 @@ pub fn merge(
         Ok(())
     })?;
     let proved = proved.into_inner().unwrap_or_default();
-    if proved.len() as u64 != whole.parts() {
+    if proved.len() as u64 != count {
         return Ok(None);
     }
     for input in inputs.values() {
@@ -91,7 +110,7 @@ pub fn merge(
         copied.fetch_add(1, Ordering::Relaxed);
         Ok(())
     })?;
-    if copied.into_inner() != whole.parts() {
+    if copied.into_inner() != count {
         return Ok(None);
     }
     let summary = StoreSummary::of(&whole, proved.into_values());
@@ -100,9 +119,10 @@ pub fn merge(
     Ok(Some(summary))
 }
 
-/// Every shard, by its number.
+/// Every shard that makes `whole`, by its number.
 fn complete(
     inputs: impl Iterator<Item = Result<Input, StoreError>>,
+    whole: Shard,
 ) -> Result<BTreeMap<u64, Input>, StoreError> {
     let mut all: BTreeMap<u64, Input> = BTreeMap::new();
     for input in inputs {
@@ -118,7 +138,18 @@ fn complete(
     }
     if let Some(first) = all.values().next() {
         let of = first.manifest.shard.of;
-        let missing = (1..=of).filter(|number| !all.contains_key(number));
+        let times = of / whole.of.max(1);
+        if times * whole.of != of {
+            return Err(StoreError::Uneven { of, wanted: whole });
+        }
+        let wanted = (whole.number - 1) * times + 1..=whole.number * times;
+        if let Some(other) =
+            all.values().find(|input| !wanted.contains(&input.manifest.shard.number))
+        {
+            let (path, found) = (other.folder.clone(), other.manifest.shard);
+            return Err(StoreError::Outside { path, found, wanted: whole });
+        }
+        let missing = wanted.filter(|number| !all.contains_key(number));
         // A manifest may say anything: one more than is shown is enough.
         let missing: Vec<_> = missing.take(NAMED + 1).collect();
         if !missing.is_empty() {

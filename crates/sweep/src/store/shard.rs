@@ -13,6 +13,13 @@ const PART_SEEDS: Range<u64> = 1 << 10..1 << 20;
 /// list.
 const PARTS: u64 = 64;
 
+/// Parts above which they grow beyond the most of [`PART_SEEDS`], so that what has to be done for
+/// each, and the summary, stay small.
+const MANY_PARTS: u64 = 1 << 16;
+
+/// Most seeds of a part of the largest sweeps: some 200 MB, and minutes of work.
+const LARGEST_PART: u64 = 1 << 24;
+
 /// Seeds of one part of a sweep of so many seeds: a power of two, and a function of their number
 /// alone, so that every shard cuts at the same places.
 ///
@@ -20,18 +27,21 @@ const PARTS: u64 = 64;
 /// assert_eq!(sweep::part_seeds(1_000), 1 << 10);
 /// assert_eq!(sweep::part_seeds(1_000_000), 1 << 14);
 /// assert_eq!(sweep::part_seeds(100_000_000), 1 << 20);
+/// assert_eq!(sweep::part_seeds(1_000_000_000_000), 1 << 24); // in 59,605 parts
 /// ```
 #[must_use]
 pub fn part_seeds(seeds: u64) -> u64 {
     let wanted = (seeds / PARTS).clamp(PART_SEEDS.start, PART_SEEDS.end);
-    wanted.next_power_of_two().min(PART_SEEDS.end)
+    let part = wanted.next_power_of_two().min(PART_SEEDS.end);
+    let large = seeds.div_ceil(MANY_PARTS).min(LARGEST_PART).next_power_of_two();
+    part.max(large)
 }
 
 /// Most parts of a sweep: so many records are what a summary may be long.
 pub(crate) const MOST_PARTS: u64 = 150_000;
 
 /// Most seeds of a sweep: the summary lists every part, and must not be too long to be read.
-pub const MOST_SEEDS: u64 = MOST_PARTS * PART_SEEDS.end;
+pub const MOST_SEEDS: u64 = MOST_PARTS * LARGEST_PART;
 
 /// The `number`-th of `of` shards.
 ///
@@ -166,7 +176,27 @@ mod tests {
     fn parts_are_powers_of_two_within_bounds() {
         for seeds in [0, 1, 1 << 16, (1 << 16) + 1, 1_000_000, u64::MAX] {
             let part = part_seeds(seeds);
-            assert!(part.is_power_of_two() && (1 << 10..=1 << 20).contains(&part));
+            assert!(part.is_power_of_two() && (1 << 10..=1 << 24).contains(&part));
+        }
+        // The largest part of ordinary sweeps, as long as there are not too many of them.
+        let ordinary = (1 << 16) * (1 << 20);
+        assert_eq!([ordinary, ordinary + 1].map(part_seeds), [1 << 20, 1 << 21]);
+        assert_eq!(MOST_SEEDS.div_ceil(part_seeds(MOST_SEEDS)), MOST_PARTS);
+    }
+
+    /// A shard of few is as many neighbouring shards of more together.
+    #[test]
+    fn shards_of_more_make_shards_of_few() {
+        for parts in [0, 1, 5, 59_605] {
+            for (number, of) in [(1, 1), (2, 3), (7, 7)] {
+                let few = Shard { number, of }.parts(parts);
+                for times in [1, 2, 10] {
+                    let of = of * times;
+                    let first = Shard { number: (number - 1) * times + 1, of }.parts(parts);
+                    let last = Shard { number: number * times, of }.parts(parts);
+                    assert_eq!(few, first.start..last.end);
+                }
+            }
         }
     }
 }

@@ -43,6 +43,43 @@ fn the_number_of_shards_does_not_show_in_the_bytes() {
     }
 }
 
+/// Shards of many become shards of few, those that a single run would have written, and these the
+/// whole.
+#[test]
+fn many_shards_are_joined_in_two_steps() {
+    let folder = tempfile::tempdir().unwrap();
+    let whole = folder.path().join("whole");
+    run(&whole, &manifest(), 2).unwrap();
+    // Of five parts: some of the twelve shards are empty.
+    let shards = shards(folder.path(), &manifest(), 12);
+    let mut groups = vec![];
+    for number in 1..=3_u64 {
+        let shard = Shard { number, of: 3 };
+        let out = folder.path().join(format!("group-{number}"));
+        let first = usize::try_from(number - 1).unwrap() * 4;
+        let group = &shards[first..first + 4];
+        sweep::merge_shard(group, &out, shard, 2, &NEVER, &|_| ()).unwrap().unwrap();
+        let alone = folder.path().join(format!("alone-{number}"));
+        run(&alone, &manifest().with_shard(shard), 1).unwrap();
+        assert_eq!(files(&out), files(&alone));
+        groups.push(out);
+    }
+    let out = folder.path().join("out");
+    merge(&groups, &out).unwrap().unwrap();
+    assert_eq!(files(&out), files(&whole));
+
+    let refused = |folders: &[PathBuf], shard| {
+        let out = folder.path().join("refused");
+        sweep::merge_shard(folders, &out, shard, 2, &NEVER, &|_| ()).unwrap_err()
+    };
+    let uneven = refused(&shards, Shard { number: 1, of: 5 });
+    assert!(matches!(uneven, StoreError::Uneven { of: 12, .. }), "{uneven}");
+    let outside = refused(&shards[3..8], Shard { number: 2, of: 3 });
+    assert!(matches!(outside, StoreError::Outside { found: Shard { number: 4, .. }, .. }));
+    let missing = refused(&shards[5..8], Shard { number: 2, of: 3 });
+    assert_eq!(missing.to_string(), "of 12 shards these are missing: 5");
+}
+
 #[test]
 fn an_interrupted_merge_is_completed() {
     let folder = tempfile::tempdir().unwrap();
@@ -104,6 +141,28 @@ fn what_does_not_belong_is_refused() {
     fs::create_dir(&out).unwrap();
     fs::write(out.join("mine"), "").unwrap();
     assert!(matches!(merge(&shards, &out), Err(StoreError::NotEmpty { .. })));
+}
+
+/// The bytes that are copied are those that were proved: what changes in between is no part.
+#[test]
+fn a_part_that_changes_while_it_is_copied_is_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out");
+    let shards = shards(folder.path(), &manifest(), 1);
+    let part = shards[0].join("part-000001.parquet");
+    let good = fs::read(&part).unwrap();
+    let proved = std::sync::atomic::AtomicU64::new(0);
+    let done = |seeds| {
+        // All are proved, and none is copied.
+        if proved.fetch_add(seeds, std::sync::atomic::Ordering::SeqCst) + seeds == SEEDS {
+            let mut turned = good.clone();
+            turned[good.len() / 2] ^= 1;
+            fs::write(&part, turned).unwrap();
+        }
+    };
+    let error = sweep::merge(&shards, &out, 1, &NEVER, &done).unwrap_err();
+    assert!(error.to_string().ends_with("it changed while it was being copied"), "{error}");
+    assert!(!out.join("part-000001.parquet").exists() && !out.join("summary.json").exists());
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use std::io::{self, BufRead, Read as _};
 
-use model::system_file::MAX_FILE_BYTES;
+use model::system_file::most_file_bytes;
 
 /// A line that is not blank.
 pub struct Line {
@@ -28,9 +28,9 @@ impl Lines {
     fn read(&mut self) -> io::Result<Option<Vec<u8>>> {
         let mut bytes = vec![];
         // One byte more than is allowed shows that it is too long.
-        self.from.by_ref().take(MAX_FILE_BYTES + 1).read_until(b'\n', &mut bytes)?;
+        self.from.by_ref().take(most_file_bytes() + 1).read_until(b'\n', &mut bytes)?;
         self.number += 1;
-        if bytes.len() as u64 > MAX_FILE_BYTES {
+        if bytes.len() as u64 > most_file_bytes() {
             skip_line(&mut self.from)?;
         }
         Ok(Some(bytes).filter(|bytes| !bytes.is_empty()))
@@ -65,8 +65,8 @@ impl Iterator for Lines {
 
 /// The text of a line that may be an object of JSON.
 fn object(bytes: Vec<u8>) -> Result<String, String> {
-    if bytes.len() as u64 > MAX_FILE_BYTES {
-        return Err(format!("the line is longer than the limit of {MAX_FILE_BYTES} bytes"));
+    if bytes.len() as u64 > most_file_bytes() {
+        return Err(format!("the line is longer than the limit of {} bytes", most_file_bytes()));
     }
     let text = String::from_utf8(bytes).map_err(|error| {
         let offset = error.utf8_error().valid_up_to();
@@ -100,7 +100,9 @@ fn skip_line(from: &mut dyn BufRead) -> io::Result<()> {
 mod tests {
     use std::io::{BufReader, Cursor, Read as _};
 
-    use super::{Lines, MAX_FILE_BYTES};
+    use model::system_file::MAX_FILE_BYTES;
+
+    use super::Lines;
 
     #[test]
     fn blank_lines_count_and_are_passed_over() {

@@ -1,0 +1,63 @@
+//! Files of columns: refused, or read as no more numbers than they hold.
+
+use std::path::Path;
+
+use columns::{Column, Data, Format, Kind, Schema, Spread, TableWriter};
+
+use super::fuzz;
+use super::mutate::mutated;
+
+fn schema() -> Schema {
+    let column = |name, unit| Column::new(name, Kind::F64, Spread::Many, unit, "a test");
+    let notes = vec![("made".to_owned(), "here".to_owned())];
+    Schema { columns: vec![column("length_m", "m"), column("mass_kg", "kg")], notes }
+}
+
+/// Bars in either form.
+fn example(folder: &Path, format: Format) -> Vec<u8> {
+    let path = folder.join(format!("bars.{}", format.extension()));
+    let mut table = TableWriter::create(&path, format, &schema()).unwrap();
+    let numbers = |first: i32| (first..first + 50).map(|k| 0.1 * f64::from(k)).collect();
+    table.write(vec![Data::F64(numbers(1)), Data::F64(numbers(0))]).unwrap();
+    table.finish().unwrap();
+    std::fs::read(path).unwrap()
+}
+
+fn check(path: &Path, format: Format, bytes: &[u8]) {
+    std::fs::write(path, bytes).unwrap();
+    let read = match format {
+        Format::Parquet => columns::read_bars(path).map_err(|error| error.to_string()),
+        Format::Csv => {
+            model::system_file::columns::read_bars(path).map_err(|error| error.to_string())
+        }
+    };
+    match read {
+        Ok(bars) => {
+            assert!(bars.len() <= 50 * bytes.len(), "{} bars in {}", bars.len(), bytes.len());
+            for bar in &bars {
+                assert!(bar.length_m() > 0.0 && bar.length_m().is_finite());
+                assert!(bar.mass_kg() >= 0.0 && bar.mass_kg().is_finite());
+            }
+        }
+        Err(said) => assert!(!said.is_empty() && !said.contains('\u{1b}'), "{said:?}"),
+    }
+    let mut rows = 0;
+    let each = &mut |data: &[Data]| rows += data[0].len();
+    if columns::read_table(path, format, &schema(), each).is_ok() {
+        assert!(rows <= 50 * bytes.len(), "{rows} rows in {} bytes", bytes.len());
+    }
+}
+
+#[test]
+fn files_of_columns() {
+    let folder = tempfile::tempdir().unwrap();
+    for format in [Format::Parquet, Format::Csv] {
+        let good = example(folder.path(), format);
+        let path = folder.path().join(format!("damaged.{}", format.extension()));
+        fuzz(
+            &format!("columns-{}", format.extension()),
+            |random| mutated(random, &good, &[&good]),
+            |bytes| check(&path, format, bytes),
+        );
+    }
+}
