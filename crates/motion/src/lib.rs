@@ -80,6 +80,7 @@ mod assemble;
 mod composition;
 mod corners;
 mod damping;
+mod enclosed;
 mod error;
 mod force;
 mod inertia;
@@ -99,6 +100,7 @@ mod vector;
 
 pub use assemble::{assemble, random_position};
 pub use corners::Turning;
+pub use enclosed::{Enclosures, EquilibriumBox, MOST_ENCLOSED_JOINTS, NotEnclosed, enclose_modes};
 pub use error::MotionError;
 pub use force::ForceOfTime;
 pub use inertia::EndInertia;

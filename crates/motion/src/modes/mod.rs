@@ -22,6 +22,7 @@ mod stiffness;
 
 use model::Vector;
 use model::system::System;
+use nalgebra::{DMatrix, DVector};
 
 use crate::error::MotionError;
 use crate::force;
@@ -270,6 +271,38 @@ fn about(
     }
     found.modes.sort_by(|a, b| a.omega2_s2.total_cmp(&b.omega2_s2));
     Ok(found)
+}
+
+/// All modes, approximately, orthonormal in the metric of the inertia: a column for each, three
+/// coordinates for each slot that moves.
+pub(crate) fn approximate_modes(
+    mechanism: &Mechanism,
+    joints_m: &[Vector],
+    axial_n: &[f64],
+) -> Result<DMatrix<f64>, MotionError> {
+    let state = State::at_rest(mechanism.places(joints_m)?);
+    let mut vectors = vec![[0.0; 3]; mechanism.constraints()];
+    state.rows(mechanism, &mut vectors);
+    let bars = mechanism.bars.iter();
+    let densities = bars.map(|link| axial_n[link.member] / link.length_m).collect();
+    let stiffness = Stiffness::new(mechanism, &state, &vectors, densities);
+    let mut columns = Vec::new();
+    for sector in planes::sectors(mechanism, &state) {
+        for shape in dense::solve(&stiffness, &sector).shapes.column_iter() {
+            let mut column = DVector::zeros(3 * mechanism.moving);
+            for (at, part) in shape.iter().enumerate() {
+                let (slot, axis) = (at / sector.axes.len(), sector.axes[at % sector.axes.len()]);
+                for k in 0..3 {
+                    column[3 * slot + k] += part * axis[k];
+                }
+            }
+            columns.push(column);
+        }
+    }
+    if columns.is_empty() {
+        return Ok(DMatrix::zeros(3 * mechanism.moving, 0));
+    }
+    Ok(DMatrix::from_columns(&columns))
 }
 
 /// Force densities of the rigid bars, N/m.

@@ -5,6 +5,7 @@
 mod cable;
 mod common;
 mod elliptic;
+mod enclosed;
 mod energy;
 mod folded;
 mod forced;

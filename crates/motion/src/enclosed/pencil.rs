@@ -1,0 +1,188 @@
+//! Stiffness, inertia and constraints about an equilibrium in a box.
+
+use intervals::Interval;
+use model::Bar;
+use model::system::{Kind, Support};
+use nalgebra::DMatrix;
+
+use super::{EquilibriumBox, NotEnclosed};
+use crate::mechanism::{Link, Mechanism};
+
+pub(super) type Vector = [Interval; 3];
+
+/// Relative rounding of `m l²/12` and of what a file makes of other moments: three roundings and
+/// one to spare.
+const MOMENT_ROUNDING: f64 = 2.0 * f64::EPSILON;
+
+/// A member between two slots with its stiffness `ρ I + (k' − ρ) u uᵀ` and its inertia.
+struct Member {
+    a: usize,
+    b: usize,
+    /// `ρ`: axial force over distance, N/m.
+    density: Interval,
+    /// `k' − ρ`, N/m, and `u`; none for a rigid member.
+    along: Option<(Interval, Vector)>,
+    /// `b` of the matrix of inertia, kg.
+    between: Interval,
+}
+
+/// Everything that the `ω²` follow from, in intervals. Coordinates are three for each slot that
+/// moves.
+pub(super) struct Pencil {
+    pub moving: usize,
+    /// Diagonal of the inertia by slot, kg.
+    mass: Vec<Interval>,
+    members: Vec<Member>,
+    /// Rows of the constraints: coordinate and value.
+    pub rows: Vec<Vec<(usize, Interval)>>,
+}
+
+impl Pencil {
+    pub(super) fn new(mechanism: &Mechanism, at: &EquilibriumBox<'_>) -> Result<Self, NotEnclosed> {
+        let joints = mechanism.system.joints();
+        let by_slot = |slot: usize| mechanism.joint_at[slot];
+        let mut found = Self {
+            moving: mechanism.moving,
+            mass: (0..joints.len()).map(|s| Interval::point(joints[by_slot(s)].mass_kg)).collect(),
+            members: Vec::new(),
+            rows: Vec::new(),
+        };
+        let span = |link: &Link| minus(at.joints_m[by_slot(link.b)], at.joints_m[by_slot(link.a)]);
+        for link in &mechanism.bars {
+            let d = span(link);
+            let density = at.axial_n[link.member] / Interval::point(link.length_m);
+            found.add(mechanism, link, density, None);
+            let back = d.map(|x| -x);
+            found.rows.push(found.row(&[(link.a, back), (link.b, d)]));
+        }
+        for spring in &mechanism.springs {
+            let (link, axial) = (&spring.link, at.axial_n[spring.link.member]);
+            let d = span(link);
+            let distance = dot(d, d).sqrt();
+            let density = axial / distance;
+            let slope = Interval::point(spring.stiffness_n) / Interval::point(link.length_m);
+            let slope = match (spring.kind, axial.sign()) {
+                (Kind::Bar, _) | (Kind::Cable, Some(1)) | (Kind::Strut, Some(-1)) => slope,
+                (_, Some(0)) => Interval::ZERO,
+                _ => return Err(NotEnclosed::Undecided { member: link.member + 1 }),
+            };
+            let u = d.map(|x| x / distance);
+            found.add(mechanism, link, density, Some((slope - density, u)));
+        }
+        found.add_supports(mechanism);
+        Ok(found)
+    }
+
+    fn add(
+        &mut self,
+        mechanism: &Mechanism,
+        link: &Link,
+        density: Interval,
+        along: Option<(Interval, Vector)>,
+    ) {
+        let [from, between, to] = inertia(&mechanism.system.members()[link.member].body);
+        self.mass[link.a] = self.mass[link.a] + from;
+        self.mass[link.b] = self.mass[link.b] + to;
+        self.members.push(Member { a: link.a, b: link.b, density, along, between });
+    }
+
+    /// The directions that supports of sliders take: of a line two that are exactly across it.
+    fn add_supports(&mut self, mechanism: &Mechanism) {
+        for slot in 0..mechanism.moving {
+            let joint = &mechanism.system.joints()[mechanism.joint_at[slot]];
+            match joint.support {
+                Support::Free | Support::Fixed { .. } => {}
+                Support::Plane { normal, .. } => {
+                    self.rows.push(self.row(&[(slot, normal.map(Interval::point))]));
+                }
+                Support::Line { direction, .. } => {
+                    let mut axis = [Interval::ZERO; 3];
+                    let least =
+                        (0..3).min_by(|&i, &j| direction[i].abs().total_cmp(&direction[j].abs()));
+                    axis[least.unwrap_or(0)] = Interval::ONE;
+                    let direction = direction.map(Interval::point);
+                    let first = cross(direction, axis);
+                    self.rows.push(self.row(&[(slot, first)]));
+                    self.rows.push(self.row(&[(slot, cross(direction, first))]));
+                }
+            }
+        }
+    }
+
+    fn row(&self, parts: &[(usize, Vector)]) -> Vec<(usize, Interval)> {
+        let moving = parts.iter().filter(|(slot, _)| *slot < self.moving);
+        moving.flat_map(|(slot, v)| (0..3).map(move |k| (3 * slot + k, v[k]))).collect()
+    }
+
+    /// `Xᵀ K X` and `Xᵀ M X`.
+    pub(super) fn projected(
+        &self,
+        x: &DMatrix<Interval>,
+    ) -> (DMatrix<Interval>, DMatrix<Interval>) {
+        let count = x.ncols();
+        let zero = || DMatrix::from_element(count, count, Interval::ZERO);
+        let (mut stiffness, mut inertia) = (zero(), zero());
+        let at = |slot: usize, column: usize| -> Vector {
+            let moves = slot < self.moving;
+            std::array::from_fn(|k| if moves { x[(3 * slot + k, column)] } else { Interval::ZERO })
+        };
+        for member in &self.members {
+            let ends: Vec<_> = (0..count).map(|c| (at(member.a, c), at(member.b, c))).collect();
+            let by: Vec<_> = ends.iter().map(|(a, b)| minus(*b, *a)).collect();
+            let moves = member.a < self.moving && member.b < self.moving;
+            for j in 0..count {
+                for i in 0..=j {
+                    let mut k = member.density * dot(by[i], by[j]);
+                    if let Some((slope, u)) = member.along {
+                        k = k + slope * (dot(u, by[i]) * dot(u, by[j]));
+                    }
+                    stiffness[(i, j)] = stiffness[(i, j)] + k;
+                    if moves {
+                        let crossed = dot(ends[i].0, ends[j].1) + dot(ends[i].1, ends[j].0);
+                        inertia[(i, j)] = inertia[(i, j)] + member.between * crossed;
+                    }
+                }
+            }
+        }
+        for slot in 0..self.moving {
+            let columns: Vec<_> = (0..count).map(|c| at(slot, c)).collect();
+            for j in 0..count {
+                for i in 0..=j {
+                    let own = self.mass[slot] * dot(columns[i], columns[j]);
+                    inertia[(i, j)] = inertia[(i, j)] + own;
+                }
+            }
+        }
+        for matrix in [&mut stiffness, &mut inertia] {
+            matrix.fill_lower_triangle_with_upper_triangle();
+        }
+        (stiffness, inertia)
+    }
+}
+
+/// The matrix of [`EndInertia`](crate::EndInertia), in intervals, kg.
+fn inertia(bar: &Bar) -> [Interval; 3] {
+    let l = Interval::point(bar.length_m());
+    let to_centre = Interval::point(bar.centre_m()) / l;
+    let from_centre = (l - Interval::point(bar.centre_m())) / l;
+    let moment = bar.inertia_kg_m2()[1];
+    let j = Interval::around(moment, MOMENT_ROUNDING * moment) / l / l;
+    let m = Interval::point(bar.mass_kg());
+    [
+        m * from_centre * from_centre + j,
+        m * to_centre * from_centre - j,
+        m * to_centre * to_centre + j,
+    ]
+}
+
+fn minus(a: Vector, b: Vector) -> Vector {
+    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+}
+
+fn dot(a: Vector, b: Vector) -> Interval {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+fn cross(a: Vector, b: Vector) -> Vector {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
