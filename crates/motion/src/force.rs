@@ -29,9 +29,10 @@ pub(crate) struct MomentOfTime {
 }
 
 /// Force at the second end of a member that a moment on it amounts to; the opposite acts at the
-/// first.
+/// first. None where both ends are in one place.
 pub(crate) fn couple(moment: Vector, d: Vector) -> Vector {
-    times(1.0 / dot(d, d), cross(moment, d))
+    let squared = dot(d, d);
+    if squared > 0.0 { times(1.0 / squared, cross(moment, d)) } else { [0.0; 3] }
 }
 
 impl Forces {
@@ -75,9 +76,14 @@ impl Spring {
         }
     }
 
-    /// Axial force over the distance of the ends, N/m, tension positive.
+    /// Axial force over the distance of the ends, N/m, tension positive. Zero where a slack member
+    /// has both ends in one place.
     pub(crate) fn force_density(&self, distance_m: f64) -> f64 {
-        self.stiffness_n * self.elongation(distance_m) / self.link.length_m / distance_m
+        let elongation = self.elongation(distance_m);
+        if elongation.abs() <= 0.0 {
+            return 0.0;
+        }
+        self.stiffness_n * elongation / self.link.length_m / distance_m
     }
 
     /// Derivative of the axial force by the distance of the ends, N/m.

@@ -129,7 +129,8 @@ fn member_balance(
     let x = [at.joints_m[a], at.joints_m[b]];
     let d = minus(x[1], x[0]);
     let length = norm(d);
-    let u = times(1.0 / length, d);
+    // Ends in one place, as a slack cord's may be, have no direction.
+    let u = if length > 0.0 { times(1.0 / length, d) } else { [0.0; 3] };
     let far = body.centre_m() / body.length_m();
     let centre = |v: &[Vector]| plus(times(1.0 - far, v[a]), times(far, v[b]));
     let x_c = centre(&at.joints_m);

@@ -20,6 +20,7 @@ mod pendulum;
 mod positions;
 mod refused;
 mod second_opinion;
+mod slack;
 mod spinning;
 mod squeezer;
 mod taylor;
