@@ -95,7 +95,6 @@ fn refine(
             length,
             compliance: group.iter().map(|step| step.compliance).sum(),
             kind: if cable { Kind::Cable } else { Kind::Bar },
-            end_loads: [Vector3::zeros(); 2],
         });
         from = to;
     }

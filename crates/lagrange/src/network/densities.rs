@@ -25,7 +25,7 @@ pub(super) fn pulls(framework: &Framework, link: &Link) -> bool {
 
 /// Places in balance and force densities, first `1 / l` times the mean load, improved some times.
 pub(super) fn by_densities(framework: &Framework) -> Result<(Vec<Vector3<f64>>, Vec<f64>), Error> {
-    let sliding = framework.nodes.iter().any(|node| matches!(node.freedom, 1 | 2));
+    let sliding = framework.nodes.iter().any(|node| matches!(node.freedom(), 1 | 2));
     let mut stiffness = Stiffness::new(framework, !sliding)?;
     let mut densities: Vec<f64> = framework
         .links

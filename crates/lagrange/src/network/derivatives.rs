@@ -166,7 +166,7 @@ impl<'a> Derivatives<'a> {
                 forces[joint][axis] = self.framework.units.force_n.recip();
             }
             Parameter::Anchor { joint, axis } => {
-                if self.framework.nodes[joint].freedom > 0 {
+                if self.framework.nodes[joint].freedom() > 0 {
                     let joint = self.system.joints()[joint].name.clone();
                     return Err(Error::NotAnAnchor { joint });
                 }
@@ -185,7 +185,7 @@ impl<'a> Derivatives<'a> {
         let to_m = |place: &Vector3<f64>| (place * units.length_m).into();
         let nodes = self.framework.nodes.iter().zip(&left);
         // The ground takes what the free directions leave.
-        let grounds = nodes.map(|(node, left)| node.axes * node.axes.tr_mul(left) - left);
+        let grounds = nodes.map(|(node, left)| node.free.part(left) - left);
         Ok(Change {
             joints_m: change.places.iter().map(to_m).collect(),
             axial_n: change.axial.iter().map(|axial| axial * units.force_n).collect(),
@@ -242,7 +242,7 @@ impl<'a> Derivatives<'a> {
         let left = self.derivative.left(&adjoint, &self.framework, &places, &axial).0;
         let anchors = self.framework.nodes.iter().zip(&left);
         let by_anchor = anchors.map(|(node, left)| {
-            let moves = if node.freedom == 0 { *left } else { Vector3::zeros() };
+            let moves = if node.freedom() == 0 { *left } else { Vector3::zeros() };
             (moves / units.length_m).into()
         });
         let by_anchor = by_anchor.collect();
@@ -267,7 +267,7 @@ impl<'a> Derivatives<'a> {
     fn solved(&mut self, forces: &[Vector3<f64>], lengths: &[f64]) -> Result<Step, Error> {
         let lengths: Vec<f64> = self.derivative.of_taut(lengths);
         let free = self.framework.nodes.iter().zip(forces);
-        let nothing = free.map(|(node, f)| node.axes.tr_mul(f).amax()).all(|f| f == 0.0)
+        let nothing = free.map(|(node, f)| node.free.components(f).amax()).all(|f| f == 0.0)
             && lengths.iter().all(|l| *l == 0.0);
         if nothing {
             return Ok(self.none());

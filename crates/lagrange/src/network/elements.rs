@@ -52,9 +52,17 @@ pub(super) fn hang(framework: &Framework) -> Option<Run> {
     if coarse::members(&runs) as f64 > WORTH * framework.links.len() as f64 {
         return None;
     }
-    let start = coarse::start(framework, &runs)?;
+    let (state, steps) = settled(framework, &runs)?;
+    // Its memory serves what follows.
+    drop(runs);
+    Some(Run { steps, ..Run::at(framework, with_held(framework, state)) })
+}
+
+/// The shape and the number of factorisations; nothing where a force vanishes.
+fn settled(framework: &Framework, runs: &Runs) -> Option<(State, usize)> {
+    let start = coarse::start(framework, runs)?;
     let mut steps = start.factorisations;
-    let mut shape = Shape::new(framework, &runs, start);
+    let mut shape = Shape::new(framework, runs, start);
     let mut stiffness = Stiffness::new(&shape.skeleton, false).ok()?;
     let mut error = f64::INFINITY;
     for _ in 0..MOST_STEPS {
@@ -65,10 +73,7 @@ pub(super) fn hang(framework: &Framework) -> Option<Run> {
             break;
         }
     }
-    if !shape.clear() {
-        return None;
-    }
-    Some(Run { steps, ..Run::at(framework, with_held(framework, shape.state(framework))) })
+    shape.clear().then(|| (shape.state(framework), steps))
 }
 
 /// What a run spans at a pull.
@@ -161,7 +166,6 @@ impl<'a> Shape<'a> {
             length: runs.steps[element.steps.clone()].iter().map(|step| step.length).sum(),
             compliance: 0.0,
             kind: Kind::Bar,
-            end_loads: [Vector3::zeros(); 2],
         });
         let (units, nodes) = (framework.units, runs.nodes.clone());
         let skeleton = Framework { units, nodes, links: links.collect() };
@@ -220,7 +224,7 @@ impl<'a> Shape<'a> {
         let unit = self.laws.iter().map(|law| law.most).fold(0.0, f64::max).sqrt();
         let left = self.skeleton.unbalance(self.pulls.iter().copied());
         let nodes = self.skeleton.nodes.iter().zip(&left);
-        let balance = nodes.map(|(node, left)| node.axes.tr_mul(left).norm() / unit);
+        let balance = nodes.map(|(node, left)| node.free.components(left).norm() / unit);
         // `f64::max` would lose a NaN.
         spans.chain(balance).fold(0.0, |most, e| if e > most || e.is_nan() { e } else { most })
     }

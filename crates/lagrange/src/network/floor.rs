@@ -15,6 +15,7 @@ use std::collections::VecDeque;
 use model::system::{System, SystemEquilibrium};
 use nalgebra::{Matrix3, Vector3};
 
+use super::directions::Directions;
 use super::error::Error;
 use super::framework::{Framework, Node, across};
 use super::solution::{NO_FORCE, Solution};
@@ -30,7 +31,7 @@ const LEVEL: f64 = 1e-9;
 
 /// What of a push straight up moves a joint: its free part; nothing where it moves level alone.
 fn lift(node: &Node) -> Option<Vector3<f64>> {
-    let free = node.axes * node.axes.tr_mul(&Vector3::z());
+    let free = node.free.part(&Vector3::z());
     (free.norm() > LEVEL).then_some(free)
 }
 
@@ -43,14 +44,14 @@ fn laid(node: &Node, floor: f64) -> Node {
     // What is left of the free directions normal to the rising one.
     let (mut axes, mut freedom) = (Matrix3::zeros(), 0);
     for level in across(&up) {
-        let rest = node.axes * node.axes.tr_mul(&level);
+        let rest = node.free.part(&level);
         let rest = rest - axes * axes.tr_mul(&rest);
         if rest.norm() > 0.5 {
             axes.set_column(freedom, &rest.normalize());
             freedom += 1;
         }
     }
-    Node { base, axes, freedom, load: node.load }
+    Node { base, free: Directions::new(axes, freedom), load: node.load }
 }
 
 /// Force of the floor on a joint, N: what of its reaction the support cannot bear.

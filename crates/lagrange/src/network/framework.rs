@@ -6,9 +6,10 @@
 //! stretches uniformly as well. What remains of the member is a law between its length and its
 //! axial force.
 
-use model::Vector;
 use model::system::{Joint, Kind, Member, Support, System};
 use nalgebra::{Matrix3, Vector3};
+
+use super::directions::Directions;
 
 /// A strain of prestressed members: the unit of force of a system without loads need only be near
 /// its forces.
@@ -19,12 +20,17 @@ const STRAIN: f64 = 1e-2;
 pub(super) struct Node {
     /// A place that its support allows.
     pub base: Vector3<f64>,
-    /// Its free directions, orthonormal: the first [`freedom`](Self::freedom) columns.
-    pub axes: Matrix3<f64>,
-    /// Number of its free directions.
-    pub freedom: usize,
+    /// Its free directions.
+    pub free: Directions,
     /// Loads of the joint, and of its members at it.
     pub load: Vector3<f64>,
+}
+
+impl Node {
+    /// Number of its free directions.
+    pub fn freedom(&self) -> usize {
+        self.free.count()
+    }
 }
 
 /// A member without weight.
@@ -40,8 +46,6 @@ pub(super) struct Link {
     pub compliance: f64,
     /// Which sign of axial force it can have.
     pub kind: Kind,
-    /// Its loads at its two joints, by the lever rule.
-    pub end_loads: [Vector3<f64>; 2],
 }
 
 impl Link {
@@ -82,29 +86,32 @@ pub(super) struct Framework {
 
 impl Framework {
     pub fn new(system: &System) -> Self {
-        let end_loads: Vec<_> = system.members().iter().map(|m| end_loads_n(system, m)).collect();
-        let mut loads: Vec<_> =
-            system.joints().iter().map(|joint| own_load_n(system, joint)).collect();
-        for (member, [start, end]) in system.members().iter().zip(&end_loads) {
-            loads[member.from] += start;
-            loads[member.to] += end;
+        let mut nodes: Vec<_> = system.joints().iter().map(|joint| node(system, joint)).collect();
+        for member in system.members() {
+            let [start, end] = end_loads_n(system, member);
+            nodes[member.from].load += start;
+            nodes[member.to].load += end;
         }
-        let units = units(system, &loads);
-        let nodes = system.joints().iter().zip(&loads);
-        let nodes = nodes.map(|(joint, load)| node(joint, load, units)).collect();
-        let links = system.members().iter().zip(&end_loads);
-        let links = links.map(|(member, end_loads)| link(member, end_loads, units)).collect();
+        let units = units(system, &nodes);
+        // In place: memory that is touched for the first time costs more than what is done with it.
+        for node in &mut nodes {
+            if !matches!(node.free, Directions::All) {
+                node.base = (node.base - units.origin_m) / units.length_m;
+            }
+            node.load /= units.force_n;
+        }
+        let links = system.members().iter().map(|member| link(member, units)).collect();
         Self { units, nodes, links }
     }
 
     /// Number of free directions of all joints.
     pub fn freedoms(&self) -> usize {
-        self.nodes.iter().map(|node| node.freedom).sum()
+        self.nodes.iter().map(Node::freedom).sum()
     }
 
     /// Whether a member has an end that can move.
     pub fn moves(&self, link: &Link) -> bool {
-        self.nodes[link.from].freedom + self.nodes[link.to].freedom > 0
+        self.nodes[link.from].freedom() + self.nodes[link.to].freedom() > 0
     }
 
     /// Axial force of an elastic member between two anchors; nothing for any other.
@@ -135,7 +142,7 @@ fn own_load_n(system: &System, joint: &Joint) -> Vector3<f64> {
 }
 
 /// Weight and loads of a member divided between its joints by the lever rule, N.
-fn end_loads_n(system: &System, member: &Member) -> [Vector3<f64>; 2] {
+pub(super) fn end_loads_n(system: &System, member: &Member) -> [Vector3<f64>; 2] {
     let length = member.body.length_m();
     let weight = Vector3::z() * (-member.body.mass_kg() * system.gravity_m_s2());
     let mut end_loads = [Vector3::zeros(); 2];
@@ -149,9 +156,10 @@ fn end_loads_n(system: &System, member: &Member) -> [Vector3<f64>; 2] {
     end_loads
 }
 
-fn units(system: &System, loads: &[Vector3<f64>]) -> Units {
+/// The units of a system; the loads of the nodes are in N.
+fn units(system: &System, nodes: &[Node]) -> Units {
     let mean = |total: f64, count: usize| (total > 0.0).then(|| total / count as f64);
-    let load_n = mean(model::sum(loads.iter().map(Vector3::norm)), loads.len());
+    let load_n = mean(model::sum(nodes.iter().map(|node| node.load.norm())), nodes.len());
     Units {
         length_m: mean(system.total_length_m(), system.members().len()).unwrap_or(1.0),
         force_n: load_n.or_else(|| prestress_n(system)).unwrap_or(1.0),
@@ -166,21 +174,23 @@ fn prestress_n(system: &System) -> Option<f64> {
     (mean > 0.0).then_some(STRAIN * mean)
 }
 
-fn node(joint: &Joint, load_n: &Vector3<f64>, units: Units) -> Node {
-    let place = |at_m: Vector| (Vector3::from(at_m) - units.origin_m) / units.length_m;
-    let (base, axes, freedom) = match joint.support {
-        Support::Free => (Vector3::zeros(), Matrix3::identity(), 3),
-        Support::Fixed { at_m } => (place(at_m), Matrix3::zeros(), 0),
+/// A joint with its place in m and its own load in N.
+fn node(system: &System, joint: &Joint) -> Node {
+    let (base, free) = match joint.support {
+        Support::Free => (Vector3::zeros(), Directions::All),
+        Support::Fixed { at_m } => (at_m.into(), Directions::Held),
         Support::Line { at_m, direction } => {
             let along = Vector3::from(direction).normalize();
-            (place(at_m), Matrix3::from_columns(&[along, Vector3::zeros(), Vector3::zeros()]), 1)
+            let axes = Matrix3::from_columns(&[along, Vector3::zeros(), Vector3::zeros()]);
+            (at_m.into(), Directions::new(axes, 1))
         }
         Support::Plane { at_m, normal } => {
             let [first, second] = across(&Vector3::from(normal).normalize());
-            (place(at_m), Matrix3::from_columns(&[first, second, Vector3::zeros()]), 2)
+            let axes = Matrix3::from_columns(&[first, second, Vector3::zeros()]);
+            (at_m.into(), Directions::new(axes, 2))
         }
     };
-    Node { base, axes, freedom, load: load_n / units.force_n }
+    Node { base, free, load: own_load_n(system, joint) }
 }
 
 /// Two unit vectors normal to a unit vector and to each other.
@@ -189,7 +199,7 @@ pub(super) fn across(normal: &Vector3<f64>) -> [Vector3<f64>; 2] {
     [first, normal.cross(&first)]
 }
 
-fn link(member: &Member, end_loads_n: &[Vector3<f64>; 2], units: Units) -> Link {
+fn link(member: &Member, units: Units) -> Link {
     let length = member.body.length_m() / units.length_m;
     Link {
         from: member.from,
@@ -197,6 +207,5 @@ fn link(member: &Member, end_loads_n: &[Vector3<f64>; 2], units: Units) -> Link 
         length,
         compliance: member.stiffness_n.map_or(0.0, |stiffness| length * units.force_n / stiffness),
         kind: member.kind,
-        end_loads: end_loads_n.map(|load| load / units.force_n),
     }
 }

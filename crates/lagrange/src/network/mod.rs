@@ -30,9 +30,13 @@
 //! | the same (`ring 316`), 34,196 slack | 197,820 | 15 | 11 s |
 //! | crumpled net of cables (`crumpled 100`), 6,011 of them slack | 19,800 | 21 | 0.75 s |
 //! | three strands to one joint | 30,000 | 7 | 0.01 s |
-//! | | 300,000 | 7 | 0.19 s |
+//! | | 300,000 | 7 | 0.10 s |
 //! | dangling tree | 100,000 | 1 | 0.08 s |
 //! | | 1,000,000 | 1 | 0.86 s |
+//!
+//! The bridle of 300,000 bars takes 13 times as long as one chain of as many bars by
+//! [`condensed`](crate::condensed), in one run (`cargo run --release -p validate --example
+//! bridle_speed`).
 //!
 //! From 4,900 to 199,080 members of nets that is n to the power 1.36; the elimination alone has 1.5.
 //!
@@ -59,6 +63,7 @@ mod coarse;
 mod cone;
 mod densities;
 mod derivatives;
+mod directions;
 mod elements;
 mod error;
 mod floor;

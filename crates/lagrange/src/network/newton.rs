@@ -266,7 +266,7 @@ impl Step {
 
 fn size(framework: &Framework, forces: &[Vector3<f64>], lengths: &[f64], unit: f64) -> f64 {
     let forces = framework.nodes.iter().zip(forces);
-    let squares = forces.map(|(node, force)| node.axes.tr_mul(force).norm_squared());
+    let squares = forces.map(|(node, force)| node.free.components(force).norm_squared());
     squares.sum::<f64>() / (unit * unit) + lengths.iter().map(|l| l * l).sum::<f64>()
 }
 

@@ -16,7 +16,7 @@ pub(super) fn by_degree(framework: &Framework) -> Option<Vec<usize>> {
     let joints = framework.nodes.len();
     let mut neighbours = vec![Vec::new(); joints];
     for link in &framework.links {
-        if framework.nodes[link.from].freedom > 0 && framework.nodes[link.to].freedom > 0 {
+        if framework.nodes[link.from].freedom() > 0 && framework.nodes[link.to].freedom() > 0 {
             let (low, high) = (link.from.min(link.to), link.from.max(link.to));
             neighbours[high].push(low);
         }

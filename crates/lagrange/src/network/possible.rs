@@ -6,6 +6,7 @@ use std::collections::BinaryHeap;
 use model::system::{Kind, System};
 use nalgebra::{Matrix3, Vector3};
 
+use super::directions::Directions;
 use super::error::Error;
 use super::framework::Framework;
 
@@ -42,7 +43,7 @@ pub(super) fn check(system: &System, framework: &Framework) -> Result<(), Error>
             return Err(Error::Falls { joint, joints: joints - 1, load_n });
         }
     }
-    let loaded = framework.nodes.iter().any(|node| node.axes.tr_mul(&node.load).norm() > 0.0);
+    let loaded = framework.nodes.iter().any(|node| node.free.components(&node.load).norm() > 0.0);
     let elastic = framework.links.iter().any(|link| link.compliance > 0.0);
     if loaded || elastic || framework.freedoms() == 0 { Ok(()) } else { Err(Error::Unloaded) }
 }
@@ -85,7 +86,11 @@ fn supports(framework: &Framework, component: &[usize]) -> Vec<Matrix3<f64>> {
     let count = component.iter().max().map_or(0, |last| last + 1);
     let mut held = vec![Matrix3::zeros(); count];
     for (node, &part) in framework.nodes.iter().zip(component) {
-        held[part] += Matrix3::identity() - node.axes * node.axes.transpose();
+        match &node.free {
+            Directions::All => {}
+            Directions::Held => held[part] += Matrix3::identity(),
+            Directions::Few(few) => held[part] += Matrix3::identity() - few.0 * few.0.transpose(),
+        }
     }
     held
 }
@@ -113,18 +118,14 @@ fn components(framework: &Framework, joins: impl Fn(usize) -> bool) -> Vec<usize
         let (a, b) = (root(&mut parent, link.from), root(&mut parent, link.to));
         parent[a.max(b)] = a.min(b);
     }
-    let mut numbers = vec![usize::MAX; parent.len()];
+    // In place: no parent has a larger number than its joint, and has its component's already.
     let mut next = 0;
-    (0..numbers.len())
-        .map(|joint| {
-            let top = root(&mut parent, joint);
-            if numbers[top] == usize::MAX {
-                numbers[top] = next;
-                next += 1;
-            }
-            numbers[top]
-        })
-        .collect()
+    for joint in 0..parent.len() {
+        let above = parent[joint];
+        parent[joint] = if above == joint { next } else { parent[above] };
+        next += usize::from(above == joint);
+    }
+    parent
 }
 
 fn root(parent: &mut [usize], mut joint: usize) -> usize {
@@ -147,7 +148,7 @@ pub(super) fn too_short(system: &System, framework: &Framework) -> Option<Error>
         }
     }
     let anchors: Vec<usize> =
-        (0..framework.nodes.len()).filter(|&joint| framework.nodes[joint].freedom == 0).collect();
+        (0..framework.nodes.len()).filter(|&joint| framework.nodes[joint].freedom() == 0).collect();
     anchors.iter().find_map(|&from| {
         let reach = shortest(&neighbours, from);
         let place = |joint: usize| framework.nodes[joint].base;

@@ -32,21 +32,27 @@ impl Residual {
         let pulls = directions.iter().zip(&state.axial).map(|((u, _), axial)| u * *axial);
         let forces = framework.unbalance(pulls);
         let unit = state.largest_force(framework).max(f64::MIN_POSITIVE);
+        let mut merit = 0.0;
+        let free = framework.nodes.iter().zip(&forces).map(|(node, force)| {
+            let square = node.free.components(force).norm_squared();
+            merit += square;
+            square
+        });
+        let (square, joint) = largest(free);
+        let balance = (square.sqrt() / unit, joint);
+        // One by one: the square of the smallest number is none.
+        merit = merit / unit / unit;
+        let mut lengths = Vec::with_capacity(directions.len());
         let links =
             framework.links.iter().zip(&directions).zip(state.axial.iter().zip(&state.taut));
-        let lengths: Vec<f64> = links
-            .map(|((link, (_, length)), (axial, taut))| {
-                let keeps = *taut && framework.moves(link);
-                if keeps { link.length + link.compliance * axial - length } else { 0.0 }
-            })
-            .collect();
-        let free =
-            framework.nodes.iter().zip(&forces).map(|(node, f)| node.axes.tr_mul(f).norm() / unit);
-        let links = framework.links.iter().zip(&lengths);
-        let relative = links.map(|(link, misfit)| misfit.abs() / link.length);
-        let squares = free.clone().chain(lengths.iter().copied()).map(|r| r * r);
-        let merit = squares.sum();
-        let (balance, length) = (largest(free), largest(relative));
+        let relative = links.map(|((link, (_, length)), (axial, taut))| {
+            let keeps = *taut && framework.moves(link);
+            let misfit = if keeps { link.length + link.compliance * axial - length } else { 0.0 };
+            lengths.push(misfit);
+            merit += misfit * misfit;
+            misfit.abs() / link.length
+        });
+        let length = largest(relative);
         Self { forces, lengths, directions, unit, balance, length, merit }
     }
 

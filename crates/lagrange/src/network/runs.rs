@@ -18,6 +18,8 @@ use model::system::Kind;
 const LOADED: f64 = 1e-9;
 /// No joint, no member.
 const NONE: usize = usize::MAX;
+/// In the place of the number of members at a joint: a tree that was taken away.
+const TRIMMED: usize = usize::MAX;
 
 /// A run of members from one joint that stays to another.
 #[derive(Debug, Clone)]
@@ -82,15 +84,15 @@ impl Runs {
             twigs,
         };
         let mut numbers = vec![NONE; framework.nodes.len()];
-        let mut trimmed = vec![false; framework.nodes.len()];
         for twig in &runs.twigs {
-            trimmed[twig.tip] = true;
+            graph.degrees[twig.tip] = TRIMMED;
         }
         for (joint, node) in framework.nodes.iter().enumerate() {
-            if trimmed[joint] || (node.freedom == 3 && graph.degrees[joint] == 2) {
+            let degree = graph.degrees[joint];
+            if degree == TRIMMED || (node.freedom() == 3 && degree == 2) {
                 continue;
             }
-            if node.freedom == 3 && graph.degrees[joint] == 0 {
+            if node.freedom() == 3 && degree == 0 {
                 return None;
             }
             runs.keep(framework, &graph, &mut numbers, joint);
@@ -111,7 +113,8 @@ impl Runs {
     fn keep(&mut self, framework: &Framework, graph: &Graph, numbers: &mut [usize], joint: usize) {
         numbers[joint] = self.kept.len();
         self.kept.push(joint);
-        self.nodes.push(Node { load: graph.loads[joint], ..framework.nodes[joint].clone() });
+        let load = graph.load(framework, joint);
+        self.nodes.push(Node { load, ..framework.nodes[joint].clone() });
     }
 
     /// Take the run that begins at a joint with a member.
@@ -139,7 +142,7 @@ impl Runs {
             if numbers[joint] != NONE {
                 break;
             }
-            offset -= graph.loads[joint];
+            offset -= graph.load(framework, joint);
             member ^= graph.members[joint];
         }
         let ends = begin..self.steps.len();
@@ -172,6 +175,7 @@ struct Graph {
     degrees: Vec<usize>,
     /// Exclusive or of their numbers: with one left its number, with two left the other one.
     members: Vec<usize>,
+    /// Loads with those of the trees taken away; empty where there is no tree.
     loads: Vec<Vector3<f64>>,
     alive: Vec<bool>,
 }
@@ -182,7 +186,7 @@ impl Graph {
         let mut graph = Self {
             degrees: vec![0; joints],
             members: vec![0; joints],
-            loads: framework.nodes.iter().map(|node| node.load).collect(),
+            loads: Vec::new(),
             alive: framework.links.iter().map(|link| takes_part(framework, link)).collect(),
         };
         for (member, link) in framework.links.iter().enumerate() {
@@ -196,14 +200,23 @@ impl Graph {
         graph
     }
 
+    fn load(&self, framework: &Framework, joint: usize) -> Vector3<f64> {
+        if self.loads.is_empty() { framework.nodes[joint].load } else { self.loads[joint] }
+    }
+
     /// Take the dangling trees away, tips first; their loads act at their roots then.
     fn trim(&mut self, framework: &Framework) -> Vec<Twig> {
+        let tip = |(node, degree): (&Node, &usize)| *degree == 1 && node.freedom() == 3;
+        if !framework.nodes.iter().zip(&self.degrees).any(tip) {
+            return Vec::new();
+        }
+        self.loads = framework.nodes.iter().map(|node| node.load).collect();
         let mut sizes: Vec<f64> = self.loads.iter().map(Vector3::norm).collect();
         let mut twigs = Vec::new();
         for joint in 0..framework.nodes.len() {
             let mut tip = joint;
             while self.degrees[tip] == 1
-                && framework.nodes[tip].freedom == 3
+                && framework.nodes[tip].freedom() == 3
                 && self.loads[tip].norm() > LOADED * sizes[tip]
             {
                 let (member, force) = (self.members[tip], self.loads[tip]);

@@ -8,6 +8,7 @@
 use faer::{Mat, Side};
 use nalgebra::{Matrix3, Vector3};
 
+use super::directions::Directions;
 use super::framework::{Framework, Node, across};
 use super::law::by_direction;
 use super::possible::translations;
@@ -163,9 +164,9 @@ impl Dense {
         for (row, &k) in rigid.iter().enumerate() {
             for (joint, sign) in [(framework.links[k].from, -1.0), (framework.links[k].to, 1.0)] {
                 let node = &framework.nodes[joint];
-                for axis in 0..node.freedom {
-                    rows[(row, first_unknown[joint] + axis)] +=
-                        sign * node.axes.column(axis).dot(&links[k].u);
+                let along = node.free.components(&links[k].u);
+                for axis in 0..node.freedom() {
+                    rows[(row, first_unknown[joint] + axis)] += sign * along[axis];
                 }
             }
         }
@@ -207,7 +208,7 @@ fn first_unknowns(framework: &Framework) -> Vec<usize> {
     nodes
         .scan(0, |next, node| {
             let first = *next;
-            *next += node.freedom;
+            *next += node.freedom();
             Some(first)
         })
         .collect()
@@ -265,9 +266,9 @@ fn add(
     for (one, sign_one) in ends {
         for (other, sign_other) in ends {
             let (a, b) = (&framework.nodes[one], &framework.nodes[other]);
-            let part = a.axes.tr_mul(block) * b.axes * (sign_one * sign_other);
-            for row in 0..a.freedom {
-                for column in 0..b.freedom {
+            let part = a.free.axes().tr_mul(block) * b.free.axes() * (sign_one * sign_other);
+            for row in 0..a.freedom() {
+                for column in 0..b.freedom() {
                     matrix[(first_unknown[one] + row, first_unknown[other] + column)] +=
                         part[(row, column)];
                 }
@@ -289,17 +290,16 @@ fn in_plane(framework: &Framework, state: &State) -> Option<Framework> {
 /// Normal of the vertical plane of all joints and loads.
 fn plane(framework: &Framework, state: &State) -> Option<Vector3<f64>> {
     let origin = state.places.first()?;
-    let extent = state.places.iter().map(|p| (p - origin).norm()).fold(0.0, f64::max);
+    let squares = state.places.iter().map(|p| (p - origin).norm_squared());
+    let extent = squares.fold(0.0, f64::max).sqrt();
     let flat = |v: Vector3<f64>| Vector3::new(v.x, v.y, 0.0);
     let mut spread = state.places.iter().map(|p| flat(p - origin));
     let mut loads = framework.nodes.iter().map(|node| flat(node.load));
-    let largest = framework.nodes.iter().map(|node| node.load.norm()).fold(0.0, f64::max);
-    let widest = |vectors: &mut dyn Iterator<Item = Vector3<f64>>| {
-        vectors.fold(Vector3::zeros(), |w: Vector3<f64>, v| if v.norm() > w.norm() { v } else { w })
-    };
-    let mut along = widest(&mut spread.clone());
+    let squares = framework.nodes.iter().map(|node| node.load.norm_squared());
+    let largest = squares.fold(0.0, f64::max).sqrt();
+    let mut along = widest(spread.clone());
     if along.norm() <= PLANE * extent {
-        along = widest(&mut loads.clone());
+        along = widest(loads.clone());
         if along.norm() <= PLANE * largest {
             along = Vector3::x();
         }
@@ -310,9 +310,20 @@ fn plane(framework: &Framework, state: &State) -> Option<Vector3<f64>> {
     lies.then_some(normal)
 }
 
+/// The longest of some vectors.
+fn widest(vectors: impl Iterator<Item = Vector3<f64>>) -> Vector3<f64> {
+    let none = (Vector3::zeros(), 0.0);
+    let longer = |widest: (Vector3<f64>, f64), v: Vector3<f64>| {
+        let square = v.norm_squared();
+        if square > widest.1 { (v, square) } else { widest }
+    };
+    vectors.fold(none, longer).0
+}
+
 /// A joint with only its motions in a plane; nothing when its support is oblique to the plane.
 fn node_in_plane(node: &Node, normal: &Vector3<f64>) -> Option<Node> {
-    let free = node.axes * node.axes.transpose();
+    let axes = node.free.axes();
+    let free = axes * axes.transpose();
     let out = free * normal;
     // The normal is free, or held, or the support is oblique.
     let rate = out.dot(normal);
@@ -331,5 +342,5 @@ fn node_in_plane(node: &Node, normal: &Vector3<f64>) -> Option<Node> {
             freedom += 1;
         }
     }
-    Some(Node { axes, freedom, ..node.clone() })
+    Some(Node { free: Directions::new(axes, freedom), ..node.clone() })
 }

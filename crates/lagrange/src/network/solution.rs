@@ -1,12 +1,10 @@
 //! The answer for a system.
 
-use model::system::{SystemEquilibrium, SystemStability};
-use model::{
-    Evidence, ForceChoice, ForceRange, InSpace, Rigidity, SelfStresses, SolverName, Vector,
-};
+use model::system::{System, SystemEquilibrium, SystemStability};
+use model::{Evidence, ForceChoice, ForceRange, InSpace, Rigidity, SelfStresses, SolverName};
 use nalgebra::Vector3;
 
-use super::framework::Framework;
+use super::framework::{Framework, end_loads_n};
 use super::ranges::ranges;
 use super::residual::Residual;
 use super::second_order::SecondOrder;
@@ -68,7 +66,8 @@ const NO_SLACK: f64 = 1e-10;
 /// What the answer is made of.
 pub(super) struct Found {
     pub state: State,
-    pub residual: f64,
+    /// At this state.
+    pub residual: Residual,
     pub tolerance: f64,
     pub factorisations: usize,
     pub second_order: SecondOrder,
@@ -76,13 +75,19 @@ pub(super) struct Found {
 }
 
 impl Solution {
-    pub(super) fn new(framework: &Framework, found: Found) -> Self {
+    pub(super) fn new(system: &System, framework: &Framework, found: Found) -> Self {
         let Found { mut state, residual, tolerance, factorisations, second_order, solve_s } = found;
+        let size = residual.size();
+        let Residual { forces: mut left, directions, .. } = residual;
         let forces =
             choose(framework, &mut state, second_order.self_stresses.as_deref(), tolerance);
+        if forces == Forces::LeastNorm {
+            let pulls = directions.iter().zip(&state.axial).map(|((u, _), axial)| u * *axial);
+            left = framework.unbalance(pulls);
+        }
         let mut evidence = Evidence::new(
             "balance of joints in units of the largest force, and lengths in units of the length",
-            residual,
+            size,
             tolerance,
             factorisations,
         );
@@ -93,7 +98,6 @@ impl Solution {
         let largest = state.largest_force(framework);
         let members = 0..framework.links.len();
         let slack = members.clone().filter(|&k| !state.taut[k]).collect();
-        let directions = state.directions(framework);
         let limp = members
             .filter(|&k| {
                 let link = &framework.links[k];
@@ -106,8 +110,9 @@ impl Solution {
             ranges(framework, state.clone(), &limp)
         });
         Self {
-            equilibrium: equilibrium(framework, &state, &directions, &second_order, evidence),
-            residual,
+            residual: size,
+            equilibrium: Answer { system, framework, state, directions, left }
+                .equilibrium(&second_order, evidence),
             factorisations,
             mechanisms: second_order.mechanisms,
             self_stresses: second_order.self_stresses,
@@ -193,35 +198,49 @@ fn choose(
     Forces::LeastNorm
 }
 
-fn equilibrium(
-    framework: &Framework,
-    state: &State,
-    directions: &[(Vector3<f64>, f64)],
-    second_order: &SecondOrder,
-    evidence: Evidence,
-) -> SystemEquilibrium {
-    let units = framework.units;
-    let to_n = |force: Vector3<f64>| Vector::from(force * units.force_n);
-    let pulls: Vec<_> =
-        directions.iter().zip(&state.axial).map(|((u, _), axial)| u * *axial).collect();
-    let reactions = framework.unbalance(pulls.iter().copied()).into_iter().zip(&framework.nodes);
-    // The ground takes what the free directions leave.
-    let reactions = reactions.map(|(left, node)| to_n(node.axes * node.axes.tr_mul(&left) - left));
-    let links = || framework.links.iter().zip(&pulls);
-    SystemEquilibrium {
-        solver: SolverName::LAGRANGE,
-        energy_j: energy(framework, state) * units.force_n * units.length_m,
-        joints_m: state
-            .places
-            .iter()
-            .map(|place| (place * units.length_m + units.origin_m).into())
-            .collect(),
-        start_forces_n: links().map(|(link, pull)| to_n(-pull - link.end_loads[0])).collect(),
-        end_forces_n: links().map(|(link, pull)| to_n(pull - link.end_loads[1])).collect(),
-        axial_n: state.axial.iter().map(|axial| axial * units.force_n).collect(),
-        reactions_n: reactions.collect(),
-        stability: stability(second_order),
-        evidence,
+/// What the observables follow from.
+struct Answer<'a> {
+    system: &'a System,
+    framework: &'a Framework,
+    state: State,
+    /// Directions of the members, and their lengths.
+    directions: Vec<(Vector3<f64>, f64)>,
+    /// Sum of the pulls of the members and of the load at each joint.
+    left: Vec<Vector3<f64>>,
+}
+
+impl Answer<'_> {
+    fn equilibrium(self, second_order: &SecondOrder, evidence: Evidence) -> SystemEquilibrium {
+        let Self { system, framework, mut state, directions, left } = self;
+        let units = framework.units;
+        let energy_j = energy(framework, &state) * units.force_n * units.length_m;
+        let members = system.members();
+        let (mut start_forces_n, mut end_forces_n) =
+            (Vec::with_capacity(members.len()), Vec::with_capacity(members.len()));
+        for ((member, (u, _)), axial) in members.iter().zip(&directions).zip(&mut state.axial) {
+            *axial *= units.force_n;
+            let pull_n = u * *axial;
+            let [start_n, end_n] = end_loads_n(system, member);
+            start_forces_n.push((-pull_n - start_n).into());
+            end_forces_n.push((pull_n - end_n).into());
+        }
+        let places = state.places.iter();
+        let reactions = framework.nodes.iter().zip(&left);
+        // The ground takes what the free directions leave.
+        let reactions = reactions.map(|(node, left)| node.free.part(left) - left);
+        SystemEquilibrium {
+            solver: SolverName::LAGRANGE,
+            energy_j,
+            joints_m: places
+                .map(|place| (place * units.length_m + units.origin_m).into())
+                .collect(),
+            start_forces_n,
+            end_forces_n,
+            axial_n: state.axial,
+            reactions_n: reactions.map(|reaction| (reaction * units.force_n).into()).collect(),
+            stability: stability(second_order),
+            evidence,
+        }
     }
 }
 

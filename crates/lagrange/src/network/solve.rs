@@ -49,7 +49,7 @@ pub fn solve(system: &System, settings: &Settings) -> Result<Solution, Error> {
     let began = Instant::now();
     let solution = above(system, Framework::new(system), None, |framework| {
         check(system, &framework)?;
-        match by_runs(&framework, settings, began) {
+        match by_runs(system, &framework, settings, began) {
             Some(solution) => Ok(solution),
             None => hang(system, framework, settings, began),
         }
@@ -135,7 +135,12 @@ fn decided(system: &System, solution: Solution) -> Result<Solution, Error> {
 
 /// The hanging equilibrium with runs of members as elements, where that pays and every member
 /// pulls. Small systems go without: their self-stresses are counted anyway.
-fn by_runs(framework: &Framework, settings: &Settings, began: Instant) -> Option<Solution> {
+fn by_runs(
+    system: &System,
+    framework: &Framework,
+    settings: &Settings,
+    began: Instant,
+) -> Option<Solution> {
     if framework.freedoms() <= settings.dense_freedoms {
         return None;
     }
@@ -148,7 +153,7 @@ fn by_runs(framework: &Framework, settings: &Settings, began: Instant) -> Option
     }
     let second_order = SecondOrder::in_tension(framework, &run.state)?;
     let factorisations = run.steps;
-    Some(solution(framework, settings, run, second_order, factorisations, began))
+    Some(solution((system, framework), settings, run, second_order, factorisations, began))
 }
 
 struct Solver<'a> {
@@ -210,7 +215,7 @@ impl<'a> Solver<'a> {
             let joints = state.places.iter_mut().zip(&self.framework.nodes).enumerate();
             for (joint, (place, node)) in joints {
                 let aside = scatter(joint, kick + tries) * size;
-                *place += node.axes * node.axes.tr_mul(&aside);
+                *place += node.free.part(&aside);
             }
             let rest = settle(&self.framework, &mut self.stiffness, state);
             self.factorisations += rest.factorisations;
@@ -251,7 +256,8 @@ impl<'a> Solver<'a> {
 
     fn solution(self, run: Run, second_order: SecondOrder) -> Solution {
         let (settings, factorisations) = (&self.settings, self.factorisations);
-        solution(&self.framework, settings, run, second_order, factorisations, self.began)
+        let of = (self.system, &self.framework);
+        solution(of, settings, run, second_order, factorisations, self.began)
     }
 
     /// The state of a seed.
@@ -259,7 +265,7 @@ impl<'a> Solver<'a> {
         let units = self.framework.units;
         let places = self.framework.nodes.iter().zip(&seed.joints_m).map(|(node, at_m)| {
             let given = (Vector3::from(*at_m) - units.origin_m) / units.length_m;
-            node.base + node.axes * node.axes.tr_mul(&(given - node.base))
+            node.base + node.free.part(&(given - node.base))
         });
         let members = self.framework.links.len();
         let mut state = State::new(places.collect(), vec![0.0; members], vec![true; members]);
@@ -347,7 +353,7 @@ fn signs_mended(framework: &Framework, settings: &Settings, run: &Run) -> Option
 }
 
 fn solution(
-    framework: &Framework,
+    (system, framework): (&System, &Framework),
     settings: &Settings,
     run: Run,
     second_order: SecondOrder,
@@ -355,14 +361,14 @@ fn solution(
     began: Instant,
 ) -> Solution {
     let found = Found {
-        residual: run.residual.size(),
+        residual: run.residual,
         tolerance: settings.tolerance,
         state: run.state,
         factorisations,
         second_order,
         solve_s: began.elapsed().as_secs_f64(),
     };
-    Solution::new(framework, found)
+    Solution::new(system, framework, found)
 }
 
 /// A fixed direction for each joint and each try, spread without pattern (golden ratios).

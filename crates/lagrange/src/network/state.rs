@@ -64,8 +64,9 @@ impl State {
 
     /// Largest force in a member or load of a joint.
     pub fn largest_force(&self, framework: &Framework) -> f64 {
-        let loads = framework.nodes.iter().map(|node| node.load.norm());
-        self.axial.iter().map(|axial| axial.abs()).chain(loads).fold(0.0, f64::max)
+        let squares = framework.nodes.iter().map(|node| node.load.norm_squared());
+        let loads = squares.fold(0.0, f64::max).sqrt();
+        self.axial.iter().map(|axial| axial.abs()).fold(loads, f64::max)
     }
 }
 

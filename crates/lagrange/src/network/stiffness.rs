@@ -16,6 +16,7 @@ use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
 use faer::{Conj, MatMut, Par, Side, Spec};
 use nalgebra::{Matrix3, Vector3};
 
+use super::directions::Directions;
 use super::error::Error;
 use super::framework::Framework;
 use super::order::by_degree;
@@ -68,7 +69,7 @@ impl Stiffness {
         let counts: Vec<usize> = framework
             .nodes
             .iter()
-            .map(|node| if scalar { usize::from(node.freedom > 0) } else { node.freedom })
+            .map(|node| if scalar { usize::from(node.freedom() > 0) } else { node.freedom() })
             .collect();
         let size = counts.iter().sum();
         let lost = || Error::Memory { unknowns: size };
@@ -106,10 +107,14 @@ impl Stiffness {
             let (low, high) = (&framework.nodes[place.low], &framework.nodes[place.high]);
             let (unknowns_low, unknowns_high) =
                 (self.unknowns[place.low], self.unknowns[place.high]);
-            let (by_low, by_high) = (block * low.axes, block * high.axes);
-            let same_low = low.axes.tr_mul(&by_low);
-            let same_high = high.axes.tr_mul(&by_high);
-            let mixed = high.axes.tr_mul(&by_low);
+            let (same_low, same_high, mixed) = match (&low.free, &high.free) {
+                (Directions::All, Directions::All) => (block, block, block),
+                (low, high) => {
+                    let (low, high) = (low.axes(), high.axes());
+                    let (by_low, by_high) = (block * low, block * high);
+                    (low.tr_mul(&by_low), high.tr_mul(&by_high), high.tr_mul(&by_low))
+                }
+            };
             for column in 0..unknowns_low.count {
                 let start = self.columns[unknowns_low.first + column];
                 let height = unknowns_low.count - column;
@@ -242,7 +247,7 @@ impl Stiffness {
     pub fn gather(&self, framework: &Framework, forces: &[Vector3<f64>]) -> Vec<f64> {
         let mut gathered = vec![0.0; self.size()];
         for ((node, own), force) in framework.nodes.iter().zip(&self.unknowns).zip(forces) {
-            let along = node.axes.tr_mul(force);
+            let along = node.free.components(force);
             gathered[own.first..own.first + own.count]
                 .copy_from_slice(&along.as_slice()[..own.count]);
         }
@@ -253,10 +258,7 @@ impl Stiffness {
     pub fn scatter(&self, framework: &Framework, moves: &[f64]) -> Vec<Vector3<f64>> {
         let joints = framework.nodes.iter().zip(&self.unknowns);
         joints
-            .map(|(node, own)| {
-                let components = &moves[own.first..own.first + own.count];
-                components.iter().enumerate().map(|(k, s)| node.axes.column(k) * *s).sum()
-            })
+            .map(|(node, own)| node.free.vector(&moves[own.first..own.first + own.count]))
             .collect()
     }
 

@@ -179,7 +179,9 @@ impl System {
     #[must_use]
     pub fn is_unloaded(&self) -> bool {
         let still = |force_n: [f64; 3]| force_n.iter().all(|x| x.abs() <= 0.0);
-        self.total_mass_kg() <= 0.0
+        // No mass is negative.
+        self.joints().iter().all(|joint| joint.mass_kg <= 0.0)
+            && self.members().iter().all(|member| member.body.mass_kg() <= 0.0)
             && self.joints().iter().all(|joint| still(joint.force_n))
             && self.members().iter().all(|m| m.loads.iter().all(|load| still(load.force_n)))
     }
