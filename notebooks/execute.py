@@ -8,6 +8,7 @@ import tempfile
 from pathlib import Path
 
 import nbformat
+from jupyter_client.manager import AsyncKernelManager
 from nbclient import NotebookClient
 
 HERE = Path(__file__).resolve().parent
@@ -78,6 +79,14 @@ def compare(path, kept, found):
             )
 
 
+def execute(notebook):
+    """Run all cells in a kernel of their own, reached through sockets that nobody else of this machine may read."""
+    with tempfile.TemporaryDirectory(prefix="kernel-") as folder:
+        kernel = AsyncKernelManager(kernel_name="python3", transport="ipc", ip=str(Path(folder) / "socket"))
+        resources = {"metadata": {"path": str(HERE)}}
+        NotebookClient(notebook, timeout=TIMEOUT_S, km=kernel, resources=resources).execute()
+
+
 def main():
     write = "--write" in sys.argv[1:]
     names = [name for name in sys.argv[1:] if name != "--write"]
@@ -89,10 +98,7 @@ def main():
         if not write and not any(c.get("outputs") for c in notebook.cells):
             raise SystemExit(f"{path.name} is committed without outputs: run notebooks/run --write")
         kept = list(told(notebook))
-        client = NotebookClient(
-            notebook, timeout=TIMEOUT_S, kernel_name="python3", resources={"metadata": {"path": str(HERE)}}
-        )
-        client.execute()
+        execute(notebook)
         text = clean(notebook, HERE)
         if write:
             path.write_text(text)

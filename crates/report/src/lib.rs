@@ -23,6 +23,7 @@
 //! | [`figures`] | the pictures |
 //! | [`math`], [`symbols`] | LaTeX to MathML, names of symbols to signs |
 //! | [`html`], [`markdown`] | the blocks as text |
+//! | [`formulas`] | the formulas of the documentation's pages, typeset to be read offline |
 //! | [`environment`] | where and with what |
 
 pub mod badge;
@@ -34,6 +35,7 @@ pub mod document;
 pub mod environment;
 pub mod equations;
 pub mod figures;
+pub mod formulas;
 pub mod html;
 pub mod markdown;
 pub mod math;

@@ -51,17 +51,33 @@ struct Mark {
 #[must_use]
 pub fn mathml(latex: &str) -> String {
     let source = MARKS.iter().fold(latex.to_owned(), |s, m| s.replace(m.command, m.through));
-    let storage = Storage::new();
-    let config = RenderConfig { display_mode: DisplayMode::Block, ..RenderConfig::default() };
-    let mut text = String::new();
-    if push_mathml(&mut text, Parser::new(&source, &storage), config).is_err() {
-        // Writing to a String cannot fail; were it to, the page shows so.
-        "<merror></merror>".clone_into(&mut text);
-    }
+    let text = converted(&source, DisplayMode::Block);
     let marked = MARKS.iter().fold(text, |text, mark| {
         text.replace(&format!("style=\"{}\"", mark.style), &format!("class=\"{}\"", mark.class))
     });
     BRACKETED.iter().fold(marked, |text, (from, to)| text.replace(from, to))
+}
+
+/// MathML of plain LaTeX, without marks: a formula of its own, or within a sentence.
+///
+/// ```
+/// let mathml = report::math::plain_mathml(r"\sqrt{l}", false);
+/// assert!(mathml.contains("<msqrt>") && mathml.contains("display=\"inline\""));
+/// ```
+#[must_use]
+pub fn plain_mathml(latex: &str, displayed: bool) -> String {
+    converted(latex, if displayed { DisplayMode::Block } else { DisplayMode::Inline })
+}
+
+fn converted(latex: &str, display_mode: DisplayMode) -> String {
+    let storage = Storage::new();
+    let config = RenderConfig { display_mode, ..RenderConfig::default() };
+    let mut text = String::new();
+    if push_mathml(&mut text, Parser::new(latex, &storage), config).is_err() {
+        // Writing to a String cannot fail; were it to, the page shows so.
+        "<merror></merror>".clone_into(&mut text);
+    }
+    text
 }
 
 /// Brackets about a matrix stretch only in a font made for mathematics. The style of the page draws
