@@ -70,6 +70,7 @@
 mod census;
 mod closure;
 mod count;
+mod degenerate;
 mod enclosure;
 mod equilibrium;
 mod error;
@@ -86,6 +87,7 @@ pub use census::{Census, Statistics};
 pub use count::morse::MorseError;
 pub use count::sextic;
 pub use count::topology::{Topology, TopologyError};
+pub use degenerate::unloaded::DegenerateEquilibrium;
 pub use equilibrium::{Neighbourhood, ProvenEquilibrium};
 pub use error::{CensusError, rough_time};
 pub use intervals::Interval;

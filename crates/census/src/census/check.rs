@@ -30,8 +30,9 @@ use crate::plane::face::Face;
 use crate::plane::loads::JointLoads;
 use crate::plane::system::System;
 use crate::slack::families::families;
+use crate::slack::moments::Exact;
 use crate::slack::straight::Straight;
-use crate::slack::unloaded::with_signs;
+use crate::slack::unloaded::{unloaded, with_signs};
 
 /// A stated enclosure may be that much wider than the one computed by the check, both being at the
 /// level of rounding errors; measured: below 4 on thousands of equilibria.
@@ -154,6 +155,7 @@ impl Census {
         }
         let system = System::new(chain, loads);
         let precise = PreciseSystem::new(chain, loads, &system);
+        let exact = Exact::new(chain, loads);
         for (k, equilibrium) in self.equilibria.iter().enumerate() {
             check_one(&precise, &system, k + 1, equilibrium)?;
             let in_order = k == 0 || {
@@ -173,14 +175,16 @@ impl Census {
             ("the list of slack families", self.families == families(&system).0),
             (
                 "the list of straight positions",
-                self.straight == Straight::of(&system, chain).positions,
+                self.straight == Straight::of(&system, &exact).positions,
+            ),
+            (
+                "the list of degenerate equilibria",
+                self.degenerate.is_empty()
+                    || self.degenerate == unloaded(&system, exact.moments.as_ref()).degenerate,
             ),
             ("the topology", self.topology == Topology::of_system(&system)),
             ("whether there are circles", self.circles == system.vertical),
-            (
-                "completeness",
-                !self.complete || (self.undecided.is_empty() && self.may_be_complete()),
-            ),
+            ("completeness", !self.complete || (self.decided() && self.may_be_complete())),
         ];
         if let Some((quantity, _)) = claims.into_iter().find(|(_, holds)| !holds) {
             return Err(CheckError::Claim { quantity });

@@ -112,7 +112,11 @@ impl Census {
                 system: None,
             });
         }
+        let merged = self.degenerate.len();
         Status::Open(match &self.topology {
+            _ if self.undecided.is_empty() && merged > 0 => {
+                Reason::DegenerateEquilibria { listed: merged }
+            }
             Err(error) if self.undecided.is_empty() => match error {
                 TopologyError::Straight { sides } => {
                     Reason::StraightPosition { sides: sides.clone() }

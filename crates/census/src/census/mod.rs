@@ -12,6 +12,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::count::morse::{self, MorseError};
 use crate::count::topology::{Topology, TopologyError};
+use crate::degenerate::unloaded::DegenerateEquilibrium;
 use crate::enclosure::polish::{PreciseSystem, polish};
 use crate::equilibrium::ProvenEquilibrium;
 use crate::error::CensusError;
@@ -22,6 +23,7 @@ use crate::search::undecided::{Reason, Undecided, gather};
 use crate::search::{Progress, Settled, search};
 use crate::settings::Settings;
 use crate::slack::families::{SlackFamily, families};
+use crate::slack::moments::Exact;
 use crate::slack::straight::{Straight, StraightPosition};
 use crate::slack::unloaded::unloaded;
 
@@ -38,11 +40,14 @@ pub struct Census {
     /// force holds the others.
     #[serde(default)]
     pub straight: Vec<StraightPosition>,
+    /// Equilibria at which several have merged; most chains have none.
+    #[serde(default)]
+    pub degenerate: Vec<DegenerateEquilibrium>,
     /// What could not be decided. Neither dropped nor counted.
     pub undecided: Vec<Undecided>,
     /// Whether every equilibrium of the chain is in `equilibria` or `families`: nothing is
-    /// undecided, no straight position is an equilibrium, and the Morse inequalities hold (where a
-    /// straight position exists there are none).
+    /// undecided, no equilibrium is degenerate, no straight position is an equilibrium, and the Morse
+    /// inequalities hold (where a straight position exists there are none).
     pub complete: bool,
     /// Whether each equilibrium stands for a circle, the anchors being on one vertical.
     pub circles: bool,
@@ -126,8 +131,9 @@ impl Census {
         settings.validate()?;
         refuse_long(chain, settings)?;
         let system = System::new(chain, loads);
-        let unloaded = unloaded(&system);
-        let straight = Straight::of(&system, chain);
+        let exact = Exact::new(chain, loads);
+        let unloaded = unloaded(&system, exact.moments.as_ref());
+        let straight = Straight::of(&system, &exact);
         let settled = Settled { unloaded: &unloaded, straight: &straight };
         let search = search(&system, settings, &settled, watch);
 
@@ -165,6 +171,7 @@ impl Census {
             equilibria,
             families,
             straight: straight.positions,
+            degenerate: unloaded.degenerate,
             undecided,
             complete: false,
             circles: system.vertical,
@@ -178,17 +185,40 @@ impl Census {
                 seconds: 0.0,
             },
         };
-        census.complete =
-            census.undecided.is_empty() && census.may_be_complete() && census.morse().is_ok();
+        census.complete = census.decided() && census.may_be_complete();
         census.statistics.seconds = start.elapsed().as_secs_f64();
         Ok(census)
     }
 
-    /// Whether no equilibrium is upright with a force that is any, and it is known what topology
-    /// asks for: nothing where a straight position exists.
+    /// Whether every equilibrium is named: in `equilibria`, `families` or `degenerate`, or upright in
+    /// `straight`. So the census is complete but for what has no regular second derivative.
+    ///
+    /// ```
+    /// use census::{Census, Settings};
+    /// use model::{Anchors, Bar, Chain, Problem};
+    /// // 1 + 1 − 1 = 1: three ways to hang upright, each with any force.
+    /// let anchors = Anchors { start_m: [0.0; 3], end_m: [0.0, 0.0, -1.0] };
+    /// let chain = Chain::new("upright", 9.81, anchors, vec![Bar::homogeneous(1.0, 1.0)?; 3])?;
+    /// let census = Census::take(&Problem::new(chain)?, &Settings::default())?;
+    /// assert!(census.decided() && !census.complete);
+    /// assert_eq!(census.straight.iter().filter(|straight| straight.upright).count(), 3);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn decided(&self) -> bool {
+        self.topology_is_known() && self.undecided.is_empty() && self.morse().is_ok()
+    }
+
+    /// Whether it is known what topology asks for: nothing where a straight position exists.
+    fn topology_is_known(&self) -> bool {
+        matches!(&self.topology, Ok(_) | Err(TopologyError::Straight { .. }))
+    }
+
+    /// Whether all equilibria are isolated, or families across which the second derivative is regular.
     fn may_be_complete(&self) -> bool {
-        let known = matches!(&self.topology, Ok(_) | Err(TopologyError::Straight { .. }));
-        known && self.straight.iter().all(|straight| !straight.upright)
+        self.topology_is_known()
+            && self.degenerate.is_empty()
+            && self.straight.iter().all(|straight| !straight.upright)
     }
 
     /// Number of isolated equilibria in a vertical plane: with the anchors on one vertical, each
@@ -229,25 +259,35 @@ impl Census {
         count
     }
 
-    /// Σ (−1)^index over the equilibria in the plane.
+    /// Σ (−1)^index over the equilibria in the plane; degenerate ones count with their degree.
     #[must_use]
     pub fn alternating_sum(&self) -> i64 {
-        self.count_by_index()
+        let regular = self.count_by_index();
+        let merged = self.degenerate.iter().map(|merged| i64::from(merged.degree));
+        regular
             .iter()
             .zip([1, -1].into_iter().cycle())
             .map(|(count, sign)| sign * count)
-            .sum()
+            .sum::<i64>()
+            + merged.sum::<i64>()
     }
 
     /// The Morse inequalities between the equilibria and the topology of the configuration space;
-    /// nothing is said where the topology is not known.
+    /// nothing is said where the topology is not known. With degenerate equilibria the inequalities do
+    /// not hold, but the sum of all is the Euler characteristic all the same.
     ///
     /// # Errors
     ///
     /// [`MorseError`] for the first inequality that fails.
     pub fn morse(&self) -> Result<(), MorseError> {
         match &self.topology {
-            Ok(topology) => morse::check(&self.count_by_index(), topology),
+            Ok(topology) if self.degenerate.is_empty() => {
+                morse::check(&self.count_by_index(), topology)
+            }
+            Ok(topology) => match (self.alternating_sum(), topology.euler) {
+                (found, expected) if found == expected => Ok(()),
+                (found, expected) => Err(MorseError::Euler { found, expected }),
+            },
             Err(_) => Ok(()),
         }
     }

@@ -22,8 +22,8 @@ use crate::plane::system::System;
 /// image is the turn by 180 degrees.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ProvenEquilibrium {
-    /// +1 for each bar in tension, −1 for each in compression, 0 for one that carries nothing, or
-    /// less than a 10¹² part of the weights.
+    /// +1 for each bar in tension, −1 for each in compression, 0 for one that carries nothing,
+    /// less than a 10¹² part of the weights, or so little that its sign is not proved.
     pub signs: Vec<i8>,
     /// The pull of the chain on the first anchor, −λ₁..₃, N: its part along the horizontal
     /// direction from the first to the last anchor, and its part along Z.

@@ -157,6 +157,13 @@ impl Cell {
         matches!(self.face, Face::Around(_)) && self.at.iter().all(|part| part.contains(0.0))
     }
 
+    /// Whether it is so near the pull at which the force of a group vanishes that not even the data
+    /// are known.
+    pub(crate) fn is_lost_around(&self, group: usize) -> bool {
+        matches!(self.face, Face::Around(own) if usize::from(own) == group)
+            && self.at[0].mag().max(self.at[1].mag()) < f64::EPSILON
+    }
+
     /// The size against which a width is small: around a pull without force the distance from it,
     /// and so near that not even the data are known any width at all.
     pub(crate) fn unit(&self) -> f64 {

@@ -134,7 +134,10 @@ fn examine_cell(system: &System, settings: &Settings, settled: &Settled, task: &
     let mut outcome = Outcome::default();
     let mut noisy = [true; 2];
     let asked = settled.unloaded.left(system, &cell, &task.patterns);
-    let asked = settled.straight.left(system, &cell, asked);
+    let mut asked = settled.straight.left(system, &cell, asked);
+    if cell.unit().is_infinite() {
+        asked = exclusion::open(system, &cell, &asked).into();
+    }
     let (patterns, left, across) = match PatternSums::over(system, &cell) {
         None => {
             noisy = [false; 2];
@@ -164,7 +167,11 @@ fn examine_cell(system: &System, settings: &Settings, settled: &Settled, task: &
                     at: std::array::from_fn(|k| all.at[k].hull(part.at[k])),
                 }));
             }
-            (patterns, left.unwrap_or(cell), sums.widest(system, &cell))
+            let mut across = sums.widest(system, &cell);
+            if settled.straight.are_near(system, &cell) {
+                (noisy, across) = ([false; 2], wider(&cell));
+            }
+            (patterns, left.unwrap_or(cell), across)
         }
     };
     if patterns.is_empty() {

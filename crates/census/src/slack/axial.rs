@@ -36,25 +36,25 @@ const WIDER_BY: f64 = 1e-12;
 const ROUNDS: usize = 20;
 
 /// The closure in the coordinates (ρ, t), for one bar and one pattern of the others.
-pub(super) struct AxialClosure<'a> {
-    pub(super) system: &'a System,
-    pub(super) bar: usize,
+pub(crate) struct AxialClosure<'a> {
+    pub(crate) system: &'a System,
+    pub(crate) bar: usize,
     /// The chart of pulls whose origin is that without force in the bar.
-    pub(super) face: Face,
+    pub(crate) face: Face,
     /// 0 for the bar.
-    pub(super) signs: Vec<i8>,
+    pub(crate) signs: Vec<i8>,
     /// a
-    pub(super) axis: [Interval; 2],
+    pub(crate) axis: [Interval; 2],
 }
 
 /// What the bars do over a box of (ρ, t).
-pub(super) struct Bars {
+pub(crate) struct Bars {
     /// F of each bar but k, and of k with ρ e.
-    pub(super) forces: Vec<[Interval; 2]>,
+    pub(crate) forces: Vec<[Interval; 2]>,
     /// Direction of each bar.
-    pub(super) directions: Vec<[Interval; 2]>,
+    pub(crate) directions: Vec<[Interval; 2]>,
     /// |F|, but ρ for bar k.
-    pub(super) sizes: Vec<Interval>,
+    pub(crate) sizes: Vec<Interval>,
 }
 
 impl AxialClosure<'_> {
@@ -64,7 +64,7 @@ impl AxialClosure<'_> {
     }
 
     /// `None` where the force of another bar may vanish.
-    pub(super) fn bars(&self, [rho, t]: [Interval; 2]) -> Option<Bars> {
+    pub(crate) fn bars(&self, [rho, t]: [Interval; 2]) -> Option<Bars> {
         let e = self.direction(t);
         let force = e.map(|part| rho * part);
         let mut bars = Bars { forces: vec![], directions: vec![], sizes: vec![] };
@@ -94,7 +94,7 @@ impl AxialClosure<'_> {
     }
 
     /// The derivative of G by ρ and t, first index the component.
-    pub(super) fn slope(&self, bars: &Bars, [rho, t]: [Interval; 2]) -> [[Interval; 2]; 2] {
+    pub(crate) fn slope(&self, bars: &Bars, [rho, t]: [Interval; 2]) -> [[Interval; 2]; 2] {
         let e = bars.directions[self.bar];
         let n = normal(e);
         let mut slope = [[Interval::ZERO; 2]; 2];
@@ -125,11 +125,10 @@ impl AxialClosure<'_> {
         image(at, x, slope, gap)
     }
 
-    /// A box of (ρ, t) that holds every zero whose |F_k| is at most `radius`, and exactly one:
-    /// shrunk.
-    pub(super) fn only_one(&self, radius: f64) -> Option<Cell> {
+    /// All directions t that bar k can have if its force is at most so large: with all forces of the
+    /// disc at once the other bars leave the gap l_k e.
+    pub(crate) fn directions(&self, radius: f64) -> Option<Interval> {
         let disc = Interval::new(-radius, radius);
-        // With all forces of the disc at once the other bars leave the gap l_k e.
         let mut left = self.system.span;
         for (i, sign) in self.signs.iter().enumerate().filter(|(_, sign)| **sign != 0) {
             let force = [disc, disc + self.system.weights(self.face)[i]];
@@ -142,10 +141,14 @@ impl AxialClosure<'_> {
             }
         }
         let along = dot(self.axis, left);
-        if along.lo() <= 0.0 {
-            return None;
-        }
-        let turned = dot(normal(self.axis), left) / along;
+        (along.lo() > 0.0).then(|| dot(normal(self.axis), left) / along)
+    }
+
+    /// A box of (ρ, t) that holds every zero whose |F_k| is at most `radius`, and exactly one:
+    /// shrunk.
+    pub(crate) fn only_one(&self, radius: f64) -> Option<Cell> {
+        let disc = Interval::new(-radius, radius);
+        let turned = self.directions(radius)?;
         let margin = WIDER * turned.width() + WIDER_BY;
         let whole = Cell {
             face: self.face,
@@ -180,7 +183,7 @@ impl AxialClosure<'_> {
     /// one negative direction less than bars are compressed where $b^T H^{-1} b < 0$. Out of the
     /// plane the closure is one equation, which bar k can meet without force: as many as are
     /// compressed.
-    pub(super) fn indices(&self, bars: &Bars, condition: f64) -> Option<Indices> {
+    pub(crate) fn indices(&self, bars: &Bars, condition: f64) -> Option<Indices> {
         let k = self.bar;
         let e = bars.directions[k];
         let n_k = normal(e);

@@ -17,6 +17,9 @@ pub(crate) struct ExactSides {
     lengths: Vec<i128>,
     /// The distance, if that is an integer too.
     span: Option<i128>,
+    /// The square of the level part of the distance, and the upright part.
+    level_square: i128,
+    rise: i128,
 }
 
 /// A double as an odd integer times a power of two; nothing for zero.
@@ -43,7 +46,7 @@ fn odd(x: f64) -> Option<(i128, i32)> {
 
 /// All numbers in units of the largest power of two of which they are integers; nothing if some
 /// have too many digits then.
-fn integers(numbers: &[f64]) -> Option<Vec<i128>> {
+pub(super) fn integers(numbers: &[f64]) -> Option<Vec<i128>> {
     let parts: Vec<Option<(i128, i32)>> = numbers.iter().map(|x| odd(*x)).collect();
     let unit = parts.iter().flatten().map(|(_, power)| *power).min()?;
     parts
@@ -68,7 +71,18 @@ impl ExactSides {
         let square = (0..3).map(|k| (places[k + 3] - places[k]).pow(2)).sum::<i128>();
         let root = square.isqrt();
         let span = (root * root == square).then_some(root);
-        Some(Self { lengths, span })
+        let rise = places[5] - places[2];
+        Some(Self { lengths, span, level_square: square - rise * rise, rise })
+    }
+
+    /// The lengths, in a unit in which they and the places of the anchors are integers.
+    pub(super) fn lengths(&self) -> &[i128] {
+        &self.lengths
+    }
+
+    /// The square of the distance of the anchors across the vertical, and their distance along it.
+    pub(super) fn level_square_and_rise(&self) -> [i128; 2] {
+        [self.level_square, self.rise]
     }
 
     /// All ways in which the bars fit into the line between the anchors: patterns whose sum of

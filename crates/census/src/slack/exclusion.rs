@@ -12,6 +12,9 @@
 //! around the point are excluded. One bar alone that meets it is decided by
 //! [`unloaded`](crate::slack::unloaded). The point itself, where the bars of a group need not be
 //! parallel, is the business of [`families`](crate::slack::families).
+//!
+//! So near such a point that rounding hides where the force points, its direction is as good as
+//! free: cells that do not hold the point, but are no wider than a last place, are treated alike.
 
 use intervals::Interval;
 
@@ -27,9 +30,10 @@ pub(crate) fn open(system: &System, cell: &Cell, patterns: &[Pattern]) -> Vec<Pa
     let mut free = vec![];
     let mut held = vec![];
     let weights = system.weights(cell.face);
-    for group in &system.groups {
+    for (number, group) in system.groups.iter().enumerate() {
         let force = cell.force(weights[group.start]);
-        if force[0].contains(0.0) && force[1].contains(0.0) {
+        let lost = cell.is_lost_around(number);
+        if lost || force[0].contains(0.0) && force[1].contains(0.0) {
             free.push(group.clone());
         } else {
             held.extend(group.clone().map(|i| {

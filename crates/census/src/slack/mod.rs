@@ -4,5 +4,7 @@ pub(crate) mod axial;
 pub(crate) mod exact;
 pub(crate) mod exclusion;
 pub(crate) mod families;
+pub(crate) mod moments;
 pub(crate) mod straight;
 pub(crate) mod unloaded;
+pub(crate) mod upright;

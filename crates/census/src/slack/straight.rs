@@ -25,6 +25,10 @@
 //! equation asks for α = 0.) In the limit its sign is that of $\sum s_i l_i (c_i - \bar c)^2$ with
 //! the mean $\bar c$ of the weights.
 //!
+//! Where this signed variance vanishes, exactly, the two sums have a common zero at w = 0. If their
+//! derivative by (ψ, w), or by (ψ, w²) between level anchors, ν = |D|, is proved to be regular over a rectangle of such, the pair takes no value
+//! twice there, and this zero, the straight position itself, is the only one.
+//!
 //! The straight position itself is then no equilibrium: no force along the line holds a weight
 //! across it. It is a singular point of the configurations: with small angles $\theta_i$ they are the
 //! cone $\sum \epsilon_i l_i \theta_i = 0$, $\sum \epsilon_i l_i \theta_i^2 = 0$, and the energy changes by
@@ -35,27 +39,24 @@
 //! # Anchors on one vertical
 //!
 //! All forces are then upright with the pull, H = 0, and the straight position is an equilibrium
-//! whatever the size of the pull: its forces are a family. The horizontal part of the closure is
-//! $H \sum_i s_i l_i/|F_i|$. Where that sum is proved not to vanish no other equilibrium is near.
-//! Where the force of one bar k vanishes, the same is proved by its size: with $F_k = \varrho e$ the
-//! horizontal part is $e_x (\varrho \sum_{i \ne k} s_i l_i/|F_i| + l_k)$.
-//!
-//! If both anchors are one point, D = 0, the line may have any direction, and pulls without bound
-//! in any direction are zeros of the closure. The product $q \times \Phi$ with the pull is then $H w
-//! \sum_i s_i l_i c_i/|F_i|$: where that sum does not vanish, the pull is upright or infinite.
+//! whatever the size of the pull: its forces are a family. That no other equilibrium is near is the
+//! business of [`upright`](crate::slack::upright). If both anchors are one point, the line may have
+//! any direction, and pulls without bound in any direction are zeros of the closure; but only the
+//! upright ones are equilibria.
 
 use std::borrow::Cow;
 use std::collections::HashMap;
 
 use intervals::Interval;
-use model::Chain;
 use serde::{Deserialize, Serialize};
 
 use crate::closure::{Pattern, signed};
+use crate::degenerate::maps::blown_up;
 use crate::plane::cell::Cell;
 use crate::plane::face::Face;
 use crate::plane::system::System;
-use crate::slack::exact::ExactSides;
+use crate::slack::moments::Exact;
+use crate::slack::upright::{upright_alone, upright_or_infinite};
 
 /// A position in which all bars lie in the line between the anchors.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -82,6 +83,11 @@ pub(crate) struct Straight {
     settled: Vec<Settled>,
     /// Whether all ways to fit are known: what may fit upright, does so or is none.
     exact: bool,
+    /// The ways to fit, sorted.
+    fits: Vec<Pattern>,
+    /// Between anchors in one point, by pattern that fits: the order of the first moment that does
+    /// not vanish.
+    first: HashMap<Pattern, u32>,
 }
 
 /// Rectangles about a pull without bound, one for each pattern, that hold no equilibrium with these
@@ -107,17 +113,21 @@ impl Settled {
 
 impl Straight {
     /// All straight positions of a chain.
-    pub(crate) fn of(system: &System, chain: &Chain) -> Self {
-        let Some(sides) = ExactSides::new(chain) else { return Self::default() };
+    pub(crate) fn of(system: &System, exact: &Exact) -> Self {
+        let Some(sides) = &exact.sides else { return Self::default() };
         let fits = sides.fits();
         let bars = system.bars();
         let all = (1_u32 << bars) - 1;
         let mut settled = vec![];
+        let moments = exact.moments.as_ref();
         if !system.vertical {
             // Along the line, and against it with all signs turned.
             for (way, turned) in [(1, 0), (-1, all)] {
                 let patterns = fits.iter().map(|pattern| Pattern(pattern.0 ^ turned));
-                let cells = patterns.filter_map(|p| Some((p, isolated(system, p, way)?)));
+                let cells = patterns.filter_map(|p| {
+                    let none = moments.and_then(|m| m.is_without_variance(p));
+                    Some((p, isolated(system, p, way, none == Some(true))?))
+                });
                 settled.extend(Settled::new(cells.collect()));
             }
         }
@@ -125,7 +135,13 @@ impl Straight {
             along: pattern.signs(bars).collect(),
             upright: system.vertical,
         });
-        Self { positions: positions.collect(), settled, exact: true }
+        let mut first = HashMap::new();
+        if is_one_point(system)
+            && let Some(moments) = moments
+        {
+            first = fits.iter().filter_map(|p| Some((*p, moments.first(*p)?))).collect();
+        }
+        Self { positions: positions.collect(), settled, exact: true, fits, first }
     }
 
     /// The patterns that may have equilibria in a cell besides the straight ones.
@@ -142,21 +158,37 @@ impl Straight {
             };
             left.to_mut().retain(|p| !cells.get(p).is_some_and(|cell| cell.encloses(&near)));
         }
-        if !self.exact || !system.vertical || self.positions.is_empty() {
-            return left;
-        }
-        if cell.homogeneous()[0].contains(0.0) {
-            left.to_mut().retain(|pattern| !upright_alone(system, cell, *pattern));
-        }
-        if system.span[1] == Interval::ZERO {
-            left.to_mut().retain(|pattern| !upright_or_infinite(system, cell, *pattern));
+        if self.are_near(system, cell) {
+            left.to_mut().retain(|pattern| !upright_alone(system, cell, *pattern, &self.fits));
+            left.to_mut().retain(|pattern| {
+                let first = self.first.get(pattern).copied();
+                !upright_or_infinite(system, cell, *pattern, first)
+            });
         }
         left
     }
+
+    /// Whether a cell is next to pulls that are no isolated zeros of the closure: the upright ones, and
+    /// between anchors in one point the infinite ones. There the closure vanishes to all its digits, and
+    /// what is left of it when that is divided out decides.
+    pub(crate) fn are_near(&self, system: &System, cell: &Cell) -> bool {
+        /// 2⁻⁶
+        const NEAR: f64 = 1.0 / 64.0;
+        if !self.exact || !system.vertical || self.positions.is_empty() {
+            return false;
+        }
+        let [h, _, w] = cell.homogeneous();
+        h.mag() <= NEAR || h.contains(0.0) || is_one_point(system) && w.mag() <= NEAR
+    }
 }
 
-/// A rectangle about the pull along the span, or against it, without an equilibrium of a pattern.
-fn isolated(system: &System, pattern: Pattern, way: i8) -> Option<Cell> {
+fn is_one_point(system: &System) -> bool {
+    system.vertical && system.span[1] == Interval::ZERO
+}
+
+/// A rectangle about the pull along the span, or against it, without an equilibrium of a pattern,
+/// whose signed variance of the weights may be known to vanish.
+fn isolated(system: &System, pattern: Pattern, way: i8, no_variance: bool) -> Option<Cell> {
     let f = system.span.map(|part| signed(way, part));
     // The chart on which the pull is largest.
     let along = usize::from(f[1].mid().abs() > f[0].mid().abs());
@@ -171,7 +203,7 @@ fn isolated(system: &System, pattern: Pattern, way: i8) -> Option<Cell> {
     for _ in 0..RECTANGLES {
         let at = [Interval::around(centre, size), Interval::new(-size, size)];
         let cell = Cell { face, at };
-        if is_isolated(system, &cell, f, pattern) == Some(true) {
+        if is_isolated(system, &cell, f, pattern, no_variance) == Some(true) {
             return Some(cell);
         }
         size *= NEXT;
@@ -179,9 +211,16 @@ fn isolated(system: &System, pattern: Pattern, way: i8) -> Option<Cell> {
     None
 }
 
-/// Whether the blown-up closure has no zero over a rectangle.
-fn is_isolated(system: &System, cell: &Cell, f: [Interval; 2], pattern: Pattern) -> Option<bool> {
+/// Whether the blown-up closure has no zero over a rectangle but the straight position.
+fn is_isolated(
+    system: &System,
+    cell: &Cell,
+    f: [Interval; 2],
+    pattern: Pattern,
+    no_variance: bool,
+) -> Option<bool> {
     let size = |[x, z]: [Interval; 2]| (x.square() + z.square()).sqrt();
+    let along = |[x, z]: [Interval; 2]| f[0] * x + f[1] * z;
     let whole = size(f);
     let nu = f[0];
     let mut terms = vec![];
@@ -189,7 +228,7 @@ fn is_isolated(system: &System, cell: &Cell, f: [Interval; 2], pattern: Pattern)
     let bars = system.length.iter().zip(&system.weight);
     for ((length, weight), sign) in bars.zip(pattern.signs(system.bars())) {
         let force = cell.force(*weight);
-        let b = f[0] * force[0] + f[1] * force[1];
+        let b = along(force);
         let r = whole * size(force);
         if b.lo() <= 0.0 {
             return None;
@@ -203,55 +242,15 @@ fn is_isolated(system: &System, cell: &Cell, f: [Interval; 2], pattern: Pattern)
         return None;
     }
     let psi = -(nu * lean / turn);
+    if no_variance {
+        // The weights in the unit in which the pull is as long as f.
+        let [h, v, w] = cell.homogeneous();
+        let most = w / along([h, v]) * whole.square();
+        let over = [psi, Interval::ZERO.hull(Interval::point(most.hi()))];
+        let signs: Vec<i8> = pattern.signs(system.bars()).collect();
+        let [[a, b], [c, d]] = blown_up(system, &signs, f, over)?.map(|part| part.gradient());
+        return Some(!(a * d - b * c).contains(0.0));
+    }
     let second: Interval = terms.into_iter().map(|(part, c)| part * (psi + c).square()).sum();
     Some(!second.contains(0.0))
-}
-
-/// Whether every equilibrium of a pattern in a cell about H = 0 has H = 0.
-fn upright_alone(system: &System, cell: &Cell, pattern: Pattern) -> bool {
-    let bars = system.bars();
-    let weights = system.weights(cell.face);
-    let mut free = None;
-    let mut sum = Interval::ZERO;
-    for group in &system.groups {
-        let force = cell.force(weights[group.start]);
-        if force[0].contains(0.0) && force[1].contains(0.0) {
-            // Several bars, or bars that lose their force at other pulls.
-            if free.is_some() || group.len() > 1 {
-                return false;
-            }
-            free = Some((group.start, force));
-            continue;
-        }
-        let size = (force[0].square() + force[1].square()).sqrt();
-        for i in group.clone() {
-            let sign = if pattern.compressed(bars, i) { -1 } else { 1 };
-            sum = sum + signed(sign, system.length[i] / size);
-        }
-    }
-    match free {
-        None => !sum.contains(0.0),
-        // The force of the one bar, of either sign, times the sum of the others.
-        Some((bar, force)) => {
-            let size = (force[0].square() + force[1].square()).sqrt().hi();
-            let most = Interval::point(size) * Interval::point(sum.mag());
-            most.hi() < system.length[bar].lo()
-        }
-    }
-}
-
-/// Between anchors in one point: whether every zero of a pattern in a cell has H = 0 or an infinite
-/// pull.
-fn upright_or_infinite(system: &System, cell: &Cell, pattern: Pattern) -> bool {
-    let mut sum = Interval::ZERO;
-    let bars = system.length.iter().zip(system.weights(cell.face));
-    for ((length, weight), sign) in bars.zip(pattern.signs(system.bars())) {
-        let force = cell.force(*weight);
-        let size = (force[0].square() + force[1].square()).sqrt();
-        if size.lo() <= 0.0 {
-            return false;
-        }
-        sum = sum + signed(sign, *length * *weight / size);
-    }
-    !sum.contains(0.0)
 }

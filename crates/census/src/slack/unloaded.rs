@@ -10,12 +10,14 @@ use std::ops::Range;
 use intervals::Interval;
 
 use crate::closure::{Pattern, signed};
+use crate::degenerate::unloaded::{self as degenerate, DegenerateEquilibrium};
 use crate::equilibrium::stress;
 use crate::equilibrium::{Neighbourhood, Observed, ProvenEquilibrium};
 use crate::plane::cell::Cell;
 use crate::plane::face::Face;
 use crate::plane::system::System;
 use crate::slack::axial::AxialClosure;
+use crate::slack::moments::ExactMoments;
 
 /// A gap between upright bars that differs from the length of the bar by more than this is not
 /// bridged by it without force, to rounding.
@@ -24,6 +26,10 @@ const NEAR: f64 = 1e-9;
 /// A force of less than this, in the unit of the weights, is next to nothing: 2⁻⁴⁰, a 10¹² part.
 /// Its digits are what is left of much larger numbers.
 const NEXT_TO_NOTHING: f64 = f64::from_bits((1023 - 40) << 52);
+
+/// A force of less than this, 2⁻²⁴, counts as none where its sign is not known: next to a degenerate
+/// equilibrium rounding moves a force by much more than its last place.
+const TOO_LITTLE: f64 = f64::from_bits((1023 - 24) << 52);
 
 /// The largest disc of pulls tried, in the unit of the weights, and the factor to the next one.
 const LARGEST_DISC: f64 = 1.0 / 64.0;
@@ -36,6 +42,8 @@ const DISCS: usize = 12;
 #[derive(Debug, Default)]
 pub(crate) struct Unloaded {
     pub(crate) equilibria: Vec<ProvenEquilibrium>,
+    /// Those with a singular second derivative.
+    pub(crate) degenerate: Vec<DegenerateEquilibrium>,
     settled: Vec<Settled>,
 }
 
@@ -73,27 +81,34 @@ impl Unloaded {
     }
 }
 
-/// All of them.
-pub(crate) fn unloaded(system: &System) -> Unloaded {
+/// All of them. Degenerate ones are found where lengths and weights are known as integers.
+pub(crate) fn unloaded(system: &System, exact: Option<&ExactMoments>) -> Unloaded {
     let mut all = Unloaded::default();
     let bars = system.bars();
-    for group in &system.groups {
+    for (number, group) in system.groups.iter().enumerate() {
+        let Ok(number) = u8::try_from(number) else { continue };
         let bit = Pattern::bit(bars, group.start);
         let mut half = HashMap::new();
         let mut largest = 0.0_f64;
         for others in (0..1_u32 << bars).filter(|pattern| pattern & bit == 0) {
-            if let Some(equilibrium) = prove(system, group, Pattern(others)) {
-                // A square about the origin of the chart.
+            let Some(closure) = axial_closure(system, group, Pattern(others)) else { continue };
+            // Squares about the origin of the chart.
+            let side = if let Some(equilibrium) = prove(&closure) {
                 let side = equilibrium.alone_in.at[0].hi();
-                largest = largest.max(side);
-                half.insert(others, side);
                 all.equilibria.push(equilibrium);
-            }
+                side
+            } else if let Some(merged) = exact.and_then(|e| degenerate::prove(e, &closure)) {
+                let side = merged.alone_in.at[0].hi();
+                all.degenerate.push(merged);
+                side
+            } else {
+                continue;
+            };
+            largest = largest.max(side);
+            half.insert(others, side);
         }
-        if let Some(face) = all.equilibria.last().map(|last| last.alone_in.chart)
-            && !half.is_empty()
-        {
-            all.settled.push(Settled { face, bit, half, largest });
+        if !half.is_empty() {
+            all.settled.push(Settled { face: Face::Around(number), bit, half, largest });
         }
     }
     all
@@ -105,12 +120,17 @@ pub(crate) fn with_signs(system: &System, signs: &[i8]) -> Option<ProvenEquilibr
     let bar = signs.iter().position(|sign| *sign == 0)?;
     let compressed = (0..bars).filter(|i| signs[*i] < 0);
     let others = compressed.map(|i| Pattern::bit(bars, i)).sum();
-    prove(system, system.groups.iter().find(|group| group.contains(&bar))?, Pattern(others))
+    let group = system.groups.iter().find(|group| group.contains(&bar))?;
+    prove(&axial_closure(system, group, Pattern(others))?)
 }
 
-/// The equilibrium near the pull without force in a bar, if there is exactly one with these signs
-/// of the others and its bar carries next to nothing.
-fn prove(system: &System, group: &Range<usize>, others: Pattern) -> Option<ProvenEquilibrium> {
+/// The closure in the axial force of a bar alone, if the bar just bridges the gap that the others
+/// leave with these signs, or nearly so.
+fn axial_closure<'a>(
+    system: &'a System,
+    group: &Range<usize>,
+    others: Pattern,
+) -> Option<AxialClosure<'a>> {
     // Between anchors on one vertical such a bar is upright too, and its direction is not
     // determined.
     if group.len() > 1 || system.vertical {
@@ -135,7 +155,13 @@ fn prove(system: &System, group: &Range<usize>, others: Pattern) -> Option<Prove
         return None;
     }
     let axis = gap.map(|part| Interval::point(part.mid() / system.length[bar].mid()));
-    let closure = AxialClosure { system, bar, face, signs, axis };
+    Some(AxialClosure { system, bar, face, signs, axis })
+}
+
+/// The equilibrium near the pull without force in a bar, if there is exactly one and its bar carries
+/// next to nothing.
+fn prove(closure: &AxialClosure) -> Option<ProvenEquilibrium> {
+    let (system, bar, face) = (closure.system, closure.bar, closure.face);
     let mut radius = LARGEST_DISC;
     let mut found = None;
     for _ in 0..DISCS {
@@ -147,7 +173,8 @@ fn prove(system: &System, group: &Range<usize>, others: Pattern) -> Option<Prove
     }
     let tight = found?;
     // Any other the search finds by itself.
-    if tight.at[0].mag() > NEXT_TO_NOTHING {
+    let most = tight.at[0].mag();
+    if most > TOO_LITTLE || most > NEXT_TO_NOTHING && !tight.at[0].contains(0.0) {
         return None;
     }
     let bars = closure.bars(tight.at)?;

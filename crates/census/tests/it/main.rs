@@ -2,6 +2,7 @@
 
 mod degenerate;
 mod integers;
+mod multiplicity;
 mod mutations;
 mod paper;
 mod random;

@@ -2,8 +2,8 @@
 //! same.
 
 use census::{
-    CheckError, Interval, Position, ProvenEquilibrium, SlackFamily, Statistics, StraightPosition,
-    Undecided,
+    CheckError, DegenerateEquilibrium, Interval, Position, ProvenEquilibrium, SlackFamily,
+    Statistics, StraightPosition, Undecided,
 };
 use model::{Anchors, Equilibrium, Problem, Reason, SolverName, Status, SystemSummary};
 use serde::Serialize;
@@ -79,8 +79,11 @@ pub struct Enclosures {
 /// The census as a whole.
 #[derive(Debug, Clone, Serialize)]
 pub struct Summary {
-    /// Whether every equilibrium is in `equilibria`, `slack_families`, or upright in `straight`.
+    /// Whether every equilibrium is in `equilibria` or `slack_families`.
     pub complete: bool,
+    /// Whether every equilibrium is in `equilibria`, `slack_families` or `degenerate`, or upright in
+    /// `straight`.
+    pub decided: bool,
     /// Number of isolated equilibria in one vertical plane: the length of `equilibria`.
     pub count: usize,
     /// Whether the anchors are on one vertical, so that equilibria come in circles.
@@ -99,6 +102,8 @@ pub struct Summary {
     pub topology_unknown: Option<String>,
     /// Positions in which all bars lie in the line between the anchors.
     pub straight: Vec<StraightPosition>,
+    /// Equilibria at which several have merged.
+    pub degenerate: Vec<Merged>,
     /// How many boxes could not be decided.
     pub undecided_boxes: usize,
     /// Those boxes.
@@ -155,6 +160,32 @@ pub struct Slack {
     pub dimension_in_plane: usize,
 }
 
+/// An equilibrium at which several have merged: a bar carries nothing, and the second derivative
+/// vanishes in one direction in the plane.
+#[derive(Debug, Clone, Serialize)]
+pub struct Merged {
+    /// +1 for each bar in tension, -1 in compression, 0 for the one that carries nothing.
+    pub signs: Vec<i8>,
+    /// How many have merged: 2 at a fold.
+    pub multiplicity: usize,
+    /// Σ (-1)^index over those into which it falls apart when the chain is changed a little.
+    pub degree: i8,
+    /// Directions in the plane in which the energy falls in second order.
+    pub index_in_plane: usize,
+    /// Directions out of the plane in which the energy falls.
+    pub index_out_of_plane: usize,
+    /// Energy above the height of joint 0.
+    pub energy_j: Enclosure,
+    /// Pull of the chain on the first anchor, level and upright.
+    pub pull_n: [Enclosure; 2],
+    /// Angle of each bar from the descending vertical.
+    pub angles_rad: Vec<Enclosure>,
+    /// Place of each joint.
+    pub joints_m: Vec<[Enclosure; 3]>,
+    /// Axial force of each bar.
+    pub axial_n: Vec<Enclosure>,
+}
+
 /// The census judged again, without the search.
 #[derive(Debug, Clone, Serialize)]
 pub struct Check {
@@ -196,6 +227,7 @@ impl CensusAnswer {
             system: problem.chain().summary(),
             census: Summary {
                 complete: census.complete,
+                decided: census.decided(),
                 count: equilibria.len(),
                 circles: census.circles,
                 circle_count: census.circles.then_some(census.equilibria.len()),
@@ -205,6 +237,7 @@ impl CensusAnswer {
                 betti: topology.ok().map(|topology| topology.betti.clone()),
                 topology_unknown: topology.err().map(ToString::to_string),
                 straight: census.straight.clone(),
+                degenerate: census.degenerate.iter().map(merged).collect(),
                 undecided_boxes: census.undecided.len(),
                 undecided: census.undecided.iter().map(open).collect(),
                 slack_families: census.families.iter().map(slack).collect(),
@@ -325,6 +358,22 @@ fn open(undecided: &Undecided) -> Open {
 fn name(reason: census::Reason) -> String {
     let value = serde_json::to_value(reason).ok();
     value.and_then(|name| name.as_str().map(str::to_owned)).unwrap_or_default()
+}
+
+fn merged(merged: &DegenerateEquilibrium) -> Merged {
+    let list = |intervals: &[Interval]| intervals.iter().copied().map(ends).collect();
+    Merged {
+        signs: merged.signs.clone(),
+        multiplicity: merged.multiplicity,
+        degree: merged.degree,
+        index_in_plane: merged.index_in_plane,
+        index_out_of_plane: merged.index_out_of_plane,
+        energy_j: ends(merged.energy_j),
+        pull_n: merged.pull_n.map(ends),
+        angles_rad: list(&merged.angles_rad),
+        joints_m: merged.joints_m.iter().map(|joint| joint.map(ends)).collect(),
+        axial_n: list(&merged.axial_n),
+    }
 }
 
 fn slack(family: &SlackFamily) -> Slack {

@@ -4,7 +4,7 @@ mod answer;
 mod csv;
 mod system;
 
-pub use answer::{CensusAnswer, Check, Enclosure, Enclosures, Found, Open, Slack, Summary};
+pub use answer::{CensusAnswer, Check, Enclosure, Enclosures, Found, Merged, Open, Slack, Summary};
 pub use system::SystemCensusAnswer;
 
 use census::network::SystemCensus;

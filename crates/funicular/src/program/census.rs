@@ -91,7 +91,7 @@ pub fn run(arguments: &Census) -> Result<Exit, Failure> {
     let check = &answer.census.check;
     Ok(if check.refuted {
         Exit::CheckFailed
-    } else if check.passed && answer.census.complete {
+    } else if check.passed && answer.census.decided {
         Exit::Done
     } else {
         Exit::Undecided

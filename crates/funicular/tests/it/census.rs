@@ -79,7 +79,9 @@ fn json(arguments: &[&str], code: i32) -> Value {
     );
     assert_eq!(census["check"]["passed"], true);
     let complete = census["complete"].as_bool().unwrap();
-    assert_eq!(complete, code == 0);
+    // What is degenerate is named, but not in a complete list of isolated equilibria.
+    assert_eq!(census["decided"].as_bool().unwrap(), code == 0);
+    assert!(!complete || code == 0);
     for equilibrium in value["equilibria"].as_array().unwrap() {
         // Neither a NaN nor an infinity, which would come out as null.
         assert_no_null(equilibrium, &["circle", "force_uncertainty", "tolerance", "gap"]);
@@ -297,6 +299,39 @@ fn a_straight_position_is_named_and_apart_from_all_equilibria() {
     let text = stdout(&funicular(&[&file]));
     assert!(text.contains("In 6 positions the bars lie in the line"), "{text}");
     assert!(text.contains("no equilibrium is near") && text.contains("the search alone"), "{text}");
+}
+
+/// 1 + 1 − 1 = 1: three ways to hang upright, each under any force, and no other equilibrium near.
+#[test]
+fn upright_positions_are_families_of_forces() {
+    let file = chain("upright", [0.0, 0.0, -1.0], &[(1.0, 1.0); 3]);
+    let value = json(&[&file], 0);
+    let census = &value["census"];
+    assert_eq!((&census["complete"], &census["undecided_boxes"]), (&false.into(), &0.into()));
+    let straight = census["straight"].as_array().unwrap();
+    assert!(straight.len() == 3 && straight.iter().all(|position| position["upright"] == true));
+    let text = stdout(&funicular(&[&file]));
+    assert!(text.contains("3 upright positions with any force: proved to be all"), "{text}");
+}
+
+/// Bar 1 hangs as heavily as bar 3 stands, and the level bar 2 carries nothing: along the curve of
+/// positions the energy is x⁵/2 + ..., so that four equilibria have merged.
+#[test]
+fn a_degenerate_equilibrium_has_its_multiplicity() {
+    let file = chain("step", [1.0, 0.0, -2.0], &[(1.0, 1.0); 3]);
+    let value = json(&[&file], 0);
+    let census = &value["census"];
+    assert_eq!((&census["complete"], &census["decided"]), (&false.into(), &true.into()));
+    let [merged] = &census["degenerate"].as_array().unwrap()[..] else { panic!("{census}") };
+    assert_eq!(merged["signs"], serde_json::json!([1, 0, -1]));
+    assert_eq!((&merged["multiplicity"], &merged["degree"]), (&4.into(), &0.into()));
+    // Down, level, down: centres at -0.5 m, -1 m and -1.5 m.
+    let energy = &merged["energy_j"];
+    assert!((number(&energy[0]) + 3.0 * MGL).abs() < 1e-12);
+    assert!(number(&energy[0]) <= -3.0 * MGL && -3.0 * MGL <= number(&energy[1]));
+    let text = stdout(&funicular(&[&file]));
+    assert!(text.contains("1 degenerate one: proved to be all"), "{text}");
+    assert!(text.contains("Degenerate equilibria, at which several have merged"), "{text}");
 }
 
 #[test]

@@ -75,6 +75,12 @@ pub enum Reason {
         /// How many.
         cells: usize,
     },
+    /// Occurs when the census names equilibria at which several have merged: their second derivative
+    /// is singular, and they are listed apart.
+    DegenerateEquilibria {
+        /// How many.
+        listed: usize,
+    },
     /// The census lists its equilibria, and the count of them could not be checked: a straight
     /// position of the chain exists, where the configuration space is no manifold.
     StraightPosition {

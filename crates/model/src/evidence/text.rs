@@ -453,6 +453,12 @@ impl Display for Reason {
                 f.write_str("the census lists no equilibrium to compare with")
             }
             Self::CensusUndecided { cells } => write!(f, "{cells} cells of pulls are undecided"),
+            Self::DegenerateEquilibria { listed: 1 } => {
+                f.write_str("one degenerate equilibrium is listed apart")
+            }
+            Self::DegenerateEquilibria { listed } => {
+                write!(f, "{listed} degenerate equilibria are listed apart")
+            }
             Self::StraightPosition { sides } => write!(
                 f,
                 "sides {} are together as long as the others: a straight position exists, and the configuration space \

@@ -37,6 +37,7 @@ pub fn text(answer: &CensusAnswer) -> String {
         text += &evidence(answer);
     }
     text += &families(&answer.census);
+    text += &merged(&answer.census);
     text += &undecided(&answer.census);
     text += &sums(&answer.census);
     text
@@ -65,7 +66,19 @@ fn headline(census: &Summary) -> String {
     if slack > 0 {
         let _ = write!(text, ", {slack} {} of slack bars", plural(slack, "family", "families"));
     }
-    text + if census.complete { ": proved to be all.\n\n" } else { ": NOT proved to be all.\n\n" }
+    let merged = census.degenerate.len();
+    if merged > 0 {
+        let _ = write!(text, ", {merged} degenerate {}", plural(merged, "one", "ones"));
+    }
+    let upright = census.straight.iter().filter(|straight| straight.upright).count();
+    if upright > 0 {
+        let _ = write!(
+            text,
+            ", {upright} upright {} with any force",
+            plural(upright, "position", "positions")
+        );
+    }
+    text + if census.decided { ": proved to be all.\n\n" } else { ": NOT proved to be all.\n\n" }
 }
 
 fn overview(answer: &CensusAnswer) -> String {
@@ -257,6 +270,36 @@ fn families(census: &Summary) -> String {
     text + "\n"
 }
 
+/// Equilibria at which several have merged.
+fn merged(census: &Summary) -> String {
+    if census.degenerate.is_empty() {
+        return String::new();
+    }
+    let mut rows = table(["bars", "energy / J", "multiplicity", "degree", "angles / deg"]);
+    for merged in census.degenerate.iter().take(PRINTED_OPEN) {
+        let angle = |[low, high]: &[f64; 2]| short((0.5 * low + 0.5 * high).to_degrees());
+        let [low, high] = merged.energy_j;
+        rows.add_row([
+            pattern(&merged.signs),
+            long(0.5 * low + 0.5 * high),
+            match merged.multiplicity {
+                2 => "2 (a fold)".to_owned(),
+                number => number.to_string(),
+            },
+            merged.degree.to_string(),
+            merged.angles_rad.iter().map(angle).collect::<Vec<_>>().join(", "),
+        ]);
+    }
+    numbers_from(&mut rows, 1);
+    let mut text = format!(
+        "Degenerate equilibria, at which several have merged (the bar with a dot carries nothing; the second derivative \
+         of the energy\nvanishes in one direction; degree: the sum of (-1)^index over those into which it falls apart \
+         when the chain is changed a little):\n{rows}\n"
+    );
+    left_out(&mut text, census.degenerate.len(), PRINTED_OPEN, "of them");
+    text + "\n"
+}
+
 fn undecided(census: &Summary) -> String {
     if census.undecided.is_empty() {
         return String::new();
@@ -288,10 +331,10 @@ fn undecided(census: &Summary) -> String {
 fn check_line(census: &Summary) -> String {
     let listed = "Check: every equilibrium listed is proved again without the search";
     match (&census.check.failure, census.check.refuted) {
-        (None, _) if census.complete && census.euler_characteristic.is_none() => {
+        (None, _) if census.decided && census.euler_characteristic.is_none() => {
             format!("{listed}. That the list is complete rests on the search alone.")
         }
-        (None, _) if census.complete => format!(
+        (None, _) if census.decided => format!(
             "{listed}. That the list is complete rests on the search:\nthe check would see if one alone, the lowest \
              or the highest were missing, not every pair."
         ),
@@ -312,8 +355,12 @@ fn straight(census: &Summary) -> String {
         plural(count, "position", "positions"),
         pattern(&first.along)
     );
-    let what = match (first.upright, census.complete) {
-        (true, _) => {
+    let what = match (first.upright, census.decided) {
+        (true, true) => {
+            "). They hang or stand upright: equilibria too,\nunder any force along them, a family each; no other \
+             equilibrium is near any of these"
+        }
+        (true, false) => {
             "). They hang or stand upright: equilibria too,\nbut the force along them is not determined"
         }
         (false, true) => {

@@ -1,0 +1,6 @@
+//! Zeros that are not simple: how many there can be, counted with multiplicity.
+
+pub(crate) mod arc;
+pub(crate) mod maps;
+pub(crate) mod series;
+pub(crate) mod unloaded;
