@@ -15,8 +15,11 @@
 //! and exactly one has the largest that there is; a slack family stands for it if all other bars of
 //! the family are in tension, or all in compression.
 
+use std::collections::HashMap;
+
 use intervals::Interval;
 use model::{Chain, Problem};
+use rayon::prelude::*;
 
 use crate::census::Census;
 use crate::census::by_energy_and_angles;
@@ -156,17 +159,21 @@ impl Census {
         let system = System::new(chain, loads);
         let precise = PreciseSystem::new(chain, loads, &system);
         let exact = Exact::new(chain, loads);
-        for (k, equilibrium) in self.equilibria.iter().enumerate() {
-            check_one(&precise, &system, k + 1, equilibrium)?;
+        let one = |(k, equilibrium)| check_one(&precise, &system, k + 1, equilibrium);
+        let each: Vec<_> = self.equilibria.par_iter().enumerate().map(one).collect();
+        let mut by_signs: HashMap<&[i8], Vec<&ProvenEquilibrium>> = HashMap::new();
+        for (k, (equilibrium, proved)) in self.equilibria.iter().zip(each).enumerate() {
+            proved?;
             let in_order = k == 0 || {
                 let before = &self.equilibria[k - 1];
                 by_energy_and_angles(before, equilibrium).is_lt()
             };
             // The same equilibrium twice would have overlapping pulls and equal signs.
-            let twice = self.equilibria[..k].iter().any(|other| {
-                other.signs == equilibrium.signs
-                    && (0..2).all(|k| !other.pull_n[k].disjoint(equilibrium.pull_n[k]))
-            });
+            let others = by_signs.entry(&equilibrium.signs).or_default();
+            let twice = others
+                .iter()
+                .any(|other| (0..2).all(|k| !other.pull_n[k].disjoint(equilibrium.pull_n[k])));
+            others.push(equilibrium);
             if twice || !in_order {
                 return Err(CheckError::Order { number: k + 1 });
             }
@@ -184,7 +191,10 @@ impl Census {
             ),
             ("the topology", self.topology == Topology::of_system(&system)),
             ("whether there are circles", self.circles == system.vertical),
-            ("completeness", !self.complete || (self.decided() && self.may_be_complete())),
+            (
+                "completeness",
+                !self.complete || (self.undecided.is_empty() && self.may_be_complete()),
+            ),
         ];
         if let Some((quantity, _)) = claims.into_iter().find(|(_, holds)| !holds) {
             return Err(CheckError::Claim { quantity });

@@ -8,11 +8,14 @@ pub(crate) mod position;
 use std::time::Instant;
 
 use model::{Chain, Problem};
+use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
+use crate::closure::Pattern;
 use crate::count::morse::{self, MorseError};
 use crate::count::topology::{Topology, TopologyError};
 use crate::degenerate::unloaded::DegenerateEquilibrium;
+use crate::enclosure::krawczyk::Zero;
 use crate::enclosure::polish::{PreciseSystem, polish};
 use crate::equilibrium::ProvenEquilibrium;
 use crate::error::CensusError;
@@ -56,6 +59,9 @@ pub struct Census {
     /// What it took.
     pub statistics: Statistics,
 }
+
+/// Below so many equilibria, threads cost more than they save: each takes tens of microseconds.
+const WORTH_THREADS: usize = 64;
 
 /// What a census took.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -154,13 +160,22 @@ impl Census {
         }
         let mut equilibria = unloaded.equilibria;
         let precise = PreciseSystem::new(chain, loads, &system);
-        for (pattern, zero) in zeros {
+        let proven = |(pattern, zero): &(Pattern, Zero)| {
             let signs: Vec<i8> = pattern.signs(system.bars()).collect();
-            let zero = polish(&system, &precise, &signs, &zero);
-            if let Some(equilibrium) = ProvenEquilibrium::new(&system, &signs, &zero) {
-                equilibria.push(equilibrium);
-            } else {
-                undecided.push(Undecided::new(&system, Reason::Index, &zero.tight, &[pattern]));
+            let zero = polish(&system, &precise, &signs, zero);
+            ProvenEquilibrium::new(&system, &signs, &zero).ok_or((*pattern, zero.tight))
+        };
+        let proven: Vec<_> = if zeros.len() < WORTH_THREADS {
+            zeros.iter().map(proven).collect()
+        } else {
+            zeros.par_iter().map(proven).collect()
+        };
+        for result in proven {
+            match result {
+                Ok(equilibrium) => equilibria.push(equilibrium),
+                Err((pattern, tight)) => {
+                    undecided.push(Undecided::new(&system, Reason::Index, &tight, &[pattern]));
+                }
             }
         }
         equilibria.sort_by(by_energy_and_angles);

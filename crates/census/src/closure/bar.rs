@@ -38,6 +38,26 @@ impl BarTerm {
         Some(Self { value: f.map(|part| length * part), slope: [[x[0], y[0]], [x[1], y[1]]] })
     }
 
+    /// The same at a point in plain numbers: no proof rests on it.
+    pub(crate) fn plain(face: Face, [x, y]: [f64; 2], length: f64, weight: f64) -> [[f64; 3]; 2] {
+        let (force, by) = match face {
+            Face::Near | Face::Around(_) => ([x, y + weight], [[1.0, 0.0], [0.0, 1.0]]),
+            Face::Left => ([-1.0, x + weight * y], [[0.0, 1.0], [0.0, weight]]),
+            Face::Right => ([1.0, x + weight * y], [[0.0, 1.0], [0.0, weight]]),
+            Face::Below => ([x, weight * y - 1.0], [[1.0, 0.0], [0.0, weight]]),
+            Face::Above => ([x, weight * y + 1.0], [[1.0, 0.0], [0.0, weight]]),
+        };
+        let size = (force[0] * force[0] + force[1] * force[1]).sqrt();
+        let f = force.map(|part| part / size);
+        let scale = length / size;
+        // g g^T dF with the normal g.
+        let turned = by.map(|by| scale * (f[0] * by[1] - f[1] * by[0]));
+        [
+            [length * f[0], -f[1] * turned[0], -f[1] * turned[1]],
+            [length * f[1], f[0] * turned[0], f[0] * turned[1]],
+        ]
+    }
+
     /// `l f` alone.
     pub(crate) fn value_over(cell: &Cell, length: Interval, weight: Interval) -> [Interval; 2] {
         unit(cell.force(weight)).map(|part| length * part)
@@ -64,13 +84,31 @@ fn cosine(along: Interval, across: Interval) -> Interval {
     Interval::new(low.max(-1.0), high.min(1.0))
 }
 
+/// Squares of numbers between these neither overflow nor lose digits: 2⁻⁹⁰⁰ and 2⁹⁰⁰.
+const SMALL: f64 = f64::from_bits((1023 - 900) << 52);
+const LARGE: f64 = f64::from_bits((1023 + 900) << 52);
+
 /// `x/√(x² + z²)` of two numbers.
+///
+/// In plain arithmetic the squares and their sum are off by 2u relative to their size (u = 2⁻⁵³), the
+/// root by half of that and u, the quotient by u more: 3u and terms of order u². The end of the
+/// interval is rounded once more.
+#[inline]
 fn at_corner(x: f64, z: f64) -> Interval {
+    /// 5u
+    const OFF: f64 = 2.5 * f64::EPSILON;
     if x.abs() <= 0.0 {
         return Interval::ZERO;
     }
     if z.abs() <= 0.0 {
         return Interval::point(x.signum());
+    }
+    let sum = x * x + z * z;
+    if (SMALL..LARGE).contains(&sum) {
+        let quotient = x / sum.sqrt();
+        // Where x² is lost beside z² the quotient may be so small that its part is.
+        let off = OFF * quotient.abs() + f64::MIN_POSITIVE;
+        return Interval::new(quotient - off, quotient + off);
     }
     let x = Interval::point(x);
     let quotient = x / (x.square() + Interval::point(z).square()).sqrt();

@@ -6,6 +6,7 @@ use intervals::Interval;
 
 use crate::closure::bar::BarTerm;
 use crate::plane::cell::Cell;
+use crate::plane::face::Face;
 use crate::plane::system::System;
 
 /// A pattern of tension (+1) and compression (−1): bit n−1−i set means that bar i, counted from 0,
@@ -35,30 +36,45 @@ pub(crate) fn signed(sign: i8, x: Interval) -> Interval {
     if sign < 0 { -x } else { x }
 }
 
-/// Φ and its derivative over a cell.
+/// The derivative of Φ over a cell.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Closure {
-    pub(crate) gap: [Interval; 2],
     pub(crate) slope: [[Interval; 2]; 2],
 }
 
 impl Closure {
-    /// Φ and its derivative over a cell, natural extension; `None` where a force vanishes.
+    /// The derivative of Φ over a cell, natural extension; `None` where a force vanishes.
     pub(crate) fn over(system: &System, signs: &[i8], cell: &Cell) -> Option<Self> {
-        let mut gap = system.span.map(|part| -part);
         let mut slope = [[Interval::ZERO; 2]; 2];
         for ((sign, length), weight) in
             signs.iter().zip(&system.length).zip(system.weights(cell.face))
         {
             let term = BarTerm::over(cell, *length, *weight)?;
             for k in 0..2 {
-                gap[k] = gap[k] + signed(*sign, term.value[k]);
                 for (sum, part) in slope[k].iter_mut().zip(term.slope[k]) {
                     *sum = *sum + signed(*sign, part);
                 }
             }
         }
-        Some(Self { gap, slope })
+        Some(Self { slope })
+    }
+
+    /// Φ and its derivative at a point in plain numbers, Φ first: no proof rests on it.
+    pub(crate) fn plain(
+        system: &System,
+        signs: &[i8],
+        face: Face,
+        at: [f64; 2],
+    ) -> ([f64; 2], [[f64; 2]; 2]) {
+        let mut sum = system.span.map(|part| [-part.mid(), 0.0, 0.0]);
+        let bars = signs.iter().zip(&system.length).zip(system.weights(face));
+        for ((sign, length), weight) in bars {
+            let term = BarTerm::plain(face, at, f64::from(*sign) * length.mid(), weight.mid());
+            for (sum, term) in sum.iter_mut().flatten().zip(term.as_flattened()) {
+                *sum += term;
+            }
+        }
+        (sum.map(|[value, _, _]| value), sum.map(|[_, x, y]| [x, y]))
     }
 
     /// Φ alone.

@@ -159,9 +159,8 @@ fn newton(
     let mut x = middle;
     let mut last = [f64::INFINITY; 2];
     for _ in 0..NEWTON_STEPS {
-        let closure = Closure::over(system, signs, &Cell::point(cell.face, x))?;
-        let inverse = inverse(closure.slope.map(|row| row.map(Interval::mid)))?;
-        let gap = closure.gap.map(Interval::mid);
+        let (gap, slope) = Closure::plain(system, signs, cell.face, x);
+        let inverse = inverse(slope)?;
         let step: [f64; 2] =
             std::array::from_fn(|k| inverse[k][0] * gap[0] + inverse[k][1] * gap[1]);
         let next: [f64; 2] = std::array::from_fn(|k| x[k] - step[k]);
@@ -191,7 +190,6 @@ fn tighten(
     x: [f64; 2],
     step: [f64; 2],
 ) -> Cell {
-    let mut best = *image;
     let mut radius = step.map(|part| TIGHT * part);
     for _ in 0..GROWTH {
         let small = Cell {
@@ -200,16 +198,15 @@ fn tighten(
         };
         // The zero in the small cell is the one of the large cell only if it lies in it.
         if around.encloses(&small)
-            && let Some(image) = krawczyk(system, signs, &small, x)
-            && inside(&image, &small)
-            && let Some(both) = common(&best, &image)
+            && let Some(next) = krawczyk(system, signs, &small, x)
+            && inside(&next, &small)
+            && let Some(both) = common(image, &next)
         {
-            best = both;
-            break;
+            return both;
         }
         radius = radius.map(|part| 8.0 * part);
     }
-    narrow(system, signs, &best)
+    narrow(system, signs, image)
 }
 
 fn common(a: &Cell, b: &Cell) -> Option<Cell> {

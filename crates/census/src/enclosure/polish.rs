@@ -11,7 +11,7 @@ use crate::plane::loads::JointLoads;
 use crate::plane::system::System;
 
 /// Newton steps with the precise closure: the first one brings the last place of a double.
-const STEPS: usize = 3;
+const STEPS: usize = 2;
 
 /// Room around the point for the proof: so many units in the last place and so many last steps.
 const ROOM: f64 = 4.0;
@@ -94,8 +94,7 @@ fn refined(system: &System, precise: &PreciseSystem, signs: &[i8], zero: &Zero) 
     let mut x = zero.tight.middle();
     let mut step = [0.0; 2];
     for _ in 0..STEPS {
-        let slope = Closure::over(system, signs, &Cell::point(face, x))?.slope;
-        let inverse = inverse(slope.map(|row| row.map(Interval::mid)))?;
+        let inverse = inverse(Closure::plain(system, signs, face, x).1)?;
         let gap = precise.gap(system, signs, face, x).map(Interval::mid);
         step = std::array::from_fn(|k| inverse[k][0] * gap[0] + inverse[k][1] * gap[1]);
         x = std::array::from_fn(|k| x[k] - step[k]);

@@ -167,7 +167,7 @@ fn examine_cell(system: &System, settings: &Settings, settled: &Settled, task: &
                     at: std::array::from_fn(|k| all.at[k].hull(part.at[k])),
                 }));
             }
-            let mut across = sums.widest(system, &cell);
+            let mut across = sums.widest();
             if settled.straight.are_near(system, &cell) {
                 (noisy, across) = ([false; 2], wider(&cell));
             }

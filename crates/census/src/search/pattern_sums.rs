@@ -52,6 +52,8 @@ pub(crate) struct PatternSums {
     cell: [Interval; 2],
     at: [f64; 2],
     half: [f64; 2],
+    /// How far each coordinate of the cell moves the closure of any pattern, at most; plain numbers.
+    blur: [f64; 2],
 }
 
 /// What the walk says of a pattern that it cannot exclude.
@@ -92,6 +94,7 @@ impl PatternSums {
             cell: cell.at,
             at,
             half: cell.half(),
+            blur: [0.0; 2],
         };
         // Sum of absolute values, for the rounding error of the sums.
         let mut size = [0.0; PARTS];
@@ -120,6 +123,9 @@ impl PatternSums {
                 term.slope[1][1],
             ];
             let middle = std::array::from_fn(|part| add(&mut sums, part, terms[part]));
+            for k in 0..2 {
+                sums.blur[k] += sums.half[k] * (term.slope[0][k].mag() + term.slope[1][k].mag());
+            }
             sums.middle.push(middle);
         }
         let roundings = f64::EPSILON * (bars + 1) as f64;
@@ -135,22 +141,13 @@ impl PatternSums {
     }
 
     /// The coordinate of the cell to cut: the one whose width blurs the closure more.
-    pub(crate) fn widest(&self, system: &System, cell: &Cell) -> usize {
-        let blur = self.blur(&system.length, system.weights(cell.face), cell);
-        usize::from(blur[1] > blur[0])
+    pub(crate) fn widest(&self) -> usize {
+        usize::from(self.blur[1] > self.blur[0])
     }
 
     /// How far each coordinate of the cell moves the closure of any pattern, at most; plain numbers.
-    pub(crate) fn blur(&self, lengths: &[Interval], weights: &[Interval], cell: &Cell) -> [f64; 2] {
-        let mut blur = [0.0_f64; 2];
-        for (length, weight) in lengths.iter().zip(weights) {
-            if let Some(term) = BarTerm::over(cell, *length, *weight) {
-                for (k, blur) in blur.iter_mut().enumerate() {
-                    *blur += self.half[k] * (term.slope[0][k].mag() + term.slope[1][k].mag());
-                }
-            }
-        }
-        blur
+    pub(crate) fn blur(&self) -> [f64; 2] {
+        self.blur
     }
 
     /// Those of the patterns, sorted, that the cell may hold a zero of.

@@ -148,7 +148,7 @@ pub(super) fn reaching(
         }
         let Some(at) = left else { continue };
         let cell = Cell { face: cell.face, at };
-        let blur = sums.blur(&strand.length, &strand.weight, &cell);
+        let blur = sums.blur();
         let coarse = blur[0].max(blur[1]) > COARSE * width && size > FINE * width;
         if coarse && !many {
             let across = usize::from(blur[1] > blur[0]);
