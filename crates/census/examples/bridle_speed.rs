@@ -33,7 +33,7 @@ fn bridle(bars: [usize; 3]) -> Result<System, Box<dyn std::error::Error>> {
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let most: usize = std::env::args().nth(1).map_or(Ok(9), |bars| bars.parse())?;
-    let settings = Settings { max_bars: most, ..Settings::default() };
+    let settings = Settings { max_bridle_bars: most, ..Settings::default() };
     let shapes = [
         [3, 1, 1],
         [3, 2, 2],

@@ -86,6 +86,16 @@ fn main() -> ExitCode {
             .map(|seed| {
                 let problem = random_problem(bars, seed as u64);
                 let mut census = take(&problem);
+                if bars > SHORT {
+                    let estimate = Census::estimate(&problem);
+                    println!(
+                        "seed {seed}: {:.2} s of one processor and {:.0} equilibria estimated; {:.2} s and {} found",
+                        estimate.seconds,
+                        estimate.equilibria,
+                        census.statistics.seconds,
+                        census.equilibria.len()
+                    );
+                }
                 for _ in 1..if bars <= SHORT { REPEATS } else { 1 } {
                     let seconds = take(&problem).statistics.seconds;
                     census.statistics.seconds = census.statistics.seconds.min(seconds);

@@ -20,7 +20,7 @@ pub enum CensusError {
     /// [`Settings::max_bars`](crate::settings::Settings::max_bars).
     #[error(
         "{bars} bars have {} patterns of tension and compression; the limit is {max_bars} bars. A census of \
-         this chain would take about {} on one core and {} of memory",
+         this chain would take about {} of one processor and {} of memory",
         count(*patterns),
         rough_time(*estimate_s),
         rough_memory(*estimate_gb)
@@ -32,9 +32,9 @@ pub enum CensusError {
         max_bars: usize,
         /// 2^n.
         patterns: f64,
-        /// Estimated time on one core, s; good to an order of magnitude.
+        /// Estimated time of one processor, s: see [`Estimate`](crate::Estimate).
         estimate_s: f64,
-        /// Estimated memory, GB; good to an order of magnitude.
+        /// Estimated memory, GB.
         estimate_gb: f64,
     },
 }
@@ -144,7 +144,7 @@ mod tests {
         assert_eq!(
             refusal(3, 8.0, 1.7e-3, 3.2e-5),
             "3 bars have 8 patterns of tension and compression; the limit is 2 bars. A census of this chain \
-             would take about 2 ms on one core and 32 kB of memory"
+             would take about 2 ms of one processor and 32 kB of memory"
         );
         let long = refusal(30, 1_073_741_824.0, 8.3e5, 1.6e4);
         assert!(long.contains("1.1e9 patterns") && long.contains("10 days"), "{long}");

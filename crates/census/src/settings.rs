@@ -5,16 +5,18 @@ use crate::error::CensusError;
 /// How far a census goes before it calls a cell undecided or a chain too long.
 ///
 /// ```
-/// let settings = census::Settings { max_bars: 14, ..Default::default() };
+/// let settings = census::Settings { max_bars: 20, ..Default::default() };
 /// assert!(settings.validate().is_ok());
 /// assert!(census::Settings { max_bars: 0, ..settings }.validate().is_err());
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Settings {
-    /// Chains, and joints held by three long strands, with more bars are refused with an estimate of
-    /// the cost. Default 12 (seconds for chains, and some thousand equilibria), from 1 to
+    /// Chains with more bars are refused with an estimate of the cost. Default 16 (some ten seconds for chains, and 100,000 equilibria), from 1 to
     /// [`Settings::MAX_BARS`].
     pub max_bars: usize,
+    /// Joints held by three long strands of more bars together are refused with an estimate of the cost.
+    /// Default 12 (a minute), from 1 to [`Settings::MAX_BARS`].
+    pub max_bridle_bars: usize,
     /// A cell narrower than this, on a face of the half cube of pulls (whose edges have length 2),
     /// is not cut any more but listed as undecided. Default 2⁻⁴⁰, from 2⁻⁴⁸ to 2⁻⁴: below, rounding
     /// errors decide.
@@ -32,6 +34,14 @@ impl Settings {
     /// No census of more bars, whatever the settings: patterns are the bits of a 32-bit number, and
     /// time and memory are exhausted long before.
     pub const MAX_BARS: usize = 24;
+
+    /// Chains of up to so many bars have their census taken beside a solution without being asked for:
+    /// milliseconds.
+    pub const UNASKED_BARS: usize = 8;
+
+    /// Chains of up to so many bars have their census taken where equilibria are sought for another
+    /// purpose: tenths of a second.
+    pub const SOUGHT_BARS: usize = 12;
 
     /// No census of nets whose knots have more motions.
     pub const MAX_MOTIONS: usize = 6;
@@ -56,6 +66,13 @@ impl Settings {
             return Err(CensusError::Setting {
                 name: "max_bars",
                 value: self.max_bars as f64,
+                allowed: "from 1 to 24",
+            });
+        }
+        if !(1..=Self::MAX_BARS).contains(&self.max_bridle_bars) {
+            return Err(CensusError::Setting {
+                name: "max_bridle_bars",
+                value: self.max_bridle_bars as f64,
                 allowed: "from 1 to 24",
             });
         }
@@ -87,7 +104,8 @@ impl Settings {
 impl Default for Settings {
     fn default() -> Self {
         Self {
-            max_bars: 12,
+            max_bars: 16,
+            max_bridle_bars: 12,
             min_width: f64::from_bits((1023 - 40) << 52),
             max_tests_per_pattern: 20_000,
             max_motions: 3,

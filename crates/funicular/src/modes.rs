@@ -38,9 +38,6 @@ pub struct Modes {
     threads: usize,
 }
 
-/// Chains of at most so many bars get a census: it takes about a second.
-const CENSUS_BARS: usize = 8;
-
 /// Systems of at most so many joints have all their modes found where nothing else is asked for.
 const ALL_JOINTS: usize = 100;
 
@@ -49,7 +46,7 @@ const LOWEST: usize = 20;
 
 impl Default for Modes {
     fn default() -> Self {
-        Self { max_bars: CENSUS_BARS, lowest: None, threads: 0 }
+        Self { max_bars: census::Settings::UNASKED_BARS, lowest: None, threads: 0 }
     }
 }
 

@@ -85,7 +85,7 @@ pub enum SimulateError {
 }
 
 /// Chains of at most so many bars have their equilibria numbered by a census.
-pub(crate) const CENSUS_BARS: usize = 12;
+pub(crate) const CENSUS_BARS: usize = census::Settings::SOUGHT_BARS;
 
 /// How far from its anchor a chain of given angles may end, relative to its length: angles in whole
 /// degrees.

@@ -22,9 +22,6 @@ use crate::compare::{Agreement, compare, judge_alone, judge_without};
 use crate::completeness::{certify_by_census, without_census};
 use crate::tolerances::Tolerances;
 
-/// Chains up to this many bars are looked up in their census without being asked to.
-const CENSUS_BARS: usize = 8;
-
 /// Tests per pattern for that: several times what generic chains need, and a second or so at most.
 /// A degenerate chain is left undecided; a census that is asked for takes its time.
 const CENSUS_TESTS: u64 = 2_000;
@@ -290,7 +287,7 @@ fn judge_within(
 fn census_settings(problem: &Problem, census: UseCensus) -> Option<census::Settings> {
     let bars = problem.chain().bars().len();
     match census {
-        UseCensus::Auto if bars <= CENSUS_BARS => {
+        UseCensus::Auto if bars <= census::Settings::UNASKED_BARS => {
             let straight = matches!(Topology::of(problem), Err(TopologyError::Straight { .. }));
             let max_tests_per_pattern = if straight { CENSUS_TESTS_STRAIGHT } else { CENSUS_TESTS };
             Some(census::Settings { max_tests_per_pattern, ..census::Settings::default() })

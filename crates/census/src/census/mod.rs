@@ -2,6 +2,7 @@
 
 pub(crate) mod check;
 mod convert;
+pub(crate) mod estimate;
 mod figure;
 pub(crate) mod position;
 
@@ -135,13 +136,14 @@ impl Census {
     ) -> Result<Self, CensusError> {
         let start = Instant::now();
         settings.validate()?;
-        refuse_long(chain, settings)?;
+        estimate::refuse_long(chain, loads, settings)?;
         let system = System::new(chain, loads);
         let exact = Exact::new(chain, loads);
         let unloaded = unloaded(&system, exact.moments.as_ref());
         let straight = Straight::of(&system, &exact);
         let settled = Settled { unloaded: &unloaded, straight: &straight };
-        let search = search(&system, settings, &settled, watch);
+        let patterns = (0..1_u32 << system.bars()).map(Pattern).collect();
+        let search = search(&system, settings, &settled, patterns, watch);
 
         let mut undecided: Vec<Undecided> = vec![];
         for task in gather(search.undecided) {
@@ -335,24 +337,4 @@ pub fn expected_time_s(bars: usize) -> f64 {
     const TEN_BARS_S: f64 = 0.3;
     // Beyond this the numbers overflow; the message stays finite.
     TEN_BARS_S * FACTOR.powf((bars as f64 - 10.0).min(600.0))
-}
-
-fn refuse_long(chain: &Chain, settings: &Settings) -> Result<(), CensusError> {
-    /// Memory of a census of sixteen bars (some 100,000 equilibria of 5 kB): 0.5 GB · 2.1^(n − 16).
-    const SIXTEEN_BARS_GB: f64 = 0.5;
-    let bars = chain.bars().len();
-    if bars <= settings.max_bars {
-        return Ok(());
-    }
-    let exponent = |base: f64, shift: f64| {
-        // Beyond this the numbers overflow; the message stays finite.
-        base.powf((bars as f64 - shift).min(600.0))
-    };
-    Err(CensusError::TooManyBars {
-        bars,
-        max_bars: settings.max_bars,
-        patterns: exponent(2.0, 0.0),
-        estimate_s: expected_time_s(bars),
-        estimate_gb: SIXTEEN_BARS_GB * exponent(FACTOR, 16.0),
-    })
 }

@@ -50,10 +50,8 @@ impl Closure {
             signs.iter().zip(&system.length).zip(system.weights(cell.face))
         {
             let term = BarTerm::over(cell, *length, *weight)?;
-            for k in 0..2 {
-                for (sum, part) in slope[k].iter_mut().zip(term.slope[k]) {
-                    *sum = *sum + signed(*sign, part);
-                }
+            for (sum, part) in slope.iter_mut().flatten().zip(term.slope.as_flattened()) {
+                *sum = *sum + signed(*sign, *part);
             }
         }
         Some(Self { slope })

@@ -24,6 +24,9 @@ use crate::slack::unloaded::Unloaded;
 /// a test a tenth of one.
 const WORTH_THREADS: usize = 2_000;
 
+/// Cells of a level worked on before the progress is told: some seconds for long chains.
+const AT_ONCE: usize = 65_536;
+
 /// A contracted cell smaller than this part of the old one is looked at again before it is cut.
 const GOOD_CONTRACTION: f64 = 0.5;
 
@@ -80,20 +83,22 @@ pub(crate) struct Settled<'a> {
     pub(crate) straight: &'a Straight,
 }
 
-/// Search the whole half cube, but for what is settled with unloaded bars and straight positions.
-/// `watch` hears of the progress after each level.
+/// Search the whole half cube for zeros of these patterns, sorted, but for what is settled with
+/// unloaded bars and straight positions. `watch` hears of the progress after each level, and within
+/// large ones.
 pub(crate) fn search(
     system: &System,
     settings: &Settings,
     settled: &Settled,
+    patterns: Vec<Pattern>,
     watch: &dyn Fn(Progress),
 ) -> Search {
-    let patterns: Vec<Pattern> = (0..1_u32 << system.bars()).map(Pattern).collect();
     let budget = settings.max_tests_per_pattern.saturating_mul(patterns.len() as u64);
     let mut level: Vec<Task> = Cell::roots(system)
         .into_iter()
         .map(|cell| Task { cell, patterns: patterns.clone() })
         .collect();
+    drop(patterns);
     let mut search = Search::default();
     while !level.is_empty() {
         if search.tests >= budget {
@@ -102,30 +107,41 @@ pub(crate) fn search(
             break;
         }
         let work = |task: &Task| examine_cell(system, settings, settled, task);
-        let tests: usize = level.iter().map(|task| task.patterns.len()).sum();
-        let outcomes: Vec<Outcome> = if tests < WORTH_THREADS {
-            level.iter().map(work).collect()
-        } else {
-            level.par_iter().map(work).collect()
-        };
-        search.cells += level.len() as u64;
-        search.tests += tests as u64;
-        search.levels += 1;
-        level.clear();
-        for outcome in outcomes {
-            search.zeros.extend(outcome.zeros);
-            search.undecided.extend(outcome.undecided);
-            search.proofs += outcome.proofs;
-            level.extend(outcome.next);
+        let mut next = vec![];
+        let mut left = level.len();
+        for some in level.chunks(AT_ONCE) {
+            let tests: usize = some.iter().map(|task| task.patterns.len()).sum();
+            let outcomes: Vec<Outcome> = if tests < WORTH_THREADS {
+                some.iter().map(work).collect()
+            } else {
+                some.par_iter().map(work).collect()
+            };
+            left -= some.len();
+            search.cells += some.len() as u64;
+            search.tests += tests as u64;
+            for outcome in outcomes {
+                search.zeros.extend(outcome.zeros);
+                search.undecided.extend(outcome.undecided);
+                search.proofs += outcome.proofs;
+                next.extend(outcome.next);
+            }
+            watch(search.progress(left + next.len()));
         }
-        watch(Progress {
-            done: search.cells,
-            waiting: level.len() as u64,
-            proved: search.zeros.len() as u64,
-            undecided: search.undecided.len() as u64,
-        });
+        search.levels += 1;
+        level = next;
     }
     search
+}
+
+impl Search {
+    fn progress(&self, waiting: usize) -> Progress {
+        Progress {
+            done: self.cells,
+            waiting: waiting as u64,
+            proved: self.zeros.len() as u64,
+            undecided: self.undecided.len() as u64,
+        }
+    }
 }
 
 /// Exclude, contract, prove, cut.

@@ -216,6 +216,24 @@ fn a_chain_too_long_is_refused_with_its_cost() {
     );
 }
 
+/// The estimate knows a chain from another of the same length: the taut one has next to none.
+#[test]
+fn an_estimate_is_that_of_the_chain() {
+    let mut all = vec![];
+    for span in [2.2, 4.5, 8.3, 10.8] {
+        let problem = equal(11, [span, 0.0, 0.31]);
+        let estimate = Census::estimate(&problem);
+        let found = census(&problem).equilibria.len() as f64;
+        let ratio = estimate.equilibria.max(1.0) / found;
+        println!("{span}: {:.0} estimated, {found} found", estimate.equilibria);
+        assert!(found < 64.0 || (0.6..1.7).contains(&ratio), "{span}: {ratio}");
+        all.push((found, estimate.seconds));
+    }
+    // More equilibria, more time.
+    assert!(all.windows(2).all(|pair| pair[0].0 > pair[1].0 && pair[0].1 > pair[1].1), "{all:?}");
+    assert!(all[0].1 > 10.0 * all[3].1, "{all:?}");
+}
+
 #[test]
 fn a_spent_budget_is_said_so() {
     let settings = Settings { max_tests_per_pattern: 1, ..Settings::default() };

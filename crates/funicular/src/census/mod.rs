@@ -32,17 +32,18 @@ pub struct Census {
 }
 
 impl Census {
-    /// Chains of up to 12 bars, on all processors.
+    /// Chains of up to 16 bars, on all processors.
     #[must_use]
     pub fn new() -> Self {
         Self::default()
     }
 
-    /// Refuse chains of more bars, with an estimate of what they would cost; at most
+    /// Refuse chains and bridles of more bars, with an estimate of what they would cost; at most
     /// [`Settings::MAX_BARS`].
     #[must_use]
     pub fn max_bars(mut self, max_bars: usize) -> Self {
         self.settings.max_bars = max_bars;
+        self.settings.max_bridle_bars = max_bars;
         self
     }
 

@@ -32,10 +32,10 @@ pub struct Census {
     /// Print one JSON object (schema_version 2) instead of tables
     #[arg(long)]
     pub json: bool,
-    /// Refuse chains of more bars, and bridles (one joint held by three strands of bars) of more bars
-    /// together, with an estimate of what they would cost (at most 24)
-    #[arg(long, value_name = "N", default_value_t = Settings::default().max_bars)]
-    pub max_bars: usize,
+    /// Refuse chains of more bars (16 if not given), and bridles (one joint held by three strands of
+    /// bars) of more bars together (12), with an estimate of what they would cost (at most 24)
+    #[arg(long, value_name = "N")]
+    pub max_bars: Option<usize>,
     /// Refuse nets of several closures, but for bridles of three strands, whose joints move in more
     /// independent ways than this (at most 6); joints between two bars that follow from their
     /// neighbours are not counted
@@ -56,10 +56,12 @@ pub struct Census {
 /// Run the command.
 pub fn run(arguments: &Census) -> Result<Exit, Failure> {
     end_on_interrupt()?;
+    let usual = Settings::default();
     let settings = Settings {
-        max_bars: arguments.max_bars,
+        max_bars: arguments.max_bars.unwrap_or(usual.max_bars),
+        max_bridle_bars: arguments.max_bars.unwrap_or(usual.max_bridle_bars),
         max_motions: arguments.max_motions,
-        ..Settings::default()
+        ..usual
     };
     settings.validate().map_err(Error::from)?;
     threads::install(arguments.threads)?;
@@ -68,6 +70,9 @@ pub fn run(arguments: &Census) -> Result<Exit, Failure> {
     let Input { problem, files } = arguments.input.read()?;
     if let Some(system) = problem.as_system() {
         return of_system(arguments, settings, system, (&files, progress));
+    }
+    if let Some(chain) = long(&problem, settings) {
+        progress.say(&cost(census::Census::estimate(chain)));
     }
     let outputs = [&arguments.svg, &arguments.csv];
     output::check(outputs.into_iter().flatten().map(PathBuf::as_path), &files)?;
@@ -96,6 +101,20 @@ pub fn run(arguments: &Census) -> Result<Exit, Failure> {
     } else {
         Exit::Undecided
     })
+}
+
+/// A chain whose census takes long enough to say so before.
+fn long(problem: &funicular::Problem, settings: Settings) -> Option<&model::Problem> {
+    let bars = problem.as_chain()?.chain().bars().len();
+    (Settings::SOUGHT_BARS + 1..=settings.max_bars).contains(&bars).then(|| problem.as_chain())?
+}
+
+fn cost(estimate: census::Estimate) -> String {
+    format!(
+        "some {:.0e} equilibria, in about {} of one processor",
+        estimate.equilibria,
+        rough_time(estimate.seconds)
+    )
 }
 
 fn how_far(now: census::Progress) -> String {
@@ -177,8 +196,8 @@ fn refuse(error: Error) -> Failure {
     };
     let help = if bars <= Settings::MAX_BARS {
         format!(
-            "--max-bars {bars} takes it all the same, in about {} (good to a factor of ten: the cost doubles with each \
-             bar, as the number of equilibria does)",
+            "--max-bars {bars} takes it all the same, in about {} of one processor (good to a factor of three, from the \
+             search for a sample of the patterns)",
             rough_time(estimate_s)
         )
     } else {

@@ -24,7 +24,7 @@ pub struct Modes {
     pub json: bool,
     /// All equilibria, by a census, of chains of up to N bars; the stable one of longer chains and
     /// of other systems
-    #[arg(long, value_name = "N", default_value_t = 8)]
+    #[arg(long, value_name = "N", default_value_t = census::Settings::UNASKED_BARS)]
     pub max_bars: usize,
     /// How many modes of each equilibrium, the lowest (negative omega^2 first); if not given, all of
     /// systems of up to 100 joints and 20 of larger ones

@@ -101,9 +101,9 @@ pub enum System {
 pub enum Census {
     /// Not at all
     Never,
-    /// Where it takes a second at most: up to 8 bars
+    /// Where it takes milliseconds: up to 8 bars
     Auto,
-    /// Wherever there can be one: up to 12 bars, in seconds
+    /// Wherever there can be one: up to 16 bars, in seconds
     Always,
 }
 

@@ -86,7 +86,7 @@ class Census:
 
 
 def census(system: System, *, max_bars: int | None = None, threads: int = 0, progress: Progress = None) -> Census:
-    """The census of a system. ``max_bars``: refuse longer chains (12 if not said). Raises NoCensus, Refused."""
+    """The census of a system. ``max_bars``: refuse longer chains (16 if not said). Raises NoCensus, Refused."""
     bars = None if max_bars is None else whole("max_bars", max_bars)
     with shown(progress) as callback:
         return Census(system, *_native.census(system._problem, bars, whole("threads", threads), callback))

@@ -22,7 +22,12 @@ const PLACED: f64 = 1e-12;
 
 /// Look the answers up in a census, where one is quick or asked for, and say so on their ladders.
 pub fn look_up(system: &System, census: UseCensus, answers: &mut [SystemEquilibrium]) {
-    let quick = Settings { max_bars: BARS, max_tests_per_pattern: TESTS, ..Settings::default() };
+    let quick = Settings {
+        max_bars: BARS,
+        max_bridle_bars: BARS,
+        max_tests_per_pattern: TESTS,
+        ..Settings::default()
+    };
     let census = match census {
         UseCensus::Always => SystemCensus::take(system, &Settings::default()),
         UseCensus::Auto if system.members().len() <= MEMBERS => SystemCensus::take(system, &quick),

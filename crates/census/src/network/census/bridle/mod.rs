@@ -80,7 +80,7 @@ pub(super) fn taken(
     if few || bridle.strands.len() > MOST_STRANDS {
         return Ok(None);
     }
-    let (bars, limit) = (bridle.bars(), settings.max_bars);
+    let (bars, limit) = (bridle.bars(), settings.max_bridle_bars);
     if bars > limit {
         return Err(NoCensus::Bridle { bars, limit });
     }
