@@ -67,6 +67,7 @@
 //! nothing is missing against what topology and duality say; [`sextic`] counts the equilibria of
 //! the paper's example by exact algebra.
 
+mod branch_and_bound;
 mod census;
 mod closure;
 mod count;

@@ -12,8 +12,6 @@
 //!
 //! hold for every equilibrium, by Cramer's rule.
 
-use std::ops::ControlFlow;
-
 use intervals::Interval;
 
 use super::pulls::{Pulls, density};
@@ -73,51 +71,44 @@ fn quotient(x: Interval, w: Interval) -> Interval {
     }
 }
 
-/// All choices of one pull for each strand that may hold the load, as their numbers in the lists;
-/// nothing if there are more than a limit.
-pub(super) fn balanced(load: Vector, lists: &[Vec<Held>], limit: usize) -> Option<Vec<Vec<usize>>> {
+/// All choices of one pull for each strand that may hold the load, as their numbers in the lists.
+pub(super) fn balanced(load: Vector, lists: &[Vec<Held>]) -> Vec<Vec<usize>> {
     // The hull of all forces of the strands from one on.
     let mut rest = vec![[Interval::ZERO; 3]];
     for list in lists.iter().rev() {
-        let hull = list
-            .iter()
-            .map(|held| held.force)
-            .reduce(|a, b| std::array::from_fn(|k| a[k].hull(b[k])))?;
+        let forces = list.iter().map(|held| held.force);
+        let Some(hull) = forces.reduce(|a, b| std::array::from_fn(|k| a[k].hull(b[k]))) else {
+            return vec![];
+        };
         rest.push(plus(rest[rest.len() - 1], hull));
     }
     rest.reverse();
-    let mut choices = Choices { load, lists, rest, limit, chosen: vec![], found: vec![] };
-    match choices.extend(load) {
-        ControlFlow::Continue(()) => Some(choices.found),
-        ControlFlow::Break(()) => None,
-    }
+    let mut choices = Choices { load, lists, rest, chosen: vec![], found: vec![] };
+    choices.extend(load);
+    choices.found
 }
 
 struct Choices<'a> {
     load: Vector,
     lists: &'a [Vec<Held>],
     rest: Vec<Vector>,
-    limit: usize,
     chosen: Vec<usize>,
     found: Vec<Vec<usize>>,
 }
 
 impl Choices<'_> {
     /// One more strand; `left` is what the chosen ones leave of the load.
-    fn extend(&mut self, left: Vector) -> ControlFlow<()> {
+    fn extend(&mut self, left: Vector) {
         let strand = self.chosen.len();
         let apart = |a: &Vector, b: &Vector| (0..3).any(|k| a[k].disjoint(b[k]));
         if strand == self.lists.len() {
             if self.may_hold() {
                 self.found.push(self.chosen.clone());
-                if self.found.len() > self.limit {
-                    return ControlFlow::Break(());
-                }
             }
-            return ControlFlow::Continue(());
+            return;
         }
         if apart(&left, &self.rest[strand]) {
-            return ControlFlow::Continue(());
+            return;
         }
         let is_last = strand + 1 == self.lists.len();
         for (number, held) in self.lists[strand].iter().enumerate() {
@@ -126,10 +117,9 @@ impl Choices<'_> {
             }
             self.chosen.push(number);
             let left = if is_last { left } else { minus(left, held.force) };
-            self.extend(left)?;
+            self.extend(left);
             self.chosen.pop();
         }
-        ControlFlow::Continue(())
     }
 
     fn may_hold(&self) -> bool {

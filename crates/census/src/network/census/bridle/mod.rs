@@ -92,16 +92,14 @@ pub(super) fn taken(
         let knots_m = vec![core.frame.place_m(at)];
         UndecidedPlaces { reason, knots_m, patterns }
     };
-    let mut open: Vec<UndecidedPlaces> = gathered(undecided.into_iter().map(|task| {
-        let patterns = u32::try_from(task.patterns()).unwrap_or(u32::MAX);
-        (task.at, vec![patterns])
-    }))
-    .into_iter()
-    .map(|(at, patterns)| {
-        let most = patterns.into_iter().max().unwrap_or(0);
-        places(at, most as usize, reason)
-    })
-    .collect();
+    let undecided = undecided.into_iter().map(|task| (task.at, task.patterns()));
+    let mut open: Vec<UndecidedPlaces> = gathered(undecided)
+        .into_iter()
+        .map(|(at, strands)| {
+            let patterns = strands.iter().map(Vec::len).fold(1, usize::saturating_mul);
+            places(at, patterns, reason)
+        })
+        .collect();
     let mut once: Vec<(Found, Enclosed)> = vec![];
     for found in found {
         // It is alone where it is: whatever else lies there is the same.

@@ -1,15 +1,14 @@
 //! Branch and bound over the places of the knot, with the pulls of each strand that reach them.
-//!
-//! A batch of boxes at a time, each box by itself and in parallel, the results taken in order: the
-//! answer does not depend on the number of threads.
+
+use std::collections::BTreeSet;
 
 use intervals::Interval;
-use rayon::prelude::*;
 
 use super::balance::{Held, balanced, densities};
 use super::newton::{Charts, Found, Verdict, cell, examine};
 use super::pulls::{Pulls, reaching, with_density};
 use super::strand::{Bridle, Span};
+use crate::branch_and_bound::{self, Plan};
 use crate::closure::Pattern;
 use crate::network::arithmetic::Vector;
 use crate::plane::cell::Cell;
@@ -48,63 +47,27 @@ pub(super) struct Task {
     pub(super) pulls: Vec<Vec<Pulls>>,
 }
 
+pub(super) type Search = branch_and_bound::Search<Found, Task>;
+type Outcome = branch_and_bound::Outcome<Found, Task>;
+
 impl Task {
-    /// Ways to choose a pull and a pattern for each strand.
-    pub(super) fn patterns(&self) -> usize {
-        let of = |list: &Vec<Pulls>| list.iter().map(|pulls| pulls.patterns.len()).sum::<usize>();
-        self.pulls.iter().map(of).fold(1, usize::saturating_mul)
+    /// The patterns of each strand that may reach the box, in order.
+    pub(super) fn patterns(&self) -> Vec<Vec<Pattern>> {
+        let of_strand = |list: &Vec<Pulls>| {
+            let all = list.iter().flat_map(|pulls| pulls.patterns.iter().copied());
+            all.collect::<BTreeSet<Pattern>>().into_iter().collect()
+        };
+        self.pulls.iter().map(of_strand).collect()
     }
 }
 
-/// All that the search found.
-#[derive(Debug, Default)]
-pub(super) struct Search {
-    pub(super) found: Vec<Found>,
-    pub(super) undecided: Vec<Task>,
-    pub(super) cells: u64,
-    pub(super) tests: u64,
-    /// Whether the budget of tests ended the search.
-    pub(super) exhausted: bool,
-}
-
-#[derive(Debug, Default)]
-struct Outcome {
-    found: Vec<Found>,
-    next: Vec<Task>,
-    undecided: Vec<Task>,
-    tests: u64,
-}
-
-/// Search all places, with at most so many tests of a cell of pulls for a pattern.
+/// Search all places, with at most so many tests: of a cell of pulls for a pattern, or of a box by
+/// the interval Newton method.
 pub(super) fn search(bridle: &Bridle, budget: u64, watch: &dyn Fn(Progress)) -> Search {
-    let mut search = Search::default();
-    let Some(at) = bridle.whole() else { return search };
     let pulls = bridle.strands.iter().map(Pulls::all).collect();
-    let mut waiting = vec![Task { at, pulls }];
-    while !waiting.is_empty() {
-        if search.tests >= budget {
-            search.exhausted = true;
-            search.undecided.append(&mut waiting);
-            break;
-        }
-        let batch = waiting.split_off(waiting.len().saturating_sub(BATCH));
-        let outcomes: Vec<Outcome> =
-            batch.par_iter().map(|task| of_task(bridle, &search.found, task)).collect();
-        search.cells += batch.len() as u64;
-        for outcome in outcomes {
-            search.found.extend(outcome.found);
-            search.undecided.extend(outcome.undecided);
-            search.tests += outcome.tests;
-            waiting.extend(outcome.next);
-        }
-        watch(Progress {
-            done: search.cells,
-            waiting: waiting.len() as u64,
-            proved: search.found.len() as u64,
-            undecided: search.undecided.len() as u64,
-        });
-    }
-    search
+    let roots = bridle.whole().map(|at| Task { at, pulls }).into_iter().collect();
+    let plan = Plan { budget, batch: BATCH, worth_threads: 0, size: |_| 1 };
+    Search::run(roots, &plan, |known, task| of_task(bridle, known, task), watch)
 }
 
 /// Narrow, exclude, prove, cut.
@@ -127,10 +90,7 @@ fn of_task(bridle: &Bridle, known: &[Found], task: &Task) -> Outcome {
         cut(&task.at, lists, &mut outcome);
         return outcome;
     }
-    let Some(choices) = balanced(bridle.load, &held, MOST_PRODUCTS) else {
-        cut(&task.at, lists, &mut outcome);
-        return outcome;
-    };
+    let choices = balanced(bridle.load, &held);
     if choices.is_empty() {
         return outcome;
     }
@@ -200,6 +160,7 @@ fn of_choice(
         if settled {
             continue;
         }
+        outcome.tests += 1;
         match examine(bridle, &charts, &at) {
             Verdict::Empty => {}
             Verdict::One(found) => outcome.found.push(found),

@@ -80,7 +80,8 @@ pub struct NetCensus {
     pub knots: Vec<usize>,
     /// Joints between two bars each that follow from those, from 0; each doubles the patterns.
     pub swings: Vec<usize>,
-    /// Bars of long strands and joints that swing of which the search tried both signs.
+    /// Two-valued choices that the search went through in all combinations: the side of each joint
+    /// that swings, or pull and push of each bar of a bridle of long strands.
     pub signs: usize,
     /// Whether only equilibria in the vertical plane of the anchors were looked for: in space the
     /// joints move in too many ways. The list is then not complete, whatever is undecided.
@@ -101,7 +102,8 @@ pub struct UndecidedPlaces {
     pub reason: Open,
     /// The places of the knots, m.
     pub knots_m: Vec<[Interval; 3]>,
-    /// How many patterns are in question.
+    /// How many patterns of signs are in question, at most: all combinations of those that each
+    /// strand may have there.
     pub patterns: usize,
 }
 
@@ -182,8 +184,10 @@ fn searched<const N: usize>(
     let Search { found, undecided, cells, tests, exhausted } = search::<N>(layout, budget, watch);
     let reason = if exhausted { Open::Budget } else { Open::Degenerate };
     let mut open: Vec<UndecidedPlaces> = vec![];
-    for (at, patterns) in gathered(undecided.into_iter().map(|task| (task.at, task.patterns))) {
-        open.push(UndecidedPlaces { reason, ..places(core, layout, &at, patterns.len()) });
+    let undecided = undecided.into_iter().map(|task| (task.at, vec![task.patterns]));
+    for (at, patterns) in gathered(undecided) {
+        let patterns = patterns.iter().map(Vec::len).sum();
+        open.push(UndecidedPlaces { reason, ..places(core, layout, &at, patterns) });
     }
     let mut once: Vec<(Found<N>, Enclosed)> = vec![];
     for found in found {
@@ -242,24 +246,27 @@ fn places<const N: usize>(
 /// More boxes than this are not told apart: joining them takes the square of their number.
 const MOST_OPEN: usize = 512;
 
-/// Boxes that touch become one, with all their patterns.
-pub(super) fn gathered<const N: usize>(
-    tasks: impl Iterator<Item = ([Interval; N], Vec<cell::Pattern>)>,
-) -> Vec<([Interval; N], Vec<cell::Pattern>)> {
-    let mut all: Vec<([Interval; N], Vec<cell::Pattern>)> = vec![];
+/// Boxes that touch become one, with all their patterns: a list for each of the strands, or one for
+/// all.
+pub(super) fn gathered<const N: usize, P: Ord>(
+    tasks: impl Iterator<Item = ([Interval; N], Vec<Vec<P>>)>,
+) -> Vec<([Interval; N], Vec<Vec<P>>)> {
+    let mut all: Vec<([Interval; N], Vec<Vec<P>>)> = vec![];
     for (mut at, mut patterns) in tasks {
         let many = all.len() >= MOST_OPEN;
-        let touching = |all: &[([Interval; N], Vec<cell::Pattern>)], at: &[Interval; N]| {
+        let touching = |all: &[([Interval; N], Vec<Vec<P>>)], at: &[Interval; N]| {
             all.iter()
                 .position(|(other, _)| many || other.iter().zip(at).all(|(a, b)| !a.disjoint(*b)))
         };
         while let Some(k) = touching(&all, &at) {
             let (other, more) = all.swap_remove(k);
             at = std::array::from_fn(|k| at[k].hull(other[k]));
-            patterns.extend(more);
+            for (list, more) in patterns.iter_mut().zip(more) {
+                list.extend(more);
+                list.sort_unstable();
+                list.dedup();
+            }
         }
-        patterns.sort_unstable();
-        patterns.dedup();
         all.push((at, patterns));
     }
     all

@@ -1,15 +1,13 @@
-//! Branch and bound over the places of the knots, for all patterns of the swinging joints.
-//!
-//! Level by level, each box by itself and in parallel, the results taken in order: the answer does
-//! not depend on the number of threads.
+//! Branch and bound over the places of the knots, for all patterns of the swinging joints, level by
+//! level.
 
 use intervals::Interval;
-use rayon::prelude::*;
 
 use super::cell::Pattern;
 use super::examine::{Examined, Found, Verdict};
 use super::layout::Layout;
 use super::reach;
+use crate::branch_and_bound::{self, Plan};
 use crate::search::Progress;
 
 /// A box is not cut below this part of the unit of length, 2⁻²⁶: rounding errors of forces are far
@@ -29,23 +27,8 @@ pub(super) struct Task<const N: usize> {
     pub(super) patterns: Vec<Pattern>,
 }
 
-/// All that the search found.
-#[derive(Debug)]
-pub(super) struct Search<const N: usize> {
-    pub(super) found: Vec<Found<N>>,
-    pub(super) undecided: Vec<Task<N>>,
-    pub(super) cells: u64,
-    pub(super) tests: u64,
-    /// Whether the budget of tests ended the search.
-    pub(super) exhausted: bool,
-}
-
-#[derive(Debug)]
-struct Outcome<const N: usize> {
-    found: Vec<Found<N>>,
-    next: Vec<Task<N>>,
-    undecided: Vec<Task<N>>,
-}
+pub(super) type Search<const N: usize> = branch_and_bound::Search<Found<N>, Task<N>>;
+type Outcome<const N: usize> = branch_and_bound::Outcome<Found<N>, Task<N>>;
 
 /// Search all places, with at most so many tests of a box for a pattern.
 pub(super) fn search<const N: usize>(
@@ -53,45 +36,16 @@ pub(super) fn search<const N: usize>(
     budget: u64,
     watch: &dyn Fn(Progress),
 ) -> Search<N> {
-    let mut search =
-        Search { found: vec![], undecided: vec![], cells: 0, tests: 0, exhausted: false };
-    let Some(at) = reach::whole(layout) else { return search };
-    let patterns = (0..1 << layout.swings.len()).collect();
-    let mut level = vec![Task { at, patterns }];
-    while !level.is_empty() {
-        if search.tests >= budget {
-            search.exhausted = true;
-            search.undecided.append(&mut level);
-            break;
-        }
-        let work = |task: &Task<N>| examine(layout, &search.found, task);
-        let tests: usize = level.iter().map(|task| task.patterns.len()).sum();
-        let outcomes: Vec<Outcome<N>> = if tests < WORTH_THREADS {
-            level.iter().map(work).collect()
-        } else {
-            level.par_iter().map(work).collect()
-        };
-        search.cells += level.len() as u64;
-        search.tests += tests as u64;
-        level.clear();
-        for outcome in outcomes {
-            search.found.extend(outcome.found);
-            search.undecided.extend(outcome.undecided);
-            level.extend(outcome.next);
-        }
-        watch(Progress {
-            done: search.cells,
-            waiting: level.len() as u64,
-            proved: search.found.len() as u64,
-            undecided: search.undecided.len() as u64,
-        });
-    }
-    search
+    let patterns: Vec<Pattern> = (0..1 << layout.swings.len()).collect();
+    let roots = reach::whole(layout).map(|at| Task { at, patterns }).into_iter().collect();
+    let size = |task: &Task<N>| task.patterns.len();
+    let plan = Plan { budget, batch: usize::MAX, worth_threads: WORTH_THREADS, size };
+    Search::run(roots, &plan, |known, task| examine(layout, known, task), watch)
 }
 
 /// Narrow, exclude, prove, cut.
 fn examine<const N: usize>(layout: &Layout, known: &[Found<N>], task: &Task<N>) -> Outcome<N> {
-    let mut outcome = Outcome { found: vec![], next: vec![], undecided: vec![] };
+    let mut outcome = Outcome { tests: task.patterns.len() as u64, ..Outcome::default() };
     let mut at = task.at;
     if reach::narrow(layout, &mut at).is_none() {
         return outcome;

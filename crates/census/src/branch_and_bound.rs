@@ -1,0 +1,143 @@
+//! Branch and bound: tasks are worked on, and those they leave, until none is left or the budget is
+//! spent.
+//!
+//! A batch of tasks at a time, each by itself and in parallel, the results taken in order. So
+//! neither the answer nor the point where a search gives up depends on the number of threads.
+
+use rayon::prelude::*;
+
+use crate::search::Progress;
+
+/// How far a search goes, and in what steps.
+pub(crate) struct Plan<T> {
+    /// Tests after which all tasks that wait are undecided.
+    pub(crate) budget: u64,
+    /// Tasks that are worked on together, the latest first: all that wait go level by level, few
+    /// of them go deep first and leave little waiting.
+    pub(crate) batch: usize,
+    /// Below so many expected tests in a batch, threads cost more than they save.
+    pub(crate) worth_threads: usize,
+    /// Expected tests of a task.
+    pub(crate) size: fn(&T) -> usize,
+}
+
+/// What comes of a task.
+#[derive(Debug)]
+pub(crate) struct Outcome<F, T> {
+    /// What was proved.
+    pub(crate) found: Vec<F>,
+    /// What is to be worked on next.
+    pub(crate) next: Vec<T>,
+    /// What cannot be decided.
+    pub(crate) undecided: Vec<T>,
+    /// Tests that it took, those of Newton's method included.
+    pub(crate) tests: u64,
+}
+
+impl<F, T> Default for Outcome<F, T> {
+    fn default() -> Self {
+        Self { found: vec![], next: vec![], undecided: vec![], tests: 0 }
+    }
+}
+
+/// All that a search found.
+#[derive(Debug)]
+pub(crate) struct Search<F, T> {
+    /// What was proved; the same several times where tasks meet.
+    pub(crate) found: Vec<F>,
+    /// What could not be decided.
+    pub(crate) undecided: Vec<T>,
+    /// Tasks worked on.
+    pub(crate) cells: u64,
+    /// Tests that they took.
+    pub(crate) tests: u64,
+    /// Whether the budget of tests ended the search.
+    pub(crate) exhausted: bool,
+}
+
+impl<F: Send + Sync, T: Send + Sync> Search<F, T> {
+    /// Work on all tasks that come of the roots. `work` hears what was found in earlier batches,
+    /// `watch` of the progress after each.
+    pub(crate) fn run(
+        roots: Vec<T>,
+        plan: &Plan<T>,
+        work: impl Fn(&[F], &T) -> Outcome<F, T> + Sync,
+        watch: &dyn Fn(Progress),
+    ) -> Self {
+        let mut search =
+            Self { found: vec![], undecided: vec![], cells: 0, tests: 0, exhausted: false };
+        let mut waiting = roots;
+        while !waiting.is_empty() {
+            if search.tests >= plan.budget {
+                search.exhausted = true;
+                search.undecided.append(&mut waiting);
+                break;
+            }
+            let batch = waiting.split_off(waiting.len().saturating_sub(plan.batch));
+            let known = &search.found;
+            let of_task = |task: &T| work(known, task);
+            let size = batch.iter().map(plan.size).fold(0, usize::saturating_add);
+            let outcomes: Vec<Outcome<F, T>> = if size < plan.worth_threads {
+                batch.iter().map(of_task).collect()
+            } else {
+                batch.par_iter().map(of_task).collect()
+            };
+            search.cells += batch.len() as u64;
+            for outcome in outcomes {
+                search.found.extend(outcome.found);
+                search.undecided.extend(outcome.undecided);
+                search.tests += outcome.tests;
+                waiting.extend(outcome.next);
+            }
+            watch(Progress {
+                done: search.cells,
+                waiting: waiting.len() as u64,
+                proved: search.found.len() as u64,
+                undecided: search.undecided.len() as u64,
+            });
+        }
+        search
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Numbers below 64 that a task of a power of two covers: multiples of 7 are found one by one,
+    /// 13 cannot be decided.
+    fn numbers(budget: u64, batch: usize, worth_threads: usize) -> Search<u32, (u32, u32)> {
+        let plan = Plan { budget, batch, worth_threads, size: |_| 1 };
+        let work = |_: &[u32], &(from, count): &(u32, u32)| {
+            let mut outcome = Outcome { tests: 1, ..Outcome::default() };
+            match count {
+                1 if from == 13 => outcome.undecided.push((from, count)),
+                1 if from % 7 == 0 => outcome.found.push(from),
+                1 => {}
+                _ => outcome.next.extend([(from, count / 2), (from + count / 2, count / 2)]),
+            }
+            outcome
+        };
+        Search::run(vec![(0, 64)], &plan, work, &|_| {})
+    }
+
+    #[test]
+    fn all_is_found_in_the_same_order_whatever_the_threads() {
+        for batch in [1, 3, usize::MAX] {
+            let search = numbers(u64::MAX, batch, usize::MAX);
+            let mut found = search.found.clone();
+            found.sort_unstable();
+            assert_eq!(found, (0..10).map(|k| 7 * k).collect::<Vec<_>>());
+            assert_eq!((search.cells, search.tests, search.exhausted), (127, 127, false));
+            assert_eq!(search.undecided, [(13, 1)]);
+            assert_eq!(numbers(u64::MAX, batch, 0).found, search.found);
+        }
+    }
+
+    #[test]
+    fn what_waits_when_the_budget_is_spent_is_undecided() {
+        let search = numbers(3, usize::MAX, 0);
+        assert!(search.exhausted && search.found.is_empty());
+        assert_eq!(search.undecided, [(0, 16), (16, 16), (32, 16), (48, 16)]);
+    }
+}
