@@ -26,6 +26,11 @@ const SIGN_CHANGES: usize = 30;
 /// Residual at which signs are looked at for the first time: far above rounding, so that a wrong
 /// one costs few steps, and far below the forces that are likely.
 const SIGNS_SEEN: f64 = 1e-6;
+/// At the first changes only members that push this part of the worst push, or more, are made slack:
+/// that relieves their neighbours. Where all are, along the edge of a net that hangs from its
+/// corners, those that ought not come back one by one (12 changes in the place of 2).
+const CAREFUL_CHANGES: usize = 4;
+const WORST_PUSH: f64 = 0.9;
 /// A cable shorter than this part of its length is slack at the start.
 const SLACK_LENGTH: f64 = 1e-3;
 /// Tries to leave an unstable equilibrium, each by a small move of every joint.
@@ -147,7 +152,7 @@ fn by_runs(
     let run = elements::hang(framework)?;
     if run.residual.size().is_nan()
         || run.residual.size() > settings.tolerance
-        || signs_mended(framework, settings, &run).is_some()
+        || signs_mended(framework, settings, &run, 0.0).is_some()
     {
         return None;
     }
@@ -181,7 +186,7 @@ impl<'a> Solver<'a> {
         let settings = self.settings;
         let one_sided = self.framework.links.iter().any(|link| link.kind != Kind::Bar);
         let mut tight = !one_sided;
-        for _ in 0..SIGN_CHANGES {
+        for change in 0..SIGN_CHANGES {
             let tolerance =
                 if tight { settings.tolerance } else { settings.tolerance.max(SIGNS_SEEN) };
             let settings = Settings { tolerance, ..settings };
@@ -191,7 +196,8 @@ impl<'a> Solver<'a> {
                 let (system, framework) = (self.system, &self.framework);
                 return Err(run.residual.not_converged(system, framework, self.factorisations));
             }
-            state = match signs_mended(&self.framework, &self.settings, &run) {
+            let share = if change < CAREFUL_CHANGES { WORST_PUSH } else { 0.0 };
+            state = match signs_mended(&self.framework, &self.settings, &run, share) {
                 Some(next) => next,
                 None if tight => return Ok(run),
                 None => {
@@ -322,8 +328,14 @@ impl<'a> Solver<'a> {
 }
 
 /// The state with cables that push made slack and slack ones that are too long made taut,
-/// struts the other way round; nothing when there are none.
-fn signs_mended(framework: &Framework, settings: &Settings, run: &Run) -> Option<State> {
+/// struts the other way round; nothing when there are none. Of those that push only the ones that
+/// push at least this share of the worst.
+fn signs_mended(
+    framework: &Framework,
+    settings: &Settings,
+    run: &Run,
+    share: f64,
+) -> Option<State> {
     let state = &run.state;
     let least = NO_FORCE.max(run.residual.size()) * run.residual.unit;
     let longer = settings.tolerance.max(run.residual.size());
@@ -342,8 +354,13 @@ fn signs_mended(framework: &Framework, settings: &Settings, run: &Run) -> Option
     if wrong.is_empty() {
         return None;
     }
+    let pushing = wrong.iter().filter(|k| state.taut[**k]);
+    let enough = share * pushing.map(|k| state.axial[*k].abs()).fold(0.0, f64::max);
     let mut state = state.clone();
     for k in wrong {
+        if state.taut[k] && state.axial[k].abs() < enough {
+            continue;
+        }
         state.taut[k] = !state.taut[k];
         if !state.taut[k] {
             state.axial[k] = 0.0;
