@@ -13,10 +13,10 @@
 //! The systems are in equilibrium by their making: with a force density given to each member the
 //! places of the joints follow from linear equations, and the members are as long as their joints
 //! are apart. The certificate knows nothing of that; it is given lengths, places and forces, as
-//! from any solver. Each line has the time of the certificate alone, by the clock and of the processor
-//! (on Linux, in steps of 10 ms), the gap that it leaves in units of the loads times the size, and
-//! the most memory that the process has had so far, before the certificate and after it. One run on
-//! a server (AMD EPYC):
+//! from any solver. Each line has the time of the certificate alone, by the clock and of the
+//! processor (on Linux, in steps of 10 ms), the gap that it leaves in units of the loads times the
+//! size, and the most memory that the process has had so far, before the certificate and after it.
+//! One run on a server (AMD EPYC):
 //!
 //! | kind | members | joints | clock | processor | gap | memory after |
 //! |---|---|---|---|---|---|---|

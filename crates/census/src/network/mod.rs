@@ -54,10 +54,11 @@
 //! and six unknowns, the pulls of two strands, whatever the number of its bars: a strand under
 //! upright loads hangs in a plane, and its pull and a pattern of tension and compression tell its
 //! shape as they do that of a chain. Branch and bound goes through the places of the knot, and with
-//! each box goes the list of the cells of pulls with which each strand reaches it (module `bridle`).
+//! each box goes the list of the cells of pulls with which each strand reaches it (module
+//! `bridle`).
 //!
-//! Other nets with more motions than [`Settings::max_motions`](crate::Settings::max_motions) are refused; what cannot be decided is
-//! listed.
+//! Other nets with more motions than [`Settings::max_motions`](crate::Settings::max_motions) are
+//! refused; what cannot be decided is listed.
 
 mod activity;
 mod arithmetic;

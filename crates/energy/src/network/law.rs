@@ -11,8 +11,8 @@
 //! is `F c - phi F² / 2`, and `c = phi F` wherever the member resists. A bar always resists, a
 //! cable where `F > 0`, a strut where `F < 0`; elsewhere `F = 0`. The force of an inextensible
 //! member is the multiplier of its length: the derivative of the least energy by that length, with
-//! the sign changed. The floor under a joint is a cable whose excess is the depth, `c = -d_z`, linear
-//! in the places.
+//! the sign changed. The floor under a joint is a cable whose excess is the depth, `c = -d_z`,
+//! linear in the places.
 
 use model::Vector;
 use model::system::Kind;

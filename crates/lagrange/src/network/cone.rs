@@ -2,10 +2,10 @@
 //! long.
 //!
 //! With $z = (z_0, \vec z)$, the product $y \circ z = (y \cdot z,\ y_0 \vec z + z_0 \vec y)$, the
-//! unit $(1, 0)$ and the determinant $\det z = z_0^2 - |\vec z|^2$, the cone is that of the squares.
-//! For two pairs inside it there is one symmetric matrix $W$ that keeps the cone, with
-//! $W z = W^{-1} s$; with $\bar v = (z/\sqrt{\det z} + J s/\sqrt{\det s})/2\gamma$, $\det \bar v =
-//! 1$, $J = \mathrm{diag}(1, -1, -1, -1)$ and $\rho = \sqrt{\det z/\det s}$,
+//! unit $(1, 0)$ and the determinant $\det z = z_0^2 - |\vec z|^2$, the cone is that of the
+//! squares. For two pairs inside it there is one symmetric matrix $W$ that keeps the cone, with $W
+//! z = W^{-1} s$; with $\bar v = (z/\sqrt{\det z} + J s/\sqrt{\det s})/2\gamma$, $\det \bar v = 1$,
+//! $J = \mathrm{diag}(1, -1, -1, -1)$ and $\rho = \sqrt{\det z/\det s}$,
 //!
 //! $$ W^{-2} = \rho\,(2 \bar v \bar v^T - J), \qquad W^{-2} s = z . $$
 //!

@@ -1,9 +1,9 @@
 //! The hanging shape by its forces: least complementary energy, as a programme over cones.
 //!
 //! With every member in tension the forces $F$ of an equilibrium minimise the convex function
-//! $\sum_e l_e\,t_e + c_e\,t_e^2/2$ with $t_e \ge |F_e|$, minus the work at the supports, subject to
-//! the balance of the joints. The multipliers of that balance are the places $x$ of the joints, and
-//! with the pairs (module `cone`)
+//! $\sum_e l_e\,t_e + c_e\,t_e^2/2$ with $t_e \ge |F_e|$, minus the work at the supports, subject
+//! to the balance of the joints. The multipliers of that balance are the places $x$ of the joints,
+//! and with the pairs (module `cone`)
 //!
 //! $$ z_e = (t_e, F_e), \qquad s_e = (l_e + c_e t_e,\ -d_e), \qquad d_e = x_b - x_a, $$
 //!

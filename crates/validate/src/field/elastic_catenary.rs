@@ -172,8 +172,8 @@ pub struct OnFloor {
 
 impl ElasticCatenary {
     /// The cable with its lower end on a level floor without friction, on which its lower part
-    /// lies. The part $V/w$ hangs, with $\\operatorname{asinh}(V/H)$ as above, and $H$ stretches all
-    /// of it:
+    /// lies. The part $V/w$ hangs, with $\\operatorname{asinh}(V/H)$ as above, and $H$ stretches
+    /// all of it:
     ///
     /// $$ z = \\frac Hw\\Big(\\sqrt{1 + V^2/H^2} - 1\\Big) + \\frac{V^2}{2 w\\,EA}, \\qquad
     ///    x = L - \\frac Vw + \\frac{HL}{EA} + \\frac Hw \\operatorname{asinh}\\frac VH . $$

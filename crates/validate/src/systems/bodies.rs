@@ -1,10 +1,11 @@
 //! Bodies of a system: what keeps its shape under all free turns.
 //!
-//! Whatever hangs on one joint alone, under vertical loads and without a support that notices, turns
-//! freely about the vertical through that joint wherever the joint may be: the energy of every
-//! configuration is that of the turned one. So does what hangs on anchors of one vertical. Such
-//! joints are found as the articulations of the graph of members, anchors of one vertical taken as
-//! one node; the parts that hang on them form a tree, each turning relative to the one before.
+//! Whatever hangs on one joint alone, under vertical loads and without a support that notices,
+//! turns freely about the vertical through that joint wherever the joint may be: the energy of
+//! every configuration is that of the turned one. So does what hangs on anchors of one vertical.
+//! Such joints are found as the articulations of the graph of members, anchors of one vertical
+//! taken as one node; the parts that hang on them form a tree, each turning relative to the one
+//! before.
 //!
 //! What hangs on several joints of one vertical turns about it too where it does not pull them
 //! aside ([`Bodies::add_hinged`]).

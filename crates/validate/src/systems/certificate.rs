@@ -17,9 +17,9 @@
 //!
 //! $$ V(x) \\ge Q(\\tilde x) - \\frac{|r|^2}{2c} \\quad \\text{for every } x . $$
 //!
-//! A floor below which no joint gets, $z_j \\ge h$, pushes with $N_j \\ge 0$: as
-//! $N_j (z_j - h) \\ge 0$ in every configuration, $V \\ge V - \\sum N_j (z_j - h)$, and the bound is
-//! that of the system without a floor under the loads $f_j + N_j e_z$, and the constant.
+//! A floor below which no joint gets, $z_j \\ge h$, pushes with $N_j \\ge 0$: as $N_j (z_j - h)
+//! \\ge 0$ in every configuration, $V \\ge V - \\sum N_j (z_j - h)$, and the bound is that of the
+//! system without a floor under the loads $f_j + N_j e_z$, and the constant.
 //!
 //! The $w_e$ are those of the answer, $N_e/d_e$; whatever their rounding, the bound holds, and the
 //! better the answer, the smaller the gap.

@@ -62,8 +62,8 @@ const RANGE: [f64; 2] = [1e-140, 1e140];
 const GROWTH: f64 = 16.0;
 /// The shift in units of the bound: half of it is left as a lower bound of the eigenvalues.
 const TWICE: f64 = 2.0;
-/// Steps of inverse iteration for a guess of the least eigenvalue, and how much of the guess is tried
-/// to be proved.
+/// Steps of inverse iteration for a guess of the least eigenvalue, and how much of the guess is
+/// tried to be proved.
 const STEPS: usize = 8;
 const HALF: f64 = 0.5;
 

@@ -223,8 +223,8 @@ fn a_difference_that_is_no_turn_stays_one() {
     }
 }
 
-/// Three weights that a light tetrahedron keeps apart, and their mirror image: the same lengths, the
-/// same energy, another equilibrium, and no turn leads from the one to the other.
+/// Three weights that a light tetrahedron keeps apart, and their mirror image: the same lengths,
+/// the same energy, another equilibrium, and no turn leads from the one to the other.
 #[test]
 fn a_mirror_image_is_another_equilibrium() {
     let place = |mirror: f64| {

@@ -12,9 +12,9 @@
 //!
 //! - distances that bars must bridge narrow the box (`reach`);
 //! - forces follow from the linear balance, as enclosures; where they have no solution the box
-//!   holds no equilibrium (`columns`). Where the bars of a strand may lie straight its tension has no
-//!   bound: it is then an unknown of the linear balance, and what comes out must not be less than
-//!   straight bars make it at least;
+//!   holds no equilibrium (`columns`). Where the bars of a strand may lie straight its tension has
+//!   no bound: it is then an unknown of the linear balance, and what comes out must not be less
+//!   than straight bars make it at least;
 //! - where all is smooth, the interval Newton method narrows the box, or proves that it has one
 //!   equilibrium at most for a pattern of signs (`examine`).
 //!

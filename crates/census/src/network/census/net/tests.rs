@@ -124,8 +124,8 @@ fn a_symmetric_bridle_hangs_by_its_closed_form() {
     assert!((highest.joints_m[0][2].mid() - depth).abs() < 1e-13);
 }
 
-/// Two anchors bear two rows of two joints: six bars, two closures. In space the joints move in five
-/// ways, in the plane of the anchors in two.
+/// Two anchors bear two rows of two joints: six bars, two closures. In space the joints move in
+/// five ways, in the plane of the anchors in two.
 #[test]
 fn a_mesh_is_searched_in_its_plane() {
     let mut joints: Vec<Joint> = [[-1.0, 0.5, 0.0], [0.3, 0.5, 0.2]]
