@@ -38,5 +38,7 @@ pub use palette::{
     regions,
 };
 pub use png::Raster;
-pub use structure::{Joint, Member, Structure, StructureError, Support, SystemShape};
+pub use structure::{
+    Joint, Member, ModeShape, ModeShapes, Structure, StructureError, Support, SystemShape,
+};
 pub use svg::{Anchor, Svg};

@@ -147,7 +147,7 @@ impl Animation {
 }
 
 /// Numbers for the eye: six digits.
-fn list(out: &mut String, numbers: impl Iterator<Item = f64>) {
+pub(crate) fn list(out: &mut String, numbers: impl Iterator<Item = f64>) {
     out.push('[');
     for (k, x) in numbers.enumerate() {
         if k > 0 {
@@ -160,7 +160,8 @@ fn list(out: &mut String, numbers: impl Iterator<Item = f64>) {
     out.push(']');
 }
 
-fn escaped(text: &str) -> String {
+/// Text of a caller for a page: what would end it, or fill in the rest of a template, is escaped.
+pub(crate) fn escaped(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for c in text.chars() {
         match c {

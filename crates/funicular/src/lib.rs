@@ -69,12 +69,14 @@ mod compare;
 mod csv;
 #[cfg(feature = "branches")]
 mod derivatives;
+mod enclosed;
 #[cfg(feature = "sweep")]
 mod ensemble;
 mod equilibria;
 mod error;
 mod extremes;
 pub mod judge;
+mod mode_pages;
 mod modes;
 #[cfg(feature = "branches")]
 mod parameters;
@@ -127,11 +129,13 @@ pub use self::trace::{Trace, TraceAnswer};
 #[cfg(feature = "sweep")]
 pub use ::sweep::Field;
 pub use compare::compare;
+pub use enclosed::{Enclosed, Inertia};
 pub use equilibria::system_of;
 pub use error::Error;
 pub use extremes::Extremes;
 pub use formats::ForceTable;
 pub use judge::{Judge, Judged};
+pub use mode_pages::{animated_modes, drawn_modes};
 pub use modes::{JointAt, Mode, Modes, ModesAnswer, Summary, WithModes};
 pub use motion::Order;
 pub use problem::{Problem, case, case_text};

@@ -5,6 +5,7 @@ use model::system::System;
 use motion::{Direction, What};
 use serde::Serialize;
 
+use crate::enclosed::{Enclosed, enclose};
 use crate::equilibria::{self, Located, system_of};
 use crate::error::Error;
 use crate::problem::Problem;
@@ -122,6 +123,7 @@ impl Modes {
             Some(count) => motion::lowest_modes(system, joints_m, axial_n, count)?,
             None => motion::modes(system, joints_m, axial_n)?,
         };
+        let (enclosed, between) = enclose(system, joints_m, located.axial_n());
         let joints = system.joints().iter().zip(located.joints_m());
         let joints = joints.map(|(joint, at_m)| JointAt { name: joint.name.clone(), at_m: *at_m });
         let (solver, energy_j) = match located {
@@ -137,7 +139,8 @@ impl Modes {
             index_by_modes: found.index(),
             out_of_balance: found.out_of_balance,
             modes_in_all: found.total,
-            modes: found.modes.into_iter().map(Mode::from).collect(),
+            modes: with_enclosures(found.modes, &enclosed, &between),
+            enclosed,
         })
     }
 }
@@ -191,6 +194,8 @@ pub struct WithModes {
     pub out_of_balance: f64,
     /// How many modes there are, listed or not.
     pub modes_in_all: usize,
+    /// Whether interval arithmetic proves the frequencies.
+    pub enclosed: Enclosed,
     /// The modes by ascending `ω²`, zero and negative ones included: all, or the lowest; that none
     /// below the last is left out is counted by Sylvester's law of inertia.
     pub modes: Vec<Mode>,
@@ -212,6 +217,9 @@ pub struct Mode {
     pub omega2_s2: f64,
     /// Within this of it the linearised equations have an `ω²`, but for rounding, 1/s².
     pub residual_s2: f64,
+    /// The `ω²` is proved to lie between these, 1/s², where the frequencies are enclosed.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub omega2_between_s2: Option<[f64; 2]>,
     /// Displacement of each joint, the largest of length 1; of the spin of a bar all are zero.
     pub shape: Vec<Vector>,
     /// What it is, in words.
@@ -225,10 +233,14 @@ pub struct Mode {
 }
 
 impl ModesAnswer {
-    /// Whether the signs of the modes give each equilibrium the index that its solver gives it.
+    /// Whether the signs of the modes give each equilibrium the index that its solver gives it, and
+    /// that interval arithmetic proves where it does.
     #[must_use]
     pub fn indices_agree(&self) -> bool {
-        self.equilibria.iter().all(|found| found.index_in_space == found.index_by_modes)
+        self.equilibria.iter().all(|found| {
+            let proved = found.enclosed.index().unwrap_or(found.index_by_modes);
+            found.index_in_space == found.index_by_modes && proved == found.index_by_modes
+        })
     }
 }
 
@@ -245,17 +257,30 @@ impl Summary {
     }
 }
 
-impl From<motion::Mode> for Mode {
-    fn from(mode: motion::Mode) -> Self {
-        Self {
+/// Modes with the enclosures of their `ω²`: the k-th smallest of both are of each other. Spins of
+/// bars stand behind the negative ones, and are zero by their meaning.
+fn with_enclosures(
+    modes: Vec<motion::Mode>,
+    enclosed: &Enclosed,
+    between: &[[f64; 2]],
+) -> Vec<Mode> {
+    let is_reached = matches!(enclosed, Enclosed::Reached { .. });
+    let mut next = between.iter().copied();
+    let with = |mode: motion::Mode| {
+        let is_spin = matches!(mode.what, What::Spin { .. });
+        let spin = (is_spin && is_reached).then_some([0.0; 2]);
+        let omega2_between_s2 = if is_spin { spin } else { next.next() };
+        Mode {
             what: words(&mode),
             frequency_hz: mode.frequency_hz(),
             rate_1_s: mode.rate_1_s(),
             omega2_s2: mode.omega2_s2,
             residual_s2: mode.residual_s2,
+            omega2_between_s2,
             shape: mode.shape,
         }
-    }
+    };
+    modes.into_iter().map(with).collect()
 }
 
 /// What a mode is, in words.

@@ -15,11 +15,15 @@ pub fn modes<'py>(
     py: Python<'py>,
     problem: &Problem,
     max_bars: Option<usize>,
+    lowest: Option<usize>,
     threads: usize,
     progress: Option<Bound<'py, PyAny>>,
 ) -> PyResult<String> {
     let of = Arc::clone(&problem.of);
-    let modes = max_bars.map_or_else(Modes::new, |bars| Modes::new().max_bars(bars));
+    let mut modes = max_bars.map_or_else(Modes::new, |bars| Modes::new().max_bars(bars));
+    if let Some(count) = lowest {
+        modes = modes.lowest(count);
+    }
     let found = work::run(py, threads, progress.as_ref(), move |_| modes.run(&of))?;
     let found = found.map_err(|error| raise(&error))?;
     serde_json::to_string(&found).map_err(|error| unwritten(&error))

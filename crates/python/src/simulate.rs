@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
 
-use funicular::Animation;
+use funicular::{Animation, ForceTable, Order};
 use funicular::prelude::{Simulate, Start, Vector};
 use numpy::{PyArrayMethods as _, PyReadonlyArrayDyn};
 use pyo3::prelude::*;
@@ -45,6 +45,21 @@ fn start(word: &str, joints_m: Option<PyReadonlyArrayDyn<'_, f64>>) -> PyResult<
     })
 }
 
+/// 2, 4 or 8.
+fn order(order: usize) -> PyResult<Order> {
+    match order {
+        2 => Ok(Order::Second),
+        4 => Ok(Order::Fourth),
+        8 => Ok(Order::Eighth),
+        _ => {
+            let message = format!("order: 2, 4 or 8 is wanted, got {order}");
+            let fields =
+                vec![("setting", Field::from("order")), ("value", Field::from(order.to_string()))];
+            Err(exception(Told::new("SettingError", message, fields)))
+        }
+    }
+}
+
 /// Arrays over the stored times, and an animation as a page.
 #[pyfunction]
 #[expect(clippy::too_many_arguments, reason = "one for each setting")]
@@ -56,10 +71,11 @@ pub fn simulate<'py>(
     time_s: f64,
     step_s: f64,
     store_s: Option<f64>,
-    fourth_order: bool,
+    order: usize,
     drag_1_s: f64,
     friction_n_m_s: f64,
     pushes: Vec<(String, Vector)>,
+    forces: Option<String>,
     threads: usize,
     progress: Option<Bound<'py, PyAny>>,
 ) -> PyResult<(Bound<'py, PyDict>, String)> {
@@ -68,9 +84,11 @@ pub fn simulate<'py>(
         .time_s(time_s)
         .step_s(step_s)
         .drag_1_s(drag_1_s)
-        .friction_n_m_s(friction_n_m_s);
-    if fourth_order {
-        simulate = simulate.fourth_order();
+        .friction_n_m_s(friction_n_m_s)
+        .order(self::order(order)?);
+    if let Some(text) = forces {
+        let table = ForceTable::parse(&text, "forces").map_err(|error| raise(&error.into()))?;
+        simulate = simulate.forces(table);
     }
     if let Some(store_s) = store_s {
         simulate = simulate.store_s(store_s);

@@ -162,6 +162,8 @@ def test_words_and_settings():
     with pytest.raises(fn.ShapeError):
         fn.System.from_arrays(joints=10**15, anchors={0: (0, 0, 0)}, bars=[[0, 1]], lengths=[1])
     with pytest.raises(fn.SettingError):
+        system.simulate(order=3)
+    with pytest.raises(fn.SettingError):
         system.simulate(start="nowhere")
     with pytest.raises(fn.SettingError):
         system.simulate(pushes={"Z": (0, 0, 1)})

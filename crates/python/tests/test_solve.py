@@ -246,3 +246,40 @@ def test_judging():
     assert (error.value.wanted, error.value.found) == (3, 2)
     with pytest.raises(fn.SettingError):
         fn.judge(system, places, tolerance=1.0)
+
+
+def test_a_force_over_time_and_the_order_of_the_steps() -> None:
+    slider = fn.System.from_toml(
+        'joints = { S = { at_m = [0, 0, 0], free = "x", mass_kg = 1 }, P = { mass_kg = 1e-9 } }\n'
+        'bars = [{ from = "S", to = "P", length_m = 1, mass_kg = 0 }]\n'
+    )
+    # 3 N more each second: the speed is 3/2 t² m/s, the way t³/2.
+    pull = {"S": [[0, 0, 0, 0], [2, 6, 0, 0]]}
+    moved = slider.simulate(start=[[0, 0, 0], [0, 0, -1]], time=2, order=4, forces=pull)
+    assert abs(moved.velocities_m_s[-1, 0, 0] - 6) < 1e-2
+    assert abs(moved.joints_m[-1, 0, 0] - 4) < 1e-2
+    # Of a higher order the energy is kept better.
+    chain = fn.System.case("three-equal-bars")
+    lost = []
+    for order in (2, 4, 8):
+        energy = chain.simulate(start="angles=0,60,-60", time=1, step=1e-2, order=order).energy_j
+        lost.append(float(abs(energy - energy[0]).max()))
+    assert lost[0] > 100 * lost[1] > 100 * lost[2], lost
+
+
+def test_the_lowest_modes_and_enclosures_of_their_frequencies() -> None:
+    rope = fn.System.from_toml(
+        "anchors = { start_m = [0, 0, 0], end_m = [1, 0, 0] }\n"
+        "bars = [{ length_m = 0.01, mass_kg = 0.01, count = 200 }]\n"
+    )
+    assert [len(rope.modes(lowest=k)[0].omega2_s2) for k in (3, 25)] == [3, 25]
+    assert np.isnan(rope.modes(lowest=3)[0].omega2_between_s2).all()
+    two = fn.System.from_toml(
+        "anchors = { start_m = [0, 0, 0], end_m = [1, 0, 0] }\nbars = [{ length_m = 1, mass_kg = 1, count = 2 }]\n"
+    )
+    # Both bars swing about the line of the anchors like a plate: 3/2 g/h with h = √3/2 m.
+    hanging = two.modes()[0]
+    low, high = hanging.omega2_between_s2[0]
+    told = 9.80665 * 3**0.5
+    assert low - 1e-13 <= told <= high + 1e-13 and high - low < 1e-11
+    assert hanging.data["enclosed"]["inertia"] == {"negative": 0, "zero": 0, "positive": 1}

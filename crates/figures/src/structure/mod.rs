@@ -10,10 +10,12 @@ mod key;
 mod labels;
 mod members;
 mod scene;
+mod shapes;
 mod supports;
 mod system;
 mod view;
 
+pub use shapes::{ModeShape, ModeShapes};
 pub use system::SystemShape;
 
 use crate::look::{Colour, Look};

@@ -10,6 +10,7 @@ mod files;
 mod fuzz;
 mod judge;
 mod library;
+mod modes;
 mod motion;
 mod pages;
 mod program;

@@ -137,14 +137,17 @@ def simulate(
     time_s: float,
     step_s: float,
     store_s: float | None,
-    fourth_order: bool,
+    order: int,
     drag_1_s: float,
     friction_n_m_s: float,
     pushes: list[tuple[str, _Vector]],
+    forces: str | None,
     threads: int,
     progress: _Progress,
 ) -> tuple[dict[str, Any], str]: ...
-def modes(problem: Problem, max_bars: int | None, threads: int, progress: _Progress) -> str: ...
+def modes(
+    problem: Problem, max_bars: int | None, lowest: int | None, threads: int, progress: _Progress
+) -> str: ...
 def judge(
     problem: Problem,
     joints_m: _Array,

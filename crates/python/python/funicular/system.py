@@ -382,11 +382,18 @@ class System:
 
         return simulate(self, **settings)
 
-    def modes(self, *, max_bars: int | None = None, threads: int = 0, progress: Progress = None) -> Modes:
+    def modes(
+        self,
+        *,
+        max_bars: int | None = None,
+        lowest: int | None = None,
+        threads: int = 0,
+        progress: Progress = None,
+    ) -> Modes:
         """Small oscillations about its equilibria. See :class:`funicular.Modes`."""
         from .motion import modes
 
-        return modes(self, max_bars=max_bars, threads=threads, progress=progress)
+        return modes(self, max_bars=max_bars, lowest=lowest, threads=threads, progress=progress)
 
     def __repr__(self) -> str:
         bars = len(self.member_joints)

@@ -1,0 +1,116 @@
+//! Modes to look at: drawn side by side, and moving on a page.
+
+use std::fmt::Write as _;
+
+use figures::{ModeShape, ModeShapes, StructureError};
+use model::system::System;
+
+use crate::animation::{escaped, list};
+use crate::modes::{Mode, ModesAnswer, WithModes};
+
+/// Most modes in one drawing: those on a large sheet.
+const MOST_DRAWN: usize = 24;
+
+/// The page, with `@TITLE@` and `@DATA@` to be filled in. It needs nothing but itself.
+const PAGE: &str = include_str!("modes.html");
+
+/// The lowest modes of an equilibrium as an SVG file, up to 24 of them: at rest, and displaced to
+/// both sides. Displacements are to first order, and exaggerated.
+///
+/// ```
+/// use funicular::prelude::*;
+/// let problem = Problem::case("two-bars")?;
+/// let found = Modes::new().run(&problem)?;
+/// let system = funicular::system_of(&problem);
+/// let svg = funicular::drawn_modes(&system, &found.equilibria[0]).unwrap();
+/// assert!(svg.starts_with("<svg") && svg.contains("Hz"));
+/// # Ok::<(), Error>(())
+/// ```
+///
+/// # Errors
+///
+/// [`StructureError`] when a place is not finite.
+pub fn drawn_modes(system: &System, found: &WithModes) -> Result<String, StructureError> {
+    let joints_m: Vec<_> = found.joints.iter().map(|joint| joint.at_m).collect();
+    let drawn = found.modes.len().min(MOST_DRAWN);
+    let modes = found.modes.iter().take(drawn).enumerate().map(|(k, mode)| ModeShape {
+        heading: heading(k, mode),
+        what: &mode.what,
+        shape: &mode.shape,
+    });
+    let modes: Vec<_> = modes.collect();
+    let which = if drawn < found.modes_in_all {
+        format!("the lowest {drawn} of {} modes", found.modes_in_all)
+    } else {
+        "all modes".to_owned()
+    };
+    let note = format!("equilibrium {}: {which}; displacements are exaggerated", found.label);
+    ModeShapes { system, note: &note, joints_m: &joints_m, modes: &modes }.svg()
+}
+
+/// Number and frequency of a mode.
+fn heading(k: usize, mode: &Mode) -> String {
+    let number = k + 1;
+    match (mode.frequency_hz, mode.rate_1_s) {
+        (Some(hz), _) => format!("{number}: {} Hz", eye(hz)),
+        (_, Some(rate)) => format!("{number}: leaves at {} per s", eye(rate)),
+        _ => format!("{number}: 0 Hz"),
+    }
+}
+
+/// Four digits.
+fn eye(x: f64) -> f64 {
+    format!("{x:.3e}").parse().unwrap_or(x)
+}
+
+/// All equilibria with their modes as one HTML file in which they move. Displacements are to first
+/// order, and exaggerated.
+///
+/// ```
+/// use funicular::prelude::*;
+/// let problem = Problem::case("two-bars")?;
+/// let found = Modes::new().run(&problem)?;
+/// let page = funicular::animated_modes(&funicular::system_of(&problem), &found);
+/// assert!(page.starts_with("<!DOCTYPE html>") && page.contains("\"bars\":[[0,1],[1,2]]"));
+/// # Ok::<(), Error>(())
+/// ```
+#[must_use]
+pub fn animated_modes(system: &System, answer: &ModesAnswer) -> String {
+    PAGE.replace("@TITLE@", &escaped(system.name())).replace("@DATA@", &data(system, answer))
+}
+
+/// Everything that is drawn, as JSON of numbers and of words of our own.
+fn data(system: &System, answer: &ModesAnswer) -> String {
+    let reference = system.reference_m();
+    let mut out = String::from("{\"bars\":[");
+    for (k, member) in system.members().iter().enumerate() {
+        let _ = write!(out, "{}[{},{}]", comma(k), member.from, member.to);
+    }
+    out.push_str("],\"held\":[");
+    for (k, joint) in system.joints().iter().enumerate() {
+        let _ = write!(out, "{}{}", comma(k), u8::from(joint.support.is_fixed()));
+    }
+    out.push_str("],\"equilibria\":[");
+    for (k, found) in answer.equilibria.iter().enumerate() {
+        let _ = write!(out, "{}{{\"label\":\"{}\",\"x\":", comma(k), found.label);
+        let places = found.joints.iter().map(|joint| joint.at_m);
+        list(&mut out, places.flat_map(|x| [0, 1, 2].map(|k| x[k] - reference[k])));
+        out.push_str(",\"modes\":[");
+        for (k, mode) in found.modes.iter().enumerate() {
+            let (name, what) = (heading(k, mode), &mode.what);
+            let _ =
+                write!(out, "{}{{\"name\":\"{name}\",\"what\":\"{what}\",\"omega2\":", comma(k));
+            list(&mut out, [mode.omega2_s2].into_iter());
+            out.push_str(",\"shape\":");
+            list(&mut out, mode.shape.iter().flatten().copied());
+            out.push('}');
+        }
+        out.push_str("]}");
+    }
+    out.push_str("]}");
+    out
+}
+
+fn comma(k: usize) -> &'static str {
+    if k > 0 { "," } else { "" }
+}

@@ -1,0 +1,247 @@
+//! Frequencies enclosed, modes drawn and moving; motions and their ends, the same for any threads.
+
+#![expect(clippy::unwrap_used, reason = "helpers of tests")]
+
+use std::path::Path;
+
+use assert_cmd::Command;
+use serde_json::Value;
+
+/// The outcome of the program in a folder, on so many threads of the pool.
+fn run(folder: &Path, threads: usize, arguments: &[&str]) -> std::process::Output {
+    let mut command = Command::cargo_bin("funicular").unwrap();
+    command.current_dir(folder).env("RAYON_NUM_THREADS", threads.to_string());
+    command.args(arguments).output().unwrap()
+}
+
+fn json(folder: &Path, arguments: &[&str]) -> Value {
+    let output = run(folder, 2, arguments);
+    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    serde_json::from_slice(&output.stdout).unwrap()
+}
+
+/// The ends of the enclosure of each mode.
+fn enclosures(equilibrium: &Value) -> Vec<[f64; 2]> {
+    let modes = equilibrium["modes"].as_array().unwrap();
+    let ends = |mode: &Value| [0, 1].map(|k| mode["omega2_between_s2"][k].as_f64().unwrap());
+    modes.iter().map(ends).collect()
+}
+
+#[test]
+fn frequencies_of_the_paper_are_enclosed_and_their_signs_proved() {
+    let folder = tempfile::tempdir().unwrap();
+    let found = json(folder.path(), &["modes", "--case", "three-equal-bars", "--json"]);
+    for equilibrium in found["equilibria"].as_array().unwrap() {
+        let enclosed = &equilibrium["enclosed"];
+        assert_eq!(enclosed["status"], "reached", "{enclosed}");
+        let inertia = &enclosed["inertia"];
+        assert_eq!(inertia["negative"], equilibrium["index_in_space"]);
+        assert_eq!(inertia["zero"], 1, "the turn about the anchors");
+        let modes = equilibrium["modes"].as_array().unwrap();
+        for (mode, [low, high]) in modes.iter().zip(enclosures(equilibrium)) {
+            let omega2 = mode["omega2_s2"].as_f64().unwrap();
+            let turns = mode["what"].as_str().unwrap().contains("turn");
+            assert_eq!(turns, low.abs() + high.abs() <= 0.0, "{mode}");
+            // Dense linear algebra is as near as that.
+            assert!(low - 1e-11 <= omega2 && omega2 <= high + 1e-11, "{mode}");
+            assert!(high - low < 2e-11, "{mode}");
+        }
+    }
+    // E2 is left at these rates (the motion pushed off it: 7.773041054 and 6.3589771 1/s).
+    let upper = found["equilibria"].as_array().unwrap().iter().find(|e| e["label"] == "2");
+    let ends = enclosures(upper.unwrap());
+    for ([low, high], rate) in ends.into_iter().zip([7.773_041_f64, 6.358_977]) {
+        assert!((-low).sqrt() > rate - 1e-6 && (-high).sqrt() < rate + 1e-6, "{low} {high} {rate}");
+    }
+    let text = run(folder.path(), 1, &["modes", "--case", "three-equal-bars"]).stdout;
+    let text = String::from_utf8(text).unwrap();
+    assert!(text.contains("proved: 2 negative, 1 zero, 0 positive"), "{text}");
+    assert!(text.lines().all(|line| line.chars().count() <= 80), "{text}");
+}
+
+/// A pendulum of two points: ω² = (2 -+ √2) g/l.
+const DOUBLE: &str = r#"
+name = "double <&> pendulum"
+gravity_m_s2 = 10
+joints = { O = { at_m = [0, 0, 0] }, A = { mass_kg = 1 }, B = { mass_kg = 1 } }
+bars = [
+    { from = "O", to = "A", length_m = 1, mass_kg = 0 },
+    { from = "A", to = "B", length_m = 1, mass_kg = 0 },
+]
+"#;
+
+#[test]
+fn closed_forms_lie_in_the_enclosures_and_large_systems_say_that_they_have_none() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("double.toml"), DOUBLE).unwrap();
+    let found = json(folder.path(), &["modes", "double.toml", "--json"]);
+    let ends = enclosures(&found["equilibria"][0]);
+    // Whether 10 (2 -+ √2) lies between a and b, by squares of numbers without rounding errors that
+    // matter: (x/10 - 2)² - 2 changes its sign between them.
+    let sign = |x: f64| (x / 10.0 - 2.0).mul_add(x / 10.0 - 2.0, -2.0);
+    for [low, high] in &ends {
+        assert!(high - low < 1e-11 && high > low, "{low} {high}");
+        assert!(sign(low - 1e-13) * sign(high + 1e-13) < 0.0, "{low} {high}");
+    }
+    assert_eq!(ends.len(), 4);
+    let long = "anchors = { start_m = [0, 0, 0], end_m = [1, 0, 0] }\n\
+                bars = [{ length_m = 0.01, mass_kg = 0.01, count = 200 }]\n";
+    std::fs::write(folder.path().join("long.toml"), long).unwrap();
+    let found = json(folder.path(), &["modes", "long.toml", "--modes", "3", "--json"]);
+    let enclosed = &found["equilibria"][0]["enclosed"];
+    assert_eq!(enclosed["status"], "open");
+    assert_eq!(enclosed["because"], "199 joints move, and at most 60 are enclosed");
+    assert!(found["equilibria"][0]["modes"][0].get("omega2_between_s2").is_none());
+    let text = run(folder.path(), 2, &["modes", "long.toml", "--modes", "3"]).stdout;
+    let text = String::from_utf8(text).unwrap();
+    assert!(text.contains("not enclosed by interval arithmetic: 199 joints move"), "{text}");
+}
+
+#[test]
+fn modes_are_drawn_and_moved_on_a_page() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("double.toml"), DOUBLE).unwrap();
+    let arguments = ["modes", "double.toml", "--svg", "m.svg", "--html", "m.html"];
+    assert_eq!(run(folder.path(), 1, &arguments).status.code(), Some(0));
+    let read = |name: &str| std::fs::read_to_string(folder.path().join(name)).unwrap();
+    let svg = read("m.svg");
+    let parsed = roxmltree::Document::parse(&svg).unwrap();
+    let texts: Vec<_> = parsed.descendants().filter_map(|node| node.text()).collect();
+    // √((2 - √2) 10)/2π = 0.3852 Hz, each in two planes.
+    for told in ["1: 0.3852 Hz", "4: 0.93 Hz", "all modes"] {
+        assert!(texts.iter().any(|text| text.contains(told)), "{told}: {texts:?}");
+    }
+    let paths = parsed.descendants().filter(|node| node.has_tag_name("path"));
+    assert_eq!(paths.count(), 4 * 3, "at rest and to both sides");
+    let page = read("m.html");
+    assert!(page.contains("double &lt;&amp;&gt; pendulum") && !page.contains("http"), "{page}");
+    let data = page.split("application/json\">").nth(1).unwrap().split("</script>").next().unwrap();
+    let data: Value = serde_json::from_str(data).unwrap();
+    let modes = data["equilibria"][0]["modes"].as_array().unwrap();
+    assert_eq!((modes.len(), modes[0]["shape"].as_array().unwrap().len()), (4, 9));
+    let omega2 = modes[3]["omega2"][0].as_f64().unwrap();
+    assert!((omega2 - 34.142).abs() < 1e-3, "{omega2}");
+    let wrong = ["modes", "double.toml", "--svg", "n.svg", "--equilibrium", "7"];
+    let output = run(folder.path(), 1, &wrong);
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert!(output.status.code() == Some(2) && said.contains("there is no equilibrium"), "{said}");
+}
+
+#[test]
+fn a_motion_has_the_same_bytes_for_any_number_of_threads() {
+    let folder = tempfile::tempdir().unwrap();
+    let net = "joints = { A = { at_m = [0, 0, 0] }, B = { at_m = [2, 0, 0] }, C = { at_m = [1, 2, 0] }, \
+               P = { mass_kg = 1 }, Q = { mass_kg = 2 } }\n\
+               bars = [{ from = \"A\", to = \"P\", length_m = 1.5, mass_kg = 1, count = 3 }, \
+               { from = \"B\", to = \"P\", length_m = 1.5, mass_kg = 1, count = 2 }, \
+               { from = \"C\", to = \"P\", length_m = 2, mass_kg = 1, stiffness_n = 1e3 }, \
+               { from = \"P\", to = \"Q\", length_m = 1, mass_kg = 0.5 }]\n";
+    std::fs::write(folder.path().join("net.toml"), net).unwrap();
+    for (source, name) in [(&["net.toml"][..], "net"), (&["--case", "three-equal-bars"], "paper")] {
+        let of = |threads: usize, extension: &str| {
+            let file = format!("{name}-{threads}.{extension}");
+            let mut arguments = vec!["simulate"];
+            arguments.extend(source);
+            arguments.extend(["--from", "seed:3", "--time", "1", "--damping", "0.3"]);
+            arguments.extend(["--order", "4", "--out", &file]);
+            let output = run(folder.path(), threads, &arguments);
+            let said = String::from_utf8_lossy(&output.stderr).into_owned();
+            assert_eq!(output.status.code(), Some(0), "{said}");
+            std::fs::read(folder.path().join(&file)).unwrap()
+        };
+        for extension in ["csv", "parquet"] {
+            let one = of(1, extension);
+            assert!(one.len() > 10_000);
+            for threads in [2, 5] {
+                assert_eq!(one, of(threads, extension), "{name}, {threads} threads");
+            }
+        }
+    }
+}
+
+/// A weight on three elastic bars in the form of a tripod rests below its feet, and above them.
+#[test]
+fn of_two_stable_rests_each_release_is_given_its_own() {
+    let folder = tempfile::tempdir().unwrap();
+    let tripod = "joints = { A = { at_m = [0.5, 0, 0] }, B = { at_m = [-0.25, 0.4330127018922193, 0] }, \
+                  C = { at_m = [-0.25, -0.4330127018922193, 0] }, P = { mass_kg = 1 } }\n\
+                  bars = [{ from = \"A\", to = \"P\", length_m = 0.7, mass_kg = 0, stiffness_n = 400 }, \
+                  { from = \"B\", to = \"P\", length_m = 0.7, mass_kg = 0, stiffness_n = 400 }, \
+                  { from = \"C\", to = \"P\", length_m = 0.7, mass_kg = 0, stiffness_n = 400 }]\n";
+    std::fs::write(folder.path().join("tripod.toml"), tripod).unwrap();
+    let arguments = ["simulate", "tripod.toml", "--seeds", "400", "--damping", "4", "--time", "30"];
+    let more = ["--step", "0.005", "--format", "csv", "--out"];
+    for (threads, out) in [("1", "one"), ("3", "three")] {
+        let all = [&arguments[..], &more[..], &[out, "--threads", threads]].concat();
+        let output = run(folder.path(), 2, &all);
+        assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    }
+    let read = |name: &str| std::fs::read_to_string(folder.path().join(name)).unwrap();
+    for name in ["manifest.json", "summary.json", "part-000000.csv"] {
+        assert_eq!(read(&format!("one/{name}")), read(&format!("three/{name}")), "{name}");
+    }
+    let manifest: Value = serde_json::from_str(&read("one/manifest.json")).unwrap();
+    let rests = manifest["equilibria"].as_array().unwrap();
+    // Heights by bisection of 3 (EA/l) (L - l) z/L = -m g with L² = 1/4 + z².
+    let left_n = |z: f64| {
+        let length = z.hypot(0.5);
+        3.0 * 400.0 / 0.7 * (length - 0.7) * z / length + 9.806_65
+    };
+    let mut heights = [[-1.0, -0.45], [0.4, 0.6]].map(|[mut low, mut high]: [f64; 2]| {
+        for _ in 0..60 {
+            let middle = 0.5 * (low + high);
+            *(if left_n(middle) > 0.0 { &mut high } else { &mut low }) = middle;
+        }
+        low
+    });
+    heights.sort_by(f64::total_cmp);
+    assert_eq!(rests.len(), 2, "{rests:?}");
+    for (rest, z) in rests.iter().zip(heights) {
+        let found = rest["joints_m"][3][2].as_f64().unwrap();
+        assert!((found - z).abs() < 1e-5, "{found} {z}");
+    }
+    // Each end has the energy of the rest that it is given: m g z and the three bars'.
+    let energy = |z: f64| 9.806_65 * z + 1.5 * 400.0 / 0.7 * (z.hypot(0.5) - 0.7).powi(2);
+    let rows = read("one/part-000000.csv");
+    let mut lines = rows.lines();
+    let head: Vec<&str> = lines.next().unwrap().split(',').collect();
+    let column = |name: &str| head.iter().position(|h| *h == name).unwrap();
+    let mut counts = [0, 0];
+    for line in lines {
+        let cells: Vec<&str> = line.split(',').collect();
+        let outcome: usize = cells[column("motion_outcome")].parse().unwrap();
+        let found: f64 = cells[column("motion_energy_j")].parse().unwrap();
+        assert!((found - energy(heights[outcome])).abs() < 1e-6, "{line}");
+        counts[outcome] += 1;
+    }
+    assert!(counts[0] + counts[1] == 400 && counts[0] > 100 && counts[1] > 40, "{counts:?}");
+}
+
+/// An ensemble that is interrupted keeps its parts, says so with 130, and goes on to the same bytes.
+#[cfg(unix)]
+#[test]
+fn an_interrupted_ensemble_goes_on_to_the_same_bytes() {
+    let folder = tempfile::tempdir().unwrap();
+    let release = ["simulate", "--case", "two-bars", "--seeds", "4000", "--damping", "3"];
+    let more = ["--time", "25", "--step", "0.02", "--out"];
+    let whole = [&release[..], &more[..], &["whole"]].concat();
+    assert_eq!(run(folder.path(), 2, &whole).status.code(), Some(0));
+    let part = [&release[..], &more[..], &["part", "--threads", "1"]].concat();
+    let mut command = std::process::Command::new(assert_cmd::cargo::cargo_bin("funicular"));
+    let mut child = command.current_dir(folder.path()).args(&part).spawn().unwrap();
+    // The first of four parts is there.
+    let first = folder.path().join("part/part-000000.parquet");
+    while !first.exists() && child.try_wait().unwrap().is_none() {
+        std::thread::sleep(std::time::Duration::from_millis(5));
+    }
+    let id = child.id().to_string();
+    assert!(std::process::Command::new("kill").args(["-TERM", &id]).status().unwrap().success());
+    assert_eq!(child.wait().unwrap().code(), Some(130));
+    assert!(first.exists() && !folder.path().join("part/summary.json").exists());
+    let go_on = [&part[..], &["--resume"]].concat();
+    assert_eq!(run(folder.path(), 2, &go_on).status.code(), Some(0));
+    for name in ["manifest.json", "summary.json", "part-000000.parquet", "part-000003.parquet"] {
+        let of = |out: &str| std::fs::read(folder.path().join(out).join(name)).unwrap();
+        assert_eq!(of("whole"), of("part"), "{name}");
+    }
+}
