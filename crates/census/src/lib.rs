@@ -89,6 +89,7 @@ pub use census::{Census, Statistics};
 pub use count::morse::MorseError;
 pub use count::sextic;
 pub use count::topology::{Topology, TopologyError};
+pub use degenerate::bound::Bound;
 pub use degenerate::unloaded::DegenerateEquilibrium;
 pub use equilibrium::{Neighbourhood, ProvenEquilibrium};
 pub use error::{CensusError, rough_time};

@@ -15,6 +15,7 @@ use serde::{Deserialize, Serialize};
 use crate::closure::Pattern;
 use crate::count::morse::{self, MorseError};
 use crate::count::topology::{Topology, TopologyError};
+use crate::degenerate::bound::Bound;
 use crate::degenerate::unloaded::DegenerateEquilibrium;
 use crate::enclosure::krawczyk::Zero;
 use crate::enclosure::polish::{PreciseSystem, polish};
@@ -145,6 +146,7 @@ impl Census {
         let patterns = (0..1_u32 << system.bars()).map(Pattern).collect();
         let search = search(&system, settings, &settled, patterns, watch);
 
+        let (zeros, unclear) = merge(&system, search.zeros);
         let mut undecided: Vec<Undecided> = vec![];
         for task in gather(search.undecided) {
             let reason = if search.exhausted {
@@ -154,9 +156,15 @@ impl Census {
             } else {
                 Reason::Degenerate
             };
-            undecided.push(Undecided::new(&system, reason, &task.cell, &task.patterns));
+            let mut open = Undecided::new(&system, reason, &task.cell, &task.patterns);
+            if let (Reason::Degenerate, [pattern]) = (reason, &task.patterns[..]) {
+                open.bound = Bound::of(&system, &task.cell, *pattern, &zeros);
+            }
+            // None besides those listed: decided.
+            if open.bound.is_none_or(|bound| bound.at_most > 0) {
+                undecided.push(open);
+            }
         }
-        let (zeros, unclear) = merge(&system, search.zeros);
         for (pattern, zero) in unclear {
             undecided.push(Undecided::new(&system, Reason::Unclear, &zero.tight, &[pattern]));
         }

@@ -50,6 +50,11 @@ fn counts(map: Map<'_>, around: [Interval; 2]) -> impl Iterator<Item = Counted> 
     rooms.take_while(|room| *room <= LARGEST).filter_map(count)
 }
 
+/// Count the zeros in a box around a given one.
+pub(crate) fn count(map: Map, around: [Interval; 2]) -> Option<Counted> {
+    counts(map, around).next()
+}
+
 /// The largest box around a given one in which there are at most so many zeros.
 pub(crate) fn widest(map: Map, around: [Interval; 2], at_most: usize) -> Option<Counted> {
     counts(map, around).filter(|counted| counted.at_most == at_most).last()
@@ -190,7 +195,7 @@ mod tests {
                 // (p(t), n − t²) has the determinant p'(t).
                 Some([polynomial(t) + (n - t * t).scaled(Interval::point(2.0)), n - t * t])
             };
-            let counted = counts(&map, [Interval::around(0.0, 1e-9); 2]).next().unwrap();
+            let counted = count(&map, [Interval::around(0.0, 1e-9); 2]).unwrap();
             assert_eq!((counted.at_most, counted.degree), (at_most, degree), "{number}");
         }
     }
@@ -201,6 +206,6 @@ mod tests {
             let [x, y] = turned(at);
             Some([x * x - y * y, x * y])
         };
-        assert_eq!(counts(&map, [Interval::around(0.0, 1e-9); 2]).next(), None);
+        assert_eq!(count(&map, [Interval::around(0.0, 1e-9); 2]), None);
     }
 }

@@ -11,7 +11,6 @@ use crate::plane::system::System;
 pub(crate) type Pair = Option<[Series; 2]>;
 
 /// Φ over a rectangle on a face.
-#[cfg(test)]
 pub(crate) fn closure(system: &System, signs: &[i8], face: Face, at: [Interval; 2]) -> Pair {
     let [x, y] = [Series::variable(at[0], 0), Series::variable(at[1], 1)];
     let one = Series::constant(Interval::ONE);

@@ -6,6 +6,7 @@ use intervals::Interval;
 use serde::{Deserialize, Serialize};
 
 use crate::closure::Pattern;
+use crate::degenerate::bound::Bound;
 use crate::plane::cell::Cell;
 use crate::plane::face::Face;
 use crate::plane::system::System;
@@ -38,6 +39,9 @@ pub struct Undecided {
     pub at: [Interval; 2],
     /// The pulls along the horizontal direction and along Z, N, where they are finite.
     pub pull_n: Option<[Interval; 2]>,
+    /// How many equilibria there can be, where that is proved.
+    #[serde(default)]
+    pub bound: Option<Bound>,
 }
 
 /// Why a cell is undecided.
@@ -137,7 +141,7 @@ impl Undecided {
         let signs = patterns.iter().map(|pattern| pattern.signs(system.bars()).collect()).collect();
         let finite = cell.homogeneous()[2].lo() > 0.0;
         let pull_n = finite.then(|| system.pull_on_anchor_n(cell.pull(system)));
-        Self { reason, signs, chart: cell.face, at: cell.at, pull_n }
+        Self { reason, signs, chart: cell.face, at: cell.at, pull_n, bound: None }
     }
 
     /// A slack family that may or may not exist.
@@ -147,6 +151,13 @@ impl Undecided {
         let face = Face::Around(u8::try_from(group).unwrap_or(u8::MAX));
         let cell = Cell { face, at: [Interval::ZERO; 2] };
         let pull_n = Some(system.pull_on_anchor_n(cell.pull(system)));
-        Self { reason: Reason::Slack, signs: vec![signs], chart: face, at: cell.at, pull_n }
+        Self {
+            reason: Reason::Slack,
+            signs: vec![signs],
+            chart: face,
+            at: cell.at,
+            pull_n,
+            bound: None,
+        }
     }
 }

@@ -111,6 +111,36 @@ fn a_small_change_makes_as_many_as_the_multiplicity_says() {
     }
 }
 
+/// At a fold to the last digit of the chain's numbers no one can tell whether there are two equilibria or
+/// none: but there are two at most. (The fold is that of `degenerate.rs`.)
+#[test]
+fn next_to_a_fold_there_are_two_at_most() {
+    let bars = [
+        (0.744_003_286_989_166_3, 0.295_321_229_436_031_84, 0.734_670_458_537_469),
+        (0.800_934_968_638_009_8, 0.337_843_480_862_743_63, 0.252_195_513_658_455_1),
+        (0.955_505_132_010_287, 0.371_962_658_396_993_55, 0.359_763_508_059_449_1),
+        (0.606_212_031_725_482, 0.798_976_642_597_092_9, 0.357_182_036_441_701_43),
+    ];
+    let (mut open, mut counts) = (0, vec![]);
+    for off in [-1e-3, -1e-14, -1e-15, -4e-16, 0.0, 4e-16, 1e-15, 1e-14, 1e-3] {
+        let end = [1.488_489_526_943_378_4, 0.0, 1.650_370_399_310_159_3 + off];
+        let census = census(&problem(&bars, end));
+        for undecided in &census.undecided {
+            let bound = undecided.bound.unwrap_or_else(|| panic!("{off:e}: {undecided:?}"));
+            // One of the two may be listed.
+            let known = (bound.at_most, bound.degree.abs());
+            assert!(known == (2, 0) || known == (1, 1), "{off:e}: {bound:?}");
+            open += 1;
+        }
+        counts.push((census.equilibria.len(), census.undecided.len()));
+    }
+    println!("{counts:?}");
+    assert!(open > 0);
+    // On its two sides there are two more and two fewer.
+    let [first, .., last] = &counts[..] else { panic!() };
+    assert!((first.1, last.1) == (0, 0) && first.0.abs_diff(last.0) == 2, "{counts:?}");
+}
+
 /// $M_0 M_2 = M_1^2$: the variance of the weights with these signs vanishes, and the straight position
 /// is isolated in the next order only.
 #[test]

@@ -139,6 +139,10 @@ pub struct Open {
     pub at: [Enclosure; 2],
     /// The pulls in it, if they are bounded.
     pub pull_n: Option<[Enclosure; 2]>,
+    /// At most so many equilibria, counted with multiplicity, besides those listed; if that is proved.
+    pub at_most: Option<usize>,
+    /// Of what degree they are together: their number has the same parity.
+    pub degree: Option<i8>,
 }
 
 /// A set of equilibria with bars that carry nothing.
@@ -351,6 +355,8 @@ fn open(undecided: &Undecided) -> Open {
         chart: serde_json::to_value(undecided.chart).unwrap_or_default(),
         at: undecided.at.map(ends),
         pull_n: undecided.pull_n.and_then(finite),
+        at_most: undecided.bound.map(|bound| bound.at_most),
+        degree: undecided.bound.map(|bound| bound.degree),
     }
 }
 

@@ -315,7 +315,10 @@ fn undecided(census: &Summary) -> String {
             upright,
             open.pattern_count.to_string(),
             open.patterns.first().map_or_else(String::new, |signs| pattern(signs)),
-            open.why.clone(),
+            match open.at_most {
+                Some(number) => format!("{}; at most {number} equilibria", open.why),
+                None => open.why.clone(),
+            },
         ]);
     }
     let mut text = format!(
