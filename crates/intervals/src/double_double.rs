@@ -255,6 +255,48 @@ mod tests {
         }
     }
 
+    proptest! {
+        /// With errors far above all roundings the bounds are all but exact: not a unit in the last
+        /// place may be missing.
+        #[test]
+        fn large_errors_are_carried_to_the_last_place(a in pair(), b in pair(), part in 0.0..1.0f64) {
+            let (e, f) = (part * 1e-3, 0.7 * part * 1e-3);
+            let blur = |x: DoubleDouble, error| DoubleDouble { error, ..x };
+            let sum = blur(a, e) + blur(b, f);
+            prop_assert!(exact(sum.error) >= exact(e) + exact(f));
+            prop_assert!(sum.error <= (e + f) * (1.0 + 1e-12) + 1e-30);
+            let product = blur(a, e) * b;
+            prop_assert!(exact(product.error) >= value(b).abs() * exact(e));
+            prop_assert!(product.error <= b.hi.abs() * e * (1.0 + 1e-12) + 1e-30);
+            for scale in [0.125, 4.0] {
+                let scaled = blur(a, e).scale(scale);
+                prop_assert!(exact(scaled.error) >= exact(e) * exact(scale));
+                prop_assert!(scaled.error <= e * scale * (1.0 + 1e-12) + 1e-300);
+            }
+            // The quotient at either end of the numerator.
+            let quotient = blur(a, e) / b;
+            for end in [exact(e), -exact(e)] {
+                let reference = (value(a) + end) / value(b);
+                prop_assert!((value(quotient) - reference).abs() <= exact(quotient.error));
+            }
+            let interval = blur(a, e).interval();
+            prop_assert!(exact(interval.hi()) >= value(a) + exact(e));
+            prop_assert!(exact(interval.lo()) <= value(a) - exact(e));
+        }
+    }
+
+    /// What is as small as doubles get is not lost: the error says so.
+    #[test]
+    fn underflow_is_in_the_error() {
+        let small = DoubleDouble::point(3.0 * f64::from_bits(1));
+        let quarter = small.scale(0.25);
+        let off = (value(quarter) - value(small) / exact(4.0)).abs();
+        assert!(off <= exact(quarter.error));
+        let product = DoubleDouble::point(1e-170) * DoubleDouble::point(1.1e-170);
+        let off = (value(product) - exact(1e-170) * exact(1.1e-170)).abs();
+        assert!(off <= exact(product.error));
+    }
+
     #[test]
     fn nothing_is_known_of_a_root_or_quotient_of_zero() {
         assert!(DoubleDouble::ZERO.sqrt().error.is_infinite());

@@ -280,7 +280,7 @@ macro_rules! precision {
             #[test]
             fn gemv() {
                 let mut rng = rng();
-                for (m, n) in [(1, 1), (3, 5), (8, 2), (40, 31)] {
+                for (m, n) in crate::support::SHAPES {
                     for trans in [b'N', b'T', b'c'] {
                         for (incx, incy) in [(1, 1), (2, 3), (-1, 1), (2, -2)] {
                             let a = matrix(&mut rng, m, n);

@@ -64,3 +64,30 @@ fn keys_in_errors_do_not_steer_the_terminal() {
     assert_eq!(output.status.code(), Some(2));
     assert_plain(&output);
 }
+
+/// The manifest of somebody else, and a file whose name would clear the screen.
+#[test]
+fn names_in_folders_do_not_steer_the_terminal() {
+    let folder = folder("escapes-folders");
+    for (out, number) in [("one", "1"), ("two", "2")] {
+        let shard = format!("{number}/2");
+        let sweep =
+            ["sweep", "--case", "two-bars", "--seeds", "3000", "--shard", &shard, "--out", out];
+        assert_eq!(run(&folder, &sweep).status.code(), Some(0));
+    }
+    let path = folder.join("two").join("manifest.json");
+    let text = std::fs::read_to_string(&path).unwrap();
+    let name = r#""name": "\u001b]0;X\u0007\u001b[2J\nAgreement: agreed by nobody""#;
+    let changed = text.replacen("\"name\": \"two bars\"", name, 1);
+    assert_ne!(changed, text);
+    std::fs::write(&path, changed).unwrap();
+    let output = run(&folder, &["merge", "one", "two", "--out", "all"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert_plain(&output);
+
+    std::fs::create_dir(folder.join("stray")).unwrap();
+    std::fs::write(folder.join("stray").join("\u{1b}[2J\u{7}"), "").unwrap();
+    let output = run(&folder, &["sweep", "--case", "two-bars", "--seeds", "10", "--out", "stray"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert_plain(&output);
+}

@@ -406,3 +406,51 @@ fn a_full_disk_is_undecided() {
     let output = command.args(["solve", "--case", "two-bars"]).stdout(full).output().unwrap();
     assert_eq!(output.status.code(), Some(3), "{}", stderr(&output));
 }
+
+/// The same of the commands that write most: files may be no longer than one block, which stands for
+/// a disk that is full.
+#[test]
+#[cfg(target_os = "linux")]
+fn a_disk_that_is_full_in_the_end_is_undecided() {
+    let out = folder("full-later");
+    for arguments in [
+        &[
+            "trace",
+            "--case",
+            "three-equal-bars",
+            "--vary",
+            "anchors.end_m.z=-2..-1:9",
+            "--csv",
+            "t.csv",
+        ][..],
+        &["reproduce", "--out", "r"],
+    ] {
+        let script = "ulimit -f 1; trap '' XFSZ; exec \"$@\"";
+        let mut command = Command::new("sh");
+        command.args(["-c", script, "sh"]).arg(cargo_bin("funicular")).args(arguments);
+        let output = command.current_dir(&out).output().unwrap();
+        assert_eq!(output.status.code(), Some(3), "{arguments:?}: {}", stderr(&output));
+        assert!(stderr(&output).contains("cannot write"), "{arguments:?}: {}", stderr(&output));
+    }
+    // Nothing is left that looks like a result.
+    assert!(!out.join("t.csv").exists() && !out.join("r").join("results.json").exists());
+}
+
+/// A link where a careless program would put its temporary file is neither followed nor removed.
+#[test]
+#[cfg(target_os = "linux")]
+fn links_in_the_place_of_temporary_files_are_left_alone() {
+    let folder = folder("links");
+    fs::write(folder.join("precious"), "precious").unwrap();
+    // The process has the number that the shell had, which it puts into the names of the links.
+    let script = "for name in out.csv.$$.part .out.csv.$$.part out.csv.part .out.csv.part \
+        out.csv.$$ .out.csv.tmp; do ln -s precious \"$name\"; done; exec \"$@\"";
+    let mut command = Command::new("sh");
+    command.args(["-c", script, "sh"]).arg(cargo_bin("funicular"));
+    command.args(["solve", "--case", "two-bars", "--csv", "out.csv"]);
+    let output = command.current_dir(&folder).output().unwrap();
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    assert_eq!(fs::read_to_string(folder.join("precious")).unwrap(), "precious");
+    assert!(fs::symlink_metadata(folder.join("out.csv")).unwrap().is_file());
+    assert_eq!(names(&folder).len(), 8);
+}

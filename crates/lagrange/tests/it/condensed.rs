@@ -8,7 +8,7 @@ use std::f64::consts::PI;
 use lagrange::Seed;
 use lagrange::condensed::{Condensed, CondensedError, Settings, Solution, solve};
 use model::{
-    Anchors, Bar, Chain, InPlane, InSpace, Problem, Refusal, STANDARD_GRAVITY_M_S2, Vector,
+    Anchors, Bar, Chain, InPlane, InSpace, Problem, Refusal, STANDARD_GRAVITY_M_S2, Status, Vector,
 };
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -75,6 +75,26 @@ fn the_papers_chain_hangs_in_e1() {
     assert_eq!(found.stability.in_space, InSpace::Stable);
     // The turn about the vertical through both anchors.
     assert_eq!(found.evidence.nullity, 1);
+}
+
+/// What stops the solver is in its evidence, and is what the settings promise: 1e-13 of the length,
+/// some hundred roundings.
+#[test]
+fn the_closure_is_held_to_a_hundred_roundings() {
+    for end_m in [[0.0, 0.0, -2.0], [1.0, 0.5, -1.0]] {
+        let anchors = Anchors { start_m: [0.0; 3], end_m };
+        let bars = vec![Bar::homogeneous(1.0, 1.0).unwrap(); 3];
+        let chain = Chain::new("closed", 9.81, anchors, bars).unwrap();
+        let found = solve(&Problem::new(chain).unwrap(), &Settings::default()).unwrap();
+        let evidence = &found.equilibrium.evidence;
+        let Status::Reached(convergence) = &evidence.ladder.converged else {
+            panic!("{:?}", evidence.ladder)
+        };
+        assert!(convergence.tolerance.is_some_and(|tolerance| tolerance <= 1e-13));
+        // On one vertical the chain turns about it; elsewhere nothing moves at no cost.
+        let vertical = end_m[0].hypot(end_m[1]) < 1e-9;
+        assert_eq!(evidence.nullity, usize::from(vertical));
+    }
 }
 
 /// Two bars: the triangle and the lever rule give everything in closed form.

@@ -167,3 +167,42 @@ fn the_solve_without_a_guess_finds_no_more_than_any_seed() {
         }
     }
 }
+
+/// Three equal bars between level anchors just before the fold at d² = 3/2, in closed form: with the
+/// outer bars at σ ± δ from the horizontal and q = cos² δ, two equilibria have 8 q² − 4 q + d² − 1 =
+/// 0 and cos σ = (d² − 1 + 4 q)/(4 d √q). They are 1e-5 apart and both regular: the one has an
+/// index in the plane that is one more than that of the other.
+#[test]
+fn equilibria_near_a_fold_are_not_degenerate() {
+    /// √(3 − 2 d²): how far the roots are apart.
+    const APART: f64 = 1e-5;
+    let span = (0.5 * (3.0 - APART * APART)).sqrt();
+    let bars = vec![model::Bar::homogeneous(1.0, 1.0).unwrap(); 3];
+    let anchors = model::Anchors { start_m: [0.0; 3], end_m: [0.0, span, 0.0] };
+    let chain = model::Chain::new("near the fold", 9.81, anchors, bars).unwrap();
+    let problem = Problem::new(chain).unwrap();
+    for side in [1.0, -1.0] {
+        let mut indices = [1.0, -1.0].map(|root: f64| {
+            let q = 0.25 * (1.0 + root * APART);
+            let sigma = ((span * span - 1.0 + 4.0 * q) / (4.0 * span * q.sqrt())).acos();
+            let delta = side * q.sqrt().acos();
+            let outer = [sigma + delta, sigma - delta].map(|angle| [angle.cos(), angle.sin()]);
+            let middle = [span - outer[0][0] - outer[1][0], -outer[0][1] - outer[1][1]];
+            let angles = [outer[0], middle, outer[1]].map(|[along, up]| along.atan2(-up));
+            let seed = lagrange::Seed::planar(&angles);
+            let found = solve_from(&problem, &seed, &Settings::default()).unwrap().equilibrium;
+            // The closed form, and not the equilibrium beside it.
+            for (k, angle) in angles.iter().enumerate() {
+                let (a, b) = (found.joints_m[k], found.joints_m[k + 1]);
+                let off = (b[1] - a[1]).atan2(a[2] - b[2]) - angle;
+                let off = off.sin().abs();
+                assert!(off < 0.1 * APART, "bar {k} is off by {off:e}");
+            }
+            assert_ne!(found.stability.in_plane, model::InPlane::Degenerate, "root {root}");
+            assert_eq!(found.evidence.nullity, 3, "root {root}");
+            found.stability.index_in_plane
+        });
+        indices.sort_unstable();
+        assert_eq!(indices[1], indices[0] + 1, "{indices:?}");
+    }
+}
