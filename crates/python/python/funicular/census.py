@@ -22,7 +22,7 @@ class Census:
     """All equilibria, stable or not, by energy, and what is known of the list.
 
     ``complete``: whether it is proved that there is no other. ``summary``: the numbers of the list (``count``,
-    ``circles``, ``euler_characteristic``, ``undecided_boxes``, ``check``, ...). A census is a sequence of
+    ``circles``, ``decided``, ``degenerate``, ``undecided_boxes``, ``check``, ...). A census is a sequence of
     :class:`Equilibrium`; what only a census knows of one stands in its ``data`` (``label``, ``enclosures``, ...).
 
     >>> import funicular as fn
