@@ -135,7 +135,9 @@ macro_rules! precision {
                     let last = first + count - 1;
                     let some = eigen(b'I', &a, (0.0, 0.0), (int(first), int(last)));
                     assert_eq!((all.count, some.count), (int(n), int(count)));
-                    assert_eq!(some.values[..count], all.values[first - 1..last]);
+                    for (x, y) in some.values[..count].iter().zip(&all.values[first - 1..last]) {
+                        assert!((x - y).abs() <= TOLERANCE * a.amax(), "{x:e} {y:e}");
+                    }
                     let expected = all.vectors.matrix().columns(first - 1, count).clone_owned();
                     let found = some.vectors.matrix().columns(0, count).clone_owned();
                     close(&found, &expected, "vectors");
