@@ -77,7 +77,8 @@ fn converted(latex: &str, display_mode: DisplayMode) -> String {
         // Writing to a String cannot fail; were it to, the page shows so.
         "<merror></merror>".clone_into(&mut text);
     }
-    text
+    // The converter leaves the sign as it is; browsers read it so, parsers of XML do not.
+    text.replace("<mo><</mo>", "<mo>&lt;</mo>")
 }
 
 /// Brackets about a matrix stretch only in a font made for mathematics. The style of the page draws
