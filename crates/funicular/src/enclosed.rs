@@ -1,9 +1,11 @@
 //! Enclosures of frequencies: an equilibrium proved to lie in a box, and the `ω²` about it.
 
 use model::Vector;
+use model::evidence::NoBox;
 use model::system::System;
 use motion::{Enclosures, EquilibriumBox, MOST_ENCLOSED_JOINTS, NotEnclosed};
 use serde::Serialize;
+use validate::Tolerances;
 
 /// Whether the `ω²` of an equilibrium are enclosed by interval arithmetic.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -81,6 +83,13 @@ fn proved(
     }
     let proof = census::network::prove(system, joints_m, axial_n)
         .map_err(|no_box| format!("the equilibrium is not proved: {no_box}"))?;
+    // A box next to a fold may hold the neighbour. NaN is near to nothing.
+    let distance_m = proof.beyond_m(joints_m);
+    let near = distance_m <= Tolerances::project().joints.value * system.total_length_m();
+    if !near {
+        let distance_n = proof.beyond_n(axial_n);
+        return Err(NoBox::Elsewhere { distance_m, distance_n }.to_string());
+    }
     if let Some(joint) = proof.loose_joints.first() {
         let name = &system.joints()[*joint].name;
         return Err(format!("joint {name:?} hangs on slack members alone"));

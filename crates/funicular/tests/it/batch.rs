@@ -158,7 +158,10 @@ fn an_interrupted_batch_leaves_whole_lines() {
         .spawn()
         .unwrap();
     let mut to = child.stdin.take().unwrap();
-    let feed = std::thread::spawn(move || while writeln!(to, "{}", chain(1.0)).is_ok() {});
+    // More than are answered in seconds, and few enough to be held where nothing is interrupted.
+    let feed = std::thread::spawn(move || {
+        (0..100_000).take_while(|_| writeln!(to, "{}", chain(1.0)).is_ok()).count()
+    });
     let mut from = BufReader::new(child.stdout.take().unwrap());
     let mut first = String::new();
     from.read_line(&mut first).unwrap();

@@ -32,6 +32,8 @@ impl Residual {
         let pulls = directions.iter().zip(&state.axial).map(|((u, _), axial)| u * *axial);
         let forces = framework.unbalance(pulls);
         let unit = state.largest_force(framework).max(f64::MIN_POSITIVE);
+        // In units of what is too large for a number every force would be small.
+        let unit = if unit.is_finite() { unit } else { f64::NAN };
         let mut merit = 0.0;
         let free = framework.nodes.iter().zip(&forces).map(|(node, force)| {
             let square = node.free.components(force).norm_squared();

@@ -114,7 +114,7 @@ pub enum NotEnclosed {
 ///
 /// Lengths, masses, forces and gravity are the doubles of the system. Moments of inertia are taken
 /// with a few roundings to either side, so that those of homogeneous bars contain `m l²/12`; of
-/// their two moments across `J_y` counts, as in [`modes`](crate::modes).
+/// moments across that differ by a rounding all between them are taken.
 ///
 /// # Errors
 ///

@@ -59,11 +59,15 @@ impl Pencil {
             let (link, axial) = (&spring.link, at.axial_n[spring.link.member]);
             let d = span(link);
             let distance = dot(d, d).sqrt();
+            if is_slack(spring.kind, distance, link.length_m) && axial == Interval::ZERO {
+                found.add(mechanism, link, Interval::ZERO, None);
+                continue;
+            }
             let density = axial / distance;
-            let slope = Interval::point(spring.stiffness_n) / Interval::point(link.length_m);
             let slope = match (spring.kind, axial.sign()) {
-                (Kind::Bar, _) | (Kind::Cable, Some(1)) | (Kind::Strut, Some(-1)) => slope,
-                (_, Some(0)) => Interval::ZERO,
+                (Kind::Bar, _) | (Kind::Cable, Some(1)) | (Kind::Strut, Some(-1)) => {
+                    Interval::point(spring.stiffness_n) / Interval::point(link.length_m)
+                }
                 _ => return Err(NotEnclosed::Undecided { member: link.member + 1 }),
             };
             let u = d.map(|x| x / distance);
@@ -160,13 +164,25 @@ impl Pencil {
     }
 }
 
+/// Whether a member bears nothing at every distance of an interval and next to it: a member that is
+/// just taut is stiff on one side alone.
+fn is_slack(kind: Kind, distance: Interval, length_m: f64) -> bool {
+    match kind {
+        Kind::Cable => distance.hi() < length_m,
+        Kind::Strut => distance.lo() > length_m,
+        _ => false,
+    }
+}
+
 /// The matrix of [`EndInertia`](crate::EndInertia), in intervals, kg.
 fn inertia(bar: &Bar) -> [Interval; 3] {
     let l = Interval::point(bar.length_m());
     let to_centre = Interval::point(bar.centre_m()) / l;
     let from_centre = (l - Interval::point(bar.centre_m())) / l;
-    let moment = bar.inertia_kg_m2()[1];
-    let j = Interval::around(moment, MOMENT_ROUNDING * moment) / l / l;
+    // Both count where they differ by a rounding: an ω² of unequal ones lies between those of either.
+    let [_, second, third] =
+        bar.inertia_kg_m2().map(|moment| Interval::around(moment, MOMENT_ROUNDING * moment));
+    let j = second.hull(third) / l / l;
     let m = Interval::point(bar.mass_kg());
     [
         m * from_centre * from_centre + j,

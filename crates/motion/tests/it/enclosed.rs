@@ -2,7 +2,7 @@
 
 use intervals::{DoubleDouble, Interval};
 use model::Bar;
-use model::system::{Joint, Member, Support, System};
+use model::system::{Joint, Kind, Member, Support, System};
 use motion::{Enclosures, EquilibriumBox, NotEnclosed, enclose_modes};
 use proptest::prelude::*;
 
@@ -176,6 +176,52 @@ fn a_wider_box_gives_wider_enclosures_around_those_of_a_narrow_one() {
     let at = [[Interval::ZERO; 3], anywhere];
     let lost = EquilibriumBox { joints_m: &at, axial_n: &[exact(4.9)], turns: 0 };
     assert!(enclose_modes(&system, &lost).is_err());
+}
+
+#[test]
+fn an_equilibrium_at_the_edge_of_its_box_has_its_frequencies_enclosed() {
+    // Two hanging rods, (3 -+ 6/√7) g/l. The middle of the box is bent by a fiftieth of a radian,
+    // which changes the frequencies there by some 1e-4.
+    let system = hanging(&rods(2), &[]);
+    let g = exact(9.81);
+    let beside = Interval::new(0.0, 0.02);
+    let at =
+        [[exact(0.0); 3], [beside, exact(0.0), exact(-1.0)], [exact(0.0), exact(0.0), exact(-2.0)]];
+    let axial = [exact(1.5) * g, exact(0.5) * g];
+    let at = EquilibriumBox { joints_m: &at, axial_n: &axial, turns: 0 };
+    let found = enclose_modes(&system, &at).unwrap();
+    let swing = exact(6.0) / exact(7.0).sqrt();
+    let told = [exact(3.0) - swing, exact(3.0) + swing].map(|factor| factor * g);
+    assert_eq!((found.inertia, found.omega2_s2.len()), (Some([0, 0, 4]), 4));
+    for (k, omega2) in found.omega2_s2.iter().enumerate() {
+        assert!(omega2.encloses(told[k / 2]) && omega2.width() < 0.3 * omega2.mag(), "{omega2:?}");
+    }
+}
+
+#[test]
+fn a_cable_that_is_just_taut_is_undecided() {
+    // A rod hangs at the end of a level elastic cable of just its distance: stiff to one side alone.
+    let cable = |length_m| {
+        let joints = vec![
+            Joint::anchor("O", [0.0; 3]),
+            Joint::anchor("A", [-1.0, 0.0, -1.0]),
+            Joint::free("P"),
+        ];
+        let rod = Member::bar(0, 2, Bar::homogeneous(1.0, 2.0).unwrap());
+        let mut cord = Member::bar(1, 2, Bar::homogeneous(length_m, 0.0).unwrap());
+        (cord.kind, cord.stiffness_n) = (Kind::Cable, Some(100.0));
+        let system = System::new("held", 9.81, joints, vec![rod, cord]).unwrap();
+        let at = [[0.0; 3], [-1.0, 0.0, -1.0], [0.0, 0.0, -1.0]].map(|x| x.map(exact));
+        let at =
+            EquilibriumBox { joints_m: &at, axial_n: &[exact(9.81), Interval::ZERO], turns: 0 };
+        enclose_modes(&system, &at)
+    };
+    assert_eq!(cable(1.0).unwrap_err(), NotEnclosed::Undecided { member: 2 });
+    // Longer, it is slack, and the rod swings freely.
+    let free = cable(1.25).unwrap();
+    for omega2 in free.omega2_s2 {
+        meets(omega2, exact(1.5) * exact(9.81));
+    }
 }
 
 #[test]
