@@ -170,7 +170,7 @@ fn is_slack(kind: Kind, distance: Interval, length_m: f64) -> bool {
     match kind {
         Kind::Cable => distance.hi() < length_m,
         Kind::Strut => distance.lo() > length_m,
-        _ => false,
+        Kind::Bar => false,
     }
 }
 
