@@ -4,8 +4,8 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
 
-use funicular::{Animation, ForceTable, Order};
 use funicular::prelude::{Simulate, Start, Vector};
+use funicular::{Animation, ForceTable, Order};
 use numpy::{PyArrayMethods as _, PyReadonlyArrayDyn};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;

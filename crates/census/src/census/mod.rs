@@ -148,6 +148,7 @@ impl Census {
 
         let (zeros, unclear) = merge(&system, search.zeros);
         let mut undecided: Vec<Undecided> = vec![];
+        let all = unloaded.equilibria.is_empty() && unloaded.degenerate.is_empty();
         for task in gather(search.undecided) {
             let reason = if search.exhausted {
                 Reason::Budget
@@ -158,7 +159,7 @@ impl Census {
             };
             let mut open = Undecided::new(&system, reason, &task.cell, &task.patterns);
             if let (Reason::Degenerate, [pattern]) = (reason, &task.patterns[..]) {
-                open.bound = Bound::of(&system, &task.cell, *pattern, &zeros);
+                open.bound = Bound::of(&system, &task.cell, *pattern, &zeros, all);
             }
             // None besides those listed: decided.
             if open.bound.is_none_or(|bound| bound.at_most > 0) {

@@ -7,6 +7,7 @@ use crate::closure::{Closure, Pattern};
 use crate::degenerate::arc::{Counted, count};
 use crate::degenerate::maps::closure;
 use crate::plane::cell::Cell;
+use crate::plane::face::Face;
 use crate::plane::system::System;
 use crate::search::merge::Zeros;
 
@@ -18,18 +19,20 @@ pub struct Bound {
     /// At most so many, counted with multiplicity, besides those that are listed.
     pub at_most: usize,
     /// Those where the determinant of the closure's derivative is positive less those where it is
-    /// negative: their number has the same parity.
-    pub degree: i8,
+    /// negative: their number has the same parity. None where zeros are counted that are no pulls
+    /// (beyond infinity, w < 0), or that may be listed elsewhere.
+    pub degree: Option<i8>,
 }
 
 impl Bound {
     /// Of the zeros of one pattern in a box, those that are listed left out; `None` where nothing is
-    /// proved.
+    /// proved. `all` says that no equilibrium is listed but these.
     pub(crate) fn of(
         system: &System,
         cell: &Cell,
         pattern: Pattern,
         listed: &Zeros,
+        all: bool,
     ) -> Option<Self> {
         let signs: Vec<i8> = pattern.signs(system.bars()).collect();
         let map = |at: [Interval; 2]| closure(system, &signs, cell.face, at);
@@ -52,6 +55,8 @@ impl Bound {
             degree = degree.checked_sub((a * d - b * c).sign()?)?;
             at_most = at_most.checked_sub(1)?;
         }
+        let near = matches!(cell.face, Face::Near | Face::Around(_));
+        let degree = (all && (near || at[1].lo() > 0.0)).then_some(degree);
         Some(Self { at_most, degree })
     }
 }

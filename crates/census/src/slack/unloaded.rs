@@ -172,9 +172,10 @@ fn prove(closure: &AxialClosure) -> Option<ProvenEquilibrium> {
         radius *= NEXT_DISC;
     }
     let tight = found?;
-    // Any other the search finds by itself.
+    // Any other the search finds by itself, and one outside of the square that is settled too.
     let most = tight.at[0].mag();
-    if most > TOO_LITTLE || most > NEXT_TO_NOTHING && !tight.at[0].contains(0.0) {
+    let outside = tight.at.iter().any(|part| part.mag() > 0.5 * radius);
+    if outside || most > TOO_LITTLE || most > NEXT_TO_NOTHING && !tight.at[0].contains(0.0) {
         return None;
     }
     let bars = closure.bars(tight.at)?;

@@ -139,7 +139,8 @@ pub struct Open {
     pub at: [Enclosure; 2],
     /// The pulls in it, if they are bounded.
     pub pull_n: Option<[Enclosure; 2]>,
-    /// At most so many equilibria, counted with multiplicity, besides those listed; if that is proved.
+    /// At most so many equilibria in the box and next to it, counted with multiplicity, besides those
+    /// listed; if that is proved.
     pub at_most: Option<usize>,
     /// Of what degree they are together: their number has the same parity.
     pub degree: Option<i8>,
@@ -356,7 +357,7 @@ fn open(undecided: &Undecided) -> Open {
         at: undecided.at.map(ends),
         pull_n: undecided.pull_n.and_then(finite),
         at_most: undecided.bound.map(|bound| bound.at_most),
-        degree: undecided.bound.map(|bound| bound.degree),
+        degree: undecided.bound.and_then(|bound| bound.degree),
     }
 }
 
