@@ -9,6 +9,7 @@ from pathlib import Path
 
 import nbformat
 from jupyter_client.manager import AsyncKernelManager
+from jupyter_core.utils import run_sync
 from nbclient import NotebookClient
 
 HERE = Path(__file__).resolve().parent
@@ -84,7 +85,10 @@ def execute(notebook):
     with tempfile.TemporaryDirectory(prefix="kernel-") as folder:
         kernel = AsyncKernelManager(kernel_name="python3", transport="ipc", ip=str(Path(folder) / "socket"))
         resources = {"metadata": {"path": str(HERE)}}
-        NotebookClient(notebook, timeout=TIMEOUT_S, km=kernel, resources=resources).execute()
+        try:
+            NotebookClient(notebook, timeout=TIMEOUT_S, km=kernel, resources=resources).execute()
+        finally:
+            run_sync(kernel.shutdown_kernel)(now=True)
 
 
 def main():
