@@ -1,22 +1,20 @@
-//! The words of the evidence, all of them.
-//!
-//! The alternate form, `{:#}`, tells what is only rounding as a bound, the same on every machine.
+//! What is proved or found, in words.
 
 use std::fmt::{self, Display, Formatter};
 
-use super::agreed::{
+use super::{counted, size};
+use crate::evidence::agreed::{
     Agreed, Disagreement, Excess, FreeJoints, Place, Quantity, Room, StabilityDifference,
 };
-use super::certificate::{NoCertificate, Optimal};
-use super::complete::{Complete, CompleteSystem, NoCensus};
-use super::convergence::{Convergence, ForceUncertainty, UncertaintyCause};
-use super::force_family::{ForceChoice, ForceFamily};
-use super::reason::{NoAnswer, Reason};
-use super::rigidity::Rigidity;
-use super::rung::Rung;
-use super::self_stresses::SelfStresses;
-use super::status::Status;
-use super::verified::{NoBox, Verified, VerifiedSystem};
+use crate::evidence::certificate::Optimal;
+use crate::evidence::complete::{Complete, CompleteSystem};
+use crate::evidence::convergence::{Convergence, ForceUncertainty, UncertaintyCause};
+use crate::evidence::force_family::{ForceChoice, ForceFamily};
+use crate::evidence::rigidity::Rigidity;
+use crate::evidence::rung::Rung;
+use crate::evidence::self_stresses::SelfStresses;
+use crate::evidence::status::Status;
+use crate::evidence::verified::{Verified, VerifiedSystem};
 use crate::number::Number;
 
 impl Display for Rung {
@@ -38,12 +36,6 @@ impl<P: Display> Display for Status<P> {
             Self::Open(reason) => reason.fmt(f),
         }
     }
-}
-
-/// What may be only rounding, in the form that is asked for.
-fn size(f: &Formatter<'_>, value: f64) -> String {
-    let number = Number::size(value, 1);
-    if f.alternate() { format!("{number:#}") } else { number.to_string() }
 }
 
 impl Display for Convergence {
@@ -307,61 +299,6 @@ impl VerifiedSystem {
     }
 }
 
-/// A number of things.
-fn counted(number: usize, thing: &str) -> String {
-    format!("{number} {thing}{}", if number == 1 { "" } else { "s" })
-}
-
-impl Display for NoBox {
-    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        f.write_str("no box is proved to hold exactly one equilibrium: ")?;
-        match self {
-            Self::TooLarge { unknowns, limit } => {
-                write!(f, "{unknowns} unknowns, and the limit is {limit}")
-            }
-            Self::SelfStresses { dimension } => write!(
-                f,
-                "the members bear {} without any load, so the forces are a family",
-                counted(*dimension, "independent state")
-            ),
-            Self::FreeMotions { dimension } => write!(
-                f,
-                "nothing brings the joints back, to first order, from {}",
-                counted(*dimension, "independent motion")
-            ),
-            Self::Degenerate { member } => {
-                write!(f, "member {member} has just its length and bears no force")
-            }
-            Self::WrongSign { member } => {
-                write!(
-                    f,
-                    "member {member} is not proved to bear a force of the sign that its kind allows"
-                )
-            }
-            Self::NotSlack { member } => write!(f, "member {member} is not proved to be slack"),
-            Self::BetweenAnchors { member } => {
-                write!(f, "member {member} connects two anchors, and nothing tells its force")
-            }
-            Self::Floor { joint } => write!(
-                f,
-                "joint {joint} is not proved to be above the floor, nor to be pushed by it"
-            ),
-            Self::NotConverged => f.write_str(
-                "no equilibrium with the same members in action is found next to the answer",
-            ),
-            Self::Singular => f.write_str("the derivative of the equations is singular"),
-            Self::NotContracting => f.write_str(
-                "Krawczyk's test fails, as it does next to places with a singular derivative",
-            ),
-            Self::Elsewhere { distance_m, distance_n } => write!(
-                f,
-                "the equilibrium that is proved is {distance_m:.1e} m and {distance_n:.1e} N away"
-            ),
-            Self::NotFinite => f.write_str("the answer is incomplete or not finite"),
-        }
-    }
-}
-
 impl Display for Complete {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let Self { in_plane, families, patterns, cells, system } = self;
@@ -399,181 +336,6 @@ impl Display for Optimal {
                     ": no configuration has less energy than {gap} of weight times length below this one"
                 )
             }
-        }
-    }
-}
-
-/// Each part in a sentence.
-fn sentences(parts: &[impl Display]) -> Vec<String> {
-    parts.iter().map(ToString::to_string).collect()
-}
-
-/// What the judge of balance found of an answer that stands alone.
-fn balance(f: &mut Formatter<'_>, statics: f64) -> fmt::Result {
-    let statics = size(f, statics);
-    write!(f, "; the statics judge finds every bar in balance to {statics}")
-}
-
-impl Display for Reason {
-    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::NotTried => f.write_str("not tried"),
-            Self::AboveTolerance(convergence) => convergence.fmt(f),
-            Self::OneSolverOnly { solver, statics } => {
-                write!(f, "only {solver} was asked")?;
-                balance(f, *statics)
-            }
-            Self::OtherSolverWithoutAnswer { solver, because, statics } => {
-                write!(f, "{solver} {because}")?;
-                balance(f, *statics)
-            }
-            Self::SolversDisagree(disagreement) => disagreement.fmt(f),
-            Self::JudgeRefuses { excesses } => {
-                write!(f, "the judge refuses this answer: {}", sentences(excesses).join("; "))
-            }
-            Self::RefutedByCensus { distance } => write!(
-                f,
-                "refuted: the census lists all equilibria with proof, and the nearest lies {distance:.1e} of the total \
-                 length away"
-            ),
-            Self::NoCensus(because) => because.fmt(f),
-            Self::SlackFamily => f.write_str(
-                "the answer is one of a family with slack bars, which the census lists as a whole: it is not alone in \
-                 any box",
-            ),
-            Self::NotAmongDecided { cells } => write!(
-                f,
-                "the census leaves {cells} cells of pulls undecided, and this answer is in none of its boxes"
-            ),
-            Self::Elsewhere { distance } => write!(
-                f,
-                "the nearest equilibrium of the census lies {distance:.1e} of the total length away"
-            ),
-            Self::NothingListed => {
-                f.write_str("the census lists no equilibrium to compare with")
-            }
-            Self::CensusUndecided { cells } => write!(f, "{cells} cells of pulls are undecided"),
-            Self::DegenerateEquilibria { listed: 1 } => {
-                f.write_str("one degenerate equilibrium is listed apart")
-            }
-            Self::DegenerateEquilibria { listed } => {
-                write!(f, "{listed} degenerate equilibria are listed apart")
-            }
-            Self::StraightPosition { sides } => write!(
-                f,
-                "sides {} are together as long as the others: a straight position exists, and the configuration space \
-                 is no manifold there",
-                sides.iter().map(usize::to_string).collect::<Vec<_>>().join(", ")
-            ),
-            Self::CountUnchecked { sides } => write!(
-                f,
-                "the number of equilibria is not checked: the topology of a polygon of {sides} sides is not counted"
-            ),
-            Self::NoBox(because) => because.fmt(f),
-            Self::NoCertificate(because) => because.fmt(f),
-        }
-    }
-}
-
-impl Display for NoAnswer {
-    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::MinimaOnly => "looks for minima and has no answer here",
-            Self::Refused => "has no answer",
-        })
-    }
-}
-
-impl Display for NoCensus {
-    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::NotAsked => f.write_str("no interval proof was tried (`funicular census` does)"),
-            Self::TooManyBars { bars, limit } => {
-                write!(f, "no census: {bars} bars, and the limit is {limit}")
-            }
-            Self::Settings => f.write_str("no census: its settings are out of range"),
-            Self::Refused => f.write_str("no census: the system is no equilibrium problem"),
-            Self::Closures { closures } => write!(
-                f,
-                "no census: {closures} independent closures in one part, with more joints than are searched or self-stresses"
-            ),
-            Self::Motions { closures, motions, limit } => write!(
-                f,
-                "no census: a net of {closures} closures whose joints move in {motions} independent ways, and the limit \
-                 is {limit}"
-            ),
-            Self::Bridle { bars, limit } => {
-                write!(f, "no census: the strands of a bridle have {bars} bars, and the limit is {limit}")
-            }
-            Self::Undecided { boxes } => {
-                write!(f, "{boxes} boxes of places of the joints of a net are undecided")
-            }
-            Self::PlaneOnly => f.write_str(
-                "the list is complete among the configurations in the vertical plane of the anchors; no others were looked for",
-            ),
-            Self::Turns { joint } => write!(
-                f,
-                "no census: what hangs at joint number {joint} turns freely about the vertical"
-            ),
-            Self::LoadsNotDown { joint } => write!(
-                f,
-                "no census: joint number {joint} of a chain between anchors bears a force that is not straight down"
-            ),
-            Self::Elastic { member } => {
-                write!(f, "no census: member {member} of a chain between anchors is elastic")
-            }
-            Self::NotABar { member } => {
-                write!(f, "no census: member {member} is no inextensible bar")
-            }
-            Self::Limp { member } => write!(
-                f,
-                "no census: member {member} bears nothing that is proved to turn it, and may point anywhere"
-            ),
-            Self::Flat { joint } => write!(
-                f,
-                "no census: the members that hold joint number {joint} may lie flat, or nothing pulls it aside"
-            ),
-            Self::Floor => f.write_str("no census knows a floor"),
-            Self::Slider { joint } => {
-                write!(f, "no census: joint number {joint} slides")
-            }
-            Self::TooManyPositions { limit } => {
-                write!(f, "no census: more than {limit} equilibria")
-            }
-        }
-    }
-}
-
-impl Display for NoCertificate {
-    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::SeveralCompressed { bars } => write!(
-                f,
-                "{bars} bars are in compression: the stress matrix is indefinite, there is less energy elsewhere"
-            ),
-            Self::Indefinite { bar, excess } => write!(
-                f,
-                "bar {bar} is pressed too hard: the sum of the inverse force densities is {excess:e} of its terms, the \
-                 stress matrix is indefinite, there is less energy elsewhere"
-            ),
-            Self::Gap { gap } => {
-                write!(f, "the lower bound stays {gap:.1e} of weight times length below the energy")
-            }
-            Self::NotClosed { gap_m, slack_m } => write!(
-                f,
-                "the last joint is {gap_m:.1e} m from its anchor, and the chain has only {slack_m:.1e} m of slack"
-            ),
-            Self::EnergyFalls { directions } => {
-                write!(f, "the energy falls in {directions} directions")
-            }
-            Self::PivotsUndecided => {
-                f.write_str("the pivots of the stress matrix are not proved positive")
-            }
-            Self::NotDefinite { compressed } => write!(
-                f,
-                "the stress matrix is not proved positive definite, with {compressed} members compressed"
-            ),
-            Self::Unusable => f.write_str("the answer is incomplete or not finite"),
         }
     }
 }
