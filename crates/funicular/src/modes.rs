@@ -16,6 +16,11 @@ use crate::threads;
 /// its unstable equilibria: of all equilibria of a chain where a census is complete, of the stable
 /// one otherwise.
 ///
+/// Inextensible cables and struts are bars in small motions where they certainly bear a force, and
+/// hold nothing where they are slack; joints that a floor pushes slide in its level; what is neither
+/// is refused. Bars whose moments of inertia
+/// across differ have their second axis level.
+///
 /// ```
 /// use funicular::prelude::*;
 /// // Two bars of 1 m between level anchors swing about them like a plate: ω² = M g h / J with

@@ -54,9 +54,23 @@ pub(crate) fn is_symmetric(bar: &Bar) -> bool {
     (jy - jz).abs() <= EQUAL_MOMENTS * jy.max(jz)
 }
 
-pub(crate) fn unequal(number: usize, bar: &Bar) -> MotionError {
+pub(crate) fn unequal(number: usize, bar: &Bar, reason: &'static str) -> MotionError {
     let moments_kg_m2 = bar.inertia_kg_m2();
-    MotionError::UnequalMoments { member: number + 1, moments_kg_m2 }
+    MotionError::UnequalMoments { member: number + 1, moments_kg_m2, reason }
+}
+
+/// Part of its length that a bar reaches to the side and counts as upright: places of equilibria
+/// are rounded more coarsely than doubles.
+const UPRIGHT: f64 = 1e-9;
+
+/// The second principal axis of a bar along `d` that has not turned about itself: level; where the
+/// bar is upright along OY.
+pub(crate) fn second_axis(d: Vector) -> Vector {
+    let level = [-d[1], d[0], 0.0];
+    let size = norm(level);
+    let near = if size > UPRIGHT * norm(d) { times(1.0 / size, level) } else { [0.0, 1.0, 0.0] };
+    let across = add_times(near, -dot(near, d) / dot(d, d), d);
+    times(1.0 / norm(across), across)
 }
 
 /// Add corners to all bars whose moments across differ.
@@ -74,9 +88,10 @@ pub(crate) fn expand(system: &System) -> Result<Expanded, MotionError> {
         if is_symmetric(bar) {
             continue;
         }
-        let refused = || unequal(number, bar);
+        let refused =
+            || unequal(number, bar, "in motion each has to be less than the sum of the other two");
         if member.stiffness_n.is_some() {
-            return Err(refused());
+            return Err(unequal(number, bar, "it may stretch, and they differ across it"));
         }
         let corner = joints.len();
         let [a, b, p, q] = [member.from, member.to, corner, corner + 1];
@@ -98,7 +113,10 @@ pub(crate) fn expand(system: &System) -> Result<Expanded, MotionError> {
         return Ok(Expanded { system: system.clone(), inertia, cornered });
     }
     let expanded = System::new(system.name(), system.gravity_m_s2(), joints, members);
-    let system = expanded.map_err(|_| unequal(cornered[0].member, &system.members()[0].body))?;
+    let system = expanded.map_err(|_| {
+        let first = cornered[0].member;
+        unequal(first, &system.members()[first].body, "corners find no place in the system")
+    })?;
     Ok(Expanded { system, inertia, cornered })
 }
 
@@ -129,15 +147,11 @@ fn matrix(bar: &Bar) -> Option<[EndInertia; 6]> {
 }
 
 impl Cornered {
-    /// Append the places of the corners to those of the joints: the second axis is level (along OY
-    /// where the bar is upright).
+    /// Append the places of the corners to those of the joints: see [`second_axis`].
     pub(crate) fn place(&self, bar: &Bar, at: &mut Vec<Vector>) {
         let [a, b, _] = self.joints;
         let d = minus(at[b], at[a]);
-        let level = [-d[1], d[0], 0.0];
-        let size = norm(level);
-        let second =
-            if size > EQUAL_MOMENTS * norm(d) { times(1.0 / size, level) } else { [0.0, 1.0, 0.0] };
+        let second = second_axis(d);
         let third = cross(d, second);
         let arm = ARM * bar.length_m();
         let centre = add_times(at[a], bar.centre_m() / bar.length_m(), d);

@@ -18,21 +18,51 @@ pub enum MotionError {
         /// `cable` or `strut`.
         kind: &'static str,
     },
+    /// Occurs when an inextensible cable or strut about whose equilibrium a system oscillates is
+    /// neither taut, with a force that is more than rounding, nor slack: on one side it would hold
+    /// its ends, on the other it would not, and no small motion is linear.
+    #[error(
+        "member {member} is an inextensible {kind} that is neither certainly taut nor slack: its ends are \
+         {distance_m} m apart, its length is {length_m} m, and it bears {axial_n} N; small motions are not \
+         linear there"
+    )]
+    NeitherTautNorSlack {
+        /// Number of the member, from 1.
+        member: usize,
+        /// `cable` or `strut`.
+        kind: &'static str,
+        /// Distance of its ends, m.
+        distance_m: f64,
+        /// Its length, m.
+        length_m: f64,
+        /// Its axial force, tension positive, N.
+        axial_n: f64,
+    },
+    /// Occurs when a joint about whose equilibrium a system oscillates lies on a floor that does not
+    /// certainly push it: it may rise and not sink, and no small motion is linear.
+    #[error(
+        "joint {joint:?} lies on the floor, which pushes it with {push_n} N: that is not certainly more than \
+         nothing, and small motions are not linear there"
+    )]
+    NotPushed {
+        /// Name of the joint.
+        joint: String,
+        /// Force of the floor on it, up, N.
+        push_n: f64,
+    },
     /// Occurs when there is a floor: joints meet it with impacts, for which no law is given.
     #[error("there is a floor: joints fall onto it with impacts, and no law of impact is given")]
     Floor,
-    /// Occurs when the two moments across a bar differ where that is not provided for (small
-    /// oscillations, members with a stiffness), or when no body has its moments.
-    #[error(
-        "the moments of member {member} are {moments_kg_m2:?} kg m^2: those across it differ; \
-         a rigid bar in motion may have such if each is less than the sum of the other two, \
-         other members and small oscillations may not"
-    )]
+    /// Occurs when the two moments across a member differ where that is not provided for (members
+    /// with a stiffness, flat bodies in motion), or when no body has its moments.
+    #[error("the moments of member {member} are {moments_kg_m2:?} kg m^2: {reason}")]
     UnequalMoments {
         /// Number of the member, from 1.
         member: usize,
         /// `J_x`, `J_y`, `J_z`.
         moments_kg_m2: [f64; 3],
+        /// Why they are refused.
+        reason: &'static str,
     },
     /// Occurs when a joint can be moved without moving any mass.
     #[error(

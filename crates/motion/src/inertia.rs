@@ -37,10 +37,15 @@ impl EndInertia {
     /// ```
     #[must_use]
     pub fn new(bar: &Bar) -> Self {
+        Self::with_moment(bar, bar.inertia_kg_m2()[1])
+    }
+
+    /// The matrix with another moment across, kg m².
+    pub(crate) fn with_moment(bar: &Bar, moment_kg_m2: f64) -> Self {
         let (l, m) = (bar.length_m(), bar.mass_kg());
         let to_centre = bar.centre_m() / l;
         let from_centre = (l - bar.centre_m()) / l;
-        let j = bar.inertia_kg_m2()[1] / l / l;
+        let j = moment_kg_m2 / l / l;
         Self {
             from: m * from_centre * from_centre + j,
             between: m * to_centre * from_centre - j,

@@ -68,6 +68,8 @@
 //! | falling folded chain | the theory that keeps the energy, which experiments confirm | 0.4 % of the velocity | `folded` |
 //! | a level chain let go | its end falls as a free body, as in experiments | 6e-7 of the fall | `folded` |
 //! | a weight on an elastic cord that goes slack, and on a prop | free fall and harmonic motion, joined | 8e-7 m | `slack` |
+//! | small oscillations of bars with three moments | motions of small amplitude; compound and bifilar pendulum | 2e-6 of the amplitude; 1e-12 | `unequal` |
+//! | of what taut cables and a floor hold | closed forms | 1e-13 | `held` |
 //! | small oscillations | closed forms and polynomials, in intervals | inside the enclosures, 1e-12 wide | `enclosed` |
 //! | open and closed chains, 3 to 300 bars | MuJoCo, Pinocchio, Exudyn | within their errors | `benches/peers/motion` |
 //!
@@ -76,10 +78,12 @@
 //! Every system of bars moves: rigid or elastic bars, point masses, sliders, loads, and elastic
 //! cables and struts, which go slack and taut by their potential `EA/(2l) max(0, e)²` without an
 //! impact. Inextensible cables and struts, and floors, are refused: what becomes taut or falls on a
-//! floor needs a law of impact, which no equilibrium knows. Joints without any inertia are refused:
-//! their acceleration is indeterminate. Where the two moments across a bar are equal its spin is apart, and a bar without spin
-//! never gets any; where they differ the bar has four points for two ([`Turning`]), and begins
-//! without spin, its second axis level. Modes are those of bars with equal moments.
+//! floor needs a law of impact, which no equilibrium knows. Modes are those of inextensible cables
+//! and struts too, where these are certainly taut or slack, and of what a floor pushes. Joints without any inertia are refused:
+//! their acceleration is indeterminate. Where the two moments across a bar are equal its spin is
+//! apart, and a bar without spin never gets any; where they differ the bar has four points for two
+//! ([`Turning`]), and begins without spin, its second axis level. Modes are about the same position,
+//! of any body; one in motion may not be flat.
 
 mod assemble;
 mod composition;
@@ -101,6 +105,8 @@ mod settings;
 mod simulation;
 mod snapshot;
 mod state;
+mod unequal;
+mod unilateral;
 mod vector;
 
 pub use assemble::{assemble, random_position};

@@ -3,10 +3,12 @@
 use model::Vector;
 use model::system::{Kind, Member, Support, System};
 
-use crate::corners::{Cornered, Expanded, expand, is_symmetric, unequal};
+use crate::corners::{Cornered, Expanded, expand};
 use crate::error::MotionError;
 use crate::inertia::EndInertia;
 use crate::order::order;
+use crate::unequal::smaller;
+use crate::unilateral::refuse_inextensible;
 use crate::vector::{add_times, minus};
 
 /// A system of bars as the mechanics of the places of its joints (natural coordinates).
@@ -57,7 +59,7 @@ pub(crate) struct Link {
 pub(crate) struct Spring {
     pub link: Link,
     pub kind: Kind,
-    /// `EA`, N.
+    /// `EA`, N; zero of an inextensible member that is slack.
     pub stiffness_n: f64,
 }
 
@@ -71,29 +73,33 @@ pub(crate) struct Slide {
 }
 
 impl Mechanism {
-    /// The mechanics of a system.
+    /// The mechanics of a system in small motions.
     ///
     /// # Errors
     ///
     /// [`MotionError`] when the system has members or joints whose motion is indeterminate:
-    /// inextensible cables and struts, bars with different moments across, joints without inertia.
+    /// inextensible cables and struts, moments that no body has, joints without inertia.
     pub fn new(system: &System) -> Result<Self, MotionError> {
-        let members = system.members().iter().enumerate();
-        if let Some((k, member)) = members.into_iter().find(|(_, m)| !is_symmetric(&m.body)) {
-            check(k + 1, member)?;
-            return Err(unequal(k, &member.body));
-        }
-        Self::for_places(system)
+        refuse_inextensible(system)?;
+        Self::for_small_motions(system)
+    }
+
+    /// The same, where inextensible cables and struts are slack.
+    pub(crate) fn for_small_motions(system: &System) -> Result<Self, MotionError> {
+        let inertia = smaller(system)?;
+        Self::build(Expanded { system: system.clone(), inertia, cornered: Vec::new() }, None)
     }
 
     /// For places alone, where nothing depends on how bars spin.
     pub(crate) fn for_places(system: &System) -> Result<Self, MotionError> {
+        refuse_inextensible(system)?;
         let inertia = system.members().iter().map(|m| EndInertia::new(&m.body)).collect();
         Self::build(Expanded { system: system.clone(), inertia, cornered: Vec::new() }, None)
     }
 
     /// For motions: with corners at bars whose moments across differ.
     pub(crate) fn for_motion(system: &System) -> Result<Self, MotionError> {
+        refuse_inextensible(system)?;
         let expanded = expand(system)?;
         let given = (!expanded.cornered.is_empty()).then(|| system.clone());
         Self::build(expanded, given)
@@ -103,9 +109,6 @@ impl Mechanism {
         let Expanded { system, inertia, cornered } = expanded;
         if given.as_ref().unwrap_or(&system).floor_m().is_some() {
             return Err(MotionError::Floor);
-        }
-        for (k, member) in system.members().iter().enumerate() {
-            check(k + 1, member)?;
         }
         let joints = system.joints();
         let moves: Vec<bool> = joints.iter().map(|joint| !joint.support.is_fixed()).collect();
@@ -192,10 +195,12 @@ impl Mechanism {
             let [at_a, at_b] = end_loads(member, self.system.gravity_m_s2());
             self.load[link.a] = add_times(self.load[link.a], 1.0, at_a);
             self.load[link.b] = add_times(self.load[link.b], 1.0, at_b);
-            match member.stiffness_n {
-                None => self.bars.push(link),
-                Some(stiffness_n) => {
-                    self.springs.push(Spring { link, kind: member.kind, stiffness_n });
+            match (member.stiffness_n, member.kind) {
+                (None, Kind::Bar) => self.bars.push(link),
+                (stiffness_n, kind) => {
+                    // Inextensible cables and struts that come here are slack.
+                    let stiffness_n = stiffness_n.unwrap_or(0.0);
+                    self.springs.push(Spring { link, kind, stiffness_n });
                 }
             }
         }
@@ -292,18 +297,6 @@ pub(crate) fn end_loads(member: &Member, gravity_m_s2: f64) -> [Vector; 2] {
         ends[1] = add_times(ends[1], far, force_n);
     }
     ends
-}
-
-fn check(number: usize, member: &Member) -> Result<(), MotionError> {
-    let unilateral = match member.kind {
-        Kind::Bar => None,
-        Kind::Cable => Some("cable"),
-        Kind::Strut => Some("strut"),
-    };
-    if let (Some(kind), None) = (unilateral, member.stiffness_n) {
-        return Err(MotionError::Unilateral { member: number, kind });
-    }
-    Ok(())
 }
 
 /// Two unit vectors across a unit vector and each other.

@@ -18,8 +18,16 @@ use crate::progress::Progress;
 use crate::tables::{numbers_from, short, table, wrapped};
 use crate::threads;
 
+/// What is taken for granted of positions at rest.
+const HELP: &str = "\
+Inextensible cables that pull and struts that push are bars in small motions, slack ones hold
+nothing; joints that the floor pushes slide in its level. What is neither is refused. Bars with
+different moments of inertia across have their second axis level (along OY where they are upright),
+as in `simulate`.";
+
 /// `funicular modes`.
 #[derive(Debug, Args)]
+#[command(after_long_help = HELP)]
 pub struct Modes {
     #[command(flatten)]
     pub input: Source,

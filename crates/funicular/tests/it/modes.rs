@@ -98,6 +98,67 @@ fn closed_forms_lie_in_the_enclosures_and_large_systems_say_that_they_have_none(
 }
 
 #[test]
+fn cables_that_pull_struts_that_push_and_a_floor_hold_in_small_motions() {
+    let folder = tempfile::tempdir().unwrap();
+    // A closed ring of bars that hangs by three cables.
+    let found = json(folder.path(), &["modes", "--case", "ring", "--json"]);
+    let equilibrium = &found["equilibria"][0];
+    assert_eq!(equilibrium["index_by_modes"], equilibrium["index_in_space"]);
+    assert_eq!(equilibrium["enclosed"]["inertia"]["positive"], equilibrium["modes_in_all"]);
+    // The lamp of the triangle 3, 4, 5 swings about the line of its anchors, 4 m below it.
+    let found = json(folder.path(), &["modes", "--case", "lamp", "--json"]);
+    let [[low, high]] = enclosures(&found["equilibria"][0])[..] else { panic!("{found}") };
+    let told = 9.806_65 / 4.0;
+    assert!(low <= told + 1e-12 && told - 1e-12 <= high && high - low < 1e-12, "{low} {high}");
+    // 2 kg on a floor between cords of 1 m, EA = 400 N, stretched to 1.25 m: 2 T/(d m) across them
+    // and 2 EA/(l m) along them.
+    let laid = "floor_m = 0.25\n\
+                joints = { A = { at_m = [-1.25, 0, 0.25] }, B = { at_m = [1.25, 0, 0.25] }, P = { mass_kg = 2 } }\n\
+                bars = [{ from = \"A\", to = \"P\", kind = \"cable\", length_m = 1, mass_kg = 0, stiffness_n = 400 }, \
+                { from = \"B\", to = \"P\", kind = \"cable\", length_m = 1, mass_kg = 0, stiffness_n = 400 }]\n";
+    std::fs::write(folder.path().join("laid.toml"), laid).unwrap();
+    let found = json(folder.path(), &["modes", "laid.toml", "--json"]);
+    let ends = enclosures(&found["equilibria"][0]);
+    for ([low, high], told) in ends.iter().zip([80.0, 400.0]) {
+        assert!(*low <= told && told <= *high && high - low < 1e-10, "{ends:?}");
+    }
+    assert_eq!(ends.len(), 2);
+}
+
+#[test]
+fn three_different_moments_are_enclosed_and_a_member_that_is_just_taut_is_named() {
+    let folder = tempfile::tempdir().unwrap();
+    let found = json(folder.path(), &["modes", "--case", "three-bars-off-centre", "--json"]);
+    let equilibria = found["equilibria"].as_array().unwrap();
+    assert!(equilibria.len() > 1);
+    for equilibrium in equilibria {
+        assert_eq!(equilibrium["enclosed"]["status"], "reached");
+        assert_eq!(equilibrium["enclosed"]["inertia"]["negative"], equilibrium["index_in_space"]);
+    }
+    // A bar that hangs: ω² = m g r/(m r² + J) about either axis, beside its spin.
+    let hanging = "joints = { O = { at_m = [0, 0, 0] }, P = {} }\n\
+                   bars = [{ from = \"O\", to = \"P\", length_m = 1, mass_kg = 2, inertia_kg_m2 = [0.25, 0.5, 0.375] }]\n";
+    std::fs::write(folder.path().join("hanging.toml"), hanging).unwrap();
+    let found = json(folder.path(), &["modes", "hanging.toml", "--json"]);
+    let modes = found["equilibria"][0]["modes"].as_array().unwrap();
+    assert_eq!((modes.len(), &modes[0]["what"]), (3, &"spin of bar 1 about its axis".into()));
+    let ends = enclosures(&found["equilibria"][0]);
+    for ([low, high], moment) in ends[1..].iter().zip([0.5, 0.375]) {
+        let told = 9.806_65 / (0.5 + moment);
+        assert!(*low <= told + 1e-14 && told <= *high + 1e-14 && high - low < 1e-12, "{ends:?}");
+    }
+    // A third cable, level and of just its length, that bears nothing.
+    let lamp = "joints = { A = { at_m = [-3, 0, 0] }, B = { at_m = [3, 0, 0] }, C = { at_m = [-1, 0, -4] }, P = { mass_kg = 2 } }\n\
+                bars = [{ from = \"A\", to = \"P\", length_m = 5, mass_kg = 0 }, { from = \"B\", to = \"P\", length_m = 5, mass_kg = 0 }, \
+                { from = \"C\", to = \"P\", length_m = 1, mass_kg = 0, kind = \"cable\" }]\n";
+    std::fs::write(folder.path().join("just.toml"), lamp).unwrap();
+    let output = run(folder.path(), 1, &["modes", "just.toml"]);
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert!(said.contains("member 3 is an inextensible cable"), "{said}");
+    assert_ne!(output.status.code(), Some(0), "{said}");
+}
+
+#[test]
 fn modes_are_drawn_and_moved_on_a_page() {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("double.toml"), DOUBLE).unwrap();

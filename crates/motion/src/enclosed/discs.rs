@@ -1,6 +1,6 @@
 //! Eigenvalues of a symmetric matrix that is nearly diagonal, by Gershgorin's theorem.
 //!
-//! The eigenvalues of `D⁻¹ A D` with `D = diag(1, .., 1/t, .., 1)` are those of `A`: the disc of
+//! The eigenvalues of `D A D⁻¹` with `D = diag(1, .., 1/t, .., 1)` are those of `A`: the disc of
 //! the row of `1/t` shrinks by `t`, the others grow by what they have in that column. The largest
 //! `t` at which the disc stays apart from all others gives an isolated eigenvalue with an error of
 //! the second order in what is beside the diagonal.

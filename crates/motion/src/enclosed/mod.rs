@@ -30,15 +30,15 @@ use model::system::System;
 use nalgebra::DMatrix;
 
 use crate::error::MotionError;
-use crate::mechanism::Mechanism;
-use crate::modes::approximate_modes;
+use crate::modes::{about_equilibrium, approximate_modes};
 use pencil::Pencil;
 
 /// Systems of at most so many joints that move are enclosed: the work grows with the cube of their
 /// number, and takes some tenths of a second here.
 pub const MOST_ENCLOSED_JOINTS: usize = 60;
 
-/// A box that is proved to hold exactly one equilibrium of a system.
+/// A box that is proved to hold exactly one equilibrium of a system, in which the floor, if there is
+/// one, pushes the joints that lie on it.
 #[derive(Debug, Clone, Copy)]
 pub struct EquilibriumBox<'a> {
     /// Places of all joints, world frame, m.
@@ -82,8 +82,8 @@ pub enum NotEnclosed {
         /// Most of them.
         most: usize,
     },
-    /// Occurs when an elastic cable or strut is not proved to bear a force, nor to be slack: its
-    /// stiffness is undecided.
+    /// Occurs when a cable or strut is not proved to bear a force, nor to be slack: its stiffness
+    /// is undecided.
     #[error("member {member} is not proved to be taut, nor to be slack")]
     Undecided {
         /// Number of the member, from 1.
@@ -114,7 +114,8 @@ pub enum NotEnclosed {
 ///
 /// Lengths, masses, forces and gravity are the doubles of the system. Moments of inertia are taken
 /// with a few roundings to either side, so that those of homogeneous bars contain `m l²/12`; of
-/// moments across that differ by a rounding all between them are taken.
+/// moments across that differ by a rounding all between them are taken. Bars with different moments
+/// across have their second axis as level as it can be across them.
 ///
 /// # Errors
 ///
@@ -139,19 +140,19 @@ pub enum NotEnclosed {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn enclose_modes(system: &System, at: &EquilibriumBox<'_>) -> Result<Enclosures, NotEnclosed> {
-    let mechanism = Mechanism::new(system)?;
     let (places, forces) = (at.joints_m.len(), at.axial_n.len());
     if places != system.joints().len() || forces != system.members().len() {
         return Err(NotEnclosed::OtherSystem { places, forces });
     }
+    let joints_m: Vec<_> = at.joints_m.iter().map(|x| x.map(Interval::mid)).collect();
+    let mechanism = about_equilibrium(system, &joints_m)?;
     let joints = mechanism.moving;
     if joints > MOST_ENCLOSED_JOINTS {
         return Err(NotEnclosed::TooLarge { joints, most: MOST_ENCLOSED_JOINTS });
     }
-    let joints_m: Vec<_> = at.joints_m.iter().map(|x| x.map(Interval::mid)).collect();
     let axial_n: Vec<_> = at.axial_n.iter().map(|n| n.mid()).collect();
     let about = approximate_modes(&mechanism, &joints_m, &axial_n)?;
-    let pencil = Pencil::new(&mechanism, at)?;
+    let pencil = Pencil::new(system, &mechanism, at)?;
     let kept = kept::displacements(&pencil, &about)?;
     let (stiffness, inertia) = pencil.projected(&kept);
     let norm = norm(&less_unit(inertia));

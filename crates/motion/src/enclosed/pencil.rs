@@ -2,10 +2,11 @@
 
 use intervals::Interval;
 use model::Bar;
-use model::system::{Kind, Support};
+use model::system::{Kind, Support, System};
 use nalgebra::DMatrix;
 
 use super::{EquilibriumBox, NotEnclosed};
+use crate::corners::{is_symmetric, second_axis};
 use crate::mechanism::{Link, Mechanism};
 
 pub(super) type Vector = [Interval; 3];
@@ -26,6 +27,16 @@ struct Member {
     between: Interval,
 }
 
+/// What the greater of two different moments across a bar adds to the inertia of the difference of
+/// its ends, along an axis.
+struct Excess {
+    a: usize,
+    b: usize,
+    /// kg.
+    inertia: Interval,
+    axis: Vector,
+}
+
 /// Everything that the `ω²` follow from, in intervals. Coordinates are three for each slot that
 /// moves.
 pub(super) struct Pencil {
@@ -33,24 +44,40 @@ pub(super) struct Pencil {
     /// Diagonal of the inertia by slot, kg.
     mass: Vec<Interval>,
     members: Vec<Member>,
+    excesses: Vec<Excess>,
     /// Rows of the constraints: coordinate and value.
     pub rows: Vec<Vec<(usize, Interval)>>,
 }
 
 impl Pencil {
-    pub(super) fn new(mechanism: &Mechanism, at: &EquilibriumBox<'_>) -> Result<Self, NotEnclosed> {
+    /// `mechanism` has bars for the taut cables and struts of the system as given.
+    pub(super) fn new(
+        system: &System,
+        mechanism: &Mechanism,
+        at: &EquilibriumBox<'_>,
+    ) -> Result<Self, NotEnclosed> {
         let joints = mechanism.system.joints();
         let by_slot = |slot: usize| mechanism.joint_at[slot];
         let mut found = Self {
             moving: mechanism.moving,
             mass: (0..joints.len()).map(|s| Interval::point(joints[by_slot(s)].mass_kg)).collect(),
             members: Vec::new(),
+            excesses: Vec::new(),
             rows: Vec::new(),
         };
         let span = |link: &Link| minus(at.joints_m[by_slot(link.b)], at.joints_m[by_slot(link.a)]);
         for link in &mechanism.bars {
-            let d = span(link);
-            let density = at.axial_n[link.member] / Interval::point(link.length_m);
+            let (d, axial) = (span(link), at.axial_n[link.member]);
+            let is_held = match system.members()[link.member].kind {
+                Kind::Bar => true,
+                Kind::Cable => axial.sign() == Some(1),
+                Kind::Strut => axial.sign() == Some(-1),
+            };
+            if !is_held {
+                return Err(NotEnclosed::Undecided { member: link.member + 1 });
+            }
+            found.add_excess(&system.members()[link.member].body, link, d);
+            let density = axial / Interval::point(link.length_m);
             found.add(mechanism, link, density, None);
             let back = d.map(|x| -x);
             found.rows.push(found.row(&[(link.a, back), (link.b, d)]));
@@ -64,7 +91,8 @@ impl Pencil {
                 continue;
             }
             let density = axial / distance;
-            let slope = match (spring.kind, axial.sign()) {
+            let is_extensible = spring.stiffness_n > 0.0;
+            let slope = match (spring.kind, axial.sign().filter(|_| is_extensible)) {
                 (Kind::Bar, _) | (Kind::Cable, Some(1)) | (Kind::Strut, Some(-1)) => {
                     Interval::point(spring.stiffness_n) / Interval::point(link.length_m)
                 }
@@ -88,6 +116,27 @@ impl Pencil {
         self.mass[link.a] = self.mass[link.a] + from;
         self.mass[link.b] = self.mass[link.b] + to;
         self.members.push(Member { a: link.a, b: link.b, density, along, between });
+    }
+
+    /// What the greater of two different moments across a bar along `d` adds.
+    fn add_excess(&mut self, bar: &Bar, link: &Link, d: Vector) {
+        if is_symmetric(bar) {
+            return;
+        }
+        let [_, jy, jz] = moments(bar);
+        // Any direction near the second axis makes one that is exactly across the bar.
+        let near = second_axis(d.map(Interval::mid)).map(Interval::point);
+        let part = dot(near, d) / dot(d, d);
+        let second: Vector = std::array::from_fn(|k| near[k] - part * d[k]);
+        let across = if jz.mid() > jy.mid() { second } else { cross(d, second) };
+        let size = dot(across, across).sqrt();
+        let l = Interval::point(link.length_m);
+        self.excesses.push(Excess {
+            a: link.a,
+            b: link.b,
+            inertia: if jz.mid() > jy.mid() { jz - jy } else { jy - jz } / l / l,
+            axis: across.map(|x| x / size),
+        });
     }
 
     /// The directions that supports of sliders take: of a line two that are exactly across it.
@@ -148,6 +197,16 @@ impl Pencil {
                 }
             }
         }
+        for excess in &self.excesses {
+            let along = |c: usize| dot(excess.axis, minus(at(excess.b, c), at(excess.a, c)));
+            let along: Vec<_> = (0..count).map(along).collect();
+            for j in 0..count {
+                for i in 0..=j {
+                    let own = excess.inertia * (along[i] * along[j]);
+                    inertia[(i, j)] = inertia[(i, j)] + own;
+                }
+            }
+        }
         for slot in 0..self.moving {
             let columns: Vec<_> = (0..count).map(|c| at(slot, c)).collect();
             for j in 0..count {
@@ -179,16 +238,25 @@ fn inertia(bar: &Bar) -> [Interval; 3] {
     let l = Interval::point(bar.length_m());
     let to_centre = Interval::point(bar.centre_m()) / l;
     let from_centre = (l - Interval::point(bar.centre_m())) / l;
+    let [_, second, third] = moments(bar);
     // Both count where they differ by a rounding: an ω² of unequal ones lies between those of either.
-    let [_, second, third] =
-        bar.inertia_kg_m2().map(|moment| Interval::around(moment, MOMENT_ROUNDING * moment));
-    let j = second.hull(third) / l / l;
+    // Where they differ by more the smaller one counts in all directions.
+    let j = match (is_symmetric(bar), second.mid() < third.mid()) {
+        (true, _) => second.hull(third),
+        (false, true) => second,
+        (false, false) => third,
+    };
+    let j = j / l / l;
     let m = Interval::point(bar.mass_kg());
     [
         m * from_centre * from_centre + j,
         m * to_centre * from_centre - j,
         m * to_centre * to_centre + j,
     ]
+}
+
+fn moments(bar: &Bar) -> [Interval; 3] {
+    bar.inertia_kg_m2().map(|moment| Interval::around(moment, MOMENT_ROUNDING * moment))
 }
 
 fn minus(a: Vector, b: Vector) -> Vector {

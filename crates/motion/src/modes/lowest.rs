@@ -17,7 +17,8 @@ use super::shifted::Shifted;
 use super::solved::Solved;
 use super::stiffness::{Entries, Stiffness};
 use crate::error::MotionError;
-use crate::mechanism::Mechanism;
+use crate::vector;
+use model::Vector;
 
 /// Shift of the first attempt, in units of [`Stiffness::unit`]: below zero, where a mode may be.
 const FIRST_SHIFT: f64 = -0.1;
@@ -59,7 +60,7 @@ pub(super) fn solve(
     let (shift, below_all) = below_all(&entries, axes, unit)?;
     let total = entries.size - below_all.independent;
     let count = count.min(total);
-    let root = Root::new(stiffness.mechanism, axes);
+    let root = Root::new(stiffness, sector);
     let mut search = Search { root, shifted: &below_all, unit: -shift, found: Vec::new() };
     let mut missing = (count + BEYOND).min(total);
     for _ in 0..MOST_SEARCHES + count {
@@ -161,15 +162,18 @@ fn solved(entries: &Entries, pairs: &[Pair], total: usize, negative: usize) -> S
     }
 }
 
-/// `G` of `M = GᵀG`: each row has a part in at most two slots, the same for every axis.
+/// `G` of `M = GᵀG`: each row has a part in at most two slots, the same for every axis, and each
+/// excess of a moment one row over all axes.
 struct Root {
     rows: Vec<[(usize, f64); 2]>,
+    excesses: Vec<([Option<usize>; 2], Vec<f64>)>,
     axes: usize,
     size: usize,
 }
 
 impl Root {
-    fn new(mechanism: &Mechanism, axes: usize) -> Self {
+    fn new(stiffness: &Stiffness<'_>, sector: &Sector) -> Self {
+        let (mechanism, axes) = (stiffness.mechanism, sector.axes.len());
         let moving = mechanism.moving;
         let joints = mechanism.system.joints();
         let mut rows = Vec::new();
@@ -195,7 +199,12 @@ impl Root {
                 (_, false) => {}
             }
         }
-        Self { rows, axes, size: moving * axes }
+        let excesses = stiffness.excesses.iter().map(|excess| {
+            let part = |axis: &Vector| excess.inertia_kg.sqrt() * vector::dot(excess.axis, *axis);
+            let first = [excess.a, excess.b].map(|slot| (slot < moving).then_some(slot * axes));
+            (first, sector.axes.iter().map(part).collect())
+        });
+        Self { rows, excesses: excesses.collect(), axes, size: moving * axes }
     }
 
     fn times(&self, y: &[f64]) -> Vec<f64> {
@@ -203,7 +212,18 @@ impl Root {
         let rows = self.rows.iter().flat_map(|[(a, by_a), (b, by_b)]| {
             axes.clone().map(move |k| by_a * y[a * self.axes + k] + by_b * y[b * self.axes + k])
         });
-        rows.collect()
+        let across = self.excesses.iter().map(|(ends, parts)| {
+            let along = |first: &Option<usize>| -> f64 {
+                first.map_or(0.0, |first| parts.iter().zip(&y[first..]).map(|(p, y)| p * y).sum())
+            };
+            along(&ends[1]) - along(&ends[0])
+        });
+        rows.chain(across).collect()
+    }
+
+    /// Number of its rows, over all axes.
+    fn len(&self) -> usize {
+        self.rows.len() * self.axes + self.excesses.len()
     }
 
     fn transposed_times(&self, w: &[f64]) -> Vec<f64> {
@@ -212,6 +232,15 @@ impl Root {
             for (slot, by) in row {
                 for (k, w) in w.iter().enumerate() {
                     f[slot * self.axes + k] += by * w;
+                }
+            }
+        }
+        let across = &w[self.rows.len() * self.axes..];
+        for ((ends, parts), w) in self.excesses.iter().zip(across) {
+            for (first, sign) in ends.iter().zip([-1.0, 1.0]) {
+                let Some(first) = first else { continue };
+                for (part, f) in parts.iter().zip(&mut f[*first..]) {
+                    *f += sign * part * w;
                 }
             }
         }
@@ -290,7 +319,7 @@ impl Search<'_> {
 
 impl Operator for Search<'_> {
     fn size(&self) -> usize {
-        self.root.rows.len() * self.root.axes
+        self.root.len()
     }
 
     fn apply(&self, w: &[f64]) -> Vec<f64> {

@@ -10,7 +10,12 @@
 //!
 //! `ω² > 0` oscillates with the angular frequency `ω`; `ω² < 0` leaves the equilibrium like `exp(t
 //! √(−ω²))`; there are as many of these as the Morse index says.
+//!
+//! Inextensible cables that pull and struts that push are bars in small motions, slack ones have
+//! their inertia alone; joints that a floor pushes slide in its level. Bars whose moments across differ have their second axis level, and spins are
+//! apart.
 
+mod balance;
 mod dense;
 mod lanczos;
 mod lowest;
@@ -29,11 +34,12 @@ use crate::force;
 use crate::mechanism::Mechanism;
 use crate::rattle::Stepper;
 use crate::state::State;
-use crate::vector::{add_times, dot, norm, plus, times, worse};
+use crate::unilateral::{LENGTHS, check_forces, check_pushes, with_what_holds};
 use planes::Sector;
 use solved::Solved;
 use stiffness::Stiffness;
 
+pub(crate) use balance::LeftOver;
 pub use planes::Direction;
 
 /// The modes of an equilibrium, ascending.
@@ -125,12 +131,6 @@ const MOST_JOINTS: usize = 350;
 /// asked for: it takes some hundredths of a second.
 const DENSE_JOINTS: usize = 60;
 
-/// Largest violation of a length, relative, in an equilibrium.
-const LENGTHS: f64 = 1e-8;
-
-/// Largest force left over in an equilibrium, relative to the largest force in the system.
-const BALANCE: f64 = 1e-7;
-
 /// The modes of a system about an equilibrium, given by the places of its joints, world frame, m.
 ///
 /// Where rigid members and supports determine their forces, these are found here. Where they do not
@@ -143,7 +143,8 @@ const BALANCE: f64 = 1e-7;
 /// # Errors
 ///
 /// [`MotionError`] when the system cannot be moved here or is too large, the places are no
-/// equilibrium, or forces are needed and not given.
+/// equilibrium, forces are needed and not given, an inextensible cable or strut is neither
+/// certainly taut nor slack, or a joint lies on a floor that does not certainly push it.
 ///
 /// ```
 /// use model::Bar;
@@ -167,11 +168,11 @@ pub fn modes(
     joints_m: &[Vector],
     axial_n: Option<&[f64]>,
 ) -> Result<Modes, MotionError> {
-    let mechanism = Mechanism::new(system)?;
+    let mechanism = about_equilibrium(system, joints_m)?;
     if mechanism.moving > MOST_JOINTS {
         return Err(MotionError::TooLarge { joints: mechanism.moving, most: MOST_JOINTS });
     }
-    let mut found = about(&mechanism, joints_m, axial_n, &|stiffness, sector| {
+    let mut found = about(system, &mechanism, joints_m, axial_n, &|stiffness, sector| {
         Ok(dense::solve(stiffness, sector))
     })?;
     let spins = spins(system);
@@ -232,9 +233,9 @@ pub fn lowest_modes(
     axial_n: Option<&[f64]>,
     count: usize,
 ) -> Result<Modes, MotionError> {
-    let mechanism = Mechanism::new(system)?;
+    let mechanism = about_equilibrium(system, joints_m)?;
     let is_small = mechanism.moving <= DENSE_JOINTS;
-    let mut found = about(&mechanism, joints_m, axial_n, &|stiffness, sector| {
+    let mut found = about(system, &mechanism, joints_m, axial_n, &|stiffness, sector| {
         let size = mechanism.moving * sector.axes.len();
         if is_small || size < lowest::LEAST_SIZE || 4 * count > size {
             Ok(dense::solve(stiffness, sector))
@@ -246,8 +247,18 @@ pub fn lowest_modes(
     Ok(found)
 }
 
+/// The mechanics of a system next to an equilibrium, where taut cables and struts are bars, and
+/// joints that lie on a floor slide in its level.
+pub(crate) fn about_equilibrium(
+    system: &System,
+    joints_m: &[Vector],
+) -> Result<Mechanism, MotionError> {
+    Mechanism::for_small_motions(&with_what_holds(system, joints_m)?)
+}
+
 /// The modes of an equilibrium, sector by sector.
 fn about(
+    system: &System,
     mechanism: &Mechanism,
     joints_m: &[Vector],
     axial_n: Option<&[f64]>,
@@ -260,14 +271,17 @@ fn about(
         return Err(MotionError::NotClosed { iterations: 0, off });
     }
     let densities = densities(mechanism, &state, axial_n)?;
-    let out_of_balance = balance(mechanism, &state, &vectors, &densities)?;
+    let left = LeftOver::new(mechanism, &state, &vectors, &densities);
+    let out_of_balance = left.off(mechanism)?;
+    check_forces(system, mechanism, joints_m, &densities)?;
+    check_pushes(system, mechanism, joints_m, &left)?;
     let stiffness = Stiffness::new(mechanism, &state, &vectors, densities);
     let mut found = Modes { modes: Vec::new(), total: 0, negative: 0, out_of_balance };
-    for sector in planes::sectors(mechanism, &state) {
+    for sector in planes::sectors(mechanism, &state, &stiffness.excesses) {
         let solved = solve(&stiffness, &sector)?;
         found.total += solved.total;
         found.negative += solved.negative;
-        found.modes.extend(shape::modes(mechanism, &state, &sector, &solved));
+        found.modes.extend(shape::modes(&stiffness, &state, &sector, &solved));
     }
     found.modes.sort_by(|a, b| a.omega2_s2.total_cmp(&b.omega2_s2));
     Ok(found)
@@ -287,7 +301,7 @@ pub(crate) fn approximate_modes(
     let densities = bars.map(|link| axial_n[link.member] / link.length_m).collect();
     let stiffness = Stiffness::new(mechanism, &state, &vectors, densities);
     let mut columns = Vec::new();
-    for sector in planes::sectors(mechanism, &state) {
+    for sector in planes::sectors(mechanism, &state, &stiffness.excesses) {
         for shape in dense::solve(&stiffness, &sector).shapes.column_iter() {
             let mut column = DVector::zeros(3 * mechanism.moving);
             for (at, part) in shape.iter().enumerate() {
@@ -335,39 +349,4 @@ fn densities(
             Ok(bars.map(|link| axial_n[link.member] / link.length_m).collect())
         }
     }
-}
-
-/// Largest force left over at a joint, relative to the largest force.
-fn balance(
-    mechanism: &Mechanism,
-    state: &State,
-    vectors: &[Vector],
-    densities: &[f64],
-) -> Result<f64, MotionError> {
-    let mut left = mechanism.load.clone();
-    let mut unit_n = left.iter().map(|f| norm(*f)).fold(0.0, worse);
-    let rigid = mechanism.bars.iter().zip(vectors).zip(densities);
-    let rigid = rigid.map(|((link, d), rho)| (link, times(*rho, *d)));
-    let springs = mechanism.springs.iter().map(|spring| {
-        let d = state.between(spring.link.a, spring.link.b);
-        (&spring.link, times(spring.force_density(norm(d)), d))
-    });
-    for (link, pull) in rigid.chain(springs) {
-        left[link.a] = plus(left[link.a], pull);
-        left[link.b] = add_times(left[link.b], -1.0, pull);
-        unit_n = worse(unit_n, norm(pull));
-    }
-    for slide in &mechanism.slides {
-        let f = left[slide.slot];
-        left[slide.slot] = add_times(f, -dot(f, slide.normal), slide.normal);
-    }
-    let sizes = left[..mechanism.moving].iter().map(|f| norm(*f));
-    let (slot, off) = sizes.enumerate().fold((0, 0.0_f64), |most, (slot, size)| {
-        if size.is_nan() || size > most.1 { (slot, size) } else { most }
-    });
-    let off = if unit_n > 0.0 { off / unit_n } else { off };
-    if off.is_nan() || off > BALANCE {
-        return Err(MotionError::NotInBalance { joint: mechanism.name(slot), off });
-    }
-    Ok(off)
 }

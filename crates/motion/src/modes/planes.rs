@@ -4,6 +4,7 @@ use model::Vector;
 
 use crate::mechanism::Mechanism;
 use crate::state::State;
+use crate::unequal::Excess;
 use crate::vector::{cross, dot, minus, norm, times};
 
 /// Which way the joints of a mode move.
@@ -28,7 +29,7 @@ pub(super) struct Sector {
 }
 
 /// The sectors of an equilibrium: its plane and across, or space.
-pub(super) fn sectors(mechanism: &Mechanism, state: &State) -> Vec<Sector> {
+pub(super) fn sectors(mechanism: &Mechanism, state: &State, excesses: &[Excess]) -> Vec<Sector> {
     let space = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
     let space = vec![Sector { direction: Direction::Space, axes: space.to_vec() }];
     let near_m = FLAT * mechanism.system.total_length_m();
@@ -43,12 +44,13 @@ pub(super) fn sectors(mechanism: &Mechanism, state: &State) -> Vec<Sector> {
     if state.at.iter().any(|at| dot(minus(*at, first), normal).abs() > near_m) {
         return space;
     }
-    // A support that is oblique to the plane ties both together.
+    // A support that is oblique to the plane ties both together, as a principal axis does.
     let oblique = |n: Vector| {
         let across = dot(n, normal).abs();
         across > FLAT && norm(minus(n, times(dot(n, normal), normal))) > FLAT
     };
-    if mechanism.slides.iter().any(|slide| oblique(slide.normal)) {
+    let is_tied = excesses.iter().any(|excess| oblique(excess.axis));
+    if is_tied || mechanism.slides.iter().any(|slide| oblique(slide.normal)) {
         return space;
     }
     let in_plane = vec![along, [0.0, 0.0, 1.0]];

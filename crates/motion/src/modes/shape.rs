@@ -5,6 +5,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::planes::Sector;
 use super::solved::Solved;
+use super::stiffness::Stiffness;
 use super::{Mode, What};
 use crate::mechanism::Mechanism;
 use crate::state::State;
@@ -15,11 +16,12 @@ const IS_A_TURN: f64 = 1e-6;
 
 /// The modes of a sector.
 pub(super) fn modes(
-    mechanism: &Mechanism,
+    stiffness: &Stiffness<'_>,
     state: &State,
     sector: &Sector,
     solved: &Solved,
 ) -> Vec<Mode> {
+    let mechanism = stiffness.mechanism;
     let mut found = Vec::new();
     for (k, &omega2_s2) in solved.omega2.iter().enumerate().filter(|(k, _)| !solved.zero[*k]) {
         let what = if omega2_s2 > 0.0 { What::Oscillation } else { What::Leaving };
@@ -40,7 +42,7 @@ pub(super) fn modes(
     let mut named: Vec<DVector<f64>> = Vec::new();
     for (axis_m, turn) in turns(mechanism, state, sector) {
         // Coefficients in the zero modes, which are orthonormal in the metric of the inertia.
-        let inertial = inertia_times(mechanism, sector, &turn);
+        let inertial = inertia_times(stiffness, sector, &turn);
         let size = turn.dot(&inertial).sqrt();
         let coefficients = zero_shapes.transpose() * inertial / size;
         if (coefficients.norm() - 1.0).abs() <= IS_A_TURN {
@@ -95,7 +97,8 @@ fn turns(mechanism: &Mechanism, state: &State, sector: &Sector) -> Vec<([f64; 2]
     found
 }
 
-fn inertia_times(mechanism: &Mechanism, sector: &Sector, y: &DVector<f64>) -> DVector<f64> {
+fn inertia_times(stiffness: &Stiffness<'_>, sector: &Sector, y: &DVector<f64>) -> DVector<f64> {
+    let mechanism = stiffness.mechanism;
     let axes = sector.axes.len();
     let mut product = DVector::zeros(y.len());
     for slot in 0..mechanism.moving {
@@ -109,6 +112,20 @@ fn inertia_times(mechanism: &Mechanism, sector: &Sector, y: &DVector<f64>) -> DV
                 let (a, b) = (link.a * axes + k, link.b * axes + k);
                 product[a] += link.inertia.between * y[b];
                 product[b] += link.inertia.between * y[a];
+            }
+        }
+    }
+    for excess in &stiffness.excesses {
+        let parts: Vec<f64> = sector.axes.iter().map(|axis| dot(excess.axis, *axis)).collect();
+        let ends = [(excess.a, -1.0), (excess.b, 1.0)];
+        let moving = || ends.iter().filter(|(slot, _)| *slot < mechanism.moving);
+        let along = |slot: usize| -> f64 {
+            parts.iter().enumerate().map(|(k, part)| part * y[slot * axes + k]).sum()
+        };
+        let difference: f64 = moving().map(|(slot, sign)| sign * along(*slot)).sum();
+        for (slot, sign) in moving() {
+            for (k, part) in parts.iter().enumerate() {
+                product[slot * axes + k] += sign * part * excess.inertia_kg * difference;
             }
         }
     }

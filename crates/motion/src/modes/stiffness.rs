@@ -6,6 +6,7 @@ use nalgebra::{Matrix3, Vector3};
 use super::planes::{Direction, FLAT, Sector};
 use crate::mechanism::{Link, Mechanism};
 use crate::state::State;
+use crate::unequal::{Excess, excesses};
 use crate::vector::{dot, norm, times};
 
 /// Stiffness, inertia and constraints about an equilibrium.
@@ -15,6 +16,8 @@ pub(super) struct Stiffness<'a> {
     /// Each member with the 3 × 3 matrix of its stiffness, N/m.
     members: Vec<(&'a Link, Matrix3<f64>)>,
     densities: Vec<f64>,
+    /// What bars with different moments across have beyond the inertia of the mechanism.
+    pub excesses: Vec<Excess>,
 }
 
 /// Row, column, value; equal places are added.
@@ -43,13 +46,17 @@ impl<'a> Stiffness<'a> {
         for spring in &mechanism.springs {
             let d = state.between(spring.link.a, spring.link.b);
             let length = norm(d);
-            let u = Vector3::from(d) / length;
             let density = spring.force_density(length);
-            let along = spring.slope(length) - density;
-            let block = Matrix3::identity() * density + u * u.transpose() * along;
+            let slope = spring.slope(length);
+            let mut block = Matrix3::identity() * density;
+            // Slack members, whose ends may be in one place, have none.
+            if slope > 0.0 {
+                let u = Vector3::from(d) / length;
+                block += u * u.transpose() * (slope - density);
+            }
             members.push((&spring.link, block));
         }
-        Self { mechanism, vectors, members, densities }
+        Self { mechanism, vectors, members, densities, excesses: excesses(mechanism, state) }
     }
 
     /// Number of rows of the constraints, empty ones included.
@@ -73,22 +80,28 @@ impl<'a> Stiffness<'a> {
             for (i, row) in axes.iter().enumerate() {
                 for (j, column) in axes.iter().enumerate() {
                     let value = Vector3::from(*row).dot(&(block * Vector3::from(*column)));
-                    for (a, b, sign) in [
-                        (link.a, link.a, 1.0),
-                        (link.b, link.b, 1.0),
-                        (link.a, link.b, -1.0),
-                        (link.b, link.a, -1.0),
-                    ] {
-                        if a < moving && b < moving {
-                            let (row, column) = (a * axes.len() + i, b * axes.len() + j);
-                            stiffness.push((row, column, sign * value));
-                        }
-                    }
+                    let ends =
+                        [link.a, link.b].map(|slot| (slot < moving).then_some(slot * axes.len()));
+                    put_difference(&mut stiffness, ends, [i, j], value);
                 }
                 if link.a < moving && link.b < moving {
                     let (a, b) = (link.a * axes.len() + i, link.b * axes.len() + i);
                     inertia.push((a, b, link.inertia.between));
                     inertia.push((b, a, link.inertia.between));
+                }
+            }
+        }
+        for excess in &self.excesses {
+            for (i, row) in axes.iter().enumerate() {
+                for (j, column) in axes.iter().enumerate() {
+                    let across = dot(excess.axis, *row) * dot(excess.axis, *column);
+                    put_difference(
+                        &mut inertia,
+                        [excess.a, excess.b]
+                            .map(|slot| (slot < moving).then_some(slot * axes.len())),
+                        [i, j],
+                        excess.inertia_kg * across,
+                    );
                 }
             }
         }
@@ -172,5 +185,19 @@ impl<'a> Stiffness<'a> {
         let tension = tension.map(|(link, rho)| rho.abs() * link.length_m).fold(0.0, f64::max);
         let mass: f64 = mechanism.mass.iter().sum();
         (loads + tension) / (mass * mechanism.system.total_length_m())
+    }
+}
+
+/// Put `value` times `[[1, −1], [−1, 1]]` at the coordinates of two ends; one that is held has none.
+fn put_difference(
+    entries: &mut Vec<Entry>,
+    [a, b]: [Option<usize>; 2],
+    [i, j]: [usize; 2],
+    value: f64,
+) {
+    for (row, column, sign) in [(a, a, 1.0), (b, b, 1.0), (a, b, -1.0), (b, a, -1.0)] {
+        if let (Some(row), Some(column)) = (row, column) {
+            entries.push((row + i, column + j, sign * value));
+        }
     }
 }

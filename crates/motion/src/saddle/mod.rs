@@ -117,7 +117,9 @@ impl Saddle {
         }
         let bare = Layout { mass: layout.mass.clone(), edges, own: Vec::new() };
         Self::of(&bare, mechanism.is_forest).factor(&[]).map_err(|failed| {
-            MotionError::Massless { joint: mechanism.name(failed.slot), inertia_kg: failed.pivot }
+            // A pivot that is no number is one of nothing, as one below zero is.
+            let inertia_kg = failed.pivot.max(0.0);
+            MotionError::Massless { joint: mechanism.name(failed.slot), inertia_kg }
         })?;
         Ok(Self::of(&layout, mechanism.is_forest))
     }

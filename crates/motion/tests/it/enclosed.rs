@@ -78,6 +78,56 @@ fn compound_and_double_pendulum_lie_in_their_enclosures() {
     }
 }
 
+#[test]
+fn different_moments_across_have_their_own_enclosures() {
+    // ω² = m g r/(m r² + J) about either axis; upright the second axis is along OY.
+    let body = Bar::new(1.0, 3.0, 0.625, [0.5, 0.7, 0.4]).unwrap();
+    let (m, g, r) = (exact(3.0), exact(9.81), exact(0.625));
+    let found = string(&[body], &[], false);
+    assert_eq!(found.inertia, Some([0, 0, 2]));
+    for (omega2, j) in found.omega2_s2.into_iter().zip([0.7, 0.4]) {
+        meets(omega2, m * g * r / (exact(j) + m * r * r));
+    }
+    // Two of them, one turned upside down as it were: det(K − ω² M) = 0 in the angles, where the
+    // moments are all the smaller, all the greater ones, or mixed.
+    let other = Bar::new(1.0, 3.0, 0.625, [0.5, 0.4, 0.7]).unwrap();
+    let quadratic = |upper: f64, lower: f64| {
+        let (a, b, c) = (exact(upper) + m * r * r + m, m * r, exact(lower) + m * r * r);
+        let (k, l) = (m * g * (r + exact(1.0)), m * g * r);
+        let (square, half) = (a * c - b * b, (k * c + l * a).scale(0.5));
+        let root = (half.square() - square * k * l).sqrt();
+        [k * l / (half + root), (half + root) / square]
+    };
+    let mut told: Vec<Interval> =
+        [quadratic(0.7, 0.4), quadratic(0.4, 0.7)].into_iter().flatten().collect();
+    told.sort_by(|a, b| a.mid().total_cmp(&b.mid()));
+    let found = string(&[body, other], &[], false);
+    for (omega2, told) in found.omega2_s2.into_iter().zip(told) {
+        meets(omega2, told);
+    }
+}
+
+/// 2 kg on an inextensible cable of 1.5 m.
+fn thread(axial: Interval, below: f64) -> Result<Enclosures, NotEnclosed> {
+    let joints = vec![Joint::anchor("O", [0.0; 3]), Joint::free("P").with_mass(2.0)];
+    let members = vec![Member::cable(0, 1, Bar::homogeneous(1.5, 0.0).unwrap())];
+    let system = System::new("thread", 9.81, joints, members).unwrap();
+    let at = [[Interval::ZERO; 3], [Interval::ZERO, Interval::ZERO, exact(-below)]];
+    enclose_modes(&system, &EquilibriumBox { joints_m: &at, axial_n: &[axial], turns: 0 })
+}
+
+#[test]
+fn a_cable_that_is_proved_to_pull_is_a_bar() {
+    let weight = exact(2.0) * exact(9.81);
+    for omega2 in thread(weight, 1.5).unwrap().omega2_s2 {
+        meets(omega2, exact(9.81) / exact(1.5));
+    }
+    let refused = thread(weight.hull(Interval::ZERO), 1.5).unwrap_err();
+    assert_eq!(refused, NotEnclosed::Undecided { member: 1 });
+    let refused = thread(weight, 1.25).unwrap_err();
+    assert_eq!(refused, NotEnclosed::Undecided { member: 1 }, "slack with a force");
+}
+
 /// A polynomial in a double, with some thirty digits.
 fn value(x: f64, coefficients: &[f64]) -> DoubleDouble {
     let mut sum = DoubleDouble::ZERO;

@@ -1,0 +1,63 @@
+//! What loads and members leave over at the joints of an equilibrium.
+
+use model::Vector;
+
+use crate::error::MotionError;
+use crate::mechanism::Mechanism;
+use crate::state::State;
+use crate::unilateral::BALANCE;
+use crate::vector::{add_times, dot, norm, plus, times, worse};
+
+/// What loads and members leave over, by slot: what supports bear, and what is out of balance.
+pub(crate) struct LeftOver {
+    /// N.
+    pub forces: Vec<Vector>,
+    /// The largest force in the system, N.
+    pub unit_n: f64,
+}
+
+impl LeftOver {
+    pub(super) fn new(
+        mechanism: &Mechanism,
+        state: &State,
+        vectors: &[Vector],
+        densities: &[f64],
+    ) -> Self {
+        let mut forces = mechanism.load.clone();
+        let mut unit_n = forces.iter().map(|f| norm(*f)).fold(0.0, worse);
+        let rigid = mechanism.bars.iter().zip(vectors).zip(densities);
+        let rigid = rigid.map(|((link, d), rho)| (link, times(*rho, *d)));
+        let springs = mechanism.springs.iter().map(|spring| {
+            let d = state.between(spring.link.a, spring.link.b);
+            (&spring.link, times(spring.force_density(norm(d)), d))
+        });
+        for (link, pull) in rigid.chain(springs) {
+            forces[link.a] = plus(forces[link.a], pull);
+            forces[link.b] = add_times(forces[link.b], -1.0, pull);
+            unit_n = worse(unit_n, norm(pull));
+        }
+        Self { forces, unit_n }
+    }
+
+    /// Largest force that no support bears, relative to the largest force.
+    ///
+    /// # Errors
+    ///
+    /// [`MotionError::NotInBalance`] where it is more than rounding.
+    pub(super) fn off(&self, mechanism: &Mechanism) -> Result<f64, MotionError> {
+        let mut left = self.forces.clone();
+        for slide in &mechanism.slides {
+            let f = left[slide.slot];
+            left[slide.slot] = add_times(f, -dot(f, slide.normal), slide.normal);
+        }
+        let sizes = left[..mechanism.moving].iter().map(|f| norm(*f));
+        let (slot, off) = sizes.enumerate().fold((0, 0.0_f64), |most, (slot, size)| {
+            if size.is_nan() || size > most.1 { (slot, size) } else { most }
+        });
+        let off = if self.unit_n > 0.0 { off / self.unit_n } else { off };
+        if off.is_nan() || off > BALANCE {
+            return Err(MotionError::NotInBalance { joint: mechanism.name(slot), off });
+        }
+        Ok(off)
+    }
+}

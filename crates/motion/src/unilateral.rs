@@ -1,0 +1,153 @@
+//! Inextensible cables and struts, and the floor: refused in motion, and what they are about an
+//! equilibrium.
+//!
+//! A cable that pulls stays taut in small motions, for its force changes by little: it is a bar. One
+//! that is shorter than its length stays slack: it has its inertia alone. Struts are alike, and a
+//! joint that the floor pushes slides in its level.
+
+use model::system::{Joint, Kind, Support, System};
+
+use crate::error::MotionError;
+use crate::mechanism::Mechanism;
+use crate::modes::LeftOver;
+use crate::vector::{minus, norm, worse};
+use model::Vector;
+
+/// How far the ends of a taut member may be from its length, relative: what lengths may be off in
+/// an equilibrium.
+pub(crate) const LENGTHS: f64 = 1e-8;
+
+/// Least force of a taut member, in units of the largest force: what may be left over in an
+/// equilibrium, and is no force.
+pub(crate) const BALANCE: f64 = 1e-7;
+
+/// `cable` or `strut`, of a member that is one and does not stretch.
+fn inextensible(system: &System, number: usize) -> Option<&'static str> {
+    let member = &system.members()[number];
+    match (member.stiffness_n, member.kind) {
+        (Some(_), _) | (None, Kind::Bar) => None,
+        (None, Kind::Cable) => Some("cable"),
+        (None, Kind::Strut) => Some("strut"),
+    }
+}
+
+/// Refuse inextensible cables and struts.
+pub(crate) fn refuse_inextensible(system: &System) -> Result<(), MotionError> {
+    let first = (0..system.members().len()).find_map(|k| Some((k + 1, inextensible(system, k)?)));
+    first.map_or(Ok(()), |(member, kind)| Err(MotionError::Unilateral { member, kind }))
+}
+
+/// The system with bars in place of those inextensible cables and struts that are not slack at a
+/// position, world frame, m, and without a floor: joints that lie on it slide in its level.
+///
+/// # Errors
+///
+/// [`MotionError::Input`] where there are not as many places as joints, or one is below the floor.
+pub(crate) fn with_what_holds(system: &System, joints_m: &[Vector]) -> Result<System, MotionError> {
+    let refused = |reason| MotionError::Input { what: "places of the joints", reason };
+    if joints_m.len() != system.joints().len() {
+        let (given, joints) = (joints_m.len(), system.joints().len());
+        return Err(refused(format!("{given} given for {joints} joints")));
+    }
+    let mut members = system.members().to_vec();
+    for (number, member) in members.iter_mut().enumerate() {
+        let distance_m = distance(system, number, joints_m);
+        if inextensible(system, number).is_none() {
+            continue;
+        }
+        let stretch = distance_m / member.body.length_m() - 1.0;
+        let spare = if member.kind == Kind::Cable { -stretch } else { stretch };
+        if spare <= LENGTHS || spare.is_nan() {
+            member.kind = Kind::Bar;
+        }
+    }
+    let mut joints = system.joints().to_vec();
+    for (k, joint) in joints.iter_mut().enumerate() {
+        let [x, y, z] = joints_m[k];
+        match system.floor_m() {
+            Some(floor_m) if !joint.support.is_fixed() && z < floor_m - near_m(system) => {
+                let (name, below_m) = (&joint.name, floor_m - z);
+                return Err(refused(format!("joint {name:?} is {below_m} m below the floor")));
+            }
+            Some(floor_m) if lies(system, joint, z) => {
+                joint.support = Support::Plane { at_m: [x, y, floor_m], normal: UP };
+            }
+            _ => {}
+        }
+    }
+    System::new(system.name(), system.gravity_m_s2(), joints, members)
+        .map_err(|error| refused(error.to_string()))
+}
+
+const UP: Vector = [0.0, 0.0, 1.0];
+
+/// How far a joint may be from the floor and count as lying on it, m.
+fn near_m(system: &System) -> f64 {
+    LENGTHS * system.total_length_m() / system.members().len() as f64
+}
+
+/// Whether a joint that may leave the floor is on it. Sliders have their own supports.
+fn lies(system: &System, joint: &Joint, height_m: f64) -> bool {
+    let on = |floor_m| height_m <= floor_m + near_m(system);
+    joint.support == Support::Free && system.floor_m().is_some_and(on)
+}
+
+/// Refuse joints on the floor that it does not push. Where the floor is one of too many supports
+/// its push is what the given forces leave over.
+///
+/// # Errors
+///
+/// [`MotionError::NotPushed`].
+pub(crate) fn check_pushes(
+    system: &System,
+    mechanism: &Mechanism,
+    joints_m: &[Vector],
+    left: &LeftOver,
+) -> Result<(), MotionError> {
+    for (k, joint) in system.joints().iter().enumerate() {
+        let push_n = -left.forces[mechanism.slot_of[k]][2];
+        let is_pushed = push_n > BALANCE * left.unit_n;
+        if lies(system, joint, joints_m[k][2]) && !is_pushed {
+            return Err(MotionError::NotPushed { joint: joint.name.clone(), push_n });
+        }
+    }
+    Ok(())
+}
+
+fn distance(system: &System, number: usize, joints_m: &[Vector]) -> f64 {
+    let member = &system.members()[number];
+    norm(minus(joints_m[member.to], joints_m[member.from]))
+}
+
+/// Refuse cables taken as bars that do not pull, and struts that do not push.
+///
+/// `system` is the one as given, `densities` are those of the rigid bars of the mechanism, N/m.
+///
+/// # Errors
+///
+/// [`MotionError::NeitherTautNorSlack`].
+pub(crate) fn check_forces(
+    system: &System,
+    mechanism: &Mechanism,
+    joints_m: &[Vector],
+    densities: &[f64],
+) -> Result<(), MotionError> {
+    let axial = || mechanism.bars.iter().zip(densities).map(|(link, rho)| rho * link.length_m);
+    let loads = mechanism.load.iter().map(|f| norm(*f));
+    let unit_n = axial().map(f64::abs).chain(loads).fold(0.0, worse);
+    for (link, axial_n) in mechanism.bars.iter().zip(axial()) {
+        let Some(kind) = inextensible(system, link.member) else { continue };
+        let borne_n = if kind == "cable" { axial_n } else { -axial_n };
+        if borne_n > BALANCE * unit_n {
+            continue;
+        }
+        return Err(MotionError::NeitherTautNorSlack {
+            member: link.member + 1,
+            kind,
+            distance_m: distance(system, link.member, joints_m),
+            length_m: link.length_m,
+            axial_n,
+        });
+    }
+    Ok(())
+}

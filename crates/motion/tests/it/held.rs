@@ -1,0 +1,117 @@
+//! Small oscillations of what taut inextensible cables and the floor hold.
+
+use model::Bar;
+use model::system::{Joint, Kind, Member, System};
+use motion::{Direction, MotionError, modes};
+
+use crate::common::{G, hanging, links};
+
+fn near(found: f64, told: f64, tolerance: f64) {
+    assert!((found / told - 1.0).abs() < tolerance, "{found} {told}");
+}
+
+/// A weight of 2 kg at the end of two members to anchors 6 m apart, 4 m below them, and of a third
+/// straight up to an anchor above.
+fn lamp(kind: Kind, third_m: f64) -> System {
+    let joints = vec![
+        Joint::anchor("A", [-3.0, 0.0, 0.0]),
+        Joint::anchor("B", [3.0, 0.0, 0.0]),
+        Joint::anchor("C", [0.0, 0.0, 1.0]),
+        Joint::free("P").with_mass(2.0),
+    ];
+    let body = |l| Bar::homogeneous(l, 0.0).unwrap();
+    let member = |a, l| Member { kind, ..Member::bar(a, 3, body(l)) };
+    let mut members = vec![member(0, 5.0), member(1, 5.0)];
+    members.push(Member::cable(2, 3, body(third_m)));
+    System::new("lamp", G, joints, members).unwrap()
+}
+
+const LAMP: [[f64; 3]; 4] = [[-3.0, 0.0, 0.0], [3.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, 0.0, -4.0]];
+
+#[test]
+fn taut_cables_swing_as_bars_and_slack_ones_not_at_all() {
+    // The weight swings about the line of the anchors, 4 m below it.
+    let found = modes(&lamp(Kind::Cable, 5.5), &LAMP, None).unwrap();
+    let [mode] = &found.modes[..] else { panic!("{found:?}") };
+    near(mode.omega2_s2, G / 4.0, 1e-13);
+    assert_eq!(mode.direction, Direction::Across);
+    let bars = modes(&lamp(Kind::Bar, 5.5), &LAMP, None).unwrap();
+    assert_eq!(found.modes, bars.modes);
+    // Struts would have to push.
+    let refused = modes(&lamp(Kind::Strut, 5.5), &LAMP, None).unwrap_err();
+    assert!(
+        matches!(refused, MotionError::NeitherTautNorSlack { member: 1, kind: "strut", .. }),
+        "{refused}"
+    );
+}
+
+#[test]
+fn a_cable_that_is_just_taut_and_bears_nothing_is_refused() {
+    let axial = [2.0 * G * 5.0 / 8.0, 2.0 * G * 5.0 / 8.0, 0.0];
+    let refused = modes(&lamp(Kind::Cable, 5.0), &LAMP, Some(&axial)).unwrap_err();
+    assert!(
+        matches!(refused, MotionError::NeitherTautNorSlack { member: 3, kind: "cable", .. }),
+        "{refused}"
+    );
+    // Where it bears a part of the weight it holds the weight at its own length.
+    let axial = [0.6 * axial[0], 0.6 * axial[0], 0.4 * 2.0 * G];
+    let held = modes(&lamp(Kind::Cable, 5.0), &LAMP, Some(&axial)).unwrap();
+    let [mode] = &held.modes[..] else { panic!("{held:?}") };
+    // ρ = F/l of all three over the mass.
+    near(mode.omega2_s2, axial[0] / 5.0 + 0.5 * axial[2] / 5.0, 1e-13);
+}
+
+#[test]
+fn a_slack_cable_with_a_mass_moves_with_the_joint_that_it_hangs_on() {
+    // Its mass of 3 kg is a homogeneous member's: a third of it at the joint that moves.
+    let slack = |mass_kg| {
+        let mut joints = hanging(&links(1), &[2.0]).joints().to_vec();
+        joints.push(Joint::anchor("A", [0.5, 0.0, -1.0]));
+        let cord = Bar::new(0.75, mass_kg, 0.375, Bar::slender_inertia(0.75, mass_kg)).unwrap();
+        let members = vec![Member::bar(0, 1, links(1)[0]), Member::cable(2, 1, cord)];
+        let system = System::new("slack", G, joints, members).unwrap();
+        modes(&system, &[[0.0; 3], [0.0, 0.0, -1.0], [0.5, 0.0, -1.0]], None).unwrap()
+    };
+    for mass_kg in [0.0, 3.0] {
+        for mode in slack(mass_kg).modes {
+            let told = (2.0 + 0.5 * mass_kg) * G / (2.0 + mass_kg / 3.0);
+            near(mode.omega2_s2, told, 1e-13);
+        }
+    }
+}
+
+/// A weight of 2 kg on the floor between two elastic cords of 1 m, stretched to 1.25 m.
+fn on_the_floor(lifted_n: f64) -> System {
+    let joints = vec![
+        Joint::anchor("A", LAID[0]),
+        Joint::anchor("B", LAID[1]),
+        Joint::free("P").with_mass(2.0).with_force([0.0, 0.0, lifted_n]),
+    ];
+    let cord = Bar::homogeneous(1.0, 0.0).unwrap();
+    let members = [0, 1].map(|k| Member::cable(k, 2, cord).with_stiffness(400.0));
+    System::new("laid", G, joints, members.to_vec()).unwrap().with_floor(0.25).unwrap()
+}
+
+const LAID: [[f64; 3]; 3] = [[-1.25, 0.0, 0.25], [1.25, 0.0, 0.25], [0.0, 0.0, 0.25]];
+
+#[test]
+fn what_the_floor_pushes_slides_on_it() {
+    for lifted_n in [0.0, 1.9 * G] {
+        let found = modes(&on_the_floor(lifted_n), &LAID, None).unwrap();
+        let [across, along] = &found.modes[..] else { panic!("{found:?}") };
+        // Both cords pull with EA/4: 2 T/(d m) across, 2 EA/(l m) along.
+        near(across.omega2_s2, 2.0 * 100.0 / (1.25 * 2.0), 1e-13);
+        near(along.omega2_s2, 2.0 * 400.0 / 2.0, 1e-13);
+        assert_eq!([across.direction, along.direction], [Direction::Across, Direction::InPlane]);
+    }
+    // With its weight taken it lies there without a push, and may rise.
+    let refused = modes(&on_the_floor(2.0 * G), &LAID, None).unwrap_err();
+    assert!(
+        matches!(refused, MotionError::NotPushed { ref joint, .. } if joint == "P"),
+        "{refused}"
+    );
+    let mut below = LAID;
+    below[2][2] = 0.2;
+    let refused = modes(&on_the_floor(0.0), &below, None).unwrap_err();
+    assert!(matches!(refused, MotionError::Input { .. }), "{refused}");
+}
