@@ -5,7 +5,7 @@ use nalgebra::DVector;
 use crate::arc::{Arc, ArcEnd, ArcPoint, Arcs, left};
 use crate::branch::{Branch, BranchEnd, BranchPoint};
 use crate::census_point::{CensusPoint, Node};
-use crate::equations::RESIDUAL;
+use crate::equations::{RESIDUAL, fold_error};
 use crate::event::{Event, EventKind};
 use crate::observables::Observables;
 use crate::path::Path;
@@ -27,6 +27,10 @@ const INFINITE: f64 = 1e-7;
 /// its own mirror image there, which is located to the square root of rounding only.
 const SAME_POSITION: f64 = 1e-6;
 const SAME_SHAPE: f64 = 1e-2;
+
+/// How far events other than folds may be off, as part of the path: where closed forms are known
+/// they are nearer.
+const LOCATED: f64 = 1e-10;
 
 pub(crate) struct Assembly<'a> {
     path: &'a Path<'a>,
@@ -107,11 +111,21 @@ impl<'a> Assembly<'a> {
         let id = self.events.len();
         let n = y.len() - 4;
         let position = y[n + 3];
+        let position_error = match kind {
+            EventKind::Fold => fold_error(self.path, y),
+            _ => LOCATED,
+        };
+        let values = self.path.values_at(position);
+        // A parameter that stays the same is known.
+        let ahead = self.path.values_at(position + position_error);
+        let values_error = values.iter().zip(&ahead).map(|(a, b)| (a - b).abs()).collect();
         self.events.push(Event {
             id,
             kind,
             position,
-            values: self.path.values_at(position),
+            position_error,
+            values,
+            values_error,
             span_m: self.path.plane(position).span_m(),
             branches: vec![],
             angles_rad: y.iter().take(n).map(|angle| wrap(*angle)).collect(),

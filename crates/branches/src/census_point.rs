@@ -1,6 +1,6 @@
 //! A point of the path with its census.
 
-use census::{Census, ProvenEquilibrium};
+use census::{Census, DegenerateEquilibrium, ProvenEquilibrium};
 use nalgebra::DVector;
 use serde::Serialize;
 
@@ -48,12 +48,26 @@ pub enum PointStatus {
         reasons: Vec<census::Reason>,
         /// What is known all the same: the number of equilibria in the plane that are proved.
         proved: usize,
+        /// Positions in which the chain lies on the line of its anchors: upright, with any force
+        /// along it, or held by none.
+        straight: usize,
+        /// Equilibria at which several have merged, proved.
+        merged: Vec<Merged>,
     },
     /// The values describe no problem.
     Refused {
         /// Why.
         reason: String,
     },
+}
+
+/// A degenerate equilibrium at a point of the path.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+pub struct Merged {
+    /// So many equilibria have merged.
+    pub multiplicity: usize,
+    /// Σ (−1)^index over those into which it falls apart.
+    pub degree: i8,
 }
 
 /// An equilibrium of a census as a point of a curve.
@@ -78,6 +92,12 @@ pub(crate) struct CensusPoint {
     pub(crate) span_m: f64,
     /// Whether the anchors stand on one vertical.
     pub(crate) vertical: bool,
+}
+
+impl Merged {
+    fn of(found: &DegenerateEquilibrium) -> Self {
+        Self { multiplicity: found.multiplicity, degree: found.degree }
+    }
 }
 
 /// Relative difference of energies that both come from the same equilibrium; rounding is a
@@ -128,6 +148,8 @@ impl CensusPoint {
                     .chain(census.straight.iter().map(|_| census::Reason::Degenerate))
                     .collect(),
                 proved: census.count_in_plane(),
+                straight: census.straight.len(),
+                merged: census.degenerate.iter().map(Merged::of).collect(),
             };
         }
         Ok(census_point)
@@ -152,20 +174,25 @@ fn nodes(path: &Path<'_>, position: f64, census: &Census) -> Vec<Node> {
     nodes
 }
 
+/// A pull in the homogeneous coordinates of the equations.
+pub(crate) fn homogeneous(plane: &PlanarChain, pull_n: [f64; 2]) -> [f64; 3] {
+    let h = pull_n[0] / plane.force_unit_n;
+    let v = (pull_n[1] + plane.offset_n) / plane.force_unit_n;
+    let size = h.hypot(v).hypot(1.0);
+    [h / size, v / size, size.recip()]
+}
+
 /// The equilibrium, or for `facing` = −1 its mirror image, in the frame of the path.
 fn node(plane: &PlanarChain, position: f64, found: &ProvenEquilibrium, facing: f64) -> Node {
     let n = plane.length.len();
     let pull_n = [facing * found.pull_n[0].mid(), found.pull_n[1].mid()];
-    let h = pull_n[0] / plane.force_unit_n;
-    let v = (pull_n[1] + plane.offset_n) / plane.force_unit_n;
-    let size = h.hypot(v).hypot(1.0);
     let mut y = DVector::zeros(n + 4);
     for (slot, angle) in y.iter_mut().zip(&found.angles_rad) {
         *slot = facing * angle.mid();
     }
-    y[n] = h / size;
-    y[n + 1] = v / size;
-    y[n + 2] = size.recip();
+    for (slot, part) in y.iter_mut().skip(n).zip(homogeneous(plane, pull_n)) {
+        *slot = part;
+    }
     y[n + 3] = position;
     let own = Observables::at(plane, &y);
     let scale = plane.length_unit_m * plane.total_n;

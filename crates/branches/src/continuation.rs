@@ -12,6 +12,7 @@ use crate::census_point::{CensusPoint, PathPoint, PointStatus};
 use crate::checks::{Checks, agrees, incomplete};
 use crate::error::ContinuationError;
 use crate::event::{Event, EventKind};
+use crate::multiple;
 use crate::parameter::number::Number;
 use crate::path::Path;
 use crate::segment::Segment;
@@ -134,7 +135,7 @@ impl Continuation {
         let mut round = 0;
         let (branches, events) = loop {
             let segments = segments(&path, &census_points);
-            let (branches, events) = work.branches(&census_points, &segments);
+            let (branches, events) = work.branches(&census_points, &segments)?;
             work.checks.incomplete = incomplete(&branches, &events);
             let gaps = gaps(&census_points, &events);
             let mut differ = work.look_between(&census_points, &segments, &gaps, &branches)?;
@@ -209,7 +210,7 @@ impl Work<'_> {
         &mut self,
         census_points: &[CensusPoint],
         segments: &[[usize; 2]],
-    ) -> (Vec<Branch>, Vec<Event>) {
+    ) -> Result<(Vec<Branch>, Vec<Event>), ContinuationError> {
         let key = |pair: [usize; 2]| pair.map(|k| census_points[k].position.to_bits());
         let is_fresh = |pair: &[usize; 2]| !self.known.contains_key(&key(*pair));
         let fresh: Vec<[usize; 2]> = segments.iter().copied().filter(is_fresh).collect();
@@ -223,8 +224,14 @@ impl Work<'_> {
             curves: &self.known[&key(*pair)].curves,
         };
         let links = segments.iter().map(link);
-        let Assembly { branches, events, .. } = Assembly::new(self.path, census_points, links);
-        (branches, events)
+        let Assembly { mut branches, events, .. } = Assembly::new(self.path, census_points, links);
+        let mut proved = vec![];
+        for candidate in multiple::candidates(self.path, &events) {
+            let found = multiple::prove(self.path, &events, &candidate, &self.settings.census)?;
+            proved.extend(found);
+        }
+        let events = multiple::join(&mut branches, events, &proved);
+        Ok((branches, events))
     }
 
     /// Count again between the census points and events; the censuses that differ from the
@@ -329,7 +336,7 @@ impl Work<'_> {
 /// What lies between neighbouring census points and events in the plane.
 fn gaps(census_points: &[CensusPoint], events: &[Event]) -> Vec<[f64; 2]> {
     let in_plane =
-        |kind| matches!(kind, EventKind::Fold | EventKind::Straight | EventKind::BranchPoint);
+        |kind| !matches!(kind, EventKind::SpaceExchange { .. } | EventKind::Unloaded { .. });
     let events = events.iter().filter(|event| in_plane(event.kind)).map(|event| event.position);
     let (Some(first), Some(last)) = (census_points.first(), census_points.last()) else {
         return vec![];

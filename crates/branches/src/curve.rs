@@ -2,7 +2,7 @@
 
 use nalgebra::DVector;
 
-use crate::equations::{Tangent, correct, position_axis, tangent};
+use crate::equations::{RESIDUAL, Tangent, correct, position_axis, residual, tangent};
 use crate::locate::on_chord;
 use crate::observables::is_straight;
 use crate::path::Path;
@@ -36,6 +36,10 @@ const SAME_END: f64 = 1e-7;
 
 /// Changes of the position along a step below this are not told from rounding.
 const FLAT: f64 = 1e-10;
+
+/// Where a curve cannot be followed into a border it is followed up to one of these parts of the
+/// last step before it, the first that can be had.
+const SHORT_OF: [f64; 3] = [1e-6, 1e-4, 1e-2];
 
 /// A slope that falls below this part of those at both ends of a step may change its sign twice.
 const DIP: f64 = 0.2;
@@ -306,5 +310,23 @@ fn land(
     let gap = |y: &DVector<f64>, _: &DVector<f64>| Some(y[last] - border.position);
     let mut y = on_chord(path, a, b, gap).unwrap_or_else(|| b.clone());
     y[last] = border.position;
+    if border.gate == Gate::Closed
+        && residual(&path.plane(border.position), &y).amax() > RESIDUAL
+        && let Some(short) = short_of(path, a, &y)
+    {
+        points.push(CurvePoint { y: short, turn: None });
+    }
     points.push(CurvePoint { y, turn: None });
+}
+
+/// The point of the curve just short of a border at which the equations are singular: `at` is next
+/// to the border and need not solve them.
+fn short_of(path: &Path<'_>, from: &DVector<f64>, at: &DVector<f64>) -> Option<DVector<f64>> {
+    let last = at.len() - 1;
+    let way = from[last] - at[last];
+    SHORT_OF.iter().find_map(|part| {
+        let mut y = at + *part * (from - at);
+        y[last] = at[last] + part * way;
+        correct(path, y, &position_axis(last - 3))
+    })
 }

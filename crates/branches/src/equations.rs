@@ -17,6 +17,9 @@ const CORRECTED: f64 = 1e-13;
 /// A point with a residual above this is no equilibrium.
 pub(crate) const RESIDUAL: f64 = 1e-11;
 
+/// Rounding of one equation, whose parts are of order one.
+const ROUNDING: f64 = 8.0 * f64::EPSILON;
+
 /// What the equations leave at `y`: n moments, two of the closure, and the size of the pull.
 pub(crate) fn residual(plane: &PlanarChain, y: &DVector<f64>) -> DVector<f64> {
     let n = plane.length.len();
@@ -118,6 +121,20 @@ pub(crate) fn tangent(path: &Path<'_>, y: &DVector<f64>, along: &DVector<f64>) -
     // `along` in the last row has the sign that t has there: t is on its side.
     let side = factors.determinant().signum();
     (size.is_finite() && size > 0.0).then(|| Tangent { t: t / size, side })
+}
+
+/// How far the position of a fold may be off, by rounding: with the left null vector ψ of the
+/// derivatives by the unknowns, an error r of the residual moves the fold by ψ·r / ψ·∂F/∂position. Where
+/// another curve meets the fold, the divisor vanishes.
+pub(crate) fn fold_error(path: &Path<'_>, y: &DVector<f64>) -> f64 {
+    let n = path.bars();
+    let j = jacobian(path, &path.plane(y[n + 3]), y);
+    let by_unknowns = j.view((0, 0), (n + 3, n + 3)).into_owned();
+    let Some(left) = by_unknowns.svd(true, false).u else { return f64::INFINITY };
+    let psi = left.column(n + 2);
+    let slope = psi.dot(&j.view((0, n + 3), (n + 3, 1)).column(0));
+    let rounding = ROUNDING * psi.iter().map(|part| part.abs()).sum::<f64>();
+    (rounding / slope.abs()).max(f64::EPSILON)
 }
 
 /// The direction in which only the position changes.

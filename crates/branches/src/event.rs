@@ -12,8 +12,12 @@ pub struct Event {
     pub kind: EventKind,
     /// Position on the path.
     pub position: f64,
+    /// How far `position` may be off: 0 where a census proves it, else an estimate.
+    pub position_error: f64,
     /// The values of the parameters there.
     pub values: Vec<f64>,
+    /// How far they may be off.
+    pub values_error: Vec<f64>,
     /// Distance of the anchors there, m.
     pub span_m: f64,
     /// The branches that take part: those that end or begin in it, or the one that passes.
@@ -48,6 +52,14 @@ pub enum EventKind {
         /// Index in space after.
         to: usize,
     },
+    /// Several branches end in one degenerate equilibrium, which a census proves at these very
+    /// values.
+    Multiple {
+        /// So many equilibria merge in it, with those that are complex.
+        multiplicity: usize,
+        /// Σ (−1)^index over those into which it falls apart.
+        degree: i8,
+    },
     /// A bar changes between tension and compression; its number, from 1.
     Unloaded {
         /// Number of the bar, from 1.
@@ -68,6 +80,7 @@ impl EventKind {
             Self::Straight => "straight",
             Self::BranchPoint => "branch-point",
             Self::SpaceExchange { .. } => "space-exchange",
+            Self::Multiple { .. } => "multiple",
             Self::Unloaded { .. } => "unloaded",
         }
     }

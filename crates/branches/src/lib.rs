@@ -23,6 +23,9 @@
 //! and events counts again. Where it differs, or a branch point lacks its branches, points are
 //! added.
 //!
+//! Where the equations are doubly singular (two curves touch) the census is asked whether that is
+//! one degenerate equilibrium: module `multiple`.
+//!
 //! # Limits
 //!
 //! What begins and ends between two censuses and touches no other branch (two branches that meet in
@@ -81,6 +84,7 @@ mod error;
 mod event;
 mod frame;
 mod locate;
+mod multiple;
 mod observables;
 mod parameter;
 mod path;
@@ -88,7 +92,7 @@ mod segment;
 mod variation;
 
 pub use branch::{Branch, BranchEnd, BranchPoint};
-pub use census_point::{PathPoint, PointStatus};
+pub use census_point::{Merged, PathPoint, PointStatus};
 pub use checks::Checks;
 pub use continuation::{Continuation, ContinuationSettings, Progress};
 pub use diagram::{Abscissa, diagram};

@@ -88,10 +88,28 @@ impl<'a> Path<'a> {
         })
     }
 
-    /// Whether the numbers at a position are in their ranges. The chain may still be out of reach.
+    /// Whether the numbers at a position are in their ranges and some weight is not on the anchors,
+    /// so that there are equations. The chain may still be out of reach.
     pub(crate) fn is_chain(&self, position: f64) -> bool {
         let problem = self.problem(&self.values_at(position));
         !matches!(problem, Err(PointError::Bar { .. } | PointError::Chain(_)))
+            && self.plane(position).force_unit_n > 0.0
+    }
+
+    /// Number of the parameter that changes at a position, if one alone does.
+    pub(crate) fn moving(&self, position: f64) -> Option<usize> {
+        let (k, _) = self.interval(position);
+        let (from, to) = (&self.values[k], self.values.get(k + 1)?);
+        let mut changing = (0..from.len()).filter(|k| from[*k].to_bits() != to[*k].to_bits());
+        changing.next().filter(|_| changing.next().is_none())
+    }
+
+    /// The position next to another at which the parameter that changes has this value.
+    pub(crate) fn position_of(&self, parameter: usize, value: f64, near: f64) -> f64 {
+        let (k, _) = self.interval(near);
+        let [from, to] = [k, k + 1].map(|k| self.values[k][parameter]);
+        let intervals = (self.values.len() - 1).max(1) as f64;
+        (k as f64 + (value - from) / (to - from)) / intervals
     }
 
     /// Number of bars.

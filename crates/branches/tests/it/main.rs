@@ -3,5 +3,6 @@
 #![expect(clippy::unwrap_used, reason = "helpers of tests")]
 
 mod closed_forms;
+mod degenerate;
 mod parameters;
 mod random_chains;

@@ -92,6 +92,28 @@ fn people_get_a_table() {
     }
 }
 
+/// Digits shown are digits known: where two curves touch, their folds are one equilibrium, proved.
+#[test]
+fn a_degenerate_point_is_told_as_what_it_is() {
+    let vary = ["--vary", "anchors.end_m.x=1", "--vary", "anchors.end_m.z=-2.5..-1.4:12"];
+    let output = funicular(&[&["trace", "--case", "three-equal-bars"], &vary[..]].concat());
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    let said = text(&output.stdout);
+    let words = said.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(said.contains("of multiplicity 4 is proved") && words.contains("-2 m"), "{said}");
+    assert!(!said.contains("fold:") && !said.contains("-2.0000") && !said.contains("1.9999"));
+}
+
+/// At mass 0 there is nothing to weigh.
+#[test]
+fn a_path_to_no_mass_prints_no_number_that_is_none() {
+    let vary = ["trace", "--case", "three-equal-bars", "--vary", "bars.*.mass_kg=0..1:3"];
+    let output = funicular(&vary);
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    let said = text(&output.stdout);
+    assert!(!said.contains("NaN") && !said.contains("index in space"), "{said}");
+}
+
 #[test]
 fn a_product_has_a_path_for_each_combination() {
     let out = folder("product");

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use branches::{Continuation, EventKind, PointStatus};
+use branches::{Continuation, Event, EventKind, PointStatus};
 
 use crate::tables;
 
@@ -43,7 +43,12 @@ pub fn text(trace: &Continuation, many: bool) -> String {
     text += &table(trace);
     for point in trace.points.iter().filter(|p| matches!(p.status, PointStatus::Undecided { .. })) {
         // Writing to a String cannot fail.
-        let _ = writeln!(text, "degenerate at {}", values(trace, &point.values));
+        let _ = writeln!(
+            text,
+            "degenerate at {}{}",
+            values(trace, &point.values, None),
+            degenerate(&point.status)
+        );
     }
     // Writing to a String cannot fail.
     let _ = writeln!(
@@ -53,6 +58,23 @@ pub fn text(trace: &Continuation, many: bool) -> String {
         said(trace, proved == 0 && undecided > 0)
     );
     text
+}
+
+/// What is known of a degenerate point.
+fn degenerate(status: &PointStatus) -> String {
+    let PointStatus::Undecided { straight, merged, .. } = status else { return String::new() };
+    let mut known = vec![];
+    match straight {
+        0 => {}
+        1 => known.push("the chain fits into the line of its anchors".to_owned()),
+        ways => known.push(format!("the chain fits into the line of its anchors in {ways} ways")),
+    }
+    known.extend(
+        merged.iter().map(|merged| {
+            format!("an equilibrium of multiplicity {} is proved", merged.multiplicity)
+        }),
+    );
+    if known.is_empty() { String::new() } else { format!(": {}", known.join(", ")) }
 }
 
 /// What the checks say.
@@ -79,23 +101,65 @@ fn said(trace: &Continuation, nothing: bool) -> String {
     .join(", ")
 }
 
-fn values(trace: &Continuation, values: &[f64]) -> String {
-    let named = trace.parameters.iter().zip(values).zip(&trace.units);
+/// The values of the parameters, with the digits that are known where errors are given.
+fn values(trace: &Continuation, values: &[f64], errors: Option<&[f64]>) -> String {
+    let named = trace.parameters.iter().zip(values).zip(&trace.units).enumerate();
     named
-        .map(|((name, value), unit)| format!("{name} = {value} {unit}"))
+        .map(|(k, ((name, value), unit))| {
+            let error = errors.and_then(|errors| errors.get(k)).copied().unwrap_or(0.0);
+            format!("{name} = {} {unit}", known(*value, error))
+        })
         .collect::<Vec<_>>()
         .join(", ")
+}
+
+/// The energies of all branches lie in a range of this width, J.
+fn range_j(trace: &Continuation) -> f64 {
+    let points = trace.branches.iter().flat_map(|branch| &branch.points);
+    let ends = points.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], point| {
+        [low.min(point.energy_j), high.max(point.energy_j)]
+    });
+    (ends[1] - ends[0]).max(0.0)
+}
+
+/// Decimals of an energy, at most.
+const DECIMALS: usize = 9;
+
+/// How much faster than on the whole path the energy may change in an event.
+const STEEPER: f64 = 10.0;
+
+/// The energy in an event: what is not known of the position is not known of it.
+fn energy(event: &Event, range_j: f64) -> String {
+    let all = format!("{:.DECIMALS$}", event.energy_j);
+    let some = known(event.energy_j, STEEPER * event.position_error * range_j);
+    if event.position_error > 0.0 && some.len() < all.len() { some } else { all }
+}
+
+/// A value with its known digits: the last one that is shown is off by one at most.
+fn known(value: f64, error: f64) -> String {
+    if error <= 0.0 {
+        return value.to_string();
+    }
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped")]
+    let digits = (-error.log10()).floor().clamp(0.0, 17.0) as usize;
+    let rounded = format!("{value:.digits$}");
+    let all = value.to_string();
+    if all.len() < rounded.len() { all } else { rounded }
 }
 
 fn table(trace: &Continuation) -> String {
     let mut table = tables::table(["what happens", "where", "branches", "energy / J", "residual"]);
     let shown = |kind: EventKind| !matches!(kind, EventKind::Unloaded { .. });
+    let range_j = range_j(trace);
     let events: Vec<_> = trace.events.iter().filter(|event| shown(event.kind)).collect();
     for event in events.iter().take(SHOWN) {
         let what = match event.kind {
             EventKind::Fold => "fold: two branches meet and end".to_owned(),
             EventKind::Straight => "straight chain: two branches meet and end".to_owned(),
             EventKind::BranchPoint => "branch point".to_owned(),
+            EventKind::Multiple { multiplicity, .. } => {
+                format!("branches meet in an equilibrium of multiplicity {multiplicity}, proved")
+            }
             EventKind::SpaceExchange { from, to } => {
                 format!("index in space {from} \u{2192} {to}")
             }
@@ -104,9 +168,9 @@ fn table(trace: &Continuation) -> String {
         let branches: Vec<String> = event.branches.iter().map(ToString::to_string).collect();
         table.add_row([
             what,
-            values(trace, &event.values),
+            values(trace, &event.values, Some(&event.values_error)),
             branches.join(", "),
-            format!("{:.9}", event.energy_j),
+            energy(event, range_j),
             format!("{:.0e}", event.residual),
         ]);
     }
