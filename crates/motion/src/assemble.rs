@@ -79,7 +79,7 @@ fn close(
 }
 
 fn world(mechanism: &Mechanism, state: &State) -> Vec<Vector> {
-    let reference = mechanism.system().reference_m();
+    let reference = mechanism.reference_m;
     mechanism.by_joint(&state.at).into_iter().map(|x| plus(x, reference)).collect()
 }
 

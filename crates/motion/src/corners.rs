@@ -11,7 +11,7 @@
 //! quaternion to be normalised (natural coordinates: J. García de Jalón, E. Bayo, *Kinematic and
 //! Dynamic Simulation of Multibody Systems*, Springer 1994).
 
-use model::system::{Joint, Member, System};
+use model::system::{Joint, Kind, Member, System};
 use model::{Bar, Vector};
 
 use crate::error::MotionError;
@@ -90,8 +90,12 @@ pub(crate) fn expand(system: &System) -> Result<Expanded, MotionError> {
         }
         let refused =
             || unequal(number, bar, "in motion each has to be less than the sum of the other two");
-        if member.stiffness_n.is_some() {
-            return Err(unequal(number, bar, "it may stretch, and they differ across it"));
+        if member.stiffness_n.is_some() || member.kind != Kind::Bar {
+            return Err(unequal(
+                number,
+                bar,
+                "it may stretch or go slack, and they differ across it",
+            ));
         }
         let corner = joints.len();
         let [a, b, p, q] = [member.from, member.to, corner, corner + 1];

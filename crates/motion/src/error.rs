@@ -6,11 +6,11 @@
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum MotionError {
-    /// Occurs when an inextensible cable or strut is part of the system: it goes slack and taut
-    /// with impacts, for which no law is given.
+    /// Occurs when an inextensible cable or strut is part of a system whose position is to be found:
+    /// it may be taut or slack there. Motions and modes begin with given positions.
     #[error(
-        "member {member} is an inextensible {kind}: it becomes taut with an impact, and no law of impact is \
-         given; with a stiffness (stiffness_n) it moves"
+        "member {member} is an inextensible {kind}, taut or slack: positions are found for bars and members with a \
+         stiffness alone, and a motion has to begin with a position that is given, as an equilibrium is"
     )]
     Unilateral {
         /// Number of the member, from 1.
@@ -38,6 +38,17 @@ pub enum MotionError {
         /// Its axial force, tension positive, N.
         axial_n: f64,
     },
+    /// Occurs when impacts follow each other too fast, or when no impulses of the right signs are
+    /// found for what closes at one time.
+    #[error("at t = {time_s} s there are more than {most} impacts in a step of {step_s} s")]
+    Impacts {
+        /// Time of the last one.
+        time_s: f64,
+        /// The step.
+        step_s: f64,
+        /// Most impacts in a step.
+        most: usize,
+    },
     /// Occurs when a joint about whose equilibrium a system oscillates lies on a floor that does not
     /// certainly push it: it may rise and not sink, and no small motion is linear.
     #[error(
@@ -50,8 +61,11 @@ pub enum MotionError {
         /// Force of the floor on it, up, N.
         push_n: f64,
     },
-    /// Occurs when there is a floor: joints meet it with impacts, for which no law is given.
-    #[error("there is a floor: joints fall onto it with impacts, and no law of impact is given")]
+    /// Occurs when there is a floor under a system whose position is to be found.
+    #[error(
+        "there is a floor: positions are found where there is none, and a motion has to begin with a position \
+         that is given, as an equilibrium is"
+    )]
     Floor,
     /// Occurs when the two moments across a member differ where that is not provided for (members
     /// with a stiffness, flat bodies in motion), or when no body has its moments.

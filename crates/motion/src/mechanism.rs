@@ -22,6 +22,8 @@ pub struct Mechanism {
     pub(crate) system: System,
     /// The system as given, where it has fewer joints.
     given: Option<System>,
+    /// The point that places are relative to, world frame, m.
+    pub(crate) reference_m: Vector,
     pub(crate) cornered: Vec<Cornered>,
     /// Slot of each joint, and joint of each slot.
     pub(crate) slot_of: Vec<usize>,
@@ -87,25 +89,31 @@ impl Mechanism {
     /// The same, where inextensible cables and struts are slack.
     pub(crate) fn for_small_motions(system: &System) -> Result<Self, MotionError> {
         let inertia = smaller(system)?;
-        Self::build(Expanded { system: system.clone(), inertia, cornered: Vec::new() }, None)
+        let expanded = Expanded { system: system.clone(), inertia, cornered: Vec::new() };
+        Self::build(expanded, None, system.reference_m())
     }
 
     /// For places alone, where nothing depends on how bars spin.
     pub(crate) fn for_places(system: &System) -> Result<Self, MotionError> {
         refuse_inextensible(system)?;
         let inertia = system.members().iter().map(|m| EndInertia::new(&m.body)).collect();
-        Self::build(Expanded { system: system.clone(), inertia, cornered: Vec::new() }, None)
+        let expanded = Expanded { system: system.clone(), inertia, cornered: Vec::new() };
+        Self::build(expanded, None, system.reference_m())
     }
 
-    /// For motions: with corners at bars whose moments across differ.
-    pub(crate) fn for_motion(system: &System) -> Result<Self, MotionError> {
-        refuse_inextensible(system)?;
+    /// For motions: with corners at bars whose moments across differ. Inextensible cables and
+    /// struts are slack.
+    pub(crate) fn for_motion(system: &System, reference_m: Vector) -> Result<Self, MotionError> {
         let expanded = expand(system)?;
         let given = (!expanded.cornered.is_empty()).then(|| system.clone());
-        Self::build(expanded, given)
+        Self::build(expanded, given, reference_m)
     }
 
-    fn build(expanded: Expanded, given: Option<System>) -> Result<Self, MotionError> {
+    fn build(
+        expanded: Expanded,
+        given: Option<System>,
+        reference_m: Vector,
+    ) -> Result<Self, MotionError> {
         let Expanded { system, inertia, cornered } = expanded;
         if given.as_ref().unwrap_or(&system).floor_m().is_some() {
             return Err(MotionError::Floor);
@@ -125,6 +133,7 @@ impl Mechanism {
         }
         let mut found = Self {
             given,
+            reference_m,
             cornered,
             slot_of,
             joint_at,
@@ -165,7 +174,7 @@ impl Mechanism {
 
     fn add_joints(&mut self) {
         let gravity = self.system.gravity_m_s2();
-        let reference = self.system.reference_m();
+        let reference = self.reference_m;
         for (joint, data) in self.system.joints().iter().enumerate() {
             let slot = self.slot_of[joint];
             self.mass[slot] += data.mass_kg;
@@ -236,7 +245,7 @@ impl Mechanism {
     ///
     /// [`MotionError::Input`] when their number is not that of the joints, or one is not finite.
     pub(crate) fn places(&self, joints_m: &[Vector]) -> Result<Vec<Vector>, MotionError> {
-        let reference = self.system.reference_m();
+        let reference = self.reference_m;
         self.check_vectors(joints_m, "places of the joints")?;
         let mut joints_m = joints_m.to_vec();
         for cornered in &self.cornered {

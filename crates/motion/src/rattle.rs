@@ -271,6 +271,21 @@ impl Stepper {
         off
     }
 
+    /// The multipliers of the rows that a push makes, N s/m: of a bar its axial impulse over its
+    /// length, tension positive.
+    pub(crate) fn impulses(
+        &mut self,
+        mechanism: &Mechanism,
+        state: &State,
+        impulses: &[Vector],
+    ) -> Vec<f64> {
+        let moving = mechanism.moving;
+        self.rates(mechanism, state);
+        self.x[..moving].copy_from_slice(&impulses[..moving]);
+        self.saddle.solve(&mut self.x[..moving], &mut self.rows);
+        self.rows.clone()
+    }
+
     /// Change the velocities by impulses, N s by slot, under the constraints.
     pub(crate) fn push(
         &mut self,

@@ -4,6 +4,7 @@ use model::Vector;
 use model::system::{Member, System};
 
 use crate::composition::parts;
+use crate::contacts::{Contacts, Impact};
 use crate::damping;
 use crate::error::MotionError;
 use crate::force::{ForceOfTime, Forces, MomentOfTime, kinetic_j, potential_j};
@@ -46,14 +47,17 @@ const MOST_CORRECTIONS: usize = 20;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub struct Simulation {
-    mechanism: Mechanism,
-    settings: Settings,
+    pub(crate) mechanism: Mechanism,
+    pub(crate) settings: Settings,
     /// Lengths of the steps of RATTLE in a step, in units of it.
     parts: Vec<f64>,
-    forces: Forces,
-    state: State,
-    stepper: Stepper,
-    time_s: f64,
+    pub(crate) forces: Forces,
+    pub(crate) state: State,
+    pub(crate) stepper: Stepper,
+    pub(crate) time_s: f64,
+    /// What holds on one side alone, where there is such.
+    pub(crate) contacts: Option<Contacts>,
+    pub(crate) impacts: Vec<Impact>,
 }
 
 impl Simulation {
@@ -71,7 +75,15 @@ impl Simulation {
         settings: Settings,
     ) -> Result<Self, MotionError> {
         settings.validate()?;
-        let mechanism = Mechanism::for_motion(system)?;
+        let mut contacts = Contacts::of(system);
+        let held = match &mut contacts {
+            Some(contacts) if joints_m.len() == system.joints().len() => {
+                contacts.begin(joints_m)?;
+                contacts.held()?
+            }
+            _ => system.clone(),
+        };
+        let mechanism = Mechanism::for_motion(&held, system.reference_m())?;
         let mut state = State::at_rest(mechanism.places(joints_m)?);
         let mut stepper = Stepper::new(&mechanism)?;
         let off = state.rows(&mechanism, &mut stepper.vectors);
@@ -83,7 +95,20 @@ impl Simulation {
         let forces = Forces::default();
         stepper.arrive(&mechanism, &state, &forces, 0.0).map_err(begin)?;
         let parts = parts(settings.order);
-        Ok(Self { mechanism, settings, parts, forces, state, stepper, time_s: 0.0 })
+        let impacts = Vec::new();
+        let mut found = Self {
+            mechanism,
+            settings,
+            parts,
+            forces,
+            state,
+            stepper,
+            time_s: 0.0,
+            contacts,
+            impacts,
+        };
+        found.let_go(false)?;
+        Ok(found)
     }
 
     /// Add a force at a joint as a function of time, N; with the damping of [`Settings`] and the
@@ -162,6 +187,10 @@ impl Simulation {
     }
 
     fn push_slots(&mut self, impulses: &[Vector]) -> Result<(), MotionError> {
+        if self.contacts.is_some() {
+            self.collide(&[], Some(impulses))?;
+            return self.let_go(false);
+        }
         let pushed = self.stepper.push(&self.mechanism, &mut self.state, impulses);
         pushed.map_err(|failure| self.told(failure, 0.0))
     }
@@ -173,6 +202,11 @@ impl Simulation {
     /// [`MotionError`] when the constraints cannot be met: the step is too long, or the bars lie on
     /// a taut line.
     pub fn step(&mut self, step_s: f64) -> Result<(), MotionError> {
+        if self.contacts.is_some() { self.step_with_impacts(step_s) } else { self.whole(step_s) }
+    }
+
+    /// A step with what holds at its beginning.
+    pub(crate) fn whole(&mut self, step_s: f64) -> Result<(), MotionError> {
         for k in 0..self.parts.len() {
             self.part(self.parts[k] * step_s)?;
         }
@@ -212,7 +246,40 @@ impl Simulation {
         }
     }
 
-    /// The mechanics of the system.
+    /// The impacts so far: when inextensible cables and struts became taut or joints met the floor,
+    /// and the energy that was lost.
+    ///
+    /// ```
+    /// use model::Bar;
+    /// use model::system::{Joint, Member, System};
+    /// use motion::{Settings, Simulation};
+    ///
+    /// // A weight of 2 kg falls from its anchor until a cable of 1 m is taut, and hangs there.
+    /// let joints = vec![Joint::anchor("O", [0.0; 3]), Joint::free("P").with_mass(2.0)];
+    /// let cable = Member::cable(0, 1, Bar::homogeneous(1.0, 0.0)?);
+    /// let system = System::new("drop", 9.81, joints, vec![cable])?;
+    /// let mut drop = Simulation::new(&system, &[[0.0; 3]; 2], Settings::default())?;
+    /// for _ in 0..1000 {
+    ///     drop.step(1e-3)?;
+    /// }
+    /// let [impact] = drop.impacts() else { panic!("one") };
+    /// assert!((impact.time_s - (2.0_f64 / 9.81).sqrt()).abs() < 1e-11);
+    /// assert!((impact.lost_j - 2.0 * 9.81).abs() < 1e-9);
+    /// assert!((drop.joints_m()[1][2] + 1.0).abs() < 1e-12 && drop.kinetic_j() < 1e-18);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn impacts(&self) -> &[Impact] {
+        &self.impacts
+    }
+
+    /// Energy that was lost in impacts so far, J.
+    #[must_use]
+    pub fn lost_j(&self) -> f64 {
+        model::sum(self.impacts.iter().map(|impact| impact.lost_j))
+    }
+
+    /// The mechanics of the system, with what holds at the present time.
     #[must_use]
     pub fn mechanism(&self) -> &Mechanism {
         &self.mechanism
@@ -227,7 +294,7 @@ impl Simulation {
     /// Places of the joints, world frame, m.
     #[must_use]
     pub fn joints_m(&self) -> Vec<Vector> {
-        let reference = self.mechanism.system().reference_m();
+        let reference = self.mechanism.reference_m;
         let places = self.mechanism.by_joint(&self.state.at);
         places.into_iter().map(|x| plus(x, reference)).collect()
     }

@@ -41,6 +41,8 @@ pub struct Snapshot {
     /// Potential energy, J, relative to
     /// [`System::reference_m`](model::system::System::reference_m).
     pub potential_j: f64,
+    /// Energy that was lost in impacts since the beginning, J.
+    pub lost_j: f64,
     /// Largest relative violation of a length.
     pub lengths_off: f64,
     /// Largest rate of change of a length in units of the largest speed.
@@ -140,6 +142,7 @@ impl Snapshot {
             turning,
             kinetic_j: simulation.kinetic_j(),
             potential_j: simulation.potential_j(),
+            lost_j: simulation.lost_j(),
             lengths_off,
             rates_off,
             laws: Laws::default(),

@@ -1,5 +1,5 @@
-//! Inextensible cables and struts, and the floor: refused in motion, and what they are about an
-//! equilibrium.
+//! Inextensible cables and struts, and the floor: what they are about an equilibrium. In motion they
+//! are [`contacts`](crate::contacts).
 //!
 //! A cable that pulls stays taut in small motions, for its force changes by little: it is a bar. One
 //! that is shorter than its length stays slack: it has its inertia alone. Struts are alike, and a

@@ -50,10 +50,10 @@ Examples:
 /// potential energy), and judged by a third party that knows only Newton's laws.
 ///
 /// Scope: bars, cables and struts between joints without friction, rigid or with a stiffness, in
-/// space, at rest or in motion under their weight, masses at joints and constant forces, at rest
-/// above a flat floor; no other contact and no bending. `solve`, `judge` and `modes` take any such
-/// system, `simulate` those without impacts (no floor, no inextensible cables), `census` what has few
-/// closures; the other commands are for chains of rigid bars between two anchors.
+/// space, at rest or in motion under their weight, masses at joints and constant forces, above a
+/// flat floor; no other contact and no bending. `solve`, `judge`, `modes` and `simulate`
+/// take any such system, `census` what has few closures; the other commands are for chains of rigid
+/// bars between two anchors.
 #[derive(Debug, Parser)]
 #[command(name = "funicular", version, after_help = EXIT_CODES, after_long_help = format!("{EXAMPLES}\n\n{EXIT_CODES}"))]
 pub struct Cli {

@@ -123,6 +123,8 @@ struct Kept {
     lengths_off: f64,
     laws_off: f64,
     last_s: f64,
+    /// Energy lost in impacts, J; none where there cannot be any.
+    lost_j: Option<f64>,
 }
 
 /// Run the command.
@@ -202,6 +204,7 @@ impl Kept {
             lengths_off: 0.0,
             laws_off: 0.0,
             last_s: 0.0,
+            lost_j: motion::has_impacts(system).then_some(0.0),
         })
     }
 
@@ -211,7 +214,9 @@ impl Kept {
         }
         self.stored += 1;
         self.last_s = now.time_s;
-        self.energy_off_j = self.energy_off_j.max((now.energy_j() - self.first_j).abs());
+        let kept_j = now.energy_j() + now.lost_j;
+        self.energy_off_j = self.energy_off_j.max((kept_j - self.first_j).abs());
+        self.lost_j = self.lost_j.map(|_| now.lost_j);
         self.lengths_off = self.lengths_off.max(now.lengths_off);
         self.laws_off = self.laws_off.max(now.laws.largest());
         if let Some(rows) = &mut self.rows {
@@ -237,9 +242,12 @@ impl Kept {
 
     fn text(&self, system: &System, interrupted: bool) -> String {
         let ended = if interrupted { ", interrupted" } else { "" };
+        let lost = self.lost_j.map_or_else(String::new, |lost_j| {
+            format!(", beside {} J lost in impacts", short(lost_j))
+        });
         format!(
             "{}: {} s{ended}, {} stored times\n\
-             energy at the beginning {} J, largest change {:.1e} J\n\
+             energy at the beginning {} J, largest change {:.1e} J{lost}\n\
              lengths kept to {:.1e}, Newton's and Euler's laws to {:.1e} of the largest force\n",
             Printable(system.name()),
             short(self.last_s),

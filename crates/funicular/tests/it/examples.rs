@@ -6,9 +6,10 @@ use std::path::Path;
 use std::process::Command;
 
 /// The examples that the tests below run.
-const RUN: [&str; 10] = [
+const RUN: [&str; 11] = [
     "batch",
     "census",
+    "derivatives",
     "judge",
     "modes",
     "simulate",
@@ -94,6 +95,20 @@ fn census() {
         text.lines().nth(1).unwrap().contains(" 0 directions in which the energy falls"),
         "{text}"
     );
+}
+
+/// The pull (W/2) a/h of half the span a at the depth h grows by W l²/(4 h³) with the span, and the
+/// depth by l/(2 h) with a bar.
+#[test]
+fn derivatives() {
+    let (text, _) = run("derivatives");
+    let told = |line: &str| {
+        let found = text.lines().find_map(|l| l.strip_prefix(line)).unwrap();
+        number(found.trim_end_matches(" N/m"))
+    };
+    let stiffness = told("force at B by place of B, along x: ");
+    assert!((stiffness - 8.0 * 25.0 / (4.0 * 64.0)).abs() < 1e-6, "{text}");
+    assert!((told("height of P by bars.1.length_m: ") + 5.0 / 8.0).abs() < 1e-6, "{text}");
 }
 
 /// The horizontal pull of a chain of ten bars that is nearly straight is that of a string with the

@@ -278,6 +278,38 @@ fn forces_of_a_table_drive_a_weight() {
     assert!(String::from_utf8(output.stderr).unwrap().contains("there is no joint \"B\""));
 }
 
+/// The lamp on two cables, thrown up: it falls as a free body until both are taut, and hangs again.
+#[test]
+fn a_lamp_on_cables_is_thrown_up_and_caught() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("lamp.csv");
+    let out = path.to_str().unwrap();
+    let html = folder.path().join("lamp.html");
+    let arguments =
+        ["simulate", "--case", "lamp", "--push", "lamp=0,0,10", "--time", "3", "--out", out];
+    let output = funicular(&[&arguments[..], &["--html", html.to_str().unwrap()]].concat());
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(0), "{said}");
+    assert!(html.exists());
+    let text = String::from_utf8(output.stdout).unwrap();
+    let csv = std::fs::read_to_string(&path).unwrap();
+    let rows: Vec<Vec<&str>> = csv.lines().map(|line| line.split(',').collect()).collect();
+    let column = |name: &str| rows[0].iter().position(|column| *column == name).unwrap();
+    let of = |name: &str| {
+        let at = column(name);
+        rows[1..].iter().map(|row| row[at].parse::<f64>().unwrap()).collect::<Vec<f64>>()
+    };
+    let (lost, kinetic, energy) = (of("lost_j"), of("kinetic_j"), of("energy_j"));
+    // All that it was given is lost when it is caught.
+    let last = lost.len() - 1;
+    assert!(
+        lost[0].abs() <= 0.0 && kinetic[0] > 1.0 && (lost[last] / kinetic[0] - 1.0).abs() < 1e-9
+    );
+    assert!(kinetic[last] < 1e-12, "{}", kinetic[last]);
+    assert!(energy.iter().zip(&lost).all(|(e, l)| (e + l - energy[0]).abs() < 1e-9));
+    assert!(text.contains("J lost in impacts"), "{text}");
+}
+
 #[test]
 fn what_cannot_be_moved_is_refused_before_it_is_released() {
     let folder = tempfile::tempdir().unwrap();

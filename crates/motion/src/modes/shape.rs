@@ -73,7 +73,7 @@ pub(super) fn modes(
 
 /// Turns of the parts that turn freely about a vertical, in the coordinates of a sector.
 fn turns(mechanism: &Mechanism, state: &State, sector: &Sector) -> Vec<([f64; 2], DVector<f64>)> {
-    let reference = mechanism.system.reference_m();
+    let reference = mechanism.reference_m;
     let axes = &sector.axes;
     let mut found = Vec::new();
     for part in mechanism.system.parts() {

@@ -115,3 +115,35 @@ fn what_the_floor_pushes_slides_on_it() {
     let refused = modes(&on_the_floor(0.0), &below, None).unwrap_err();
     assert!(matches!(refused, MotionError::Input { .. }), "{refused}");
 }
+
+#[test]
+fn a_loaded_string_has_the_frequencies_of_lagrange() {
+    // n beads on a floor between level anchors, on cords of 1 m stretched to 1.25 m: 2 √(T/(m a)) sin
+    // θ_k across and 2 √(EA/(l m)) sin θ_k along, θ_k = k π/(2 (n + 1)).
+    let (n, mass_kg, stiffness_n) = (7_u32, 0.5, 400.0);
+    let at: Vec<[f64; 3]> = (0..=n + 1).map(|k| [1.25 * f64::from(k), 0.0, 0.0]).collect();
+    let mut joints = vec![Joint::anchor("A", at[0])];
+    joints.extend((1..=n).map(|k| Joint::free(k.to_string()).with_mass(mass_kg)));
+    joints.push(Joint::anchor("B", at[at.len() - 1]));
+    let cord = Bar::homogeneous(1.0, 0.0).unwrap();
+    let members = (0..=n as usize).map(|k| Member::bar(k, k + 1, cord).with_stiffness(stiffness_n));
+    let system = System::new("string", G, joints, members.collect()).unwrap();
+    let found = modes(&system.with_floor(0.0).unwrap(), &at, None).unwrap();
+    let tension_n = 0.25 * stiffness_n;
+    for (direction, by) in [
+        (Direction::Across, tension_n / (mass_kg * 1.25)),
+        (Direction::InPlane, stiffness_n / mass_kg),
+    ] {
+        let of: Vec<f64> = found
+            .modes
+            .iter()
+            .filter(|mode| mode.direction == direction)
+            .map(|mode| mode.omega2_s2)
+            .collect();
+        assert_eq!(of.len(), n as usize);
+        for (k, omega2) in (1..=n).zip(of) {
+            let angle = f64::from(k) * std::f64::consts::PI / f64::from(2 * (n + 1));
+            near(omega2, 4.0 * by * angle.sin().powi(2), 1e-12);
+        }
+    }
+}

@@ -11,6 +11,7 @@ mod folded;
 mod forced;
 mod four_bars;
 mod held;
+mod impacts;
 mod laws;
 mod lowest;
 mod modes;

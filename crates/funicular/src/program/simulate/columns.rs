@@ -13,6 +13,7 @@ const GROUP: usize = 4096;
 pub struct Rows {
     table: TableWriter,
     held: Vec<usize>,
+    has_impacts: bool,
     columns: Vec<Vec<f64>>,
 }
 
@@ -20,13 +21,14 @@ impl Rows {
     /// Begin the table of a system.
     pub fn create(path: &Path, format: Format, system: &System) -> Result<Self, ColumnsError> {
         let joints = system.joints();
-        let held: Vec<usize> =
-            (0..joints.len()).filter(|&k| joints[k].support.at_m().is_some()).collect();
-        let columns = describe(system, &held);
+        let is_held = |k: &usize| joints[*k].support.at_m().is_some() || system.floor_m().is_some();
+        let held: Vec<usize> = (0..joints.len()).filter(is_held).collect();
+        let has_impacts = motion::has_impacts(system);
+        let columns = describe(system, &held, has_impacts);
         let count = columns.len();
         let schema = Schema { columns, notes: Vec::new() };
         let table = TableWriter::create(path, format, &schema)?;
-        Ok(Self { table, held, columns: vec![Vec::new(); count] })
+        Ok(Self { table, held, has_impacts, columns: vec![Vec::new(); count] })
     }
 
     /// Add a row.
@@ -35,7 +37,14 @@ impl Rows {
         let speeds = now.velocities_m_s.iter().flatten();
         let reactions = self.held.iter().flat_map(|&joint| &now.reactions_n[joint]);
         let cells = [now.time_s, now.kinetic_j, now.potential_j, now.energy_j()];
-        let cells = cells.iter().chain(places).chain(speeds).chain(&now.axial_n).chain(reactions);
+        let lost = self.has_impacts.then_some(&now.lost_j);
+        let cells = cells
+            .iter()
+            .chain(lost)
+            .chain(places)
+            .chain(speeds)
+            .chain(&now.axial_n)
+            .chain(reactions);
         for (column, cell) in self.columns.iter_mut().zip(cells) {
             column.push(*cell);
         }
@@ -57,7 +66,7 @@ impl Rows {
 }
 
 /// The columns: joints by number, as names may hold anything.
-fn describe(system: &System, held: &[usize]) -> Vec<Column> {
+fn describe(system: &System, held: &[usize], has_impacts: bool) -> Vec<Column> {
     let column = |name: &str, spread, unit: &str, about: &str| {
         Column::new(name, Kind::F64, spread, unit, about)
     };
@@ -67,6 +76,10 @@ fn describe(system: &System, held: &[usize]) -> Vec<Column> {
         column("potential_j", Spread::Many, "J", "Potential energy above the first support"),
         column("energy_j", Spread::Many, "J", "Mechanical energy"),
     ];
+    if has_impacts {
+        let about = "Energy that was lost in impacts since the beginning";
+        columns.push(column("lost_j", Spread::Many, "J", about));
+    }
     let joints = system.joints();
     let mut vectors = |kind: &str, unit: &str, about: &str, of: &mut dyn Iterator<Item = usize>| {
         for joint in of {
@@ -94,7 +107,7 @@ fn describe(system: &System, held: &[usize]) -> Vec<Column> {
     let mut reactions = Vec::new();
     for &joint in held {
         for axis in ["x", "y", "z"] {
-            let about = format!("Force of the ground on joint {joint} along {axis}");
+            let about = format!("Force of the ground or floor on joint {joint} along {axis}");
             reactions.push(column(&format!("joint{joint}_f{axis}_n"), Spread::Many, "N", &about));
         }
     }

@@ -1,0 +1,223 @@
+//! What holds on one side alone: inextensible cables and struts, and the floor.
+//!
+//! Each has a gap that never becomes negative, and a force that is never of the wrong sign; one of
+//! the two is zero. While a gap is closed it is a constraint as others are. Where one closes with a
+//! speed the impact is perfectly plastic: the velocities change by impulses of what is closed, each
+//! of the right sign, so that none closes further and what pushes stays closed. With these
+//! directions `R` the change is the projection of the velocities in the metric of the inertia, and
+//! the energy that is lost is that of the change,
+//!
+//! $$ M (v^+ - v^-) = -R^T \nu, \quad R v^+ = 0, \qquad
+//!    T^- - T^+ = \tfrac12 (v^+ - v^-)^T M (v^+ - v^-) \ge 0 . $$
+//!
+//! (J. J. Moreau, "Unilateral contact and dry friction in finite freedom dynamics", 1988, with the
+//! coefficient of restitution zero; C. Glocker, *Set-Valued Force Laws*, Springer 2001.) A gap opens
+//! again where its force would change its sign.
+
+use model::Vector;
+use model::system::{Joint, Kind, Support, System};
+
+use crate::error::MotionError;
+use crate::mechanism::Mechanism;
+use crate::simulation::CLOSED_TOLERANCE;
+use crate::state::{State, half_excess};
+use crate::vector::{dot, minus};
+
+/// A gap that is less than this, in units of the length of its member or of all members, is closed.
+pub(crate) const CLOSED: f64 = 1e-12;
+
+/// One gap.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Contact {
+    /// An inextensible cable or strut, by its number among the members, from 0.
+    Member(usize),
+    /// A joint above the floor, by its number, from 0.
+    Floor(usize),
+}
+
+/// Gaps that closed at one time, and what that took of the energy.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Impact {
+    /// When, s.
+    pub time_s: f64,
+    /// What closed.
+    pub closed: Vec<Contact>,
+    /// Energy that was lost, J.
+    pub lost_j: f64,
+}
+
+/// Whether a motion of a system may have impacts: where there are inextensible cables or struts, or
+/// a floor.
+///
+/// ```
+/// use model::Bar;
+/// use model::system::{Joint, Member, System};
+///
+/// let joints = vec![Joint::anchor("O", [0.0; 3]), Joint::free("P").with_mass(2.0)];
+/// let cable = Member::cable(0, 1, Bar::homogeneous(1.0, 0.0)?);
+/// let [rigid, elastic] = [cable.clone(), cable.with_stiffness(1e3)]
+///     .map(|cable| System::new("cable", 9.81, joints.clone(), vec![cable]));
+/// assert!(motion::has_impacts(&rigid?) && !motion::has_impacts(&elastic?));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[must_use]
+pub fn has_impacts(system: &System) -> bool {
+    Contacts::of(system).is_some()
+}
+
+/// The gaps of a system.
+#[derive(Debug, Clone)]
+pub(crate) struct Contacts {
+    /// As given.
+    system: System,
+    pub list: Vec<Contact>,
+    /// Which of them are closed and bear forces.
+    pub holds: Vec<bool>,
+}
+
+impl Contacts {
+    /// None of a system without gaps.
+    pub(crate) fn of(system: &System) -> Option<Self> {
+        let members = system.members().iter().enumerate();
+        let members = members
+            .filter(|(_, m)| m.kind != Kind::Bar && m.stiffness_n.is_none())
+            .map(|(number, _)| Contact::Member(number));
+        let joints = system.joints().iter().enumerate();
+        let joints = joints
+            .filter(|(_, joint)| system.floor_m().is_some() && joint.support == Support::Free)
+            .map(|(number, _)| Contact::Floor(number));
+        let list: Vec<Contact> = members.chain(joints).collect();
+        let holds = vec![false; list.len()];
+        (!list.is_empty()).then(|| Self { system: system.clone(), list, holds })
+    }
+
+    /// Close what is closed at the places of a beginning, world frame, m.
+    ///
+    /// # Errors
+    ///
+    /// [`MotionError::NotClosed`] where a gap is negative by more than the rounding of printed
+    /// digits.
+    pub(crate) fn begin(&mut self, joints_m: &[Vector]) -> Result<(), MotionError> {
+        for (contact, holds) in self.list.iter().zip(&mut self.holds) {
+            let gap = match *contact {
+                Contact::Member(number) => {
+                    let member = &self.system.members()[number];
+                    let d = minus(joints_m[member.to], joints_m[member.from]);
+                    let excess = half_excess(dot(d, d), member.body.length_m());
+                    if member.kind == Kind::Cable { -excess } else { excess }
+                }
+                Contact::Floor(joint) => {
+                    let above_m = joints_m[joint][2] - self.system.floor_m().unwrap_or_default();
+                    above_m / self.system.total_length_m()
+                }
+            };
+            if gap.is_nan() || gap < -CLOSED_TOLERANCE {
+                return Err(MotionError::NotClosed { iterations: 0, off: gap.abs() });
+            }
+            *holds = gap <= CLOSED_TOLERANCE;
+        }
+        Ok(())
+    }
+
+    /// The system with bars and supports for what holds, and nothing else in its place.
+    pub(crate) fn held(&self) -> Result<System, MotionError> {
+        let (mut joints, mut members) =
+            (self.system.joints().to_vec(), self.system.members().to_vec());
+        for (contact, _) in self.list.iter().zip(&self.holds).filter(|(_, holds)| **holds) {
+            match *contact {
+                Contact::Member(number) => members[number].kind = Kind::Bar,
+                Contact::Floor(number) => {
+                    let at_m = [0.0, 0.0, self.system.floor_m().unwrap_or_default()];
+                    let normal = [0.0, 0.0, 1.0];
+                    let support = Support::Plane { at_m, normal };
+                    joints[number] = Joint { support, ..joints[number].clone() };
+                }
+            }
+        }
+        let system = &self.system;
+        System::new(system.name(), system.gravity_m_s2(), joints, members).map_err(|error| {
+            MotionError::Input { what: "what cables and the floor hold", reason: error.to_string() }
+        })
+    }
+
+    /// The gaps, relative: to first order the part of the length that is missing to its end, or of
+    /// all lengths to the floor.
+    pub(crate) fn gaps(&self, mechanism: &Mechanism, state: &State) -> Vec<f64> {
+        self.list.iter().map(|contact| self.gap(*contact, mechanism, state)).collect()
+    }
+
+    fn gap(&self, contact: Contact, mechanism: &Mechanism, state: &State) -> f64 {
+        match contact {
+            Contact::Member(number) => {
+                let member = &self.system.members()[number];
+                let [a, b] = [member.from, member.to].map(|joint| mechanism.slot_of[joint]);
+                let d = state.between(a, b);
+                let excess = half_excess(dot(d, d), member.body.length_m());
+                if member.kind == Kind::Cable { -excess } else { excess }
+            }
+            Contact::Floor(joint) => {
+                let z = state.at[mechanism.slot_of[joint]][2] + mechanism.reference_m[2];
+                (z - self.system.floor_m().unwrap_or_default()) / self.system.total_length_m()
+            }
+        }
+    }
+
+    /// How fast the gaps open, m/s.
+    pub(crate) fn rates(&self, mechanism: &Mechanism, state: &State) -> Vec<f64> {
+        let rate = |contact: &Contact| match *contact {
+            Contact::Member(number) => {
+                let member = &self.system.members()[number];
+                let [a, b] = [member.from, member.to].map(|joint| mechanism.slot_of[joint]);
+                let w = minus(state.velocity[b], state.velocity[a]);
+                let rate = dot(state.between(a, b), w) / member.body.length_m();
+                if member.kind == Kind::Cable { -rate } else { rate }
+            }
+            Contact::Floor(joint) => state.velocity[mechanism.slot_of[joint]][2],
+        };
+        self.list.iter().map(rate).collect()
+    }
+
+    /// With which accelerations the gaps open, m/s².
+    pub(crate) fn accelerations(
+        &self,
+        mechanism: &Mechanism,
+        state: &State,
+        acceleration: &[Vector],
+    ) -> Vec<f64> {
+        let rate = |contact: &Contact| match *contact {
+            Contact::Member(number) => {
+                let member = &self.system.members()[number];
+                let [a, b] = [member.from, member.to].map(|joint| mechanism.slot_of[joint]);
+                let w = minus(state.velocity[b], state.velocity[a]);
+                let along = dot(state.between(a, b), minus(acceleration[b], acceleration[a]));
+                let rate = (along + dot(w, w)) / member.body.length_m();
+                if member.kind == Kind::Cable { -rate } else { rate }
+            }
+            Contact::Floor(joint) => acceleration[mechanism.slot_of[joint]][2],
+        };
+        self.list.iter().map(rate).collect()
+    }
+
+    /// The force or impulse of each contact that holds, positive where it is of the right sign: of
+    /// the multipliers of the rows of the constraints, which for members are over their lengths.
+    pub(crate) fn forces(&self, mechanism: &Mechanism, multipliers: &[f64]) -> Vec<f64> {
+        let bars = mechanism.bars.iter().zip(multipliers);
+        let mut by_member = vec![0.0; mechanism.system.members().len()];
+        for (link, multiplier) in bars {
+            by_member[link.member] = multiplier * link.length_m;
+        }
+        let mut by_slot = vec![0.0; mechanism.joint_at.len()];
+        for (slide, multiplier) in mechanism.slides.iter().zip(&multipliers[mechanism.bars.len()..])
+        {
+            by_slot[slide.slot] = -multiplier;
+        }
+        let force = |contact: &Contact| match *contact {
+            Contact::Member(number) => {
+                let pulls = self.system.members()[number].kind == Kind::Cable;
+                if pulls { by_member[number] } else { -by_member[number] }
+            }
+            Contact::Floor(joint) => by_slot[mechanism.slot_of[joint]],
+        };
+        self.list.iter().map(force).collect()
+    }
+}
