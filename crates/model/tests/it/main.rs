@@ -4,13 +4,16 @@
 
 mod columns;
 mod constructors;
+mod evidence_words;
 mod files;
 mod format_page;
 mod json;
 mod mutations;
 mod network_columns;
+mod parts;
 mod refused;
 mod round_trip;
 mod support;
+mod system_numbers;
 mod systems;
 mod texts;

@@ -1,0 +1,76 @@
+//! What evidence says, and what it counts.
+
+use model::evidence::{
+    Disagreement, Evidence, FreeJoints, Reason, Room, Status, Verified, VerifiedSystem,
+};
+use model::{Rung, SolverName};
+
+#[test]
+fn room_is_told_where_there_is_some() {
+    assert_eq!(Room::of(0, 0), None);
+    for (turning_parts, free_joints) in [(1, 0), (0, 1), (1, 1), (2, 3)] {
+        let room = Room { turning_parts, free_joints };
+        assert_eq!(Room::of(turning_parts, free_joints), Some(room));
+    }
+}
+
+#[test]
+fn free_joints_are_from_the_first_to_the_last() {
+    let free = FreeJoints { first: 3, last: 6 };
+    assert_eq!(free.count(), 4);
+    let contained: Vec<_> = (0..9).filter(|joint| free.contains(*joint)).collect();
+    assert_eq!(contained, [3, 4, 5, 6]);
+}
+
+#[test]
+fn solvers_have_their_names() {
+    assert_eq!(SolverName::LAGRANGE.as_str(), "lagrange");
+    assert_eq!(SolverName::ENERGY.as_str(), "energy");
+}
+
+#[test]
+fn nothing_differs_in_an_empty_disagreement() {
+    let empty = Disagreement::default();
+    assert!(empty.is_empty() && empty.sentences().is_empty());
+}
+
+/// The box of a system tells its turns, slack members and loose joints where there are some.
+#[test]
+fn boxes_of_systems_tell_what_they_stand_for() {
+    let said = |turns, slack, loose_joints| {
+        let (width_m, width_n, distance_n) = (1e-9, 2e-9, 0.0);
+        let of = VerifiedSystem { width_m, width_n, distance_n, turns, slack, loose_joints };
+        let system = Some(of);
+        Verified { box_width: 1e-12, distance: 0.0, circle: false, system }.to_string()
+    };
+    let plain = said(0, 0, 0);
+    assert!(plain.contains("N wide, forces within") && plain.ends_with(" N"), "{plain}");
+    for (turns, words) in [(1, "vertical, 1 turn"), (2, "vertical, 2 turns")] {
+        let text = said(turns, 0, 0);
+        assert!(text.starts_with(&plain) && text.ends_with(words), "{text}");
+    }
+    for (slack, words) in [(1, "; 1 member proved slack"), (3, "; 3 members proved slack")] {
+        assert_eq!(said(0, slack, 0), format!("{plain}{words}"));
+    }
+    for (loose, words) in [(1, "1 joint without"), (4, "4 joints without")] {
+        let text = said(0, 0, loose);
+        assert!(text.starts_with(&plain) && text.contains(words), "{text}");
+    }
+}
+
+/// A census that refutes an answer takes back all but its convergence.
+#[test]
+fn a_refuted_answer_has_failed() {
+    let mut evidence = Evidence::new("residual", 1e-15, 1e-12, 7);
+    assert!(!evidence.ladder.failed());
+    assert!(evidence.ladder.convergence().is_some());
+    evidence.ladder.refute(0.25);
+    assert!(evidence.ladder.failed());
+    for rung in [Rung::Agreed, Rung::Verified, Rung::Complete, Rung::Optimal] {
+        let reason = evidence.ladder.reason(rung);
+        assert_eq!(reason, Some(&Reason::RefutedByCensus { distance: 0.25 }));
+    }
+    assert!(evidence.ladder.is_reached(Rung::Converged));
+    evidence.ladder.converged = Status::Open(Reason::NotTried);
+    assert!(evidence.ladder.convergence().is_none());
+}
