@@ -90,7 +90,7 @@ pub enum UseCensus {
     /// Where it takes a second at most: chains of up to 8 bars.
     #[default]
     Auto,
-    /// Wherever there can be one: chains of up to 12 bars, in seconds.
+    /// Wherever there can be one: chains of up to 16 bars, in some ten seconds.
     Always,
 }
 

@@ -42,7 +42,7 @@ pub struct Solve {
     #[arg(long, value_name = "FILE", conflicts_with_all = ["files", "case", "csv", "bars_csv", "svg"])]
     pub batch: Option<PathBuf>,
     /// Whether short chains are looked up in their census: up to 8 bars by themselves (auto), up to
-    /// 12 (always)
+    /// 16 (always)
     ///
     /// A census takes far longer than a solution. Without this option none is taken with --batch,
     /// and elsewhere auto holds; --census alone is --census=auto.

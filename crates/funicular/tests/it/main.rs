@@ -9,6 +9,7 @@ mod examples;
 mod files;
 mod fuzz;
 mod judge;
+mod keys;
 mod library;
 mod modes;
 mod motion;

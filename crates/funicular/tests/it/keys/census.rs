@@ -1,0 +1,436 @@
+//! `census`: two bars hang or stand; the paper's circles; positions that are not isolated.
+
+use serde_json::json;
+
+use super::evidence::NOTHING;
+use super::output::{Output, good};
+use super::solve::{LAMP, LEVEL_V, proofs_of_lamp, system_of_lamp, system_of_level_v};
+
+/// Half the height of an equilateral triangle of side 1 m, m.
+const DEPTH: f64 = 0.866_025_403_784_438_6;
+/// Level force of two bars of 10 N at 60 degrees: 10 (1/4)/(√3/2), N.
+const H: f64 = 2.886_751_345_948_129;
+/// The size of the mean force (H, 5 N) of a bar, N.
+const AXIAL: f64 = 5.773_502_691_896_258;
+
+/// Three bars of 1 m and 10 N to the end.
+fn three_bars(end: &str) -> String {
+    format!(
+        "gravity_m_s2 = 10\nanchors = {{ start_m = [0, 0, 0], end_m = {end} }}\n\
+         bars = [{{ length_m = 1, mass_kg = 1, count = 3 }}]\n"
+    )
+}
+
+fn census(kind: &'static str, test: &'static str, text: &str) -> Output {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("file.toml"), text).unwrap();
+    Output::json(kind, test, &good(folder.path(), &["census", "file.toml", "--json"]))
+}
+
+/// The first hangs, the second stands on its anchors.
+#[test]
+fn it_hangs_or_stands() {
+    let mut output = census("census of a chain", "it_hangs_or_stands", LEVEL_V);
+    output.is("schema_version", 2);
+    system_of_level_v(&mut output);
+    output.each("equilibria[].solver", "census");
+    output.is("equilibria[].energy_j", json!([-10.0 * DEPTH, 10.0 * DEPTH]));
+    let joints = [-DEPTH, DEPTH].map(|z| [0.0, 0.0, 0.0, 0.5, 0.0, z, 1.0, 0.0, 0.0]);
+    output.is("equilibria[].joints_m[][]", json!(joints));
+    let forces = [H, -H].map(|h| [-h, 0.0, 10.0, h, 0.0, 0.0, h, 0.0, 10.0]);
+    output.is("equilibria[].multipliers_n[][]", json!(forces));
+    let reactions = [H, -H, -H, H].map(|h| [h, 0.0, 10.0]);
+    // All ends stand before all starts.
+    output.is(
+        "equilibria[].reactions_n.*[]",
+        json!([reactions[0], reactions[1], reactions[2], reactions[3]]),
+    );
+    output.is("equilibria[].axial_n[]", json!([AXIAL, AXIAL, -AXIAL, -AXIAL]));
+    // Nothing moves in the plane; out of it the standing one falls.
+    output.each("equilibria[].stability.in_plane", "minimum");
+    output.each("equilibria[].stability.index_in_plane", 0);
+    output.is("equilibria[].stability.in_space", json!(["stable", "unstable"]));
+    output.is("equilibria[].stability.index_in_space", json!([0, 1]));
+    proof_by_intervals(&mut output);
+    output.is("equilibria[].label", json!(["1", "2"]));
+    output.each("equilibria[].circle", json!(null));
+    output.each("equilibria[].mirrored", false);
+    output.is("equilibria[].angles_deg[]", json!([30.0, 150.0, 150.0, 30.0]));
+    output.is("equilibria[].angles_signed_deg[]", json!([30.0, 150.0, 150.0, 30.0]));
+    output.is("equilibria[].signs[]", json!([1, 1, -1, -1]));
+    output.is("equilibria[].energy_scaled", json!([-DEPTH, DEPTH]));
+    let at = |key: &str| format!("equilibria[].enclosures.{key}");
+    output.encloses(&at("pull_n[][]"), json!([H, -10.0, -H, -10.0]));
+    output.encloses(&at("energy_j[]"), json!([-10.0 * DEPTH, 10.0 * DEPTH]));
+    let [low, high] = [std::f64::consts::FRAC_PI_6, 5.0 * std::f64::consts::FRAC_PI_6];
+    output.encloses(&at("angles_rad[][]"), json!([low, high, high, low]));
+    output.encloses(&at("joints_m[][][]"), json!(joints));
+    output.encloses(&at("multipliers_n[][][]"), json!(forces));
+    output.encloses(&at("axial_n[][]"), json!([AXIAL, AXIAL, -AXIAL, -AXIAL]));
+    summary(&mut output);
+    output.done();
+}
+
+/// The rungs of what is found by enclosure: no steps, no second solver.
+fn proof_by_intervals(output: &mut Output) {
+    let at = |key: &str| format!("equilibria[].evidence.{key}");
+    output.is(&at("rung"), json!(["optimal", "complete"]));
+    for width in ["residual", "ladder[].proof.residual", "ladder[].proof.box_width"] {
+        output.within(&at(width), f64::EPSILON / 2.0..=NOTHING);
+    }
+    output.within("equilibria[].box_width", f64::EPSILON / 2.0..=NOTHING);
+    for of in ["residual_of", "ladder[].proof.residual_of"] {
+        output.says(&at(of), &["width of the enclosures"]);
+    }
+    for none in ["iterations", "ladder[].proof.iterations", "nullity", "ladder[].proof.families"] {
+        output.each(&at(none), 0);
+    }
+    // Along and up: 2 l/|F| times 3/4 and 1/4.
+    output.near(&at("condition"), 1e-9, json!([3.0, 3.0]));
+    output.within(&at("solve_s"), 1e-7..=60.0);
+    let rungs = ["converged", "agreed", "verified", "complete", "optimal"];
+    output.each(&at("ladder[].rung"), rungs.as_slice());
+    let reached = [true, false, true, true, true, true, false, true, true, false];
+    output.is(&at("ladder[].reached"), json!(reached));
+    let how = ["width of", "census", "Krawczyk", "4 patterns", ""];
+    output.says(&at("ladder[].how"), &how);
+    let kinds = ["one_solver_only", "one_solver_only", "no_certificate"];
+    output.is(&at("ladder[].reason.kind"), json!(kinds));
+    output.each(&at("ladder[].reason.solver"), "census");
+    output.within(&at("ladder[].reason.statics"), 0.0..=NOTHING);
+    output.is(&at("ladder[].reason.because"), "energy_falls");
+    output.is(&at("ladder[].reason.directions"), 1);
+    output.within(&at("ladder[].proof.distance"), 0.0..=NOTHING);
+    output.each(&at("ladder[].proof.circle"), false);
+    output.each(&at("ladder[].proof.in_plane"), 2);
+    output.each(&at("ladder[].proof.patterns"), 4);
+    output.within(&at("ladder[].proof.cells"), 4.0..=1000.0);
+    output.is(&at("ladder[].proof.singular"), false);
+}
+
+/// The configurations of two bars in a plane are two points.
+fn summary(output: &mut Output) {
+    output.is("census.complete", true);
+    output.is("census.decided", true);
+    output.is("census.count", 2);
+    output.is("census.circles", false);
+    output.is("census.circle_count", json!(null));
+    output.is("census.count_by_index[]", json!([2]));
+    output.is("census.alternating_sum", 2);
+    output.is("census.euler_characteristic", 2);
+    output.is("census.betti[]", json!([2]));
+    output.is("census.topology_unknown", json!(null));
+    for none in ["straight[]", "degenerate[]", "undecided[]", "slack_families[]"] {
+        output.is(&format!("census.{none}"), json!([]));
+    }
+    output.is("census.undecided_boxes", 0);
+    output.is("census.energy_unit_j", 10.0);
+    output.is("census.energy_unit", "weight times length of one bar");
+    output.is("census.energy_symbol", "mgl");
+    output.is("census.check.passed", true);
+    output.is("census.check.refuted", false);
+    output.is("census.check.failure", json!(null));
+    let at = |key: &str| format!("census.statistics.{key}");
+    output.is(&at("bars"), 2);
+    output.within(&at("cells"), 4.0..=1000.0);
+    // Each cell is tested, each equilibrium proved.
+    output.within(&at("tests"), 4.0..=10_000.0);
+    output.within(&at("proofs"), 2.0..=1000.0);
+    output.within(&at("levels"), 1.0..=64.0);
+    output.within(&at("seconds"), 1e-7..=60.0);
+}
+
+/// Two circles of equilibria, each met twice by a vertical plane; angles and energies from 40
+/// digits.
+#[test]
+fn circles_of_the_paper() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = good(folder.path(), &["census", "--case", "three-equal-bars", "--json"]);
+    let mut output = Output::json("census of a chain", "circles_of_the_paper", &text);
+    let first = [19.694_867_976_133_02, 38.599_136_184_451_89, -73.920_588_792_231_34];
+    let [a, b, c] = first;
+    let second = [-c, -b, -a];
+    let signed = [first, first.map(|x: f64| -x), second, second.map(|x: f64| -x)];
+    output.is("equilibria[].angles_signed_deg[]", json!(signed));
+    let whole = signed.map(|angles| angles.map(|x: f64| x.rem_euclid(360.0)));
+    output.is("equilibria[].angles_deg[]", json!(whole));
+    output.is("equilibria[].label", json!(["1", "1'", "2", "2'"]));
+    output.is("equilibria[].circle", json!([1, 1, 2, 2]));
+    output.is("equilibria[].mirrored", json!([false, true, false, true]));
+    let [low, high] = [2.335_468_651_999_305 - 6.0, 3.664_531_348_000_695 - 6.0];
+    output.is("equilibria[].energy_scaled", json!([low, low, high, high]));
+    output.each("equilibria[].evidence.ladder[].proof.circle", true);
+    output.is("census.circles", true);
+    output.is("census.circle_count", 2);
+    output.is("census.count", 4);
+    // Two minima and two maxima in the plane, where the configurations form a closed curve.
+    output.is("census.count_by_index[]", json!([2, 2]));
+    output.is("census.alternating_sum", 0);
+    output.is("census.euler_characteristic", 0);
+    output.is("census.betti[]", json!([1, 1]));
+    output.done();
+}
+
+/// Anchors 1 m apart on one vertical: of three bars of 1 m one points back, and all is straight.
+#[test]
+fn straight_positions() {
+    let mut output = census("census of a chain", "straight_positions", &three_bars("[0, 0, -1]"));
+    output.is("equilibria[]", json!([]));
+    output.is("census.complete", false);
+    output.is("census.decided", true);
+    output.is("census.count", 0);
+    output.is("census.straight[].along[]", json!([1, 1, -1, 1, -1, 1, -1, 1, 1]));
+    output.each("census.straight[].upright", true);
+    output.is("census.euler_characteristic", json!(null));
+    output.is("census.betti", json!(null));
+    output.says("census.topology_unknown", &["sides 1, 4 are together as long as the others"]);
+    output.done();
+}
+
+/// To (1, 0, -2): down, along, down without force in the middle bar. 10 N at each end hold the
+/// chain, each outer bar bears its own half weight and that of the middle one.
+#[test]
+fn a_quadruple_point() {
+    let mut output = census("census of a chain", "a_quadruple_point", &three_bars("[1, 0, -2]"));
+    let at = |key: &str| format!("census.degenerate[].{key}");
+    output.is(&at("signs[]"), json!([1, 0, -1]));
+    let open = "equilibria[].evidence.ladder[].reason.listed";
+    output.each(open, 1);
+    // A minimum and a maximum are listed, of a closed curve: what is left has the degree 0.
+    output.is("census.count_by_index[]", json!([1, 1]));
+    output.is("census.euler_characteristic", 0);
+    output.is(&at("multiplicity"), 4);
+    output.is(&at("degree"), 0);
+    output.is(&at("index_in_plane"), 0);
+    output.is(&at("index_out_of_plane"), 1);
+    // Centres at -1/2, -1 and -3/2 m.
+    output.encloses(&at("energy_j[]"), json!([-30.0]));
+    output.encloses(&at("pull_n[][]"), json!([0.0, -15.0]));
+    let right = std::f64::consts::FRAC_PI_2;
+    output.encloses(&at("angles_rad[][]"), json!([0.0, right, 0.0]));
+    let joints = [[0, 0, 0], [0, 0, -1], [1, 0, -1], [1, 0, -2]].map(|at| at.map(f64::from));
+    output.encloses(&at("joints_m[][][]"), json!(joints));
+    output.encloses(&at("axial_n[][]"), json!([10.0, 0.0, -10.0]));
+    output.done();
+}
+
+/// Two bars that hang plumb 1 m apart, with two weightless ones of 1 m between: these lie as they
+/// like, above or below.
+#[test]
+fn slack_bars() {
+    let text = "gravity_m_s2 = 10\nanchors = { start_m = [0, 0, 0], end_m = [1, 0, 0] }\n\
+                bars = [{ length_m = 1, mass_kg = 1 }, { length_m = 1, mass_kg = 0, count = 2 }, \
+                { length_m = 1, mass_kg = 1 }]\n";
+    let mut output = census("census of a chain", "slack_bars", text);
+    let at = |key: &str| format!("census.slack_families[].{key}");
+    output.is(&at("signs[]"), json!([1, 0, 0, 1, -1, 0, 0, -1]));
+    output.encloses(&at("energy_j[]"), json!([-10.0, 10.0]));
+    output.encloses(&at("gap_m[]"), json!([1.0, 1.0]));
+    output.encloses(&at("pull_n[][]"), json!([0.0, -10.0, 0.0, -10.0]));
+    // Each standing bar falls in two directions.
+    output.is(&at("index_in_plane"), json!([0, 2]));
+    output.is(&at("index_in_space"), json!([0, 4]));
+    output.each(&at("dimension_in_plane"), 0);
+    output.is("census.energy_unit_j", 80.0);
+    output.is("census.energy_unit", "weight times length of the whole chain");
+    output.is("census.energy_symbol", "MgL");
+    output.done();
+}
+
+/// It hangs below its anchors or stands above them.
+#[test]
+fn census_of_the_lamp() {
+    let mut output = census("census of a system", "census_of_the_lamp", LAMP);
+    output.is("schema_version", 2);
+    system_of_lamp(&mut output);
+    output.each("equilibria[].solver", "census");
+    output.is("equilibria[].energy_j", json!([-48.0, 48.0]));
+    output.each("equilibria[].joints[].name", json!(["A", "B", "P"]));
+    let joints = [-2.4, 2.4].map(|z| [0.0, 0.0, 0.0, 5.0, 0.0, 0.0, 1.8, 0.0, z]);
+    output.is("equilibria[].joints[].at_m[]", json!(joints));
+    output.each("equilibria[].bars[].from", json!(["A", "P"]));
+    output.each("equilibria[].bars[].to", json!(["P", "B"]));
+    output.is("equilibria[].bars[].axial_n", json!([16.0, 12.0, -16.0, -12.0]));
+    let starts = [-9.6, 9.6].map(|x| [x, 0.0, 12.8, x, 0.0, -7.2]);
+    output.is("equilibria[].bars[].force_at_start_n[]", json!(starts));
+    let ends = starts.map(|forces| forces.map(|n: f64| -n));
+    output.is("equilibria[].bars[].force_at_end_n[]", json!(ends));
+    let reactions = [-9.6, 9.6].map(|x| [x, 0.0, 12.8, -x, 0.0, 7.2]);
+    output.is("equilibria[].reactions_n.*[]", json!(reactions));
+    output.is("equilibria[].stability.in_space", json!(["stable", "unstable"]));
+    output.is("equilibria[].stability.index_in_space", json!([0, 1]));
+    output.each("equilibria[].stability.index_in_plane", 0);
+    output.each("equilibria[].stability.neutral", 0);
+    proofs_of_lamp(&mut output);
+    evidence_by_intervals(&mut output);
+    parts(&mut output);
+    output.done();
+}
+
+/// The rungs of what is found by enclosure.
+fn evidence_by_intervals(output: &mut Output) {
+    let at = |key: &str| format!("equilibria[].evidence.{key}");
+    output.each(&at("rung"), "complete");
+    for width in ["residual", "ladder[].proof.residual"] {
+        output.within(&at(width), f64::EPSILON / 2.0..=NOTHING);
+    }
+    for of in ["residual_of", "ladder[].proof.residual_of"] {
+        output.says(&at(of), &["width of the enclosures of joints and forces"]);
+    }
+    for none in ["iterations", "ladder[].proof.iterations", "nullity"] {
+        output.each(&at(none), 0);
+    }
+    output.near(&at("condition"), 1e-9, json!([1.0, 1.0]));
+    output.within(&at("solve_s"), 1e-7..=60.0);
+    let rungs = ["converged", "agreed", "verified", "complete", "optimal"];
+    output.each(&at("ladder[].rung"), rungs.as_slice());
+    output.each(&at("ladder[].reached"), json!([true, false, true, true, false]));
+    let how = ["width of", "not tried", "exactly one", "one of 2", ""];
+    output.says(&at("ladder[].how"), &how);
+    let because = ["not_tried", "no_certificate"];
+    output.each(&at("ladder[].reason.kind"), because.as_slice());
+    output.is(&at("ladder[].reason.because"), json!(["pivots_undecided", "energy_falls"]));
+    output.is(&at("ladder[].reason.directions"), 1);
+}
+
+/// One part, a chain of two bars: its configurations in a plane are two points.
+fn parts(output: &mut Output) {
+    output.is("census.complete", true);
+    output.is("census.count", 2);
+    output.is("census.circles", false);
+    output.is("census.undecided_boxes", 0);
+    output.is("census.slack_families", 0);
+    output.is("census.check_passed", true);
+    output.within("census.seconds", 1e-7..=60.0);
+    let at = |key: &str| format!("census.parts[].{key}");
+    output.is(&at("count"), 2);
+    output.is(&at("hanging[]"), json!([]));
+    output.is(&at("framed"), 0);
+    output.is(&at("net"), json!(null));
+    let at = |key: &str| format!("census.parts[].chain.{key}");
+    output.is(&at("joints[]"), json!(["A", "P", "B"]));
+    output.is(&at("complete"), true);
+    output.is(&at("count_in_plane"), 2);
+    output.is(&at("count_by_index[]"), json!([2]));
+    output.is(&at("alternating_sum"), 2);
+    output.is(&at("euler_characteristic"), 2);
+    output.is(&at("undecided_boxes"), 0);
+    output.is(&at("check"), json!(null));
+    output.is(&at("statistics.bars"), 2);
+    output.within(&at("statistics.cells"), 4.0..=1000.0);
+    output.within(&at("statistics.tests"), 4.0..=10_000.0);
+    output.within(&at("statistics.proofs"), 2.0..=1000.0);
+    output.within(&at("statistics.levels"), 1.0..=64.0);
+    output.within(&at("statistics.seconds"), 1e-7..=60.0);
+}
+
+/// A light bar hangs a weight below two others, or stands it above: four positions.
+#[test]
+fn a_hanger() {
+    let text = "gravity_m_s2 = 10
+\
+                joints = { A = { at_m = [0, 0, 0] }, B = { at_m = [1, 0, 0] }, P = { mass_kg = 1 }, Q = { mass_kg = 1 } }
+\
+                bars = [{ from = \"A\", to = \"P\", length_m = 1, mass_kg = 0 }, \
+                { from = \"B\", to = \"P\", length_m = 1, mass_kg = 0 }, \
+                { from = \"P\", to = \"Q\", length_m = 1, mass_kg = 0 }]
+";
+    let mut output = census("census of a system", "a_hanger", text);
+    // P at ∓√3/2 m, Q 1 m below or above it, 10 N each.
+    let energies =
+        [-20.0 * DEPTH - 10.0, -20.0 * DEPTH + 10.0, 20.0 * DEPTH - 10.0, 20.0 * DEPTH + 10.0];
+    output.is("equilibria[].energy_j", json!(energies));
+    output.is("census.count", 4);
+    output.is("census.parts[].count", 4);
+    output.is("census.parts[].hanging[]", json!([3]));
+    output.each("equilibria[].evidence.ladder[].proof.system.hanging", 1);
+    output.each("equilibria[].evidence.ladder[].proof.system.positions", 4);
+    // An upright bar falls to both sides, two of 60 degrees out of their plane.
+    output.is("equilibria[].stability.index_in_space", json!([0, 2, 1, 3]));
+    output.done();
+}
+
+/// A weight on three light bars, in a tripod of 3-4-5 triangles: it hangs or stands.
+#[test]
+fn a_frame() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = good(folder.path(), &["census", "--case", "tripod", "--json"]);
+    let mut output = Output::json("census of a system", "a_frame", &text);
+    // 30 kg at 2.4 m, legs of 3 m: a third of the weight times 3/2.4 in each.
+    let leg = 30.0 * 9.806_65 / 3.0 * 3.0 / 2.4;
+    output.is("equilibria[].bars[].axial_n", json!([leg, leg, leg, -leg, -leg, -leg]));
+    output.is("census.parts[].framed", 1);
+    output.is("census.parts[].chain", json!(null));
+    output.is("equilibria[].stability.index_in_plane", json!([null, null]));
+    output.done();
+}
+
+/// Three strands of 2 m, one of two bars, to a knot over the middle of a triangle: 1.2 m out and
+/// 1.6 m down.
+#[test]
+fn a_bridle() {
+    let text = "gravity_m_s2 = 10
+\
+                joints = { A = { at_m = [1.2, 0, 0] }, B = { at_m = [-0.6, 1.0392304845413263, 0] }, \
+                C = { at_m = [-0.6, -1.0392304845413263, 0] }, P = { mass_kg = 30 } }
+\
+                bars = [{ from = \"A\", to = \"P\", length_m = 1, mass_kg = 1, count = 2 }, \
+                { from = \"B\", to = \"P\", length_m = 2, mass_kg = 1 }, \
+                { from = \"C\", to = \"P\", length_m = 2, mass_kg = 1 }]
+";
+    let mut output = census("census of a system", "a_bridle", text);
+    let at = |key: &str| format!("census.parts[].net.{key}");
+    output.is(&at("closures"), 2);
+    output.is(&at("knots[]"), "P");
+    output.is(&at("swings[]"), "A-P.1");
+    output.is(&at("in_plane"), false);
+    output.within(&at("signs"), 1.0..=16.0);
+    output.within(&at("cells"), 1.0..=10_000.0);
+    output.within(&at("tests"), 1.0..=100_000.0);
+    output.is(&at("undecided_boxes"), 0);
+    output.done();
+}
+
+/// The same positions as text in columns.
+#[test]
+fn columns_of_a_census() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("v.toml"), LEVEL_V).unwrap();
+    std::fs::write(folder.path().join("lamp.toml"), LAMP).unwrap();
+    good(folder.path(), &["census", "v.toml", "--csv", "v.csv"]);
+    good(folder.path(), &["census", "lamp.toml", "--csv", "lamp.csv"]);
+    let read = |name: &str| std::fs::read_to_string(folder.path().join(name)).unwrap();
+    let mut output = Output::csv("census --csv of a chain", "columns_of_a_census", &read("v.csv"));
+    output.is("equilibrium", json!([1, 1, 1, 2, 2, 2]));
+    let halves = |low: f64, high: f64| json!([low, low, low, high, high, high]);
+    output.is("energy_j", halves(-10.0 * DEPTH, 10.0 * DEPTH));
+    output.each("index_in_plane", 0);
+    output.is("index_in_space", json!([0, 0, 0, 1, 1, 1]));
+    let rungs = ["optimal", "optimal", "optimal", "complete", "complete", "complete"];
+    output.is("rung", json!(rungs));
+    output.within("box_width", f64::EPSILON / 2.0..=NOTHING);
+    output.each("joint", json!([0, 1, 2]));
+    output.each("x_m", json!([0.0, 0.5, 1.0]));
+    output.each("y_m", 0.0);
+    output.is("z_m", json!([0.0, -DEPTH, 0.0, 0.0, DEPTH, 0.0]));
+    output.is("force_x_n", json!([-H, H, H, H, -H, -H]));
+    output.each("force_y_n", 0.0);
+    output.each("force_z_n", json!([10.0, 0.0, 10.0]));
+    // Of the bar that ends at the joint.
+    output.is("angle_deg", json!(["", 30.0, 150.0, "", 150.0, 30.0]));
+    output.is("axial_n", json!(["", AXIAL, AXIAL, "", -AXIAL, -AXIAL]));
+    output.done();
+    let text = read("lamp.csv");
+    let mut output = Output::csv("census --csv of a system", "columns_of_a_census", &text);
+    output.is("equilibrium", json!([1, 1, 1, 2, 2, 2]));
+    output.is("energy_j", halves(-48.0, 48.0));
+    output.is("index_in_space", json!([0, 0, 0, 1, 1, 1]));
+    output.each("joint", json!(["A", "B", "P"]));
+    output.each("x_m", json!([0.0, 5.0, 1.8]));
+    output.each("y_m", 0.0);
+    output.is("z_m", json!([0.0, 0.0, -2.4, 0.0, 0.0, 2.4]));
+    output.is("reaction_x_n", json!([-9.6, 9.6, 0.0, 9.6, -9.6, 0.0]));
+    output.each("reaction_y_n", 0.0);
+    output.each("reaction_z_n", json!([12.8, 7.2, 0.0]));
+    output.done();
+}

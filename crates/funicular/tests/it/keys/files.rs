@@ -1,0 +1,139 @@
+//! `solve` into columns, line by line and of several files: the numbers of the level V and the lamp.
+
+use serde_json::{Value, json};
+
+use super::output::{Output, good};
+use super::solve::{LAMP, LEVEL_V, system_of_level_v};
+
+/// Half the height of an equilateral triangle of side 1 m, m.
+const DEPTH: f64 = 0.866_025_403_784_438_6;
+/// Level force of two bars of 10 N at 60 degrees: 10 (1/4)/(√3/2), N.
+const H: f64 = 2.886_751_345_948_129;
+/// The size of the mean force (H, 5 N) of a bar, N.
+const AXIAL: f64 = 5.773_502_691_896_258;
+
+#[test]
+fn columns_of_answers() {
+    let folder = tempfile::tempdir().unwrap();
+    let read = |name: &str| std::fs::read_to_string(folder.path().join(name)).unwrap();
+    for (name, text) in [("v", LEVEL_V), ("lamp", LAMP)] {
+        std::fs::write(folder.path().join(format!("{name}.toml")), text).unwrap();
+        let [file, joints, bars] = [".toml", ".csv", "-bars.csv"].map(|end| format!("{name}{end}"));
+        good(folder.path(), &["solve", &file, "--csv", &joints, "--bars-csv", &bars]);
+    }
+    let test = "columns_of_answers";
+    let solvers = |count: usize| json!([vec!["lagrange"; count], vec!["energy"; count]]);
+    let mut output = Output::csv("solve --csv of a chain", test, &read("v.csv"));
+    output.is("solver", solvers(3));
+    output.each("joint", json!([0, 1, 2]));
+    output.each("x_m", json!([0.0, 0.5, 1.0]));
+    output.each("y_m", 0.0);
+    output.each("z_m", json!([0.0, -DEPTH, 0.0]));
+    output.each("force_x_n", json!([-H, H, H]));
+    output.each("force_y_n", 0.0);
+    output.each("force_z_n", json!([10.0, 0.0, 10.0]));
+    output.done();
+    let mut output = Output::csv("solve --bars-csv of a chain", test, &read("v-bars.csv"));
+    output.is("solver", solvers(2));
+    output.each("bar", json!([1, 2]));
+    output.each("from", json!([0, 1]));
+    output.each("to", json!([1, 2]));
+    output.each("axial_n", AXIAL);
+    output.done();
+    let mut output = Output::csv("solve --csv of a system", test, &read("lamp.csv"));
+    output.is("solver", solvers(3));
+    output.each("joint", json!(["A", "B", "P"]));
+    output.each("x_m", json!([0.0, 5.0, 1.8]));
+    output.each("y_m", 0.0);
+    output.each("z_m", json!([0.0, 0.0, -2.4]));
+    output.each("reaction_x_n", json!([-9.6, 9.6, 0.0]));
+    output.each("reaction_y_n", 0.0);
+    output.each("reaction_z_n", json!([12.8, 7.2, 0.0]));
+    output.done();
+    let mut output = Output::csv("solve --bars-csv of a system", test, &read("lamp-bars.csv"));
+    output.is("solver", solvers(2));
+    output.each("bar", json!([1, 2]));
+    output.each("from", json!(["A", "P"]));
+    output.each("to", json!(["P", "B"]));
+    output.each("axial_n", json!([16.0, 12.0]));
+    for (end, sign) in [("start", 1.0), ("end", -1.0)] {
+        output.each(&format!("{end}_x_n"), json!([-9.6 * sign, -9.6 * sign]));
+        output.each(&format!("{end}_y_n"), 0.0);
+        output.each(&format!("{end}_z_n"), json!([12.8 * sign, -7.2 * sign]));
+    }
+    output.done();
+}
+
+/// The level V in one line, a misspelt one, and one that cannot hang.
+#[test]
+fn lines_of_a_batch() {
+    let folder = tempfile::tempdir().unwrap();
+    let v = r#"{"name":"level V","gravity_m_s2":10,"anchors":{"start_m":[0,0,0],"end_m":[1,0,0]},"bars":[{"length_m":1,"mass_kg":1,"count":2}]}"#;
+    let falls = r#"{"gravity_m_s2":10,"joints":{"A":{"at_m":[0,0,0]},"P":{"mass_kg":1}},"bars":[{"from":"A","to":"P","length_m":1,"mass_kg":0,"kind":"strut"}]}"#;
+    let wrong = v.replace("mass_kg", "masskg");
+    std::fs::write(folder.path().join("three.jsonl"), format!("{v}\n{wrong}\n{falls}\n")).unwrap();
+    let mut command = assert_cmd::Command::cargo_bin("funicular").unwrap();
+    command.current_dir(folder.path()).args(["solve", "--batch", "three.jsonl"]);
+    let result = command.output().unwrap();
+    assert_eq!(result.status.code(), Some(2));
+    let text = String::from_utf8(result.stdout).unwrap();
+    let (first, rest) = text.split_once('\n').unwrap();
+    answered(first, "line", &json!(1), "lines_of_a_batch");
+    let mut output = Output::lines("solve --batch, refused", "lines_of_a_batch", rest);
+    output.is("line", json!([2, 3]));
+    output.says("error", &["unknown key `masskg`", "moves on without end"]);
+    output.is("key", "bars[1].masskg");
+    // Where the key begins in its line, in characters from 1.
+    output.is("column", wrong.find("\"masskg\"").unwrap() + 1);
+    output.says("help", &["did you mean `mass_kg`?"]);
+    output.is("failures[].solver", json!(["lagrange", "energy"]));
+    output.says("failures[].reason", &["joint P moves on without end", "member 1"]);
+    output.is("failures[].refusal.kind", json!(["escapes", "wrong_sign"]));
+    output.is("failures[].refusal.joint", "P");
+    output.within("failures[].refusal.distance_m", 1e6..=1e9);
+    output.is("failures[].refusal.member", 1);
+    output.near("failures[].refusal.force_n", 1e-9, 10.0);
+    output.done();
+}
+
+/// An answer among others is the object of one answer, with the place of its system before it.
+fn answered(text: &str, origin: &str, place: &Value, test: &'static str) {
+    let mut object: Value = serde_json::from_str(text).unwrap();
+    let found = object.as_object_mut().unwrap().remove(origin);
+    assert_eq!(found.as_ref(), Some(place));
+    let mut output = Output::json("solve a chain", test, &object.to_string());
+    system_of_level_v(&mut output);
+    output.each("equilibria[].energy_j", -10.0 * DEPTH);
+    output.each("equilibria[].axial_n[]", AXIAL);
+    if origin == "line" {
+        // A batch looks nothing up in a census unless it is told to.
+        output.each("equilibria[].evidence.ladder[].reason.because", "not_asked");
+    }
+    output.done();
+}
+
+/// The same of files, each with its name.
+#[test]
+fn several_files() {
+    let folder = tempfile::tempdir().unwrap();
+    let falls = "joints = { A = { at_m = [0, 0, 0] }, P = { mass_kg = 1 } }\n\
+                 bars = [{ from = \"A\", to = \"P\", length_m = 1, mass_kg = 0, kind = \"strut\" }]\n";
+    let far = LEVEL_V.replace("[1, 0, 0]", "[4, 0, 0]");
+    for (name, text) in [("v.toml", LEVEL_V), ("falls.toml", falls), ("far.toml", &far)] {
+        std::fs::write(folder.path().join(name), text).unwrap();
+    }
+    let mut command = assert_cmd::Command::cargo_bin("funicular").unwrap();
+    command.current_dir(folder.path());
+    let result = command.args(["solve", "v.toml", "falls.toml", "far.toml", "--json"]).output();
+    let text = String::from_utf8(result.unwrap().stdout).unwrap();
+    let mut objects = serde_json::Deserializer::from_str(&text).into_iter::<Value>();
+    let first = objects.next().unwrap().unwrap().to_string();
+    answered(&first, "file", &json!("v.toml"), "several_files");
+    let rest: Vec<String> = objects.map(|object| object.unwrap().to_string()).collect();
+    let rest = rest.join("\n");
+    let mut output = Output::lines("solve of several files, refused", "several_files", &rest);
+    output.is("file", json!(["falls.toml", "far.toml"]));
+    output.says("error", &["moves on without end", "4 m apart and the bars reach only 2 m"]);
+    output.is("help", "move the anchors together or lengthen the bars");
+    output.done();
+}

@@ -1,0 +1,186 @@
+//! `judge`: of the lamp on a 3-4-5 triangle, right and 0.1 m too low.
+
+use serde_json::json;
+
+use super::evidence::{self, NOTHING};
+use super::output::{Output, run};
+use super::solve::LAMP;
+
+/// Lengths of the bars with the lamp at 2.5 m, m.
+fn stretched() -> [f64; 2] {
+    [1.8_f64.hypot(2.5), 3.2_f64.hypot(2.5)]
+}
+
+fn judged(test: &'static str, height: &str, more: &[&str], code: i32) -> Output {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("lamp.toml"), LAMP).unwrap();
+    let places = format!("joint,x_m,y_m,z_m\nA,0,0,0\nB,5,0,0\nP,1.8,0,{height}\n");
+    std::fs::write(folder.path().join("places.csv"), places).unwrap();
+    let forces = "from,to,axial_n\nA,P,16\nP,B,12\n";
+    std::fs::write(folder.path().join("forces.csv"), forces).unwrap();
+    let arguments = ["judge", "lamp.toml", "--answer", "places.csv", "--json"];
+    let (found, text) = run(folder.path(), &[&arguments[..], more].concat());
+    assert_eq!(found, Some(code), "{text}");
+    let mut output = Output::json("judge", test, &text);
+    output.is("schema_version", 2);
+    output.is("system.name", "lamp");
+    output.is("system.joints", 3);
+    output.is("system.bars", 2);
+    output.is("source", "places.csv");
+    // A millionth of 5 m and of 20 N.
+    output.is("bounds.tolerance", 1e-6);
+    output.near("bounds.position_m", 1e-9, 5e-6);
+    output.near("bounds.force_n", 1e-9, 2e-5);
+    output
+}
+
+/// Both bars are too long, by what Pythagoras says.
+#[test]
+fn too_low() {
+    let mut output = judged("too_low", "-2.5", &[], 1);
+    let lengths = stretched();
+    let more = [lengths[0] - 3.0, lengths[1] - 4.0];
+    output.is("finding", "refuted");
+    output.says("says", &["refuted: a law is broken"]);
+    output.is("broken[].at", json!(["member 1 (A - P)", "member 2 (P - B)"]));
+    output.says("broken[].says", &["0.08058436015 m more than", "0.06078810085 m more than"]);
+    for list in ["broken", "violations"] {
+        let at = |key: &str| format!("{list}[].{key}");
+        output.is(&at("place.member"), json!([1, 2]));
+        output.each(&at("law"), "length");
+        output.is(&at("length_m"), json!([3.0, 4.0]));
+        output.is(&at("distance_m"), json!(lengths));
+        output.is(&at("value"), json!(more));
+        // Both ends as far off as the answer may be.
+        output.near(&at("allowed"), 1e-9, json!([1e-5, 1e-5]));
+    }
+    // In units of what is allowed.
+    output.near("largest", 1e-8, more[0] / 1e-5);
+    // The forces that balance 20 N in the wrong shape.
+    let forces = [20.0 * lengths[0] * 3.2 / 12.5, 20.0 * lengths[1] * 1.8 / 12.5];
+    output.is("forces", "found");
+    output.within("residual_n", 0.0..=NOTHING);
+    output.is("largest_n", forces[0]);
+    output.within("steps", 1.0..=100.0);
+    output.is("converged", true);
+    output.is("statics.length", more[0] / 3.0);
+    for law in ["support", "law", "force", "moment", "joint", "balance", "derived"] {
+        output.within(&format!("statics.{law}"), 0.0..=NOTHING);
+    }
+    output.is("statics.worst.member", 1);
+    output.is("joints[].name", json!(["A", "B", "P"]));
+    output.is("joints[].at_m[]", json!([0.0, 0.0, 0.0, 5.0, 0.0, 0.0, 1.8, 0.0, -2.5]));
+    let level = 20.0 * 3.2 * 1.8 / 12.5;
+    let ground = [-level, 0.0, 12.8, level, 0.0, 7.2, 0.0, 0.0, 0.0];
+    output.is("joints[].reaction_n[]", json!(ground));
+    output.is("bars[].from", json!(["A", "P"]));
+    output.is("bars[].to", json!(["P", "B"]));
+    output.is("bars[].axial_n", json!(forces));
+    nearest_of_too_low(&mut output, forces);
+    ladder_of_too_low(&mut output, more[0] / 1e-5);
+    output.done();
+}
+
+/// 0.1 m higher, with 2 J more.
+fn nearest_of_too_low(output: &mut Output, forces: [f64; 2]) {
+    let at = |key: &str| format!("nearest.equilibria[].{key}");
+    output.is(&at("solver"), json!(["energy", "lagrange"]));
+    output.each(&at("index_in_space"), 0);
+    output.each(&at("joints_m"), 0.1);
+    output.each(&at("joint"), 2);
+    output.each(&at("forces_n"), 12.0 - forces[1]);
+    output.each(&at("member"), 2);
+    output.each(&at("energy_j"), -2.0);
+    output.each(&at("forces_unique"), true);
+    // The first one is proved.
+    output.encloses(&at("proved.joints_m[]"), json!([0.1]));
+    output.encloses(&at("proved.forces_n[]"), json!([12.0 - forces[1]]));
+    output.is("nearest.failures[]", json!([]));
+    output.is("nearest.without_guess", false);
+    output.each(&at("evidence.rung"), "optimal");
+    let residuals = ["largest unbalanced force", "balance of joints"];
+    evidence::converged(output, "nearest.equilibria[]", &residuals, &[1e-12, 1e-12]);
+    evidence::agreed(output, "nearest.equilibria[]");
+    output.each(&at("evidence.nullity"), 0);
+    output.near(&at("evidence.condition"), 1e-9, json!([1.0, 1.0]));
+    output.each(&at("evidence.rigidity.rank"), 2);
+    output.each(&at("evidence.rigidity.mechanisms"), 1);
+    output.each(&at("evidence.rigidity.self_stresses"), 0);
+    output.each(&at("evidence.rigidity.gap[]"), json!([1.0, 0.0]));
+    let at = |key: &str| format!("nearest.equilibria[].evidence.ladder[].{key}");
+    output.each(&at("reached"), json!([true, true, false, false, true]));
+    let how = ["after", "lagrange and energy differ", "not tried", "not tried", "semidefinite"];
+    output.says(&at("how"), &how);
+    output.each(&at("reason.kind"), "not_tried");
+    output.within(&at("proof.gap"), 0.0..=NOTHING);
+    output.each(&at("proof.singular"), false);
+}
+
+/// Not even the first rung, and why.
+fn ladder_of_too_low(output: &mut Output, largest: f64) {
+    let at = |key: &str| format!("ladder[].{key}");
+    let rungs = ["converged", "agreed", "verified", "complete", "optimal"];
+    output.is(&at("rung"), rungs.as_slice());
+    output.each(&at("reached"), false);
+    let how = ["8.1e3", "the judge refuses this answer", "not tried", "not tried", "not tried"];
+    output.says(&at("how"), &how);
+    let kinds = ["above_tolerance", "judge_refuses", "not_tried", "not_tried", "not_tried"];
+    output.is(&at("reason.kind"), kinds.as_slice());
+    output.says(&at("reason.residual_of"), &["largest violation of a law"]);
+    output.near(&at("reason.residual"), 1e-8, largest);
+    output.is(&at("reason.tolerance"), 1.0);
+    output.is(&at("reason.iterations"), 0);
+    output.is(&at("reason.excesses[].what"), "system_statics");
+    output.is(&at("reason.excesses[].solver"), "places.csv");
+    output.is(&at("reason.excesses[].place.member"), 1);
+    output.near(&at("reason.excesses[].value"), 1e-8, largest);
+    output.is(&at("reason.excesses[].budget"), 1.0);
+}
+
+/// With the forces of the right shape the lamp is not in balance where it is too low.
+#[test]
+fn too_low_with_forces() {
+    let mut output = judged("too_low_with_forces", "-2.5", &["--members", "forces.csv"], 1);
+    let lengths = stretched();
+    let pulls = [16.0 / lengths[0], 12.0 / lengths[1]];
+    let left_x = -1.8 * pulls[0] + 3.2 * pulls[1];
+    let left_z = 2.5 * pulls[0] + 2.5 * pulls[1] - 20.0;
+    output.is("forces", "given");
+    output.is("violations[].place.joint", 2);
+    output.is("violations[].law", json!(["length", "length", "balance"]));
+    output.is("violations[].left_n[]", json!([left_x, 0.0, left_z]));
+    output.is("broken[].place.joint", 2);
+    output.is("broken[].left_n[]", json!([left_x, 0.0, left_z]));
+    // Over the load at the joint; and over all forces from outside together: 16, 12 and 20 N.
+    let left = left_x.hypot(left_z);
+    output.is("statics.joint", left / 20.0);
+    output.is("statics.balance", left / 48.0);
+    output.done();
+}
+
+#[test]
+fn right() {
+    let mut output = judged("right", "-2.4", &["--members", "forces.csv"], 0);
+    output.is("finding", "confirmed");
+    output.says("says", &["confirmed: an equilibrium is within the tolerance"]);
+    output.is("broken[]", json!([]));
+    output.is("violations[]", json!([]));
+    output.is("forces", "given");
+    output.within("largest", 0.0..=1e-6);
+    output.is("statics.worst", "whole");
+    output.is("ladder[].reached", json!([true, true, false, false, true]));
+    let solvers = ["places.csv", "lagrange", "energy"];
+    output.is("ladder[].proof.solvers[]", solvers.as_slice());
+    let at = |key: &str| format!("ladder[].proof.{key}");
+    output.says(&at("residual_of"), &["largest violation of a law"]);
+    output.within(&at("residual"), 0.0..=1e-6);
+    output.is(&at("tolerance"), 1.0);
+    output.is(&at("iterations"), 0);
+    for difference in ["joints_m", "forces_n", "energy_j", "statics"] {
+        output.within(&at(difference), 0.0..=NOTHING);
+    }
+    output.is(&at("shape_only"), false);
+    output.within(&at("gap"), 0.0..=NOTHING);
+    output.is(&at("singular"), false);
+    output.done();
+}

@@ -1,0 +1,23 @@
+//! Every key of JSON and every column of every command is asserted against a number that does not
+//! come from the same code: a closed form, the paper with more digits, a law of nature, a count by
+//! hand, the clock.
+//!
+//! `table.txt` lists all paths by kind of output, each with the tests below that assert it. A test
+//! fails where it asserts other paths than the list says, or meets one that is not listed; so a
+//! new key without a check, and a check without a key, are told.
+
+#![expect(clippy::unwrap_used, reason = "helpers of tests")]
+
+mod census;
+mod evidence;
+
+mod files;
+mod inventory;
+mod judge;
+mod motion;
+mod output;
+mod reasons;
+mod solve;
+mod starts;
+mod table;
+mod vary;

@@ -1,0 +1,142 @@
+//! `modes` and `simulate`: two bars between level anchors swing about the line between these as a
+//! pendulum of two rods, `φ'' = -(3 g / 2 h) sin φ` with the depth h.
+
+use serde_json::json;
+
+use super::evidence::NOTHING;
+use super::output::{Output, good};
+use super::solve::LEVEL_V;
+
+/// Half the height of an equilateral triangle of side 1 m, m.
+const DEPTH: f64 = 0.866_025_403_784_438_6;
+
+/// 3 g / 2 h, 1/s².
+const OMEGA2: f64 = 15.0 / DEPTH;
+
+#[test]
+fn swinging_and_falling() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("v.toml"), LEVEL_V).unwrap();
+    let text = good(folder.path(), &["modes", "v.toml", "--json"]);
+    let mut output = Output::json("modes", "swinging_and_falling", &text);
+    output.is("schema_version", 2);
+    output.is("system.name", "level V");
+    output.is("system.joints", 3);
+    output.is("system.bars", 2);
+    output.is("system.total_length_m", 2.0);
+    output.is("system.total_mass_kg", 2.0);
+    output.is("system.gravity_m_s2", 10.0);
+    output.is("complete", true);
+    let at = |key: &str| format!("equilibria[].{key}");
+    output.is(&at("label"), json!(["1", "2"]));
+    output.each(&at("solver"), "census");
+    output.is(&at("energy_j"), json!([-10.0 * DEPTH, 10.0 * DEPTH]));
+    output.each(&at("joints[].name"), json!(["0", "1", "2"]));
+    let joints = [-DEPTH, DEPTH].map(|z| [0.0, 0.0, 0.0, 0.5, 0.0, z, 1.0, 0.0, 0.0]);
+    output.is(&at("joints[].at_m[]"), json!(joints));
+    for index in ["index_in_space", "index_by_modes", "enclosed.inertia.negative"] {
+        output.is(&at(index), json!([0, 1]));
+    }
+    output.is(&at("enclosed.inertia.positive"), json!([1, 0]));
+    output.each(&at("enclosed.inertia.zero"), 0);
+    output.within(&at("out_of_balance"), 0.0..=NOTHING);
+    // Three coordinates of a joint less two lengths.
+    output.each(&at("modes_in_all"), 1);
+    output.each(&at("enclosed.status"), "reached");
+    output.within(&at("enclosed.width_m"), f64::EPSILON / 4.0..=NOTHING);
+    output.is(&at("modes[].omega2_s2"), json!([OMEGA2, -OMEGA2]));
+    output.within(&at("modes[].residual_s2"), 0.0..=NOTHING);
+    output.encloses(&at("modes[].omega2_between_s2[]"), json!([OMEGA2, -OMEGA2]));
+    output.each(&at("modes[].shape[][]"), json!([0, 0, 0, 0, 1, 0, 0, 0, 0].map(f64::from)));
+    let what = ["oscillation across the plane", "leaves the equilibrium across the plane"];
+    output.is(&at("modes[].what"), what.as_slice());
+    output.is(&at("modes[].frequency_hz"), OMEGA2.sqrt() / std::f64::consts::TAU);
+    output.is(&at("modes[].rate_1_s"), OMEGA2.sqrt());
+    output.done();
+}
+
+/// More joints than are enclosed say so; the length of a rope's joints is counted by hand.
+#[test]
+fn too_many_joints_to_enclose() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = "anchors = { start_m = [0, 0, 0], end_m = [1, 0, 0] }\n\
+                bars = [{ length_m = 0.02, mass_kg = 0.01, count = 70 }]\n";
+    std::fs::write(folder.path().join("long.toml"), text).unwrap();
+    let text = good(folder.path(), &["modes", "long.toml", "--modes", "2", "--json"]);
+    let mut output = Output::json("modes", "too_many_joints_to_enclose", &text);
+    output.is("complete", false);
+    output.is("equilibria[].enclosed.status", "open");
+    let because = "69 joints move, and at most 60 are enclosed";
+    output.is("equilibria[].enclosed.because", because);
+    // 207 coordinates, 70 lengths.
+    output.is("equilibria[].modes_in_all", 137);
+    output.done();
+}
+
+/// Angle and rate of the pendulum after the time, by Runge and Kutta's steps of a tenth of a
+/// millisecond: fourth order, 1e-13 of error.
+fn pendulum(time_s: f64, mut phi: f64, mut rate: f64) -> [f64; 2] {
+    let fall = |phi: f64| -OMEGA2 * phi.sin();
+    let h = 1e-4;
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "some seconds")]
+    for _ in 0..(time_s / h).round() as usize {
+        let [k1, l1] = [rate, fall(phi)];
+        let [k2, l2] = [rate + 0.5 * h * l1, fall(phi + 0.5 * h * k1)];
+        let [k3, l3] = [rate + 0.5 * h * l2, fall(phi + 0.5 * h * k2)];
+        let [k4, l4] = [rate + h * l3, fall(phi + h * k3)];
+        phi += h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4);
+        rate += h / 6.0 * (l1 + 2.0 * l2 + 2.0 * l3 + l4);
+    }
+    [phi, rate]
+}
+
+/// 3 N s push 2/3 kg, as much as two rods have about their ends, to 4.5 m/s.
+#[test]
+fn columns_of_a_motion() {
+    /// Of the eighth order at steps of 1 ms nothing else is left.
+    const CLOSE: f64 = 1e-9;
+
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("v.toml"), LEVEL_V).unwrap();
+    let arguments = ["simulate", "v.toml", "--push", "1=0,3,0", "--time", "1", "--store", "0.5"];
+    good(folder.path(), &[&arguments[..], &["--order", "8", "--out", "m.csv"]].concat());
+    let text = std::fs::read_to_string(folder.path().join("m.csv")).unwrap();
+    let mut output = Output::csv("columns of a motion", "columns_of_a_motion", &text);
+    let times = [0.0, 0.5, 1.0];
+    output.is("time_s", json!(times));
+    let at = times.map(|time| pendulum(time, 0.0, 4.5 / DEPTH));
+    // Both rods have the moment of inertia h²/3 about the line, their centres are at h/2.
+    let kinetic = at.map(|[_, rate]| DEPTH * DEPTH * rate * rate / 3.0);
+    let potential = at.map(|[phi, _]| -10.0 * DEPTH * phi.cos());
+    output.near("kinetic_j", CLOSE, json!(kinetic));
+    output.near("potential_j", CLOSE, json!(potential));
+    output.near("energy_j", CLOSE, json!([0, 1, 2].map(|k| kinetic[k] + potential[k])));
+    let rows = |of: &dyn Fn(f64, f64) -> [f64; 3]| json!(at.map(|[phi, rate]| of(phi, rate)));
+    let anchors = [0.0, 0.5, 1.0];
+    let joint = |k: usize, on: f64| if k == 1 { on } else { 0.0 };
+    let three = |on: &dyn Fn(usize) -> f64| [0, 1, 2].map(on);
+    // By columns of joints 0 to 2, each with its rows.
+    let column = |of: &dyn Fn(usize, f64, f64) -> f64| {
+        json!(rows(&|phi, rate| three(&|k| of(k, phi, rate))))
+    };
+    output.near("joint#_x_m", CLOSE, column(&|k, _, _| anchors[k]));
+    output.near("joint#_y_m", CLOSE, column(&|k, phi, _| joint(k, DEPTH * phi.sin())));
+    output.near("joint#_z_m", CLOSE, column(&|k, phi, _| joint(k, -DEPTH * phi.cos())));
+    output.near("joint#_vx_m_s", CLOSE, column(&|_, _, _| 0.0));
+    output.near("joint#_vy_m_s", CLOSE, column(&|k, phi, w| joint(k, DEPTH * w * phi.cos())));
+    output.near("joint#_vz_m_s", CLOSE, column(&|k, phi, w| joint(k, DEPTH * w * phi.sin())));
+    // Each anchor bears its bar: weight and centrifugal force along the depth, a quarter of the
+    // weight's part across; the moment about the joint in the middle gives the level force.
+    let level = |phi: f64, w: f64| (2.5 * phi.cos() + w * w * DEPTH / 6.0) / DEPTH;
+    let along = |phi: f64, w: f64| 10.0 * phi.cos() + w * w * DEPTH / 2.0;
+    let y = |phi: f64, w: f64| 2.5 * phi.sin() * phi.cos() - along(phi, w) * phi.sin();
+    let z = |phi: f64, w: f64| 2.5 * phi.sin() * phi.sin() + along(phi, w) * phi.cos();
+    let both = |of: &dyn Fn(f64, f64) -> [f64; 2]| json!(at.map(|[phi, w]| of(phi, w)));
+    output.near("joint#_fx_n", CLOSE, both(&|phi, w| [-level(phi, w), level(phi, w)]));
+    output.near("joint#_fy_n", CLOSE, both(&|phi, w| [y(phi, w); 2]));
+    output.near("joint#_fz_n", CLOSE, both(&|phi, w| [z(phi, w); 2]));
+    // At the joint in the middle, which has no mass of its own, the force is along x: half of the
+    // bar's length lies along it.
+    output.near("bar#_axial_n", CLOSE, both(&|phi, w| [level(phi, w) / 0.5; 2]));
+    output.done();
+}

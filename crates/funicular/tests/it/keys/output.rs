@@ -1,0 +1,225 @@
+//! The output of a command as paths with their values, and what a test has asserted of it.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::ops::RangeInclusive;
+use std::path::Path;
+
+use assert_cmd::Command;
+use serde_json::Value;
+
+use super::table;
+
+/// How closely a number is asserted, in units of the number or of one: some rounding errors.
+const CLOSE: f64 = 1e-12;
+
+/// Objects whose keys are names or numbers of things; these stand as `*` in a path.
+const BY_NAME: [&str; 3] = ["reactions_n", "joints_m", "iterations"];
+
+/// An output by the paths of its values: `equilibria[].axial_n[]`, arrays without their places.
+pub struct Output {
+    kind: &'static str,
+    test: &'static str,
+    values: BTreeMap<String, Vec<Value>>,
+    asserted: BTreeSet<String>,
+}
+
+impl Output {
+    /// Of text in JSON, as the named test looks at it.
+    pub fn json(kind: &'static str, test: &'static str, text: &str) -> Self {
+        Self::of(kind, test, [serde_json::from_str(text).unwrap()])
+    }
+
+    /// Of lines of JSON.
+    pub fn lines(kind: &'static str, test: &'static str, text: &str) -> Self {
+        Self::of(kind, test, text.lines().map(|line| serde_json::from_str(line).unwrap()))
+    }
+
+    /// Of a file of columns.
+    pub fn csv(kind: &'static str, test: &'static str, text: &str) -> Self {
+        let mut lines = text.lines().map(|line| line.split(','));
+        let head: Vec<String> = lines.next().unwrap().map(numbered).collect();
+        let mut output = Self::of(kind, test, []);
+        for name in &head {
+            output.values.entry(name.clone()).or_default();
+        }
+        for line in lines {
+            let cells: Vec<&str> = line.collect();
+            assert_eq!(cells.len(), head.len(), "{kind}");
+            for (name, cell) in head.iter().zip(cells) {
+                let value = serde_json::from_str(cell).unwrap_or_else(|_| cell.into());
+                output.values.get_mut(name).unwrap().push(value);
+            }
+        }
+        output
+    }
+
+    fn of(
+        kind: &'static str,
+        test: &'static str,
+        objects: impl IntoIterator<Item = Value>,
+    ) -> Self {
+        let mut values = BTreeMap::new();
+        objects.into_iter().for_each(|object| collect(&object, String::new(), &mut values));
+        Self { kind, test, values, asserted: BTreeSet::new() }
+    }
+
+    fn found(&mut self, path: &str) -> Vec<Value> {
+        self.asserted.insert(path.to_owned());
+        let found = self.values.get(path);
+        found.unwrap_or_else(|| panic!("{}: there is no {path}", self.kind)).clone()
+    }
+
+    /// Assert the values at a path, in their order.
+    pub fn is(&mut self, path: &str, wanted: impl Into<Value>) {
+        self.near(path, CLOSE, wanted);
+    }
+
+    /// The same of numbers that are less close.
+    pub fn near(&mut self, path: &str, close: f64, wanted: impl Into<Value>) {
+        let (found, wanted) = (self.found(path), leaves(&wanted.into()));
+        assert_eq!(found.len(), wanted.len(), "{path}: {found:?} for {wanted:?}");
+        self.compare(path, close, &found, &wanted);
+    }
+
+    /// Assert the values at a path, which repeat themselves.
+    pub fn each(&mut self, path: &str, wanted: impl Into<Value>) {
+        let (found, wanted) = (self.found(path), leaves(&wanted.into()));
+        assert!(!found.is_empty() && found.len().is_multiple_of(wanted.len()), "{path}: {found:?}");
+        let all: Vec<Value> = wanted.iter().cycle().take(found.len()).cloned().collect();
+        self.compare(path, CLOSE, &found, &all);
+    }
+
+    fn compare(&self, path: &str, close: f64, found: &[Value], wanted: &[Value]) {
+        for (a, b) in found.iter().zip(wanted) {
+            let same = match (a.as_f64(), b.as_f64()) {
+                (Some(a), Some(b)) => (a - b).abs() <= close * b.abs().max(1.0),
+                _ => a == b,
+            };
+            assert!(same, "{} {path}: {a} for {b}\n{found:?}\n{wanted:?}", self.kind);
+        }
+    }
+
+    /// Assert that all numbers at a path lie in a range: what is but bounded by theory.
+    pub fn within(&mut self, path: &str, range: RangeInclusive<f64>) {
+        let found = self.found(path);
+        assert!(!found.is_empty(), "{path}");
+        for value in found {
+            assert!(range.contains(&value.as_f64().unwrap()), "{path}: {value} in {range:?}");
+        }
+    }
+
+    /// Assert that the intervals at a path hold these numbers, which are known but for their own
+    /// rounding, and are narrow.
+    pub fn encloses(&mut self, path: &str, wanted: impl Into<Value>) {
+        let (found, wanted) = (self.numbers(path), leaves(&wanted.into()));
+        assert_eq!(found.len(), 2 * wanted.len(), "{path}: {found:?}");
+        for (ends, wanted) in found.chunks(2).zip(&wanted) {
+            let wanted = wanted.as_f64().unwrap();
+            let rounding = 2.0 * f64::EPSILON * wanted.abs().max(f64::MIN_POSITIVE);
+            let holds = ends[0] <= wanted + rounding && wanted - rounding <= ends[1];
+            let width = ends[1] - ends[0];
+            let narrow = (0.0..=CLOSE * wanted.abs().max(1.0)).contains(&width);
+            assert!(holds && narrow, "{path}: {ends:?} for {wanted}");
+        }
+    }
+
+    /// Assert that all texts at a path contain these words, in turn.
+    pub fn says(&mut self, path: &str, words: &[&str]) {
+        let found = self.found(path);
+        assert!(!found.is_empty(), "{path}");
+        for (value, words) in found.iter().zip(words.iter().cycle()) {
+            assert!(value.as_str().unwrap().contains(words), "{path}: {value} for {words}");
+        }
+    }
+
+    /// The numbers at a path, which the test asserts itself.
+    pub fn numbers(&mut self, path: &str) -> Vec<f64> {
+        self.found(path).iter().map(|value| value.as_f64().unwrap()).collect()
+    }
+
+    /// Compare what was asserted with the table, and what there is besides.
+    pub fn done(self) {
+        let table = table::of(self.kind);
+        let named: BTreeSet<String> = table
+            .iter()
+            .filter(|(_, tests)| tests.iter().any(|test| test == self.test))
+            .map(|(path, _)| path.clone())
+            .collect();
+        let list = |paths: Vec<&String>| -> String {
+            paths.iter().map(|path| format!("{path} {}\n", self.test)).collect()
+        };
+        let more = list(self.asserted.difference(&named).collect());
+        let less = list(named.difference(&self.asserted).collect());
+        assert!(
+            more.is_empty() && less.is_empty(),
+            "[{}]\nnot in the table:\n{more}in the table, and not asserted:\n{less}",
+            self.kind
+        );
+        let unlisted = self.unlisted();
+        assert!(unlisted.is_empty(), "[{}]\nasserted nowhere:\n{}", self.kind, unlisted.join("\n"));
+    }
+
+    /// The paths that the table has not.
+    pub fn unlisted(&self) -> Vec<String> {
+        let table = table::of(self.kind);
+        self.values.keys().filter(|path| !table.contains_key(*path)).cloned().collect()
+    }
+}
+
+/// A column's name with `#` for the numbers of joints, bars and anchors in it.
+fn numbered(name: &str) -> String {
+    let mut parts: Vec<String> = name.split('_').map(str::to_owned).collect();
+    for part in &mut parts {
+        let word = part.trim_end_matches(|c: char| c.is_ascii_digit());
+        let alone = word.is_empty() || ["joint", "bar"].contains(&word);
+        if alone && word.len() < part.len() {
+            *part = format!("{word}#");
+        }
+    }
+    parts.join("_")
+}
+
+fn collect(value: &Value, path: String, values: &mut BTreeMap<String, Vec<Value>>) {
+    match value {
+        Value::Object(map) => {
+            let parent = path.rsplit('.').next().unwrap();
+            let named = BY_NAME.contains(&parent) && !map.contains_key("max");
+            for (key, item) in map {
+                let number = key.parse::<i64>().is_ok();
+                let key = if named || number { "*" } else { key };
+                let dot = if path.is_empty() { "" } else { "." };
+                collect(item, format!("{path}{dot}{key}"), values);
+            }
+        }
+        Value::Array(items) if items.is_empty() => {
+            values.entry(path + "[]").or_default();
+        }
+        Value::Array(items) => {
+            items.iter().for_each(|item| collect(item, format!("{path}[]"), values));
+        }
+        leaf => values.entry(path).or_default().push(leaf.clone()),
+    }
+}
+
+fn leaves(value: &Value) -> Vec<Value> {
+    match value {
+        Value::Array(items) => items.iter().flat_map(leaves).collect(),
+        leaf => vec![leaf.clone()],
+    }
+}
+
+/// What the program prints, run in a folder, with its exit code.
+pub fn run(folder: &Path, arguments: &[&str]) -> (Option<i32>, String) {
+    let mut command = Command::cargo_bin("funicular").unwrap();
+    let output = command.current_dir(folder).args(arguments).output().unwrap();
+    let code = output.status.code();
+    print!("{}", String::from_utf8_lossy(&output.stderr));
+    (code, String::from_utf8(output.stdout).unwrap())
+}
+
+/// What the program prints where it ends well.
+pub fn good(folder: &Path, arguments: &[&str]) -> String {
+    let (code, text) = run(folder, arguments);
+    assert_eq!(code, Some(0), "{arguments:?}\n{text}");
+    text
+}

@@ -1,0 +1,90 @@
+//! Why a rung is open, of cases with published or closed forms; and what only some systems have.
+
+use serde_json::json;
+
+use super::output::{Output, good, run};
+
+fn case(kind: &'static str, test: &'static str, arguments: &[&str]) -> Output {
+    let folder = tempfile::tempdir().unwrap();
+    let (code, text) = run(folder.path(), arguments);
+    assert!(code == Some(0) || code == Some(3), "{code:?}");
+    Output::json(kind, test, &text)
+}
+
+/// Four cables of 2 m around two struts: 500 N/m in each cable, -500 N/m in each strut. The third
+/// joint slides along X.
+#[test]
+fn a_cross_of_struts() {
+    let arguments = ["solve", "--case", "x-cross", "--json"];
+    let mut output = case("solve a system", "a_cross_of_struts", &arguments);
+    let (side, diagonal) = (1000.0, -500.0 * 8.0_f64.sqrt());
+    let forces = json!(vec![[side, side, side, side, diagonal, diagonal]; 2]);
+    output.near("equilibria[].bars[].axial_n", 1e-9, forces);
+    let at = |key: &str| format!("equilibria[].evidence.ladder[].reason.{key}");
+    output.each(&at("kind"), json!(["no_census", "no_certificate"]));
+    output.each(&at("because"), json!(["slider", "not_definite"]));
+    output.each(&at("joint"), 2);
+    output.each(&at("compressed"), 2);
+    output.done();
+}
+
+/// What a chain's census takes by itself, and where it is asked for.
+#[test]
+fn too_many_bars() {
+    let arguments = ["solve", "--case", "bridle", "--json"];
+    let mut output = case("solve a system", "too_many_bars", &arguments);
+    let at = |key: &str| format!("equilibria[].evidence.ladder[].reason.{key}");
+    output.each(&at("because"), "bridle");
+    // Three strands of eight bars.
+    output.is("system.bars", 24);
+    output.each(&at("bars"), 24);
+    output.each(&at("limit"), 8);
+    output.done();
+    let arguments = ["solve", "--case", "thirty-bars", "--census=always", "--json"];
+    let mut output = case("solve a chain", "too_many_bars", &arguments);
+    output.each(&at("because"), "too_many_bars");
+    output.each(&at("bars"), 30);
+    output.each(&at("limit"), 16);
+    output.done();
+}
+
+/// Rounding is all that is left; where it is largest is one of 144 members.
+#[test]
+fn the_worst_member_of_a_net() {
+    let arguments = ["solve", "--case", "net", "--json"];
+    let mut output = case("solve a system", "the_worst_member_of_a_net", &arguments);
+    output.within("agreement.statics[].worst.member", 1.0..=144.0);
+    output.within("agreement.statics[].length", 0.0..=1e-12);
+    output.done();
+}
+
+/// A beam with its hook at the height c is pressed by m g a/c less 0.5 N: 3 kg, 0.4 over 0.3 m.
+#[test]
+fn a_pressed_beam() {
+    let arguments = ["study", "--case", "mobile", "--vary", "gravity_m_s2=10", "--json"];
+    let mut output = case("study of a system", "a_pressed_beam", &arguments);
+    // The fourth bar; the second one pulls 30 N times 5/3.
+    output.near("points[].compression_n[]", 1e-9, json!([3, 39.5]));
+    output.near("points[].tension_n[]", 1e-9, json!([1, 50.0]));
+    output.done();
+}
+
+/// A tripod is rigid.
+#[test]
+fn no_modes() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = good(folder.path(), &["modes", "--case", "tripod", "--json"]);
+    let mut output = Output::json("modes", "no_modes", &text);
+    output.is("equilibria[].modes[]", json!([]));
+    output.is("equilibria[].modes_in_all", 0);
+    output.done();
+}
+
+/// Six orders of magnitude are too many to prove the number of signs.
+#[test]
+fn no_signs() {
+    let arguments = ["modes", "--case", "six-orders", "--json"];
+    let mut output = case("modes", "no_signs", &arguments);
+    output.each("equilibria[].enclosed.inertia", json!(null));
+    output.done();
+}

@@ -1,0 +1,350 @@
+//! `solve`: two bars between anchors on one level, a lamp on two light bars, the paper's chain.
+
+use serde_json::json;
+
+use super::evidence::{self, NOTHING};
+use super::output::{Output, good, run};
+
+/// Two bars of 1 m and 10 N over a span of 1 m: each stands at 60 degrees.
+pub const LEVEL_V: &str = r#"
+name = "level V"
+gravity_m_s2 = 10
+anchors = { start_m = [0, 0, 0], end_m = [1, 0, 0] }
+bars = [{ length_m = 1, mass_kg = 1, count = 2 }]
+"#;
+
+/// Half the height of an equilateral triangle of side 1 m, m.
+const DEPTH: f64 = 0.866_025_403_784_438_6;
+/// The moment of 10 N about an anchor is borne by H over the depth: H = 10 (1/4)/(√3/2), N.
+const H: f64 = 2.886_751_345_948_129;
+/// The mean force of a bar is (H, 5 N), along the bar: its size, N.
+const AXIAL: f64 = 5.773_502_691_896_258;
+
+/// What a chain is, as its file says.
+pub fn system_of_level_v(output: &mut Output) {
+    output.is("system.name", "level V");
+    output.is("system.bars", 2);
+    output.is("system.span_m", 1.0);
+    output.is("system.total_length_m", 2.0);
+    output.is("system.total_mass_kg", 2.0);
+    output.is("system.gravity_m_s2", 10.0);
+}
+
+#[test]
+fn level_v() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("v.toml"), LEVEL_V).unwrap();
+    let text = good(folder.path(), &["solve", "v.toml", "--json"]);
+    let mut output = Output::json("solve a chain", "level_v", &text);
+    output.is("schema_version", 2);
+    system_of_level_v(&mut output);
+    output.is("equilibria[].solver", json!(["lagrange", "energy"]));
+    // Both centres are half the depth below the anchors.
+    output.each("equilibria[].energy_j", -10.0 * DEPTH);
+    output
+        .each("equilibria[].joints_m[][]", json!([0.0, 0.0, 0.0, 0.5, 0.0, -DEPTH, 1.0, 0.0, 0.0]));
+    output
+        .each("equilibria[].multipliers_n[][]", json!([-H, 0.0, 10.0, H, 0.0, 0.0, H, 0.0, 10.0]));
+    output.each("equilibria[].reactions_n.*[]", json!([H, 0.0, 10.0, -H, 0.0, 10.0]));
+    output.each("equilibria[].axial_n[]", AXIAL);
+    output.each("equilibria[].stability.in_plane", "minimum");
+    output.each("equilibria[].stability.index_in_plane", 0);
+    output.each("equilibria[].stability.in_space", "stable");
+    output.each("equilibria[].stability.index_in_space", 0);
+    output.each("equilibria[].evidence.rung", "optimal");
+    let residuals = ["distance of the last joint", "projected gradient"];
+    evidence::converged(&mut output, "equilibria[]", &residuals, &[1e-13, 1e-12]);
+    output.each("equilibria[].evidence.nullity", 0);
+    // Σ l/|F| (1 - u uᵀ) by the pull is 2 l/|F| times 3/4, 1, 1/4 along, across and up; and the
+    // one motion, out of the plane, has one second derivative.
+    output.near("equilibria[].evidence.condition", 1e-9, json!([4.0, 1.0]));
+    evidence::agreed(&mut output, "equilibria[]");
+    let at = |key: &str| format!("equilibria[].evidence.ladder[].{key}");
+    output.each(&at("reached"), true);
+    let how = ["after", "lagrange and energy differ", "Krawczyk", "4 patterns", "semidefinite"];
+    output.says(&at("how"), &how);
+    // A box of doubles is at least as wide as their rounding.
+    output.within(&at("proof.box_width"), f64::EPSILON / 2.0..=NOTHING);
+    output.within(&at("proof.distance"), 0.0..=NOTHING);
+    output.each(&at("proof.circle"), false);
+    // Hanging and standing; tension or compression in each bar.
+    output.each(&at("proof.in_plane"), 2);
+    output.each(&at("proof.families"), 0);
+    output.each(&at("proof.patterns"), 4);
+    output.within(&at("proof.cells"), 4.0..=1000.0);
+    output.within(&at("proof.gap"), 0.0..=NOTHING);
+    output.each(&at("proof.singular"), false);
+    let laws = ["closure", "length", "force", "moment", "balance", "turn"];
+    evidence::agreement(&mut output, &laws);
+    output.is("agreement.turned_rad", json!(null));
+    output.within("agreement.statics[].worst_bar", 1.0..=2.0);
+    for number in ["energy", "axial", "reactions"] {
+        output.within(&format!("agreement.books[].{number}"), 0.0..=NOTHING);
+    }
+    output.done();
+}
+
+/// The paper's chain in its own form and numbering, from 40 digits; it may turn about the line
+/// between its anchors, and both answers are turned onto each other.
+#[test]
+fn the_paper_turned() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = good(folder.path(), &["solve", "--case", "three-equal-bars", "--json"]);
+    let mut output = Output::json("solve a chain", "the_paper_turned", &text);
+    let g = 9.806_65;
+    output.each("equilibria[].energy_j", (2.335_468_651_999_305 - 6.0) * g);
+    let across = output.numbers("equilibria[].multipliers_n[][]");
+    for force in across.chunks(3) {
+        // |λ_2| mg level, in any direction about the vertical.
+        assert!((force[0].hypot(force[1]) - 0.648_944_835_933_933_6 * g).abs() < NOTHING);
+    }
+    let up: [f64; 3] =
+        [2.312_944_292_241_837_6, -1.312_944_292_241_837_6, -0.312_944_292_241_837_6];
+    for (force, up) in across.chunks(3).zip(up.iter().chain(&[0.687_055_707_758_162_4]).cycle()) {
+        assert!((force[2].abs() - up.abs() * g).abs() < 1e-11, "{force:?} {up}");
+    }
+    // Turned into each other: in the plane that has the middle joints, by nothing or a half turn.
+    let joints = output.numbers("equilibria[].joints_m[][]");
+    let turned = output.numbers("agreement.turned_rad")[0];
+    let (sin, cos) = turned.sin_cos();
+    let [x, y, other_x, other_y] = [joints[3], joints[4], joints[15], joints[16]];
+    let apart = (cos * other_x - sin * other_y - x).hypot(sin * other_x + cos * other_y - y);
+    assert!(apart < NOTHING, "{apart} m at {turned}");
+    let sin_theta = 19.694_867_976_133_02_f64.to_radians().sin();
+    assert!((x.hypot(y) - sin_theta).abs() < NOTHING);
+    let at = |key: &str| format!("equilibria[].evidence.ladder[].{key}");
+    output.each(&at("proof.circle"), true);
+    output.each(&at("proof.in_plane"), 4);
+    output.each(&at("proof.patterns"), 8);
+    output.each(&at("proof.singular"), true);
+    output.each("equilibria[].evidence.nullity", 1);
+    output.done();
+}
+
+/// Three bars of 1 m that hang down 2 m and come up 1 m: their forces are one of a family.
+#[test]
+fn straight_forces_are_a_family() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = "gravity_m_s2 = 10\nanchors = { start_m = [0, 0, 0], end_m = [0, 0, -1] }\n\
+                bars = [{ length_m = 1, mass_kg = 1, count = 3 }]\n";
+    std::fs::write(folder.path().join("straight.toml"), text).unwrap();
+    let text = good(folder.path(), &["solve", "straight.toml", "--json"]);
+    let mut output = Output::json("solve a chain", "straight_forces_are_a_family", &text);
+    output.each(
+        "equilibria[].joints_m[][]",
+        json!([0, 0, 0, 0, 0, -1, 0, 0, -2, 0, 0, -1].map(f64::from)),
+    );
+    // Between the pull R of the first anchor and the bars' middles hang 1/2, 3/2 bars; the third
+    // hangs on 30 N - R. All pull from 15 N to 25 N.
+    for family in ["equilibria[].evidence.force_family", "agreement.force_family"] {
+        let at = |key: &str| format!("{family}.{key}");
+        output.each(&at("dimension"), 1);
+        output.each(&at("direction[]"), json!([0.0, 0.0, 1.0]));
+        output.each(&at("start_force_n[]"), json!([15.0, 25.0]));
+        output.each(&at("choice"), "anchors_moved_apart");
+    }
+    // As the anchors come back the bars lean by H/F and shorten by l (H/F)²/2 each, together by
+    // nothing: 1/F_1² + 1/F_2² = 1/F_3², here by bisection.
+    let [mut low, mut high] = [16.0_f64, 24.0];
+    for _ in 0..100 {
+        let r = 0.5 * (low + high);
+        let sum = (r - 5.0).powi(-2) + (r - 15.0).powi(-2) - (25.0 - r).powi(-2);
+        *(if sum > 0.0 { &mut low } else { &mut high }) = r;
+    }
+    output.each("equilibria[].axial_n[]", json!([low - 5.0, low - 15.0, 25.0 - low]));
+    output.each("equilibria[].evidence.ladder[].proof.shape_only", true);
+    // The census names straight positions, and does not list them.
+    output.each("equilibria[].evidence.ladder[].reached", json!([true, true, false, false, true]));
+    output.each("equilibria[].evidence.ladder[].reason.kind", "nothing_listed");
+    output.done();
+}
+
+/// A lamp of 20 N on light bars of 3 and 4 m over 5 m: they meet at a right angle.
+pub const LAMP: &str = r#"
+name = "lamp"
+gravity_m_s2 = 10
+[joints]
+A = { at_m = [0, 0, 0] }
+B = { at_m = [5, 0, 0] }
+P = { mass_kg = 2 }
+[[bars]]
+from = "A"
+to = "P"
+length_m = 3
+mass_kg = 0
+[[bars]]
+from = "P"
+to = "B"
+length_m = 4
+mass_kg = 0
+"#;
+
+/// What a system is, as its file says.
+pub fn system_of_lamp(output: &mut Output) {
+    output.is("system.name", "lamp");
+    output.is("system.joints", 3);
+    output.is("system.bars", 2);
+    output.is("system.total_length_m", 7.0);
+    output.is("system.total_mass_kg", 2.0);
+    output.is("system.gravity_m_s2", 10.0);
+}
+
+/// Joints, members and reactions of the lamp. 9/5 m along, 12/5 m down; the bars bear 4/5 and 3/5
+/// of 20 N.
+pub fn shape_of_lamp(output: &mut Output) {
+    output.each("equilibria[].energy_j", -48.0);
+    output.each("equilibria[].joints[].name", json!(["A", "B", "P"]));
+    output.each(
+        "equilibria[].joints[].at_m[]",
+        json!([0.0, 0.0, 0.0, 5.0, 0.0, 0.0, 1.8, 0.0, -2.4]),
+    );
+    output.each("equilibria[].bars[].from", json!(["A", "P"]));
+    output.each("equilibria[].bars[].to", json!(["P", "B"]));
+    output.each("equilibria[].bars[].axial_n", json!([16.0, 12.0]));
+    output
+        .each("equilibria[].bars[].force_at_start_n[]", json!([-9.6, 0.0, 12.8, -9.6, 0.0, -7.2]));
+    output.each("equilibria[].bars[].force_at_end_n[]", json!([9.6, 0.0, -12.8, 9.6, 0.0, 7.2]));
+    output.each("equilibria[].reactions_n.*[]", json!([-9.6, 0.0, 12.8, 9.6, 0.0, 7.2]));
+    output.each("equilibria[].stability.in_space", "stable");
+    output.each("equilibria[].stability.index_in_space", 0);
+    output.each("equilibria[].stability.index_in_plane", 0);
+    output.each("equilibria[].stability.neutral", 0);
+}
+
+/// Proof and census of the lamp: alone in its box, below its anchors or above them.
+pub fn proofs_of_lamp(output: &mut Output) {
+    let at = |key: &str| format!("equilibria[].evidence.ladder[].proof.{key}");
+    output.within(&at("box_width"), f64::EPSILON / 2.0..=NOTHING);
+    output.within(&at("distance"), 0.0..=NOTHING);
+    output.each(&at("circle"), false);
+    output.within(&at("system.width_m"), f64::EPSILON..=NOTHING);
+    output.within(&at("system.width_n"), f64::EPSILON..=NOTHING);
+    output.within(&at("system.distance_n"), 0.0..=NOTHING);
+    for none in ["turns", "slack", "loose_joints", "hanging"] {
+        output.each(&at(&format!("system.{none}")), 0);
+    }
+    output.each(&at("system.parts"), 1);
+    output.each(&at("in_plane"), 2);
+    output.each(&at("families"), 0);
+    output.each(&at("patterns"), 4);
+    output.within(&at("cells"), 4.0..=1000.0);
+    output.each(&at("system.positions"), 2);
+}
+
+#[test]
+fn lamp() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("lamp.toml"), LAMP).unwrap();
+    let text = good(folder.path(), &["solve", "lamp.toml", "--json"]);
+    let mut output = Output::json("solve a system", "lamp", &text);
+    output.is("schema_version", 2);
+    system_of_lamp(&mut output);
+    output.is("equilibria[].solver", json!(["lagrange", "energy"]));
+    shape_of_lamp(&mut output);
+    output.each("equilibria[].evidence.rung", "optimal");
+    let residuals = ["balance of joints", "largest unbalanced force"];
+    evidence::converged(&mut output, "equilibria[]", &residuals, &[1e-12, 1e-12]);
+    output.each("equilibria[].evidence.nullity", 0);
+    // Two members at a right angle, and the one motion is out of their plane.
+    output.near("equilibria[].evidence.condition", 1e-9, json!([1.0, 1.0]));
+    output.each("equilibria[].evidence.rigidity.rank", 2);
+    output.each("equilibria[].evidence.rigidity.mechanisms", 1);
+    output.each("equilibria[].evidence.rigidity.self_stresses", 0);
+    output.each("equilibria[].evidence.rigidity.gap[]", json!([1.0, 0.0]));
+    evidence::agreed(&mut output, "equilibria[]");
+    let at = |key: &str| format!("equilibria[].evidence.ladder[].{key}");
+    output.each(&at("reached"), true);
+    let how = ["after", "lagrange and energy differ", "exactly one", "no other", "semidefinite"];
+    output.says(&at("how"), &how);
+    proofs_of_lamp(&mut output);
+    output.within(&at("proof.gap"), 0.0..=NOTHING);
+    output.each(&at("proof.singular"), false);
+    let laws = ["support", "length", "law", "force", "moment", "joint", "balance", "derived"];
+    evidence::agreement(&mut output, &laws);
+    // Roundings of the energy are the largest there are.
+    output.each("agreement.statics[].worst", "whole");
+    output.is("agreement.turned_parts", 0);
+    output.is("agreement.self_stresses", 0);
+    output.done();
+}
+
+/// A weight of 1 N on three cables in a plane, √2, 1 and √2 m long, and a hanger: with the outer
+/// forces t and the middle one 1 - √2 t there is a family.
+#[test]
+fn three_cables() {
+    let folder = tempfile::tempdir().unwrap();
+    let side = std::f64::consts::SQRT_2;
+    let text = format!(
+        "gravity_m_s2 = 1\n\
+         joints = {{ A = {{ at_m = [-1, 0, 0] }}, B = {{ at_m = [0, 0, 0] }}, C = {{ at_m = [1, 0, 0] }}, P = {{}}, Q = {{ mass_kg = 1 }} }}\n\
+         bars = [\n\
+         {{ from = \"A\", to = \"P\", length_m = {side}, mass_kg = 0, kind = \"cable\" }},\n\
+         {{ from = \"B\", to = \"P\", length_m = 1, mass_kg = 0, kind = \"cable\" }},\n\
+         {{ from = \"C\", to = \"P\", length_m = {side}, mass_kg = 0, kind = \"cable\" }},\n\
+         {{ from = \"P\", to = \"Q\", length_m = 0.5, mass_kg = 0, kind = \"cable\" }} ]\n"
+    );
+    std::fs::write(folder.path().join("fan.toml"), text).unwrap();
+    let text = good(folder.path(), &["solve", "fan.toml", "--json"]);
+    let mut output = Output::json("solve a system", "three_cables", &text);
+    // Least Σ F² l: 2 √2 t² + (1 - √2 t)², at t = 1/(2 + √2).
+    let t = 1.0 / (2.0 + side);
+    output.each("equilibria[].bars[].axial_n", json!([t, 1.0 - side * t, t, 1.0]));
+    let at = |key: &str| format!("equilibria[].evidence.self_stresses.{key}");
+    output.each(&at("dimension"), 1);
+    output.each(&at("choice"), "equally_stiff");
+    for basis in output.numbers(&at("basis[][]")).chunks(4) {
+        // (1, -√2, 1, 0)/2 or its opposite.
+        let sign = basis[0].signum();
+        for (found, wanted) in basis.iter().zip([0.5, -side / 2.0, 0.5, 0.0]) {
+            assert!((found - sign * wanted).abs() < NOTHING, "{basis:?}");
+        }
+    }
+    // Only `lagrange` tells ranges.
+    output.is(&at("ranges[].kind"), json!(["bounded", "bounded", "bounded", "unique"]));
+    output.is(&at("ranges[].least_n"), json!([0.0, 0.0, 0.0]));
+    output.is(&at("ranges[].most_n"), json!([side / 2.0, 1.0, side / 2.0]));
+    output.is("agreement.self_stresses", 1);
+    // The hanger turns about its vertical.
+    output.is("agreement.turned_parts", 1);
+    let at = |key: &str| format!("equilibria[].evidence.{key}");
+    output.each(&at("ladder[].proof.room.turning_parts"), 1);
+    output.each(&at("ladder[].proof.room.free_joints"), 0);
+    output.each(&at("ladder[].proof.shape_only"), true);
+    // The closures leave one force open; no motion goes without restoring force.
+    output.is(&at("nullity"), json!([1, 0]));
+    // Six coordinates; four rows, one too many. Along the vertical the columns of P and Q have the
+    // products 3, 1 and -1: singular values √(2 ∓ √2), across √1.
+    output.each(&at("rigidity.rank"), 3);
+    output.each(&at("rigidity.mechanisms"), 3);
+    output.each(&at("rigidity.self_stresses"), 1);
+    output.each(&at("rigidity.gap[]"), json!([side - 1.0, 0.0]));
+    output.each(&at("ladder[].reached"), json!([true, true, false, false, true]));
+    output.each(&at("ladder[].reason.kind"), json!(["no_box", "no_census"]));
+    output.each(&at("ladder[].reason.because"), json!(["self_stresses", "not_a_bar"]));
+    output.each(&at("ladder[].reason.dimension"), 1);
+    output.each(&at("ladder[].reason.member"), 1);
+    output.done();
+}
+
+/// A mass on a strut that cannot pull; its weight is what it would have to.
+#[test]
+fn refusals() {
+    let folder = tempfile::tempdir().unwrap();
+    let falls = "gravity_m_s2 = 10\n\
+                 joints = { A = { at_m = [0, 0, 0] }, P = { mass_kg = 1 } }\n\
+                 bars = [{ from = \"A\", to = \"P\", length_m = 1, mass_kg = 0, kind = \"strut\" }]\n";
+    std::fs::write(folder.path().join("falls.toml"), falls).unwrap();
+    let (code, text) = run(folder.path(), &["solve", "falls.toml", "--json"]);
+    assert_eq!(code, Some(3));
+    let mut output = Output::json("solve a system", "refusals", &text);
+    output.is("equilibria[]", json!([]));
+    output.is("agreement", json!(null));
+    output.is("failures[].solver", json!(["lagrange", "energy"]));
+    output.says("failures[].reason", &["joint P moves on without end", "member 1"]);
+    output.is("failures[].refusal.kind", json!(["escapes", "wrong_sign"]));
+    output.is("failures[].refusal.joint", "P");
+    output.within("failures[].refusal.distance_m", 1e6..=1e9);
+    output.is("failures[].refusal.member", 1);
+    output.near("failures[].refusal.force_n", 1e-9, 10.0);
+    output.done();
+}

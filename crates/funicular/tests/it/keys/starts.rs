@@ -1,0 +1,357 @@
+//! `sweep`, `merge` and `simulate --seeds`: tallies are counted again from the rows.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use serde_json::{Value, json};
+
+use super::output::{Output, good};
+use super::solve::{LEVEL_V, system_of_level_v};
+
+/// Half the height of an equilateral triangle of side 1 m, m.
+const DEPTH: f64 = 0.866_025_403_784_438_6;
+
+/// Seeds of the grid: 8 angles of each bar.
+const SEEDS: usize = 64;
+
+/// The cells of a column.
+fn column(text: &str, name: &str) -> Vec<f64> {
+    let head = text.lines().next().unwrap();
+    let at = head.split(',').position(|column| column == name).unwrap();
+    text.lines().skip(1).map(|line| line.split(',').nth(at).unwrap().parse().unwrap()).collect()
+}
+
+/// The sum of a file's bytes as the system's own program has it.
+fn sha256(path: &Path) -> String {
+    let output = std::process::Command::new("sha256sum").arg(path).output().unwrap();
+    String::from_utf8(output.stdout).unwrap().split(' ').next().unwrap().to_owned()
+}
+
+/// Wilson's interval of a rate at 95 %: E. B. Wilson, J. Am. Stat. Assoc. 22 (1927) 209-212.
+fn wilson(count: f64, all: f64) -> [f64; 2] {
+    let z = 1.959_963_984_540_054;
+    let (rate, z2) = (count / all, z * z / all);
+    let half = z * ((rate * (1.0 - rate) + z2 / 4.0) / all).sqrt();
+    [-half, half].map(|half| (rate + z2 / 2.0 + half) / (1.0 + z2))
+}
+
+/// Two equilibria, and rows of them for a solver.
+struct Rows {
+    outcomes: Vec<f64>,
+    iterations: Vec<f64>,
+}
+
+impl Rows {
+    fn of(text: &str, solver: &str) -> Self {
+        Self {
+            outcomes: column(text, &format!("{solver}_outcome")),
+            iterations: column(text, &format!("{solver}_iterations")),
+        }
+    }
+
+    /// Sorted iterations of the rows of each outcome.
+    fn by_outcome(&self) -> Vec<(f64, Vec<f64>)> {
+        let mut found = Vec::new();
+        for outcome in [0.0, 1.0] {
+            let rows = self.outcomes.iter().zip(&self.iterations);
+            let mut rows: Vec<f64> =
+                rows.filter(|(o, _)| (*o - outcome).abs() < 0.5).map(|(_, i)| *i).collect();
+            rows.sort_by(f64::total_cmp);
+            if !rows.is_empty() {
+                found.push((outcome, rows));
+            }
+        }
+        found
+    }
+
+    /// Assert what is said of a solver.
+    fn assert(&self, output: &mut Output, solver: &str) {
+        let at = |key: &str| format!("solvers.{solver}[].{key}");
+        let found = self.by_outcome();
+        let all = self.outcomes.len() as f64;
+        let counts: Vec<f64> = found.iter().map(|(_, rows)| rows.len() as f64).collect();
+        output.is(&at("outcome"), found.iter().map(|(outcome, _)| *outcome).collect::<Vec<_>>());
+        let meaning: Vec<String> =
+            found.iter().map(|(outcome, _)| format!("equilibrium {outcome}")).collect();
+        output.is(&at("meaning"), meaning);
+        output.is(&at("count"), counts.clone());
+        let rates: Vec<f64> = counts.iter().map(|count| count / all).collect();
+        output.is(&at("rate"), rates);
+        let intervals: Vec<[f64; 2]> = counts.iter().map(|count| wilson(*count, all)).collect();
+        output.near(&at("rate_95[]"), 1e-9, json!(intervals));
+        let most: Vec<f64> = found.iter().map(|(_, rows)| rows[rows.len() - 1]).collect();
+        output.is(&at("iterations.max"), most);
+        // The lower of the two in the middle.
+        let middle: Vec<f64> = found.iter().map(|(_, rows)| rows[(rows.len() - 1) / 2]).collect();
+        output.is(&at("iterations.median"), middle);
+    }
+
+    /// Assert the tally of a solver in `summary.json`.
+    fn assert_tally(&self, output: &mut Output, solver: &str) {
+        let at = |key: &str| format!("outcomes.tally.{solver}.*.{key}");
+        let found = self.by_outcome();
+        output.is(&at("count"), found.iter().map(|(_, rows)| rows.len()).collect::<Vec<_>>());
+        // By numbers of iterations as texts, in the order of texts.
+        let mut counts = Vec::new();
+        for (_, rows) in found {
+            let mut by = BTreeMap::<String, usize>::new();
+            rows.iter().for_each(|i| *by.entry(i.to_string()).or_default() += 1);
+            counts.extend(by.into_values());
+        }
+        output.is(&at("iterations.*"), counts);
+    }
+}
+
+/// The two equilibria of the level V: from the descending vertical bar 1 stands at 30 degrees where
+/// it hangs, at 150 where it stands.
+fn equilibria(output: &mut Output, angles: bool) {
+    output.is("equilibria[].energy_j", json!([-10.0 * DEPTH, 10.0 * DEPTH]));
+    output.each("equilibria[].index_in_plane", 0);
+    output.each("equilibria[].mirrored", false);
+    output.each("equilibria[].origin", "proven");
+    output.is("equilibria_complete", true);
+    output.is("equilibria_left_out", 0);
+    if angles {
+        let [low, high] = [std::f64::consts::FRAC_PI_6, 5.0 * std::f64::consts::FRAC_PI_6];
+        output.is("equilibria[].angles_rad[]", json!([low, high, high, low]));
+    } else {
+        let joints = [-DEPTH, DEPTH].map(|z| [0.0, 0.0, 0.0, 0.5, 0.0, z, 1.0, 0.0, 0.0]);
+        output.is("equilibria[].joints_m[][]", json!(joints));
+        output.is("equilibria[].angles_rad[]", json!([]));
+    }
+}
+
+/// What a run over so many seeds says of itself.
+fn about(output: &mut Output, folder: &str, count: usize, parts: usize) {
+    output.is("schema_version", 1);
+    output.is("folder", folder);
+    output.is("parts", parts);
+    output.is("seeds.count", count);
+    output.is("seeds.of", count);
+    output.is("seeds.range.start", 0);
+    output.is("seeds.range.end", count);
+    output.is("disagreements[]", json!([]));
+}
+
+/// How often both solvers came to the same equilibrium, and how often to different minima.
+fn comparisons(lagrange: &Rows, energy: &Rows) -> [usize; 2] {
+    let pairs = lagrange.outcomes.iter().zip(&energy.outcomes);
+    let same = pairs.filter(|(a, b)| (*a - *b).abs() < 0.5).count();
+    [same, lagrange.outcomes.len() - same]
+}
+
+fn assert_comparisons(output: &mut Output, lagrange: &Rows, energy: &Rows) {
+    let [same, other] = comparisons(lagrange, energy);
+    output.is("comparisons.same", same);
+    output.is("comparisons.other_basin", other);
+    // No minimum but these two, which nothing in their plane can leave.
+    let none = ["energies_differ", "energy_at_no_minimum", "failed", "no_minimum", "not_listed"];
+    for none in none.iter().chain(&["unclassified"]) {
+        output.is(&format!("comparisons.{none}"), 0);
+    }
+}
+
+fn sweep(folder: &Path, more: &[&str]) -> String {
+    std::fs::write(folder.join("v.toml"), LEVEL_V).unwrap();
+    let seeds = SEEDS.to_string();
+    let arguments = ["sweep", "v.toml", "--seeds", &seeds, "--source", "grid", "--format", "csv"];
+    good(folder, &[&arguments[..], &["--angles", "--json"], more].concat())
+}
+
+#[test]
+fn a_grid_of_starts() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = sweep(folder.path(), &["--out", "out"]);
+    let rows = std::fs::read_to_string(folder.path().join("out/part-000000.csv")).unwrap();
+    let [lagrange, energy] = ["lagrange", "energy"].map(|solver| Rows::of(&rows, solver));
+    let mut output = Output::json("sweep", "a_grid_of_starts", &text);
+    system_of_level_v(&mut output);
+    equilibria(&mut output, true);
+    about(&mut output, "out", SEEDS, 1);
+    output.is("seeds_before", 0);
+    output.within("seconds", 1e-6..=60.0);
+    lagrange.assert(&mut output, "lagrange");
+    energy.assert(&mut output, "energy");
+    assert_comparisons(&mut output, &lagrange, &energy);
+    output.done();
+    columns_of_a_grid(&rows, &lagrange, &energy);
+    summary_of_a_grid(folder.path(), &lagrange, &energy);
+    manifest_of_a_grid(folder.path());
+}
+
+/// Angles in the middles of eighths of a turn; each end has the energy of its equilibrium.
+fn columns_of_a_grid(rows: &str, lagrange: &Rows, energy: &Rows) {
+    let mut output = Output::csv("columns of a sweep", "a_grid_of_starts", rows);
+    output.is("seed", (0..SEEDS).collect::<Vec<_>>());
+    let eighth = std::f64::consts::FRAC_PI_4;
+    let angle = |k: usize| (k as f64 + 0.5) * eighth;
+    // Both angles stand in one row: the first turns fastest.
+    let angles: Vec<[f64; 2]> = (0..SEEDS).map(|k| [angle(k % 8), angle(k / 8)]).collect();
+    output.is("theta_#_rad", json!(angles));
+    for (solver, rows) in [("lagrange", lagrange), ("energy", energy)] {
+        let at = |key: &str| format!("{solver}_{key}");
+        output.within(&at("outcome"), 0.0..=1.0);
+        output.within(&at("iterations"), 1.0..=1000.0);
+        output.within(&at("residual"), 0.0..=1e-10);
+        let energies: Vec<f64> =
+            rows.outcomes.iter().map(|outcome| (20.0 * outcome - 10.0) * DEPTH).collect();
+        output.near(&at("energy_j"), 1e-9, json!(energies));
+    }
+    output.done();
+}
+
+fn summary_of_a_grid(folder: &Path, lagrange: &Rows, energy: &Rows) {
+    let part = folder.join("out/part-000000.csv");
+    let text = std::fs::read_to_string(folder.join("out/summary.json")).unwrap();
+    let mut output = Output::json("summary.json of a sweep", "a_grid_of_starts", &text);
+    output.is("schema_version", 1);
+    output.is("outcomes.tally.seeds", SEEDS);
+    lagrange.assert_tally(&mut output, "lagrange");
+    energy.assert_tally(&mut output, "energy");
+    let both = |a: f64, b: f64| {
+        let pairs = lagrange.outcomes.iter().zip(&energy.outcomes);
+        pairs.filter(|(x, y)| (*x - a).abs() + (*y - b).abs() < 0.5).count()
+    };
+    let pairs = [both(0.0, 0.0), both(0.0, 1.0), both(1.0, 0.0), both(1.0, 1.0)];
+    output.is("outcomes.tally.both.*.*", pairs.as_slice());
+    let [same, other] = comparisons(lagrange, energy);
+    output.is("outcomes.comparisons[]", json!([same, 0, other, 0, 0, 0, 0, 0]));
+    output.is("outcomes.disagreements[]", json!([]));
+    output.is("outcomes.index[]", json!([0, 0]));
+    // The bits of 40 J: weight times length.
+    output.is("outcomes.scale", 40.0_f64.to_bits());
+    output.is("parts[].file", "part-000000.csv");
+    output.is("parts[].seeds.start", 0);
+    output.is("parts[].seeds.end", SEEDS);
+    output.is("parts[].bytes", std::fs::metadata(&part).unwrap().len());
+    output.is("parts[].sha256", sha256(&part));
+    output.done();
+}
+
+fn manifest_of_a_grid(folder: &Path) {
+    let text = std::fs::read_to_string(folder.join("out/manifest.json")).unwrap();
+    let mut output = Output::json("manifest.json of a sweep", "a_grid_of_starts", &text);
+    manifest(&mut output, folder, &text, SEEDS);
+    equilibria(&mut output, true);
+    output.is("solvers[]", json!(["lagrange", "energy"]));
+    output.is("angles[]", json!(["theta_1_rad", "theta_2_rad"]));
+    output.is("source", "grid");
+    output.done();
+}
+
+/// What every manifest says.
+fn manifest(output: &mut Output, folder: &Path, text: &str, seeds: usize) {
+    output.is("schema_version", 1);
+    output.is("program", format!("funicular {}", env!("CARGO_PKG_VERSION")));
+    output.is("system.name", "level V");
+    output.says("system.text", &["length_m = 1.0\nmass_kg = 1.0\ncount = 2\n"]);
+    let parsed: Value = serde_json::from_str(text).unwrap();
+    let copy = folder.join("copy.toml");
+    std::fs::write(&copy, parsed["system"]["text"].as_str().unwrap()).unwrap();
+    output.is("system.sha256", sha256(&copy));
+    output.is("system.unit_j", 40.0);
+    output.is("seeds", seeds);
+    output.is("seed_number", 1);
+    output.is("format", "csv");
+    // README: parts of 1024 seeds.
+    output.is("part_seeds", 1024);
+    output.is("shard.number", 1);
+    output.is("shard.of", 1);
+    output.is("range.start", 0);
+    output.is("range.end", seeds);
+}
+
+/// Two halves joined say what the whole says.
+#[test]
+fn halves_joined() {
+    let folder = tempfile::tempdir().unwrap();
+    let seeds = ["--seeds", "2048"];
+    std::fs::write(folder.path().join("v.toml"), LEVEL_V).unwrap();
+    let sweep = |shard: &str, out: &str| {
+        let more = ["--format", "csv", "--shard", shard, "--out", out];
+        good(folder.path(), &[&["sweep", "v.toml"], &seeds[..], &more].concat());
+    };
+    sweep("1/2", "one");
+    sweep("2/2", "two");
+    let text = good(folder.path(), &["merge", "two", "one", "--out", "all", "--json"]);
+    let rows = ["part-000000.csv", "part-000001.csv"]
+        .map(|part| std::fs::read_to_string(folder.path().join("all").join(part)).unwrap());
+    let second = rows[1].split_once('\n').unwrap().1;
+    let rows = format!("{}{second}", rows[0]);
+    let [lagrange, energy] = ["lagrange", "energy"].map(|solver| Rows::of(&rows, solver));
+    let mut output = Output::json("merge", "halves_joined", &text);
+    equilibria(&mut output, true);
+    about(&mut output, "all", 2048, 2);
+    lagrange.assert(&mut output, "lagrange");
+    energy.assert(&mut output, "energy");
+    assert_comparisons(&mut output, &lagrange, &energy);
+    output.done();
+}
+
+/// Released with damping all come to rest where they hang: nothing rests standing.
+#[test]
+fn releases() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("v.toml"), LEVEL_V).unwrap();
+    let arguments = ["simulate", "v.toml", "--seeds", "20", "--damping", "3", "--time", "20"];
+    let more = ["--step", "0.02", "--format", "csv", "--json", "--out", "out"];
+    let text = good(folder.path(), &[&arguments[..], &more].concat());
+    let rows = std::fs::read_to_string(folder.path().join("out/part-000000.csv")).unwrap();
+    let motion = Rows::of(&rows, "motion");
+    let mut output = Output::json("simulate --seeds", "releases", &text);
+    output.is("system.name", "level V");
+    output.is("system.joints", 3);
+    output.is("system.bars", 2);
+    output.is("system.total_length_m", 2.0);
+    output.is("system.total_mass_kg", 2.0);
+    output.is("system.gravity_m_s2", 10.0);
+    equilibria(&mut output, false);
+    about(&mut output, "out", 20, 1);
+    output.is("seeds_before", 0);
+    output.within("seconds", 1e-6..=60.0);
+    motion.assert(&mut output, "motion");
+    output.done();
+    let mut output = Output::csv("columns of releases", "releases", &rows);
+    output.is("seed", (0..20).collect::<Vec<_>>());
+    output.each("motion_outcome", 0);
+    // Looked at four times a step; it swings for seconds, at most 20 s.
+    output.within("motion_iterations", 10.0..=250.0);
+    output.within("motion_residual", 0.0..=1e-7);
+    let rest = json!(vec![-10.0 * DEPTH; 20]);
+    output.near("motion_energy_j", 1e-9, rest);
+    output.done();
+    let text = std::fs::read_to_string(folder.path().join("out/summary.json")).unwrap();
+    let mut output = Output::json("summary.json of releases", "releases", &text);
+    output.is("schema_version", 1);
+    output.is("outcomes.tally.seeds", 20);
+    motion.assert_tally(&mut output, "motion");
+    for none in ["lagrange", "energy", "both"] {
+        output.is(&format!("outcomes.tally.{none}"), json!(null));
+    }
+    output.is("outcomes.comparisons[]", json!([0, 0, 0, 0, 0, 0, 0, 0]));
+    output.is("outcomes.disagreements[]", json!([]));
+    output.is("outcomes.index[]", json!([0, 0]));
+    output.is("outcomes.scale", 40.0_f64.to_bits());
+    output.is("parts[].file", "part-000000.csv");
+    output.is("parts[].seeds.start", 0);
+    output.is("parts[].seeds.end", 20);
+    output.is("parts[].bytes", rows.len());
+    output.is("parts[].sha256", sha256(&folder.path().join("out/part-000000.csv")));
+    output.done();
+    let text = std::fs::read_to_string(folder.path().join("out/manifest.json")).unwrap();
+    let mut output = Output::json("manifest.json of releases", "releases", &text);
+    manifest(&mut output, folder.path(), &text, 20);
+    equilibria(&mut output, false);
+    output.is("solvers[]", "motion");
+    output.is("angles[]", json!([]));
+    output.is("source", "released");
+    output.is("release.time_s", 20.0);
+    output.is("release.step_s", 0.02);
+    // Four steps.
+    output.is("release.span_s", 0.08);
+    output.is("release.drag_1_s", 3.0);
+    output.is("release.friction_n_m_s", 0.0);
+    output.is("release.order", 2);
+    output.is("release.rest", 1e-7);
+    output.done();
+}
