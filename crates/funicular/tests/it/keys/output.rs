@@ -137,6 +137,11 @@ impl Output {
         self.found(path).iter().map(|value| value.as_f64().unwrap()).collect()
     }
 
+    /// The values at a path, which the test asserts itself.
+    pub fn values(&mut self, path: &str) -> Vec<Value> {
+        self.found(path)
+    }
+
     /// Compare what was asserted with the table, and what there is besides.
     pub fn done(self) {
         let table = table::of(self.kind);
@@ -146,7 +151,9 @@ impl Output {
             .map(|(path, _)| path.clone())
             .collect();
         let list = |paths: Vec<&String>| -> String {
-            paths.iter().map(|path| format!("{path} {}\n", self.test)).collect()
+            let lines: Vec<String> =
+                paths.iter().map(|path| format!("{path} {}\n", self.test)).collect();
+            lines.concat()
         };
         let more = list(self.asserted.difference(&named).collect());
         let less = list(named.difference(&self.asserted).collect());
@@ -195,7 +202,9 @@ fn collect(value: &Value, path: String, values: &mut BTreeMap<String, Vec<Value>
             values.entry(path + "[]").or_default();
         }
         Value::Array(items) => {
-            items.iter().for_each(|item| collect(item, format!("{path}[]"), values));
+            for item in items {
+                collect(item, format!("{path}[]"), values);
+            }
         }
         leaf => values.entry(path).or_default().push(leaf.clone()),
     }

@@ -95,7 +95,9 @@ impl Rows {
         let mut counts = Vec::new();
         for (_, rows) in found {
             let mut by = BTreeMap::<String, usize>::new();
-            rows.iter().for_each(|i| *by.entry(i.to_string()).or_default() += 1);
+            for i in rows {
+                *by.entry(i.to_string()).or_default() += 1;
+            }
             counts.extend(by.into_values());
         }
         output.is(&at("iterations.*"), counts);

@@ -372,6 +372,18 @@ fn folds_of_the_level_chain() {
     let fold = (span - 1.1) / 0.4;
     let positions = [fold, fold, fold, fold, 0.5 + 1.7 / 5.4];
     output.near(&at("position"), 1e-9, json!(positions));
+    // As far from the closed form as is admitted, at most; `1e-15` are digits of the parameter.
+    let found = output.numbers(&at("position"));
+    let errors = output.numbers(&at("position_error"));
+    for ((found, wanted), error) in found.iter().zip(positions).zip(&errors) {
+        assert!((found - wanted).abs() <= error + 1e-15 && *error < 1e-9, "{found} {error}");
+    }
+    let found = output.numbers(&at("values[]"));
+    let errors = output.numbers(&at("values_error[]"));
+    let wanted = spans.iter().flat_map(|span| [0.0, *span]);
+    for ((found, wanted), error) in found.iter().zip(wanted).zip(&errors) {
+        assert!((found - wanted).abs() <= error + 1e-15 && *error < 1e-9, "{found} {error}");
+    }
     output.within(&at("residual"), 0.0..=NOTHING);
     output.within(&at("singular"), 0.0..=1e-4);
     // Each closes the chain, and its energy is that of its angles: centres of three bars.

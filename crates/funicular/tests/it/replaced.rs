@@ -1,0 +1,127 @@
+//! Results are replaced by results alone: whatever a command refuses, the files of an earlier run
+//! stay as they are, byte by byte, and nothing is left beside them.
+
+#![expect(clippy::unwrap_used, reason = "helpers of tests")]
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use assert_cmd::Command;
+
+/// Every option of every command that names a file or folder of results; `FILE` is the input.
+const COMMANDS: [&[&str]; 16] = [
+    &["solve", "FILE", "--csv", "old.csv", "--bars-csv", "bars.csv", "--svg", "old.svg"],
+    &["census", "FILE", "--csv", "old.csv", "--svg", "old.svg"],
+    &["judge", "FILE", "--answer", "answer.csv", "--html", "old.html"],
+    &["sweep", "FILE", "--seeds", "10", "--out", "folder"],
+    &["sweep", "FILE", "--seeds", "10", "--out", "folder", "--resume"],
+    &["study", "FILE", "--vary", "gravity_m_s2=9,10", "--csv", "old.csv", "--svg", "old.svg"],
+    &["derivatives", "FILE", "--csv", "old.csv", "--of", "bars.1.axial_n"],
+    &["trace", "FILE", "--vary", "gravity_m_s2=9,10", "--csv", "old.csv", "--svg", "old.svg"],
+    &["basins", "FILE", "--size", "4", "--out", "folder"],
+    &["modes", "FILE", "--svg", "old.svg", "--html", "old.html"],
+    &["simulate", "FILE", "--time", "0.1", "--out", "old.csv", "--html", "old.html"],
+    &["simulate", "FILE", "--time", "0.1", "--out", "old.parquet"],
+    &["simulate", "FILE", "--seeds", "10", "--damping", "1", "--out", "folder"],
+    &["simulate", "FILE", "--seeds", "10", "--damping", "1", "--out", "folder", "--resume"],
+    &["merge", "folder", "other", "--out", "folder"],
+    &["reproduce", "--out", "old.json"],
+];
+
+/// Refused as text, as a chain that does not reach, and by the solvers: a strut cannot pull.
+const INPUTS: [(&str, &str); 3] = [
+    (
+        "misspelt.toml",
+        "anchors = { start_m = [0, 0, 0], end_m = [1, 0, 0] }\nbars = [{ length = 1 }]\n",
+    ),
+    (
+        "far.toml",
+        "anchors = { start_m = [0, 0, 0], end_m = [4, 0, 0] }\n\
+         bars = [{ length_m = 1, mass_kg = 1, count = 2 }]\n",
+    ),
+    (
+        "falls.toml",
+        "joints = { A = { at_m = [0, 0, 0] }, P = { mass_kg = 1 } }\n\
+         bars = [{ from = \"A\", to = \"P\", length_m = 1, mass_kg = 0, kind = \"strut\" }]\n",
+    ),
+];
+
+/// All files below a folder with their bytes.
+fn all(folder: &Path, files: &mut BTreeMap<String, Vec<u8>>) {
+    for entry in std::fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path.is_dir() {
+            all(&path, files);
+        } else {
+            files.insert(path.display().to_string(), std::fs::read(&path).unwrap());
+        }
+    }
+}
+
+#[test]
+fn what_is_refused_replaces_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    for (name, text) in INPUTS {
+        std::fs::write(at(name), text).unwrap();
+    }
+    let answer = "joint,x_m,y_m,z_m\n0,0,0,0\n1,0.5,0,-0.8660254037844386\n2,1,0,0\n";
+    std::fs::write(at("answer.csv"), answer).unwrap();
+    std::fs::write(at("good.toml"), INPUTS[1].1.replace("[4, 0, 0]", "[1, 0, 0]")).unwrap();
+    for inner in ["folder", "other"] {
+        std::fs::create_dir(at(inner)).unwrap();
+        for name in ["lagrange.svg", "manifest.json", "part-000000.parquet", "summary.json"] {
+            std::fs::write(at(inner).join(name), format!("an older {name}")).unwrap();
+        }
+    }
+    for name in ["old.csv", "bars.csv", "old.svg", "old.html", "old.json", "old.parquet"] {
+        std::fs::write(at(name), format!("an older {name}")).unwrap();
+    }
+    let mut before = BTreeMap::new();
+    all(folder.path(), &mut before);
+    let run = |arguments: &[&str], input: &str| {
+        let named =
+            |word: &&str| if *word == "FILE" { input.to_owned() } else { (*word).to_owned() };
+        let mut command = Command::cargo_bin("funicular").unwrap();
+        command.current_dir(folder.path()).args(arguments.iter().map(named)).output().unwrap()
+    };
+    for arguments in COMMANDS {
+        for (input, _) in INPUTS {
+            // What cannot hang may stand, which a census lists; and a study has a line for every
+            // point, with its reason where it has no answer.
+            if input == "falls.toml" && ["census", "study"].contains(&arguments[0]) {
+                continue;
+            }
+            let output = run(arguments, input);
+            let code = output.status.code();
+            let said = String::from_utf8_lossy(&output.stderr);
+            assert!(code == Some(2) || code == Some(3), "{arguments:?} {input}: {code:?} {said}");
+            let mut after = BTreeMap::new();
+            all(folder.path(), &mut after);
+            let names = |files: &BTreeMap<String, _>| files.keys().cloned().collect::<Vec<_>>();
+            assert_eq!(names(&before), names(&after), "{arguments:?} {input}");
+            assert!(before == after, "{arguments:?} {input} has changed a file");
+        }
+    }
+    // With an input that is good the same commands replace each file that they name.
+    for arguments in COMMANDS.iter().filter(|arguments| arguments.contains(&"FILE")) {
+        let results: Vec<&str> = arguments
+            .iter()
+            .filter(|word| word.starts_with("old.") || **word == "bars.csv")
+            .copied()
+            .collect();
+        if results.is_empty() {
+            continue;
+        }
+        for name in &results {
+            std::fs::write(at(name), format!("an older {name}")).unwrap();
+        }
+        let output = run(arguments, "good.toml");
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(0), "{arguments:?}: {said}");
+        for name in results {
+            let bytes = std::fs::read(at(name)).unwrap();
+            assert!(!bytes.starts_with(b"an older"), "{arguments:?} {name}");
+        }
+    }
+}
