@@ -8,11 +8,11 @@ use model::system::System;
 use motion::Snapshot;
 
 use crate::equilibria;
+use crate::moving_page::{self, comma, list, places, structure};
 use crate::problem::Problem;
 use crate::resting::Resting;
 use crate::simulate::CENSUS_BARS;
 
-/// The page, with `@TITLE@` and `@DATA@` to be filled in. It needs nothing but itself.
 const PAGE: &str = include_str!("animation.html");
 
 /// Collects what an animation shows, time by time.
@@ -91,7 +91,7 @@ impl Animation {
     /// The HTML of the page.
     #[must_use]
     pub fn page(&self) -> String {
-        PAGE.replace("@TITLE@", &escaped(self.system.name())).replace("@DATA@", &self.data())
+        moving_page::filled(PAGE, &self.system, &self.data())
     }
 
     /// Everything that is drawn, as JSON of numbers and of the numbers of equilibria.
@@ -104,31 +104,18 @@ impl Animation {
         list(&mut out, self.potential_j.iter().copied());
         out.push_str(",\"equilibria\":[");
         for (k, (label, distances)) in self.labels.iter().zip(&self.distances_m).enumerate() {
-            let comma = if k > 0 { "," } else { "" };
-            let _ = write!(out, "{comma}{{\"label\":\"{label}\",\"distance\":");
+            let _ = write!(out, "{}{{\"label\":\"{label}\",\"distance\":", comma(k));
             list(&mut out, distances.iter().copied());
             out.push('}');
         }
-        let reference = self.system.reference_m();
         out.push_str("],\"x\":[");
         for (k, frame) in self.frames.iter().enumerate() {
-            if k > 0 {
-                out.push(',');
-            }
-            let relative = frame.iter().flat_map(|x| [0, 1, 2].map(|k| x[k] - reference[k]));
-            list(&mut out, relative);
+            out.push_str(comma(k));
+            places(&mut out, &self.system, frame.iter().copied());
         }
-        out.push_str("],\"bars\":[");
-        for (k, member) in self.system.members().iter().enumerate() {
-            let comma = if k > 0 { "," } else { "" };
-            let _ = write!(out, "{comma}[{},{}]", member.from, member.to);
-        }
-        out.push_str("],\"held\":[");
-        for (k, joint) in self.system.joints().iter().enumerate() {
-            let comma = if k > 0 { "," } else { "" };
-            let _ = write!(out, "{comma}{}", u8::from(joint.support.at_m().is_some()));
-        }
-        let _ = write!(out, "],\"view\":{:.4}}}", self.view_rad());
+        out.push_str("],");
+        structure(&mut out, &self.system);
+        let _ = write!(out, "\"view\":{:.4}}}", self.view_rad());
         out
     }
 
@@ -144,34 +131,4 @@ impl Animation {
         }
         0.5 * f64::atan2(2.0 * xy, xx - yy)
     }
-}
-
-/// Numbers for the eye: six digits.
-pub(crate) fn list(out: &mut String, numbers: impl Iterator<Item = f64>) {
-    out.push('[');
-    for (k, x) in numbers.enumerate() {
-        if k > 0 {
-            out.push(',');
-        }
-        // Six digits, written as short as they are.
-        let rounded: f64 = format!("{x:.5e}").parse().unwrap_or(0.0);
-        let _ = write!(out, "{rounded}");
-    }
-    out.push(']');
-}
-
-/// Text of a caller for a page: what would end it, or fill in the rest of a template, is escaped.
-pub(crate) fn escaped(text: &str) -> String {
-    let mut out = String::with_capacity(text.len());
-    for c in text.chars() {
-        match c {
-            '&' => out.push_str("&amp;"),
-            '<' => out.push_str("&lt;"),
-            '>' => out.push_str("&gt;"),
-            // A name must not fill in the rest of the page.
-            '@' => out.push_str("&#64;"),
-            _ => out.push(c),
-        }
-    }
-    out
 }

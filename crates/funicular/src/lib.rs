@@ -78,6 +78,7 @@ mod extremes;
 pub mod judge;
 mod mode_pages;
 mod modes;
+mod moving_page;
 #[cfg(feature = "branches")]
 mod parameters;
 pub mod picture;

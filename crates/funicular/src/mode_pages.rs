@@ -5,13 +5,12 @@ use std::fmt::Write as _;
 use figures::{ModeShape, ModeShapes, StructureError};
 use model::system::System;
 
-use crate::animation::{escaped, list};
 use crate::modes::{Mode, ModesAnswer, WithModes};
+use crate::moving_page::{self, comma, list, places, structure};
 
 /// Most modes in one drawing: those on a large sheet.
 const MOST_DRAWN: usize = 24;
 
-/// The page, with `@TITLE@` and `@DATA@` to be filled in. It needs nothing but itself.
 const PAGE: &str = include_str!("modes.html");
 
 /// The lowest modes of an equilibrium as an SVG file, up to 24 of them: at rest, and displaced to
@@ -76,25 +75,17 @@ fn eye(x: f64) -> f64 {
 /// ```
 #[must_use]
 pub fn animated_modes(system: &System, answer: &ModesAnswer) -> String {
-    PAGE.replace("@TITLE@", &escaped(system.name())).replace("@DATA@", &data(system, answer))
+    moving_page::filled(PAGE, system, &data(system, answer))
 }
 
 /// Everything that is drawn, as JSON of numbers and of words of our own.
 fn data(system: &System, answer: &ModesAnswer) -> String {
-    let reference = system.reference_m();
-    let mut out = String::from("{\"bars\":[");
-    for (k, member) in system.members().iter().enumerate() {
-        let _ = write!(out, "{}[{},{}]", comma(k), member.from, member.to);
-    }
-    out.push_str("],\"held\":[");
-    for (k, joint) in system.joints().iter().enumerate() {
-        let _ = write!(out, "{}{}", comma(k), u8::from(joint.support.is_fixed()));
-    }
-    out.push_str("],\"equilibria\":[");
+    let mut out = String::from("{");
+    structure(&mut out, system);
+    out.push_str("\"equilibria\":[");
     for (k, found) in answer.equilibria.iter().enumerate() {
         let _ = write!(out, "{}{{\"label\":\"{}\",\"x\":", comma(k), found.label);
-        let places = found.joints.iter().map(|joint| joint.at_m);
-        list(&mut out, places.flat_map(|x| [0, 1, 2].map(|k| x[k] - reference[k])));
+        places(&mut out, system, found.joints.iter().map(|joint| joint.at_m));
         out.push_str(",\"modes\":[");
         for (k, mode) in found.modes.iter().enumerate() {
             let (name, what) = (heading(k, mode), &mode.what);
@@ -109,8 +100,4 @@ fn data(system: &System, answer: &ModesAnswer) -> String {
     }
     out.push_str("]}");
     out
-}
-
-fn comma(k: usize) -> &'static str {
-    if k > 0 { "," } else { "" }
 }

@@ -1,0 +1,69 @@
+//! What the pages have in common on which a system moves: the scene, the numbers of the system, the
+//! escaping of its name.
+
+use std::fmt::Write as _;
+
+use model::Vector;
+use model::system::System;
+
+/// The part of the script that draws and turns the scene.
+const SCENE: &str = include_str!("scene.js");
+
+/// A page with `@SCENE@`, `@TITLE@` and `@DATA@` filled in. It needs nothing but itself.
+pub(crate) fn filled(page: &str, system: &System, data: &str) -> String {
+    page.replace("@SCENE@", SCENE.trim_end())
+        .replace("@TITLE@", &escaped(system.name()))
+        .replace("@DATA@", data)
+}
+
+/// The entries of which bars there are and which joints are held (on a line or plane too), with a
+/// comma behind them.
+pub(crate) fn structure(out: &mut String, system: &System) {
+    out.push_str("\"bars\":[");
+    for (k, member) in system.members().iter().enumerate() {
+        let _ = write!(out, "{}[{},{}]", comma(k), member.from, member.to);
+    }
+    out.push_str("],\"held\":[");
+    for (k, joint) in system.joints().iter().enumerate() {
+        let _ = write!(out, "{}{}", comma(k), u8::from(joint.support.at_m().is_some()));
+    }
+    out.push_str("],");
+}
+
+/// Joints, from the reference point of the system: x, y, z of one after the other, m.
+pub(crate) fn places(out: &mut String, system: &System, joints_m: impl Iterator<Item = Vector>) {
+    let reference = system.reference_m();
+    list(out, joints_m.flat_map(|x| [0, 1, 2].map(|k| x[k] - reference[k])));
+}
+
+/// Numbers for the eye: six digits.
+pub(crate) fn list(out: &mut String, numbers: impl Iterator<Item = f64>) {
+    out.push('[');
+    for (k, x) in numbers.enumerate() {
+        // Six digits, written as short as they are.
+        let rounded: f64 = format!("{x:.5e}").parse().unwrap_or(0.0);
+        let _ = write!(out, "{}{rounded}", comma(k));
+    }
+    out.push(']');
+}
+
+/// What stands before item `k` of a list.
+pub(crate) fn comma(k: usize) -> &'static str {
+    if k > 0 { "," } else { "" }
+}
+
+/// Text of a caller for a page: what would end it, or fill in the rest of a template, is escaped.
+fn escaped(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    for c in text.chars() {
+        match c {
+            '&' => out.push_str("&amp;"),
+            '<' => out.push_str("&lt;"),
+            '>' => out.push_str("&gt;"),
+            // A name must not fill in the rest of the page.
+            '@' => out.push_str("&#64;"),
+            _ => out.push(c),
+        }
+    }
+    out
+}

@@ -1,0 +1,97 @@
+"use strict";
+// What the pages of motions and of modes share: a scene that is turned by dragging, played and paused.
+// A page adds `draw()` and `advance(seconds)`, and calls `begin()` at its end.
+const get = id => document.getElementById(id);
+const data = JSON.parse(get("data").textContent);
+const scene = get("scene"), play = get("play");
+let turn = 0, tilt = 0.12, playing = !matchMedia("(prefers-reduced-motion: reduce)").matches;
+let before = null, middle = [0, 0, 0], reach = 1;
+
+// Put the middle and the reach of the scene around all joints of all frames.
+function enclose(frames) {
+  const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
+  for (const frame of frames) {
+    frame.forEach((x, i) => {
+      low[i % 3] = Math.min(low[i % 3], x);
+      high[i % 3] = Math.max(high[i % 3], x);
+    });
+  }
+  middle = [0, 1, 2].map(k => (low[k] + high[k]) / 2);
+  reach = Math.max(1e-300, Math.hypot(...[0, 1, 2].map(k => high[k] - low[k])) / 2);
+}
+
+function fit(canvas) {
+  const ratio = window.devicePixelRatio || 1, box = canvas.getBoundingClientRect();
+  canvas.width = Math.round(box.width * ratio);
+  canvas.height = Math.round(box.height * ratio);
+  const g = canvas.getContext("2d");
+  g.setTransform(ratio, 0, 0, ratio, 0, 0);
+  return [g, box.width, box.height];
+}
+
+// A place on the screen: turned about the vertical, then tilted. The reach takes `share` of the canvas.
+function onScreen(at, share, w, h) {
+  const [x, y, z] = [0, 1, 2].map(k => at[k] - middle[k]);
+  const across = x * Math.cos(turn) + y * Math.sin(turn);
+  const depth = -x * Math.sin(turn) + y * Math.cos(turn);
+  const up = z * Math.cos(tilt) + depth * Math.sin(tilt);
+  const scale = share * Math.min(w, h) / reach;
+  return [w / 2 + scale * across, h / 2 - scale * up];
+}
+
+function lines(g, place) {
+  g.lineCap = "round";
+  g.beginPath();
+  for (const [a, b] of data.bars) {
+    g.moveTo(...place(a));
+    g.lineTo(...place(b));
+  }
+  g.stroke();
+}
+
+// Many joints would hide the bars: then only those that are held.
+function joints(g, place, ink, held) {
+  data.held.forEach((fixed, joint) => {
+    if (data.bars.length > 200 && !fixed) return;
+    const [x, y] = place(joint);
+    g.fillStyle = fixed ? held : ink;
+    g.beginPath();
+    if (fixed) g.rect(x - 5, y - 5, 10, 10); else g.arc(x, y, 4, 0, 7);
+    g.fill();
+  });
+}
+
+function tick(stamp) {
+  if (playing && before !== null) {
+    advance((stamp - before) / 1000);
+    draw();
+  }
+  before = stamp;
+  requestAnimationFrame(tick);
+}
+
+function setPlaying(on) {
+  playing = on;
+  play.textContent = on ? "Pause" : "Play";
+}
+
+function begin() {
+  play.onclick = () => setPlaying(!playing);
+  document.addEventListener("keydown", event => {
+    if (event.key === " " && !["BUTTON", "SELECT"].includes(event.target.tagName)) {
+      event.preventDefault();
+      setPlaying(!playing);
+    }
+  });
+  scene.onpointerdown = event => scene.setPointerCapture(event.pointerId);
+  scene.onpointermove = event => {
+    if (!event.buttons) return;
+    turn -= event.movementX * 0.01;
+    tilt = Math.max(-1.5, Math.min(1.5, tilt + event.movementY * 0.01));
+    draw();
+  };
+  window.onresize = draw;
+  setPlaying(playing);
+  draw();
+  requestAnimationFrame(tick);
+}
