@@ -101,10 +101,6 @@ impl Ensemble {
         if let Some(first) = found.list.first() {
             Simulation::new(&system, first.joints_m(), settings)?;
         }
-        if motion::has_impacts(&system) {
-            // Says that there are no positions at random, and why.
-            motion::random_position(&system, 0)?;
-        }
         let text = match problem.as_chain() {
             Some(chain) => SystemText::of(chain.chain()),
             None => SystemText::from(&system),

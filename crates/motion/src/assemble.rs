@@ -1,10 +1,11 @@
 //! Positions that meet the constraints, near a guess or at random.
 
 use model::Vector;
-use model::system::{Support, System};
+use model::system::{Kind, Support, System};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
+use crate::contacts::Contacts;
 use crate::error::MotionError;
 use crate::force::Forces;
 use crate::mechanism::Mechanism;
@@ -20,7 +21,8 @@ const MOST_CORRECTIONS: usize = 400;
 const GUESSES: u64 = 50;
 
 /// The position that a guess leads to by corrections that are least in the metric of the inertia:
-/// places of the joints, world frame, m.
+/// places of the joints, world frame, m. Inextensible cables and struts and the floor take part in
+/// it where the guess, corrected without them, would violate them.
 ///
 /// # Errors
 ///
@@ -38,44 +40,46 @@ const GUESSES: u64 = 50;
 /// # Ok::<(), motion::MotionError>(())
 /// ```
 pub fn assemble(system: &System, guess_m: &[Vector]) -> Result<Vec<Vector>, MotionError> {
-    let mechanism = Mechanism::for_places(system)?;
-    let mut stepper = Stepper::new(&mechanism)?;
-    let mut state = State::at_rest(mechanism.places(guess_m)?);
-    close(&mechanism, &mut stepper, &mut state)?;
-    Ok(world(&mechanism, &state))
+    let Some(mut contacts) = Contacts::of(system) else { return closed(system, guess_m) };
+    // What cannot hold where it is has to hold, until all that does not has room.
+    for _ in 0..=contacts.list.len() {
+        let at = closed(&contacts.held()?, guess_m)?;
+        if !contacts.hold_negative(&at) {
+            return Ok(at);
+        }
+    }
+    Err(MotionError::NotClosed { iterations: contacts.list.len(), off: f64::NAN })
 }
 
 /// A position at random: the same for the same seed. Members point anywhere from the joints they
-/// hang on, and loops are closed by [`assemble`].
+/// hang on, inextensible cables and struts with some slack, and loops are closed by [`assemble`].
 ///
 /// # Errors
 ///
 /// [`MotionError`] when the system cannot be moved here, or no guess of fifty can be closed.
 pub fn random_position(system: &System, seed: u64) -> Result<Vec<Vector>, MotionError> {
-    let mechanism = Mechanism::for_places(system)?;
-    let mut stepper = Stepper::new(&mechanism)?;
     let mut failed = MotionError::NotClosed { iterations: 0, off: f64::NAN };
     for stream in 0..GUESSES {
         let mut random = ChaCha8Rng::seed_from_u64(seed);
         random.set_stream(stream);
-        let mut state = State::at_rest(mechanism.places(&guess(system, &mut random))?);
-        match close(&mechanism, &mut stepper, &mut state) {
-            Ok(()) => return Ok(world(&mechanism, &state)),
+        match assemble(system, &guess(system, &mut random)) {
+            Ok(at) => return Ok(at),
             Err(error) => failed = error,
         }
     }
     Err(failed)
 }
 
-fn close(
-    mechanism: &Mechanism,
-    stepper: &mut Stepper,
-    state: &mut State,
-) -> Result<(), MotionError> {
-    let told = |failure| at_the_beginning(mechanism, failure);
-    stepper.assemble(mechanism, state, MOST_CORRECTIONS).map_err(told)?;
+/// The same with what holds; inextensible cables and struts that are left are slack.
+fn closed(system: &System, guess_m: &[Vector]) -> Result<Vec<Vector>, MotionError> {
+    let mechanism = Mechanism::for_places(system)?;
+    let mut stepper = Stepper::new(&mechanism)?;
+    let mut state = State::at_rest(mechanism.places(guess_m)?);
+    let told = |failure| at_the_beginning(&mechanism, failure);
+    stepper.assemble(&mechanism, &mut state, MOST_CORRECTIONS).map_err(told)?;
     // A position where forces are indeterminate is no beginning.
-    stepper.arrive(mechanism, state, &Forces::default(), 0.0).map_err(told)
+    stepper.arrive(&mechanism, &state, &Forces::default(), 0.0).map_err(told)?;
+    Ok(world(&mechanism, &state))
 }
 
 fn world(mechanism: &Mechanism, state: &State) -> Vec<Vector> {
@@ -89,8 +93,15 @@ fn guess(system: &System, random: &mut ChaCha8Rng) -> Vec<Vector> {
     let mut at: Vec<Option<Vector>> = joints.iter().map(|joint| joint.support.at_m()).collect();
     let mut members = vec![Vec::new(); joints.len()];
     for member in system.members() {
-        members[member.from].push((member.to, member.body.length_m()));
-        members[member.to].push((member.from, member.body.length_m()));
+        let length_m = member.body.length_m();
+        // Slack by some part of the length, none more likely than another.
+        let length_m = match (member.stiffness_n, member.kind) {
+            (None, Kind::Cable) => length_m * random.random_range(0.0..1.0),
+            (None, Kind::Strut) => length_m * random.random_range(1.0..2.0),
+            _ => length_m,
+        };
+        members[member.from].push((member.to, length_m));
+        members[member.to].push((member.from, length_m));
     }
     let mut open: Vec<usize> = (0..joints.len()).filter(|&joint| at[joint].is_some()).collect();
     if open.is_empty() {

@@ -98,25 +98,42 @@ impl Contacts {
     /// [`MotionError::NotClosed`] where a gap is negative by more than the rounding of printed
     /// digits.
     pub(crate) fn begin(&mut self, joints_m: &[Vector]) -> Result<(), MotionError> {
-        for (contact, holds) in self.list.iter().zip(&mut self.holds) {
-            let gap = match *contact {
-                Contact::Member(number) => {
-                    let member = &self.system.members()[number];
-                    let d = minus(joints_m[member.to], joints_m[member.from]);
-                    let excess = half_excess(dot(d, d), member.body.length_m());
-                    if member.kind == Kind::Cable { -excess } else { excess }
-                }
-                Contact::Floor(joint) => {
-                    let above_m = joints_m[joint][2] - self.system.floor_m().unwrap_or_default();
-                    above_m / self.system.total_length_m()
-                }
-            };
+        for k in 0..self.list.len() {
+            let gap = self.gap_at(self.list[k], joints_m);
             if gap.is_nan() || gap < -CLOSED_TOLERANCE {
                 return Err(MotionError::NotClosed { iterations: 0, off: gap.abs() });
             }
-            *holds = gap <= CLOSED_TOLERANCE;
+            self.holds[k] = gap <= CLOSED_TOLERANCE;
         }
         Ok(())
+    }
+
+    /// Hold what is violated at places, world frame, m; whether there is such.
+    pub(crate) fn hold_negative(&mut self, joints_m: &[Vector]) -> bool {
+        let mut found = false;
+        for k in 0..self.list.len() {
+            if !self.holds[k] && self.gap_at(self.list[k], joints_m) < -CLOSED {
+                self.holds[k] = true;
+                found = true;
+            }
+        }
+        found
+    }
+
+    /// The gap of a contact at places by joint.
+    fn gap_at(&self, contact: Contact, joints_m: &[Vector]) -> f64 {
+        match contact {
+            Contact::Member(number) => {
+                let member = &self.system.members()[number];
+                let d = minus(joints_m[member.to], joints_m[member.from]);
+                let excess = half_excess(dot(d, d), member.body.length_m());
+                if member.kind == Kind::Cable { -excess } else { excess }
+            }
+            Contact::Floor(joint) => {
+                let above_m = joints_m[joint][2] - self.system.floor_m().unwrap_or_default();
+                above_m / self.system.total_length_m()
+            }
+        }
     }
 
     /// The system with bars and supports for what holds, and nothing else in its place.

@@ -6,11 +6,10 @@
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum MotionError {
-    /// Occurs when an inextensible cable or strut is part of a system whose position is to be found:
-    /// it may be taut or slack there. Motions and modes begin with given positions.
+    /// Occurs when an inextensible cable or strut is part of a system whose mechanics are asked for
+    /// without a position: it may be taut or slack.
     #[error(
-        "member {member} is an inextensible {kind}, taut or slack: positions are found for bars and members with a \
-         stiffness alone, and a motion has to begin with a position that is given, as an equilibrium is"
+        "member {member} is an inextensible {kind}: a position tells whether it is taut or slack"
     )]
     Unilateral {
         /// Number of the member, from 1.
@@ -61,11 +60,8 @@ pub enum MotionError {
         /// Force of the floor on it, up, N.
         push_n: f64,
     },
-    /// Occurs when there is a floor under a system whose position is to be found.
-    #[error(
-        "there is a floor: positions are found where there is none, and a motion has to begin with a position \
-         that is given, as an equilibrium is"
-    )]
+    /// Occurs when there is a floor under a system whose mechanics are asked for without a position.
+    #[error("there is a floor: a position tells which joints lie on it")]
     Floor,
     /// Occurs when the two moments across a member differ where that is not provided for (members
     /// with a stiffness, flat bodies in motion), or when no body has its moments.

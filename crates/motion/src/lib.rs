@@ -81,12 +81,13 @@
 //! ([`Impact`]), which is a choice, as no equilibrium knows a law of impact, and the one that loses
 //! most without friction. In steps with impacts the energy is off by an order more than in others.
 //! Two gaps that close within one step and open again in it are not seen. Elastic cables and struts
-//! go slack and taut by their potential `EA/(2l) max(0, e)²` without an impact.
+//! go slack and taut by their potential `EA/(2l) max(0, e)²` without an impact. Where what holds at
+//! one time does not determine its impulses, as taut cables around a field that lies on the floor,
+//! the motion ends with [`MotionError::Redundant`].
 //!
 //! # What is left out
 //!
-//! Positions at random, and ensembles of them, are those of systems without inextensible cables and
-//! floors. Joints without any inertia are refused: their acceleration is indeterminate. Where the
+//! Joints without any inertia are refused: their acceleration is indeterminate. Where the
 //! two moments across a bar are equal its spin is apart, and a bar without spin never gets any;
 //! where they differ the bar has four points for two ([`Turning`]), and begins without spin, its
 //! second axis level. Modes are about the same position, of any body; one in motion may not be flat.

@@ -95,7 +95,6 @@ impl Mechanism {
 
     /// For places alone, where nothing depends on how bars spin.
     pub(crate) fn for_places(system: &System) -> Result<Self, MotionError> {
-        refuse_inextensible(system)?;
         let inertia = system.members().iter().map(|m| EndInertia::new(&m.body)).collect();
         let expanded = Expanded { system: system.clone(), inertia, cornered: Vec::new() };
         Self::build(expanded, None, system.reference_m())

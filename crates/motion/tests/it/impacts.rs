@@ -191,8 +191,8 @@ fn a_rod_falls_onto_the_floor_and_lies_there() {
     assert!(fall.kinetic_j() < 1e-18);
 }
 
-/// A net of 3 x 3 weights on cables of 1 m, hung by its four corners: nodes 0.9 m apart.
-fn net() -> (System, Vec<[f64; 3]>) {
+/// A net of 21 weights on cables of 1 m, hung by its four corners above a floor: nodes 0.9 m apart.
+fn net(floor_m: f64) -> (System, Vec<[f64; 3]>) {
     let at: Vec<[f64; 3]> = (0..25_u32)
         .map(|k| [k / 5, k % 5].map(f64::from))
         .map(|[x, y]| [0.9 * x, 0.9 * y, 0.0])
@@ -215,12 +215,12 @@ fn net() -> (System, Vec<[f64; 3]>) {
         }
     }
     let system = System::new("net", G, joints, members).unwrap();
-    (system.with_floor(-2.0).unwrap(), at)
+    (system.with_floor(floor_m).unwrap(), at)
 }
 
 #[test]
 fn a_net_that_falls_keeps_its_laws_and_what_it_loses_is_told() {
-    let (system, at) = net();
+    let (system, at) = net(-2.0);
     let settings = Settings { drag_1_s: 0.5, ..Settings::default() };
     let mut fall = Simulation::new(&system, &at, settings).unwrap();
     let mut before_j = fall.energy_j();
@@ -246,4 +246,27 @@ fn what_cannot_begin_or_go_back_is_refused() {
     assert!(matches!(below, Err(MotionError::NotClosed { .. })));
     let mut fall = at_rest(&system, &[[0.0; 3], [0.5, 0.0, 0.0]], Order::Second);
     assert!(matches!(fall.step(-1e-3), Err(MotionError::Input { .. })));
+}
+
+#[test]
+fn positions_at_random_have_cables_within_their_lengths_and_joints_above_the_floor() {
+    let (system, _) = net(-0.6);
+    let (mut slack, mut taut, mut laid) = (0, 0, 0);
+    for seed in 0..40 {
+        let at = motion::random_position(&system, seed).unwrap();
+        assert_eq!(at, motion::random_position(&system, seed).unwrap());
+        for member in system.members() {
+            let d: f64 =
+                (0..3).map(|k| (at[member.to][k] - at[member.from][k]).powi(2)).sum::<f64>().sqrt();
+            assert!(d < 1.0 + 1e-11, "{d}");
+            *(if d < 1.0 - 1e-9 { &mut slack } else { &mut taut }) += 1;
+        }
+        for place in &at {
+            assert!(place[2] > -0.6 - 1e-9);
+            laid += usize::from(place[2] < -0.6 + 1e-9);
+        }
+        assert!(Simulation::new(&system, &at, Settings::default()).is_ok());
+    }
+    println!("{slack} slack, {taut} taut, {laid} on the floor");
+    assert!(slack > 100 && taut > 20 && laid > 20);
 }
