@@ -66,7 +66,7 @@ pub fn expected_time_s(
     let each: Vec<_> = each.collect();
     let asked = |name: &str| solvers.names().any(|asked| asked == name);
     let seed_s: f64 = each.iter().filter(|(name, _)| asked(name)).map(|(_, time)| time).sum();
-    let discovered = if bars > settings.census.max_bars { settings.discover } else { 0 };
+    let discovered = if bars > settings.census.max_bars { settings.discovering(bars) } else { 0 };
     let list_s: f64 = each.iter().map(|(_, time)| time).sum();
     Ok(seeds as f64 * seed_s + f64::from(discovered) * list_s)
 }

@@ -72,7 +72,7 @@ pub struct Member {
 /// problems and settings: it depends on no seed of the sweep, no thread, no shard.
 ///
 /// It is the list of the census when that is complete. When the census leaves something undecided,
-/// or the chain is too long for one, what [`Settings::discover`] random seeds (always the same)
+/// or the chain is too long for one, what [`Settings::discovering`] random seeds (always the same)
 /// reach through all solvers is added: the [`DISCOVERED`] equilibria that most of them reach. A
 /// seed that later converges to something else is [`Failure::Unlisted`](crate::Failure::Unlisted),
 /// and stays in the count.
@@ -178,7 +178,7 @@ impl Members {
         let starts = Source::Uniform.ready(DISCOVERY, bars)?;
         let mut angles = vec![];
         let mut ends = Ends::default();
-        let all = u64::from(settings.discover);
+        let all = u64::from(settings.discovering(bars));
         // Seeds that reached each entry.
         let mut seeds = vec![0; self.list.len()];
         for start in (0..all).step_by(usize::try_from(run).unwrap_or(1)) {

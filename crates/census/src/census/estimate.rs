@@ -35,7 +35,9 @@ const EQUILIBRIUM_GB: f64 = 3e-7;
 const SIXTEEN_BARS: Estimate = Estimate { seconds: 13.0, gigabytes: 0.5, equilibria: 1e5 };
 const GROWTH: f64 = 2.1;
 
-/// What a census would take; good to a factor of three, for most chains.
+/// What a census would take. Cells and equilibria are good to a factor of two; the processor time of
+/// the program was 0.6 to 7.4 times the seconds on 24 random chains of 13 to 16 bars, and 4.7 times on
+/// one of 20, on a busy machine.
 ///
 /// ```
 /// use census::Census;

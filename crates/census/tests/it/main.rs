@@ -1,6 +1,7 @@
 //! The census from outside, in one program.
 
 mod degenerate;
+mod estimate;
 mod integers;
 mod multiplicity;
 mod mutations;

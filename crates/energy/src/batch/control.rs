@@ -24,6 +24,12 @@ const HALVINGS: u32 = 40;
 /// Perturbations off points that are stationary and no minima, and their size, rad.
 const PERTURBATIONS: u32 = 8;
 const PERTURBATION: f64 = 0.01;
+/// A minimum is settled where Newton's next step turns no bar by more than this. Bars that carry
+/// nearly nothing are far from theirs while the slope is zero to the tolerance.
+const SETTLED: f64 = 1e-9;
+/// Steps that a minimum may take to settle. They are quadratic, but where the second derivative
+/// vanishes: there each takes a part of the way, and this many are below what rounding leaves.
+const SETTLING: u32 = 40;
 
 /// Where one lane is.
 #[derive(Debug, Clone, Copy)]
@@ -36,6 +42,8 @@ pub(crate) struct Lane {
     corrections: u32,
     halvings: u32,
     perturbations: u32,
+    /// Steps since the slope was zero to the tolerance and the chain a minimum.
+    settling: u32,
     /// Part of the step on trial.
     part: f64,
     /// Energy at the accepted chain; infinite before there is one.
@@ -76,6 +84,7 @@ impl Lane {
             corrections: 0,
             halvings: 0,
             perturbations: 0,
+            settling: 0,
             part: 0.0,
             value: f64::INFINITY,
             fall: 0.0,
@@ -148,8 +157,17 @@ impl Lane {
         if slope.is_nan() {
             return Next::NonFinite;
         }
-        if slope <= settings.tolerance {
-            return if convex { Next::Minimum } else { self.perturb() };
+        let here = slope <= settings.tolerance;
+        if here && !convex && self.settling == 0 {
+            return self.perturb();
+        }
+        if here {
+            let goes_on =
+                convex && largest_turn > SETTLED && self.settling < SETTLING && fall < 0.0;
+            if !(goes_on && largest_turn.is_finite()) {
+                return Next::Minimum;
+            }
+            self.settling += 1;
         }
         if !(largest_turn.is_finite() && fall < 0.0) {
             return self.perturb();
@@ -163,11 +181,16 @@ impl Lane {
         self.corrections = 0;
         self.halvings += 1;
         self.part *= 0.5;
-        if self.halvings > HALVINGS { Next::Stalled } else { Next::Step(self.part) }
+        match self.halvings > HALVINGS {
+            true if self.settling > 0 => Next::Minimum,
+            true => Next::Stalled,
+            false => Next::Step(self.part),
+        }
     }
 
     fn perturb(&mut self) -> Next {
         self.perturbations += 1;
+        self.settling = 0;
         // What is closed after a perturbation is the new base, whatever its energy.
         self.value = f64::INFINITY;
         self.corrections = 0;

@@ -22,7 +22,9 @@
 //!    the tangent space is positive definite: the number of negative $N_i$ and that of positive
 //!    eigenvalues of $\sum (l_i/N_i) t_i t_i^T$ make two together (Sylvester, as for any
 //!    saddle-point matrix with two constraints: M. Benzi, G. H. Golub, J. Liesen, Acta Numerica 14,
-//!    2005, doi:10.1017/S0962492904000212). A stationary point that is no minimum is left by a
+//!    2005, doi:10.1017/S0962492904000212). Newton's steps go on until they turn no bar any more:
+//!    the slope of bars that carry nearly nothing is zero to the tolerance far from where they
+//!    belong. A stationary point that is no minimum is left by a
 //!    small turn of every bar.
 //!
 //! | symbol | code | shape | unit |

@@ -120,6 +120,8 @@ pub enum Command {
     /// Print a system file with comments, to start from (`funicular format` has every key)
     New,
     /// Print the page of the file format: every key with its unit, what is allowed, and an example
+    /// (`funicular help file` too)
+    #[command(alias = "file", after_long_help = model::system_file::FORMAT)]
     Format,
     /// List the named cases, or print the system file of one (a start for a file of your own)
     Cases(crate::cases::Cases),

@@ -196,8 +196,8 @@ fn refuse(error: Error) -> Failure {
     };
     let help = if bars <= Settings::MAX_BARS {
         format!(
-            "--max-bars {bars} takes it all the same, in about {} of one processor (good to a factor of three, from the \
-             search for a sample of the patterns)",
+            "--max-bars {bars} takes it all the same, in about {} of one processor (the search is good to a \
+             factor of two, from a sample of the patterns; a busy machine takes several times that)",
             rough_time(estimate_s)
         )
     } else {

@@ -4,9 +4,10 @@ mod text;
 
 use std::path::PathBuf;
 
-use branches::Abscissa;
+use branches::{Abscissa, ContinuationError};
+use census::CensusError;
 use clap::Args;
-use funicular::{Problem, Trace, TraceAnswer};
+use funicular::{Error, Problem, Trace, TraceAnswer};
 use miette::miette;
 
 use crate::cost::tell_time;
@@ -113,13 +114,16 @@ pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
         arguments.svg.as_deref().map_or_else(Vec::new, |path| output::numbered(path, paths));
     let outputs = arguments.csv.iter().chain(&diagrams).map(PathBuf::as_path);
     output::check(outputs, &files)?;
-    tell_time("this trace", trace.expected_time_s(&problem)?);
+    if system.bars <= census::Settings::default().max_bars {
+        tell_time("this trace", trace.expected_time_s(&problem)?);
+    }
     let progress = Progress::start();
-    let found = trace.run_watched(&problem, &|path, branches::Progress { done, total }| {
+    let watch = |path, branches::Progress { done, total }| {
         let which =
             if paths > 1 { format!("path {} of {paths}: ", path + 1) } else { String::new() };
         progress.say(&format!("{which}census {done} of {total}"));
-    })?;
+    };
+    let found = trace.run_watched(&problem, &watch).map_err(refuse)?;
     drop(progress);
     // Results are replaced by results alone: a refusal comes before any file.
     let exit = verdict(&found)?;
@@ -142,6 +146,20 @@ pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
         )?;
     }
     Ok(exit)
+}
+
+/// Why nothing is followed, and what can be.
+fn refuse(error: Error) -> Failure {
+    let too_long = |error: &Error| {
+        let Error::Continuation(ContinuationError::Census(census)) = error else { return false };
+        matches!(census, CensusError::TooManyBars { .. })
+    };
+    if !too_long(&error) {
+        return error.into();
+    }
+    let help = "`funicular study FILE --vary ...` takes the same parameters and follows the hanging shape of a chain \
+                of any length; to follow all equilibria, take bars together";
+    Failure::bad_input(miette!(help = help, "{error}"))
 }
 
 fn verdict(found: &TraceAnswer) -> Result<Exit, Failure> {

@@ -206,7 +206,10 @@ fn errors_point_at_what_is_wrong() {
     assert_eq!(output.status.code(), Some(2));
     let output = funicular(&["trace", "--case", "thirty-bars", "--vary", "gravity_m_s2=1,2"]);
     assert_eq!(output.status.code(), Some(2));
-    assert!(text(&output.stderr).contains("30 bars"));
+    let said = text(&output.stderr);
+    // What would work is named, and no time for what is refused.
+    assert!(said.contains("30 bars") && said.contains("funicular study FILE --vary"), "{said}");
+    assert!(!said.contains("are expected"), "{said}");
 }
 
 /// Results are replaced by results only.
