@@ -181,10 +181,12 @@ impl Lane {
         self.corrections = 0;
         self.halvings += 1;
         self.part *= 0.5;
-        match self.halvings > HALVINGS {
-            true if self.settling > 0 => Next::Minimum,
-            true => Next::Stalled,
-            false => Next::Step(self.part),
+        if self.halvings <= HALVINGS {
+            Next::Step(self.part)
+        } else if self.settling > 0 {
+            Next::Minimum
+        } else {
+            Next::Stalled
         }
     }
 
