@@ -92,7 +92,8 @@ fn proof_by_intervals(output: &mut Output) {
     output.each(&at("ladder[].rung"), rungs.as_slice());
     let reached = [true, false, true, true, true, true, false, true, true, false];
     output.is(&at("ladder[].reached"), json!(reached));
-    let how = ["width of", "census", "Krawczyk", "4 patterns", ""];
+    let how = ["width of", "census", "Krawczyk", "4 patterns"];
+    let how = [&how[..], &["semidefinite"], &how, &["falls in 1 directions"]].concat();
     output.says(&at("ladder[].how"), &how);
     let kinds = ["one_solver_only", "one_solver_only", "no_certificate"];
     output.is(&at("ladder[].reason.kind"), json!(kinds));
@@ -285,7 +286,8 @@ fn evidence_by_intervals(output: &mut Output) {
     let rungs = ["converged", "agreed", "verified", "complete", "optimal"];
     output.each(&at("ladder[].rung"), rungs.as_slice());
     output.each(&at("ladder[].reached"), json!([true, false, true, true, false]));
-    let how = ["width of", "not tried", "exactly one", "one of 2", ""];
+    let how = ["width of", "not tried", "exactly one", "one of 2"];
+    let how = [&how[..], &["not proved positive"], &how, &["falls in 1 directions"]].concat();
     output.says(&at("ladder[].how"), &how);
     let because = ["not_tried", "no_certificate"];
     output.each(&at("ladder[].reason.kind"), because.as_slice());

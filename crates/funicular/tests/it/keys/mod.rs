@@ -17,6 +17,7 @@ mod judge;
 mod motion;
 mod output;
 mod reasons;
+mod reproduce;
 mod solve;
 mod starts;
 mod table;

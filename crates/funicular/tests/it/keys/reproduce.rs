@@ -1,0 +1,491 @@
+//! `reproduce`: the reference digits of the paper's example (40-digit root finding and a Gröbner
+//! basis, by others), its own closure and energy, counts, and numbers that others have published.
+
+use serde_json::{Value, json};
+
+use super::evidence::NOTHING;
+use super::output::{Output, good};
+
+/// Angles of E1 from the descending vertical, degrees.
+const E1: [f64; 3] = [19.694_867_976_133_02, 38.599_136_184_451_89, -73.920_588_792_231_34];
+/// Energies of E1 and E2, mgl.
+const ENERGIES: [f64; 2] = [2.335_468_651_999_305, 3.664_531_348_000_695];
+/// λ_2 and, upright, λ_3, λ_6, λ_9, λ_12 at E1, mg.
+const LEVEL: f64 = 0.648_944_835_933_933_6;
+const UPRIGHT: [f64; 4] = [
+    2.312_944_292_241_837_6,
+    -1.312_944_292_241_837_6,
+    -0.312_944_292_241_837_6,
+    0.687_055_707_758_162_4,
+];
+
+/// Energy of three angles, mgl, as (vi) has it: from 6 mgl below the first anchor.
+fn energy(angles: [f64; 3]) -> f64 {
+    let [a, b, c] = angles.map(f64::cos);
+    6.0 - 2.5 * a - 1.5 * b - 0.5 * c
+}
+
+/// The energy over θ on the branch of (viii) next to an angle α, with that angle.
+fn along(theta: f64, mut alpha: f64) -> (f64, f64) {
+    for _ in 0..50 {
+        let left = 5.0 - 4.0 * theta.cos() - 4.0 * alpha.cos() + 2.0 * (alpha - theta).cos();
+        alpha -= left / (4.0 * alpha.sin() - 2.0 * (alpha - theta).sin());
+    }
+    let sin = -theta.sin() - alpha.sin();
+    let cos = 2.0 - theta.cos() - alpha.cos();
+    (energy([theta, alpha, sin.atan2(cos)]), alpha)
+}
+
+/// dV/dθ there, by differences.
+fn slope(theta: f64, alpha: f64) -> f64 {
+    let h = 1e-5;
+    (along(theta + h, alpha).0 - along(theta - h, alpha).0) / (2.0 * h)
+}
+
+#[test]
+fn the_paper_judged() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = good(folder.path(), &["reproduce", "--json"]);
+    let mut output = Output::json("reproduce", "the_paper_judged", &text);
+    output.is("schema_version", 2);
+    output.says("paper", &["Equilibrium of a System of Bars Using a Multibody Type Method"]);
+    output.is("all_as_expected", true);
+    output.within("seconds", 1e-3..=600.0);
+    equilibria(&mut output);
+    ladder(&mut output);
+    completeness(&mut output);
+    claims(&mut output);
+    equations(&mut output);
+    cases(&mut output);
+    seeds(&mut output);
+    field(&mut output);
+    figures(&mut output);
+    environment(&mut output);
+    output.done();
+}
+
+fn equilibria(output: &mut Output) {
+    let at = |key: &str| format!("equilibria[].{key}");
+    output.is(&at("name"), json!(["E1", "E1'", "E2", "E2'"]));
+    let [a, b, c] = E1;
+    let second = [-c, -b, -a];
+    let all = [E1, E1.map(|x: f64| -x), second, second.map(|x: f64| -x)];
+    output.is(&at("lagrange_deg[]"), json!(all));
+    output.is(&at("energy_deg[]"), json!(all[..2]));
+    output.each(&at("energy_deg"), json!(null));
+    let [low, high] = ENERGIES;
+    output.is(&at("lagrange_mgl"), json!([low, low, high, high]));
+    output.is(&at("energy_mgl"), json!([low, low, null, null]));
+    // E2 is E1 upside down: what held an end up now is the other one.
+    let [p, q, r, s] = UPRIGHT;
+    let forces = |sign: f64, up: [f64; 4]| {
+        let level = [-sign, sign, sign, sign].map(|sign| sign * LEVEL);
+        [0, 1, 2, 3].map(|k| [level[k], up[k]])
+    };
+    let turned = [s, -r, -q, p];
+    output.is(
+        &at("forces_mg[][]"),
+        json!([
+            forces(1.0, UPRIGHT),
+            forces(-1.0, UPRIGHT),
+            forces(1.0, turned),
+            forces(-1.0, turned)
+        ]),
+    );
+    // The size of the mean force of each bar.
+    let axial = [LEVEL.hypot(p - 0.5), LEVEL.hypot(0.5 - q - 1.0), -LEVEL.hypot(0.5 + r)];
+    let axial = [axial[0], LEVEL.hypot(-q - 0.5), axial[2]];
+    let upside = [-axial[2], -axial[1], -axial[0]];
+    output.is(&at("axial_mg[]"), json!([axial, axial, upside, upside]));
+    output.is(&at("stability.in_plane"), json!(["minimum", "minimum", "maximum", "maximum"]));
+    output.is(&at("stability.index_in_plane"), json!([0, 0, 1, 1]));
+    output.is(&at("stability.in_space"), json!(["stable", "stable", "unstable", "unstable"]));
+    output.is(&at("stability.index_in_space"), json!([0, 0, 2, 2]));
+    // Three spins, and the turn about OD.
+    output.each(&at("nullity"), 4);
+}
+
+fn ladder(output: &mut Output) {
+    let at = |key: &str| format!("equilibria[].ladder[].{key}");
+    let rungs = ["converged", "agreed", "verified", "complete", "optimal"];
+    output.each(&at("rung"), rungs.as_slice());
+    let reached =
+        [[true; 5], [true; 5], [true, false, true, true, false], [true, false, true, true, false]];
+    output.is(&at("reached"), json!(reached));
+    output.says(&at("how"), &["after", "energy", "Krawczyk", "8 patterns", "stress matrix"]);
+    let proof = |key: &str| at(&format!("proof.{key}"));
+    output.says(&proof("residual_of"), &["largest of the 6n + 3(n+1) equations"]);
+    output.within(&proof("residual"), 0.0..=NOTHING);
+    output.each(&proof("tolerance"), 3e-13);
+    output.within(&proof("iterations"), 1.0..=60.0);
+    output.each(&proof("solvers[]"), json!(["lagrange", "energy"]));
+    for difference in ["joints_m", "forces_n", "energy_j", "statics"] {
+        output.within(&proof(difference), 0.0..=NOTHING);
+    }
+    output.each(&proof("shape_only"), false);
+    output.within(&proof("box_width"), f64::EPSILON / 2.0..=NOTHING);
+    output.within(&proof("distance"), 0.0..=NOTHING);
+    output.each(&proof("circle"), true);
+    output.each(&proof("in_plane"), 4);
+    output.each(&proof("families"), 0);
+    output.each(&proof("patterns"), 8);
+    output.within(&proof("cells"), 8.0..=1000.0);
+    output.within(&proof("gap"), 0.0..=NOTHING);
+    output.each(&proof("singular"), true);
+    let reason = |key: &str| at(&format!("reason.{key}"));
+    output.each(&reason("kind"), json!(["other_solver_without_answer", "no_certificate"]));
+    output.each(&reason("solver"), "energy");
+    output.each(&reason("because"), json!(["minima_only", "several_compressed"]));
+    output.within(&reason("statics"), 0.0..=NOTHING);
+    output.each(&reason("bars"), 2);
+}
+
+fn completeness(output: &mut Output) {
+    let at = |key: &str| format!("completeness.{key}");
+    output.is(&at("complete"), true);
+    output.is(&at("planar"), 4);
+    output.is(&at("circles"), 2);
+    output.is(&at("by_index[]"), json!([2, 2]));
+    output.is(&at("alternating_sum"), 0);
+    output.is(&at("euler"), 0);
+    // cos θ of E1 and E2 are all the roots of the sextic in [-1, 1].
+    output.is(&at("sextic_roots"), 2);
+    output.is(&at("patterns"), 8);
+    output.within(&at("cells"), 8.0..=1000.0);
+    output.within(&at("width"), f64::EPSILON / 2.0..=NOTHING);
+    output.within(&at("lagrange"), 0.0..=NOTHING);
+    output.within(&at("statics"), 0.0..=NOTHING);
+    output.within(&at("seconds"), 1e-7..=60.0);
+    // (ix) and (x) as printed, each with half of its last digit.
+    for (which, theta, alpha) in [("first", 0.344, 0.67), ("second", 0.001, -1.05)] {
+        let found = output.numbers(&at(&format!("{which}.slope_mgl[]")));
+        let wanted = slope(theta, alpha);
+        assert!(found[0] - 1e-5 <= wanted && wanted <= found[1] + 1e-5, "{found:?} {wanted}");
+        assert!(found[0] < found[1] && found[1] - found[0] < 1e-5, "{found:?}");
+    }
+    output.near(&at("first.nearest_deg"), 1e-10, E1[1] - 38.583_065);
+    output.near(&at("second.nearest_deg"), 1e-10, (360.0 - 299.942_74) - E1[1] - 0.000_005);
+    let [low, high] = ENERGIES;
+    output.is("bounds.lower_mgl", low);
+    output.is("bounds.upper_mgl", high);
+    output.within("bounds.gap_to_e1_mgl", 0.0..=NOTHING);
+    output.within("bounds.gap_to_e2_mgl", 0.0..=NOTHING);
+    // As cables, the last one slack: two hang straight down 2 l, 1/2 + 3/2 below, and the third
+    // folds at D.
+    output.is("bounds.cables_mgl", 2.0);
+}
+
+fn claims(output: &mut Output) {
+    let at = |key: &str| format!("claims[].{key}");
+    let listed = include_str!("../../../../../validation/paper.toml");
+    let count = listed.lines().filter(|line| line.starts_with("[[claim]]")).count();
+    let ids = output.values(&at("id"));
+    assert_eq!(ids.len(), count);
+    // What is printed and expected stands in the file, word by word.
+    for key in ["id", "says", "where", "printed", "unit", "expected"] {
+        for text in output.values(&at(key)).iter().filter_map(Value::as_str) {
+            assert!(listed.contains(&format!("{key} = \"{text}\"")), "{key}: {text}");
+        }
+    }
+    for digits in output.values(&at("digits")).iter().filter_map(Value::as_i64) {
+        assert!(listed.contains(&format!("digits = {digits}\n")), "{digits}");
+    }
+    assert_eq!(output.values(&at("verdict")), output.values(&at("expected")));
+    output.each(&at("as_expected"), true);
+    let place = |id: &str| ids.iter().position(|found| found == id).unwrap();
+    let [lagrange, energies, number] =
+        ["lagrange", "energy", "number"].map(|key| output.values(&at(key)));
+    let says = output.values(&at("number_is"));
+    assert!(says[place("abstract-18")].as_str().unwrap().contains("equations missing"));
+    let near = |value: &Value, wanted: f64| {
+        assert!((value.as_f64().unwrap() - wanted).abs() < 1e-9, "{value} {wanted}");
+    };
+    for (id, both, apart) in [
+        // In steps of a scan by thousandths.
+        ("ix-theta", E1[0], 344.0 - E1[0].to_radians() * 1000.0),
+        ("ix-energy", ENERGIES[0], 2.335_47 - ENERGIES[0]),
+        ("reaction-d-z", UPRIGHT[3], 0.0),
+    ] {
+        near(&lagrange[place(id)], both);
+        near(&energies[place(id)], both);
+        // By the digits that are printed.
+        assert!((number[place(id)].as_f64().unwrap() - apart).abs() < 1e-3, "{id}");
+    }
+    near(&number[place("abstract-18")], 12.0);
+    // What (x) leaves of (40), in mg, and the slope there.
+    assert!((number[place("x-multipliers")].as_f64().unwrap() - 0.5229).abs() < 1e-4);
+    assert!((number[place("x-slope")].as_f64().unwrap() - slope(0.001, -1.05)).abs() < 1e-4);
+    let verdicts = output.values(&at("verdict"));
+    let count = |verdict: &str| verdicts.iter().filter(|found| *found == verdict).count();
+    let summary = |key: &str| format!("summary.{key}");
+    output.is(&summary("claims"), verdicts.len());
+    for verdict in ["confirmed", "explained", "corrected", "refuted", "undecided"] {
+        let listed = listed.matches(&format!("expected = \"{verdict}\"")).count();
+        assert_eq!(count(verdict), listed, "{verdict}");
+        output.is(&summary(verdict), listed);
+    }
+    output.is(&summary("unexpected_claims[]"), json!([]));
+}
+
+/// The equations that do not hold as printed, as referees with computer algebra found them.
+fn equations(output: &mut Output) {
+    let at = |key: &str| format!("equations[].{key}");
+    let numbers = output.values(&at("number"));
+    let place = |number: &str| numbers.iter().position(|found| found == number).unwrap();
+    let [printed, corrected] = ["as_printed", "as_corrected"].map(|key| output.values(&at(key)));
+    let substance =
+        ["(5)", "(18)", "(19)", "(20)", "(24)", "(31)", "(39)", "(x)", "(xxiii)", "(xxiv)"];
+    let form = ["(23)", "(32)", "(33)", "(38)", "(vii)"];
+    output.is("summary.faulty_equations.substance[]", substance.as_slice());
+    output.is("summary.faulty_equations.digits[]", json!(["(ix)"]));
+    output.is("summary.faulty_equations.form[]", form.as_slice());
+    // (1) to (41), (i) to (xxvi).
+    output.is("summary.faulty_equations.numbered", 41 + 26);
+    let faults = output.values(&at("fault"));
+    for number in substance {
+        assert!(
+            faults.iter().zip(&numbers).any(|(f, n)| n == number && f == "substance"),
+            "{number}"
+        );
+    }
+    // 18 of 30 equations; one that holds; (viii)'s energy at the printed (ix) by its last digit.
+    assert_eq!(printed[place("abstract")], json!(-12.0));
+    assert_eq!(corrected[place("abstract")], json!(0.0));
+    assert!(printed[place("(7)")].as_f64().unwrap().abs() < NOTHING);
+    let mut of_angles = numbers.iter().zip(&printed).filter(|(number, _)| *number == "(xxiii)");
+    assert!(of_angles.any(|(_, left)| left.as_f64().is_some_and(|left| left.abs() > 0.1)));
+    let counts = output.values(&at("counts"));
+    assert_eq!(counts[place("abstract")], true);
+    let texts = |output: &mut Output, key: &str, number: &str, words: &str| {
+        let found = output.values(&at(key));
+        let text = found[place(number)].as_str().unwrap();
+        assert!(text.contains(words), "{key} of {number}: {text}");
+    };
+    texts(output, "section", "(8)", "III");
+    texts(output, "what", "(8)", "bar 1 is held at O");
+    texts(output, "measure", "(8)", "1000 random configurations");
+    texts(output, "corrected", "abstract", "30 equations");
+    texts(output, "verdict", "abstract", "corrected");
+    let verdicts = output.values(&at("verdict"));
+    let count = |verdict: &str| verdicts.iter().filter(|found| *found == verdict).count();
+    output.is("summary.equations", numbers.len());
+    output.is("summary.equations_corrected", count("corrected"));
+    output.is("summary.equations_refuted", count("refuted"));
+    output.is("summary.equations_as_expected", true);
+}
+
+fn cases(output: &mut Output) {
+    let at = |key: &str| format!("cases[].{key}");
+    let all = model::cases::all();
+    output.is(&at("case"), all.iter().map(|case| case.name).collect::<Vec<_>>());
+    output.is(&at("about"), all.iter().map(|case| case.about).collect::<Vec<_>>());
+    let bars = output.numbers(&at("bars"));
+    assert!((bars[0] - 3.0).abs() < 0.5 && bars.contains(&100.0));
+    // The gigametres have energies of 1e16 J; `scaled` is in units of each.
+    for (difference, most) in [("joints_m", 1e-3), ("forces_n", 1e-3), ("energy_j", 2.0)] {
+        output.within(&at(&format!("agreement.{difference}")), 0.0..=most);
+    }
+    output.within(&at("scaled[]"), 0.0..=1e-9);
+    let turned = output.values(&at("agreement.turned_rad"));
+    assert!(turned[0].is_number() && turned.iter().any(Value::is_null));
+    output.each(&at("agreement.free_joints"), 0);
+    for law in ["closure", "length", "force", "moment", "balance", "turn"] {
+        output.within(&at(&format!("agreement.statics[].{law}")), 0.0..=1e-9);
+    }
+    output.within(&at("agreement.statics[].worst_bar"), 1.0..=100.0);
+    for number in ["energy", "axial", "reactions"] {
+        output.within(&at(&format!("agreement.books[].{number}")), 0.0..=1e-9);
+    }
+    output.each(&at("agreement.verdict"), "agreed");
+    for none in ["reasons[]", "excesses[]", "stability[]"] {
+        output.is(&at(&format!("agreement.{none}")), json!([]));
+    }
+    output.says(&at("rung"), &["optimal"]);
+    output.each(&at("failure"), json!(null));
+    output.is("summary.cases", all.len());
+    output.is("summary.cases_agreed", all.len());
+    let rows = |key: &str| at(&format!("rows[].{key}"));
+    assert_eq!(output.values(&rows("case"))[0], "three-equal-bars");
+    assert_eq!(output.values(&rows("observable"))[0], "energy_j");
+    let joules = (ENERGIES[0] - 6.0) * 9.806_65;
+    for solver in ["lagrange", "energy"] {
+        assert!((output.numbers(&rows(solver))[0] - joules).abs() < 1e-12);
+    }
+    let found = output.numbers(&rows("difference"));
+    assert!(found.iter().all(|difference| (0.0..1e-9).contains(difference)));
+    // The largest one is one of them.
+    let at = |key: &str| format!("summary.largest_difference.{key}");
+    let [case, observable] = ["case", "observable"].map(|key| output.values(&at(key)).remove(0));
+    let rows = output.values(&rows("observable")).len();
+    assert!(rows > 100 && all.iter().any(|known| case == known.name), "{case} {observable}");
+    let [a, b] = ["lagrange", "energy"].map(|key| output.numbers(&at(key))[0]);
+    assert!((a - b).abs() <= 1e-9 * a.abs().max(1.0), "{a} {b}");
+    output.within(&at("difference"), 0.0..=1e-9);
+}
+
+fn seeds(output: &mut Output) {
+    let at = |key: &str| format!("seeds[].{key}");
+    output.is(&at("solver"), json!(["lagrange", "energy", "lagrange", "energy"]));
+    output.is(&at("kind"), json!(["planar", "planar", "spatial", "spatial"]));
+    output.each(&at("seeds"), 10_000);
+    output.each(&at("converged"), 10_000);
+    output.each(&at("elsewhere"), 0);
+    output.is(&at("lost[]"), json!([]));
+    let planar = ["E1", "E1'", "E2", "E2'"];
+    let names = [&planar[..], &planar, &["E1", "E2"], &["E1", "E2"]].concat();
+    output.is(&at("reached[].equilibrium"), names.clone());
+    let [low, high] = ENERGIES;
+    let energies: Vec<f64> =
+        names.iter().map(|name| if name.starts_with("E1") { low } else { high }).collect();
+    output.is(&at("reached[].energy_mgl"), energies);
+    let reached = output.numbers(&at("reached[].seeds"));
+    for counts in [&reached[..4], &reached[4..8], &reached[8..10], &reached[10..]] {
+        assert!((counts.iter().sum::<f64>() - 10_000.0).abs() < 0.5, "{counts:?}");
+    }
+    // Mirror images as often as each other, to four standard deviations; the second solver at
+    // minima alone.
+    for pair in [&reached[..2], &reached[2..4], &reached[4..6]] {
+        assert!((pair[0] - pair[1]).abs() < 4.0 * (pair[0] + pair[1]).sqrt(), "{pair:?}");
+    }
+    assert!(reached[6] + reached[7] + reached[11] < 0.5, "{reached:?}");
+    let direct = output.values(&at("direct"));
+    assert!(direct[1].is_null() && direct[3].is_null());
+    assert!(direct[0].as_f64().unwrap() <= 10_000.0);
+    let [median, most, largest] =
+        ["median_iterations", "most_iterations_of_95_percent", "most_iterations"]
+            .map(|key| output.numbers(&at(key)));
+    for k in 0..4 {
+        assert!(1.0 <= median[k] && median[k] <= most[k] && most[k] <= largest[k]);
+    }
+    output.within(&at("seconds"), 1e-6..=600.0);
+}
+
+/// Numbers that others have published, and laws that need no solver.
+fn field(output: &mut Output) {
+    let at = |key: &str| format!("field[].{key}");
+    let titles = output.values(&at("title"));
+    assert!(titles[0] == "mooring line, index 0" && titles.len() > 20);
+    assert!(output.values(&at("source"))[0].as_str().unwrap().contains("MoorPy"));
+    // Who is not judged has a reason, and who has one is not judged.
+    let reasons = output.values(&at("not_judged"));
+    assert!(reasons[0].as_str().unwrap().contains("a floor with friction"));
+    assert!(reasons[1].is_null() && reasons.len() == titles.len());
+    let numbers = |key: &str| at(&format!("numbers[].{key}"));
+    let [printed, what] = ["printed", "what"].map(|key| output.values(&numbers(key)));
+    assert_eq!(what[0], "H at A / N");
+    let published = output.numbers(&numbers("published"));
+    for (printed, published) in printed.iter().zip(&published) {
+        let parsed: f64 = printed.as_str().unwrap().parse().unwrap();
+        assert!((parsed - published).abs() <= 1e-12 * published.abs(), "{printed} {published}");
+    }
+    // MoorPy's table, first line: H at A.
+    assert!((published[0] - 96_643.428_159_340_08).abs() < 1e-9);
+    let [ours, allowed, digits] =
+        ["ours", "allowed", "digits"].map(|key| output.numbers(&numbers(key)));
+    assert!((ours[0] - published[0]).abs() <= allowed[0] && allowed[0] < 1.0);
+    assert!((digits[0] - 8.0).abs() < 0.5);
+    assert_eq!(output.values(&numbers("at_most"))[0], false);
+    let [broken, allowed] =
+        ["broken_n", "allowed_n"].map(|key| output.numbers(&at(&format!("by_hand.{key}"))));
+    assert!(broken[0] <= allowed[0] && broken[0] >= 0.0);
+    let laws = output.values(&at("by_hand.law"));
+    assert!(laws[0].as_str().unwrap().contains("vertical forces at both ends"));
+    let solvers = |key: &str| at(&format!("solvers.{key}"));
+    let kinds = output.values(&solvers("kind"));
+    assert!(["run", "judged", "least"].iter().all(|kind| kinds.iter().any(|k| k == kind)));
+    assert!((output.numbers(&solvers("members"))[0] - 100.0).abs() < 0.5);
+    let off = output.values(&solvers("off[][]"));
+    assert!(off[0] == "lagrange" && off[2] == "energy");
+    output.each(&solvers("finding"), "confirmed");
+    output.within(&solvers("joints_m"), 0.0..=1e-8);
+    output.is(&solvers("rung"), json!(["converged", "optimal", "optimal"]));
+    // Chains have less energy than the published ones that are not converged.
+    output.within(&solvers("apart_j"), 0.0..=1e-9);
+    output.within(&solvers("below_j"), 0.0..=0.01);
+    output.each(&at("by_hand"), json!(null));
+    output.each(&at("solvers"), json!(null));
+    output.is(&at("numbers[]"), json!([]));
+}
+
+/// Curves of the paper's figures, point by point.
+fn figures(output: &mut Output) {
+    let at = |key: &str| format!("figures.{key}");
+    for point in output.numbers(&at("closure_curve[][]")).chunks(4) {
+        let angles = [point[0], point[1], point[2]].map(f64::to_radians);
+        let sum: f64 = angles.iter().map(|angle| angle.sin()).sum();
+        let depth: f64 = angles.iter().map(|angle| angle.cos()).sum();
+        assert!(sum.abs() < 1e-9 && (depth - 2.0).abs() < 1e-9, "{point:?}");
+        assert!((energy(angles) - point[3]).abs() < 1e-9, "{point:?}");
+    }
+    let near = output.numbers(&at("near_minimum[][]"));
+    for point in near.chunks(2) {
+        assert!((along(point[0].to_radians(), 0.67).0 - point[1]).abs() < 1e-9, "{point:?}");
+    }
+    let scan = output.numbers(&at("scan_points[][][]"));
+    // Two branches, each from 0.001 rad on; on the first one α is positive there.
+    let mut alpha = 1.05;
+    let mut before = 0.0;
+    for point in scan.chunks(2) {
+        alpha = if point[0] < before { -1.05 } else { alpha };
+        before = point[0];
+        let (wanted, next) = along(point[0].to_radians(), alpha);
+        assert!((wanted - point[1]).abs() < 1e-6, "{point:?} {wanted}");
+        alpha = next;
+    }
+    // (ix) and (x) as a scan by thousandths finds them.
+    let results = output.numbers(&at("scan_results[][]"));
+    for (found, wanted) in results.iter().zip([
+        19.709_75,
+        38.583_06,
+        286.074_20 - 360.0,
+        2.335_47,
+        0.057_30,
+        299.942_74 - 360.0,
+        59.942_67,
+        2.500_87,
+    ]) {
+        assert!((found - wanted).abs() < 0.6e-5, "{found} {wanted}");
+    }
+    output.near(&at("slope_at_x"), 1e-4, slope(0.001, -1.05));
+    output.is(&at("basins[].solver"), json!(["lagrange", "energy"]));
+    let rows = output.values(&at("basins[].rows[]"));
+    let outcomes = |rows: &[Value]| -> std::collections::BTreeSet<char> {
+        rows.iter().flat_map(|row| row.as_str().unwrap().chars().collect::<Vec<_>>()).collect()
+    };
+    let half = rows.len() / 2;
+    assert_eq!(outcomes(&rows[..half]), "1234".chars().collect());
+    // The second solver ends at minima.
+    assert_eq!(outcomes(&rows[half..]), "12".chars().collect());
+    let at = |key: &str| format!("figures.histories[].{key}");
+    output.is(&at("solver"), json!(["lagrange", "energy", "lagrange", "energy"]));
+    let [near, far] = ["rough guess near E1", "all bars swung out"];
+    output.is(&at("start"), json!([near, near, far, far]));
+    let guess = [0.3_f64, 0.7, -1.3].map(f64::to_degrees);
+    let starts = output.numbers(&at("start_deg[]"));
+    assert!(starts[..3].iter().zip(guess).all(|(found, wanted)| (found - wanted).abs() < 1e-12));
+    output.each(&at("end_deg[]"), json!(E1));
+    output.is(&at("first_iteration"), json!([0, 1, 0, 1]));
+    output.says(&at("residual_of"), &["norm of the reduced equations", "projected gradient"]);
+    let residuals = output.numbers(&at("residuals[]"));
+    assert!(residuals[residuals.len() - 1] < NOTHING && residuals[0] > 1e-3);
+}
+
+fn environment(output: &mut Output) {
+    let at = |key: &str| format!("environment.{key}");
+    output.is(&at("command"), "funicular reproduce --json");
+    output.is(&at("version"), env!("CARGO_PKG_VERSION"));
+    output.says(&at("compiler"), &["rustc 1."]);
+    let packages = output.values(&at("packages[]"));
+    let lock = include_str!("../../../../../Cargo.lock");
+    for package in packages {
+        let (name, version) = package.as_str().unwrap().split_once(' ').unwrap();
+        let entry = format!("name = \"{name}\"\nversion = \"{version}\"");
+        assert!(lock.contains(&entry), "{name} {version}");
+    }
+    output.says(&at("system"), &[std::env::consts::OS]);
+    let processor = output.values(&at("processor")).remove(0);
+    if let Ok(known) = std::fs::read_to_string("/proc/cpuinfo") {
+        assert!(known.contains(processor.as_str().unwrap()), "{processor}");
+    }
+    output.is(&at("threads"), std::thread::available_parallelism().unwrap().get());
+}
