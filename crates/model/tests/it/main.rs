@@ -2,6 +2,7 @@
 
 #![expect(clippy::unwrap_used, reason = "helpers of tests")]
 
+mod advice;
 mod columns;
 mod constructors;
 mod evidence_words;

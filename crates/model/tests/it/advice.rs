@@ -1,0 +1,98 @@
+//! What to do about a refusal: words that name the remedy, for every refusal that has one.
+
+use model::system::{Joint, Kind, Member, PrestressError, System, SystemError, SystemRefusal};
+use model::system_file::{Described, SystemFileErrorKind, parse};
+use model::{Bar, ChainError, Refusal};
+
+#[track_caller]
+fn advises(kind: &SystemFileErrorKind, words: &[&str]) {
+    let help = kind.help();
+    match &help {
+        Some(help) => assert!(words.iter().all(|word| help.contains(word)), "{help}"),
+        None => assert!(words.is_empty(), "no advice, not {words:?}"),
+    }
+    assert_eq!(help.is_some(), !words.is_empty(), "{help:?}");
+}
+
+#[test]
+fn chains_and_systems() {
+    let chain = SystemFileErrorKind::Chain;
+    advises(&chain(ChainError::NoBars), &["[[bars]]"]);
+    advises(&chain(ChainError::Overflow { quantity: "total mass" }), &["metres", "kilograms"]);
+    advises(&chain(ChainError::Gravity { gravity_m_s2: 0.0 }), &[]);
+    let system = SystemFileErrorKind::System;
+    let (from, to) = ("A".to_owned(), "B".to_owned());
+    let parallel = SystemError::Parallel { member: 2, first: 1, from, to };
+    advises(&system(parallel), &["one bar", "a joint into one"]);
+    advises(&system(SystemError::Overflow { quantity: "total load" }), &["metres", "newtons"]);
+    advises(&system(SystemError::NoMembers), &["[[bars]]"]);
+    advises(&system(SystemError::Gravity { gravity_m_s2: 0.0 }), &[]);
+}
+
+#[test]
+fn prestress_and_refusals() {
+    let prestress = SystemFileErrorKind::Prestress;
+    advises(&prestress(PrestressError::Inextensible), &["stiffness_n", "EA"]);
+    let sign = PrestressError::Sign { kind: Kind::Cable, prestress_n: -1.0 };
+    advises(&prestress(sign), &["tension is positive"]);
+    advises(&prestress(PrestressError::NotFinite { prestress_n: f64::INFINITY }), &[]);
+    advises(&SystemFileErrorKind::Refused(Refusal::NoMass), &["one bar a mass"]);
+    advises(&SystemFileErrorKind::SystemRefused(SystemRefusal::NothingMoves), &["without at_m"]);
+    advises(&SystemFileErrorKind::SystemRefused(SystemRefusal::LoadOnAnchors), &["can move"]);
+}
+
+#[test]
+fn folders_and_numbers_in_quotes() {
+    let folder = std::io::Error::from(std::io::ErrorKind::IsADirectory);
+    advises(&SystemFileErrorKind::Unreadable(folder), &["folder"]);
+    let missing = std::io::Error::from(std::io::ErrorKind::NotFound);
+    advises(&SystemFileErrorKind::Unreadable(missing), &[]);
+    let found = "a string";
+    advises(&SystemFileErrorKind::WrongType { found, wanted: "a number" }, &["without quotes"]);
+    advises(&SystemFileErrorKind::WrongType { found, wanted: "a table" }, &[]);
+    advises(&SystemFileErrorKind::WrongType { found: "a table", wanted: "a number" }, &[]);
+}
+
+/// The way round a loop is told by six names at most: three, how many are left out, and two.
+#[test]
+fn long_ways_are_shortened_in_the_middle() {
+    let told = |joints: usize| {
+        let name = |k: usize| format!("J{k}");
+        let mut all = vec![Joint::anchor(name(0), [0.0; 3])];
+        all.extend((1..joints).map(|k| Joint::free(name(k))));
+        let bar =
+            |from, to, length_m| Member::bar(from, to, Bar::homogeneous(length_m, 1.0).unwrap());
+        let mut members: Vec<_> = (1..joints).map(|k| bar(k - 1, k, 1.0)).collect();
+        members.push(bar(0, joints - 1, 100.0));
+        match System::new("", 9.81, all, members).unwrap().refusal().unwrap_err() {
+            SystemRefusal::TooLong { way, .. } => way,
+            other => panic!("{other}"),
+        }
+    };
+    assert_eq!(told(6), ["J0", "J1", "J2", "J3", "J4", "J5"]);
+    assert_eq!(told(7), ["J0", "J1", "J2", "2 more", "J5", "J6"]);
+    assert_eq!(told(9), ["J0", "J1", "J2", "4 more", "J7", "J8"]);
+}
+
+/// What is far from unit length is scaled before it is squared.
+#[test]
+fn directions_of_any_length_are_made_units() {
+    let read = |direction: &str| {
+        let text = format!(
+            "[joints]\nA = {{ at_m = [0, 0, 0], along = {direction} }}\nB = {{ at_m = [1, 0, 0] }}\nP = {{}}\n\
+             [[bars]]\nfrom = \"A\"\nto = \"P\"\nlength_m = 1\nmass_kg = 1\n\
+             [[bars]]\nfrom = \"B\"\nto = \"P\"\nlength_m = 1\nmass_kg = 1\n"
+        );
+        parse(&text, "f")
+    };
+    for text in ["[3, 0, 4]", "[3e300, 0, 4e300]", "[3e-300, 0, 4e-300]", "[0.6, 0, 0.8]"] {
+        let Described::System(system) = read(text).unwrap() else { panic!("{text}") };
+        match system.joints()[0].support {
+            model::system::Support::Line { direction: [x, y, z], .. } => {
+                assert!((x - 0.6).abs() + y.abs() + (z - 0.8).abs() < 1e-15, "{text}");
+            }
+            other => panic!("{other:?}"),
+        }
+    }
+    assert!(matches!(read("[0, 0, 0]").unwrap_err().kind(), SystemFileErrorKind::NoDirection));
+}
