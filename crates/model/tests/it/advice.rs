@@ -96,3 +96,24 @@ fn directions_of_any_length_are_made_units() {
     }
     assert!(matches!(read("[0, 0, 0]").unwrap_err().kind(), SystemFileErrorKind::NoDirection));
 }
+
+/// Two runs between the same joints have joints of their own, and every joint its own name.
+#[test]
+fn runs_between_the_same_joints_are_told_apart() {
+    let run = "[[bars]]\nfrom = \"A\"\nto = \"B\"\nlength_m = 1\nmass_kg = 1\ncount = 3\n";
+    let joints = "[joints]\nA = { at_m = [0, 0, 0] }\nB = { at_m = [1, 0, 0] }\n";
+    let text = format!("{joints}{run}{run}{run}");
+    let Described::System(system) = parse(&text, "f").unwrap() else { panic!("{text}") };
+    let names: Vec<_> = system.joints().iter().skip(2).map(|joint| joint.name.as_str()).collect();
+    let expected = ["A-B.1", "A-B.2", "A-B#2.1", "A-B#2.2", "A-B#3.1", "A-B#3.2"];
+    assert_eq!(names, expected);
+}
+
+/// A gravity that is refused is marked where it is written.
+#[test]
+fn gravity_is_marked_at_its_key() {
+    let text = "gravity_m_s2 = -1\n[joints]\nA = { at_m = [0, 0, 0] }\nP = {}\n\
+                [[bars]]\nfrom = \"A\"\nto = \"P\"\nlength_m = 1\nmass_kg = 1\n";
+    let error = parse(text, "f").unwrap_err();
+    assert!(error.to_string().contains("f:1:"), "{error}");
+}
