@@ -212,3 +212,25 @@ fn limp_members() {
     assert!(solution.limp.contains(&1));
     assert!(solution.limp.contains(&2) || solution.slack.contains(&2));
 }
+
+/// Nullity by hand: a V swings back, one below the other's anchor it turns freely, and a third bar
+/// in the plane of a V of sides 3, 4, 5 is one bar too many.
+#[test]
+fn nullity_counts_free_turns_and_self_stresses() {
+    let joints = |second: Vector| {
+        vec![
+            Joint::anchor("A", [-3.0, 0.0, 0.0]),
+            Joint::anchor("B", second),
+            Joint::free("P").with_mass(2.0),
+        ]
+    };
+    let two = |second| vec![bar(0, 2, 5.0, 0.0), bar(1, 2, second, 0.0)];
+    let nullity = |joints, members| hang(&system(joints, members)).equilibrium.evidence.nullity;
+    assert_eq!(nullity(joints([3.0, 0.0, 0.0]), two(5.0)), 0);
+    assert_eq!(nullity(joints([-3.0, 0.0, -4.0]), two(4.0)), 1);
+    let mut held = joints([3.0, 0.0, 0.0]);
+    held.push(Joint::anchor("C", [0.0; 3]));
+    let mut members = two(5.0);
+    members.push(bar(3, 2, 4.0, 0.0));
+    assert_eq!(nullity(held, members), 1);
+}
