@@ -41,8 +41,8 @@ pub enum PointStatus {
         /// Families of equilibria with slack bars; they are not followed.
         families: usize,
     },
-    /// A degenerate point: the census leaves something undecided, or the chain fits into the line of
-    /// its anchors. Branches are followed past it.
+    /// A degenerate point: the census leaves something undecided, or the chain fits into the line
+    /// of its anchors. Branches are followed past it.
     Undecided {
         /// Why, once for each cell and straight position.
         reasons: Vec<census::Reason>,

@@ -124,8 +124,8 @@ pub(crate) fn tangent(path: &Path<'_>, y: &DVector<f64>, along: &DVector<f64>) -
 }
 
 /// How far the position of a fold may be off, by rounding: with the left null vector ψ of the
-/// derivatives by the unknowns, an error r of the residual moves the fold by ψ·r / ψ·∂F/∂position. Where
-/// another curve meets the fold, the divisor vanishes.
+/// derivatives by the unknowns, an error r of the residual moves the fold by ψ·r / ψ·∂F/∂position.
+/// Where another curve meets the fold, the divisor vanishes.
 pub(crate) fn fold_error(path: &Path<'_>, y: &DVector<f64>) -> f64 {
     let n = path.bars();
     let j = jacobian(path, &path.plane(y[n + 3]), y);

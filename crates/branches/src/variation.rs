@@ -49,8 +49,8 @@ impl<B: Base> Variation<B> {
     ///
     /// # Errors
     ///
-    /// [`ParameterError`] when a bar or a joint is missing, a number is named twice, lists to be taken in step
-    /// differ in length, or there are more than [`MAX_POINTS`] points.
+    /// [`ParameterError`] when a bar or a joint is missing, a number is named twice, lists to be
+    /// taken in step differ in length, or there are more than [`MAX_POINTS`] points.
     ///
     /// ```
     /// use branches::{Combine, Variation};

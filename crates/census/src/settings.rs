@@ -11,11 +11,11 @@ use crate::error::CensusError;
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Settings {
-    /// Chains with more bars are refused with an estimate of the cost. Default 16 (some ten seconds for chains, and 100,000 equilibria), from 1 to
-    /// [`Settings::MAX_BARS`].
+    /// Chains with more bars are refused with an estimate of the cost. Default 16 (some ten seconds
+    /// for chains, and 100,000 equilibria), from 1 to [`Settings::MAX_BARS`].
     pub max_bars: usize,
-    /// Joints held by three long strands of more bars together are refused with an estimate of the cost.
-    /// Default 12 (a minute), from 1 to [`Settings::MAX_BARS`].
+    /// Joints held by three long strands of more bars together are refused with an estimate of the
+    /// cost. Default 12 (a minute), from 1 to [`Settings::MAX_BARS`].
     pub max_bridle_bars: usize,
     /// A cell narrower than this, on a face of the half cube of pulls (whose edges have length 2),
     /// is not cut any more but listed as undecided. Default 2⁻⁴⁰, from 2⁻⁴⁸ to 2⁻⁴: below, rounding
@@ -35,8 +35,8 @@ impl Settings {
     /// time and memory are exhausted long before.
     pub const MAX_BARS: usize = 24;
 
-    /// Chains of up to so many bars have their census taken beside a solution without being asked for:
-    /// milliseconds.
+    /// Chains of up to so many bars have their census taken beside a solution without being asked
+    /// for: milliseconds.
     pub const UNASKED_BARS: usize = 8;
 
     /// Chains of up to so many bars have their census taken where equilibria are sought for another

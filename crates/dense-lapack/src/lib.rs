@@ -39,8 +39,8 @@
 //!
 //! in the crate that depends on clarabel with the features `sdp`, `blas-src` and `lapack-src`, none
 //! of which brings a library along. A program that is linked with another BLAS as well has every
-//! symbol twice: leave this crate out there. Clarabel calls the routines by Fortran's names, so they
-//! cannot have names of their own; where a shared library with the same names is loaded,
+//! symbol twice: leave this crate out there. Clarabel calls the routines by Fortran's names, so
+//! they cannot have names of their own; where a shared library with the same names is loaded,
 //! [`other_library`] says which, for whoever calls clarabel to refuse. A static one beside this is
 //! for the linker to refuse, and it does not always. The trick needs a linker that lets clarabel's
 //! unused `cdylib` keep undefined symbols, which that of Linux does.
@@ -48,9 +48,10 @@
 //! # What is left out
 //!
 //! Matrices are column-major and at most `i32` in size, as in Fortran. The singular value
-//! decompositions compute thin factors or none (`'S'`, `'N'`). Anything else is answered by `info = -k`, argument k being illegal. The level-2
-//! and level-3 routines have no `info`; like the reference implementation they say what was wrong
-//! and stop the program. An input that is not finite is answered by `info > 0` (not converged).
+//! decompositions compute thin factors or none (`'S'`, `'N'`). Anything else is answered by `info =
+//! -k`, argument k being illegal. The level-2 and level-3 routines have no `info`; like the
+//! reference implementation they say what was wrong and stop the program. An input that is not
+//! finite is answered by `info > 0` (not converged).
 //!
 //! # Safety
 //!

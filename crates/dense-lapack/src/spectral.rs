@@ -95,9 +95,9 @@ fn wanted(job: u8) -> Option<bool> {
 macro_rules! export {
     ($T:ty, $syevr:ident, $gesdd:ident, $gesvd:ident) => {
         /// The eigenvalues of a symmetric matrix that `range` asks for, ascending, their number
-        /// `m`, and their orthonormal eigenvectors if `jobz` is 'V'. `range` is 'A' for all, 'V' for
-        /// those in (`vl`, `vu`], 'I' for numbers `il` to `iu`. `info` > 0: the iteration did not
-        /// converge. `isuppz` is written where all are asked for, as by the reference.
+        /// `m`, and their orthonormal eigenvectors if `jobz` is 'V'. `range` is 'A' for all, 'V'
+        /// for those in (`vl`, `vu`], 'I' for numbers `il` to `iu`. `info` > 0: the iteration did
+        /// not converge. `isuppz` is written where all are asked for, as by the reference.
         ///
         /// # Safety
         ///

@@ -1,5 +1,5 @@
-//! A motion as one HTML file: play, pause, scrub; the energies and the distances from the equilibria
-//! as curves.
+//! A motion as one HTML file: play, pause, scrub; the energies and the distances from the
+//! equilibria as curves.
 
 use std::fmt::Write as _;
 
@@ -57,10 +57,10 @@ impl Animation {
         }
     }
 
-    /// Show how far the system is from each of its equilibria, too: from those of a complete census,
-    /// elsewhere from the stable one. The distance is that of the joint farthest from its place, m;
-    /// parts that turn freely about a vertical are turned to face the same way. What the solvers
-    /// have no answer to has none. Before the first time is added.
+    /// Show how far the system is from each of its equilibria, too: from those of a complete
+    /// census, elsewhere from the stable one. The distance is that of the joint farthest from its
+    /// place, m; parts that turn freely about a vertical are turned to face the same way. What the
+    /// solvers have no answer to has none. Before the first time is added.
     #[must_use]
     pub fn with_equilibria(mut self, problem: &Problem) -> Self {
         let Ok(found) = equilibria::all(problem, CENSUS_BARS) else { return self };

@@ -117,8 +117,8 @@ impl Basins {
         })?
     }
 
-    /// Processor time that the starts take, and making the list of equilibria where the chain is too
-    /// long for a census, s: from a few starts, good to a factor of three.
+    /// Processor time that the starts take, and making the list of equilibria where the chain is
+    /// too long for a census, s: from a few starts, good to a factor of three.
     ///
     /// # Errors
     ///

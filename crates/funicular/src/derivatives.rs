@@ -13,8 +13,8 @@ use crate::equilibria::system_of;
 use crate::error::Error;
 use crate::problem::Problem;
 
-/// Derivatives of the hanging equilibrium of a chain or a system: stiffness matrices of its anchors,
-/// gradients of one number by all parameters, changes of everything by one parameter.
+/// Derivatives of the hanging equilibrium of a chain or a system: stiffness matrices of its
+/// anchors, gradients of one number by all parameters, changes of everything by one parameter.
 ///
 /// They follow from one factorisation of the equations of equilibrium, by the solver `lagrange`
 /// (see [`lagrange::network::Derivatives`]), and hold as long as no slack member becomes taut and

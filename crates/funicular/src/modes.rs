@@ -17,9 +17,8 @@ use crate::threads;
 /// one otherwise.
 ///
 /// Inextensible cables and struts are bars in small motions where they certainly bear a force, and
-/// hold nothing where they are slack; joints that a floor pushes slide in its level; what is neither
-/// is refused. Bars whose moments of inertia
-/// across differ have their second axis level.
+/// hold nothing where they are slack; joints that a floor pushes slide in its level; what is
+/// neither is refused. Bars whose moments of inertia across differ have their second axis level.
 ///
 /// ```
 /// use funicular::prelude::*;
@@ -69,8 +68,8 @@ impl Modes {
         Self { max_bars, ..self }
     }
 
-    /// Find so many modes of each equilibrium, the lowest: negative `ω²` first. Without it all modes
-    /// of systems of up to 100 joints, and the lowest 20 of larger ones.
+    /// Find so many modes of each equilibrium, the lowest: negative `ω²` first. Without it all
+    /// modes of systems of up to 100 joints, and the lowest 20 of larger ones.
     ///
     /// ```
     /// use funicular::prelude::*;

@@ -28,8 +28,8 @@ impl Parameters {
         Self::default()
     }
 
-    /// A number of the system file and its values, as `anchors.end_m.z=-2.9..-0.1:500`, in the units
-    /// of the file.
+    /// A number of the system file and its values, as `anchors.end_m.z=-2.9..-0.1:500`, in the
+    /// units of the file.
     ///
     /// # Errors
     ///

@@ -211,8 +211,8 @@ impl Sweep {
         Ok(PreparedSweep { system: chain.chain().summary(), sweep, manifest })
     }
 
-    /// Processor time that the starts take, and making the list of equilibria where the chain is too
-    /// long for a census, s: from a few starts, good to a factor of three.
+    /// Processor time that the starts take, and making the list of equilibria where the chain is
+    /// too long for a census, s: from a few starts, good to a factor of three.
     ///
     /// # Errors
     ///

@@ -102,10 +102,9 @@ impl Trace {
     ///
     /// # Errors
     ///
-    /// As [`variation`](Self::variation), and [`Error::Continuation`] when the chain is too long for a
-    /// census, or the paths have more points together than
-    /// [`max_points`](Self::max_points) allows. A point that is refused or undecided is no error: it
-    /// says so.
+    /// As [`variation`](Self::variation), and [`Error::Continuation`] when the chain is too long
+    /// for a census, or the paths have more points together than [`max_points`](Self::max_points)
+    /// allows. A point that is refused or undecided is no error: it says so.
     pub fn run(&self, problem: &Problem) -> Result<TraceAnswer, Error> {
         self.run_watched(problem, &|_, _| {})
     }

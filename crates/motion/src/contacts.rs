@@ -11,8 +11,8 @@
 //!    T^- - T^+ = \tfrac12 (v^+ - v^-)^T M (v^+ - v^-) \ge 0 . $$
 //!
 //! (J. J. Moreau, "Unilateral contact and dry friction in finite freedom dynamics", 1988, with the
-//! coefficient of restitution zero; C. Glocker, *Set-Valued Force Laws*, Springer 2001.) A gap opens
-//! again where its force would change its sign.
+//! coefficient of restitution zero; C. Glocker, *Set-Valued Force Laws*, Springer 2001.) A gap
+//! opens again where its force would change its sign.
 
 use model::Vector;
 use model::system::{Joint, Kind, Support, System};

@@ -3,7 +3,8 @@
 //! Where the moments across a bar differ, its spin acts on its direction. Such a bar gets two
 //! *corners* beside its ends: points of it at the distance `s` from its centre, on its second and
 //! third principal axis, held by five bars without mass. Every material point is a sum of the four
-//! with constant parts (`ξ`, `η`, `ζ` its coordinates along the axes over `l`, `s`, `s`; `f = r/l`),
+//! with constant parts (`ξ`, `η`, `ζ` its coordinates along the axes over `l`, `s`, `s`; `f =
+//! r/l`),
 //!
 //! $$ x = (1 - \xi - (1-f)(\eta + \zeta)) x_a + (\xi - f (\eta + \zeta)) x_b + \eta x_p + \zeta x_q, $$
 //!

@@ -48,8 +48,8 @@ pub enum MotionError {
         /// Most impacts in a step.
         most: usize,
     },
-    /// Occurs when a joint about whose equilibrium a system oscillates lies on a floor that does not
-    /// certainly push it: it may rise and not sink, and no small motion is linear.
+    /// Occurs when a joint about whose equilibrium a system oscillates lies on a floor that does
+    /// not certainly push it: it may rise and not sink, and no small motion is linear.
     #[error(
         "joint {joint:?} lies on the floor, which pushes it with {push_n} N: that is not certainly more than \
          nothing, and small motions are not linear there"
@@ -60,7 +60,8 @@ pub enum MotionError {
         /// Force of the floor on it, up, N.
         push_n: f64,
     },
-    /// Occurs when there is a floor under a system whose mechanics are asked for without a position.
+    /// Occurs when there is a floor under a system whose mechanics are asked for without a
+    /// position.
     #[error("there is a floor: a position tells which joints lie on it")]
     Floor,
     /// Occurs when the two moments across a member differ where that is not provided for (members
@@ -154,7 +155,8 @@ pub enum MotionError {
         /// That force, relative to the largest force in the system.
         off: f64,
     },
-    /// Occurs when all modes are asked for of a system with too many joints for dense linear algebra.
+    /// Occurs when all modes are asked for of a system with too many joints for dense linear
+    /// algebra.
     #[error(
         "all modes are found by dense linear algebra, for at most {most} joints that move, and this \
          system has {joints}: ask for the lowest"

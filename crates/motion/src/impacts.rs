@@ -3,11 +3,11 @@
 //! A step is taken with what holds at its beginning. If a gap is negative at its end, the time at
 //! which the first one closes is looked for by shorter steps from the same beginning; there the
 //! impact takes its part of the velocities, and the rest of the step follows. What would have to
-//! hold with a force of the wrong sign at the end of a step is let go: within the step that force is
-//! small with the step, and so the error is of the second order as that of the step is.
+//! hold with a force of the wrong sign at the end of a step is let go: within the step that force
+//! is small with the step, and so the error is of the second order as that of the step is.
 //!
-//! Two gaps may close in turn, each impact opening the other a little, without end in a finite time.
-//! After [`IN_TURN`] impacts in a step gaps that hardly move are closed together.
+//! Two gaps may close in turn, each impact opening the other a little, without end in a finite
+//! time. After [`IN_TURN`] impacts in a step gaps that hardly move are closed together.
 
 use model::Vector;
 
@@ -34,8 +34,8 @@ const HARDLY_MOVES: f64 = 1e-4;
 /// digits in shorter ones. Nearer to an end of a step an impact is at that end.
 const SHORTEST: f64 = 1e-6;
 
-/// Shorter steps from the beginning of a step until its impact is found: a secant doubles the digits,
-/// and two middles of three halve what is left.
+/// Shorter steps from the beginning of a step until its impact is found: a secant doubles the
+/// digits, and two middles of three halve what is left.
 const MOST_ATTEMPTS: usize = 100;
 
 /// Forces and speeds that are less than this, in units of all loads and of the largest speed, are

@@ -87,12 +87,12 @@
 //!
 //! # What is left out
 //!
-//! Joints without any inertia are refused: their acceleration is indeterminate. Where the
-//! two moments across a bar are equal its spin is apart, and a bar without spin never gets any;
-//! where they differ the bar has four points for two ([`Turning`]), and begins without spin, its
-//! second axis level. Modes are about the same position, of any body; one in motion may not be flat.
-//! Modes need cables and struts that are certainly taut or slack, and joints that are certainly
-//! pushed by the floor or above it.
+//! Joints without any inertia are refused: their acceleration is indeterminate. Where the two
+//! moments across a bar are equal its spin is apart, and a bar without spin never gets any; where
+//! they differ the bar has four points for two ([`Turning`]), and begins without spin, its second
+//! axis level. Modes are about the same position, of any body; one in motion may not be flat. Modes
+//! need cables and struts that are certainly taut or slack, and joints that are certainly pushed by
+//! the floor or above it.
 
 mod assemble;
 mod composition;

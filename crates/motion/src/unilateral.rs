@@ -1,9 +1,9 @@
-//! Inextensible cables and struts, and the floor: what they are about an equilibrium. In motion they
-//! are [`contacts`](crate::contacts).
+//! Inextensible cables and struts, and the floor: what they are about an equilibrium. In motion
+//! they are [`contacts`](crate::contacts).
 //!
-//! A cable that pulls stays taut in small motions, for its force changes by little: it is a bar. One
-//! that is shorter than its length stays slack: it has its inertia alone. Struts are alike, and a
-//! joint that the floor pushes slides in its level.
+//! A cable that pulls stays taut in small motions, for its force changes by little: it is a bar.
+//! One that is shorter than its length stays slack: it has its inertia alone. Struts are alike, and
+//! a joint that the floor pushes slides in its level.
 
 use model::system::{Joint, Kind, Support, System};
 

@@ -1,6 +1,7 @@
-//! Tables by the Arrow C stream interface (<https://arrow.apache.org/docs/format/CStreamInterface.html>),
-//! in a capsule as the PyCapsule interface wants it: polars, pyarrow, pandas and others read them
-//! without any of these being there to write them.
+//! Tables by the Arrow C stream interface
+//! (<https://arrow.apache.org/docs/format/CStreamInterface.html>), in a capsule as the PyCapsule
+//! interface wants it: polars, pyarrow, pandas and others read them without any of these being
+//! there to write them.
 //!
 //! The structs and their release callbacks are those of the specification, which is C: hence the
 //! unsafe code of this file. A table is one batch of columns of doubles, 64-bit integers or text,

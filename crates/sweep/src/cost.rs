@@ -11,9 +11,9 @@ use crate::solver::{BatchSolver, Solvers};
 /// Bars of the starts that are timed: a fraction of a second of work.
 const TIMED_BARS: usize = 1 << 14;
 
-/// Processor time of a sweep over so many seeds, s, from the time that a few of them take here: good
-/// to a factor of three. With it the time of making the list of equilibria where the chain is too
-/// long for a census; that of a census, which is of a second or so, is left out.
+/// Processor time of a sweep over so many seeds, s, from the time that a few of them take here:
+/// good to a factor of three. With it the time of making the list of equilibria where the chain is
+/// too long for a census; that of a census, which is of a second or so, is left out.
 ///
 /// # Errors
 ///

@@ -38,9 +38,9 @@ impl Settings {
     /// Most seeds in a chunk.
     pub const LARGEST_CHUNK: u64 = 1 << 24;
 
-    /// How many seeds make the list for a chain of so many bars: a seed takes a time that grows with
-    /// the square of the bars, and nearly every seed of a long chain reaches another equilibrium, so
-    /// that the list identifies few.
+    /// How many seeds make the list for a chain of so many bars: a seed takes a time that grows
+    /// with the square of the bars, and nearly every seed of a long chain reaches another
+    /// equilibrium, so that the list identifies few.
     ///
     /// ```
     /// let settings = sweep::Settings::default();

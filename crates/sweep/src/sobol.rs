@@ -132,9 +132,9 @@ mod tests {
         }
     }
 
-    /// Every dimension, as SciPy 1.17.1 gives it in units of 2^-30 (`qmc.Sobol(32, scramble=False)`,
-    /// `fast_forward(k)`). In the Gray code of the first number all of 17 bits are set, so that
-    /// every direction number of the table counts.
+    /// Every dimension, as SciPy 1.17.1 gives it in units of 2^-30 (`qmc.Sobol(32,
+    /// scramble=False)`, `fast_forward(k)`). In the Gray code of the first number all of 17 bits
+    /// are set, so that every direction number of the table counts.
     #[test]
     fn all_dimensions_are_those_of_another_program() {
         const POINTS: [(u64, [u32; 32]); 2] = [

@@ -79,8 +79,8 @@ fn the_error_of_a_simple_fold_is_rounding() {
     }
 }
 
-/// With both anchors on one vertical, 1 m apart, the chain lies on it in three ways, with any force:
-/// down and down and up, at V = −7/2, −3/2 and 1/2 mgl. Two branches come to each.
+/// With both anchors on one vertical, 1 m apart, the chain lies on it in three ways, with any
+/// force: down and down and up, at V = −7/2, −3/2 and 1/2 mgl. Two branches come to each.
 #[test]
 fn branches_are_followed_into_upright_positions() {
     for range in ["0..3:7", "0..1.1:5", "-1.2..3:8", "-3..3:13"] {

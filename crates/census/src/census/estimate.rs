@@ -1,10 +1,11 @@
 //! What a census would take, from that of some of its patterns.
 //!
-//! Chains of one length differ by a hundred times: few patterns close a taut chain. So the search is
-//! made for a sample of the patterns, and one of a quarter of it. The number of zeros is in proportion
-//! to that of the patterns; the number of cells, which patterns share, grows as a power that the two
-//! samples tell. (D. E. Knuth, "Estimating the efficiency of backtrack programs", Math. Comp. 29
-//! (1975) 121-136, doi:10.1090/S0025-5718-1975-0373371-6, samples the tree of a search likewise.)
+//! Chains of one length differ by a hundred times: few patterns close a taut chain. So the search
+//! is made for a sample of the patterns, and one of a quarter of it. The number of zeros is in
+//! proportion to that of the patterns; the number of cells, which patterns share, grows as a power
+//! that the two samples tell. (D. E. Knuth, "Estimating the efficiency of backtrack programs",
+//! Math. Comp. 29 (1975) 121-136, doi:10.1090/S0025-5718-1975-0373371-6, samples the tree of a
+//! search likewise.)
 
 use model::{Chain, Problem};
 
@@ -26,18 +27,18 @@ const QUARTER: u32 = SAMPLE / 4;
 /// (`examples/census_speed.rs`, time of the processor): 0.9 to 1.1 µs, the proofs included.
 const CELL_S: f64 = 1e-6;
 
-/// Memory for each equilibrium and bar, GB: six intervals of positions and forces, an angle, a force
-/// and what holds them, and the neighbourhood.
+/// Memory for each equilibrium and bar, GB: six intervals of positions and forces, an angle, a
+/// force and what holds them, and the neighbourhood.
 const EQUILIBRIUM_GB: f64 = 3e-7;
 
-/// Beyond the bars of any census: that of sixteen bars and the growth for each bar more, measured on
-/// random chains.
+/// Beyond the bars of any census: that of sixteen bars and the growth for each bar more, measured
+/// on random chains.
 const SIXTEEN_BARS: Estimate = Estimate { seconds: 13.0, gigabytes: 0.5, equilibria: 1e5 };
 const GROWTH: f64 = 2.1;
 
-/// What a census would take. Cells and equilibria are good to a factor of two; the processor time of
-/// the program was 0.6 to 7.4 times the seconds on 24 random chains of 13 to 16 bars, and 4.7 times on
-/// one of 20, on a busy machine.
+/// What a census would take. Cells and equilibria are good to a factor of two; the processor time
+/// of the program was 0.6 to 7.4 times the seconds on 24 random chains of 13 to 16 bars, and 4.7
+/// times on one of 20, on a busy machine.
 ///
 /// ```
 /// use census::Census;
@@ -63,8 +64,8 @@ pub struct Estimate {
 }
 
 impl Census {
-    /// What the census of a chain would take. Takes a fraction of a second itself for chains of up to
-    /// [`Settings::MAX_BARS`] bars; those of more are not looked at.
+    /// What the census of a chain would take. Takes a fraction of a second itself for chains of up
+    /// to [`Settings::MAX_BARS`] bars; those of more are not looked at.
     #[must_use]
     pub fn estimate(problem: &Problem) -> Estimate {
         of_chain(problem.chain(), JointLoads::NONE)
@@ -97,8 +98,8 @@ fn of_chain(chain: &Chain, loads: &JointLoads) -> Estimate {
     }
 }
 
-/// The search for so many patterns, spread evenly: multiples of an odd number near the golden part of
-/// 2³², by whose last bits all patterns come once.
+/// The search for so many patterns, spread evenly: multiples of an odd number near the golden part
+/// of 2³², by whose last bits all patterns come once.
 fn sampled(system: &System, number: u32) -> Search {
     const STEP: u32 = 0x9e37_79b9;
     let last = u32::MAX >> (u32::BITS - u32::try_from(system.bars()).unwrap_or(u32::BITS));

@@ -51,8 +51,8 @@ pub struct Census {
     /// What could not be decided. Neither dropped nor counted.
     pub undecided: Vec<Undecided>,
     /// Whether every equilibrium of the chain is in `equilibria` or `families`: nothing is
-    /// undecided, no equilibrium is degenerate, no straight position is an equilibrium, and the Morse
-    /// inequalities hold (where a straight position exists there are none).
+    /// undecided, no equilibrium is degenerate, no straight position is an equilibrium, and the
+    /// Morse inequalities hold (where a straight position exists there are none).
     pub complete: bool,
     /// Whether each equilibrium stands for a circle, the anchors being on one vertical.
     pub circles: bool,
@@ -216,8 +216,8 @@ impl Census {
         Ok(census)
     }
 
-    /// Whether every equilibrium is named: in `equilibria`, `families` or `degenerate`, or upright in
-    /// `straight`. So the census is complete but for what has no regular second derivative.
+    /// Whether every equilibrium is named: in `equilibria`, `families` or `degenerate`, or upright
+    /// in `straight`. So the census is complete but for what has no regular second derivative.
     ///
     /// ```
     /// use census::{Census, Settings};
@@ -240,7 +240,8 @@ impl Census {
         matches!(&self.topology, Ok(_) | Err(TopologyError::Straight { .. }))
     }
 
-    /// Whether all equilibria are isolated, or families across which the second derivative is regular.
+    /// Whether all equilibria are isolated, or families across which the second derivative is
+    /// regular.
     fn may_be_complete(&self) -> bool {
         self.topology_is_known()
             && self.degenerate.is_empty()
@@ -299,8 +300,8 @@ impl Census {
     }
 
     /// The Morse inequalities between the equilibria and the topology of the configuration space;
-    /// nothing is said where the topology is not known. With degenerate equilibria the inequalities do
-    /// not hold, but the sum of all is the Euler characteristic all the same.
+    /// nothing is said where the topology is not known. With degenerate equilibria the inequalities
+    /// do not hold, but the sum of all is the Euler characteristic all the same.
     ///
     /// # Errors
     ///
@@ -334,8 +335,8 @@ pub(crate) fn by_energy_and_angles(
 const FACTOR: f64 = 2.1;
 
 /// Processor time of a census of a chain of so many bars, s: t = 0.3 s · 2.1^(n − 10). Measured on
-/// random chains of 8 to 16 bars (`examples/census_speed.rs`); good to an order of magnitude, chains
-/// of one length differing by that. The number of equilibria doubles too.
+/// random chains of 8 to 16 bars (`examples/census_speed.rs`); good to an order of magnitude,
+/// chains of one length differing by that. The number of equilibria doubles too.
 ///
 /// ```
 /// assert!((census::expected_time_s(10) - 0.3).abs() < 1e-12);

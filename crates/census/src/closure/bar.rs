@@ -90,8 +90,8 @@ const LARGE: f64 = f64::from_bits((1023 + 900) << 52);
 
 /// `x/√(x² + z²)` of two numbers.
 ///
-/// In plain arithmetic the squares and their sum are off by 2u relative to their size (u = 2⁻⁵³), the
-/// root by half of that and u, the quotient by u more: 3u and terms of order u². The end of the
+/// In plain arithmetic the squares and their sum are off by 2u relative to their size (u = 2⁻⁵³),
+/// the root by half of that and u, the quotient by u more: 3u and terms of order u². The end of the
 /// interval is rounded once more.
 #[inline]
 fn at_corner(x: f64, z: f64) -> Interval {

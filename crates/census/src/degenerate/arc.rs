@@ -1,8 +1,8 @@
 //! How many zeros two functions of two variables have in a box, counted with multiplicity.
 //!
-//! Where the derivative of (g, h) has rank one, g can be chosen so that its zeros in the box are one
-//! arc, a graph over one of the coordinates. The zeros of the pair are those of h along the arc, and
-//! the derivative along it is, but for a positive factor,
+//! Where the derivative of (g, h) has rank one, g can be chosen so that its zeros in the box are
+//! one arc, a graph over one of the coordinates. The zeros of the pair are those of h along the
+//! arc, and the derivative along it is, but for a positive factor,
 //!
 //! $$ L f = g_x f_y - g_y f_x . $$
 //!
@@ -16,9 +16,10 @@
 //!
 //! # References
 //!
-//! M. Golubitsky, D. G. Schaeffer, "Singularities and Groups in Bifurcation Theory" I (1985), chapters
-//! I and II, doi:10.1007/978-1-4612-5034-0; V. I. Arnold, S. M. Gusein-Zade, A. N. Varchenko,
-//! "Singularities of Differentiable Maps" I (1985), chapters 4 and 5, doi:10.1007/978-1-4612-5154-5
+//! M. Golubitsky, D. G. Schaeffer, "Singularities and Groups in Bifurcation Theory" I (1985),
+//! chapters I and II, doi:10.1007/978-1-4612-5034-0; V. I. Arnold, S. M. Gusein-Zade, A. N.
+//! Varchenko, "Singularities of Differentiable Maps" I (1985), chapters 4 and 5,
+//! doi:10.1007/978-1-4612-5154-5
 
 use intervals::Interval;
 
@@ -32,8 +33,9 @@ pub(crate) struct Counted {
     pub(crate) at: [Interval; 2],
     /// At most so many, counted with multiplicity.
     pub(crate) at_most: usize,
-    /// The degree of the map on the border of the box: zeros where the determinant of the derivative
-    /// is positive less those where it is negative. The number of zeros has the same parity.
+    /// The degree of the map on the border of the box: zeros where the determinant of the
+    /// derivative is positive less those where it is negative. The number of zeros has the same
+    /// parity.
     pub(crate) degree: i8,
 }
 

@@ -11,9 +11,9 @@ use crate::plane::face::Face;
 use crate::plane::system::System;
 use crate::search::merge::Zeros;
 
-/// What is proved of the equilibria in and around an undecided box: at most two next to a fold, at most
-/// three next to a merger by symmetry. The numbers of a chain are doubles, and whether it is exactly at a
-/// fold hangs on what is beyond their last digits; but not that there are two at most.
+/// What is proved of the equilibria in and around an undecided box: at most two next to a fold, at
+/// most three next to a merger by symmetry. The numbers of a chain are doubles, and whether it is
+/// exactly at a fold hangs on what is beyond their last digits; but not that there are two at most.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Bound {
     /// At most so many, counted with multiplicity, besides those that are listed.
@@ -25,8 +25,8 @@ pub struct Bound {
 }
 
 impl Bound {
-    /// Of the zeros of one pattern in a box, those that are listed left out; `None` where nothing is
-    /// proved. `all` says that no equilibrium is listed but these.
+    /// Of the zeros of one pattern in a box, those that are listed left out; `None` where nothing
+    /// is proved. `all` says that no equilibrium is listed but these.
     pub(crate) fn of(
         system: &System,
         cell: &Cell,

@@ -51,8 +51,8 @@ pub struct DegenerateEquilibrium {
     pub signs: Vec<i8>,
     /// So many equilibria have merged: the multiplicity of the zero of the closure.
     pub multiplicity: usize,
-    /// Σ (−1)^index over the equilibria into which it falls apart when the chain is changed a little:
-    /// 0 if the multiplicity is even.
+    /// Σ (−1)^index over the equilibria into which it falls apart when the chain is changed a
+    /// little: 0 if the multiplicity is even.
     pub degree: i8,
     /// Directions in the plane in which the second derivative is negative; in one it vanishes.
     pub index_in_plane: usize,

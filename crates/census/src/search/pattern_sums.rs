@@ -52,7 +52,8 @@ pub(crate) struct PatternSums {
     cell: [Interval; 2],
     at: [f64; 2],
     half: [f64; 2],
-    /// How far each coordinate of the cell moves the closure of any pattern, at most; plain numbers.
+    /// How far each coordinate of the cell moves the closure of any pattern, at most; plain
+    /// numbers.
     blur: [f64; 2],
 }
 
@@ -145,7 +146,8 @@ impl PatternSums {
         usize::from(self.blur[1] > self.blur[0])
     }
 
-    /// How far each coordinate of the cell moves the closure of any pattern, at most; plain numbers.
+    /// How far each coordinate of the cell moves the closure of any pattern, at most; plain
+    /// numbers.
     pub(crate) fn blur(&self) -> [f64; 2] {
         self.blur
     }

@@ -125,8 +125,8 @@ impl AxialClosure<'_> {
         image(at, x, slope, gap)
     }
 
-    /// All directions t that bar k can have if its force is at most so large: with all forces of the
-    /// disc at once the other bars leave the gap l_k e.
+    /// All directions t that bar k can have if its force is at most so large: with all forces of
+    /// the disc at once the other bars leave the gap l_k e.
     pub(crate) fn directions(&self, radius: f64) -> Option<Interval> {
         let disc = Interval::new(-radius, radius);
         let mut left = self.system.span;

@@ -1,8 +1,8 @@
 //! Which patterns of bars fit into a straight line between the anchors, exactly.
 //!
-//! Doubles are integers times powers of two. Where the lengths and the span of a chain have a common
-//! power of two of which all of them are integers of not too many digits (integers, halves, and
-//! most numbers with a decimal point too), the sums are exact in integers of 128 bits.
+//! Doubles are integers times powers of two. Where the lengths and the span of a chain have a
+//! common power of two of which all of them are integers of not too many digits (integers, halves,
+//! and most numbers with a decimal point too), the sums are exact in integers of 128 bits.
 
 use model::Chain;
 

@@ -4,10 +4,10 @@
 //!
 //! $$ M_k = \sum_i s_i l_i c_i^k . $$
 //!
-//! Where pulls have no bound, the closure is a series in these numbers, and where a bar carries nothing
-//! one in sums over inverse powers of the weights; which of them vanish is a question without rounding.
-//! The weights follow from masses and centres by the lever rule:
-//! quotients of integers, of which a common denominator makes integers.
+//! Where pulls have no bound, the closure is a series in these numbers, and where a bar carries
+//! nothing one in sums over inverse powers of the weights; which of them vanish is a question
+//! without rounding. The weights follow from masses and centres by the lever rule: quotients of
+//! integers, of which a common denominator makes integers.
 
 use model::{Bar, Chain};
 
@@ -144,8 +144,8 @@ impl ExactMoments {
         Some(m0?.checked_mul(m2?)? == m1?.checked_mul(m1?)?)
     }
 
-    /// The multiplicity of the equilibrium in which a bar carries nothing and the others, upright, have
-    /// these signs, if there is one and it is degenerate: see
+    /// The multiplicity of the equilibrium in which a bar carries nothing and the others, upright,
+    /// have these signs, if there is one and it is degenerate: see
     /// [`degenerate::unloaded`](crate::degenerate::unloaded).
     pub(crate) fn multiplicity(&self, bar: usize, signs: &[i8]) -> Option<usize> {
         // Counted from the first anchor upwards.

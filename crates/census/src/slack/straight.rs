@@ -168,9 +168,9 @@ impl Straight {
         left
     }
 
-    /// Whether a cell is next to pulls that are no isolated zeros of the closure: the upright ones, and
-    /// between anchors in one point the infinite ones. There the closure vanishes to all its digits, and
-    /// what is left of it when that is divided out decides.
+    /// Whether a cell is next to pulls that are no isolated zeros of the closure: the upright ones,
+    /// and between anchors in one point the infinite ones. There the closure vanishes to all its
+    /// digits, and what is left of it when that is divided out decides.
     pub(crate) fn are_near(&self, system: &System, cell: &Cell) -> bool {
         /// 2⁻⁶
         const NEAR: f64 = 1.0 / 64.0;

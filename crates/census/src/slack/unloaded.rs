@@ -27,8 +27,8 @@ const NEAR: f64 = 1e-9;
 /// Its digits are what is left of much larger numbers.
 const NEXT_TO_NOTHING: f64 = f64::from_bits((1023 - 40) << 52);
 
-/// A force of less than this, 2⁻²⁴, counts as none where its sign is not known: next to a degenerate
-/// equilibrium rounding moves a force by much more than its last place.
+/// A force of less than this, 2⁻²⁴, counts as none where its sign is not known: next to a
+/// degenerate equilibrium rounding moves a force by much more than its last place.
 const TOO_LITTLE: f64 = f64::from_bits((1023 - 24) << 52);
 
 /// The largest disc of pulls tried, in the unit of the weights, and the factor to the next one.
@@ -158,8 +158,8 @@ fn axial_closure<'a>(
     Some(AxialClosure { system, bar, face, signs, axis })
 }
 
-/// The equilibrium near the pull without force in a bar, if there is exactly one and its bar carries
-/// next to nothing.
+/// The equilibrium near the pull without force in a bar, if there is exactly one and its bar
+/// carries next to nothing.
 fn prove(closure: &AxialClosure) -> Option<ProvenEquilibrium> {
     let (system, bar, face) = (closure.system, closure.bar, closure.face);
     let mut radius = LARGEST_DISC;

@@ -1,4 +1,5 @@
-//! Pulls next to those of upright positions, and next to infinite ones between anchors in one point.
+//! Pulls next to those of upright positions, and next to infinite ones between anchors in one
+//! point.
 //!
 //! Anchors on one vertical hold a chain whose lengths fit upright, $\sum_i \epsilon_i l_i = D_z$,
 //! with any pull along the vertical: lines H = 0 of zeros of the closure. Between anchors in one
@@ -98,7 +99,8 @@ fn size(force: [Interval; 2]) -> Interval {
 }
 
 /// Between anchors in one point: whether every zero of a pattern in a cell has H = 0 or an infinite
-/// pull. `first` is the order of the first moment of the pattern that does not vanish, if it is known.
+/// pull. `first` is the order of the first moment of the pattern that does not vanish, if it is
+/// known.
 pub(super) fn upright_or_infinite(
     system: &System,
     cell: &Cell,

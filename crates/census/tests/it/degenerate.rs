@@ -59,8 +59,9 @@ fn coincident_anchors_are_complete_if_the_lengths_are_generic() {
     assert_eq!(census.alternating_sum(), 0);
 }
 
-/// The bars can lie folded in any direction, and infinite pulls in any direction hold them there; but only
-/// upright they are equilibria. With four equal bars the second moment is the first that does not vanish.
+/// The bars can lie folded in any direction, and infinite pulls in any direction hold them there;
+/// but only upright they are equilibria. With four equal bars the second moment is the first that
+/// does not vanish.
 #[test]
 fn coincident_anchors_and_lengths_that_cancel_are_decided() {
     // 0.7 + 0.4 and 0.6 + 0.5 are the same double.

@@ -10,7 +10,8 @@ use crate::support::problem;
 /// Processor time for each cell and bar that the seconds of an estimate stand for.
 const CELL_S: f64 = 1e-6;
 
-/// Lengths from 0.3 to 1, masses from 0.1 to 1, a span of 0.1 to 0.8 of the length in any direction.
+/// Lengths from 0.3 to 1, masses from 0.1 to 1, a span of 0.1 to 0.8 of the length in any
+/// direction.
 fn random(bars: usize, seed: u64) -> model::Problem {
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
     rng.set_stream(bars as u64);
@@ -26,8 +27,8 @@ fn random(bars: usize, seed: u64) -> model::Problem {
     problem(&list, [span * angle.cos(), 0.0, span * angle.sin()])
 }
 
-/// Random chains of eleven and twelve bars are estimated to a factor of two. Measured: 0.6 to 1.3, of
-/// thirteen bars too.
+/// Random chains of eleven and twelve bars are estimated to a factor of two. Measured: 0.6 to 1.3,
+/// of thirteen bars too.
 #[test]
 fn cells_and_equilibria_are_estimated_from_a_sample() {
     let settings = Settings::default();

@@ -27,8 +27,8 @@ fn drawn(random: &mut ChaCha8Rng, bars: usize) -> Problem {
     }
 }
 
-/// Every chain is decided, its degenerate equilibria named. `INTEGERS=10` takes those of up to ten bars:
-/// 800 of 800, a minute.
+/// Every chain is decided, its degenerate equilibria named. `INTEGERS=10` takes those of up to ten
+/// bars: 800 of 800, a minute.
 #[test]
 fn all_chains_of_integers_are_decided() {
     let most: usize = std::env::var("INTEGERS").map_or(6, |n| n.parse().unwrap());

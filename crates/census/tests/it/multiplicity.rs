@@ -16,11 +16,11 @@ fn merged() -> [(Vec<f64>, [f64; 3], usize, i8); 4] {
         // Bar 1 hangs as heavily as bar 3 stands; the middle bar leans by 3, 4, 5, down or up.
         (vec![1.0, 5.0, 1.0], [3.0, 0.0, -6.0], 2, 0),
         (vec![1.0, 5.0, 1.0], [3.0, 0.0, 2.0], 2, 0),
-        // The same about a level bar. With angles x, π/2 + y, −z the closure is z = x + x⁴/2 + ..., and
-        // the energy x⁵/2 + ...: its derivative has a zero of order four.
+        // The same about a level bar. With angles x, π/2 + y, −z the closure is z = x + x⁴/2 + ...,
+        // and the energy x⁵/2 + ...: its derivative has a zero of order four.
         (vec![1.0; 3], [1.0, 0.0, -2.0], 4, 0),
-        // Symmetric: bars 1 and 5 hang, 2 and 4 stand, 2/2 − 1/1 = 0; and the same upside down. With
-        // S₃ = 2 (2/8 − 1) the third term is +3/4 ρ³, and two bars are compressed.
+        // Symmetric: bars 1 and 5 hang, 2 and 4 stand, 2/2 − 1/1 = 0; and the same upside down.
+        // With S₃ = 2 (2/8 − 1) the third term is +3/4 ρ³, and two bars are compressed.
         (vec![2.0, 1.0, 3.0, 1.0, 2.0], [3.0, 0.0, 0.0], 3, 1),
     ]
 }
@@ -64,8 +64,8 @@ fn merged_equilibria_are_named_with_their_multiplicity() {
     }
 }
 
-/// A zero of multiplicity m of an analytic function, changed by ε, falls apart into simple zeros at a
-/// distance of the order of ε^(1/m), or into none; their number has its parity, and is at most m.
+/// A zero of multiplicity m of an analytic function, changed by ε, falls apart into simple zeros at
+/// a distance of the order of ε^(1/m), or into none; their number has its parity, and is at most m.
 #[test]
 fn a_small_change_makes_as_many_as_the_multiplicity_says() {
     for (lengths, end, multiplicity, degree) in merged() {
@@ -111,8 +111,8 @@ fn a_small_change_makes_as_many_as_the_multiplicity_says() {
     }
 }
 
-/// At a fold to the last digit of the chain's numbers no one can tell whether there are two equilibria or
-/// none: but there are two at most. (The fold is that of `degenerate.rs`.)
+/// At a fold to the last digit of the chain's numbers no one can tell whether there are two
+/// equilibria or none: but there are two at most. (The fold is that of `degenerate.rs`.)
 #[test]
 fn next_to_a_fold_there_are_two_at_most() {
     let bars = [
@@ -141,9 +141,10 @@ fn next_to_a_fold_there_are_two_at_most() {
     assert!((first.1, last.1) == (0, 0) && first.0.abs_diff(last.0) == 2, "{counts:?}");
 }
 
-/// Just longer than the distance of its anchors, by 4e-17 m: next to the straight position two equilibria
-/// have pulls some 1e8 times the weights, one in tension and one, with all signs turned, in compression.
-/// Each is a zero alone; of the two that a count beyond infinite pulls finds the parity says nothing.
+/// Just longer than the distance of its anchors, by 4e-17 m: next to the straight position two
+/// equilibria have pulls some 1e8 times the weights, one in tension and one, with all signs turned,
+/// in compression. Each is a zero alone; of the two that a count beyond infinite pulls finds the
+/// parity says nothing.
 #[test]
 fn what_is_counted_beyond_infinite_pulls_has_no_parity() {
     let bars = [(1.5, 1.0, 0.75), (1.0, 1.0, 0.5), (0.5, 1.0, 0.25)];

@@ -81,8 +81,8 @@ pub struct Enclosures {
 pub struct Summary {
     /// Whether every equilibrium is in `equilibria` or `slack_families`.
     pub complete: bool,
-    /// Whether every equilibrium is in `equilibria`, `slack_families` or `degenerate`, or upright in
-    /// `straight`.
+    /// Whether every equilibrium is in `equilibria`, `slack_families` or `degenerate`, or upright
+    /// in `straight`.
     pub decided: bool,
     /// Number of isolated equilibria in one vertical plane: the length of `equilibria`.
     pub count: usize,
@@ -139,8 +139,8 @@ pub struct Open {
     pub at: [Enclosure; 2],
     /// The pulls in it, if they are bounded.
     pub pull_n: Option<[Enclosure; 2]>,
-    /// At most so many equilibria in the box and next to it, counted with multiplicity, besides those
-    /// listed; if that is proved.
+    /// At most so many equilibria in the box and next to it, counted with multiplicity, besides
+    /// those listed; if that is proved.
     pub at_most: Option<usize>,
     /// Of what degree they are together: their number has the same parity.
     pub degree: Option<i8>,

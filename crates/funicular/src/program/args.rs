@@ -60,9 +60,9 @@ pub struct Cli {
     /// What to do.
     #[command(subcommand)]
     pub command: Command,
-    /// Refuse what would need more memory: 80 bytes for each byte of a system file, 300 for each bar
-    /// of a chain. A sweep needs 50 MB for each thread, basins 50 bytes for each start, a trace what
-    /// its --max-points says. If not given, files of 64 MiB and 20 million bars: some 6 GB
+    /// Refuse what would need more memory: 80 bytes for each byte of a system file, 300 for each
+    /// bar of a chain. A sweep needs 50 MB for each thread, basins 50 bytes for each start, a trace
+    /// what its --max-points says. If not given, files of 64 MiB and 20 million bars: some 6 GB
     #[arg(long, value_name = "SIZE", global = true, hide_short_help = true, value_parser = crate::memory::parse)]
     pub max_memory: Option<u64>,
 }
@@ -100,7 +100,8 @@ pub enum Command {
     Sweep(crate::sweep::Sweep),
     /// Join the shards of a sweep, and prove that nothing is missing or double
     Merge(crate::merge::Merge),
-    /// Solve a chain or a system over numbers of its file: sag, forces and angles of the hanging shape
+    /// Solve a chain or a system over numbers of its file: sag, forces and angles of the hanging
+    /// shape
     Study(crate::study::Arguments),
     /// Derivatives of the hanging shape: stiffness of anchors, gradients by all parameters
     Derivatives(crate::derivatives::Arguments),

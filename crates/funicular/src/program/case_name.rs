@@ -5,8 +5,8 @@ use std::ffi::OsStr;
 use clap::builder::{PossibleValue, StringValueParser, TypedValueParser};
 use clap::{Arg, Command, Error};
 
-/// Any text: what is no case is told by the registry, with the name that is nearest. Shells complete
-/// the names that there are.
+/// Any text: what is no case is told by the registry, with the name that is nearest. Shells
+/// complete the names that there are.
 #[derive(Debug, Clone)]
 pub struct CaseName;
 

@@ -32,8 +32,8 @@ pub struct Census {
     /// Print one JSON object (schema_version 2) instead of tables
     #[arg(long)]
     pub json: bool,
-    /// Refuse chains of more bars (16 if not given), and bridles (one joint held by three strands of
-    /// bars) of more bars together (12), with an estimate of what they would cost (at most 24)
+    /// Refuse chains of more bars (16 if not given), and bridles (one joint held by three strands
+    /// of bars) of more bars together (12), with an estimate of what they would cost (at most 24)
     #[arg(long, value_name = "N")]
     pub max_bars: Option<usize>,
     /// Refuse nets of several closures, but for bridles of three strands, whose joints move in more

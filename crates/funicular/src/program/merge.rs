@@ -30,8 +30,8 @@ pub struct Merge {
     /// The folders of all shards, in any order
     #[arg(value_name = "DIR", required = true)]
     pub folders: Vec<PathBuf>,
-    /// Join to the K-th of N shards instead of to the whole: for some of the folders on each of many
-    /// machines, and then for what these made
+    /// Join to the K-th of N shards instead of to the whole: for some of the folders on each of
+    /// many machines, and then for what these made
     #[arg(long, value_name = "K/N", default_value_t = Shard::WHOLE)]
     pub shard: Shard,
     /// How many threads; 0 means one per processor. The result does not depend on it

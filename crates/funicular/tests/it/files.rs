@@ -407,8 +407,8 @@ fn a_full_disk_is_undecided() {
     assert_eq!(output.status.code(), Some(3), "{}", stderr(&output));
 }
 
-/// The same of the commands that write most: files may be no longer than one block, which stands for
-/// a disk that is full.
+/// The same of the commands that write most: files may be no longer than one block, which stands
+/// for a disk that is full.
 #[test]
 #[cfg(target_os = "linux")]
 fn a_disk_that_is_full_in_the_end_is_undecided() {

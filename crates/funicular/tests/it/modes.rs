@@ -278,7 +278,8 @@ fn of_two_stable_rests_each_release_is_given_its_own() {
     assert!(counts[0] + counts[1] == 400 && counts[0] > 100 && counts[1] > 40, "{counts:?}");
 }
 
-/// An ensemble that is interrupted keeps its parts, says so with 130, and goes on to the same bytes.
+/// An ensemble that is interrupted keeps its parts, says so with 130, and goes on to the same
+/// bytes.
 #[cfg(unix)]
 #[test]
 fn an_interrupted_ensemble_goes_on_to_the_same_bytes() {

@@ -263,8 +263,9 @@ fn rates(text: &str, seeds: u64) -> (Sweep, Summary) {
     (sweep, summary)
 }
 
-/// Massless bars that just bridge their gap carry a billionth of the weight: where the slope is zero
-/// to the tolerance they are 6e-5 m from the minimum, and a seed that stops there is in no list.
+/// Massless bars that just bridge their gap carry a billionth of the weight: where the slope is
+/// zero to the tolerance they are 6e-5 m from the minimum, and a seed that stops there is in no
+/// list.
 #[test]
 fn minima_of_bars_that_carry_nearly_nothing_are_reached() {
     let text = "anchors = { start_m = [0, 0, 0], end_m = [2.00000001, 0, 0] }\n\

@@ -174,7 +174,8 @@ fn columns(path: &Path) -> Vec<std::collections::BTreeMap<String, String>> {
 #[test]
 fn systems_by_name_vary_in_loads_supports_and_stiffness() {
     let folder = folder("systems");
-    // Cables of 3 and 4 m over 5 m: a right angle, so that they pull with 4/5 and 3/5 of the weight.
+    // Cables of 3 and 4 m over 5 m: a right angle, so that they pull with 4/5 and 3/5 of the
+    // weight.
     let vary = ["--case", "lamp", "--vary", "joints.lamp.mass_kg=1..3:3", "--csv", "lamp.csv"];
     let output = study(&folder, &vary);
     assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));

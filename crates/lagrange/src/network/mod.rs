@@ -39,7 +39,8 @@
 //! [`condensed`](crate::condensed), in one run (`cargo run --release -p validate --example
 //! bridle_speed`).
 //!
-//! From 4,900 to 199,080 members of nets that is n to the power 1.36; the elimination alone has 1.5.
+//! From 4,900 to 199,080 members of nets that is n to the power 1.36; the elimination alone has
+//! 1.5.
 //!
 //! [`Derivatives`] of an answer by lengths, masses, stiffnesses, loads and anchors come from one
 //! more factorisation; where the forces are one family [`force_ranges`] says how far each of them

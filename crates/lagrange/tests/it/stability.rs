@@ -168,10 +168,10 @@ fn the_solve_without_a_guess_finds_no_more_than_any_seed() {
     }
 }
 
-/// Three equal bars between level anchors just before the fold at d² = 3/2, in closed form: with the
-/// outer bars at σ ± δ from the horizontal and q = cos² δ, two equilibria have 8 q² − 4 q + d² − 1 =
-/// 0 and cos σ = (d² − 1 + 4 q)/(4 d √q). They are 1e-5 apart and both regular: the one has an
-/// index in the plane that is one more than that of the other.
+/// Three equal bars between level anchors just before the fold at d² = 3/2, in closed form: with
+/// the outer bars at σ ± δ from the horizontal and q = cos² δ, two equilibria have 8 q² − 4 q + d²
+/// − 1 = 0 and cos σ = (d² − 1 + 4 q)/(4 d √q). They are 1e-5 apart and both regular: the one has
+/// an index in the plane that is one more than that of the other.
 #[test]
 fn equilibria_near_a_fold_are_not_degenerate() {
     /// √(3 − 2 d²): how far the roots are apart.

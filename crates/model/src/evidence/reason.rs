@@ -75,8 +75,8 @@ pub enum Reason {
         /// How many.
         cells: usize,
     },
-    /// Occurs when the census names equilibria at which several have merged: their second derivative
-    /// is singular, and they are listed apart.
+    /// Occurs when the census names equilibria at which several have merged: their second
+    /// derivative is singular, and they are listed apart.
     DegenerateEquilibria {
         /// How many.
         listed: usize,

@@ -3,8 +3,8 @@
 //! An equilibrium `x*` with its forces lies in a box that somebody has proved to hold one. With
 //! intervals for what is read off that box (`pencil`):
 //!
-//! 1. `R(x*)` has independent rows, and from approximate modes `X̃` the exact displacements `X = X̃ −
-//!    R̃ᵀ W` are enclosed that keep the lengths, `R X = 0` (`kept`);
+//! 1. `R(x*)` has independent rows, and from approximate modes `X̃` the exact displacements `X = X̃
+//!    − R̃ᵀ W` are enclosed that keep the lengths, `R X = 0` (`kept`);
 //! 2. `A = Xᵀ K X` and `B = Xᵀ M X = I + F` with `‖F‖ ≤ φ < 1`: the columns of `X` are a basis of
 //!    what keeps the lengths, and the `ω²` are the eigenvalues of the pencil `(A, B)`;
 //! 3. the eigenvalues of `A`, which is nearly diagonal, by Gershgorin's discs, each row scaled so
@@ -37,8 +37,8 @@ use pencil::Pencil;
 /// number, and takes some tenths of a second here.
 pub const MOST_ENCLOSED_JOINTS: usize = 60;
 
-/// A box that is proved to hold exactly one equilibrium of a system, in which the floor, if there is
-/// one, pushes the joints that lie on it.
+/// A box that is proved to hold exactly one equilibrium of a system, in which the floor, if there
+/// is one, pushes the joints that lie on it.
 #[derive(Debug, Clone, Copy)]
 pub struct EquilibriumBox<'a> {
     /// Places of all joints, world frame, m.

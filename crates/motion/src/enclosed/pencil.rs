@@ -239,8 +239,8 @@ fn inertia(bar: &Bar) -> [Interval; 3] {
     let to_centre = Interval::point(bar.centre_m()) / l;
     let from_centre = (l - Interval::point(bar.centre_m())) / l;
     let [_, second, third] = moments(bar);
-    // Both count where they differ by a rounding: an ω² of unequal ones lies between those of either.
-    // Where they differ by more the smaller one counts in all directions.
+    // Both count where they differ by a rounding: an ω² of unequal ones lies between those of
+    // either. Where they differ by more the smaller one counts in all directions.
     let j = match (is_symmetric(bar), second.mid() < third.mid()) {
         (true, _) => second.hull(third),
         (false, true) => second,

@@ -12,8 +12,8 @@
 //! √(−ω²))`; there are as many of these as the Morse index says.
 //!
 //! Inextensible cables that pull and struts that push are bars in small motions, slack ones have
-//! their inertia alone; joints that a floor pushes slide in its level. Bars whose moments across differ have their second axis level, and spins are
-//! apart.
+//! their inertia alone; joints that a floor pushes slide in its level. Bars whose moments across
+//! differ have their second axis level, and spins are apart.
 
 mod balance;
 mod dense;

@@ -188,7 +188,8 @@ impl<'a> Stiffness<'a> {
     }
 }
 
-/// Put `value` times `[[1, −1], [−1, 1]]` at the coordinates of two ends; one that is held has none.
+/// Put `value` times `[[1, −1], [−1, 1]]` at the coordinates of two ends; one that is held has
+/// none.
 fn put_difference(
     entries: &mut Vec<Entry>,
     [a, b]: [Option<usize>; 2],

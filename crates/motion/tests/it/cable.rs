@@ -1,9 +1,9 @@
-//! Many equal bars between level anchors against the linear theory of slack cables: H. M. Irvine, T.
-//! K. Caughey, Proc. R. Soc. Lond. A 341 (1974) 299-315.
+//! Many equal bars between level anchors against the linear theory of slack cables: H. M. Irvine,
+//! T. K. Caughey, Proc. R. Soc. Lond. A 341 (1974) 299-315.
 //!
 //! With `ω̄ = ω L √(m/H)`: out of the plane `k π`; in the plane antisymmetric modes `2 k π`, and
-//! symmetric ones at the roots of `tan(ω̄/2) = ω̄/2 − (4/λ²)(ω̄/2)³`, where `λ² = (m g L/H)² L EA/(H
-//! L_e)`; bars that do not stretch have `λ² = ∞`.
+//! symmetric ones at the roots of `tan(ω̄/2) = ω̄/2 − (4/λ²)(ω̄/2)³`, where `λ² = (m g L/H)² L
+//! EA/(H L_e)`; bars that do not stretch have `λ² = ∞`.
 
 use std::f64::consts::PI;
 

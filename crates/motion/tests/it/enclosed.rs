@@ -250,7 +250,8 @@ fn an_equilibrium_at_the_edge_of_its_box_has_its_frequencies_enclosed() {
 
 #[test]
 fn a_cable_that_is_just_taut_is_undecided() {
-    // A rod hangs at the end of a level elastic cable of just its distance: stiff to one side alone.
+    // A rod hangs at the end of a level elastic cable of just its distance: stiff to one side
+    // alone.
     let cable = |length_m| {
         let joints = vec![
             Joint::anchor("O", [0.0; 3]),
@@ -276,8 +277,8 @@ fn a_cable_that_is_just_taut_is_undecided() {
 
 #[test]
 fn a_zero_without_a_turn_is_enclosed_and_not_proved() {
-    // A cart of 3 kg on a level line with a pendulum of 1 kg: x translates freely; ω² = (M + m) g/(M
-    // l) along the line, g/l across it.
+    // A cart of 3 kg on a level line with a pendulum of 1 kg: x translates freely; ω² = (M + m)
+    // g/(M l) along the line, g/l across it.
     for direction in [[1.0, 0.0, 0.0], [0.6, 0.8, 0.0]] {
         let mut cart = Joint::free("S").with_mass(3.0);
         cart.support = Support::Line { at_m: [0.0; 3], direction };

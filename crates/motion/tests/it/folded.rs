@@ -12,9 +12,9 @@
 //! Phys. 74 (2006) 776-783).
 //!
 //! Experiments confirm it: Schagerl and others that the end falls faster than a free body; M. G.
-//! Calkin and R. H. March (Am. J. Phys. 57 (1989) 154-157) that the energy is kept, as C. W. Wong, S.
-//! H. Youn and K. Yasui report ("Falling chain equivalence"), with a fall in 85 % of the time of a
-//! free body. Their measured tables were not at hand: compared with numbers is the theory.
+//! Calkin and R. H. March (Am. J. Phys. 57 (1989) 154-157) that the energy is kept, as C. W. Wong,
+//! S. H. Youn and K. Yasui report ("Falling chain equivalence"), with a fall in 85 % of the time of
+//! a free body. Their measured tables were not at hand: compared with numbers is the theory.
 
 use model::Bar;
 use model::system::{Joint, Member, System};

@@ -25,7 +25,8 @@ fn moment_n_m(t: f64) -> f64 {
 
 impl Equations<f64, DVector<f64>> for Forced {
     fn system(&self, _: f64, y: &DVector<f64>, dy: &mut DVector<f64>) {
-        // Time is a coordinate: with its own argument the crate's method (0.6.2) does not get ahead.
+        // Time is a coordinate: with its own argument the crate's method (0.6.2) does not get
+        // ahead.
         let (theta, rate, t) = (y[0], y[1], y[2]);
         // θ from the descending vertical towards OX: a turn about −OY.
         let moment = pull_n(t) * theta.cos() - 0.5 * G * theta.sin() + moment_n_m(t);

@@ -118,8 +118,8 @@ fn what_the_floor_pushes_slides_on_it() {
 
 #[test]
 fn a_loaded_string_has_the_frequencies_of_lagrange() {
-    // n beads on a floor between level anchors, on cords of 1 m stretched to 1.25 m: 2 √(T/(m a)) sin
-    // θ_k across and 2 √(EA/(l m)) sin θ_k along, θ_k = k π/(2 (n + 1)).
+    // n beads on a floor between level anchors, on cords of 1 m stretched to 1.25 m: 2 √(T/(m a))
+    // sin θ_k across and 2 √(EA/(l m)) sin θ_k along, θ_k = k π/(2 (n + 1)).
     let (n, mass_kg, stiffness_n) = (7_u32, 0.5, 400.0);
     let at: Vec<[f64; 3]> = (0..=n + 1).map(|k| [1.25 * f64::from(k), 0.0, 0.0]).collect();
     let mut joints = vec![Joint::anchor("A", at[0])];

@@ -1,5 +1,5 @@
-//! Inextensible cables that become taut and joints that meet a floor: plastic impacts against closed
-//! forms.
+//! Inextensible cables that become taut and joints that meet a floor: plastic impacts against
+//! closed forms.
 
 use model::Bar;
 use model::system::{Joint, Kind, Member, Support, System};
@@ -65,8 +65,8 @@ fn a_weight_that_falls_aside_keeps_what_is_across_the_cable() {
     }
 }
 
-/// Impact of a pendulum that is thrown past the level of its anchor: time since it went slack as the
-/// energy tells, s; place and loss.
+/// Impact of a pendulum that is thrown past the level of its anchor: time since it went slack as
+/// the energy tells, s; place and loss.
 fn thrown(step_s: f64, sine: f64) -> ([f64; 3], f64) {
     let system = weight(Kind::Cable);
     let mut swing = at_rest(&system, &[[0.0; 3], [0.0, 0.0, -1.0]], Order::Second);

@@ -1,5 +1,5 @@
-//! Andrews' squeezing mechanism: seven bodies in a plane, driven by a constant torque (E. Hairer, G.
-//! Wanner, *Solving Ordinary Differential Equations II*, section VII.7; W. Schiehlen, *Multibody
+//! Andrews' squeezing mechanism: seven bodies in a plane, driven by a constant torque (E. Hairer,
+//! G. Wanner, *Solving Ordinary Differential Equations II*, section VII.7; W. Schiehlen, *Multibody
 //! Systems Handbook*, 1990).
 //!
 //! Bodies that turn about a fixed point are bars with their moment about it; the triangle with the

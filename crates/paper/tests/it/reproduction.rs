@@ -281,8 +281,8 @@ const MAY_BE_NULL: [&str; 16] = [
     "failure",
     "direct",
     "largest_difference",
-    // Of a published number in `field`: what anyone can check by hand, what the solvers say, and why it
-    // is not judged. Which of them there are depends on the number.
+    // Of a published number in `field`: what anyone can check by hand, what the solvers say, and
+    // why it is not judged. Which of them there are depends on the number.
     "by_hand",
     "solvers",
     "not_judged",

@@ -1,4 +1,5 @@
-//! `solve` into columns, line by line and of several files: the numbers of the level V and the lamp.
+//! `solve` into columns, line by line and of several files: the numbers of the level V and the
+//! lamp.
 
 use serde_json::{Value, json};
 
