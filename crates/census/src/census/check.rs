@@ -4,6 +4,8 @@
 //! zero, and every number is computed from it. (Where a bar carries no force there is one
 //! proof, of module `unloaded`, and it is made again.)
 //!
+//! How many equilibria an undecided box can hold is counted again too (module `check_bounds`).
+//!
 //! That nothing is missing is not proved again: only the search proves it. A list that is called
 //! complete is held against what every complete list must be. The Morse inequalities see any one
 //! missing equilibrium, but not a pair of neighbouring index that topology does not need. The
@@ -23,6 +25,7 @@ use rayon::prelude::*;
 
 use crate::census::Census;
 use crate::census::by_energy_and_angles;
+use crate::census::check_bounds::check_bounds;
 use crate::count::morse::MorseError;
 use crate::count::topology::Topology;
 use crate::enclosure::krawczyk::{Zero, inside, krawczyk_about_zero, narrow};
@@ -96,6 +99,20 @@ pub enum CheckError {
         /// Number in the list, from 1.
         number: usize,
     },
+    /// Occurs when the number of equilibria that an undecided box can hold, or their degree, is not
+    /// what is proved.
+    #[error("the bound on the equilibria in undecided box {number} is wrong")]
+    Bound {
+        /// Number in the list of undecided boxes, from 1.
+        number: usize,
+    },
+    /// Occurs when an undecided box is said to hold fewer equilibria than is proved. That refutes
+    /// nothing.
+    #[error("the bound on the equilibria in undecided box {number} is not proved")]
+    BoundNotProved {
+        /// Number in the list of undecided boxes, from 1.
+        number: usize,
+    },
     /// Occurs when equilibria are listed twice or out of order.
     #[error("equilibrium {number} is listed twice or out of order")]
     Order {
@@ -137,7 +154,10 @@ impl CheckError {
     /// ```
     #[must_use]
     pub fn refutes(&self) -> bool {
-        !matches!(self, Self::NotOne { .. } | Self::IndexNotProved { .. })
+        !matches!(
+            self,
+            Self::NotOne { .. } | Self::IndexNotProved { .. } | Self::BoundNotProved { .. }
+        )
     }
 }
 
@@ -178,6 +198,8 @@ impl Census {
                 return Err(CheckError::Order { number: k + 1 });
             }
         }
+        let again = unloaded(&system, exact.moments.as_ref());
+        let all = again.equilibria.is_empty() && again.degenerate.is_empty();
         let claims = [
             ("the list of slack families", self.families == families(&system).0),
             (
@@ -188,7 +210,7 @@ impl Census {
                 "the list of degenerate equilibria",
                 // Where something is open the list need not be whole.
                 (self.degenerate.is_empty() && !self.undecided.is_empty())
-                    || self.degenerate == unloaded(&system, exact.moments.as_ref()).degenerate,
+                    || self.degenerate == again.degenerate,
             ),
             ("the topology", self.topology == Topology::of_system(&system)),
             ("whether there are circles", self.circles == system.vertical),
@@ -200,6 +222,7 @@ impl Census {
         if let Some((quantity, _)) = claims.into_iter().find(|(_, holds)| !holds) {
             return Err(CheckError::Claim { quantity });
         }
+        check_bounds(self, &precise, &system, all)?;
         if self.undecided.is_empty() {
             self.morse()?;
         }
@@ -263,6 +286,19 @@ fn proved_again(
     signs: &[i8],
     around: Cell,
 ) -> Result<ProvenEquilibrium, CheckError> {
+    let zero = zero_again(precise, system, number, signs, around)?;
+    ProvenEquilibrium::new(system, signs, &zero).ok_or(CheckError::IndexNotProved { number })
+}
+
+/// The zero of the closure in the neighbourhood of an equilibrium; of a circle that on the side of
+/// the search.
+pub(super) fn zero_again(
+    precise: &PreciseSystem,
+    system: &System,
+    number: usize,
+    signs: &[i8],
+    around: Cell,
+) -> Result<Zero, CheckError> {
     let not_one = CheckError::NotOne { number };
     let image = krawczyk_about_zero(system, signs, &around).ok_or(not_one.clone())?;
     if image.disjoint(&around) {
@@ -275,8 +311,7 @@ fn proved_again(
     let tight = polish(system, precise, signs, &Zero { tight, alone_in: around }).tight;
     // `new` shows a circle by its other point if bar 1 leans the other way.
     let flip = |cell: Cell| if system.vertical && signs[0] < 0 { cell.mirrored() } else { cell };
-    let zero = Zero { tight: flip(tight), alone_in: flip(around) };
-    ProvenEquilibrium::new(system, signs, &zero).ok_or(CheckError::IndexNotProved { number })
+    Ok(Zero { tight: flip(tight), alone_in: flip(around) })
 }
 
 /// Every number of an equilibrium against the one that is proved.

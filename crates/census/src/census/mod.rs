@@ -1,6 +1,7 @@
 //! The census.
 
 pub(crate) mod check;
+mod check_bounds;
 mod convert;
 pub(crate) mod estimate;
 mod figure;

@@ -1,7 +1,9 @@
 //! Equilibria that have merged: named with their multiplicity, and fallen apart by a small change.
 
 use crate::support::{census, problem};
-use census::{Census, DegenerateEquilibrium, MorseError};
+use census::{
+    Bound, Census, CheckError, DegenerateEquilibrium, Face, MorseError, Reason, Undecided,
+};
 use model::Problem;
 
 /// Equal bars but for their lengths: each joint carries as much as any other.
@@ -111,20 +113,22 @@ fn a_small_change_makes_as_many_as_the_multiplicity_says() {
     }
 }
 
+/// The chain of the fold of `degenerate.rs`: length, mass, centre.
+const AT_A_FOLD: [(f64, f64, f64); 4] = [
+    (0.744_003_286_989_166_3, 0.295_321_229_436_031_84, 0.734_670_458_537_469),
+    (0.800_934_968_638_009_8, 0.337_843_480_862_743_63, 0.252_195_513_658_455_1),
+    (0.955_505_132_010_287, 0.371_962_658_396_993_55, 0.359_763_508_059_449_1),
+    (0.606_212_031_725_482, 0.798_976_642_597_092_9, 0.357_182_036_441_701_43),
+];
+
 /// At a fold to the last digit of the chain's numbers no one can tell whether there are two
 /// equilibria or none: but there are two at most. (The fold is that of `degenerate.rs`.)
 #[test]
 fn next_to_a_fold_there_are_two_at_most() {
-    let bars = [
-        (0.744_003_286_989_166_3, 0.295_321_229_436_031_84, 0.734_670_458_537_469),
-        (0.800_934_968_638_009_8, 0.337_843_480_862_743_63, 0.252_195_513_658_455_1),
-        (0.955_505_132_010_287, 0.371_962_658_396_993_55, 0.359_763_508_059_449_1),
-        (0.606_212_031_725_482, 0.798_976_642_597_092_9, 0.357_182_036_441_701_43),
-    ];
     let (mut open, mut counts) = (0, vec![]);
     for off in [-1e-3, -1e-14, -1e-15, -4e-16, 0.0, 4e-16, 1e-15, 1e-14, 1e-3] {
         let end = [1.488_489_526_943_378_4, 0.0, 1.650_370_399_310_159_3 + off];
-        let census = census(&problem(&bars, end));
+        let census = census(&problem(&AT_A_FOLD, end));
         for undecided in &census.undecided {
             let bound = undecided.bound.unwrap_or_else(|| panic!("{off:e}: {undecided:?}"));
             // One of the two may be listed.
@@ -139,6 +143,47 @@ fn next_to_a_fold_there_are_two_at_most() {
     // On its two sides there are two more and two fewer.
     let [first, .., last] = &counts[..] else { panic!() };
     assert!((first.1, last.1) == (0, 0) && first.0.abs_diff(last.0) == 2, "{counts:?}");
+}
+
+/// Who changes what is said of an undecided box is caught: more than are proved, another degree and
+/// another box are wrong; fewer are not proved.
+#[test]
+fn the_bound_of_an_undecided_box_is_proved_again() {
+    let mut boxes = 0;
+    for off in [-1e-14, -1e-15, -4e-16, 4e-16, 1e-15, 1e-14] {
+        let end = [1.488_489_526_943_378_4, 0.0, 1.650_370_399_310_159_3 + off];
+        let problem = problem(&AT_A_FOLD, end);
+        let census = census(&problem);
+        assert_eq!(census.check(&problem), Ok(()));
+        for k in 0..census.undecided.len() {
+            bound_of_box(&problem, &census, k);
+            boxes += 1;
+        }
+    }
+    assert!(boxes > 0);
+}
+
+fn bound_of_box(problem: &Problem, census: &Census, k: usize) {
+    let changed = |change: &dyn Fn(&mut Undecided)| {
+        let mut wrong = census.clone();
+        change(&mut wrong.undecided[k]);
+        wrong.check(problem)
+    };
+    let bound = |change: &dyn Fn(&mut Bound)| {
+        changed(&|open| change(open.bound.as_mut().expect("every box of this chain has one")))
+    };
+    let number = k + 1;
+    let (wrong, open) = (CheckError::Bound { number }, CheckError::BoundNotProved { number });
+    assert!(wrong.refutes() && !open.refutes());
+    assert_eq!(bound(&|bound| bound.at_most += 1), Err(wrong.clone()));
+    assert_eq!(bound(&|bound| bound.at_most -= 1), Err(open));
+    let turned = |bound: &mut Bound| bound.degree = bound.degree.map(|degree| degree + 1);
+    assert_eq!(bound(&turned), Err(wrong.clone()));
+    assert_eq!(changed(&|open| open.signs[0][0] = 0), Err(wrong.clone()));
+    assert_eq!(changed(&|open| open.chart = Face::Around(9)), Err(wrong.clone()));
+    assert_eq!(changed(&|open| open.reason = Reason::Budget), Err(wrong));
+    // Whoever claims less claims nothing that is wrong.
+    assert_eq!(changed(&|open| open.bound = None), Ok(()));
 }
 
 /// Just longer than the distance of its anchors, by 4e-17 m: next to the straight position two
