@@ -92,7 +92,7 @@ impl Default for Settings {
 /// assert_eq!((error.name, error.value, error.high), ("tolerance", 1.0, 1e-3));
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, thiserror::Error)]
-#[error("setting {name} = {value} is outside its range, {low} to {high}")]
+#[error("setting {name} = {value} is outside its range, {low:e} to {high:e}")]
 pub struct SettingsError {
     /// The field.
     pub name: &'static str,

@@ -37,7 +37,7 @@ impl Default for Settings {
 
 /// Why settings cannot be used.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, thiserror::Error)]
-#[error("setting {name} = {value} is outside its range, {low} to {high}")]
+#[error("setting {name} = {value} is outside its range, {low:e} to {high:e}")]
 pub struct SettingsError {
     /// The field.
     pub name: &'static str,

@@ -298,7 +298,7 @@ fn ladder(
         excesses: vec![Excess { what, value, budget }],
     };
     let solver = completed.solver.clone();
-    let place = measured.violations.first().map_or(Place::Whole, |violation| violation.place);
+    let place = measured.worst().map_or(Place::Whole, |violation| violation.place);
     ladder.converged = if measured.violations.is_empty() {
         Status::Reached(convergence)
     } else {

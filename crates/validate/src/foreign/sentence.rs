@@ -67,17 +67,22 @@ impl Law {
     }
 }
 
+/// A number to so many digits, without an exponent where it is short; zero has no sign.
+fn written(f: &mut Formatter<'_>, number: f64, digits: usize) -> fmt::Result {
+    let rounded: f64 = format!("{number:.digits$e}").parse().unwrap_or(number) + 0.0;
+    if rounded.abs() < 1e9 && (rounded.abs() >= 1e-4 || rounded.abs() <= 0.0) {
+        write!(f, "{rounded}")
+    } else {
+        write!(f, "{rounded:e}")
+    }
+}
+
 /// Enough digits to see a difference of 1e-9 of a length.
 struct Digits(f64);
 
 impl Display for Digits {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        let rounded: f64 = format!("{:.9e}", self.0).parse().unwrap_or(self.0);
-        if rounded.abs() < 1e9 && (rounded.abs() >= 1e-4 || rounded.abs() <= 0.0) {
-            write!(f, "{rounded}")
-        } else {
-            write!(f, "{rounded:e}")
-        }
+        written(f, self.0, 9)
     }
 }
 
@@ -85,8 +90,11 @@ struct Force([f64; 3]);
 
 impl Display for Force {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        let [x, y, z] = self.0.map(|x| format!("{x:.6e}").parse::<f64>().unwrap_or(x));
-        write!(f, "({x:e}, {y:e}, {z:e}) N")
+        for (before, part) in ["(", ", ", ", "].into_iter().zip(self.0) {
+            f.write_str(before)?;
+            written(f, part, 6)?;
+        }
+        f.write_str(") N")
     }
 }
 

@@ -109,6 +109,12 @@ impl Measured {
             self.violations.push(Violation { place, law, value, allowed });
         }
     }
+
+    /// The one with the largest measure.
+    pub(super) fn worst(&self) -> Option<&Violation> {
+        let ratio = |violation: &Violation| violation.value / violation.allowed;
+        self.violations.iter().max_by(|a, b| ratio(a).total_cmp(&ratio(b)))
+    }
 }
 
 /// Supports, lengths and members' laws.

@@ -4,21 +4,29 @@
 //!
 //! `table.txt` lists all paths by kind of output, each with the tests below that assert it. A test
 //! fails where it asserts other paths than the list says, or meets one that is not listed; so a
-//! new key without a check, and a check without a key, are told.
+//! new key without a check, and a check without a key, are told. So are fields and variants of types
+//! that can be written as JSON and that no run of these tests brings forth: `fields.rs` reads them
+//! from the sources.
 
 #![expect(clippy::unwrap_used, reason = "helpers of tests")]
 
 mod census;
 mod evidence;
 
+mod fields;
 mod files;
 mod inventory;
 mod judge;
+mod laws;
 mod motion;
+mod names;
+mod open_rungs;
 mod output;
 mod reasons;
+mod refusals;
 mod reproduce;
 mod solve;
 mod starts;
 mod table;
+mod undecided;
 mod vary;

@@ -1,0 +1,212 @@
+//! `judge`: an answer that breaks the law of every member, of the floor and of the ground, with
+//! numbers by hand.
+
+use serde_json::json;
+
+use super::evidence::NOTHING;
+use super::output::{Output, run};
+
+/// Four weights, each below an anchor of its own, on an elastic bar, a cable, and two bars.
+const HANGERS: &str = r#"
+name = "hangers"
+gravity_m_s2 = 10
+floor_m = -6
+
+[joints]
+A = { at_m = [0, 0, 0] }
+B = { at_m = [5, 0, 0] }
+C = { at_m = [10, 0, 0] }
+D = { at_m = [15, 0, 0] }
+P = { mass_kg = 10 }
+Q = { mass_kg = 4 }
+R = { mass_kg = 10 }
+S = { mass_kg = 10 }
+
+[[bars]]
+from = "A"
+to = "P"
+length_m = 2
+mass_kg = 0
+stiffness_n = 1000
+
+[[bars]]
+from = "B"
+to = "Q"
+length_m = 3
+mass_kg = 0
+kind = "cable"
+
+[[bars]]
+from = "C"
+to = "R"
+length_m = 5
+mass_kg = 0
+
+[[bars]]
+from = "D"
+to = "S"
+length_m = 5.5
+mass_kg = 0
+"#;
+
+/// P is half a metre below its length, R and S 1.5 and 0.5 m; R is below the floor, S on it.
+const PLACES: &str = "joint,x_m,y_m,z_m,reaction_x_n,reaction_y_n,reaction_z_n
+A,0,0,0,0,0,100
+B,5,0,0,0,0,-40
+C,10,0,0,0,0,100
+D,15,0,0,0,0,120
+P,0,0,-2.5,0,0,0
+Q,5,0,-3,0,0,0
+R,10,0,-6.5,0,0,0
+S,15,0,-6,0,0,0
+";
+
+/// Weights are 100 N, that of Q 40 N: its cable pushes it down, and S is pulled by 30 N too much.
+const FORCES: &str = "from,to,axial_n\nA,P,100\nB,Q,-40\nC,R,100\nD,S,130\n";
+
+#[test]
+fn every_law_broken() {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, text) in [("hangers.toml", HANGERS), ("places.csv", PLACES), ("forces.csv", FORCES)]
+    {
+        std::fs::write(folder.path().join(name), text).unwrap();
+    }
+    let arguments =
+        ["judge", "hangers.toml", "--answer", "places.csv", "--members", "forces.csv", "--json"];
+    let (code, text) = run(folder.path(), &arguments);
+    assert_eq!(code, Some(1), "{text}");
+    let mut output = Output::json("judge", "every_law_broken", &text);
+    output.is("finding", "refuted");
+    let laws = [
+        "elongation",
+        "sign",
+        "length",
+        "length",
+        "reaction",
+        "balance",
+        "reaction",
+        "whole",
+        "below_floor",
+        "floor_pulls",
+    ];
+    for list in ["broken", "violations"] {
+        let at = |key: &str| format!("{list}[].{key}");
+        output.is(&at("law"), laws.as_slice());
+        // 1000 N for each stretch by the length, 0.5 m of 2 m; D bears 130 N, the floor -30 N; and
+        // of 280 N up and 340 N down 60 N are left.
+        let values = [150.0, 40.0, 1.5, 0.5, 10.0, 80.0, 30.0, 60.0, 0.5, 30.0];
+        output.is(&at("value"), values.as_slice());
+        output.is(&at("elastic_n"), json!([250.0]));
+        output.is(&at("force_n"), json!([100.0, -40.0, 30.0]));
+        output.is(&at("length_m"), json!([5.0, 5.5]));
+        output.is(&at("distance_m"), json!([6.5, 6.0]));
+        output.is(&at("given_n[]"), json!([0.0, 0.0, 120.0, 0.0, 0.0, 0.0]));
+        output.is(&at("wanted_n[]"), json!([0.0, 0.0, 130.0, 0.0, 0.0, -30.0]));
+        output.is(&at("left_n[]"), json!([0.0, 0.0, -80.0, 0.0, 0.0, -60.0]));
+        output.is(&at("place.member"), json!([1, 2, 3, 4]));
+        output.is(&at("place.joint"), json!([3, 5, 7, 6, 7]));
+        output.is(&at("place"), "whole");
+    }
+    let says = [
+        "carries 100 N, and its elongation gives 250 N",
+        "a cable that pushes with 40 N",
+        "1.5 m more than its length of 5 m",
+        "0.5 m more than its length of 5.5 m",
+        "is said to push with (0, 0, 120) N, and its members and loads need (0, 0, 130) N",
+        "(0, 0, -80) N are left over",
+        "with (0, 0, 0) N, and its members and loads need (0, 0, -30) N",
+        "together leave (0, 0, -60) N",
+        "0.5 m below the floor",
+        "pull it down with 30 N",
+    ];
+    output.says("broken[].says", &says);
+    // 80 N are left over on Q, whose load is 40 N.
+    output.is("statics.joint", 2.0);
+    output.is("statics.worst.joint", 5);
+    nearest(&mut output);
+    let kinds = ["above_tolerance", "judge_refuses", "not_tried", "not_tried", "no_certificate"];
+    output.is("ladder[].reason.kind", kinds.as_slice());
+    // 40 N over a millionth of 130 N are more than all others over what is allowed.
+    output.is("ladder[].reason.excesses[].place.member", 2);
+    output.near("ladder[].reason.excesses[].value", 1e-6, 40.0 / 130e-6);
+    output.is("ladder[].reason.because", "not_definite");
+    // No bar is pressed.
+    output.is("ladder[].reason.compressed", 0);
+    output.done();
+}
+
+/// P hangs 0.2 m below its length, as 100 N stretch 2 m of 1000 N; R is 1.5 m further up.
+fn nearest(output: &mut Output) {
+    let at = |key: &str| format!("nearest.equilibria[].{key}");
+    output.is(&at("solver"), "energy");
+    output.is(&at("joints_m"), 1.5);
+    output.is(&at("joint"), 6);
+    // The cable pulls with 40 N instead of pushing.
+    output.is(&at("forces_n"), 80.0);
+    output.is(&at("member"), 2);
+    // -250 J and 62.5 J of the stretched bar for -220 and 10 J, -650 J for -500 J, -600 J for -550 J.
+    output.is(&at("energy_j"), 22.5 - 150.0 - 50.0);
+    output.is(&at("evidence.ladder[].reason.solver"), "energy");
+    output.within(&at("evidence.ladder[].reason.statics"), 0.0..=NOTHING);
+    output.is("nearest.failures[].solver", "lagrange");
+    output.says("nearest.failures[].because", &["not converged"]);
+}
+
+/// A lamp of 20 N on two bars that reach 1 m aside and 0.01 m down.
+fn flat_lamp(test: &'static str, down: &str, forces: Option<&str>) -> Output {
+    let folder = tempfile::tempdir().unwrap();
+    let length = 1.0_f64.hypot(0.01);
+    let lamp = format!(
+        "gravity_m_s2 = 10\njoints = {{ A = {{ at_m = [-1, 0, 0] }}, B = {{ at_m = [1, 0, 0] }}, \
+         P = {{ mass_kg = 2 }} }}\n\
+         bars = [{{ from = \"A\", to = \"P\", length_m = {length}, mass_kg = 0 }}, \
+         {{ from = \"P\", to = \"B\", length_m = {length}, mass_kg = 0 }}]\n"
+    );
+    std::fs::write(folder.path().join("lamp.toml"), lamp).unwrap();
+    let places = format!("joint,x_m,y_m,z_m\nA,-1,0,0\nB,1,0,0\nP,0,0,{down}\n");
+    std::fs::write(folder.path().join("places.csv"), places).unwrap();
+    let mut arguments = vec!["judge", "lamp.toml", "--answer", "places.csv", "--json"];
+    if let Some(forces) = forces {
+        std::fs::write(folder.path().join("forces.csv"), forces).unwrap();
+        arguments.extend(["--members", "forces.csv"]);
+    }
+    let (code, text) = run(folder.path(), &arguments);
+    assert_eq!(code, Some(3), "{text}");
+    Output::json("judge", test, &text)
+}
+
+/// A tenth of a millimetre further down the bars are longer by a millionth of a metre, which a
+/// tolerance of 2e-6 m at each end allows; but the lamp hangs elsewhere.
+#[test]
+fn too_flat_to_tell() {
+    let mut output = flat_lamp("too_flat_to_tell", "-0.0101", None);
+    output.is("finding", "far");
+    output.near("joints_m", 1e-9, 1e-4);
+    // A millionth of 2 m.
+    output.near("allowed_m", 1e-12, 2e-6);
+    output.is("violations[]", json!([]));
+    output.is(
+        "ladder[].reason.kind",
+        json!(["solvers_disagree", "not_tried", "not_tried", "not_tried"]),
+    );
+    output.is("ladder[].reason.excesses[].what", "joints");
+    output.is("ladder[].reason.excesses[].between[]", json!(["places.csv", "lagrange"]));
+    output.near("ladder[].reason.excesses[].value", 1e-9, 1e-4);
+    output.near("ladder[].reason.excesses[].budget", 1e-12, 2e-6);
+    output.is("ladder[].reason.stability[]", json!([]));
+    output.done();
+}
+
+/// Each bar bears 10 N over its slope; 0.02 N more balance to 0.0004 N, which is allowed.
+#[test]
+fn forces_of_another() {
+    let own = 10.0 * 1.0_f64.hypot(0.01) / 0.01;
+    let forces = format!("from,to,axial_n\nA,P,{0}\nP,B,{0}\n", own + 0.02);
+    let mut output = flat_lamp("forces_of_another", "-0.01", Some(&forces));
+    output.is("finding", "other_forces");
+    output.near("forces_n", 1e-7, 0.02);
+    // A millionth of the largest, and its rounding.
+    output.near("allowed_n", 1e-11, 1e-6 * (own + 0.02));
+    output.is("ladder[].reason.excesses[].what", "forces");
+    output.done();
+}

@@ -1,0 +1,276 @@
+//! Every reason for which a rung is open, as JSON and as a sentence: what went into it stands in
+//! both. Which reason an answer has is asserted of cases, here and in the crates that give it.
+
+use model::{
+    Disagreement, Excess, InPlane, InSpace, NoBox, NoCensus, NoCertificate, Quantity, Reason,
+    SolverName, Stability, StabilityDifference,
+};
+use serde_json::json;
+
+use super::output::Output;
+use super::refusals::{of, output};
+
+/// The reasons with what their sentences have to say.
+fn reasons<'a, const N: usize>(
+    test: &'static str,
+    reasons: [(Reason, &'a [&'a str]); N],
+) -> Output {
+    let reasons = reasons.map(|(reason, words)| of(&reason, words));
+    output("a reason", test, &reasons)
+}
+
+fn pair() -> [SolverName; 2] {
+    [SolverName::LAGRANGE, SolverName::ENERGY]
+}
+
+#[test]
+fn reasons_of_a_chain() {
+    let mut output = reasons(
+        "reasons_of_a_chain",
+        [
+            (Reason::RefutedByCensus { distance: 0.125 }, &["refuted", "lies 1.2e-1 of the total"]),
+            (Reason::SlackFamily, &["one of a family with slack bars"]),
+            (Reason::NotAmongDecided { cells: 3 }, &["leaves 3 cells of pulls undecided"]),
+            (Reason::Elsewhere { distance: 0.375 }, &["lies 3.8e-1 of the total"]),
+            (Reason::NothingListed, &["lists no equilibrium"]),
+            (Reason::CensusUndecided { cells: 4 }, &["4 cells of pulls are undecided"]),
+            (Reason::DegenerateEquilibria { listed: 1 }, &["one degenerate equilibrium"]),
+            (Reason::DegenerateEquilibria { listed: 5 }, &["5 degenerate equilibria"]),
+            (Reason::StraightPosition { sides: vec![6, 7] }, &["sides 6, 7 are together"]),
+            (Reason::CountUnchecked { sides: 8 }, &["a polygon of 8 sides"]),
+        ],
+    );
+    let kinds = [
+        "refuted_by_census",
+        "slack_family",
+        "not_among_decided",
+        "elsewhere",
+        "nothing_listed",
+        "census_undecided",
+        "degenerate_equilibria",
+        "degenerate_equilibria",
+        "straight_position",
+        "count_unchecked",
+    ];
+    output.is("kind", kinds.as_slice());
+    output.is("distance", json!([0.125, 0.375]));
+    output.is("cells", json!([3, 4]));
+    output.is("listed", json!([1, 5]));
+    output.is("sides[]", json!([6, 7]));
+    output.is("sides", 8);
+    output.done();
+}
+
+#[test]
+fn reasons_without_a_census() {
+    let reason = Reason::NoCensus;
+    let mut output = reasons(
+        "reasons_without_a_census",
+        [
+            (reason(NoCensus::Settings), &["settings are out of range"]),
+            (reason(NoCensus::Refused), &["no equilibrium problem"]),
+            (
+                reason(NoCensus::Motions { closures: 3, motions: 4, limit: 5 }),
+                &[
+                    "a net of 3 closures whose joints move in 4 independent ways, and the limit is 5",
+                ],
+            ),
+            (reason(NoCensus::Undecided { boxes: 6 }), &["6 boxes of places"]),
+            (reason(NoCensus::PlaneOnly), &["in the vertical plane of the anchors"]),
+            (reason(NoCensus::Turns { joint: 7 }), &["at joint number 7 turns freely"]),
+            (reason(NoCensus::Closures { closures: 8 }), &["8 independent closures"]),
+            (reason(NoCensus::LoadsNotDown { joint: 9 }), &["joint number 9", "not straight down"]),
+            (reason(NoCensus::Elastic { member: 10 }), &["member 10", "is elastic"]),
+            (reason(NoCensus::NotABar { member: 11 }), &["member 11 is no inextensible bar"]),
+            (reason(NoCensus::Limp { member: 12 }), &["member 12 bears nothing"]),
+            (reason(NoCensus::Flat { joint: 13 }), &["joint number 13 may lie flat"]),
+            (reason(NoCensus::Floor), &["no census knows a floor"]),
+            (reason(NoCensus::TooManyPositions { limit: 14 }), &["more than 14 equilibria"]),
+        ],
+    );
+    let because = [
+        "settings",
+        "refused",
+        "motions",
+        "undecided",
+        "plane_only",
+        "turns",
+        "closures",
+        "loads_not_down",
+        "elastic",
+        "not_a_bar",
+        "limp",
+        "flat",
+        "floor",
+        "too_many_positions",
+    ];
+    output.each("kind", "no_census");
+    output.is("because", because.as_slice());
+    output.is("closures", json!([3, 8]));
+    output.is("motions", 4);
+    output.is("limit", json!([5, 14]));
+    output.is("boxes", 6);
+    output.is("joint", json!([7, 9, 13]));
+    output.is("member", json!([10, 11, 12]));
+    output.done();
+}
+
+#[test]
+fn reasons_without_a_box() {
+    let reason = Reason::NoBox;
+    let mut output = reasons(
+        "reasons_without_a_box",
+        [
+            (
+                reason(NoBox::TooLarge { unknowns: 3, limit: 4 }),
+                &["3 unknowns, and the limit is 4"],
+            ),
+            (reason(NoBox::SelfStresses { dimension: 5 }), &["5 independent states"]),
+            (reason(NoBox::FreeMotions { dimension: 6 }), &["from 6 independent motions"]),
+            (reason(NoBox::Degenerate { member: 7 }), &["member 7 has just its length"]),
+            (
+                reason(NoBox::WrongSign { member: 8 }),
+                &["member 8", "the sign that its kind allows"],
+            ),
+            (reason(NoBox::NotSlack { member: 9 }), &["member 9 is not proved to be slack"]),
+            (reason(NoBox::BetweenAnchors { member: 10 }), &["member 10 connects two anchors"]),
+            (reason(NoBox::Floor { joint: 11 }), &["joint 11 is not proved to be above the floor"]),
+            (reason(NoBox::NotConverged), &["no equilibrium with the same members in action"]),
+            (reason(NoBox::Singular), &["is singular"]),
+            (reason(NoBox::NotContracting), &["Krawczyk's test fails"]),
+            (
+                reason(NoBox::Elsewhere { distance_m: 0.125, distance_n: 0.375 }),
+                &["is 1.2e-1 m and 3.8e-1 N away"],
+            ),
+            (reason(NoBox::NotFinite), &["incomplete or not finite"]),
+        ],
+    );
+    let because = [
+        "too_large",
+        "self_stresses",
+        "free_motions",
+        "degenerate",
+        "wrong_sign",
+        "not_slack",
+        "between_anchors",
+        "floor",
+        "not_converged",
+        "singular",
+        "not_contracting",
+        "elsewhere",
+        "not_finite",
+    ];
+    output.each("kind", "no_box");
+    output.is("because", because.as_slice());
+    output.is("unknowns", 3);
+    output.is("limit", 4);
+    output.is("dimension", json!([5, 6]));
+    output.is("member", json!([7, 8, 9, 10]));
+    output.is("joint", 11);
+    output.is("distance_m", 0.125);
+    output.is("distance_n", 0.375);
+    output.done();
+}
+
+#[test]
+fn reasons_without_a_certificate() {
+    let reason = Reason::NoCertificate;
+    let mut output = reasons(
+        "reasons_without_a_certificate",
+        [
+            (reason(NoCertificate::SeveralCompressed { bars: 3 }), &["3 bars are in compression"]),
+            (reason(NoCertificate::Indefinite { bar: 4, excess: 0.125 }), &["bar 4", "1.25e-1"]),
+            (reason(NoCertificate::Gap { gap: 0.375 }), &["stays 3.8e-1 of weight times length"]),
+            (
+                reason(NoCertificate::NotClosed { gap_m: 0.5, slack_m: 0.25 }),
+                &["is 5.0e-1 m from its anchor", "only 2.5e-1 m of slack"],
+            ),
+            (reason(NoCertificate::EnergyFalls { directions: 5 }), &["falls in 5 directions"]),
+            (reason(NoCertificate::PivotsUndecided), &["not proved positive"]),
+            (reason(NoCertificate::NotDefinite { compressed: 6 }), &["with 6 members compressed"]),
+            (reason(NoCertificate::Unusable), &["incomplete or not finite"]),
+        ],
+    );
+    let because = [
+        "several_compressed",
+        "indefinite",
+        "gap",
+        "not_closed",
+        "energy_falls",
+        "pivots_undecided",
+        "not_definite",
+        "unusable",
+    ];
+    output.each("kind", "no_certificate");
+    output.is("because", because.as_slice());
+    output.is("bars", 3);
+    output.is("bar", 4);
+    output.is("excess", 0.125);
+    output.is("gap", 0.375);
+    output.is("gap_m", 0.5);
+    output.is("slack_m", 0.25);
+    output.is("directions", 5);
+    output.is("compressed", 6);
+    output.done();
+}
+
+#[test]
+fn reasons_of_solvers_that_disagree() {
+    let excess = |what, value| Excess { what, value, budget: 0.125 };
+    let solver = SolverName::ENERGY;
+    let excesses = vec![
+        excess(Quantity::Joints { between: pair() }, 3.0),
+        excess(Quantity::Forces { between: pair() }, 4.0),
+        excess(Quantity::Energy { between: pair() }, 5.0),
+        excess(Quantity::Statics { solver: solver.clone(), bar: 15 }, 6.0),
+        excess(Quantity::MorseIndex { between: pair() }, 7.0),
+        excess(Quantity::SelfStresses { solver: solver.clone() }, 8.0),
+        excess(Quantity::EnergyOfJoints { solver: solver.clone() }, 9.0),
+        excess(Quantity::AxialForcesAndReactions { solver }, 10.0),
+    ];
+    let saddle = Stability {
+        in_plane: InPlane::Saddle,
+        index_in_plane: 11,
+        in_space: InSpace::Unstable,
+        index_in_space: 12,
+    };
+    let degenerate = Stability { in_plane: InPlane::Degenerate, ..saddle };
+    let stability = vec![StabilityDifference { between: pair(), found: [saddle, degenerate] }];
+    let words = [
+        "joints of lagrange and energy / m: 3.00e0 is over its budget of 1.25e-1",
+        "forces of lagrange and energy / N: 4.00e0",
+        "energy of lagrange and energy / J: 5.00e0",
+        "statics of energy, at bar 15: 6.00e0",
+        "numbers of directions in which the energy falls, by lagrange and energy: 7.00e0",
+        "what the self-stresses of energy leave at a joint: 8.00e0",
+        "energy of energy less that of its joints: 9.00e0",
+        "axial forces and reactions of energy less its joint forces: 1.00e1",
+        "saddle in the plane (index 11), unstable in space (index 12) by lagrange",
+        "degenerate in the plane (index 11), unstable in space (index 12) by energy",
+    ];
+    let disagreement = Reason::SolversDisagree(Disagreement { excesses, stability });
+    let mut output = reasons("reasons_of_solvers_that_disagree", [(disagreement, &words)]);
+    let what = [
+        "joints",
+        "forces",
+        "energy",
+        "statics",
+        "morse_index",
+        "self_stresses",
+        "energy_of_joints",
+        "axial_forces_and_reactions",
+    ];
+    output.is("kind", "solvers_disagree");
+    output.is("excesses[].what", what.as_slice());
+    output.each("excesses[].between[]", json!(["lagrange", "energy"]));
+    output.each("excesses[].solver", "energy");
+    output.is("excesses[].bar", 15);
+    output.is("excesses[].value", json!([3, 4, 5, 6, 7, 8, 9, 10]));
+    output.each("excesses[].budget", 0.125);
+    output.is("stability[].between[]", json!(["lagrange", "energy"]));
+    output.is("stability[].found[].in_plane", json!(["saddle", "degenerate"]));
+    output.each("stability[].found[].index_in_plane", 11);
+    output.each("stability[].found[].in_space", "unstable");
+    output.each("stability[].found[].index_in_space", 12);
+    output.done();
+}

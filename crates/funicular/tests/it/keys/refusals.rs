@@ -1,0 +1,346 @@
+//! Every refusal of a solver as JSON and as a sentence: what went into it stands in both. What a
+//! refusal is of is asserted where it arises, in the solvers' own tests.
+
+use serde::Serialize;
+use serde_json::{Value, json};
+
+use super::output::Output;
+
+/// Objects as lines of JSON, each with words that its sentence has to say.
+pub fn output(
+    kind: &'static str,
+    test: &'static str,
+    refusals: &[(Value, String, &[&str])],
+) -> Output {
+    let mut lines = String::new();
+    for (object, sentence, words) in refusals {
+        for word in *words {
+            assert!(sentence.contains(word), "{sentence} for {word}");
+        }
+        lines += &object.to_string();
+        lines.push('\n');
+    }
+    Output::lines(kind, test, &lines)
+}
+
+/// A refusal with words that its sentence has to say.
+pub fn of<'a>(
+    refusal: &(impl Serialize + ToString),
+    words: &'a [&'a str],
+) -> (Value, String, &'a [&'a str]) {
+    (serde_json::to_value(refusal).unwrap(), refusal.to_string(), words)
+}
+
+#[test]
+fn refusals_of_energy_for_chains() {
+    use energy::Error;
+    let refusals = [
+        of(
+            &Error::Setting { field: "tolerance", value: 2.5, low: 1e-14, high: 0.5 },
+            &["tolerance must lie between 1e-14 and 5e-1, got 2.5"],
+        ),
+        of(&Error::SeedSize { bars: 3, given: 4 }, &["for each of the 3 bars, got 4"]),
+        of(
+            &Error::SeedDirection { bar: 5, direction: [0.25, 0.75, -1.5] },
+            &["direction 5 of the seed, [0.25, 0.75, -1.5], points nowhere"],
+        ),
+        of(&Error::SeedAngle { angle_rad: 6.5 }, &["finite, got 6.5 rad"]),
+        of(
+            &Error::NotClosed { gap: 0.125, iterations: 7 },
+            &["1.25e-1 of the total length is left after 7 corrections"],
+        ),
+        of(
+            &Error::IterationLimit { iterations: 8, gradient: 0.375 },
+            &["after 8 iterations: projected gradient 3.8e-1"],
+        ),
+        of(
+            &Error::Stalled { iterations: 9, gradient: 0.625, gap: 0.0625, directions: 2 },
+            &["after 9 iterations", "gradient 6.2e-1", "closure 6.2e-2", "in 2 directions"],
+        ),
+        of(&Error::NearlyFolded { across: 3e-8 }, &["the anchors 3e-8 of the total length"]),
+        of(&Error::NotFinite { quantity: "energy" }, &["the energy is not a finite number"]),
+        of(
+            &Error::Ended { reason: "in its words".into() },
+            &["argmin ended the run: in its words"],
+        ),
+    ];
+    let test = "refusals_of_energy_for_chains";
+    let mut output = output("a refusal of energy", test, &refusals);
+    let kinds = [
+        "setting",
+        "seed_size",
+        "seed_direction",
+        "seed_angle",
+        "not_closed",
+        "iteration_limit",
+        "stalled",
+        "nearly_folded",
+        "not_finite",
+        "ended",
+    ];
+    output.is("kind", kinds.as_slice());
+    output.is("field", "tolerance");
+    output.is("value", 2.5);
+    output.is("low", 1e-14);
+    output.is("high", 0.5);
+    output.is("bars", 3);
+    output.is("given", 4);
+    output.is("bar", 5);
+    output.is("direction[]", json!([0.25, 0.75, -1.5]));
+    output.is("angle_rad", 6.5);
+    output.is("gap", json!([0.125, 0.0625]));
+    output.is("iterations", json!([7, 8, 9]));
+    output.is("gradient", json!([0.375, 0.625]));
+    output.is("directions", 2);
+    output.is("across", 3e-8);
+    output.is("quantity", "energy");
+    output.is("reason", "in its words");
+    output.done();
+}
+
+#[test]
+fn refusals_of_energy_for_systems() {
+    use energy::network::Error;
+    let refusals = [
+        of(
+            &Error::Setting { field: "tolerance", value: 2.5, low: 1e-14, high: 0.5 },
+            &["tolerance must lie between 1e-14 and 5e-1, got 2.5"],
+        ),
+        of(&Error::NoMember, &["has no member"]),
+        of(&Error::NoLoad, &["no force acts on the system"]),
+        of(
+            &Error::Direction { joint: 3, direction: [0.25, 0.75, -1.5] },
+            &["joint 3 has a direction that points nowhere: [0.25, 0.75, -1.5]"],
+        ),
+        of(
+            &Error::Falls { joint: 4, force_n: 5.5 },
+            &["joint 4 falls for ever", "a force of 5.5 N"],
+        ),
+        of(&Error::Seed { joints: 6, given: 7 }, &["each of the 6 joints, got 7"]),
+        of(
+            &Error::NotClosed { member: 8, misfit_m: 0.875 },
+            &["member 8 is 0.875 m off in the best"],
+        ),
+        of(
+            &Error::IterationLimit { iterations: 9, unbalance: 0.125, misfit: 0.25 },
+            &["after 9 iterations: unbalanced force 1.25e-1", "off by 2.5e-1"],
+        ),
+        of(
+            &Error::Stalled { unbalance: 0.375, misfit: 0.5 },
+            &["unbalanced force 3.75e-1", "off by 5e-1"],
+        ),
+        of(&Error::NoMinimum { index: 10 }, &["in 10 independent directions"]),
+        of(
+            &Error::WrongSign { member: 11, force_n: -6.5 },
+            &["would balance with -6.5 N in member 11"],
+        ),
+        of(&Error::FloorPulls { joint: 12, force_n: 7.5 }, &["joint 12 would balance with 7.5 N"]),
+        of(&Error::NotFinite { quantity: "energy" }, &["the energy is not a finite number"]),
+        of(&Error::Memory { coordinates: 13 }, &["a system of 13 coordinates"]),
+        of(
+            &Error::Ended { reason: "in its words".into() },
+            &["argmin ended the run: in its words"],
+        ),
+    ];
+    let test = "refusals_of_energy_for_systems";
+    let mut output = output("a refusal of energy for a system", test, &refusals);
+    let kinds = [
+        "setting",
+        "no_member",
+        "no_load",
+        "direction",
+        "falls",
+        "seed",
+        "not_closed",
+        "iteration_limit",
+        "stalled",
+        "no_minimum",
+        "wrong_sign",
+        "floor_pulls",
+        "not_finite",
+        "memory",
+        "ended",
+    ];
+    output.is("kind", kinds.as_slice());
+    output.is("field", "tolerance");
+    output.is("value", 2.5);
+    output.is("low", 1e-14);
+    output.is("high", 0.5);
+    output.is("joint", json!([3, 4, 12]));
+    output.is("direction[]", json!([0.25, 0.75, -1.5]));
+    output.is("force_n", json!([5.5, -6.5, 7.5]));
+    output.is("joints", 6);
+    output.is("given", 7);
+    output.is("member", json!([8, 11]));
+    output.is("misfit_m", 0.875);
+    output.is("iterations", 9);
+    output.is("unbalance", json!([0.125, 0.375]));
+    output.is("misfit", json!([0.25, 0.5]));
+    output.is("index", 10);
+    output.is("quantity", "energy");
+    output.is("coordinates", 13);
+    output.is("reason", "in its words");
+    output.done();
+}
+
+#[test]
+fn refusals_of_lagrange_for_chains() {
+    use lagrange::condensed::CondensedError;
+    use lagrange::{SettingsError, SolveError};
+    let settings = SettingsError { name: "tolerance", value: 2.5, low: 1e-15, high: 0.5 };
+    let refusals = [
+        of(
+            &SolveError::Settings(settings),
+            &["tolerance = 2.5 is outside its range, 1e-15 to 5e-1"],
+        ),
+        of(&SolveError::SeedLength { expected: 3, got: 4 }, &["of 4 bars, the chain has 3"]),
+        of(
+            &SolveError::SeedNotFinite { bar: 5, angle_rad: 6.5 },
+            &["bar 5 has an angle of 6.5 rad"],
+        ),
+        of(
+            &SolveError::Stagnated { residual: 0.125, iterations: 7, relaxations: 8 },
+            &["residual 1.250e-1 (relative) after 7 steps and 8 relaxations"],
+        ),
+        of(
+            &SolveError::FalseRoot { bar: 9, moment: 0.25 },
+            &["a moment of 2.500e-1", "acts on bar 9"],
+        ),
+        of(&SolveError::Unstable { found: 10, index: 11 }, &["10 of them, the last of index 11"]),
+        of(&SolveError::Spectrum { size: 12 }, &["the Jacobian (size 12)"]),
+        of(
+            &CondensedError::NotClosed { closure: 0.375, passes: 13 },
+            &["off by 3.750e-1 of its length after 13 passes"],
+        ),
+        of(&CondensedError::Overflow, &["larger than a double can hold"]),
+        of(&CondensedError::Settings(settings), &["tolerance", "2.5"]),
+    ];
+    let test = "refusals_of_lagrange_for_chains";
+    let mut output = output("a refusal of lagrange", test, &refusals);
+    let kinds = [
+        "settings",
+        "seed_length",
+        "seed_not_finite",
+        "stagnated",
+        "false_root",
+        "unstable",
+        "spectrum",
+        "not_closed",
+        "overflow",
+        "settings",
+    ];
+    output.is("kind", kinds.as_slice());
+    output.each("name", "tolerance");
+    output.each("value", 2.5);
+    output.each("low", 1e-15);
+    output.each("high", 0.5);
+    output.is("expected", 3);
+    output.is("got", 4);
+    output.is("bar", json!([5, 9]));
+    output.is("angle_rad", 6.5);
+    output.is("residual", 0.125);
+    output.is("iterations", 7);
+    output.is("relaxations", 8);
+    output.is("moment", 0.25);
+    output.is("found", 10);
+    output.is("index", 11);
+    output.is("size", 12);
+    output.is("closure", 0.375);
+    output.is("passes", 13);
+    output.done();
+}
+
+#[test]
+fn refusals_of_lagrange_for_systems() {
+    use lagrange::network::{Error, SettingsError};
+    let settings = SettingsError { name: "tolerance", value: 2.5, low: 1e-14, high: 0.5 };
+    let joint = || "P".to_owned();
+    let refusals = [
+        of(&Error::Settings(settings), &["tolerance", "2.5"]),
+        of(
+            &Error::SeedLength { of: "joints", expected: 3, got: 4 },
+            &["holds 4 joints, the system has 3"],
+        ),
+        of(&Error::SeedNotFinite { of: "joint", number: 5 }, &["not finite at joint 5"]),
+        of(
+            &Error::Falls { joint: joint(), joints: 6, load_n: 7.5 },
+            &["joint P and the 6 joints", "resists 7.500e0 N"],
+        ),
+        of(
+            &Error::Escapes { joint: joint(), distance_m: 8.5 },
+            &["joint P moves on", "8.500e0 m away"],
+        ),
+        of(
+            &Error::TooShort { from: "A".into(), to: "B".into(), distance_m: 9.5, reach_m: 4.5 },
+            &["9.5 m between A and B", "reach 4.5 m"],
+        ),
+        of(
+            &Error::HeldMisfit { member: 10, length_m: 3.5, distance_m: 2.25 },
+            &["member 10 of 3.5 m is held at both ends, 2.25 m apart"],
+        ),
+        of(&Error::Unloaded, &["nothing decides the shape"]),
+        of(
+            &Error::NotConverged {
+                iterations: 11,
+                joint: joint(),
+                unbalance: 0.125,
+                member: 12,
+                misfit_m: 0.25,
+            },
+            &[
+                "after 11 factorisations",
+                "balance of P is off by 1.250e-1",
+                "member 12 by 2.500e-1 m",
+            ],
+        ),
+        of(&Error::Floor { rounds: 13 }, &["after 13 rounds"]),
+        of(&Error::Unstable { index: 14 }, &["of index 14"]),
+        of(&Error::Memory { unknowns: 15 }, &["of 15 unknowns"]),
+        of(&Error::NoDerivative { left: 0.375 }, &["leave 3.8e-1 of a change"]),
+        of(&Error::NotAnAnchor { joint: joint() }, &["joint P is no anchor"]),
+    ];
+    let test = "refusals_of_lagrange_for_systems";
+    let mut output = output("a refusal of lagrange for a system", test, &refusals);
+    let kinds = [
+        "settings",
+        "seed_length",
+        "seed_not_finite",
+        "falls",
+        "escapes",
+        "too_short",
+        "held_misfit",
+        "unloaded",
+        "not_converged",
+        "floor",
+        "unstable",
+        "memory",
+        "no_derivative",
+        "not_an_anchor",
+    ];
+    output.is("kind", kinds.as_slice());
+    output.is("name", "tolerance");
+    output.is("value", 2.5);
+    output.is("low", 1e-14);
+    output.is("high", 0.5);
+    output.is("of", json!(["joints", "joint"]));
+    output.is("expected", 3);
+    output.is("got", 4);
+    output.is("number", 5);
+    output.each("joint", "P");
+    output.is("joints", 6);
+    output.is("load_n", 7.5);
+    output.is("distance_m", json!([8.5, 9.5, 2.25]));
+    output.is("from", "A");
+    output.is("to", "B");
+    output.is("reach_m", 4.5);
+    output.is("member", json!([10, 12]));
+    output.is("length_m", 3.5);
+    output.is("iterations", 11);
+    output.is("unbalance", 0.125);
+    output.is("misfit_m", 0.25);
+    output.is("rounds", 13);
+    output.is("index", 14);
+    output.is("unknowns", 15);
+    output.is("left", 0.375);
+    output.done();
+}

@@ -1,0 +1,178 @@
+//! What is left open, and what merges, of chains whose degenerate places have closed forms.
+
+use serde_json::json;
+
+use super::evidence::NOTHING;
+use super::output::{Output, good, run};
+
+/// A census that does not decide everything.
+fn census(test: &'static str, end: &str, bars: &str) -> Output {
+    let folder = tempfile::tempdir().unwrap();
+    let text = format!(
+        "gravity_m_s2 = 10\nanchors = {{ start_m = [0, 0, 0], end_m = {end} }}\nbars = [{bars}]\n"
+    );
+    std::fs::write(folder.path().join("file.toml"), text).unwrap();
+    let (code, text) = run(folder.path(), &["census", "file.toml", "--json"]);
+    assert_eq!(code, Some(3), "{text}");
+    let mut output = Output::json("census of a chain", test, &text);
+    output.is("census.complete", false);
+    output.is("census.decided", false);
+    output
+}
+
+fn open(key: &str) -> String {
+    format!("census.undecided[].{key}")
+}
+
+/// Four bars of 1 m fit into a line of 2 m when one of them points back, by -2 or by +2 times the
+/// pull: the forces along (3, -4) have no bound, so the boxes hold w = 0 at H/V = -3/4.
+#[test]
+fn pulls_without_bound() {
+    let bars = "{ length_m = 1, mass_kg = 1, count = 4 }";
+    let mut output = census("pulls_without_bound", "[1.2, 0, -1.6]", bars);
+    output.is("census.undecided_boxes", 2);
+    output.each(&open("reason"), "degenerate");
+    output.says(&open("why"), &["as small as cells get"]);
+    output.each(&open("pattern_count"), 4);
+    let back = [[1, 1, 1, -1], [1, 1, -1, 1], [1, -1, 1, 1], [-1, 1, 1, 1]];
+    let forth = back.map(|signs| signs.map(|sign: i32| -sign));
+    let [first, second, third, fourth] = forth;
+    output.is(&open("patterns[][]"), json!([back, [fourth, third, second, first]]));
+    // V = -1 and V = 1 are the faces of the half cube, with the coordinates H and w.
+    output.is(&open("chart"), json!(["below", "above"]));
+    let at = output.numbers(&open("at[][]"));
+    for (at, slope) in at.chunks(4).zip([0.75, -0.75]) {
+        assert!(at[0] <= slope && slope <= at[1] && at[1] - at[0] < 1e-6, "{at:?}");
+        assert!(at[2] <= 0.0 && 0.0 <= at[3] && at[3] < 1e-6, "{at:?}");
+    }
+    output.each(&open("pull_n"), json!(null));
+    output.each(&open("at_most"), json!(null));
+    output.each(&open("degree"), json!(null));
+    output.is("census.straight[]", json!([]));
+    output.says("census.topology_unknown", &["sides 4, 5 are together as long as the others"]);
+    output.each("equilibria[].evidence.ladder[].reason.cells", 2);
+    output.done();
+}
+
+/// Bars of 1 m with 10 and 20 N between anchors 2e-6 m apart, along (3, 4): they lie across it, and
+/// their moment about the second anchor, 30 N times 0.4 m, is borne by a pull of 6e6 N along them.
+#[test]
+fn two_bars_next_to_each_other() {
+    let bars = "{ length_m = 1, mass_kg = 1 }, { length_m = 1, mass_kg = 2 }";
+    let mut output = census("two_bars_next_to_each_other", "[1.2e-6, 0, 1.6e-6]", bars);
+    output.is("census.undecided_boxes", 2);
+    output.each(&open("reason"), "degenerate");
+    output.says(&open("why"), &["as small as cells get"]);
+    output.each(&open("pattern_count"), 1);
+    output.each(&open("patterns[][]"), json!([-1, 1]));
+    output.is(&open("chart"), json!(["left", "right"]));
+    // V/|H|, and the unit of force over |H|: that of a power of two of kg above 0.75, which is half
+    // of what hangs at the joints.
+    let at = output.numbers(&open("at[][]"));
+    for (at, slope) in at.chunks(4).zip([0.75, -0.75]) {
+        assert!(at[0] <= slope && slope <= at[1] && at[1] - at[0] < 1e-8, "{at:?}");
+        let w = 10.0 / 4.8e6;
+        assert!(at[2] <= w && w <= at[3] && at[3] - at[2] < 1e-8 * w, "{at:?}");
+    }
+    let pulls = output.numbers(&open("pull_n[][]"));
+    for (pull, sign) in pulls.chunks(4).zip([1.0, -1.0]) {
+        // What bears the weights themselves is some 10 N of these.
+        let near = |ends: &[f64], wanted: f64| {
+            ends.iter().all(|end| (end - wanted).abs() < 30.0) && ends[0] < ends[1]
+        };
+        assert!(near(&pull[..2], -4.8e6 * sign) && near(&pull[2..], 3.6e6 * sign), "{pull:?}");
+    }
+    // The bars stand across to either side: one place each, of index 0 and 1 in the plane or in
+    // space, whose signs cancel.
+    output.each(&open("at_most"), 1);
+    output.is(&open("degree"), json!([1, -1]));
+    output.done();
+}
+
+/// Bars of 2 m hang from both anchors or stand on both, 4 m apart: the bars of 5 and of 1 m between
+/// them bear nothing and just bridge that, 5 - 1 = 4, so no number tells slack from taut.
+#[test]
+fn a_gap_just_bridged() {
+    let bars = "{ length_m = 2, mass_kg = 2 }, { length_m = 5, mass_kg = 0, centre_m = 5 }, \
+                { length_m = 1, mass_kg = 3, centre_m = 1 }, \
+                { length_m = 2, mass_kg = 0, centre_m = 0.5 }";
+    let mut output = census("a_gap_just_bridged", "[0, 0, 4]", bars);
+    output.is(&open("reason"), json!(["unloaded", "slack", "slack"]));
+    output.says(
+        &open("why"),
+        &["the force of a bar vanishes here", "may or may not bridge", "may or may not bridge"],
+    );
+    output.is(&open("pattern_count"), json!([4, 1, 1]));
+    // Around the force of the second bar, which vanishes where the first bears its own weight.
+    output.each(&open("chart.around"), 1);
+    let pulls = output.numbers(&open("pull_n[][]"));
+    for pull in pulls.chunks(4) {
+        assert!(pull[0] <= 0.0 && 0.0 <= pull[1] && pull[1] - pull[0] < NOTHING, "{pull:?}");
+        // The whole weight of the first bar.
+        assert!(pull[2] <= -20.0 && -20.0 <= pull[3] && pull[3] - pull[2] < NOTHING, "{pull:?}");
+    }
+    output.done();
+}
+
+/// The joint between two slack bars of 1 m, 1 m apart, may be anywhere that these let it.
+#[test]
+fn a_free_joint() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = "gravity_m_s2 = 10\nanchors = { start_m = [0, 0, 0], end_m = [1, 0, 0] }\n\
+                bars = [{ length_m = 1, mass_kg = 1 }, { length_m = 1, mass_kg = 0, count = 2 }, \
+                { length_m = 1, mass_kg = 1 }]\n";
+    std::fs::write(folder.path().join("file.toml"), text).unwrap();
+    let text = good(folder.path(), &["solve", "file.toml", "--json"]);
+    let mut output = Output::json("solve a chain", "a_free_joint", &text);
+    let proof = "equilibria[].evidence.ladder[].proof.free_joints";
+    for free in [proof, "agreement.free"] {
+        output.each(&format!("{free}.first"), 2);
+        output.each(&format!("{free}.last"), 2);
+    }
+    output.is("agreement.free_joints", 1);
+    // Both heavy bars hang upright.
+    output.each("equilibria[].energy_j", -10.0);
+    output.each("equilibria[].axial_n[]", json!([5.0, 0.0, 0.0, 5.0]));
+    output.done();
+}
+
+/// Three bars of 1 m and 10 N to (1, -2): two hang upright with the second one level between them
+/// and without force. Of six equilibria nearer by four merge there, and two are left further off.
+#[test]
+fn four_merge() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = "gravity_m_s2 = 10\nanchors = { start_m = [0, 0, 0], end_m = [1, 0, -1] }\n\
+                bars = [{ length_m = 1, mass_kg = 1, count = 3 }]\n";
+    std::fs::write(folder.path().join("file.toml"), text).unwrap();
+    let arguments = ["trace", "file.toml", "--vary", "anchors.end_m.z=-2.2..-1.8:3", "--json"];
+    let text = good(folder.path(), &arguments);
+    let mut output = Output::json("trace", "four_merge", &text);
+    let point = |key: &str| format!("traces[].points[].{key}");
+    output.is(&point("status"), json!(["complete", "undecided", "complete"]));
+    output.is(&point("count"), json!([2, 6]));
+    output.is(&point("proved"), 2);
+    output.is(&point("reasons[]"), json!([]));
+    output.is(&point("straight"), 0);
+    output.is(&point("merged[].multiplicity"), 4);
+    output.is(&point("merged[].degree"), 0);
+    let event = |key: &str| format!("traces[].events[].{key}");
+    output.is(&event("kind"), json!(["multiple", "unloaded", "unloaded"]));
+    output.is(&event("multiplicity"), 4);
+    output.is(&event("degree"), 0);
+    output.is(&event("bar"), json!([2, 2]));
+    output.each(&event("values[]"), -2.0);
+    output.each(&event("values_error[]"), 0.0);
+    output.each(&event("position"), 0.5);
+    output.each(&event("position_error"), 0.0);
+    output.each(&event("span_m"), 5.0_f64.sqrt());
+    let quarter = std::f64::consts::FRAC_PI_2;
+    output.each(&event("angles_rad[]"), json!([0.0, quarter, 0.0]));
+    // Centres at 0.5, 1 and 1.5 m below the first anchor.
+    output.each(&event("energy_j"), -30.0);
+    output.within(&event("residual"), 0.0..=NOTHING);
+    output.within(&event("singular"), 0.0..=NOTHING);
+    output.is(&event("branches[]"), json!([2, 3, 4, 5, 3, 4]));
+    output.is("traces[].branches[].start.event", json!([0, 0, 0, 0]));
+    output.is("traces[].checks.mismatches[]", json!([]));
+    output.done();
+}
