@@ -95,7 +95,10 @@ fn branches_are_followed_into_upright_positions() {
             .collect();
         // Level with the reach: 3² − 1² = 8.
         assert!(straight.iter().all(|x| (x - 8.0_f64.sqrt()).abs() < 1e-10), "{straight:?}");
-        for at in trace.points.iter().filter(|point| point.values[0].abs() <= 0.0) {
+        assert_eq!(straight.is_empty(), range.starts_with("0..1.1"), "{range}: {straight:?}");
+        let upright = trace.points.iter().filter(|point| point.values[0].abs() <= 0.0);
+        assert_eq!(upright.clone().count(), 1, "{range}");
+        for at in upright {
             let PointStatus::Undecided { straight, .. } = &at.status else { panic!("{at:?}") };
             assert_eq!(*straight, 3);
             if range.starts_with('-') {
@@ -112,6 +115,7 @@ fn branches_are_followed_into_upright_positions() {
                 energies.push(first.energy_j / MGL);
             }
             energies.sort_by(f64::total_cmp);
+            assert_eq!(energies.len(), 6, "{range}");
             for (found, wanted) in energies.iter().zip([-3.5, -3.5, -1.5, -1.5, 0.5, 0.5]) {
                 assert!((found - wanted).abs() < 1e-3, "{range}: {energies:?}");
             }
