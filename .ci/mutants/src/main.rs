@@ -1,17 +1,25 @@
-//! Puts the changes that `cargo mutants --list --json` proposes behind one switch, so that a single build holds them all.
+//! Changes of the code that no test notices, many of them in one build.
 //!
-//! Usage: `mutant-switches ROOT < LIST > PLACED`. `LIST` is a subset of that list, each entry with an `id`; the files
-//! below `ROOT` are rewritten in place: an operator `a + b` becomes `(if crate::mx::on(7) {(a) - (b)} else {a + b})`, a
-//! function returns the proposed value first, an arm of a match gets a guard. The ids that were placed are printed.
+//! The changes are those that `cargo mutants --list --json` proposes. An operator `a + b` becomes
+//! `(if crate::mx::on(7) {(a) - (b)} else {a + b})`, a function returns the proposed value first, an arm of a match gets
+//! a guard; the environment says which one is on. Usage: see [`options::USAGE`].
 
+mod compile;
+mod draw;
 mod edit;
+mod judge;
+mod options;
 mod place;
-
-use std::collections::BTreeMap;
-use std::io::Read;
-use std::path::Path;
+mod report;
+mod tests;
+mod tree;
 
 use serde::Deserialize;
+
+use crate::options::Options;
+use crate::tree::Tree;
+
+type Failure = Box<dyn std::error::Error + Send + Sync>;
 
 /// A position as cargo-mutants counts it: lines and columns from 1, columns in characters.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -30,32 +38,47 @@ pub struct Span {
 /// One change of one file.
 #[derive(Clone, Debug, Deserialize)]
 pub struct Mutant {
+    /// Given by the draw; 0 is none.
+    #[serde(default)]
     pub id: u32,
     pub file: String,
+    pub name: String,
     pub span: Span,
     pub replacement: String,
     pub genre: String,
 }
 
-fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let root = std::env::args().nth(1).ok_or("usage: mutant-switches ROOT < LIST")?;
-    let mut list = String::new();
-    std::io::stdin().read_to_string(&mut list)?;
-    let mut files: BTreeMap<String, Vec<Mutant>> = BTreeMap::new();
-    for mutant in serde_json::from_str::<Vec<Mutant>>(&list)? {
-        files.entry(mutant.file.clone()).or_default().push(mutant);
-    }
-    let mut placed = Vec::new();
-    for (file, mutants) in files {
-        let path = Path::new(&root).join(&file);
-        let source = std::fs::read_to_string(&path)?;
-        let (text, ids) = place::switched(&source, &mutants)?;
-        if let Err(error) = syn::parse_file(&text) {
-            return Err(format!("{file}: {error}").into());
+fn main() -> std::process::ExitCode {
+    match run() {
+        Ok(()) => std::process::ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("{error}");
+            std::process::ExitCode::FAILURE
         }
-        std::fs::write(&path, text)?;
-        placed.extend(ids);
     }
-    println!("{}", serde_json::to_string(&placed)?);
+}
+
+fn run() -> Result<(), Failure> {
+    let options = Options::from_args(std::env::args().skip(1))?;
+    let all = draw::listed(&options.krate)?;
+    let drawn = match &options.only {
+        Some(file) => draw::named(&all, &std::fs::read_to_string(file)?),
+        None => draw::drawn(&all, options.draw, options.seed),
+    };
+    eprintln!("{} of {} changes", drawn.len(), all.len());
+    let tree = Tree::copied(&options)?;
+    let built = compile::built(&tree, &options, drawn)?;
+    let tests = tests::traced(&built.programs, &options)?;
+    if tests.iter().all(|test| test.reaches.is_empty()) {
+        return Err(
+            "no test reaches a change: the target folder is also that of another tree".into()
+        );
+    }
+    let verdicts = judge::judged(&built.run, &tests, &options)?;
+    let text = report::written(&options, all.len(), &built, &tests, &verdicts)?;
+    match &options.out {
+        Some(file) => std::fs::write(file, text)?,
+        None => print!("{text}"),
+    }
     Ok(())
 }

@@ -1,0 +1,79 @@
+//! What the command line says.
+
+use std::path::PathBuf;
+
+use crate::Failure;
+
+pub const USAGE: &str = "usage: mutants CRATE [--draw N] [--seed S] [--only FILE] [--also CRATE]
+               [--work DIR] [--target-dir DIR] [--limit SECONDS] [--jobs N] [--out FILE]
+Run at the top of the workspace.
+  --draw N          changes drawn at random; without it all
+  --seed S          of the draw
+  --only FILE       the changes named in the tables of a result, by file, text and nearest line
+  --also CRATE      shows what survives to the tests of another crate, too
+  --work DIR        where the copy of the workspace goes (target/mutants)
+  --target-dir DIR  of its builds (target of that folder): a copy of a warm one saves the third-party crates.
+                    Its own alone: cargo takes the crates of another tree there for those of this one
+  --limit SECONDS   tests that take longer are not asked (30)
+  --jobs N          tests at a time (2)
+  --out FILE        of the result, Markdown";
+
+pub struct Options {
+    pub krate: String,
+    pub also: Option<String>,
+    pub draw: usize,
+    pub seed: u64,
+    pub only: Option<PathBuf>,
+    pub work: PathBuf,
+    pub target: PathBuf,
+    pub limit: f64,
+    pub jobs: usize,
+    pub out: Option<PathBuf>,
+}
+
+impl Options {
+    /// # Errors
+    ///
+    /// The usage, where an argument is unknown, lacks its value or is no number.
+    pub fn from_args(mut args: impl Iterator<Item = String>) -> Result<Self, Failure> {
+        let krate = args.next().filter(|name| !name.starts_with('-')).ok_or(USAGE)?;
+        let mut options = Self {
+            krate,
+            also: None,
+            draw: usize::MAX,
+            seed: 1,
+            only: None,
+            work: PathBuf::from("target/mutants"),
+            target: PathBuf::new(),
+            limit: 30.0,
+            jobs: 2,
+            out: None,
+        };
+        while let Some(name) = args.next() {
+            let value = args.next().ok_or(USAGE)?;
+            match name.as_str() {
+                "--draw" => options.draw = value.parse()?,
+                "--seed" => options.seed = value.parse()?,
+                "--only" => options.only = Some(value.into()),
+                "--also" => options.also = Some(value),
+                "--work" => options.work = value.into(),
+                "--target-dir" => options.target = value.into(),
+                "--limit" => options.limit = value.parse()?,
+                "--jobs" => options.jobs = value.parse()?,
+                "--out" => options.out = Some(value.into()),
+                _ => return Err(USAGE.into()),
+            }
+        }
+        options.work = std::path::absolute(&options.work)?;
+        if options.target.as_os_str().is_empty() {
+            options.target = options.work.join("target");
+        }
+        options.target = std::path::absolute(&options.target)?;
+        Ok(options)
+    }
+
+    /// The packages whose tests are asked.
+    pub fn packages(&self) -> impl Iterator<Item = &str> {
+        std::iter::once(self.krate.as_str()).chain(self.also.as_deref())
+    }
+}
