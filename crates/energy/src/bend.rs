@@ -121,4 +121,14 @@ mod tests {
         let (fall, of_whole) = (before.value - after.value, whole.value - moved.value);
         assert!(fall.abs() > 1e-3 && (unit * fall - of_whole).abs() < 1e-15, "{fall} {of_whole}");
     }
+
+    #[test]
+    fn bars_without_weight_are_no_chain_to_minimise() {
+        let links = Links { carried: vec![0.25; 100], ..deep() };
+        assert!(links.part(10..20, &links.arc()).is_none());
+        let (part, _) = deep().part(10..20, &deep().arc()).unwrap();
+        assert!((part.length.iter().sum::<f64>() - 1.0).abs() < 1e-14);
+        // Its weights count from the middle, from one half to minus one half.
+        assert!((part.carried[0] - 0.5).abs() < 1e-13 && (part.carried[9] + 0.5).abs() < 1e-13);
+    }
 }

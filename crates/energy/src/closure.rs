@@ -309,3 +309,80 @@ pub(crate) fn unpacked(packed: &[f64; 6]) -> Symmetric {
     matrix.entry[2] = [xz, yz, zz, 0.0];
     matrix
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn links(motion: Motion) -> Links {
+        Links {
+            length: vec![0.25; 5],
+            carried: vec![0.4, 0.2, 0.0, -0.2, -0.4],
+            span: [[1.0, 0.0, 0.0], [0.0; 3]],
+            up: [0.0, 0.0, 1.0],
+            vertical: false,
+            motion,
+        }
+    }
+
+    /// No turn of bars along the gap changes it to first order; of bars across, all is predicted.
+    #[test]
+    fn the_fall_that_a_pull_promises() {
+        let spread = |u: Vector| links(Motion::Space).measure(&[u; 5]).spread;
+        let along = spread([1.0, 0.0, 0.0]);
+        let gap = [0.25, 0.0, 0.0];
+        assert!(predicted_fall(&along, 0.0, gap, [0.0; 3]).abs() <= 0.0);
+        let across = spread([0.0, 0.0, 1.0]);
+        let pull = scaled(-1.0, answer(&across, 0.0, gap));
+        assert!((pull[0] + 0.2).abs() < 1e-15);
+        assert!((predicted_fall(&across, 0.0, gap, pull) - 0.0625).abs() < 1e-15);
+        // A damping as large as the spread leaves half of the gap.
+        let pull = scaled(-1.0, answer(&across, 1.25, gap));
+        assert!((predicted_fall(&across, 1.25, gap, pull) - 0.75 * 0.0625).abs() < 1e-15);
+        let half = [-0.1, 0.0, 0.0];
+        assert!((predicted_fall(&across, 0.0, gap, half) - 0.75 * 0.0625).abs() < 1e-15);
+    }
+
+    /// Bars on a line, the third axis among them, all turn off it by the same angle, to both sides;
+    /// in space each in a plane of its own.
+    #[test]
+    fn nudged_bars_leave_their_line() {
+        for u in [[1.0, 0.0, 0.0], [0.6, 0.0, -0.8], [0.0, 1.0, 0.0]] {
+            for motion in [Motion::Plane, Motion::Space] {
+                let shape = links(motion).nudged(&[u; 5]);
+                let parts: Vec<Vector> =
+                    shape.u.iter().map(|v| along(*v, -dot(*v, u), u)).collect();
+                for (v, part) in shape.u.iter().zip(&parts) {
+                    assert!((norm(*part) / dot(*v, u) - NUDGE).abs() < 1e-15);
+                }
+                let turned = GOLDEN_ANGLE.cos();
+                for (k, pair) in parts.windows(2).enumerate() {
+                    let cosine = dot(pair[0], pair[1]) / (norm(pair[0]) * norm(pair[1]));
+                    let expected = if motion == Motion::Plane { -1.0 } else { -turned };
+                    assert!((cosine - expected).abs() < 1e-12, "{u:?} {k}");
+                }
+            }
+        }
+    }
+
+    /// From bars on one line the chain closes, to rounding and with the length of its bars.
+    #[test]
+    fn straight_seeds_close() {
+        for motion in [Motion::Plane, Motion::Space] {
+            for u in [[1.0, 0.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.6, 0.0, 0.8]] {
+                let links = links(motion);
+                let moments = links.measure(&[u; 5]);
+                let closed = links.close(Shape { u: vec![u; 5], moments }, 60).unwrap();
+                let sum = closed.u.iter().fold([0.0; 3], |sum, u| along(sum, 0.25, *u));
+                assert!(norm(along(sum, -1.0, [1.0, 0.0, 0.0])) < 1e-14);
+                assert!(closed.u.iter().all(|u| (norm(*u) - 1.0).abs() < 1e-15));
+            }
+        }
+        let links = Links { span: [[1.3, 0.0, 0.0], [0.0; 3]], ..links(Motion::Space) };
+        let u = vec![[0.0, 0.0, 1.0]; 5];
+        let moments = links.measure(&u);
+        // Out of reach by 0.05.
+        let (left, _) = links.close(Shape { u, moments }, 200).unwrap_err();
+        assert!((left - 0.05).abs() < 1e-6);
+    }
+}

@@ -127,3 +127,18 @@ impl Convergence {
         self.shift = if self.shift < safe { next.min(safe) } else { next };
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_chain_turns_in_no_two_iterations_in_a_row() {
+        let mut convergence = Convergence::new(Settings::default());
+        assert!(convergence.may_turn() && !convergence.may_turn() && convergence.may_turn());
+        convergence.not_turned();
+        assert!(convergence.may_turn());
+        let blind = (0..100).filter(|_| convergence.may_turn_blindly()).count();
+        assert_eq!(blind, BLIND_TURNS);
+    }
+}

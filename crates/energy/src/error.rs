@@ -124,3 +124,32 @@ impl Error {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The reasons are counted and compared over runs: none may take the place of another.
+    #[test]
+    fn every_kind_has_its_reason() {
+        let seed = "bad seed";
+        let all = [
+            (
+                Error::Setting { field: "f", value: 2.0, low: 0.0, high: 1.0 },
+                "setting out of range",
+            ),
+            (Error::SeedSize { bars: 3, given: 2 }, seed),
+            (Error::SeedDirection { bar: 1, direction: [0.0; 3] }, seed),
+            (Error::SeedAngle { angle_rad: f64::NAN }, seed),
+            (Error::NotClosed { gap: 0.1, iterations: 3 }, "not closed"),
+            (Error::IterationLimit { iterations: 3, gradient: 0.1 }, "iteration limit"),
+            (Error::Stalled { iterations: 3, gradient: 0.1, gap: 0.0, directions: 1 }, "stalled"),
+            (Error::NearlyFolded { across: 1e-9 }, "nearly folded"),
+            (Error::NotFinite { quantity: "energy" }, "not finite"),
+            (Error::Ended { reason: "interrupt".to_owned() }, "ended by argmin"),
+        ];
+        for (error, reason) in all {
+            assert_eq!(error.reason(), reason);
+        }
+    }
+}

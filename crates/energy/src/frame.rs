@@ -131,4 +131,16 @@ mod tests {
         assert_eq!(bits(frame.into_frame([0.0, 0.0, -2.0])), bits([2.0, 0.0, 0.0]));
         assert_eq!(frame.into_frame([5.0, 0.0, 0.0])[1].abs().to_bits(), 5.0_f64.to_bits());
     }
+
+    /// The root of two to 32 digits: 1.414213562373095048801688724209698 (OEIS A002193).
+    #[test]
+    fn the_way_between_the_anchors_is_known_to_twice_the_digits() {
+        for scale in [1.0, 4.0, 0.25] {
+            let drawn_out = Frame { axis: [[1.0, 0.0, 0.0]; 3], drawn_out: true };
+            let [first, rest] = drawn_out.span([scale, 0.0, -scale]);
+            assert_eq!(first[0].to_bits(), (scale * std::f64::consts::SQRT_2).to_bits());
+            assert!((rest[0] / scale + 9.667_293_313_452_913e-17).abs() < 1e-31);
+            assert!([first[1], first[2], rest[1], rest[2]].iter().all(|x| x.abs() <= 0.0));
+        }
+    }
 }

@@ -144,4 +144,46 @@ mod tests {
             assert!((0..3).all(|k| (back[k] - u[k]).abs() < 1e-15));
         }
     }
+
+    /// Anchors nearly on one vertical, and a pull that is heading elsewhere: the turn brings it over
+    /// the end anchor, on either side, and promises what the energy loses by that.
+    #[test]
+    fn the_chain_turns_towards_its_anchor() {
+        let problem = samples::equal_bars(4, 4.0, 1.0, [0.0, 1e-4, -1.0]);
+        let (links, _) = Links::new(&problem, Motion::Space);
+        assert_eq!(Turning::of(&links), Turning::Soft);
+        let level = [links.up[2], 0.0, -links.up[0]];
+        let offset = dot(level, links.span[0]);
+        let along = |h: f64, n: f64| -> Vector {
+            std::array::from_fn(|k| h * level[k] + 0.3 * links.up[k] + n * f64::from(k == 1))
+        };
+        let slope = |multiplier: Vector, mean: f64| Slope {
+            mean,
+            multiplier,
+            ..Slope::refined(&links, &links.arc(), multiplier)
+        };
+        for side in [1.0, -1.0] {
+            let links = Links {
+                span: links.span.map(|s| [side * s[0], s[1], side * s[2]]),
+                ..links.clone()
+            };
+            let offset = side * offset;
+            for (h, n) in [(0.3, 0.4), (-0.3, 0.4), (-0.3, -0.4), (0.0, 0.5), (-0.5, 0.0)] {
+                let multiplier = along(h * offset.signum(), n);
+                let (turn, fall) = Turn::towards_anchor(&links, &slope(multiplier, 0.0)).unwrap();
+                let turned = turn.of(&[multiplier])[0];
+                assert!((dot(level, turned) * offset.signum() - 0.5).abs() < 1e-15, "{h} {n}");
+                assert!(turned[1].abs() < 1e-15 && (dot(turned, links.up) - 0.3).abs() < 1e-15);
+                let exact = (0.5 - h) * offset.abs();
+                assert!((fall - exact).abs() < 1e-15 * (1.0 + exact), "{h} {n}");
+            }
+            // Over the anchor to a tenth of the offset already; and a pull that is not known.
+            let near = along(0.5 * offset.signum(), 0.04 * offset.abs());
+            assert!(Turn::towards_anchor(&links, &slope(near, 0.0)).is_none());
+            let far = along(0.5 * offset.signum(), 0.06 * offset.abs());
+            assert!(Turn::towards_anchor(&links, &slope(far, 0.0)).is_some());
+            assert!(Turn::towards_anchor(&links, &slope(along(-0.3, 0.4), 0.051)).is_none());
+            assert!(Turn::towards_anchor(&links, &slope(along(-0.3, 0.4), 0.049)).is_some());
+        }
+    }
 }

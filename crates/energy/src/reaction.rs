@@ -183,3 +183,32 @@ fn spare_length(links: &Links) -> f64 {
     let longest = links.length.iter().fold(0.0_f64, |m, l| m.max(*l));
     (total - span).min(total + span - 2.0 * longest)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_anchor_moves_until_the_chain_is_straight_or_folded() {
+        let links = |length: Vec<f64>, span: Vector| Links {
+            carried: vec![0.0; length.len()],
+            length,
+            span: [span, [0.0; 3]],
+            up: [0.0, 0.0, 1.0],
+            vertical: false,
+            motion: Motion::Plane,
+        };
+        // 1.5 long over 1.25: a quarter. Folded over a bar of one, the others 0.5: 0.5 + 0.75 - 1.
+        assert!((spare_length(&links(vec![0.5; 3], [0.75, 0.0, 1.0])) - 0.25).abs() < 1e-15);
+        let folded = links(vec![0.25, 1.0, 0.25], [0.45, 0.0, -0.6]);
+        assert!((spare_length(&folded) - 0.25).abs() < 1e-15);
+    }
+
+    /// The central differences of a polynomial of the seventh degree have errors in three even
+    /// powers of the step; four levels leave nothing of them.
+    #[test]
+    fn extrapolation_is_exact_for_polynomials() {
+        let value = |h: f64| Ok(3.0 + 2.0 * h - h.powi(2) + 5.0 * h.powi(3) - 4.0 * h.powi(5));
+        assert!((extrapolated(0.5, value).unwrap() - 2.0).abs() < 1e-13);
+    }
+}

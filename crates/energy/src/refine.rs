@@ -303,3 +303,7 @@ fn counted_from(problem: &Problem, bar: usize) -> Vec<f64> {
     }
     carried
 }
+
+#[cfg(test)]
+#[path = "refine_tests.rs"]
+mod tests;

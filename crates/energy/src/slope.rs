@@ -117,3 +117,38 @@ impl Slope {
         norm(self.multiplier)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::settings::Motion;
+
+    /// Of weights counted from a bar the smallest that is not zero says what a curvature is held
+    /// against; of all others the largest force.
+    #[test]
+    fn zero_is_a_part_of_the_smallest_load_at_a_refined_minimum() {
+        let links = Links {
+            length: vec![0.25; 4],
+            carried: vec![0.0, -3e-5, 0.25, -0.5],
+            span: [[0.0; 3]; 2],
+            up: [0.0, 0.0, 1.0],
+            vertical: true,
+            motion: Motion::Plane,
+        };
+        let u = [[0.0, 0.0, -1.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.6, 0.0, 0.8]];
+        let slope = Slope::refined(&links, &u, [0.0, 0.0, 2.5]);
+        // The largest load is that of the third bar, 2.5 + 0.25.
+        assert!((slope.pull - 2.75).abs() < 1e-15);
+        assert!((slope.zero / 3e-15 - 1.0).abs() < 1e-12);
+        // Of the first and the third bar all load is along, of the second all is across, and the
+        // last is at 0.6 across and 0.8 along.
+        let exact = [2.5, 0.0, -2.75, -1.6];
+        assert!(slope.axial.iter().zip(exact).all(|(n, exact)| (n - exact).abs() < 1e-15));
+        let across = 2.5 - 3e-5;
+        assert!((slope.across - across).abs() < 1e-15);
+        assert!((slope.mean - (0.25 * (across * across + 1.2 * 1.2)).sqrt()).abs() < 1e-15);
+        assert!((slope.lowest + 2.75).abs() < 1e-15 && (slope.highest - 2.75).abs() < 1e-15);
+        assert!(slope.softest.abs() < 1e-15);
+        assert!((slope.residual() - across / 2.75).abs() < 1e-15);
+    }
+}

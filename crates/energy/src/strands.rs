@@ -152,4 +152,44 @@ mod tests {
             assert!(mu.iter().all(|x| x.abs() < 1e-15));
         }
     }
+
+    /// Powers of two of all lengths change neither the line nor which chain has one.
+    #[test]
+    fn a_line_is_one_in_every_unit() {
+        for scale in [1.0, 2.0_f64.powi(30), 2.0_f64.powi(-30)] {
+            let links = Links {
+                length: vec![scale * 0.5; 2],
+                carried: vec![0.25, -0.25],
+                span: [[scale, 0.0, 0.0], [0.0; 3]],
+                up: [0.0, 0.0, 1.0],
+                vertical: false,
+                motion: Motion::Space,
+            };
+            let bent = |angle: f64| {
+                let u: Vec<Vector> = [angle, -angle].map(|a: f64| [a.cos(), 0.0, a.sin()]).to_vec();
+                let moments = links.measure(&u);
+                line(&Shape { u, moments })
+            };
+            // The spread is the square of the angle: 1e-16 is rounding of the lengths, 1e-10 not.
+            let found = bent(1e-8).unwrap();
+            assert!(found[0].abs() > 1.0 - 1e-15 && found[2].abs() < 1e-7);
+            assert!(bent(1e-5).is_none() && bent(1e-2).is_none());
+        }
+    }
+
+    #[test]
+    fn anchors_off_the_line_are_off_it_by_their_part_of_the_length() {
+        let links = Links {
+            length: vec![1.0, 1.0],
+            carried: vec![0.25, -0.25],
+            span: [[0.3, 0.0, 0.4], [0.0, 0.0, 0.2]],
+            up: [0.0, 0.0, 1.0],
+            vertical: false,
+            motion: Motion::Space,
+        };
+        assert!((off_the_line(&links, [1.0, 0.0, 0.0]).unwrap() - 0.3).abs() < 1e-15);
+        assert!((off_the_line(&links, [0.0, 0.0, -1.0]).unwrap() - 0.15).abs() < 1e-15);
+        let straight = Links { span: [[0.3, 0.0, 0.4], [0.0; 3]], ..links };
+        assert!(off_the_line(&straight, [0.6, 0.0, 0.8]).is_none());
+    }
 }

@@ -250,4 +250,24 @@ mod tests {
         );
         assert_eq!(a.eigen().signs(1e-15), (2, 0));
     }
+
+    /// By a pivot of 1e-14 of its entry it is known; by one of 1e-15 it is lost. Powers of two
+    /// change no digit.
+    #[test]
+    fn a_lost_pivot_is_lost_in_every_unit() {
+        for scale in [1.0, 2.0_f64.powi(40), 2.0_f64.powi(-40)] {
+            for (pivot, kept) in [(1e-14, true), (1e-15, false), (-1e-14, false), (f64::NAN, false)]
+            {
+                let mut a = Symmetric::zero(2);
+                a.entry[0][..2].copy_from_slice(&[scale, scale]);
+                a.entry[1][..2].copy_from_slice(&[scale, scale * (1.0 + pivot)]);
+                assert_eq!(a.solve([scale, scale, 0.0, 0.0]).is_some(), kept, "{scale} {pivot}");
+            }
+            let mut a = example();
+            a.entry = a.entry.map(|row| row.map(|x| scale * x));
+            let (found, expected) =
+                (a.solve([scale; 4]).unwrap(), example().solve([1.0; 4]).unwrap());
+            assert_eq!(found.map(f64::to_bits), expected.map(f64::to_bits));
+        }
+    }
 }

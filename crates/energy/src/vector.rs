@@ -130,4 +130,13 @@ mod tests {
             assert!(unit(bad).is_none());
         }
     }
+
+    #[test]
+    fn sums_of_numbers_keep_what_plain_sums_lose() {
+        let mut sum = Sum::default();
+        for term in [1e16, 1.0, 3.0, 1.0, -1e16] {
+            sum.add(term);
+        }
+        assert_eq!(sum.value().to_bits(), 5.0_f64.to_bits());
+    }
 }

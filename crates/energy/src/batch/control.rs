@@ -205,7 +205,7 @@ impl Lane {
 }
 
 /// Whether the spread is so small along the gap that only rounding turns the bars.
-fn parallel([a, b, d]: [f64; 3], gap: [f64; 2], square: f64) -> bool {
+pub(super) fn parallel([a, b, d]: [f64; 3], gap: [f64; 2], square: f64) -> bool {
     const LEAST: f64 = 1e-12;
     let along = a * gap[0] * gap[0] + 2.0 * b * gap[0] * gap[1] + d * gap[1] * gap[1];
     along <= LEAST * square

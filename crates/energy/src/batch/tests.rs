@@ -7,7 +7,9 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use samples::{General, Line};
 
-use super::piece::direction;
+use super::piece::{Piece, direction};
+use super::point::{Place, measure, slopes};
+use super::wide::{WIDTH, same};
 use super::{Batch, BatchSettings};
 use crate::minimise::minimise_from;
 use crate::seed::Seed;
@@ -94,4 +96,97 @@ fn bad_and_straight_seeds() {
     let ends = solved(&problem, &[[0.0; 3], [TAU / 2.0; 3], [1.0; 3], e2].concat());
     assert_eq!(ends.finish, [Finish::Converged; 4]);
     assert!(solved(&problem, &[]).finish.is_empty());
+}
+
+/// Bars along (0.6, 0.8): their tangent parts are along (-0.8, 0.6).
+#[test]
+fn only_a_gap_along_the_bars_has_no_turn_that_closes_it() {
+    let spread = [0.64, -0.48, 0.36];
+    for size in [1e-9, 1.0, 1e3] {
+        let at = |gap: [f64; 2]| {
+            let gap = gap.map(|x| size * x);
+            super::control::parallel(spread, gap, gap[0] * gap[0] + gap[1] * gap[1])
+        };
+        assert!(at([0.6, 0.8]) && at([-0.6, -0.8]));
+        assert!(!at([-0.8, 0.6]) && !at([1.0, 0.0]) && !at([0.0, 1.0]) && !at([0.6, -0.8]));
+        // An angle of 1e-5 rad is enough: 1e-10 of the square of the gap.
+        assert!(!at([0.6 - 0.8e-5, 0.8 + 0.6e-5]) && at([0.6 - 0.8e-7, 0.8 + 0.6e-7]));
+    }
+}
+
+/// Three bars have one motion that keeps the gap, whose turns follow from its two equations; a
+/// minimum is where the sum of `l N` times the squares of the turns is positive. Turned at that
+/// rate the energy less the closing force times the way changes by the slopes.
+#[test]
+fn curvature_of_three_bars_is_that_of_their_one_motion() {
+    let mut rng = ChaCha8Rng::seed_from_u64(4);
+    let mut counts = [0; 2];
+    for _ in 0..500 {
+        let list: Vec<Piece> = (0..3)
+            .map(|_| Piece {
+                length: rng.random_range(0.1..0.5),
+                lifted: rng.random_range(-1.0..1.0),
+            })
+            .collect();
+        let at = |phi: &[f64; 3]| -> Vec<Place> {
+            let place =
+                |phi: &f64| Place { x: same(phi.sin()), z: same(-phi.cos()), ..Place::ZERO };
+            phi.iter().map(place).collect()
+        };
+        let phi: [f64; 3] = std::array::from_fn(|_| rng.random_range(0.0..TAU));
+        let mut places = at(&phi);
+        let sums = measure(&list, [0.0; 2], &places);
+        let found = slopes(&list, &sums, &[true; WIDTH], &mut places);
+        // The turns solve sum l t turn = 0, t = (cos, sin): a vector product.
+        let row =
+            |f: fn(f64) -> f64| -> [f64; 3] { std::array::from_fn(|i| list[i].length * f(phi[i])) };
+        let (a, b) = (row(f64::cos), row(f64::sin));
+        let turn: [f64; 3] = std::array::from_fn(|i| {
+            a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3]
+        });
+        // The multiplier that makes the slopes least, from its normal equations.
+        let (mut m, mut r) = ([0.0; 3], [0.0; 2]);
+        for (piece, phi) in list.iter().zip(&phi) {
+            let (s, c) = phi.sin_cos();
+            m = [
+                m[0] + piece.length * c * c,
+                m[1] + piece.length * c * s,
+                m[2] + piece.length * s * s,
+            ];
+            r = [
+                r[0] + piece.length * piece.lifted * s * c,
+                r[1] + piece.length * piece.lifted * s * s,
+            ];
+        }
+        let det = m[0] * m[2] - m[1] * m[1];
+        let mu = [-(m[2] * r[0] - m[1] * r[1]) / det, -(m[0] * r[1] - m[1] * r[0]) / det];
+        let axial = |i: usize| {
+            let (s, c) = phi[i].sin_cos();
+            (list[i].lifted + mu[1]) * c - mu[0] * s
+        };
+        let curvature: f64 = (0..3).map(|i| list[i].length * axial(i) * turn[i] * turn[i]).sum();
+        if curvature.abs() < 1e-6 || det < 1e-4 {
+            continue;
+        }
+        for lane in [0, WIDTH - 1] {
+            assert_eq!(found.convex[lane], curvature > 0.0, "{phi:?} {list:?}");
+        }
+        counts[usize::from(curvature > 0.0)] += 1;
+        let slope = |i: usize| {
+            let (s, c) = phi[i].sin_cos();
+            (list[i].lifted + mu[1]) * s + mu[0] * c
+        };
+        let largest = (0..3).map(|i| list[i].length * slope(i).abs()).fold(0.0, f64::max);
+        let unit = mu[0].hypot(mu[1]).max(1.0) / 3.0;
+        assert!((found.largest[0] * unit / largest - 1.0).abs() < 1e-9);
+        if found.convex[0] {
+            // Newton's step goes down, and stops where its model is least.
+            let along: f64 = (0..3).map(|i| list[i].length * slope(i) * turn[i]).sum();
+            let step = -along / curvature;
+            let most = turn.iter().fold(0.0_f64, |most, turn| most.max((step * turn).abs()));
+            assert!((found.largest_turn[0] / most - 1.0).abs() < 1e-6);
+            assert!((found.fall[0] / (step * along) - 1.0).abs() < 1e-6);
+        }
+    }
+    assert!(counts.iter().all(|count| *count > 50), "{counts:?}");
 }

@@ -381,4 +381,19 @@ mod tests {
         ));
         assert!(minimise(1e6, -1e6, &settings).is_ok());
     }
+
+    /// The closed chain lies on the ray of its seed, to the accuracy of the search along it.
+    #[test]
+    fn closed_chains_lie_on_their_rays() {
+        for i in -7..8 {
+            for k in -7..8 {
+                let seed = [f64::from(i) * 0.4, f64::from(k) * 0.4];
+                let [theta, alpha] = onto_curve(seed);
+                assert!(closure(theta, alpha).abs() < 1e-14);
+                let [x, y] = if i == 0 && k == 0 { [1.0, 1.0] } else { seed };
+                assert!((theta * y - alpha * x).abs() < 1e-5 * x.hypot(y), "{seed:?}");
+                assert!(theta * x + alpha * y > 0.0, "{seed:?}");
+            }
+        }
+    }
 }

@@ -160,3 +160,39 @@ impl Error {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The reasons are counted and compared over runs: none may take the place of another.
+    #[test]
+    fn every_kind_has_its_reason() {
+        let all = [
+            (
+                Error::Setting { field: "f", value: 2.0, low: 0.0, high: 1.0 },
+                "setting out of range",
+            ),
+            (Error::NoMember, "no member"),
+            (Error::NoLoad, "no load"),
+            (Error::Direction { joint: 0, direction: [0.0; 3] }, "bad support"),
+            (Error::Falls { joint: 0, force_n: 1.0 }, "falls"),
+            (Error::Seed { joints: 2, given: 1 }, "bad seed"),
+            (Error::NotClosed { member: 1, misfit_m: 0.1 }, "not closed"),
+            (
+                Error::IterationLimit { iterations: 3, unbalance: 0.1, misfit: 0.1 },
+                "iteration limit",
+            ),
+            (Error::Stalled { unbalance: 0.1, misfit: 0.1 }, "stalled"),
+            (Error::NoMinimum { index: 1 }, "no minimum"),
+            (Error::WrongSign { member: 1, force_n: 1.0 }, "wrong sign of a force"),
+            (Error::FloorPulls { joint: 1, force_n: 1.0 }, "floor pulls"),
+            (Error::NotFinite { quantity: "energy" }, "not finite"),
+            (Error::Memory { coordinates: 3 }, "out of memory"),
+            (Error::Ended { reason: "interrupt".to_owned() }, "ended by argmin"),
+        ];
+        for (error, reason) in all {
+            assert_eq!(error.reason(), reason);
+        }
+    }
+}

@@ -201,8 +201,7 @@ impl Solver<Potential, Iterate> for Interior {
     ) -> Result<(Iterate, Option<KV>), argmin::core::Error> {
         let shape = state.take_param().ok_or(Error::NotFinite { quantity: "start" })?;
         let slope = problem.gradient(&shape)?;
-        let cost = problem.cost(&shape)?;
-        Ok((state.param(shape).gradient(slope).cost(cost), None))
+        Ok((state.param(shape).gradient(slope), None))
     }
 
     fn next_iter(
@@ -217,9 +216,8 @@ impl Solver<Potential, Iterate> for Interior {
         };
         let next = Arc::new(next);
         let slope = problem.gradient(&next)?;
-        let cost = problem.cost(&next)?;
         self.ended = part < STUCK || self.centred(&next.force, slope.unbalance);
-        Ok((state.param(next).gradient(slope).cost(cost), None))
+        Ok((state.param(next).gradient(slope), None))
     }
 
     fn terminate(&mut self, _state: &Iterate) -> TerminationStatus {

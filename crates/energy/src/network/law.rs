@@ -144,3 +144,107 @@ impl Rod {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const KINDS: [Kind; 3] = [Kind::Bar, Kind::Cable, Kind::Strut];
+
+    fn rod(kind: Kind, flexibility: f64) -> Rod {
+        Rod { from: 0, to: 1, length: 2.0, kind, flexibility, ground: false }
+    }
+
+    #[test]
+    fn excesses_have_their_first_and_second_difference_quotients() {
+        let h = 1e-4;
+        let floor = Rod { ground: true, ..rod(Kind::Cable, 0.0) };
+        for rod in [rod(Kind::Bar, 0.0), rod(Kind::Bar, 0.3), floor] {
+            let at = [1.2, -0.7, 0.4];
+            let moved =
+                |k: usize, h: f64| std::array::from_fn(|j| at[j] + if j == k { h } else { 0.0 });
+            let here = rod.excess(at);
+            for k in 0..3 {
+                let unit: Vector = std::array::from_fn(|j| if j == k { 1.0 } else { 0.0 });
+                let (a, b) = (rod.excess(moved(k, h)), rod.excess(moved(k, -h)));
+                assert!(((a.value - b.value) / (2.0 * h) - here.gradient[k]).abs() < 1e-8);
+                assert!((here.change(unit) - here.gradient[k]).abs() < 1e-15);
+                for j in 0..3 {
+                    let other: Vector = std::array::from_fn(|i| if i == j { 1.0 } else { 0.0 });
+                    // Of F c + s c² / 2: F c'' + s c' c'ᵀ.
+                    let bend = (a.gradient[j] - b.gradient[j]) / (2.0 * h);
+                    let exact = 5.0 * bend + 3.0 * here.gradient[k] * here.gradient[j];
+                    assert!((here.block(5.0, 3.0).between(unit, other) - exact).abs() < 1e-7);
+                }
+            }
+        }
+        assert!((floor.excess([0.3, 0.4, -0.5]).value - 0.5).abs() < 1e-15);
+        for (d, excess) in [([0.0, 3.0, 4.0], 3.0), ([0.0, 0.0, 1.0], -1.0)] {
+            assert!((rod(Kind::Bar, 0.1).excess(d).value - excess).abs() < 1e-15);
+        }
+        // (9 - 4) / 4
+        assert!((rod(Kind::Bar, 0.0).excess([3.0, 0.0, 0.0]).value - 1.25).abs() < 1e-15);
+    }
+
+    /// A slack member has the force zero, and resists nothing with it.
+    #[test]
+    fn cables_pull_struts_push_and_neither_resists_nothing() {
+        for (force, expected) in
+            [(1.0, [true, true, false]), (0.0, [true, false, false]), (-1.0, [true, false, true])]
+        {
+            assert_eq!(KINDS.map(|kind| rod(kind, 0.0).resists(force)), expected);
+        }
+        for (excess, expected) in
+            [(0.3, [3.0, 3.0, 0.0]), (0.0, [0.0; 3]), (-0.3, [-3.0, 0.0, -3.0])]
+        {
+            for (kind, force) in KINDS.into_iter().zip(expected) {
+                assert!((rod(kind, 0.1).prestress(excess) - force).abs() < 1e-14);
+                assert!(rod(kind, 0.0).prestress(excess).abs() <= 0.0);
+            }
+        }
+    }
+
+    #[test]
+    fn misfits_are_what_the_law_does_not_allow() {
+        // Excess, force and the misfit, over the length 2, of bar, cable and strut; flexibility 0.1.
+        for (excess, force, expected) in [
+            (0.4, 0.0, [0.2, 0.2, 0.0]),
+            (-0.4, 0.0, [0.2, 0.0, 0.2]),
+            (0.4, 2.0, [0.1, 0.1, 0.0]),
+            (0.1, 2.0, [0.05, 0.05, 0.05]),
+            (-0.4, -2.0, [0.1, 0.0, 0.1]),
+            (-0.1, -2.0, [0.05, 0.05, 0.05]),
+        ] {
+            for (kind, misfit) in KINDS.into_iter().zip(expected) {
+                let found = rod(kind, 0.1).misfit(excess, force);
+                assert!((found - misfit).abs() < 1e-15, "{kind:?} {excess} {force}: {found}");
+            }
+        }
+    }
+
+    /// The augmented Lagrangian of a member, its derivatives, and its jump-free switch.
+    #[test]
+    fn softened_members_have_their_force_as_derivative_of_the_potential() {
+        let (estimate, kappa, h) = (0.8, 5.0, 1e-5);
+        for flexibility in [0.0, 0.3] {
+            for (kind, excess) in
+                [(Kind::Bar, 0.4), (Kind::Cable, 0.4), (Kind::Cable, -0.4), (Kind::Strut, -0.4)]
+            {
+                let rod = rod(kind, flexibility);
+                let at = |c: f64| rod.softened(c, estimate, kappa);
+                let (a, b, here) = (at(excess + h), at(excess - h), at(excess));
+                assert!(((a.potential - b.potential) / (2.0 * h) - here.force).abs() < 1e-9);
+                assert!(((a.force - b.force) / (2.0 * h) - here.stiffness).abs() < 1e-8);
+                let works = rod.resists(estimate + kappa * excess);
+                assert_eq!(here.force.abs() > 0.0, works);
+            }
+            let cable = rod(Kind::Cable, flexibility);
+            let (a, b) = (-estimate / kappa + 1e-9, -estimate / kappa - 1e-9);
+            let (a, b) = (cable.softened(a, estimate, kappa), cable.softened(b, estimate, kappa));
+            assert!((a.potential - b.potential).abs() < 1e-15);
+            // With the estimate right and the member as long as its force makes it nothing is left.
+            let there = cable.spring(flexibility * estimate, estimate, kappa);
+            assert!((there.force - estimate).abs() < 1e-15);
+        }
+    }
+}

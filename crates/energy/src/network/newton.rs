@@ -368,8 +368,7 @@ fn accept(
     shape: Arc<Shape>,
 ) -> Result<(Iterate, Option<KV>), argmin::core::Error> {
     let slope = problem.gradient(&shape)?;
-    let cost = problem.cost(&shape)?;
-    Ok((state.param(shape).gradient(slope).cost(cost), None))
+    Ok((state.param(shape).gradient(slope), None))
 }
 
 /// Whether all places are numbers.

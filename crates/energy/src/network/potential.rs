@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use argmin::core::{CostFunction, Error, Gradient, IterState};
+use argmin::core::{Error, Gradient, IterState};
 
 use crate::network::frame::Frame;
 use crate::network::shape::{Shape, Slope};
@@ -10,7 +10,7 @@ use crate::network::shape::{Shape, Slope};
 /// argmin's state for the solvers of this module: places and forces, and the residuals there.
 pub(super) type Iterate = IterState<Arc<Shape>, Arc<Slope>, (), (), (), f64>;
 
-/// Energy of a configuration, and the gradient of its Lagrangian.
+/// The gradient of the Lagrangian; the solvers have functions of their own that fall.
 #[derive(Debug, Clone)]
 pub(super) struct Potential {
     pub(super) frame: Arc<Frame>,
@@ -22,17 +22,6 @@ fn finite(value: f64, quantity: &'static str) -> Result<(), Error> {
         Ok(())
     } else {
         Err(crate::network::Error::NotFinite { quantity }.into())
-    }
-}
-
-impl CostFunction for Potential {
-    type Param = Arc<Shape>;
-    type Output = f64;
-
-    fn cost(&self, shape: &Arc<Shape>) -> Result<f64, Error> {
-        let energy = self.frame.energy(shape);
-        finite(energy, "energy")?;
-        Ok(energy)
     }
 }
 

@@ -230,3 +230,35 @@ fn equilibrium(
         evidence,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use model::system::Kind;
+
+    use super::*;
+    use crate::network::frame::Rod;
+
+    #[test]
+    fn a_strain_below_its_rounding_is_none() {
+        let rod =
+            Rod { from: 0, to: 1, length: 3.0, kind: Kind::Bar, flexibility: 0.5, ground: false };
+        let frame = Frame {
+            origin_m: [0.0; 3],
+            length_m: 1.0,
+            force_n: 1.0,
+            joints: 2,
+            members: 1,
+            spots: Vec::new(),
+            supports: Vec::new(),
+            rods: vec![rod],
+            loads: vec![[0.0; 3]; 2],
+            freedom: 0,
+        };
+        let at = |strain: f64| {
+            let force = vec![strain * rod.length / rod.flexibility];
+            frame.unstrained(&Shape { x: Vec::new(), force })
+        };
+        assert!(at(0.0) && at(0.9 * NO_STRAIN) && at(-0.9 * NO_STRAIN));
+        assert!(!at(1.1 * NO_STRAIN) && !at(-1.1 * NO_STRAIN));
+    }
+}

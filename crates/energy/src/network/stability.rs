@@ -319,3 +319,7 @@ fn kernels(rigidity: &Mat<f64>) -> (Mat<f64>, Mat<f64>, Rigidity) {
     let stresses = svd.U().get(.., rank..).to_owned();
     (motions, stresses, Rigidity { gap, ..unsolved(rank) })
 }
+
+#[cfg(test)]
+#[path = "stability_tests.rs"]
+mod tests;

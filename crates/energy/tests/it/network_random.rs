@@ -31,7 +31,7 @@ fn fitted(rng: &mut ChaCha8Rng, at: &[Vector], anchors: usize, pairs: &[(usize, 
 }
 
 /// A tree on one anchor.
-fn tree(rng: &mut ChaCha8Rng) -> System {
+pub fn tree(rng: &mut ChaCha8Rng) -> System {
     let n = rng.random_range(3..40);
     let at = places(rng, n);
     let pairs: Vec<_> = (1..n).map(|k| (rng.random_range(0..k), k)).collect();
@@ -39,7 +39,7 @@ fn tree(rng: &mut ChaCha8Rng) -> System {
 }
 
 /// Strands of several bars from anchors to one joint.
-fn bridle(rng: &mut ChaCha8Rng) -> System {
+pub fn bridle(rng: &mut ChaCha8Rng) -> System {
     let (strands, bars) = (rng.random_range(2..7), rng.random_range(1..6));
     let at = places(rng, strands + 1 + strands * (bars - 1));
     let mut pairs = Vec::new();
@@ -56,7 +56,7 @@ fn bridle(rng: &mut ChaCha8Rng) -> System {
 }
 
 /// A ring with some of its joints held by strands from anchors.
-fn ring(rng: &mut ChaCha8Rng) -> System {
+pub fn ring(rng: &mut ChaCha8Rng) -> System {
     let (anchors, n) = (rng.random_range(1..6), rng.random_range(6..20));
     let at = places(rng, anchors + n);
     let mut pairs: Vec<_> = (0..n).map(|k| (anchors + k, anchors + (k + 1) % n)).collect();
@@ -65,7 +65,7 @@ fn ring(rng: &mut ChaCha8Rng) -> System {
 }
 
 /// A crumpled net.
-fn net(rng: &mut ChaCha8Rng, crumple: f64) -> System {
+pub fn net(rng: &mut ChaCha8Rng, crumple: f64) -> System {
     let n = rng.random_range(3..8);
     let mut at = Vec::new();
     let mut number = vec![vec![0; n]; n];

@@ -1,0 +1,122 @@
+//! Signs, ranks and planes by hand.
+
+use model::system::Kind;
+
+use super::*;
+use crate::network::frame::Rod;
+
+const ZERO3: Vector = [0.0; 3];
+
+/// A shallow truss: two elastic bars of length 2 from level anchors to a joint above them by a
+/// tenth of their length, each pushed by a unit force, and a slack cable upwards.
+fn truss(flexibility: f64) -> (Frame, Shape) {
+    let (sine, cosine) = (0.1_f64, (1.0 - 0.01_f64).sqrt());
+    let rod = |from, kind, flexibility| Rod {
+        from,
+        to: 3,
+        length: 2.0,
+        kind,
+        flexibility,
+        ground: false,
+    };
+    let held = Spot { first: 0, freedom: 0, axes: [ZERO3; 3] };
+    let axes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    let x = vec![
+        [-2.0 * cosine, 0.0, 0.0],
+        [2.0 * cosine, 0.0, 0.0],
+        [0.0, 0.0, 1.5],
+        [0.0, 0.0, 2.0 * sine],
+    ];
+    let frame = Frame {
+        origin_m: ZERO3,
+        length_m: 1.0,
+        force_n: 1.0,
+        joints: 4,
+        members: 3,
+        spots: vec![held, held, held, Spot { freedom: 3, axes, ..held }],
+        supports: x.clone(),
+        rods: vec![
+            rod(0, Kind::Bar, flexibility),
+            rod(1, Kind::Bar, flexibility),
+            rod(2, Kind::Cable, 0.0),
+        ],
+        loads: vec![ZERO3; 4],
+        freedom: 3,
+    };
+    (frame, Shape { x, force: vec![-1.0, -1.0, 0.0] })
+}
+
+/// Upwards the truss has the stiffness `2 (k sin² - F cos² / l)`: it snaps through where that is
+/// negative. Sideways out of its plane it always falls.
+#[test]
+fn a_shallow_truss_snaps_through_where_it_is_soft() {
+    // F / l = 1/2 and sin² = 0.01: stiff above k = 49.5.
+    for (stiffness, falls) in [(40.0, 2), (49.0, 2), (50.0, 1), (60.0, 1), (f64::INFINITY, 1)] {
+        let (frame, shape) = truss(1.0 / stiffness);
+        let mut factor = Factor::new(&frame.spots, &frame.rods).unwrap();
+        assert_eq!(below(&frame, &shape, &mut factor, ZERO), falls, "{stiffness}");
+        let dense = Dense::new(&frame, &shape);
+        // Sideways in its plane two rigid bars leave it nothing, and upwards neither.
+        let index = if stiffness.is_infinite() { 1 } else { falls };
+        assert_eq!(dense.count().0, index, "{stiffness}");
+        assert_eq!(index_in_plane(&frame, &shape), Some(falls - 1), "{stiffness}");
+    }
+}
+
+#[test]
+fn supports_leave_their_motions_in_the_plane() {
+    let (direction, up) = ([0.6, 0.8, 0.0], [0.0, 0.0, 1.0]);
+    let normal = cross(direction, up);
+    let mixed = |a: f64, v: Vector, b: f64, w: Vector| -> Vector {
+        std::array::from_fn(|k| a * v[k] + b * w[k])
+    };
+    let slope = mixed(0.6, direction, 0.8, up);
+    let oblique = mixed(0.6, normal, 0.8, up);
+    let found = |axes: &[Vector]| {
+        let mut all = [ZERO3; 3];
+        all[..axes.len()].copy_from_slice(axes);
+        let spot = Spot { first: 7, freedom: axes.len(), axes: all };
+        in_plane(&spot, direction, up, normal).map(|spot| (spot.freedom, spot.axes))
+    };
+    assert_eq!(found(&[]).unwrap().0, 0);
+    assert_eq!(found(&[slope]), Some((1, [slope, ZERO3, ZERO3])));
+    assert_eq!(found(&[normal]).unwrap().0, 0);
+    assert_eq!(found(&[oblique]), None);
+    for whole in
+        [vec![direction, up], vec![slope, cross(normal, slope)], vec![direction, normal, up]]
+    {
+        assert_eq!(found(&whole), Some((2, [direction, up, ZERO3])));
+    }
+    // The plane of the normal and the slope meets that of the system in the slope.
+    let (freedom, [axis, ..]) = found(&[normal, slope]).unwrap();
+    assert!(freedom == 1 && norm(cross(axis, slope)) < 1e-15 && (norm(axis) - 1.0).abs() < 1e-15);
+    assert_eq!(found(&[direction, oblique]), None);
+}
+
+#[test]
+fn ranks_and_gaps_of_matrices_that_are_known() {
+    let wide = Mat::from_fn(2, 3, |row, column| match (row, column) {
+        (0, 0) => 3.0,
+        (1, 1) => 3e-5,
+        _ => 0.0,
+    });
+    let (motions, stresses, found) = kernels(&wide);
+    assert_eq!((found.rank, found.self_stresses, found.mechanisms), (2, 0, 1));
+    assert!((found.gap[0] - 1e-5).abs() < 1e-18 && found.gap[1].abs() <= 0.0);
+    assert!((motions[(2, 0)].abs() - 1.0).abs() < 1e-15 && stresses.ncols() == 0);
+    let tall = Mat::from_fn(3, 2, |row, column| match (row, column) {
+        (0 | 1, 0) => 3.0,
+        (2, 1) => 3e-12,
+        _ => 0.0,
+    });
+    let (motions, stresses, found) = kernels(&tall);
+    assert_eq!((found.rank, found.self_stresses, found.mechanisms), (1, 2, 1));
+    let small = 1e-12 * std::f64::consts::FRAC_1_SQRT_2;
+    assert!(
+        (found.gap[0] - 1.0).abs() < 1e-15 && (found.gap[1] - small).abs() < 1e-15 * small.sqrt()
+    );
+    assert!((motions[(1, 0)].abs() - 1.0).abs() < 1e-15);
+    // What the two equal rows say twice is a self-stress.
+    let balance = (0..2).map(|k| stresses[(0, k)] + stresses[(1, k)]);
+    assert!(balance.fold(0.0_f64, |most, sum| most.max(sum.abs())) < 1e-14);
+}

@@ -1,0 +1,203 @@
+//! The work of the minimiser of systems, frozen as that of chains in `work`.
+
+use energy::network::{Error, Settings, Solution, minimise, minimise_from};
+use model::Vector;
+use model::system::{Kind, Member, Support, System};
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+
+use crate::network_random::{bridle, net, ring, tree};
+
+/// Systems, answers, iterations of the relaxation, of Newton's method, factorisations; and the sum
+/// of the numbers of members and joints that refusals name.
+type Row = [u64; 6];
+
+fn add(row: &mut Row, outcome: Result<Solution, Error>) {
+    row[0] += 1;
+    match outcome {
+        Ok(solution) => {
+            row[1] += 1;
+            row[2] += solution.work.relaxation;
+            row[3] += solution.work.iterations;
+            row[4] += solution.work.factorisations as u64;
+        }
+        Err(Error::NotClosed { member, .. } | Error::WrongSign { member, .. }) => {
+            row[5] += member as u64;
+        }
+        Err(Error::FloorPulls { joint, .. } | Error::Falls { joint, .. }) => row[5] += joint as u64,
+        Err(_) => {}
+    }
+}
+
+/// The same joints with members made from these.
+fn with(system: &System, member: impl Fn(usize, &Member) -> Member) -> System {
+    let members = system.members().iter().enumerate().map(|(e, old)| member(e, old));
+    System::new("other", crate::network_support::G, system.joints().to_vec(), members.collect())
+        .expect("a system")
+}
+
+/// The kinds of members, some of each kind elastic.
+fn variants(system: System) -> [System; 6] {
+    let cables = with(&system, |_, bar| Member::cable(bar.from, bar.to, bar.body));
+    let mixed = with(&system, |e, bar| match e % 4 {
+        0 => Member::cable(bar.from, bar.to, bar.body),
+        1 => Member::cable(bar.from, bar.to, bar.body).with_stiffness(200.0),
+        2 => bar.clone().with_stiffness(500.0),
+        _ => bar.clone(),
+    });
+    let soft = with(&system, |_, bar| bar.clone().with_stiffness(100.0));
+    let struts = with(&system, |e, bar| {
+        let stiffness_n = (e % 3 == 1).then_some(500.0);
+        let kind = if e % 3 == 2 { Kind::Bar } else { Kind::Strut };
+        Member { kind, stiffness_n, ..bar.clone() }
+    });
+    let lowest = system.joints().iter().filter_map(|joint| match joint.support {
+        Support::Fixed { at_m } => Some(at_m[2]),
+        _ => None,
+    });
+    let floor_m = lowest.fold(f64::INFINITY, f64::min) - 0.3;
+    let floor = mixed.clone().with_floor(floor_m).expect("below the anchors");
+    [system, cables, mixed, soft, struts, floor]
+}
+
+fn lines<T: std::fmt::Debug>(rows: &[T]) -> String {
+    rows.iter().map(|row| format!("    {row:?},\n")).collect()
+}
+
+fn work(make: impl Fn(&mut ChaCha8Rng) -> System, count: u64, expected: [Row; 6]) {
+    let mut found = [Row::default(); 6];
+    for stream in 1000..1000 + count {
+        let system = make(&mut ChaCha8Rng::seed_from_u64(stream));
+        for (row, system) in found.iter_mut().zip(variants(system)) {
+            add(row, minimise(&system, &Settings::default()));
+        }
+    }
+    assert!(found == expected, "the work has changed:\n{}", lines(&found));
+}
+
+#[test]
+fn work_on_trees() {
+    work(
+        tree,
+        30,
+        [
+            [30, 30, 90, 30, 120, 0],
+            [30, 30, 180, 30, 210, 0],
+            [30, 30, 180, 30, 210, 0],
+            [30, 30, 119, 30, 149, 0],
+            [30, 0, 0, 0, 0, 0],
+            [30, 30, 309, 992, 1537, 0],
+        ],
+    );
+}
+
+#[test]
+fn work_on_bridles() {
+    work(
+        bridle,
+        60,
+        [
+            [60, 60, 269, 401, 1056, 0],
+            [60, 60, 416, 60, 476, 0],
+            [60, 60, 416, 217, 882, 0],
+            [60, 60, 320, 99, 601, 0],
+            [60, 5, 0, 58, 99, 0],
+            [60, 60, 556, 1231, 2510, 0],
+        ],
+    );
+}
+
+#[test]
+fn work_on_rings() {
+    work(
+        ring,
+        40,
+        [
+            [40, 40, 165, 851, 2225, 0],
+            [40, 40, 268, 40, 308, 0],
+            [40, 40, 278, 436, 1287, 0],
+            [40, 39, 182, 249, 753, 0],
+            [40, 1, 0, 1, 1, 0],
+            [40, 40, 406, 1394, 2263, 0],
+        ],
+    );
+}
+
+#[test]
+fn work_on_nets() {
+    work(
+        |rng| net(rng, 0.6),
+        30,
+        [
+            [30, 30, 175, 285, 711, 0],
+            [30, 30, 255, 30, 285, 0],
+            [30, 30, 275, 109, 556, 0],
+            [30, 30, 201, 41, 331, 0],
+            [30, 0, 0, 0, 0, 0],
+            [30, 30, 320, 373, 1078, 0],
+        ],
+    );
+}
+
+#[test]
+fn work_from_seeds() {
+    let mut found = [Row::default(); 6];
+    for stream in 2000..2040 {
+        let mut rng = ChaCha8Rng::seed_from_u64(stream);
+        let system = bridle(&mut rng);
+        let seed: Vec<Vector> = system
+            .joints()
+            .iter()
+            .map(|_| std::array::from_fn(|_| rng.random_range(-1.5..1.5)))
+            .collect();
+        for (row, system) in found.iter_mut().zip(variants(system)) {
+            add(row, minimise_from(&system, &seed, &Settings::default()));
+        }
+    }
+    let expected = [
+        [40, 38, 0, 994, 1225, 2],
+        [40, 40, 0, 849, 832, 0],
+        [40, 39, 0, 954, 1101, 0],
+        [40, 40, 0, 745, 917, 0],
+        [40, 5, 0, 112, 143, 0],
+        [40, 39, 0, 907, 1318, 0],
+    ];
+    assert!(found == expected, "the work has changed:\n{}", lines(&found));
+}
+
+/// The gallery and the tensegrities: from no guess, and from places a twentieth of a metre off.
+#[test]
+fn work_on_exhibits() {
+    let settings = Settings::default();
+    let mut found = Vec::new();
+    for exhibit in model::cases::systems() {
+        let system = exhibit.system();
+        let (mut row, first) = (Row::default(), minimise(&system, &settings));
+        let seed: Option<Vec<Vector>> = first.as_ref().ok().map(|solution| {
+            let off = |k: usize, x: f64| x + 0.05 * (1.0 + k as f64).sin();
+            let joints = solution.equilibrium.joints_m.iter().enumerate();
+            joints.map(|(j, at)| std::array::from_fn(|k| off(3 * j + k, at[k]))).collect()
+        });
+        add(&mut row, first);
+        if let Some(seed) = seed {
+            add(&mut row, minimise_from(&system, &seed, &settings));
+        }
+        found.push((exhibit.name, row));
+    }
+    let expected = [
+        ("lamp", [2, 2, 6, 9, 16, 0]),
+        ("bridle", [2, 2, 3, 12, 20, 0]),
+        ("mobile", [2, 2, 6, 43, 76, 0]),
+        ("footbridge", [2, 2, 12, 18, 35, 0]),
+        ("net", [2, 2, 7, 24, 41, 0]),
+        ("ring", [2, 2, 7, 18, 29, 0]),
+        ("tripod", [2, 2, 3, 9, 11, 0]),
+        ("pendulum-chain", [2, 2, 3, 12, 19, 0]),
+        ("four-bar-linkage", [2, 2, 4, 10, 20, 0]),
+        ("x-cross", [2, 1, 0, 12, 28, 0]),
+        ("prism", [2, 2, 0, 25, 33, 0]),
+        ("expandable-octahedron", [2, 2, 0, 55, 90, 0]),
+        ("simplex-tower", [2, 2, 0, 48, 75, 0]),
+    ];
+    assert!(found == expected, "the work has changed:\n{}", lines(&found));
+}
