@@ -82,6 +82,7 @@ mod settings;
 mod slack;
 
 pub use census::check::CheckError;
+pub use census::compact::{CompactCensus, Outline};
 pub use census::estimate::Estimate;
 pub use census::expected_time_s;
 pub use census::position::Position;

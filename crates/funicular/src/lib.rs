@@ -110,7 +110,7 @@ struct Readme;
 pub use self::animation::Animation;
 #[cfg(feature = "sweep")]
 pub use self::basins::{Basins, BasinsAnswer};
-pub use self::census::{Census, CensusAnswer, SystemCensusAnswer};
+pub use self::census::{Census, CensusAnswer, LargeCensusAnswer, SystemCensusAnswer};
 #[cfg(feature = "branches")]
 pub use self::derivatives::{
     AnchorStiffness, Derivative, Derivatives, DerivativesError, NumberGradient, ParameterChange,

@@ -1,5 +1,7 @@
 //! The angle of a vector, enclosed, without the system's libm.
 
+use std::sync::LazyLock;
+
 use crate::interval::Interval;
 
 /// π: the double below and the one above (3.14159265358979311 < π < 3.14159265358979357).
@@ -15,7 +17,7 @@ const HALVINGS: usize = 3;
 
 /// Terms of the series for |x| < 0.2: the first one left out is below 0.2²⁷/27 < 2⁻⁶⁷, far below
 /// the last place of x.
-const TERMS: u32 = 13;
+const TERMS: usize = 13;
 
 /// The angle of the vector (x, y) from the first axis, rad, in (−π, π]; both ends may lie in (π,
 /// 2π) if the vectors straddle the negative axis. If they contain zero nothing is known: all of
@@ -71,12 +73,15 @@ fn at(x: f64) -> Interval {
 /// first term 1/(2k + 1). From that enclosure of the first rest left out, k = `terms`, Horner's
 /// scheme goes down to k = 0; each step multiplies its width by s, and in the end it is
 /// s^`terms`/(2 `terms` + 1), the first term left out.
-fn series(square: Interval, terms: u32) -> Interval {
-    let first_of_rest =
-        |k: u32| Interval::ONE / Interval::point(2.0_f64.mul_add(f64::from(k), 1.0));
-    let rest = Interval::ZERO.hull(first_of_rest(terms));
-    (0..terms).rev().fold(rest, |rest, k| first_of_rest(k) - square * rest)
+fn series(square: Interval, terms: usize) -> Interval {
+    let first_of_rest: &[Interval; TERMS + 1] = &FIRST_OF_REST;
+    let rest = Interval::ZERO.hull(first_of_rest[terms]);
+    first_of_rest[..terms].iter().rev().fold(rest, |rest, first| *first - square * rest)
 }
+
+/// 1/(2k + 1), the first term of each rest.
+static FIRST_OF_REST: LazyLock<[Interval; TERMS + 1]> =
+    LazyLock::new(|| std::array::from_fn(|k| Interval::ONE / Interval::point((2 * k + 1) as f64)));
 
 #[cfg(test)]
 mod tests {
@@ -145,8 +150,8 @@ mod tests {
                     below.min(above) >= -1e-26,
                     "{terms} terms at {x}: {sum:?}, off by {below:e} and {above:e}"
                 );
-                let left_out = x.powi(2 * terms.cast_signed()) / f64::from(2 * terms + 1)
-                    + 64.0 * f64::EPSILON;
+                let left_out =
+                    x.powf(2.0 * terms as f64) / (2 * terms + 1) as f64 + 64.0 * f64::EPSILON;
                 assert!(sum.width() <= left_out, "{terms} terms at {x}: {:e}", sum.width());
             }
         }

@@ -179,7 +179,31 @@ impl Census {
         let system = System::new(chain, loads);
         let precise = PreciseSystem::new(chain, loads, &system);
         let exact = Exact::new(chain, loads);
-        let one = |(k, equilibrium)| check_one(&precise, &system, k + 1, equilibrium);
+        self.check_each(&system, &precise)?;
+        self.check_claims(&system, &exact)?;
+        check_bounds(self, &system, &exact, &|signs| {
+            let around = |e: &ProvenEquilibrium| Cell { face: e.alone_in.chart, at: e.alone_in.at };
+            let equal = self.equilibria.iter().enumerate().filter(|(_, e)| e.signs == signs);
+            equal.map(|(k, e)| zero_again(&precise, &system, k + 1, signs, around(e))).collect()
+        })?;
+        if self.undecided.is_empty() {
+            self.morse()?;
+        }
+        if self.complete {
+            self.extremes(|index| {
+                self.equilibria.iter().filter(|e| e.index_out_of_plane == index).count()
+            })?;
+        }
+        Ok(())
+    }
+
+    /// The isolated equilibria, one by one.
+    pub(super) fn check_each(
+        &self,
+        system: &System,
+        precise: &PreciseSystem,
+    ) -> Result<(), CheckError> {
+        let one = |(k, equilibrium)| check_one(precise, system, k + 1, equilibrium);
         let each: Vec<_> = self.equilibria.par_iter().enumerate().map(one).collect();
         let mut by_signs: HashMap<&[i8], Vec<&ProvenEquilibrium>> = HashMap::new();
         for (k, (equilibrium, proved)) in self.equilibria.iter().zip(each).enumerate() {
@@ -198,49 +222,45 @@ impl Census {
                 return Err(CheckError::Order { number: k + 1 });
             }
         }
-        let again = unloaded(&system, exact.moments.as_ref());
-        let all = again.equilibria.is_empty() && again.degenerate.is_empty();
+        Ok(())
+    }
+
+    /// What is claimed besides the isolated equilibria.
+    pub(super) fn check_claims(&self, system: &System, exact: &Exact) -> Result<(), CheckError> {
         let claims = [
-            ("the list of slack families", self.families == families(&system).0),
+            ("the list of slack families", self.families == families(system).0),
             (
                 "the list of straight positions",
-                self.straight == Straight::of(&system, &exact).positions,
+                self.straight == Straight::of(system, exact).positions,
             ),
             (
                 "the list of degenerate equilibria",
                 // Where something is open the list need not be whole.
                 (self.degenerate.is_empty() && !self.undecided.is_empty())
-                    || self.degenerate == again.degenerate,
+                    || self.degenerate == unloaded(system, exact.moments.as_ref()).degenerate,
             ),
-            ("the topology", self.topology == Topology::of_system(&system)),
+            ("the topology", self.topology == Topology::of_system(system)),
             ("whether there are circles", self.circles == system.vertical),
             (
                 "completeness",
                 !self.complete || (self.undecided.is_empty() && self.may_be_complete()),
             ),
         ];
-        if let Some((quantity, _)) = claims.into_iter().find(|(_, holds)| !holds) {
-            return Err(CheckError::Claim { quantity });
+        match claims.into_iter().find(|(_, holds)| !holds) {
+            Some((quantity, _)) => Err(CheckError::Claim { quantity }),
+            None => Ok(()),
         }
-        check_bounds(self, &precise, &system, all)?;
-        if self.undecided.is_empty() {
-            self.morse()?;
-        }
-        if self.complete {
-            self.extremes()?;
-        }
-        Ok(())
     }
 
     /// Whether the lowest and the highest position of all are listed, and once.
-    fn extremes(&self) -> Result<(), CheckError> {
+    /// `listed` counts the equilibria with an index out of the plane.
+    pub(super) fn extremes(&self, listed: impl Fn(usize) -> usize) -> Result<(), CheckError> {
         // The turn about vertical anchors is in the kernel of the stress matrix.
         let joints = self.statistics.bars - 1 - usize::from(self.circles);
         for (which, sign, index) in [("lowest", 1, 0), ("highest", -1, joints)] {
-            let equilibria = self.equilibria.iter().filter(|e| e.index_out_of_plane == index);
             let families =
                 self.families.iter().filter(|f| f.signs.iter().all(|s| *s == sign || *s == 0));
-            let found = equilibria.count() + families.count();
+            let found = listed(index) + families.count();
             if found != 1 {
                 return Err(CheckError::Extreme { which, found });
             }

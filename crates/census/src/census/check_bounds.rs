@@ -3,25 +3,31 @@
 use rayon::prelude::*;
 
 use crate::census::Census;
-use crate::census::check::{CheckError, zero_again};
+use crate::census::check::CheckError;
 use crate::closure::Pattern;
 use crate::degenerate::bound::Bound;
-use crate::enclosure::polish::PreciseSystem;
-use crate::equilibrium::ProvenEquilibrium;
+use crate::enclosure::krawczyk::Zero;
 use crate::plane::cell::Cell;
 use crate::plane::face::Face;
 use crate::plane::system::System;
-use crate::search::merge::Zeros;
 use crate::search::undecided::{Reason, Undecided};
+use crate::slack::moments::Exact;
+use crate::slack::unloaded::unloaded;
 
-/// Every bound that is stated, against the one that is proved; `all` says that no equilibrium is
-/// listed but those with a sign for each bar. The listed equilibria are known to be right.
+/// Every bound that is stated, against the one that is proved; `listed` are the zeros of the listed
+/// equilibria with some signs, proved again.
 pub(super) fn check_bounds(
     census: &Census,
-    precise: &PreciseSystem,
     system: &System,
-    all: bool,
+    exact: &Exact,
+    listed: &(dyn Fn(&[i8]) -> Result<Vec<Zero>, CheckError> + Sync),
 ) -> Result<(), CheckError> {
+    if census.undecided.iter().all(|open| open.bound.is_none()) {
+        return Ok(());
+    }
+    let again = unloaded(system, exact.moments.as_ref());
+    // Whether no equilibrium is listed but those with a sign for each bar.
+    let all = again.equilibria.is_empty() && again.degenerate.is_empty();
     let one = |(k, open): (usize, &Undecided)| {
         let Some(stated) = open.bound else { return Ok(()) };
         let number = k + 1;
@@ -37,7 +43,7 @@ pub(super) fn check_bounds(
             return Err(CheckError::Bound { number });
         }
         let cell = Cell { face: open.chart, at: open.at };
-        let listed = listed(census, precise, system, signs, pattern)?;
+        let listed = listed(signs)?.into_iter().map(|zero| (pattern, zero)).collect();
         let proved = Bound::of(system, &cell, pattern, &listed, all).ok_or(not_proved.clone())?;
         let contradicts = stated.degree.zip(proved.degree).is_some_and(|(a, b)| a != b);
         if contradicts || stated.at_most > proved.at_most {
@@ -50,21 +56,6 @@ pub(super) fn check_bounds(
         Ok(())
     };
     census.undecided.par_iter().enumerate().map(one).collect()
-}
-
-/// The zeros of the listed equilibria with these signs.
-fn listed(
-    census: &Census,
-    precise: &PreciseSystem,
-    system: &System,
-    signs: &[i8],
-    pattern: Pattern,
-) -> Result<Zeros, CheckError> {
-    let again = |(k, stated): (usize, &ProvenEquilibrium)| {
-        let around = Cell { face: stated.alone_in.chart, at: stated.alone_in.at };
-        Ok((pattern, zero_again(precise, system, k + 1, signs, around)?))
-    };
-    census.equilibria.iter().enumerate().filter(|(_, e)| e.signs == signs).map(again).collect()
 }
 
 /// The pattern with a sign for each bar.

@@ -26,16 +26,18 @@ impl Census {
     /// ```
     #[must_use]
     pub fn to_model(&self) -> Vec<Equilibrium> {
-        self.equilibria.iter().map(|equilibrium| self.one_to_model(equilibrium)).collect()
+        let all = self.count_in_plane();
+        self.equilibria.iter().map(|equilibrium| self.one_to_model(equilibrium, all)).collect()
     }
 
     /// One position as the answer of a solver, as in [`to_model`](Self::to_model).
     #[must_use]
     pub fn position_to_model(&self, position: &Position) -> Equilibrium {
-        self.one_to_model(&position.equilibrium)
+        self.one_to_model(&position.equilibrium, self.count_in_plane())
     }
 
-    fn one_to_model(&self, proven: &ProvenEquilibrium) -> Equilibrium {
+    /// One of so many that there are in the plane.
+    pub(super) fn one_to_model(&self, proven: &ProvenEquilibrium, all: usize) -> Equilibrium {
         let vectors = |boxes: &[[Interval; 3]]| -> Vec<Vector> {
             boxes.iter().map(|vector| vector.map(Interval::mid)).collect()
         };
@@ -64,11 +66,11 @@ impl Census {
                 in_space: if index_in_space == 0 { InSpace::Stable } else { InSpace::Unstable },
                 index_in_space,
             },
-            evidence: self.evidence(proven),
+            evidence: self.evidence(proven, all),
         }
     }
 
-    fn evidence(&self, proven: &ProvenEquilibrium) -> Evidence {
+    fn evidence(&self, proven: &ProvenEquilibrium, all: usize) -> Evidence {
         let mut evidence =
             Evidence::enclosed("width of the enclosures of pull and angles", proven.width());
         evidence.condition = proven.condition;
@@ -80,7 +82,7 @@ impl Census {
             circle: proven.circle,
             system: None,
         });
-        ladder.complete = self.completeness();
+        ladder.complete = self.completeness_of(all);
         ladder.optimal = if proven.optimal {
             Status::Reached(Optimal { gap: None, singular: proven.circle })
         } else {
@@ -103,9 +105,14 @@ impl Census {
     /// ```
     #[must_use]
     pub fn completeness(&self) -> Status<Complete> {
+        self.completeness_of(self.count_in_plane())
+    }
+
+    /// The same of a list of so many in the plane.
+    fn completeness_of(&self, in_plane: usize) -> Status<Complete> {
         if self.complete {
             return Status::Reached(Complete {
-                in_plane: self.count_in_plane(),
+                in_plane,
                 families: self.families.len(),
                 patterns: self.patterns(),
                 cells: self.statistics.cells,

@@ -31,9 +31,14 @@ const CELL_S: f64 = 1e-6;
 /// force and what holds them, and the neighbourhood.
 const EQUILIBRIUM_GB: f64 = 3e-7;
 
+/// Memory for each equilibrium of a compact census, GB: its zero, as found, once each and with what
+/// is kept of it, while lists are made of one another.
+const COMPACT_GB: f64 = 5e-7;
+
 /// Beyond the bars of any census: that of sixteen bars and the growth for each bar more, measured
 /// on random chains.
-const SIXTEEN_BARS: Estimate = Estimate { seconds: 13.0, gigabytes: 0.5, equilibria: 1e5 };
+const SIXTEEN_BARS: Estimate =
+    Estimate { seconds: 13.0, gigabytes: 0.5, compact_gigabytes: 0.05, equilibria: 1e5 };
 const GROWTH: f64 = 2.1;
 
 /// What a census would take. Cells and equilibria are good to a factor of two; the processor time
@@ -59,6 +64,8 @@ pub struct Estimate {
     pub seconds: f64,
     /// Memory, GB.
     pub gigabytes: f64,
+    /// Memory of a [`CompactCensus`](crate::CompactCensus), GB.
+    pub compact_gigabytes: f64,
     /// Equilibria, those of a circle counted once.
     pub equilibria: f64,
 }
@@ -77,10 +84,11 @@ fn of_chain(chain: &Chain, loads: &JointLoads) -> Estimate {
     if bars > Settings::MAX_BARS {
         // Beyond 600 bars more the numbers overflow; the message stays finite.
         let times = GROWTH.powf((bars as f64 - 16.0).min(600.0));
-        let Estimate { seconds, gigabytes, equilibria } = SIXTEEN_BARS;
+        let Estimate { seconds, gigabytes, compact_gigabytes, equilibria } = SIXTEEN_BARS;
         return Estimate {
             seconds: seconds * times,
             gigabytes: gigabytes * times,
+            compact_gigabytes: compact_gigabytes * times,
             equilibria: equilibria * times,
         };
     }
@@ -94,6 +102,7 @@ fn of_chain(chain: &Chain, loads: &JointLoads) -> Estimate {
     Estimate {
         seconds: CELL_S * bars as f64 * cells(&many) * times.powf(power.clamp(0.0, 1.0)),
         gigabytes: EQUILIBRIUM_GB * bars as f64 * equilibria,
+        compact_gigabytes: COMPACT_GB * equilibria,
         equilibria,
     }
 }
@@ -113,22 +122,35 @@ fn sampled(system: &System, number: u32) -> Search {
     search(system, &settings, &settled, patterns, &|_| {})
 }
 
+/// What is kept of each equilibrium.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Kept {
+    /// Everything.
+    Whole,
+    /// What the rest follows from.
+    Compact,
+}
+
 /// Refuse a chain of more bars than the settings allow, with what its census would take.
 pub(crate) fn refuse_long(
     chain: &Chain,
     loads: &JointLoads,
     settings: &Settings,
+    kept: Kept,
 ) -> Result<(), CensusError> {
     let bars = chain.bars().len();
     if bars <= settings.max_bars {
         return Ok(());
     }
-    let Estimate { seconds, gigabytes, .. } = of_chain(chain, loads);
+    let Estimate { seconds, gigabytes, compact_gigabytes, .. } = of_chain(chain, loads);
     Err(CensusError::TooManyBars {
         bars,
         max_bars: settings.max_bars,
         patterns: 2.0_f64.powf((bars as f64).min(600.0)),
         estimate_s: seconds,
-        estimate_gb: gigabytes,
+        estimate_gb: match kept {
+            Kept::Whole => gigabytes,
+            Kept::Compact => compact_gigabytes,
+        },
     })
 }

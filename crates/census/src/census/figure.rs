@@ -64,7 +64,15 @@ impl Census {
     /// ```
     #[must_use]
     pub fn figure(&self, name: &str, limit: usize) -> String {
-        let shown: Vec<Position> = self.positions().take(limit).collect();
+        self.figure_of(
+            name,
+            &self.positions().take(limit).collect::<Vec<_>>(),
+            self.count_in_plane(),
+        )
+    }
+
+    /// The same of these positions, of so many that there are.
+    pub(crate) fn figure_of(&self, name: &str, shown: &[Position], all: usize) -> String {
         let shapes: Vec<Vec<[f64; 2]>> = shown.iter().map(shape).collect();
         let frame = Frame::around(&shapes);
         let panel_width = frame.size.max(LEAST_WIDTH) + 2.0 * MARGIN;
@@ -75,7 +83,7 @@ impl Census {
         let unloaded = shown.iter().any(|position| position.equilibrium.signs.contains(&0));
         let width = grid.max(LEAST_FIGURE + if unloaded { NO_FORCE_KEY } else { 0.0 });
         let height = HEAD + rows.iter().map(Row::height).sum::<f64>() + FOOT;
-        let subtitle = self.subtitle(shown.len());
+        let subtitle = self.subtitle(shown.len(), all);
         let size = [width, height].map(|side| (10.0 * side).round() / 10.0);
         let mut svg = Svg::new(size, &format!("Equilibria of {name}")).letters(LETTERS).described(
             &format!(
@@ -107,9 +115,8 @@ impl Census {
     }
 
     /// What is shown, and what is not.
-    fn subtitle(&self, shown: usize) -> String {
-        let all = self.count_in_plane();
-        let circles = self.equilibria.len();
+    fn subtitle(&self, shown: usize, all: usize) -> String {
+        let circles = all / 2;
         let mut text = if shown < all {
             format!("The {shown} lowest of {all} equilibria in the plane")
         } else {

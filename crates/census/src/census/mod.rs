@@ -2,36 +2,29 @@
 
 pub(crate) mod check;
 mod check_bounds;
+pub(crate) mod compact;
 mod convert;
 pub(crate) mod estimate;
 mod figure;
+mod gathered;
 pub(crate) mod position;
 
-use std::time::Instant;
-
 use model::{Chain, Problem};
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use crate::closure::Pattern;
+use crate::census::estimate::Kept;
+use crate::census::gathered::Gathered;
 use crate::count::morse::{self, MorseError};
 use crate::count::topology::{Topology, TopologyError};
-use crate::degenerate::bound::Bound;
 use crate::degenerate::unloaded::DegenerateEquilibrium;
-use crate::enclosure::krawczyk::Zero;
-use crate::enclosure::polish::{PreciseSystem, polish};
 use crate::equilibrium::ProvenEquilibrium;
 use crate::error::CensusError;
 use crate::plane::loads::JointLoads;
-use crate::plane::system::System;
-use crate::search::merge::merge;
-use crate::search::undecided::{Reason, Undecided, gather};
-use crate::search::{Progress, Settled, search};
+use crate::search::Progress;
+use crate::search::undecided::Undecided;
 use crate::settings::Settings;
-use crate::slack::families::{SlackFamily, families};
-use crate::slack::moments::Exact;
-use crate::slack::straight::{Straight, StraightPosition};
-use crate::slack::unloaded::unloaded;
+use crate::slack::families::SlackFamily;
+use crate::slack::straight::StraightPosition;
 
 /// All equilibria of a chain, and how far that is proved.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -62,9 +55,6 @@ pub struct Census {
     /// What it took.
     pub statistics: Statistics,
 }
-
-/// Below so many equilibria, threads cost more than they save: each takes tens of microseconds.
-const WORTH_THREADS: usize = 64;
 
 /// What a census took.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -136,84 +126,15 @@ impl Census {
         settings: &Settings,
         watch: &dyn Fn(Progress),
     ) -> Result<Self, CensusError> {
-        let start = Instant::now();
-        settings.validate()?;
-        estimate::refuse_long(chain, loads, settings)?;
-        let system = System::new(chain, loads);
-        let exact = Exact::new(chain, loads);
-        let unloaded = unloaded(&system, exact.moments.as_ref());
-        let straight = Straight::of(&system, &exact);
-        let settled = Settled { unloaded: &unloaded, straight: &straight };
-        let patterns = (0..1_u32 << system.bars()).map(Pattern).collect();
-        let search = search(&system, settings, &settled, patterns, watch);
-
-        let (zeros, unclear) = merge(&system, search.zeros);
-        let mut undecided: Vec<Undecided> = vec![];
-        let all = unloaded.equilibria.is_empty() && unloaded.degenerate.is_empty();
-        for task in gather(search.undecided) {
-            let reason = if search.exhausted {
-                Reason::Budget
-            } else if task.cell.is_at_unloaded_bar() {
-                Reason::Unloaded
-            } else {
-                Reason::Degenerate
-            };
-            let mut open = Undecided::new(&system, reason, &task.cell, &task.patterns);
-            if let (Reason::Degenerate, [pattern]) = (reason, &task.patterns[..]) {
-                open.bound = Bound::of(&system, &task.cell, *pattern, &zeros, all);
-            }
-            // None besides those listed: decided.
-            if open.bound.is_none_or(|bound| bound.at_most > 0) {
-                undecided.push(open);
-            }
-        }
-        for (pattern, zero) in unclear {
-            undecided.push(Undecided::new(&system, Reason::Unclear, &zero.tight, &[pattern]));
-        }
-        let mut equilibria = unloaded.equilibria;
-        let precise = PreciseSystem::new(chain, loads, &system);
-        let proven = |(pattern, zero): &(Pattern, Zero)| {
-            let signs: Vec<i8> = pattern.signs(system.bars()).collect();
-            let zero = polish(&system, &precise, &signs, zero);
-            ProvenEquilibrium::new(&system, &signs, &zero).ok_or((*pattern, zero.tight))
-        };
-        let proven: Vec<_> = if zeros.len() < WORTH_THREADS {
-            zeros.iter().map(proven).collect()
-        } else {
-            zeros.par_iter().map(proven).collect()
-        };
-        for result in proven {
-            match result {
-                Ok(equilibrium) => equilibria.push(equilibrium),
-                Err((pattern, tight)) => {
-                    undecided.push(Undecided::new(&system, Reason::Index, &tight, &[pattern]));
-                }
-            }
-        }
+        let mut gathered = Gathered::of(chain, loads, settings, Kept::Whole, watch)?;
+        let mut equilibria = gathered.take_unloaded();
+        equilibria.extend(
+            gathered.each(|system, signs, zero| ProvenEquilibrium::new(system, signs, zero)),
+        );
         equilibria.sort_by(by_energy_and_angles);
-        let (families, maybe) = families(&system);
-        undecided.extend(maybe.into_iter().map(|signs| Undecided::slack(&system, signs)));
-
-        let mut census = Self {
-            equilibria,
-            families,
-            straight: straight.positions,
-            degenerate: unloaded.degenerate,
-            undecided,
-            complete: false,
-            circles: system.vertical,
-            topology: Topology::of_system(&system),
-            statistics: Statistics {
-                bars: system.bars(),
-                cells: search.cells,
-                tests: search.tests,
-                proofs: search.proofs,
-                levels: search.levels,
-                seconds: 0.0,
-            },
-        };
+        let (_, mut census) = gathered.finish();
+        census.equilibria = equilibria;
         census.complete = census.decided() && census.may_be_complete();
-        census.statistics.seconds = start.elapsed().as_secs_f64();
         Ok(census)
     }
 
@@ -233,7 +154,12 @@ impl Census {
     /// ```
     #[must_use]
     pub fn decided(&self) -> bool {
-        self.topology_is_known() && self.undecided.is_empty() && self.morse().is_ok()
+        self.is_decided_with(&self.count_by_index())
+    }
+
+    /// The same of these equilibria by index.
+    pub(crate) fn is_decided_with(&self, by_index: &[i64]) -> bool {
+        self.topology_is_known() && self.undecided.is_empty() && self.morse_of(by_index).is_ok()
     }
 
     /// Whether it is known what topology asks for: nothing where a straight position exists.
@@ -243,7 +169,7 @@ impl Census {
 
     /// Whether all equilibria are isolated, or families across which the second derivative is
     /// regular.
-    fn may_be_complete(&self) -> bool {
+    pub(crate) fn may_be_complete(&self) -> bool {
         self.topology_is_known()
             && self.degenerate.is_empty()
             && self.straight.iter().all(|straight| !straight.upright)
@@ -269,6 +195,11 @@ impl Census {
     /// ```
     #[must_use]
     pub fn count_by_index(&self) -> Vec<i64> {
+        self.count_of(self.equilibria.iter().map(|equilibrium| equilibrium.index_in_plane))
+    }
+
+    /// The same of isolated equilibria with these indices in the plane.
+    pub(crate) fn count_of(&self, indices: impl Iterator<Item = usize>) -> Vec<i64> {
         let mut count = vec![0; self.statistics.bars.saturating_sub(1)];
         let mut add = |index: usize, number: i64| {
             if index >= count.len() {
@@ -276,8 +207,8 @@ impl Census {
             }
             count[index] += number;
         };
-        for equilibrium in &self.equilibria {
-            add(equilibrium.index_in_plane, if self.circles { 2 } else { 1 });
+        for index in indices {
+            add(index, if self.circles { 2 } else { 1 });
         }
         for family in &self.families {
             for (k, betti) in family.topology.betti.iter().enumerate() {
@@ -290,7 +221,11 @@ impl Census {
     /// Σ (−1)^index over the equilibria in the plane; degenerate ones count with their degree.
     #[must_use]
     pub fn alternating_sum(&self) -> i64 {
-        let regular = self.count_by_index();
+        self.alternating_sum_of(&self.count_by_index())
+    }
+
+    /// The same of these equilibria by index.
+    pub(crate) fn alternating_sum_of(&self, regular: &[i64]) -> i64 {
         let merged = self.degenerate.iter().map(|merged| i64::from(merged.degree));
         regular
             .iter()
@@ -308,11 +243,14 @@ impl Census {
     ///
     /// [`MorseError`] for the first inequality that fails.
     pub fn morse(&self) -> Result<(), MorseError> {
+        self.morse_of(&self.count_by_index())
+    }
+
+    /// The same for these equilibria by index.
+    pub(crate) fn morse_of(&self, by_index: &[i64]) -> Result<(), MorseError> {
         match &self.topology {
-            Ok(topology) if self.degenerate.is_empty() => {
-                morse::check(&self.count_by_index(), topology)
-            }
-            Ok(topology) => match (self.alternating_sum(), topology.euler) {
+            Ok(topology) if self.degenerate.is_empty() => morse::check(by_index, topology),
+            Ok(topology) => match (self.alternating_sum_of(by_index), topology.euler) {
                 (found, expected) if found == expected => Ok(()),
                 (found, expected) => Err(MorseError::Euler { found, expected }),
             },
@@ -327,8 +265,10 @@ pub(crate) fn by_energy_and_angles(
     b: &ProvenEquilibrium,
 ) -> std::cmp::Ordering {
     let angles = a.angles_rad.iter().zip(&b.angles_rad);
-    angles.fold(a.energy_j.mid().total_cmp(&b.energy_j.mid()), |order, (x, y)| {
-        order.then(x.mid().total_cmp(&y.mid()))
+    let by_energy = a.energy_j.mid().total_cmp(&b.energy_j.mid());
+    by_energy.then_with(|| {
+        let mut orders = angles.map(|(x, y)| x.mid().total_cmp(&y.mid()));
+        orders.find(|order| order.is_ne()).unwrap_or(std::cmp::Ordering::Equal)
     })
 }
 

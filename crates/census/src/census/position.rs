@@ -22,6 +22,13 @@ pub struct Position {
 }
 
 impl Position {
+    /// The positions of an equilibrium with a number, from 1.
+    pub(super) fn of(equilibrium: ProvenEquilibrium, number: usize) -> impl Iterator<Item = Self> {
+        let image = equilibrium.circle.then(|| equilibrium.mirrored());
+        let image = image.map(|equilibrium| Self { number, mirrored: true, equilibrium });
+        std::iter::once(Self { number, mirrored: false, equilibrium }).chain(image)
+    }
+
     /// The number, with a prime for a mirror image: `2'`.
     #[must_use]
     pub fn label(&self) -> String {
@@ -41,12 +48,8 @@ impl Census {
     /// # Ok::<(), census::CensusError>(())
     /// ```
     pub fn positions(&self) -> impl Iterator<Item = Position> + '_ {
-        self.equilibria.iter().enumerate().flat_map(|(k, equilibrium)| {
-            let position =
-                |mirrored, equilibrium| Position { number: k + 1, mirrored, equilibrium };
-            let image = equilibrium.circle.then(|| position(true, equilibrium.mirrored()));
-            std::iter::once(position(false, equilibrium.clone())).chain(image)
-        })
+        let each = self.equilibria.iter().cloned().zip(1..);
+        each.flat_map(|(equilibrium, number)| Position::of(equilibrium, number))
     }
 }
 

@@ -100,23 +100,7 @@ impl ProvenEquilibrium {
     /// Assemble from a proved zero; `None` if the pull may be infinite, or an index cannot be
     /// proved.
     pub(crate) fn new(system: &System, signs: &[i8], zero: &Zero) -> Option<Self> {
-        // The one of the two mirror images in which bar 1 leans towards +Y.
-        let flip = system.vertical && signs[0] < 0;
-        let (cell, alone_in) = if flip {
-            (zero.tight.mirrored(), zero.alone_in.mirrored())
-        } else {
-            (zero.tight, zero.alone_in)
-        };
-        let [h, _, w] = cell.homogeneous();
-        if w.lo() <= 0.0 || h.sign().is_none_or(|sign| sign == 0) {
-            return None;
-        }
-        let observed = Observed::at(system, signs, &cell);
-        let indices = inertia::indices(signs, &system.length, &observed.forces, system.vertical)?;
-        let optimal =
-            stress::proves_optimal(signs, &system.length, &observed.sizes, system.vertical);
-        let alone_in = Neighbourhood { chart: alone_in.face, at: alone_in.at };
-        Some(Self::assemble(system, signs, &observed, alone_in, indices, optimal))
+        Some(Proof::of(system, signs, zero)?.assemble(system, signs))
     }
 
     /// From what is proved about it. A bar with the sign 0 has its axial force, sign and all, as
@@ -135,7 +119,7 @@ impl ProvenEquilibrium {
             pull_n: system.pull_on_anchor_n(observed.pull),
             alone_in,
             angles_rad: observed.angles(),
-            energy_j: observed.energy(system) * newton * Interval::point(system.length_unit_m),
+            energy_j: observed.energy_j(system),
             joints_m: observed.joints(system),
             multipliers_n: observed.multipliers(system),
             axial_n: signs
@@ -152,6 +136,44 @@ impl ProvenEquilibrium {
     }
 }
 
+/// What is proved about a zero of the closure.
+pub(crate) struct Proof {
+    /// The zero, of a circle that on the side on which bar 1 leans towards +Y.
+    pub(crate) shown: Zero,
+    pub(crate) observed: Observed,
+    pub(crate) indices: Indices,
+    pub(crate) optimal: bool,
+}
+
+impl Proof {
+    /// `None` if the pull may be infinite, or an index cannot be proved.
+    pub(crate) fn of(system: &System, signs: &[i8], zero: &Zero) -> Option<Self> {
+        // The one of the two mirror images in which bar 1 leans towards +Y.
+        let flip = system.vertical && signs[0] < 0;
+        let shown = if flip {
+            Zero { tight: zero.tight.mirrored(), alone_in: zero.alone_in.mirrored() }
+        } else {
+            *zero
+        };
+        let [h, _, w] = shown.tight.homogeneous();
+        if w.lo() <= 0.0 || h.sign().is_none_or(|sign| sign == 0) {
+            return None;
+        }
+        let observed = Observed::at(system, signs, &shown.tight);
+        let indices = inertia::indices(signs, &system.length, &observed.forces, system.vertical)?;
+        let optimal =
+            stress::proves_optimal(signs, &system.length, &observed.sizes, system.vertical);
+        Some(Self { shown, observed, indices, optimal })
+    }
+
+    /// The equilibrium.
+    pub(crate) fn assemble(self, system: &System, signs: &[i8]) -> ProvenEquilibrium {
+        let Self { shown: Zero { alone_in, .. }, observed, indices, optimal } = self;
+        let alone_in = Neighbourhood { chart: alone_in.face, at: alone_in.at };
+        ProvenEquilibrium::assemble(system, signs, &observed, alone_in, indices, optimal)
+    }
+}
+
 /// What follows from signs and pull, in the units of the system.
 pub(crate) struct Observed {
     /// Pull of bar 1 on joint 0, not centred.
@@ -162,7 +184,7 @@ pub(crate) struct Observed {
 }
 
 impl Observed {
-    fn at(system: &System, signs: &[i8], cell: &Cell) -> Self {
+    pub(crate) fn at(system: &System, signs: &[i8], cell: &Cell) -> Self {
         let w = cell.homogeneous()[2];
         // Directions from the homogeneous coordinates, which are narrower than their quotients.
         let homogeneous: Vec<[Interval; 2]> =
@@ -182,6 +204,11 @@ impl Observed {
     /// From the descending vertical: (−u_z, u_x).
     fn angles(&self) -> Vec<Interval> {
         self.directions.iter().map(|[x, z]| atan2(*x, -*z)).collect()
+    }
+
+    /// Potential energy above the height of joint 0, J.
+    pub(crate) fn energy_j(&self, system: &System) -> Interval {
+        self.energy(system) * system.force_unit_n() * Interval::point(system.length_unit_m)
     }
 
     /// V = Σ m g z_C = (M − c₀) D_z − Σ c_i l_i u_iz with the centred weights; M is what hangs

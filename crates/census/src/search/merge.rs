@@ -17,15 +17,21 @@ pub(crate) fn merge(system: &System, mut zeros: Zeros) -> (Zeros, Zeros) {
     let mut unclear: Zeros = vec![];
     for (pattern, zero) in zeros {
         let known = once.iter().rev().take_while(|(other, _)| *other == pattern);
-        let relations: Vec<Relation> =
-            known.map(|(_, other)| relation(system, other, &zero)).collect();
-        if relations.contains(&Relation::Same) {
-            continue;
+        let mut nearest = Relation::Different;
+        for (_, other) in known {
+            match relation(system, other, &zero) {
+                Relation::Same => {
+                    nearest = Relation::Same;
+                    break;
+                }
+                Relation::Unclear => nearest = Relation::Unclear,
+                Relation::Different => {}
+            }
         }
-        if relations.contains(&Relation::Unclear) {
-            unclear.push((pattern, zero));
-        } else {
-            once.push((pattern, zero));
+        match nearest {
+            Relation::Same => {}
+            Relation::Unclear => unclear.push((pattern, zero)),
+            Relation::Different => once.push((pattern, zero)),
         }
     }
     (once, unclear)

@@ -16,6 +16,8 @@
 //! So near such a point that rounding hides where the force points, its direction is as good as
 //! free: cells that do not hold the point, but are no wider than a last place, are treated alike.
 
+use std::ops::Range;
+
 use intervals::Interval;
 
 use crate::closure::bar::BarTerm;
@@ -23,34 +25,83 @@ use crate::closure::{Pattern, signed};
 use crate::plane::cell::Cell;
 use crate::plane::system::System;
 
-/// The patterns that a cell with free bars may hold a zero of, the pulls at which they are free
-/// excepted where a group of several bars is free.
+/// Those of the patterns, sorted, that a cell with free bars may hold a zero of, the pulls at which
+/// they are free excepted where a group of several bars is free.
 pub(crate) fn open(system: &System, cell: &Cell, patterns: &[Pattern]) -> Vec<Pattern> {
-    let bars = system.bars();
-    let mut free = vec![];
-    let mut held = vec![];
-    let weights = system.weights(cell.face);
-    for (number, group) in system.groups.iter().enumerate() {
-        let force = cell.force(weights[group.start]);
-        let lost = cell.is_lost_around(number);
-        if lost || force[0].contains(0.0) && force[1].contains(0.0) {
-            free.push(group.clone());
-        } else {
-            held.extend(group.clone().map(|i| {
-                (Pattern::bit(bars, i), BarTerm::value_over(cell, system.length[i], weights[i]))
-            }));
-        }
-    }
-    let may_close = |pattern: &&Pattern| {
-        let mut gap = system.span;
-        for (bit, value) in &held {
-            let sign = if pattern.0 & bit == 0 { 1 } else { -1 };
-            for k in 0..2 {
-                gap[k] = gap[k] - signed(sign, value[k]);
+    let mut open = vec![];
+    Gaps::over(system, cell).walk(0, patterns, system.span, &mut open);
+    open
+}
+
+/// The gaps that the bars with a direction leave to the free ones, for all patterns at once: sums
+/// over the bars that patterns have in common are made once.
+struct Gaps<'a> {
+    system: &'a System,
+    /// What each bar in tension takes off the gap; nothing for free ones.
+    held: Vec<Option<[Interval; 2]>>,
+    /// How much bar i and all after it can take off, at most.
+    rest: Vec<[Interval; 2]>,
+    free: Vec<Range<usize>>,
+    /// The sum of the lengths of the free bars.
+    longest: Interval,
+}
+
+impl<'a> Gaps<'a> {
+    fn over(system: &'a System, cell: &Cell) -> Self {
+        let bars = system.bars();
+        let weights = system.weights(cell.face);
+        let mut held = vec![None; bars];
+        let mut free = vec![];
+        for (number, group) in system.groups.iter().enumerate() {
+            let force = cell.force(weights[group.start]);
+            let lost = cell.is_lost_around(number);
+            if lost || force[0].contains(0.0) && force[1].contains(0.0) {
+                free.push(group.clone());
+                continue;
+            }
+            for i in group.clone() {
+                held[i] = Some(BarTerm::value_over(cell, system.length[i], weights[i]));
             }
         }
+        let mut rest = vec![[Interval::ZERO; 2]; bars + 1];
+        for (bar, value) in held.iter().enumerate().rev() {
+            let value = value.map_or([Interval::ZERO; 2], |value| value.map(Interval::abs));
+            rest[bar] = std::array::from_fn(|k| rest[bar + 1][k] + value[k]);
+        }
+        let longest = free.iter().flat_map(|group| &system.length[group.clone()]).copied().sum();
+        Self { system, held, rest, free, longest }
+    }
+
+    fn walk(&self, bar: usize, patterns: &[Pattern], gap: [Interval; 2], open: &mut Vec<Pattern>) {
+        // The gap is too wide whatever the signs to come.
+        let wide = |k: usize| gap[k].mig() > (self.rest[bar][k] + self.longest).hi();
+        if patterns.is_empty() || wide(0) || wide(1) {
+            return;
+        }
+        let bars = self.system.bars();
+        if bar == bars {
+            open.extend(patterns.iter().filter(|pattern| self.may_close(**pattern, gap)));
+            return;
+        }
+        let bit = Pattern::bit(bars, bar);
+        let (tension, compression) =
+            patterns.split_at(patterns.partition_point(|pattern| pattern.0 & bit == 0));
+        let [less, more] = match self.held[bar] {
+            None => [gap, gap],
+            Some(value) => [
+                std::array::from_fn(|k| gap[k] - value[k]),
+                std::array::from_fn(|k| gap[k] - (-value[k])),
+            ],
+        };
+        self.walk(bar + 1, tension, less, open);
+        self.walk(bar + 1, compression, more, open);
+    }
+
+    /// Whether the free bars may bridge the gap.
+    fn may_close(&self, pattern: Pattern, gap: [Interval; 2]) -> bool {
+        let (system, bars) = (self.system, self.system.bars());
         let distance = (gap[0].square() + gap[1].square()).sqrt();
-        let links = free.iter().map(|group| {
+        let links = self.free.iter().map(|group| {
             group
                 .clone()
                 .map(|i| signed(if pattern.compressed(bars, i) { -1 } else { 1 }, system.length[i]))
@@ -59,8 +110,7 @@ pub(crate) fn open(system: &System, cell: &Cell, patterns: &[Pattern]) -> Vec<Pa
         });
         let [inner, outer] = reach(links);
         !(distance.lo() > outer || distance.hi() < inner)
-    };
-    patterns.iter().filter(may_close).copied().collect()
+    }
 }
 
 /// The smallest and the largest distance that links of these lengths bridge, rounded outward.

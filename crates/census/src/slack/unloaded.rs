@@ -90,7 +90,7 @@ pub(crate) fn unloaded(system: &System, exact: Option<&ExactMoments>) -> Unloade
         let bit = Pattern::bit(bars, group.start);
         let mut half = HashMap::new();
         let mut largest = 0.0_f64;
-        for others in (0..1_u32 << bars).filter(|pattern| pattern & bit == 0) {
+        for Pattern(others) in candidates(system, group) {
             let Some(closure) = axial_closure(system, group, Pattern(others)) else { continue };
             // Squares about the origin of the chart.
             let side = if let Some(equilibrium) = prove(&closure) {
@@ -112,6 +112,56 @@ pub(crate) fn unloaded(system: &System, exact: Option<&ExactMoments>) -> Unloade
         }
     }
     all
+}
+
+/// The patterns, ascending, that [`axial_closure`] has anything to say of: it looks at them again.
+fn candidates(system: &System, group: &Range<usize>) -> Vec<Pattern> {
+    let mut found = vec![];
+    let number = system.groups.iter().position(|other| other == group);
+    let face = number.and_then(|number| u8::try_from(number).ok()).map(Face::Around);
+    if let (Some(face), 1, false) = (face, group.len(), system.vertical) {
+        let weights = system.weights(face).iter().zip(&system.length).enumerate();
+        // How far each bar in tension reaches up; the bar itself bridges what is left.
+        let up: Option<Vec<Interval>> = weights
+            .map(|(i, (weight, length))| match weight.sign() {
+                _ if i == group.start => Some(Interval::ZERO),
+                sign => sign.map(|up| signed(up, *length)),
+            })
+            .collect();
+        if let Some(up) = up {
+            bridged(system, group.start, &up, (0, 0, system.span[1]), &mut found);
+        }
+    }
+    found
+}
+
+/// Those with the signs chosen so far (bars, pattern, height that is left) that bring the end of
+/// the chain within the reach of one bar.
+fn bridged(
+    system: &System,
+    bar: usize,
+    up: &[Interval],
+    (chosen, pattern, left): (usize, u32, Interval),
+    found: &mut Vec<Pattern>,
+) {
+    let rest: f64 = system.length[chosen..].iter().map(|length| length.hi()).sum();
+    let reach = rest + system.length[bar].hi();
+    // Rounding is far below the room that is left.
+    if left.mig() > reach + 4.0 * NEAR {
+        return;
+    }
+    if chosen == up.len() {
+        let distance = (system.span[0].square() + left.square()).sqrt();
+        if (distance - system.length[bar]).mig() <= 2.0 * NEAR {
+            found.push(Pattern(pattern));
+        }
+        return;
+    }
+    bridged(system, bar, up, (chosen + 1, pattern, left - up[chosen]), found);
+    if chosen != bar {
+        let bit = Pattern::bit(up.len(), chosen);
+        bridged(system, bar, up, (chosen + 1, pattern | bit, left + up[chosen]), found);
+    }
 }
 
 /// The equilibrium with these signs, 0 for the bar without force.

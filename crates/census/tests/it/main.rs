@@ -1,5 +1,6 @@
 //! The census from outside, in one program.
 
+mod compact;
 mod degenerate;
 mod estimate;
 mod integers;

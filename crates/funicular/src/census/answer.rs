@@ -221,11 +221,22 @@ impl CensusAnswer {
     /// Put together from a census and the verdict of its check.
     #[must_use]
     pub fn new(problem: &Problem, census: census::Census, verdict: Result<(), CheckError>) -> Self {
+        let all = census.positions().map(|position| {
+            let equilibrium = census.position_to_model(&position);
+            Found::of(problem, equilibrium, &position)
+        });
+        let equilibria = all.collect();
+        Self::with(problem, census, equilibria, verdict)
+    }
+
+    /// The same with these equilibria.
+    pub(super) fn with(
+        problem: &Problem,
+        census: census::Census,
+        equilibria: Vec<Found>,
+        verdict: Result<(), CheckError>,
+    ) -> Self {
         let (energy_unit_j, energy_symbol, energy_unit) = energy_unit(problem);
-        let equilibria: Vec<Found> = census
-            .positions()
-            .map(|position| found(problem, &census, &position, energy_unit_j))
-            .collect();
         let topology = census.topology.as_ref();
         Self {
             schema_version: SCHEMA_VERSION,
@@ -279,27 +290,29 @@ fn energy_unit(problem: &Problem) -> (f64, &'static str, &'static str) {
     }
 }
 
-fn found(problem: &Problem, census: &census::Census, position: &Position, unit_j: f64) -> Found {
-    let proven = &position.equilibrium;
-    let mut equilibrium = census.position_to_model(position);
-    let statics = judge(problem.chain(), &equilibrium.joints_m, &equilibrium.multipliers_n);
-    equilibrium.evidence.ladder.agreed = Status::Open(Reason::OneSolverOnly {
-        solver: SolverName::CENSUS,
-        statics: statics.largest(),
-    });
-    let signed: Vec<f64> =
-        proven.angles_rad.iter().map(|angle| signed_deg(angle.mid().to_degrees())).collect();
-    Found {
-        energy_scaled: equilibrium.energy_j / unit_j,
-        equilibrium,
-        label: position.label(),
-        circle: proven.circle.then_some(position.number),
-        mirrored: position.mirrored,
-        angles_deg: signed.iter().copied().map(full_turn_deg).collect(),
-        angles_signed_deg: signed,
-        signs: proven.signs.clone(),
-        box_width: proven.width(),
-        enclosures: Enclosures::of(proven),
+impl Found {
+    /// A position and the same as the answer of a solver.
+    pub(super) fn of(problem: &Problem, mut equilibrium: Equilibrium, position: &Position) -> Self {
+        let proven = &position.equilibrium;
+        let statics = judge(problem.chain(), &equilibrium.joints_m, &equilibrium.multipliers_n);
+        equilibrium.evidence.ladder.agreed = Status::Open(Reason::OneSolverOnly {
+            solver: SolverName::CENSUS,
+            statics: statics.largest(),
+        });
+        let signed: Vec<f64> =
+            proven.angles_rad.iter().map(|angle| signed_deg(angle.mid().to_degrees())).collect();
+        Self {
+            energy_scaled: equilibrium.energy_j / energy_unit(problem).0,
+            equilibrium,
+            label: position.label(),
+            circle: proven.circle.then_some(position.number),
+            mirrored: position.mirrored,
+            angles_deg: signed.iter().copied().map(full_turn_deg).collect(),
+            angles_signed_deg: signed,
+            signs: proven.signs.clone(),
+            box_width: proven.width(),
+            enclosures: Enclosures::of(proven),
+        }
     }
 }
 

@@ -2,13 +2,16 @@
 
 mod answer;
 mod csv;
+mod large;
+mod lines;
 mod system;
 
 pub use answer::{CensusAnswer, Check, Enclosure, Enclosures, Found, Merged, Open, Slack, Summary};
+pub use large::{LargeCensusAnswer, Line, List};
 pub use system::SystemCensusAnswer;
 
 use census::network::SystemCensus;
-use census::{Progress, Settings};
+use census::{CompactCensus, Progress, Settings};
 use model::system::System;
 
 use crate::error::Error;
@@ -85,6 +88,39 @@ impl Census {
             let census = census::Census::take_watched(problem, &self.settings, watch)?;
             let verdict = census.check(problem);
             Ok(CensusAnswer::new(problem, census, verdict))
+        })?
+    }
+
+    /// Take the census of a chain with more equilibria than are good to hold in memory: of each only
+    /// its signs, its pull and its index are kept, and the rest is made when it is written. The
+    /// first so many are made at once.
+    ///
+    /// # Errors
+    ///
+    /// As [`run`](Self::run).
+    ///
+    /// ```
+    /// use funicular::census::List;
+    /// use funicular::prelude::*;
+    /// let found = Census::new().run_large(&Problem::case("three-equal-bars")?, 1, &|_| {})?;
+    /// assert_eq!((found.first.equilibria.len(), found.first.census.count), (2, 4));
+    /// let mut lines = vec![];
+    /// found.write_csv(List::Signs, &mut lines).expect("memory can be written");
+    /// // The two circles, and the names of the columns.
+    /// assert_eq!(lines.iter().filter(|byte| **byte == b'\n').count(), 3);
+    /// # Ok::<(), Error>(())
+    /// ```
+    pub fn run_large(
+        &self,
+        problem: &Problem,
+        made: usize,
+        watch: &(dyn Fn(Progress) + Sync),
+    ) -> Result<LargeCensusAnswer, Error> {
+        let problem = problem.chain_for("a census")?;
+        threads::on(self.threads, || {
+            let census = CompactCensus::take(problem, &self.settings, watch)?;
+            let verdict = census.check(problem);
+            Ok(LargeCensusAnswer::new(problem, census, verdict, made))
         })?
     }
 

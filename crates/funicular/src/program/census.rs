@@ -1,5 +1,6 @@
 //! `funicular census`: every equilibrium of a chain or a system, with proof.
 
+mod list;
 mod system;
 mod table;
 
@@ -9,13 +10,16 @@ use census::network::bridle_seconds;
 use census::{CensusError, Settings, rough_time};
 use clap::Args;
 use funicular::Error;
+use funicular::census::Summary;
 use miette::miette;
 use model::NoCensus;
 use model::system::System;
 
+use crate::cost::tell_time;
 use crate::exit::{Exit, Failure};
 use crate::input::{Input, Source};
 use crate::interrupt::end_on_interrupt;
+use crate::memory;
 use crate::output;
 use crate::progress::Progress;
 use crate::threads;
@@ -48,6 +52,14 @@ pub struct Census {
     /// Write joints and forces, a line per equilibrium and joint, to this CSV file
     #[arg(long, value_name = "FILE")]
     pub csv: Option<PathBuf>,
+    /// What --json and --csv list of each equilibrium of a chain: its signs, pull, energy and indices
+    /// in a line (all else follows from signs and pull), or everything. If not given, everything if
+    /// that is at most 100 MB of JSON
+    #[arg(long, value_name = "WHAT", value_enum)]
+    pub list: Option<list::What>,
+    /// Refuse, before the census, lists that would probably be larger
+    #[arg(long, value_name = "SIZE", value_parser = memory::parse, default_value = "4GB")]
+    pub max_output: u64,
     /// How many threads; 0 means one per processor. The answer does not depend on it
     #[arg(long, value_name = "T", default_value_t = 0, value_parser = threads::parse, allow_negative_numbers = true)]
     pub threads: usize,
@@ -71,11 +83,18 @@ pub fn run(arguments: &Census) -> Result<Exit, Failure> {
     if let Some(system) = problem.as_system() {
         return of_system(arguments, settings, system, (&files, progress));
     }
-    if let Some(chain) = long(&problem, settings) {
-        progress.say(&cost(census::Census::estimate(chain)));
-    }
     let outputs = [&arguments.svg, &arguments.csv];
     output::check(outputs.into_iter().flatten().map(PathBuf::as_path), &files)?;
+    let long = long(&problem, settings);
+    if let Some(chain) = long {
+        let estimate = census::Census::estimate(chain);
+        list::refuse(arguments, chain.chain().bars().len(), estimate)?;
+        tell_time("the census", estimate.seconds);
+        progress.say(&cost(estimate));
+    }
+    if long.is_some() || arguments.list == Some(list::What::Signs) {
+        return list::of_many(arguments, settings, &problem, progress);
+    }
     let answer = funicular::Census::new()
         .settings(settings)
         .run_watched(&problem, &|now| progress.say(&how_far(now)))
@@ -93,14 +112,17 @@ pub fn run(arguments: &Census) -> Result<Exit, Failure> {
     } else {
         output::print(&table::text(&answer))?;
     }
-    let check = &answer.census.check;
-    Ok(if check.refuted {
+    Ok(exit(&answer.census))
+}
+
+fn exit(census: &Summary) -> Exit {
+    if census.check.refuted {
         Exit::CheckFailed
-    } else if check.passed && answer.census.decided {
+    } else if census.check.passed && census.decided {
         Exit::Done
     } else {
         Exit::Undecided
-    })
+    }
 }
 
 /// A chain whose census takes long enough to say so before.
@@ -118,6 +140,9 @@ fn cost(estimate: census::Estimate) -> String {
 }
 
 fn how_far(now: census::Progress) -> String {
+    if now.waiting == 0 {
+        return format!("{} zeros proved; their indices, and all of it again", now.proved);
+    }
     format!(
         "{} cells done, {} waiting, {} undecided, {} zeros proved",
         now.done, now.waiting, now.undecided, now.proved

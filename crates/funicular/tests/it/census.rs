@@ -513,3 +513,63 @@ fn an_interruption_leaves_nothing_half_written() {
     assert_eq!(child.wait().unwrap().code(), Some(130));
     assert_eq!(std::fs::read_dir(out).unwrap().count(), 0);
 }
+
+/// Thirteen bars close in many ways, whatever way is left to them.
+fn thirteen_bars(name: &str, span: f64) -> String {
+    let bars: Vec<(f64, f64)> =
+        (0..13).map(|k| (1.0 + 0.37 * f64::from(k % 5), 1.0 + 0.11 * f64::from(k % 7))).collect();
+    chain(name, [span, 0.0, -0.7], &bars)
+}
+
+/// What is written one by one is what is written from one list.
+#[test]
+fn a_long_list_is_that_of_the_library() {
+    // Few equilibria: the chain is nearly taut.
+    let path = thirteen_bars("long-list", 17.0);
+    let output = funicular(&[&path, "--json"]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let mut written: Value = serde_json::from_str(&stdout(&output)).unwrap();
+    let problem = funicular::Problem::read(&path).unwrap();
+    let answer = funicular::Census::new().run(&problem).unwrap();
+    let mut expected = serde_json::to_value(&answer).unwrap();
+    for object in [&mut written, &mut expected] {
+        object["census"]["statistics"]["seconds"] = 0.0.into();
+        for equilibrium in object["equilibria"].as_array_mut().unwrap() {
+            equilibrium["evidence"]["solve_s"] = 0.0.into();
+        }
+    }
+    let keys = |object: &Value| object.as_object().unwrap().keys().cloned().collect::<Vec<_>>();
+    assert_eq!(keys(&written), keys(&expected));
+    let [written, expected] = [&written, &expected].map(|o| o["equilibria"].as_array().unwrap());
+    assert!(written.len() > 40 && written.len() == expected.len(), "{}", written.len());
+    for (a, b) in written.iter().zip(expected) {
+        assert_eq!(a, b);
+    }
+}
+
+/// By signs and pulls an equilibrium is a line, and a list that would fill the disk is refused
+/// before it is made.
+#[test]
+fn a_list_is_as_large_as_is_allowed() {
+    let path = thirteen_bars("list", 17.0);
+    let output = funicular(&[&path, "--list", "signs", "--json"]);
+    let text = stdout(&output);
+    let object: Value = serde_json::from_str(&text).unwrap();
+    let listed = object["equilibria"].as_array().unwrap();
+    assert_eq!(text.lines().filter(|line| line.contains("\"pattern\"")).count(), listed.len());
+    assert_eq!(object["census"]["count"], listed.len());
+    let longest = text.lines().filter(|line| line.contains("\"pattern\"")).map(str::len).max();
+    assert!(longest < Some(260), "{longest:?}");
+
+    let output = funicular(&[&path, "--list", "full", "--json", "--max-output", "10kB"]);
+    assert_eq!((output.status.code(), stdout(&output).as_str()), (Some(2), ""));
+    let told = stderr(&output);
+    assert!(
+        told.contains("the limit is 10 kB") && told.contains("takes it all the same"),
+        "{told}"
+    );
+    // What is not listed takes no room.
+    let output = funicular(&[&path, "--list", "full", "--max-output", "10kB"]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    assert!(stdout(&output).contains("Evidence of the first"), "{}", stdout(&output));
+}

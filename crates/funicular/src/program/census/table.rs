@@ -119,7 +119,7 @@ fn overview(answer: &CensusAnswer) -> String {
     }
     numbers_from(&mut rows, 1);
     let mut text = format!("{rows}\n");
-    left_out(&mut text, answer.equilibria.len(), PRINTED, "equilibria");
+    left_out(&mut text, answer.census.count, PRINTED, "equilibria");
     let _ = writeln!(
         text,
         "Energy V from the height of joint 0{}; {unit}: {}.\nBars from the start, T in tension, C in \
@@ -181,7 +181,7 @@ fn reactions(answer: &CensusAnswer) -> String {
     }
     numbers_from(&mut rows, 1);
     let mut text = format!("Forces of the ground on the chain:\n{rows}\n");
-    left_out(&mut text, answer.equilibria.len(), PRINTED, "equilibria");
+    left_out(&mut text, answer.census.count, PRINTED, "equilibria");
     text + "\n"
 }
 
@@ -208,12 +208,7 @@ fn bars(answer: &CensusAnswer) -> String {
     let mut text = format!(
         "Angles from the descending vertical, towards the last anchor (on one vertical: towards +Y):\n{rows}\n"
     );
-    left_out(
-        &mut text,
-        answer.equilibria.len(),
-        printed,
-        "equilibria with their angles and forces",
-    );
+    left_out(&mut text, answer.census.count, printed, "equilibria with their angles and forces");
     text + "\n"
 }
 
@@ -221,7 +216,10 @@ fn bars(answer: &CensusAnswer) -> String {
 /// for.
 fn evidence(answer: &CensusAnswer) -> String {
     let all = answer.equilibria.len();
-    let mut text = "Evidence:\n".to_owned();
+    let mut text = match answer.census.count {
+        count if count > all => format!("Evidence of the first {all} of {count}:\n"),
+        _ => "Evidence:\n".to_owned(),
+    };
     for step in Rung::ALL.into_iter().filter(|rung| *rung != Rung::Converged) {
         let reached = |found: &&Found| found.equilibrium.evidence.ladder.is_reached(step);
         let there: Vec<&Found> = answer.equilibria.iter().filter(reached).collect();

@@ -27,6 +27,48 @@ fn census(kind: &'static str, test: &'static str, text: &str) -> Output {
     Output::json(kind, test, &good(folder.path(), &["census", "file.toml", "--json"]))
 }
 
+/// The same by its signs and pulls alone.
+#[test]
+fn by_signs_and_pulls() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("v.toml"), LEVEL_V).unwrap();
+    let arguments = ["census", "v.toml", "--list", "signs", "--json", "--csv", "v.csv"];
+    let text = good(folder.path(), &arguments);
+    let mut object: serde_json::Value = serde_json::from_str(&text).unwrap();
+    // All else is that of the whole census.
+    let whole = good(folder.path(), &["census", "v.toml", "--json"]);
+    let mut whole: serde_json::Value = serde_json::from_str(&whole).unwrap();
+    for of in [&mut object, &mut whole] {
+        of["census"]["statistics"]["seconds"] = json!(0.0);
+    }
+    for key in ["schema_version", "system", "census"] {
+        assert_eq!(object[key], whole[key]);
+        object.as_object_mut().unwrap().remove(key);
+    }
+    let test = "by_signs_and_pulls";
+    let mut output = Output::json("census --list signs", test, &object.to_string());
+    output.is("list", "signs");
+    output.is("equilibria[].number", json!([1, 2]));
+    output.is("equilibria[].energy_j", json!([-10.0 * DEPTH, 10.0 * DEPTH]));
+    output.is("equilibria[].pattern", json!(["TT", "CC"]));
+    output.encloses("equilibria[].pull_n[][]", json!([H, -10.0, -H, -10.0]));
+    output.each("equilibria[].index_in_plane", 0);
+    output.is("equilibria[].index_in_space", json!([0, 1]));
+    output.is("equilibria[].optimal", json!([true, false]));
+    output.done();
+    let lines = std::fs::read_to_string(folder.path().join("v.csv")).unwrap();
+    let mut output = Output::csv("census --list signs --csv", test, &lines);
+    output.is("equilibrium", json!([1, 2]));
+    output.is("energy_j", json!([-10.0 * DEPTH, 10.0 * DEPTH]));
+    output.each("index_in_plane", 0);
+    output.is("index_in_space", json!([0, 1]));
+    output.is("optimal", json!([true, false]));
+    output.is("pattern", json!(["TT", "CC"]));
+    output.is("pull_level_n", json!([H, -H]));
+    output.each("pull_upright_n", -10.0);
+    output.done();
+}
+
 /// The first hangs, the second stands on its anchors.
 #[test]
 fn it_hangs_or_stands() {
