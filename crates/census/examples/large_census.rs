@@ -4,8 +4,9 @@
 //!
 //! The chains: equal bars between level anchors, at a slant and on one vertical; bars of 1, 2, 3
 //! and 4 units in turns; and random ones, with lengths from 0.3 to 1, masses from 0.1 to 1 and
-//! anchors 0.1 to 0.8 of the total length apart. Wall times of the search and of its check; the
-//! memory is the most that the program has used so far (`VmHWM`). The program fails if a check does.
+//! anchors 0.1 to 0.8 of the total length apart. Wall times of the search and of its check, and
+//! processor time of both where the system tells; the memory is the most that the program has used
+//! so far (`VmHWM`). The program fails if a check does.
 
 use std::process::ExitCode;
 use std::time::Instant;
@@ -52,6 +53,14 @@ fn most_memory_mb() -> Option<u64> {
     Some(line.trim().strip_suffix("kB")?.trim().parse::<u64>().ok()? / 1000)
 }
 
+/// Processor time of all threads so far, s, where the system tells: in hundredths.
+fn processor_s() -> Option<f64> {
+    let status = std::fs::read_to_string("/proc/self/stat").ok()?;
+    // The name in brackets is the second field; user and system time are the 14th and the 15th.
+    let fields = status.rsplit_once(')')?.1.split_whitespace().skip(11);
+    Some(fields.take(2).filter_map(|ticks| ticks.parse::<f64>().ok()).sum::<f64>() / 100.0)
+}
+
 fn main() -> ExitCode {
     let mut arguments = std::env::args().skip(1);
     let mut argument =
@@ -67,7 +76,7 @@ fn main() -> ExitCode {
         "{bars} bars: equilibria, undecided, cells, search / s, check / s, memory so far / MB"
     );
     for (name, problem) in chains(bars, random) {
-        let start = Instant::now();
+        let (start, before) = (Instant::now(), processor_s());
         let census = match CompactCensus::take(&problem, &settings, &|_| {}) {
             Ok(census) => census,
             Err(error) => panic!("{error}"),
@@ -76,11 +85,12 @@ fn main() -> ExitCode {
         let verdict = census.check(&problem);
         good &= verdict.is_ok();
         println!(
-            "{name:>18}: {:8} {:4} {:9} {taken_s:7.2} {:7.2} {:6}{}",
+            "{name:>18}: {:8} {:4} {:9} {taken_s:7.2} {:7.2} {:7.2} {:6}{}",
             census.len(),
             census.besides().undecided.len(),
             census.besides().statistics.cells,
             start.elapsed().as_secs_f64() - taken_s,
+            processor_s().zip(before).map_or(f64::NAN, |(after, before)| after - before),
             most_memory_mb().map_or_else(String::new, |mb| mb.to_string()),
             verdict.err().map_or_else(String::new, |error| format!(" {error}")),
         );

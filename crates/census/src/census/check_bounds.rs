@@ -14,13 +14,15 @@ use crate::search::undecided::{Reason, Undecided};
 use crate::slack::moments::Exact;
 use crate::slack::unloaded::unloaded;
 
-/// Every bound that is stated, against the one that is proved; `listed` are the zeros of the listed
-/// equilibria with some signs, proved again.
+/// The zeros of the listed equilibria with some signs, proved again.
+pub(super) type Listed<'a> = dyn Fn(&[i8]) -> Result<Vec<Zero>, CheckError> + Sync + 'a;
+
+/// Every bound that is stated, against the one that is proved.
 pub(super) fn check_bounds(
     census: &Census,
     system: &System,
     exact: &Exact,
-    listed: &(dyn Fn(&[i8]) -> Result<Vec<Zero>, CheckError> + Sync),
+    listed: &Listed<'_>,
 ) -> Result<(), CheckError> {
     if census.undecided.iter().all(|open| open.bound.is_none()) {
         return Ok(());

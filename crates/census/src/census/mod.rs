@@ -128,9 +128,7 @@ impl Census {
     ) -> Result<Self, CensusError> {
         let mut gathered = Gathered::of(chain, loads, settings, Kept::Whole, watch)?;
         let mut equilibria = gathered.take_unloaded();
-        equilibria.extend(
-            gathered.each(|system, signs, zero| ProvenEquilibrium::new(system, signs, zero)),
-        );
+        equilibria.extend(gathered.each(ProvenEquilibrium::new));
         equilibria.sort_by(by_energy_and_angles);
         let (_, mut census) = gathered.finish();
         census.equilibria = equilibria;
