@@ -524,8 +524,7 @@ fn thirteen_bars(name: &str, span: f64) -> String {
 /// What is written one by one is what is written from one list.
 #[test]
 fn a_long_list_is_that_of_the_library() {
-    // Few equilibria: the chain is nearly taut.
-    let path = thirteen_bars("long-list", 17.0);
+    let path = thirteen_bars("long-list", 13.0);
     let output = funicular(&[&path, "--json"]);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     let mut written: Value = serde_json::from_str(&stdout(&output)).unwrap();
@@ -551,7 +550,7 @@ fn a_long_list_is_that_of_the_library() {
 /// before it is made.
 #[test]
 fn a_list_is_as_large_as_is_allowed() {
-    let path = thirteen_bars("list", 17.0);
+    let path = thirteen_bars("list", 13.0);
     let output = funicular(&[&path, "--list", "signs", "--json"]);
     let text = stdout(&output);
     let object: Value = serde_json::from_str(&text).unwrap();
