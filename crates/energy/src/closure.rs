@@ -176,7 +176,7 @@ impl Links {
 impl Moments {
     /// The components of the gap as parts of their terms, the largest of them.
     fn parts(&self) -> f64 {
-        let parts = self.gap.iter().zip(&self.terms).map(|(gap, terms)| (gap / terms).abs());
+        let parts = self.gap.iter().zip(&self.terms).map(|(gap, terms)| gap.abs() / terms);
         // Nothing of nothing is closed.
         parts.filter(|part| !part.is_nan()).fold(0.0, f64::max)
     }

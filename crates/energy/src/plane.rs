@@ -158,8 +158,8 @@ mod tests {
             std::array::from_fn(|k| h * level[k] + 0.3 * links.up[k] + n * f64::from(k == 1))
         };
         let slope = |multiplier: Vector, mean: f64| Slope {
-            mean,
             multiplier,
+            mean,
             ..Slope::refined(&links, &links.arc(), multiplier)
         };
         for side in [1.0, -1.0] {

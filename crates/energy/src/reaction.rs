@@ -148,8 +148,7 @@ pub fn reaction_by_differences(
             let mut displaced = Links { motion, vertical: false, ..links.clone() };
             displaced.span[0][axis] += h;
             let datum = units.datum(&displaced);
-            let settings = Settings { motion, ..*settings };
-            let minimum = descend(displaced, start.clone(), &settings)?;
+            let minimum = descend(displaced, start.clone(), settings)?;
             Ok(minimum.shape.moments.value + datum)
         };
         *component = extrapolated(STEP * spare, least_energy)?;

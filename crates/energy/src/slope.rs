@@ -151,4 +151,24 @@ mod tests {
         assert!(slope.softest.abs() < 1e-15);
         assert!((slope.residual() - across / 2.75).abs() < 1e-15);
     }
+
+    /// On a line that the multiplier does not open, anchors off it say that the shape is lost.
+    #[test]
+    fn a_shape_on_a_line_is_lost_unless_all_bars_pull() {
+        let links = Links {
+            length: vec![0.5, 0.5],
+            carried: vec![0.25, -0.25],
+            span: [[0.3, 0.0, 0.4], [0.0; 3]],
+            up: [0.0, 0.0, 1.0],
+            vertical: false,
+            motion: Motion::Plane,
+        };
+        let u = [[1.0, 0.0, 0.0]; 2];
+        let line = Some([1.0, 0.0, 0.0]);
+        let slope = |line, opened| Slope { line, opened, ..Slope::refined(&links, &u, [0.0; 3]) };
+        assert!((slope(line, false).lost(&links).unwrap() - 0.4).abs() < 1e-15);
+        assert!(slope(line, true).lost(&links).is_none());
+        assert!(slope(None, false).lost(&links).is_none());
+        assert!(slope(Some([0.6, 0.0, 0.8]), false).lost(&links).is_none());
+    }
 }

@@ -177,7 +177,7 @@ impl Lane {
         Next::Step(self.part)
     }
 
-    fn halve(&mut self) -> Next {
+    pub(super) fn halve(&mut self) -> Next {
         self.corrections = 0;
         self.halvings += 1;
         self.part *= 0.5;
@@ -190,7 +190,7 @@ impl Lane {
         }
     }
 
-    fn perturb(&mut self) -> Next {
+    pub(super) fn perturb(&mut self) -> Next {
         self.perturbations += 1;
         self.settling = 0;
         // What is closed after a perturbation is the new base, whatever its energy.

@@ -7,6 +7,7 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use samples::{General, Line};
 
+use super::control::{Lane, Next};
 use super::piece::{Piece, direction};
 use super::point::{Place, measure, slopes};
 use super::wide::{WIDTH, same};
@@ -189,4 +190,66 @@ fn curvature_of_three_bars_is_that_of_their_one_motion() {
         }
     }
     assert!(counts.iter().all(|count| *count > 50), "{counts:?}");
+}
+
+/// What a seed takes is enough; one pass fewer is not.
+#[test]
+fn the_limit_of_iterations_is_the_last_that_is_made() {
+    let problem = model::cases::paper();
+    let angles = [0.3, 0.7, -1.3];
+    let passes = solved(&problem, &angles).iterations[0];
+    for (max_iterations, finish) in
+        [(passes, Finish::Converged), (passes - 1, Finish::IterationLimit)]
+    {
+        let settings =
+            BatchSettings { max_iterations: u32::from(max_iterations), ..Default::default() };
+        let mut ends = Ends::default();
+        Batch::new(&problem, settings).unwrap().minimise(&angles, &mut ends);
+        assert_eq!(ends.finish, [finish]);
+    }
+}
+
+#[test]
+fn a_lane_gives_up_after_its_halvings_and_its_perturbations() {
+    let mut lane = Lane::new(0);
+    let settings = BatchSettings::default();
+    // The whole step, then ever smaller halves.
+    let first = lane.accepted(&settings, 1.0, true, 0.35, -1.0);
+    assert_eq!(first, Next::Step(1.0));
+    for k in 1..=40 {
+        assert_eq!(lane.halve(), Next::Step(0.5_f64.powi(k)));
+    }
+    assert_eq!(lane.halve(), Next::Stalled);
+    // A step is cut to a turn of 0.7 rad.
+    assert_eq!(lane.accepted(&settings, 1.0, true, 1.4, -1.0), Next::Step(0.5));
+    for k in 1..=8 {
+        assert_eq!(lane.perturb(), Next::Perturb(0.01 * f64::from(k)));
+    }
+    assert_eq!(lane.perturb(), Next::Stalled);
+}
+
+/// Where the slope is zero to the tolerance: a minimum whose step turns bars goes on, for forty
+/// steps and not where the step does not go down; what is no minimum is perturbed.
+#[test]
+fn minima_settle() {
+    let settings = BatchSettings::default();
+    let here = |lane: &mut Lane, convex, turn, fall| {
+        lane.accepted(&settings, settings.tolerance, convex, turn, fall)
+    };
+    let mut lane = Lane::new(0);
+    for _ in 0..40 {
+        assert_eq!(here(&mut lane, true, 1e-8, -1e-20), Next::Step(1.0));
+    }
+    assert_eq!(here(&mut lane, true, 1e-8, -1e-20), Next::Minimum);
+    for (turn, fall) in [(1e-10, -1e-20), (1e-8, 0.0), (1e-8, 1e-20), (f64::INFINITY, -1.0)] {
+        assert_eq!(here(&mut Lane::new(0), true, turn, fall), Next::Minimum);
+    }
+    assert_eq!(here(&mut Lane::new(0), false, 1e-8, -1e-20), Next::Perturb(0.01));
+    // One that settles is a minimum, though rounding no longer shows it.
+    let mut lane = Lane::new(0);
+    assert_eq!(here(&mut lane, true, 1e-8, -1e-20), Next::Step(1.0));
+    assert_eq!(here(&mut lane, false, 1e-10, -1e-20), Next::Minimum);
+    let mut lane = Lane::new(0);
+    assert_eq!(lane.accepted(&settings, f64::NAN, true, 0.1, -1.0), Next::NonFinite);
+    assert_eq!(lane.accepted(&settings, 1.0, true, f64::NAN, -1.0), Next::Perturb(0.01));
 }

@@ -55,6 +55,8 @@ fn a_shallow_truss_snaps_through_where_it_is_soft() {
         let (frame, shape) = truss(1.0 / stiffness);
         let mut factor = Factor::new(&frame.spots, &frame.rods).unwrap();
         assert_eq!(below(&frame, &shape, &mut factor, ZERO), falls, "{stiffness}");
+        // That there is no Cholesky factor, and the signs.
+        assert_eq!(factor.count, 2);
         let dense = Dense::new(&frame, &shape);
         // Sideways in its plane two rigid bars leave it nothing, and upwards neither.
         let index = if stiffness.is_infinite() { 1 } else { falls };
@@ -119,4 +121,42 @@ fn ranks_and_gaps_of_matrices_that_are_known() {
     // What the two equal rows say twice is a self-stress.
     let balance = (0..2).map(|k| stresses[(0, k)] + stresses[(1, k)]);
     assert!(balance.fold(0.0_f64, |most, sum| most.max(sum.abs())) < 1e-14);
+}
+
+/// Against loads of 1000 a motion with a stiffness of 1e-8 is neutral, with one of 1e-5 it is not.
+#[test]
+fn what_nearly_nothing_resists_is_neutral() {
+    for (force, neutral) in [(0.0, 1), (2e-8, 1), (2e-5, 0)] {
+        let (mut frame, mut shape) = truss(0.0);
+        frame.loads[3] = [0.0, 0.0, -1000.0];
+        shape.force = vec![0.0, 0.0, force];
+        let mut factor = Factor::new(&frame.spots, &frame.rods).unwrap();
+        assert_eq!(below(&frame, &shape, &mut factor, -ZERO), neutral, "{force}");
+    }
+}
+
+/// The joint above the floor by a fifth less one: what is worst is named by a member.
+#[test]
+fn a_floor_is_no_member() {
+    let (mut frame, shape) = truss(0.0);
+    frame.rods.push(Rod { ground: true, kind: Kind::Cable, ..frame.rods[0] });
+    frame.rods[3].from = 2;
+    let x = vec![shape.x[0], shape.x[1], [0.0, 0.0, 1.0], shape.x[3]];
+    let slope = frame.slope(&Shape { x, force: vec![-1.0, -1.0, 0.0, 0.0] });
+    assert_eq!(slope.worst, 2);
+    // 0.8 below it, over the length of two.
+    assert!((slope.misfit - 0.4).abs() < 1e-15, "{}", slope.misfit);
+}
+
+/// Two equal bars in one line from anchor to anchor share what they bear together equally.
+#[test]
+fn least_forces_of_a_bar_in_two_parts_are_shared() {
+    let (mut frame, mut shape) = truss(0.0);
+    shape.x = vec![[-2.0, 0.0, 0.0], [2.0, 0.0, 0.0], [0.0, 0.0, 3.0], ZERO3];
+    frame.rods.truncate(2);
+    frame.members = 2;
+    shape.force = vec![2.0, 0.0];
+    let least = Dense::new(&frame, &shape).least_forces(&frame, &shape).unwrap();
+    // A unit of it runs along both: what is left is one pulling and one pushing.
+    assert!((least[0] - 1.0).abs() < 1e-15 && (least[1] + 1.0).abs() < 1e-15, "{least:?}");
 }

@@ -1,6 +1,7 @@
 //! Tests of the crate from outside.
 
 mod chains;
+mod conditions;
 mod little_force;
 mod network;
 mod network_large;

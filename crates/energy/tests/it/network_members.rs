@@ -238,3 +238,20 @@ fn a_weight_below_its_anchor_on_a_strut_falls() {
     // The weight is what would have to be borne.
     close(force_n, 5.0 * G);
 }
+
+/// A weight whose cable is longer than the floor is deep lies on it: the floor bears all of it, and
+/// anchors are where they were put, to the last digit.
+#[test]
+fn the_floor_bears_what_lies_on_it() {
+    let at_m = [0.1, 0.7, 3.3];
+    let joints = vec![Joint::anchor("A", at_m), Joint::free("P").with_mass(5.0)];
+    let system = System::new("floor", G, joints, vec![weightless(0, 1, 5.0, Kind::Cable)])
+        .and_then(|system| system.with_floor(-1.0))
+        .expect("a system");
+    let found = minimise(&system, &Settings::default()).expect("a minimum").equilibrium;
+    assert!((found.joints_m[1][2] + 1.0).abs() < 1e-12);
+    let [x, y, z] = found.reactions_n[1];
+    assert!(x.abs() < 1e-12 && y.abs() < 1e-12 && (z - 50.0).abs() < 1e-10, "{z}");
+    assert!(found.axial_n[0].abs() < 1e-10);
+    assert_eq!(found.joints_m[0].map(f64::to_bits), at_m.map(f64::to_bits));
+}

@@ -24,7 +24,8 @@ fn add(row: &mut Row, outcome: Result<energy::Solution, Error>) {
 }
 
 fn assert_same<T: PartialEq + std::fmt::Debug>(found: &[T], expected: &[T]) {
-    let text: String = found.iter().map(|row| format!("    {row:?},\n")).collect();
+    let rows: Vec<String> = found.iter().map(|row| format!("    {row:?},")).collect();
+    let text = rows.join("\n");
     assert!(found == expected, "the work has changed:\n{text}");
 }
 
@@ -122,7 +123,9 @@ fn work_of_batches() {
             (0..100 * bars).map(|_| rng.random_range(0.0..std::f64::consts::TAU)).collect();
         // Bars in parallel, and nearly so, are perturbed first.
         for (seed, angles) in angles.chunks_mut(bars).take(40).enumerate() {
-            angles.iter_mut().for_each(|angle| *angle = seed as f64 + 1e-9 * *angle);
+            for angle in angles {
+                *angle = seed as f64 + 1e-9 * *angle;
+            }
         }
         let mut ends = Ends::default();
         Batch::new(&problem, BatchSettings::default()).unwrap().minimise(&angles, &mut ends);
