@@ -11,8 +11,7 @@ use super::{csv, lines};
 use crate::solve::SCHEMA_VERSION;
 
 /// What is listed of each equilibrium.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum List {
     /// Signs, pull, energy and indices: everything else follows from the signs and the pull.
     Signs,
@@ -89,7 +88,7 @@ impl LargeCensusAnswer {
     /// When `to` cannot be written.
     pub fn write_json(&self, list: List, to: &mut impl Write) -> io::Result<()> {
         match list {
-            List::Signs => lines::write(to, &self.object(Some(list), Each(|| self.lines()))),
+            List::Signs => lines::write(to, &self.object(Some("signs"), Each(|| self.lines()))),
             List::Full => {
                 let object = self.object(None, Each(|| self.found()));
                 serde_json::to_writer_pretty(&mut *to, &object)?;
@@ -98,7 +97,7 @@ impl LargeCensusAnswer {
         }
     }
 
-    fn object<E>(&self, list: Option<List>, equilibria: E) -> Object<'_, E> {
+    fn object<E>(&self, list: Option<&'static str>, equilibria: E) -> Object<'_, E> {
         let (system, census) = (&self.first.system, &self.first.census);
         Object { schema_version: SCHEMA_VERSION, system, list, equilibria, census }
     }
@@ -188,7 +187,7 @@ struct Object<'a, E> {
     schema_version: u32,
     system: &'a SystemSummary,
     #[serde(skip_serializing_if = "Option::is_none")]
-    list: Option<List>,
+    list: Option<&'static str>,
     equilibria: E,
     census: &'a Summary,
 }
