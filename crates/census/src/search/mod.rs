@@ -8,6 +8,8 @@ pub(crate) mod merge;
 pub(crate) mod pattern_sums;
 pub(crate) mod undecided;
 
+use std::borrow::Cow;
+
 use rayon::prelude::*;
 
 use crate::closure::Pattern;
@@ -83,6 +85,18 @@ pub(crate) struct Settled<'a> {
     pub(crate) straight: &'a Straight,
 }
 
+impl Settled<'_> {
+    /// The patterns that may have equilibria in a cell besides those that are settled.
+    fn left<'p>(
+        &self,
+        system: &System,
+        cell: &Cell,
+        patterns: &'p [Pattern],
+    ) -> Cow<'p, [Pattern]> {
+        self.straight.left(system, cell, self.unloaded.left(system, cell, patterns))
+    }
+}
+
 /// Search the whole half cube for zeros of these patterns, sorted, but for what is settled with
 /// unloaded bars and straight positions. `watch` hears of the progress after each level, and within
 /// large ones.
@@ -149,20 +163,28 @@ fn examine_cell(system: &System, settings: &Settings, settled: &Settled, task: &
     let cell = task.cell.recentred(system);
     let mut outcome = Outcome::default();
     let mut noisy = [true; 2];
-    let asked = settled.unloaded.left(system, &cell, &task.patterns);
-    let mut asked = settled.straight.left(system, &cell, asked);
+    let mut asked = Cow::Borrowed(&task.patterns[..]);
     if cell.unit().is_infinite() {
         asked = exclusion::open(system, &cell, &asked).into();
     }
     let (patterns, left, across) = match PatternSums::over(system, &cell) {
         None => {
             noisy = [false; 2];
-            (exclusion::open(system, &cell, &asked), cell, wider(&cell))
+            let open = exclusion::open(system, &cell, &asked);
+            (settled.left(system, &cell, &open).into_owned(), cell, wider(&cell))
         }
         Some(sums) => {
             let mut patterns = vec![];
             let mut left: Option<Cell> = None;
-            for open in sums.open(&asked) {
+            let all = sums.open(&asked);
+            // What is settled is asked last: few patterns are left, and the sums are shared.
+            let of_all: Vec<Pattern> = all.iter().map(|open| open.pattern).collect();
+            let unsettled = settled.left(system, &cell, &of_all);
+            let mut unsettled = unsettled.iter().copied().peekable();
+            for open in all {
+                if unsettled.next_if_eq(&open.pattern).is_none() {
+                    continue;
+                }
                 if open.promising {
                     outcome.proofs += 1;
                     let signs: Vec<i8> = open.pattern.signs(system.bars()).collect();
