@@ -283,7 +283,7 @@ fn parted(u: Vector) -> (usize, Vector) {
     };
     let mut rest = u;
     rest[axis] = 0.0;
-    rest[axis] = (-dot(rest, rest) / (1.0 + u[axis].abs())).copysign(-u[axis]);
+    rest[axis] = (dot(rest, rest) / (1.0 + u[axis].abs())).copysign(-u[axis]);
     (axis, rest)
 }
 

@@ -143,4 +143,16 @@ mod tests {
             assert!([first[1], first[2], rest[1], rest[2]].iter().all(|x| x.abs() <= 0.0));
         }
     }
+
+    #[test]
+    fn a_frame_is_turned_by_axes_given_in_it() {
+        let frame = frame([1.0, -2.0, 0.5]);
+        let axes = [[0.6, 0.0, 0.8], [0.0, 1.0, 0.0], [-0.8, 0.0, 0.6]];
+        let turned = frame.turned(axes);
+        let v = [0.3, -0.4, 1.2];
+        let inside = frame.into_frame(v);
+        let expected = axes.map(|axis| dot(axis, inside));
+        let found = turned.into_frame(v);
+        assert!((0..3).all(|k| (found[k] - expected[k]).abs() < 1e-15), "{found:?}");
+    }
 }

@@ -137,3 +137,25 @@ impl Links {
         along(multiplier, self.carried[i], self.up)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bars_can_spare_what_keeps_them_off_one_line() {
+        let links = |length: Vec<f64>, span: [Vector; 2]| Links {
+            carried: vec![0.0; length.len()],
+            length,
+            span,
+            up: WORLD_UP,
+            vertical: false,
+            motion: Motion::Plane,
+        };
+        // 1.5 long over 1.25: a quarter. Folded over a bar of one, the others 0.5: 0.5 + 0.75 - 1.
+        let drawn_out = links(vec![0.5; 3], [[0.5, 0.0, 1.0], [0.25, 0.0, 0.0]]);
+        assert!((drawn_out.spare() - 0.25).abs() < 1e-15);
+        let folded = links(vec![0.25, 1.0, 0.25], [[0.45, 0.0, -0.6], [0.0; 3]]);
+        assert!((folded.spare() - 0.25).abs() < 1e-15);
+    }
+}

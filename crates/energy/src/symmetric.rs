@@ -270,4 +270,9 @@ mod tests {
             assert_eq!(found.map(f64::to_bits), expected.map(f64::to_bits));
         }
     }
+
+    #[test]
+    fn nothing_has_no_sign() {
+        assert_eq!(Symmetric::zero(3).eigen().signs(1e-15), (0, 0));
+    }
 }

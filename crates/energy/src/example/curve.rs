@@ -175,4 +175,18 @@ mod tests {
             }
         }
     }
+
+    /// Chebyshev's points between the ends of the curve, there on one branch and back on the other.
+    #[test]
+    fn points_are_those_of_chebyshev() {
+        let end = 0.25_f64.acos();
+        // cos(pi/8) and cos(3 pi/8).
+        let (far, near) = (0.923_879_532_511_286_7 * end, 0.382_683_432_365_089_8 * end);
+        let thetas = [far, near, -near, -far, -far, -near, near, far];
+        let found = curve(4);
+        assert_eq!(found.len(), 8);
+        for (point, theta) in found.iter().zip(thetas) {
+            assert!((point.theta_rad - theta).abs() < 1e-15);
+        }
+    }
 }

@@ -160,3 +160,19 @@ fn least_forces_of_a_bar_in_two_parts_are_shared() {
     // A unit of it runs along both: what is left is one pulling and one pushing.
     assert!((least[0] - 1.0).abs() < 1e-15 && (least[1] + 1.0).abs() < 1e-15, "{least:?}");
 }
+
+/// Of the three stiffnesses 2 (k cos² - F sin² / l), -2 F / l and 2 (k sin² - F cos² / l).
+#[test]
+fn the_condition_is_that_of_the_stiffnesses() {
+    for stiffness in [40.0, 60.0] {
+        let (frame, shape) = truss(1.0 / stiffness);
+        let [along, upwards]: [f64; 2] =
+            [2.0 * (0.99 * stiffness - 0.005), 2.0 * (0.01 * stiffness - 0.495)];
+        let (_, neutral, condition) = Dense::new(&frame, &shape).count();
+        assert_eq!(neutral, 0);
+        assert!(
+            (condition * upwards.abs() / along - 1.0).abs() < 1e-12,
+            "{stiffness}: {condition}"
+        );
+    }
+}

@@ -7,7 +7,7 @@
 use energy::{Error, Settings, Solution, minimise};
 use model::{Problem, Rung, Vector};
 
-use crate::support::{difference, problem};
+use crate::support::{difference, energy_unit, problem};
 
 const GRAVITY: f64 = 9.806_65;
 
@@ -29,6 +29,13 @@ fn misaligned(problem: &Problem, solution: &Solution) -> f64 {
 fn solved(bars: &[(f64, f64, f64)], end_m: Vector) -> (Problem, Solution) {
     let problem = problem(bars, end_m, GRAVITY);
     let solution = minimise(&problem, &Settings::default()).unwrap();
+    // Whatever weights are counted from, the energy is that of the centres.
+    let height = |joint: usize| solution.equilibrium.joints_m[joint][2];
+    let works = bars.iter().enumerate().map(|(i, (_, mass_kg, part))| {
+        mass_kg * GRAVITY * (height(i) + part * (height(i + 1) - height(i)))
+    });
+    let off = (works.sum::<f64>() - solution.equilibrium.energy_j).abs();
+    assert!(off < 1e-13 * energy_unit(&problem), "{off:e}");
     (problem, solution)
 }
 

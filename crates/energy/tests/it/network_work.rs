@@ -1,12 +1,13 @@
 //! The work of the minimiser of systems, frozen as that of chains in `work`.
 
 use energy::network::{Error, Settings, Solution, minimise, minimise_from};
-use model::Vector;
 use model::system::{Kind, Member, Support, System};
+use model::{Bar, Vector};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
 use crate::network_random::{bridle, net, ring, tree};
+use crate::network_support::G;
 
 /// Systems, answers, iterations of the relaxation, of Newton's method, factorisations; and the sum
 /// of the numbers of members and joints that refusals name.
@@ -32,8 +33,7 @@ fn add(row: &mut Row, outcome: Result<Solution, Error>) {
 /// The same joints with members made from these.
 fn with(system: &System, member: impl Fn(usize, &Member) -> Member) -> System {
     let members = system.members().iter().enumerate().map(|(e, old)| member(e, old));
-    System::new("other", crate::network_support::G, system.joints().to_vec(), members.collect())
-        .expect("a system")
+    System::new("other", G, system.joints().to_vec(), members.collect()).expect("a system")
 }
 
 /// The kinds of members, some of each kind elastic.
@@ -163,6 +163,62 @@ fn work_from_seeds() {
         [40, 39, 0, 907, 1318, 0],
     ];
     assert!(found == expected, "the work has changed:\n{}", lines(&found));
+}
+
+/// The same system with all lengths four times as long.
+fn enlarged(system: &System) -> System {
+    let joints = system.joints().iter().map(|joint| {
+        let mut joint = joint.clone();
+        if let Support::Fixed { at_m } = &mut joint.support {
+            *at_m = at_m.map(|x| 4.0 * x);
+        }
+        joint
+    });
+    let members = system.members().iter().map(|member| Member {
+        body: Bar::homogeneous(4.0 * member.body.length_m(), member.body.mass_kg()).expect("a bar"),
+        ..member.clone()
+    });
+    let system = System::new("4", G, joints.collect(), members.collect());
+    system.expect("a system")
+}
+
+/// Powers of two change no digit: places and misfits are four times as large, forces the same.
+#[test]
+fn four_times_as_long_is_the_same_in_every_digit() {
+    let settings = Settings::default();
+    let bits = |at: &[Vector], by: f64| -> Vec<[u64; 3]> {
+        at.iter().map(|at| at.map(|x| (by * x).to_bits())).collect()
+    };
+    let mut refused = 0;
+    for stream in 2000..2040 {
+        let mut rng = ChaCha8Rng::seed_from_u64(stream);
+        let system = bridle(&mut rng);
+        let seed: Vec<Vector> = system
+            .joints()
+            .iter()
+            .map(|_| std::array::from_fn(|_| rng.random_range(-1.5..1.5)))
+            .collect();
+        let large: Vec<Vector> = seed.iter().map(|at| at.map(|x| 4.0 * x)).collect();
+        let here = minimise_from(&system, &seed, &settings);
+        let there = minimise_from(&enlarged(&system), &large, &settings);
+        match (here, there) {
+            (Ok(here), Ok(there)) => {
+                let (here, there) = (here.equilibrium, there.equilibrium);
+                assert_eq!(bits(&here.joints_m, 4.0), bits(&there.joints_m, 1.0), "{stream}");
+                assert_eq!(bits(&here.reactions_n, 1.0), bits(&there.reactions_n, 1.0));
+                assert_eq!((4.0 * here.energy_j).to_bits(), there.energy_j.to_bits());
+            }
+            (
+                Err(Error::NotClosed { member, misfit_m }),
+                Err(Error::NotClosed { member: other, misfit_m: large_m }),
+            ) => {
+                assert_eq!((member, (4.0 * misfit_m).to_bits()), (other, large_m.to_bits()));
+                refused += 1;
+            }
+            (here, there) => panic!("{stream}: {here:?}, {there:?}"),
+        }
+    }
+    assert!(refused > 0);
 }
 
 /// The gallery and the tensegrities: from no guess, and from places a twentieth of a metre off.
