@@ -11,8 +11,8 @@ use crate::error::CensusError;
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Settings {
-    /// Chains with more bars are refused with an estimate of the cost. Default 16 (some ten seconds
-    /// for chains, and 100,000 equilibria), from 1 to [`Settings::MAX_BARS`].
+    /// Chains with more bars are refused with an estimate of the cost. Default 16 (some seconds of a
+    /// processor, and up to 100,000 equilibria), from 1 to [`Settings::MAX_BARS`].
     pub max_bars: usize,
     /// Joints held by three long strands of more bars together are refused with an estimate of the
     /// cost. Default 12 (a minute), from 1 to [`Settings::MAX_BARS`].

@@ -84,7 +84,8 @@ pub struct Summary {
     /// Whether every equilibrium is in `equilibria`, `slack_families` or `degenerate`, or upright
     /// in `straight`.
     pub decided: bool,
-    /// Number of isolated equilibria in one vertical plane: the length of `equilibria`.
+    /// Number of isolated equilibria in one vertical plane: the length of `equilibria`, where each
+    /// is listed with everything; by signs and pulls a circle is listed once.
     pub count: usize,
     /// Whether the anchors are on one vertical, so that equilibria come in circles.
     pub circles: bool,

@@ -131,7 +131,8 @@ impl LargeCensusAnswer {
         let (bytes, sample) = match list {
             List::Signs => {
                 let sample: Vec<Line> = self.lines().take(SAMPLE).collect();
-                (serde_json::to_string(&sample).map_or(0, |text| text.len()), sample.len())
+                let mut text = vec![];
+                (lines::write(&mut text, &sample).map_or(0, |()| text.len()), sample.len())
             }
             List::Full => {
                 let sample: Vec<Found> = self.found().take(SAMPLE).collect();

@@ -17,9 +17,9 @@ use crate::progress::Progress;
 const UNASKED: f64 = 1e8;
 
 /// Bytes of JSON for everything of one bar of an equilibrium, and for an equilibrium in a line
-/// without its signs; measured on chains of 8 to 16 bars.
+/// without its signs; measured on chains of 13 to 20 bars.
 const FULL_BYTES: f64 = 1_200.0;
-const LINE_BYTES: f64 = 190.0;
+const LINE_BYTES: f64 = 230.0;
 
 /// `--list`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
