@@ -100,7 +100,7 @@ pub(crate) fn refine(problem: &Problem, units: &Units, minimum: &Minimum) -> Ref
     } else {
         Refinement::Failed(first)
     };
-    let last = match point.straightened() {
+    let last = match point.straightened(problem.chain()) {
         Some(unknown) => unknown,
         None => match point.newton() {
             Some(last) if point.closed() => last,

@@ -7,6 +7,7 @@ use census::{Census, CensusError, ProvenEquilibrium, SlackFamily};
 use model::{Chain, Ends, Finish, Problem};
 use serde::{Deserialize, Serialize};
 
+use crate::accuracy::{carried, place_error};
 use crate::error::SweepError;
 use crate::settings::Settings;
 use crate::solver::{Finds, Solvers};
@@ -16,6 +17,7 @@ use crate::sweep::block;
 /// An outcome is an equilibrium of the list when no joint is farther from it than this, in total
 /// lengths. A converged seed is within its residual (1e-13) times the condition of the equilibrium;
 /// equilibria nearer to each other than four times this narrow it to a quarter of their distance.
+/// Where bars bear so little that a converged seed is known less well, that is the tolerance.
 pub const JOINT_TOLERANCE: f64 = 1e-6;
 
 /// Energies of one equilibrium differ by less than this, in total weight times total length: near
@@ -92,9 +94,15 @@ struct Lookup {
     energies: Vec<f64>,
     /// Directions, n per entry; undefined for slack bars.
     directions: Vec<[f64; 2]>,
+    /// How far converged seeds may be from each entry, in total lengths.
+    errors: Vec<f64>,
+    /// What the bars carry, in units of the total weight.
+    carried: Vec<f64>,
     /// Total weight times total length, J.
     unit_j: f64,
     tolerance: f64,
+    /// A quarter of the smallest distance of two entries of one energy.
+    apart: f64,
 }
 
 impl Members {
@@ -239,6 +247,7 @@ impl Members {
         let bars = u.len();
         self.lookup.energies.insert(at, energy_j / self.lookup.unit_j);
         self.lookup.directions.splice(at * bars..at * bars, u.iter().copied());
+        self.lookup.errors.insert(at, self.lookup.error(u));
     }
 }
 
@@ -264,11 +273,17 @@ impl Lookup {
             lengths: chain.bars().iter().map(|bar| bar.length_m() / total_m).collect(),
             energies: list.iter().map(|member| member.energy_j / unit_j).collect(),
             directions: directions.collect(),
+            errors: vec![],
+            carried: carried(chain),
             unit_j,
             tolerance: JOINT_TOLERANCE,
+            apart: f64::INFINITY,
         };
+        let entries = lookup.directions.chunks(lookup.lengths.len());
+        lookup.errors = entries.map(|u| lookup.error(u)).collect();
         let separation = lookup.separation();
-        lookup.tolerance = JOINT_TOLERANCE.min(0.25 * separation);
+        lookup.apart = 0.25 * separation;
+        lookup.tolerance = JOINT_TOLERANCE.min(lookup.apart);
         lookup
     }
 
@@ -289,18 +304,26 @@ impl Lookup {
         least
     }
 
+    /// How far a converged seed may be from its equilibrium, where that is more than the tolerance;
+    /// of two seeds each may be.
+    fn error(&self, u: &[[f64; 2]]) -> f64 {
+        let error = 2.0 * place_error(&self.lengths, &self.carried, u);
+        if error > JOINT_TOLERANCE { error } else { 0.0 }
+    }
+
     /// The nearest entry within the tolerance.
     #[inline]
     fn nearest(&self, u: &[[f64; 2]], energy_j: f64) -> Option<usize> {
         let energy = energy_j / self.unit_j;
         let first = self.energies.partition_point(|other| *other < energy - ENERGY_TOLERANCE);
-        let mut best = (self.tolerance, None);
+        let mut best = (f64::INFINITY, None);
         for entry in first..self.energies.len() {
             if self.energies[entry] > energy + ENERGY_TOLERANCE {
                 break;
             }
             let distance = self.distance(entry, u);
-            if distance <= best.0 {
+            let tolerance = self.tolerance.max(self.errors[entry].min(self.apart));
+            if distance <= best.0.min(tolerance) {
                 best = (distance, Some(entry));
             }
         }

@@ -40,6 +40,7 @@
 //! column stand in its metadata in Parquet, and in the footer `funicular.program`, `.system`,
 //! `.system_sha256`, `.seed_number` and `.source`; CSV has the names alone.
 
+mod accuracy;
 mod basins;
 mod cost;
 mod error;

@@ -10,6 +10,7 @@
 
 use std::ops::Range;
 
+use intervals::DoubleDouble;
 use model::{Bar, Chain, FreeJoints, Vector};
 
 use crate::lever::carried_kg;
@@ -88,7 +89,7 @@ fn plumb(chain: &Chain, joints_m: &[Vector], run: &Range<usize>) -> [Vector; 2] 
 }
 
 /// Whether the bars of a run can bridge the gap between the plumb parts, neither straight nor
-/// folded on one line, beyond what roundings can tell.
+/// folded on one line. Parts that end at one point do so to rounding.
 fn has_room(chain: &Chain, joints_m: &[Vector], run: &Range<usize>) -> bool {
     let lengths = || chain.bars()[run.clone()].iter().map(Bar::length_m);
     let reach_m = model::sum(lengths());
@@ -103,7 +104,33 @@ fn has_room(chain: &Chain, joints_m: &[Vector], run: &Range<usize>) -> bool {
         // Closed on one point, about which it turns.
         return folded_m <= rounding_m;
     }
-    gap_m < reach_m - rounding_m && folded_m < gap_m - rounding_m
+    let [gap, reach, folded] = squares(chain, joints_m, run);
+    (reach - gap).interval().lo() > 0.0
+        && (folded_m < -rounding_m || (gap - folded).interval().lo() > 0.0)
+}
+
+/// Squares of the gap, of the reach of a run, and of what its longest bar is longer than the
+/// others: of the numbers as they are given, since a difference of one rounding is room.
+fn squares(chain: &Chain, joints_m: &[Vector], run: &Range<usize>) -> [DoubleDouble; 3] {
+    let point = DoubleDouble::point;
+    let anchors = chain.anchors();
+    let mut gap: [_; 3] =
+        std::array::from_fn(|k| point(anchors.end_m[k]) - point(anchors.start_m[k]));
+    let (mut reach, mut longest_m) = (DoubleDouble::ZERO, 0.0_f64);
+    for (k, length_m) in chain.bars().iter().map(Bar::length_m).enumerate() {
+        let length = point(length_m);
+        if run.contains(&k) {
+            reach = reach + length;
+            longest_m = longest_m.max(length_m);
+        } else if joints_m[k + 1][2] < joints_m[k][2] {
+            gap[2] = gap[2] + length;
+        } else {
+            gap[2] = gap[2] - length;
+        }
+    }
+    let folded = point(longest_m) + point(longest_m) - reach;
+    let [x, y, z] = gap.map(DoubleDouble::square);
+    [x + y + z, reach.square(), folded.square()]
 }
 
 fn distance(a: Vector, b: Vector) -> f64 {

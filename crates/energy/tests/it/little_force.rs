@@ -96,6 +96,7 @@ fn bars_that_exactly_bridge_a_gap_and_carry_nothing() {
     ];
     for (bars, end_m, joints) in cases {
         let (_, solution) = solved(bars, end_m);
+        assert!(solution.equilibrium.evidence.ladder.is_reached(Rung::Converged));
         let found = &solution.equilibrium.joints_m;
         for (found, exact) in found[1..].iter().zip(joints) {
             assert!(difference(*found, *exact) < 1e-13, "{found:?} {exact:?}");

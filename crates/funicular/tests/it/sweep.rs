@@ -149,6 +149,33 @@ fn threads_shards_and_forms_do_not_show() {
     }
 }
 
+/// Bars of 5 m and 1 m just bridge their gap and bear nothing: what seeds reach is one equilibrium,
+/// known to the cube root of their residual, and another with the first bar upright.
+#[test]
+fn a_degenerate_point_is_listed_once() {
+    let out = folder("just-bridged");
+    std::fs::create_dir_all(&out).unwrap();
+    let bars = "{ length_m = 1, mass_kg = 3, centre_m = 1 }, \
+                { length_m = 5, mass_kg = 2, centre_m = 0 }, { length_m = 1, mass_kg = 0 }";
+    let text =
+        format!("anchors = {{ start_m = [0, 0, 0], end_m = [6, 0, -1] }}\nbars = [{bars}]\n");
+    let file = out.join("file.toml");
+    std::fs::write(&file, text).unwrap();
+    let solved = funicular(&["solve", file.to_str().unwrap()]);
+    assert_eq!(solved.status.code(), Some(0), "{}", stderr(&solved));
+    let swept = out.join("swept");
+    let arguments =
+        ["sweep", file.to_str().unwrap(), "--seeds=500", "--out", swept.to_str().unwrap()];
+    assert_eq!(funicular(&arguments).status.code(), Some(0));
+    let manifest = std::fs::read_to_string(swept.join("manifest.json")).unwrap();
+    let manifest: serde_json::Value = serde_json::from_str(&manifest).unwrap();
+    let list = manifest["equilibria"].as_array().unwrap();
+    let energies: Vec<f64> = list.iter().map(|e| e["energy_j"].as_f64().unwrap()).collect();
+    // All weight, 5 kg, at the end of the first bar, and that down.
+    let hanging = energies.iter().filter(|energy| (*energy + 5.0 * 9.80665).abs() < 1e-6);
+    assert_eq!((hanging.count(), energies.len()), (1, 2), "{energies:?}");
+}
+
 /// Thirty bars are too many for a census: that most starts lead to what is in no list is told as
 /// that.
 #[test]

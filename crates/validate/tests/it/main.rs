@@ -19,6 +19,7 @@ mod gallery;
 mod independence;
 mod integer_chains;
 mod moving;
+mod near_slack;
 mod network_properties;
 mod networks;
 mod networks_census;
