@@ -9,16 +9,24 @@ pub(super) fn solve(chain: &Condensed) -> Pull {
     Pull::new(chain, Signs::Unloaded(chain.bottom.group.clone()), [0.0; 2], [0.0; 3], 0)
 }
 
+/// Lengths and a gap that differ by less than this part are equal: the gap is a difference of
+/// heights, rounded, and a length by Pythagoras.
+const EQUAL: f64 = 4.0 * f64::EPSILON;
+
 /// Vectors of bars of the given lengths that lead along `gap` together.
 ///
 /// The bar in the middle of the length and the straight pieces before and after it make a
 /// quadrangle with the gap; of its shapes the one is taken whose diagonal is in the middle of its
 /// range, hanging below the gap. The lengths must be able to fill the gap; what rounding errors
-/// leave open stays open.
+/// leave open stays open. Where lengths and gap are equal to rounding the bars lie straight: any
+/// triangle would be made of the rounding, with sides at an angle of its root.
 pub(in super::super) fn fill(lengths: &[f64], gap: [f64; 2]) -> Vec<[f64; 2]> {
     let way = gap[0].hypot(gap[1]);
     let along = if way > 0.0 { [gap[0] / way, gap[1] / way] } else { [1.0, 0.0] };
     let total = model::sum(lengths.iter().copied());
+    if (total - way).abs() <= EQUAL * total {
+        return lengths.iter().map(|length| along.map(|e| length * e)).collect();
+    }
     let (middle, before) = middle_bar(lengths, total);
     let bar = lengths[middle];
     let after = (total - before - bar).max(0.0);
