@@ -1,6 +1,7 @@
 //! Bars without load between two plumb parts of a chain, longer or shorter than the gap that these
 //! leave by parts from 0.1 down to one rounding, and by nothing.
 
+use lagrange::condensed::Settings;
 use model::{Anchors, Bar, Chain, Problem, Rung};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -15,9 +16,12 @@ fn drawn(random: &mut ChaCha8Rng, part: f64) -> Problem {
         [1..=2, 2..=4, 0..=2].map(|range| random.random_range::<usize, _>(range));
     let integers = random.random_range(0..2) == 0;
     let lengths: Vec<f64> = (0..first + between + last)
-        .map(|_| match integers {
-            true => f64::from(random.random_range(1..=5)),
-            false => random.random_range(0.3..2.0),
+        .map(|_| {
+            if integers {
+                f64::from(random.random_range(1..=5))
+            } else {
+                random.random_range(0.3..2.0)
+            }
         })
         .collect();
     let sum = |of: &[f64]| of.iter().sum::<f64>();
@@ -58,7 +62,7 @@ fn solvers_agree_on_chains_that_are_nearly_slack() {
     for number in 0..1000 {
         let part = part(&mut random);
         let problem = drawn(&mut random, part);
-        let lagrange = lagrange::condensed::solve(&problem, &Default::default()).unwrap();
+        let lagrange = lagrange::condensed::solve(&problem, &Settings::default()).unwrap();
         let Ok(energy) = energy::minimise(&problem, &energy::Settings::default()) else {
             others.push(format!("{number}, {part:e}: no answer"));
             continue;
