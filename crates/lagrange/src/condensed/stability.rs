@@ -98,3 +98,64 @@ fn unloaded(chain: &Condensed, bars: usize) -> SecondOrder {
         condition: 1.0,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use model::{Anchors, Bar, Chain, Problem};
+
+    use super::*;
+    use crate::condensed::Settings;
+
+    const LENGTHS: [f64; 2] = [1.4, 1.0];
+    const MASSES: [f64; 3] = [0.7, 0.4, 1.1];
+    /// Between the lower ends of the strands when they hang straight down: 3, 4, 5.
+    const ACROSS: f64 = 0.3;
+
+    /// Two strands of one bar each, and between them one that is longer than their gap by `excess`.
+    fn chain(excess: f64) -> (Condensed, f64) {
+        let middle = 0.5 * (1.0 + excess);
+        let bars = [LENGTHS[0], middle, LENGTHS[1]].into_iter().zip(MASSES);
+        let bars = bars.map(|(length, mass)| Bar::homogeneous(length, mass).unwrap()).collect();
+        let anchors = Anchors { start_m: [0.0; 3], end_m: [ACROSS, 0.0, 0.0] };
+        let chain = Chain::new("propped", 1.0, anchors, bars).unwrap();
+        (Condensed::new(&Problem::new(chain).unwrap()), middle)
+    }
+
+    /// Potential energy of the four-bar linkage whose first bar is `angle` from the descending
+    /// vertical: the other joint of two circles. It lies to the right.
+    fn energy(angle: f64, middle: f64) -> f64 {
+        let first = [LENGTHS[0] * angle.sin(), -LENGTHS[0] * angle.cos()];
+        let d = [ACROSS - first[0], -first[1]];
+        let distance = d[0].hypot(d[1]);
+        let along =
+            (distance * distance + middle * middle - LENGTHS[1] * LENGTHS[1]) / (2.0 * distance);
+        let aside = (middle * middle - along * along).sqrt();
+        let second = first[1] + (d[1] * along - d[0] * aside) / distance;
+        0.5 * (MASSES[0] * first[1] + MASSES[1] * (first[1] + second) + MASSES[2] * second)
+    }
+
+    /// Where the propping bar carries next to nothing, the pivot is small beside its terms, and the
+    /// linkage of one freedom is at a minimum all the same: its energy says so by differences.
+    #[test]
+    fn a_small_pivot_is_no_degenerate_one() {
+        for (excess, low, high) in
+            [(1e-3, 1e-5, 1e-2), (1e-5, 1e-7, 1e-4), (1e-7, 1e-9, 1e-6), (1e-9, 1e-11, 1e-8)]
+        {
+            let (chain, middle) = chain(excess);
+            let pull = chain.pull(&Settings::default()).unwrap();
+            let ratio = pull.pivots[1].abs() / pull.remainder_of;
+            assert!((low..high).contains(&ratio), "{excess:e}: {ratio:e}");
+            assert_eq!(pull.compressed(), [1]);
+
+            let found = second_order(&chain, &pull);
+            let [x, _, z] = chain.equilibrium(&pull, &Settings::default()).unwrap().joints_m[1];
+            let angle = x.atan2(-z);
+            let [left, here, right] = [-1e-3, 0.0, 1e-3].map(|step| energy(angle + step, middle));
+            assert!((right - left).abs() < 1e-8, "the slope of the energy vanishes");
+            assert!(right + left - 2.0 * here > 1e-7, "the energy is curved upwards");
+            assert_eq!(found.stability.in_plane, InPlane::Minimum, "{excess:e}: {ratio:e}");
+            assert_eq!(found.stability.index_in_plane, 0);
+            assert_eq!(found.nullity, 0);
+        }
+    }
+}

@@ -11,7 +11,7 @@ use crate::network::faults;
 
 /// A random system whose members fit: the lengths are those of a random shape, cables a little
 /// longer and struts a little shorter at times. Members first connect all joints, then add loops.
-fn random(seed: u64, kinds: &[Kind], elastic: bool) -> System {
+pub fn random(seed: u64, kinds: &[Kind], elastic: bool) -> System {
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
     let anchors = rng.random_range(1..=6_usize);
     let free = rng.random_range(1..=12_usize);

@@ -10,7 +10,7 @@ use crate::network::{faults, near};
 
 /// A bridle in space: strands of bars, cables and springs with forces on their joints from two to
 /// five anchors to one of two joints, which a strand connects, and a tree below the first.
-fn bridle(seed: u64) -> System {
+pub fn bridle(seed: u64) -> System {
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
     let (mut joints, mut members) = (Vec::new(), Vec::new());
     joints.extend(["left", "right"].map(|name| Joint::free(name).with_mass(3.0)));

@@ -1,0 +1,169 @@
+//! The work of the solver of systems, frozen as that of chains in `work`.
+
+use lagrange::network::{Error, Forces, Seed, Settings, Solution, solve, solve_from};
+use model::Vector;
+use model::system::{Kind, Support, System};
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+
+use crate::network_random::random;
+use crate::network_runs::bridle;
+
+/// Systems, answers, factorisations, mechanisms, self-stresses, slack members, limp ones, forces of
+/// least norm, indices in space, free motions; refusals, and what they count.
+type Row = [usize; 12];
+
+fn add(row: &mut Row, outcome: Result<Solution, Error>) {
+    row[0] += 1;
+    let found = match outcome {
+        Ok(found) => found,
+        Err(error) => {
+            row[10] += 1;
+            row[11] += match error {
+                Error::NotConverged { iterations, member, .. } => iterations + member,
+                Error::Falls { joints, .. } => joints,
+                Error::HeldMisfit { member, .. } => member,
+                Error::Unstable { index } => index,
+                Error::Floor { rounds } => rounds,
+                _ => 0,
+            };
+            return;
+        }
+    };
+    row[1] += 1;
+    row[2] += found.factorisations;
+    row[3] += found.mechanisms.unwrap_or(0);
+    row[4] += found.self_stresses.as_ref().map_or(0, Vec::len);
+    row[5] += found.slack.len();
+    row[6] += found.limp.len();
+    row[7] += usize::from(found.forces == Forces::LeastNorm);
+    row[8] += found.equilibrium.stability.index_in_space;
+    row[9] += found.equilibrium.stability.neutral;
+}
+
+fn assert_same<T: PartialEq + std::fmt::Debug>(found: &[T], expected: &[T]) {
+    let text: String = found.iter().map(|row| format!("        {row:?},\n")).collect();
+    assert!(found == expected, "the work has changed:\n{text}");
+}
+
+/// Above a floor a little below the lowest anchor.
+fn above_a_floor(system: System) -> System {
+    let heights = system.joints().iter().filter_map(|joint| match joint.support {
+        Support::Fixed { at_m } | Support::Line { at_m, .. } | Support::Plane { at_m, .. } => {
+            Some(at_m[2])
+        }
+        Support::Free => None,
+    });
+    let floor_m = heights.fold(f64::INFINITY, f64::min) - 0.3;
+    system.with_floor(floor_m).expect("below the anchors")
+}
+
+const ALL: [Kind; 3] = [Kind::Bar, Kind::Cable, Kind::Strut];
+
+#[test]
+fn work_of_random_systems() {
+    let mut found = Vec::new();
+    for (kinds, elastic) in
+        [(&ALL[..1], false), (&ALL[1..2], false), (&ALL[..], false), (&ALL[..], true)]
+    {
+        let (mut plain, mut floor, mut sparse) = (Row::default(), Row::default(), Row::default());
+        for seed in 1000..1060 {
+            let system = random(seed, kinds, elastic);
+            add(&mut plain, solve(&system, &Settings::default()));
+            let pivots = Settings { dense_freedoms: 0, ..Settings::default() };
+            add(&mut sparse, solve(&system, &pivots));
+            add(&mut floor, solve(&above_a_floor(system), &Settings::default()));
+        }
+        found.extend([plain, sparse, floor]);
+    }
+    let expected = [
+        [60, 56, 1910, 601, 0, 0, 3, 0, 0, 17, 4, 16],
+        [60, 56, 1857, 0, 0, 0, 3, 0, 0, 17, 4, 16],
+        [60, 36, 4327, 173, 0, 0, 212, 0, 0, 101, 24, 2339],
+        [60, 56, 415, 734, 0, 133, 0, 0, 0, 10, 4, 16],
+        [60, 56, 362, 0, 0, 133, 0, 0, 0, 10, 4, 16],
+        [60, 41, 641, 519, 0, 351, 1, 0, 0, 428, 19, 16],
+        [60, 54, 894, 687, 0, 105, 0, 0, 0, 15, 6, 16],
+        [60, 54, 831, 0, 0, 105, 0, 0, 0, 15, 6, 16],
+        [60, 39, 1338, 434, 0, 275, 56, 0, 0, 351, 21, 16],
+        [60, 53, 985, 1100, 0, 96, 0, 0, 0, 15, 7, 16],
+        [60, 53, 930, 0, 0, 96, 0, 0, 0, 15, 7, 16],
+        [60, 53, 1803, 735, 0, 348, 0, 0, 0, 465, 7, 16],
+    ];
+    assert_same(&found[..], &expected);
+}
+
+#[test]
+fn work_from_random_places() {
+    let mut found = Vec::new();
+    for (kinds, elastic) in [(&ALL[..1], false), (&ALL[..], true), (&ALL[..], false)] {
+        let mut row = Row::default();
+        for stream in 2000..2050 {
+            let system = random(stream, kinds, elastic);
+            let mut rng = ChaCha8Rng::seed_from_u64(stream);
+            let places = system.joints().iter();
+            let places: Vec<Vector> =
+                places.map(|_| std::array::from_fn(|_| rng.random_range(-2.0..2.0))).collect();
+            add(&mut row, solve_from(&system, &Seed::at(places), &Settings::default()));
+        }
+        found.push(row);
+    }
+    let expected = [
+        [50, 20, 411, 184, 0, 0, 0, 0, 96, 6, 30, 704],
+        [50, 0, 0, 0, 0, 0, 0, 0, 0, 0, 50, 710],
+        [50, 0, 0, 0, 0, 0, 0, 0, 0, 0, 50, 536],
+    ];
+    assert_same(&found[..], &expected);
+}
+
+/// Runs are elements where systems are large.
+#[test]
+fn work_of_elements() {
+    let mut found = [Row::default(); 2];
+    for seed in 100..120 {
+        let system = bridle(seed);
+        let elements = Settings { dense_freedoms: 0, ..Settings::default() };
+        add(&mut found[0], solve(&system, &elements));
+        add(&mut found[1], solve(&above_a_floor(system), &elements));
+    }
+    let expected =
+        [[20, 20, 176, 0, 0, 0, 0, 0, 0, 0, 0, 0], [20, 20, 462, 0, 0, 2, 175, 0, 0, 175, 0, 0]];
+    assert_same(&found[..], &expected);
+}
+
+/// The gallery and the tensegrities: from no guess, and from places a twentieth of a metre off.
+#[test]
+fn work_on_exhibits() {
+    let settings = Settings::default();
+    let mut found = Vec::new();
+    for exhibit in model::cases::systems() {
+        let system = exhibit.system();
+        let (mut row, first) = (Row::default(), solve(&system, &settings));
+        let seed: Option<Vec<Vector>> = first.as_ref().ok().map(|solution| {
+            let off = |k: usize, x: f64| x + 0.05 * (1.0 + k as f64).sin();
+            let joints = solution.equilibrium.joints_m.iter().enumerate();
+            joints.map(|(j, at)| std::array::from_fn(|k| off(3 * j + k, at[k]))).collect()
+        });
+        add(&mut row, first);
+        if let Some(seed) = seed {
+            add(&mut row, solve_from(&system, &Seed::at(seed), &settings));
+        }
+        found.push((exhibit.name, row));
+    }
+    let expected = [
+        ("lamp", [2, 2, 18, 2, 0, 0, 0, 0, 0, 0, 0, 0]),
+        ("bridle", [2, 2, 14, 84, 0, 0, 0, 0, 0, 0, 0, 0]),
+        ("mobile", [2, 1, 14, 15, 0, 0, 0, 0, 0, 0, 1, 17]),
+        ("footbridge", [2, 1, 9, 23, 0, 0, 5, 0, 0, 0, 1, 77]),
+        ("net", [2, 1, 9, 87, 0, 0, 0, 0, 0, 0, 1, 88]),
+        ("ring", [2, 2, 14, 42, 0, 0, 0, 0, 0, 0, 0, 0]),
+        ("tripod", [2, 2, 11, 0, 0, 0, 0, 0, 0, 0, 0, 0]),
+        ("pendulum-chain", [2, 2, 14, 20, 0, 0, 0, 0, 0, 0, 0, 0]),
+        ("four-bar-linkage", [2, 2, 12, 8, 0, 0, 0, 0, 0, 0, 0, 0]),
+        ("x-cross", [2, 2, 39, 4, 0, 0, 0, 0, 0, 0, 0, 0]),
+        ("prism", [2, 2, 54, 10, 0, 0, 0, 0, 0, 0, 0, 0]),
+        ("expandable-octahedron", [2, 2, 78, 40, 0, 0, 0, 0, 0, 0, 0, 0]),
+        ("simplex-tower", [2, 2, 71, 20, 0, 0, 0, 0, 0, 0, 0, 0]),
+    ];
+    assert_same(&found[..], &expected);
+}

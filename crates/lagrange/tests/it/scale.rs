@@ -1,0 +1,190 @@
+//! Lengths, masses and gravity times powers of two: not a digit of an answer changes. So a number
+//! in some unit that is added to one in another is noticed, whatever its size.
+
+use lagrange::batch::{Batch, BatchSettings};
+use lagrange::condensed;
+use lagrange::network::{self, Solution};
+use lagrange::{Settings, solve_from};
+use model::system::{Joint, Kind, Member, PointLoad, Support, System};
+use model::{Anchors, Bar, Chain, Ends, Problem, Vector};
+use rand::RngExt;
+
+use crate::common::{problem, spatial_seed, stream};
+use crate::network_random::random;
+
+/// Powers of two by which lengths, masses and gravity are multiplied.
+const FACTORS: [[f64; 3]; 3] = [[1024.0, 1.0, 1.0], [1.0, 0.0625, 1.0], [0.125, 64.0, 0.25]];
+/// Where a force is sought by its logarithm, a factor of forces is a sum that rounds.
+const LENGTHS: [[f64; 3]; 2] = [[1024.0, 1.0, 1.0], [0.03125, 1.0, 1.0]];
+
+fn times(vector: Vector, factor: f64) -> Vector {
+    vector.map(|x| x * factor)
+}
+
+fn scaled(problem: &Problem, [length, mass, gravity]: [f64; 3]) -> Problem {
+    let chain = problem.chain();
+    let anchors = chain.anchors();
+    let anchors =
+        Anchors { start_m: times(anchors.start_m, length), end_m: times(anchors.end_m, length) };
+    let bars = chain.bars().iter().map(|bar| {
+        let (length_m, centre_m) = (bar.length_m() * length, bar.centre_m() * length);
+        Bar::new(length_m, bar.mass_kg() * mass, centre_m, [0.0; 3]).unwrap()
+    });
+    let gravity_m_s2 = chain.gravity_m_s2() * gravity;
+    Problem::new(Chain::new("scaled", gravity_m_s2, anchors, bars.collect()).unwrap()).unwrap()
+}
+
+fn assert_scaled(one: &model::Equilibrium, other: &model::Equilibrium, factors: [f64; 3]) {
+    let [length, mass, gravity] = factors;
+    let force = mass * gravity;
+    for (a, b) in one.joints_m.iter().zip(&other.joints_m) {
+        assert_eq!(times(*a, length), *b);
+    }
+    for (a, b) in one.multipliers_n.iter().zip(&other.multipliers_n) {
+        assert_eq!(times(*a, force), *b);
+    }
+    for (a, b) in one.axial_n.iter().zip(&other.axial_n) {
+        assert_eq!((a * force).to_bits(), b.to_bits());
+    }
+    assert_eq!((one.energy_j * force * length).to_bits(), other.energy_j.to_bits());
+    assert_eq!(one.stability, other.stability);
+    assert_eq!(one.evidence.nullity, other.evidence.nullity);
+    assert_eq!(one.evidence.iterations, other.evidence.iterations);
+    assert_eq!(one.evidence.residual.to_bits(), other.evidence.residual.to_bits());
+}
+
+#[test]
+fn hanging_chains_scale_without_rounding() {
+    for k in 0..40 {
+        let base = match k % 4 {
+            0 => samples::folded_chain(k as u64),
+            _ => problem(&mut stream(80, k), 2 + k % 9, k % 4 == 1),
+        };
+        let one = condensed::solve(&base, &condensed::Settings::default()).unwrap();
+        for factors in LENGTHS {
+            let other = scaled(&base, factors);
+            let other = condensed::solve(&other, &condensed::Settings::default()).unwrap();
+            assert_eq!(one.pull.passes(), other.pull.passes());
+            assert_scaled(&one.equilibrium, &other.equilibrium, factors);
+        }
+    }
+}
+
+#[test]
+fn seeds_scale_without_rounding() {
+    for k in 0..12 {
+        let mut random = stream(81, k);
+        let bars = 2 + k % 5;
+        let base = problem(&mut random, bars, k % 3 == 0);
+        let seed = spatial_seed(&mut random, bars);
+        let one = solve_from(&base, &seed, &Settings::default());
+        for factors in FACTORS {
+            let other = solve_from(&scaled(&base, factors), &seed, &Settings::default());
+            match (&one, &other) {
+                (Ok(one), Ok(other)) => {
+                    assert_eq!(one.angles_rad, other.angles_rad);
+                    assert_eq!(one.effort.iterations, other.effort.iterations);
+                    assert_eq!(one.residual_history, other.residual_history);
+                }
+                (one, other) => assert_eq!(one, other),
+            }
+        }
+    }
+}
+
+#[test]
+fn batches_scale_without_rounding() {
+    for bars in [2, 3, 6, 9, 16] {
+        let mut random = stream(82, bars);
+        let base = problem(&mut random, bars, false);
+        let angles: Vec<f64> =
+            (0..24 * bars).map(|_| random.random_range(0.0..std::f64::consts::TAU)).collect();
+        let solved = |problem: &Problem| {
+            let mut ends = Ends::default();
+            let settings = BatchSettings { max_iterations: 60, ..BatchSettings::default() };
+            Batch::new(problem, settings).unwrap().solve(&angles, &mut ends);
+            ends
+        };
+        let one = solved(&base);
+        for factors in FACTORS {
+            let other = solved(&scaled(&base, factors));
+            assert_eq!(one.finish, other.finish);
+            assert_eq!(one.iterations, other.iterations);
+            assert_eq!(one.directions, other.directions);
+            let [length, mass, gravity] = factors;
+            for (a, b) in one.energy_j.iter().zip(&other.energy_j) {
+                assert_eq!((a * length * mass * gravity).to_bits(), b.to_bits());
+            }
+        }
+    }
+}
+
+fn scaled_system(system: &System, [length, mass, gravity]: [f64; 3]) -> System {
+    let force = mass * gravity;
+    let joints = system.joints().iter().map(|joint| {
+        let support = match joint.support {
+            Support::Free => Support::Free,
+            Support::Fixed { at_m } => Support::Fixed { at_m: times(at_m, length) },
+            Support::Line { at_m, direction } => {
+                Support::Line { at_m: times(at_m, length), direction }
+            }
+            Support::Plane { at_m, normal } => Support::Plane { at_m: times(at_m, length), normal },
+        };
+        let (mass_kg, force_n) = (joint.mass_kg * mass, times(joint.force_n, force));
+        Joint { support, mass_kg, force_n, ..joint.clone() }
+    });
+    let members = system.members().iter().map(|member| {
+        let bar = &member.body;
+        let (length_m, centre_m) = (bar.length_m() * length, bar.centre_m() * length);
+        let body = Bar::new(length_m, bar.mass_kg() * mass, centre_m, [0.0; 3]).unwrap();
+        let loads = member.loads.iter().map(|load| PointLoad {
+            at_m: load.at_m * length,
+            force_n: times(load.force_n, force),
+        });
+        let stiffness_n = member.stiffness_n.map(|stiffness| stiffness * force);
+        Member { body, stiffness_n, loads: loads.collect(), ..member.clone() }
+    });
+    let gravity_m_s2 = system.gravity_m_s2() * gravity;
+    System::new("scaled", gravity_m_s2, joints.collect(), members.collect()).unwrap()
+}
+
+fn assert_system_scaled(one: &Solution, other: &Solution, [length, mass, gravity]: [f64; 3]) {
+    let force = mass * gravity;
+    assert_eq!(one.factorisations, other.factorisations);
+    assert_eq!((&one.slack, &one.limp, one.forces), (&other.slack, &other.limp, other.forces));
+    assert_eq!(one.mechanisms, other.mechanisms);
+    let (one, other) = (&one.equilibrium, &other.equilibrium);
+    for (a, b) in one.joints_m.iter().zip(&other.joints_m) {
+        assert_eq!(times(*a, length), *b);
+    }
+    for (a, b) in one.reactions_n.iter().zip(&other.reactions_n) {
+        assert_eq!(times(*a, force), *b);
+    }
+    for (a, b) in one.axial_n.iter().zip(&other.axial_n) {
+        assert_eq!((a * force).to_bits(), b.to_bits());
+    }
+    assert_eq!((one.energy_j * force * length).to_bits(), other.energy_j.to_bits());
+    assert_eq!(one.stability, other.stability);
+}
+
+#[test]
+fn systems_scale_without_rounding() {
+    let kinds = [Kind::Bar, Kind::Cable, Kind::Strut];
+    let mut answers = 0;
+    for seed in 3000..3024 {
+        let system = random(seed, &kinds[..1 + seed as usize % 3], seed % 2 == 0);
+        let one = network::solve(&system, &network::Settings::default());
+        for factors in FACTORS {
+            let other = scaled_system(&system, factors);
+            let other = network::solve(&other, &network::Settings::default());
+            match (&one, &other) {
+                (Ok(one), Ok(other)) => {
+                    answers += 1;
+                    assert_system_scaled(one, other, factors);
+                }
+                (one, other) => assert_eq!(one.is_ok(), other.is_ok()),
+            }
+        }
+    }
+    assert!(answers > 50, "{answers}");
+}
