@@ -42,7 +42,8 @@ fn add(row: &mut Row, outcome: Result<Solution, Error>) {
 }
 
 fn assert_same<T: PartialEq + std::fmt::Debug>(found: &[T], expected: &[T]) {
-    let text: String = found.iter().map(|row| format!("        {row:?},\n")).collect();
+    let rows: Vec<String> = found.iter().map(|row| format!("        {row:?},\n")).collect();
+    let text = rows.concat();
     assert!(found == expected, "the work has changed:\n{text}");
 }
 
