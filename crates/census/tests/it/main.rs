@@ -10,3 +10,4 @@ mod paper;
 mod random;
 mod support;
 mod unloaded;
+mod work;

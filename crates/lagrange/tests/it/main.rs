@@ -8,6 +8,7 @@ mod condensed_full;
 mod condensed_processors;
 mod condensed_random;
 mod derivatives;
+mod details;
 mod extremes;
 mod false_roots;
 mod judge;

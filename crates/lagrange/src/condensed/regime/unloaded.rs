@@ -99,6 +99,14 @@ fn unit([x, z]: [f64; 2], otherwise: [f64; 2]) -> [f64; 2] {
 mod tests {
     use super::*;
 
+    /// The second of three holds the middle; where rounding finds none, the last does.
+    #[test]
+    fn the_middle_of_the_length_lies_in_one_bar() {
+        assert_eq!(middle_bar(&[1.0, 3.0, 2.0], 6.0), (1, 1.0));
+        assert_eq!(middle_bar(&[1.0, 2.0, 4.0], 7.0), (2, 3.0));
+        assert_eq!(middle_bar(&[1.0, 2.0], 8.0), (1, 6.0));
+    }
+
     #[test]
     fn pieces_fill_the_gap() {
         let cases: [(&[f64], [f64; 2]); 9] = [
