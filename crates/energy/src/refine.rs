@@ -305,5 +305,4 @@ fn counted_from(problem: &Problem, bar: usize) -> Vec<f64> {
 }
 
 #[cfg(test)]
-#[path = "refine_tests.rs"]
 mod tests;

@@ -109,3 +109,79 @@ fn cross(a: Vector, b: Vector) -> Vector {
 fn norm([x, y, z]: Vector) -> f64 {
     x.hypot(y).hypot(z)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Three bars of 1, 2 and 3 m along a direction, the second one back.
+    fn folded(direction: Vector, aside: Vector) -> (Chain, Vec<Vector>) {
+        let lengths = [1.0, -2.0, 3.0];
+        let mut joints_m = vec![[0.0; 3]];
+        for (k, length) in lengths.into_iter().enumerate() {
+            let sign = if k == 1 { 1.0 } else { 0.0 };
+            let last = joints_m[k];
+            joints_m
+                .push(std::array::from_fn(|c| last[c] + length * direction[c] + sign * aside[c]));
+        }
+        let bars = lengths.map(|l: f64| model::Bar::homogeneous(l.abs(), 1.0).unwrap());
+        let anchors = model::Anchors { start_m: [0.0; 3], end_m: joints_m[3] };
+        (Chain::new("folded", 9.81, anchors, bars.to_vec()).unwrap(), joints_m)
+    }
+
+    #[test]
+    fn lines_point_upwards_and_level_ones_along_their_first_axis() {
+        for (direction, line) in [
+            ([0.0, 0.6, 0.8], [0.0, 0.6, 0.8]),
+            ([0.0, 0.6, -0.8], [0.0, -0.6, 0.8]),
+            ([0.48, -0.64, 0.6], [0.48, -0.64, 0.6]),
+            ([0.6, -0.8, 0.0], [0.6, -0.8, 0.0]),
+            ([-0.6, 0.8, 0.0], [0.6, -0.8, 0.0]),
+            ([0.0, -1.0, 0.0], [0.0, 1.0, 0.0]),
+        ] {
+            let (chain, joints_m) = folded(direction, [0.0; 3]);
+            let found = common_line(&chain, &joints_m).unwrap();
+            assert!(norm(minus(found, line)) < 1e-15, "{direction:?}: {found:?}");
+        }
+    }
+
+    /// A bar of 2 m that is aside by 1e-3 m loses 2.5e-7 m: not on the line, whichever way.
+    #[test]
+    fn a_bar_aside_is_off_the_line_in_every_direction() {
+        for (direction, aside) in [
+            ([1.0, 0.0, 0.0], [0.0, 1e-3, 0.0]),
+            ([1.0, 0.0, 0.0], [0.0, 0.0, 1e-3]),
+            ([0.0, 1.0, 0.0], [0.0, 0.0, 1e-3]),
+            ([0.0, 1.0, 0.0], [1e-3, 0.0, 0.0]),
+            ([0.0, 0.0, 1.0], [0.0, 1e-3, 0.0]),
+            ([0.6, 0.0, 0.8], [0.8e-3, 0.0, -0.6e-3]),
+            ([0.6, 0.8, 0.0], [0.8e-3, -0.6e-3, 0.0]),
+        ] {
+            let (chain, joints_m) = folded(direction, aside);
+            assert!(common_line(&chain, &joints_m).is_none(), "{direction:?} {aside:?}");
+            // A millionth of it is rounding.
+            let (chain, joints_m) = folded(direction, aside.map(|x| 1e-6 * x));
+            assert!(common_line(&chain, &joints_m).is_some(), "{direction:?} {aside:?}");
+        }
+    }
+
+    /// What differs by a force along the line alone differs by nothing beside it.
+    #[test]
+    fn a_force_of_the_family_is_taken_away() {
+        let family = ForceFamily {
+            dimension: 1,
+            direction: [0.0, 0.6, 0.8],
+            start_force_n: None,
+            choice: ForceChoice::Unknown,
+        };
+        let added = |k: usize| if k == 0 { -5.0 } else { 5.0 };
+        let mut differences: Vec<Vector> =
+            (0..4).map(|k| family.direction.map(|x| added(k) * x)).collect();
+        differences[2][0] = 0.25;
+        beside_the_family(&family, &mut differences);
+        for (k, left) in differences.iter().enumerate() {
+            let expected = [if k == 2 { 0.25 } else { 0.0 }, 0.0, 0.0];
+            assert!(norm(minus(*left, expected)) < 1e-15, "{k}: {left:?}");
+        }
+    }
+}

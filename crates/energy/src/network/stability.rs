@@ -321,5 +321,4 @@ fn kernels(rigidity: &Mat<f64>) -> (Mat<f64>, Mat<f64>, Rigidity) {
 }
 
 #[cfg(test)]
-#[path = "stability_tests.rs"]
 mod tests;

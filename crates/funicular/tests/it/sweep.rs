@@ -154,21 +154,21 @@ fn threads_shards_and_forms_do_not_show() {
 #[test]
 fn a_degenerate_point_is_listed_once() {
     let out = folder("just-bridged");
-    std::fs::create_dir_all(&out).unwrap();
+    fs::create_dir_all(&out).unwrap();
     let bars = "{ length_m = 1, mass_kg = 3, centre_m = 1 }, \
                 { length_m = 5, mass_kg = 2, centre_m = 0 }, { length_m = 1, mass_kg = 0 }";
     let text =
         format!("anchors = {{ start_m = [0, 0, 0], end_m = [6, 0, -1] }}\nbars = [{bars}]\n");
     let file = out.join("file.toml");
-    std::fs::write(&file, text).unwrap();
+    fs::write(&file, text).unwrap();
     let solved = funicular(&["solve", file.to_str().unwrap()]);
     assert_eq!(solved.status.code(), Some(0), "{}", stderr(&solved));
     let swept = out.join("swept");
     let arguments =
         ["sweep", file.to_str().unwrap(), "--seeds=500", "--out", swept.to_str().unwrap()];
     assert_eq!(funicular(&arguments).status.code(), Some(0));
-    let manifest = std::fs::read_to_string(swept.join("manifest.json")).unwrap();
-    let manifest: serde_json::Value = serde_json::from_str(&manifest).unwrap();
+    let manifest = fs::read_to_string(swept.join("manifest.json")).unwrap();
+    let manifest: Value = serde_json::from_str(&manifest).unwrap();
     let list = manifest["equilibria"].as_array().unwrap();
     let energies: Vec<f64> = list.iter().map(|e| e["energy_j"].as_f64().unwrap()).collect();
     // All weight, 5 kg, at the end of the first bar, and that down.

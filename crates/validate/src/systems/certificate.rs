@@ -270,3 +270,6 @@ fn joint_loads(system: &System) -> Vec<Vector> {
     }
     loads
 }
+
+#[cfg(test)]
+mod tests;

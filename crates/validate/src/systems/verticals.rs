@@ -26,3 +26,34 @@ pub(super) fn firsts(points: impl Iterator<Item = [f64; 2]>, near_m: f64) -> Vec
     }
     firsts
 }
+
+#[cfg(test)]
+mod tests {
+    use rand::{RngExt, SeedableRng};
+    use rand_chacha::ChaCha8Rng;
+
+    use super::*;
+
+    /// Against the definition, point by point, on both sides of both axes and at any distance.
+    #[test]
+    fn the_first_near_point_is_found_wherever_its_cell_is() {
+        let mut random = ChaCha8Rng::seed_from_u64(15);
+        for near_m in [1e-9, 0.02, 0.1, 0.5, 3.0] {
+            let points: Vec<[f64; 2]> = (0..400)
+                .map(|_| [random.random_range(-2.0..2.0), random.random_range(-2.0..2.0)])
+                .collect();
+            let mut expected: Vec<usize> = Vec::new();
+            for (k, [x, y]) in points.iter().enumerate() {
+                let near = |&other: &usize| {
+                    let [a, b]: [f64; 2] = points[other];
+                    expected[other] == other && (x - a).hypot(y - b) <= near_m
+                };
+                let first = (0..k).find(near).unwrap_or(k);
+                expected.push(first);
+            }
+            assert_eq!(firsts(points.into_iter(), near_m), expected, "{near_m}");
+        }
+        // Equal points are on one vertical whatever counts as near.
+        assert_eq!(firsts([[0.3, -0.7], [0.3, -0.7], [0.3, 0.7]].into_iter(), 0.0), [0, 0, 2]);
+    }
+}
