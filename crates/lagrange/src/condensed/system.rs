@@ -193,6 +193,18 @@ mod tests {
     /// Worst measured: 3e-10 of the largest entry.
     const DIFFERENCES: f64 = 1e-8;
 
+    /// Between half of the ratio of the eigenvalues 9 and 1 and twice that.
+    #[test]
+    fn condition_is_that_of_the_eigenvalues() {
+        for (sin, cos) in [(0.0, 1.0), (0.6, 0.8), (-0.8, 0.6)] {
+            let (a, c) = (9.0 * cos * cos + sin * sin, 9.0 * sin * sin + cos * cos);
+            let jacobian = [a, 8.0 * sin * cos, c];
+            let closure = Closure { residual: [0.0; 2], floor: [1.0; 2], jacobian };
+            // Trace 10, determinant 9.
+            assert!((closure.condition() - 100.0 / 9.0).abs() < 1e-12);
+        }
+    }
+
     /// The derivative of the closure agrees with central differences, in both frames, with a bar
     /// in compression and without.
     #[test]

@@ -193,3 +193,49 @@ fn systems_scale_without_rounding() {
     }
     assert!(answers > 50, "{answers}");
 }
+
+/// Masses far too small for their cubes: the same shape, digit for digit.
+#[test]
+fn masses_near_the_end_of_doubles_hang_alike() {
+    let tiny = [1.0, f64::from_bits((1023 - 400) << 52), 1.0];
+    for k in 0..20 {
+        let base = problem(&mut stream(83, k), 2 + k % 9, false);
+        let one = condensed::solve(&base, &condensed::Settings::default()).unwrap();
+        let other = condensed::solve(&scaled(&base, tiny), &condensed::Settings::default());
+        let other = other.unwrap();
+        let total_m = base.chain().total_length_m();
+        for (a, b) in one.equilibrium.joints_m.iter().zip(&other.equilibrium.joints_m) {
+            assert!((0..3).all(|x| (a[x] - b[x]).abs() < 1e-13 * total_m), "{a:?} {b:?}");
+        }
+        assert_eq!(one.equilibrium.stability, other.equilibrium.stability);
+    }
+}
+
+/// A floor pushes what weighs next to nothing as it does what is heavy.
+#[test]
+fn floors_push_small_weights() {
+    let factors = [1.0, f64::from_bits((1023 - 60) << 52), 1.0];
+    let mut answers = 0;
+    for seed in 3100..3112 {
+        let system = random(seed, &[Kind::Cable], false);
+        let lowest = system.joints().iter().filter_map(|joint| match joint.support {
+            Support::Fixed { at_m } | Support::Line { at_m, .. } | Support::Plane { at_m, .. } => {
+                Some(at_m[2])
+            }
+            Support::Free => None,
+        });
+        let floor_m = lowest.fold(f64::INFINITY, f64::min) - 0.3;
+        let on = |system: System| {
+            network::solve(&system.with_floor(floor_m).unwrap(), &network::Settings::default())
+        };
+        let other = on(scaled_system(&system, factors));
+        match (on(system), other) {
+            (Ok(one), Ok(other)) => {
+                answers += 1;
+                assert_system_scaled(&one, &other, factors);
+            }
+            (one, other) => assert_eq!(one.is_ok(), other.is_ok()),
+        }
+    }
+    assert!(answers > 4, "{answers}");
+}
