@@ -119,3 +119,17 @@ fn the_second_result_of_the_paper_is_no_equilibrium() {
         }
     }
 }
+
+/// The widest of angles and pull: far below a hundred roundings, and not zero.
+#[test]
+fn width_is_that_of_the_widest_enclosure() {
+    for equilibrium in &census().equilibria {
+        let [h, v] = equilibrium.pull_n;
+        let size = h.lo().abs().max(v.lo().abs());
+        let pull = h.width().max(v.width()) / size;
+        let angles = equilibrium.angles_rad.iter().map(|angle| angle.width()).fold(0.0, f64::max);
+        let width = equilibrium.width();
+        assert!(width > 0.0 && width < 1e-14);
+        assert!((width / pull.max(angles) - 1.0).abs() < 1e-9, "{width:e} {pull:e} {angles:e}");
+    }
+}

@@ -146,3 +146,25 @@ fn integers_are_decided_as_their_neighbours_are() {
         }
     }
 }
+
+/// Of a family of slack bars between two strands the first hangs and the last rises, if both pull;
+/// where one pushes it stands the other way.
+#[test]
+fn strands_of_a_family_are_vertical() {
+    use std::f64::consts::PI;
+    let heavy = |length: f64, mass| (length, mass, 0.5 * length);
+    let bars = [heavy(0.9, 2.0), heavy(0.3, 0.0), heavy(0.4, 0.0), heavy(0.7, 1.5)];
+    let problem = problem(&bars, [0.3, 0.0, -0.1]);
+    let census = census(&problem);
+    assert_eq!(census.families.len(), 2);
+    for family in &census.families {
+        let expected = match family.signs[..] {
+            [1, 0, 0, 1] => [Some(0.0), None, None, Some(PI)],
+            [-1, 0, 0, -1] => [Some(PI), None, None, Some(0.0)],
+            _ => panic!("{:?}", family.signs),
+        };
+        let bits = |angle: &Option<f64>| angle.map(f64::to_bits);
+        let found = family.angles_rad(&problem);
+        assert!(found.iter().map(bits).eq(expected.iter().map(bits)), "{found:?}");
+    }
+}

@@ -104,7 +104,7 @@ mod tests {
     use model::{Anchors, Bar, Chain, Problem};
 
     use super::*;
-    use crate::condensed::Settings;
+    use crate::condensed::settings::Settings;
 
     const LENGTHS: [f64; 2] = [1.4, 1.0];
     const MASSES: [f64; 3] = [0.7, 0.4, 1.1];
