@@ -80,6 +80,7 @@ pub fn run(
     let mut child = command(program)
         .args(["--exact", name, "--test-threads", "1"])
         .env(variable, value)
+        .env("EXACT_WORK", "1")
         .stdout(Stdio::null())
         .stderr(Stdio::null())
         .spawn()?;

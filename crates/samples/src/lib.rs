@@ -25,6 +25,7 @@
 
 mod extreme;
 mod folded;
+mod frozen;
 mod general;
 mod named;
 mod shape;
@@ -32,6 +33,7 @@ mod stream;
 
 pub use extreme::extreme_chain;
 pub use folded::folded_chain;
+pub use frozen::assert_frozen;
 pub use general::{General, Line};
 pub use named::{chain, equal_bars};
 pub use shape::{Shape, random_chain};

@@ -9,7 +9,7 @@
 use census::network::SystemCensus;
 use census::{Census, Interval, ProvenEquilibrium, Settings};
 use model::{Anchors, Bar, Chain, Problem};
-use samples::{General, Line, stream};
+use samples::{General, Line, assert_frozen, stream};
 
 use crate::support::{census, equal, problem};
 
@@ -61,12 +61,6 @@ fn add(row: &mut Row, problem: &Problem, census: &Census) {
     }
 }
 
-fn assert_same<T: PartialEq + std::fmt::Debug>(found: &[T], expected: &[T]) {
-    let rows: Vec<String> = found.iter().map(|row| format!("        {row:?},\n")).collect();
-    let text = rows.concat();
-    assert!(found == expected, "the work has changed:\n{text}");
-}
-
 #[test]
 fn work_of_chains_in_general_position() {
     let mut found = Vec::new();
@@ -92,7 +86,7 @@ fn work_of_chains_in_general_position() {
         (5, [50, 0, 0, 0, 0, 75, 150, 2895, 9402, 93, 105, -2367, -2462, -2506]),
         (6, [131, 0, 0, 0, 0, 262, 524, 5720, 22840, 241, 128, -6167, -6433, -6542]),
     ];
-    assert_same(&found[..], &expected);
+    assert_frozen(&found[..], &expected);
 }
 
 /// Round lengths, bars without mass, anchors in one point: slack families, straight positions,
@@ -144,7 +138,7 @@ fn work_of_special_chains() {
         ("nearly taut", [2, 0, 0, 0, 0, 1, 3, 51, 128, 4, 12, -100, -100, -92]),
         ("nearly closed", [4, 0, 0, 0, 0, 2, 6, 135, 544, 12, 13, -192, -200, -204]),
     ];
-    assert_same(&found[..], &expected);
+    assert_frozen(&found[..], &expected);
 }
 
 fn threads(count: usize) -> rayon::ThreadPool {
@@ -237,5 +231,5 @@ fn work_of_systems() {
         "expandable-octahedron: Slider { joint: 2 }",
         "simplex-tower: Slider { joint: 3 }",
     ];
-    assert_same(&found[..], &expected.map(str::to_owned));
+    assert_frozen(&found[..], &expected.map(str::to_owned));
 }

@@ -6,6 +6,8 @@ use model::{Bar, Vector};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
+use samples::assert_frozen;
+
 use crate::network_random::{bridle, net, ring, tree};
 use crate::network_support::G;
 
@@ -60,10 +62,6 @@ fn variants(system: System) -> [System; 6] {
     [system, cables, mixed, soft, struts, floor]
 }
 
-fn lines<T: std::fmt::Debug>(rows: &[T]) -> String {
-    rows.iter().map(|row| format!("    {row:?},")).collect::<Vec<_>>().join("\n")
-}
-
 fn work(make: impl Fn(&mut ChaCha8Rng) -> System, count: u64, expected: &[Row; 6]) {
     let mut found = [Row::default(); 6];
     for stream in 1000..1000 + count {
@@ -72,7 +70,7 @@ fn work(make: impl Fn(&mut ChaCha8Rng) -> System, count: u64, expected: &[Row; 6
             add(row, minimise(&system, &Settings::default()));
         }
     }
-    assert!(found == *expected, "the work has changed:\n{}", lines(&found));
+    assert_frozen(&found, expected);
 }
 
 #[test]
@@ -162,7 +160,7 @@ fn work_from_seeds() {
         [40, 5, 0, 112, 143, 0],
         [40, 39, 0, 907, 1318, 0],
     ];
-    assert!(found == expected, "the work has changed:\n{}", lines(&found));
+    assert_frozen(&found, &expected);
 }
 
 /// The same system with all lengths four times as long.
@@ -255,5 +253,5 @@ fn work_on_exhibits() {
         ("expandable-octahedron", [2, 2, 0, 55, 90, 0]),
         ("simplex-tower", [2, 2, 0, 48, 75, 0]),
     ];
-    assert!(found == expected, "the work has changed:\n{}", lines(&found));
+    assert_frozen(&found, &expected);
 }

@@ -7,7 +7,7 @@ use energy::batch::{Batch, BatchSettings};
 use energy::{Error, Motion, Settings, minimise, minimise_from};
 use model::{Ends, Finish, Problem};
 use rand::RngExt;
-use samples::{General, Line, Shape, random_chain};
+use samples::{General, Line, Shape, assert_frozen, random_chain};
 
 use crate::support::{random_seed, rng};
 
@@ -21,12 +21,6 @@ fn add(row: &mut Row, outcome: Result<energy::Solution, Error>) {
         row[2] += solution.work.iterations;
         row[3] += solution.work.evaluations;
     }
-}
-
-fn assert_same<T: PartialEq + std::fmt::Debug>(found: &[T], expected: &[T]) {
-    let rows: Vec<String> = found.iter().map(|row| format!("    {row:?},")).collect();
-    let text = rows.join("\n");
-    assert!(found == expected, "the work has changed:\n{text}");
 }
 
 #[test]
@@ -50,7 +44,7 @@ fn work_of_no_guess_by_shape() {
         (Shape::AnyGravity, [72, 72, 369, 1107]),
         (Shape::Mixed, [72, 72, 426, 1278]),
     ];
-    assert_same(&found, &expected);
+    assert_frozen(&found, &expected);
 }
 
 #[test]
@@ -75,7 +69,7 @@ fn work_in_the_plane_by_shape() {
         (Shape::AnyGravity, [37, 37, 194, 582]),
         (Shape::Mixed, [37, 37, 219, 657]),
     ];
-    assert_same(&found, &expected);
+    assert_frozen(&found, &expected);
 }
 
 fn general(stream: u64, line: Line, bars: usize) -> Problem {
@@ -109,7 +103,7 @@ fn work_of_seeds() {
         (20, [20, 20, 215, 645]),
         (20, [20, 20, 244, 732]),
     ];
-    assert_same(&found, &expected);
+    assert_frozen(&found, &expected);
 }
 
 /// Passes over the bars, and converged and stalled seeds, for each number of bars.
@@ -142,7 +136,7 @@ fn work_of_batches() {
         (7, 100, 0, 5367),
         (12, 100, 0, 4705),
     ];
-    assert_same(&found, &expected);
+    assert_frozen(&found, &expected);
 }
 
 /// Every other degree of the torus, and where the guards of the ray are.
@@ -160,7 +154,7 @@ fn work_of_the_example() {
         }
     }
     let expected = [576, 576, 3740];
-    assert_same(&found, &expected);
+    assert_frozen(&found, &expected);
 }
 
 /// Anchors almost on one vertical: the chain finds its plane late, and from a seed it turns.
@@ -190,5 +184,5 @@ fn work_near_one_vertical() {
         (7, [20, 20, 324, 972]),
         (8, [20, 20, 348, 1044]),
     ];
-    assert_same(&found, &expected);
+    assert_frozen(&found, &expected);
 }

@@ -6,6 +6,8 @@ use model::system::{Kind, Support, System};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
+use samples::assert_frozen;
+
 use crate::network_random::random;
 use crate::network_runs::bridle;
 
@@ -39,12 +41,6 @@ fn add(row: &mut Row, outcome: Result<Solution, Error>) {
     row[7] += usize::from(found.forces == Forces::LeastNorm);
     row[8] += found.equilibrium.stability.index_in_space;
     row[9] += found.equilibrium.stability.neutral;
-}
-
-fn assert_same<T: PartialEq + std::fmt::Debug>(found: &[T], expected: &[T]) {
-    let rows: Vec<String> = found.iter().map(|row| format!("        {row:?},\n")).collect();
-    let text = rows.concat();
-    assert!(found == expected, "the work has changed:\n{text}");
 }
 
 /// Above a floor a little below the lowest anchor.
@@ -91,7 +87,7 @@ fn work_of_random_systems() {
         [60, 53, 930, 0, 0, 96, 0, 0, 0, 15, 7, 16],
         [60, 53, 1803, 735, 0, 348, 0, 0, 0, 465, 7, 16],
     ];
-    assert_same(&found[..], &expected);
+    assert_frozen(&found[..], &expected);
 }
 
 #[test]
@@ -114,7 +110,7 @@ fn work_from_random_places() {
         [50, 0, 0, 0, 0, 0, 0, 0, 0, 0, 50, 710],
         [50, 0, 0, 0, 0, 0, 0, 0, 0, 0, 50, 536],
     ];
-    assert_same(&found[..], &expected);
+    assert_frozen(&found[..], &expected);
 }
 
 /// Runs are elements where systems are large.
@@ -129,7 +125,7 @@ fn work_of_elements() {
     }
     let expected =
         [[20, 20, 176, 0, 0, 0, 0, 0, 0, 0, 0, 0], [20, 20, 462, 0, 0, 2, 175, 0, 0, 175, 0, 0]];
-    assert_same(&found[..], &expected);
+    assert_frozen(&found[..], &expected);
 }
 
 /// The gallery and the tensegrities: from no guess, and from places a twentieth of a metre off.
@@ -166,5 +162,5 @@ fn work_on_exhibits() {
         ("expandable-octahedron", [2, 2, 78, 40, 0, 0, 0, 0, 0, 0, 0, 0]),
         ("simplex-tower", [2, 2, 71, 20, 0, 0, 0, 0, 0, 0, 0, 0]),
     ];
-    assert_same(&found[..], &expected);
+    assert_frozen(&found[..], &expected);
 }

@@ -15,7 +15,7 @@ use lagrange::batch::{Batch, BatchSettings};
 use lagrange::{Seed, Settings, SolveError, StepMethod, condensed};
 use model::{Ends, Finish, Problem, Status};
 use rand::RngExt;
-use samples::{General, Line, Shape, random_chain};
+use samples::{General, Line, Shape, assert_frozen, random_chain};
 
 use crate::common::{planar_seed, problem, spatial_seed, stream};
 
@@ -26,12 +26,6 @@ type Hanging = [i64; 8];
 /// Decades of a positive number, rounded down.
 fn decades(number: f64) -> i64 {
     number.log10().floor() as i64
-}
-
-fn assert_same<T: PartialEq + std::fmt::Debug>(found: &[T], expected: &[T]) {
-    let rows: Vec<String> = found.iter().map(|row| format!("        {row:?},\n")).collect();
-    let text = rows.concat();
-    assert!(found == expected, "the work has changed:\n{text}");
 }
 
 fn hang(row: &mut Hanging, problem: &Problem) {
@@ -72,7 +66,7 @@ fn work_of_hanging_by_shape() {
         (Shape::AnyGravity, [120, 120, 985, 10, 2, 7, 0, 0]),
         (Shape::Mixed, [120, 120, 1222, 41, 123, 216, 1, 0]),
     ];
-    assert_same(&found[..], &expected);
+    assert_frozen(&found[..], &expected);
 }
 
 /// At the edge of doubles, all but folded, and closed or steep chains of few bars.
@@ -95,7 +89,7 @@ fn work_of_hanging_at_the_edges() {
         [400, 400, 7689, 400, 0, 826, 0, 0],
         [400, 400, 1470, 0, 0, 2074, 0, 0],
     ];
-    assert_same(&found[..], &expected);
+    assert_frozen(&found[..], &expected);
 }
 
 /// Large chains begin with a coarser one.
@@ -118,7 +112,7 @@ fn work_of_large_chains() {
         (8000, [8, 8, 319, 4, 4, 10, 0, 0]),
         (20000, [8, 8, 266, 4, 4, 8, 0, 0]),
     ];
-    assert_same(&found[..], &expected);
+    assert_frozen(&found[..], &expected);
 }
 
 /// Solves, answers, iterations, steps of relaxation, relaxations, other angles, false roots,
@@ -176,7 +170,7 @@ fn work_of_no_guess() {
         (true, 13, [2, 2, 22, 14, 2, 0, 0, 8, 0, 28, 4]),
         (true, 40, [2, 2, 80, 50, 3, 0, 0, 30, 0, 82, 4]),
     ];
-    assert_same(&found[..], &expected);
+    assert_frozen(&found[..], &expected);
 }
 
 #[test]
@@ -224,7 +218,7 @@ fn work_of_seeds() {
         (3, 6, [16, 16, 422, 44, 4, 9, 0, 378, 64, 100, 19]),
         (3, 9, [16, 16, 749, 134, 7, 15, 0, 615, 87, 148, 20]),
     ];
-    assert_same(&found[..], &expected);
+    assert_frozen(&found[..], &expected);
 }
 
 /// Steps, and converged seeds, for each number of bars; long chains end by signs.
@@ -267,7 +261,7 @@ fn work_of_batches() {
         (25, 3, 0, 48, -250_120),
         (25, 150, 5, 3571, -2_874_472),
     ];
-    assert_same(&found[..], &expected);
+    assert_frozen(&found[..], &expected);
 }
 
 /// All bars in parallel, next to it, and many turns: where the pattern that turns bars comes in.
@@ -295,5 +289,5 @@ fn work_of_undefined_steps() {
         (2, 732, [24, 24, 875, 256, 22, 66, 0, 619, 2, 96, 24]),
         (3, 712, [24, 24, 1144, 71, 8, 42, 0, 1073, 20, 96, 24]),
     ];
-    assert_same(&found[..], &expected);
+    assert_frozen(&found[..], &expected);
 }
