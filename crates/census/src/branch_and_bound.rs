@@ -140,4 +140,20 @@ mod tests {
         assert!(search.exhausted && search.found.is_empty());
         assert_eq!(search.undecided, [(0, 16), (16, 16), (32, 16), (48, 16)]);
     }
+
+    /// 64 tasks of three expected tests each.
+    #[test]
+    fn few_expected_tests_wake_no_thread() {
+        let in_pool = |worth_threads| {
+            let plan =
+                Plan { budget: u64::MAX, batch: usize::MAX, worth_threads, size: |_: &u32| 3 };
+            let work = |_: &[bool], _: &u32| Outcome {
+                found: vec![rayon::current_thread_index().is_some()],
+                ..Outcome::default()
+            };
+            Search::run((0..64).collect(), &plan, work, &|_| {}).found
+        };
+        assert_eq!(in_pool(3 * 64 + 1), [false; 64]);
+        assert_eq!(in_pool(3 * 64), [true; 64]);
+    }
 }

@@ -459,4 +459,16 @@ mod tests {
         }
         assert_eq!((columns(4, 186.0), columns(7, 186.0), columns(1, 5e3)), (4, 4, 1));
     }
+
+    /// Whatever has no size, or none that a number tells, has no scale.
+    #[test]
+    fn what_has_no_size_has_no_scale() {
+        for shapes in [vec![], vec![vec![[2.0, 1.0]]], vec![vec![[-1e308, 0.0], [1e308, 0.0]]]] {
+            let Frame { middle, size, scale } = Frame::around(&shapes);
+            assert_eq!([middle, size, scale].map(f64::to_bits), [0.0, SIDE, 0.0].map(f64::to_bits));
+        }
+        let Frame { middle, size, scale } = Frame::around(&[vec![[1.0, 0.0], [2.0, -4.0]]]);
+        let expected = [1.5, SIDE / 4.0, SIDE / 4.0];
+        assert_eq!([middle, size, scale].map(f64::to_bits), expected.map(f64::to_bits));
+    }
 }

@@ -183,13 +183,14 @@ mod tests {
     #[test]
     fn polynomials_have_the_zeros_that_they_have() {
         type Polynomial = fn(Series) -> Series;
-        let cases: [(Polynomial, usize, i8); 6] = [
+        let cases: [(Polynomial, usize, i8); 7] = [
             (|t| t, 1, 1),
             (|t| t * t - constant(1e-12), 2, 0),
             (|t| t * t + constant(1e-12), 2, 0),
             (|t| t * t, 2, 0),
             (|t| -(t * t * t), 3, -1),
             (|t| t * t * t * t - constant(1e-20) * t, 4, 0),
+            (|t| t * t * t * t * t, ORDER, 1),
         ];
         for (number, (polynomial, at_most, degree)) in cases.into_iter().enumerate() {
             let map = |at: [Interval; 2]| {
@@ -200,6 +201,22 @@ mod tests {
             let counted = count(&map, [Interval::around(0.0, 1e-9); 2]).unwrap();
             assert_eq!((counted.at_most, counted.degree), (at_most, degree), "{number}");
         }
+    }
+
+    /// The arc 2 y = x leans by 1/2: a box is wide enough for it, and half as wide again.
+    #[test]
+    fn the_box_follows_the_lean_of_the_arc() {
+        let map = |at: [Interval; 2]| {
+            let [x, y] = [Series::variable(at[0], 0), Series::variable(at[1], 1)];
+            Some([x * x, y.scaled(Interval::point(2.0)) - x])
+        };
+        let radius = 1e-9;
+        let counted = count(&map, [Interval::around(0.0, radius); 2]).unwrap();
+        assert_eq!((counted.at_most, counted.degree), (2, 0));
+        let [along, across] = counted.at.map(Interval::rad);
+        let room = along - radius;
+        assert!(room > 0.0);
+        assert!((across / (radius + (0.5 + 0.5) * along) - 1.0).abs() < 1e-9, "{across} {along}");
     }
 
     #[test]

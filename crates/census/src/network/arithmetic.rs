@@ -80,3 +80,37 @@ pub(super) fn norm(a: Vector) -> Interval {
 pub(super) fn points(a: model::Vector) -> Vector {
     a.map(Interval::point)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Between these the true value lies, and no rounding has been paid for it.
+    #[test]
+    fn zeros_and_ones_round_nothing() {
+        let third = Interval::ONE / Interval::point(3.0);
+        let [tenth, zero, one] = [Interval::point(0.1), Interval::ZERO, Interval::ONE];
+        assert_eq!([sum(third, zero), sum(zero, third)], [third; 2]);
+        assert_eq!([product(third, one), product(one, third)], [third; 2]);
+        assert_eq!([product(third, -one), product(-one, third)], [-third; 2]);
+        assert_eq!([product(Interval::LINE, zero), product(zero, Interval::LINE)], [zero; 2]);
+        assert_eq!([difference(tenth, zero), difference(zero, tenth)], [tenth, -tenth]);
+        assert_eq!(difference(tenth, tenth), zero);
+        // A range less another one that is the same is not zero.
+        let range = Interval::new(1.0, 3.0);
+        assert!(difference(range, range).encloses(Interval::new(-2.0, 2.0)));
+    }
+
+    /// Products of vectors by hand.
+    #[test]
+    fn vectors_multiply() {
+        let [a, b] = [points([3.0, 4.0, 12.0]), points([1.0, -2.0, 0.5])];
+        let is = |found: Interval, value: f64| found.contains(value) && found.width() < 1e-12;
+        assert!(is(norm(a), 13.0) && is(squared(a), 169.0) && is(dot(a, b), 1.0));
+        let expected = [4.0 * 0.5 + 12.0 * 2.0, 12.0 - 3.0 * 0.5, -3.0 * 2.0 - 4.0];
+        assert!(cross(a, b).into_iter().zip(expected).all(|(found, value)| is(found, value)));
+        let [x, y, z] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(points);
+        assert_eq!([cross(x, y), cross(y, z), cross(z, x)], [z, x, y]);
+        assert_eq!([plus(x, y), minus(plus(x, y), y)], [points([1.0, 1.0, 0.0]), x]);
+    }
+}

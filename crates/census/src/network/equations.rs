@@ -238,3 +238,61 @@ impl Acting {
         if self.is_rigid() { Interval::ZERO } else { -(self.compliance * norm(span)) }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use model::Bar;
+    use model::system::{Joint, Member, Support};
+
+    use super::*;
+    use crate::network::newton::dense;
+
+    /// A string of two bars, a spring and a bar between an anchor and a joint on a slope, a bar
+    /// back, and the turn of a joint about one that moves.
+    fn equations() -> Equations {
+        let light = |length_m| Bar::homogeneous(length_m, 0.0).unwrap();
+        let slope = Support::Plane { at_m: [1.0, 0.5, -1.0], normal: [0.6, 0.0, 0.8] };
+        let joints = vec![
+            Joint::anchor("A", [0.0, 0.0, 0.0]),
+            Joint::free("P").with_mass(0.3),
+            Joint { support: slope, ..Joint::free("Q").with_mass(0.2) },
+            Joint::free("R").with_mass(0.1),
+        ];
+        let members = vec![
+            Member::bar(0, 1, light(1.0)),
+            Member::bar(1, 2, light(1.3)).with_stiffness(7.0),
+            Member::bar(2, 3, light(0.8)),
+            Member::bar(3, 1, light(1.1)),
+        ];
+        let system = System::new("twin", 10.0, joints, members).unwrap();
+        let turn = Turn { joints: vec![3], centre: 1, arm: 3, across: [0.6, 0.8] };
+        let frame = Frame::new(&system, &[]);
+        let held = [true, false, false, false];
+        Equations::new(&system, frame, &[Activity::Acts; 4], &[turn], &[[0.0; 3]; 4], &held)
+    }
+
+    #[test]
+    fn the_slope_is_its_difference_quotient() {
+        let equations = equations();
+        // Three coordinates, two, three; four densities; the force that holds the turn.
+        assert_eq!(equations.size, 3 + 2 + 3 + 4 + 1);
+        let at: Vec<f64> =
+            (0..equations.size).map(|k| (1.0 + 1.7 * k as f64).sin() + 0.1).collect();
+        let points = |at: &[f64]| at.iter().copied().map(Interval::point).collect::<Vec<_>>();
+        let value = |at: &[f64]| equations.value(&points(at)).unwrap();
+        let slope = dense(equations.size, &equations.slope(&points(&at)));
+        for column in 0..equations.size {
+            let moved = |step: f64| {
+                let mut at = at.clone();
+                at[column] += step;
+                value(&at)
+            };
+            let (more, less) = (moved(1e-5), moved(-1e-5));
+            for row in 0..equations.size {
+                let quotient = (more[row].mid() - less[row].mid()) / 2e-5;
+                let error = (slope[(row, column)] - quotient).abs();
+                assert!(error < 1e-8, "{row} {column}: {} {quotient}", slope[(row, column)]);
+            }
+        }
+    }
+}

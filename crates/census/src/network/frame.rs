@@ -145,3 +145,24 @@ impl End {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A load over one end is no load of the other, exactly; one at a third of a bar is shared
+    /// 2 : 1.
+    #[test]
+    fn loads_over_an_end_are_borne_there_alone() {
+        let bar = Bar::homogeneous(3.0, 1.0).unwrap();
+        assert_eq!(End::Start.share(&bar, 3.0), Interval::ZERO);
+        assert_eq!(End::End.share(&bar, 0.0), Interval::ZERO);
+        let cases = [(0.0, [1.0, 0.0]), (1.0, [2.0 / 3.0, 1.0 / 3.0]), (3.0, [0.0, 1.0])];
+        for (at_m, expected) in cases {
+            for (end, part) in [End::Start, End::End].into_iter().zip(expected) {
+                let share = end.share(&bar, at_m);
+                assert!(share.contains(part) && share.width() < 1e-15, "{at_m}: {share:?}");
+            }
+        }
+    }
+}

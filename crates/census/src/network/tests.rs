@@ -282,3 +282,41 @@ fn large_systems_are_refused_by_their_number_of_unknowns() {
         Err(NoBox::TooLarge { unknowns: 199 * 3 + 200, limit: super::MAX_UNKNOWNS })
     );
 }
+
+/// The hanger below a strut that is too short to push, and one that says so by less than the answer
+/// is off.
+#[test]
+fn slack_struts_are_proved_slack() {
+    let mut joints = hanger(Kind::Bar).joints().to_vec();
+    joints.push(Joint::anchor("C", [0.0, 0.0, 1.0]));
+    let with = |kind: Kind, length_m: f64| {
+        let mut members = hanger(Kind::Bar).members().to_vec();
+        members.push(Member { kind, ..Member::bar(2, 3, light(length_m)) });
+        system(joints.clone(), members)
+    };
+    let at = |z: f64| [below(z).to_vec(), vec![[0.0, 0.0, 1.0]]].concat();
+    let axial_n = [1.25, 1.25, 0.0];
+    let proof = proved(&with(Kind::Strut, 4.5), &at(-4.0), &axial_n);
+    assert_eq!((proof.slack, proof.loose_joints), (vec![2], vec![]));
+    for (kind, length_m, z) in [(Kind::Strut, 5.0002, -4.0004), (Kind::Cable, 4.9998, -3.9996)] {
+        let refused = prove(&with(kind, length_m), &at(z), &axial_n);
+        assert_eq!(refused, Err(NoBox::NotSlack { member: 3 }));
+    }
+}
+
+/// A level push of 10⁻⁴ N towards an anchor 1 m aside is no pull of the cable from it, though the
+/// answer says so.
+#[test]
+fn a_cable_that_an_answer_draws_tight_may_be_pushed() {
+    let mut joints = hanger(Kind::Bar).joints().to_vec();
+    joints[2].force_n = [0.0, 1e-4, 0.0];
+    joints.push(Joint::anchor("C", [0.0, 1.0, -4.0]));
+    let mut members = hanger(Kind::Bar).members().to_vec();
+    members.push(Member::cable(2, 3, light(1.0)));
+    let pushed = system(joints.clone(), members.clone());
+    let at = [below(-4.0).to_vec(), vec![[0.0, 1.0, -4.0]]].concat();
+    let refused = prove(&pushed, &at, &[1.25, 1.25, 1e-4]);
+    assert_eq!(refused, Err(NoBox::WrongSign { member: 3 }));
+    members[2] = Member { kind: Kind::Strut, ..members[2].clone() };
+    proved(&system(joints, members), &at, &[1.25, 1.25, -1e-4]);
+}

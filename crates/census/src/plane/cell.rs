@@ -231,3 +231,43 @@ fn towards(face: Face, [h, v, w]: [Interval; 3]) -> Interval {
         Face::Above => v,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use model::{Anchors, Bar, Chain};
+
+    use super::*;
+    use crate::plane::loads::JointLoads;
+
+    /// Bars of 2, 4 and 2 kg, their centres in the middle: the weights before them are −3 kg, 0 and
+    /// 3 kg about the middle of the chain, in the unit of 4 kg.
+    fn system() -> System {
+        let bars = [2.0, 4.0, 2.0].map(|mass| Bar::homogeneous(1.0, mass).unwrap());
+        let anchors = Anchors { start_m: [0.0; 3], end_m: [2.0, 0.0, 0.5] };
+        let chain = Chain::new("three", 10.0, anchors, bars.to_vec()).unwrap();
+        System::new(&chain, JointLoads::NONE)
+    }
+
+    /// The pull (H, V) = (1/8, 1/2) in all charts: V is counted from −c of the bar of the chart.
+    #[test]
+    fn charts_count_the_same_pull_from_their_own_origins() {
+        let system = system();
+        let near = Cell::point(Face::Near, [0.125, 0.5]);
+        let counted = [-0.25, 0.5, 1.25];
+        for (from, own) in (0_u8..).zip(counted) {
+            let own = Cell::point(Face::Around(from), [0.125, own]);
+            let is = |cell: Option<Cell>, [x, y]: [f64; 2]| {
+                let Cell { at, .. } = cell.unwrap();
+                at[0].contains(x) && at[1].contains(y) && at[1].width() < 1e-14
+            };
+            assert!(is(near.on(own.face, &system), own.middle()), "{from}");
+            assert!(is(own.on(Face::Near, &system), near.middle()), "{from}");
+            for (to, there) in (0_u8..).zip(counted) {
+                assert!(is(own.on(Face::Around(to), &system), [0.125, there]), "{from} {to}");
+            }
+            // (H, V, w) = (1, 4, 8)/8.
+            assert!(is(own.on(Face::Right, &system), [4.0, 8.0]), "{from}");
+            assert!(own.behind(Face::Left, &system) && !own.behind(Face::Above, &system));
+        }
+    }
+}

@@ -270,3 +270,31 @@ fn groups(bars: &[Bar], loads: &JointLoads) -> Vec<Range<usize>> {
     }
     groups
 }
+
+#[cfg(test)]
+mod tests {
+    use intervals::DoubleDouble;
+    use model::Anchors;
+
+    use super::*;
+
+    /// Bars of 2 kg, 4 kg and 2 kg with their centres in the middle, and 1 kg at each joint: what
+    /// the anchors bear besides is in no weight.
+    #[test]
+    fn what_hangs_at_the_anchors_moves_no_bar() {
+        let bars = [2.0, 4.0, 2.0].map(|mass| Bar::homogeneous(1.0, mass).unwrap());
+        let anchors = Anchors { start_m: [0.0; 3], end_m: [2.0, 0.0, 0.5] };
+        let chain = Chain::new("three", 10.0, anchors, bars.to_vec()).unwrap();
+        let loads = JointLoads::new(vec![Some(DoubleDouble::point(1.0)); 4]);
+        let system = System::new(&chain, &loads);
+        // 0, 1 + 3 and 4 + 1 + 3 kg hang before the bars: ±4 kg about their middle.
+        let is = |found: &[Interval], kg: [f64; 3]| {
+            found.iter().zip(kg).all(|(found, kg)| found.contains(kg / system.mass_unit_kg))
+        };
+        assert_eq!((system.mass_unit_kg, system.offset), (4.0, 1.0));
+        assert!(is(&system.weight, [-4.0, 0.0, 4.0]), "{:?}", system.weight);
+        assert!(is(&system.added, [2.0, 5.0, 2.0]), "{:?}", system.added);
+        assert!(is(system.weights(Face::Around(0)), [0.0, 4.0, 8.0]));
+        assert!(is(system.weights(Face::Around(2)), [-8.0, -4.0, 0.0]));
+    }
+}

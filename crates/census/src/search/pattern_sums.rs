@@ -263,6 +263,45 @@ mod tests {
         closed
     }
 
+    /// Sums without radii over a cell from −2 to 2, and the gap and slope of their one pattern.
+    fn sums(numbers: [f64; PARTS]) -> (PatternSums, [f64; PARTS]) {
+        let cell = [Interval::new(-2.0, 2.0); 2];
+        let sums = PatternSums {
+            bars: 0,
+            middle: vec![],
+            radius: [0.0; PARTS],
+            rest: vec![[0.0; 2]],
+            start: [0.0; PARTS],
+            cell,
+            at: [0.0; 2],
+            half: [2.0; 2],
+            blur: [0.0; 2],
+        };
+        (sums, numbers)
+    }
+
+    /// x + y = −2⁻⁴¹ and x + (1 + 2⁻⁴⁰) y = 0: y = 1/2 and x = −1/2 − 2⁻⁴¹. The determinant is 2⁻⁴⁰,
+    /// and known to 2⁻⁵⁰ times the sum of its two products, a part of 2⁻⁹: room for as much of x.
+    #[test]
+    fn the_rounding_of_a_small_determinant_has_room() {
+        let small = f64::from_bits((1023 - 40) << 52);
+        let (sums, sum) = sums([0.0, 0.0, 0.5 * small, 0.0, 1.0, 1.0, 1.0, 1.0 + small]);
+        let open = sums.leaf(Pattern(0), sum).unwrap();
+        assert!(open.promising && open.noisy == [false; 2]);
+        for (left, x) in open.left.into_iter().zip([-0.5 - 0.5 * small, 0.5]) {
+            let room = left.rad() / (0.5 / 512.0);
+            assert!(left.contains(x) && (1.0..1.02).contains(&room), "{left:?} {room}");
+        }
+    }
+
+    /// Without a slope nothing is known of a zero.
+    #[test]
+    fn a_closure_without_slope_promises_nothing() {
+        let (sums, sum) = sums([0.0; PARTS]);
+        let open = sums.leaf(Pattern(0), sum).unwrap();
+        assert_eq!((open.promising, open.left), (false, [Interval::new(-2.0, 2.0); 2]));
+    }
+
     /// No test may ever exclude a cell that holds a zero, nor contract the zero away.
     #[test]
     fn a_zero_is_never_excluded() {

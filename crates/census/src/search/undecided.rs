@@ -161,3 +161,50 @@ impl Undecided {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn task(face: Face, at: [f64; 2], pattern: u32) -> Task {
+        let at = at.map(|x| Interval::new(x, x + f64::from_bits((1023 - 8) << 52)));
+        Task { cell: Cell { face, at }, patterns: vec![Pattern(pattern)] }
+    }
+
+    /// Squares with a corner in common are one, those apart or on another face are not.
+    #[test]
+    fn what_touches_becomes_one() {
+        let width = f64::from_bits((1023 - 8) << 52);
+        let tasks = vec![
+            task(Face::Right, [0.0, 0.0], 1),
+            task(Face::Near, [0.0, 0.0], 3),
+            task(Face::Near, [0.0, 2.5 * width], 5),
+            task(Face::Near, [width, width], 2),
+            task(Face::Near, [2.5 * width, 0.0], 4),
+        ];
+        let found = gather(tasks);
+        let patterns: Vec<Vec<u32>> =
+            found.iter().map(|task| task.patterns.iter().map(|p| p.0).collect()).collect();
+        assert_eq!(patterns, [vec![5], vec![2, 3], vec![4], vec![1]]);
+        let whole = Interval::new(0.0, 2.0 * width);
+        assert_eq!(found[1].cell, Cell { face: Face::Near, at: [whole; 2] });
+    }
+
+    /// As many as are merged one by one stay apart where they do not touch; one more, and those of
+    /// each of 32 by 32 squares are one.
+    #[test]
+    fn too_many_to_compare_are_gathered_on_a_grid() {
+        let side = 64;
+        let all: Vec<Task> = (0..side * side)
+            .map(|k| {
+                let [i, j] = [k % side, k / side].map(|n| f64::from(n) / 32.0 - 1.0);
+                task(Face::Near, [i, j], 1)
+            })
+            .collect();
+        assert_eq!(gather(all[..DIRECT].to_vec()).len(), DIRECT);
+        // 33 rows of 64 are cut into 32 by 17 squares.
+        let rows = gather(all[..33 * 64].to_vec());
+        assert_eq!(rows.len(), 32 * 17);
+        assert_eq!(gather(all).len(), 32 * 32);
+    }
+}

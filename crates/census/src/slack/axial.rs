@@ -273,6 +273,35 @@ mod tests {
         (1e-3..0.1f64, prop::bool::ANY).prop_map(|(size, pushed)| if pushed { -size } else { size })
     }
 
+    /// Bar 1 hangs 0.9 m and bar 3 reaches 0.4 m up to the anchor 0.5 m below the first: bar 2 of 1
+    /// m is level between them, without force.
+    #[test]
+    fn a_bar_that_just_bridges_its_gap_is_proved_to_rounding() {
+        /// 2⁻²¹
+        const RADIUS: f64 = f64::from_bits((1023 - 21) << 52);
+        let bars = [(0.9, 1.0, 0.5), (1.0, 2.0, 0.75), (0.4, 1.0, 0.25)];
+        let bars = bars.map(|(l, m, r)| Bar::new(l, m, r, [0.0; 3]).unwrap());
+        let anchors = Anchors { start_m: [0.0; 3], end_m: [1.0, 0.0, -0.5] };
+        let chain = Chain::new("unloaded", 9.81, anchors, bars.to_vec()).unwrap();
+        let system = System::new(&chain, JointLoads::NONE);
+        let axis = [Interval::ONE, Interval::ZERO];
+        let closure = AxialClosure {
+            system: &system,
+            bar: 1,
+            face: Face::Around(1),
+            signs: vec![1, 0, 1],
+            axis,
+        };
+        let only = closure.only_one(RADIUS).unwrap();
+        for part in only.at {
+            assert!(part.contains(0.0) && part.width() < 1e-14, "{part:?}");
+        }
+        // The other bars, upright, turn by as much as their force does, and rise by its square.
+        let turned = closure.directions(RADIUS).unwrap();
+        let square = RADIUS * RADIUS;
+        assert!(turned.contains(0.0) && (square..4.0 * square).contains(&turned.width()));
+    }
+
     proptest! {
         /// With bar k in tension or in compression G is the closure as a function of the pull.
         #[test]

@@ -178,3 +178,51 @@ impl ExactMoments {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use model::Anchors;
+
+    use super::*;
+
+    /// Bars of 1, 2, 1 and 2 m without mass but for 1 kg at each joint: weights 0, 1, 2, 3.
+    fn moments() -> ExactMoments {
+        let anchors = Anchors { start_m: [0.0; 3], end_m: [2.0, 0.0, 0.0] };
+        // Each hangs its 1 kg at its second joint.
+        let bars =
+            [1.0, 2.0, 1.0, 2.0].map(|length| Bar::new(length, 1.0, length, [0.0; 3]).unwrap());
+        let chain = Chain::new("moments", 10.0, anchors, bars.to_vec()).unwrap();
+        let sides = ExactSides::new(&chain).unwrap();
+        ExactMoments::new(&chain, JointLoads::NONE, &sides).unwrap()
+    }
+
+    /// By hand, signs from the first bar on: the moments, the first that is not zero, and whether
+    /// the signed variance is.
+    #[test]
+    fn moments_of_signed_lengths() {
+        let moments = moments();
+        let cases = [
+            // 1 + 2 + 1 + 2, 2 + 2 + 6, 2 + 4 + 18.
+            (0b0000, [6, 10, 24], Some(0), false),
+            // 1 − 2 − 1 + 2, −2 − 2 + 6, −2 − 4 + 18.
+            (0b0110, [0, 2, 12], Some(1), false),
+            // 1 − 2 + 1 + 2, −2 + 2 + 6, −2 + 4 + 18.
+            (0b0100, [2, 6, 20], Some(0), false),
+        ];
+        for (pattern, expected, first, flat) in cases {
+            let pattern = Pattern(pattern);
+            let found = [0, 1, 2].map(|order| moments.moment(pattern, order));
+            assert_eq!(found, expected.map(Some), "{pattern:?}");
+            assert_eq!(moments.first(pattern), first);
+            assert_eq!(moments.is_without_variance(pattern), Some(flat));
+        }
+        // 1 − 3 + 3, −3 + 6, −3 + 12: 1 · 9 = 3².
+        let flat = ExactMoments { lengths: vec![1, 3, 3], weights: vec![0, 1, 2], ..moments };
+        assert_eq!(flat.is_without_variance(Pattern(0b010)), Some(true));
+        assert_eq!(flat.is_without_variance(Pattern(0b000)), Some(false));
+        // 1 − 2 + 1, −2 + 2, −2 + 4: all but the second vanish.
+        let even = ExactMoments { lengths: vec![1, 2, 1], ..flat };
+        assert_eq!(even.first(Pattern(0b010)), Some(2));
+        assert_eq!(even.is_without_variance(Pattern(0b010)), Some(true));
+    }
+}

@@ -254,3 +254,44 @@ fn is_isolated(
     let second: Interval = terms.into_iter().map(|(part, c)| part * (psi + c).square()).sum();
     Some(!second.contains(0.0))
 }
+
+#[cfg(test)]
+mod tests {
+    use model::{Anchors, Bar, Chain};
+
+    use super::*;
+    use crate::plane::loads::JointLoads;
+
+    /// Equal bars, to this anchor.
+    fn system(bars: usize, end_m: [f64; 3]) -> System {
+        let bars = vec![Bar::homogeneous(1.0, 1.0).unwrap(); bars];
+        let anchors = Anchors { start_m: [0.0; 3], end_m };
+        System::new(&Chain::new("straight", 10.0, anchors, bars).unwrap(), JointLoads::NONE)
+    }
+
+    #[test]
+    fn one_point_is_neither_level_nor_upright() {
+        assert!(is_one_point(&system(3, [0.0; 3])));
+        assert!(!is_one_point(&system(3, [0.0, 0.0, 1.0])));
+        assert!(!is_one_point(&system(3, [1.0, 0.0, 0.0])));
+    }
+
+    /// Weights −1, 0, 1 and lengths 1: with the signs + + − the mean of the weights is −2 and the
+    /// signed variance 0 − 2²; with + − + the mean is 0 and the variance 2. Where as many bars point
+    /// back as forth there is no mean.
+    #[test]
+    fn straight_positions_are_isolated_where_the_weights_vary() {
+        let level = system(3, [1.0, 0.0, 0.0]);
+        for pattern in [0b001, 0b010, 0b100] {
+            for (way, turned) in [(1, 0), (-1, 0b111)] {
+                let cell = isolated(&level, Pattern(pattern ^ turned), way, false);
+                let face = if way > 0 { Face::Right } else { Face::Left };
+                let Cell { face: found, at } = cell.unwrap();
+                assert_eq!(found, face, "{pattern:03b}");
+                assert!(at[0].contains(0.0) && at[1].contains(0.0) && at[0].width() > 1e-3);
+            }
+        }
+        let even = system(4, [1.0, 0.0, 0.0]);
+        assert!(isolated(&even, Pattern(0b0110), 1, false).is_none());
+    }
+}

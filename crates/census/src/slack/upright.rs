@@ -160,3 +160,27 @@ fn legendre(order: u32, x: Interval) -> Interval {
     }
     here
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn legendre_polynomials_have_their_closed_forms() {
+        for x in [-1.0, -0.7, -0.25, 0.0, 0.3, 0.8, 1.0_f64] {
+            let forms = [
+                1.0,
+                x,
+                0.5 * (3.0 * x * x - 1.0),
+                0.5 * (5.0 * x.powi(3) - 3.0 * x),
+                0.125 * (35.0 * x.powi(4) - 30.0 * x * x + 3.0),
+                0.125 * (63.0 * x.powi(5) - 70.0 * x.powi(3) + 15.0 * x),
+            ];
+            for (order, form) in (0..).zip(forms) {
+                let found = legendre(order, Interval::point(x));
+                assert!((found.mid() - form).abs() < 1e-14, "{order} {x}: {found:?} {form}");
+                assert!(found.width() < 1e-14 && found.mag() <= 1.0);
+            }
+        }
+    }
+}

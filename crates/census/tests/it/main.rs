@@ -1,8 +1,10 @@
 //! The census from outside, in one program.
 
 mod compact;
+mod completeness;
 mod degenerate;
 mod estimate;
+mod figure;
 mod integers;
 mod multiplicity;
 mod mutations;

@@ -145,6 +145,22 @@ fn trees_have_all_their_signs() {
     assert_eq!(refused.unwrap_err(), NoCensus::Limp { member: 4 });
 }
 
+/// A column of 1 m under 2 N is pressed to a quarter where it bears 8/3 N for all of its length, is
+/// nothing where it bears 2 N, and has no place where it bears less.
+#[test]
+fn columns_are_pressed_together() {
+    let column = |stiffness_n: f64| {
+        let joints = vec![Joint::anchor("A", [0.0; 3]), Joint::free("P").with_mass(0.2)];
+        let members = vec![Member::bar(0, 1, light(1.0)).with_stiffness(stiffness_n)];
+        SystemCensus::take(&system(joints, members), &Settings::default())
+    };
+    let both = column(8.0 / 3.0).unwrap().equilibria;
+    let heights: Vec<Interval> = both.iter().map(|one| one.joints_m[1][2]).collect();
+    assert!(heights.len() == 2 && heights[0].contains(-1.75) && heights[1].contains(0.25));
+    assert_eq!(column(2.0).unwrap_err(), NoCensus::Limp { member: 1 });
+    assert_eq!(column(1.5).unwrap().equilibria.len(), 1);
+}
+
 /// Two hangers over the same anchors, one of them with a pendulum at its lamp: 2 times 2 times 2.
 #[test]
 fn parts_are_combined_and_trees_hang_on_chains() {
@@ -228,6 +244,9 @@ fn a_tripod_has_its_two_places() {
     members.push(Member::bar(4, 3, light(1.0)));
     let census = taken(&system(joints.clone(), members.clone()));
     assert_eq!((census.equilibria.len(), census.complete), (4, true));
+    // It stands in no plane, and so does what hangs on it.
+    assert_eq!((census.parts.len(), census.parts[0].framed), (1, 1));
+    assert!(census.equilibria.iter().all(|one| one.index_in_plane.is_none()));
     let lowest = &census.equilibria[0];
     assert!(lowest.joints_m[3][2].contains(-4.0) && lowest.joints_m[4][2].contains(-5.0));
     // The third bar is not needed: twice 10 N times 4/5.

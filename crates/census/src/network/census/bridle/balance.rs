@@ -203,3 +203,92 @@ fn three_may_hold(all: [&Held; 3], b: Vector) -> bool {
     let parts = [det(b, two, three), det(one, b, three), det(one, two, b)];
     parts.into_iter().zip(all).all(|(part, held)| !(held.w * part).disjoint(volume))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::network::arithmetic::points;
+
+    #[test]
+    fn quotients_have_their_limits() {
+        let x = Interval::new(2.0, 3.0);
+        assert_eq!(quotient(x, Interval::ONE), x);
+        let both = quotient(x, Interval::new(4.0, 8.0));
+        assert!(both.encloses(Interval::new(0.25, 0.75)) && both.width() < 0.5 + 1e-15);
+        let half = Interval::new(0.0, 2.0);
+        let up = quotient(x, half);
+        assert!(up.contains(1.0) && up.lo() > 1.0 - 1e-15 && up.hi() >= f64::INFINITY);
+        let down = quotient(-x, half);
+        assert!(down.contains(-1.0) && down.hi() < -1.0 + 1e-15 && down.lo() <= -f64::INFINITY);
+        assert_eq!(quotient(Interval::new(-1.0, 1.0), half), Interval::LINE);
+        assert_eq!(quotient(x, Interval::ZERO), Interval::LINE);
+    }
+
+    fn bounded(force: [f64; 3]) -> Held {
+        let force = points(force);
+        Held { force, direction: force, w: Interval::ONE, turned: None }
+    }
+
+    /// A strand that is all but straight.
+    fn unbounded(direction: [f64; 3]) -> Held {
+        let direction = points(direction);
+        let force = direction.map(|part| quotient(part, Interval::ZERO));
+        Held { force, direction, w: Interval::new(0.0, 1.0), turned: None }
+    }
+
+    /// Whether these strands may hold a load together.
+    fn may(load: [f64; 3], held: &[Held]) -> bool {
+        let lists: Vec<Vec<Held>> = held.iter().map(|held| vec![held.clone()]).collect();
+        !balanced(points(load), &lists).is_empty()
+    }
+
+    /// By hand: what forces without bound cannot reach.
+    #[test]
+    fn straight_strands_hold_what_lies_along_them() {
+        let [x, y, z] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+        assert!(may([3.0, 4.0, 0.0], &[bounded([3.0, 4.0, 0.0])]));
+        assert!(!may([3.0, 4.0, 0.0], &[bounded([3.0, 5.0, 0.0])]));
+        // One, with a bounded one: 2 along z is left.
+        let aside = bounded([1.0, 0.0, 0.0]);
+        assert!(may([1.0, 0.0, 2.0], &[aside.clone(), unbounded(z)]));
+        assert!(!may([1.5, 0.0, 2.0], &[aside.clone(), unbounded(z)]));
+        // Two hold what lies in their plane: at least as much along each as w ≤ 1 asks for.
+        assert!(may([3.0, 2.0, 0.0], &[unbounded(x), unbounded(y)]));
+        assert!(!may([3.0, 2.0, 1.0], &[unbounded(x), unbounded(y)]));
+        assert!(!may([0.5, 2.0, 0.0], &[unbounded(x), unbounded(y)]));
+        // Three hold anything of at least this size in each direction, and no push.
+        let three = [unbounded(x), unbounded(y), unbounded(z)];
+        assert!(may([3.0, 2.0, 1.5], &three));
+        assert!(!may([3.0, 2.0, 0.5], &three) && !may([3.0, 2.0, -1.5], &three));
+        // Whatever turns has its size.
+        let turning = |size: f64| Held {
+            force: [Interval::new(-size, size), Interval::new(-size, size), Interval::ONE],
+            direction: [Interval::LINE, Interval::LINE, Interval::ONE],
+            w: Interval::ONE,
+            turned: Some(Interval::point(size)),
+        };
+        assert!(may([3.0, 4.0, 1.0], &[turning(5.0)]) && !may([3.0, 4.0, 1.0], &[turning(6.0)]));
+    }
+
+    /// Loads that known densities of one, two and three bars make.
+    #[test]
+    fn densities_are_those_of_the_load() {
+        let arms = [[1.0, 0.0, -2.0], [0.0, 1.0, -1.0], [-1.0, -1.0, 1.0]].map(points);
+        let known = [2.0, -3.0, 0.5];
+        for bars in 1..=3 {
+            let pulls = (0..bars).map(|k| times(Interval::point(known[k]), arms[k]));
+            let other = bounded([0.25, -0.5, 4.0]);
+            let load = pulls.fold(other.force, plus);
+            let found = densities(load, std::iter::once(&other), &arms[..bars]).unwrap();
+            assert_eq!(found.len(), bars);
+            for (found, known) in found.iter().zip(known) {
+                assert!(found.contains(known) && found.width() < 1e-13, "{bars}: {found:?}");
+            }
+            assert!(
+                densities(load, std::iter::once(&unbounded([1.0; 3])), &arms[..bars]).is_none()
+            );
+        }
+        let parallel = [arms[0], times(Interval::point(2.0), arms[0])];
+        assert!(densities(points([1.0; 3]), std::iter::empty(), &parallel).is_none());
+    }
+}

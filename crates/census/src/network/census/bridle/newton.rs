@@ -240,3 +240,144 @@ fn force(cell: &Cell, weight: Interval) -> Option<([Interval; 2], [[Interval; 2]
     };
     Some(([along, up + weight], [by_other, by_w]))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::network::arithmetic::points;
+
+    fn strand(anchor: [f64; 3], lengths: &[f64], weights: &[f64]) -> Strand {
+        let all = |numbers: &[f64]| numbers.iter().copied().map(Interval::point).collect();
+        let (length, weight) = (all(lengths), all(weights));
+        Strand { members: vec![], joints: vec![], anchor: points(anchor), length, weight }
+    }
+
+    /// Strands of two bars, of one and of three.
+    fn bridle() -> Bridle {
+        let strands = vec![
+            strand([1.0, 0.25, 0.5], &[0.75, 0.5], &[-0.5, 0.5]),
+            strand([-1.0, 0.5, 0.25], &[1.25], &[0.0]),
+            strand([0.25, -1.0, 0.0], &[0.5, 0.75, 0.5], &[-0.75, 0.25, 0.75]),
+        ];
+        Bridle { knot: 0, load: points([0.25, -0.5, -1.0]), strands }
+    }
+
+    const FACES: [Face; 5] = [Face::Near, Face::Left, Face::Right, Face::Below, Face::Above];
+
+    fn charts(face: usize) -> Charts {
+        let rod = [Face::Near, Face::Left, Face::Right][face % 3];
+        let faces = vec![FACES[face], rod, FACES[(face + 2) % 5]];
+        Charts { faces, patterns: vec![Pattern(0b01), Pattern(0), Pattern(0b010)] }
+    }
+
+    /// The knot; coordinates of a pull, a density, and a pull.
+    const AT: [f64; 8] = [0.25, 0.125, -0.75, 0.625, 0.375, 0.5, -0.25, 0.875];
+
+    /// The pull (H, V) of coordinates of a chart, in plain numbers.
+    fn pull(face: Face, [x, y]: [f64; 2]) -> [f64; 2] {
+        match face {
+            Face::Left => [-1.0 / y, x / y],
+            Face::Right => [1.0 / y, x / y],
+            Face::Below => [x / y, -1.0 / y],
+            Face::Above => [x / y, 1.0 / y],
+            Face::Near | Face::Around(_) => [x, y],
+        }
+    }
+
+    /// The equations in plain numbers, from their definition.
+    fn plain(bridle: &Bridle, charts: &Charts) -> Vec<f64> {
+        let mut closures = vec![];
+        let mut balance: Vec<f64> = bridle.load.iter().map(|part| -part.mid()).collect();
+        let mut first = 3;
+        for (i, strand) in bridle.strands.iter().enumerate() {
+            let arm: [f64; 3] = std::array::from_fn(|k| AT[k] - strand.anchor[k].mid());
+            let length: Vec<f64> = strand.length.iter().map(|length| length.mid()).collect();
+            let mut force = [0.0; 3];
+            if length.len() == 1 {
+                let tau = match charts.faces[i] {
+                    Face::Left => -1.0 / AT[first],
+                    Face::Right => 1.0 / AT[first],
+                    _ => AT[first],
+                };
+                let square: f64 = arm.iter().map(|x| x * x).sum();
+                closures.push(0.5 * (square - length[0] * length[0]));
+                force = arm.map(|x| tau * x);
+                first += 1;
+            } else {
+                let [h, v] = pull(charts.faces[i], [AT[first], AT[first + 1]]);
+                let distance = arm[0].hypot(arm[1]);
+                let mut gap = [-distance, -arm[2]];
+                let signs = charts.patterns[i].signs(length.len());
+                for ((length, weight), sign) in length.iter().zip(&strand.weight).zip(signs) {
+                    let up = v + weight.mid();
+                    let size = f64::from(sign) * length / h.hypot(up);
+                    gap = [gap[0] + size * h, gap[1] + size * up];
+                    force = [h * arm[0] / distance, h * arm[1] / distance, up];
+                }
+                closures.extend(gap);
+                first += 2;
+            }
+            for (sum, part) in balance.iter_mut().zip(force) {
+                *sum += part;
+            }
+        }
+        closures.extend(balance);
+        closures
+    }
+
+    fn over(charts: &Charts, at: &[f64]) -> Equations {
+        let at: Vec<Interval> = at.iter().copied().map(Interval::point).collect();
+        equations(&bridle(), charts, &at).unwrap()
+    }
+
+    #[test]
+    fn equations_and_their_slope_are_those_of_plain_numbers() {
+        for charts in (0..5).map(charts) {
+            let Equations { value, slope } = over(&charts, &AT);
+            for (found, expected) in value.iter().zip(plain(&bridle(), &charts)) {
+                let near = (found.mid() - expected).abs() < 1e-13 && found.width() < 1e-12;
+                assert!(near, "{charts:?}: {found:?} {expected}");
+            }
+            for column in 0..AT.len() {
+                let moved = |step: f64| {
+                    let mut at = AT;
+                    at[column] += step;
+                    over(&charts, &at).value
+                };
+                let quotient = |step: f64, row: usize| {
+                    (moved(step)[row].mid() - moved(-step)[row].mid()) / (2.0 * step)
+                };
+                for row in 0..AT.len() {
+                    let expected = (4.0 * quotient(1e-4, row) - quotient(2e-4, row)) / 3.0;
+                    let found = slope.at(row, column).mid();
+                    assert!((found - expected).abs() < 1e-9, "{charts:?}: {found} {expected}");
+                }
+            }
+        }
+    }
+
+    /// A strand of two bars that a load of (3/4, 0, -5/16) draws aside, and 11/16 between them: the
+    /// forces are (12, -16)/16 and (12, -5)/16, the slopes those of 3, 4, 5 and 5, 12, 13.
+    #[test]
+    fn a_strand_drawn_aside_is_proved_in_a_neighbourhood() {
+        let strands = vec![strand([0.0; 3], &[1.25, 0.8125], &[-0.34375, 0.34375])];
+        let bridle = Bridle { knot: 0, load: points([0.75, 0.0, -0.3125]), strands };
+        let charts = Charts { faces: vec![Face::Near], patterns: vec![Pattern(0)] };
+        let zero = [1.5, 0.0, -1.3125, 0.75, -0.65625];
+        let around = |by: f64| -> Vec<Interval> {
+            zero.iter().map(|x| Interval::new(x - by, x + 0.5 * by)).collect()
+        };
+        let Verdict::One(found) = examine(&bridle, &charts, &around(1e-7)) else {
+            panic!("not proved");
+        };
+        for ((alone, at), x) in found.alone_in.iter().zip(&found.at).zip(zero) {
+            // Room in units of length, and next to none besides.
+            assert!((at - x).abs() < 1e-14 && alone.contains(x));
+            assert!((1.9e-9..2.5e-9).contains(&alone.width()), "{alone:?}");
+        }
+        // Away from it there is none.
+        let mut aside = around(1e-7);
+        aside[0] = aside[0] + Interval::point(1e-3);
+        assert!(matches!(examine(&bridle, &charts, &aside), Verdict::Empty));
+    }
+}

@@ -226,3 +226,77 @@ fn loose(strand: &Strand, span: &Span, cell: &Cell, patterns: &[Pattern]) -> Vec
     };
     patterns.iter().filter(may_reach).copied().collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn is(found: Interval, [lo, hi]: [f64; 2]) -> bool {
+        found.encloses(Interval::new(lo, hi)) && found.width() < hi - lo + 1e-14
+    }
+
+    /// Densities from 2 to 4 are 1/4 to 1/2 on the face of pulls, their opposites on that of
+    /// pushes.
+    #[test]
+    fn a_cell_is_cut_to_its_densities() {
+        let (full, unit) = (Interval::new(-1.0, 1.0), Interval::new(0.0, 1.0));
+        let cell = |face, x| Cell { face, at: [x, Interval::ZERO] };
+        let [pulls, pushes] = [Interval::new(2.0, 4.0), Interval::new(-4.0, -2.0)];
+        let first = |face, density| with_density(&cell(face, unit), density).map(|cell| cell.at[0]);
+        assert!(is(first(Face::Right, pulls).unwrap(), [0.25, 0.5]));
+        assert!(is(first(Face::Left, pushes).unwrap(), [0.25, 0.5]));
+        assert_eq!([first(Face::Right, pushes), first(Face::Left, pulls)], [None; 2]);
+        // Without a bound: all that is large enough.
+        assert!(is(first(Face::Right, Interval::new(-1.0, 4.0)).unwrap(), [0.25, 1.0]));
+        assert!(is(first(Face::Right, Interval::new(0.0, 4.0)).unwrap(), [0.25, 1.0]));
+        let near = with_density(&cell(Face::Near, full), Interval::new(0.5, 4.0)).unwrap();
+        assert_eq!(near.at, [Interval::new(0.5, 1.0), Interval::ZERO]);
+        assert!(with_density(&cell(Face::Near, full), pulls).is_none());
+        // And back: t/w.
+        for (face, sign) in [(Face::Right, 1.0), (Face::Left, -1.0)] {
+            let [t, w] = density(&cell(face, Interval::point(0.25)));
+            assert_eq!((t, w), (Interval::point(sign), Interval::point(0.25)));
+        }
+    }
+
+    /// Two bars of 1 under weights of ±1/2: with the pull (3/4, -1) the forces are (3/4, -3/2) and
+    /// (3/4, -1/2).
+    fn strand() -> Strand {
+        Strand {
+            members: vec![0, 1],
+            joints: vec![1],
+            anchor: [Interval::ZERO; 3],
+            length: vec![Interval::ONE; 2],
+            weight: [-0.5, 0.5].map(Interval::point).to_vec(),
+        }
+    }
+
+    #[test]
+    fn the_pulls_that_reach_a_place_hold_the_one_that_does() {
+        let strand = strand();
+        let [h, v] = [0.75, -1.0];
+        let forces = [[h, v - 0.5], [h, v + 0.5]];
+        // Both in tension, and the second compressed.
+        for (pattern, sign) in [(0b00, 1.0), (0b01, -1.0)] {
+            let unit = forces.map(|[x, z]: [f64; 2]| [x / x.hypot(z), z / x.hypot(z)]);
+            let end: [f64; 2] = std::array::from_fn(|k| unit[0][k] + sign * unit[1][k]);
+            // The plane of the strand has its end on the right.
+            let h = h * end[0].signum();
+            let around = |x: f64| Interval::around(x, 1e-6);
+            let at = [around(end[0]), Interval::around(0.0, 1e-9), around(end[1])];
+            let span = Span::new(&strand, &at);
+            let mut tests = 0;
+            let found = reaching(&strand, &span, 2e-6, &Pulls::all(&strand), &mut tests);
+            let own = |pulls: &&Pulls| pulls.patterns.contains(&Pattern(pattern));
+            let holds = |pulls: &Pulls| -> bool {
+                let [own_h, own_v, w] = pulls.cell.homogeneous();
+                let is =
+                    |part: Interval, x: f64| (w * Interval::point(x)).intersect(part).is_some();
+                is(own_h, h) && is(own_v, v)
+            };
+            assert!(found.iter().filter(own).any(holds), "{found:?}");
+            assert!(found.iter().all(|pulls| area(&pulls.cell.at) < 1e-3), "{found:?}");
+        }
+        assert!((area(&[Interval::new(1.0, 3.0), Interval::new(0.0, 0.25)]) - 0.5).abs() < 1e-15);
+    }
+}

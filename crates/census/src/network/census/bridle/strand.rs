@@ -157,3 +157,36 @@ impl Span {
         [any, any, up]
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::network::arithmetic::points;
+
+    fn strand(anchor: [f64; 3], lengths: &[f64]) -> Strand {
+        Strand {
+            members: vec![],
+            joints: vec![],
+            anchor: points(anchor),
+            length: lengths.iter().copied().map(Interval::point).collect(),
+            weight: vec![Interval::ZERO; lengths.len()],
+        }
+    }
+
+    /// Two strands of 3 and 2 from anchors 4 apart: what both reach, but for corners.
+    #[test]
+    fn places_are_those_that_all_strands_reach() {
+        let strands = vec![strand([0.0; 3], &[2.0, 1.0]), strand([4.0, 0.0, 1.0], &[2.0])];
+        let bridle = Bridle { knot: 0, load: points([0.0, 0.0, -1.0]), strands };
+        assert_eq!([0, 1].map(|k| bridle.strands[k].is_rod()), [false, true]);
+        assert_eq!((bridle.bars(), bridle.longest()), (3, 2));
+        assert_eq!([0, 1, 2].map(|k| bridle.first(k)), [3, 5, 6]);
+        let whole = bridle.whole().unwrap();
+        for (part, [lo, hi]) in whole.into_iter().zip([[2.0, 3.0], [-2.0, 2.0], [-1.0, 3.0]]) {
+            assert!(part.encloses(Interval::new(lo, hi)) && part.width() < hi - lo + 1e-14);
+        }
+        let far =
+            Bridle { strands: vec![strand([0.0; 3], &[1.0]), strand([4.0; 3], &[2.0])], ..bridle };
+        assert!(far.whole().is_none());
+    }
+}

@@ -4,9 +4,10 @@
 use model::system::System;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
+use samples::assert_frozen;
 
 use crate::network::SystemCensus;
-use crate::network::census::net::tests::{bridle, found_of, taken, the_sum_is_the_same};
+use crate::network::census::net::tests::{bridle, found_of, taken, the_sum_is_the_same, work};
 use crate::settings::Settings;
 
 /// Three strands of so many bars, about as long as the bridle asks for, drawn at random.
@@ -23,6 +24,11 @@ fn drawn(random: &mut ChaCha8Rng, bars: [usize; 3]) -> System {
     }
     let strands: Vec<&[f64]> = lengths.iter().map(Vec::as_slice).collect();
     bridle(&anchors, &strands, random.random_range(0.0..1.0), random.random_range(0.1..1.0))
+}
+
+/// Whatever its joints, a bridle is searched over the pulls of its strands.
+fn by_pulls() -> Settings {
+    Settings { max_motions: 0, ..Settings::default() }
 }
 
 /// The promise of the census: complete lists, of which Newton's method finds nothing more.
@@ -64,12 +70,30 @@ fn places_and_pulls_give_the_same_list() {
     for bars in [[2, 2, 2], [2, 2, 1], [2, 1, 1]] {
         let system = drawn(&mut random, bars);
         let by_places = taken(&system);
-        let few = Settings { max_motions: 1, ..Settings::default() };
-        let by_pulls = SystemCensus::take(&system, &few).unwrap();
+        let by_pulls = SystemCensus::take(&system, &by_pulls()).unwrap();
         assert!(by_places.complete && by_pulls.complete, "{bars:?}");
         assert_eq!(by_places.equilibria.len(), by_pulls.equilibria.len(), "{bars:?}");
         for (a, b) in by_places.equilibria.iter().zip(&by_pulls.equilibria) {
             assert!(!a.energy_j.disjoint(b.energy_j) && a.index_in_space == b.index_in_space);
         }
     }
+}
+
+/// What is found, and what it takes: cells and tests by the search over pulls, frozen.
+#[test]
+fn work_of_small_bridles() {
+    let mut random = ChaCha8Rng::seed_from_u64(21);
+    let mut found = vec![];
+    for bars in [[2, 1, 1], [2, 2, 1], [3, 1, 1], [3, 2, 1]] {
+        let system = drawn(&mut random, bars);
+        let census = SystemCensus::take(&system, &by_pulls()).unwrap();
+        found.push((bars, work(&census)));
+    }
+    let expected = [
+        ([2, 1, 1], [2, 0, 2, 1533, 19154, -94, -90]),
+        ([2, 2, 1], [2, 0, 4, 912, 34245, -96, -88]),
+        ([3, 1, 1], [6, 0, 12, 1797, 45098, -282, -244]),
+        ([3, 2, 1], [2, 0, 6, 2172, 51133, -94, -81]),
+    ];
+    assert_frozen(&found[..], &expected);
 }

@@ -224,3 +224,69 @@ fn zero<const N: usize>(
     }
     None
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::network::arithmetic::points;
+    use crate::network::census::net::layout::End;
+
+    fn swing(lengths: [f64; 2], load: [f64; 3]) -> Swing {
+        Swing {
+            joint: 0,
+            members: [0, 1],
+            ends: [End::Held(points([0.0; 3])); 2],
+            lengths: lengths.map(Interval::point),
+            load: points(load),
+        }
+    }
+
+    fn swung(span: [f64; 3]) -> Swung<3> {
+        Swung {
+            base: points([1.0, 0.0, 0.0]),
+            sideways: points([0.0; 3]),
+            span: points(span),
+            tension: Interval::point(2.0),
+            smooth: None,
+            folded: false,
+            near: true,
+            round: Some(Interval::ONE),
+        }
+    }
+
+    /// A load of 1 and a pull of 4 across it, bars of 2 and 3: |G × f| = 4 is more than
+    /// 4 (4 + 1)/3 |c| for |c| < 3/5, and than 4 (4 + 1)/2 |c| for |c| < 2/5.
+    #[test]
+    fn folded_bars_pull_along_the_load() {
+        let swing = swing([2.0, 3.0], [0.0, 0.0, -1.0]);
+        let impossible = |span: f64, end: usize, pull: [f64; 3]| {
+            folded_is_impossible(&swing, &swung([span, 0.0, 0.0]), end, points(pull))
+        };
+        let across = [4.0, 0.0, 0.0];
+        for (end, most) in [(0, 0.6), (1, 0.4)] {
+            assert!(impossible(0.99 * most, end, across) && !impossible(1.01 * most, end, across));
+            assert!(!impossible(0.1, end, [0.0, 0.0, 4.0]));
+        }
+    }
+
+    /// With c = e_z, τ = 2 and base e_x what is left at b is pull + e_x ∓ 2 e_z, at a
+    /// pull − e_x ± 2 e_z + load: of the size 1, and level.
+    #[test]
+    fn what_goes_round_pulls_across_its_line() {
+        let swing = swing([2.0, 3.0], [0.0, 0.0, -3.0]);
+        let swung = swung([0.0, 0.0, 1.0]);
+        let impossible = |end: usize, sign: f64, pull: [f64; 3]| {
+            round_is_impossible(&swing, &swung, end, points(pull), sign)
+        };
+        assert!(!impossible(1, 1.0, [0.0, 0.0, 2.0]) && !impossible(1, -1.0, [0.0, 0.0, -2.0]));
+        assert!(impossible(1, -1.0, [0.0, 0.0, 2.0]));
+        // Too large, and not across.
+        assert!(impossible(1, 1.0, [1.0, 0.0, 2.0]) && impossible(1, 1.0, [-1.0, 0.0, 3.0]));
+        assert!(!impossible(0, 1.0, [2.0, 0.0, 1.0]) && !impossible(0, -1.0, [0.0, 0.0, 5.0]));
+        assert!(impossible(0, 1.0, [0.0; 3]));
+        let known = Swung { round: None, ..swung.clone() };
+        assert!(!round_is_impossible(&swing, &known, 0, points([0.0; 3]), 1.0));
+        let open = Swung { tension: Interval::LINE, ..swung.clone() };
+        assert!(!round_is_impossible(&swing, &open, 0, points([0.0; 3]), 1.0));
+    }
+}

@@ -313,3 +313,21 @@ pub(super) fn added(to: &mut [Interval], part: Vector) {
         *sum_so_far = sum(*sum_so_far, part);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What lies between 1 and 2 is at least a quarter of what lies between 0 and 4.
+    #[test]
+    fn a_quotient_by_what_may_vanish_has_one_bound() {
+        let [above, below] = [Interval::new(1.0, 2.0), Interval::new(0.0, 4.0)];
+        let up = over(above, below);
+        assert!(up.contains(0.25) && up.lo() > 0.25 - 1e-15 && up.hi() >= f64::INFINITY);
+        let down = over(-above, below);
+        assert!(down.contains(-0.25) && down.hi() < -0.25 + 1e-15 && down.lo() <= -f64::INFINITY);
+        assert_eq!(over(Interval::new(-1.0, 2.0), below), Interval::LINE);
+        let both = over(above, Interval::new(2.0, 4.0));
+        assert!(both.encloses(Interval::new(0.25, 1.0)) && both.width() < 0.75 + 1e-15);
+    }
+}

@@ -7,6 +7,7 @@ use model::system::{Joint, Member, System};
 use model::{Bar, NoCensus, Reason, Status, Vector};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
+use samples::assert_frozen;
 
 use crate::network::{SystemCensus, prove};
 use crate::settings::Settings;
@@ -304,4 +305,89 @@ fn newton_from_many_starts_finds_nothing_that_is_not_listed() {
         found += found_of(&system, &census, STARTS, seed);
     }
     assert!(complete >= 8 && 10 * found > 9 * listed, "{complete}, {found} of {listed}");
+}
+
+/// Rings of so many joints, each held by an anchor: as many bars as coordinates in a plane, one
+/// motion more for each joint in space. A budget of next to no tests is spent at once.
+#[test]
+fn rings_of_every_number_of_knots_are_searched() {
+    let ring = |knots: usize, y: f64| {
+        let (mut joints, mut members) = (vec![], vec![]);
+        for k in 0..knots {
+            let angle = std::f64::consts::TAU * k as f64 / knots as f64;
+            let off = if k % 2 == 0 { 0.0 } else { y };
+            // The ring of bars about the middle, and 1 m from it to each anchor.
+            let radius = 1.0 + 0.55 / (0.5 * std::f64::consts::TAU / knots as f64).sin();
+            joints.push(Joint::anchor(
+                format!("A{k}"),
+                [radius * angle.cos(), off, radius * angle.sin()],
+            ));
+            joints.push(Joint::free(format!("P{k}")).with_mass(0.1));
+            members.push(Member::bar(2 * k, 2 * k + 1, light(1.3)));
+            members.push(Member::bar(2 * k + 1, (2 * k + 3) % (2 * knots), light(1.1)));
+        }
+        System::new("ring", G, joints, members).unwrap()
+    };
+    let search = |knots: usize, y: f64, max_motions: usize| {
+        let settings = Settings { max_motions, max_tests_per_pattern: 1, ..Settings::default() };
+        SystemCensus::take(&ring(knots, y), &settings).map(|census| {
+            let net = census.nets().next().unwrap();
+            assert!(net.undecided.iter().all(|open| open.reason == super::Open::Budget));
+            assert_eq!((net.knots.len(), net.swings.len(), net.closures), (knots, 0, knots));
+            net.in_plane
+        })
+    };
+    for knots in 3..=5 {
+        assert_eq!(search(knots, 0.0, 1), Ok(true), "{knots}");
+    }
+    for knots in 3..=4 {
+        assert_eq!(search(knots, 0.5, knots), Ok(false), "{knots}");
+    }
+    assert_eq!(search(5, 0.5, 5), Err(NoCensus::Closures { closures: 5 }));
+    let refused = search(4, 0.5, 3);
+    assert_eq!(refused, Err(NoCensus::Motions { closures: 4, motions: 4, limit: 3 }));
+}
+
+/// Positions, undecided boxes, the sum of all indices; cells and tests; the sums of the binary
+/// orders of the widths of places, in metres, and of forces, in newtons.
+pub(in crate::network::census) fn work(census: &SystemCensus) -> [i64; 7] {
+    #[expect(clippy::cast_possible_truncation, reason = "binary orders of doubles are small")]
+    let order = |width: f64| if width > 0.0 { width.log2().floor() as i64 } else { 0 };
+    let whole = |number: u64| i64::try_from(number).unwrap();
+    let all = &census.equilibria;
+    [
+        whole(all.len() as u64),
+        whole(census.undecided() as u64),
+        whole(all.iter().map(|one| one.index_in_space as u64).sum()),
+        whole(census.cells()),
+        whole(census.nets().map(|net| net.tests).sum()),
+        all.iter().map(|one| order(one.width_m())).sum(),
+        all.iter().map(|one| order(one.width_n())).sum(),
+    ]
+}
+
+/// What is found, and what it takes, by places: frozen.
+#[test]
+fn work_of_small_nets() {
+    let nets: [(&str, [&[f64]; 3], f64, f64); 5] = [
+        ("one strand", [&[1.5, 1.4], &[1.9], &[2.1]], 1.0, 0.5),
+        ("two strands", [&[1.5, 1.4], &[1.3, 1.2], &[2.2]], 1.0, 0.5),
+        ("three strands", [&[1.5, 1.4], &[1.3, 1.2], &[1.6, 1.1]], 1.0, 0.5),
+        ("equal bars", [&[1.5, 1.5], &[1.5, 1.5], &[1.5, 1.5]], 0.3, 2.0),
+        ("light knot", [&[1.5, 1.5], &[1.5, 1.5], &[1.5, 1.5]], 0.0, 1.0),
+    ];
+    let mut found = vec![];
+    for (name, strands, knot_kg, kg) in nets {
+        let system = bridle(&CORNERS, &strands, knot_kg, kg);
+        let census = SystemCensus::take(&system, &Settings::default()).unwrap();
+        found.push((name, work(&census)));
+    }
+    let expected = [
+        ("one strand", [2, 0, 2, 48, 81, -96, -86]),
+        ("two strands", [2, 0, 4, 280, 663, -96, -86]),
+        ("three strands", [2, 0, 6, 2686, 10837, -96, -86]),
+        ("equal bars", [2, 0, 6, 9625, 32664, -96, -86]),
+        ("light knot", [2, 0, 6, 9821, 34446, -96, -88]),
+    ];
+    assert_frozen(&found[..], &expected);
 }
