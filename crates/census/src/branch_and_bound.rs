@@ -77,11 +77,7 @@ impl<F: Send + Sync, T: Send + Sync> Search<F, T> {
             let known = &search.found;
             let of_task = |task: &T| work(known, task);
             let size = batch.iter().map(plan.size).fold(0, usize::saturating_add);
-            let outcomes: Vec<Outcome<F, T>> = if size < plan.worth_threads {
-                batch.iter().map(of_task).collect()
-            } else {
-                batch.par_iter().map(of_task).collect()
-            };
+            let outcomes = worked(&batch, size, plan.worth_threads, of_task);
             search.cells += batch.len() as u64;
             for outcome in outcomes {
                 search.found.extend(outcome.found);
@@ -97,6 +93,21 @@ impl<F: Send + Sync, T: Send + Sync> Search<F, T> {
             });
         }
         search
+    }
+}
+
+/// What comes of each task, in order: by several threads where at least so many tests are expected
+/// of all.
+pub(crate) fn worked<T: Sync, R: Send>(
+    tasks: &[T],
+    tests: usize,
+    worth_threads: usize,
+    work: impl Fn(&T) -> R + Sync + Send,
+) -> Vec<R> {
+    if tests < worth_threads {
+        tasks.iter().map(work).collect()
+    } else {
+        tasks.par_iter().map(work).collect()
     }
 }
 

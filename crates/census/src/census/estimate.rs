@@ -154,3 +154,26 @@ pub(crate) fn refuse_long(
         },
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use model::{Anchors, Bar};
+
+    use super::*;
+
+    /// Of twelve bars the larger sample is to all patterns as the smaller one to it: what the power
+    /// of the one step multiplies the cells by, it does so in the next.
+    #[test]
+    fn cells_grow_on_as_from_the_one_sample_to_the_other() {
+        let lengths = [0.9, 0.4, 0.7, 0.5, 1.0, 0.6, 0.8, 0.3, 0.55, 0.95, 0.45, 0.75];
+        let bars = lengths.map(|length| Bar::homogeneous(length, 2.0 - length).unwrap());
+        let anchors = Anchors { start_m: [0.0; 3], end_m: [2.5, 0.0, 0.7] };
+        let chain = Chain::new("twelve", 10.0, anchors, bars.to_vec()).unwrap();
+        let system = System::new(&chain, JointLoads::NONE);
+        let [few, many] = [256, 1_024].map(|number| sampled(&system, number).cells as f64);
+        assert!(few < many && many < 4.0 * few, "{few} {many}");
+        let found = of_chain(&chain, JointLoads::NONE).seconds;
+        let expected = 1e-6 * 12.0 * many * (many / few);
+        assert!((found / expected - 1.0).abs() < 1e-12, "{found} {expected}");
+    }
+}

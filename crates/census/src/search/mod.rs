@@ -10,8 +10,7 @@ pub(crate) mod undecided;
 
 use std::borrow::Cow;
 
-use rayon::prelude::*;
-
+use crate::branch_and_bound::worked;
 use crate::closure::Pattern;
 use crate::enclosure::krawczyk::{Finding, Zero, examine};
 use crate::plane::cell::Cell;
@@ -125,11 +124,7 @@ pub(crate) fn search(
         let mut left = level.len();
         for some in level.chunks(AT_ONCE) {
             let tests: usize = some.iter().map(|task| task.patterns.len()).sum();
-            let outcomes: Vec<Outcome> = if tests < WORTH_THREADS {
-                some.iter().map(work).collect()
-            } else {
-                some.par_iter().map(work).collect()
-            };
+            let outcomes = worked(some, tests, WORTH_THREADS, work);
             left -= some.len();
             search.cells += some.len() as u64;
             search.tests += tests as u64;

@@ -124,3 +124,38 @@ pub(crate) fn reach(links: impl Iterator<Item = Interval>) -> [f64; 2] {
     let inner = longest + longest - total;
     [inner.lo().max(0.0), total.hi()]
 }
+
+#[cfg(test)]
+mod tests {
+    use model::{Anchors, Bar, Chain};
+
+    use super::*;
+    use crate::closure::Closure;
+    use crate::plane::face::Face;
+    use crate::plane::loads::JointLoads;
+
+    /// Where no bar is free the bars have to close the gap themselves, and where they do it is zero.
+    #[test]
+    fn bars_with_a_direction_close_the_gap_alone() {
+        let bars = vec![Bar::homogeneous(5.0, 1.0).unwrap(); 2];
+        let anchors = Anchors { start_m: [0.0; 3], end_m: [6.0, 0.0, 0.0] };
+        let chain = Chain::new("two", 10.0, anchors, bars).unwrap();
+        let mut system = System::new(&chain, JointLoads::NONE);
+        let at = Cell::point(Face::Near, [0.75, 0.25]);
+        system.span = [Interval::ZERO; 2];
+        system.span = Closure::gap_over(&system, &[1, -1], &at);
+        let all = [0b00, 0b01, 0b10, 0b11].map(Pattern);
+        assert_eq!(open(&system, &at, &all), [Pattern(0b01)]);
+    }
+
+    /// Links of 1, 5 and 2 reach from 5 - 3 to 8; of 3, 4 and 5 from 0.
+    #[test]
+    fn links_reach_from_what_the_longest_leaves_to_their_sum() {
+        let of = |lengths: [f64; 3]| reach(lengths.into_iter().map(Interval::point));
+        for (lengths, expected) in [([1.0, 5.0, 2.0], [2.0, 8.0]), ([3.0, 4.0, 5.0], [0.0, 12.0])] {
+            let [inner, outer] = of(lengths);
+            assert!(inner <= expected[0] && inner > expected[0] - 1e-14, "{inner}");
+            assert!(outer >= expected[1] && outer < expected[1] + 1e-14, "{outer}");
+        }
+    }
+}

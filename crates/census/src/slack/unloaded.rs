@@ -255,12 +255,32 @@ fn condition([[a, b], [c, d]]: [[f64; 2]; 2]) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use model::{Anchors, Bar, Chain};
+
     use super::*;
+    use crate::plane::loads::JointLoads;
 
     /// Singular values 3 and 1, turned.
     #[test]
     fn the_condition_is_the_ratio_of_the_singular_values() {
         let (s, c) = 0.3_f64.sin_cos();
         assert!((condition([[3.0 * c, -s], [3.0 * s, c]]) - 3.0).abs() < 1e-14);
+    }
+
+    /// A bar of 1 m is level between one that hangs 0.9 m and one that rises 0.4 m, without force.
+    /// About an axis aside it is no longer next to the origin of the chart: a square about that
+    /// does not hold it.
+    #[test]
+    fn what_is_proved_outside_of_its_square_is_left_to_the_search() {
+        let bars = [(0.9, 1.0, 0.5), (1.0, 2.0, 0.75), (0.4, 1.0, 0.25)];
+        let bars = bars.map(|(l, m, r)| Bar::new(l, m, r, [0.0; 3]).unwrap());
+        let anchors = Anchors { start_m: [0.0; 3], end_m: [1.0, 0.0, -0.5] };
+        let chain = Chain::new("unloaded", 9.81, anchors, bars.to_vec()).unwrap();
+        let system = System::new(&chain, JointLoads::NONE);
+        let mut closure = axial_closure(&system, &system.groups[1], Pattern(0)).unwrap();
+        assert_eq!(prove(&closure).unwrap().signs, [1, 0, 1]);
+        closure.axis = [Interval::ONE, Interval::point(0.125)];
+        assert!(closure.only_one(LARGEST_DISC).is_some());
+        assert!(prove(&closure).is_none());
     }
 }

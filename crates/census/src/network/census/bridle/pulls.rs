@@ -299,4 +299,33 @@ mod tests {
         }
         assert!((area(&[Interval::new(1.0, 3.0), Interval::new(0.0, 0.25)]) - 0.5).abs() < 1e-15);
     }
+
+    /// About the pull of the test before: cells of another pattern, on another face, or apart are
+    /// others, though the closure is regular on both together.
+    #[test]
+    fn cells_of_one_pattern_that_touch_are_one() {
+        let strand = strand();
+        let unit =
+            [[0.75, -1.5], [0.75, -0.5]].map(|[x, z]: [f64; 2]| [x, z].map(|a| a / x.hypot(z)));
+        let end = [0, 1].map(|k| Interval::around(unit[0][k] + unit[1][k], 1e-6));
+        let span = Span::new(&strand, &[end[0], Interval::ZERO, end[1]]);
+        let pulls = |face, [lo, hi]: [f64; 2], pattern| Pulls {
+            cell: Cell {
+                face,
+                at: [
+                    Interval::new(0.75 + 1e-4 * lo, 0.75 + 1e-4 * hi),
+                    Interval::around(-1.0, 1e-4),
+                ],
+            },
+            patterns: vec![Pattern(pattern)],
+        };
+        let one = pulls(Face::Near, [-1.0, 0.25], 0b00);
+        let joined = |other: &Pulls| both(&strand, &span, &one, other);
+        let Cell { face, at } = joined(&pulls(Face::Near, [0.25, 1.0], 0b00)).unwrap();
+        assert!(face == Face::Near && at[0].contains(0.75) && at[1].contains(-1.0));
+        assert!(at.into_iter().all(|part| part.width() < 5e-5), "{at:?}");
+        assert_eq!(joined(&pulls(Face::Near, [0.25, 1.0], 0b01)), None);
+        assert_eq!(joined(&pulls(Face::Around(0), [0.25, 1.0], 0b00)), None);
+        assert_eq!(joined(&pulls(Face::Near, [0.5, 1.0], 0b00)), None);
+    }
 }

@@ -241,6 +241,39 @@ mod tests {
         }
     }
 
+    /// A knot that bears 1, on strands from these places.
+    fn hung(strands: &[([f64; 3], [f64; 2])]) -> Layout {
+        let swing = |(at, lengths): &([f64; 3], [f64; 2])| Swing {
+            ends: [End::Held(points(*at)), End::Knot(0)],
+            ..swing(*lengths, [0.0, 0.0, -1.0])
+        };
+        Layout {
+            dim: 3,
+            axes: [0, 1, 2],
+            knots: vec![0],
+            loads: vec![points([0.0, 0.0, -1.0])],
+            swings: strands.iter().map(swing).collect(),
+            bars: vec![],
+        }
+    }
+
+    /// Two equal bars folded onto each other hold a knot at their anchor, and the one strand that is
+    /// left draws it aside, or pushes it: they cannot pull level. Where others are folded there,
+    /// too, nobody knows what these pull.
+    #[test]
+    fn folded_bars_do_not_hold_what_draws_aside() {
+        let at = [Interval::around(0.0, 1e-6); 3];
+        let [folded, aside] = [([0.0; 3], [1.0; 2]), ([2.0, 0.0, 0.0], [1.5, 1.0])];
+        let is_empty = |layout: &Layout, pattern: u32| {
+            let examined = Examined::new(layout, at).unwrap();
+            matches!(examined.pattern(pattern), Verdict::Empty)
+        };
+        for strands in [[folded, aside], [aside, folded]] {
+            assert!((0..4).all(|pattern| is_empty(&hung(&strands), pattern)));
+        }
+        assert!(!(0..8).any(|pattern| is_empty(&hung(&[folded, folded, aside]), pattern)));
+    }
+
     fn swung(span: [f64; 3]) -> Swung<3> {
         Swung {
             base: points([1.0, 0.0, 0.0]),

@@ -100,3 +100,42 @@ fn size<const N: usize>(part: &[Interval; N], whole: &[Interval; N]) -> f64 {
     let most = whole.iter().map(|x| x.width()).fold(0.0, f64::max);
     part.iter().map(|x| x.width()).fold(0.0, f64::max) / most
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::network::arithmetic::points;
+    use crate::network::census::net::layout::{End, Swing};
+
+    /// A knot at the anchor of two pairs of equal bars, both folded: nothing is said of their pulls,
+    /// and a box is cut until it is as small as boxes get.
+    #[test]
+    fn the_smallest_boxes_are_not_cut() {
+        let swing = |at: [f64; 3], lengths: [f64; 2]| Swing {
+            joint: 0,
+            members: [0, 1],
+            ends: [End::Held(points(at)), End::Knot(0)],
+            lengths: lengths.map(Interval::point),
+            load: points([0.0, 0.0, -1.0]),
+        };
+        let layout = Layout {
+            dim: 3,
+            axes: [0, 1, 2],
+            knots: vec![0],
+            loads: vec![points([0.0, 0.0, -1.0])],
+            swings: vec![
+                swing([0.0; 3], [1.0; 2]),
+                swing([0.0; 3], [1.0; 2]),
+                swing([2.0, 0.0, 0.0], [1.5, 1.0]),
+            ],
+            bars: vec![],
+        };
+        for (part, expected) in [(1.0, [0, 2]), (0.25, [1, 0])] {
+            let at = [Interval::around(0.0, part * LEAST_WIDTH); 3];
+            let task = Task { at, patterns: vec![0] };
+            let outcome = examine(&layout, &[], &task);
+            assert_eq!([outcome.undecided.len(), outcome.next.len()], expected, "{part}");
+            assert!(outcome.found.is_empty());
+        }
+    }
+}
