@@ -306,3 +306,6 @@ fn look_up(problem: &Problem, settings: &census::Settings, equilibria: &mut [Equ
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -115,3 +115,6 @@ fn worst(values: impl Iterator<Item = f64>) -> f64 {
 fn norm([x, y, z]: Vector) -> f64 {
     x.hypot(y).hypot(z)
 }
+
+#[cfg(test)]
+mod tests;

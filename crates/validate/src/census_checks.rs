@@ -177,3 +177,6 @@ pub fn placed(chain: &Chain) -> f64 {
     const SOLVER: f64 = 1e-12;
     SOLVER + stored_rounding_m(chain) / chain.total_length_m()
 }
+
+#[cfg(test)]
+mod tests;

@@ -363,6 +363,34 @@ mod tests {
         assert!(gaps[0] < 1e-13 && gaps[1] < 4.0 * f64::EPSILON * heavy, "{gaps:?}");
     }
 
+    /// Anchors 1 m apart on one vertical, from the upper one a bar of `a = 2^-10` m with 1 kg at its
+    /// end, which a bar of 1 m props up. Both force densities are 1 N/m, so that the matrix is
+    /// singular, and `1/(1 + e)` of the prop's compression is all that is proved: with the unit
+    /// roundoff `u`, `e = 32 u · 2/a`, since the short bar's force of `a` N is a difference of forces
+    /// of 2 N together. By closure that costs `2 e` of the prop's 1 N times 1 m.
+    #[test]
+    fn the_gap_of_a_singular_turn_is_what_the_prop_is_reduced_by() {
+        let short = 2.0_f64.powi(-10);
+        let bars = vec![
+            Bar::new(short, 1.0, short, [0.0; 3]).unwrap(),
+            Bar::homogeneous(1.0, 0.0).unwrap(),
+        ];
+        let anchors = Anchors { start_m: [0.0; 3], end_m: [0.0, 0.0, -1.0] };
+        let problem = Problem::new(Chain::new("propped", 1.0, anchors, bars).unwrap()).unwrap();
+        // The triangle of 1, 1 and a has the height a²/2 over its foot.
+        let down = 0.5 * short * short;
+        let end = [short * (1.0 - 0.25 * short * short).sqrt(), 0.0, 1.0 - down];
+        let found = Equilibrium {
+            joints_m: vec![anchors.end_m],
+            axial_n: vec![short, -1.0],
+            ..answer(end, E1_SIGNS, -down)
+        };
+        let certificate = certify(&problem, &found).unwrap();
+        assert!(certificate.singular && certificate.compressed_bar == Some(2));
+        let lost = 2.0 * (32.0 * U * 2.0 / short);
+        assert!((certificate.gap / lost - 1.0).abs() < 0.02, "{:e} {lost:e}", certificate.gap);
+    }
+
     #[test]
     fn what_is_no_minimum_gets_no_certificate() {
         // E2 is E1 upside down: two bars pressed (bars 1 and 2 of E2 are 3 and 2 of E1 reversed).

@@ -86,3 +86,6 @@ fn in_family(chain: &Chain, census: &Census, energy_j: f64) -> bool {
     let near = |family: &SlackFamily| (family.energy_j.mid() - energy_j).abs() <= ROUNDING * unit_j;
     census.families.iter().any(near)
 }
+
+#[cfg(test)]
+mod tests;

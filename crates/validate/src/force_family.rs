@@ -112,6 +112,8 @@ fn norm([x, y, z]: Vector) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use model::{Evidence, InPlane, InSpace, Reactions, Stability};
+
     use super::*;
 
     /// Three bars of 1, 2 and 3 m along a direction, the second one back.
@@ -162,6 +164,45 @@ mod tests {
             // A millionth of it is rounding.
             let (chain, joints_m) = folded(direction, aside.map(|x| 1e-6 * x));
             assert!(common_line(&chain, &joints_m).is_some(), "{direction:?} {aside:?}");
+        }
+    }
+
+    /// Bars of 1, 2 and 3 m up, down and up again between anchors on one vertical, with 4, 5 and
+    /// 6 N: what is added along the line relieves the one that runs against it. It may be from -4 to
+    /// 5 N, and is taken from the 7 N of the ground at joint 0.
+    #[test]
+    fn the_forces_are_chosen_where_our_solvers_find_a_chain_that_pulls() {
+        let (chain, joints_m) = folded([0.0, 0.0, 1.0], [0.0; 3]);
+        let family = |solver: SolverName, axial_n: [f64; 3]| {
+            let answer = Equilibrium {
+                solver,
+                energy_j: 0.0,
+                joints_m: joints_m.clone(),
+                multipliers_n: vec![],
+                reactions_n: Reactions { start: [0.0, 0.0, 7.0], end: [0.0; 3] },
+                axial_n: axial_n.to_vec(),
+                stability: Stability {
+                    in_plane: InPlane::Minimum,
+                    index_in_plane: 0,
+                    in_space: InSpace::Stable,
+                    index_in_space: 0,
+                },
+                evidence: Evidence::new("given", 0.0, 0.0, 0),
+            };
+            let found = force_family(&chain, &answer).unwrap();
+            (found.choice, found.start_force_n)
+        };
+        let ours = [SolverName::LAGRANGE, SolverName::ENERGY];
+        let range = Some([7.0 - 5.0, 7.0 + 4.0]);
+        for solver in ours.clone() {
+            let found = family(solver, [4.0, 5.0, 6.0]);
+            assert_eq!(found, (ForceChoice::AnchorsMovedApart, range));
+        }
+        let foreign = SolverName::new("a table");
+        assert_eq!(family(foreign, [4.0, 5.0, 6.0]), (ForceChoice::Unknown, range));
+        // 4 N pressed and 3 N drawn: whatever is added, one of both is pressed.
+        for solver in ours {
+            assert_eq!(family(solver, [-4.0, 3.0, 6.0]), (ForceChoice::Unknown, None));
         }
     }
 

@@ -272,3 +272,6 @@ fn cross(a: Vector, b: Vector) -> Vector {
 fn norm([x, y, z]: Vector) -> f64 {
     x.hypot(y).hypot(z)
 }
+
+#[cfg(test)]
+mod tests;

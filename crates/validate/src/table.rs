@@ -169,3 +169,6 @@ pub fn csv(results: &[CaseResult]) -> String {
     }
     text
 }
+
+#[cfg(test)]
+mod tests;

@@ -108,3 +108,6 @@ pub fn not_judged() -> Vec<Entry> {
         ),
     ]
 }
+
+#[cfg(test)]
+mod tests;

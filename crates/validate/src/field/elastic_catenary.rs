@@ -294,6 +294,47 @@ mod tests {
         }
     }
 
+    /// Irvine's parabola: `λ² = 3 ((L² - z²)/x² - 1)`, `H = w x/2λ`, `V = w (z coth λ + L)/2`.
+    #[test]
+    fn the_start_is_that_of_the_parabola() {
+        let cable = ElasticCatenary {
+            x_m: 2.0,
+            z_m: 3.0,
+            length_m: 5.0,
+            stiffness_n: 1e9,
+            weight_n_m: 6.0,
+        };
+        let [h, v] = cable.start();
+        assert!((h - 2.0).abs() < 1e-14, "{h}");
+        let (up, down) = (3.0_f64.exp(), (-3.0_f64).exp());
+        assert!((v - 3.0 * (3.0 * (up + down) / (up - down) + 5.0)).abs() < 1e-13, "{v}");
+        // Drawn straight there is no sag, and λ is taken to be 0.2.
+        let [h, v] = ElasticCatenary { x_m: 4.0, ..cable }.start();
+        let (up, down) = (0.2_f64.exp(), (-0.2_f64).exp());
+        assert!((h - 60.0).abs() < 1e-12, "{h}");
+        assert!((v - 3.0 * (3.0 * (up + down) / (up - down) + 5.0)).abs() < 1e-12, "{v}");
+    }
+
+    /// Forces first: with 2 N and 3 N at the upper end of 10 m of 1 N/m, 7 m lie, and 50 N of
+    /// stiffness add `V²/2wEA` to the height and `HL/EA` to the width. Weights and stiffness times
+    /// a power of two are forces times that, however small.
+    #[test]
+    fn a_cable_that_stretches_on_a_floor_has_the_forces_it_was_made_with() {
+        let (h, v) = (2.0_f64, 3.0_f64);
+        let z_m = (h * h + v * v).sqrt() - h + v * v / 100.0;
+        let slope = v / h;
+        let asinh = (slope + (slope * slope + 1.0).sqrt()).ln();
+        let x_m = 7.0 + h * 10.0 / 50.0 + h * asinh;
+        for scale in [1.0, 2.0_f64.powi(-60), 2.0_f64.powi(60)] {
+            let (stiffness_n, weight_n_m) = (50.0 * scale, scale);
+            let cable = ElasticCatenary { x_m, z_m, length_m: 10.0, stiffness_n, weight_n_m };
+            let found = cable.solve_on_floor().unwrap();
+            assert!((found.ends.horizontal_n / scale - h).abs() < 1e-12, "{scale}: {found:?}");
+            assert!((found.ends.upper_n / scale - v).abs() < 1e-12, "{scale}: {found:?}");
+            assert!((found.lies_m - 7.0).abs() < 1e-12, "{scale}: {found:?}");
+        }
+    }
+
     #[test]
     fn what_is_no_cable_has_no_forces() {
         let cable = ElasticCatenary {

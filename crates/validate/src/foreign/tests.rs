@@ -1,11 +1,12 @@
 //! The judge of foreign answers on closed forms, right and tampered with.
 
-use model::Bar;
-use model::Place;
-use model::system::{Joint, Member, System};
+use model::system::{Joint, Member, PointLoad, System};
+use model::{Bar, Place, SolverName};
 
-use super::best_forces::best_forces;
+use super::best_forces::{best_forces, joint_loads, shares_n};
 use super::bounds::{Bounds, TOLERANCE};
+use super::complete::complete;
+use super::least_squares::{Column, Problem};
 use super::{Finding, ForcesJudged, ForeignAnswer, GivenError, Judgement, Law, judge_foreign};
 
 /// A lamp of 2 N on two massless cables of 5 m between anchors 6 m apart (3, 4, 5): each pulls with
@@ -268,4 +269,51 @@ fn the_error_of_an_answer_is_enclosed_by_proof() {
     }
     let json = serde_json::to_value(nearest).unwrap();
     assert!(json["proved"]["joints_m"][0].as_f64().unwrap() > 0.0099);
+}
+
+/// 8 kg with their middle at a quarter of 2 m, and 3 N at three quarters: by the lever rule 60 N and
+/// 20 N of the weight, 3/4 and 9/4 N of the load.
+#[test]
+fn loads_of_a_member_are_shared_by_the_lever_rule() {
+    let joints = vec![Joint::anchor("A", [0.0; 3]), Joint::free("P").with_mass(1.0)];
+    let mut member = Member::bar(0, 1, Bar::new(2.0, 8.0, 0.5, [0.0; 3]).unwrap());
+    member.loads.push(PointLoad { at_m: 1.5, force_n: [3.0, 0.0, 0.0] });
+    let system = System::new("lever", 10.0, joints, vec![member]).unwrap();
+    assert_eq!(shares_n(&system, 0), [[0.75, 0.0, -60.0], [2.25, 0.0, -20.0]]);
+    assert_eq!(joint_loads(&system), [[0.75, 0.0, -60.0], [2.25, 0.0, -30.0]]);
+}
+
+/// A spring of 1 m and 6 N, drawn by 3 N and 1/2 m: `F²l/2EA` are 3/4 J, less 3 N times 1.5 m. As a
+/// cable half a metre too short it has nothing but the weight.
+#[test]
+fn the_energy_of_a_spring_is_that_of_its_force() {
+    let joints = vec![Joint::anchor("A", [0.0; 3]), Joint::free("P").with_mass(0.3)];
+    let spring = Member::cable(0, 1, Bar::homogeneous(1.0, 0.0).unwrap()).with_stiffness(6.0);
+    let system = System::new("spring", 10.0, joints, vec![spring]).unwrap();
+    for (z, axial_n, energy_j) in [(-1.5, 3.0, 0.75 - 4.5), (-0.5, 0.0, -1.5)] {
+        let at_m = [[0.0; 3], [0.0, 0.0, z]];
+        let found = complete(&system, &SolverName::new("a table"), &at_m, &[axial_n]);
+        assert!((found.energy_j - energy_j).abs() < 1e-14, "{}", found.energy_j);
+        assert!((found.reactions_n[0][2] - axial_n).abs() < 1e-14);
+    }
+}
+
+/// Two cables pull at one joint, along `(1, 0, 0)` and `(0.8, 0.6, 0)`, against `(1, -0.6, 0)`: both
+/// together would need the second to push 1 N and the first 1.8 N. Without that the first alone
+/// leaves least, 0.6 N across it, with 1 N.
+#[test]
+fn a_force_at_its_bound_that_is_pushed_beyond_it_stays_there() {
+    let column = |end: usize, unit: [f64; 3]| Column {
+        joints: [0, end],
+        unit,
+        lower: 0.0,
+        upper: f64::INFINITY,
+    };
+    let columns = [column(1, [1.0, 0.0, 0.0]), column(2, [0.8, 0.6, 0.0])];
+    let free = |joint: usize, force: [f64; 3]| if joint == 0 { force } else { [0.0; 3] };
+    let loads = [[-1.0, 0.6, 0.0], [0.0; 3], [0.0; 3]];
+    let found = Problem { columns: &columns, loads: &loads, free: &free }.solve();
+    assert!(found.converged);
+    assert!((found.x[0] - 1.0).abs() < 1e-8 && found.x[1].abs() <= 0.0, "{:?}", found.x);
+    assert!((found.left[0][1] - 0.6).abs() < 1e-12 && found.left[0][0].abs() < 1e-8);
 }

@@ -276,3 +276,6 @@ pub(super) fn whole(
     let allowed = bounds.force_n * supported.count().max(1) as f64;
     found.note(Place::Whole, Law::Whole { left_n }, norm(left_n), allowed);
 }
+
+#[cfg(test)]
+mod tests;

@@ -320,3 +320,6 @@ fn feeling_turns(system: &System) -> Vec<bool> {
     }
     fixed
 }
+
+#[cfg(test)]
+mod tests;

@@ -75,3 +75,6 @@ fn distance(system: &System, position: &SystemPosition, answer: &SystemEquilibri
         apart.fold(0.0, |most: f64, x| if x.is_nan() { f64::INFINITY } else { most.max(x) });
     worst_m / system.total_length_m()
 }
+
+#[cfg(test)]
+mod tests;

@@ -382,6 +382,71 @@ mod tests {
         assert!(proved > 50 && refused > 50, "{proved}, {refused}");
     }
 
+    /// All entries one and a thousandth more on the diagonal, of 64 joints: the first column of the
+    /// factor is of ones, so that the sums over its rows are some 64, four times the guess, and the
+    /// shift is taken again from them.
+    #[test]
+    fn rounding_that_is_more_than_guessed_is_outrun() {
+        let size = 64;
+        let pairs = (0..size).flat_map(|row| (0..row).map(move |column| (row, column, 1.0)));
+        let diagonal = vec![1.001; size];
+        let matrix = Symmetric { size, below: pairs.collect(), diagonal, uncertainty: 0.0 };
+        let bound = matrix.least_eigenvalue(0.0).unwrap();
+        assert!(bound > 0.0 && bound < 1e-10, "{bound}");
+    }
+
+    /// Where the true matrix may be nearer to singular by 1, so is the bound.
+    #[test]
+    fn what_is_uncertain_is_taken_off() {
+        let matrix = Symmetric { size: 1, below: vec![], diagonal: vec![8.0], uncertainty: 1.0 };
+        let bound = Factor::new(&matrix).unwrap().bound(&matrix, 7.5).unwrap();
+        assert!(bound < 6.5 && bound > 6.5 - 1e-13, "{bound}");
+    }
+
+    /// The least mode of `[2 1; 1 2]` has two signs, and the eigenvalue 1. More than there is was
+    /// wanted: half of it is proved.
+    #[test]
+    fn the_least_mode_is_found_whatever_its_signs() {
+        let below = vec![(1, 0, 1.0)];
+        let matrix = Symmetric { size: 2, below, diagonal: vec![2.0; 2], uncertainty: 0.0 };
+        let bound = matrix.least_eigenvalue(10.0).unwrap();
+        assert!(bound > 0.499 && bound < 1.0, "{bound}");
+    }
+
+    /// Twice what is wanted is tried first, and what is proved by it is told.
+    #[test]
+    fn the_bound_is_that_of_the_shift_that_was_tried() {
+        let matrix = Symmetric { size: 1, below: vec![], diagonal: vec![1.0], uncertainty: 0.0 };
+        let bound = matrix.least_eigenvalue(0.375).unwrap();
+        assert!(bound < 0.75 && bound > 0.75 - 1e-13, "{bound}");
+    }
+
+    /// By hand, in any order of elimination: `[4]` has the factor `[2]`, its one row the sum 4 and
+    /// 2 (1 + 8) + 2 roundings. `[4 2; 2 4]` has the rows (2, 0) and (1, √3): the sums over the
+    /// columns are 3 and √3, over the rows 6 both, with 2 (2 + 8) + 2 roundings in the longer.
+    #[test]
+    fn the_error_of_a_factor_is_the_rows_of_its_product() {
+        let error = |size: usize, below: Vec<(usize, usize, f64)>| {
+            let matrix = Symmetric { size, below, diagonal: vec![4.0; size], uncertainty: 0.0 };
+            let mut factor = Factor::new(&matrix).unwrap();
+            factor.bound(&matrix, 0.0).unwrap();
+            factor.error().unwrap() / (1.001 * 0.5 * f64::EPSILON)
+        };
+        assert!((error(1, vec![]) / (4.0 * 20.0) - 1.0).abs() < 1e-12);
+        assert!((error(2, vec![(1, 0, 2.0)]) / (6.0 * 22.0) - 1.0).abs() < 1e-12);
+    }
+
+    /// Where all are neighbours the last row is full, in any order.
+    #[test]
+    fn the_longest_row_is_that_of_the_factor() {
+        let longest = |matrix: &Symmetric| Factor::new(matrix).unwrap().longest_row();
+        assert_eq!(longest(&grid(1, 1, 3.0)), 1);
+        assert_eq!(longest(&grid(2, 1, 3.0)), 2);
+        let below = vec![(1, 0, 1.0), (2, 0, 1.0), (2, 1, 1.0)];
+        let all = Symmetric { size: 3, below, diagonal: vec![4.0; 3], uncertainty: 0.0 };
+        assert_eq!(longest(&all), 3);
+    }
+
     #[test]
     fn numbers_that_are_none_prove_nothing() {
         for bad in [f64::NAN, f64::INFINITY, 0.0, -1.0, 1e200] {

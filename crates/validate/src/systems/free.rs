@@ -213,7 +213,7 @@ fn with_room(
         for (end, sign) in [(member.from, -1.0), (member.to, 1.0)] {
             if let Some(at) = part.iter().position(|joint| *joint == end) {
                 for axis in 0..3 {
-                    rows[(row, 3 * at + axis)] += sign * along[axis];
+                    rows[(row, 3 * at + axis)] = sign * along[axis];
                 }
             }
         }
@@ -231,3 +231,6 @@ fn with_room(
     };
     (0..part.len()).map(moves).collect()
 }
+
+#[cfg(test)]
+mod tests;

@@ -163,11 +163,40 @@ fn hoops(angle: f64, heavier: f64) -> (System, SystemEquilibrium) {
     (system, answer)
 }
 
+/// The same with two bars of 1.41 m from anchors beside the rod: no anchor is on its vertical.
+fn hoops_between_anchors(angle: f64, heavier: f64) -> (System, SystemEquilibrium) {
+    let (system, mut answer) = hoops(angle, heavier);
+    let places: [Vector; 2] = [[-1.0, 0.0, 0.0], [1.0, 0.0, 0.0]];
+    let mut joints = system.joints().to_vec();
+    joints[0] = Joint::anchor("A", places[0]);
+    joints.push(Joint::anchor("B", places[1]));
+    let mut members = system.members().to_vec();
+    let bar = Bar::homogeneous(2.0_f64.sqrt(), 0.0).unwrap();
+    members[0] = Member::bar(0, 1, bar);
+    members.push(Member::bar(7, 1, bar));
+    let half_n = 1.0 + heavier;
+    let pulls: [Vector; 2] = [[-half_n, 0.0, half_n], [half_n, 0.0, half_n]];
+    answer.joints_m[0] = places[0];
+    answer.joints_m.push(places[1]);
+    answer.start_forces_n[0] = pulls[0];
+    answer.end_forces_n[0] = pulls[0].map(|x| -x);
+    answer.axial_n[0] = norm(pulls[0]);
+    answer.start_forces_n.push(pulls[1]);
+    answer.end_forces_n.push(pulls[1].map(|x| -x));
+    answer.axial_n.push(norm(pulls[1]));
+    answer.reactions_n[0] = pulls[0];
+    answer.reactions_n.push(pulls[1]);
+    (System::new("hoops between anchors", 10.0, joints, members).unwrap(), answer)
+}
+
 /// Each hoop hangs on two joints of one vertical, none of them an anchor, and turns against the
 /// other one.
 #[test]
 fn what_hinges_on_two_joints_of_one_vertical_turns() {
-    for heavier in [1.0, 2.5] {
+    type Hoops = fn(f64, f64) -> (System, SystemEquilibrium);
+    let cases: [(Hoops, f64); 4] =
+        [(hoops, 1.0), (hoops, 2.5), (hoops_between_anchors, 1.0), (hoops_between_anchors, 2.5)];
+    for (hoops, heavier) in cases {
         let (system, first) = hoops(0.3, heavier);
         let (_, second) = hoops(1.9, heavier);
         let found = compared(&system, first.clone(), second);

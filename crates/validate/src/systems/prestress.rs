@@ -383,3 +383,6 @@ fn null_columns(matrix: &Mat<f64>) -> Option<Mat<f64>> {
     let svd = matrix.svd().ok()?;
     Some(svd.V().subcols(rank, columns - rank).to_owned())
 }
+
+#[cfg(test)]
+mod tests;

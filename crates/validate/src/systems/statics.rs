@@ -381,3 +381,6 @@ fn energy(system: &System, answer: &SystemEquilibrium, units: &Units) -> f64 {
     let off = (answer.energy_j - sum(terms)).abs();
     if off <= 0.0 { 0.0 } else { off / unit_j }
 }
+
+#[cfg(test)]
+mod tests;

@@ -144,6 +144,17 @@ fn answers_that_differ_do_not_agree() {
     assert!(agreed(&|_| ()).agrees());
     assert!(!agreed(&|a| a.joints_m[2][1] += 1e-6).agrees());
     assert!(!agreed(&|a| a.reactions_n[0][1] = f64::NAN).agrees());
+    // Budgets by hand: 6 m from the first anchor to the second, 2 N, and 12 J.
+    let changes: [(fn(&mut SystemEquilibrium), f64); 3] = [
+        (|a| a.joints_m[2][1] += 1e-6, 1e-10 * 6.0),
+        (|a| a.reactions_n[0][1] += 1e-6, 1e-9 * 2.0),
+        (|a| a.energy_j += 1e-6, 1e-12 * 12.0),
+    ];
+    for (change, budget) in changes {
+        let excess = agreed(&change).disagreement.excesses[0].clone();
+        assert!((excess.value - 1e-6).abs() < 1e-14, "{excess:?}");
+        assert!((excess.budget / budget - 1.0).abs() < 1e-12, "{excess:?}");
+    }
     let other = agreed(&|a| a.stability.index_in_space = 1);
     assert!(
         matches!(other.disagreement.excesses[..], [ref e] if matches!(e.what, Quantity::MorseIndex { .. }))
@@ -255,7 +266,14 @@ fn forces_of_one_shape_are_told_from_a_family() {
 
 #[test]
 fn a_named_self_stress_that_is_none_is_seen() {
-    for (stress, is_one) in [([0.5, 0.5, -0.5, -0.5], true), ([0.5, 0.5, -0.5, -0.5001], false)] {
+    // The largest singular value of the balances is 1.6, of 4/5 along Z four times. Twice 1e-9 of it
+    // may be left over, which is 4/5 of what the last force is off.
+    for (stress, is_one) in [
+        ([0.5, 0.5, -0.5, -0.5], true),
+        ([0.5, 0.5, -0.5, -0.5 - 3e-9], true),
+        ([0.5, 0.5, -0.5, -0.5 - 6e-9], false),
+        ([0.5, 0.5, -0.5, -0.5001], false),
+    ] {
         let (system, mut first) = four_legs(0.5);
         let (_, second) = four_legs(0.5);
         first.evidence.self_stresses = Some(SelfStresses {

@@ -71,3 +71,6 @@ fn held_against(
         }),
     })
 }
+
+#[cfg(test)]
+mod tests;

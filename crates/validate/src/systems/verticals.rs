@@ -53,7 +53,12 @@ mod tests {
             }
             assert_eq!(firsts(points.into_iter(), near_m), expected, "{near_m}");
         }
-        // Equal points are on one vertical whatever counts as near.
+        // Equal points are on one vertical whatever counts as near, of many as of few: each is held
+        // against those of the cells around it alone.
+        let lattice = |k: usize| [1e-3 * (k % 300) as f64, 1e-3 * (k / 300) as f64];
+        let count = 300 * 300;
+        let twice = (0..2 * count).map(|k| lattice(k % count));
+        assert!(firsts(twice, 1e-6).into_iter().eq((0..count).chain(0..count)));
         assert_eq!(firsts([[0.3, -0.7], [0.3, -0.7], [0.3, 0.7]].into_iter(), 0.0), [0, 0, 2]);
     }
 }

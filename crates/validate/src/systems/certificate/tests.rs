@@ -3,6 +3,7 @@
 use model::Bar;
 use model::system::Joint;
 
+use super::super::tests::lamp;
 use super::*;
 
 /// The potential of a member at a distance, J: none of a rigid one that keeps its length.
@@ -53,4 +54,90 @@ fn the_unit_of_elastic_energy_doubles_all_lengths() {
     let system = System::new("springs", 9.81, joints, members).unwrap();
     // 300 / 2 · 2² / 2 + 100 / 4 · 4² / 2
     assert!((elastic_unit_j(&system) - 500.0).abs() < 1e-12);
+}
+
+/// A spring of 2 m and 300 N at twice its length: 150 N/m stretch it by 2 m, and its density is
+/// 75 N/m. What is rounded: 150 · 2 · (2 + 4) of the spring, 75 / 2 · (16 + 16) of the tangent.
+#[test]
+fn what_is_rounded_in_a_tangent_is_the_size_of_its_terms() {
+    let spring = Member::bar(0, 1, Bar::homogeneous(2.0, 0.0).unwrap()).with_stiffness(300.0);
+    assert_eq!(tangent_j(&spring, 75.0, 16.0).1.to_bits(), f64::to_bits(1800.0 + 1200.0));
+    assert_eq!(tangent_j(&spring, 75.0, 16.0).0.to_bits(), f64::to_bits(300.0));
+}
+
+/// A path A-P-Q-B, A and B anchors, with the densities 2, 3 and 5.
+#[test]
+fn the_stress_matrix_is_that_of_the_joints_that_move() {
+    let joints = vec![
+        Joint::anchor("A", [0.0; 3]),
+        Joint::free("P"),
+        Joint::free("Q"),
+        Joint::anchor("B", [2.0, 0.0, 0.0]),
+    ];
+    let bar = Bar::homogeneous(1.0, 1.0).unwrap();
+    let members = (0..3).map(|k| Member::bar(k, k + 1, bar)).collect();
+    let system = System::new("path", 9.81, joints, members).unwrap();
+    let matrix = stress_matrix(&system, &[2.0, 3.0, 5.0]);
+    assert_eq!((matrix.size, matrix.diagonal), (2, vec![5.0, 8.0]));
+    assert_eq!(matrix.below, [(1, 0, -3.0)]);
+    // Two members in a joint: 2 · 4 roundings of half a unit of 8, the sum of the largest row.
+    assert!((matrix.uncertainty / (2.0 * 4.0 * 0.5 * f64::EPSILON * 8.0) - 1.0).abs() < 1e-9);
+}
+
+/// The lamp's tangent touches at its energy: the cables have their lengths, and what is left is the
+/// work of 2 N over 4 m. From below, by 16 units in the last place of what was rounded: 2 · 25/4 J
+/// of the cables and 2 N over the 5 m from A.
+#[test]
+fn the_bound_is_below_its_value_by_what_is_rounded() {
+    let (system, answer) = lamp();
+    let found = tangent(&system, &answer, &[0.25; 2]);
+    let below_j = -8.0 - found.value_j;
+    let rounded_j = 16.0 * f64::EPSILON * (2.0 * 6.25 + 10.0);
+    assert!((below_j / rounded_j - 1.0).abs() < 0.1, "{below_j:e} {rounded_j:e}");
+    // The joint that moves has no gradient but that of rounding: the load of 2 N, two pulls of
+    // 1.25 N, and two more units for the two members that meet there.
+    let size_n = 18.0 * f64::EPSILON * 4.5;
+    assert!(found.squared_gradient >= size_n * size_n * 0.999);
+    assert!(found.squared_gradient <= size_n * size_n * 1.2);
+}
+
+/// A weight of 2 N that lies 3 m below its anchor on a floor has -6 J, whatever the floor pushes.
+#[test]
+fn the_push_of_a_floor_takes_no_energy() {
+    let joints = vec![Joint::anchor("A", [0.0, 0.0, 2.0]), Joint::free("P").with_mass(0.2)];
+    let members = vec![Member::cable(0, 1, Bar::homogeneous(5.0, 0.0).unwrap())];
+    let system = System::new("lying", 10.0, joints, members).unwrap().with_floor(-1.0).unwrap();
+    let (_, like) = lamp();
+    let answer = SystemEquilibrium {
+        energy_j: -6.0,
+        joints_m: vec![[0.0, 0.0, 2.0], [0.5, 0.0, -1.0]],
+        start_forces_n: vec![[0.0; 3]],
+        end_forces_n: vec![[0.0; 3]],
+        axial_n: vec![0.0],
+        reactions_n: vec![[0.0; 3], [0.0, 0.0, 2.0]],
+        ..like
+    };
+    let found = tangent(&system, &answer, &[0.0]);
+    assert!(found.value_j < -6.0 && found.value_j > -6.0 - 1e-12, "{}", found.value_j);
+    assert!(found.squared_gradient < 1e-26);
+}
+
+#[test]
+fn what_does_not_fit_or_is_not_finite_is_unusable() {
+    let (system, right) = lamp();
+    assert!(certify(&system, &right).is_ok());
+    let changes: [fn(&mut SystemEquilibrium); 7] = [
+        |a| a.joints_m.truncate(2),
+        |a| a.axial_n.truncate(1),
+        |a| a.reactions_n.truncate(1),
+        |a| a.joints_m[2][1] = f64::NAN,
+        |a| a.axial_n[1] = f64::INFINITY,
+        |a| a.energy_j = f64::NAN,
+        |a| a.energy_j = f64::NEG_INFINITY,
+    ];
+    for (k, change) in changes.into_iter().enumerate() {
+        let mut answer = right.clone();
+        change(&mut answer);
+        assert_eq!(certify(&system, &answer), Err(NoCertificate::Unusable), "{k}");
+    }
 }

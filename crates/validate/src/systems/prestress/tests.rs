@@ -1,0 +1,63 @@
+//! Strings between two anchors, by hand.
+
+use model::Bar;
+use model::system::{Joint, Member};
+
+use super::*;
+
+/// Members of these lengths one after the other along x, between anchors, at a height.
+fn string(joints: &mut Vec<Joint>, members: &mut Vec<Member>, kind: Kind, z: f64, lengths: &[f64]) {
+    let mut x = 0.0;
+    joints.push(Joint::anchor(format!("start {z}"), [x, 0.0, z]));
+    for (k, length_m) in lengths.iter().enumerate() {
+        x += length_m;
+        let name = format!("{z}.{k}");
+        let last = k + 1 == lengths.len();
+        joints.push(if last { Joint::anchor(name, [x, 0.0, z]) } else { Joint::free(name) });
+        let body = Bar::homogeneous(*length_m, 0.0).unwrap();
+        let end = joints.len() - 1;
+        members.push(Member { kind, ..Member::bar(end - 1, end, body) });
+    }
+}
+
+fn stable(strings: &[(Kind, &[f64])], stress: Stress<'_>) -> PrestressStability {
+    let (mut joints, mut members, mut places_m) = (vec![], vec![], vec![]);
+    for (z, (kind, lengths)) in strings.iter().enumerate() {
+        string(&mut joints, &mut members, *kind, z as f64, lengths);
+        let mut x = 0.0;
+        places_m.push([x, 0.0, z as f64]);
+        for length_m in *lengths {
+            x += length_m;
+            places_m.push([x, 0.0, z as f64]);
+        }
+    }
+    let system = System::new("strings", 10.0, joints, members).unwrap();
+    prestress_stability(&system, &places_m, Standing::Supported, stress).unwrap()
+}
+
+/// 1 N in three members of 10, 1 and 10 m: moved together the two joints feel 1/10 N/m each, in two
+/// directions; the densities are 1/10, 1 and 1/10, ten times what counts.
+#[test]
+fn a_string_is_held_however_soft_it_is_beside_its_shortest_member() {
+    let found = stable(&[(Kind::Cable, &[10.0, 1.0, 10.0])], Stress::Given(&[1.0; 3]));
+    assert_eq!((found.self_stresses, found.mechanisms), (1, 4));
+    let Held::ByStress { stiffness_n_m } = found.held else { panic!("{found:?}") };
+    assert!((stiffness_n_m - 0.1).abs() < 1e-13, "{stiffness_n_m}");
+    // The other way round it drives them aside: by 2 + 1/10 where they move against each other.
+    let found = stable(&[(Kind::Cable, &[10.0, 1.0, 10.0])], Stress::Given(&[-1.0; 3]));
+    let Held::NotByThis { stiffness_n_m } = found.held else { panic!("{found:?}") };
+    assert!((stiffness_n_m + 2.1).abs() < 1e-13, "{stiffness_n_m}");
+}
+
+/// One string of cables and one of bars, whose sign nobody asks for: each joint is held by 2 N/m
+/// where both strings bear 1 N, and by no stress better. The search starts with cables alone.
+#[test]
+fn stresses_are_searched_beyond_what_the_signs_ask_for() {
+    let strings: [(Kind, &[f64]); 2] = [(Kind::Cable, &[1.0, 1.0]), (Kind::Bar, &[1.0, 1.0])];
+    let found = stable(&strings, Stress::Free);
+    assert_eq!((found.self_stresses, found.mechanisms), (2, 4));
+    let Held::ByStress { stiffness_n_m } = found.held else { panic!("{found:?}") };
+    assert!((stiffness_n_m - 2.0).abs() < 1e-12, "{stiffness_n_m}");
+    let stress = found.stress.unwrap();
+    assert!(stress.iter().all(|force| (force - 1.0).abs() < 1e-12), "{stress:?}");
+}

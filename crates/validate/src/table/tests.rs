@@ -1,0 +1,56 @@
+//! The rows of a case: one answer against itself turned about the vertical of its anchors.
+
+use model::{Anchors, Bar, Chain, SolverName, Vector};
+
+use super::*;
+
+/// The paper's chain with its anchors beside the origin.
+fn problem() -> Problem {
+    let anchors = Anchors { start_m: [3.0, -2.0, 0.5], end_m: [3.0, -2.0, -1.5] };
+    let bar = Bar::homogeneous(1.0, 1.0).unwrap();
+    Problem::new(Chain::new("paper", 9.81, anchors, vec![bar; 3]).unwrap()).unwrap()
+}
+
+fn turned(answer: &Equilibrium, angle: f64) -> Equilibrium {
+    let (sin, cos) = angle.sin_cos();
+    let vector = |[x, y, z]: Vector| [cos * x - sin * y, sin * x + cos * y, z];
+    let [x0, y0, _] = answer.joints_m[0];
+    let place = |[x, y, z]: Vector| {
+        let [x, y, z] = vector([x - x0, y - y0, z]);
+        [x0 + x, y0 + y, z]
+    };
+    let mut turned = answer.clone();
+    turned.joints_m.iter_mut().for_each(|joint| *joint = place(*joint));
+    turned.multipliers_n.iter_mut().for_each(|force| *force = vector(*force));
+    turned.reactions_n.start = vector(answer.reactions_n.start);
+    turned.reactions_n.end = vector(answer.reactions_n.end);
+    turned
+}
+
+/// Joints and forces come back by the turn that was found; what was changed besides is told in its
+/// own unit: 9.81 · 3 N times 3 m, and the weight, which is the largest force.
+#[test]
+fn a_turn_is_taken_back_before_the_rows_are_written() {
+    let problem = problem();
+    let first = lagrange::solve(&problem, &lagrange::Settings::default()).unwrap().equilibrium;
+    for angle in [0.7, -2.0] {
+        let mut second = turned(&first, angle);
+        second.solver = SolverName::ENERGY;
+        second.energy_j += 9.81;
+        second.axial_n[1] += 9.81;
+        let mut answers = [first.clone(), second];
+        let agreement = crate::compare::compare(&problem, &mut answers, &Tolerances::project());
+        let units = Units::new(problem.chain(), &answers[0].multipliers_n);
+        let rows = rows("turned", &answers, &agreement, &units);
+        // The energy, two joints between the anchors, four forces, and three bars.
+        assert_eq!(rows.len(), 1 + 2 * 3 + 4 * 3 + 3);
+        for row in rows {
+            let wanted = match row.observable.as_str() {
+                "energy_j" => 1.0 / 9.0,
+                "axial[2]_n" => 1.0 / 3.0,
+                _ => 0.0,
+            };
+            assert!((row.difference - wanted).abs() < 1e-13, "{angle}: {row:?}");
+        }
+    }
+}
