@@ -131,6 +131,8 @@ fn an_arch_has_no_certificate() {
     assert_eq!(certify(&system, &answer), Err(NoCertificate::NotDefinite { compressed: 1 }));
 }
 
+type Change = fn(&mut SystemEquilibrium);
+
 #[test]
 fn answers_that_differ_do_not_agree() {
     let (system, answer) = lamp();
@@ -145,7 +147,7 @@ fn answers_that_differ_do_not_agree() {
     assert!(!agreed(&|a| a.joints_m[2][1] += 1e-6).agrees());
     assert!(!agreed(&|a| a.reactions_n[0][1] = f64::NAN).agrees());
     // Budgets by hand: 6 m from the first anchor to the second, 2 N, and 12 J.
-    let changes: [(fn(&mut SystemEquilibrium), f64); 3] = [
+    let changes: [(Change, f64); 3] = [
         (|a| a.joints_m[2][1] += 1e-6, 1e-10 * 6.0),
         (|a| a.reactions_n[0][1] += 1e-6, 1e-9 * 2.0),
         (|a| a.energy_j += 1e-6, 1e-12 * 12.0),
