@@ -320,3 +320,31 @@ fn a_cable_that_an_answer_draws_tight_may_be_pushed() {
     members[2] = Member { kind: Kind::Strut, ..members[2].clone() };
     proved(&system(joints, members), &at, &[1.25, 1.25, -1e-4]);
 }
+
+/// A joint of 5 N lies on the floor and is drawn aside against a bar that rises by 45° to an anchor:
+/// with 3 N the floor bears the 2 N that are left, with 6 N the joint would rise.
+#[test]
+fn the_floor_pushes_what_lies_on_it() {
+    for ends in [[0, 1], [1, 0]] {
+        let drawn = |force_n: f64| {
+            let mut joints = vec![
+                Joint::anchor("A", [0.0, 0.0, 3.0]),
+                Joint::free("P").with_mass(0.5),
+                Joint::anchor("B", [0.0, 5.0, 3.0]),
+            ];
+            joints[1].force_n = [force_n, 0.0, 0.0];
+            // The second one has no force, and keeps the joint from turning.
+            let diagonal = 18.0_f64.sqrt();
+            let members = vec![
+                Member::bar(ends[0], ends[1], light(diagonal)),
+                Member::bar(1, 2, light(43.0_f64.sqrt())),
+            ];
+            let system = system(joints, members).with_floor(0.0).unwrap();
+            let at = [[0.0, 0.0, 3.0], [3.0, 0.0, 0.0], [0.0, 5.0, 3.0]];
+            prove(&system, &at, &[force_n * 2.0_f64.sqrt(), 0.0])
+        };
+        let proof = drawn(3.0).unwrap();
+        assert!(proof.axial_n[0].contains(18.0_f64.sqrt()), "{proof:?}");
+        assert_eq!(drawn(6.0), Err(NoBox::Floor { joint: 1 }));
+    }
+}

@@ -196,3 +196,36 @@ impl<'a> Net<'a> {
 fn is_zero(x: f64) -> bool {
     x.abs() <= 0.0
 }
+
+#[cfg(test)]
+mod tests {
+    use model::Bar;
+    use model::system::{Joint, Member};
+
+    use super::*;
+
+    /// Two bars hang from an anchor, the lower one aside; its end is free, or slides in a plane.
+    /// Only a level plane lets it turn.
+    #[test]
+    fn what_slides_in_a_plane_that_is_not_level_does_not_turn() {
+        let at_m = [[0.0; 3], [0.0, 0.0, -1.0], [0.6, 0.0, -1.8]];
+        let turning = |support: Support| {
+            let light = |length_m| Bar::homogeneous(length_m, 0.0).unwrap();
+            let joints = vec![
+                Joint::anchor("A", at_m[0]),
+                Joint::free("P").with_mass(1.0),
+                Joint { support, ..Joint::free("Q").with_mass(1.0) },
+            ];
+            let members = vec![Member::bar(0, 1, light(1.0)), Member::bar(1, 2, light(1.0))];
+            let system = System::new("two", 10.0, joints, members).unwrap();
+            let found = turns(&system, &[Activity::Acts; 2], &at_m, &[true, false, false]);
+            found.iter().map(|turn| (turn.centre, turn.arm)).collect::<Vec<_>>()
+        };
+        let plane = |normal: Vector| Support::Plane { at_m: at_m[2], normal };
+        assert_eq!(turning(Support::Free), [(1, 2)]);
+        assert_eq!(turning(plane([0.0, 0.0, 1.0])), [(1, 2)]);
+        for normal in [[0.6, 0.0, 0.8], [0.0, 0.6, 0.8], [0.48, 0.36, 0.8]] {
+            assert_eq!(turning(plane(normal)), [], "{normal:?}");
+        }
+    }
+}

@@ -270,4 +270,15 @@ mod tests {
             assert!(own.behind(Face::Left, &system) && !own.behind(Face::Above, &system));
         }
     }
+
+    /// Twice is the cell itself: on the faces H = ±1 the face changes, on others H.
+    #[test]
+    fn mirror_images_have_the_opposite_pull_aside() {
+        for face in [Face::Near, Face::Left, Face::Right, Face::Below, Face::Above] {
+            let cell = Cell::point(face, [0.25, 0.5]);
+            let ([h, v, w], image) = (cell.homogeneous(), cell.mirrored());
+            assert_eq!(image.homogeneous(), [-h, v, w], "{face:?}");
+            assert_eq!(image.mirrored(), cell);
+        }
+    }
 }

@@ -297,4 +297,22 @@ mod tests {
         assert!(is(system.weights(Face::Around(0)), [0.0, 4.0, 8.0]));
         assert!(is(system.weights(Face::Around(2)), [-8.0, -4.0, 0.0]));
     }
+
+    /// Along an axis of the world nothing is rounded, whichever way the chain runs.
+    #[test]
+    fn vectors_along_the_axes_are_exact() {
+        let bars = vec![Bar::homogeneous(1.0, 1.0).unwrap(); 3];
+        let (along, up) = (Interval::point(0.1), Interval::point(0.7));
+        let cases = [
+            ([2.0, 0.0], [along, Interval::ZERO]),
+            ([-2.0, 0.0], [-along, Interval::ZERO]),
+            ([0.0, -2.0], [Interval::ZERO, -along]),
+        ];
+        for ([x, y], expected) in cases {
+            let anchors = Anchors { start_m: [0.0; 3], end_m: [x, y, 0.5] };
+            let chain = Chain::new("three", 10.0, anchors, bars.clone()).unwrap();
+            let found = System::new(&chain, JointLoads::NONE).world([along, up]);
+            assert_eq!(found, [expected[0], expected[1], up]);
+        }
+    }
 }

@@ -356,4 +356,20 @@ mod tests {
         // The tests are worth something: many cells are contracted.
         assert!(contracted > 1000, "{contracted}");
     }
+
+    /// Slopes of 1 everywhere, known to 1/2 or 1/4 in one of them: over half widths of 2 that hides
+    /// 1 or 1/2. What hides more of the value than that is noise.
+    #[test]
+    fn noise_is_what_hides_more_than_the_width() {
+        let noisy = |part: usize, slope: f64, value: f64| {
+            let (mut sums, sum) = sums([0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 1.0, 1.0]);
+            sums.radius[part] = slope;
+            sums.radius[2] = value;
+            sums.leaf(Pattern(0), sum).unwrap().noisy
+        };
+        for part in 4..8 {
+            assert_eq!(noisy(part, 0.5, 0.75), [false; 2], "{part}");
+            assert_eq!(noisy(part, 0.25, 0.75), [true; 2], "{part}");
+        }
+    }
 }

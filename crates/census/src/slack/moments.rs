@@ -225,4 +225,17 @@ mod tests {
         assert_eq!(even.first(Pattern(0b010)), Some(2));
         assert_eq!(even.is_without_variance(Pattern(0b010)), Some(true));
     }
+
+    /// 1/6 + 1/3, 3/4 − 1/4, 1/2 + 1/3.
+    #[test]
+    fn fractions_are_reduced() {
+        let sum = |[a, b]: [i128; 2], [c, d]: [i128; 2]| {
+            let [one, other] = [Fraction { over: a, under: b }, Fraction { over: c, under: d }];
+            one.plus(other).map(|sum| [sum.over, sum.under])
+        };
+        assert_eq!(sum([1, 6], [1, 3]), Some([1, 2]));
+        assert_eq!(sum([3, 4], [-1, 4]), Some([1, 2]));
+        assert_eq!(sum([1, 2], [1, 3]), Some([5, 6]));
+        assert_eq!(sum([i128::MAX, 1], [1, 1]), None);
+    }
 }

@@ -294,4 +294,17 @@ mod tests {
         let even = system(4, [1.0, 0.0, 0.0]);
         assert!(isolated(&even, Pattern(0b0110), 1, false).is_none());
     }
+
+    /// Weights −1, 0, 1 and lengths 1, 3, 3 with the signs + − +: the moments are 1, 2 and 4, the
+    /// signed variance 4 − 2² is nothing, and nothing is said.
+    #[test]
+    fn straight_positions_without_variance_are_not_isolated() {
+        let bars = [1.0, 3.0, 3.0].map(|length| Bar::new(length, 1.0, length, [0.0; 3]).unwrap());
+        let anchors = Anchors { start_m: [0.0; 3], end_m: [1.0, 0.0, 0.0] };
+        let chain = Chain::new("straight", 10.0, anchors, bars.to_vec()).unwrap();
+        let system = System::new(&chain, JointLoads::NONE);
+        for (way, pattern) in [(1, 0b010), (-1, 0b101)] {
+            assert!(isolated(&system, Pattern(pattern), way, false).is_none());
+        }
+    }
 }

@@ -1,6 +1,6 @@
 //! What stands in the way of a complete list.
 
-use model::{Reason, Status};
+use model::{InSpace, Reason, Status};
 
 use crate::support::{census, problem};
 
@@ -13,4 +13,13 @@ fn merged_equilibria_are_told_with_their_number() {
     assert!(!census.complete && census.undecided.is_empty());
     let open = Status::Open(Reason::DegenerateEquilibria { listed: 1 });
     assert_eq!((census.degenerate.len(), census.completeness()), (1, open));
+}
+
+/// Two bars of 5 m between level anchors 6 m apart hang stable, and stand stable in their plane only.
+#[test]
+fn stability_is_told_by_the_indices() {
+    let problem = problem(&[(5.0, 1.0, 2.5); 2], [6.0, 0.0, 0.0]);
+    let found = census(&problem).to_model();
+    let told: Vec<_> = found.iter().map(|one| one.stability.in_space).collect();
+    assert_eq!(told, [InSpace::Stable, InSpace::Unstable]);
 }

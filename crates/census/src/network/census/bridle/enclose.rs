@@ -147,3 +147,119 @@ fn start(core: &Core, bridle: &Bridle, found: &Found) -> (Vec<Point>, Vec<f64>) 
     }
     (joints_m, axial_n)
 }
+
+#[cfg(test)]
+mod tests {
+    use model::Bar;
+    use model::system::{Joint, Member, System};
+
+    use super::*;
+    use crate::closure::Pattern;
+    use crate::network::arithmetic::points;
+    use crate::network::census::bridle::newton::Charts;
+    use crate::network::census::bridle::strand::Strand;
+    use crate::network::frame::Frame;
+
+    /// A strand of two bars with the forces (12, −16)/16 and (12, −5)/16, 11/16 between them: slopes
+    /// of 3, 4, 5 and of 5, 12, 13. A bar alone comes from the other side of the knot.
+    fn bridle() -> Bridle {
+        let all = |numbers: &[f64]| numbers.iter().copied().map(Interval::point).collect();
+        let several = Strand {
+            members: vec![0, 1],
+            joints: vec![1],
+            anchor: points([0.0; 3]),
+            length: all(&[1.25, 0.8125]),
+            weight: all(&[-0.34375, 0.34375]),
+        };
+        let alone = Strand {
+            members: vec![2],
+            joints: vec![],
+            anchor: points([1.5, 1.25, -1.3125]),
+            length: all(&[1.25]),
+            weight: all(&[0.0]),
+        };
+        Bridle { knot: 0, load: points([0.0; 3]), strands: vec![several, alone] }
+    }
+
+    const PLACES: [[f64; 3]; 4] =
+        [[1.5, 0.0, -1.3125], [0.75, 0.0, -1.0], [0.0; 3], [1.5, 1.25, -1.3125]];
+
+    fn enclosed(alone: f64) -> Enclosed {
+        Enclosed {
+            choice: Choice::default(),
+            places: PLACES.map(points).to_vec(),
+            axial: [1.25, 0.8125, alone].map(Interval::point).to_vec(),
+        }
+    }
+
+    #[test]
+    fn pulls_are_told_in_every_chart() {
+        let faces = [Face::Near, Face::Left, Face::Right, Face::Below, Face::Above];
+        let (h, v) = (0.75, 0.65625);
+        let several = [Some([h, -v]), None, Some([-v / h, 1.0 / h]), Some([h / v, 1.0 / v]), None];
+        // 5/2 over 5/4 is a density of 2.
+        let pulled = [Some([2.0, 0.0]), None, Some([0.5, 0.0])];
+        let pushed = [Some([-2.0, 0.0]), Some([0.5, 0.0]), None];
+        let is = |strand: usize, alone: f64, expected: &[Option<[f64; 2]>]| {
+            for (face, expected) in faces.into_iter().zip(expected) {
+                let found = enclosed(alone).pull(&bridle(), strand, face);
+                let near = found.zip(*expected).is_none_or(|(found, expected)| {
+                    let mut both = found.into_iter().zip(expected);
+                    both.all(|(part, x)| (part.mid() - x).abs() < 1e-14 && part.width() < 1e-14)
+                });
+                assert!(near && found.is_some() == expected.is_some(), "{face:?} {found:?}");
+            }
+        };
+        is(0, 2.5, &several);
+        is(1, 2.5, &pulled);
+        is(1, -2.5, &pushed);
+    }
+
+    #[test]
+    fn what_is_apart_in_some_force_or_place_differs() {
+        let mut other = enclosed(2.5);
+        assert!(!other.differs(&enclosed(2.5)) && other.differs(&enclosed(2.25)));
+        other.places[1] = points([0.75, 1.0, -1.0]);
+        assert!(other.differs(&enclosed(2.5)));
+    }
+
+    /// Newton's method starts in metres and newtons: from units of 2 m and 4 N about (10, 20, 30) m.
+    #[test]
+    fn the_start_is_in_the_units_of_the_system() {
+        let frame = Frame { length_m: 2.0, force_n: 4.0, origin_m: [10.0, 20.0, 30.0] };
+        let placed = |k: usize| [0, 1, 2].map(|i| frame.origin_m[i] + 2.0 * PLACES[k][i]);
+        let light = |length_m| Bar::homogeneous(length_m, 0.0).unwrap();
+        let joints = vec![
+            Joint::free("knot").with_mass(1.0),
+            Joint::free("P").with_mass(1.0),
+            Joint::anchor("A", placed(2)),
+            Joint::anchor("B", placed(3)),
+        ];
+        let members = vec![
+            Member::bar(2, 1, light(2.5)),
+            Member::bar(1, 0, light(1.625)),
+            Member::bar(3, 0, light(2.5)),
+        ];
+        let system = System::new("start", 10.0, joints, members).unwrap();
+        let core = Core {
+            system: &system,
+            frame: &frame,
+            joints: &[0, 1],
+            members: &[0, 1, 2],
+            loads: &[],
+        };
+        let charts =
+            Charts { faces: vec![Face::Near, Face::Near], patterns: vec![Pattern(0), Pattern(0)] };
+        // The place of the knot, a pull, a density of 3/4.
+        let [x, y, z] = PLACES[0];
+        let found = Found { charts, alone_in: vec![], at: vec![x, y, z, 0.75, -0.65625, 0.75] };
+        let (joints_m, axial_n) = start(&core, &bridle(), &found);
+        for (k, at_m) in joints_m.iter().enumerate() {
+            let near = at_m.iter().zip(placed(k)).all(|(a, b)| (a - b).abs() < 1e-13);
+            assert!(near, "{k}: {at_m:?}");
+        }
+        for (found, expected) in axial_n.iter().zip([5.0, 3.25, 3.75]) {
+            assert!((found - expected).abs() < 1e-13, "{found} {expected}");
+        }
+    }
+}

@@ -262,3 +262,53 @@ fn cut_pulls(at: &Vector, width: f64, lists: &[Vec<Pulls>], outcome: &mut Outcom
     }
     true
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::network::arithmetic::points;
+    use crate::network::census::bridle::strand::Strand;
+    use crate::plane::face::Face;
+
+    #[test]
+    fn the_first_of_the_widest_is_cut() {
+        let of = |widths: &[f64]| {
+            let parts: Vec<Interval> = widths.iter().map(|x| Interval::new(0.0, *x)).collect();
+            widest(&parts)
+        };
+        assert_eq!([of(&[1.0, 4.0, 2.0, 4.0]).0, of(&[0.0; 3]).0], [1, 0]);
+        assert!((of(&[1.0, 4.0, 2.0, 4.0]).1 - 4.0).abs() < 1e-14);
+    }
+
+    /// Three bars, each with 128 cells of pulls, cannot hold a load of a thousand. Of so many choices
+    /// none is formed: the box is cut with all cells. With one cell each it is excluded.
+    #[test]
+    fn too_many_choices_are_not_formed() {
+        let anchors = [[1.0, 0.0, 0.0], [-0.5, 0.75, 0.0], [-0.5, -0.75, 0.0]];
+        let rod = |at: [f64; 3]| Strand {
+            members: vec![0],
+            joints: vec![],
+            anchor: points(at),
+            length: vec![Interval::new(0.5, 2.0)],
+            weight: vec![Interval::ZERO],
+        };
+        let strands = anchors.map(rod).to_vec();
+        let bridle = Bridle { knot: 0, load: points([0.0, 0.0, -1e3]), strands };
+        let examined = |cells: u8| {
+            let part = 2.0 / f64::from(cells);
+            let pulls = (0..cells).map(|k| {
+                let x = Interval::new(f64::from(k) * part - 1.0, f64::from(k + 1) * part - 1.0);
+                let cell = Cell { face: Face::Near, at: [x, Interval::ZERO] };
+                Pulls { cell, patterns: vec![Pattern(0)] }
+            });
+            let pulls = vec![pulls.collect(); 3];
+            let at = [Interval::around(0.0, 0.125); 3];
+            of_task(&bridle, &[], &Task { at, pulls })
+        };
+        let next = examined(128).next;
+        let kept: Vec<usize> =
+            next.iter().map(|task| task.pulls.iter().map(Vec::len).sum()).collect();
+        assert_eq!(kept, [3 * 128; 2]);
+        assert!(examined(1).next.is_empty());
+    }
+}

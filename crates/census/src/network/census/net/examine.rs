@@ -229,7 +229,7 @@ fn zero<const N: usize>(
 mod tests {
     use super::*;
     use crate::network::arithmetic::points;
-    use crate::network::census::net::layout::End;
+    use crate::network::census::net::layout::{End, Link};
 
     fn swing(lengths: [f64; 2], load: [f64; 3]) -> Swing {
         Swing {
@@ -272,6 +272,11 @@ mod tests {
             assert!((0..4).all(|pattern| is_empty(&hung(&strands), pattern)));
         }
         assert!(!(0..8).any(|pattern| is_empty(&hung(&[folded, folded, aside]), pattern)));
+        // Nor what a bar does.
+        let ends = [End::Held(points([0.0, 2.0, 0.0])), End::Knot(0)];
+        let bars = vec![Link { member: 0, ends, length: Interval::point(2.0) }];
+        let barred = Layout { bars, ..hung(&[folded, aside]) };
+        assert!(!(0..4).any(|pattern| is_empty(&barred, pattern)));
     }
 
     fn swung(span: [f64; 3]) -> Swung<3> {
@@ -321,5 +326,18 @@ mod tests {
         assert!(!round_is_impossible(&swing, &known, 0, points([0.0; 3]), 1.0));
         let open = Swung { tension: Interval::LINE, ..swung.clone() };
         assert!(!round_is_impossible(&swing, &open, 0, points([0.0; 3]), 1.0));
+    }
+
+    /// Of two knots each has three rows.
+    #[test]
+    fn forces_are_those_of_their_knot() {
+        let mut layout = hung(&[([0.0; 3], [1.0; 2])]);
+        layout.swings[0].ends[0] = End::Knot(1);
+        let at = [0.0, 0.0, 0.0, 1.0, 0.0, 0.0].map(Interval::point);
+        layout.loads.push(layout.loads[0]);
+        let cell = Cell::over(&layout, at).unwrap();
+        let forces: Vec<Interval> = (0_u8..6).map(|k| Interval::point(k.into())).collect();
+        assert_eq!(cell.at_rows(&forces, 0), points([0.0, 1.0, 2.0]));
+        assert_eq!(cell.at_rows(&forces, 3), points([3.0, 4.0, 5.0]));
     }
 }

@@ -346,6 +346,13 @@ fn rings_of_every_number_of_knots_are_searched() {
     assert_eq!(search(5, 0.5, 5), Err(NoCensus::Closures { closures: 5 }));
     let refused = search(4, 0.5, 3);
     assert_eq!(refused, Err(NoCensus::Motions { closures: 4, motions: 4, limit: 3 }));
+    // One knot on four strands in a plane.
+    let strands: [&[f64]; 4] = [&[1.5, 1.4]; 4];
+    let anchors = [[2.0, 0.0, 0.0], [-2.0, 0.0, 0.1], [1.0, 0.0, 1.0], [-1.0, 0.0, 1.2]];
+    let settings = Settings { max_motions: 2, max_tests_per_pattern: 1, ..Settings::default() };
+    let census = SystemCensus::take(&bridle(&anchors, &strands, 1.0, 0.5), &settings).unwrap();
+    let net = census.nets().next().unwrap();
+    assert_eq!((net.knots.len(), net.swings.len(), net.in_plane), (1, 4, true));
 }
 
 /// Positions, undecided boxes, the sum of all indices; cells and tests; the sums of the binary
