@@ -294,6 +294,19 @@ mod tests {
         }
     }
 
+    /// x = 1 and y = −3/2 lie in the cell, x = 3 does not.
+    #[test]
+    fn zeros_in_the_cell_are_kept() {
+        let (sums, sum) = sums([0.0, 0.0, -1.0, 1.5, 1.0, 0.0, 0.0, 1.0]);
+        let open = sums.leaf(Pattern(0), sum).unwrap();
+        for (left, x) in open.left.into_iter().zip([1.0, -1.5]) {
+            assert!(left.contains(x) && left.width() < 1e-14, "{left:?}");
+        }
+        assert!(sums.leaf(Pattern(0), [0.0, 0.0, -3.0, 1.5, 1.0, 0.0, 0.0, 1.0]).is_none());
+        // 2 x = 6 and 2 y = 0 as x + y = 3 and x − y = 3: each row alone may vanish.
+        assert!(sums.leaf(Pattern(0), [0.0, 0.0, -3.0, -3.0, 1.0, 1.0, 1.0, -1.0]).is_none());
+    }
+
     /// Without a slope nothing is known of a zero.
     #[test]
     fn a_closure_without_slope_promises_nothing() {
