@@ -89,3 +89,6 @@ fn difference(a: Vector, b: Vector) -> Vector {
 fn norm([x, y, z]: Vector) -> f64 {
     x.hypot(y).hypot(z)
 }
+
+#[cfg(test)]
+mod tests;

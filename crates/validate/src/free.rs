@@ -137,3 +137,6 @@ fn distance(a: Vector, b: Vector) -> f64 {
     let [x, y, z] = std::array::from_fn(|k| a[k] - b[k]);
     f64::hypot(x, y).hypot(z)
 }
+
+#[cfg(test)]
+mod tests;

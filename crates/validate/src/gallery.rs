@@ -121,3 +121,6 @@ fn axial(system: &System, e: &SystemEquilibrium, from: &str, to: &str) -> f64 {
 fn reaction(system: &System, e: &SystemEquilibrium, joint: &str) -> [f64; 3] {
     system.joint(joint).map_or([f64::NAN; 3], |joint| e.reactions_n[joint])
 }
+
+#[cfg(test)]
+mod tests;

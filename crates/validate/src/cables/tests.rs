@@ -1,6 +1,26 @@
-//! The largest of some values.
+//! Differences in their units, and the largest of some values.
 
-use super::worst;
+use model::{Anchors, Bar, Chain};
+
+use super::*;
+
+/// Two bars of 2 m under 10 m/s², 3.2 m apart, with one joint and one force off: of 4 m, and of the
+/// larger of the weight of 40 N and the force at an anchor, 20 N up and 40/3 N aside.
+#[test]
+fn what_is_off_is_told_in_its_unit() {
+    let anchors = Anchors { start_m: [0.0; 3], end_m: [3.2, 0.0, 0.0] };
+    let bar = Bar::homogeneous(2.0, 2.0).unwrap();
+    let problem = Problem::new(Chain::new("two", 10.0, anchors, vec![bar; 2]).unwrap()).unwrap();
+    let settings = lagrange::Settings::default();
+    let mut found = lagrange::solve(&problem, &settings).unwrap().equilibrium;
+    found.joints_m[1][1] += 0.5;
+    found.axial_n[1] += 4.0;
+    let cables = hold_against_cables(&problem, &found).unwrap();
+    assert!(cables.taut && cables.in_tension);
+    // clarabel's tolerance.
+    assert!((cables.joints.unwrap() - 0.125).abs() < 1e-6, "{cables:?}");
+    assert!((cables.axial.unwrap() - 0.1).abs() < 1e-6, "{cables:?}");
+}
 
 #[test]
 fn the_worst_value_is_the_largest_or_none_at_all() {

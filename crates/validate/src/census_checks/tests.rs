@@ -1,6 +1,31 @@
 //! What a census is held against, with an index that is wrong and with numbers that are none.
 
+use model::{Anchors, Bar};
+
 use super::*;
+
+/// Wherever the vertical of the anchors stands, and however the chain is turned about it.
+#[test]
+fn a_turned_chain_is_found_in_its_box() {
+    let anchors = Anchors { start_m: [3.0, -2.0, 0.5], end_m: [3.0, -2.0, -1.5] };
+    let bar = Bar::homogeneous(1.0, 1.0).unwrap();
+    let chain = Chain::new("paper", 9.81, anchors, vec![bar; 3]).unwrap();
+    let problem = Problem::new(chain).unwrap();
+    let census = Census::take(&problem, &census::Settings::default()).unwrap();
+    for (k, equilibrium) in census.equilibria.iter().enumerate() {
+        let place = |angle: f64, x: [f64; 3]| -> Vector {
+            let (sin, cos) = angle.sin_cos();
+            let [x, y, z] = [x[0] - 3.0, x[1] + 2.0, x[2]];
+            [3.0 + cos * x - sin * y, -2.0 + sin * x + cos * y, z]
+        };
+        for angle in [0.0, 0.4, 2.5, -1.3] {
+            let middles = equilibrium.joints_m.iter().map(|joint| joint.map(Interval::mid));
+            let joints_m: Vec<Vector> = middles.map(|x| place(angle, x)).collect();
+            let found = nearest(problem.chain(), &census, &joints_m).unwrap();
+            assert!(found.number == k + 1 && found.beyond < 1e-14, "{angle}: {found:?}");
+        }
+    }
+}
 
 #[test]
 fn either_index_counts() {

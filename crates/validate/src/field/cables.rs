@@ -285,3 +285,6 @@ fn frame(published: &StayedFrame) -> Entry {
         not_judged: None,
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -353,3 +353,6 @@ fn agreed(
         ..agreement.clone()
     })
 }
+
+#[cfg(test)]
+mod tests;

@@ -216,3 +216,6 @@ fn outwards([least, most]: [f64; 2]) -> [f64; 2] {
     const HALF_A_UNIT: f64 = 5e-4;
     [least * (1.0 - HALF_A_UNIT), most * (1.0 + HALF_A_UNIT)]
 }
+
+#[cfg(test)]
+mod tests;

@@ -1,12 +1,13 @@
 //! The judge of foreign answers on closed forms, right and tampered with.
 
-use model::system::{Joint, Member, PointLoad, System};
+use model::system::{Joint, Member, PointLoad, System, SystemEquilibrium};
 use model::{Bar, Place, SolverName};
 
 use super::best_forces::{best_forces, joint_loads, shares_n};
 use super::bounds::{Bounds, TOLERANCE};
 use super::complete::complete;
 use super::least_squares::{Column, Problem};
+use super::proved::proved_error;
 use super::{Finding, ForcesJudged, ForeignAnswer, GivenError, Judgement, Law, judge_foreign};
 
 /// A lamp of 2 N on two massless cables of 5 m between anchors 6 m apart (3, 4, 5): each pulls with
@@ -311,9 +312,31 @@ fn a_force_at_its_bound_that_is_pushed_beyond_it_stays_there() {
     };
     let columns = [column(1, [1.0, 0.0, 0.0]), column(2, [0.8, 0.6, 0.0])];
     let free = |joint: usize, force: [f64; 3]| if joint == 0 { force } else { [0.0; 3] };
-    let loads = [[-1.0, 0.6, 0.0], [0.0; 3], [0.0; 3]];
-    let found = Problem { columns: &columns, loads: &loads, free: &free }.solve();
-    assert!(found.converged);
-    assert!((found.x[0] - 1.0).abs() < 1e-8 && found.x[1].abs() <= 0.0, "{:?}", found.x);
-    assert!((found.left[0][1] - 0.6).abs() < 1e-12 && found.left[0][0].abs() < 1e-8);
+    // In newtons, micronewtons and meganewtons, or so.
+    for scale in [1.0, 2.0_f64.powi(-20), 2.0_f64.powi(20)] {
+        let loads = [[-scale, 0.6 * scale, 0.0], [0.0; 3], [0.0; 3]];
+        let found = Problem { columns: &columns, loads: &loads, free: &free }.solve();
+        assert!(found.converged);
+        let (x, left) = ([found.x[0] / scale, found.x[1]], found.left[0].map(|n| n / scale));
+        assert!((x[0] - 1.0).abs() < 1e-8 && x[1].abs() <= 0.0, "{scale}: {x:?}");
+        assert!((left[1] - 0.6).abs() < 1e-12 && left[0].abs() < 1e-8, "{scale}: {left:?}");
+    }
+}
+
+/// No error is proved of an answer that has a place or a force too few, or a number that is none.
+#[test]
+fn the_error_of_what_does_not_fit_is_not_enclosed() {
+    let system = lamp();
+    let settings = energy::network::Settings::default();
+    let found = energy::network::minimise(&system, &settings).unwrap().equilibrium;
+    let proved = |change: fn(&mut SystemEquilibrium)| {
+        let mut answer = found.clone();
+        change(&mut answer);
+        proved_error(&system, &answer, &found)
+    };
+    assert!(proved(|_| ()).unwrap().joints_m[1] < 1e-12);
+    assert_eq!(proved(|a| a.joints_m.truncate(2)), None);
+    assert_eq!(proved(|a| a.axial_n.truncate(1)), None);
+    assert_eq!(proved(|a| a.joints_m[2][0] = f64::NAN), None);
+    assert_eq!(proved(|a| a.axial_n[1] = f64::INFINITY), None);
 }

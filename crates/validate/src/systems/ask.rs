@@ -143,3 +143,6 @@ fn judged(
         several => Some(compare(system, several, &Tolerances::project())),
     }
 }
+
+#[cfg(test)]
+mod tests;

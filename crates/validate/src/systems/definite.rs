@@ -436,6 +436,32 @@ mod tests {
         assert!((error(2, vec![(1, 0, 2.0)]) / (6.0 * 22.0) - 1.0).abs() < 1e-12);
     }
 
+    /// `2^50` operations are an eighth, and an eighth over seven eighths a seventh.
+    #[test]
+    fn many_roundings_are_more_than_their_sum() {
+        assert!((gamma((1 << 50) - 2) * 7.0 - 1.0).abs() < 1e-15);
+        assert!((gamma(8) / (5.0 * f64::EPSILON) - 1.0).abs() < 1e-14);
+    }
+
+    /// The squares in a row of the factor add up to the diagonal, which is the same in all rows,
+    /// whatever their order.
+    #[test]
+    fn every_entry_of_a_factor_stands_in_its_row() {
+        for (wide, high) in [(30, 1), (5, 4), (150, 150)] {
+            let matrix = grid(wide, high, 4.5);
+            let mut factor = Factor::new(&matrix).unwrap();
+            factor.bound(&matrix, 0.0).unwrap();
+            let mut rows = vec![0.0; matrix.size];
+            factor.entries(|row, column, entry| {
+                assert!(row >= column);
+                rows[row] += entry * entry;
+            });
+            assert!(rows.iter().all(|sum| (sum - 4.5).abs() < 1e-13), "{wide} x {high}");
+        }
+        // The large net by the other kind of factor.
+        assert!(supernodal(&grid(150, 150, 4.5)) && !supernodal(&grid(30, 1, 4.5)));
+    }
+
     /// Where all are neighbours the last row is full, in any order.
     #[test]
     fn the_longest_row_is_that_of_the_factor() {

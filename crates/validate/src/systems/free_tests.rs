@@ -6,6 +6,7 @@ use model::{Bar, SolverName, Vector};
 use super::compare;
 use super::compare::SystemAgreement;
 use super::tests::lamp;
+use super::turn::turned_onto;
 use crate::tolerances::Tolerances;
 use crate::vector::{minus, norm};
 
@@ -111,24 +112,28 @@ fn joints_without_force_are_free_together() {
     assert_eq!(found.free_joints, 2);
 }
 
-/// A hoop round a hanging rod: its two weights are tied to both ends of the rod and to each other.
-/// `angle` turns it against another hoop at the same ends.
+/// A hoop round a hanging rod: its two weights of 1 N are tied to both ends of the rod and to each
+/// other. `angle` turns another hoop at the same ends, of other weights, against it.
 fn hoops(angle: f64, heavier: f64) -> (System, SystemEquilibrium) {
+    weighted_hoops(angle, [1.0, 1.0, heavier, heavier])
+}
+
+fn weighted_hoops(angle: f64, weights_n: [f64; 4]) -> (System, SystemEquilibrium) {
+    let whole_n: f64 = weights_n.iter().sum();
     let side = 2.0_f64.sqrt() / 2.0;
     let names = ["A", "P", "Q", "S", "T", "U", "V"];
     let mut joints: Vec<Joint> = names.map(Joint::free).into();
     joints[0] = Joint::anchor("A", [0.0; 3]);
-    for (k, joint) in joints.iter_mut().enumerate().skip(3) {
-        joint.mass_kg = if k < 5 { 0.1 } else { 0.1 * heavier };
+    for (joint, weight_n) in joints[3..].iter_mut().zip(weights_n) {
+        joint.mass_kg = 0.1 * weight_n;
     }
     let bar = |from, to, length_m| Member::bar(from, to, Bar::homogeneous(length_m, 0.0).unwrap());
     let mut members = vec![bar(0, 1, 1.0), bar(1, 2, 1.0)];
-    // Tip k at half a metre from the rod: 1 N at each, half of it from above, half from below.
-    let mut axial_n = vec![2.0 + 2.0 * heavier, 1.0 + heavier];
-    for tip in 3..7 {
-        let weight = if tip < 5 { 1.0 } else { heavier };
+    // Tip k at half a metre from the rod, borne half from above, half from below.
+    let mut axial_n = vec![whole_n, 0.5 * whole_n];
+    for (tip, weight_n) in (3..).zip(weights_n) {
         members.extend([bar(1, tip, side), bar(2, tip, side)]);
-        axial_n.extend([weight * side, -weight * side]);
+        axial_n.extend([weight_n * side, -weight_n * side]);
     }
     members.extend([bar(3, 4, 1.0), bar(5, 6, 1.0)]);
     axial_n.extend([0.0, 0.0]);
@@ -150,9 +155,9 @@ fn hoops(angle: f64, heavier: f64) -> (System, SystemEquilibrium) {
     let end_forces_n: Vec<Vector> = (0..axial_n.len()).map(pull).collect();
     let (_, like) = lamp();
     let mut reactions_n = vec![[0.0; 3]; 7];
-    reactions_n[0] = [0.0, 0.0, 2.0 + 2.0 * heavier];
+    reactions_n[0] = [0.0, 0.0, whole_n];
     let answer = SystemEquilibrium {
-        energy_j: -1.5 * (2.0 + 2.0 * heavier),
+        energy_j: -1.5 * whole_n,
         start_forces_n: end_forces_n.iter().map(|f| f.map(|x| -x)).collect(),
         end_forces_n,
         joints_m,
@@ -165,7 +170,11 @@ fn hoops(angle: f64, heavier: f64) -> (System, SystemEquilibrium) {
 
 /// The same with two bars of 1.41 m from anchors beside the rod: no anchor is on its vertical.
 fn hoops_between_anchors(angle: f64, heavier: f64) -> (System, SystemEquilibrium) {
-    let (system, mut answer) = hoops(angle, heavier);
+    between_anchors(weighted_hoops(angle, [1.0, 1.0, heavier, heavier]))
+}
+
+fn between_anchors(hoops: (System, SystemEquilibrium)) -> (System, SystemEquilibrium) {
+    let (system, mut answer) = hoops;
     let places: [Vector; 2] = [[-1.0, 0.0, 0.0], [1.0, 0.0, 0.0]];
     let mut joints = system.joints().to_vec();
     joints[0] = Joint::anchor("A", places[0]);
@@ -174,7 +183,7 @@ fn hoops_between_anchors(angle: f64, heavier: f64) -> (System, SystemEquilibrium
     let bar = Bar::homogeneous(2.0_f64.sqrt(), 0.0).unwrap();
     members[0] = Member::bar(0, 1, bar);
     members.push(Member::bar(7, 1, bar));
-    let half_n = 1.0 + heavier;
+    let half_n = 0.5 * answer.reactions_n[0][2];
     let pulls: [Vector; 2] = [[-half_n, 0.0, half_n], [half_n, 0.0, half_n]];
     answer.joints_m[0] = places[0];
     answer.joints_m.push(places[1]);
@@ -207,4 +216,18 @@ fn what_hinges_on_two_joints_of_one_vertical_turns() {
         other.joints_m[5][2] += 1e-6;
         assert!(!compared(&system, first, other).agrees());
     }
+}
+
+/// Hoops of which each pulls the rod's ends aside by a billionth of a newton, in opposite
+/// directions: less than forces are known to, but turned against each other they would be out of
+/// balance. What hangs on the rod's upper end is turned as one.
+#[test]
+fn hoops_that_balance_each_other_are_turned_together() {
+    let weights_n = [1.0 + 2e-9, 1.0, 1.0, 1.0 + 2e-9];
+    let (system, second) = between_anchors(weighted_hoops(0.0, weights_n));
+    let (_, first) = between_anchors(weighted_hoops(1.6, weights_n));
+    assert!(super::judge(&system, &second).largest() < 1e-14);
+    let (turned, parts) = turned_onto(&system, &first, &second, &[false; 8]);
+    assert_eq!(parts, 1);
+    assert!(super::judge(&system, &turned).largest() < 1e-14);
 }

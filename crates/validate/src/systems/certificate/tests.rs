@@ -141,3 +141,15 @@ fn what_does_not_fit_or_is_not_finite_is_unusable() {
         assert_eq!(certify(&system, &answer), Err(NoCertificate::Unusable), "{k}");
     }
 }
+
+/// A millionth of a newton too much in each cable leaves 1.6e-6 N upwards at the lamp. With the
+/// least eigenvalue 1/2 of the two densities, half of which is proved or more, that costs no more
+/// than the square of it over 1/2, in the unit of 12 J.
+#[test]
+fn a_small_gradient_costs_its_square_over_the_eigenvalue() {
+    let (system, mut answer) = lamp();
+    answer.axial_n = vec![1.25 + 1e-6; 2];
+    let gap = certify(&system, &answer).unwrap().gap.unwrap();
+    let square = 1.6e-6_f64.powi(2);
+    assert!(gap >= square / 12.0 && gap <= square / 0.5 / 12.0 + 1e-14, "{gap:e}");
+}

@@ -61,3 +61,10 @@ fn stresses_are_searched_beyond_what_the_signs_ask_for() {
     let stress = found.stress.unwrap();
     assert!(stress.iter().all(|force| (force - 1.0).abs() < 1e-12), "{stress:?}");
 }
+
+/// 5 N over 10 m are half a newton per metre, 2 N over half a metre four.
+#[test]
+fn rounding_is_a_part_of_the_largest_density() {
+    let form = Form { motions: 1, by_force: vec![], lengths: vec![10.0, 0.5] };
+    assert!((form.zero(&[5.0, -2.0]) / 4e-9 - 1.0).abs() < 1e-14);
+}

@@ -1,0 +1,27 @@
+//! Numbers by names.
+
+use model::system::System;
+
+use super::*;
+
+/// The gallery's lamp by both solvers: what is read by name is what stands at that place.
+#[test]
+fn numbers_are_read_by_the_names_of_joints() {
+    let system: System = model::cases::exhibit("lamp").unwrap().system();
+    let settings = energy::network::Settings::default();
+    let found = energy::network::minimise(&system, &settings).unwrap().equilibrium;
+    for (k, joint) in system.joints().iter().enumerate() {
+        let bits = |force: [f64; 3]| force.map(f64::to_bits);
+        assert_eq!(bits(reaction(&system, &found, &joint.name)), bits(found.reactions_n[k]));
+    }
+    for (k, member) in system.members().iter().enumerate() {
+        let [from, to] = [member.from, member.to].map(|joint| system.joints()[joint].name.as_str());
+        assert_eq!(axial(&system, &found, from, to).to_bits(), found.axial_n[k].to_bits());
+        assert!(axial(&system, &found, to, from).is_nan());
+    }
+    assert!(reaction(&system, &found, "nobody").iter().all(|x| x.is_nan()));
+    // What holds the lamp up together is its weight.
+    let up: f64 = found.reactions_n.iter().map(|force| force[2]).sum();
+    let weight = system.total_mass_kg() * system.gravity_m_s2();
+    assert!((up / weight - 1.0).abs() < 1e-12 && weight > 1.0, "{up} {weight}");
+}
