@@ -83,6 +83,8 @@ mod tests {
         assert_eq!(check(&[2, 4, 2], &torus()), Ok(()));
         assert_eq!(check(&[2, 2, 1], &torus()), Err(MorseError::Euler { found: 1, expected: 0 }));
         assert_eq!(check(&[1, 1, 0], &torus()), Err(MorseError::TooFew { index: 1, missing: 1 }));
+        // Two minima more ask for two passes more.
+        assert_eq!(check(&[3, 3, 0], &torus()), Err(MorseError::TooFew { index: 1, missing: 1 }));
         assert_eq!(check(&[0, 2, 2], &torus()), Err(MorseError::TooFew { index: 0, missing: 1 }));
         assert_eq!(
             check(&[1, 2, 1, 1], &torus()),

@@ -113,3 +113,33 @@ fn refined(system: &System, precise: &PreciseSystem, signs: &[i8], zero: &Zero) 
     let at = [zero.tight.at[0].intersect(image.at[0])?, zero.tight.at[1].intersect(image.at[1])?];
     Some(Zero { tight: Cell { face, at }, ..*zero })
 }
+
+#[cfg(test)]
+mod tests {
+    use model::{Anchors, Bar};
+
+    use super::*;
+
+    /// Two bars of 5 m between level anchors 6 m apart: slopes of 4/3, so the pull is 3/4 of what
+    /// either bar bears. What was proved elsewhere says nothing of that zero.
+    #[test]
+    fn only_the_zero_that_was_proved_is_narrowed() {
+        let bars = vec![Bar::homogeneous(5.0, 1.0).unwrap(); 2];
+        let anchors = Anchors { start_m: [0.0; 3], end_m: [6.0, 0.0, 0.0] };
+        let chain = Chain::new("two", 10.0, anchors, bars).unwrap();
+        let system = System::new(&chain, JointLoads::NONE);
+        let precise = PreciseSystem::new(&chain, JointLoads::NONE, &system);
+        let pull = 0.75 * system.weight[1].mid();
+        let around = |x: f64, radius: f64| Cell {
+            face: Face::Near,
+            at: [x, 0.0].map(|x| Interval::around(x, radius)),
+        };
+        let tight = around(pull, 1e-9);
+        let refined =
+            |alone_in: Cell| refined(&system, &precise, &[1, 1], &Zero { tight, alone_in });
+        let Zero { tight: Cell { at, .. }, .. } = refined(around(pull, 1e-6)).unwrap();
+        assert!(at[0].contains(pull) && at[1].contains(0.0), "{at:?}");
+        assert!(at.into_iter().all(|part| part.width() < 1e-15), "{at:?}");
+        assert!(refined(around(pull + 1e-3, 1e-6)).is_none());
+    }
+}

@@ -282,7 +282,12 @@ mod tests {
     fn what_is_proved_outside_of_its_square_is_left_to_the_search() {
         let system = level();
         let mut closure = axial_closure(&system, &system.groups[1], Pattern(0)).unwrap();
-        assert_eq!(prove(&closure).unwrap().signs, [1, 0, 1]);
+        let ProvenEquilibrium { signs, alone_in, .. } = prove(&closure).unwrap();
+        // In the largest disc in which it is alone, that of 2⁻²¹.
+        let alone = |k: i32| closure.only_one(LARGEST_DISC * NEXT_DISC.powi(k)).is_some();
+        assert_eq!([0, 1, 2, 3, 4, 5].map(alone), [false, false, false, false, false, true]);
+        let half = 0.5 * f64::from_bits((1023 - 21) << 52);
+        assert_eq!((signs, alone_in.at), (vec![1, 0, 1], [Interval::new(-half, half); 2]));
         closure.axis = [Interval::ONE, Interval::point(0.125)];
         assert!(closure.only_one(LARGEST_DISC).is_some());
         assert!(prove(&closure).is_none());

@@ -23,3 +23,15 @@ fn stability_is_told_by_the_indices() {
     let told: Vec<_> = found.iter().map(|one| one.stability.in_space).collect();
     assert_eq!(told, [InSpace::Stable, InSpace::Unstable]);
 }
+
+/// Four equal bars between anchors in one point lie straight where two point back: 1 + 1 = 1 + 1.
+#[test]
+fn straight_positions_are_told_with_their_sides() {
+    let census = census(&crate::support::equal(4, [0.0; 3]));
+    assert!(census.undecided.is_empty() && census.degenerate.is_empty());
+    let completeness = census.completeness();
+    let Status::Open(Reason::StraightPosition { sides }) = &completeness else {
+        panic!("{completeness:?}")
+    };
+    assert_eq!(sides.len(), 2);
+}

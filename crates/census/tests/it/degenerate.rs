@@ -288,3 +288,22 @@ fn every_case_of_the_registry_has_an_honest_answer() {
         assert!(energies(&census).width().is_finite(), "{}", case.name);
     }
 }
+
+/// Two bars of 1 m hang below each other with 1 kg at each end, a level one leads to 2 kg on a bar of
+/// 3 m: forces of 2, 1 and 2 kg and 1/2 + 1/1 = 3/2, so that equilibria merge where the last bar
+/// is pushed and the others pull, or the other way round. Out of the plane each pushed bar falls; in
+/// it one of them is held by the closure.
+#[test]
+fn merged_equilibria_fall_as_their_bars_are_pushed() {
+    let bars = [(1.0, 1.0, 1.0), (1.0, 1.0, 1.0), (1.0, 2.0, 1.0), (3.0, 0.0, 1.5)];
+    for (height, signs, pushed) in [(-5.0, [1, 1, 0, -1], 1), (5.0, [-1, -1, 0, 1], 2)] {
+        let found = census(&problem(&bars, [1.0, 0.0, height]));
+        let merged: Vec<_> = found
+            .degenerate
+            .iter()
+            .filter(|one| one.signs == signs)
+            .map(|one| (one.index_in_plane, one.index_out_of_plane))
+            .collect();
+        assert_eq!(merged, [(pushed - 1, pushed)], "{:?}", found.degenerate);
+    }
+}

@@ -221,6 +221,9 @@ mod tests {
         let down = quotient(-x, half);
         assert!(down.contains(-1.0) && down.hi() < -1.0 + 1e-15 && down.lo() <= -f64::INFINITY);
         assert_eq!(quotient(Interval::new(-1.0, 1.0), half), Interval::LINE);
+        // Nothing over nothing may be anything.
+        assert_eq!(quotient(Interval::new(0.0, 1.0), half), Interval::LINE);
+        assert_eq!(quotient(Interval::new(-1.0, 0.0), half), Interval::LINE);
         assert_eq!(quotient(x, Interval::ZERO), Interval::LINE);
     }
 

@@ -311,4 +311,13 @@ mod tests {
         assert_eq!(kept, [3 * 128; 2]);
         assert!(examined(1).next.is_empty());
     }
+
+    #[test]
+    fn the_smallest_boxes_are_not_cut() {
+        for (part, expected) in [(1.0, [0, 2]), (0.25, [1, 0])] {
+            let mut outcome = Outcome::default();
+            cut(&[Interval::around(0.0, part * LEAST_WIDTH); 3], vec![], &mut outcome);
+            assert_eq!([outcome.undecided.len(), outcome.next.len()], expected, "{part}");
+        }
+    }
 }
