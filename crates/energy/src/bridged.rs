@@ -168,3 +168,6 @@ fn bend(u: &mut [model::Vector], length: &[f64], slack: f64, up: model::Vector) 
     u.fill(turned(-height / rest));
     u[0] = turned(height / first);
 }
+
+#[cfg(test)]
+mod tests;

@@ -397,3 +397,6 @@ impl Operator for Curvature {
             .collect())
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -265,3 +265,6 @@ pub(crate) fn verdict(
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -60,3 +60,6 @@ impl Hessian for Objective {
         })
     }
 }
+
+#[cfg(test)]
+mod tests;

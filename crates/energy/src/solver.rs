@@ -363,3 +363,6 @@ impl FeasibleNewton {
         flat && curvature.index(slope.zero) == 0
     }
 }
+
+#[cfg(test)]
+mod tests;

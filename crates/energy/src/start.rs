@@ -56,12 +56,44 @@ fn half_opening(span: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::settings::Motion;
+    use crate::vector::{along, dot};
 
     #[test]
     fn the_opening_solves_its_equation() {
         for span in [0.0, 1e-3, 0.5, 0.9, 0.999_999] {
             let x = half_opening(span);
             assert!((x.sin() - span * x).abs() < 1e-15);
+        }
+    }
+
+    /// The arc turns by twice its opening, from below the chord to above it: the bars sink at first
+    /// and rise at last, whichever way the chord points.
+    #[test]
+    fn the_arc_hangs_below_its_chord() {
+        for up in [[0.0, 0.0, 1.0], [0.6, 0.0, -0.8], [-0.8, 0.0, 0.6], [0.6, 0.0, 0.8]] {
+            for turn in 0..16 {
+                let (s, c) = (0.2 + 0.39 * f64::from(turn)).sin_cos();
+                let links = Links {
+                    length: vec![0.25; 5],
+                    carried: vec![0.0; 5],
+                    span: [[0.9 * c, 0.0, 0.9 * s], [0.0; 3]],
+                    up,
+                    vertical: false,
+                    motion: Motion::Plane,
+                };
+                let u = links.arc();
+                let half = half_opening(0.72);
+                let chord = [c, 0.0, s];
+                for (k, u) in (0..).zip(&u) {
+                    let angle = half * (0.4 * f64::from(k) - 0.8);
+                    assert!((dot(*u, chord) - angle.cos()).abs() < 1e-14);
+                }
+                // Up from the chord.
+                let side = along(up, -dot(up, chord), chord);
+                assert!(dot(u[0], side) < 0.0 && dot(u[4], side) > 0.0, "{up:?} {turn}");
+                assert!(dot(u[1], side) < 0.0 && dot(u[3], side) > 0.0, "{up:?} {turn}");
+            }
         }
     }
 }

@@ -130,3 +130,6 @@ pub(crate) fn coordinates(mechanism: &Mechanism, angles: &[[f64; 3]]) -> DVector
     }
     q
 }
+
+#[cfg(test)]
+mod tests;

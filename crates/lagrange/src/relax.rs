@@ -119,3 +119,6 @@ fn take(chain: &mut Reduced, penalty: f64, slope: f64) -> bool {
     chain.stay();
     cut
 }
+
+#[cfg(test)]
+mod tests;

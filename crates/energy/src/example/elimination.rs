@@ -110,6 +110,10 @@ mod tests {
                 assert!((bad.closure - gap).abs() < rounding, "theta {theta}: {bad:?}");
             }
         }
+        // Bar 1 straight down: (2 c - 1)², a double root.
+        let all = candidates(0.0);
+        assert_eq!(all.len(), 4);
+        assert!(all.iter().all(|one| (one.cos_alpha - 0.5).abs() <= 0.0));
         assert!(candidates(1.4).is_empty());
         assert!(candidates(f64::NAN).is_empty());
     }

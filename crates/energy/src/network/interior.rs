@@ -228,3 +228,6 @@ impl Solver<Potential, Iterate> for Interior {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

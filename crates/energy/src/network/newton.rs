@@ -375,3 +375,6 @@ fn accept(
 pub(super) fn finite(x: &[model::Vector]) -> bool {
     x.iter().all(|x| norm(*x).is_finite())
 }
+
+#[cfg(test)]
+mod tests;

@@ -68,3 +68,34 @@ fn weights_count_from_any_bar() {
         }
     }
 }
+
+/// A bar straight down, two without any load between them across a gap as wide as they are long, and
+/// a bar straight up. Where the two bear nothing they bridge the gap; where they bear something they
+/// are no such bars.
+#[test]
+fn bars_that_bear_a_force_bridge_no_gap() {
+    let bars = [(1.0, 1.0, 0.5), (0.5, 0.0, 0.25), (0.5, 0.0, 0.25), (1.0, 1.0, 0.5)];
+    let problem = samples::chain(&bars, [1.0, 0.0, 0.0]);
+    let (links, units) = Links::new(&problem, crate::settings::Motion::Plane);
+    let links = Links {
+        length: vec![1.0, 0.5, 0.5, 1.0],
+        carried: vec![0.25, 0.0, 0.0, -0.25],
+        span: [[1.0, 0.0, 0.0], [0.0; 3]],
+        up: [0.0, 0.0, 1.0],
+        ..links
+    };
+    let u = vec![[0.0, 0.0, -1.0], [1.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]];
+    for (pull, bridges) in
+        [(0.0, true), (0.9e-6, true), (1.1e-6, false), (1e-3, false), (0.6, false), (-0.1, false)]
+    {
+        let shape = Shape { moments: links.measure(&u), u: u.clone() };
+        let multiplier = [pull, 0.0, 0.0];
+        let mut point = Point { links: links.clone(), units, shape, multiplier };
+        let found = point.straightened(problem.chain());
+        assert_eq!(found.is_some(), bridges, "{pull}");
+        // Nothing is in doubt, and what they bear is put right.
+        assert!(found.is_none_or(|unknown| unknown.abs() <= 0.0));
+        let left = if bridges { 0.0 } else { pull };
+        assert!((point.multiplier[0] - left).abs() <= 0.0);
+    }
+}

@@ -263,3 +263,6 @@ fn solve([a, b, d]: [f64; 3], [x, y]: [f64; 2]) -> [f64; 2] {
     let inverse = 1.0 / (a * d - b * b);
     [(d * x - b * y) * inverse, (a * y - b * x) * inverse]
 }
+
+#[cfg(test)]
+mod tests;

@@ -188,3 +188,6 @@ fn along(
         part = next;
     }
 }
+
+#[cfg(test)]
+mod tests;

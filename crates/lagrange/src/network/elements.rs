@@ -315,3 +315,6 @@ impl Place {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

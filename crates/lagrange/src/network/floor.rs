@@ -182,3 +182,6 @@ fn lift_neighbours(
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -348,3 +348,6 @@ impl Hanging {
         true
     }
 }
+
+#[cfg(test)]
+mod tests;

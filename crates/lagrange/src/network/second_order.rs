@@ -344,3 +344,6 @@ fn node_in_plane(node: &Node, normal: &Vector3<f64>) -> Option<Node> {
     }
     Some(Node { free: Directions::new(axes, freedom), ..node.clone() })
 }
+
+#[cfg(test)]
+mod tests;

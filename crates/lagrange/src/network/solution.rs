@@ -261,3 +261,6 @@ pub(super) fn energy(framework: &Framework, state: &State) -> f64 {
     let stored = links.map(|(link, axial)| 0.5 * link.compliance * axial * axial);
     model::sum(loads.chain(stored))
 }
+
+#[cfg(test)]
+mod tests;

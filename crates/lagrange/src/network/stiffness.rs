@@ -324,3 +324,6 @@ fn pattern(
     });
     (places.collect(), columns, rows)
 }
+
+#[cfg(test)]
+mod tests;

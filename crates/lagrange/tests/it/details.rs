@@ -3,7 +3,7 @@
 use lagrange::batch::{Batch, BatchSettings};
 use lagrange::condensed::{self, Solver};
 use lagrange::network::{Derivatives, PaperUnknowns, Parameter, paper_residual, solve};
-use lagrange::{Seed, Settings, StepMethod, solve_from};
+use lagrange::{Seed, Settings, SolveError, StepMethod, solve_from};
 use model::system::{Joint, Member, PointLoad, Support, System};
 use model::{Anchors, Bar, Chain, Problem};
 use rand::RngExt;
@@ -181,4 +181,21 @@ fn a_floor_ends_a_slide() {
     assert!((x - 2.0 / 3.0).abs() < 1e-12 && z.abs() < 1e-12, "{x} {z}");
     let [rx, ry, rz] = found.equilibrium.reactions_n[1];
     assert!(rx.abs() < 1e-10 && ry.abs() < 1e-10 && (rz - 30.0).abs() < 1e-10, "{rx} {ry} {rz}");
+}
+
+/// A search for what is stable ends after as many tries as it may make, and the first.
+#[test]
+fn searches_for_what_is_stable_end() {
+    let problem = model::cases::paper();
+    for relaxations in [0, 1, 3] {
+        let hasty = Settings {
+            max_iterations: 1,
+            max_relaxation_steps: 1,
+            relaxations,
+            ..Default::default()
+        };
+        let error = lagrange::solve(&problem, &hasty).unwrap_err();
+        let SolveError::Stagnated { relaxations: made, .. } = error else { panic!("{error}") };
+        assert_eq!(made, relaxations + 1);
+    }
 }

@@ -189,4 +189,19 @@ mod tests {
         assert_eq!(fold(1.0, 0.0009), Regime::CompactFold);
         assert_eq!(fold(0.95, 0.1), Regime::Strut);
     }
+
+    /// Bars of 3 and 1 without load reach from 2 to 4, folded and stretched: in between, and where
+    /// they just do, they carry nothing.
+    #[test]
+    fn bars_without_load_fill_what_they_reach() {
+        let gap = |across: f64| {
+            let (lengths, light) = ([2.0, 2.0, 3.0, 1.0, 2.0, 2.0], [1.0, 1.0, 0.0, 0.0, 1.0, 1.0]);
+            regime(&lengths, &light, [across, 0.0, 0.0])
+        };
+        assert_eq!(gap(2.0 - 1e-9), Regime::Strut);
+        assert_eq!(gap(2.0), Regime::Unloaded);
+        assert_eq!(gap(2.0 + 1e-9), Regime::Unloaded);
+        assert_eq!(gap(4.0 - 1e-9), Regime::Unloaded);
+        assert_eq!(gap(4.0 + 1e-9), Regime::Tension);
+    }
 }

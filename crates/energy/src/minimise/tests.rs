@@ -1,0 +1,61 @@
+//! Chains that cannot close.
+
+use super::*;
+use crate::settings::Motion;
+
+fn straight(length: f64, span: f64) -> (Links, Vec<Vector>) {
+    let links = Links {
+        length: vec![length; 5],
+        carried: vec![0.4, 0.2, 0.0, -0.2, -0.4],
+        span: [[span, 0.0, 0.0], [0.0; 3]],
+        up: [0.0, 0.0, 1.0],
+        vertical: false,
+        motion: Motion::Space,
+    };
+    (links, vec![[1.0, 0.0, 0.0]; 5])
+}
+
+/// The anchors are too far from each other by 0.05, of a length of 1.25.
+#[test]
+fn what_a_chain_lacks_is_a_part_of_its_length() {
+    let (links, start) = straight(0.25, 1.3);
+    let Err(Error::NotClosed { gap, .. }) = descend(links, start, &Settings::default()) else {
+        panic!("it does not close");
+    };
+    assert!((gap - 0.04).abs() < 1e-6, "{gap}");
+}
+
+/// A gap of rounding counts as closed, but not where the chain has no length to spare for it.
+#[test]
+fn a_chain_that_is_too_short_by_a_rounding_does_not_close() {
+    let (links, start) = straight(0.2, 1.0 + 2.0 * f64::EPSILON);
+    assert!((links.spare() + 2.0 * f64::EPSILON).abs() <= 0.0);
+    let Err(Error::NotClosed { gap, .. }) = descend_to_line(links, start, &Settings::default())
+    else {
+        panic!("it does not close");
+    };
+    assert!(gap > 0.0 && gap < 1e-14, "{gap}");
+}
+
+/// Only one of the reasons to stop is a success.
+#[test]
+fn a_run_that_ends_otherwise_is_an_error() {
+    let reason = |reason| verdict(&TerminationStatus::Terminated(reason), 7, 0.5);
+    assert!(reason(TerminationReason::SolverConverged).is_ok());
+    let Err(Error::IterationLimit { iterations, gradient }) =
+        reason(TerminationReason::MaxItersReached)
+    else {
+        panic!("it ran out of iterations");
+    };
+    assert!(iterations == 7 && (gradient - 0.5).abs() <= 0.0);
+    for other in [
+        TerminationReason::TargetCostReached,
+        TerminationReason::Interrupt,
+        TerminationReason::Timeout,
+        TerminationReason::SolverExit("tired".to_owned()),
+    ] {
+        assert!(matches!(reason(other), Err(Error::Ended { .. })));
+    }
+    let open = verdict(&TerminationStatus::NotTerminated, 7, 0.5);
+    assert!(matches!(open, Err(Error::Ended { .. })));
+}

@@ -1,0 +1,38 @@
+//! Where the search may end.
+
+use super::*;
+use crate::settings::Motion;
+
+/// A hanging chain that is closed and all in tension, on the arc that it starts from.
+fn hanging() -> Curvature {
+    let links = Links {
+        length: vec![0.25; 5],
+        carried: vec![0.4, 0.2, 0.0, -0.2, -0.4],
+        span: [[1.0, 0.0, 0.0], [0.0; 3]],
+        up: [0.0, 0.0, 1.0],
+        vertical: false,
+        motion: Motion::Plane,
+    };
+    let u = links.arc();
+    let shape = links.close(Shape { moments: links.measure(&u), u }, 60).unwrap();
+    let slope = Slope::new(&links, &shape);
+    Curvature { links: Arc::new(links), shape: Arc::new(shape), slope: Arc::new(slope) }
+}
+
+/// A chain that is closed need not be at rest, nor one whose gradient is rounding closed.
+#[test]
+fn a_place_that_is_no_rest_is_not_taken_for_one() {
+    let solver = FeasibleNewton::new(Settings::default());
+    let sloping = hanging();
+    assert!(sloping.slope.residual() > 1e-3 && sloping.index(sloping.slope.zero) == 0);
+    assert!(!solver.at_rounding(&sloping));
+    let mut open = sloping.clone();
+    let mut slope = (*open.slope).clone();
+    slope.across = 0.0;
+    open.slope = Arc::new(slope);
+    assert!(solver.at_rounding(&open));
+    let mut shape = (*open.shape).clone();
+    shape.moments.gap = [1e-9, 0.0, 0.0];
+    open.shape = Arc::new(shape);
+    assert!(!solver.at_rounding(&open));
+}

@@ -1,0 +1,59 @@
+//! The plane of a system, by hand.
+
+use super::*;
+use crate::network::framework::Units;
+
+/// Three joints in a vertical plane at this azimuth, the last one and the second load out of it by
+/// so much.
+fn shape(azimuth: f64, joint: f64, largest: f64, load: f64) -> (Framework, State) {
+    let (sin, cos) = azimuth.sin_cos();
+    let (along, normal) = (Vector3::new(cos, sin, 0.0), Vector3::new(-sin, cos, 0.0));
+    let node = |load: Vector3<f64>| Node { base: Vector3::zeros(), free: Directions::All, load };
+    let framework = Framework {
+        units: Units { length_m: 1.0, force_n: 1.0, origin_m: Vector3::zeros() },
+        nodes: vec![
+            node(Vector3::new(0.0, 0.0, -largest)),
+            node(normal * load),
+            node(along * (0.5 * largest)),
+        ],
+        links: Vec::new(),
+    };
+    let up = Vector3::new(0.0, 0.0, 3.0);
+    let places = vec![up, along * 4.0 + up * 2.0, along * 2.0 + normal * joint];
+    (framework, State::new(places, Vec::new(), Vec::new()))
+}
+
+/// Joints are in the plane to 1e-9 of the extent, here 5, loads to 1e-9 of the largest.
+#[test]
+fn planes_are_measured_by_the_extent_and_by_the_largest_load() {
+    for azimuth in [0.0, 0.7, 2.0, -1.3] {
+        let is = |joint: f64, largest: f64, load: f64| {
+            let (framework, state) = shape(azimuth, joint, largest, load);
+            let normal = plane(&framework, &state);
+            if let Some(normal) = normal {
+                let [x, y] = [normal.x, normal.y];
+                assert!((x * azimuth.cos() + y * azimuth.sin()).abs() < 1e-8);
+                assert!((normal.norm() - 1.0).abs() < 1e-15 && normal.z.abs() < 1e-15);
+            }
+            normal.is_some()
+        };
+        assert!(is(0.0, 1.0, 0.0));
+        for largest in [1e-3, 1.0, 1e3] {
+            assert!(is(0.0, largest, 0.9e-9 * largest) && !is(0.0, largest, 1.1e-9 * largest));
+            assert!(is(4e-9, largest, 0.0) && !is(6e-9, largest, 0.0));
+        }
+    }
+}
+
+/// Joints on one vertical: the loads say the plane, and where they do not any will do.
+#[test]
+fn loads_give_a_vertical_line_its_plane() {
+    for azimuth in [0.0, 0.7, 2.0] {
+        let (mut framework, mut state) = shape(azimuth, 0.0, 1e3, 0.0);
+        state.places = vec![Vector3::zeros(), Vector3::z(), Vector3::z() * 2.0];
+        let normal = plane(&framework, &state).unwrap();
+        assert!((normal.x * azimuth.cos() + normal.y * azimuth.sin()).abs() < 1e-15);
+        framework.nodes[2].load = Vector3::zeros();
+        assert!((plane(&framework, &state).unwrap().y.abs() - 1.0).abs() < 1e-15);
+    }
+}
