@@ -443,20 +443,34 @@ mod tests {
         assert!((gamma(8) / (5.0 * f64::EPSILON) - 1.0).abs() < 1e-14);
     }
 
-    /// The squares in a row of the factor add up to the diagonal, which is the same in all rows,
-    /// whatever their order.
+    /// The squares in a row of the factor add up to the diagonal, which is the same in all rows. The
+    /// products of its rows with the sums over its columns are the sums over the rows of the matrix,
+    /// in whatever order.
     #[test]
-    fn every_entry_of_a_factor_stands_in_its_row() {
+    fn every_entry_of_a_factor_stands_in_its_row_and_column() {
+        let sorted = |mut values: Vec<f64>| {
+            values.sort_by(f64::total_cmp);
+            values
+        };
         for (wide, high) in [(30, 1), (5, 4), (150, 150)] {
             let matrix = grid(wide, high, 4.5);
+            let mut wanted = matrix.diagonal.clone();
+            for (row, column, value) in &matrix.below {
+                wanted[*row] += value;
+                wanted[*column] += value;
+            }
             let mut factor = Factor::new(&matrix).unwrap();
             factor.bound(&matrix, 0.0).unwrap();
-            let mut rows = vec![0.0; matrix.size];
+            let (mut squares, mut columns) = (vec![0.0; matrix.size], vec![0.0; matrix.size]);
             factor.entries(|row, column, entry| {
-                assert!(row >= column);
-                rows[row] += entry * entry;
+                squares[row] += entry * entry;
+                columns[column] += entry;
             });
-            assert!(rows.iter().all(|sum| (sum - 4.5).abs() < 1e-13), "{wide} x {high}");
+            let mut rows = vec![0.0; matrix.size];
+            factor.entries(|row, column, entry| rows[row] += entry * columns[column]);
+            assert!(squares.iter().all(|sum| (sum - 4.5).abs() < 1e-13), "{wide} x {high}");
+            let apart = sorted(rows).into_iter().zip(sorted(wanted)).map(|(a, b)| (a - b).abs());
+            assert!(apart.fold(0.0, f64::max) < 1e-12, "{wide} x {high}");
         }
         // The large net by the other kind of factor.
         assert!(supernodal(&grid(150, 150, 4.5)) && !supernodal(&grid(30, 1, 4.5)));
