@@ -275,4 +275,21 @@ mod tests {
     fn nothing_has_no_sign() {
         assert_eq!(Symmetric::zero(3).eigen().signs(1e-15), (0, 0));
     }
+
+    /// Signs are counted above a part of the largest: of 1000 and 1e-3 above 1, of 0.1 above 1e-4.
+    #[test]
+    fn signs_are_counted_above_a_part_of_the_largest() {
+        for (diagonal, signs) in [
+            ([1000.0, 0.5, -0.5, -2.0], (1, 1)),
+            ([-1000.0, 1.5, 0.5, -0.5], (1, 1)),
+            ([0.1, 0.5e-4, -0.5e-4, -2e-4], (1, 1)),
+            ([0.1, 2e-4, -0.5e-4, -2e-4], (2, 1)),
+        ] {
+            let mut matrix = Symmetric::zero(4);
+            for (k, value) in diagonal.into_iter().enumerate() {
+                matrix.entry[k][k] = value;
+            }
+            assert_eq!(matrix.eigen().signs(1e-3), signs, "{diagonal:?}");
+        }
+    }
 }

@@ -210,3 +210,6 @@ pub(super) fn parallel([a, b, d]: [f64; 3], gap: [f64; 2], square: f64) -> bool 
     let along = a * gap[0] * gap[0] + 2.0 * b * gap[0] * gap[1] + d * gap[1] * gap[1];
     along <= LEAST * square
 }
+
+#[cfg(test)]
+mod tests;

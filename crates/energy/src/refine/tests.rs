@@ -99,3 +99,25 @@ fn bars_that_bear_a_force_bridge_no_gap() {
         assert!((point.multiplier[0] - left).abs() <= 0.0);
     }
 }
+
+/// The same across a gap wider by 2^-44 of their length 1, which is a rounding: the plumb bars, of 1
+/// as well, give way by that.
+#[test]
+fn what_is_missing_is_how_far_plumb_bars_give_way() {
+    let wider = 1.0 + 2.0_f64.powi(-44);
+    let bars = [(1.0, 1.0, 0.5), (0.5, 0.0, 0.25), (0.5, 0.0, 0.25), (1.0, 1.0, 0.5)];
+    let problem = samples::chain(&bars, [wider, 0.0, 0.0]);
+    let (links, units) = Links::new(&problem, crate::settings::Motion::Plane);
+    let links = Links {
+        length: vec![1.0, 0.5, 0.5, 1.0],
+        carried: vec![0.25, 0.0, 0.0, -0.25],
+        span: [[wider, 0.0, 0.0], [0.0; 3]],
+        up: [0.0, 0.0, 1.0],
+        ..links
+    };
+    let u = vec![[0.0, 0.0, -1.0], [1.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]];
+    let shape = Shape { moments: links.measure(&u), u };
+    let mut point = Point { links, units, shape, multiplier: [0.0; 3] };
+    let unknown = point.straightened(problem.chain()).unwrap();
+    assert!((unknown * 2.0_f64.powi(44) - 1.0).abs() < 1e-9, "{unknown}");
+}

@@ -76,3 +76,6 @@ pub(super) fn two_sum(a: f64, b: f64) -> (f64, f64) {
     let part = sum - a;
     (sum, (a - (sum - part)) + (b - part))
 }
+
+#[cfg(test)]
+mod tests;

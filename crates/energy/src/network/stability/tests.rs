@@ -176,3 +176,17 @@ fn the_condition_is_that_of_the_stiffnesses() {
         );
     }
 }
+
+/// Where the truss slides along a level line its two bars pull against each other, and the slack
+/// cable has no part in that.
+#[test]
+fn two_bars_on_a_line_pull_against_each_other() {
+    let (mut frame, shape) = truss(0.0);
+    frame.spots[3].freedom = 1;
+    frame.freedom = 1;
+    let stresses = Dense::new(&frame, &shape).self_stresses(&frame);
+    let [stress] = &stresses[..] else { panic!("one, not {}", stresses.len()) };
+    assert!(stress.len() == 3 && stress[2].abs() <= 0.0);
+    assert!((stress[0].abs() - std::f64::consts::FRAC_1_SQRT_2).abs() < 1e-15);
+    assert!((stress[0] - stress[1]).abs() < 1e-15);
+}

@@ -18,8 +18,9 @@ fn shape(azimuth: f64, joint: f64, largest: f64, load: f64) -> (Framework, State
         ],
         links: Vec::new(),
     };
-    let up = Vector3::new(0.0, 0.0, 3.0);
-    let places = vec![up, along * 4.0 + up * 2.0, along * 2.0 + normal * joint];
+    let (up, from) = (Vector3::new(0.0, 0.0, 3.0), Vector3::new(7.0, -2.0, 1.0));
+    let places = [up, along * 4.0 + up * 2.0, along * 2.0 + normal * joint];
+    let places = places.map(|place| place + from).into();
     (framework, State::new(places, Vec::new(), Vec::new()))
 }
 
