@@ -35,7 +35,6 @@ fn main() -> Result<(), Box<dyn Error>> {
         angles: Vec::new(),
         equilibria: sweep.members().list().to_vec(),
         equilibria_complete: sweep.members().complete(),
-        equilibria_left_out: sweep.members().left_out(),
         format: format.clone(),
         part_seeds: 0,
         shard: Shard::WHOLE,
@@ -50,7 +49,8 @@ fn main() -> Result<(), Box<dyn Error>> {
         for _ in 0..RUNS {
             let folder = tempfile::tempdir()?;
             let start = Instant::now();
-            let settings = RunSettings { threads, resume: false, stop: &stop, done: &|_| () };
+            let settings =
+                RunSettings { threads, resume: false, stop: &stop, done: &|_| (), found: &|_| () };
             let done = run(folder.path(), &manifest, &sweep, &settings)?;
             rate = rate.max(seeds as f64 / start.elapsed().as_secs_f64());
             bytes = done.summary.iter().flat_map(|s| &s.parts).map(|part| part.bytes).sum();

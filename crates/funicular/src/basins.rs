@@ -2,7 +2,7 @@
 
 use model::SolverName;
 use rayon::prelude::*;
-use sweep::{Axis, Failure, Field, Member, Outcomes, Settings, Source};
+use sweep::{Axis, Chunk, Discovered, Failure, Field, Member, Outcomes, Settings, Source};
 
 use crate::error::Error;
 use crate::problem::Problem;
@@ -99,26 +99,38 @@ impl Basins {
         let size = u64::from(self.size);
         threads::on(self.threads, || {
             let sweep = sweep::Sweep::new(chain, settings, solvers(chain)?)?;
-            let rows: Vec<_> = (0..size)
-                .into_par_iter()
-                .map(|row| sweep.run_chunk(row * size..(row + 1) * size))
-                .collect();
             let [mut lagrange, mut energy] = [Outcomes::default(), Outcomes::default()];
-            for row in &rows {
+            let mut add = |row: Chunk| {
                 for (all, name) in [(&mut lagrange, "lagrange"), (&mut energy, "energy")] {
                     let Some(part) = row.of(name) else { continue };
                     all.outcome.extend(&part.outcome);
                     all.iterations.extend(&part.iterations);
                 }
+            };
+            let proven = sweep.members().list().iter();
+            let mut discovered = Discovered::default();
+            match sweep.nothing_reached() {
+                None => {
+                    let rows: Vec<_> = (0..size)
+                        .into_par_iter()
+                        .map(|row| sweep.run_chunk(row * size..(row + 1) * size))
+                        .collect();
+                    rows.into_iter().for_each(add);
+                }
+                Some(mut reached) => {
+                    sweep.run_chunks(0..size * size, size, &mut reached, &mut add);
+                    for outcomes in [&mut lagrange, &mut energy] {
+                        discovered = reached.renumber(outcomes);
+                    }
+                }
             }
-            let names = sweep.members().list().iter().enumerate().map(name).collect();
+            let names = proven.chain(&discovered.equilibria).enumerate().map(name).collect();
             let title = chain.chain().name().to_owned();
             Ok(BasinsAnswer { of: *self, axes: [i, j], bars, title, names, lagrange, energy })
         })?
     }
 
-    /// Processor time that the starts take, and making the list of equilibria where the chain is
-    /// too long for a census, s: from a few starts, good to a factor of three.
+    /// Processor time that the starts take, s: from a few starts, good to a factor of three.
     ///
     /// # Errors
     ///

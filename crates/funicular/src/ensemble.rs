@@ -145,7 +145,6 @@ impl Ensemble {
             angles: Vec::new(),
             equilibria: list,
             equilibria_complete: found.complete,
-            equilibria_left_out: 0,
             format: self.format.name().to_owned(),
             part_seeds: 0,
             shard: Shard::WHOLE,

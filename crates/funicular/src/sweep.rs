@@ -165,25 +165,26 @@ impl Sweep {
         watch: &dyn Fn(u64),
     ) -> Result<SweepAnswer, Error> {
         let prepared = self.prepare(problem)?;
-        let mut summary = prepared.sweep.run(0..self.seeds.min(TOLD), self.threads)?;
-        let mut done = self.seeds.min(TOLD);
-        watch(done);
+        let mut swept = prepared.sweep.begin();
+        let mut done = 0;
         while done < self.seeds {
             let next = self.seeds.min(done.saturating_add(TOLD));
-            summary.merge(&prepared.sweep.run(done..next, self.threads)?);
+            prepared.sweep.go_on(&mut swept, done..next, self.threads)?;
             done = next;
             watch(done);
         }
         let members = prepared.sweep.members();
+        let (summary, discovered) = swept.finish();
+        let discovered = discovered.unwrap_or_default();
         Ok(SweepAnswer {
-            equilibria: members.list().to_vec(),
+            equilibria: members.list().iter().cloned().chain(discovered.equilibria).collect(),
             complete: members.complete(),
-            left_out: members.left_out(),
+            listed_below_j: discovered.below_j,
             summary,
         })
     }
 
-    /// Make the list of equilibria that the outcomes are numbered by.
+    /// List the equilibria that are proved: all, where the census is complete.
     ///
     /// # Errors
     ///
@@ -211,8 +212,7 @@ impl Sweep {
         Ok(PreparedSweep { system: chain.chain().summary(), sweep, manifest })
     }
 
-    /// Processor time that the starts take, and making the list of equilibria where the chain is
-    /// too long for a census, s: from a few starts, good to a factor of three.
+    /// Processor time that the starts take, s: from a few starts, good to a factor of three.
     ///
     /// # Errors
     ///
@@ -255,7 +255,6 @@ impl Sweep {
             angles: (1..=angles).map(|bar| format!("theta_{bar}_rad")).collect(),
             equilibria: sweep.members().list().to_vec(),
             equilibria_complete: sweep.members().complete(),
-            equilibria_left_out: sweep.members().left_out(),
             format: self.format.name().to_owned(),
             part_seeds: 0,
             shard: Shard::WHOLE,
@@ -328,9 +327,9 @@ pub struct SweepAnswer {
     pub equilibria: Vec<Member>,
     /// Whether it is proved that there are no others.
     pub complete: bool,
-    /// Equilibria that were reached when the list was made, and are not in it: too many, each from
-    /// few starts.
-    pub left_out: u64,
+    /// Energy, J, from which on equilibria that were reached are not in the list: there were too
+    /// many, and these are the lowest. None where all are listed.
+    pub listed_below_j: Option<f64>,
     /// The counts.
     pub summary: Summary,
 }

@@ -27,9 +27,9 @@ fn format(word: &str) -> PyResult<Format> {
 fn told(manifest: &Manifest, summary: &StoreSummary) -> String {
     let object = json!({
         "seeds": summary.outcomes.seeds(),
-        "equilibria": manifest.equilibria,
+        "equilibria": summary.equilibria(manifest).collect::<Vec<_>>(),
         "complete": manifest.equilibria_complete,
-        "left_out": manifest.equilibria_left_out,
+        "listed_below_j": summary.listed_below_j(),
         "outcomes": outcomes(&summary.outcomes),
         "parts": summary.parts,
         "check_failed": summary.check_failed(manifest),
@@ -75,7 +75,8 @@ pub fn sweep_write<'py>(
             }
         };
         let threads = rayon::current_num_threads();
-        let settings = RunSettings { threads, resume, stop: watch.stop(), done: &done };
+        let stop = watch.stop();
+        let settings = RunSettings { threads, resume, stop, done: &done, found: &|_| () };
         let run = prepared.write(&folder, &settings)?;
         Ok::<_, Error>(run.summary.map(|summary| told(prepared.manifest(), &summary)))
     })?;

@@ -36,12 +36,12 @@ pub fn sweep<'py>(
         })
     })?;
     let found: SweepAnswer = found.map_err(|error: Error| raise(&error))?;
-    let SweepAnswer { equilibria, complete, left_out, summary } = &found;
+    let SweepAnswer { equilibria, complete, listed_below_j, summary } = &found;
     let object = json!({
         "seeds": seeds,
         "equilibria": equilibria,
         "complete": complete,
-        "left_out": left_out,
+        "listed_below_j": listed_below_j,
         "outcomes": outcomes(summary),
     });
     Ok(object.to_string())

@@ -12,8 +12,7 @@ use crate::solver::{BatchSolver, Solvers};
 const TIMED_BARS: usize = 1 << 14;
 
 /// Processor time of a sweep over so many seeds, s, from the time that a few of them take here:
-/// good to a factor of three. With it the time of making the list of equilibria where the chain is
-/// too long for a census; that of a census, which is of a second or so, is left out.
+/// good to a factor of three. The time of a census, which is of a second or so, is left out.
 ///
 /// # Errors
 ///
@@ -62,11 +61,6 @@ pub fn expected_time_s(
         solver.solve(&angles, &mut Ends::default());
         start.elapsed().as_secs_f64() / (angles.len() / bars.max(1)).max(1) as f64
     };
-    let each = solvers.discover.iter().map(|solver| (solver.name(), one_s(solver.as_ref())));
-    let each: Vec<_> = each.collect();
-    let asked = |name: &str| solvers.names().any(|asked| asked == name);
-    let seed_s: f64 = each.iter().filter(|(name, _)| asked(name)).map(|(_, time)| time).sum();
-    let discovered = if bars > settings.census.max_bars { settings.discovering(bars) } else { 0 };
-    let list_s: f64 = each.iter().map(|(_, time)| time).sum();
-    Ok(seeds as f64 * seed_s + f64::from(discovered) * list_s)
+    let seed_s: f64 = solvers.asked.iter().map(|solver| one_s(solver.as_ref())).sum();
+    Ok(seeds as f64 * seed_s)
 }

@@ -1,18 +1,14 @@
 //! The list of equilibria that outcomes are numbered by, and the way to a number.
 
-use std::cmp::{Ordering, Reverse};
-use std::collections::BTreeSet;
+use std::cmp::Ordering;
 
 use census::{Census, CensusError, ProvenEquilibrium, SlackFamily};
-use model::{Chain, Ends, Finish, Problem};
+use model::{Chain, Problem};
 use serde::{Deserialize, Serialize};
 
 use crate::accuracy::{carried, place_error};
 use crate::error::SweepError;
 use crate::settings::Settings;
-use crate::solver::{Finds, Solvers};
-use crate::starts::Source;
-use crate::sweep::block;
 
 /// An outcome is an equilibrium of the list when no joint is farther from it than this, in total
 /// lengths. A converged seed is within its residual (1e-13) times the condition of the equilibrium;
@@ -22,19 +18,7 @@ pub const JOINT_TOLERANCE: f64 = 1e-6;
 
 /// Energies of one equilibrium differ by less than this, in total weight times total length: near
 /// an equilibrium the energy changes with the square of the distance, and with the gap.
-const ENERGY_TOLERANCE: f64 = 1e-9;
-
-/// Most discovered equilibria in a list. In a long chain nearly every seed of the first solver
-/// reaches another one: a list of those identifies nothing, and each costs as much text as a
-/// thousand rows.
-pub const DISCOVERED: usize = 1000;
-
-/// Most seeds that discover equilibria at a time. The list depends on it, as on the order in which
-/// the solvers are asked: of what is found twice the first is kept.
-const RUN: u64 = 1000;
-
-/// Seed number of the seeds that discover equilibria: always the same, whatever the sweep.
-const DISCOVERY: u64 = 0x0066_756e_6963_756c;
+pub(crate) const ENERGY_TOLERANCE: f64 = 1e-9;
 
 /// Where an entry of the list comes from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -70,25 +54,21 @@ pub struct Member {
     pub joints_m: Option<Vec<model::Vector>>,
 }
 
-/// All entries, by energy and then by angles, and what it takes to find one. Equal for equal
-/// problems and settings: it depends on no seed of the sweep, no thread, no shard.
+/// What the census proves, by energy and then by angles, and what it takes to find an entry. Equal
+/// for equal problems and settings: it depends on no seed of the sweep, no thread, no shard.
 ///
-/// It is the list of the census when that is complete. When the census leaves something undecided,
-/// or the chain is too long for one, what [`Settings::discovering`] random seeds (always the same)
-/// reach through all solvers is added: the [`DISCOVERED`] equilibria that most of them reach. A
-/// seed that later converges to something else is [`Failure::Unlisted`](crate::Failure::Unlisted),
-/// and stays in the count.
+/// When the census leaves something undecided, or the chain is too long for one, the list is not
+/// complete, and what the seeds reach is numbered behind it, as they go: [`Reached`](crate::Reached).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Members {
     list: Vec<Member>,
     complete: bool,
-    left_out: u64,
     lookup: Lookup,
 }
 
 /// The list in units of the chain.
 #[derive(Debug, Clone, PartialEq)]
-struct Lookup {
+pub(crate) struct Lookup {
     lengths: Vec<f64>,
     /// One per entry, ascending.
     energies: Vec<f64>,
@@ -112,11 +92,7 @@ impl Members {
     ///
     /// [`SweepError::Census`] when the settings of the census are out of range,
     /// [`SweepError::TooManyEquilibria`] when the columns cannot number them.
-    pub fn of(
-        problem: &Problem,
-        settings: &Settings,
-        solvers: &Solvers,
-    ) -> Result<Self, SweepError> {
+    pub fn of(problem: &Problem, settings: &Settings) -> Result<Self, SweepError> {
         let (mut list, complete) = match Census::take(problem, &settings.census) {
             Ok(census) => (proven(&census, problem), census.complete),
             Err(CensusError::TooManyBars { .. }) => (vec![], false),
@@ -127,19 +103,11 @@ impl Members {
         }
         list.sort_by(by_energy_and_angles);
         let lookup = Lookup::new(problem, &list);
-        let mut members = Self { list, complete, left_out: 0, lookup };
-        if !complete {
-            members.discover(problem, settings, solvers)?;
-        }
-        Ok(members)
+        Ok(Self { list, complete, lookup })
     }
 
     /// Largest number of entries: as many as there are codes that are not negative.
-    const MOST: usize = i16::MAX as usize;
-
-    /// Most entries held while they are discovered, to bound the time of keeping them in order; a
-    /// seed that reaches something else then is counted as one more left out.
-    const HELD: usize = 2 * Self::MOST;
+    pub(crate) const MOST: usize = i16::MAX as usize;
 
     /// The entries; the number of one is its place.
     #[must_use]
@@ -151,13 +119,6 @@ impl Members {
     #[must_use]
     pub fn complete(&self) -> bool {
         self.complete
-    }
-
-    /// How many equilibria were discovered and left out of the list, because the seeds reached
-    /// others more often.
-    #[must_use]
-    pub fn left_out(&self) -> u64 {
-        self.left_out
     }
 
     /// What energies are compared in: total weight times total length, J.
@@ -173,82 +134,6 @@ impl Members {
         let entry = self.lookup.nearest(directions, energy_j)?;
         i16::try_from(entry).ok()
     }
-
-    /// Add what the fixed random seeds reach.
-    fn discover(
-        &mut self,
-        problem: &Problem,
-        settings: &Settings,
-        solvers: &Solvers,
-    ) -> Result<(), SweepError> {
-        let bars = problem.chain().bars().len();
-        let run = block(bars, RUN);
-        let starts = Source::Uniform.ready(DISCOVERY, bars)?;
-        let mut angles = vec![];
-        let mut ends = Ends::default();
-        let all = u64::from(settings.discovering(bars));
-        // Seeds that reached each entry.
-        let mut seeds = vec![0; self.list.len()];
-        for start in (0..all).step_by(usize::try_from(run).unwrap_or(1)) {
-            starts.fill(start..all.min(start + run), bars, &mut angles);
-            for solver in &solvers.discover {
-                let index = (solver.finds() == Finds::Minima).then_some(0);
-                solver.solve(&angles, &mut ends);
-                for (k, finish) in ends.finish.iter().enumerate() {
-                    if *finish == Finish::Converged {
-                        let u = &ends.directions[k * bars..(k + 1) * bars];
-                        self.add(u, ends.energy_j[k], index, &mut seeds);
-                    }
-                }
-            }
-        }
-        self.keep(&seeds);
-        self.lookup = Lookup::new(problem, &self.list);
-        Ok(())
-    }
-
-    /// Keep of the discovered entries those that most seeds reached; of equals the lower ones.
-    fn keep(&mut self, seeds: &[u64]) {
-        let mut found: Vec<usize> =
-            (0..self.list.len()).filter(|k| self.list[*k].origin == Origin::Discovered).collect();
-        let room = DISCOVERED.min(Self::MOST - (self.list.len() - found.len()));
-        if found.len() <= room {
-            return;
-        }
-        // Stable: the list is by energy.
-        found.sort_by_key(|k| Reverse(seeds[*k]));
-        let dropped: BTreeSet<usize> = found[room..].iter().copied().collect();
-        self.left_out += dropped.len() as u64;
-        let mut number = 0..;
-        self.list.retain(|_| number.next().is_none_or(|k| !dropped.contains(&k)));
-    }
-
-    /// Count a seed for its entry, a new one if it is not there.
-    fn add(&mut self, u: &[[f64; 2]], energy_j: f64, index: Option<usize>, seeds: &mut Vec<u64>) {
-        if let Some(entry) = self.lookup.nearest(u, energy_j) {
-            seeds[entry] += 1;
-            return;
-        }
-        if self.list.len() >= Self::HELD {
-            self.left_out += 1;
-            return;
-        }
-        let member = Member {
-            origin: Origin::Discovered,
-            energy_j,
-            angles_rad: u.iter().map(|u| Some(u[0].atan2(-u[1]))).collect(),
-            index_in_plane: index,
-            mirrored: false,
-            joints_m: None,
-        };
-        let at = self.list.partition_point(|other| by_energy_and_angles(other, &member).is_lt());
-        self.list.insert(at, member);
-        seeds.insert(at, 1);
-        let bars = u.len();
-        self.lookup.energies.insert(at, energy_j / self.lookup.unit_j);
-        self.lookup.directions.splice(at * bars..at * bars, u.iter().copied());
-        self.lookup.errors.insert(at, self.lookup.error(u));
-    }
 }
 
 /// Total weight times total length, J.
@@ -257,18 +142,11 @@ pub(crate) fn energy_unit_j(chain: &Chain) -> f64 {
 }
 
 impl Lookup {
-    fn new(problem: &Problem, list: &[Member]) -> Self {
+    pub(crate) fn new(problem: &Problem, list: &[Member]) -> Self {
         let chain = problem.chain();
         let total_m = chain.total_length_m();
         let unit_j = energy_unit_j(chain);
-        let directions = list.iter().flat_map(|member| {
-            member.angles_rad.iter().map(|angle| {
-                angle.map_or([f64::NAN; 2], |angle| {
-                    let (sin, cos) = angle.sin_cos();
-                    [sin, -cos]
-                })
-            })
-        });
+        let directions = list.iter().flat_map(directions_of);
         let mut lookup = Self {
             lengths: chain.bars().iter().map(|bar| bar.length_m() / total_m).collect(),
             energies: list.iter().map(|member| member.energy_j / unit_j).collect(),
@@ -285,6 +163,32 @@ impl Lookup {
         lookup.apart = 0.25 * separation;
         lookup.tolerance = JOINT_TOLERANCE.min(lookup.apart);
         lookup
+    }
+
+    /// Put an entry into its place; what was there comes after it.
+    pub(crate) fn insert(&mut self, at: usize, member: &Member) {
+        let bars = self.lengths.len();
+        let directions: Vec<_> = directions_of(member).collect();
+        self.energies.insert(at, member.energy_j / self.unit_j);
+        self.errors.insert(at, self.error(&directions));
+        self.directions.splice(at * bars..at * bars, directions);
+    }
+
+    /// Drop all entries but the first.
+    pub(crate) fn truncate(&mut self, entries: usize) {
+        self.energies.truncate(entries);
+        self.errors.truncate(entries);
+        self.directions.truncate(entries * self.lengths.len());
+    }
+
+    /// Bars of the chain.
+    pub(crate) fn bars(&self) -> usize {
+        self.lengths.len()
+    }
+
+    /// Total weight times total length, J.
+    pub(crate) fn unit_j(&self) -> f64 {
+        self.unit_j
     }
 
     /// Smallest distance of two entries that are not farther apart in energy than the tolerance.
@@ -313,7 +217,7 @@ impl Lookup {
 
     /// The nearest entry within the tolerance.
     #[inline]
-    fn nearest(&self, u: &[[f64; 2]], energy_j: f64) -> Option<usize> {
+    pub(crate) fn nearest(&self, u: &[[f64; 2]], energy_j: f64) -> Option<usize> {
         let energy = energy_j / self.unit_j;
         let first = self.energies.partition_point(|other| *other < energy - ENERGY_TOLERANCE);
         let mut best = (f64::INFINITY, None);
@@ -351,6 +255,16 @@ impl Lookup {
     }
 }
 
+/// Directions (along the heading, up) of the bars; undefined for slack ones.
+pub(crate) fn directions_of(member: &Member) -> impl Iterator<Item = [f64; 2]> + '_ {
+    member.angles_rad.iter().map(|angle| {
+        angle.map_or([f64::NAN; 2], |angle| {
+            let (sin, cos) = angle.sin_cos();
+            [sin, -cos]
+        })
+    })
+}
+
 /// Entries of the census: isolated equilibria, both halves of circles, and families.
 fn proven(census: &Census, problem: &Problem) -> Vec<Member> {
     let isolated = census.equilibria.iter().flat_map(|equilibrium| {
@@ -385,7 +299,7 @@ fn family(slack: &SlackFamily, problem: &Problem) -> Member {
 }
 
 /// By energy, then by the angles, bar by bar; slack bars first.
-fn by_energy_and_angles(a: &Member, b: &Member) -> Ordering {
+pub(crate) fn by_energy_and_angles(a: &Member, b: &Member) -> Ordering {
     let angles = a.angles_rad.iter().zip(&b.angles_rad);
     angles.fold(a.energy_j.total_cmp(&b.energy_j), |order, (x, y)| {
         let less = |x: &Option<f64>| x.unwrap_or(f64::NEG_INFINITY);
@@ -416,7 +330,7 @@ mod tests {
             })
             .collect();
         let lookup = Lookup::new(&model::cases::paper(), &list);
-        Members { list, complete: true, left_out: 0, lookup }
+        Members { list, complete: true, lookup }
     }
 
     /// A millionth of the total length and no more: the last joint of the paper's chain moves by a

@@ -23,13 +23,17 @@
 //! | `summary.json` | [`StoreSummary`]: counts of the outcomes, and the digest of every part; written last |
 //!
 //! and, until they are finished, `.digests`: the digests so far, as `sha256sum --check` reads them.
+//! Where the census has not proved that there are no other equilibria, the list grows as the seeds
+//! go ([`Discovered`], in the summary), and the rows get their last numbers when all are computed:
+//! until then those of a part are in `reached-000000.parquet`, and its list in `reached-000000.json`.
+//!
 //! The columns of a part ([`schema`]) are
 //!
 //! | column | type | unit | what |
 //! |---|---|---|---|
 //! | `seed` | u64 | 1 | number of the start |
 //! | `theta_1_rad`, ... | f64 | rad | the start, if asked for |
-//! | `lagrange_outcome` | i16 | 1 | number of the equilibrium in `equilibria` of the manifest, from 0, or a [`Failure`] |
+//! | `lagrange_outcome` | i16 | 1 | number of the equilibrium in `equilibria` of the manifest and, behind these, of `discovered` in the summary, from 0, or a [`Failure`] |
 //! | `lagrange_iterations` | u16 | 1 | iterations spent |
 //! | `lagrange_residual` | f64 | 1 | the solver's own residual where it stopped |
 //! | `lagrange_energy_j` | f64 | J | energy where it stopped, above joint 0 |
@@ -45,6 +49,7 @@ mod basins;
 mod cost;
 mod error;
 mod identify;
+mod reached;
 mod record;
 mod seeds;
 mod settings;
@@ -59,7 +64,8 @@ mod tally;
 pub use basins::{Basins, BasinsError, Field};
 pub use cost::expected_time_s;
 pub use error::SweepError;
-pub use identify::{DISCOVERED, JOINT_TOLERANCE, Member, Members, Origin};
+pub use identify::{JOINT_TOLERANCE, Member, Members, Origin};
+pub use reached::{DISCOVERED, Discovered, Reached};
 pub use record::{Chunk, Failure, Outcomes};
 pub use seeds::Stream;
 pub use settings::Settings;
@@ -75,5 +81,5 @@ pub use store::part::schema;
 pub use store::run::{Run, RunSettings, run};
 pub use store::shard::{MOST_SEEDS, Shard, ShardError, part_seeds};
 pub use summary::{Comparison, Disagreement, KEPT, Named, Summary};
-pub use sweep::Sweep;
+pub use sweep::{Sweep, Swept};
 pub use tally::{OutcomeTally, SolverTally, Tally, rate_interval};

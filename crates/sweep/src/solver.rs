@@ -75,27 +75,23 @@ pub enum Finds {
 pub struct Solvers {
     /// Those that are asked, in the order of their columns; the first two are compared.
     pub(crate) asked: Vec<Arc<dyn BatchSolver>>,
-    /// Those that make the list where the census does not, minima first: their index is known.
-    pub(crate) discover: Vec<Arc<dyn BatchSolver>>,
 }
 
 impl Solvers {
-    /// All of these are asked, and make the list where the census does not. The order of their
-    /// columns is `lagrange`, `energy`, and the others as they stand here.
+    /// All of these are asked. The order of their columns is `lagrange`, `energy`, and the others as
+    /// they stand here.
     #[must_use]
     pub fn new(mut solvers: Vec<Arc<dyn BatchSolver>>) -> Self {
         let place = |name: &str| FIRST.iter().position(|first| *first == name);
         solvers.sort_by_key(|solver| place(solver.name()).unwrap_or(FIRST.len()));
-        let mut discover = solvers.clone();
-        discover.sort_by_key(|solver| solver.finds() != Finds::Minima);
-        Self { asked: solvers, discover }
+        Self { asked: solvers }
     }
 
-    /// Only those of these names are asked; the list is still made by all.
+    /// Only those of these names are asked.
     #[must_use]
     pub fn only(self, names: &[&str]) -> Self {
         let asked = self.asked.into_iter().filter(|solver| names.contains(&solver.name()));
-        Self { asked: asked.collect(), ..self }
+        Self { asked: asked.collect() }
     }
 
     /// The names of those that are asked, in the order of their columns.

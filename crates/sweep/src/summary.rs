@@ -6,6 +6,7 @@ use serde::ser::SerializeMap as _;
 use serde::{Deserialize, Serialize, Serializer};
 
 use crate::identify::Member;
+use crate::reached::{Discovered, Renumbering};
 use crate::record::{Chunk, Failure};
 use crate::tally::Tally;
 
@@ -116,7 +117,7 @@ impl Summary {
     /// Nothing yet, of a sweep with this list and this unit of the energies
     /// ([`Members::energy_unit_j`](crate::Members::energy_unit_j)).
     #[must_use]
-    pub fn new(list: &[Member], energy_unit_j: f64) -> Self {
+    pub fn new<'a>(list: impl IntoIterator<Item = &'a Member>, energy_unit_j: f64) -> Self {
         let index = |member: &Member| {
             member.index_in_plane.map_or(-1, |index| i32::try_from(index).unwrap_or(i32::MAX))
         };
@@ -124,7 +125,7 @@ impl Summary {
             tally: Tally::default(),
             comparisons: [0; 8],
             disagreements: vec![],
-            index: list.iter().map(index).collect(),
+            index: list.into_iter().map(index).collect(),
             scale: energy_unit_j.to_bits(),
         }
     }
@@ -171,18 +172,25 @@ impl Summary {
         let (Ok(a), Ok(b)) = (usize::try_from(first), usize::try_from(second)) else {
             return Comparison::Failed;
         };
-        if self.index[b] > 0 {
+        // What is not in the list yet, because it grows, is of no known kind.
+        let index = |entry: usize| self.index.get(entry).copied().unwrap_or(-1);
+        if index(b) > 0 {
             return Comparison::EnergyAtNoMinimum;
         }
         if a == b {
             let close = difference_j.abs() <= SAME_ENERGY * f64::from_bits(self.scale);
             return if close { Comparison::Same } else { Comparison::EnergiesDiffer };
         }
-        match self.index[a] {
+        match index(a) {
             0 => Comparison::OtherBasin,
             1.. => Comparison::NoMinimum,
             _ => Comparison::Unclassified,
         }
+    }
+
+    /// Where the list is not complete, a seed in no list is no disagreement: it is counted alone.
+    pub(crate) fn leave_out_unlisted(&mut self) {
+        self.disagreements.retain(|seed| seed.comparison != Comparison::NotListed);
     }
 
     /// Counts of outcomes and iterations, by solver.
@@ -214,6 +222,65 @@ impl Summary {
         let mut names = self.tally.names();
         let solvers = [(); 2].map(|()| names.next().unwrap_or_default());
         self.disagreements.iter().map(move |one| Named { disagreement: *one, solvers })
+    }
+}
+
+/// Counts by numbers of a list that grows. What depends on the kinds of its entries is told in the
+/// end.
+#[derive(Debug, Clone)]
+pub(crate) struct OpenSummary {
+    counts: Summary,
+    proven: Vec<Member>,
+    /// Seeds of which both reached this entry, with different energies.
+    differ: BTreeMap<i16, u64>,
+}
+
+impl OpenSummary {
+    /// Nothing yet, by a summary of nothing, and the proven list.
+    pub(crate) fn new(counts: Summary, proven: Vec<Member>) -> Self {
+        Self { counts, proven, differ: BTreeMap::new() }
+    }
+
+    /// Count a chunk.
+    pub(crate) fn add(&mut self, chunk: &Chunk) {
+        self.counts.add(chunk);
+        self.counts.leave_out_unlisted();
+        if let [first, second, ..] = chunk.outcomes.as_slice() {
+            let rows = first.outcome.iter().zip(&second.outcome);
+            let energies = first.energy_j.iter().zip(&second.energy_j);
+            for ((a, b), (v, w)) in rows.zip(energies) {
+                if self.counts.compare(*a, *b, v - w) == Comparison::EnergiesDiffer {
+                    *self.differ.entry(*a).or_default() += 1;
+                }
+            }
+        }
+    }
+
+    /// By the final numbers.
+    pub(crate) fn finish(self, discovered: &Discovered, renumbering: &Renumbering) -> Summary {
+        let list = self.proven.iter().chain(&discovered.equilibria);
+        let mut summary = Summary::new(list, f64::from_bits(self.counts.scale));
+        summary.tally = self.counts.tally.renumbered(renumbering);
+        for (first, row) in summary.tally.both.iter().flatten() {
+            for (second, count) in row {
+                let comparison = summary.compare(*first, *second, 0.0);
+                summary.comparisons[comparison as usize] += count;
+            }
+        }
+        for (entry, count) in self.differ {
+            // Of those that are listed.
+            if renumbering.apply(entry) >= 0 {
+                summary.comparisons[Comparison::Same as usize] -= count;
+                summary.comparisons[Comparison::EnergiesDiffer as usize] += count;
+            }
+        }
+        let renumbered = self.counts.disagreements.into_iter().map(|seed| {
+            let outcomes = seed.outcomes.map(|code| renumbering.apply(code));
+            Disagreement { outcomes, ..seed }
+        });
+        let listed = |seed: &Disagreement| !seed.outcomes.contains(&(Failure::Unlisted as i16));
+        summary.disagreements = renumbered.filter(listed).collect();
+        summary
     }
 }
 

@@ -7,6 +7,7 @@ use serde::de::{MapAccess, Visitor};
 use serde::ser::SerializeMap as _;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
+use crate::reached::Renumbering;
 use crate::record::{Chunk, Outcomes};
 use crate::solver::FIRST;
 
@@ -124,6 +125,30 @@ impl Tally {
                 *both.entry(*second).or_default() += count;
             }
         }
+    }
+}
+
+impl Tally {
+    /// The same rows by other numbers.
+    pub(crate) fn renumbered(&self, renumbering: &Renumbering) -> Self {
+        let mut renumbered = Self { seeds: self.seeds, ..Self::default() };
+        for (solver, rows) in &self.solvers {
+            let tally = renumbered.row(solver);
+            for (code, row) in &rows.0 {
+                tally.0.entry(renumbering.apply(*code)).or_default().add(row);
+            }
+        }
+        renumbered.both = self.both.as_ref().map(|both| {
+            let mut to = BTreeMap::<i16, BTreeMap<i16, u64>>::new();
+            for (first, row) in both {
+                let to = to.entry(renumbering.apply(*first)).or_default();
+                for (second, count) in row {
+                    *to.entry(renumbering.apply(*second)).or_default() += count;
+                }
+            }
+            to
+        });
+        renumbered
     }
 }
 

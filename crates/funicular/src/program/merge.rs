@@ -37,7 +37,7 @@ pub struct Merge {
     /// How many threads; 0 means one per processor. The result does not depend on it
     #[arg(long, value_name = "T", default_value_t = 0, value_parser = threads::parse)]
     pub threads: usize,
-    /// Print one JSON object (schema_version 1) instead of tables
+    /// Print one JSON object (schema_version 2) instead of tables
     #[arg(long)]
     pub json: bool,
     /// The folder to write: new or empty, or what the same merge left when it was interrupted

@@ -79,8 +79,12 @@ impl Folder<'_> {
         let bar = seeds_bar(all);
         let start = Instant::now();
         let done = |seeds| bar.inc(seeds);
-        let settings =
-            RunSettings { threads: self.threads, resume: self.resume, stop, done: &done };
+        let found = |equilibria: usize| {
+            let text = format!("{} equilibria found, ", manifest.equilibria.len() + equilibria);
+            bar.set_message(text);
+        };
+        let (threads, resume) = (self.threads, self.resume);
+        let settings = RunSettings { threads, resume, stop, done: &done, found: &found };
         let run = write(&settings);
         bar.finish_and_clear();
         let run = run?;
@@ -125,10 +129,11 @@ fn tell_cost(manifest: &Manifest) {
     }
 }
 
-/// A bar that counts seeds, with rate and time left; silent where standard error is no terminal.
+/// A bar that counts seeds, with what is found, rate and time left; silent where standard error is no terminal.
 pub(crate) fn seeds_bar(seeds: u64) -> ProgressBar {
     let bar = ProgressBar::new(seeds);
-    let template = "{elapsed:>4} {wide_bar} {human_pos} of {human_len} seeds, {rate}, {eta} left";
+    let template =
+        "{elapsed:>4} {wide_bar} {human_pos} of {human_len} seeds, {msg}{rate}, {eta} left";
     if let Ok(style) = ProgressStyle::with_template(template) {
         bar.set_style(style.with_key("rate", whole_rate));
     }
@@ -150,9 +155,9 @@ pub(crate) fn json_object(manifest: &Manifest, summary: &StoreSummary, out: &Pat
         "schema_version": SCHEMA_VERSION,
         "folder": out.display().to_string(),
         "seeds": { "count": summary.outcomes.seeds(), "range": manifest.range, "of": manifest.seeds },
-        "equilibria": manifest.equilibria,
+        "equilibria": summary.equilibria(manifest).collect::<Vec<_>>(),
         "equilibria_complete": manifest.equilibria_complete,
-        "equilibria_left_out": manifest.equilibria_left_out,
+        "equilibria_below_j": summary.listed_below_j(),
         "solvers": tables::solvers_json(manifest, summary),
         "comparisons": tables::comparisons_json(summary),
         "disagreements": summary.outcomes.named_disagreements().collect::<Vec<_>>(),

@@ -15,6 +15,7 @@ mod modes;
 mod motion;
 mod pages;
 mod program;
+mod reached;
 mod replaced;
 mod slurm;
 mod starts;

@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use crate::reached::Reached;
 use crate::record::Chunk;
 
 /// What computes seeds. The same seeds must give the same bits, whatever the thread and the cut.
@@ -14,6 +15,12 @@ pub trait Compute: Sync {
 
     /// What becomes of these seeds.
     fn chunk(&self, seeds: Range<u64>) -> Chunk;
+
+    /// The same where the list of equilibria is not complete, with numbers for what is reached
+    /// beside it.
+    fn chunk_reaching(&self, seeds: Range<u64>, _: &mut Reached) -> Chunk {
+        self.chunk(seeds)
+    }
 
     /// Where they start: a column for each name in [`Manifest::angles`](crate::Manifest::angles).
     fn angles(&self, seeds: Range<u64>) -> Vec<Vec<f64>>;

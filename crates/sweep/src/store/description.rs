@@ -10,7 +10,7 @@ use serde::Serialize;
 use crate::store::error::{StoreError, regular};
 
 /// Version of the folder's form; raised when a key or a column changes its meaning.
-pub const SCHEMA_VERSION: u32 = 1;
+pub const SCHEMA_VERSION: u32 = 2;
 
 pub(crate) const MANIFEST: &str = "manifest.json";
 pub(crate) const SUMMARY: &str = "summary.json";

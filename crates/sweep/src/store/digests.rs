@@ -11,6 +11,7 @@ use crate::store::description::{DIGESTS, MANIFEST, SUMMARY, read_json};
 use crate::store::error::{StoreError, regular};
 use crate::store::finished::{PartRecord, StoreSummary};
 use crate::store::manifest::{Manifest, digest};
+use crate::store::part;
 
 /// Hexadecimal digits of a SHA-256.
 const DIGITS: usize = 64;
@@ -64,6 +65,21 @@ impl Digests {
             None => "its SHA-256 was not written down when it was made".to_owned(),
         };
         Err(StoreError::part(&folder.join(&found.file), reason))
+    }
+
+    /// Whether a file is the one that was written, and if not, why; `None` if nothing is there.
+    pub(crate) fn holds(
+        &self,
+        folder: &Path,
+        file: &str,
+    ) -> Result<Option<Result<(), StoreError>>, StoreError> {
+        let path = folder.join(file);
+        regular(&path)?;
+        if !path.exists() {
+            return Ok(None);
+        }
+        let found = part::record(&path, file.to_owned(), 0..0)?;
+        Ok(Some(self.check(folder, &found)))
     }
 
     /// Write down a part that is whole now.

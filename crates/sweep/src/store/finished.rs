@@ -4,6 +4,8 @@ use std::ops::Range;
 
 use serde::{Deserialize, Serialize};
 
+use crate::identify::Member;
+use crate::reached::Discovered;
 use crate::record::Failure;
 use crate::store::description::SCHEMA_VERSION;
 use crate::store::manifest::Manifest;
@@ -29,6 +31,10 @@ pub struct StoreSummary {
     pub schema_version: u32,
     /// What became of the seeds.
     pub outcomes: Summary,
+    /// What the seeds reached beside the list of the manifest, where that is not complete: its
+    /// numbers follow those.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub discovered: Option<Discovered>,
     /// The parts, in order.
     pub parts: Vec<PartRecord>,
 }
@@ -37,16 +43,40 @@ impl StoreSummary {
     /// Of parts in order.
     pub(crate) fn of(
         manifest: &Manifest,
+        discovered: Option<Discovered>,
         parts: impl Iterator<Item = (PartRecord, Summary)>,
     ) -> Self {
-        let mut outcomes = manifest.summary();
+        let list = discovered.as_ref().map_or(&[][..], |discovered| &discovered.equilibria);
+        let mut outcomes = manifest.summary(list);
         let parts = parts
             .map(|(record, summary)| {
                 outcomes.merge(&summary);
                 record
             })
             .collect();
-        Self { schema_version: SCHEMA_VERSION, outcomes, parts }
+        if discovered.is_some() {
+            outcomes.leave_out_unlisted();
+        }
+        Self { schema_version: SCHEMA_VERSION, outcomes, discovered, parts }
+    }
+
+    /// The equilibria that outcomes 0, 1, 2, ... stand for: those of the manifest, then what was
+    /// discovered.
+    pub fn equilibria<'a>(&'a self, manifest: &'a Manifest) -> impl Iterator<Item = &'a Member> {
+        let discovered = self.discovered.iter().flat_map(|discovered| &discovered.equilibria);
+        manifest.equilibria.iter().chain(discovered)
+    }
+
+    /// The equilibrium that an outcome stands for; none of a failure.
+    #[must_use]
+    pub fn equilibrium<'a>(&'a self, manifest: &'a Manifest, outcome: i16) -> Option<&'a Member> {
+        self.equilibria(manifest).nth(usize::try_from(outcome).ok()?)
+    }
+
+    /// Energy, J, from which on equilibria that were reached are in no list; none where all are.
+    #[must_use]
+    pub fn listed_below_j(&self) -> Option<f64> {
+        self.discovered.as_ref().and_then(|discovered| discovered.below_j)
     }
 
     /// Whether a check failed: a start converged to what is in no complete list, or the solvers

@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use crate::store::description::{DIGESTS, MANIFEST, SUMMARY, read_json};
 use crate::store::error::{StoreError, regular};
 use crate::store::manifest::Manifest;
+use crate::store::open;
 
 const LOCK: &str = ".lock";
 
@@ -124,11 +125,11 @@ fn remove_unfinished(folder: &Path, manifest: &Manifest) -> Result<(), StoreErro
 
 /// Whether a file of this name belongs to the sweep.
 fn is_ours(name: &str, manifest: &Manifest) -> bool {
-    let part = || {
-        let number = name.strip_prefix("part-")?.split('.').next()?.parse().ok()?;
-        Some(name == manifest.file_of(number))
-    };
-    [MANIFEST, SUMMARY, DIGESTS].contains(&name) || part() == Some(true)
+    let numbered = |before: &str| name.strip_prefix(before)?.split('.').next()?.parse().ok();
+    let part = || Some(name == manifest.file_of(numbered("part-")?));
+    let open =
+        || Some(open::files_of(manifest, numbered(open::BEFORE)?).contains(&name.to_owned()));
+    [MANIFEST, SUMMARY, DIGESTS].contains(&name) || part() == Some(true) || open() == Some(true)
 }
 
 /// Something in a folder that no unfinished sweep leaves there.

@@ -8,6 +8,7 @@ use serde_json::Value;
 use sha2::{Digest, Sha256};
 
 use crate::identify::{Member, energy_unit_j};
+use crate::reached::Reached;
 use crate::store::description::{MANIFEST, read_json};
 use crate::store::shard::{Shard, part_seeds};
 
@@ -41,13 +42,12 @@ pub struct Manifest {
     pub release: Option<Release>,
     /// Names of the columns of starting values, if they are written.
     pub angles: Vec<String>,
-    /// The equilibria that outcomes 0, 1, 2, ... stand for.
+    /// The equilibria that outcomes 0, 1, 2, ... stand for; of a sweep, the proven ones. Where the
+    /// census has not proved that there are no others, those that are reached are in
+    /// [`StoreSummary::discovered`](crate::StoreSummary::discovered).
     pub equilibria: Vec<Member>,
     /// Whether the census has proved that there are no others.
     pub equilibria_complete: bool,
-    /// Equilibria that were reached when the list was made, and are not in it: too many, each from
-    /// few seeds.
-    pub equilibria_left_out: u64,
     /// `parquet` or `csv`.
     pub format: String,
     /// Seeds of a part file; the last one may have fewer.
@@ -189,9 +189,22 @@ impl Manifest {
         self
     }
 
-    /// Nothing counted yet.
-    pub(crate) fn summary(&self) -> Summary {
-        Summary::new(&self.equilibria, self.system.unit_j)
+    /// Nothing counted yet, by this list and what was discovered.
+    pub(crate) fn summary(&self, discovered: &[Member]) -> Summary {
+        Summary::new(self.equilibria.iter().chain(discovered), self.system.unit_j)
+    }
+
+    /// Nothing reached yet, of a sweep with a list that grows; none of others.
+    pub(crate) fn nothing_reached(&self) -> Result<Option<Reached>, StoreError> {
+        if self.equilibria_complete || self.release.is_some() {
+            return Ok(None);
+        }
+        let problem = model::system_file::parse_problem(&self.system.text, "system.text");
+        let problem = problem.map_err(|error| StoreError::Description {
+            path: MANIFEST.into(),
+            reason: error.to_string(),
+        })?;
+        Ok(Some(Reached::new(&problem, self.equilibria.len())))
     }
 
     /// As it stands in the file.

@@ -5,10 +5,12 @@ use std::fs;
 use std::io::{Read as _, Write as _};
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
-use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::atomic::AtomicBool;
 
 use sha2::{Digest as _, Sha256};
 
+use crate::identify::Member;
+use crate::reached::{Discovered, Renumbering};
 use crate::store::description::{SUMMARY, read_json, write_json};
 use crate::store::digests::Digests;
 use crate::store::error::{NAMED, StoreError, regular};
@@ -97,26 +99,79 @@ pub fn merge_shard(
     }
     for input in inputs.values() {
         let parts = proved.range(input.parts()).map(|(_, result)| result.clone());
-        if StoreSummary::of(&whole, parts) != input.summary {
+        if StoreSummary::of(&whole, input.summary.discovered.clone(), parts) != input.summary {
             let reason = "the outcomes counted are not those of the parts".to_owned();
             return Err(StoreError::Description { path: input.folder.join(SUMMARY), reason });
         }
     }
-    let copied = AtomicU64::new(0);
+    let joined = join(&whole, &inputs)?;
+    let results = Mutex::new(BTreeMap::new());
     each(&|part, input| {
         let file = whole.file_of(part);
-        let wanted = proved.get(&part).map(|(record, _)| record.sha256.as_str());
-        copy(&input.folder.join(&file), &out.join(&file), wanted.unwrap_or_default())?;
-        copied.fetch_add(1, Ordering::Relaxed);
+        let (from, to) = (input.folder.join(&file), out.join(&file));
+        let Some((record, summary)) = proved.get(&part) else { return Ok(()) };
+        let renumbering =
+            joined.as_ref().and_then(|(_, ways)| ways.get(&input.manifest.shard.number));
+        let result = match renumbering {
+            Some(renumbering) if !renumbering.is_identity() => {
+                part::renumber(&from, &to, &whole, renumbering)?;
+                let read = part::record(&from, file, record.seeds.clone())?;
+                if read.sha256 != record.sha256 {
+                    // What was written is not what was proved.
+                    let _ = fs::remove_file(&to);
+                    return Err(StoreError::part(&from, CHANGED));
+                }
+                part::read(out, &whole, joined_list(joined.as_ref()), part)?
+            }
+            _ => {
+                copy(&from, &to, &record.sha256)?;
+                (record.clone(), summary.clone())
+            }
+        };
+        if let Ok(mut results) = results.lock() {
+            results.insert(part, result);
+        }
         Ok(())
     })?;
-    if copied.into_inner() != count {
+    let results = results.into_inner().unwrap_or_default();
+    if results.len() as u64 != count {
         return Ok(None);
     }
-    let summary = StoreSummary::of(&whole, proved.into_values());
+    let discovered = joined.map(|(discovered, _)| discovered);
+    let summary = StoreSummary::of(&whole, discovered, results.into_values());
     write_json(&out.join(SUMMARY), &summary)?;
     Digests::close(out);
     Ok(Some(summary))
+}
+
+/// What was discovered, and the way to its numbers from those of every shard.
+type Joined = (Discovered, BTreeMap<u64, Renumbering>);
+
+fn joined_list(joined: Option<&Joined>) -> &[Member] {
+    joined.map_or(&[], |(discovered, _)| &discovered.equilibria)
+}
+
+/// Join what the shards discovered, in their order; nothing where lists are complete.
+fn join(whole: &Manifest, inputs: &BTreeMap<u64, Input>) -> Result<Option<Joined>, StoreError> {
+    let Some(mut all) = whole.nothing_reached()? else { return Ok(None) };
+    let lists: Vec<_> =
+        inputs.iter().map(|(number, input)| (*number, input.discovered())).collect();
+    for input in inputs.values() {
+        let list = input.summary.discovered.as_ref();
+        let Some(list) = list.filter(|list| list.fits(all.bars())) else {
+            let reason = "it has no list of this chain's equilibria".to_owned();
+            return Err(StoreError::Description { path: input.folder.join(SUMMARY), reason });
+        };
+        all.join(list);
+    }
+    let (discovered, _) = all.finish();
+    let way = |(number, list): (u64, &[Member])| {
+        let codes: Vec<i16> = list.iter().map(|member| all.find(member)).collect();
+        let numbers: Vec<usize> = (0..list.len()).collect();
+        (number, all.renumbering(list.len(), &numbers, &codes))
+    };
+    let ways = lists.into_iter().map(way).collect();
+    Ok(Some((discovered, ways)))
 }
 
 /// Every shard that makes `whole`, by its number.
@@ -189,6 +244,11 @@ impl Input {
         Ok(())
     }
 
+    /// What was discovered, behind the list of the manifest.
+    fn discovered(&self) -> &[Member] {
+        self.summary.discovered.as_ref().map_or(&[], |discovered| &discovered.equilibria)
+    }
+
     fn parts(&self) -> std::ops::Range<u64> {
         self.manifest.shard.parts(self.manifest.parts())
     }
@@ -200,7 +260,7 @@ impl Input {
             return Err(StoreError::NoPart { path });
         }
         regular(&path)?;
-        let result = part::read(&self.folder, &self.manifest, part)?;
+        let result = part::read(&self.folder, &self.manifest, self.discovered(), part)?;
         let index = usize::try_from(part - self.parts().start).unwrap_or(usize::MAX);
         match self.summary.parts.get(index) {
             Some(said) if *said == result.0 => Ok(result),
@@ -213,6 +273,8 @@ impl Input {
         }
     }
 }
+
+const CHANGED: &str = "it changed while it was being copied";
 
 /// Bytes copied at a time.
 const COPIED: usize = 1 << 17;
@@ -241,7 +303,7 @@ fn copy(from: &Path, to: &Path, wanted: &str) -> Result<(), StoreError> {
         writer.write_all(&buffer[..read]).map_err(io)?;
     }
     if hexadecimal(&hasher.finalize()) != wanted {
-        return Err(StoreError::part(from, "it changed while it was being copied"));
+        return Err(StoreError::part(from, CHANGED));
     }
     writer.commit().map_err(io)
 }

@@ -8,6 +8,7 @@ pub(crate) mod finished;
 pub(crate) mod lock;
 pub(crate) mod manifest;
 pub(crate) mod merge;
+pub(crate) mod open;
 pub(crate) mod part;
 pub(crate) mod run;
 pub(crate) mod shard;

@@ -9,6 +9,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use columns::{Column, Data, Format, Kind, Schema, Spread, TableWriter, read_notes, read_table};
 use sha2::{Digest as _, Sha256};
 
+use crate::identify::Member;
+use crate::reached::{Reached, Renumbering};
 use crate::record::{Chunk, Failure, Outcomes};
 use crate::store::compute::Compute;
 use crate::store::error::StoreError;
@@ -19,9 +21,9 @@ use crate::summary::Summary;
 /// Rows of a row group: some megabytes of columns, held per thread until they are encoded.
 const GROUP_SEEDS: u64 = 1 << 17;
 
-const OUTCOME: &str = "the equilibrium reached, as its number in `equilibria` of the manifest; or -1: \
-    the iteration limit was reached, -2: stalled, -3: a number overflowed or was undefined, -4: \
-    converged to something that is in no list";
+const OUTCOME: &str = "the equilibrium reached, as its number in `equilibria` of the manifest and, \
+    behind these, of `discovered` in the summary; or -1: the iteration limit was reached, -2: stalled, \
+    -3: a number overflowed or was undefined, -4: converged to something that is in no list";
 
 const RESTING: &str = "where it comes to rest, as its number in `equilibria` of the manifest; or -1: \
     not at rest when the time is up, -2: no step can be taken, or no position found to begin with, \
@@ -83,52 +85,114 @@ pub fn format(manifest: &Manifest) -> Format {
     if manifest.format == Format::Csv.extension() { Format::Csv } else { Format::Parquet }
 }
 
-/// Compute a part and write it; `None` if it was stopped before the end, and then nothing is left
-/// of it.
+/// What whoever computes a part is told, and may tell.
+pub struct Watch<'a> {
+    /// Set to stop soon.
+    pub stop: &'a AtomicBool,
+    /// Told of seeds that are done.
+    pub done: &'a (dyn Fn(u64) + Sync),
+    /// Told of a list that has grown, and how many numbers it had given before.
+    pub grown: &'a (dyn Fn(&Reached, usize) + Sync),
+}
+
+/// Compute a part and write it to a file; `None` if it was stopped before the end, and then nothing
+/// is left of it. What is reached beside the proven list is numbered in `reached`, if there is one,
+/// and nothing is counted then: the numbers are not the last.
 pub fn write(
-    folder: &Path,
+    path: &Path,
     manifest: &Manifest,
     part: u64,
     compute: &impl Compute,
-    stop: &AtomicBool,
-    done: &(dyn Fn(u64) + Sync),
-) -> Result<Option<(PartRecord, Summary)>, StoreError> {
-    let path = folder.join(manifest.file_of(part));
+    mut reached: Option<&mut Reached>,
+    watch: &Watch<'_>,
+) -> Result<Option<Summary>, StoreError> {
     let seeds = manifest.seeds_of(part);
-    let mut table = TableWriter::create(&path, format(manifest), &schema(manifest))?;
-    let mut summary = manifest.summary();
+    let mut summary = manifest.summary(&[]);
+    let mut table = TableWriter::create(path, format(manifest), &schema(manifest))?;
     for group in steps(&seeds, GROUP_SEEDS) {
         let mut rows: Vec<Data> = Vec::new();
         for range in steps(&group, compute.chunk_seeds().max(1)) {
-            if stop.load(Ordering::Relaxed) {
+            if watch.stop.load(Ordering::Relaxed) {
                 return Ok(None);
             }
             let count = range.end - range.start;
-            let chunk = compute.chunk(range.clone());
+            let chunk = match reached.as_deref_mut() {
+                None => compute.chunk(range.clone()),
+                Some(reached) => {
+                    let before = reached.given();
+                    let chunk = compute.chunk_reaching(range.clone(), reached);
+                    (watch.grown)(reached, before);
+                    chunk
+                }
+            };
             // Bugs of the solvers' side, told instead of written.
             if !fits(&chunk, &range, manifest) {
-                return Err(StoreError::part(&path, "a run of seeds came back incomplete"));
+                return Err(StoreError::part(path, "a run of seeds came back incomplete"));
             }
-            if let Some(outcome) = unknown_outcome(&chunk, manifest) {
-                return Err(StoreError::part(&path, format!("there is no outcome {outcome}")));
+            let codes = reached.as_deref().map_or(manifest.equilibria.len(), Reached::codes);
+            if let Some(outcome) = unknown_outcome(&chunk, codes) {
+                return Err(StoreError::part(path, format!("there is no outcome {outcome}")));
             }
-            summary.add(&chunk);
+            if reached.is_none() {
+                summary.add(&chunk);
+            }
             let angles =
                 if manifest.angles.is_empty() { Vec::new() } else { compute.angles(range) };
-            let mut more = columns_of(chunk, angles);
-            if rows.is_empty() {
-                rows = more;
-            } else {
-                for (column, more) in rows.iter_mut().zip(&mut more) {
-                    column.append(more);
-                }
-            }
-            done(count);
+            append(&mut rows, columns_of(chunk, angles));
+            (watch.done)(count);
         }
         table.write(rows)?;
     }
     table.finish()?;
-    Ok(Some((record(&path, manifest, part)?, summary)))
+    Ok(Some(summary))
+}
+
+/// Put rows behind others.
+fn append(rows: &mut Vec<Data>, mut more: Vec<Data>) {
+    if rows.is_empty() {
+        *rows = more;
+    } else {
+        for (column, more) in rows.iter_mut().zip(&mut more) {
+            column.append(more);
+        }
+    }
+}
+
+/// Write the rows of a file into another one, with other numbers and in the groups in which they
+/// were computed.
+pub fn renumber(
+    from: &Path,
+    to: &Path,
+    manifest: &Manifest,
+    renumbering: &Renumbering,
+) -> Result<(), StoreError> {
+    let (format, schema) = (format(manifest), schema(manifest));
+    let mut table = TableWriter::create(to, format, &schema)?;
+    let mut rows: Vec<Data> = Vec::new();
+    let mut written = Ok(());
+    read_table(from, format, &schema, &mut |columns| {
+        if written.is_err() {
+            return;
+        }
+        let mut columns = columns.to_vec();
+        for column in &mut columns {
+            if let Data::I16(codes) = column {
+                for code in codes {
+                    *code = renumbering.apply(*code);
+                }
+            }
+        }
+        append(&mut rows, columns);
+        // Groups are read in equal parts.
+        if rows.first().map_or(0, Data::len) as u64 >= GROUP_SEEDS {
+            written = table.write(std::mem::take(&mut rows));
+        }
+    })?;
+    written?;
+    if !rows.is_empty() {
+        table.write(rows)?;
+    }
+    Ok(table.finish()?)
 }
 
 /// A range in steps; the last one may be shorter.
@@ -150,9 +214,8 @@ fn fits(chunk: &Chunk, range: &Range<u64>, manifest: &Manifest) -> bool {
     chunk.seeds == *range && names.eq(&manifest.solvers) && chunk.outcomes.iter().all(whole)
 }
 
-/// An outcome that is no entry of the list and no [`Failure`].
-fn unknown_outcome(chunk: &Chunk, manifest: &Manifest) -> Option<i16> {
-    let entries = manifest.equilibria.len();
+/// An outcome that is none of so many entries and no [`Failure`].
+fn unknown_outcome(chunk: &Chunk, entries: usize) -> Option<i16> {
     let known = |outcome: i16| match usize::try_from(outcome) {
         Ok(entry) => entry < entries,
         Err(_) => outcome >= Failure::Unlisted as i16,
@@ -174,15 +237,17 @@ fn columns_of(chunk: Chunk, angles: Vec<Vec<f64>>) -> Vec<Data> {
 }
 
 /// Read a part back, and prove that it is of this sweep and holds exactly its seeds, each once and
-/// in order.
+/// in order. Its numbers are those of the manifest and, behind them, of what was discovered.
 pub fn read(
     folder: &Path,
     manifest: &Manifest,
+    discovered: &[Member],
     part: u64,
 ) -> Result<(PartRecord, Summary), StoreError> {
     let path = folder.join(manifest.file_of(part));
     let wanted = manifest.seeds_of(part);
-    let mut summary = manifest.summary();
+    let entries = manifest.equilibria.len() + discovered.len();
+    let mut summary = manifest.summary(discovered);
     let mut next = wanted.start;
     let mut gap = None;
     let mut unknown = None;
@@ -196,7 +261,7 @@ pub fn read(
             next = next.wrapping_add(1);
         }
         let chunk = chunk_of(columns, first, manifest);
-        match unknown_outcome(&chunk, manifest) {
+        match unknown_outcome(&chunk, entries) {
             Some(outcome) => unknown = Some(outcome),
             None => summary.add(&chunk),
         }
@@ -222,7 +287,7 @@ pub fn read(
             }
         }
     }
-    Ok((record(&path, manifest, part)?, summary))
+    Ok((record(&path, manifest.file_of(part), wanted)?, summary))
 }
 
 /// Rows read back, as they were computed. The schema was checked: every column is there.
@@ -250,15 +315,15 @@ fn chunk_of(columns: &[Data], seed: u64, manifest: &Manifest) -> Chunk {
     Chunk { seeds, outcomes }
 }
 
-/// Length and digest of a part's file.
-fn record(path: &Path, manifest: &Manifest, part: u64) -> Result<PartRecord, StoreError> {
+/// Length and digest of a file, of these seeds.
+pub fn record(path: &Path, file: String, seeds: Range<u64>) -> Result<PartRecord, StoreError> {
     let io = |error| StoreError::file(path, error);
-    let mut file = File::open(path).map_err(io)?;
+    let mut opened = File::open(path).map_err(io)?;
     let mut hasher = Sha256::new();
     let mut buffer = vec![0; 1 << 17];
     let mut bytes = 0;
     loop {
-        let read = file.read(&mut buffer).map_err(io)?;
+        let read = opened.read(&mut buffer).map_err(io)?;
         if read == 0 {
             break;
         }
@@ -266,5 +331,5 @@ fn record(path: &Path, manifest: &Manifest, part: u64) -> Result<PartRecord, Sto
         bytes += read as u64;
     }
     let sha256 = hexadecimal(&hasher.finalize());
-    Ok(PartRecord { file: manifest.file_of(part), seeds: manifest.seeds_of(part), bytes, sha256 })
+    Ok(PartRecord { file, seeds, bytes, sha256 })
 }

@@ -21,7 +21,8 @@ use crate::store::error::{StoreError, regular};
 use crate::store::finished::{PartRecord, StoreSummary};
 use crate::store::lock::Lock;
 use crate::store::manifest::Manifest;
-use crate::store::part;
+use crate::store::open;
+use crate::store::part::{self, Watch};
 use crate::store::shard::MOST_PARTS;
 use crate::summary::Summary;
 
@@ -36,6 +37,8 @@ pub struct RunSettings<'a> {
     pub stop: &'a AtomicBool,
     /// Told of every few thousand seeds that are done.
     pub done: &'a (dyn Fn(u64) + Sync),
+    /// Told how many equilibria have been discovered by then, where the list is not complete.
+    pub found: &'a (dyn Fn(usize) + Sync),
 }
 
 /// How a run ended.
@@ -71,6 +74,9 @@ pub fn run(
     }
     let _lock = Lock::take(folder, manifest, settings.resume)?;
     let digests = Digests::open(folder, manifest)?;
+    if let Some(nothing) = manifest.nothing_reached()? {
+        return open::run(folder, manifest, compute, settings, &digests, &nothing);
+    }
     let parts = manifest.shard.parts(manifest.parts());
     let found = Mutex::new(Found::default());
     for_each_part(parts.clone(), settings.threads, settings.stop, &|part| {
@@ -80,7 +86,7 @@ pub fn run(
         let mut result = None;
         regular(&path)?;
         if path.exists() {
-            let read = part::read(folder, manifest, part);
+            let read = part::read(folder, manifest, &[], part);
             let read = read.and_then(|read| digests.check(folder, &read.0).map(|()| read));
             match read {
                 Ok(read) => {
@@ -92,10 +98,11 @@ pub fn run(
         }
         let before = result.is_some();
         if !before {
-            let (stop, done) = (settings.stop, settings.done);
-            result = part::write(folder, manifest, part, compute, stop, done)?;
-            if let Some((record, _)) = &result {
-                digests.add(record)?;
+            let watch = Watch { stop: settings.stop, done: settings.done, grown: &|_, _| () };
+            if let Some(summary) = part::write(&path, manifest, part, compute, None, &watch)? {
+                let record = part::record(&path, manifest.file_of(part), seeds.clone())?;
+                digests.add(&record)?;
+                result = Some((record, summary));
             }
         }
         if let Ok(mut found) = found.lock() {
@@ -118,7 +125,7 @@ pub fn run(
         repaired: found.repaired,
     };
     if complete {
-        let summary = StoreSummary::of(manifest, found.parts.into_values());
+        let summary = StoreSummary::of(manifest, None, found.parts.into_values());
         write_json(&folder.join(SUMMARY), &summary)?;
         Digests::close(folder);
         run.summary = Some(summary);

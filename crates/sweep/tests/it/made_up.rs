@@ -40,7 +40,6 @@ pub fn manifest() -> Manifest {
         angles: vec!["theta_1_rad".to_owned(), "theta_2_rad".to_owned()],
         equilibria: vec![member(0.1 + 0.2), member(-1.0e-300)],
         equilibria_complete: true,
-        equilibria_left_out: 0,
         format: "parquet".to_owned(),
         part_seeds: 0,
         shard: Shard::WHOLE,
@@ -115,7 +114,7 @@ pub const QUICK: MadeUp = MadeUp { delay: std::time::Duration::ZERO };
 pub static NEVER: AtomicBool = AtomicBool::new(false);
 
 pub fn settings(threads: usize) -> RunSettings<'static> {
-    RunSettings { threads, resume: false, stop: &NEVER, done: &|_| () }
+    RunSettings { threads, resume: false, stop: &NEVER, done: &|_| (), found: &|_| () }
 }
 
 pub fn run(folder: &Path, manifest: &Manifest, threads: usize) -> Result<Run, StoreError> {
@@ -135,7 +134,7 @@ pub fn stop_after(folder: &Path, manifest: &Manifest, parts: u64) -> Run {
             stop.store(true, Ordering::SeqCst);
         }
     };
-    let settings = RunSettings { threads: 1, resume: true, stop: &stop, done: &done };
+    let settings = RunSettings { resume: true, stop: &stop, done: &done, ..settings(1) };
     sweep::run(folder, manifest, &QUICK, &settings).unwrap()
 }
 

@@ -256,12 +256,12 @@ fn a_broken_manifest_is_an_error() {
     stop_after(&out, &manifest(), 1);
     let path = out.join("manifest.json");
     let good = fs::read_to_string(&path).unwrap();
-    let newer = good.replace("\"schema_version\": 1", "\"schema_version\": 2");
+    let other = good.replace("\"schema_version\": 2", "\"schema_version\": 1");
     for (text, wanted) in [
         ("", "EOF"),
         ("[]", "schema version is missing"),
-        (newer.as_str(), "schema version is 2, not 1"),
-        ("{\"schema_version\": 1}", "missing field"),
+        (other.as_str(), "schema version is 1, not 2"),
+        ("{\"schema_version\": 2}", "missing field"),
         (&good[..good.len() / 2], "EOF"),
     ] {
         fs::write(&path, text).unwrap();

@@ -54,7 +54,7 @@ pub struct Arguments {
     /// The form of the rows
     #[arg(long, value_enum, default_value_t = Format::Parquet, requires = "seeds")]
     pub format: Format,
-    /// Print one JSON object (schema_version 1) instead of tables
+    /// Print one JSON object (schema_version 2) instead of tables
     #[arg(long, requires = "seeds")]
     pub json: bool,
 }

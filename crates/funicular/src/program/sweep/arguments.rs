@@ -30,9 +30,12 @@ Examples:
 The folder holds manifest.json, part-000000.parquet and so on, and at the end summary.json. It is the same to
 the last byte for any number of threads and shards, interrupted or not.
 
+Where no census proves that there are no other equilibria, the list grows with the seeds: those that are reached
+stand under `discovered` of summary.json, by energy, the lowest 1000 if there are more.
+
 Columns: seed; theta_1_rad, ... (with --angles); and of each solver outcome (a number in `equilibria` of the
-manifest, or -1 iteration limit, -2 stalled, -3 a number overflowed, -4 in no list), iterations, residual and
-energy_j, as in lagrange_outcome. Parquet holds unit and description of each. The table of all files and columns is
+manifest and, behind these, of `discovered`, or -1 iteration limit, -2 stalled, -3 a number overflowed, -4 in no
+list), iterations, residual and energy_j, as in lagrange_outcome. Parquet holds unit and description of each. The table of all files and columns is
 the documentation of the crate sweep: crates/sweep/src/lib.rs, or `cargo doc --open -p sweep`.";
 
 /// `funicular sweep`.
@@ -68,7 +71,7 @@ pub struct Sweep {
     /// Write the angles of the starts, too
     #[arg(long)]
     pub angles: bool,
-    /// Print one JSON object (schema_version 1) instead of tables
+    /// Print one JSON object (schema_version 2) instead of tables
     #[arg(long)]
     pub json: bool,
     /// The folder to write: new or empty, or with --resume one that holds this sweep

@@ -30,13 +30,10 @@ pub fn summary(manifest: &Manifest, summary: &StoreSummary) -> String {
     } else {
         "there may be others: the census is not complete"
     };
-    let left_out = match manifest.equilibria_left_out {
-        0 => String::new(),
-        more => {
-            format!(", those reached most often of {}", manifest.equilibria.len() as u64 + more)
-        }
-    };
-    let listed = manifest.equilibria.len();
+    let lowest = summary.listed_below_j().map_or_else(String::new, |below_j| {
+        format!(", the lowest of those reached: none from {} J on", short(below_j))
+    });
+    let listed = summary.equilibria(manifest).count();
     if let Some(release) = &manifest.release {
         let _ = writeln!(
             text,
@@ -47,10 +44,10 @@ pub fn summary(manifest: &Manifest, summary: &StoreSummary) -> String {
             short(release.friction_n_m_s)
         );
     }
-    let _ = writeln!(text, "{listed} equilibria in the list{left_out}; {proof}\n");
+    let _ = writeln!(text, "{listed} equilibria in the list{lowest}; {proof}\n");
     let tally = summary.outcomes.tally();
     for (name, solver) in &tally.solvers {
-        let _ = writeln!(text, "{name}:\n{}\n", outcomes(manifest, solver, all));
+        let _ = writeln!(text, "{name}:\n{}\n", outcomes(manifest, summary, solver));
     }
     if tally.both.is_some() {
         text += &comparisons(manifest, summary);
@@ -71,7 +68,12 @@ pub fn rate(computed: u64, all: u64, seconds: f64) -> String {
     format!("{computed} seeds in {seconds:.1} s: {} a second, written\n", short(rate.round()))
 }
 
-fn outcomes(manifest: &Manifest, solver: &SolverTally, all: u64) -> comfy_table::Table {
+fn outcomes(
+    manifest: &Manifest,
+    summary: &StoreSummary,
+    solver: &SolverTally,
+) -> comfy_table::Table {
+    let all = summary.outcomes.seeds();
     let release = manifest.release.as_ref();
     let [median, most] = if release.is_some() {
         ["median\ntime / s", "longest\n/ s"]
@@ -96,7 +98,7 @@ fn outcomes(manifest: &Manifest, solver: &SolverTally, all: u64) -> comfy_table:
     // Equilibria first, then failures from the most harmless on.
     let (failed, reached): (Vec<_>, Vec<_>) = solver.0.iter().partition(|(code, _)| **code < 0);
     for (code, row) in reached.into_iter().chain(failed.into_iter().rev()) {
-        let member = usize::try_from(*code).ok().and_then(|k| manifest.equilibria.get(k));
+        let member = summary.equilibrium(manifest, *code);
         let (low, high) = rate_interval(row.count, all);
         let index = member.and_then(|member| member.index_in_plane);
         table.add_row([
@@ -149,7 +151,7 @@ fn comparisons(manifest: &Manifest, summary: &StoreSummary) -> String {
             count.to_string(),
             short(percent(count, all)),
             match comparison {
-                gap if manifest.explains(gap) => "unknown: the list has gaps",
+                gap if manifest.explains(gap) => "unknown: the list ends below",
                 wrong if wrong.should_not_be() => "NO",
                 _ => "yes",
             }

@@ -28,7 +28,8 @@ fn finished(folder: &Path) -> Manifest {
         seeds,
         outcomes: ["lagrange", "energy"].map(outcomes).into(),
     };
-    let settings = RunSettings { threads: 1, resume: false, stop: &NEVER, done: &|_| () };
+    let (done, found) = (&|_| (), &|_| ());
+    let settings = RunSettings { threads: 1, resume: false, stop: &NEVER, done, found };
     sweep::run(folder, prepared.manifest(), &compute, &settings).unwrap();
     prepared.manifest().clone()
 }
