@@ -3,6 +3,7 @@
 use model::{Chain, Vector};
 
 use crate::regime::Reach;
+use crate::twofold::Twofold;
 use crate::vector::{Sum, cross, dot, norm, scaled, unit};
 
 /// World up; gravity acts along its negative.
@@ -67,6 +68,15 @@ impl Frame {
         }
         let [across, _, up] = self.into_frame(difference);
         [[across, 0.0, up], [0.0; 3]]
+    }
+
+    /// The way between the anchors in a frame whose first axis is level, towards the end anchor, to
+    /// twice the digits as well.
+    pub(crate) fn level_span([x, y, z]: Vector) -> [Vector; 2] {
+        let [x, y] = [x, y].map(Twofold::from);
+        let across = (x * x + y * y).sqrt();
+        let rest = across - Twofold::from(across.value());
+        [[across.value(), 0.0, z], [rest.value(), 0.0, 0.0]]
     }
 
     /// Whether the first axis is the line of the anchors.

@@ -94,11 +94,16 @@ impl Links {
             *h = 0.5 * (*h + (after.value() + m * at_last));
             after.add(m);
         }
-        let span = frame.span(difference_m.map(|x| x / length_m));
+        let difference = difference_m.map(|x| x / length_m);
+        let vertical = chain.anchors_on_one_vertical();
+        let span = if reach == Reach::Triangle && !vertical {
+            Frame::level_span(difference)
+        } else {
+            frame.span(difference)
+        };
         let mut up = frame.into_frame(WORLD_UP);
         // Zero by the choice of the frame; rounding must not push a plane chain out of its plane.
         up[1] = 0.0;
-        let vertical = chain.anchors_on_one_vertical();
         (
             Self { length, carried, span, up, vertical, motion },
             Units { length_m, weight_n, frame, origin: None },

@@ -192,6 +192,9 @@ fn descend_to_line(
     settings: &Settings,
 ) -> Result<Minimum, Error> {
     let links = Arc::new(links);
+    if let Some(minimum) = Minimum::of_triangle(&links, &start) {
+        return Ok(minimum);
+    }
     let start = links.unfolded(start);
     let moments = links.measure(&start);
     let closed = links

@@ -78,6 +78,9 @@ pub(crate) enum Refinement {
 
 /// Refine a minimum if that is needed.
 pub(crate) fn refine(problem: &Problem, units: &Units, minimum: &Minimum) -> Refinement {
+    if let Some(exact) = of_triangle(problem, units, minimum) {
+        return Refinement::Refined(Box::new(exact), 0.0);
+    }
     let Minimum { links, shape, slope, unsettled, .. } = minimum;
     let parallel = match slope.line {
         Some(e) => off_the_line(links, e).is_some(),
@@ -114,6 +117,16 @@ pub(crate) fn refine(problem: &Problem, units: &Units, minimum: &Minimum) -> Ref
         return failed;
     }
     Refinement::Refined(Box::new((refined, units)), last)
+}
+
+/// Two bars over near anchors with their weights counted from the first: what hangs between them is
+/// one number then, and no difference.
+fn of_triangle(problem: &Problem, units: &Units, minimum: &Minimum) -> Option<(Minimum, Units)> {
+    let old = &minimum.links;
+    let links = Links { carried: counted_from(problem, 0), ..(**old).clone() };
+    let exact = Minimum::of_triangle(&Arc::new(links), &minimum.shape.u)?;
+    let origin = Some(Origin { bar: 0, carried: old.carried[0] });
+    Some((exact, Units { origin, ..*units }))
 }
 
 /// A point of the unknowns: directions in the plane, and the multiplier.

@@ -35,6 +35,8 @@ pub enum Reach {
     /// Little, before it is taut or its longest bar folds on the others along the span: an axis of
     /// the frame lies along the span, where squares of small angles keep their digits.
     DrawnOut,
+    /// Two bars over anchors that are next to each other: a triangle, known in closed form.
+    Triangle,
     /// Very little before its longest bar folds on the others: it starts with that bar along the
     /// span.
     NearlyFolded,
@@ -62,6 +64,11 @@ const DRAWN_OUT: f64 = 0.25;
 
 /// Parts of the total length to spare below which the longest bar starts along the span.
 const NEARLY_FOLDED: f64 = 0.05;
+
+/// Parts of the total length between the anchors of two bars up to which they are taken as a
+/// triangle: bars folded back to an angle `a` leave a minimiser the digits of `a²`, and below this
+/// those are fewer than ten.
+const NEAR_ANCHORS: f64 = 1e-3;
 
 /// Bars of a chain whose others, without the longest, can be closed on anything.
 const FEWEST_TO_UNFOLD: usize = 3;
@@ -102,6 +109,9 @@ impl Reach {
     pub(crate) fn of(bars: usize, total: f64, span: f64, longest: f64) -> Self {
         let (taut, folded) = (total - span, total + span - 2.0 * longest);
         let spare = taut.min(folded);
+        if bars == 2 && span <= NEAR_ANCHORS * total {
+            return Self::Triangle;
+        }
         let along_span = spare < DRAWN_OUT * total && spare < span;
         let nearly_folded =
             bars >= FEWEST_TO_UNFOLD && folded <= NEARLY_FOLDED * total && folded <= span;
@@ -152,7 +162,11 @@ mod tests {
             (3, 2.0, 1.0 / 64.0, 1.0, Reach::FoldedAnyway),
             // Two bars are a triangle: nothing is left to close.
             (2, 3.0, 1.0, 1.99, Reach::DrawnOut),
-            (2, 2.0, 1e-6, 1.0, Reach::Slack),
+            (2, 2.0, 1.0 / 256.0, 1.0, Reach::Slack),
+            (2, 2.0, 1.0 / 256.0, 1.0 + 1e-3, Reach::DrawnOut),
+            // Next to each other, their anchors say little of the line on which they fold.
+            (2, 2.0, 1e-6, 1.0, Reach::Triangle),
+            (2, 2.0, 1e-6, 1.0 + 4e-7, Reach::Triangle),
             // Anchors at one point.
             (6, 3.0, 0.0, 0.5, Reach::Slack),
         ] {

@@ -13,6 +13,8 @@ use crate::plane::Turn;
 use crate::seed::Seed;
 use crate::settings::Motion;
 use crate::slope::Slope;
+use crate::triangle::Triangle;
+use crate::vector::norm;
 
 /// Second-order behaviour, and how well it is decided.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -59,7 +61,10 @@ pub fn second_order(problem: &Problem, directions: &Seed) -> Result<SecondOrder,
     let u = directions.in_frame(&links, &units)?;
     let moments = links.measure(&u);
     let shape = Shape { u, moments };
-    let slope = Slope::new(&links, &shape);
+    let slope = match Triangle::near(&links, &shape.u) {
+        Some(triangle) => triangle.slope(&links, &shape.u),
+        None => Slope::new(&links, &shape),
+    };
     if !slope.mean.is_finite() {
         return Err(Error::NotFinite { quantity: "projected gradient" });
     }
@@ -75,6 +80,9 @@ impl SecondOrder {
 
     fn new(place: &Curvature) -> Self {
         let links = &place.links;
+        if let Some(triangle) = Triangle::near(links, &place.shape.u) {
+            return Self::of_triangle(place, triangle.curvature);
+        }
         let space = if links.motion == Motion::Space {
             place.clone()
         } else {
@@ -109,7 +117,28 @@ impl SecondOrder {
             nullity: flat + turn + undetermined,
             condition: space.condition(zero),
             residual: place.slope.residual(),
-            gap: crate::vector::norm(place.shape.moments.gap) / links.total(),
+            gap: norm(place.shape.moments.gap) / links.total(),
+        }
+    }
+}
+
+impl SecondOrder {
+    /// Of two bars over near anchors, which move in one way: they turn about the line through the
+    /// anchors, with this second derivative.
+    fn of_triangle(place: &Curvature, curvature: f64) -> Self {
+        let flat = curvature.abs() <= 0.0;
+        let index_in_space = usize::from(curvature < 0.0);
+        Self {
+            stability: Stability {
+                in_plane: InPlane::Minimum,
+                index_in_plane: 0,
+                in_space: if index_in_space == 0 { InSpace::Stable } else { InSpace::Unstable },
+                index_in_space,
+            },
+            nullity: usize::from(flat),
+            condition: if flat { 1.0 } else { place.slope.highest / curvature.abs() },
+            residual: place.slope.residual(),
+            gap: norm(place.shape.moments.gap) / place.links.total(),
         }
     }
 }

@@ -146,7 +146,7 @@ fn masses_over_eleven_orders() {
 /// Two bars over anchors that are near: a triangle, whose forces are known in closed form.
 #[test]
 fn two_bars_over_near_anchors() {
-    for exponent in [-3.0, -4.0, -4.5, -5.0, -5.5, -6.0, -6.5_f64] {
+    for exponent in [-3.0, -4.0, -4.5, -5.0, -5.5, -6.0, -6.5, -7.0, -8.0, -9.0, -12.0_f64] {
         for (slope, second_kg) in [(0.3_f64, 2.0), (0.927_295_218_001_612, 2.0), (-1.2, 0.4)] {
             let span = 2.0 * 10.0_f64.powf(exponent);
             let (s, c) = slope.sin_cos();
@@ -165,6 +165,150 @@ fn two_bars_over_near_anchors() {
                 assert!(error < 1e-9, "{exponent} {slope}: {axial} {expected} {error:e}");
             }
         }
+    }
+}
+
+/// The same where everything is a whole number: half the span, height and length of each bar are
+/// `2 m, m² - 1, m² + 1`, and the span rises by 4 over 3. The bars part by an angle of `4 / m`,
+/// down to 1.2e-7.
+#[test]
+fn two_bars_over_near_anchors_in_whole_numbers() {
+    for power in 11..=25 {
+        let m = 2.0_f64.powi(power);
+        let length = 5.0 * (m * m + 1.0);
+        let bars = [(length, 1.0, 0.5), (length, 2.0, 0.5)];
+        let (_, solution) = solved(&bars, [12.0 * m, 0.0, 16.0 * m]);
+        let height = m * m - 1.0;
+        let exact = [6.0 * m + 4.0 * height, 0.0, 8.0 * m - 3.0 * height];
+        let found = solution.equilibrium.joints_m[1];
+        assert!(difference(found, exact) <= 2.0 * f64::EPSILON * length, "{found:?} {exact:?}");
+        // Of the load the part across the span is 0.6, that along it 0.8.
+        let load = 1.5 * GRAVITY;
+        let (down, along) = (0.3 * load / height, 0.2 * load / m);
+        for (axial, expected) in
+            solution.equilibrium.axial_n.iter().zip([down - along, down + along])
+        {
+            let expected = (m * m + 1.0) * expected;
+            assert!((axial / expected - 1.0).abs() < 1e-14, "{power}: {axial} {expected}");
+        }
+        let evidence = &solution.equilibrium.evidence;
+        assert!(evidence.ladder.is_reached(Rung::Converged), "{evidence:?}");
+        assert_eq!(evidence.nullity, 0);
+        assert!(evidence.force_uncertainty().is_none(), "{evidence:?}");
+        // The turn about the span: the load across it over the height, by both bars.
+        let turn = 0.6 * load / (3.0 * GRAVITY) * (m * m + 1.0) / (2.0 * height);
+        let largest = (down + along) * (m * m + 1.0) / (3.0 * GRAVITY);
+        let condition = largest / turn;
+        let error = evidence.condition / condition - 1.0;
+        assert!(error.abs() < 1e-13, "{power}: {} {condition}", evidence.condition);
+    }
+}
+
+/// Bars of unlike lengths: folded across the span, nearly along it, and plumb. Joint and forces
+/// from the same triangle with 60 digits (mpmath 1.3).
+#[test]
+fn unlike_bars_over_near_anchors() {
+    type Case = ([f64; 2], [f64; 2], Vector, Vector, [f64; 2]);
+    let part = |power: i32| 2.0_f64.powi(power);
+    let cases: [Case; 8] = [
+        (
+            [1.0, 1.000_000_05],
+            [1.0, 2.0],
+            [6e-8, 0.0, 8e-8],
+            [0.392_820_363_716_983_5, 0.0, -0.919_615_224_889_875_8],
+            [-68_038_470.690_166_84, 68_038_484.484_395_47],
+        ),
+        (
+            [1.3, 1.3 - 7e-9],
+            [0.5, 2.0],
+            [3e-9, -4e-9, -9e-9],
+            [-0.242_451_305_777_947_55, 0.323_268_407_703_930_1, -1.235_603_051_512_553_5],
+            [669_030_418.592_931_3, -669_030_406.712_132_7],
+        ),
+        (
+            [0.7, 0.7 + part(-32)],
+            [2.0, 1.0],
+            [2e-10, 1e-10, -3e-10],
+            [-0.625_796_042_231_794, -0.312_898_021_115_897, 0.021_774_799_856_217_606],
+            [35_831_172_422.493_99, -35_831_172_422.960_594],
+        ),
+        (
+            [1.5, 1.5 - part(-30)],
+            [1.0, 1.0],
+            [part(-31), 0.0, -part(-30)],
+            [2.328_306_436_900_097e-10, 0.0, -1.5],
+            [5.000_000_000_776_102, 4.999_999_999_223_898],
+        ),
+        (
+            [2.0, 2.0 + 3.0 * part(-34)],
+            [1.0, 3.0],
+            [part(-36), 0.0, 3.0 * part(-34)],
+            [7.275_957_614_024_607e-12, 0.0, -2.0],
+            [9.999_999_999_781_721, 10.000_000_000_218_279],
+        ),
+        (
+            [1.0, 1.0 - 9.999e-9],
+            [1.0, 1.0],
+            [6e-9, 0.0, 8e-9],
+            [0.611_253_641_913_412_7, 0.0, 0.791_434_763_734_566_7],
+            [-43_222_404_620.780_92, 43_222_404_612.866_58],
+        ),
+        (
+            [1.0, 1.0],
+            [1.0, 2.0],
+            [1e-12, 0.0, 1e-12],
+            [0.707_106_781_187_047_5, 0.0, -0.707_106_781_186_047_5],
+            [-7_499_999_999_994.697, 7_500_000_000_005.303],
+        ),
+        (
+            [3.0, 3.0 + 1e-6],
+            [1.0, 1.0],
+            [1e-4, 0.0, 2e-4],
+            [2.677_305_184_394_758_4, 0.0, -1.353_527_594_699_475_9],
+            [-119_729.433_069_186_96, 119_733.945_160_423_5],
+        ),
+    ];
+    for (lengths, masses, end_m, joint, axial) in cases {
+        let bars = [(lengths[0], masses[0], 0.5), (lengths[1], masses[1], 0.5)];
+        let problem = problem(&bars, end_m, 10.0);
+        let found = minimise(&problem, &Settings::default()).unwrap().equilibrium;
+        assert!(difference(found.joints_m[1], joint) < 1e-15, "{:?} {joint:?}", found.joints_m);
+        for (found, exact) in found.axial_n.iter().zip(axial) {
+            assert!((found / exact - 1.0).abs() < 1e-13, "{end_m:?}: {found} {exact}");
+        }
+        assert!(found.evidence.ladder.is_reached(Rung::Converged));
+        assert_eq!((found.stability.index_in_space, found.evidence.nullity), (0, 0));
+    }
+}
+
+/// From the upper side of the line through the anchors two bars turn over in space and stay in the
+/// plane; about anchors on one vertical they stay where they are, turned or not.
+#[test]
+fn two_bars_over_near_anchors_from_seeds() {
+    use energy::{Motion, Seed, minimise_from, second_order};
+    let bars = [(1.0, 1.0, 0.5), (1.0, 2.0, 0.5)];
+    let level = problem(&bars, [1e-9, 0.0, 0.0], GRAVITY);
+    let upper = Seed::directions(&level, &[[0.1, 0.2, 1.0], [0.0, 0.1, -1.0]]).unwrap();
+    for (motion, height, index) in [(Motion::Space, -1.0, 0), (Motion::Plane, 1.0, 1)] {
+        let settings = Settings { motion, ..Settings::default() };
+        let found = minimise_from(&level, &upper, &settings).unwrap();
+        assert!((found.equilibrium.joints_m[1][2] - height).abs() < 1e-15, "{motion:?}");
+        assert_eq!(found.equilibrium.stability.index_in_space, index);
+        assert_eq!(found.equilibrium.stability.index_in_plane, 0);
+        let directions = Seed::directions(&level, &found.directions).unwrap();
+        let second = second_order(&level, &directions).unwrap();
+        assert_eq!(second.stability, found.equilibrium.stability);
+        assert!(second.residual < 1e-12 && second.gap < 1e-15, "{second:?}");
+    }
+    let upright = problem(&bars, [0.0, 0.0, 1e-9], GRAVITY);
+    let aside = Seed::directions(&upright, &[[0.6, 0.8, 0.5], [-0.6, -0.8, -0.5]]).unwrap();
+    let found = minimise_from(&upright, &aside, &Settings::default()).unwrap().equilibrium;
+    assert!(difference(found.joints_m[1], [0.6, 0.8, 5e-10]) < 1e-15, "{:?}", found.joints_m);
+    assert_eq!((found.stability.index_in_space, found.evidence.nullity), (0, 1));
+    // Each bar bears the load over the angle between them, one pulls and one pushes.
+    let load = 1.5 * GRAVITY;
+    for (axial, sign) in found.axial_n.iter().zip([-1.0, 1.0]) {
+        assert!((axial / (sign * load / 1e-9) - 1.0).abs() < 1e-14, "{axial}");
     }
 }
 
