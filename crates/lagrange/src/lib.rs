@@ -68,6 +68,7 @@
 //! | folded strut | and nearly as long as span and all others together | the slope from that line, the others against it | as above | as above |
 //! | compact fold | and anchors nearer than the fold is exact | axes that turn with the bar | as above | as above |
 //! | vertical strut | and anchors on one vertical | the slope from the vertical | as above | as above; forces indeterminate if the chain is straight |
+//! | triangle | two bars, $\lvert D\rvert < 10^{-3} L$ | none: the moments of the load, to twice the digits | none is needed | converged; minimum, stable |
 //! | unloaded | bars without load at the bottom can fill G | none | none is needed | degenerate, with the number of free motions |
 //! | indeterminate | $G = l$ to 8u L, anchors on one vertical | how the strands share one weight | none | the limit of anchors moved apart |
 //!

@@ -92,6 +92,29 @@ impl Pull {
         Self { closure: Some(root.closure), ..pull }
     }
 
+    /// Of two bars with the force densities $\tau_i = N_i/l_i$, their sum, and twice the area between them and
+    /// their anchors. The derivative of the closure by the force,
+    /// $\sum (1 - u_i u_i^T)/\tau_i$, has the determinant $(u_1 \times u_2)^2/(\tau_1 \tau_2)$,
+    /// of which nothing is left in the difference of its entries; the pivots are its eigenvalues.
+    pub(super) fn of_triangle(
+        chain: &Condensed,
+        signs: Signs,
+        force: [f64; 2],
+        densities: [f64; 2],
+        sum: f64,
+        area: f64,
+    ) -> Self {
+        let mut pull = Self::new(chain, signs, force, [0.0; 3], 0);
+        let lengths = &chain.bars.lengths;
+        let sine = area / (lengths[0] * lengths[1]);
+        let determinant = sine / densities[0] * (sine / densities[1]);
+        let half = 0.5 * sum / densities[0] / densities[1];
+        let first = half + (half * half - determinant).max(0.0).sqrt().copysign(half);
+        pull.pivots = [first, determinant / first];
+        pull.remainder_of = first.abs();
+        pull
+    }
+
     /// Force of the ground on bar 1 at joint 0, world frame, N: the paper's λ₁, λ₂, λ₃. The chain
     /// pulls the anchor with the opposite of it.
     ///

@@ -20,6 +20,8 @@ pub(super) struct Span {
     pub rise: f64,
     /// Distance of the anchors.
     pub distance: f64,
+    /// The way in the world's axes, to twice the digits.
+    pub steps: [DoubleDouble; 3],
     /// Its square, to twice the digits.
     pub distance_squared: DoubleDouble,
 }
@@ -37,6 +39,7 @@ impl Span {
             across,
             rise,
             distance: across.hypot(rise),
+            steps: difference,
             distance_squared: difference
                 .into_iter()
                 .fold(DoubleDouble::default(), |sum, part| sum.add(part.square())),

@@ -46,6 +46,39 @@ impl DoubleDouble {
         Self::product(self.high, self.high).plus(2.0 * self.high * self.low)
     }
 
+    /// The product, to a few units in its 104th binary digit, like the two below.
+    #[must_use]
+    pub fn times(self, other: Self) -> Self {
+        Self::product(self.high, other.high).plus(self.high * other.low + self.low * other.high)
+    }
+
+    /// The quotient.
+    #[must_use]
+    pub fn over(self, other: Self) -> Self {
+        let first = Self { high: self.high / other.high, low: 0.0 };
+        let left = self.add(other.times(first).negate());
+        let second = Self { high: left.high / other.high, low: 0.0 };
+        let left = left.add(other.times(second).negate());
+        first.add(second).plus(left.high / other.high)
+    }
+
+    /// The square root; zero of what is negative.
+    #[must_use]
+    pub fn root(self) -> Self {
+        if self.high <= 0.0 {
+            return Self::default();
+        }
+        let near = Self { high: self.high.sqrt(), low: 0.0 };
+        let left = self.add(near.square().negate());
+        near.plus(left.value() / (2.0 * near.high))
+    }
+
+    /// The half.
+    #[must_use]
+    pub fn half(self) -> Self {
+        Self { high: 0.5 * self.high, low: 0.5 * self.low }
+    }
+
     pub fn value(self) -> f64 {
         self.high + self.low
     }
@@ -89,6 +122,22 @@ mod tests {
         let square = DoubleDouble::sum(1.0, tiny).square().plus(-1.0).plus(-2.0 * tiny);
         assert!(square.value().abs() <= 2.0 * tiny * tiny);
         assert!((DoubleDouble::product(0.1, 0.1).value() - 0.1 * 0.1).abs() <= f64::EPSILON * 0.01);
+    }
+
+    /// The square root of two to 32 digits (OEIS A002193), and a third.
+    #[test]
+    fn roots_and_quotients_to_twice_the_digits() {
+        let of = |high: f64| DoubleDouble { high, low: 0.0 };
+        let root = of(2.0).root();
+        assert_eq!(root.high.to_bits(), std::f64::consts::SQRT_2.to_bits());
+        assert!((root.low + 9.667_293_313_452_913e-17).abs() < 1e-31);
+        assert!(root.times(root).plus(-2.0).value().abs() < 1e-31);
+        let third = of(1.0).over(of(3.0));
+        // A third less its double is a third of 2^-54.
+        assert!((third.low * 2.0_f64.powi(54) * 3.0 - 1.0).abs() < 1e-15);
+        let sixth = third.half();
+        assert!(root.times(sixth).over(root).add(sixth.negate()).value().abs() < 1e-32);
+        assert!(of(-1.0).root().value().abs() <= 0.0);
     }
 
     #[test]

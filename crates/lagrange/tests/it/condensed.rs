@@ -128,6 +128,94 @@ fn two_bars_are_a_triangle() {
     }
 }
 
+/// Two bars over anchors next to each other, all in whole numbers: half the span, height and length
+/// are `2 m, m² - 1, m² + 1`, and the span rises by 5 over 12.
+#[test]
+fn two_bars_over_near_anchors_in_whole_numbers() {
+    for power in 8..=24 {
+        let m = 2.0_f64.powi(power);
+        let (length, height) = (m * m + 1.0, m * m - 1.0);
+        let bars = [1.0, 2.0].map(|mass| Bar::homogeneous(13.0 * length, mass).unwrap());
+        let found = solved(bars.to_vec(), 10.0, [48.0 * m, 0.0, 20.0 * m]);
+        let joint = [24.0 * m + 5.0 * height, 0.0, 10.0 * m - 12.0 * height];
+        // Near the threshold the closure of all bars is solved, to a rounding over their angle.
+        let known = if power > 11 { 1e-15 } else { 1e-13 * m };
+        near(found.equilibrium.joints_m[1], joint, known * 13.0 * length);
+        // Of the load of 15 N the part 12/13 is across the span and 5/13 along it.
+        let (down, along) = (90.0 / 13.0 / height, 75.0 / 52.0 / m);
+        for (axial, exact) in found.equilibrium.axial_n.iter().zip([down - along, down + along]) {
+            let exact = length * exact;
+            assert!((axial / exact - 1.0).abs() < 10.0 * known, "{power}: {axial} {exact}");
+        }
+        let evidence = &found.equilibrium.evidence;
+        assert_eq!((evidence.nullity, evidence.force_uncertainty()), (0, None));
+    }
+}
+
+/// Unlike bars: across the span, nearly along it, plumb, and about one vertical. Joint and forces
+/// from the same triangle with 60 digits (mpmath 1.3).
+#[test]
+fn unlike_bars_over_near_anchors() {
+    type Case = ([f64; 2], [f64; 2], Vector, Vector, [f64; 2]);
+    let part = |power: i32| 2.0_f64.powi(power);
+    let cases: [Case; 6] = [
+        (
+            [0.8, 0.8 + 3e-8],
+            [1.0, 2.5],
+            [-4e-8, 2e-8, 1e-8],
+            [0.339_109_066_053_495, -0.169_554_533_026_747_5, -0.704_454_612_910_163_3],
+            [191_532_234.974_949_78, -191_532_219.565_005_3],
+        ),
+        (
+            [1.7, 1.7 - 6e-9],
+            [0.5, 2.0],
+            [5e-9, 0.0, -7e-9],
+            [-0.302_115_207_560_715_4, 0.0, -1.672_939_449_400_529_2],
+            [612_619_495.230_439_4, -612_619_482.929_414_2],
+        ),
+        (
+            [2.0, 2.0 - part(-33)],
+            [2.0, 1.0],
+            [part(-35), 0.0, -part(-33)],
+            [1.455_191_522_857_861e-11, 0.0, -2.0],
+            [7.500_000_000_109_139, 7.499_999_999_890_861],
+        ),
+        (
+            [1.0, 1.0 + 4.999e-10],
+            [1.0, 1.0],
+            [-3e-10, 0.0, 4e-10],
+            [0.583_872_622_627_390_6, 0.0, -0.811_845_281_162_742_7],
+            [583_607_939_343.168_3, -583_607_939_335.049_8],
+        ),
+        (
+            [1.25, 1.25 + part(-20)],
+            [1.0, 3.0],
+            [part(-13), 0.0, part(-14)],
+            [0.551_252_090_918_395_9, 0.0, -1.121_882_851_396_747_4],
+            [-80_766.160_755_055_45, 80_784.111_362_164_74],
+        ),
+        (
+            [1.5, 1.5 + 3.0 * part(-30)],
+            [1.0, 1.0],
+            [0.0, 0.0, 5.0 * part(-30)],
+            [0.0, -1.200_000_001_117_587, -0.899_999_998_509_883_9],
+            [-3_221_225_472.0, 3_221_225_478.0],
+        ),
+    ];
+    for (lengths, masses, end_m, joint, axial) in cases {
+        let bar = |k: usize| Bar::homogeneous(lengths[k], masses[k]).unwrap();
+        let found = solved(vec![bar(0), bar(1)], 10.0, end_m);
+        near(found.equilibrium.joints_m[1], joint, 1e-15);
+        for (found, exact) in found.equilibrium.axial_n.iter().zip(axial) {
+            assert!((found / exact - 1.0).abs() < 1e-13, "{end_m:?}: {found} {exact}");
+        }
+        assert_eq!(found.equilibrium.stability.index_in_space, 0);
+        assert_eq!(found.equilibrium.stability.in_plane, InPlane::Minimum);
+        let upright = end_m[0].hypot(end_m[1]) <= 0.0;
+        assert_eq!(found.equilibrium.evidence.nullity, usize::from(upright));
+    }
+}
+
 /// The rope of the same length: closed form. Halving the bars must quarter the differences.
 #[test]
 fn many_equal_bars_approach_the_catenary_with_order_two() {

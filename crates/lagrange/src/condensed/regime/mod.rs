@@ -12,6 +12,7 @@ mod strut;
 mod taut;
 mod taut_strut;
 mod tension;
+mod triangle;
 mod unloaded;
 mod vertical_strut;
 
@@ -43,6 +44,8 @@ pub(super) enum Regime {
     CompactFold,
     /// The lowest bar in compression, the anchors on one vertical.
     VerticalStrut,
+    /// Two bars over anchors that are next to each other.
+    Triangle,
     /// The lowest bars carry no force and fill the gap between two vertical strands.
     Unloaded,
     /// Anchors on one vertical and two vertical strands that just meet: how they share the weight
@@ -53,6 +56,9 @@ pub(super) enum Regime {
 impl Regime {
     /// The regime of a chain.
     pub fn of(chain: &Condensed) -> Self {
+        if chain.bars() == 2 && chain.span.distance < NEARLY_STRAIGHT * chain.bars.total_length {
+            return Self::Triangle;
+        }
         let (bottom, across) = (&chain.bottom, chain.span.across);
         let gap = across.hypot(bottom.gap);
         let rounding = EQUAL_LENGTHS * chain.bars.total_length;
@@ -112,6 +118,7 @@ impl Regime {
             Self::FoldedStrut => folded::solve(chain, budget),
             Self::CompactFold => compact_fold::solve(chain, budget),
             Self::VerticalStrut => vertical_strut::solve(chain, budget),
+            Self::Triangle => triangle::solve(chain),
             Self::Unloaded => Some(unloaded::solve(chain)),
             Self::Indeterminate => indeterminate::solve(chain, budget),
         }
@@ -159,6 +166,7 @@ mod tests {
             (Regime::FoldedStrut, &[0.5, 2.0, 0.5], &[1.0; 3], [1.0005, 0.0, 0.0]),
             (Regime::CompactFold, &[0.5001, 1.0, 0.5], &[1.0; 3], [1e-6, 0.0, 0.0]),
             (Regime::VerticalStrut, &[1.0; 3], &[1.0; 3], [0.0, 0.0, -2.0]),
+            (Regime::Triangle, &[1.0; 2], &[1.0; 2], [0.0, 0.0, 1e-3]),
             (Regime::Unloaded, &[1.0; 6], &light, [1.0, 0.0, 0.0]),
             (Regime::Indeterminate, &[1.0; 4], &[1.0; 4], [0.0; 3]),
         ] {
@@ -182,6 +190,10 @@ mod tests {
         let three = |across: f64| regime(&[1.0; 3], &[1.0; 3], [across, 0.0, 0.0]);
         assert_eq!(three(1.0 - 1e-12), Regime::Strut);
         assert_eq!(three(1.0 + 1e-12), Regime::Tension);
+        // Two bars over anchors that are so near.
+        let two = |across: f64| regime(&[0.5; 2], &[1.0; 2], [across, 0.0, 0.0]);
+        assert_eq!(two(0.9 * NEARLY_STRAIGHT), Regime::Triangle);
+        assert_eq!(two(1.1 * NEARLY_STRAIGHT), Regime::Tension);
         // The fold: slack against span.
         let fold =
             |long: f64, across: f64| regime(&[0.5, long, 0.5], &[1.0; 3], [across, 0.0, 0.0]);
