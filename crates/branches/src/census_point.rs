@@ -64,8 +64,8 @@ pub enum PointStatus {
 /// A degenerate equilibrium at a point of the path.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 pub struct Merged {
-    /// So many equilibria have merged.
-    pub multiplicity: usize,
+    /// So many equilibria have merged; none where a whole family has shrunk to it.
+    pub multiplicity: Option<usize>,
     /// Σ (−1)^index over those into which it falls apart.
     pub degree: i8,
 }

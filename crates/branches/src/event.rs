@@ -55,8 +55,9 @@ pub enum EventKind {
     /// Several branches end in one degenerate equilibrium, which a census proves at these very
     /// values.
     Multiple {
-        /// So many equilibria merge in it, with those that are complex.
-        multiplicity: usize,
+        /// So many equilibria merge in it, with those that are complex; none where a whole family of
+        /// slack positions shrinks to it.
+        multiplicity: Option<usize>,
         /// Σ (−1)^index over those into which it falls apart.
         degree: i8,
     },

@@ -29,25 +29,36 @@ pub struct Nearest {
 /// chain.
 #[must_use]
 pub fn nearest(chain: &Chain, census: &Census, joints_m: &[Vector]) -> Option<Nearest> {
-    let length_m = chain.total_length_m();
-    let beyond = |boxes: &[[Interval; 3]]| -> f64 {
-        if boxes.len() != joints_m.len() {
-            return f64::NAN;
-        }
-        let turned = if chain.anchors_on_one_vertical() {
-            turned_onto(chain.anchors().start_m, boxes, joints_m)
-        } else {
-            joints_m.to_vec()
-        };
-        let coordinates = boxes.iter().flatten().zip(turned.iter().flatten());
-        coordinates.map(|(part, x)| outside(*part, *x)).fold(0.0, worse) / length_m
-    };
-    let all = census
-        .equilibria
-        .iter()
-        .enumerate()
-        .map(|(k, equilibrium)| Nearest { number: k + 1, beyond: beyond(&equilibrium.joints_m) });
+    let all = census.equilibria.iter().enumerate().map(|(k, equilibrium)| Nearest {
+        number: k + 1,
+        beyond: beyond(chain, &equilibrium.joints_m, joints_m),
+    });
     all.filter(|place| place.beyond.is_finite()).min_by(|a, b| a.beyond.total_cmp(&b.beyond))
+}
+
+/// How far outside of the boxes of the nearest degenerate equilibrium a position lies, in units of the
+/// total length.
+pub(crate) fn nearest_degenerate(
+    chain: &Chain,
+    census: &Census,
+    joints_m: &[Vector],
+) -> Option<f64> {
+    let all = census.degenerate.iter().map(|merged| beyond(chain, &merged.joints_m, joints_m));
+    all.filter(|distance| distance.is_finite()).min_by(f64::total_cmp)
+}
+
+/// How far outside of boxes the worst coordinate of a joint lies, in units of the total length.
+fn beyond(chain: &Chain, boxes: &[[Interval; 3]], joints_m: &[Vector]) -> f64 {
+    if boxes.len() != joints_m.len() {
+        return f64::NAN;
+    }
+    let turned = if chain.anchors_on_one_vertical() {
+        turned_onto(chain.anchors().start_m, boxes, joints_m)
+    } else {
+        joints_m.to_vec()
+    };
+    let coordinates = boxes.iter().flatten().zip(turned.iter().flatten());
+    coordinates.map(|(part, x)| outside(*part, *x)).fold(0.0, worse) / chain.total_length_m()
 }
 
 /// How far a number lies outside of an interval.

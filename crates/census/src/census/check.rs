@@ -237,7 +237,7 @@ impl Census {
                 "the list of degenerate equilibria",
                 // Where something is open the list need not be whole.
                 (self.degenerate.is_empty() && !self.undecided.is_empty())
-                    || self.degenerate == unloaded(system, exact.moments.as_ref()).degenerate,
+                    || self.degenerate == unloaded(system, exact).degenerate,
             ),
             ("the topology", self.topology == Topology::of_system(system)),
             ("whether there are circles", self.circles == system.vertical),

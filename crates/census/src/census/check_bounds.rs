@@ -27,7 +27,7 @@ pub(super) fn check_bounds(
     if census.undecided.iter().all(|open| open.bound.is_none()) {
         return Ok(());
     }
-    let again = unloaded(system, exact.moments.as_ref());
+    let again = unloaded(system, exact);
     // Whether no equilibrium is listed but those with a sign for each bar.
     let all = again.equilibria.is_empty() && again.degenerate.is_empty();
     let one = |(k, open): (usize, &Undecided)| {

@@ -59,7 +59,7 @@ impl Gathered {
         refuse_long(chain, loads, settings, kept)?;
         let system = System::new(chain, loads);
         let exact = Exact::new(chain, loads);
-        let unloaded = unloaded(&system, exact.moments.as_ref());
+        let unloaded = unloaded(&system, &exact);
         let straight = Straight::of(&system, &exact);
         let settled = Settled { unloaded: &unloaded, straight: &straight };
         let patterns = (0..1_u32 << system.bars()).map(Pattern).collect();
@@ -88,7 +88,8 @@ impl Gathered {
         for (pattern, zero) in unclear {
             undecided.push(Undecided::new(&system, Reason::Unclear, &zero.tight, &[pattern]));
         }
-        let (families, maybe) = families(&system);
+        let (families, mut maybe) = families(&system);
+        maybe.retain(|signs| !unloaded.is_one_position(&system, &exact, signs));
         let census = Census {
             equilibria: vec![],
             families,

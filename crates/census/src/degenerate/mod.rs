@@ -4,4 +4,5 @@ pub(crate) mod arc;
 pub(crate) mod bound;
 pub(crate) mod maps;
 pub(crate) mod series;
+pub(crate) mod straightened;
 pub(crate) mod unloaded;

@@ -26,11 +26,16 @@ use crate::degenerate::maps::axial;
 use crate::equilibrium::inertia::Indices;
 use crate::equilibrium::{Neighbourhood, Observed, ProvenEquilibrium};
 use crate::plane::cell::Cell;
-use crate::slack::axial::AxialClosure;
+use crate::slack::axial::{AxialClosure, Bars};
 use crate::slack::moments::ExactMoments;
 
 /// An equilibrium at which several have merged: the second derivative of the energy vanishes in one
-/// direction in the plane, exactly.
+/// direction in the plane, exactly, or in several.
+///
+/// In one direction it does where one bar carries nothing and the others happen to balance. Where g > 1
+/// bars in a row carry nothing and just bridge the gap that the others leave, in one line, it does so
+/// in the g − 1 directions in which they can turn, and the energy changes there with the fourth power of
+/// the turns.
 ///
 /// ```
 /// use census::{Census, Settings};
@@ -41,20 +46,22 @@ use crate::slack::moments::ExactMoments;
 /// let problem = Problem::new(Chain::new("step", 9.81, anchors, bars)?)?;
 /// let census = Census::take(&problem, &Settings::default())?;
 /// let [step] = &census.degenerate[..] else { panic!("{census:?}") };
-/// assert_eq!((&step.signs[..], step.multiplicity, step.degree), (&[1, 0, -1][..], 4, 0));
+/// assert_eq!((&step.signs[..], step.multiplicity, step.degree), (&[1, 0, -1][..], Some(4), 0));
 /// assert!(census.decided());
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct DegenerateEquilibrium {
-    /// +1 for each bar in tension, −1 in compression, 0 for the bar that carries nothing.
+    /// +1 for each bar in tension, −1 in compression, 0 for those that carry nothing.
     pub signs: Vec<i8>,
-    /// So many equilibria have merged: the multiplicity of the zero of the closure.
-    pub multiplicity: usize,
+    /// So many equilibria have merged: the multiplicity of the zero of the derivative of the energy.
+    /// `None` where a whole family has shrunk to this position: more than two bars in a row carry
+    /// nothing.
+    pub multiplicity: Option<usize>,
     /// Σ (−1)^index over the equilibria into which it falls apart when the chain is changed a
     /// little: 0 if the multiplicity is even.
     pub degree: i8,
-    /// Directions in the plane in which the second derivative is negative; in one it vanishes.
+    /// Directions in the plane in which the second derivative is negative.
     pub index_in_plane: usize,
     /// Directions out of the plane in which the second derivative is negative.
     pub index_out_of_plane: usize,
@@ -80,8 +87,8 @@ const SHRINKS: usize = 12;
 /// The degenerate equilibrium in which a bar carries nothing, if there is one with these signs and
 /// none other is near.
 pub(crate) fn prove(exact: &ExactMoments, closure: &AxialClosure) -> Option<DegenerateEquilibrium> {
-    let AxialClosure { system, bar, face, signs, axis } = closure;
-    let (system, bar, face) = (*system, *bar, *face);
+    let AxialClosure { system, group, face, signs, axis, .. } = closure;
+    let (system, bar, face) = (*system, group.start, *face);
     let multiplicity = exact.multiplicity(bar, signs)?;
     let map = |at| axial(system, signs, face, *axis, at);
     let exactly = closure.directions(0.0)?;
@@ -98,38 +105,54 @@ pub(crate) fn prove(exact: &ExactMoments, closure: &AxialClosure) -> Option<Dege
     if !fits(radius) {
         return None;
     }
-    let bars = closure.bars([Interval::ZERO, exactly])?;
     let compressed = signs.iter().filter(|sign| **sign < 0).count();
-    let observed = Observed {
-        pull: Cell { face, at: bars.forces[bar] }.pull(system),
-        forces: bars.forces,
-        sizes: bars.sizes,
-        directions: bars.directions,
-    };
-    // A square inside the disc.
-    let side = Interval::new(-0.5 * radius, 0.5 * radius);
-    let alone_in = Neighbourhood { chart: face, at: [side, side] };
     let indices = Indices {
         // One direction of the closure is neither negative nor positive.
         in_plane: compressed.checked_sub(1)?,
         out_of_plane: compressed,
         condition: f64::INFINITY,
     };
-    let shown = ProvenEquilibrium::assemble(system, signs, &observed, alone_in, indices, false);
     let turned = if compressed % 2 == 0 { 1 } else { -1 };
-    Some(DegenerateEquilibrium {
-        signs: shown.signs,
-        multiplicity,
-        // The derivative by (ρ, t) has the sign of (−1)^index but for the compressed bars.
-        degree: turned * counted.degree,
-        index_in_plane: shown.index_in_plane,
-        index_out_of_plane: shown.index_out_of_plane,
-        pull_n: shown.pull_n,
-        alone_in,
-        angles_rad: shown.angles_rad,
-        energy_j: shown.energy_j,
-        joints_m: shown.joints_m,
-        multipliers_n: shown.multipliers_n,
-        axial_n: shown.axial_n,
-    })
+    // The derivative by (ρ, t) has the sign of (−1)^index but for the compressed bars.
+    let degree = turned * counted.degree;
+    let bars = closure.bars([Interval::ZERO, exactly])?;
+    Some(DegenerateEquilibrium::new(closure, bars, radius, indices, (Some(multiplicity), degree)))
+}
+
+impl DegenerateEquilibrium {
+    /// From what the bars do there; no other equilibrium has its pull in the disc of that radius.
+    pub(super) fn new(
+        closure: &AxialClosure,
+        bars: Bars,
+        radius: f64,
+        indices: Indices,
+        (multiplicity, degree): (Option<usize>, i8),
+    ) -> Self {
+        let AxialClosure { system, group, face, signs, .. } = closure;
+        let pull = bars.forces[group.start];
+        let observed = Observed {
+            pull: Cell { face: *face, at: pull }.pull(system),
+            forces: bars.forces,
+            sizes: bars.sizes,
+            directions: bars.directions,
+        };
+        // A square inside the disc.
+        let side = Interval::new(-0.5 * radius, 0.5 * radius);
+        let alone_in = Neighbourhood { chart: *face, at: [side, side] };
+        let shown = ProvenEquilibrium::assemble(system, signs, &observed, alone_in, indices, false);
+        Self {
+            signs: shown.signs,
+            multiplicity,
+            degree,
+            index_in_plane: shown.index_in_plane,
+            index_out_of_plane: shown.index_out_of_plane,
+            pull_n: shown.pull_n,
+            alone_in,
+            angles_rad: shown.angles_rad,
+            energy_j: shown.energy_j,
+            joints_m: shown.joints_m,
+            multipliers_n: shown.multipliers_n,
+            axial_n: shown.axial_n,
+        }
+    }
 }

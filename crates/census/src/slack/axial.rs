@@ -13,8 +13,13 @@
 //! that exactly one equilibrium is near, whether or not its bar k carries nothing at all: lengths
 //! that are integers often make it carry nothing.
 //!
+//! Bars in a row whose common joints carry no weight share one force. Pointing along e or against
+//! it, they are one bar of the length $\sum_k \sigma_k l_k$ with their ways σ.
+//!
 //! The direction is written without trigonometry, $e = (a + t\,n)/|a + t\,n|$ about an axis a with
 //! its normal n.
+
+use std::ops::Range;
 
 use intervals::Interval;
 
@@ -35,13 +40,16 @@ const WIDER_BY: f64 = 1e-12;
 /// Contractions of the proved box: quadratic convergence needs six.
 const ROUNDS: usize = 20;
 
-/// The closure in the coordinates (ρ, t), for one bar and one pattern of the others.
+/// The closure in the coordinates (ρ, t), for the bars of one group and one pattern of the others.
 pub(crate) struct AxialClosure<'a> {
     pub(crate) system: &'a System,
-    pub(crate) bar: usize,
+    /// The bars without force: one, or a run of bars whose common joints carry no weight.
+    pub(crate) group: Range<usize>,
+    /// Whether each of them points along e, +1, or against it, −1.
+    pub(crate) along: Vec<i8>,
     /// The chart of pulls whose origin is that without force in the bar.
     pub(crate) face: Face,
-    /// 0 for the bar.
+    /// 0 for the bars of the group.
     pub(crate) signs: Vec<i8>,
     /// a
     pub(crate) axis: [Interval; 2],
@@ -58,6 +66,11 @@ pub(crate) struct Bars {
 }
 
 impl AxialClosure<'_> {
+    /// The way of a bar of the group along e.
+    fn way(&self, bar: usize) -> i8 {
+        self.along[bar - self.group.start]
+    }
+
     fn direction(&self, t: Interval) -> [Interval; 2] {
         let [x, z] = self.axis;
         unit([x - t * z, z + t * x])
@@ -68,11 +81,13 @@ impl AxialClosure<'_> {
         let e = self.direction(t);
         let force = e.map(|part| rho * part);
         let mut bars = Bars { forces: vec![], directions: vec![], sizes: vec![] };
-        for (sign, weight) in self.signs.iter().zip(self.system.weights(self.face)) {
+        let weights = self.system.weights(self.face);
+        for (i, (sign, weight)) in self.signs.iter().zip(weights).enumerate() {
             if *sign == 0 {
+                let way = self.way(i);
                 bars.forces.push(force);
-                bars.directions.push(e);
-                bars.sizes.push(rho);
+                bars.directions.push(e.map(|part| signed(way, part)));
+                bars.sizes.push(signed(way, rho));
                 continue;
             }
             let force = [force[0], force[1] + *weight];
@@ -95,13 +110,14 @@ impl AxialClosure<'_> {
 
     /// The derivative of G by ρ and t, first index the component.
     pub(crate) fn slope(&self, bars: &Bars, [rho, t]: [Interval; 2]) -> [[Interval; 2]; 2] {
-        let e = bars.directions[self.bar];
+        let first = self.group.start;
+        let e = bars.directions[first].map(|part| signed(self.way(first), part));
         let n = normal(e);
         let mut slope = [[Interval::ZERO; 2]; 2];
         for (i, sign) in self.signs.iter().enumerate() {
             if *sign == 0 {
                 for (row, part) in slope.iter_mut().zip(n) {
-                    row[1] = row[1] + self.system.length[i] * part;
+                    row[1] = row[1] + signed(self.way(i), self.system.length[i]) * part;
                 }
                 continue;
             }
@@ -125,7 +141,7 @@ impl AxialClosure<'_> {
         image(at, x, slope, gap)
     }
 
-    /// All directions t that bar k can have if its force is at most so large: with all forces of
+    /// All directions t that bar k, or its group, can have if its force is at most so large: with all forces of
     /// the disc at once the other bars leave the gap l_k e.
     pub(crate) fn directions(&self, radius: f64) -> Option<Interval> {
         let disc = Interval::new(-radius, radius);
@@ -182,9 +198,10 @@ impl AxialClosure<'_> {
     /// $h_i = s_i l_i |F_i|$, $b_i = l_i\,e \cdot n_i$, $w_i = l_i\,n_k \cdot n_i / l_k$. It has
     /// one negative direction less than bars are compressed where $b^T H^{-1} b < 0$. Out of the
     /// plane the closure is one equation, which bar k can meet without force: as many as are
-    /// compressed.
+    /// compressed. Of a group that carries nothing, ρ = 0 exactly, these are the directions across
+    /// those in which its bars turn among themselves, where the second derivative vanishes.
     pub(crate) fn indices(&self, bars: &Bars, condition: f64) -> Option<Indices> {
-        let k = self.bar;
+        let k = self.group.start;
         let e = bars.directions[k];
         let n_k = normal(e);
         let (mut bb, mut bw, mut ww, mut out) = ([Interval::ZERO; 4]).into();
@@ -248,7 +265,8 @@ mod tests {
         let signs = Pattern(pattern).signs(4).enumerate();
         AxialClosure {
             system,
-            bar,
+            group: bar..bar + 1,
+            along: vec![1],
             face: Face::Around(u8::try_from(bar).unwrap()),
             signs: signs.map(|(i, sign)| if i == bar { 0 } else { sign }).collect(),
             axis: axis.map(Interval::point),
@@ -287,7 +305,8 @@ mod tests {
         let axis = [Interval::ONE, Interval::ZERO];
         let closure = AxialClosure {
             system: &system,
-            bar: 1,
+            group: 1..2,
+            along: vec![1],
             face: Face::Around(1),
             signs: vec![1, 0, 1],
             axis,

@@ -4,6 +4,8 @@
 //! common power of two of which all of them are integers of not too many digits (integers, halves,
 //! and most numbers with a decimal point too), the sums are exact in integers of 128 bits.
 
+use std::ops::Range;
+
 use model::Chain;
 
 use crate::closure::Pattern;
@@ -85,6 +87,21 @@ impl ExactSides {
         [self.level_square, self.rise]
     }
 
+    /// Whether a group of bars in one line, each along it (+1) or against it (−1), reaches exactly over the
+    /// gap that the other bars leave, which stand upright and point up (+1) or down (−1) towards the last
+    /// anchor; 0 for the bars of the group. The gap is not zero.
+    pub(crate) fn just_bridges(&self, up: &[i8], group: Range<usize>, along: &[i8]) -> bool {
+        let sum = |ways: &[i8], lengths: &[i128]| -> i128 {
+            ways.iter().zip(lengths).map(|(way, length)| i128::from(*way) * length).sum()
+        };
+        let rise = self.rise - sum(up, &self.lengths);
+        let reach = sum(along, &self.lengths[group]);
+        // Nothing is said where a square has too many digits.
+        let square = |x: i128| x.checked_mul(x);
+        let gap = square(rise).and_then(|square| square.checked_add(self.level_square));
+        reach > 0 && gap.is_some() && gap == square(reach)
+    }
+
     /// All ways in which the bars fit into the line between the anchors: patterns whose sum of
     /// lengths, −1 for each bar that is in the pattern, is the distance.
     pub(crate) fn fits(&self) -> Vec<Pattern> {
@@ -122,6 +139,32 @@ mod tests {
         let anchors = Anchors { start_m: [0.0; 3], end_m };
         let chain = Chain::new("exact", 9.81, anchors, bars).unwrap();
         ExactSides::new(&chain).map(|sides| sides.fits().into_iter().map(|p| p.0).collect())
+    }
+
+    /// Bar 1 of 1 m hangs; 5 and 1 m, or 7 less 1, reach 6 m over, or 3, 4, 5 at a slant.
+    #[test]
+    fn gaps_are_bridged_exactly() {
+        let sides = |lengths: &[f64], end_m: [f64; 3]| {
+            let bars = lengths.iter().map(|l| Bar::homogeneous(*l, 1.0).unwrap()).collect();
+            let anchors = Anchors { start_m: [0.0; 3], end_m };
+            ExactSides::new(&Chain::new("gap", 9.81, anchors, bars).unwrap()).unwrap()
+        };
+        let level = sides(&[1.0, 5.0, 1.0], [6.0, 0.0, -1.0]);
+        assert!(level.just_bridges(&[-1, 0, 0], 1..3, &[1, 1]));
+        assert!(!level.just_bridges(&[1, 0, 0], 1..3, &[1, 1]));
+        assert!(!level.just_bridges(&[-1, 0, 0], 1..3, &[1, -1]));
+        assert!(!level.just_bridges(&[-1, 0, 0], 1..3, &[-1, -1]));
+        let folded = sides(&[1.0, 7.0, 1.0], [6.0, 0.0, -1.0]);
+        assert!(folded.just_bridges(&[-1, 0, 0], 1..3, &[1, -1]));
+        let slanted = sides(&[1.0, 4.0, 1.0], [3.0, 0.0, -5.0]);
+        assert!(slanted.just_bridges(&[-1, 0, 0], 1..3, &[1, 1]));
+        let longer = sides(&[1.0, 4.0, 1.0 + f64::EPSILON], [3.0, 0.0, -5.0]);
+        assert!(!longer.just_bridges(&[-1, 0, 0], 1..3, &[1, 1]));
+        // Downwards too; a gap of zero is none.
+        let upright = sides(&[1.0, 4.0, 1.0], [0.0, 0.0, -6.0]);
+        assert!(upright.just_bridges(&[-1, 0, 0], 1..3, &[1, 1]));
+        let none = sides(&[1.0, 4.0, 4.0], [0.0, 0.0, -1.0]);
+        assert!(!none.just_bridges(&[-1, 0, 0], 1..3, &[1, -1]));
     }
 
     #[test]

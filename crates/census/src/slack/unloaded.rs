@@ -1,7 +1,11 @@
-//! Equilibria in which one bar carries no force, or next to none.
+//! Equilibria in which one bar carries no force, or next to none, or several in one line do.
 //!
 //! There is at most one near the pull at which the force of bar k vanishes, for each pattern of the
 //! others: proved in the coordinates of [`axial`](crate::slack::axial).
+//!
+//! The same holds for a group, bars in a row whose common joints carry no weight, as long as they
+//! lie in one line. Where they carry nothing they need not; but a group that is just as long as the gap
+//! has no other way to bridge it: see [`straightened`](crate::degenerate::straightened).
 
 use std::borrow::Cow;
 use std::collections::HashMap;
@@ -10,6 +14,7 @@ use std::ops::Range;
 use intervals::Interval;
 
 use crate::closure::{Pattern, signed};
+use crate::degenerate::straightened;
 use crate::degenerate::unloaded::{self as degenerate, DegenerateEquilibrium};
 use crate::equilibrium::stress;
 use crate::equilibrium::{Neighbourhood, Observed, ProvenEquilibrium};
@@ -17,7 +22,7 @@ use crate::plane::cell::Cell;
 use crate::plane::face::Face;
 use crate::plane::system::System;
 use crate::slack::axial::AxialClosure;
-use crate::slack::moments::ExactMoments;
+use crate::slack::moments::Exact;
 
 /// A gap between upright bars that differs from the length of the bar by more than this is not
 /// bridged by it without force, to rounding.
@@ -47,16 +52,25 @@ pub(crate) struct Unloaded {
     settled: Vec<Settled>,
 }
 
-/// Squares of pulls about the one without force in a bar, one for each pattern of the others (the
-/// bit of the bar is 0): with these signs there is no equilibrium in it but the one that is listed,
-/// whatever the sign of the bar.
+/// Squares of pulls about the one without force in a group, one for each pattern: with these signs
+/// there is no equilibrium in it but the one that is listed, whether the group is pulled or pushed.
 #[derive(Debug)]
 struct Settled {
     face: Face,
-    bit: u32,
+    /// The bits of the group, and that of its first bar.
+    bits: u32,
+    first: u32,
     /// Half a side of the square of each pattern.
     half: HashMap<u32, f64>,
     largest: f64,
+}
+
+impl Settled {
+    /// Of a pattern and the one with all bars of the group turned, that in which its first bar is
+    /// pulled.
+    fn either(&self, Pattern(pattern): Pattern) -> u32 {
+        if pattern & self.first == 0 { pattern } else { pattern ^ self.bits }
+    }
 }
 
 impl Unloaded {
@@ -68,99 +82,176 @@ impl Unloaded {
         patterns: &'a [Pattern],
     ) -> Cow<'a, [Pattern]> {
         let mut left = Cow::Borrowed(patterns);
-        for Settled { face, bit, half, largest } in &self.settled {
-            let Some(cell) = cell.on(*face, system) else { continue };
+        for settled in &self.settled {
+            let Some(cell) = cell.on(settled.face, system) else { continue };
             let farthest = cell.at[0].mag().max(cell.at[1].mag());
-            if farthest <= *largest {
+            if farthest <= settled.largest {
                 left.to_mut().retain(|pattern| {
-                    half.get(&(pattern.0 & !bit)).is_none_or(|half| farthest > *half)
+                    let half = settled.half.get(&settled.either(*pattern));
+                    half.is_none_or(|half| farthest > *half)
                 });
             }
         }
         left
     }
+
+    /// Whether the slack family with these signs is known to be one position, and that is listed: here,
+    /// or between anchors on one vertical as a straight one.
+    pub(crate) fn is_one_position(&self, system: &System, exact: &Exact, signs: &[i8]) -> bool {
+        if !system.vertical {
+            return self.degenerate.iter().any(|straightened| straightened.signs == signs);
+        }
+        let slack = |group: &&Range<usize>| signs[group.start] == 0;
+        let group = system.groups.iter().enumerate().find(|(_, group)| slack(group));
+        let (Some(sides), Some((number, group))) = (&exact.sides, group) else { return false };
+        let Ok(number) = u8::try_from(number) else { return false };
+        let up = upright(system, Face::Around(number), signs);
+        let fits = |along: Vec<i8>, up: &[i8]| sides.just_bridges(up, group.clone(), &along);
+        up.is_some_and(|up| ways(system, group).into_iter().any(|along| fits(along, &up)))
+    }
 }
 
 /// All of them. Degenerate ones are found where lengths and weights are known as integers.
-pub(crate) fn unloaded(system: &System, exact: Option<&ExactMoments>) -> Unloaded {
+pub(crate) fn unloaded(system: &System, exact: &Exact) -> Unloaded {
     let mut all = Unloaded::default();
     let bars = system.bars();
     for (number, group) in system.groups.iter().enumerate() {
         let Ok(number) = u8::try_from(number) else { continue };
-        let bit = Pattern::bit(bars, group.start);
-        let mut half = HashMap::new();
-        let mut largest = 0.0_f64;
-        for Pattern(others) in candidates(system, group) {
-            let Some(closure) = axial_closure(system, group, Pattern(others)) else { continue };
-            // Squares about the origin of the chart.
-            let side = if let Some(equilibrium) = prove(&closure) {
-                let side = equilibrium.alone_in.at[0].hi();
-                all.equilibria.push(equilibrium);
-                side
-            } else if let Some(merged) = exact.and_then(|e| degenerate::prove(e, &closure)) {
-                let side = merged.alone_in.at[0].hi();
-                all.degenerate.push(merged);
-                side
-            } else {
-                continue;
-            };
-            largest = largest.max(side);
-            half.insert(others, side);
+        let bit = |bar| Pattern::bit(bars, bar);
+        let mut settled = Settled {
+            face: Face::Around(number),
+            bits: group.clone().map(bit).sum(),
+            first: bit(group.start),
+            half: HashMap::new(),
+            largest: 0.0,
+        };
+        for along in ways(system, group) {
+            // The bars of the group that are pushed while its first is pulled.
+            let turned: u32 = group
+                .clone()
+                .zip(&along)
+                .filter(|(_, w)| **w != along[0])
+                .map(|(i, _)| bit(i))
+                .sum();
+            for others in candidates(system, group, &along) {
+                let Some(closure) = axial_closure(system, group, &along, others) else { continue };
+                let side = if group.len() > 1 {
+                    let Some(found) =
+                        exact.sides.as_ref().and_then(|sides| straightened::prove(sides, &closure))
+                    else {
+                        continue;
+                    };
+                    let side = found.alone_in.at[0].hi();
+                    all.degenerate.push(found);
+                    side
+                } else if let Some(equilibrium) = prove(&closure) {
+                    let side = equilibrium.alone_in.at[0].hi();
+                    all.equilibria.push(equilibrium);
+                    side
+                } else if let Some(moments) = &exact.moments
+                    && let Some(merged) = degenerate::prove(moments, &closure)
+                {
+                    let side = merged.alone_in.at[0].hi();
+                    all.degenerate.push(merged);
+                    side
+                } else {
+                    continue;
+                };
+                settled.largest = settled.largest.max(side);
+                settled.half.insert(others.0 | turned, side);
+            }
         }
-        if !half.is_empty() {
-            all.settled.push(Settled { face: Face::Around(number), bit, half, largest });
+        if !settled.half.is_empty() {
+            all.settled.push(settled);
         }
     }
     all
 }
 
+/// The ways in which the bars of a group may lie in one line, +1 along it and −1 against it, in which no
+/// other position of them reaches as far, or none reaches less far: all along, or all but the
+/// longest against it.
+fn ways(system: &System, group: &Range<usize>) -> Vec<Vec<i8>> {
+    let mut found = vec![vec![1; group.len()]];
+    if group.len() > 1 {
+        let bars = group.clone();
+        found
+            .extend(bars.map(|one| group.clone().map(|i| if i == one { 1 } else { -1 }).collect()));
+        found.retain(|along: &Vec<i8>| reach(system, group, along).lo() > 0.0);
+    }
+    found
+}
+
+/// Which way the bars with these signs point at the pull without force in those with sign 0: up, down.
+pub(crate) fn upright(system: &System, face: Face, signs: &[i8]) -> Option<Vec<i8>> {
+    let force = |(sign, weight): (&i8, &Interval)| match sign {
+        0 => Some(0),
+        _ => Some(sign * weight.sign().filter(|up| *up != 0)?),
+    };
+    signs.iter().zip(system.weights(face)).map(force).collect()
+}
+
+/// The length of a group that lies in one line.
+fn reach(system: &System, group: &Range<usize>, along: &[i8]) -> Interval {
+    let lengths = &system.length[group.clone()];
+    match (along, lengths) {
+        ([1], [length]) => *length,
+        _ => along.iter().zip(lengths).map(|(way, length)| signed(*way, *length)).sum(),
+    }
+}
+
 /// The patterns, ascending, that [`axial_closure`] has anything to say of: it looks at them again.
-fn candidates(system: &System, group: &Range<usize>) -> Vec<Pattern> {
+fn candidates(system: &System, group: &Range<usize>, along: &[i8]) -> Vec<Pattern> {
     let mut found = vec![];
     let number = system.groups.iter().position(|other| other == group);
     let face = number.and_then(|number| u8::try_from(number).ok()).map(Face::Around);
-    if let (Some(face), 1, false) = (face, group.len(), system.vertical) {
+    if let (Some(face), false) = (face, system.vertical) {
         let weights = system.weights(face).iter().zip(&system.length).enumerate();
-        // How far each bar in tension reaches up; the bar itself bridges what is left.
+        // How far each bar in tension reaches up; the group bridges what is left.
         let up: Option<Vec<Interval>> = weights
             .map(|(i, (weight, length))| match weight.sign() {
-                _ if i == group.start => Some(Interval::ZERO),
+                _ if group.contains(&i) => Some(Interval::ZERO),
                 sign => sign.map(|up| signed(up, *length)),
             })
             .collect();
         if let Some(up) = up {
-            bridged(system, group.start, &up, (0, 0, system.span[1]), &mut found);
+            let bridge = Bridge { system, group, reach: reach(system, group, along), up: &up };
+            bridge.bridged((0, 0, system.span[1]), &mut found);
         }
     }
     found
 }
 
-/// Those with the signs chosen so far (bars, pattern, height that is left) that bring the end of
-/// the chain within the reach of one bar.
-fn bridged(
-    system: &System,
-    bar: usize,
-    up: &[Interval],
-    (chosen, pattern, left): (usize, u32, Interval),
-    found: &mut Vec<Pattern>,
-) {
-    let rest: f64 = system.length[chosen..].iter().map(|length| length.hi()).sum();
-    let reach = rest + system.length[bar].hi();
-    // Rounding is far below the room that is left.
-    if left.mig() > reach + 4.0 * NEAR {
-        return;
-    }
-    if chosen == up.len() {
-        let distance = (system.span[0].square() + left.square()).sqrt();
-        if (distance - system.length[bar]).mig() <= 2.0 * NEAR {
-            found.push(Pattern(pattern));
+/// What may bridge the gap between upright bars.
+struct Bridge<'a> {
+    system: &'a System,
+    group: &'a Range<usize>,
+    reach: Interval,
+    up: &'a [Interval],
+}
+
+impl Bridge<'_> {
+    /// Those with the signs chosen so far (bars, pattern, height that is left) that bring the end
+    /// of the chain within the reach of the group.
+    fn bridged(&self, (chosen, pattern, left): (usize, u32, Interval), found: &mut Vec<Pattern>) {
+        let Self { system, group, reach, up } = self;
+        let rest: f64 = system.length[chosen..].iter().map(|length| length.hi()).sum();
+        // Rounding is far below the room that is left.
+        if left.mig() > rest + reach.hi() + 4.0 * NEAR {
+            return;
         }
-        return;
-    }
-    bridged(system, bar, up, (chosen + 1, pattern, left - up[chosen]), found);
-    if chosen != bar {
-        let bit = Pattern::bit(up.len(), chosen);
-        bridged(system, bar, up, (chosen + 1, pattern | bit, left + up[chosen]), found);
+        if chosen == up.len() {
+            let distance = (system.span[0].square() + left.square()).sqrt();
+            if (distance - *reach).mig() <= 2.0 * NEAR {
+                found.push(Pattern(pattern));
+            }
+            return;
+        }
+        self.bridged((chosen + 1, pattern, left - up[chosen]), found);
+        if !group.contains(&chosen) {
+            let bit = Pattern::bit(up.len(), chosen);
+            self.bridged((chosen + 1, pattern | bit, left + up[chosen]), found);
+        }
     }
 }
 
@@ -171,28 +262,31 @@ pub(crate) fn with_signs(system: &System, signs: &[i8]) -> Option<ProvenEquilibr
     let compressed = (0..bars).filter(|i| signs[*i] < 0);
     let others = compressed.map(|i| Pattern::bit(bars, i)).sum();
     let group = system.groups.iter().find(|group| group.contains(&bar))?;
-    prove(&axial_closure(system, group, Pattern(others))?)
+    if group.len() > 1 {
+        return None;
+    }
+    prove(&axial_closure(system, group, &[1], Pattern(others))?)
 }
 
-/// The closure in the axial force of a bar alone, if the bar just bridges the gap that the others
-/// leave with these signs, or nearly so.
+/// The closure in the axial force of a group alone, if the group, its bars pointing these ways, just
+/// bridges the gap that the others leave with these signs, or nearly so.
 fn axial_closure<'a>(
     system: &'a System,
     group: &Range<usize>,
+    along: &[i8],
     others: Pattern,
 ) -> Option<AxialClosure<'a>> {
     // Between anchors on one vertical such a bar is upright too, and its direction is not
     // determined.
-    if group.len() > 1 || system.vertical {
+    if system.vertical {
         return None;
     }
-    let bar = group.start;
     let number = system.groups.iter().position(|other| other == group)?;
     let face = Face::Around(u8::try_from(number).ok()?);
     let signs: Vec<i8> = others
         .signs(system.bars())
         .enumerate()
-        .map(|(i, s)| if i == bar { 0 } else { s })
+        .map(|(i, s)| if group.contains(&i) { 0 } else { s })
         .collect();
     // The gap that upright bars leave.
     let mut gap = system.span;
@@ -201,27 +295,20 @@ fn axial_closure<'a>(
         gap[1] = gap[1] - signed(sign * up, system.length[i]);
     }
     let distance = (gap[0].square() + gap[1].square()).sqrt();
-    if (distance - system.length[bar]).mig() > NEAR {
+    let reach = reach(system, group, along);
+    if (distance - reach).mig() > NEAR {
         return None;
     }
-    let axis = gap.map(|part| Interval::point(part.mid() / system.length[bar].mid()));
-    Some(AxialClosure { system, bar, face, signs, axis })
+    let axis = gap.map(|part| Interval::point(part.mid() / reach.mid()));
+    let group = group.clone();
+    Some(AxialClosure { system, group, along: along.to_vec(), face, signs, axis })
 }
 
 /// The equilibrium near the pull without force in a bar, if there is exactly one and its bar
 /// carries next to nothing.
 fn prove(closure: &AxialClosure) -> Option<ProvenEquilibrium> {
-    let (system, bar, face) = (closure.system, closure.bar, closure.face);
-    let mut radius = LARGEST_DISC;
-    let mut found = None;
-    for _ in 0..DISCS {
-        if let Some(tight) = closure.only_one(radius) {
-            found = Some(tight);
-            break;
-        }
-        radius *= NEXT_DISC;
-    }
-    let tight = found?;
+    let (system, bar, face) = (closure.system, closure.group.start, closure.face);
+    let (tight, radius) = widest_disc(closure)?;
     // Any other the search finds by itself, and one outside of the square that is settled too.
     let most = tight.at[0].mag();
     let outside = tight.at.iter().any(|part| part.mag() > 0.5 * radius);
@@ -243,6 +330,13 @@ fn prove(closure: &AxialClosure) -> Option<ProvenEquilibrium> {
     let alone_in = Neighbourhood { chart: face, at: [side, side] };
     let signs = &closure.signs;
     Some(ProvenEquilibrium::assemble(system, signs, &observed, alone_in, indices, optimal))
+}
+
+/// The only zero in the largest disc of pulls that is proved to hold one, and the radius of that.
+pub(crate) fn widest_disc(closure: &AxialClosure) -> Option<(Cell, f64)> {
+    let radii = std::iter::successors(Some(LARGEST_DISC), |radius| Some(radius * NEXT_DISC));
+    let one = |radius| closure.only_one(radius).map(|tight| (tight, radius));
+    radii.take(DISCS).find_map(one)
 }
 
 /// Ratio of the singular values of a matrix.
@@ -281,7 +375,7 @@ mod tests {
     #[test]
     fn what_is_proved_outside_of_its_square_is_left_to_the_search() {
         let system = level();
-        let mut closure = axial_closure(&system, &system.groups[1], Pattern(0)).unwrap();
+        let mut closure = axial_closure(&system, &system.groups[1], &[1], Pattern(0)).unwrap();
         let ProvenEquilibrium { signs, alone_in, .. } = prove(&closure).unwrap();
         // In the largest disc in which it is alone, that of 2⁻²¹.
         let alone = |k: i32| closure.only_one(LARGEST_DISC * NEXT_DISC.powi(k)).is_some();
@@ -298,7 +392,7 @@ mod tests {
     fn a_force_that_may_be_more_than_too_little_is_left_to_the_search() {
         let mut system = level();
         system.length[1] = system.length[1] + Interval::around(0.0, 3e-7 * system.length[1].mid());
-        let closure = axial_closure(&system, &system.groups[1], Pattern(0)).unwrap();
+        let closure = axial_closure(&system, &system.groups[1], &[1], Pattern(0)).unwrap();
         // The disc in which it is alone is large enough to hold it.
         let disc = LARGEST_DISC * NEXT_DISC.powi(5);
         let [force, _] = closure.only_one(disc).unwrap().at;

@@ -17,7 +17,8 @@
 //!   At H = 0, χ is half the derivative of −σ by V: both vanish only at a double zero of σ.
 //! - For D = 0 the upright part is V σ + w π. So π = 0 there, too.
 //! - Where one bar k has no force, $F_k = \varrho e$, the level part is $e_x (\varrho
-//!   \sum_{i \ne k} s_i l_i / |F_i| + l_k)$.
+//!   \sum_{i \ne k} s_i l_i / |F_i| + l_k)$; of bars in a row that lose their force together, parallel
+//!   where they have one, $l_k$ is the sum of their signed lengths.
 //!
 //! # Infinite pulls between anchors in one point
 //!
@@ -63,11 +64,13 @@ pub(super) fn upright_alone(
     for group in &system.groups {
         let force = cell.force(weights[group.start]);
         if force[0].contains(0.0) && force[1].contains(0.0) {
-            // Several bars, or bars that lose their force at other pulls.
-            if free.is_some() || group.len() > 1 {
+            // Bars that lose their force at other pulls.
+            if free.is_some() {
                 return false;
             }
-            free = Some((group.start, force));
+            let way = |i| if pattern.compressed(bars, i) { -1 } else { 1 };
+            let reach: Interval = group.clone().map(|i| signed(way(i), system.length[i])).sum();
+            free = Some((reach, force));
             continue;
         }
         let size = size(force);
@@ -86,10 +89,10 @@ pub(super) fn upright_alone(
             let fits = |back| fits.binary_search(&Pattern(back)).is_ok();
             !level.contains(0.0) || back.is_some_and(fits) && !deflated.contains(0.0)
         }
-        // The force of the one bar, of either sign, times the sum of the others.
-        Some((bar, force)) => {
+        // The force of the one group, of either sign, times the sum of the others.
+        Some((reach, force)) => {
             let most = Interval::point(size(force).hi()) * Interval::point(level.mag());
-            most.hi() < system.length[bar].lo()
+            most.hi() < reach.mig()
         }
     }
 }

@@ -41,7 +41,7 @@ fn merged_equilibria_are_named_with_their_multiplicity() {
         let census = census(&problem);
         assert!(census.decided() && !census.complete, "{lengths:?}: {:?}", census.undecided);
         let found = hanging(&census);
-        assert_eq!((found.multiplicity, found.degree), (multiplicity, degree), "{lengths:?}");
+        assert_eq!((found.multiplicity, found.degree), (Some(multiplicity), degree), "{lengths:?}");
         // The sum of (−1)^index is the Euler characteristic, the degenerate one counted by degree.
         if let Ok(topology) = &census.topology {
             assert_eq!(census.alternating_sum(), topology.euler);
@@ -56,8 +56,11 @@ fn merged_equilibria_are_named_with_their_multiplicity() {
         }
         assert!(found.axial_n[middle].contains(0.0) && found.axial_n[middle].width() < 1e-14);
         // What is said of it is checked.
-        let changes: [fn(&mut DegenerateEquilibrium); 3] =
-            [|e| e.multiplicity += 1, |e| e.degree += 1, |e| e.signs[0] = -e.signs[0]];
+        let changes: [fn(&mut DegenerateEquilibrium); 3] = [
+            |e| e.multiplicity = e.multiplicity.map(|m| m + 1),
+            |e| e.degree += 1,
+            |e| e.signs[0] = -e.signs[0],
+        ];
         for change in changes {
             let mut wrong = census.clone();
             change(&mut wrong.degenerate[0]);
@@ -233,4 +236,127 @@ fn a_straight_position_without_variance_is_apart_from_all_equilibria() {
     let census = census(&problem(&chain, [2.0, 0.0, 0.0]));
     assert!(census.straight.iter().any(|straight| straight.along == signs));
     assert!(census.complete, "{:?}", census.undecided);
+}
+
+/// Lengths, the end anchor, the signs, multiplicity and degree.
+type Straightened = (Vec<f64>, [f64; 3], Vec<i8>, Option<usize>, i8);
+
+/// Bars without mass that just bridge, in one line, what a bar with a weight at its end leaves. (The
+/// energy is V₀ ± W x²/2 with x = δ.)
+fn straightened() -> [Straightened; 5] {
+    [
+        // Bar 1 hangs, and 5 + 1 are level over 6: a minimum. It stands: a maximum.
+        (vec![1.0, 5.0, 1.0], [6.0, 0.0, -1.0], vec![1, 0, 0], Some(3), 1),
+        (vec![1.0, 5.0, 1.0], [6.0, 0.0, 1.0], vec![-1, 0, 0], Some(3), -1),
+        // The longest alone points along the gap: 7 - 1 over 6.
+        (vec![1.0, 7.0, 1.0], [6.0, 0.0, -1.0], vec![1, 0, 0], Some(3), 1),
+        // 3, 4, 5 at a slant, the last two bars: 3 + 2.
+        (vec![1.0, 3.0, 2.0], [4.0, 0.0, -4.0], vec![1, 0, 0], Some(3), 1),
+        // Three of them, 1 + 2 + 3: a circle of slack positions shrinks to the point. A maximum in two turns.
+        (vec![1.0, 1.0, 2.0, 3.0], [6.0, 0.0, 1.0], vec![-1, 0, 0, 0], None, 1),
+    ]
+}
+
+/// A weight at joint 1, at the end of a bar, and no other.
+fn weight_at_joint_1(lengths: &[f64], end_m: [f64; 3]) -> Problem {
+    let bars: Vec<(f64, f64, f64)> = lengths
+        .iter()
+        .enumerate()
+        .map(|(k, l)| if k == 0 { (*l, 1.0, *l) } else { (*l, 0.0, 0.5 * l) })
+        .collect();
+    problem(&bars, end_m)
+}
+
+#[test]
+fn bars_without_force_that_just_bridge_their_gap_are_named() {
+    for (lengths, end, signs, multiplicity, degree) in straightened() {
+        let problem = weight_at_joint_1(&lengths, end);
+        let census = census(&problem);
+        assert!(census.decided() && !census.complete, "{lengths:?}: {:?}", census.undecided);
+        let at: Vec<_> = census.degenerate.iter().filter(|merged| merged.signs == signs).collect();
+        let [found] = at[..] else { panic!("{lengths:?}: {:?}", census.degenerate) };
+        assert_eq!((found.multiplicity, found.degree), (multiplicity, degree), "{lengths:?}");
+        assert_eq!(
+            (found.index_in_plane, found.index_out_of_plane),
+            (0, usize::from(signs[0] < 0))
+        );
+        // Upright bar 1 bears the weight, and the others lie in the line to the end, without force.
+        let up = -f64::from(signs[0]) * lengths[0];
+        assert!(
+            (found.joints_m[1][2].mid() - up).abs() < 1e-15 && found.joints_m[1][0].mag() < 1e-15
+        );
+        assert!((found.axial_n[0].mid() - 9.81 * f64::from(signs[0])).abs() < 1e-13);
+        assert!((found.energy_j.mid() - 9.81 * up).abs() < 1e-13);
+        let (dx, dz) = (end[0], end[2] - up);
+        let last = lengths.len();
+        for k in 2..last {
+            let [x, _, z] = found.joints_m[k];
+            assert!((x.mid() * dz - (z.mid() - up) * dx).abs() < 1e-14 * dx.hypot(dz), "joint {k}");
+            assert!(found.axial_n[k - 1].mag() < 1e-300);
+        }
+        for (k, length) in lengths.iter().enumerate() {
+            let [a, b] = [k, k + 1].map(|k| found.joints_m[k]);
+            let bar = (b[0].mid() - a[0].mid()).hypot(b[2].mid() - a[2].mid());
+            assert!((bar - length).abs() < 1e-14, "bar {k}");
+        }
+        // The sum over all is the Euler characteristic: topology alone knows of it too.
+        if let Ok(topology) = &census.topology {
+            assert_eq!(census.alternating_sum(), topology.euler, "{lengths:?}");
+        }
+        let changes: [fn(&mut DegenerateEquilibrium); 3] =
+            [|e| e.multiplicity = Some(2), |e| e.degree += 1, |e| e.index_in_plane += 1];
+        for change in changes {
+            let mut wrong = census.clone();
+            change(&mut wrong.degenerate[0]);
+            assert!(wrong.check(&problem).is_err());
+        }
+    }
+}
+
+/// One equilibrium is left where the gap is too long for slack bars, of the degree; where it is shorter there is a
+/// family of slack positions besides, and all degrees together are the same.
+#[test]
+fn a_longer_and_a_shorter_gap_part_what_has_merged() {
+    for (lengths, end, signs, multiplicity, degree) in straightened() {
+        let mut slack = 0;
+        for change in [1e-3, -1e-3] {
+            let census = census(&weight_at_joint_1(&lengths, [end[0] + change, end[1], end[2]]));
+            assert!(census.complete, "{lengths:?} {change:e}: {:?}", census.undecided);
+            let up = -f64::from(signs[0]) * lengths[0];
+            let near = census.equilibria.iter().filter(|e| {
+                let (x, z) = (e.joints_m[1][0].mid(), e.joints_m[1][2].mid());
+                let others = e.axial_n[1..].iter().map(|n| n.mag()).fold(0.0, f64::max);
+                x.hypot(z - up) < 0.01 && others < 0.1
+            });
+            // Those in one line: all other ways to lie in it are of another length.
+            let near: Vec<usize> = near.map(|e| e.index_in_plane).collect();
+            let families: Vec<_> = census.families.iter().filter(|f| f.signs == signs).collect();
+            let sign = |index: usize| if index.is_multiple_of(2) { 1 } else { -1 };
+            let mut sum: i64 = near.iter().map(|index| sign(*index)).sum();
+            for family in &families {
+                sum += sign(family.index_in_plane) * family.topology.euler;
+            }
+            assert_eq!((near.len(), sum), (1, i64::from(degree)), "{lengths:?} {change:e}");
+            slack += families.len();
+            // Two slack positions and the one in line.
+            if let ([family], Some(3)) = (&families[..], multiplicity) {
+                assert_eq!(family.topology.betti, [2]);
+            }
+        }
+        assert_eq!(slack, 1, "{lengths:?}");
+    }
+}
+
+/// 5 less 1 upright over the 4 m between anchors on one vertical, bars 1 and 4 hanging to and fro: bars 2 and 3 carry
+/// nothing in the straight position, which is named as such, with any force.
+#[test]
+fn slack_bars_that_just_bridge_an_upright_gap_are_straight() {
+    let bars = [(2.0, 2.0, 1.0), (5.0, 0.0, 5.0), (1.0, 3.0, 1.0), (2.0, 0.0, 0.5)];
+    let census = census(&problem(&bars, [0.0, 0.0, 4.0]));
+    assert!(census.decided(), "{:?}", census.undecided);
+    // 2 + 5 - 1 - 2 and -2 + 5 - 1 + 2, all in one line.
+    let mut along: Vec<_> = census.straight.iter().map(|s| (s.along.clone(), s.upright)).collect();
+    along.sort();
+    assert_eq!(along, [(vec![-1, 1, -1, 1], true), (vec![1, 1, -1, -1], true)]);
+    assert!(census.degenerate.is_empty());
 }

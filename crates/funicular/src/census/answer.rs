@@ -166,14 +166,15 @@ pub struct Slack {
     pub dimension_in_plane: usize,
 }
 
-/// An equilibrium at which several have merged: a bar carries nothing, and the second derivative
-/// vanishes in one direction in the plane.
+/// An equilibrium at which several have merged: a bar carries nothing, or several in one line, and the
+/// second derivative vanishes in some direction in the plane.
 #[derive(Debug, Clone, Serialize)]
 pub struct Merged {
-    /// +1 for each bar in tension, -1 in compression, 0 for the one that carries nothing.
+    /// +1 for each bar in tension, -1 in compression, 0 for those that carry nothing.
     pub signs: Vec<i8>,
-    /// How many have merged: 2 at a fold.
-    pub multiplicity: usize,
+    /// How many have merged: 2 at a fold, 3 at a pitchfork; none where a whole family has shrunk to
+    /// this position.
+    pub multiplicity: Option<usize>,
     /// Σ (-1)^index over those into which it falls apart when the chain is changed a little.
     pub degree: i8,
     /// Directions in the plane in which the energy falls in second order.

@@ -68,6 +68,13 @@ pub enum Reason {
         #[serde(with = "finite")]
         distance: f64,
     },
+    /// The answer is at a degenerate equilibrium, at which several have merged: the census proves that
+    /// it is one, and lists it apart.
+    AtDegenerate {
+        /// How far outside of its boxes, in units of the total length.
+        #[serde(with = "finite")]
+        distance: f64,
+    },
     /// The census lists no equilibrium.
     NothingListed,
     /// The census left cells of pulls undecided.

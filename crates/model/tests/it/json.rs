@@ -214,6 +214,7 @@ fn reasons_read_back() {
         Reason::SlackFamily,
         Reason::NotAmongDecided { cells: 2 },
         Reason::Elsewhere { distance: 1e-6 },
+        Reason::AtDegenerate { distance: 0.0 },
         Reason::StraightPosition { sides: vec![1, 2] },
         Reason::NoCertificate(NoCertificate::Gap { gap: 0.5 }),
     ];

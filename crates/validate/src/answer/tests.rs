@@ -35,6 +35,10 @@ fn answers_are_looked_up_where_a_census_is_wanted() {
         let question = Question { census, ..Question::default() };
         let answer = ask(&model::cases::paper(), &question, &|_| {});
         assert_eq!(answer.equilibria.len(), 2);
+        for solver in [SolverName::LAGRANGE, SolverName::ENERGY] {
+            assert_eq!(answer.by(&solver).map(|found| &found.solver), Some(&solver));
+        }
+        assert!(answer.by(&SolverName::CENSUS).is_none());
         let complete = |found: &Equilibrium| found.evidence.ladder.complete.is_reached();
         answer.equilibria.iter().map(complete).collect::<Vec<_>>()
     };

@@ -17,7 +17,8 @@ fn what_is_off_is_told_in_its_unit() {
     found.axial_n[1] += 4.0;
     let cables = hold_against_cables(&problem, &found).unwrap();
     assert!(cables.taut && cables.in_tension);
-    // clarabel's tolerance.
+    // clarabel's tolerance, also of its optimum; the energy was left as it is.
+    assert!(cables.optimum.abs() < 1e-6 && cables.gap.abs() < 1e-6, "{cables:?}");
     assert!((cables.joints.unwrap() - 0.125).abs() < 1e-6, "{cables:?}");
     assert!((cables.axial.unwrap() - 0.1).abs() < 1e-6, "{cables:?}");
 }

@@ -64,3 +64,26 @@ fn what_lies_outside_is_measured_from_the_nearer_end() {
     }
     assert!(outside(part, f64::NAN).is_nan());
 }
+
+/// The paper's lowest position told to be 9/100 of 1 kg g m too high, of 3 kg g times 3 m: a gap of
+/// a hundredth.
+#[test]
+fn gaps_are_parts_of_the_weight_times_the_length() {
+    let problem = model::cases::paper();
+    let mut census = Census::take(&problem, &census::Settings::default()).unwrap();
+    let lowest = census.equilibria[0].energy_j.mid();
+    census.equilibria[0].energy_j = Interval::point(lowest + 0.09 * 9.80665);
+    let [low, high] = gaps(&problem, &census).unwrap();
+    assert!((low - 0.01).abs() < 1e-6 && high.abs() < 1e-6, "{low} {high}");
+}
+
+/// Three metres, 2^20 m from the origin: 8 units in the last place of that besides 1e-12.
+#[test]
+fn places_far_away_are_known_less_well() {
+    let far = 2.0_f64.powi(20);
+    let anchors = Anchors { start_m: [far, 0.0, 0.0], end_m: [far, 0.0, -2.0] };
+    let bar = Bar::homogeneous(1.0, 1.0).unwrap();
+    let chain = Chain::new("far", 9.81, anchors, vec![bar; 3]).unwrap();
+    let wanted = 1e-12 + 2.0_f64.powi(20 - 49) / 3.0;
+    assert!((placed(&chain) / wanted - 1.0).abs() < 1e-14);
+}

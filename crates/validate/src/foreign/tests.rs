@@ -1,11 +1,12 @@
 //! The judge of foreign answers on closed forms, right and tampered with.
 
-use model::system::{Joint, Member, PointLoad, System, SystemEquilibrium};
+use model::system::{Joint, Kind, Member, PointLoad, System, SystemEquilibrium};
 use model::{Bar, Place, SolverName};
 
 use super::best_forces::{best_forces, joint_loads, shares_n};
 use super::bounds::{Bounds, TOLERANCE};
 use super::complete::complete;
+use super::given::member_name;
 use super::least_squares::{Column, Problem};
 use super::proved::proved_error;
 use super::{Finding, ForcesJudged, ForeignAnswer, GivenError, Judgement, Law, judge_foreign};
@@ -339,4 +340,37 @@ fn the_error_of_what_does_not_fit_is_not_enclosed() {
     assert_eq!(proved(|a| a.axial_n.truncate(1)), None);
     assert_eq!(proved(|a| a.joints_m[2][0] = f64::NAN), None);
     assert_eq!(proved(|a| a.axial_n[1] = f64::INFINITY), None);
+}
+
+/// 3 N on a strut of 2 m, as long as its length is: it bears them. Drawn longer it bears nothing.
+#[test]
+fn a_strut_bears_what_presses_it() {
+    let joints = vec![Joint::anchor("A", [0.0; 3]), Joint::free("P").with_mass(0.3)];
+    let rod = Member::bar(0, 1, Bar::homogeneous(2.0, 0.0).unwrap());
+    let strut = Member { kind: Kind::Strut, ..rod };
+    let system = System::new("prop", 10.0, joints, vec![strut]).unwrap();
+    for (z, wanted_n) in [(2.0, -3.0), (2.5, 0.0)] {
+        let at_m = [[0.0; 3], [0.0, 0.0, z]];
+        let best = best_forces(&system, &at_m, &Bounds::of_positions(&system, &at_m, 1e-6));
+        assert!((best.axial_n[0] - wanted_n).abs() < 1e-9, "{best:?}");
+        assert!((best.residual_n - (3.0 + wanted_n)).abs() < 1e-9, "{best:?}");
+    }
+}
+
+/// The lamp is 6 m large, from the first anchor to the second, and 4 m at most from the origin: a
+/// millionth of the one, and 8 units in the last place of the larger.
+#[test]
+fn positions_are_known_to_the_tolerance_and_to_rounding() {
+    let system = lamp();
+    let stored = 8.0 * f64::EPSILON;
+    let bounds = Bounds::of_positions(&system, &places([0.0, 0.0, -4.0]), 1e-6);
+    assert!((bounds.position_m / (6e-6 + 6.0 * stored) - 1.0).abs() < 1e-13);
+    let bounds = bounds.with_largest_force(3.0);
+    assert!((bounds.force_n / (3e-6 + 3.0 * stored) - 1.0).abs() < 1e-13);
+}
+
+#[test]
+fn members_are_told_by_number_and_joints() {
+    let system = lamp();
+    assert_eq!([0, 1].map(|k| member_name(&system, k)), ["1 (A - P)", "2 (P - B)"]);
 }

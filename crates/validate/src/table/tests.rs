@@ -54,3 +54,28 @@ fn a_turn_is_taken_back_before_the_rows_are_written() {
         }
     }
 }
+
+#[test]
+fn rows_are_written_as_columns() {
+    let row = Row {
+        case: "c".to_owned(),
+        observable: "energy_j".to_owned(),
+        lagrange: 1.0,
+        energy: -0.25,
+        difference: 1.25,
+    };
+    let result = CaseResult {
+        case: "c".to_owned(),
+        about: String::new(),
+        bars: 3,
+        agreement: None,
+        scaled: None,
+        rung: None,
+        failure: None,
+        rows: vec![row],
+    };
+    assert_eq!(
+        csv(&[result]),
+        "case,observable,lagrange,energy,difference\nc,energy_j,1e0,-2.5e-1,1.25e0\n"
+    );
+}

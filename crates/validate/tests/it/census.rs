@@ -13,6 +13,7 @@ use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
 use samples::{General, Line, stream};
 use validate::Tolerances;
+use validate::answer::{Question, ask};
 use validate::census_checks::{gaps, nearest, placed, statics, visits};
 use validate::completeness::certify_by_census;
 
@@ -306,6 +307,30 @@ fn the_ladder_is_honest() {
     open.complete = false;
     certify_by_census(&example.problem, &open, &mut e2);
     assert!(reached(&e2, Rung::Verified) && !reached(&e2, Rung::Complete));
+}
+
+/// All weight hangs on bar 1, and 5 + 1 m reach over just 6 m: both solvers end at the equilibrium at which three have
+/// merged, which is said of them.
+#[test]
+fn an_answer_at_a_degenerate_equilibrium_is_told_as_one() {
+    let bars = [(1.0, 3.0, 1.0), (5.0, 2.0, 0.0), (1.0, 0.0, 0.25)];
+    let bars = bars.map(|(l, m, r)| Bar::new(l, m, r, [0.0; 3]).unwrap()).to_vec();
+    let anchors = Anchors { start_m: [0.0; 3], end_m: [6.0, 0.0, -1.0] };
+    let problem = Problem::new(Chain::new("bridged", 9.81, anchors, bars).unwrap()).unwrap();
+    let census = Census::take(&problem, &Settings::default()).unwrap();
+    assert!(census.decided() && census.degenerate.len() == 1);
+    let mut answers = ask(&problem, &Question::default(), &|_| {}).equilibria;
+    assert_eq!(answers.len(), 2);
+    for answer in &mut answers {
+        let reason = answer.evidence.ladder.verified.reason();
+        let Some(Reason::AtDegenerate { distance }) = reason else { panic!("{reason:?}") };
+        assert!(*distance < 1e-13, "{distance}");
+        // A millimetre aside it is not.
+        answer.joints_m[1][2] += 1e-3;
+        certify_by_census(&problem, &census, answer);
+        let reason = answer.evidence.ladder.verified.reason();
+        assert!(matches!(reason, Some(Reason::Elsewhere { .. })), "{reason:?}");
+    }
 }
 
 /// A slack pair at the bottom is at rest in a family of positions: no box holds one of them alone,

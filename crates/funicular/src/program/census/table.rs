@@ -281,8 +281,9 @@ fn merged(census: &Summary) -> String {
             pattern(&merged.signs),
             long(0.5 * low + 0.5 * high),
             match merged.multiplicity {
-                2 => "2 (a fold)".to_owned(),
-                number => number.to_string(),
+                Some(2) => "2 (a fold)".to_owned(),
+                Some(number) => number.to_string(),
+                None => "a family".to_owned(),
             },
             merged.degree.to_string(),
             merged.angles_rad.iter().map(angle).collect::<Vec<_>>().join(", "),
@@ -290,8 +291,8 @@ fn merged(census: &Summary) -> String {
     }
     numbers_from(&mut rows, 1);
     let mut text = format!(
-        "Degenerate equilibria, at which several have merged (the bar with a dot carries nothing; the second derivative \
-         of the energy\nvanishes in one direction; degree: the sum of (-1)^index over those into which it falls apart \
+        "Degenerate equilibria, at which several have merged (bars with a dot carry nothing; the second derivative \
+         of the energy\nvanishes in some direction; degree: the sum of (-1)^index over those into which it falls apart \
          when the chain is changed a little):\n{rows}\n"
     );
     left_out(&mut text, census.degenerate.len(), PRINTED_OPEN, "of them");

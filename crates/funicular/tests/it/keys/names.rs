@@ -44,7 +44,7 @@ fn ends_and_events_of_branches() {
             json!({ "kind": "space-exchange", "from": 1, "to": 2 }),
         ),
         (
-            EventKind::Multiple { multiplicity: 4, degree: -1 },
+            EventKind::Multiple { multiplicity: Some(4), degree: -1 },
             json!({ "kind": "multiple", "multiplicity": 4, "degree": -1 }),
         ),
         (EventKind::Unloaded { bar: 5 }, json!({ "kind": "unloaded", "bar": 5 })),

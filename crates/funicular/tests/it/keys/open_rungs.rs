@@ -32,6 +32,10 @@ fn reasons_of_a_chain() {
             (Reason::SlackFamily, &["one of a family with slack bars"]),
             (Reason::NotAmongDecided { cells: 3 }, &["leaves 3 cells of pulls undecided"]),
             (Reason::Elsewhere { distance: 0.375 }, &["lies 3.8e-1 of the total"]),
+            (
+                Reason::AtDegenerate { distance: 0.625 },
+                &["within 6.2e-1 of the total", "degenerate equilibrium"],
+            ),
             (Reason::NothingListed, &["lists no equilibrium"]),
             (Reason::CensusUndecided { cells: 4 }, &["4 cells of pulls are undecided"]),
             (Reason::DegenerateEquilibria { listed: 1 }, &["one degenerate equilibrium"]),
@@ -45,6 +49,7 @@ fn reasons_of_a_chain() {
         "slack_family",
         "not_among_decided",
         "elsewhere",
+        "at_degenerate",
         "nothing_listed",
         "census_undecided",
         "degenerate_equilibria",
@@ -53,7 +58,7 @@ fn reasons_of_a_chain() {
         "count_unchecked",
     ];
     output.is("kind", kinds.as_slice());
-    output.is("distance", json!([0.125, 0.375]));
+    output.is("distance", json!([0.125, 0.375, 0.625]));
     output.is("cells", json!([3, 4]));
     output.is("listed", json!([1, 5]));
     output.is("sides[]", json!([6, 7]));

@@ -54,6 +54,11 @@ impl Display for Reason {
                 f,
                 "the nearest equilibrium of the census lies {distance:.1e} of the total length away"
             ),
+            Self::AtDegenerate { distance } => write!(
+                f,
+                "the answer lies within {distance:.1e} of the total length of a degenerate equilibrium, which the census \
+                 proves and lists apart: several have merged there"
+            ),
             Self::NothingListed => {
                 f.write_str("the census lists no equilibrium to compare with")
             }

@@ -19,16 +19,17 @@ fn measures_are_told_in_units_of_what_is_allowed() {
     assert_eq!(noted(-1.0, 2.0), told(0.0, 0));
 }
 
-/// A cable of 5 m; its ends are known to 0.25 m each, and forces exactly.
+/// A cable and a strut of 5 m; their ends are known to 0.25 m each, and forces exactly.
 #[test]
-fn a_cable_is_slack_where_both_ends_together_do_not_explain_it() {
-    let cable = Member::cable(0, 1, Bar::homogeneous(5.0, 0.0).unwrap());
+fn a_member_is_slack_where_both_ends_together_do_not_explain_it() {
     let bounds = Bounds { tolerance: 0.0, position_m: 0.25, force_n: 0.0 };
-    let broken = |distance_m: f64, force_n: f64| {
+    let told = |kind: Kind, distance_m: f64, force_n: f64| {
+        let member = Member { kind, ..Member::bar(0, 1, Bar::homogeneous(5.0, 0.0).unwrap()) };
         let mut found = Measured::default();
-        law(&cable, distance_m, Some(force_n), &bounds, Place::Member(1), &mut found);
+        law(&member, distance_m, Some(force_n), &bounds, Place::Member(1), &mut found);
         found.violations.iter().map(|violation| violation.law).collect::<Vec<_>>()
     };
+    let broken = |distance_m: f64, force_n: f64| told(Kind::Cable, distance_m, force_n);
     assert_eq!(broken(4.5, 2.0), []);
     let slack = Law::Slack { force_n: 2.0, length_m: 5.0, distance_m: 4.25 };
     assert_eq!(broken(4.25, 2.0), [slack]);
@@ -36,4 +37,11 @@ fn a_cable_is_slack_where_both_ends_together_do_not_explain_it() {
     assert_eq!(broken(5.5, 2.0), []);
     assert_eq!(broken(5.75, 2.0), [Law::Length { length_m: 5.0, distance_m: 5.75 }]);
     assert_eq!(broken(4.25, -2.0), [Law::Sign { force_n: -2.0 }]);
+    let broken = |distance_m: f64, force_n: f64| told(Kind::Strut, distance_m, force_n);
+    assert_eq!(broken(5.5, -2.0), []);
+    assert_eq!(broken(4.5, -2.0), []);
+    let slack = Law::Slack { force_n: -2.0, length_m: 5.0, distance_m: 5.75 };
+    assert_eq!(broken(5.75, -2.0), [slack]);
+    assert_eq!(broken(4.25, -2.0), [Law::Length { length_m: 5.0, distance_m: 4.25 }]);
+    assert_eq!(broken(5.75, 2.0), [Law::Sign { force_n: 2.0 }]);
 }

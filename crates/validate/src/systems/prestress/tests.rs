@@ -68,3 +68,16 @@ fn rounding_is_a_part_of_the_largest_density() {
     let form = Form { motions: 1, by_force: vec![], lengths: vec![10.0, 0.5] };
     assert!((form.zero(&[5.0, -2.0]) / 4e-9 - 1.0).abs() < 1e-14);
 }
+
+/// Strings of bars, one after the other, as many steps of the search.
+#[test]
+fn stresses_are_searched_until_all_strings_bear_some() {
+    let mut strings: Vec<(Kind, &[f64])> = vec![(Kind::Bar, &[1.0, 1.0]); 5];
+    strings[0].0 = Kind::Cable;
+    let found = stable(&strings, Stress::Free);
+    assert_eq!((found.self_stresses, found.mechanisms), (5, 10));
+    assert!(
+        matches!(found.held, Held::ByStress { stiffness_n_m } if stiffness_n_m > 0.1),
+        "{found:?}"
+    );
+}

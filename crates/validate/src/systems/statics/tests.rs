@@ -72,3 +72,30 @@ fn a_wrong_elongation_is_a_part_of_the_force() {
         "{found:?}"
     );
 }
+
+/// A short spring of 2^40 N at its length: places are stored to 8 units in the last place of it,
+/// which are 2^-9 N, however short.
+#[test]
+fn the_force_of_a_short_spring_is_known_to_the_rounding_of_its_ends() {
+    let length_m = 2.0_f64.powi(-10);
+    let joints = vec![Joint::anchor("A", [0.0; 3]), Joint::free("P")];
+    let body = Bar::homogeneous(length_m, 0.0).unwrap();
+    let spring = Member::bar(0, 1, body).with_stiffness(2.0_f64.powi(40));
+    let system = System::new("spring", 10.0, joints, vec![spring]).unwrap();
+    let (_, like) = lamp();
+    let law = |axial_n: f64| {
+        let answer = SystemEquilibrium {
+            energy_j: 0.0,
+            joints_m: vec![[0.0; 3], [0.0, 0.0, -length_m]],
+            start_forces_n: vec![[0.0; 3]],
+            end_forces_n: vec![[0.0; 3]],
+            axial_n: vec![axial_n],
+            reactions_n: vec![[0.0; 3]; 2],
+            ..like.clone()
+        };
+        judge(&system, &answer).law
+    };
+    let explained = 2.0_f64.powi(-9);
+    assert_eq!(law(0.75 * explained).to_bits(), 0);
+    assert!(law(1.25 * explained) > 0.99);
+}
