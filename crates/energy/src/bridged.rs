@@ -24,7 +24,7 @@ use crate::vector::{Sum, along, dot, norm, scaled, unit};
 const SOFT: f64 = 1e-6;
 
 /// Angle, rad, within which such bars are left of their line, and the others of the vertical.
-const NEARLY_STRAIGHT: f64 = 1e-3;
+const NEARLY_STRAIGHT: f64 = 1e-2;
 
 /// Corrections of the closure.
 const CORRECTIONS: usize = 12;

@@ -34,9 +34,9 @@ use crate::solver::force_uncertainty;
 use crate::strands::off_the_line;
 use crate::vector::{Sum, along, dot, norm, scaled, tangent};
 
-/// Turn of a bar, rad, above which the minimiser's digits are not enough: what two solvers are
-/// asked to agree to.
-const WORTH_REFINING: f64 = 1e-9;
+/// Turn of a bar, rad, above which the minimiser's digits are not enough: a quarter of what two
+/// solvers are asked to agree to, since a long bar turns its joint by as much of the whole length.
+const WORTH_REFINING: f64 = 2.5e-11;
 
 /// Uncertainty of the forces, as a part of the largest, above which the minimiser's digits are not
 /// enough: a quarter of what two solvers are asked to agree to, since it is an estimate.

@@ -38,6 +38,10 @@ pub struct Agreement {
     /// Then agreement is evidence for the shape alone.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub force_family: Option<ForceFamily>,
+    /// Where one solver does not tell the least curvature in the plane from zero and another one
+    /// does, with the same number of directions of falling energy: no contradiction.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub curvature_undecided: Vec<StabilityDifference>,
     /// Violations of Newton's laws by each answer.
     pub statics: Vec<Statics>,
     /// Whether the other numbers of each answer follow from its joints and forces; in JSON under
@@ -102,6 +106,7 @@ impl Agreement {
             free_joints: self.free,
             room: None,
             shape_only: self.force_family.is_some(),
+            curvature_undecided: self.curvature_undecided.clone(),
         })
     }
 }
@@ -151,8 +156,7 @@ pub fn judge_alone(problem: &Problem, answer: &mut Equilibrium) -> Statics {
     let (chain, tolerances) = (problem.chain(), Tolerances::project());
     let statics = judge(chain, &answer.joints_m, &answer.multipliers_n);
     let units = Units::new(chain, &answer.multipliers_n);
-    let mut judgement =
-        Judgement { tolerances: &tolerances, units, found: Disagreement::default() };
+    let mut judgement = Judgement::new(&tolerances, units);
     judgement.alone(&answer.solver, &statics, &consistency(chain, answer));
     let excesses = judgement.found.excesses;
     answer.evidence.ladder.agreed = Status::Open(if excesses.is_empty() {
@@ -203,6 +207,13 @@ struct Judgement<'a> {
     tolerances: &'a Tolerances,
     units: Units,
     found: Disagreement,
+    undecided: Vec<StabilityDifference>,
+}
+
+impl<'a> Judgement<'a> {
+    fn new(tolerances: &'a Tolerances, units: Units) -> Self {
+        Self { tolerances, units, found: Disagreement::default(), undecided: Vec::new() }
+    }
 }
 
 impl Judgement<'_> {
@@ -234,7 +245,9 @@ impl Judgement<'_> {
         );
         let found = [first.stability, second.stability];
         if found[0] != found[1] {
-            self.found.stability.push(StabilityDifference { between, found });
+            let compatible = found[0].is_compatible_with(&found[1]);
+            let found = StabilityDifference { between, found };
+            if compatible { &mut self.undecided } else { &mut self.found.stability }.push(found);
         }
     }
 
@@ -262,7 +275,7 @@ impl Judgement<'_> {
 
 fn agreement(chain: &Chain, answers: &[Equilibrium], tolerances: &Tolerances) -> Agreement {
     let units = Units::new(chain, &answers[0].multipliers_n);
-    let mut judgement = Judgement { tolerances, units, found: Disagreement::default() };
+    let mut judgement = Judgement::new(tolerances, units);
     let free = common(
         answers.iter().map(|answer| free_joints(chain, &answer.joints_m).map(|(_, joints)| joints)),
     );
@@ -294,6 +307,7 @@ fn agreement(chain: &Chain, answers: &[Equilibrium], tolerances: &Tolerances) ->
         free_joints: free.map_or(0, |free| free.count()),
         free,
         force_family: family,
+        curvature_undecided: judgement.undecided,
         statics,
         consistency,
         verdict,

@@ -32,6 +32,10 @@ pub struct Agreed {
     /// Whether agreement is evidence for the shape alone: the forces are one of a family, chosen by
     /// convention (see [`ForceFamily`](super::ForceFamily)).
     pub shape_only: bool,
+    /// Where a solver does not tell the least curvature in the plane from zero and another one does
+    /// ([`Stability::is_compatible_with`]): what each of them finds.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub curvature_undecided: Vec<StabilityDifference>,
 }
 
 /// What the equilibrium of a system leaves open.

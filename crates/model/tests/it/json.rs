@@ -19,6 +19,7 @@ fn agreed() -> Agreed {
         free_joints: Some(FreeJoints { first: 2, last: 3 }),
         room: None,
         shape_only: true,
+        curvature_undecided: Vec::new(),
     }
 }
 

@@ -92,6 +92,7 @@ pub fn compare(
             free_joints: None,
             room: Room::of(agreement.turned_parts, agreement.free_joints),
             shape_only: agreement.self_stresses.is_some_and(|dimension| dimension > 0),
+            curvature_undecided: Vec::new(),
         })
     } else {
         Status::Open(Reason::SolversDisagree(agreement.disagreement.clone()))

@@ -53,12 +53,12 @@ fn part(random: &mut ChaCha8Rng) -> f64 {
     if random.random_range(0..2) == 0 { size } else { -size }
 }
 
-/// Both solvers have an answer, know it, and agree on joints, forces and energies. (Whether a bar
-/// whose force is a rounding of the largest makes the minimum degenerate is not asked.)
+/// Both solvers have an answer, know it, and agree on joints, forces and energies; that a bar whose
+/// force is a rounding of the largest makes the minimum degenerate, only one of them may say.
 #[test]
 fn solvers_agree_on_chains_that_are_nearly_slack() {
     let mut random = ChaCha8Rng::seed_from_u64(1);
-    let mut others = Vec::new();
+    let (mut others, mut undecided) = (Vec::new(), 0);
     for number in 0..1000 {
         let part = part(&mut random);
         let problem = drawn(&mut random, part);
@@ -70,11 +70,13 @@ fn solvers_agree_on_chains_that_are_nearly_slack() {
         let mut answers = [lagrange.equilibrium, energy.equilibrium];
         let agreement = compare(&problem, &mut answers, &Tolerances::project());
         let known = answers.iter().all(|a| a.evidence.ladder.is_reached(Rung::Converged));
-        if !(agreement.disagreement.excesses.is_empty() && known) {
+        undecided += agreement.curvature_undecided.len();
+        if !(agreement.agrees() && known) {
             let residual = answers[1].evidence.residual;
             others.push(format!("{number}, {part:e}: {} {residual:e}", agreement.disagreement));
         }
     }
     println!("{} of 1000 do not agree:\n{}", others.len(), others.join("\n"));
+    println!("{undecided} of 1000 are degenerate by one solver alone");
     assert!(others.is_empty());
 }

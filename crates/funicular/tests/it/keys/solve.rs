@@ -169,6 +169,40 @@ fn straight_forces_are_a_family() {
     output.done();
 }
 
+/// A bar of 1 m and 10 N hangs from the first anchor, and two of 1 m without mass are 2^-37 m too
+/// short for the gap. They pull the lower end over, with half the weight times that: so little that
+/// only one of the solvers tells the curvature that it makes from zero.
+#[test]
+fn a_curvature_told_by_one() {
+    let folder = tempfile::tempdir().unwrap();
+    let missing = 2.0_f64.powi(-37);
+    let text = format!(
+        "gravity_m_s2 = 10\nanchors = {{ start_m = [0, 0, 0], end_m = [{:?}, 0, -1] }}\n\
+         bars = [{{ length_m = 1, mass_kg = 1 }}, {{ length_m = 1, mass_kg = 0, count = 2 }}]\n",
+        2.0 + missing,
+    );
+    std::fs::write(folder.path().join("edge.toml"), text).unwrap();
+    let text = good(folder.path(), &["solve", "edge.toml", "--json"]);
+    let mut output = Output::json("solve a chain", "a_curvature_told_by_one", &text);
+    for bars in output.numbers("equilibria[].axial_n[]").chunks(3) {
+        assert!((bars[0] - 5.0).abs() < NOTHING, "{bars:?}");
+        for pull in &bars[1..] {
+            assert!((pull / (5.0 * missing) - 1.0).abs() < 1e-3, "{bars:?}");
+        }
+    }
+    for path in ["agreement", "equilibria[].evidence.ladder[].proof"] {
+        let at = |key: &str| format!("{path}.curvature_undecided[].{key}");
+        output.each(&at("between[]"), json!(["lagrange", "energy"]));
+        output.each(&at("found[].in_plane"), json!(["minimum", "degenerate"]));
+        output.each(&at("found[].in_space"), "stable");
+        output.each(&at("found[].index_in_plane"), 0);
+        output.each(&at("found[].index_in_space"), 0);
+    }
+    output.is("agreement.verdict", "agreed");
+    output.is("agreement.stability[]", json!([]));
+    output.done();
+}
+
 /// A lamp of 20 N on light bars of 3 and 4 m over 5 m: they meet at a right angle.
 pub const LAMP: &str = r#"
 name = "lamp"

@@ -16,6 +16,7 @@ use crate::evidence::self_stresses::SelfStresses;
 use crate::evidence::status::Status;
 use crate::evidence::verified::{Verified, VerifiedSystem};
 use crate::number::Number;
+use crate::stability::InPlane;
 
 impl Display for Rung {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
@@ -95,6 +96,15 @@ impl Display for Agreed {
         if self.shape_only {
             f.write_str(
                 "; of the shape alone: the forces are one of a family, chosen by convention",
+            )?;
+        }
+        for StabilityDifference { between: [a, b], found } in &self.curvature_undecided {
+            let [tells, does_not] =
+                if found[0].in_plane == InPlane::Degenerate { [b, a] } else { [a, b] };
+            write!(
+                f,
+                "; {tells} tells the least curvature in the plane from zero, {does_not} does not: {} or {}",
+                found[0].in_plane, found[1].in_plane
             )?;
         }
         Ok(())
