@@ -47,6 +47,30 @@ pub(crate) fn nearest_degenerate(
     all.filter(|distance| distance.is_finite()).min_by(f64::total_cmp)
 }
 
+/// How far a position lies from the nearest straight one in the vertical through both anchors, in
+/// units of the total length.
+pub(crate) fn nearest_straight(chain: &Chain, census: &Census, joints_m: &[Vector]) -> Option<f64> {
+    let [start, end] = [chain.anchors().start_m, chain.anchors().end_m];
+    // Between anchors in one point there is one that hangs and one that stands.
+    let ways: &[f64] = match end[2] - start[2] {
+        rise if rise > 0.0 => &[1.0],
+        rise if rise < 0.0 => &[-1.0],
+        _ => &[1.0, -1.0],
+    };
+    let upright = census.straight.iter().filter(|position| position.upright);
+    let all = upright.flat_map(|position| ways.iter().map(move |way| (position, way)));
+    let distances = all.map(|(position, way)| {
+        let mut height = Interval::point(start[2]);
+        let mut boxes = vec![start.map(Interval::point)];
+        for (bar, along) in chain.bars().iter().zip(&position.along) {
+            height = height + Interval::point(way * f64::from(*along)) * bar.length_m();
+            boxes.push([Interval::point(start[0]), Interval::point(start[1]), height]);
+        }
+        beyond(chain, &boxes, joints_m)
+    });
+    distances.filter(|distance| distance.is_finite()).min_by(f64::total_cmp)
+}
+
 /// How far outside of boxes the worst coordinate of a joint lies, in units of the total length.
 fn beyond(chain: &Chain, boxes: &[[Interval; 3]], joints_m: &[Vector]) -> f64 {
     if boxes.len() != joints_m.len() {

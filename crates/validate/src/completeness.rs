@@ -4,7 +4,7 @@
 use census::{Census, CensusError, SlackFamily};
 use model::{Chain, Equilibrium, Problem, Reason, Status, Verified};
 
-use crate::census_checks::{Nearest, nearest, nearest_degenerate, placed};
+use crate::census_checks::{Nearest, nearest, nearest_degenerate, nearest_straight, placed};
 use crate::tolerances::Tolerances;
 
 /// Say on an answer of a solver how far the census carries it: the rungs `verified` and `complete`.
@@ -39,10 +39,14 @@ pub fn certify_by_census(problem: &Problem, census: &Census, answer: &mut Equili
         });
         ladder.complete = census.completeness();
     } else {
-        let merged = nearest_degenerate(chain, census, &answer.joints_m);
-        let reason = match merged.filter(|distance| !refutes(chain, *distance)) {
-            Some(distance) => Reason::AtDegenerate { distance },
-            None => not_listed(chain, census, place, answer.energy_j),
+        let near = |distance: Option<f64>| distance.filter(|distance| !refutes(chain, *distance));
+        let joints_m = &answer.joints_m;
+        let reason = if let Some(distance) = near(nearest_degenerate(chain, census, joints_m)) {
+            Reason::AtDegenerate { distance }
+        } else if let Some(distance) = near(nearest_straight(chain, census, joints_m)) {
+            Reason::AtStraight { distance }
+        } else {
+            not_listed(chain, census, place, answer.energy_j)
         };
         match reason {
             Reason::RefutedByCensus { distance } => ladder.refute(distance),

@@ -228,7 +228,10 @@ impl Census {
     /// What is claimed besides the isolated equilibria.
     pub(super) fn check_claims(&self, system: &System, exact: &Exact) -> Result<(), CheckError> {
         let claims = [
-            ("the list of slack families", self.families == families(system).0),
+            (
+                "the list of slack families",
+                self.families == families(system, exact.sides.as_ref()).0,
+            ),
             (
                 "the list of straight positions",
                 self.straight == Straight::of(system, exact).positions,

@@ -124,6 +124,9 @@ impl Census {
             _ if self.undecided.is_empty() && merged > 0 => {
                 Reason::DegenerateEquilibria { listed: merged }
             }
+            _ if self.undecided.is_empty() && self.singular_families() > 0 => {
+                Reason::SingularFamilies { listed: self.singular_families() }
+            }
             Err(error) if self.undecided.is_empty() => match error {
                 TopologyError::Straight { sides } => {
                     Reason::StraightPosition { sides: sides.clone() }

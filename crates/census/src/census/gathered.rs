@@ -88,7 +88,7 @@ impl Gathered {
         for (pattern, zero) in unclear {
             undecided.push(Undecided::new(&system, Reason::Unclear, &zero.tight, &[pattern]));
         }
-        let (families, mut maybe) = families(&system);
+        let (families, mut maybe) = families(&system, exact.sides.as_ref());
         maybe.retain(|signs| !unloaded.is_one_position(&system, &exact, signs));
         let census = Census {
             equilibria: vec![],

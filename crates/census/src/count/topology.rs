@@ -130,7 +130,7 @@ impl Topology {
     }
 
     /// The product with a circle.
-    fn times_circle(&self) -> Self {
+    pub(crate) fn times_circle(&self) -> Self {
         let mut betti = self.betti.clone();
         betti.push(0);
         for (k, b) in self.betti.iter().enumerate() {

@@ -31,20 +31,24 @@ use crate::slack::axial::AxialClosure;
 use crate::slack::exact::ExactSides;
 use crate::slack::unloaded::{upright, widest_disc};
 
-/// The equilibrium in which the group carries nothing, in one line, if it exactly bridges the gap and
-/// none other is near.
-pub(crate) fn prove(sides: &ExactSides, closure: &AxialClosure) -> Option<DegenerateEquilibrium> {
+/// The radius of a disc of pulls in which no other has the group in this line, pulled or pushed, than that
+/// without force, if the group exactly bridges its gap so.
+pub(crate) fn alone(sides: &ExactSides, closure: &AxialClosure) -> Option<f64> {
     let AxialClosure { system, group, along, face, signs, .. } = closure;
     let up = upright(system, *face, signs)?;
     if !sides.just_bridges(&up, group.clone(), along) {
         return None;
     }
     let (only, radius) = widest_disc(closure)?;
-    let exactly = closure.directions(0.0)?;
     // The zero without force is in the disc, so it is the only one.
-    if !only.at[0].contains(0.0) {
-        return None;
-    }
+    only.at[0].contains(0.0).then_some(radius)
+}
+
+/// The equilibrium in which the group carries nothing, alone in such a disc, where it has no other way to
+/// bridge the gap.
+pub(crate) fn prove(closure: &AxialClosure, radius: f64) -> Option<DegenerateEquilibrium> {
+    let AxialClosure { group, signs, .. } = closure;
+    let exactly = closure.directions(0.0)?;
     let bars = closure.bars([Interval::ZERO, exactly])?;
     let indices = closure.indices(&bars, f64::INFINITY)?;
     let turns = group.len() - 1;

@@ -87,19 +87,19 @@ impl ExactSides {
         [self.level_square, self.rise]
     }
 
-    /// Whether a group of bars in one line, each along it (+1) or against it (−1), reaches exactly over the
-    /// gap that the other bars leave, which stand upright and point up (+1) or down (−1) towards the last
-    /// anchor; 0 for the bars of the group. The gap is not zero.
-    pub(crate) fn just_bridges(&self, up: &[i8], group: Range<usize>, along: &[i8]) -> bool {
-        let sum = |ways: &[i8], lengths: &[i128]| -> i128 {
-            ways.iter().zip(lengths).map(|(way, length)| i128::from(*way) * length).sum()
-        };
+    /// The square of the gap that bars leave which stand upright and point up (+1) or down (−1) towards the
+    /// last anchor; 0 for those that are to bridge it. Nothing where it has too many digits.
+    pub(crate) fn gap_square(&self, up: &[i8]) -> Option<i128> {
         let rise = self.rise - sum(up, &self.lengths);
+        rise.checked_mul(rise)?.checked_add(self.level_square)
+    }
+
+    /// Whether a group of bars in one line, each along it (+1) or against it (−1), reaches exactly over the
+    /// gap that the other bars leave, as [`gap_square`](Self::gap_square) has it. The gap is not zero.
+    pub(crate) fn just_bridges(&self, up: &[i8], group: Range<usize>, along: &[i8]) -> bool {
         let reach = sum(along, &self.lengths[group]);
-        // Nothing is said where a square has too many digits.
-        let square = |x: i128| x.checked_mul(x);
-        let gap = square(rise).and_then(|square| square.checked_add(self.level_square));
-        reach > 0 && gap.is_some() && gap == square(reach)
+        let gap = self.gap_square(up);
+        reach > 0 && gap.is_some() && gap == reach.checked_mul(reach)
     }
 
     /// All ways in which the bars fit into the line between the anchors: patterns whose sum of
@@ -127,6 +127,10 @@ impl ExactSides {
         found.sort_unstable();
         found
     }
+}
+
+fn sum(ways: &[i8], lengths: &[i128]) -> i128 {
+    ways.iter().zip(lengths).map(|(way, length)| i128::from(*way) * length).sum()
 }
 
 #[cfg(test)]
@@ -165,6 +169,10 @@ mod tests {
         assert!(upright.just_bridges(&[-1, 0, 0], 1..3, &[1, 1]));
         let none = sides(&[1.0, 4.0, 4.0], [0.0, 0.0, -1.0]);
         assert!(!none.just_bridges(&[-1, 0, 0], 1..3, &[1, -1]));
+        // 6 m across and 1 m - 1 m, or -1 m - 1 m, along; and nothing.
+        let squares = |ways: &[i8]| level.gap_square(ways).zip(none.gap_square(ways));
+        assert_eq!(squares(&[-1, 0, 0]), Some((36, 0)));
+        assert_eq!(squares(&[1, 0, 0]), Some((40, 4)));
     }
 
     #[test]

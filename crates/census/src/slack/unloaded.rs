@@ -125,7 +125,7 @@ pub(crate) fn unloaded(system: &System, exact: &Exact) -> Unloaded {
             half: HashMap::new(),
             largest: 0.0,
         };
-        for along in ways(system, group) {
+        for along in lines(system, group, exact) {
             // The bars of the group that are pushed while its first is pulled.
             let turned: u32 = group
                 .clone()
@@ -136,14 +136,17 @@ pub(crate) fn unloaded(system: &System, exact: &Exact) -> Unloaded {
             for others in candidates(system, group, &along) {
                 let Some(closure) = axial_closure(system, group, &along, others) else { continue };
                 let side = if group.len() > 1 {
-                    let Some(found) =
-                        exact.sides.as_ref().and_then(|sides| straightened::prove(sides, &closure))
+                    let sides = exact.sides.as_ref();
+                    let Some(radius) = sides.and_then(|sides| straightened::alone(sides, &closure))
                     else {
                         continue;
                     };
-                    let side = found.alone_in.at[0].hi();
-                    all.degenerate.push(found);
-                    side
+                    // Else it is one position of a family.
+                    if is_the_only_way(&along) {
+                        let Some(found) = straightened::prove(&closure, radius) else { continue };
+                        all.degenerate.push(found);
+                    }
+                    0.5 * radius
                 } else if let Some(equilibrium) = prove(&closure) {
                     let side = equilibrium.alone_in.at[0].hi();
                     all.equilibria.push(equilibrium);
@@ -168,18 +171,39 @@ pub(crate) fn unloaded(system: &System, exact: &Exact) -> Unloaded {
     all
 }
 
-/// The ways in which the bars of a group may lie in one line, +1 along it and −1 against it, in which no
-/// other position of them reaches as far, or none reaches less far: all along, or all but the
-/// longest against it.
-fn ways(system: &System, group: &Range<usize>) -> Vec<Vec<i8>> {
-    let mut found = vec![vec![1; group.len()]];
-    if group.len() > 1 {
-        let bars = group.clone();
-        found
-            .extend(bars.map(|one| group.clone().map(|i| if i == one { 1 } else { -1 }).collect()));
-        found.retain(|along: &Vec<i8>| reach(system, group, along).lo() > 0.0);
+/// The ways in which the bars of a group may lie in one line, +1 along it and −1 against it; where
+/// lengths are not known as integers, or the group is long, those that are the only ones.
+fn lines(system: &System, group: &Range<usize>, exact: &Exact) -> Vec<Vec<i8>> {
+    /// Each way costs a walk over the signs of the other bars.
+    const LONGEST: usize = 10;
+    if exact.sides.is_none() || group.len() > LONGEST {
+        return ways(system, group);
     }
-    found
+    let all =
+        (0..1_u32 << group.len()).map(|pattern| Pattern(pattern).signs(group.len()).collect());
+    reaching(system, group, all.collect())
+}
+
+/// Those in which no other position of them reaches as far, or none reaches less far: all along, or all
+/// but the longest against it.
+fn ways(system: &System, group: &Range<usize>) -> Vec<Vec<i8>> {
+    let one = |one: usize| group.clone().map(|i| if i == one { 1 } else { -1 }).collect();
+    let mut all = vec![vec![1; group.len()]];
+    if group.len() > 1 {
+        all.extend(group.clone().map(one));
+    }
+    reaching(system, group, all)
+}
+
+/// Those that reach along the line, not against it.
+fn reaching(system: &System, group: &Range<usize>, all: Vec<Vec<i8>>) -> Vec<Vec<i8>> {
+    all.into_iter().filter(|along| reach(system, group, along).lo() > 0.0).collect()
+}
+
+/// Whether bars that reach over a gap in this way have no other way to: all along it, or one alone.
+fn is_the_only_way(along: &[i8]) -> bool {
+    let against = along.iter().filter(|way| **way < 0).count();
+    against == 0 || against + 1 == along.len()
 }
 
 /// Which way the bars with these signs point at the pull without force in those with sign 0: up, down.

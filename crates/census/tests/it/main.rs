@@ -10,6 +10,7 @@ mod multiplicity;
 mod mutations;
 mod paper;
 mod random;
+mod singular_families;
 mod support;
 mod unloaded;
 mod work;

@@ -164,6 +164,9 @@ pub struct Slack {
     pub index_in_space: usize,
     /// Dimension of the set in the plane.
     pub dimension_in_plane: usize,
+    /// Whether it is a manifold, across which the second derivative is regular; not if the slack bars
+    /// also fit into one line, or close upon themselves folded.
+    pub is_manifold: bool,
 }
 
 /// An equilibrium at which several have merged: a bar carries nothing, or several in one line, and the
@@ -407,6 +410,7 @@ fn slack(family: &SlackFamily) -> Slack {
         index_in_plane: family.index_in_plane,
         index_in_space: family.index_in_space(),
         dimension_in_plane: family.dimension_in_plane(),
+        is_manifold: family.topology.is_ok(),
     }
 }
 

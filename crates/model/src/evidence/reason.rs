@@ -75,6 +75,13 @@ pub enum Reason {
         #[serde(with = "finite")]
         distance: f64,
     },
+    /// The answer is at a straight position in the vertical through both anchors, an equilibrium
+    /// under any force along it: the census lists it apart.
+    AtStraight {
+        /// How far from it, in units of the total length.
+        #[serde(with = "finite")]
+        distance: f64,
+    },
     /// The census lists no equilibrium.
     NothingListed,
     /// The census left cells of pulls undecided.
@@ -85,6 +92,12 @@ pub enum Reason {
     /// Occurs when the census names equilibria at which several have merged: their second
     /// derivative is singular, and they are listed apart.
     DegenerateEquilibria {
+        /// How many.
+        listed: usize,
+    },
+    /// Occurs when the census names families with slack bars that are no manifold: the bars also fit
+    /// into one line, or close upon themselves.
+    SingularFamilies {
         /// How many.
         listed: usize,
     },

@@ -254,7 +254,7 @@ fn families(census: &Summary) -> String {
             pattern(&family.signs),
             long(middle(family.energy_j)),
             short(middle(family.gap_m)),
-            family.dimension_in_plane.to_string(),
+            format!("{}{}", family.dimension_in_plane, if family.is_manifold { "" } else { " *" }),
             family.index_in_plane.to_string(),
             family.index_in_space.to_string(),
         ]);
@@ -264,6 +264,10 @@ fn families(census: &Summary) -> String {
         "Families of equilibria in which the bars with a dot are slack (they carry nothing and bridge the gap in any \
          way they can;\nthe dimension is that in the plane, where two slack bars have two ways):\n{rows}\n"
     );
+    if census.slack_families.iter().any(|family| !family.is_manifold) {
+        text += "* no manifold: the slack bars also fit into one line, or close upon themselves folded; no other \
+                 equilibrium is near.\n";
+    }
     left_out(&mut text, census.slack_families.len(), PRINTED_OPEN, "families");
     text + "\n"
 }

@@ -36,10 +36,19 @@ fn reasons_of_a_chain() {
                 Reason::AtDegenerate { distance: 0.625 },
                 &["within 6.2e-1 of the total", "degenerate equilibrium"],
             ),
+            (
+                Reason::AtStraight { distance: 0.875 },
+                &["within 8.8e-1 of the total", "a straight position"],
+            ),
             (Reason::NothingListed, &["lists no equilibrium"]),
             (Reason::CensusUndecided { cells: 4 }, &["4 cells of pulls are undecided"]),
             (Reason::DegenerateEquilibria { listed: 1 }, &["one degenerate equilibrium"]),
             (Reason::DegenerateEquilibria { listed: 5 }, &["5 degenerate equilibria"]),
+            (
+                Reason::SingularFamilies { listed: 1 },
+                &["one family with slack bars is no manifold"],
+            ),
+            (Reason::SingularFamilies { listed: 9 }, &["9 families with slack bars"]),
             (Reason::StraightPosition { sides: vec![6, 7] }, &["sides 6, 7 are together"]),
             (Reason::CountUnchecked { sides: 8 }, &["a polygon of 8 sides"]),
         ],
@@ -50,17 +59,20 @@ fn reasons_of_a_chain() {
         "not_among_decided",
         "elsewhere",
         "at_degenerate",
+        "at_straight",
         "nothing_listed",
         "census_undecided",
         "degenerate_equilibria",
         "degenerate_equilibria",
+        "singular_families",
+        "singular_families",
         "straight_position",
         "count_unchecked",
     ];
     output.is("kind", kinds.as_slice());
-    output.is("distance", json!([0.125, 0.375, 0.625]));
+    output.is("distance", json!([0.125, 0.375, 0.625, 0.875]));
     output.is("cells", json!([3, 4]));
-    output.is("listed", json!([1, 5]));
+    output.is("listed", json!([1, 5, 1, 9]));
     output.is("sides[]", json!([6, 7]));
     output.is("sides", 8);
     output.done();

@@ -59,6 +59,11 @@ impl Display for Reason {
                 "the answer lies within {distance:.1e} of the total length of a degenerate equilibrium, which the census \
                  proves and lists apart: several have merged there"
             ),
+            Self::AtStraight { distance } => write!(
+                f,
+                "the answer lies within {distance:.1e} of the total length of a straight position, which the census lists \
+                 apart: all bars lie in the vertical through both anchors, in equilibrium under any force along it"
+            ),
             Self::NothingListed => {
                 f.write_str("the census lists no equilibrium to compare with")
             }
@@ -69,6 +74,14 @@ impl Display for Reason {
             Self::DegenerateEquilibria { listed } => {
                 write!(f, "{listed} degenerate equilibria are listed apart")
             }
+            Self::SingularFamilies { listed: 1 } => f.write_str(
+                "one family with slack bars is no manifold: they also fit into one line, or close upon themselves",
+            ),
+            Self::SingularFamilies { listed } => write!(
+                f,
+                "{listed} families with slack bars are no manifolds: they also fit into one line, or close upon \
+                 themselves"
+            ),
             Self::StraightPosition { sides } => write!(
                 f,
                 "sides {} are together as long as the others: a straight position exists, and the configuration space \
