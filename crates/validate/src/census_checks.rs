@@ -63,7 +63,8 @@ pub(crate) fn nearest_straight(chain: &Chain, census: &Census, joints_m: &[Vecto
         let mut height = Interval::point(start[2]);
         let mut boxes = vec![start.map(Interval::point)];
         for (bar, along) in chain.bars().iter().zip(&position.along) {
-            height = height + Interval::point(way * f64::from(*along)) * bar.length_m();
+            height =
+                height + Interval::point(way * f64::from(*along)) * Interval::point(bar.length_m());
             boxes.push([Interval::point(start[0]), Interval::point(start[1]), height]);
         }
         beyond(chain, &boxes, joints_m)

@@ -83,6 +83,8 @@ pub(crate) struct Straight {
     settled: Vec<Settled>,
     /// Whether all ways to fit are known: what may fit upright, does so or is none.
     exact: bool,
+    /// The lengths as integers.
+    lengths: Vec<i128>,
     /// The ways to fit, sorted.
     fits: Vec<Pattern>,
     /// Between anchors in one point, by pattern that fits: the order of the first moment that does
@@ -141,7 +143,8 @@ impl Straight {
         {
             first = fits.iter().filter_map(|p| Some((*p, moments.first(*p)?))).collect();
         }
-        Self { positions: positions.collect(), settled, exact: true, fits, first }
+        let (positions, lengths) = (positions.collect(), sides.lengths().to_vec());
+        Self { positions, settled, exact: true, lengths, fits, first }
     }
 
     /// The patterns that may have equilibria in a cell besides the straight ones.
@@ -159,7 +162,9 @@ impl Straight {
             left.to_mut().retain(|p| !cells.get(p).is_some_and(|cell| cell.encloses(&near)));
         }
         if self.are_near(system, cell) {
-            left.to_mut().retain(|pattern| !upright_alone(system, cell, *pattern, &self.fits));
+            left.to_mut().retain(|pattern| {
+                !upright_alone(system, cell, *pattern, &self.fits, &self.lengths)
+            });
             left.to_mut().retain(|pattern| {
                 let first = self.first.get(pattern).copied();
                 !upright_or_infinite(system, cell, *pattern, first)

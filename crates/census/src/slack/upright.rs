@@ -19,6 +19,7 @@
 //! - Where one bar k has no force, $F_k = \varrho e$, the level part is $e_x (\varrho
 //!   \sum_{i \ne k} s_i l_i / |F_i| + l_k)$; of bars in a row that lose their force together, parallel
 //!   where they have one, $l_k$ is the sum of their signed lengths.
+//!   If that is zero, known from integers, the sum over the others alone is left.
 //!
 //! # Infinite pulls between anchors in one point
 //!
@@ -46,13 +47,15 @@ use crate::closure::{Pattern, signed};
 use crate::plane::cell::Cell;
 use crate::plane::system::System;
 
-/// Whether every equilibrium of a pattern in a cell about H = 0 is upright. `fits` are the ways in
-/// which the bars fit upright, sorted: the patterns of those that point back.
+/// Whether every equilibrium of a pattern in a cell about H = 0 is upright, besides those in which a
+/// group carries nothing. `fits` are the ways in which the bars fit upright, sorted: the patterns of
+/// those that point back; `lengths` are integers.
 pub(super) fn upright_alone(
     system: &System,
     cell: &Cell,
     pattern: Pattern,
     fits: &[Pattern],
+    lengths: &[i128],
 ) -> bool {
     let bars = system.bars();
     let weights = system.weights(cell.face);
@@ -70,7 +73,8 @@ pub(super) fn upright_alone(
             }
             let way = |i| if pattern.compressed(bars, i) { -1 } else { 1 };
             let reach: Interval = group.clone().map(|i| signed(way(i), system.length[i])).sum();
-            free = Some((reach, force));
+            let exactly: i128 = group.clone().map(|i| i128::from(way(i)) * lengths[i]).sum();
+            free = Some((if exactly == 0 { Interval::ZERO } else { reach }, force));
             continue;
         }
         let size = size(force);
@@ -90,6 +94,7 @@ pub(super) fn upright_alone(
             !level.contains(0.0) || back.is_some_and(fits) && !deflated.contains(0.0)
         }
         // The force of the one group, of either sign, times the sum of the others.
+        Some((reach, _)) if reach == Interval::ZERO => !level.contains(0.0),
         Some((reach, force)) => {
             let most = Interval::point(size(force).hi()) * Interval::point(level.mag());
             most.hi() < reach.mig()

@@ -123,7 +123,7 @@ fn chains_of_integers_with_bars_without_mass() {
         }
         println!("up to {bars} bars: {decided} of {all}, {merged} with a degenerate equilibrium");
     }
-    assert!(decided * 100 >= 96 * all && merged > 0, "{decided} of {all}, {merged}");
+    assert!(decided * 100 >= 99 * all && merged > 0, "{decided} of {all}, {merged}");
 }
 
 /// Lengths 1 to 5, masses 0 to 3 at either joint or in the middle, an anchor within 8 m.

@@ -380,7 +380,17 @@ fn straight(census: &Summary) -> String {
 /// The cross-checks, and what it took.
 fn sums(census: &Summary) -> String {
     let mut text = String::new();
+    let manifolds = census.slack_families.iter().all(|family| family.is_manifold);
     match (&census.euler_characteristic, &census.betti) {
+        (Some(euler), Some(_)) if !manifolds => {
+            let _ = writeln!(
+                text,
+                "By index in the plane: {:?}, without the families marked *, whose part in the sum of (-1)^index is not \
+                 known.\nSum without them: {}. Euler characteristic of the configuration space, from the lengths alone: \
+                 {euler}.",
+                census.count_by_index, census.alternating_sum,
+            );
+        }
         (Some(euler), Some(betti)) => {
             let _ = writeln!(
                 text,

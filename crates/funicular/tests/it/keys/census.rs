@@ -274,9 +274,29 @@ fn slack_bars() {
     output.is(&at("index_in_plane"), json!([0, 2]));
     output.is(&at("index_in_space"), json!([0, 4]));
     output.each(&at("dimension_in_plane"), 0);
+    output.each(&at("is_manifold"), true);
     output.is("census.energy_unit_j", 80.0);
     output.is("census.energy_unit", "weight times length of the whole chain");
     output.is("census.energy_symbol", "MgL");
+    output.done();
+}
+
+/// Under a bar that hangs from below its own anchor's height, three of 1 m without mass over 1 m: two
+/// along it and one against it fit too. Standing it leaves 2.2 m, over which they reach with one in
+/// either way, but straight they do not.
+#[test]
+fn slack_bars_that_fit_into_a_line() {
+    let text = "gravity_m_s2 = 10\nanchors = { start_m = [0, 0, 0], end_m = [1, 0, -1] }\n\
+                bars = [{ length_m = 1, mass_kg = 1 }, { length_m = 1, mass_kg = 0, count = 3 }]\n";
+    let kind = "census of a chain";
+    let mut output = census(kind, "slack_bars_that_fit_into_a_line", text);
+    let at = |key: &str| format!("census.slack_families[].{key}");
+    output.is(&at("signs[]"), json!([1, 0, 0, 0, -1, 0, 0, 0]));
+    output.is(&at("is_manifold"), json!([false, true]));
+    output.each(&at("dimension_in_plane"), 1);
+    output.encloses(&at("gap_m[]"), json!([1.0, 5.0_f64.sqrt()]));
+    output.is("census.decided", true);
+    output.is("census.complete", false);
     output.done();
 }
 

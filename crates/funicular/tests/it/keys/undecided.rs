@@ -89,23 +89,25 @@ fn two_bars_next_to_each_other() {
     output.done();
 }
 
-/// A bar of 2 m hangs, and three of 1 m without mass bridge 1 m from its end to the last anchor: they may
-/// do so in one line, 1 + 1 - 1 in three orders, and those are crossings of the curve of their positions.
+/// A bar of 2 m hangs, and one stands on the last anchor as heavily; between them two of 0.5 m without
+/// mass just bridge 1 m. The pull of these turns the one back by as much as the other gives way.
 #[test]
 fn a_gap_just_bridged() {
-    let bars = "{ length_m = 2, mass_kg = 2 }, { length_m = 1, mass_kg = 0, count = 3 }";
-    let mut output = census("a_gap_just_bridged", "[1, 0, -2]", bars);
+    let heavy = "{ length_m = 2, mass_kg = 2 }";
+    let bars = format!("{heavy}, {{ length_m = 0.5, mass_kg = 0, count = 2 }}, {heavy}");
+    let mut output = census("a_gap_just_bridged", "[1, 0, -4]", &bars);
     output.is(&open("reason"), json!(["unloaded", "slack"]));
     output.says(&open("why"), &["the force of a bar vanishes here", "may or may not bridge"]);
-    // Each order pulled or pushed; none for the slack ones.
-    output.is(&open("pattern_count"), json!([6, 1]));
+    // They are pulled or pushed; neither if slack.
+    output.is(&open("pattern_count"), json!([2, 1]));
     // Around the force of the second bar, which vanishes where the first bears its own weight.
     output.each(&open("chart.around"), 1);
     let pulls = output.numbers(&open("pull_n[][]"));
-    for pull in pulls.chunks(4) {
-        assert!(pull[0] <= 0.0 && 0.0 <= pull[1] && pull[1] - pull[0] < NOTHING, "{pull:?}");
+    // A pull along them of next to nothing leaves the gap as it is to the third order.
+    for (pull, wide) in pulls.chunks(4).zip([1e-2, NOTHING]) {
+        assert!(pull[0] <= 0.0 && 0.0 <= pull[1] && pull[1] - pull[0] < wide, "{pull:?}");
         // The whole weight of the first bar, half of it at the anchor itself.
-        assert!(pull[2] <= -20.0 && -20.0 <= pull[3] && pull[3] - pull[2] < NOTHING, "{pull:?}");
+        assert!(pull[2] <= -20.0 && -20.0 <= pull[3] && pull[3] - pull[2] < 1e-9, "{pull:?}");
     }
     output.done();
 }
