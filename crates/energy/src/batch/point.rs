@@ -88,7 +88,8 @@ pub(crate) fn answer(matrix: &[Wide; 3], right: &[Wide; 2]) -> [Wide; 2] {
 pub(crate) struct Slopes {
     /// Largest $l_i |s_i|$, in units of the largest of $|\mu|$ and 1 times the mean length.
     pub(crate) largest: Wide,
-    /// Whether the second derivative on the tangent space is positive definite.
+    /// Whether the second derivative on the tangent space is positive definite, or no bar is pushed:
+    /// then it is the minimum, though slack bars may move at no cost.
     pub(crate) convex: [bool; WIDTH],
     /// Largest turn in the step, and its undefined entries.
     pub(crate) largest_turn: Wide,
@@ -98,6 +99,9 @@ pub(crate) struct Slopes {
 
 /// An axial force smaller than this, in the direction of the step only, is taken for this one.
 const LEAST_STIFFNESS: f64 = 1e-3;
+
+/// A push of less than this part of the pull is rounding.
+const NO_PUSH: f64 = 64.0 * f64::EPSILON;
 
 /// Slope, curvature and step at the trial, which is closed. The lanes where it is not get nonsense,
 /// which nobody uses; `accepted` says which lanes take it over.
@@ -110,7 +114,11 @@ pub(crate) fn slopes(
 ) -> Slopes {
     let mu = answer(&sums.spread, &sums.weight).map(|part| part.map(|x| -x));
     let count = pieces.len() as f64;
-    let (mut largest, mut negative) = (same(0.0), same(0.0));
+    let force = wide(|k| {
+        let square = mu[0][k] * mu[0][k] + mu[1][k] * mu[1][k];
+        if square > 1.0 { square.sqrt() } else { 1.0 }
+    });
+    let (mut largest, mut negative, mut pushed) = (same(0.0), same(0.0), same(0.0));
     let mut matrix = [same(0.0); 3];
     let mut axial_of = |piece: &Piece, place: &Place| {
         let (x, z) = (&place.x, &place.z);
@@ -118,6 +126,7 @@ pub(crate) fn slopes(
         let slope = wide(|k| x[k] * up[k] - z[k] * mu[0][k]);
         let axial = wide(|k| -(z[k] * up[k] + x[k] * mu[0][k]));
         accumulate(&mut negative, |k| if axial[k] < 0.0 { 1.0 } else { 0.0 });
+        accumulate(&mut pushed, |k| if axial[k] >= -NO_PUSH * force[k] { 0.0 } else { 1.0 });
         let weight = wide(|k| piece.length / axial[k]);
         accumulate(&mut matrix[0], |k| weight[k] * z[k] * z[k]);
         accumulate(&mut matrix[1], |k| -(weight[k] * x[k] * z[k]));
@@ -148,12 +157,9 @@ pub(crate) fn slopes(
             (false, _) => 1.0,
         };
         // Zero or undefined determinants are no proof.
-        determinant.abs() > 0.0 && (negative[k] + positive - 2.0).abs() < 0.5
+        pushed[k] < 0.5 || determinant.abs() > 0.0 && (negative[k] + positive - 2.0).abs() < 0.5
     });
-    let unit = wide(|k| {
-        let force = mu[0][k] * mu[0][k] + mu[1][k] * mu[1][k];
-        (if force > 1.0 { force.sqrt() } else { 1.0 }) / count
-    });
+    let unit = wide(|k| force[k] / count);
     let (largest_turn, fall) = newton(pieces, &convex, accepted, places);
     Slopes { largest: wide(|k| largest[k] / unit[k]), convex, largest_turn, fall }
 }
