@@ -173,9 +173,18 @@ pub(super) fn above(
 ) -> Result<Solution, Error> {
     let Some(floor) = framework.floor(system) else { return solve(framework) };
     let mut lies = begin.unwrap_or_else(|| vec![false; framework.nodes.len()]);
-    let mut factorisations = 0;
+    let (mut factorisations, mut lost) = (0, None);
     for round in 0..ROUNDS {
-        let mut solution = solve(framework.with_laid(floor, &lies))?;
+        let mut solution = match solve(framework.with_laid(floor, &lies)) {
+            Ok(solution) => solution,
+            // The floor may catch what falls without end: from all joints on it then.
+            Err(error @ Error::Escapes { .. }) if lost.is_none() => {
+                lost = Some(error);
+                lies = framework.nodes.iter().map(|node| lift(node).is_some()).collect();
+                continue;
+            }
+            Err(error) => return Err(lost.unwrap_or(error)),
+        };
         factorisations += solution.factorisations;
         let next = mended(system, &framework, &solution.equilibrium, &lies, round < TOGETHER);
         if next == lies {

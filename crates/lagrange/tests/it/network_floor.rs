@@ -1,6 +1,6 @@
 //! What the floor bears, wholly or in part: closed forms by weights and lengths.
 
-use lagrange::network::{Forces, Settings, Solution, force_ranges, solve};
+use lagrange::network::{Error, Forces, Settings, Solution, force_ranges, solve};
 use model::system::{Joint, Kind, Member, Support, System};
 use model::{Bar, ForceRange};
 
@@ -221,4 +221,22 @@ fn elastic_members_above_what_the_floor_bears_are_unstretched() {
         close(push_n(&found, 1), 10.0);
         close(found.equilibrium.axial_n[0], 0.0);
     }
+}
+
+/// A weight that no member keeps from falling: the floor catches it, where its strut need not push.
+#[test]
+fn a_weight_below_a_strut_falls_onto_the_floor() {
+    for length_m in [0.5, 1.0] {
+        let joints = vec![Joint::anchor("A", [0.0, 0.0, 1.0]), weight("P")];
+        let (_, found) = solved(joints, vec![light(Kind::Strut, 0, 1, length_m)], 0.0);
+        let [x, y, z] = found.equilibrium.joints_m[1];
+        assert!(z.abs() < 1e-12 && x.hypot(y).hypot(1.0) >= length_m - 1e-12, "{x} {y} {z}");
+        close(push_n(&found, 1), 10.0);
+        close(found.equilibrium.axial_n[0], 0.0);
+    }
+    // Drawn aside it goes on without end, on the floor too.
+    let joints = vec![Joint::anchor("A", [0.0, 0.0, 1.0]), weight("P").with_force([1.0, 0.0, 0.0])];
+    let system = System::new("lost", 10.0, joints, vec![light(Kind::Strut, 0, 1, 0.5)]).unwrap();
+    let lost = solve(&system.with_floor(0.0).unwrap(), &Settings::default()).unwrap_err();
+    assert!(matches!(lost, Error::Escapes { .. }), "{lost}");
 }

@@ -311,6 +311,9 @@ fn from_above_the_floor_to_lying_on_it_no_two_answers_contradict_each_other() {
     for kind in [Kind::Bar, Kind::Cable] {
         for exponent in 1..=16 {
             for sign in [-1.0, 1.0] {
+                // As exact as answers are asked to agree: a bar that is nearly upright makes much of
+                // what rounding leaves level.
+                let near_n = 10.0 * Tolerances::project().forces.value;
                 let deeper = sign * 10.0_f64.powi(-exponent);
                 let answer = ask(&above(kind, 1.0 - deeper), Solvers::Both, &|_| {});
                 let found: &Option<SystemAgreement> = &answer.agreement;
@@ -323,8 +326,8 @@ fn from_above_the_floor_to_lying_on_it_no_two_answers_contradict_each_other() {
                 for e in answer.equilibria.iter().filter(|_| exponent < 12) {
                     let wanted = if sign > 0.0 { [0.0, 10.0] } else { [10.0, 0.0] };
                     let is = [e.axial_n[0], e.reactions_n[1][2]];
-                    assert!((is[0] - wanted[0]).abs() < 1e-9, "{deeper} {}: {is:?}", e.solver);
-                    assert!((is[1] - wanted[1]).abs() < 1e-9, "{deeper} {}: {is:?}", e.solver);
+                    assert!((is[0] - wanted[0]).abs() < near_n, "{deeper} {}: {is:?}", e.solver);
+                    assert!((is[1] - wanted[1]).abs() < near_n, "{deeper} {}: {is:?}", e.solver);
                 }
             }
         }
@@ -384,7 +387,7 @@ fn systems_that_just_touch_the_floor_have_one_self_stress() {
 fn both_solvers_leave_a_weight_wholly_to_the_floor() {
     let anchor = || Joint::anchor("A", [0.0; 3]);
     let weight = |name: &str| Joint::free(name).with_mass(1.0);
-    let plane = Support::Plane { at_m: [0.0, 0.0, 5.0], normal: [1.0, 0.0, 1.0] };
+    let plane = Support::Plane { at_m: [0.0, 0.0, 5.0], normal: [0.6, 0.0, 0.8] };
     let bar = |from, to, mass_kg| Member::bar(from, to, Bar::homogeneous(9.0, mass_kg).unwrap());
     let cable = Member::cable(0, 1, Bar::homogeneous(9.0, 0.0).unwrap());
     let cases = [
