@@ -9,7 +9,7 @@ use faer::{Mat, Side};
 use model::Vector;
 
 use crate::network::factor::Factor;
-use crate::network::frame::{Frame, Spot};
+use crate::network::frame::{Frame, Rod, Spot};
 use crate::network::shape::{Shape, largest};
 use crate::vector::{along, cross, dot, norm, unit};
 
@@ -257,29 +257,37 @@ impl Dense {
         (index, neutral, condition)
     }
 
-    /// The basis of the self-stresses by members.
+    /// An orthonormal basis of the self-stresses by members; what the floor bears follows from it.
     fn self_stresses(&self, frame: &Frame) -> Vec<Vec<f64>> {
+        let stresses = self.stresses.ncols();
+        // What keeps joints above the floor stands behind the members.
+        let members = self.taut.partition_point(|e| *e < frame.members);
+        let mut basis = self.stresses.subrows(0, members).to_owned();
+        if members < self.taut.len() && stresses > 0 {
+            basis = basis.qr().compute_thin_Q();
+        }
         let stress = |k| {
-            let mut stress = vec![0.0; frame.rods.len()];
-            for (row, &e) in self.taut.iter().enumerate() {
-                stress[e] = self.stresses[(row, k)];
+            let mut stress = vec![0.0; frame.members];
+            for (row, &e) in self.taut[..members].iter().enumerate() {
+                stress[e] = basis[(row, k)];
             }
-            stress.truncate(frame.members);
             stress
         };
-        (0..self.stresses.ncols()).map(stress).collect()
+        (0..stresses).map(stress).collect()
     }
 
     /// The forces with the least `sum F² l` that balance the same loads: the limit of equally stiff
-    /// members as they become rigid. Nothing where the forces are unique, or where a cable or strut
-    /// would have to work against its kind.
+    /// members as they become rigid, above a floor that is rigid as supports are. Nothing where the
+    /// forces are unique, or where a cable or strut would have to work against its kind.
     fn least_forces(&self, frame: &Frame, shape: &Shape) -> Option<Vec<f64>> {
         let stresses = self.stresses.ncols();
         if stresses == 0 {
             return None;
         }
+        // No self-stress is in the floor alone, so the members' lengths make a norm of it.
+        let weight = |rod: &Rod| if rod.ground { 0.0 } else { rod.length };
         let weighted = Mat::from_fn(self.taut.len(), stresses, |row, k| {
-            self.stresses[(row, k)] * frame.rods[self.taut[row]].length
+            self.stresses[(row, k)] * weight(&frame.rods[self.taut[row]])
         });
         let force = Mat::from_fn(self.taut.len(), 1, |row, _| shape.force[self.taut[row]]);
         let gram = self.stresses.transpose() * &weighted;
@@ -290,7 +298,11 @@ impl Dense {
         for (row, &e) in self.taut.iter().enumerate() {
             least[e] -= change[(row, 0)];
             if !frame.rods[e].resists(least[e]) {
-                return None;
+                // What is just taut may bear nothing.
+                if least[e].abs() > ZERO * self.size {
+                    return None;
+                }
+                least[e] = 0.0;
             }
         }
         Some(least)

@@ -1,6 +1,6 @@
 //! Members that stretch or go slack, and joints that slide, against closed forms.
 
-use energy::network::{Error, Settings, minimise, minimise_from};
+use energy::network::{Error, Forces, Settings, minimise, minimise_from};
 use model::Bar;
 use model::system::{Joint, Kind, Member, Support, System};
 
@@ -254,4 +254,45 @@ fn the_floor_bears_what_lies_on_it() {
     assert!(x.abs() < 1e-12 && y.abs() < 1e-12 && (z - 50.0).abs() < 1e-10, "{z}");
     assert!(found.axial_n[0].abs() < 1e-10);
     assert_eq!(found.joints_m[0].map(f64::to_bits), at_m.map(f64::to_bits));
+}
+
+/// Members that just reach the floor share the weight with it. Rigid as supports are it leaves
+/// `sum F² l` of the members alone to be least: zero of one member; of 0.4 m and 0.6 m with 10 N at
+/// each joint, F1 = F2 + 10 N, 6 N and -4 N, which cables do not bear.
+#[test]
+fn members_that_just_reach_the_floor_share_with_it() {
+    for kind in [Kind::Bar, Kind::Cable] {
+        let weight = |name: &str| Joint::free(name).with_mass(10.0 / G);
+        let above = |joints, members| {
+            let system = System::new("touching", G, joints, members)
+                .and_then(|system| system.with_floor(-1.0))
+                .expect("a system");
+            minimise(&system, &Settings::default()).expect("a minimum")
+        };
+        let one = above(
+            vec![Joint::anchor("A", [0.0; 3]), weight("P")],
+            vec![weightless(0, 1, 1.0, kind)],
+        );
+        let Forces::Family { least: true, .. } = one.forces else { panic!("{:?}", one.forces) };
+        assert!(one.equilibrium.axial_n[0].abs() < 1e-9);
+        close(one.equilibrium.reactions_n[1][2], 10.0);
+        let two = above(
+            vec![Joint::anchor("A", [0.0; 3]), weight("Q"), weight("P")],
+            vec![weightless(0, 1, 0.4, kind), weightless(1, 2, 0.6, kind)],
+        );
+        let [upper, lower] = two.equilibrium.axial_n[..] else { panic!() };
+        close(upper - lower, 10.0);
+        close(two.equilibrium.reactions_n[2][2] + lower, 10.0);
+        let named = two.equilibrium.evidence.self_stresses.expect("one");
+        // Both members alike, of unit norm.
+        let [stress] = &named.basis[..] else { panic!("{:?}", named.basis) };
+        close(stress[0] * stress[1], 0.5);
+        close(stress[0].powi(2), 0.5);
+        if kind == Kind::Bar {
+            close(upper, 6.0);
+            close(lower, -4.0);
+        } else {
+            assert!(lower >= 0.0 && two.equilibrium.reactions_n[2][2] >= 0.0);
+        }
+    }
 }

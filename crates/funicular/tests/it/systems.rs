@@ -216,6 +216,48 @@ fn a_floor_pushes_what_lies_on_it() {
     assert!(String::from_utf8_lossy(&output.stderr).contains("floor"));
 }
 
+/// A weight of 10 N on a rod of 1 m: that just reaches the floor, of which the share is open, and
+/// is told to be; and that is longer, so that the floor bears it alone.
+#[test]
+fn a_floor_that_is_just_touched_shares_and_one_that_is_reached_bears_all() {
+    let folder = folder("systems-touching");
+    let solved = |length_m: f64, flags: &[&str]| {
+        let text = format!(
+            "gravity_m_s2 = 10\nfloor_m = -1\n[joints]\nA = {{ at_m = [0, 0, 0] }}\n\
+             P = {{ mass_kg = 1 }}\n[[bars]]\nfrom = \"A\"\nto = \"P\"\n\
+             length_m = {length_m:?}\nmass_kg = 0\n"
+        );
+        std::fs::write(folder.join("rod.toml"), text).unwrap();
+        let output = run(&folder, &[&["solve", "rod.toml"], flags].concat());
+        assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+        String::from_utf8(output.stdout).unwrap()
+    };
+    for (length_m, self_stresses, aside_m) in [(1.0, 1, 0.0), (2.0, 0, 3.0_f64.sqrt())] {
+        let answer: Value = serde_json::from_str(&solved(length_m, &["--json"])).unwrap();
+        let agreement = &answer["agreement"];
+        assert_eq!(agreement["verdict"], "agreed", "{agreement}");
+        assert_eq!(agreement["self_stresses"], self_stresses, "{agreement}");
+        let answers = answer["equilibria"].as_array().unwrap();
+        assert_eq!(answers.len(), 2);
+        for e in answers {
+            assert!(number(&e["bars"][0]["axial_n"]).abs() < 1e-9, "{e}");
+            assert!((number(&e["reactions_n"]["P"][2]) - 10.0).abs() < 1e-9, "{e}");
+            let at = &e["joints"][1]["at_m"];
+            let aside = number(&at[0]).hypot(number(&at[1]));
+            assert!((aside - aside_m).abs() < 1e-9, "{e}");
+            assert_eq!(e["evidence"]["self_stresses"].is_object(), self_stresses == 1, "{e}");
+        }
+        // N + push = 10 N, push >= 0.
+        let ranges = &answers[0]["evidence"]["self_stresses"]["ranges"];
+        if self_stresses == 1 {
+            assert_eq!(ranges[0]["kind"], "bounded", "{ranges}");
+            assert!((number(&ranges[0]["most_n"]) - 10.0).abs() < 1e-9, "{ranges}");
+            assert!(ranges[0]["least_n"].is_null(), "{ranges}");
+        }
+    }
+    assert!(solved(1.0, &[]).contains("self-stress"));
+}
+
 /// A weight of 1 N on three cables in a plane: with the force densities a, b, a of the family
 /// 2 a + b = 1 the outer ones bear 0 to 1/√2 N, the middle one 0 to 1 N, the hanger its weight.
 #[test]

@@ -131,7 +131,7 @@ impl<'a> Derivatives<'a> {
     ///
     /// [`Error::Memory`]; [`Error::NoDerivative`] when the factor is not finite.
     pub fn new(system: &'a System, solution: &Solution) -> Result<Self, Error> {
-        let framework = Framework::of(system, &solution.equilibrium);
+        let framework = Framework::of(system, solution);
         let state = State::of(&framework, solution);
         let residual = Residual::new(&framework, &state);
         let mut stiffness = Stiffness::new(&framework, false)?;

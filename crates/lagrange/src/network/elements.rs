@@ -168,7 +168,7 @@ impl<'a> Shape<'a> {
             kind: Kind::Bar,
         });
         let (units, nodes) = (framework.units, runs.nodes.clone());
-        let skeleton = Framework { units, nodes, links: links.collect() };
+        let skeleton = Framework { units, nodes, links: links.collect(), lying: Vec::new() };
         let state = State::new(start.places, Vec::new(), Vec::new());
         let laws = laws(runs, &start.pulls);
         Self { runs, skeleton, state, pulls: start.pulls, laws }

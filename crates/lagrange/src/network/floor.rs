@@ -17,15 +17,23 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::directions::Directions;
 use super::error::Error;
-use super::framework::{Framework, Node, across};
-use super::solution::{NO_FORCE, Solution};
+use super::framework::{Framework, Lying, Node, across};
+use super::residual::Residual;
+use super::second_order::{SecondOrder, self_stresses};
+use super::settings::Settings;
+use super::solution::{Found, NO_FORCE, Solution};
+use super::state::State;
+use super::stiffness::Stiffness;
 
 /// Rounds in all, and those in which neighbours are lifted as well: then joints one by one, which
 /// ends where the estimate of how many are lifted goes to and fro.
 const ROUNDS: usize = 200;
 const TOGETHER: usize = 30;
-/// A joint this part of the mean length below the floor lies on it, and is not below it.
-const ON_FLOOR: f64 = 1e-10;
+/// A joint this part of the mean length above or below the floor touches it: lengths are right to
+/// that.
+const ON_FLOOR: f64 = 1e-12;
+/// A self-stress, of unit norm, that presses less than this on the floor does not press on it.
+const NO_PUSH: f64 = 1e-9;
 /// A free direction that rises less than this is level: the floor cannot hold it.
 const LEVEL: f64 = 1e-9;
 
@@ -54,9 +62,9 @@ fn laid(node: &Node, floor: f64) -> Node {
     Node { base, free: Directions::new(axes, freedom), load: node.load }
 }
 
-/// Force of the floor on a joint, N: what of its reaction the support cannot bear.
+/// Force of the floor on a joint, N.
 fn push_n(node: &Node, reaction_n: [f64; 3]) -> f64 {
-    lift(node).map_or(0.0, |free| Vector3::from(reaction_n).dot(&free) / free.norm_squared())
+    lift(node).map_or(0.0, |rise| Lying { joint: 0, rise }.push(&reaction_n.into()))
 }
 
 impl Framework {
@@ -68,21 +76,84 @@ impl Framework {
     /// The framework with these joints on the floor.
     fn with_laid(&self, floor: f64, lies: &[bool]) -> Self {
         let mut framework = self.clone();
-        for (node, _) in framework.nodes.iter_mut().zip(lies).filter(|(_, lies)| **lies) {
+        for (joint, node) in framework.nodes.iter_mut().enumerate().filter(|(k, _)| lies[*k]) {
+            framework.lying.extend(lift(node).map(|rise| Lying { joint, rise }));
             *node = laid(node, floor);
         }
         framework
     }
 
-    /// The framework of an answer: the joints that the floor pushes lie on it.
-    pub fn of(system: &System, answer: &SystemEquilibrium) -> Self {
+    /// The framework of an answer: the joints that the floor pushes, or may push, lie on it.
+    pub fn of(system: &System, solution: &Solution) -> Self {
         let framework = Self::new(system);
         let Some(floor) = framework.floor(system) else { return framework };
+        let answer = &solution.equilibrium;
         let least = NO_FORCE * largest_n(&framework, answer);
         let nodes = framework.nodes.iter().zip(&answer.reactions_n);
         let lies: Vec<bool> = nodes.map(|(node, force)| push_n(node, *force) > least).collect();
-        framework.with_laid(floor, &lies)
+        let open = open_pushes(system, &framework, floor, &lies, solution);
+        framework.with_laid(floor, &open.unwrap_or(lies))
     }
+}
+
+/// The joints that lie on the floor and those that just touch it and may press on it: with these
+/// laid down there are more self-stresses. Nothing where there are not.
+fn open_pushes(
+    system: &System,
+    framework: &Framework,
+    floor: f64,
+    lies: &[bool],
+    solution: &Solution,
+) -> Option<Vec<bool>> {
+    let floor_m = system.floor_m()?;
+    let depth_m = ON_FLOOR * framework.units.length_m;
+    let joints = framework.nodes.iter().zip(&solution.equilibrium.joints_m);
+    let touches = joints.zip(lies).map(|((node, at_m), lies)| {
+        *lies || ((floor_m - at_m[2]).abs() <= depth_m && lift(node).is_some())
+    });
+    let touches: Vec<bool> = touches.collect();
+    if touches == lies || solution.self_stresses.is_none() {
+        return None;
+    }
+    let laid = framework.with_laid(floor, &touches);
+    let state = State::of(&laid, solution);
+    let directions = state.directions(&laid);
+    let pushes = |axial: &[f64]| laid.pushes(directions.iter().map(|(u, _)| u), axial);
+    let none = pushes(&vec![0.0; framework.links.len()]);
+    let mut open = lies.to_vec();
+    for stress in self_stresses(&laid, &state) {
+        for ((lying, push), none) in laid.lying.iter().zip(pushes(&stress)).zip(&none) {
+            open[lying.joint] |= (push - none).abs() > NO_PUSH;
+        }
+    }
+    (open != lies).then_some(open)
+}
+
+/// The answer with the forces that the floor leaves open where joints just touch it.
+fn with_open_pushes(
+    system: &System,
+    framework: &Framework,
+    floor: f64,
+    lies: &[bool],
+    settings: &Settings,
+    solution: Solution,
+) -> Result<Solution, Error> {
+    let Some(open) = open_pushes(system, framework, floor, lies, &solution) else {
+        return Ok(solution);
+    };
+    let laid = framework.with_laid(floor, &open);
+    let state = State::of(&laid, &solution);
+    let mut stiffness = Stiffness::new(&laid, false)?;
+    let second_order = SecondOrder::new(&laid, &mut stiffness, &state, settings.dense_freedoms);
+    let found = Found {
+        residual: Residual::new(&laid, &state),
+        state,
+        tolerance: settings.tolerance,
+        factorisations: solution.factorisations,
+        second_order,
+        solve_s: solution.equilibrium.evidence.solve_s,
+    };
+    Ok(Solution::new(system, &laid, found))
 }
 
 /// Largest force of a member or load, N.
@@ -97,18 +168,28 @@ pub(super) fn above(
     system: &System,
     framework: Framework,
     begin: Option<Vec<bool>>,
+    settings: &Settings,
     mut solve: impl FnMut(Framework) -> Result<Solution, Error>,
 ) -> Result<Solution, Error> {
     let Some(floor) = framework.floor(system) else { return solve(framework) };
     let mut lies = begin.unwrap_or_else(|| vec![false; framework.nodes.len()]);
-    let mut factorisations = 0;
+    let (mut factorisations, mut lost) = (0, None);
     for round in 0..ROUNDS {
-        let mut solution = solve(framework.with_laid(floor, &lies))?;
+        let mut solution = match solve(framework.with_laid(floor, &lies)) {
+            Ok(solution) => solution,
+            // The floor may catch what falls without end: from all joints on it then.
+            Err(error @ Error::Escapes { .. }) if lost.is_none() => {
+                lost = Some(error);
+                lies = framework.nodes.iter().map(|node| lift(node).is_some()).collect();
+                continue;
+            }
+            Err(error) => return Err(lost.unwrap_or(error)),
+        };
         factorisations += solution.factorisations;
         let next = mended(system, &framework, &solution.equilibrium, &lies, round < TOGETHER);
         if next == lies {
             solution.factorisations = factorisations;
-            return Ok(solution);
+            return with_open_pushes(system, &framework, floor, &lies, settings, solution);
         }
         lies = next;
     }
@@ -141,7 +222,7 @@ fn mended(
             if push_n < -least_n {
                 pulled.push((k, -push_n));
             }
-        } else if answer.joints_m[k][2] < floor_m - depth_m && lift(node).is_some() {
+        } else if floor_m - answer.joints_m[k][2] > depth_m && lift(node).is_some() {
             next[k] = true;
         }
     }

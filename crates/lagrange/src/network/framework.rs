@@ -82,6 +82,23 @@ pub(super) struct Framework {
     pub units: Units,
     pub nodes: Vec<Node>,
     pub links: Vec<Link>,
+    /// Joints that lie on the floor.
+    pub lying: Vec<Lying>,
+}
+
+/// A joint that lies on the floor, which its free directions know nothing of.
+#[derive(Debug, Clone)]
+pub(super) struct Lying {
+    pub joint: usize,
+    /// What of a push straight up its support leaves to it.
+    pub rise: Vector3<f64>,
+}
+
+impl Lying {
+    /// Push of the floor with a force of the ground: what of it the support cannot bear.
+    pub fn push(&self, reaction: &Vector3<f64>) -> f64 {
+        reaction.dot(&self.rise) / self.rise.norm_squared()
+    }
 }
 
 impl Framework {
@@ -101,7 +118,7 @@ impl Framework {
             node.load /= units.force_n;
         }
         let links = system.members().iter().map(|member| link(member, units)).collect();
-        Self { units, nodes, links }
+        Self { units, nodes, links, lying: Vec::new() }
     }
 
     /// Number of free directions of all joints.
@@ -133,6 +150,20 @@ impl Framework {
             sums[link.to] -= pull;
         }
         sums
+    }
+
+    /// Push of the floor on each joint that lies on it, with these axial forces along the members.
+    pub fn pushes<'a>(
+        &self,
+        directions: impl Iterator<Item = &'a Vector3<f64>>,
+        axial: &[f64],
+    ) -> Vec<f64> {
+        let left = self.unbalance(directions.zip(axial).map(|(u, axial)| u * *axial));
+        let push = |lying: &Lying| {
+            let (free, left) = (&self.nodes[lying.joint].free, &left[lying.joint]);
+            lying.push(&(free.part(left) - left))
+        };
+        self.lying.iter().map(push).collect()
     }
 }
 

@@ -19,8 +19,7 @@ const HELD: f64 = 1e-18;
 /// A member between two anchors fits to this part of its length.
 const HELD_MISFIT: f64 = 1e-12;
 
-/// Refuse members between anchors that do not fit, systems that no support holds, and systems
-/// without any load.
+/// Refuse members between anchors that do not fit, and systems that no support holds.
 pub(super) fn check(system: &System, framework: &Framework) -> Result<(), Error> {
     check_held(framework)?;
     let component = components(framework, |_| true);
@@ -43,9 +42,19 @@ pub(super) fn check(system: &System, framework: &Framework) -> Result<(), Error>
             return Err(Error::Falls { joint, joints: joints - 1, load_n });
         }
     }
-    let loaded = framework.nodes.iter().any(|node| node.free.components(&node.load).norm() > 0.0);
+    Ok(())
+}
+
+/// Refuse a system of which no load moves anything.
+pub(super) fn check_loaded(framework: &Framework) -> Result<(), Error> {
     let elastic = framework.links.iter().any(|link| link.compliance > 0.0);
-    if loaded || elastic || framework.freedoms() == 0 { Ok(()) } else { Err(Error::Unloaded) }
+    let held = framework.freedoms() == 0;
+    if is_loaded(framework) || elastic || held { Ok(()) } else { Err(Error::Unloaded) }
+}
+
+/// Whether a load acts along a free direction of its joint.
+pub(super) fn is_loaded(framework: &Framework) -> bool {
+    framework.nodes.iter().any(|node| node.free.components(&node.load).norm() > 0.0)
 }
 
 /// Refuse inextensible members between anchors that do not fit there.

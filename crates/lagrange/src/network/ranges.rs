@@ -1,7 +1,7 @@
 //! How far the force of each member is open.
 //!
 //! Where self-stresses exist the forces in balance are $N + B z$, with the basis $B$ and any $z$
-//! that lets no cable push and no strut pull. The least and the largest force of a member are two
+//! that lets no cable push and no strut or floor pull. The least and the largest force of a member are two
 //! linear programmes in as few unknowns as there are self-stresses. They start from forces that
 //! obey all signs, so one table serves them all: every member's force as a linear function of the
 //! unknowns, which an exchange step (Dantzig) replaces one by one by members at their limits.
@@ -54,7 +54,7 @@ const MOST_EXCHANGES: usize = 50;
 #[must_use]
 pub fn force_ranges(system: &System, solution: &Solution) -> Option<Vec<ForceRange>> {
     solution.self_stresses.as_ref()?;
-    let framework = Framework::of(system, &solution.equilibrium);
+    let framework = Framework::of(system, solution);
     let state = State::of(&framework, solution);
     ranges(&framework, state, &solution.limp)
 }
@@ -69,12 +69,11 @@ pub(super) fn ranges(
         state.taut[member] = true;
     }
     let basis = self_stresses(framework, &state);
-    let axial: Vec<f64> = state.axial.iter().map(|n| n * framework.units.force_n).collect();
-    let mut table = Table::new(framework, &axial, &basis);
+    let mut table = Table::new(framework, &state, &basis);
     (0..framework.links.len()).map(|member| table.range(member)).collect()
 }
 
-/// Forces of all members as functions of the unknowns, $N_k = d_k + \sum_j T_{kj} t_j$. An unknown
+/// Forces of all members, and pushes of the floor, as functions of the unknowns, $N_k = d_k + \sum_j T_{kj} t_j$. An unknown
 /// is free, or the force of a member with a sign, which is then at its limit.
 struct Table {
     /// 1 where the force must not be negative, -1 where it must not be positive, 0 for bars. Rows
@@ -83,8 +82,8 @@ struct Table {
     values: Vec<f64>,
     rows: Vec<Vec<f64>>,
     free: Vec<bool>,
-    /// The unit of forces.
-    largest: f64,
+    /// The unit of forces, N.
+    unit_n: f64,
     unique: Vec<bool>,
 }
 
@@ -98,8 +97,18 @@ enum Extreme {
 }
 
 impl Table {
-    fn new(framework: &Framework, axial_n: &[f64], basis: &[Vec<f64>]) -> Self {
-        let largest = axial_n.iter().fold(0.0_f64, |most, axial| most.max(axial.abs()));
+    fn new(framework: &Framework, state: &State, basis: &[Vec<f64>]) -> Self {
+        // Behind the forces of the members those of the floor, of which none pulls.
+        let directions = state.directions(framework);
+        let pushes = |axial: &[f64]| framework.pushes(directions.iter().map(|(u, _)| u), axial);
+        let none = pushes(&vec![0.0; framework.links.len()]);
+        let by_stress = |stress: &Vec<f64>| {
+            let changes = pushes(stress).into_iter().zip(&none).map(|(push, none)| push - none);
+            stress.iter().copied().chain(changes).collect::<Vec<f64>>()
+        };
+        let basis: Vec<Vec<f64>> = basis.iter().map(by_stress).collect();
+        let forces = [state.axial.clone(), pushes(&state.axial)].concat();
+        let largest = forces.iter().fold(0.0_f64, |most, force| most.max(force.abs()));
         let largest = if largest > 0.0 { largest } else { 1.0 };
         let signs: Vec<f64> = framework
             .links
@@ -109,6 +118,7 @@ impl Table {
                 Kind::Cable => 1.0,
                 Kind::Strut => -1.0,
             })
+            .chain(none.iter().map(|_| 1.0))
             .collect();
         let turn = |k: usize| if signs[k] < 0.0 { -1.0 } else { 1.0 };
         let rows: Vec<Vec<f64>> = (0..signs.len())
@@ -116,12 +126,13 @@ impl Table {
             .collect();
         let unique = rows.iter().map(|row| row.iter().all(|t| t.abs() <= NO_ENTRY)).collect();
         let value = |k: usize| {
-            let value = turn(k) * axial_n[k] / largest;
+            let value = turn(k) * forces[k] / largest;
             // A force of the wrong sign by rounding counts as zero.
             if signs[k] != 0.0 && value < NO_FORCE { 0.0 } else { value }
         };
         let values = (0..signs.len()).map(value).collect();
-        Self { values, rows, free: vec![true; basis.len()], largest, unique, signs }
+        let unit_n = largest * framework.units.force_n;
+        Self { values, rows, free: vec![true; basis.len()], unit_n, unique, signs }
     }
 
     /// Nothing when the exchanges come to no end.
@@ -140,7 +151,7 @@ impl Table {
         let (least_n, most_n) = if turned { (negated(high), negated(low)) } else { (low, high) };
         Some(match (least_n, most_n) {
             (None, None) => ForceRange::Free,
-            (Some(low), Some(high)) if high - low <= NO_FORCE * self.largest => ForceRange::Unique,
+            (Some(low), Some(high)) if high - low <= NO_FORCE * self.unit_n => ForceRange::Unique,
             _ => ForceRange::Bounded { least_n, most_n },
         })
     }
@@ -149,7 +160,7 @@ impl Table {
     fn extreme(&mut self, member: usize, direction: f64) -> Extreme {
         for _ in 0..MOST_EXCHANGES * (self.free.len() + self.rows.len()) {
             let Some((unknown, way)) = self.entering(member, direction) else {
-                return Extreme::At(self.values[member] * self.largest);
+                return Extreme::At(self.values[member] * self.unit_n);
             };
             let Some(limit) = self.limit(unknown, way) else { return Extreme::Unbounded };
             self.exchange(limit, unknown);

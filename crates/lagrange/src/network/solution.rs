@@ -18,8 +18,8 @@ pub enum Forces {
     /// Self-stresses can be added. Shown is the member of the family with the least sum of squared
     /// axial forces times lengths: the limit of equally stiff members.
     LeastNorm,
-    /// Self-stresses can be added, and the member with the least norm would ask a cable to push or
-    /// a strut to pull, or would not be in balance because the joints are so near to a line or a
+    /// Self-stresses can be added, and the member with the least norm would ask a cable to push,
+    /// a strut or the floor to pull, or would not be in balance because the joints are so near to a line or a
     /// plane. Shown is the one that the iteration found.
     Found,
     /// The system is too large to count self-stresses (see
@@ -191,7 +191,10 @@ fn choose(
         return Forces::Found;
     }
     let found = std::mem::replace(&mut state.axial, least);
-    if Residual::new(framework, state).balance.0 > tolerance {
+    let directions = state.directions(framework);
+    let pushes = framework.pushes(directions.iter().map(|(u, _)| u), &state.axial);
+    let pulled = pushes.iter().any(|push| *push < -NO_FORCE * largest);
+    if pulled || Residual::new(framework, state).balance.0 > tolerance {
         state.axial = found;
         return Forces::Found;
     }

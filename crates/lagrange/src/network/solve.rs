@@ -1,5 +1,6 @@
 //! The solve: hang, settle, polish, and look at the second order.
 
+use std::iter;
 use std::time::Instant;
 
 use model::system::{Kind, System};
@@ -12,7 +13,7 @@ use super::framework::{Framework, Link};
 use super::hanging::{FIRST_END, Hanging, LAST_END, SECOND_END};
 use super::law::by_direction;
 use super::newton::{Patience, Run, polish};
-use super::possible::{check, too_short};
+use super::possible::{check, check_loaded, is_loaded, too_short};
 use super::second_order::SecondOrder;
 use super::seed::Seed;
 use super::settings::Settings;
@@ -37,6 +38,10 @@ const SLACK_LENGTH: f64 = 1e-3;
 const ESCAPES: usize = 4;
 /// Such moves, in units of the mean length: the next one where the last one led nowhere.
 const KICKS: [f64; 5] = [0.01, 0.1, 0.5, 1.0, 2.0];
+/// Ridge of the least squares for lengths, in units of their largest error.
+const LENGTH_RIDGE: f64 = 0.1;
+/// A step of these is halved at most so many times.
+const LENGTH_HALVINGS: i32 = 24;
 /// A system without loads whose elastic members all bear less than this part of their stiffness is
 /// not prestressed: that much is rounding.
 const NO_STRAIN: f64 = 1e-12;
@@ -52,7 +57,9 @@ const RIDGE: f64 = 1e-9;
 pub fn solve(system: &System, settings: &Settings) -> Result<Solution, Error> {
     settings.validate()?;
     let began = Instant::now();
-    let solution = above(system, Framework::new(system), None, |framework| {
+    let framework = Framework::new(system);
+    check_loaded(&framework)?;
+    let solution = above(system, framework, None, settings, |framework| {
         check(system, &framework)?;
         match by_runs(system, &framework, settings, began) {
             Some(solution) => Ok(solution),
@@ -72,6 +79,13 @@ fn hang(
     let mut hanging = Hanging::new(&framework)?;
     let stiffness = Stiffness::new(&framework, false)?;
     let mut solver = Solver::new(system, framework, *settings, stiffness, began);
+    if !system.is_unloaded() && !is_loaded(&solver.framework) {
+        // The floor bears every load.
+        if let Some(run) = solver.without_forces(hanging.places()) {
+            let second_order = solver.second_order(&run.state);
+            return Ok(solver.solution(run, second_order));
+        }
+    }
     let mut too_far = false;
     for (end, patience) in
         [(FIRST_END, Patience::Little), (SECOND_END, Patience::Little), (LAST_END, Patience::Full)]
@@ -116,8 +130,9 @@ pub fn solve_from(system: &System, seed: &Seed, settings: &Settings) -> Result<S
     seed.check(system)?;
     let began = Instant::now();
     let framework = Framework::new(system);
+    check_loaded(&framework)?;
     let lies = below(system, &framework, &seed.joints_m);
-    let solution = above(system, framework, Some(lies), |framework| {
+    let solution = above(system, framework, Some(lies), settings, |framework| {
         check(system, &framework)?;
         let stiffness = Stiffness::new(&framework, false)?;
         let mut solver = Solver::new(system, framework, *settings, stiffness, began);
@@ -216,13 +231,7 @@ impl<'a> Solver<'a> {
     fn settled(&mut self, from: &State, kick: usize) -> Result<Run, Error> {
         let mut result = Err(Error::Unloaded);
         for (tries, size) in KICKS.into_iter().enumerate() {
-            let (axial, taut) = (from.axial.clone(), from.taut.clone());
-            let mut state = State::new(from.places.clone(), axial, taut);
-            let joints = state.places.iter_mut().zip(&self.framework.nodes).enumerate();
-            for (joint, (place, node)) in joints {
-                let aside = scatter(joint, kick + tries) * size;
-                *place += node.free.part(&aside);
-            }
+            let state = self.kicked(from, kick + tries, size);
             let rest = settle(&self.framework, &mut self.stiffness, state);
             self.factorisations += rest.factorisations;
             if let Some(joint) = rest.lost {
@@ -237,6 +246,77 @@ impl<'a> Solver<'a> {
             }
         }
         result
+    }
+
+    /// Places near some where every member has a length at which it bears no force: with these a
+    /// rest, and none has less energy, where no load acts along a free direction.
+    fn without_forces(&mut self, places: &[Vector3<f64>]) -> Option<Run> {
+        let bars = self.framework.links.iter().map(|link| link.kind == Kind::Bar);
+        let none = vec![0.0; self.framework.links.len()];
+        let start = State::new(places.to_vec(), none, bars.collect());
+        let sizes = iter::once(0.0).chain(KICKS).enumerate();
+        sizes.into_iter().find_map(|(kick, size)| {
+            let mut run = self.fitted(self.kicked(&start, kick, size));
+            for _ in 0..SIGN_CHANGES {
+                if run.residual.size() > self.settings.tolerance {
+                    return None;
+                }
+                match signs_mended(&self.framework, &self.settings, &run, 0.0) {
+                    Some(next) => run = self.fitted(next),
+                    None => return Some(run),
+                }
+            }
+            None
+        })
+    }
+
+    /// The lengths alone, by least squares (Levenberg and Marquardt): where they say nothing about
+    /// a direction no joint moves along it.
+    fn fitted(&mut self, state: State) -> Run {
+        let mut run = Run::at(&self.framework, state);
+        for _ in 0..self.settings.max_iterations {
+            let step = self.length_step(&run);
+            let mut sizes = (0..LENGTH_HALVINGS).map(|k| 0.5_f64.powi(k));
+            let better = sizes.find_map(|t| {
+                let next = Run::at(&self.framework, run.state.moved(&step, t));
+                (next.residual.merit < run.residual.merit).then_some(next)
+            });
+            let Some(better) = better else { break };
+            run = better;
+        }
+        run
+    }
+
+    /// One step towards the lengths of the taut members. The ridge falls with the error, so that
+    /// steps become Newton's, also where two places with the right lengths are about to meet.
+    fn length_step(&mut self, run: &Run) -> Vec<Vector3<f64>> {
+        let residual = &run.residual;
+        let along = |k: usize| f64::from(u8::from(run.state.taut[k]));
+        let directions = residual.directions.iter().enumerate();
+        let blocks = directions.map(|(k, (u, _))| by_direction(u, 0.0, along(k)));
+        self.stiffness.assemble(&self.framework, blocks);
+        self.stiffness.shift(LENGTH_RIDGE * residual.length.0);
+        self.stiffness.factorise_definite();
+        self.factorisations += 1;
+        let mut moves = vec![Vector3::zeros(); self.framework.nodes.len()];
+        let links = self.framework.links.iter().zip(&residual.directions);
+        for ((link, (u, _)), misfit) in links.zip(&residual.lengths) {
+            moves[link.from] -= u * *misfit;
+            moves[link.to] += u * *misfit;
+        }
+        let mut moves = self.stiffness.gather(&self.framework, &moves);
+        self.stiffness.solve(&mut moves);
+        self.stiffness.scatter(&self.framework, &moves)
+    }
+
+    /// The state with every joint moved along its free directions, by up to this size.
+    fn kicked(&self, from: &State, kick: usize, size: f64) -> State {
+        let mut state = State::new(from.places.clone(), from.axial.clone(), from.taut.clone());
+        let joints = state.places.iter_mut().zip(&self.framework.nodes).enumerate();
+        for (joint, (place, node)) in joints {
+            *place += node.free.part(&(scatter(joint, kick) * size));
+        }
+        state
     }
 
     /// Leave unstable equilibria.

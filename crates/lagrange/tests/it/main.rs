@@ -14,6 +14,7 @@ mod false_roots;
 mod judge;
 mod network;
 mod network_derivatives;
+mod network_floor;
 mod network_forces;
 mod network_members;
 mod network_random;

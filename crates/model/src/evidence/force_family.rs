@@ -30,7 +30,8 @@ pub enum ForceChoice {
     /// convention of `lagrange` and `energy`.
     AnchorsMovedApart,
     /// Of a system, those with the least `sum F² l`: the limit of the forces in members of equal
-    /// stiffness as these become rigid; a convention of `lagrange` and `energy`.
+    /// stiffness as these become rigid, between supports and above a floor that are; a convention of
+    /// `lagrange` and `energy`.
     EquallyStiff,
     /// The solver's own, of which nothing is known.
     Unknown,

@@ -2,7 +2,7 @@
 //! alone.
 //!
 //! A self-stress is a set of axial forces of inextensible members that balances at every joint
-//! along its free motions. Where there are some, the forces of an equilibrium are one point of an
+//! along its free motions; a floor that a joint touches bears what is straight up. Where there are some, the forces of an equilibrium are one point of an
 //! affine space; two answers are one if their difference is a self-stress.
 //!
 //! S. Pellegrino and C. R. Calladine, Int. J. Solids Struct. 22 (1986) 409-428,
@@ -12,12 +12,14 @@ use faer::Mat;
 use model::Vector;
 use model::system::{Support, System, SystemEquilibrium};
 
+use super::floor::sliding;
 use crate::vector::{cross, dot, minus, norm, plus, times};
 
 /// Free coordinates up to which the rank of the balances is counted: dense singular values.
 const COUNTED: usize = 240;
 
-/// A member this near its length, as a part of it, may carry force.
+/// A member this near its length, as a part of it, may carry force; so may the floor under a joint
+/// that is this near to it, as a part of the longest member.
 const TAUT: f64 = 1e-9;
 
 /// Singular values of the balances below this part of the largest are zero: by the forces that go
@@ -32,7 +34,7 @@ pub(super) struct Family {
     pub(super) rounding: f64,
     /// Unit vector along each member.
     along: Vec<Vector>,
-    /// The motions of each joint.
+    /// The motions of each joint; along the floor, of those that touch it.
     free: Vec<Vec<Vector>>,
 }
 
@@ -43,8 +45,14 @@ impl Family {
         if answer.joints_m.len() != system.joints().len() {
             return None;
         }
-        let free: Vec<Vec<Vector>> =
-            system.joints().iter().map(|joint| motions(&joint.support)).collect();
+        let lengths_m = system.members().iter().map(|member| member.body.length_m());
+        let near_m = TAUT * lengths_m.fold(0.0, f64::max);
+        let floor_m = system.floor_m().unwrap_or(f64::NEG_INFINITY);
+        let free = system.joints().iter().zip(&answer.joints_m).map(|(joint, at_m)| {
+            let touches = at_m[2] - floor_m <= near_m;
+            if touches { sliding(&joint.support) } else { motions(&joint.support) }
+        });
+        let free: Vec<Vec<Vector>> = free.collect();
         let coordinates: usize = free.iter().map(Vec::len).sum();
         if coordinates > COUNTED {
             return None;

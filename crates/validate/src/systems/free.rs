@@ -13,7 +13,7 @@ use model::Vector;
 use model::system::{Kind, Member, System, SystemEquilibrium};
 
 use super::certificate::largest_force_n;
-use super::floor::push_n;
+use super::floor::{push_n, sliding};
 use crate::vector::{cross, dot, minus, norm, times};
 
 /// Slack by this part of the length: far above the rounding of places, far below what anybody calls
@@ -62,7 +62,7 @@ fn lie_loose(system: &System, answers: &[SystemEquilibrium]) -> Vec<bool> {
         .iter()
         .enumerate()
         .map(|(k, joint)| {
-            joint.support.at_m().is_none()
+            !sliding(&joint.support).is_empty()
                 && answers.iter().all(|answer| push_n(system, answer, k) > 0.0)
         })
         .collect();

@@ -1,11 +1,12 @@
 //! Systems above a flat floor without friction: closed forms, both solvers, the judge, the
 //! certificate.
 
-use model::system::{Joint, Member, System, SystemEquilibrium};
-use model::{Bar, Rung, Vector};
+use model::system::{Joint, Kind, Member, Support, System, SystemEquilibrium};
+use model::{Bar, ForceChoice, Rung, Vector};
 use validate::answer::Solvers;
 use validate::foreign::{Finding, ForeignAnswer, Law, bounds, judge_foreign};
-use validate::systems::{ask, certify, judge};
+use validate::systems::{SystemAgreement, ask, certify, compare, judge};
+use validate::tolerances::Tolerances;
 
 /// Relative to the number itself.
 const DIGITS: f64 = 1e-10;
@@ -259,4 +260,166 @@ fn the_judge_knows_the_floor() {
     let mut unheld = good;
     unheld.reactions_n[1] = [0.0; 3];
     assert!(certify(&system, &unheld).is_err());
+}
+
+/// 10 N on a member of 1 m, its anchor this high above the floor.
+fn above(kind: Kind, height_m: f64) -> System {
+    let joints = vec![Joint::anchor("A", [0.0, 0.0, height_m]), Joint::free("P").with_mass(1.0)];
+    let member = Member { kind, ..Member::bar(0, 1, Bar::homogeneous(1.0, 0.0).unwrap()) };
+    System::new("above", 10.0, joints, vec![member]).unwrap().with_floor(0.0).unwrap()
+}
+
+/// A member that just reaches the floor: member and floor bear 10 N together. Both solvers and the
+/// judge count the one self-stress, the shape is agreed on, and of forces no more than their sum.
+#[test]
+fn a_weight_that_just_touches_the_floor_is_agreed_on_but_for_its_share() {
+    for kind in [Kind::Bar, Kind::Cable] {
+        let system = above(kind, 1.0);
+        let answer = ask(&system, Solvers::Both, &|_| {});
+        let agreement = answer.agreement.as_ref().unwrap();
+        assert!(agreement.agrees() && agreement.self_stresses == Some(1), "{agreement:?}");
+        for e in &answer.equilibria {
+            let named = e.evidence.self_stresses.as_ref().unwrap();
+            assert_eq!((named.dimension, named.choice), (1, ForceChoice::EquallyStiff));
+            assert!(e.axial_n[0].abs() < 1e-9);
+            close(e.reactions_n[1][2], 10.0);
+            assert!(e.evidence.ladder.agreed.proof().unwrap().shape_only);
+        }
+        // Other shares of it agree with these; what is not a share of it does not.
+        let with = |axial_n: f64, push_n: f64| {
+            let mut other = answer.equilibria[0].clone();
+            other.axial_n[0] = axial_n;
+            other.start_forces_n[0] = [0.0, 0.0, axial_n];
+            other.end_forces_n[0] = [0.0, 0.0, -axial_n];
+            other.reactions_n = vec![[0.0, 0.0, axial_n], [0.0, 0.0, push_n]];
+            other.evidence.self_stresses = None;
+            let mut both = [answer.equilibria[1].clone(), other];
+            compare(&system, &mut both, &Tolerances::project())
+        };
+        assert!(with(4.0, 6.0).agrees());
+        assert!(with(10.0, 0.0).agrees());
+        assert!(!with(4.0, 6.1).agrees());
+        assert!(!with(12.0, -2.0).agrees());
+        assert_eq!(with(-1.0, 11.0).agrees(), kind == Kind::Bar);
+    }
+}
+
+/// Away from where it touches there is nothing to share: the member bears all where it is shorter
+/// than high, the floor where it is longer. In between an answer may be missing, none is wrong.
+#[test]
+fn from_above_the_floor_to_lying_on_it_no_two_answers_contradict_each_other() {
+    for kind in [Kind::Bar, Kind::Cable] {
+        for exponent in 1..=16 {
+            for sign in [-1.0, 1.0] {
+                // As exact as answers are asked to agree: a bar that is nearly upright makes much of
+                // what rounding leaves level.
+                let near_n = 10.0 * Tolerances::project().forces.value;
+                let deeper = sign * 10.0_f64.powi(-exponent);
+                let answer = ask(&above(kind, 1.0 - deeper), Solvers::Both, &|_| {});
+                let found: &Option<SystemAgreement> = &answer.agreement;
+                assert!(found.as_ref().is_none_or(SystemAgreement::agrees), "{deeper}: {found:?}");
+                if exponent > 7 && (found.is_none() || sign > 0.0 && exponent > 11) {
+                    // Refused, or within what lengths are right to.
+                    continue;
+                }
+                assert!(found.is_some(), "{deeper}: {:?}", answer.failures);
+                for e in answer.equilibria.iter().filter(|_| exponent < 12) {
+                    let wanted = if sign > 0.0 { [0.0, 10.0] } else { [10.0, 0.0] };
+                    let is = [e.axial_n[0], e.reactions_n[1][2]];
+                    assert!((is[0] - wanted[0]).abs() < near_n, "{deeper} {}: {is:?}", e.solver);
+                    assert!((is[1] - wanted[1]).abs() < near_n, "{deeper} {}: {is:?}", e.solver);
+                }
+            }
+        }
+    }
+}
+
+/// Two members of 0.4 m and 0.6 m in a row, a V of 5 m, 4 m high, and a row that lies from where it
+/// just touches: one self-stress each.
+#[test]
+fn systems_that_just_touch_the_floor_have_one_self_stress() {
+    let weight = |name: &str| Joint::free(name).with_mass(1.0);
+    for kind in [Kind::Bar, Kind::Cable] {
+        let light = |from, to, length_m| Member {
+            kind,
+            ..Member::bar(from, to, Bar::homogeneous(length_m, 0.0).unwrap())
+        };
+        let row = (
+            vec![Joint::anchor("A", [0.0, 0.0, 1.0]), weight("Q"), weight("P")],
+            vec![light(0, 1, 0.4), light(1, 2, 0.6)],
+        );
+        let v = (
+            vec![
+                Joint::anchor("A", [0.0, 0.0, 4.0]),
+                Joint::anchor("B", [6.0, 0.0, 4.0]),
+                weight("P"),
+            ],
+            vec![light(0, 2, 5.0), light(1, 2, 5.0)],
+        );
+        let lying = (
+            vec![
+                Joint::anchor("A", [0.0, 0.0, 1.0]),
+                weight("Q"),
+                weight("R"),
+                Joint::anchor("B", [3.0, 0.0, 0.0]),
+            ],
+            vec![light(0, 1, 1.0), light(1, 2, 2.0), light(2, 3, 1.0)],
+        );
+        for (joints, members) in [row, v, lying] {
+            let system = System::new("touching", 10.0, joints, members).unwrap();
+            let system = system.with_floor(0.0).unwrap();
+            let answer = ask(&system, Solvers::Both, &|_| {});
+            let agreement = answer.agreement.as_ref().unwrap();
+            assert!(agreement.agrees() && agreement.self_stresses == Some(1), "{agreement:?}");
+            for e in &answer.equilibria {
+                let named = e.evidence.self_stresses.as_ref().map(|named| named.dimension);
+                assert_eq!(named, Some(1), "{kind:?} {}", e.solver);
+                let ground_n: f64 = e.reactions_n.iter().map(|force| force[2]).sum();
+                close(ground_n, 10.0 * system.total_mass_kg());
+            }
+        }
+    }
+}
+
+/// Weights that the floor bears alone, below a slack cable, on flat bars, and where a slanted plane
+/// meets it: members bear nothing, and places are open.
+#[test]
+fn both_solvers_leave_a_weight_wholly_to_the_floor() {
+    let anchor = || Joint::anchor("A", [0.0; 3]);
+    let weight = |name: &str| Joint::free(name).with_mass(1.0);
+    let plane = Support::Plane { at_m: [0.0, 0.0, 5.0], normal: [0.6, 0.0, 0.8] };
+    let bar = |from, to, mass_kg| Member::bar(from, to, Bar::homogeneous(9.0, mass_kg).unwrap());
+    let cable = Member::cable(0, 1, Bar::homogeneous(9.0, 0.0).unwrap());
+    let cases = [
+        (vec![anchor(), weight("P")], vec![cable.clone()], -1.0, [0.0, 10.0, 0.0]),
+        (vec![anchor(), weight("P")], vec![bar(0, 1, 0.0)], -1.0, [0.0, 10.0, 0.0]),
+        (
+            vec![anchor(), weight("P"), weight("Q")],
+            vec![bar(0, 1, 2.0), bar(1, 2, 4.0)],
+            0.0,
+            [10.0, 40.0, 30.0],
+        ),
+        (
+            vec![anchor(), Joint { support: plane, ..weight("P") }],
+            vec![cable],
+            -1.0,
+            [0.0, 10.0, 0.0],
+        ),
+        (
+            vec![anchor(), Joint { support: plane, ..weight("P") }],
+            vec![bar(0, 1, 0.0)],
+            -1.0,
+            [0.0, 10.0, 0.0],
+        ),
+    ];
+    for (joints, members, floor_m, wanted_n) in cases {
+        let count = joints.len();
+        let system = System::new("wholly", 10.0, joints, members).unwrap();
+        for e in answers(&system.with_floor(floor_m).unwrap()) {
+            assert!(e.axial_n.iter().all(|n| n.abs() < 1e-9), "{} {:?}", e.solver, e.axial_n);
+            for (force, wanted) in e.reactions_n.iter().zip(wanted_n).take(count) {
+                assert!((force[2] - wanted).abs() < 1e-9, "{} {:?}", e.solver, e.reactions_n);
+            }
+        }
+    }
 }

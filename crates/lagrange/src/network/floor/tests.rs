@@ -48,7 +48,8 @@ fn rounds(settles: bool) -> (Vec<[bool; 2]>, Result<Solution, Error>) {
     let framework = Framework::new(&system);
     let flat = crate::network::solve(&strand(), &Settings::default()).unwrap();
     let mut rounds = Vec::new();
-    let answer = above(&system, framework, Some(vec![false, true, true]), |framework| {
+    let begin = Some(vec![false, true, true]);
+    let answer = above(&system, framework, begin, &Settings::default(), |framework| {
         let lies = [1, 2].map(|joint: usize| framework.nodes[joint].freedom() == 2);
         rounds.push(lies);
         let mut solution = flat.clone();
@@ -95,6 +96,7 @@ fn a_pull_lifts_the_weights_that_it_can_bear() {
         units: Units { length_m: 1.0, force_n: 2.0, origin_m: Vector3::zeros() },
         nodes: [8.0, 1.0, 2.0, 4.0].map(node).into(),
         links: Vec::new(),
+        lying: Vec::new(),
     };
     let neighbours = [vec![1], vec![0, 2], vec![1, 3], vec![2]];
     for (force_n, lifted) in [(1.9, 0), (2.0, 1), (5.9, 1), (6.0, 2), (13.9, 2), (14.0, 3)] {

@@ -11,6 +11,7 @@ fn hanging(force: Pair, slack: Pair) -> (Framework, Hanging) {
         units: Units { length_m: 1.0, force_n: 1.0, origin_m: Vector3::zeros() },
         nodes: vec![node.clone(), node],
         links: vec![Link { from: 0, to: 1, length: 2.0, compliance: 0.0, kind: Kind::Cable }],
+        lying: Vec::new(),
     };
     let hanging = Hanging {
         places: vec![Vector3::zeros(), Vector3::x()],

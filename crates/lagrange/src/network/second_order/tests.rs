@@ -17,6 +17,7 @@ fn shape(azimuth: f64, joint: f64, largest: f64, load: f64) -> (Framework, State
             node(along * (0.5 * largest)),
         ],
         links: Vec::new(),
+        lying: Vec::new(),
     };
     let (up, from) = (Vector3::new(0.0, 0.0, 3.0), Vector3::new(7.0, -2.0, 1.0));
     let places = [up, along * 4.0 + up * 2.0, along * 2.0 + normal * joint];

@@ -18,6 +18,7 @@ fn chosen(largest: f64, cable: f64) -> Forces {
         units: Units { length_m: 1.0, force_n: 1.0, origin_m: Vector3::zeros() },
         nodes: vec![node.clone(), node],
         links: vec![link(Kind::Bar), link(Kind::Cable), link(Kind::Bar)],
+        lying: Vec::new(),
     };
     let places = vec![Vector3::zeros(), Vector3::x()];
     let mut state = State::new(places, vec![largest, cable, 0.5 * largest], vec![true; 3]);

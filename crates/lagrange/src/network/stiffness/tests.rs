@@ -14,6 +14,7 @@ fn complete(joints: usize) -> Framework {
         units: Units { length_m: 1.0, force_n: 1.0, origin_m: Vector3::zeros() },
         nodes: vec![node; joints],
         links: pairs.map(link).collect(),
+        lying: Vec::new(),
     }
 }
 
