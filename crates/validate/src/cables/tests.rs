@@ -32,3 +32,36 @@ fn the_worst_value_is_the_largest_or_none_at_all() {
         assert!(of(&values).is_nan(), "{values:?}");
     }
 }
+
+/// Budgets of 1/8 for energies and 1/4 for forces.
+#[test]
+fn cables_confirm_what_is_within_the_budgets() {
+    let mut tolerances = Tolerances::project();
+    (tolerances.energy.value, tolerances.forces.value) = (0.125, 0.25);
+    let with = |taut: bool, in_tension: bool, gap: f64, axial: Option<f64>| {
+        let cables = Cables {
+            taut,
+            slack: 0,
+            in_tension,
+            gap,
+            optimum: 0.0,
+            axial,
+            joints: None,
+            iterations: 1,
+        };
+        cables.confirm(&tolerances)
+    };
+    for axial in [None, Some(0.0), Some(0.25)] {
+        for (gap, right) in
+            [(0.0, true), (0.125, true), (-0.125, true), (0.2, false), (-0.2, false)]
+        {
+            assert_eq!(with(true, true, gap, axial), right, "{gap}");
+        }
+    }
+    assert!(!with(true, true, 0.0, Some(0.3)) && !with(true, true, 0.0, Some(f64::NAN)));
+    assert!(!with(true, true, f64::NAN, None));
+    for (gap, right) in [(3.0, true), (0.0, true), (-0.1, true), (-0.125, false), (-0.2, false)] {
+        assert_eq!(with(false, false, gap, Some(9.0)), right, "{gap}");
+    }
+    assert!(!with(false, true, 0.0, None) && !with(true, false, 0.0, None));
+}

@@ -69,3 +69,72 @@ fn anchors_are_not_free() {
     answer.axial_n.push(0.0);
     assert_eq!(free_joints(&system, &[answer]), [false; 4]);
 }
+
+/// An angle of a millionth, or a volume of it, is none.
+#[test]
+fn up_to_three_directions_are_independent() {
+    let [x, y, z] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    let near = |part: f64, of: Vector, to: Vector| -> Vector {
+        std::array::from_fn(|k| to[k] + part * of[k])
+    };
+    assert!(independent(&[z]) && independent(&[x, z]) && independent(&[y, x, z]));
+    assert!(independent(&[z, y, x]) && independent(&[x, y, z]));
+    assert!(!independent(&[[f64::NAN; 3]]) && !independent(&[]) && !independent(&[x, y, z, x]));
+    for (part, apart) in [(2e-6, true), (-2e-6, true), (0.5e-6, false), (0.0, false)] {
+        assert_eq!(independent(&[x, near(part, y, x)]), apart, "{part}");
+        assert_eq!(independent(&[x, y, near(part, z, y)]), apart, "{part}");
+        assert_eq!(independent(&[x, near(part, z, y), y]), apart, "{part}");
+    }
+}
+
+/// A string of joints beside an anchor, in a zigzag of 3 and 4 m, at whose other end another anchor
+/// stands.
+fn string(joints: usize) -> Vec<bool> {
+    let mut all = vec![Joint::anchor("A", [0.0; 3])];
+    let mut joints_m = vec![[0.0; 3]];
+    let mut members = vec![];
+    for k in 0..=joints {
+        let [x, y, z] = joints_m[k];
+        let at = if k % 2 == 0 { [x + 3.0, y, z + 4.0] } else { [x + 4.0, y + 3.0, z] };
+        joints_m.push(at);
+        let last = k == joints;
+        all.push(if last { Joint::anchor("B", at) } else { Joint::free(k.to_string()) });
+        members.push(Member::bar(k, k + 1, Bar::homogeneous(5.0, 0.0).unwrap()));
+    }
+    let system = System::new("string", 10.0, all, members).unwrap();
+    let (_, like) = lamp();
+    let answer = SystemEquilibrium { joints_m, ..like };
+    let part: Vec<usize> = (1..=joints).collect();
+    with_room(&system, &answer, &members_of(&system), &part)
+}
+
+#[test]
+fn room_is_looked_for_among_eighty_joints_at_most() {
+    assert_eq!(string(3), [true; 3]);
+    assert_eq!(string(80), [true; 80]);
+    assert_eq!(string(81), [false; 81]);
+}
+
+/// Three joints on one line, tied to each other: their lengths are not independent there, and decide
+/// nothing. Bent, they are a triangle, and all of it moves.
+#[test]
+fn joints_on_a_line_have_no_room_to_first_order() {
+    let room = |middle: Vector| {
+        let mut joints = ["A", "P", "Q", "R"].map(Joint::free).to_vec();
+        joints[0] = Joint::anchor("A", [9.0, 9.0, 9.0]);
+        let joints_m = vec![[9.0; 3], [0.0; 3], middle, [2.0, 0.0, 0.0]];
+        let member = |from: usize, to: usize| {
+            let length_m = norm(minus(joints_m[to], joints_m[from]));
+            Member::bar(from, to, Bar::homogeneous(length_m, 0.0).unwrap())
+        };
+        let members = vec![member(1, 2), member(2, 3), member(3, 1)];
+        let mut tied = members.clone();
+        tied.push(member(0, 1));
+        let system = System::new("three", 10.0, joints, tied).unwrap();
+        let (_, like) = lamp();
+        let answer = SystemEquilibrium { joints_m, ..like };
+        with_room(&system, &answer, &members_of(&system), &[1, 2, 3])
+    };
+    assert_eq!(room([1.0, 0.0, 0.0]), [false; 3]);
+    assert_eq!(room([1.0, 1.0, 0.0]), [true; 3]);
+}
