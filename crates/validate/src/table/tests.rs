@@ -115,3 +115,26 @@ fn a_case_is_told_in_the_units_of_its_budgets() {
     assert!(forces * weight_n <= agreement.forces_n);
     assert!(agreement.statics.iter().all(|one| one.largest() <= statics));
 }
+
+/// Of chains of more than ten bars the ends are listed, and ten axial forces.
+#[test]
+fn long_chains_are_told_by_their_ends() {
+    let count = |bars: usize| {
+        let anchors = Anchors { start_m: [0.0; 3], end_m: [1.0, 0.0, 0.25] };
+        let bar = Bar::homogeneous(1.0, 1.0).unwrap();
+        let chain = Chain::new("long", 9.81, anchors, vec![bar; bars]).unwrap();
+        let problem = Problem::new(chain).unwrap();
+        let settings = lagrange::condensed::Settings::default();
+        let first = lagrange::condensed::solve(&problem, &settings).unwrap().equilibrium;
+        let mut answers = [first.clone(), first];
+        let agreement = crate::compare::compare(&problem, &mut answers, &Tolerances::project());
+        let units = Units::new(problem.chain(), &answers[0].multipliers_n);
+        let rows = rows("long", &answers, &agreement, &units);
+        assert_eq!(rows.last().unwrap().observable, format!("axial[{}]_n", bars.min(10)));
+        assert!(rows.iter().all(|row| row.difference < 1e-15));
+        let starting = |with: &str| rows.iter().filter(|r| r.observable.starts_with(with)).count();
+        (starting("joint"), starting("force"), starting("axial"))
+    };
+    assert_eq!(count(10), (27, 33, 10));
+    assert_eq!(count(11), (0, 6, 10));
+}

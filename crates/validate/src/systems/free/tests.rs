@@ -138,3 +138,65 @@ fn joints_on_a_line_have_no_room_to_first_order() {
     assert_eq!(room([1.0, 0.0, 0.0]), [false; 3]);
     assert_eq!(room([1.0, 1.0, 0.0]), [true; 3]);
 }
+
+/// On a floor 4 m below, a second weight lies beside the lamp's; a cable that bears less than 1e-8 of
+/// the largest force lets it slide.
+#[test]
+fn what_lies_with_members_that_bear_nothing_is_loose() {
+    let (system, mut answer) = lamp();
+    let mut joints = system.joints().to_vec();
+    joints.push(Joint::free("Q").with_mass(0.3));
+    let mut members = system.members().to_vec();
+    members.push(Member::cable(2, 3, Bar::homogeneous(7.0, 0.0).unwrap()));
+    let system = System::new("lying", 10.0, joints, members).unwrap().with_floor(-4.0).unwrap();
+    answer.joints_m.push([1.0, 1.0, -4.0]);
+    answer.reactions_n.push([0.0, 0.0, 3.0]);
+    answer.start_forces_n.push([0.0; 3]);
+    answer.end_forces_n.push([0.0; 3]);
+    answer.axial_n.push(0.0);
+    let loose = |change: &dyn Fn(&mut SystemEquilibrium)| {
+        let mut second = answer.clone();
+        change(&mut second);
+        let found = lie_loose(&system, &[answer.clone(), second]);
+        assert_eq!(found[..3], [false; 3]);
+        found[3]
+    };
+    assert!(loose(&|_| ()));
+    // The largest force is 3 N, of the floor.
+    assert!(loose(&|a| a.axial_n[2] = 2.9e-8) && loose(&|a| a.axial_n[2] = -2.9e-8));
+    assert!(!loose(&|a| a.axial_n[2] = 3.1e-8) && !loose(&|a| a.axial_n[2] = -3.1e-8));
+    assert!(!loose(&|a| a.reactions_n[3] = [0.0; 3]));
+    assert!(!loose(&|a| a.reactions_n[3] = [0.0, 0.0, -3.0]));
+}
+
+/// Nothing is loaded but by its own mass or force, by its members, or by the floor.
+#[test]
+fn joints_are_unloaded_where_nothing_acts_on_them_or_their_members() {
+    let unloaded_with = |change: &dyn Fn(&mut Vec<Joint>, &mut Vec<Member>)| {
+        let mut joints = ["A", "P", "Q"].map(Joint::free).to_vec();
+        joints[0] = Joint::anchor("A", [0.0; 3]);
+        let light = Bar::homogeneous(1.0, 0.0).unwrap();
+        let mut members = vec![Member::bar(0, 1, light), Member::bar(1, 2, light)];
+        change(&mut joints, &mut members);
+        let system = System::new("light", 10.0, joints, members).unwrap();
+        let (_, like) = lamp();
+        let answer = SystemEquilibrium { reactions_n: vec![[0.0; 3]; 3], ..like };
+        unloaded(&system, &[answer])
+    };
+    assert_eq!(unloaded_with(&|_, _| ()), [false, true, true]);
+    assert_eq!(unloaded_with(&|joints, _| joints[2].mass_kg = 1e-9), [false, true, false]);
+    for axis in 0..3 {
+        let pulled = unloaded_with(&|joints, _| joints[1].force_n[axis] = -1e-9);
+        assert_eq!(pulled, [false, false, true]);
+        let on_a_member = unloaded_with(&|_, members| {
+            let mut force_n = [0.0; 3];
+            force_n[axis] = 1.0;
+            members[1].loads = vec![model::system::PointLoad { at_m: 0.5, force_n }];
+        });
+        assert_eq!(on_a_member, [false; 3]);
+    }
+    let heavy = |_: &mut Vec<Joint>, members: &mut Vec<Member>| {
+        members[0].body = Bar::homogeneous(1.0, 1e-9).unwrap();
+    };
+    assert_eq!(unloaded_with(&heavy), [false, false, true]);
+}
