@@ -200,3 +200,43 @@ fn joints_are_unloaded_where_nothing_acts_on_them_or_their_members() {
     };
     assert_eq!(unloaded_with(&heavy), [false, false, true]);
 }
+
+/// Exactly at the bound nothing is slack.
+#[test]
+fn a_millionth_of_the_length_is_not_slack() {
+    assert!(!at(Kind::Cable, 2.0 * (1.0 - 1e-6)) && !at(Kind::Strut, 2.0 * (1.0 + 1e-6)));
+}
+
+/// At a joint without load two bars bear nothing where they are bent, and may where they are not;
+/// three where they are not in one plane; and what is next to it bears nothing either.
+#[test]
+fn members_in_independent_directions_bear_nothing() {
+    let bears = |places_m: &[Vector], ends: &[(usize, usize)], loaded: &[usize]| {
+        let joint = |k: usize| match k {
+            0 => Joint::anchor("0", places_m[0]),
+            _ => Joint::free(k.to_string()),
+        };
+        let member = |(from, to): &(usize, usize)| {
+            let length_m = norm(minus(places_m[*to], places_m[*from]));
+            Member::bar(*from, *to, Bar::homogeneous(length_m, 0.0).unwrap())
+        };
+        let joints = (0..places_m.len()).map(joint).collect();
+        let members = ends.iter().map(member).collect();
+        let system = System::new("bars", 10.0, joints, members).unwrap();
+        let (_, like) = lamp();
+        let answer = SystemEquilibrium { joints_m: places_m.to_vec(), ..like };
+        let unloaded: Vec<bool> = (0..places_m.len()).map(|k| !loaded.contains(&k)).collect();
+        bearing(&system, &[answer], &members_of(&system), &unloaded)
+    };
+    let (x, y, z) = ([1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]);
+    let back = [-1.0, 0.0, 0.0];
+    assert_eq!(bears(&[x, [0.0; 3], back], &[(0, 1), (1, 2)], &[0, 2]), [true; 2]);
+    assert_eq!(bears(&[x, [0.0; 3], y], &[(0, 1), (1, 2)], &[0, 2]), [false; 2]);
+    assert_eq!(bears(&[x, [0.0; 3], y], &[(0, 1), (1, 2)], &[0, 1, 2]), [true; 2]);
+    let star = [(0, 1), (2, 1), (1, 3)];
+    assert_eq!(bears(&[x, [0.0; 3], y, z], &star, &[0, 2, 3]), [false; 3]);
+    assert_eq!(bears(&[x, [0.0; 3], y, back], &star, &[0, 2, 3]), [true; 3]);
+    // The end of a line of two hangs free: it bears nothing, and then neither does the other.
+    assert_eq!(bears(&[x, [0.0; 3], back], &[(0, 1), (1, 2)], &[0]), [false; 2]);
+    assert_eq!(bears(&[back, x, [0.0; 3]], &[(0, 2), (2, 1)], &[0]), [false; 2]);
+}
