@@ -482,3 +482,26 @@ fn what_follows_from_axial_forces_is_that_of_the_lever_rule() {
     let pulled = complete(&system, &SolverName::new("a table"), &places, &[-1000.0]);
     assert!((largest_n(&system, &pulled) - 1000.0).abs() < 60.0);
 }
+
+/// 3 N are balanced as above. Beside them 1e-9 N are across two members so nearly in one line that
+/// the ridge leaves a thousandth: 1e-12, 1e-15 and 1e-18 N, the last of which is rounding beside 3 N.
+#[test]
+fn the_search_ends_where_rounding_is_left() {
+    let (along, across) = (0.999_999_5_f64.sqrt(), 0.5e-6_f64.sqrt());
+    let column = |joints: [usize; 2], unit: [f64; 3]| Column {
+        joints,
+        unit,
+        lower: f64::NEG_INFINITY,
+        upper: f64::INFINITY,
+    };
+    let columns = [
+        column([0, 2], [1.0, 0.0, 0.0]),
+        column([1, 3], [along, across, 0.0]),
+        column([1, 4], [along, -across, 0.0]),
+    ];
+    let free = |joint: usize, force: [f64; 3]| if joint < 2 { force } else { [0.0; 3] };
+    let loads = [[-3.0, 0.0, 0.0], [0.0, 1e-9, 0.0], [0.0; 3], [0.0; 3], [0.0; 3]];
+    let found = Problem { columns: &columns, loads: &loads, free: &free }.solve();
+    assert_eq!((found.steps, found.converged), (3, true), "{found:?}");
+    assert!(found.left[1][1].abs() < 2e-18, "{found:?}");
+}

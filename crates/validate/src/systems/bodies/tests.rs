@@ -73,9 +73,12 @@ fn depths_are_counted_in_any_order() {
 /// not. Far from the origin as well.
 #[test]
 fn what_stands_on_one_vertical_is_one_node() {
-    for far in [0.0, 2.0_f64.powi(40)] {
-        let beside = if far > 0.0 { 2.0_f64.powi(-12) } else { 1e-9 };
-        let at = |x: f64, z: f64| [far + x, 7.0, z];
+    let far = 2.0_f64.powi(40);
+    for [far_x, far_y] in [[0.0, 0.0], [far, 0.0], [0.0, far]] {
+        let beside = if far_x + far_y > 0.0 { 2.0_f64.powi(-12) } else { 1e-9 };
+        let at = |off: f64, z: f64| {
+            if far_y > 0.0 { [7.0, far_y + off, z] } else { [far_x + off, 7.0, z] }
+        };
         let guide = |at_m: [f64; 3], direction: [f64; 3]| Support::Line { at_m, direction };
         let supports = [
             Support::Fixed { at_m: at(0.0, 1.0) },
@@ -93,7 +96,7 @@ fn what_stands_on_one_vertical_is_one_node() {
         let bar = Bar::homogeneous(1.0, 1.0).unwrap();
         let members = (1..6).map(|k| Member::bar(0, k, bar)).collect();
         let system = System::new("guides", 10.0, joints, members).unwrap();
-        assert_eq!(nodes(&system), [0, 0, 2, 3, 0, 5], "{far}");
+        assert_eq!(nodes(&system), [0, 0, 2, 3, 0, 5], "{far_x} {far_y}");
     }
 }
 
