@@ -82,3 +82,6 @@ fn distance(a: Vector, b: Vector) -> f64 {
 fn norm([x, y, z]: Vector) -> f64 {
     x.hypot(y).hypot(z)
 }
+
+#[cfg(test)]
+mod tests;

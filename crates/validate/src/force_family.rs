@@ -225,4 +225,22 @@ mod tests {
             assert!(norm(minus(*left, expected)) < 1e-15, "{k}: {left:?}");
         }
     }
+
+    /// The bar of 2 m aside by `a` turns by `a/2` and the line by `a/6`: the bars lose `a²/6` together.
+    /// They may lose 24 units in the last place of 6 m, and far from the origin 2^-29 m.
+    #[test]
+    fn lines_far_away_are_known_to_the_rounding_of_places() {
+        let far = 2.0_f64.powi(20);
+        let aligned = |origin: f64, aside_m: f64| {
+            let (chain, joints_m) = folded([0.0, 0.0, 1.0], [0.0, aside_m, 0.0]);
+            let mut anchors = *chain.anchors();
+            (anchors.start_m[0], anchors.end_m[0]) = (origin, origin);
+            let chain = Chain::new("far", 9.81, anchors, chain.bars().to_vec()).unwrap();
+            common_line(&chain, &joints_m).is_some()
+        };
+        for (origin, room_m) in [(0.0, 144.0 * f64::EPSILON), (far, 2.0_f64.powi(-29))] {
+            let aside_m = (6.0 * room_m).sqrt();
+            assert!(aligned(origin, 0.9 * aside_m) && !aligned(origin, 1.1 * aside_m), "{origin}");
+        }
+    }
 }

@@ -237,3 +237,6 @@ fn run(program: &str, arguments: &[&str]) -> Result<Vec<u8>, GraphError> {
         Err(GraphError::Cargo(String::from_utf8_lossy(&output.stderr).into_owned()))
     }
 }
+
+#[cfg(test)]
+mod tests;

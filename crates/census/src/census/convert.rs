@@ -153,3 +153,6 @@ impl Census {
         2_u64.saturating_pow(u32::try_from(self.statistics.bars).unwrap_or(u32::MAX))
     }
 }
+
+#[cfg(test)]
+mod tests;

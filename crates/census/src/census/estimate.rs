@@ -176,4 +176,45 @@ mod tests {
         let expected = 1e-6 * 12.0 * many * (many / few);
         assert!((found / expected - 1.0).abs() < 1e-12, "{found} {expected}");
     }
+
+    /// Twenty-six bars are not looked at: ten more than sixteen, each of which takes 2.1 times as much.
+    #[test]
+    fn what_no_census_takes_is_told_from_sixteen_bars() {
+        let long = |bars: usize| {
+            let bar = Bar::homogeneous(1.0, 1.0).unwrap();
+            let anchors = Anchors { start_m: [0.0; 3], end_m: [3.0, 0.0, 0.0] };
+            Chain::new("long", 10.0, anchors, vec![bar; bars]).unwrap()
+        };
+        let told = |bars: usize, max_bars: usize, kept: Kept| {
+            let settings = Settings { max_bars, ..Settings::default() };
+            refuse_long(&long(bars), JointLoads::NONE, &settings, kept)
+        };
+        let times = 2.1_f64.powi(10);
+        for (kept, gigabytes) in [(Kept::Whole, 0.5), (Kept::Compact, 0.05)] {
+            let Err(CensusError::TooManyBars { bars, max_bars, patterns, estimate_s, estimate_gb }) =
+                told(26, 24, kept)
+            else {
+                panic!("{kept:?}")
+            };
+            assert_eq!((bars, max_bars), (26, 24));
+            for (found, wanted) in [
+                (patterns, 67_108_864.0),
+                (estimate_s, 13.0 * times),
+                (estimate_gb, gigabytes * times),
+            ] {
+                assert!((found / wanted - 1.0).abs() < 1e-12, "{found}, not {wanted}");
+            }
+        }
+        assert!(
+            (of_chain(&long(26), JointLoads::NONE).equilibria / (1e5 * times) - 1.0).abs() < 1e-12
+        );
+        assert!(told(3, 3, Kept::Whole).is_ok() && told(3, 2, Kept::Whole).is_err());
+        // However long the message stays finite.
+        let Err(CensusError::TooManyBars { patterns, estimate_s, .. }) =
+            told(2_000, 24, Kept::Whole)
+        else {
+            panic!()
+        };
+        assert!(patterns.is_finite() && estimate_s.is_finite() && estimate_s > 1e190);
+    }
 }

@@ -471,4 +471,20 @@ mod tests {
         let expected = [1.5, SIDE / 4.0, SIDE / 4.0];
         assert_eq!([middle, size, scale].map(f64::to_bits), expected.map(f64::to_bits));
     }
+
+    /// One panel of 150 and twice 18 pixels is narrower than 560; the key of bars without force needs
+    /// 112 more.
+    #[test]
+    fn the_key_of_bars_without_force_widens_the_figure() {
+        let census = take(&model::cases::get("three-bars-off-centre").unwrap().problem());
+        let mut shown: Vec<Position> = census.positions().take(1).collect();
+        let width = |shown: &[Position]| {
+            let svg = census.figure_of("one", shown, 1);
+            let rest = svg.split(" width=\"").nth(1).unwrap();
+            rest.split('"').next().unwrap().parse::<f64>().unwrap()
+        };
+        assert!((width(&shown) - 560.0).abs() < 1e-9, "{}", width(&shown));
+        shown[0].equilibrium.signs[1] = 0;
+        assert!((width(&shown) - 672.0).abs() < 1e-9, "{}", width(&shown));
+    }
 }

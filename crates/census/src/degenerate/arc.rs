@@ -227,4 +227,43 @@ mod tests {
         };
         assert_eq!(count(&map, [Interval::around(0.0, 1e-9); 2]), None);
     }
+
+    /// `x + 2 y` and `y` have the derivatives (1, 2) and (0, 1): their largest part is that at 22.5°,
+    /// and leans by the tangent of it, √2 - 1.
+    #[test]
+    fn the_arc_is_that_of_the_largest_derivative() {
+        let map = |at: [Interval; 2]| {
+            let [x, y] = [Series::variable(at[0], 0), Series::variable(at[1], 1)];
+            Some([x + y.scaled(Interval::point(2.0)), y])
+        };
+        let (radius, room) = (1e-9, 3e-9);
+        let arc = Arc::through(&map, [Interval::around(0.0, radius); 2], room).unwrap();
+        assert_eq!((arc.t, arc.n, arc.rising), (0, 1, 1));
+        let lean = 2.0_f64.sqrt() - 1.0;
+        let [along, across] = arc.at.map(Interval::rad);
+        assert!((along / (radius + room) - 1.0).abs() < 1e-9, "{along}");
+        let wanted = radius + (lean + 0.5) * (radius + room);
+        assert!((across / wanted - 1.0).abs() < 1e-9, "{across} {wanted}");
+    }
+
+    /// Where the arc passes above or below the box, or leaves it, it does not go through.
+    #[test]
+    fn an_arc_goes_through_from_end_to_end() {
+        let through = |aside: f64, rising: f64| {
+            let map = |at: [Interval; 2]| {
+                let [x, y] = [Series::variable(at[0], 0), Series::variable(at[1], 1)];
+                Some([
+                    (y - constant(aside)).scaled(Interval::point(rising)),
+                    x.scaled(Interval::point(0.5)),
+                ])
+            };
+            Arc::through(&map, [Interval::around(0.0, 1e-9); 2], 1e-9).map(|arc| arc.rising)
+        };
+        for rising in [2.0, -2.0] {
+            assert!(through(0.0, rising).is_some());
+            for aside in [1e-8, -1e-8] {
+                assert!(through(aside, rising).is_none(), "{aside}");
+            }
+        }
+    }
 }

@@ -121,4 +121,49 @@ mod tests {
             }
         }
     }
+
+    /// Against the formulas at a point: with `a = w (ψ + f_x c)`, `b = |f|² + w f_z c` and `r² = a² + b²`
+    /// the sums of `s l (ψ + f_x c)/r` and of `s l (ψ + f_x c)²/(r (r + b))`, and their differences.
+    #[test]
+    fn the_blown_up_equations_are_those_of_their_formulas() {
+        let problem = model::cases::get("five-in-space").unwrap().problem();
+        let system = System::new(problem.chain(), JointLoads::NONE);
+        let signs = [1_i8, -1, 1, 1, -1];
+        for f in [[0.75, 0.5], [-0.75, 0.5], [0.75, -0.25], [0.75, 0.0], [-0.5, 0.0]] {
+            let level = f64::abs(f[1]) <= 0.0;
+            let by_formula = |psi: f64, w: f64| {
+                let mut sums = [0.0; 2];
+                for ((sign, length), weight) in signs.iter().zip(&system.length).zip(&system.weight)
+                {
+                    let (length, c) = (f64::from(*sign) * length.mid(), weight.mid());
+                    let lean = psi + f[0] * c;
+                    let b = f[0] * f[0] + f[1] * f[1] + w * f[1] * c;
+                    let r = (w * lean).hypot(b);
+                    sums[0] += length * lean / r;
+                    sums[1] += length * lean * lean / (r * (r + b));
+                }
+                sums
+            };
+            let (psi, w) = (0.375, 0.25);
+            let at = [psi, w].map(Interval::point);
+            let pair = blown_up(&system, &signs, f.map(Interval::point), at).unwrap();
+            let wanted = by_formula(psi, w);
+            // Between level anchors the second coordinate is w².
+            let step = 1e-5;
+            let by_psi = [by_formula(psi + step, w), by_formula(psi - step, w)];
+            let by_w = [by_formula(psi, w + step), by_formula(psi, w - step)];
+            let unit = if level { 2.0 * w } else { 1.0 };
+            for k in 0..2 {
+                let close = |found: Interval, wanted: f64, room: f64| {
+                    assert!((found.mid() - wanted).abs() < room, "{f:?} {k}: {found:?} {wanted}");
+                };
+                close(pair[k].value(), wanted[k], 1e-13);
+                let [x, y] = pair[k].gradient();
+                close(x, (by_psi[0][k] - by_psi[1][k]) / (2.0 * step), 1e-7);
+                close(y, (by_w[0][k] - by_w[1][k]) / (2.0 * step * unit), 1e-7);
+            }
+        }
+        let level = [Interval::ONE, Interval::ZERO];
+        assert!(blown_up(&system, &signs, level, [Interval::ZERO; 2]).is_some());
+    }
 }

@@ -219,3 +219,6 @@ pub(crate) fn inverse([[a, b], [c, d]]: [[f64; 2]; 2]) -> Option<[[f64; 2]; 2]> 
     let inverse = [[d, -b], [-c, a]].map(|row| row.map(|entry| entry / determinant));
     inverse.iter().flatten().all(|entry| entry.is_finite()).then_some(inverse)
 }
+
+#[cfg(test)]
+mod tests;

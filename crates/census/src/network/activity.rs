@@ -53,3 +53,6 @@ pub(super) fn activities(
     };
     system.members().iter().enumerate().map(of_member).collect()
 }
+
+#[cfg(test)]
+mod tests;

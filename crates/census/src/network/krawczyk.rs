@@ -102,3 +102,6 @@ fn defect(equations: &Equations, inverse: &Mat<f64>, unknowns: &[Interval]) -> V
     }
     rest
 }
+
+#[cfg(test)]
+mod tests;

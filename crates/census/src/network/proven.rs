@@ -104,3 +104,6 @@ fn beyond(enclosure: Interval, x: f64) -> f64 {
 fn worst(distances: impl Iterator<Item = f64>) -> f64 {
     distances.fold(0.0, |most, x| if x.is_nan() || x > most { x } else { most })
 }
+
+#[cfg(test)]
+mod tests;

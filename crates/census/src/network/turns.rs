@@ -228,4 +228,31 @@ mod tests {
             assert_eq!(turning(plane(normal)), [], "{normal:?}");
         }
     }
+
+    /// A joint between two anchors of one vertical turns about it, whatever acts on the anchors, and
+    /// does not if anything pulls it aside.
+    #[test]
+    fn what_hangs_on_anchors_turns_unless_it_is_pulled_aside() {
+        let at_m = [[0.0; 3], [0.0, 0.0, -1.0], [0.6, 0.0, -0.5]];
+        let turning = |pulled: usize, force_n: Vector, beside: f64| {
+            let light = Bar::homogeneous(1.0, 0.0).unwrap();
+            let mut joints = vec![
+                Joint::anchor("A", at_m[0]),
+                Joint::anchor("B", [beside, 0.0, -1.0]),
+                Joint::free("P").with_mass(1.0),
+            ];
+            joints[pulled].force_n = force_n;
+            let members = vec![Member::bar(0, 2, light), Member::bar(1, 2, light)];
+            let system = System::new("between", 10.0, joints, members).unwrap();
+            let found = turns(&system, &[Activity::Acts; 2], &at_m, &[true, true, false]);
+            found.iter().map(|turn| (turn.joints.clone(), turn.arm)).collect::<Vec<_>>()
+        };
+        let aside = [1.0, 0.0, 0.0];
+        for (pulled, force_n) in [(0, aside), (1, aside), (2, [0.0, 0.0, -3.0]), (0, [0.0; 3])] {
+            assert_eq!(turning(pulled, force_n, 0.0), [(vec![2], 2)], "{pulled}");
+        }
+        assert_eq!(turning(2, aside, 0.0), []);
+        assert_eq!(turning(2, [0.0, -1.0, 0.0], 0.0), []);
+        assert_eq!(turning(0, [0.0; 3], 1e-9), []);
+    }
 }

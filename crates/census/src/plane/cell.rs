@@ -281,4 +281,62 @@ mod tests {
             assert_eq!(image.mirrored(), cell);
         }
     }
+
+    /// (H, V, w) = -(1, 4, -8)/8 lies to the left and below, and is told there by its other numbers.
+    #[test]
+    fn pulls_to_the_left_and_below_have_positive_divisors() {
+        let system = system();
+        let near = Cell::point(Face::Near, [-0.125, -0.5]);
+        for (face, wanted) in [(Face::Left, [-4.0, 8.0]), (Face::Below, [-0.25, 2.0])] {
+            let found = near.on(face, &system).unwrap();
+            assert!((0..2).all(|k| found.at[k].contains(wanted[k])), "{face:?}: {found:?}");
+            assert!(!near.behind(face, &system));
+        }
+        for face in [Face::Right, Face::Above] {
+            assert!(near.on(face, &system).is_none() && near.behind(face, &system), "{face:?}");
+        }
+    }
+
+    /// Only around a bar, and only where both coordinates may vanish.
+    #[test]
+    fn the_pull_without_force_is_the_origin_of_its_chart() {
+        let of = |face: Face, at: [[f64; 2]; 2]| {
+            Cell { face, at: at.map(|[low, high]| Interval::new(low, high)) }.is_at_unloaded_bar()
+        };
+        let (zero, beside) = ([-1.0, 1.0], [0.5, 1.0]);
+        assert!(of(Face::Around(1), [zero, zero]));
+        assert!(!of(Face::Around(1), [zero, beside]) && !of(Face::Around(1), [beside, zero]));
+        assert!(!of(Face::Near, [zero, zero]));
+    }
+
+    #[test]
+    fn sizes_are_those_of_the_chart() {
+        let small = 0.5 * f64::EPSILON;
+        let cell = |face: Face, x: f64, y: f64| Cell::point(face, [x, y]);
+        assert_eq!(cell(Face::Near, 0.5, 0.25).unit().to_bits(), 1.0_f64.to_bits());
+        assert_eq!(cell(Face::Around(0), 0.5, -0.75).unit().to_bits(), 0.75_f64.to_bits());
+        assert!(cell(Face::Around(0), small, -small).unit().is_infinite());
+        assert_eq!(Cell::size(Face::Around(0), [0.5, -0.75]).to_bits(), 0.75_f64.to_bits());
+        assert_eq!(Cell::size(Face::Above, [0.5, -0.75]).to_bits(), 1.0_f64.to_bits());
+        let lost = |face: Face, y: f64| cell(face, small, y).is_lost_around(1);
+        assert!(lost(Face::Around(1), -small) && !lost(Face::Around(0), small));
+        assert!(!lost(Face::Around(1), 0.5) && !lost(Face::Near, small));
+    }
+
+    #[test]
+    fn halves_of_a_cell_meet_in_its_middle() {
+        let at = [Interval::new(0.0, 2.0), Interval::new(1.0, 5.0)];
+        let whole = Cell { face: Face::Near, at };
+        let [left, right] = whole.cut(0);
+        assert_eq!((left.at[0], right.at[0]), (Interval::new(0.0, 1.0), Interval::new(1.0, 2.0)));
+        assert_eq!((left.at[1], right.at[1]), (at[1], at[1]));
+        let [low, high] = whole.cut(1);
+        assert_eq!((low.at[1], high.at[1]), (Interval::new(1.0, 3.0), Interval::new(3.0, 5.0)));
+        assert!(whole.encloses(&left) && !left.encloses(&whole) && !left.disjoint(&right));
+        assert!(!whole.encloses(&Cell { face: Face::Above, ..left }));
+        for (k, [middle, half]) in [[1.0, 1.0], [3.0, 2.0]].into_iter().enumerate() {
+            assert_eq!(whole.middle()[k].to_bits(), f64::to_bits(middle));
+            assert!((whole.half()[k] - half).abs() < 1e-15);
+        }
+    }
 }

@@ -315,4 +315,18 @@ mod tests {
             assert_eq!(found, [expected[0], expected[1], up]);
         }
     }
+
+    #[test]
+    fn units_are_powers_of_two_at_or_above_a_number() {
+        for (x, power) in [(3.0, 4.0), (4.0, 4.0), (0.3, 0.5), (0.25, 0.25), (1.0, 1.0)] {
+            assert_eq!(power_of_two_above(x).to_bits(), f64::to_bits(power), "{x}");
+        }
+        let [smallest, largest] = [-1000, 1000].map(|k| 2.0_f64.powi(k));
+        for x in [0.0, 1e-305, smallest] {
+            assert_eq!(power_of_two_above(x).to_bits(), smallest.to_bits(), "{x}");
+        }
+        for x in [largest, 1e305, f64::INFINITY] {
+            assert_eq!(power_of_two_above(x).to_bits(), largest.to_bits(), "{x}");
+        }
+    }
 }

@@ -312,4 +312,17 @@ mod tests {
             assert!(isolated(&system, Pattern(pattern), way, false).is_none());
         }
     }
+
+    /// The same weights with lengths 1, 4, 4: the moments are 1, 3 and 5, and the signed variance
+    /// 5 − 3² is −4. About a mean of 1 it would be 4 − 4, nothing.
+    #[test]
+    fn the_variance_is_about_the_mean_of_the_weights() {
+        let bars = [1.0, 4.0, 4.0].map(|length| Bar::new(length, 1.0, length, [0.0; 3]).unwrap());
+        let anchors = Anchors { start_m: [0.0; 3], end_m: [1.0, 0.0, 0.0] };
+        let chain = Chain::new("straight", 10.0, anchors, bars.to_vec()).unwrap();
+        let system = System::new(&chain, JointLoads::NONE);
+        for (way, pattern) in [(1, 0b010), (-1, 0b101)] {
+            assert!(isolated(&system, Pattern(pattern), way, false).is_some());
+        }
+    }
 }

@@ -423,4 +423,27 @@ mod tests {
         assert!(force.contains(0.0) && force.mag() > TOO_LITTLE && force.mag() < 0.5 * disc);
         assert!(prove(&closure).is_none());
     }
+
+    /// One bar is as long as it is, without any rounding; of several the ways count.
+    #[test]
+    fn a_group_reaches_as_far_as_its_ways() {
+        let system = level();
+        for group in &system.groups {
+            assert_eq!(reach(&system, group, &[1]), system.length[group.start]);
+        }
+        let reach = reach(&system, &(0..3), &[1, -1, 1]);
+        assert!((reach.mid() - (0.9 - 1.0 + 0.4) / 4.0).abs() < 1e-15, "{reach:?}");
+    }
+
+    /// The gap is 1 m, level, and bar 2 as long.
+    #[test]
+    fn the_axis_is_the_direction_of_the_bar_without_force() {
+        let system = level();
+        let closure = axial_closure(&system, &system.groups[1], &[1], Pattern(0)).unwrap();
+        let axis = closure.axis.map(Interval::mid);
+        assert!((axis[0] - 1.0).abs() < 1e-14 && axis[1].abs() < 1e-14, "{axis:?}");
+        assert_eq!((closure.signs, closure.group), (vec![1, 0, 1], 1..2));
+        // With another sign the gap is longer than the bar.
+        assert!(axial_closure(&system, &system.groups[1], &[1], Pattern(0b100)).is_none());
+    }
 }

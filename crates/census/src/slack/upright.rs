@@ -171,7 +171,11 @@ fn legendre(order: u32, x: Interval) -> Interval {
 
 #[cfg(test)]
 mod tests {
+    use model::{Anchors, Bar, Chain};
+
     use super::*;
+    use crate::plane::face::Face;
+    use crate::plane::loads::JointLoads;
 
     #[test]
     fn legendre_polynomials_have_their_closed_forms() {
@@ -190,5 +194,51 @@ mod tests {
                 assert!(found.width() < 1e-14 && found.mag() <= 1.0);
             }
         }
+    }
+
+    /// Bars of 1, 2 and 1 m, in a unit of 4 m, with the weights of the chain: sums of
+    /// `s l c^m P_j(x)/ϱ^{j+1}`, at the weights themselves and within what lies between them and
+    /// nothing.
+    #[test]
+    fn remainders_are_sums_over_the_bars() {
+        let bars =
+            [1.0, 2.0, 1.0].map(|length| Bar::homogeneous(length, 2.0 - 0.5 * length).unwrap());
+        let anchors = Anchors { start_m: [0.0; 3], end_m: [0.0; 3] };
+        let chain = Chain::new("closed", 10.0, anchors, bars.to_vec()).unwrap();
+        let system = System::new(&chain, JointLoads::NONE);
+        let [h, v] = [1.5, 2.0];
+        let cell = Cell::point(Face::Near, [h, v]);
+        let signs = [1.0, 1.0, -1.0];
+        let pattern = Pattern(Pattern::bit(3, 2));
+        let by_hand = |power: i32, order: i32, part: f64| -> f64 {
+            let bars = system.length.iter().zip(&system.weight).zip(signs);
+            bars.map(|((length, weight), sign)| {
+                let c = weight.mid();
+                let size = h.hypot(v + part * c);
+                let x = (v + part * c) / size;
+                let legendre = [1.0, x, 0.5 * (3.0 * x * x - 1.0)];
+                let legendre = legendre[usize::try_from(order).unwrap()];
+                sign * length.mid() * c.powi(power) * legendre / size.powi(order + 1)
+            })
+            .sum()
+        };
+        for power in 0..3 {
+            let found = remainder(&system, &cell, pattern, [power, 0]).unwrap();
+            let wanted = by_hand(i32::try_from(power).unwrap(), 0, 1.0);
+            assert!(
+                (found.mid() - wanted).abs() < 1e-14 && found.width() < 1e-13,
+                "{found:?} {wanted}"
+            );
+        }
+        for (power, order) in [(2, 1), (3, 2)] {
+            let found = remainder(&system, &cell, pattern, [power, order]).unwrap();
+            let [power, order] = [power, order].map(|k| i32::try_from(k).unwrap());
+            for part in [0.0, 0.5, 1.0] {
+                assert!(found.contains(by_hand(power, order, part)), "{found:?} {part}");
+            }
+        }
+        // A force that may vanish is divided by nothing.
+        let lost = Cell::point(Face::Near, [0.0, -system.weight[0].mid()]);
+        assert_eq!(remainder(&system, &lost, pattern, [0, 0]), None);
     }
 }

@@ -87,3 +87,34 @@ fn places_far_away_are_known_less_well() {
     let wanted = 1e-12 + 2.0_f64.powi(20 - 49) / 3.0;
     assert!((placed(&chain) / wanted - 1.0).abs() < 1e-14);
 }
+
+/// A joint of a listed position 0.3 m off changes the lengths of its bars by some tenths of 3 m.
+#[test]
+fn what_is_listed_wrongly_is_out_of_balance() {
+    let problem = model::cases::paper();
+    let mut census = Census::take(&problem, &census::Settings::default()).unwrap();
+    assert!(statics(&problem, &census) < 1e-12);
+    let [x, y, z] = census.equilibria[1].joints_m[1].map(Interval::mid);
+    census.equilibria[1].joints_m[1] = [x, y, z + 0.3].map(Interval::point);
+    let found = statics(&problem, &census);
+    assert!(found > 0.02 && found.is_finite(), "{found}");
+}
+
+/// Half a metre of three beside the boxes of the nearer of both.
+#[test]
+fn the_nearest_entry_has_its_number() {
+    let problem = model::cases::paper();
+    let census = Census::take(&problem, &census::Settings::default()).unwrap();
+    for k in 0..2 {
+        let mut joints_m: Vec<Vector> =
+            census.equilibria[k].joints_m.iter().map(|joint| joint.map(Interval::mid)).collect();
+        joints_m[2][2] += if k == 0 { -0.5 } else { 0.5 };
+        let found = nearest(problem.chain(), &census, &joints_m).unwrap();
+        assert_eq!(found.number, k + 1);
+        assert!((found.beyond - 0.5 / 3.0).abs() < 1e-12, "{found:?}");
+        joints_m[1][0] = f64::NAN;
+        assert_eq!(nearest(problem.chain(), &census, &joints_m), None);
+        assert_eq!(nearest(problem.chain(), &census, &joints_m[1..]), None);
+        assert_eq!(nearest_degenerate(problem.chain(), &census, &joints_m), None);
+    }
+}

@@ -61,3 +61,56 @@ fn answers_in_the_vertical_are_at_straight_positions() {
     let short = said(3, down, &[0.0, -1.0, -1.0]);
     assert!(!matches!(short, Reason::AtStraight { .. }), "{short}");
 }
+
+/// The budget of joints, 1e-10 of the length, and what a solver may place, 1e-12 and 8 units in the
+/// last place.
+#[test]
+fn an_answer_is_refuted_by_more_than_two_may_differ() {
+    let problem = model::cases::paper();
+    let bound = 1e-10 + 1e-12 + 8.0 * f64::EPSILON;
+    for (distance, refuted) in [(0.0, false), (0.9999 * bound, false), (1.0001 * bound, true)] {
+        assert_eq!(refutes(problem.chain(), distance), refuted, "{distance:e}");
+    }
+    assert!(!refutes(problem.chain(), f64::NAN));
+}
+
+#[test]
+fn why_an_answer_is_not_listed_is_told() {
+    let problem = model::cases::paper();
+    let chain = problem.chain();
+    let census = Census::take(&problem, &Settings::default()).unwrap();
+    assert!(census.complete && census.undecided.is_empty());
+    let at = |beyond: f64| Some(Nearest { number: 1, beyond });
+    let why = |census: &Census, place: Option<Nearest>| not_listed(chain, census, place, -1.0);
+    assert_eq!(why(&census, at(0.25)), Reason::RefutedByCensus { distance: 0.25 });
+    assert_eq!(why(&census, at(1e-11)), Reason::Elsewhere { distance: 1e-11 });
+    assert_eq!(why(&census, None), Reason::NothingListed);
+    let mut partial = census.clone();
+    partial.complete = false;
+    assert_eq!(why(&partial, at(0.25)), Reason::Elsewhere { distance: 0.25 });
+    assert_eq!(why(&partial, None), Reason::NothingListed);
+}
+
+/// A list whose first entry is taken for another is refuted by, and looked up by number.
+#[test]
+fn an_answer_is_held_against_its_own_entry() {
+    let problem = model::cases::paper();
+    let census = Census::take(&problem, &Settings::default()).unwrap();
+    let mut answers = census.to_model();
+    for (k, answer) in answers.iter_mut().enumerate() {
+        certify_by_census(&problem, &census, answer);
+        let proof = answer.evidence.ladder.verified.proof().unwrap();
+        assert_eq!(proof.box_width.to_bits(), census.equilibria[k].width().to_bits());
+        assert_eq!(proof.circle, census.equilibria[k].circle);
+        assert!(proof.distance < 1e-15 && answer.evidence.ladder.complete.is_reached());
+    }
+    // Half a metre off, of three.
+    let mut off = answers[0].clone();
+    off.joints_m[1][2] -= 0.5;
+    certify_by_census(&problem, &census, &mut off);
+    let why = off.evidence.ladder.complete.reason();
+    assert!(
+        matches!(why, Some(Reason::RefutedByCensus { distance }) if (distance - 1.0 / 6.0).abs() < 1e-9),
+        "{why:?}"
+    );
+}

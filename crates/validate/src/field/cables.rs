@@ -45,9 +45,10 @@ struct Case {
 
 /// A half of the last digit of a number as printed.
 pub(super) fn half_digit(printed: &str) -> f64 {
-    let digits = printed.split(['e', 'E']).next().unwrap_or_default();
+    let (digits, exponent) = printed.split_once(['e', 'E']).unwrap_or((printed, "0"));
     let decimals = digits.split_once('.').map_or(0, |(_, decimals)| decimals.len());
-    0.5 * 10.0_f64.powi(-i32::try_from(decimals).unwrap_or(0))
+    let exponent = exponent.parse().unwrap_or(0) - i32::try_from(decimals).unwrap_or(0);
+    0.5 * 10.0_f64.powi(exponent)
 }
 
 /// The table of MoorPy's tests.

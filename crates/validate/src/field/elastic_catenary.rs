@@ -208,10 +208,15 @@ impl ElasticCatenary {
             length_m * (1.0 + h / stiffness_n) - v / weight_n_m + h / weight_n_m * (v / h).asinh()
         };
         // All of it hangs, and the lower end is level, where √(W² + H²) = H + w z', with z' without
-        // the stretch.
+        // the stretch. Where the stretch alone is as high a part lies whatever the force, and the end
+        // is beyond x where H stretches the length by that.
         let taut_n = weight_n_m * z_m - weight_n * weight_n / (2.0 * stiffness_n);
-        let most = (weight_n - taut_n) * (weight_n + taut_n) / (2.0 * taut_n);
-        if !(taut_n > 0.0 && most > 0.0) {
+        let most = if taut_n > 0.0 {
+            (weight_n - taut_n) * (weight_n + taut_n) / (2.0 * taut_n)
+        } else {
+            stiffness_n * x_m / length_m
+        };
+        if most <= 0.0 {
             return None;
         }
         let span = |h: f64| hanging(h).map_or(f64::NAN, |v| width(h, v) - x_m);
@@ -254,7 +259,7 @@ impl EndForces {
 
 #[cfg(test)]
 mod tests {
-    use super::{ElasticCatenary, asinh_difference};
+    use super::{ElasticCatenary, EndForces, asinh_difference, bisect, root_difference};
 
     /// The near-taut line of MoorPy's table, to the digits of an evaluation in extended precision.
     #[test]
@@ -281,7 +286,9 @@ mod tests {
 
     #[test]
     fn differences_keep_their_digits() {
-        for (b, difference) in [(0.5, 1e-9), (-0.5, 1e-9), (-1e-3, 2e-3), (2.0, 1.0), (-3.0, 1.0)] {
+        for (b, difference) in
+            [(0.5, 1e-9), (-0.5, 1e-9), (-1e-3, 2e-3), (2.0, 1.0), (-3.0, 1.0), (-1e3, 1e-12)]
+        {
             let a = b + difference;
             let found = asinh_difference(a, b, difference);
             // By the mean value; its second derivative is below 1/2.
@@ -354,5 +361,127 @@ mod tests {
         ] {
             assert_eq!(wrong.solve(), None, "{wrong:?}");
         }
+    }
+
+    /// Of 1 N/m: hardly anything lies, 3 N of 3.05 N hang; half a metre of 1/10 N, which its own weight
+    /// alone would stretch by more than that: 0.12 N of it hang; and a cable that hardly stretches.
+    #[test]
+    fn cables_nearly_lifted_and_very_soft_ones_lie_as_they_were_made() {
+        for (length_m, stiffness_n, h, v) in
+            [(3.05, 50.0, 2.0, 3.0), (0.5, 0.1, 0.2, 0.12), (10.0, 1e9, 2.0, 3.0)]
+        {
+            let slope: f64 = v / h;
+            let z_m = f64::hypot(h, v) - h + v * v / (2.0 * stiffness_n);
+            let x_m = length_m - v + h * length_m / stiffness_n + h * slope.asinh();
+            let cable = ElasticCatenary { x_m, z_m, length_m, stiffness_n, weight_n_m: 1.0 };
+            let found = cable.solve_on_floor().unwrap();
+            assert!((found.ends.horizontal_n / h - 1.0).abs() < 1e-12, "{found:?}");
+            assert!((found.ends.upper_n / v - 1.0).abs() < 1e-12, "{found:?}");
+            assert!((found.lies_m - (length_m - v)).abs() < 1e-12, "{found:?}");
+        }
+        // Too short to reach the floor.
+        let short = ElasticCatenary {
+            x_m: 1.0,
+            z_m: 5.0,
+            length_m: 3.0,
+            stiffness_n: 1e9,
+            weight_n_m: 1.0,
+        };
+        assert_eq!(short.solve_on_floor(), None);
+        let fine = ElasticCatenary { z_m: 1.0, x_m: 2.5, ..short };
+        assert!(fine.solve_on_floor().is_some());
+        for wrong in [
+            ElasticCatenary { z_m: 0.0, x_m: 3.5, ..fine },
+            ElasticCatenary { stiffness_n: f64::INFINITY, ..fine },
+            ElasticCatenary { length_m: f64::NAN, ..fine },
+            ElasticCatenary { weight_n_m: -1.0, ..fine },
+        ] {
+            assert_eq!(wrong.solve_on_floor(), None, "{wrong:?}");
+        }
+    }
+
+    /// `12 N` across, and slopes of 3/4 at the upper end and ±5/12 at the lower: roots of 5/4 and
+    /// 13/12, inverse sines of `ln 2` and `ln 3/2`. Mirrored, the slopes and heights change sign.
+    #[test]
+    fn ends_and_flexibilities_are_those_of_the_closed_form() {
+        let (ln2, ln3) = (2.0_f64.ln(), 3.0_f64.ln());
+        let cable = |length_m: f64| ElasticCatenary {
+            x_m: 1.0,
+            z_m: 1.0,
+            length_m,
+            // The stretch is 1/4 m/N.
+            stiffness_n: 4.0 * length_m,
+            weight_n_m: 2.0,
+        };
+        // 14 N between +9 N and -5 N; 4 N between 9 and 5 N; and between -5 N and -9 N.
+        let cases = [
+            (7.0, 9.0, 3.0 + 6.0 * ln3, 0.5 + 1.0, ln3, 64.0 / 65.0, -8.0 / 65.0),
+            (
+                2.0,
+                9.0,
+                3.0 + 6.0 * (2.0 * ln2 - ln3),
+                2.75,
+                2.0 * ln2 - ln3,
+                14.0 / 65.0,
+                -8.0 / 65.0,
+            ),
+            (
+                2.0,
+                -5.0,
+                3.0 + 6.0 * (2.0 * ln2 - ln3),
+                -2.75,
+                2.0 * ln2 - ln3,
+                14.0 / 65.0,
+                8.0 / 65.0,
+            ),
+        ];
+        for (length_m, v, x, z, angles, sines, cosines) in cases {
+            let cable = cable(length_m);
+            let close = |found: f64, wanted: f64| {
+                assert!(
+                    (found - wanted).abs() < 1e-14 * wanted.abs().max(1.0),
+                    "{v}: {found} {wanted}"
+                );
+            };
+            let end = cable.end_m([12.0, v]);
+            close(end[0], x);
+            close(end[1], z);
+            let [xx, xz, zz] = cable.flexibility([12.0, v]);
+            close(xx, 0.25 + 0.5 * (angles - sines));
+            close(xz, 0.5 * cosines);
+            close(zz, 0.25 + 0.5 * sines);
+        }
+        assert!((root_difference(0.75, 5.0 / 12.0, 1.0 / 3.0) - 1.0 / 6.0).abs() < 1e-15);
+        assert!((asinh_difference(0.75, 0.0, 0.75) - ln2).abs() < 1e-15);
+        assert!((asinh_difference(0.0, -0.75, 0.75) - ln2).abs() < 1e-15);
+    }
+
+    /// A lower end that bears 9 N of 12 N across: 9/2 m of 2 N/m below it, `81/(2 · 2 · 27)` of them
+    /// stretch and `6 (5/4 - 1)` hang.
+    #[test]
+    fn the_sag_is_that_of_what_the_lower_end_bears() {
+        let cable = ElasticCatenary {
+            x_m: 1.0,
+            z_m: 0.0,
+            length_m: 10.0,
+            stiffness_n: 27.0,
+            weight_n_m: 2.0,
+        };
+        let sag =
+            |lower_n: f64| EndForces { horizontal_n: 12.0, upper_n: 1.0, lower_n }.sag_m(&cable);
+        assert!((sag(9.0) - (0.75 + 1.5)).abs() < 1e-15);
+        assert_eq!(sag(0.0).to_bits(), 0);
+        assert_eq!(sag(-9.0).to_bits(), 0);
+    }
+
+    #[test]
+    fn a_zero_is_found_where_the_signs_differ() {
+        let found = bisect([0.0, 3.0], |x| x * x - 2.0).unwrap();
+        assert!((found - 2.0_f64.sqrt()).abs() <= 2.0 * f64::EPSILON, "{found}");
+        // At an end, too.
+        assert!(bisect([0.0, 3.0], |x| x).is_some_and(|x| x.abs() < 1e-300));
+        assert!(bisect([0.0, 3.0], |x| x - 3.0).is_some_and(|x| (x - 3.0).abs() < 1e-15));
+        assert_eq!(bisect([0.0, 3.0], |x| x + 1.0), None);
+        assert_eq!(bisect([0.0, 3.0], |x| x - 4.0), None);
     }
 }

@@ -93,3 +93,6 @@ fn largest_left_n(net: &formats::system::ForceDensityNet) -> f64 {
     let free = net.nodes.iter().zip(left).filter(|(node, _)| !node.held);
     free.map(|(_, force)| norm(force)).fold(0.0, worse)
 }
+
+#[cfg(test)]
+mod tests;

@@ -47,3 +47,6 @@ pub fn end_forces(answer: &SystemEquilibrium) -> Option<[f64; 3]> {
 pub fn run_on_floor(cable: &ElasticCatenary, members: usize) -> Result<System, SystemError> {
     run_of_members(cable, members)?.with_floor(0.0)
 }
+
+#[cfg(test)]
+mod tests;

@@ -62,3 +62,6 @@ impl Bounds {
         2.0 * self.position_m
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -53,3 +53,6 @@ pub(super) fn above_floor(
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

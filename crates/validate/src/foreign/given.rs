@@ -266,3 +266,6 @@ fn shortened(mut names: Vec<String>) -> (usize, Vec<String>) {
     names.truncate(LISTED);
     (count, names)
 }
+
+#[cfg(test)]
+mod tests;

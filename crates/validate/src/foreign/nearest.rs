@@ -210,3 +210,6 @@ impl Serialize for Nearest {
         .serialize(serializer)
     }
 }
+
+#[cfg(test)]
+mod tests;

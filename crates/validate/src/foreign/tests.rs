@@ -13,7 +13,7 @@ use super::{Finding, ForcesJudged, ForeignAnswer, GivenError, Judgement, Law, ju
 
 /// A lamp of 2 N on two massless cables of 5 m between anchors 6 m apart (3, 4, 5): each pulls with
 /// 5/4 N.
-fn lamp() -> System {
+pub(super) fn lamp() -> System {
     let joints = vec![
         Joint::anchor("A", [-3.0, 0.0, 0.0]),
         Joint::anchor("B", [3.0, 0.0, 0.0]),
@@ -373,4 +373,135 @@ fn positions_are_known_to_the_tolerance_and_to_rounding() {
 fn members_are_told_by_number_and_joints() {
     let system = lamp();
     assert_eq!([0, 1].map(|k| member_name(&system, k)), ["1 (A - P)", "2 (P - B)"]);
+}
+
+/// A load along the only column is balanced but for the ridge, a billionth, and its square after the
+/// next step, which is nothing. One across is left as it is, and next to one as large as that the
+/// billionth is no gain.
+#[test]
+fn the_search_ends_with_nothing_left_or_nothing_gained() {
+    let columns = [Column {
+        joints: [0, 1],
+        unit: [1.0, 0.0, 0.0],
+        lower: f64::NEG_INFINITY,
+        upper: f64::INFINITY,
+    }];
+    let free = |joint: usize, force: [f64; 3]| if joint == 0 { force } else { [0.0; 3] };
+    for (across, steps) in [(0.0, 2), (0.03, 2), (0.5, 1)] {
+        let loads = [[-3.0, across, 0.0], [0.0; 3]];
+        let found = Problem { columns: &columns, loads: &loads, free: &free }.solve();
+        assert!((found.x[0] - 3.0).abs() < 1e-8, "{found:?}");
+        assert!(found.left[0][0].abs() < 1e-8 && (found.left[0][1] - across).abs() < 1e-15);
+        assert_eq!((found.steps, found.converged), (steps, true), "{across}");
+    }
+}
+
+/// A spring between two joints that are known to 1/4 m each has the force of any elongation in
+/// reach; a rigid cable that is clearly shorter, and a strut that is clearly longer, none.
+#[test]
+fn forces_are_searched_within_the_reach_of_the_places() {
+    let bounds = Bounds { tolerance: 0.0, position_m: 0.25, force_n: 0.0 };
+    // A joint 4 m above or below its anchor that is drawn up by 10 N: whatever the member bears up to
+    // its bounds is left over.
+    let force = |kind: Kind, stiffness_n: Option<f64>, length_m: f64, up_n: f64| {
+        let body = Bar::homogeneous(length_m, 0.0).unwrap();
+        let member = Member { kind, stiffness_n, ..Member::bar(0, 1, body) };
+        let joints =
+            vec![Joint::anchor("A", [0.0; 3]), Joint::free("P").with_force([0.0, 0.0, up_n])];
+        let system = System::new("one", 10.0, joints, vec![member]).unwrap();
+        let found = best_forces(&system, &[[0.0; 3], [0.0, 0.0, 4.0]], &bounds);
+        let largest_n = found.axial_n[0].abs();
+        assert!((found.largest_n - largest_n).abs() < 1e-15 && found.converged, "{found:?}");
+        assert!((found.residual_n - (up_n - found.axial_n[0]).abs()).abs() < 1e-9, "{found:?}");
+        found.axial_n[0]
+    };
+    let close =
+        |found: f64, wanted: f64| assert!((found - wanted).abs() < 1e-8, "{found} {wanted}");
+    // 8 N over 2 m, drawn by 2 m: between 6 and 10 N.
+    for (up_n, wanted) in [(20.0, 10.0), (9.0, 9.0), (1.0, 6.0)] {
+        close(force(Kind::Bar, Some(8.0), 2.0, up_n), wanted);
+        close(force(Kind::Cable, Some(8.0), 2.0, up_n), wanted);
+        close(force(Kind::Strut, Some(8.0), 2.0, up_n), 0.0);
+    }
+    // 16 N over 8 m, pressed by 4 m: between -9 and -7 N.
+    for (up_n, wanted) in [(-20.0, -9.0), (-8.0, -8.0), (1.0, -7.0)] {
+        close(force(Kind::Bar, Some(16.0), 8.0, up_n), wanted);
+        close(force(Kind::Cable, Some(16.0), 8.0, up_n), 0.0);
+        close(force(Kind::Strut, Some(16.0), 8.0, up_n), wanted);
+    }
+    for up_n in [10.0, -10.0] {
+        for length_m in [3.0, 4.0, 5.0] {
+            close(force(Kind::Bar, None, length_m, up_n), up_n);
+        }
+        for (length_m, taut) in [(3.0, true), (4.5, true), (4.625, false), (5.0, false)] {
+            close(force(Kind::Cable, None, length_m, up_n), if taut { up_n.max(0.0) } else { 0.0 });
+        }
+        for (length_m, tight) in [(5.0, true), (3.5, true), (3.375, false), (3.0, false)] {
+            close(
+                force(Kind::Strut, None, length_m, up_n),
+                if tight { up_n.min(0.0) } else { 0.0 },
+            );
+        }
+    }
+}
+
+/// 5 N in a bar along (2, 3, 6)/7 with the loads of its joints: what comes to a joint, what is free
+/// there, and what the ground is left with.
+#[test]
+fn what_follows_from_axial_forces_is_that_of_the_lever_rule() {
+    use super::complete::largest_n;
+    use crate::systems::judge;
+    let mut bar = Member::bar(0, 1, Bar::new(7.0, 8.0, 1.75, [0.0; 3]).unwrap());
+    bar.loads.push(PointLoad { at_m: 4.375, force_n: [5.0, -6.0, 4.0] });
+    let along = [0.6, 0.0, 0.8];
+    let guide = model::system::Support::Line { at_m: [3.0, 1.0, 11.0], direction: along };
+    let joints = vec![
+        Joint::anchor("A", [1.0, -2.0, 5.0]),
+        Joint { support: guide, ..Joint::free("B").with_mass(3.0).with_force([2.0, -1.0, 4.0]) },
+    ];
+    let system = System::new("guided", 10.0, joints, vec![bar]).unwrap();
+    let places = [[1.0, -2.0, 5.0], [3.0, 1.0, 11.0]];
+    let found = complete(&system, &SolverName::new("a table"), &places, &[14.0]);
+    // 14 N are (4, 6, 12) N; A has (15/8, -9/4, -117/2) N of loads, B (41/8, -19/4, -87/2) N.
+    assert_eq!(found.start_forces_n, [[-4.0 - 1.875, -6.0 + 2.25, -12.0 + 58.5]]);
+    assert_eq!(found.end_forces_n, [[4.0 - 3.125, 6.0 + 3.75, 12.0 - (-20.0 + 2.5)]]);
+    assert_eq!(found.reactions_n[..1], [[-4.0 - 1.875, -6.0 + 2.25, -12.0 + 58.5]]);
+    // B has (9/8, -43/4, -111/2) N, of which 0.6 and 0.8 of 0.675 - 44.4 N are free.
+    let free = 0.675 - 44.4;
+    let wanted = [-1.125 + 0.6 * free, 10.75, 55.5 + 0.8 * free];
+    for (found, wanted) in found.reactions_n[1].into_iter().zip(wanted) {
+        assert!((found - wanted).abs() < 1e-14, "{found}, not {wanted}");
+    }
+    // 155 + 120 - 10 J, as by the judge.
+    assert!((found.energy_j - 265.0).abs() < 1e-12, "{}", found.energy_j);
+    let judged = judge(&system, &found);
+    assert!(judged.force < 1e-14 && judged.moment < 1e-14 && judged.derived < 1e-14, "{judged:?}");
+    let largest = (5.875_f64.powi(2) + 3.75_f64.powi(2) + 46.5_f64.powi(2)).sqrt();
+    let load = (1.875_f64.powi(2) + 2.25_f64.powi(2) + 58.5_f64.powi(2)).sqrt();
+    assert!((largest_n(&system, &found) - load.max(largest)).abs() < 1e-13);
+    let pulled = complete(&system, &SolverName::new("a table"), &places, &[-1000.0]);
+    assert!((largest_n(&system, &pulled) - 1000.0).abs() < 60.0);
+}
+
+/// 3 N are balanced as above. Beside them 1e-9 N are across two members so nearly in one line that
+/// the ridge leaves a thousandth: 1e-12, 1e-15 and 1e-18 N, the last of which is rounding beside 3 N.
+#[test]
+fn the_search_ends_where_rounding_is_left() {
+    let (along, across) = (0.999_999_5_f64.sqrt(), 0.5e-6_f64.sqrt());
+    let column = |joints: [usize; 2], unit: [f64; 3]| Column {
+        joints,
+        unit,
+        lower: f64::NEG_INFINITY,
+        upper: f64::INFINITY,
+    };
+    let columns = [
+        column([0, 2], [1.0, 0.0, 0.0]),
+        column([1, 3], [along, across, 0.0]),
+        column([1, 4], [along, -across, 0.0]),
+    ];
+    let free = |joint: usize, force: [f64; 3]| if joint < 2 { force } else { [0.0; 3] };
+    let loads = [[-3.0, 0.0, 0.0], [0.0, 1e-9, 0.0], [0.0; 3], [0.0; 3], [0.0; 3]];
+    let found = Problem { columns: &columns, loads: &loads, free: &free }.solve();
+    assert_eq!((found.steps, found.converged), (3, true), "{found:?}");
+    assert!(found.left[1][1].abs() < 2e-18, "{found:?}");
 }

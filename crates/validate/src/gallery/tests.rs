@@ -25,3 +25,20 @@ fn numbers_are_read_by_the_names_of_joints() {
     let weight = system.total_mass_kg() * system.gravity_m_s2();
     assert!((up / weight - 1.0).abs() < 1e-12 && weight > 1.0, "{up} {weight}");
 }
+
+/// Both solvers find the closed form of every exhibit, as accurately as the linkage, the worst of
+/// all, lets them.
+#[test]
+fn what_is_known_is_found() {
+    let pieces = solve();
+    assert_eq!(pieces.len(), gallery().len());
+    for piece in pieces {
+        let wanted = piece.closed_form.value;
+        assert_eq!(piece.answer.equilibria.len(), 2);
+        for answer in &piece.answer.equilibria {
+            let found = (piece.closed_form.of)(&piece.system, answer);
+            assert!((found / wanted - 1.0).abs() < 1e-11, "{}: {found}", piece.exhibit.name);
+        }
+    }
+    assert!(closed_form("nobody").is_none());
+}

@@ -160,3 +160,6 @@ fn null_rows(matrix: &Mat<f64>) -> Option<(Vec<Vec<f64>>, f64)> {
     let stress = |k: usize| (0..rows).map(|row| svd.U()[(row, k)]).collect();
     Some(((rank..rows).map(stress).collect(), zero))
 }
+
+#[cfg(test)]
+mod tests;

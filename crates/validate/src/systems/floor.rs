@@ -42,3 +42,6 @@ pub(super) fn push_n(system: &System, answer: &SystemEquilibrium, joint: usize) 
     }
     dot(answer.reactions_n[joint], rising) / rate
 }
+
+#[cfg(test)]
+mod tests;

@@ -383,4 +383,4 @@ fn energy(system: &System, answer: &SystemEquilibrium, units: &Units) -> f64 {
 }
 
 #[cfg(test)]
-mod tests;
+pub(super) mod tests;

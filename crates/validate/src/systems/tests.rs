@@ -316,3 +316,45 @@ fn an_answer_alone_out_of_balance_is_refused() {
     assert!(matches!(reason, Some(Reason::JudgeRefuses { .. })), "{reason:?}");
     assert!(answer.evidence.ladder.failed());
 }
+
+/// Whichever number is missing in whichever of both answers.
+#[test]
+fn what_is_missing_is_no_agreement() {
+    let (system, answer) = lamp();
+    let changes: [Change; 5] = [
+        |a| a.start_forces_n.truncate(1),
+        |a| a.end_forces_n.truncate(1),
+        |a| a.axial_n.truncate(1),
+        |a| a.reactions_n.truncate(2),
+        |a| a.joints_m.truncate(2),
+    ];
+    for (k, change) in changes.into_iter().enumerate() {
+        for short in 0..2 {
+            let mut both = [answer.clone(), answer.clone()];
+            both[1].solver = SolverName::ENERGY;
+            change(&mut both[short]);
+            let found = compare(&system, &mut both, &Tolerances::project());
+            assert!(!found.agrees(), "{k} {short}");
+            assert_eq!([found.joints_m.is_nan(), found.forces_n.is_nan()], [k == 4, k < 4]);
+        }
+    }
+}
+
+/// Of three answers the largest difference of any two counts.
+#[test]
+fn three_answers_are_compared_two_by_two() {
+    let (system, answer) = lamp();
+    let at = |aside_m: f64, energy_j: f64| {
+        let mut answer = answer.clone();
+        answer.joints_m[2][1] += aside_m;
+        answer.reactions_n[0][1] += 2.0 * aside_m;
+        answer.energy_j += energy_j;
+        answer
+    };
+    let mut all = [at(0.25, 0.5), at(0.0, 0.0), at(-0.5, 2.0)];
+    let found = compare(&system, &mut all, &Tolerances::project());
+    assert!((found.joints_m - 0.75).abs() < 1e-15 && (found.forces_n - 1.5).abs() < 1e-14);
+    assert!((found.energy_j - 2.0).abs() < 1e-14);
+    assert_eq!(found.statics.len(), 3);
+    assert_eq!((found.turned_parts, found.free_joints), (0, 0));
+}

@@ -189,3 +189,6 @@ fn turned(
     }
     turned
 }
+
+#[cfg(test)]
+mod tests;

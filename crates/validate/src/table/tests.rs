@@ -79,3 +79,62 @@ fn rows_are_written_as_columns() {
         "case,observable,lagrange,energy,difference\nc,energy_j,1e0,-2.5e-1,1.25e0\n"
     );
 }
+
+/// The table compares, and asks no census.
+#[test]
+fn both_solvers_are_asked_and_no_census() {
+    use model::{NoCensus, Reason};
+    let (answers, agreement) = both(&problem(), &Tolerances::project()).unwrap();
+    assert!(agreement.agrees());
+    assert_eq!(answers[0].solver, SolverName::LAGRANGE);
+    assert_eq!(answers[1].solver, SolverName::ENERGY);
+    for answer in answers {
+        let why = answer.evidence.ladder.complete.reason().cloned();
+        assert_eq!(why, Some(Reason::NoCensus(NoCensus::NotAsked)));
+    }
+}
+
+/// The largest differences are told in the units of their budgets, and of long chains the ends.
+#[test]
+fn a_case_is_told_in_the_units_of_its_budgets() {
+    let case = model::cases::get("two-bars").unwrap();
+    let result = run(case, &Tolerances::project());
+    assert_eq!((result.case.as_str(), result.bars, result.failure.as_ref()), ("two-bars", 2, None));
+    assert!(result.agrees() && result.rung.is_some());
+    let agreement = result.agreement.unwrap();
+    let problem = case.problem();
+    let chain = problem.chain();
+    let length_m = chain.total_length_m();
+    let weight_n = chain.total_mass_kg() * chain.gravity_m_s2();
+    let [joints, forces, energy, statics] = result.scaled.unwrap();
+    let rounding_m = crate::statics::stored_rounding_m(chain);
+    let beyond_m =
+        if agreement.joints_m > rounding_m { agreement.joints_m - rounding_m } else { 0.0 };
+    assert!((joints - beyond_m / length_m).abs() < 1e-20, "{joints:e}");
+    assert!((energy * weight_n * length_m - agreement.energy_j).abs() < 1e-20, "{energy:e}");
+    assert!(forces * weight_n <= agreement.forces_n);
+    assert!(agreement.statics.iter().all(|one| one.largest() <= statics));
+}
+
+/// Of chains of more than ten bars the ends are listed, and ten axial forces.
+#[test]
+fn long_chains_are_told_by_their_ends() {
+    let count = |bars: usize| {
+        let anchors = Anchors { start_m: [0.0; 3], end_m: [1.0, 0.0, 0.25] };
+        let bar = Bar::homogeneous(1.0, 1.0).unwrap();
+        let chain = Chain::new("long", 9.81, anchors, vec![bar; bars]).unwrap();
+        let problem = Problem::new(chain).unwrap();
+        let settings = lagrange::condensed::Settings::default();
+        let first = lagrange::condensed::solve(&problem, &settings).unwrap().equilibrium;
+        let mut answers = [first.clone(), first];
+        let agreement = crate::compare::compare(&problem, &mut answers, &Tolerances::project());
+        let units = Units::new(problem.chain(), &answers[0].multipliers_n);
+        let rows = rows("long", &answers, &agreement, &units);
+        assert_eq!(rows.last().unwrap().observable, format!("axial[{}]_n", bars.min(10)));
+        assert!(rows.iter().all(|row| row.difference < 1e-15));
+        let starting = |with: &str| rows.iter().filter(|r| r.observable.starts_with(with)).count();
+        (starting("joint"), starting("force"), starting("axial"))
+    };
+    assert_eq!(count(10), (27, 33, 10));
+    assert_eq!(count(11), (0, 6, 10));
+}

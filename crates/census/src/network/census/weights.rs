@@ -79,3 +79,6 @@ impl Weights<'_> {
         Ok(())
     }
 }
+
+#[cfg(test)]
+mod tests;

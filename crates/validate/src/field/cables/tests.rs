@@ -25,3 +25,85 @@ fn the_corner_of_the_frame_is_in_balance() {
         assert!((bar.allowed - (8.0 + broken_n) / 64.0).abs() < 1e-15);
     }
 }
+
+#[test]
+fn half_a_digit_is_that_of_the_last_one_printed() {
+    for (printed, half) in
+        [("12", 0.5), ("-8.5", 0.05), ("0.125", 5e-4), ("1.25e3", 5.0), ("2E-3", 5e-4)]
+    {
+        assert!((half_digit(printed) / half - 1.0).abs() < 1e-14, "{printed}");
+    }
+}
+
+/// Twelve newtons across and slopes of 3/4 and 5/12 up, so that 14 N of cable are between 9 N at the
+/// upper end and -5 N at the lower; or 9 and 5 N down where it hangs upwards. What is printed adds up
+/// to half a newton less.
+#[test]
+fn a_mooring_line_is_told_with_the_signs_of_its_source() {
+    let ln3 = 3.0_f64.ln();
+    let case = |weight_n_m: f64, expected: [&str; 4]| Case {
+        index: 7,
+        x_m: 3.0 + 6.0 * ln3,
+        z_m: 1.5,
+        length_m: 7.0,
+        stiffness_n: 28.0,
+        weight_n_m,
+        friction: None,
+        expected: expected.map(str::to_owned).to_vec(),
+        on_floor_m: None,
+    };
+    for (weight_n_m, expected, ours) in [
+        (2.0, ["12.0", "-5.0", "-12.0", "-8.5"], [12.0, -5.0, -12.0, -9.0]),
+        (-2.0, ["12.0", "9.0", "-12.0", "5.5"], [12.0, 9.0, -12.0, 5.0]),
+    ] {
+        let entry = moorpy_case(&case(weight_n_m, expected), 0.125);
+        assert_eq!((entry.title.as_str(), entry.numbers.len()), ("mooring line, index 7", 4));
+        for ((number, ours), printed) in entry.numbers.iter().zip(ours).zip(expected) {
+            assert!((number.ours - ours).abs() < 1e-12, "{number:?}");
+            assert_eq!(number.printed, printed);
+            let published: f64 = printed.parse().unwrap();
+            assert!((number.published - published).abs() < 1e-15);
+            assert!((number.allowed - 0.125 * published.abs()).abs() < 1e-15);
+        }
+        let check = entry.by_hand.unwrap();
+        assert!((check.broken_n - 0.5).abs() < 1e-14, "{check:?}");
+        let sizes: f64 =
+            [expected[1], expected[3]].map(|n| n.parse::<f64>().unwrap().abs()).iter().sum();
+        assert!((check.allowed_n - 0.125 * sizes).abs() < 1e-14, "{check:?}");
+        let Some(BothSolvers::Run { members: 100, off }) = entry.solvers else { panic!() };
+        assert!(
+            off.iter().all(|(_, off)| off.is_some_and(|off| off > 0.0 && off < 1e-3)),
+            "{off:?}"
+        );
+    }
+}
+
+/// 3 N of 10 N hang and are borne, 7 m lie; 9 N and 2 N are published for what hangs.
+#[test]
+fn a_line_on_the_floor_is_told_with_what_lies() {
+    let (h, v) = (2.0_f64, 3.0_f64);
+    let case = |friction: f64| Case {
+        index: 1,
+        x_m: 7.0 + h * 10.0 / 50.0 + h * (v / h).asinh(),
+        z_m: h.hypot(v) - h + v * v / 100.0,
+        length_m: 10.0,
+        stiffness_n: 50.0,
+        weight_n_m: 1.0,
+        friction: Some(friction),
+        expected: ["2.0", "0.0", "-2.0", "-3.5"].map(str::to_owned).to_vec(),
+        on_floor_m: Some("6.0".to_owned()),
+    };
+    let entry = moorpy_case(&case(0.0), 0.25);
+    let found: Vec<f64> = entry.numbers.iter().map(|number| number.ours).collect();
+    for (found, wanted) in found.iter().zip([2.0, 0.0, -2.0, -3.0, 7.0]) {
+        assert!((found - wanted).abs() < 1e-11, "{found}, not {wanted}");
+    }
+    let lies = &entry.numbers[4];
+    assert!((lies.published - 6.0).abs() < 1e-15 && (lies.allowed - 1.5).abs() < 1e-15);
+    // 10 m less 6 m weigh 4 N, and 3.5 N are borne.
+    let check = entry.by_hand.as_ref().unwrap();
+    assert!((check.broken_n - 0.5).abs() < 1e-14 && (check.allowed_n - 0.875).abs() < 1e-14);
+    let Some(BothSolvers::Run { off, .. }) = &entry.solvers else { panic!() };
+    assert!(off.iter().all(|(_, off)| off.is_some_and(|off| off > 0.0 && off < 1e-2)), "{off:?}");
+    assert!(moorpy_case(&case(0.5), 0.25).not_judged.is_some());
+}

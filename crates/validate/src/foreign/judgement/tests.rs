@@ -3,6 +3,9 @@
 use model::Bar;
 use model::system::{Joint, Member};
 
+use super::super::complete::complete as completed_by;
+use super::super::tests::lamp;
+use super::super::violation::Law;
 use super::*;
 
 /// A spring of 2 m and 6 N whose ends are known to 0.25 m each: 6/2 N/m times 0.5 m and the force's
@@ -16,4 +19,184 @@ fn a_stiff_member_may_be_off_by_what_its_ends_are() {
     let bounds = Bounds { tolerance: 0.0, position_m: 0.25, force_n: 0.5 };
     let found = [0, 1, 2, 3].map(|member| allowed_n(&system, member, &bounds).to_bits());
     assert_eq!(found, [0.5, 0.5, 2.0, 0.5].map(f64::to_bits));
+}
+
+const KNOWN: Bounds = Bounds { tolerance: 0.0, position_m: 0.25, force_n: 0.5 };
+
+fn at_rest(solver: &SolverName) -> SystemEquilibrium {
+    let places = [[-3.0, 0.0, 0.0], [3.0, 0.0, 0.0], [0.0, 0.0, -4.0]];
+    completed_by(&lamp(), solver, &places, &[1.25; 2])
+}
+
+/// An equilibrium so far away, with such forces.
+fn one(joints_m: f64, forces_n: f64, forces_unique: Option<bool>) -> NearestEquilibrium {
+    NearestEquilibrium {
+        equilibrium: at_rest(&SolverName::ENERGY),
+        joints_m,
+        joint: 2,
+        forces_n,
+        member: 1,
+        energy_j: -0.125,
+        forces_unique,
+        proved: None,
+    }
+}
+
+fn near(equilibria: Vec<NearestEquilibrium>) -> Nearest {
+    Nearest { equilibria, failures: vec![], without_guess: false }
+}
+
+fn given(axial_n: Option<Vec<f64>>) -> ForeignAnswer {
+    let joints_m = at_rest(&SolverName::ENERGY).joints_m;
+    ForeignAnswer::in_order(&lamp(), "a table", joints_m, axial_n).unwrap()
+}
+
+fn broken() -> Measured {
+    let mut broken = Measured::default();
+    broken.note(Place::Joint(2), Law::Support, 3.0, 2.0);
+    broken
+}
+
+#[test]
+fn what_an_answer_comes_to_is_told_in_its_order() {
+    let best = |converged: bool| {
+        let residual = BestForces {
+            axial_n: vec![],
+            left_n: vec![],
+            residual_n: 0.0,
+            largest_n: 0.0,
+            steps: 1,
+            converged,
+        };
+        ForcesJudged::Found(residual)
+    };
+    let told = |answer: &ForeignAnswer, forces: &ForcesJudged, measured: &Measured, nearest| {
+        finding(&lamp(), answer, forces, measured, &nearest, &KNOWN)
+    };
+    let (with, without) = (given(Some(vec![1.25; 2])), given(None));
+    let right = Measured::default();
+    let simply = |nearest| told(&with, &ForcesJudged::Given, &right, nearest);
+    assert_eq!(told(&with, &ForcesJudged::Given, &broken(), near(vec![])), Finding::Refuted);
+    assert_eq!(told(&without, &best(false), &right, near(vec![])), Finding::ForcesNotFound);
+    assert_eq!(told(&without, &best(true), &right, near(vec![])), Finding::NoEquilibrium);
+    assert_eq!(simply(near(vec![])), Finding::NoEquilibrium);
+    let far = |joints_m: f64| Finding::Far { joints_m, allowed_m: 0.25 };
+    assert_eq!(simply(near(vec![one(0.25, 0.0, Some(true))])), Finding::Confirmed);
+    assert_eq!(simply(near(vec![one(0.26, 0.0, Some(true))])), far(0.26));
+    assert_eq!(simply(near(vec![one(0.3, 0.0, None), one(0.1, 0.0, None)])), far(0.3));
+    let Finding::Far { joints_m, .. } = simply(near(vec![one(f64::NAN, 0.0, None)])) else {
+        panic!()
+    };
+    assert!(joints_m.is_nan());
+    let other = Finding::OtherForces { forces_n: 0.75, allowed_n: 0.5 };
+    assert_eq!(simply(near(vec![one(0.1, 0.75, Some(true))])), other);
+    assert_eq!(simply(near(vec![one(0.1, 0.5, Some(true))])), Finding::Confirmed);
+    for unique in [Some(false), None] {
+        assert_eq!(simply(near(vec![one(0.1, 0.75, unique)])), Finding::Confirmed);
+    }
+    let found = told(&without, &best(true), &right, near(vec![one(0.1, 0.75, Some(true))]));
+    assert_eq!(found, Finding::Confirmed);
+}
+
+/// Of an equilibrium that both solvers found those within the tolerance stand behind the answer.
+#[test]
+fn who_stands_behind_an_answer_is_told() {
+    let mut found = one(0.125, 0.25, Some(true));
+    let own = Agreed {
+        solvers: vec![SolverName::LAGRANGE, SolverName::ENERGY],
+        joints_m: 1.0,
+        forces_n: 2.0,
+        energy_j: 3.0,
+        statics: 4.0,
+        free_joints: None,
+        room: None,
+        shape_only: true,
+        curvature_undecided: vec![],
+    };
+    found.equilibrium.evidence.ladder.agreed = Status::Reached(own.clone());
+    let source = SolverName::new("a table");
+    let told = |others: Vec<NearestEquilibrium>, found: &NearestEquilibrium| {
+        let all = std::iter::once(found.clone()).chain(others).collect();
+        let told = agreed(&at_rest(&source), &near(all), &KNOWN, found);
+        told.proof().unwrap().clone()
+    };
+    let wanted = |solvers: usize, shape_only: bool| Agreed {
+        solvers: std::iter::once(source.clone()).chain(vec![SolverName::ENERGY; solvers]).collect(),
+        joints_m: 0.125,
+        forces_n: 0.25,
+        energy_j: 0.125,
+        shape_only,
+        ..own.clone()
+    };
+    assert_eq!(told(vec![], &found), wanted(1, false));
+    assert_eq!(told(vec![one(0.25, 0.0, None)], &found), wanted(2, false));
+    assert_eq!(told(vec![one(0.26, 0.0, None)], &found), wanted(1, false));
+    found.forces_unique = Some(false);
+    assert_eq!(told(vec![], &found), wanted(1, true));
+    // What the equilibrium itself has not reached, the answer has not.
+    let open = one(0.125, 0.25, None);
+    let told = agreed(&at_rest(&source), &near(vec![open.clone()]), &KNOWN, &open);
+    assert_eq!(told, open.equilibrium.evidence.ladder.agreed);
+}
+
+#[test]
+fn rungs_that_are_not_reached_say_why() {
+    let (system, answer) = (lamp(), at_rest(&SolverName::new("a table")));
+    let of = |finding: Finding, measured: &Measured, nearest: Vec<NearestEquilibrium>| {
+        ladder(&system, &answer, finding, measured, &near(nearest), &KNOWN)
+    };
+    let right = Measured::default();
+    let between = [SolverName::new("a table"), SolverName::ENERGY];
+    let apart = |what: Quantity, value: f64, budget: f64| {
+        let excesses = vec![Excess { what, value, budget }];
+        Some(Reason::SolversDisagree(Disagreement { excesses, stability: vec![] }))
+    };
+
+    let far = of(
+        Finding::Far { joints_m: 0.75, allowed_m: 0.25 },
+        &right,
+        vec![one(0.75, 0.0, Some(true))],
+    );
+    assert!(far.converged.is_reached());
+    let joints = Quantity::Joints { between: between.clone() };
+    assert_eq!(far.agreed.reason().cloned(), apart(joints, 0.75, 0.25));
+
+    let other = Finding::OtherForces { forces_n: 0.75, allowed_n: 0.625 };
+    let other = of(other, &right, vec![one(0.1, 0.75, Some(true))]);
+    assert_eq!(other.agreed.reason().cloned(), apart(Quantity::Forces { between }, 0.75, 0.625));
+
+    let refuted = of(Finding::Refuted, &broken(), vec![one(0.75, 0.0, Some(true))]);
+    let Some(Reason::JudgeRefuses { excesses }) = refuted.agreed.reason() else { panic!() };
+    let place = Place::Joint(2);
+    let what = Quantity::SystemStatics { solver: SolverName::new("a table"), place };
+    assert_eq!(excesses[..], [Excess { what, value: 1.5, budget: 1.0 }]);
+    let Some(Reason::AboveTolerance(convergence)) = refuted.converged.reason() else { panic!() };
+    assert_eq!((convergence.residual, convergence.tolerance), (1.5, Some(1.0)));
+
+    let nowhere = of(Finding::NoEquilibrium, &right, vec![]);
+    assert_eq!(nowhere.agreed, Status::Open(Reason::NotTried));
+
+    // Of one that is confirmed they are those of the equilibrium.
+    let mut found = one(0.1, 0.0, Some(true));
+    let own = &mut found.equilibrium.evidence.ladder;
+    own.verified = Status::Open(Reason::SlackFamily);
+    own.complete = Status::Open(Reason::NothingListed);
+    own.optimal = Status::Open(Reason::Elsewhere { distance: 0.5 });
+    let wanted = own.clone();
+    let confirmed = of(Finding::Confirmed, &right, vec![found]);
+    assert!(confirmed.converged.is_reached());
+    assert_eq!(confirmed.verified, wanted.verified);
+    assert_eq!(confirmed.complete, wanted.complete);
+    assert_eq!(confirmed.optimal, wanted.optimal);
+}
+
+#[test]
+fn tolerances_have_their_range() {
+    let answer = given(None);
+    for (tolerance, right) in
+        [(0.99e-13, false), (1e-13, true), (0.1, true), (0.101, false), (f64::NAN, false)]
+    {
+        let judged = judge_foreign(&lamp(), &answer, tolerance, &|_| {});
+        assert_eq!(judged.is_ok(), right, "{tolerance}");
+    }
 }

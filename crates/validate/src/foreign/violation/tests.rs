@@ -45,3 +45,144 @@ fn a_member_is_slack_where_both_ends_together_do_not_explain_it() {
     assert_eq!(broken(4.25, -2.0), [Law::Length { length_m: 5.0, distance_m: 4.25 }]);
     assert_eq!(broken(5.75, 2.0), [Law::Sign { force_n: 2.0 }]);
 }
+
+/// Three metres along the support, and (4, 5) m across.
+#[test]
+fn a_joint_is_off_its_support_by_what_it_may_not_move() {
+    let (at_m, along) = ([1.0, 2.0, 3.0], [0.6, 0.0, 0.8]);
+    let at = [1.0 + 1.8 - 3.2, 7.0, 3.0 + 2.4 + 2.4];
+    let off = |support: Support| off_support_m(&support, at);
+    let close = |found: Option<f64>, wanted: f64| {
+        assert!((found.unwrap() - wanted).abs() < 1e-14, "{found:?}, not {wanted}");
+    };
+    close(off(Support::Line { at_m, direction: along }), 41.0_f64.sqrt());
+    close(off(Support::Plane { at_m, normal: along }), 3.0);
+    close(off(Support::Fixed { at_m }), 50.0_f64.sqrt());
+    assert_eq!(off(Support::Free), None);
+}
+
+/// A spring of 5 m and 10 N is known to 2 N/m times half a metre and to half a newton.
+#[test]
+fn an_elongation_is_known_to_the_places_of_its_ends() {
+    let bounds = Bounds { tolerance: 0.0, position_m: 0.25, force_n: 0.5 };
+    let body = Bar::homogeneous(5.0, 0.0).unwrap();
+    let spring = Member::bar(0, 1, body).with_stiffness(10.0);
+    let told = |force_n: Option<f64>| {
+        let mut found = Measured::default();
+        law(&spring, 8.0, force_n, &bounds, Place::Member(1), &mut found);
+        found
+    };
+    assert_eq!(told(None), Measured::default());
+    let found = told(Some(9.0));
+    let law = Law::Elongation { force_n: 9.0, elastic_n: 6.0 };
+    let [violation] = found.violations[..] else { panic!("{found:?}") };
+    assert_eq!((violation.law, violation.place), (law, Place::Member(1)));
+    assert!((violation.value - 3.0).abs() < 1e-15 && (violation.allowed - 1.5).abs() < 1e-15);
+    assert!((found.largest - 2.0).abs() < 1e-15);
+    assert_eq!(told(Some(4.5)).violations, []);
+}
+
+/// The lamp's cables with 5 and 10 N, 5 m long: their directions turn by `1/2` over `5 - 1/4`.
+fn lamp_with(axial_n: [f64; 2]) -> (System, SystemEquilibrium) {
+    let system = super::super::tests::lamp();
+    let places = [[-3.0, 0.0, 0.0], [3.0, 0.0, 0.0], [0.0, 0.0, -4.0]];
+    let source = model::SolverName::new("a table");
+    let answer = super::super::complete::complete(&system, &source, &places, &axial_n);
+    (system, answer)
+}
+
+const KNOWN: Bounds = Bounds { tolerance: 0.0, position_m: 0.25, force_n: 0.125 };
+
+/// Each joint is known to 1/8 N of its load and of each member, and to the turn of its forces. 5 N
+/// along (-3, 0, 4)/5 and 10 N along (3, 0, 4)/5 with 2 N down leave (3, 0, 10) N.
+#[test]
+fn a_balance_is_known_to_the_forces_that_meet_and_their_turns() {
+    let (system, answer) = lamp_with([5.0, 10.0]);
+    let turn = 0.5 / 4.75;
+    let close = |found: (Vector, f64), wanted: (Vector, f64)| {
+        assert!(norm(minus(found.0, wanted.0)) < 1e-14, "{found:?}, not {wanted:?}");
+        assert!((found.1 - wanted.1).abs() < 1e-14, "{found:?}, not {wanted:?}");
+    };
+    let [a, b, p] = balances(&system, &answer, None, &KNOWN)[..] else { panic!() };
+    close(a, ([3.0, 0.0, -4.0], 0.25 + 5.0 * turn));
+    close(b, ([-6.0, 0.0, -8.0], 0.25 + 10.0 * turn));
+    close(p, ([3.0, 0.0, 10.0], 0.375 + 15.0 * turn));
+    let [_, _, p] = balances(&system, &answer, Some(100.0), &KNOWN)[..] else { panic!() };
+    close(p, ([3.0, 0.0, 10.0], 0.375 + 200.0 * turn));
+
+    let mut found = Measured::default();
+    balance_given(&system, &answer, None, &KNOWN, &mut found);
+    let [left] = found.violations[..] else { panic!("{found:?}") };
+    assert_eq!(left.place, Place::Joint(2));
+    assert!((left.value - 109.0_f64.sqrt()).abs() < 1e-14);
+    assert!((left.allowed - (0.375 + 15.0 * turn)).abs() < 1e-14);
+    // The ground is asked for the opposite of what comes to it, and is 13 N off at A.
+    let given = [[-3.0, 5.0, 16.0], [6.0, 0.0, 8.0], [0.0; 3]];
+    let mut found = Measured::default();
+    balance_given(&system, &answer, Some(&given), &KNOWN, &mut found);
+    let [reaction, _] = found.violations[..] else { panic!("{found:?}") };
+    assert_eq!(reaction.place, Place::Joint(0));
+    assert!((reaction.value - 13.0).abs() < 1e-14, "{reaction:?}");
+    let Law::Reaction { given_n, wanted_n } = reaction.law else { panic!("{reaction:?}") };
+    assert_eq!([given_n], given[..1]);
+    assert!(norm(minus(wanted_n, [-3.0, 0.0, 4.0])) < 1e-14);
+}
+
+/// √109 N are left at the only joint that moves; forces of so many newtons explain them or not.
+#[test]
+fn forces_that_were_found_are_told_where_none_explain_what_is_left() {
+    let (system, answer) = lamp_with([5.0, 10.0]);
+    let left = 109.0_f64.sqrt();
+    let measured = |at_most_n: f64| {
+        let mut found = Measured::default();
+        balance_found(&system, &answer, at_most_n, &KNOWN, &mut found);
+        let allowed = 0.375 + 2.0 * at_most_n * 0.5 / 4.75;
+        assert!((found.largest - left / allowed).abs() < 1e-13, "{found:?}");
+        found.violations
+    };
+    let enough = (left - 0.375) * 4.75;
+    assert_eq!(measured(1.001 * enough), []);
+    let [told] = measured(0.999 * enough)[..] else { panic!() };
+    assert_eq!(told.place, Place::Joint(2));
+    assert!((told.value - left).abs() < 1e-14);
+    let (system, answer) = lamp_with([1.25; 2]);
+    let mut found = Measured::default();
+    balance_found(&system, &answer, 10.0, &KNOWN, &mut found);
+    assert!(found.largest < 1e-15 && found.violations.is_empty());
+}
+
+/// (3, 4, 12) N too much of the ground beside 2 N of weight; two anchors know 1/8 N each.
+#[test]
+fn the_whole_is_known_to_the_forces_of_its_supports() {
+    let (system, _) = lamp_with([1.25; 2]);
+    let mut found = Measured::default();
+    let reactions = [[1.0, 4.0, 13.0], [2.0, 0.0, 1.0], [0.0; 3]];
+    whole(&system, &reactions, &KNOWN, &mut found);
+    let [told] = found.violations[..] else { panic!("{found:?}") };
+    assert_eq!((told.place, told.law), (Place::Whole, Law::Whole { left_n: [3.0, 4.0, 12.0] }));
+    assert_eq!((told.value, told.allowed, found.largest), (13.0, 0.25, 52.0));
+}
+
+#[test]
+fn the_worst_is_the_largest_part_of_what_is_allowed() {
+    let mut found = Measured::default();
+    assert!(found.worst().is_none());
+    for (k, (value, allowed)) in [(9.0, 3.0), (8.0, 1.0), (70.0, 10.0)].into_iter().enumerate() {
+        found.note(Place::Joint(k), Law::Support, value, allowed);
+    }
+    assert_eq!(found.worst().unwrap().place, Place::Joint(1));
+    assert_eq!(found.largest.to_bits(), 8.0_f64.to_bits());
+}
+
+#[test]
+fn lengths_are_told_in_metres_and_forces_in_newtons() {
+    let length = Law::Length { length_m: 1.0, distance_m: 2.0 };
+    assert_eq!([Law::Support, Law::BelowFloor, length].map(|law| law.unit()), ["m"; 3]);
+    let others = [
+        Law::Sign { force_n: 1.0 },
+        Law::FloorPulls { force_n: 1.0 },
+        Law::Balance { left_n: [0.0; 3] },
+        Law::Elongation { force_n: 1.0, elastic_n: 2.0 },
+    ];
+    assert_eq!(others.map(|law| law.unit()), ["N"; 4]);
+}

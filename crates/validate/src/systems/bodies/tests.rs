@@ -53,3 +53,74 @@ fn supports_feel_a_turn() {
     assert!(of(Support::Line { at_m, direction: [0.0, 0.0, 1.0] }));
     assert!(!of(Support::Free));
 }
+
+/// Body 1 hangs on body 2, which hangs on body 3, and 4 on 1.
+#[test]
+fn depths_are_counted_in_any_order() {
+    let body = |pivot: Option<usize>| Body { pivot, depth: 9 };
+    let mut bodies = Bodies {
+        of_joint: vec![0, 1, 2, 3, 4],
+        all: vec![body(None), body(Some(2)), body(Some(3)), body(Some(0)), body(Some(1))],
+        fixed: vec![false; 5],
+        neighbours: vec![vec![]; 5],
+    };
+    bodies.count_depths();
+    let depths: Vec<usize> = bodies.all.iter().map(|body| body.depth).collect();
+    assert_eq!(depths, [0, 3, 2, 1, 4]);
+}
+
+/// Anchors and upright guides on one vertical are one; a sloping guide, and what stands beside, are
+/// not. Far from the origin as well.
+#[test]
+fn what_stands_on_one_vertical_is_one_node() {
+    let far = 2.0_f64.powi(40);
+    for [far_x, far_y] in [[0.0, 0.0], [far, 0.0], [0.0, far]] {
+        let beside = if far_x + far_y > 0.0 { 2.0_f64.powi(-12) } else { 1e-9 };
+        let at = |off: f64, z: f64| {
+            if far_y > 0.0 { [7.0, far_y + off, z] } else { [far_x + off, 7.0, z] }
+        };
+        let guide = |at_m: [f64; 3], direction: [f64; 3]| Support::Line { at_m, direction };
+        let supports = [
+            Support::Fixed { at_m: at(0.0, 1.0) },
+            guide(at(0.0, 2.0), [0.0, 0.0, 1.0]),
+            guide(at(0.0, 3.0), [0.0, 0.6, 0.8]),
+            Support::Fixed { at_m: at(beside, 4.0) },
+            Support::Fixed { at_m: at(0.0, 5.0) },
+            Support::Plane { at_m: at(0.0, 6.0), normal: [0.0, 0.0, 1.0] },
+        ];
+        let joints: Vec<Joint> = supports
+            .into_iter()
+            .enumerate()
+            .map(|(k, support)| Joint { support, ..Joint::free(k.to_string()) })
+            .collect();
+        let bar = Bar::homogeneous(1.0, 1.0).unwrap();
+        let members = (1..6).map(|k| Member::bar(0, k, bar)).collect();
+        let system = System::new("guides", 10.0, joints, members).unwrap();
+        assert_eq!(nodes(&system), [0, 0, 2, 3, 0, 5], "{far_x} {far_y}");
+    }
+}
+
+/// Two anchors of one vertical and what hangs between them turn as one body about it; what is tied
+/// to a third anchor does not.
+#[test]
+fn anchors_of_one_vertical_carry_one_body() {
+    let bodies = |third: bool| {
+        let mut joints: Vec<Joint> = ["A", "B", "P", "Q", "C"].map(Joint::free).into();
+        joints[0] = Joint::anchor("A", [0.0; 3]);
+        joints[1] = Joint::anchor("B", [0.0, 0.0, -3.0]);
+        joints[4] = Joint::anchor("C", [5.0, 0.0, 0.0]);
+        let bar = Bar::homogeneous(2.0, 1.0).unwrap();
+        let mut ends = vec![(0, 2), (2, 3), (3, 1), (4, 0)];
+        if third {
+            ends.push((3, 4));
+        }
+        let members = ends.into_iter().map(|(from, to)| Member::bar(from, to, bar)).collect();
+        let bodies = Bodies::new(&System::new("two anchors", 10.0, joints, members).unwrap());
+        let pivots: Vec<_> = bodies.all.iter().map(|body| body.pivot).collect();
+        (bodies.of_joint, pivots)
+    };
+    let (of_joint, pivots) = bodies(false);
+    assert_eq!(of_joint, [0, 0, 1, 1, 0]);
+    assert!(pivots.len() == 2 && pivots[0].is_none() && pivots[1].is_some_and(|pivot| pivot < 2));
+    assert_eq!(bodies(true), (vec![0; 5], vec![None]));
+}

@@ -153,3 +153,70 @@ fn a_small_gradient_costs_its_square_over_the_eigenvalue() {
     let square = 1.6e-6_f64.powi(2);
     assert!(gap >= square / 12.0 && gap <= square / 0.5 / 12.0 + 1e-14, "{gap:e}");
 }
+
+/// The crooked bar: 20 N of its 80 N and five eighths of (5, -6, 4) N are B's, with (2, -1, 4) N and
+/// 30 N.
+#[test]
+fn loads_and_sizes_are_those_of_the_lever_rule() {
+    use super::super::statics::tests::crooked;
+    let (system, mut answer) = crooked(|_, _| ());
+    let loads = joint_loads(&system);
+    assert_eq!(loads, [[1.875, -2.25, -58.5], [5.125, -4.75, -43.5]]);
+    let total = 21.0_f64.sqrt() + 77.0_f64.sqrt() + 110.0;
+    assert!((total_load_n(&system) / total - 1.0).abs() < 1e-15);
+    assert_eq!(size_m(&system, &answer).to_bits(), 8.0_f64.to_bits());
+    answer.joints_m[1] = [5.0, 4.0, 17.0];
+    assert_eq!(size_m(&system, &answer).to_bits(), 14.0_f64.to_bits());
+    let largest = |answer: &SystemEquilibrium| largest_force_n(answer);
+    assert!((largest(&answer) / 339.0_f64.sqrt() - 1.0).abs() < 1e-15);
+    answer.start_forces_n[0] = [30.0, 0.0, 40.0];
+    assert_eq!(largest(&answer).to_bits(), 50.0_f64.to_bits());
+    answer.reactions_n[0] = [0.0, 60.0, 80.0];
+    assert_eq!(largest(&answer).to_bits(), 100.0_f64.to_bits());
+}
+
+/// 14 N over 7 m; a cable's is not negative, a strut's not positive, and none is known where the
+/// ends meet.
+#[test]
+fn densities_are_forces_over_distances() {
+    use super::super::statics::tests::crooked;
+    for (kind, pulls, pushes) in
+        [(Kind::Bar, 2.0, -2.0), (Kind::Cable, 2.0, 0.0), (Kind::Strut, 0.0, -2.0)]
+    {
+        let (system, mut answer) = crooked(|_, bar| bar.kind = kind);
+        for (axial_n, density) in [(14.0, pulls), (-14.0, pushes)] {
+            answer.axial_n[0] = axial_n;
+            assert!((densities(&system, &answer)[0] - density).abs() < 1e-15, "{kind:?}");
+        }
+        answer.joints_m[1] = answer.joints_m[0];
+        assert_eq!(densities(&system, &answer)[0].to_bits(), 0);
+    }
+}
+
+#[test]
+fn the_most_members_meet_in_one_joint() {
+    let joints = ["A", "B", "C", "D"].map(Joint::free).to_vec();
+    let bar = Bar::homogeneous(1.0, 1.0).unwrap();
+    let system = |ends: &[(usize, usize)]| {
+        let members = ends.iter().map(|(from, to)| Member::bar(*from, *to, bar)).collect();
+        let mut joints = joints.clone();
+        joints[0] = Joint::anchor("A", [0.0; 3]);
+        System::new("degrees", 10.0, joints, members).unwrap()
+    };
+    assert_eq!(largest_degree(&system(&[(0, 1), (1, 2), (2, 3)])), 2);
+    assert_eq!(largest_degree(&system(&[(0, 2), (1, 2), (2, 3)])), 3);
+    assert_eq!(largest_degree(&system(&[(3, 0), (3, 1), (3, 2), (0, 1)])), 3);
+}
+
+/// Upside down both bars of the lamp are pressed.
+#[test]
+fn all_members_that_push_are_counted() {
+    let (system, mut answer) = lamp();
+    let members = system.members().iter().map(|m| Member { kind: Kind::Bar, ..m.clone() });
+    let members = members.collect();
+    let system = System::new("arch", 10.0, system.joints().to_vec(), members).unwrap();
+    answer.joints_m[2][2] = 4.0;
+    answer.axial_n = vec![-1.25; 2];
+    answer.energy_j = 8.0;
+    assert_eq!(certify(&system, &answer), Err(NoCertificate::NotDefinite { compressed: 2 }));
+}

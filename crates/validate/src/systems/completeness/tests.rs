@@ -53,3 +53,36 @@ fn long_bridles_are_not_looked_up_unasked() {
     assert_eq!(complete(UseCensus::Always), limit(12));
     assert_eq!(complete(UseCensus::Never), Some(Reason::NoCensus(NoCensus::NotAsked)));
 }
+
+/// 1e-10 and 1e-12 of the bars' 10 m are 1.01e-9 m.
+#[test]
+fn an_answer_beyond_the_accuracy_of_solvers_is_refuted() {
+    let (system, right) = lamp();
+    let census = SystemCensus::take(&system, &Settings::default()).unwrap();
+    assert!(census.complete);
+    let told = |census: &SystemCensus, off_m: f64| {
+        let mut answer = right.clone();
+        answer.joints_m[2][1] += off_m;
+        certify_by_census(&system, census, &mut answer);
+        answer.evidence.ladder
+    };
+    for sign in [1.0, -1.0] {
+        assert!(told(&census, sign * 1.005e-9).complete.is_reached());
+        for off_m in [1.015e-9, 0.5] {
+            let ladder = told(&census, sign * off_m);
+            let Some(Reason::RefutedByCensus { distance }) = ladder.complete.reason() else {
+                panic!("{ladder:?}")
+            };
+            assert!((distance * 10.0 / off_m - 1.0).abs() < 1e-3 && ladder.failed());
+        }
+    }
+    let far = told(&census, f64::NAN);
+    assert!(matches!(far.complete.reason(), Some(Reason::Elsewhere { .. })), "{far:?}");
+    let mut partial = census.clone();
+    partial.complete = false;
+    let ladder = told(&partial, 0.5);
+    let Some(Reason::Elsewhere { distance }) = ladder.complete.reason() else { panic!() };
+    assert!((distance - 0.05).abs() < 1e-12 && !ladder.failed());
+    partial.equilibria.clear();
+    assert_eq!(told(&partial, 0.0).complete, Status::Open(Reason::NothingListed));
+}

@@ -69,3 +69,174 @@ fn anchors_are_not_free() {
     answer.axial_n.push(0.0);
     assert_eq!(free_joints(&system, &[answer]), [false; 4]);
 }
+
+/// An angle of a millionth, or a volume of it, is none.
+#[test]
+fn up_to_three_directions_are_independent() {
+    let [x, y, z] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    let near = |part: f64, of: Vector, to: Vector| -> Vector {
+        std::array::from_fn(|k| to[k] + part * of[k])
+    };
+    assert!(independent(&[z]) && independent(&[x, z]) && independent(&[y, x, z]));
+    assert!(independent(&[z, y, x]) && independent(&[x, y, z]));
+    assert!(!independent(&[[f64::NAN; 3]]) && !independent(&[]) && !independent(&[x, y, z, x]));
+    for (part, apart) in [(2e-6, true), (-2e-6, true), (0.5e-6, false), (0.0, false)] {
+        assert_eq!(independent(&[x, near(part, y, x)]), apart, "{part}");
+        assert_eq!(independent(&[x, y, near(part, z, y)]), apart, "{part}");
+        assert_eq!(independent(&[x, near(part, z, y), y]), apart, "{part}");
+    }
+}
+
+/// A string of joints beside an anchor, in a zigzag of 3 and 4 m, at whose other end another anchor
+/// stands.
+fn string(joints: usize) -> Vec<bool> {
+    let mut all = vec![Joint::anchor("A", [0.0; 3])];
+    let mut joints_m = vec![[0.0; 3]];
+    let mut members = vec![];
+    for k in 0..=joints {
+        let [x, y, z] = joints_m[k];
+        let at = if k % 2 == 0 { [x + 3.0, y, z + 4.0] } else { [x + 4.0, y + 3.0, z] };
+        joints_m.push(at);
+        let last = k == joints;
+        all.push(if last { Joint::anchor("B", at) } else { Joint::free(k.to_string()) });
+        members.push(Member::bar(k, k + 1, Bar::homogeneous(5.0, 0.0).unwrap()));
+    }
+    let system = System::new("string", 10.0, all, members).unwrap();
+    let (_, like) = lamp();
+    let answer = SystemEquilibrium { joints_m, ..like };
+    let part: Vec<usize> = (1..=joints).collect();
+    with_room(&system, &answer, &members_of(&system), &part)
+}
+
+#[test]
+fn room_is_looked_for_among_eighty_joints_at_most() {
+    assert_eq!(string(3), [true; 3]);
+    assert_eq!(string(80), [true; 80]);
+    assert_eq!(string(81), [false; 81]);
+}
+
+/// Three joints on one line, tied to each other: their lengths are not independent there, and decide
+/// nothing. Bent, they are a triangle, and all of it moves.
+#[test]
+fn joints_on_a_line_have_no_room_to_first_order() {
+    let room = |middle: Vector| {
+        let mut joints = ["A", "P", "Q", "R"].map(Joint::free).to_vec();
+        joints[0] = Joint::anchor("A", [9.0, 9.0, 9.0]);
+        let joints_m = vec![[9.0; 3], [0.0; 3], middle, [2.0, 0.0, 0.0]];
+        let member = |from: usize, to: usize| {
+            let length_m = norm(minus(joints_m[to], joints_m[from]));
+            Member::bar(from, to, Bar::homogeneous(length_m, 0.0).unwrap())
+        };
+        let members = vec![member(1, 2), member(2, 3), member(3, 1)];
+        let mut tied = members.clone();
+        tied.push(member(0, 1));
+        let system = System::new("three", 10.0, joints, tied).unwrap();
+        let (_, like) = lamp();
+        let answer = SystemEquilibrium { joints_m, ..like };
+        with_room(&system, &answer, &members_of(&system), &[1, 2, 3])
+    };
+    assert_eq!(room([1.0, 0.0, 0.0]), [false; 3]);
+    assert_eq!(room([1.0, 1.0, 0.0]), [true; 3]);
+}
+
+/// On a floor 4 m below, a second weight lies beside the lamp's; a cable that bears less than 1e-8 of
+/// the largest force lets it slide.
+#[test]
+fn what_lies_with_members_that_bear_nothing_is_loose() {
+    let (system, mut answer) = lamp();
+    let mut joints = system.joints().to_vec();
+    joints.push(Joint::free("Q").with_mass(0.3));
+    let mut members = system.members().to_vec();
+    members.push(Member::cable(2, 3, Bar::homogeneous(7.0, 0.0).unwrap()));
+    let system = System::new("lying", 10.0, joints, members).unwrap().with_floor(-4.0).unwrap();
+    answer.joints_m.push([1.0, 1.0, -4.0]);
+    answer.reactions_n.push([0.0, 0.0, 3.0]);
+    answer.start_forces_n.push([0.0; 3]);
+    answer.end_forces_n.push([0.0; 3]);
+    answer.axial_n.push(0.0);
+    let loose = |change: &dyn Fn(&mut SystemEquilibrium)| {
+        let mut second = answer.clone();
+        change(&mut second);
+        let found = lie_loose(&system, &[answer.clone(), second]);
+        assert_eq!(found[..3], [false; 3]);
+        found[3]
+    };
+    assert!(loose(&|_| ()));
+    // The largest force is 3 N, of the floor.
+    assert!(loose(&|a| a.axial_n[2] = 2.9e-8) && loose(&|a| a.axial_n[2] = -2.9e-8));
+    assert!(!loose(&|a| a.axial_n[2] = 3.1e-8) && !loose(&|a| a.axial_n[2] = -3.1e-8));
+    assert!(!loose(&|a| a.reactions_n[3] = [0.0; 3]));
+    assert!(!loose(&|a| a.reactions_n[3] = [0.0, 0.0, -3.0]));
+}
+
+/// Nothing is loaded but by its own mass or force, by its members, or by the floor.
+#[test]
+fn joints_are_unloaded_where_nothing_acts_on_them_or_their_members() {
+    let unloaded_with = |change: &dyn Fn(&mut Vec<Joint>, &mut Vec<Member>)| {
+        let mut joints = ["A", "P", "Q"].map(Joint::free).to_vec();
+        joints[0] = Joint::anchor("A", [0.0; 3]);
+        let light = Bar::homogeneous(1.0, 0.0).unwrap();
+        let mut members = vec![Member::bar(0, 1, light), Member::bar(1, 2, light)];
+        change(&mut joints, &mut members);
+        let system = System::new("light", 10.0, joints, members).unwrap();
+        let (_, like) = lamp();
+        let answer = SystemEquilibrium { reactions_n: vec![[0.0; 3]; 3], ..like };
+        unloaded(&system, &[answer])
+    };
+    assert_eq!(unloaded_with(&|_, _| ()), [false, true, true]);
+    assert_eq!(unloaded_with(&|joints, _| joints[2].mass_kg = 1e-9), [false, true, false]);
+    for axis in 0..3 {
+        let pulled = unloaded_with(&|joints, _| joints[1].force_n[axis] = -1e-9);
+        assert_eq!(pulled, [false, false, true]);
+        let on_a_member = unloaded_with(&|_, members| {
+            let mut force_n = [0.0; 3];
+            force_n[axis] = 1.0;
+            members[1].loads = vec![model::system::PointLoad { at_m: 0.5, force_n }];
+        });
+        assert_eq!(on_a_member, [false; 3]);
+    }
+    let heavy = |_: &mut Vec<Joint>, members: &mut Vec<Member>| {
+        members[0].body = Bar::homogeneous(1.0, 1e-9).unwrap();
+    };
+    assert_eq!(unloaded_with(&heavy), [false, false, true]);
+}
+
+/// Exactly at the bound nothing is slack.
+#[test]
+fn a_millionth_of_the_length_is_not_slack() {
+    assert!(!at(Kind::Cable, 2.0 * (1.0 - 1e-6)) && !at(Kind::Strut, 2.0 * (1.0 + 1e-6)));
+}
+
+/// At a joint without load two bars bear nothing where they are bent, and may where they are not;
+/// three where they are not in one plane; and what is next to it bears nothing either.
+#[test]
+fn members_in_independent_directions_bear_nothing() {
+    let bears = |places_m: &[Vector], ends: &[(usize, usize)], loaded: &[usize]| {
+        let joint = |k: usize| match k {
+            0 => Joint::anchor("0", places_m[0]),
+            _ => Joint::free(k.to_string()),
+        };
+        let member = |(from, to): &(usize, usize)| {
+            let length_m = norm(minus(places_m[*to], places_m[*from]));
+            Member::bar(*from, *to, Bar::homogeneous(length_m, 0.0).unwrap())
+        };
+        let joints = (0..places_m.len()).map(joint).collect();
+        let members = ends.iter().map(member).collect();
+        let system = System::new("bars", 10.0, joints, members).unwrap();
+        let (_, like) = lamp();
+        let answer = SystemEquilibrium { joints_m: places_m.to_vec(), ..like };
+        let unloaded: Vec<bool> = (0..places_m.len()).map(|k| !loaded.contains(&k)).collect();
+        bearing(&system, &[answer], &members_of(&system), &unloaded)
+    };
+    let (x, y, z) = ([1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]);
+    let back = [-1.0, 0.0, 0.0];
+    assert_eq!(bears(&[x, [0.0; 3], back], &[(0, 1), (1, 2)], &[0, 2]), [true; 2]);
+    assert_eq!(bears(&[x, [0.0; 3], y], &[(0, 1), (1, 2)], &[0, 2]), [false; 2]);
+    assert_eq!(bears(&[x, [0.0; 3], y], &[(0, 1), (1, 2)], &[0, 1, 2]), [true; 2]);
+    let star = [(0, 1), (2, 1), (1, 3)];
+    assert_eq!(bears(&[x, [0.0; 3], y, z], &star, &[0, 2, 3]), [false; 3]);
+    assert_eq!(bears(&[x, [0.0; 3], y, back], &star, &[0, 2, 3]), [true; 3]);
+    // The end of a line of two hangs free: it bears nothing, and then neither does the other.
+    assert_eq!(bears(&[x, [0.0; 3], back], &[(0, 1), (1, 2)], &[0]), [false; 2]);
+    assert_eq!(bears(&[back, x, [0.0; 3]], &[(0, 2), (2, 1)], &[0]), [false; 2]);
+}

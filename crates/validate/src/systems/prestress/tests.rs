@@ -81,3 +81,76 @@ fn stresses_are_searched_until_all_strings_bear_some() {
         "{found:?}"
     );
 }
+
+/// A billionth of the largest force is rounding, on either side of nothing.
+#[test]
+fn cables_pull_and_struts_push_to_rounding() {
+    let kinds = [Kind::Cable, Kind::Strut, Kind::Bar];
+    let (mut joints, mut members) = (vec![], vec![]);
+    for (z, kind) in kinds.into_iter().enumerate() {
+        string(&mut joints, &mut members, kind, z as f64, &[1.0]);
+    }
+    let system = System::new("kinds", 10.0, joints, members).unwrap();
+    for bar_n in [5.0, -5.0] {
+        assert!(bears(&system, &[3.0, -3.0, bar_n]) && bears(&system, &[0.0, 0.0, bar_n]));
+        assert!(bears(&system, &[-4e-9, 4e-9, bar_n]));
+        assert!(!bears(&system, &[-6e-9, 0.0, bar_n]) && !bears(&system, &[0.0, 6e-9, bar_n]));
+    }
+    assert_eq!(kinds.map(sign).map(f64::to_bits), [1.0, -1.0, 0.0].map(f64::to_bits));
+}
+
+#[test]
+fn vectors_are_scaled_to_one() {
+    assert_eq!(unit(&[3.0, -4.0]), Some(vec![0.6, -0.8]));
+    assert_eq!((unit(&[0.0, 0.0]), unit(&[])), (None, None));
+    assert_eq!(scaled(vec![3.0, -4.0]), Some(vec![0.75, -1.0]));
+    assert_eq!((scaled(vec![0.0]), scaled(vec![])), (None, None));
+}
+
+/// Four joints with six bars, and five with ten: no stress, no proof. Ten bars between five joints
+/// have one stress.
+#[test]
+fn without_stress_nothing_is_super_stable() {
+    let simplex = |joints: usize| {
+        let places_m =
+            [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [0.25, 0.25, 0.25]];
+        let all = (0..joints).map(|k| Joint::free(k.to_string())).collect();
+        let mut members = vec![];
+        for from in 0..joints {
+            for to in from + 1..joints {
+                let length_m = norm(minus(places_m[to], places_m[from]));
+                let body = Bar::homogeneous(length_m, 0.0).unwrap();
+                members.push(Member::bar(from, to, body));
+            }
+        }
+        let count = members.len();
+        (System::new("simplex", 10.0, all, members).unwrap(), places_m[..joints].to_vec(), count)
+    };
+    let (system, places_m, count) = simplex(4);
+    let stress = vec![0.0; count];
+    let given = Stress::Given(&stress);
+    let found = prestress_stability(&system, &places_m, Standing::Free, given).unwrap();
+    assert_eq!((found.self_stresses, found.mechanisms, found.super_stable), (0, 0, false));
+    assert_eq!(found.held, Held::ByLengths);
+    let (system, places_m, count) = simplex(5);
+    let free = prestress_stability(&system, &places_m, Standing::Free, Stress::Free).unwrap();
+    assert_eq!((free.self_stresses, free.mechanisms), (1, 0));
+    // The inner joint is drawn to the outer ones or pressed: one of both is a proof.
+    let proved = [1.0, -1.0].map(|sign| {
+        let stress: Vec<f64> = free.stress.iter().flatten().map(|n| sign * n).collect();
+        assert_eq!(stress.len(), count);
+        let given = Stress::Given(&stress);
+        prestress_stability(&system, &places_m, Standing::Free, given).unwrap().super_stable
+    });
+    assert_eq!(proved.into_iter().filter(|proved| *proved).count(), 1);
+    let none = vec![0.0; count - 1];
+    let short = Stress::Given(&none);
+    assert!(prestress_stability(&system, &places_m, Standing::Free, short).is_none());
+    let far = &places_m[..4];
+    assert!(prestress_stability(&system, far, Standing::Free, Stress::Free).is_none());
+    let mut met = places_m.clone();
+    met[4] = met[0];
+    assert!(prestress_stability(&system, &met, Standing::Free, Stress::Free).is_none());
+    met[4] = [f64::NAN; 3];
+    assert!(prestress_stability(&system, &met, Standing::Free, Stress::Free).is_none());
+}

@@ -1,7 +1,7 @@
 //! Violations in units by hand.
 
 use model::Bar;
-use model::system::Joint;
+use model::system::{Joint, PointLoad};
 
 use super::super::tests::lamp;
 use super::*;
@@ -98,4 +98,266 @@ fn the_force_of_a_short_spring_is_known_to_the_rounding_of_its_ends() {
     let explained = 2.0_f64.powi(-9);
     assert_eq!(law(0.75 * explained).to_bits(), 0);
     assert!(law(1.25 * explained) > 0.99);
+}
+
+/// A is held at (1, -2, 5) and B drawn by (2, -1, 4) N with 3 kg; a bar of 8 m between them, 7 m
+/// apart along (2, 3, 6), has 8 kg at a quarter and (5, -6, 4) N at five eighths of its length.
+pub(in crate::systems) fn crooked(
+    change: impl Fn(&mut Vec<Joint>, &mut Member),
+) -> (System, SystemEquilibrium) {
+    let mut joints = vec![
+        Joint::anchor("A", [1.0, -2.0, 5.0]),
+        Joint::free("B").with_mass(3.0).with_force([2.0, -1.0, 4.0]),
+    ];
+    let mut bar = Member::bar(0, 1, Bar::new(8.0, 8.0, 2.0, [0.0; 3]).unwrap());
+    bar.loads.push(PointLoad { at_m: 5.0, force_n: [5.0, -6.0, 4.0] });
+    change(&mut joints, &mut bar);
+    let system = System::new("crooked", 10.0, joints, vec![bar]).unwrap();
+    let (_, like) = lamp();
+    let answer = SystemEquilibrium {
+        energy_j: 265.0,
+        joints_m: vec![[1.0, -2.0, 5.0], [3.0, 1.0, 11.0]],
+        start_forces_n: vec![[1.0, 2.0, 3.0]],
+        end_forces_n: vec![[7.0, 11.0, 13.0]],
+        axial_n: vec![15.0 / 7.0],
+        reactions_n: vec![[1.0, 2.0, 4.0], [0.0; 3]],
+        ..like
+    };
+    (system, answer)
+}
+
+const UNITS: Units = Units { rounding_m: 0.25, rounding_n: 0.5, size_m: 4.0, largest_n: 8.0 };
+
+fn nothing() -> SystemStatics {
+    SystemStatics {
+        support: 0.0,
+        length: 0.0,
+        law: 0.0,
+        force: 0.0,
+        moment: 0.0,
+        joint: 0.0,
+        balance: 0.0,
+        derived: 0.0,
+        worst: Place::Whole,
+    }
+}
+
+fn close(found: f64, wanted: f64) {
+    assert!((found - wanted).abs() < 1e-14 * wanted.abs().max(1.0), "{found}, not {wanted}");
+}
+
+/// (1, 2, 3), (7, 11, 13) and (5, -6, 4) N with the weight of 80 N leave (13, 7, -60) N. The second
+/// joint carries (81/8, 29/4, -9/2) N: 15/7 N along the bar, and across it (-57, 279/4, -127/8) N m.
+/// Half a newton is rounding of forces, and turns 7 m; a quarter of a metre is rounding of places,
+/// and turns 80 N.
+#[test]
+fn what_is_left_over_on_a_member_is_a_part_of_its_largest_force() {
+    let (system, mut answer) = crooked(|_, _| ());
+    answer.axial_n[0] += 2.5;
+    let mut found = nothing();
+    member(&system, &answer, 0, &UNITS, &mut found);
+    close(found.force, (3818.0_f64.sqrt() - 0.5) / 80.0);
+    close(found.moment, (535_429.0_f64.sqrt() / 8.0 - 23.5) / 560.0);
+    close(found.derived, 0.025);
+    close(found.length, 0.75 / 8.0);
+    assert_eq!((found.law.to_bits(), found.worst), (0, Place::Member(1)));
+    // Where rounding is as much as the distance there is no direction.
+    for (rounding_m, derived) in [(7.0, 0.0), (6.875, 0.025)] {
+        let mut found = nothing();
+        member(&system, &answer, 0, &Units { rounding_m, ..UNITS }, &mut found);
+        close(found.derived, derived);
+    }
+}
+
+/// 8 m and 16 N: a metre is 2 N, a quarter of one, of rounding, half a newton. A rigid member of 8 m
+/// may be off by a quarter of a metre, and its force by half a newton, of 4 N.
+#[test]
+fn the_laws_of_members_are_those_of_their_kinds() {
+    let told = |kind: Kind, stiffness_n: Option<f64>, distance_m: f64, axial_n: f64| {
+        let body = Bar::homogeneous(8.0, 0.0).unwrap();
+        let member = Member { kind, stiffness_n, ..Member::bar(0, 1, body) };
+        let mut found = nothing();
+        law(&member, distance_m, axial_n, 4.0, &UNITS, Place::Member(1), &mut found);
+        [found.length, found.law]
+    };
+    let spring = |kind: Kind, distance_m: f64, axial_n: f64, wanted: f64| {
+        let [length, law] = told(kind, Some(16.0), distance_m, axial_n);
+        close(law, wanted);
+        assert_eq!(length.to_bits(), 0);
+    };
+    for (kind, longer_n, shorter_n) in
+        [(Kind::Bar, 2.0, -2.0), (Kind::Cable, 2.0, 0.0), (Kind::Strut, 0.0, -2.0)]
+    {
+        for (distance_m, wanted_n) in [(9.0, longer_n), (7.0, shorter_n)] {
+            spring(kind, distance_m, wanted_n + 1.0, 0.0);
+            spring(kind, distance_m, wanted_n - 4.0, 0.75);
+            spring(kind, distance_m, wanted_n + 4.0, 0.75);
+            // What is left over may be more than all forces told.
+            spring(kind, distance_m, wanted_n + 6.0, 1.0);
+        }
+    }
+    let rigid = |kind: Kind, distance_m: f64, axial_n: f64, wanted: [f64; 2]| {
+        let found = told(kind, None, distance_m, axial_n);
+        close(found[0], wanted[0]);
+        close(found[1], wanted[1]);
+    };
+    let part = 0.75 / 8.0;
+    for axial_n in [3.0, -3.0] {
+        rigid(Kind::Bar, 9.0, axial_n, [part, 0.0]);
+        rigid(Kind::Bar, 7.0, axial_n, [part, 0.0]);
+    }
+    rigid(Kind::Cable, 9.0, 3.0, [part, 0.0]);
+    rigid(Kind::Cable, 9.0, -3.0, [part, 0.625]);
+    rigid(Kind::Cable, 7.0, 3.0, [0.0, part]);
+    rigid(Kind::Cable, 3.0, 1.0, [0.0, 0.125]);
+    rigid(Kind::Cable, 7.0, 0.0, [0.0, 0.0]);
+    rigid(Kind::Strut, 7.0, -3.0, [part, 0.0]);
+    rigid(Kind::Strut, 7.0, 3.0, [part, 0.625]);
+    rigid(Kind::Strut, 9.0, -3.0, [0.0, part]);
+    rigid(Kind::Strut, 13.0, -1.0, [0.0, 0.125]);
+}
+
+/// A has (1, 2, 4) N of the ground and gives (1, 2, 3) N; B has (2, -1, 4) N and its weight of 30 N,
+/// and gives (7, 11, 13) N.
+#[test]
+fn what_is_left_over_at_a_joint_is_a_part_of_its_largest_force() {
+    let (system, answer) = crooked(|_, _| ());
+    let [a, b] = joint_balances(&system, &answer, &UNITS)[..] else { panic!() };
+    close(a, 0.5 / 21.0_f64.sqrt());
+    close(b, (1690.0_f64.sqrt() - 0.5) / 30.0);
+    let (system, answer) = crooked(|joints, _| joints[1].mass_kg = 0.0);
+    let b = joint_balances(&system, &answer, &UNITS)[1];
+    close(b, ((25.0 + 144.0 + 81.0_f64).sqrt() - 0.5) / 339.0_f64.sqrt());
+}
+
+/// (2, -1, 4) N, the weights of 30 and 80 N, (5, -6, 4) N and (1, 2, 4) N of the ground.
+#[test]
+fn what_is_left_over_on_the_whole_is_a_part_of_all_forces() {
+    let (system, answer) = crooked(|_, _| ());
+    let sizes = 2.0 * 21.0_f64.sqrt() + 77.0_f64.sqrt() + 110.0;
+    close(whole(&system, &answer, &UNITS), (9693.0_f64.sqrt() - 0.5) / sizes);
+}
+
+/// From A: (2, -1, -26) N along (2, 3, 6), 80 N down along 3/2 and (5, -6, 4) N along (5, 15/2, 15)/4:
+/// 155 + 120 - 10 J. The unit is 4 m times all these forces.
+#[test]
+fn the_energy_is_that_of_all_loads_and_springs() {
+    let forces = 681.0_f64.sqrt() + 80.0 + 77.0_f64.sqrt();
+    let off = |kind: Kind, stiffness_n: Option<f64>, far: f64, elastic_j: f64, unit_j: f64| {
+        let (system, mut answer) = crooked(|_, bar| {
+            bar.kind = kind;
+            bar.stiffness_n = stiffness_n;
+        });
+        answer.joints_m[1] = [1.0 + 2.0 * far, -2.0 + 3.0 * far, 5.0 + 6.0 * far];
+        answer.energy_j = 265.0 * far + elastic_j;
+        assert!(energy(&system, &answer, &UNITS) < 1e-15, "{kind:?} {far}");
+        answer.energy_j += 2.0;
+        close(energy(&system, &answer, &UNITS), 2.0 / (4.0 * forces + unit_j));
+    };
+    off(Kind::Bar, None, 1.0, 0.0, 0.0);
+    // 24 N over 8 m are 3 N/m, a metre too short or 6 m too long; rounding is 6 J.
+    for (kind, short_j, long_j) in
+        [(Kind::Bar, 1.5, 54.0), (Kind::Cable, 0.0, 54.0), (Kind::Strut, 1.5, 0.0)]
+    {
+        off(kind, Some(24.0), 1.0, short_j, short_j + 6.0);
+        off(kind, Some(24.0), 2.0, long_j, long_j + 6.0);
+    }
+}
+
+/// Three metres along, and (4, 5) m across; 6 N along, and 8 N across.
+#[test]
+fn supports_bear_what_is_normal_to_their_motions() {
+    let along = [0.6, 0.0, 0.8];
+    let found = |support_of: Support, floor_m: Option<f64>| {
+        let (system, mut answer) = crooked(|joints, _| {
+            joints[0] = Joint::anchor("A", [1.0, -2.0, 9.0]);
+            joints[1].support = support_of;
+        });
+        let system = floor_m.map_or(system.clone(), |floor_m| system.with_floor(floor_m).unwrap());
+        answer.joints_m[1] = [1.8 - 3.2, 5.0, 2.4 + 2.4];
+        answer.reactions_n[1] = [3.6 - 6.4, 0.0, 4.8 + 4.8];
+        let mut found = nothing();
+        support(&system, &answer, 1, &UNITS, &mut found);
+        assert_eq!(found.worst, Place::Joint(1));
+        (found.support, found.joint)
+    };
+    let at_m = [0.0; 3];
+    let (off, pushed) = found(Support::Line { at_m, direction: along }, None);
+    close(off, (41.0_f64.sqrt() - 0.25) / 4.0);
+    close(pushed, 5.5 / 10.0);
+    let (off, pushed) = found(Support::Plane { at_m, normal: along }, None);
+    close(off, (3.0 - 0.25) / 4.0);
+    close(pushed, 7.5 / 10.0);
+    let (off, pushed) = found(Support::Fixed { at_m }, None);
+    close(off, (50.0_f64.sqrt() - 0.25) / 4.0);
+    close(pushed, 0.0);
+    let (off, pushed) = found(Support::Free, None);
+    close(off, 0.0);
+    close(pushed, 9.5 / 10.0);
+    // The floor, 0.8 m below, pushes 9.6 N of it up; the rest is 2.8 N aside.
+    let (off, pushed) = found(Support::Free, Some(4.0));
+    close(off, 0.0);
+    close(pushed, 2.3 / 10.0);
+    // 3.8 m above it no push is right, and the height is less of 4 m than the push of 8 N.
+    let (_, pushed) = found(Support::Free, Some(1.0));
+    close(pushed, (3.8 - 0.25) / 4.0);
+    // Below it.
+    let (off, pushed) = found(Support::Free, Some(5.8));
+    close(off, 0.75 / 4.0);
+    close(pushed, 2.3 / 10.0);
+}
+
+#[test]
+fn a_floor_pushes_what_lies_on_it_alone() {
+    let told = |above_m: f64, push_n: f64| {
+        let mut found = nothing();
+        on_floor(above_m, push_n, 3, &UNITS, &mut found);
+        (found.support, found.joint, found.worst)
+    };
+    let joint = Place::Joint(3);
+    assert_eq!(told(-1.25, 2.5), (0.25, 0.0, joint));
+    assert_eq!(told(0.25, 100.0), (0.0, 0.0, Place::Whole));
+    assert_eq!(told(9.0, 0.5), (0.0, 0.0, Place::Whole));
+    assert_eq!(told(0.0, -2.5), (0.0, 0.25, joint));
+    assert_eq!(told(1.25, 6.5), (0.0, 0.25, joint));
+    assert_eq!(told(4.25, 4.5), (0.0, 0.5, joint));
+}
+
+#[test]
+fn units_are_the_largest_numbers_of_an_answer() {
+    let ulps = 8.0 * f64::EPSILON;
+    let (system, mut answer) = crooked(|_, _| ());
+    let units = |answer: &SystemEquilibrium| {
+        let Units { rounding_m, rounding_n, size_m, largest_n } = Units::new(&system, answer);
+        [rounding_m / ulps, rounding_n / ulps, size_m, largest_n]
+    };
+    let wanted = |found: [f64; 4], wanted: [f64; 4]| {
+        found.into_iter().zip(wanted).for_each(|(found, wanted)| close(found, wanted));
+    };
+    let largest = 339.0_f64.sqrt();
+    wanted(units(&answer), [11.0, largest, 8.0, largest]);
+    answer.joints_m[1] = [5.0, 4.0, -7.0];
+    wanted(units(&answer), [8.0, largest, (16.0 + 36.0 + 144.0_f64).sqrt(), largest]);
+    answer.reactions_n[1] = [0.0, -30.0, 40.0];
+    wanted(units(&answer), [8.0, 50.0, 14.0, 50.0]);
+    answer.start_forces_n[0] = [60.0, 0.0, -80.0];
+    wanted(units(&answer), [8.0, 100.0, 14.0, 100.0]);
+}
+
+/// The larger of two stays, with its place; what is none stays whatever comes.
+#[test]
+fn the_largest_violation_is_kept_with_its_place() {
+    let mut found = nothing();
+    found.note(|s| &mut s.force, 0.5, Place::Joint(1));
+    found.note(|s| &mut s.joint, 0.25, Place::Joint(2));
+    found.note(|s| &mut s.force, 0.25, Place::Joint(3));
+    found.note(|s| &mut s.moment, 0.5, Place::Joint(4));
+    assert_eq!((found.force, found.joint, found.moment), (0.5, 0.25, 0.5));
+    assert_eq!((found.largest(), found.worst), (0.5, Place::Joint(1)));
+    assert!(found.passes(0.5) && !found.passes(0.499));
+    found.note(|s| &mut s.law, f64::NAN, Place::Joint(5));
+    found.note(|s| &mut s.law, f64::NAN, Place::Joint(6));
+    found.note(|s| &mut s.law, 9.0, Place::Joint(7));
+    assert!(found.largest().is_nan() && found.worst == Place::Joint(5));
+    assert!(!found.passes(f64::INFINITY));
 }

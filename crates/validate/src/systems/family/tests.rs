@@ -1,0 +1,121 @@
+//! Self-stresses of four bars that meet, by hand.
+
+use model::Bar;
+use model::system::{Joint, Member};
+
+use super::super::tests::lamp;
+use super::*;
+
+/// A joint 4 m below the middle of a square of anchors 3 m from it: bars of 5 m.
+fn legs(support: Support, lengths_m: [f64; 4]) -> (System, SystemEquilibrium) {
+    let corners = [[3.0, 0.0, 4.0], [-3.0, 0.0, 4.0], [0.0, 3.0, 4.0], [0.0, -3.0, 4.0]];
+    let mut joints: Vec<Joint> =
+        corners.iter().enumerate().map(|(k, at)| Joint::anchor(k.to_string(), *at)).collect();
+    joints.push(Joint { support, ..Joint::free("P") });
+    let member = |k: usize| Member::bar(k, 4, Bar::homogeneous(lengths_m[k], 0.0).unwrap());
+    let members = (0..4).map(member).collect();
+    let system = System::new("legs", 10.0, joints, members).unwrap();
+    let (_, like) = lamp();
+    let mut joints_m = corners.to_vec();
+    joints_m.push([0.0; 3]);
+    (system, SystemEquilibrium { joints_m, ..like })
+}
+
+/// Those along x against those along y: of 1 N in the first a quarter, with the signs + + - -.
+#[test]
+fn one_stress_is_left_where_four_bars_meet() {
+    let (system, answer) = legs(Support::Free, [5.0; 4]);
+    let family = Family::of(&system, &answer).unwrap();
+    assert_eq!(family.dimension(), 1);
+    let close = |found: &[f64], wanted: &[f64]| {
+        assert_eq!(found.len(), wanted.len());
+        for (found, wanted) in found.iter().zip(wanted) {
+            assert!((found - wanted).abs() < 1e-14, "{found}, not {wanted}");
+        }
+    };
+    close(&family.part_of(&[1.0, 0.0, 0.0, 0.0]), &[0.25, 0.25, -0.25, -0.25]);
+    close(&family.part_of(&[2.0, 0.0, 6.0, 4.0]), &[-2.0, -2.0, 2.0, 2.0]);
+    // Each bar pulls the joint towards its corner.
+    close(&family.left_by(&system, &[5.0, 10.0, 20.0, 40.0]), &[-3.0, -12.0, 60.0]);
+    close(&family.pull(1, 10.0), &[6.0, 0.0, -8.0]);
+}
+
+/// Held in a level plane the bars leave two stresses, on an upright line three, and four at an
+/// anchor; one that is not at its length bears nothing.
+#[test]
+fn stresses_are_counted_against_motions_and_lengths() {
+    let at_m = [0.0; 3];
+    let count = |support: Support, lengths_m: [f64; 4]| {
+        let (system, answer) = legs(support, lengths_m);
+        Family::of(&system, &answer).unwrap().dimension()
+    };
+    let plane = Support::Plane { at_m, normal: [0.0, 0.0, 1.0] };
+    let line = Support::Line { at_m, direction: [0.0, 0.0, 1.0] };
+    assert_eq!(count(plane, [5.0; 4]), 2);
+    assert_eq!(count(line, [5.0; 4]), 3);
+    assert_eq!(count(Support::Fixed { at_m }, [5.0; 4]), 4);
+    for (off_m, dimension) in [(4e-9, 1), (-4e-9, 1), (6e-9, 0), (-6e-9, 0)] {
+        assert_eq!(count(Support::Free, [5.0, 5.0, 5.0 + off_m, 5.0]), dimension, "{off_m}");
+    }
+    assert_eq!(count(Support::Free, [6.0; 4]), 0);
+    let (system, mut answer) = legs(Support::Free, [5.0; 4]);
+    answer.joints_m.truncate(4);
+    assert!(Family::of(&system, &answer).is_none());
+}
+
+/// Two unit vectors at right angles to each other and to the normal, whatever its length.
+#[test]
+fn motions_in_a_plane_are_a_right_handed_pair() {
+    let at_m = [0.0; 3];
+    for normal in [[2.0, 3.0, 6.0], [-6.0, 2.0, 3.0], [3.0, -6.0, -2.0], [0.0, 0.0, 1.0]] {
+        let [first, second] = motions(&Support::Plane { at_m, normal })[..] else { panic!() };
+        let turned = cross(first, second);
+        let along = times(1.0 / norm(normal), normal);
+        assert!(norm(minus(turned, along)) < 1e-15, "{normal:?}");
+        assert!((norm(first) - 1.0).abs() < 1e-15 && (norm(second) - 1.0).abs() < 1e-15);
+    }
+    let [along] = motions(&Support::Line { at_m, direction: [2.0, 3.0, 6.0] })[..] else {
+        panic!()
+    };
+    assert!(norm(minus(along, [2.0 / 7.0, 3.0 / 7.0, 6.0 / 7.0])) < 1e-15);
+    assert!(motions(&Support::Fixed { at_m }).is_empty());
+    assert_eq!(motions(&Support::Free), [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]);
+}
+
+/// (1, 2, 2) and (2, 4, 4) cancel as (2, -1)/√5; the other value is 3 √5, and a billionth counts.
+#[test]
+fn rows_cancel_to_a_billionth_of_the_largest_value() {
+    let matrix = |off: f64| {
+        let rows = [[1.0, 2.0, 2.0], [2.0, 4.0, 4.0 + off]];
+        Mat::from_fn(2, 3, |row, column| rows[row][column])
+    };
+    let (stresses, zero) = null_rows(&matrix(0.0)).unwrap();
+    assert!((zero / (3.0e-9 * 5.0_f64.sqrt()) - 1.0).abs() < 1e-14);
+    let [stress] = &stresses[..] else { panic!("{stresses:?}") };
+    assert!((stress[0] / stress[1] + 2.0).abs() < 1e-14, "{stress:?}");
+    assert!((stress[0].hypot(stress[1]) - 1.0).abs() < 1e-14);
+    // Their lesser value is `|off| |(2, -1)/√5 · (0, 1)| |across (1, 2, 2)| = off/√5 · √5/3`.
+    assert_eq!(null_rows(&matrix(1.9e-8)).unwrap().0.len(), 1);
+    assert_eq!(null_rows(&matrix(2.2e-8)).unwrap().0.len(), 0);
+    assert_eq!(null_rows(&Mat::zeros(0, 3)).unwrap(), (vec![], 0.0));
+    let all = null_rows(&Mat::zeros(2, 0)).unwrap();
+    assert_eq!(all, (vec![vec![1.0, 0.0], vec![0.0, 1.0]], 0.0));
+}
+
+/// Eighty joints have 240 coordinates, the most that are counted.
+#[test]
+fn large_systems_are_not_counted() {
+    let counted = |joints: usize| {
+        let mut all: Vec<Joint> = (0..joints).map(|k| Joint::free(k.to_string())).collect();
+        all.push(Joint::anchor("A", [0.0; 3]));
+        let body = Bar::homogeneous(1.0, 0.0).unwrap();
+        // Slack, so that no member counts.
+        let members = (0..joints).map(|k| Member::cable(k, joints, body)).collect();
+        let system = System::new("many", 10.0, all, members).unwrap();
+        let (_, like) = lamp();
+        let mut joints_m = vec![[0.0, 0.0, -0.5]; joints];
+        joints_m.push([0.0; 3]);
+        Family::of(&system, &SystemEquilibrium { joints_m, ..like }).map(|f| f.dimension())
+    };
+    assert_eq!((counted(80), counted(81)), (Some(0), None));
+}

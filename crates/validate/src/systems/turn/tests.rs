@@ -1,0 +1,85 @@
+//! Turns by hand.
+
+use model::Bar;
+use model::system::{Joint, Member};
+
+use super::super::tests::lamp;
+use super::*;
+
+/// A quarter turn about (1, 2), and from there to (10, 20).
+#[test]
+fn a_place_turns_about_its_pivot_and_goes_along() {
+    let turn = Turn { from_m: [1.0, 2.0], to_m: [10.0, 20.0], cos: 0.6, sin: 0.8 };
+    let close = |found: Vector, wanted: Vector| {
+        assert!(norm(minus(found, wanted)) < 1e-14, "{found:?}, not {wanted:?}");
+    };
+    close(turn.vector([5.0, 10.0, 3.0]), [-5.0, 10.0, 3.0]);
+    close(turn.place([6.0, 12.0, 3.0]), [5.0, 30.0, 3.0]);
+    close(Turn::NONE.place([6.0, 12.0, 3.0]), [6.0, 12.0, 3.0]);
+}
+
+/// A weight on a bar of 5 m, drawn aside by nothing: it hangs where it likes on a circle about the
+/// vertical through (1, 2), here held up by another bar from 6 m below.
+fn propped(cos: f64, sin: f64) -> (System, SystemEquilibrium) {
+    let joints = vec![
+        Joint::anchor("A", [1.0, 2.0, 0.0]),
+        Joint::anchor("B", [1.0, 2.0, -6.0]),
+        Joint::free("P").with_mass(0.2),
+    ];
+    let bar = Bar::homogeneous(5.0, 0.0).unwrap();
+    let members = vec![Member::bar(0, 2, bar), Member::bar(2, 1, bar)];
+    let system = System::new("propped", 10.0, joints, members).unwrap();
+    let (_, like) = lamp();
+    let out = [4.0 * cos, 4.0 * sin];
+    let upper = [-out[0] / 3.0, -out[1] / 3.0, 1.0];
+    let lower = [out[0] / 3.0, out[1] / 3.0, 1.0];
+    let answer = SystemEquilibrium {
+        energy_j: -6.0,
+        joints_m: vec![[1.0, 2.0, 0.0], [1.0, 2.0, -6.0], [1.0 + out[0], 2.0 + out[1], -3.0]],
+        start_forces_n: vec![upper, lower.map(|x| -x)],
+        end_forces_n: vec![upper.map(|x| -x), lower],
+        axial_n: vec![5.0 / 3.0, -5.0 / 3.0],
+        reactions_n: vec![upper, lower, [0.0; 3]],
+        ..like
+    };
+    (system, answer)
+}
+
+#[test]
+fn what_is_not_complete_is_not_turned() {
+    let (system, first) = propped(1.0, 0.0);
+    let (_, second) = propped(0.6, 0.8);
+    let (turned, parts) = turned_onto(&system, &first, &second, &[false; 3]);
+    assert_eq!(parts, 1);
+    for (found, wanted) in turned.joints_m.iter().zip(&first.joints_m) {
+        assert!(norm(minus(*found, *wanted)) < 1e-14, "{found:?}");
+    }
+    for (found, wanted) in turned.reactions_n.iter().zip(&first.reactions_n) {
+        assert!(norm(minus(*found, *wanted)) < 1e-14, "{found:?}");
+    }
+    let changes: [fn(&mut SystemEquilibrium); 4] = [
+        |a| a.joints_m.truncate(2),
+        |a| a.start_forces_n.truncate(1),
+        |a| a.end_forces_n.truncate(1),
+        |a| a.reactions_n.truncate(2),
+    ];
+    for change in changes {
+        let mut short = second.clone();
+        change(&mut short);
+        assert_eq!(turned_onto(&system, &first, &short, &[false; 3]), (short, 0));
+    }
+    let mut short = first;
+    short.joints_m.truncate(2);
+    assert_eq!(turned_onto(&system, &short, &second, &[false; 3]), (second, 0));
+}
+
+/// What is out of balance before is turned, what would only get so is not: the joint that is left
+/// out says nothing about the turn.
+#[test]
+fn joints_that_are_left_out_do_not_count() {
+    let (system, first) = propped(1.0, 0.0);
+    let (_, second) = propped(0.6, 0.8);
+    let (turned, parts) = turned_onto(&system, &first, &second, &[false, false, true]);
+    assert_eq!(parts, 1);
+    assert!(norm(minus(turned.joints_m[2], second.joints_m[2])) < 1e-14, "{:?}", turned.joints_m);
+}
