@@ -301,3 +301,81 @@ fn longer_strands_of_equal_bars_have_mirror_images() {
         assert!(census.equilibria.iter().any(|other| near(other.joints_m[0], image)));
     }
 }
+
+/// A lamp on two bars between anchors, and a bar that hangs on it: three signs.
+fn hanging_lamp() -> System {
+    let joints = vec![
+        Joint::anchor("A", [-3.0, 0.0, 0.0]),
+        Joint::anchor("B", [3.0, 0.0, 0.0]),
+        Joint::free("P").with_mass(0.2),
+        Joint::free("Q").with_mass(0.1),
+    ];
+    let members = vec![
+        Member::bar(0, 2, light(5.0)),
+        Member::bar(2, 1, light(5.0)),
+        Member::bar(2, 3, light(1.0)),
+    ];
+    system(joints, members)
+}
+
+/// Half a metre of the 11 m of all bars, and 1 N of the largest force of 4 N.
+#[test]
+fn widths_are_parts_of_the_length_and_of_the_largest_force() {
+    let system = hanging_lamp();
+    let census = taken(&system);
+    let width = |width_m: f64, width_n: f64| {
+        let mut position = census.equilibria[0].clone();
+        position.joints_m[3] = [0.0, 1.0, 2.0].map(Interval::point);
+        position.joints_m[3][1] = Interval::new(1.0, 1.0 + width_m);
+        position.axial_n = [-4.0, 1.0, 2.0].map(Interval::point).to_vec();
+        position.axial_n[1] = Interval::new(1.0, 1.0 + width_n);
+        position.joints_m[..3].copy_from_slice(&[
+            [Interval::ZERO; 3],
+            [Interval::ONE; 3],
+            [Interval::point(2.0); 3],
+        ]);
+        let mut alone = census.clone();
+        alone.equilibria = vec![position];
+        let answers = alone.to_model(&system);
+        answers[0].evidence.ladder.verified.proof().unwrap().box_width
+    };
+    assert!((width(0.5, 0.0) - 0.5 / 11.0).abs() < 1e-14);
+    assert!((width(0.0, 1.0) - 0.25).abs() < 1e-14);
+}
+
+#[test]
+fn the_signs_of_all_bars_are_gone_through() {
+    let system = hanging_lamp();
+    let census = taken(&system);
+    let complete = census.completeness(&system);
+    let proof = complete.proof().unwrap();
+    assert_eq!((proof.patterns, proof.in_plane), (8, census.equilibria.len()));
+}
+
+/// Bars of 1 m and 1.5 m hang from anchors 1 m apart or stand on them, and a cable of 3 m is slack
+/// between their ends, which are 2.7 m apart at most.
+#[test]
+fn a_slack_cable_leaves_all_signs_of_the_others() {
+    let joints = vec![
+        Joint::anchor("A", [0.0; 3]),
+        Joint::free("P").with_mass(1.0),
+        Joint::free("Q").with_mass(1.0),
+        Joint::anchor("B", [1.0, 0.0, 0.0]),
+    ];
+    let members = vec![
+        Member::bar(0, 1, light(1.0)),
+        Member::cable(1, 2, light(3.0)),
+        Member::bar(2, 3, light(1.5)),
+    ];
+    let system = system(joints, members);
+    let census = SystemCensus::take(&system, &Settings::default()).unwrap();
+    let slack = census.equilibria.iter().filter(|one| one.axial_n[1] == Interval::ZERO);
+    let mut heights: Vec<[f64; 2]> =
+        slack.map(|one| [1, 2].map(|k| one.joints_m[k][2].mid())).collect();
+    heights.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
+    assert_eq!(heights.len(), 4, "{heights:?}");
+    let wanted = [[-1.0, -1.5], [-1.0, 1.5], [1.0, -1.5], [1.0, 1.5]];
+    for (found, wanted) in heights.iter().flatten().zip(wanted.iter().flatten()) {
+        assert!((found - wanted).abs() < 1e-12, "{heights:?}");
+    }
+}
