@@ -229,6 +229,21 @@ mod tests {
         }
     }
 
+    /// Of (3, 4) the part across (1, 0) is (0, 4); of (2, 0) nothing is left, and of (2, 1e-7) too little.
+    #[test]
+    fn vectors_become_the_next_of_a_basis_unless_they_are_in_its_span() {
+        let basis = [vec![1.0, 0.0]];
+        let mut vector = [3.0, 4.0];
+        assert!(independent(&mut vector, &basis));
+        assert!(vector[0].abs() < 1e-15 && (vector[1] - 1.0).abs() < 1e-15, "{vector:?}");
+        assert!(!independent(&mut [2.0, 0.0], &basis));
+        assert!(!independent(&mut [2.0, 1e-7], &basis));
+        assert!(independent(&mut [2.0, 1e-5], &basis));
+        let mut first = [3.0, 4.0];
+        assert!(independent(&mut first, &[]));
+        assert!((first[0] - 0.6).abs() < 1e-15 && (first[1] - 0.8).abs() < 1e-15, "{first:?}");
+    }
+
     /// A joint between two anchors of one vertical turns about it, whatever acts on the anchors, and
     /// does not if anything pulls it aside.
     #[test]
