@@ -40,7 +40,7 @@ fn said(bars: usize, end_m: [f64; 3], heights_m: &[f64]) -> Reason {
     ladder.complete.reason().unwrap().clone()
 }
 
-/// Three bars over 1 m lie in the vertical in three ways, up and down; two that come back in two.
+/// Three bars over 1 m lie in the vertical in three ways, up or down; four that come back hang or stand.
 #[test]
 fn answers_in_the_vertical_are_at_straight_positions() {
     let at = |distance| Reason::AtStraight { distance };
@@ -55,9 +55,9 @@ fn answers_in_the_vertical_are_at_straight_positions() {
     assert!((distance - apart / 3.0).abs() < 1e-15, "{distance:e}");
     let off = said(3, down, &[0.0, -1.0, -1.999, -1.0]);
     assert!(!matches!(off, Reason::AtStraight { .. }), "{off}");
-    // From one point to itself it hangs or stands.
+    // From one point to itself.
     for turn in [-1.0, 1.0] {
-        assert_eq!(said(2, [0.0; 3], &[0.0, turn, 0.0]), at(0.0));
+        assert_eq!(said(4, [0.0; 3], &[0.0, turn, 2.0 * turn, turn, 0.0]), at(0.0));
     }
     // A joint less is no answer.
     let short = said(3, down, &[0.0, -1.0, -1.0]);
