@@ -282,4 +282,4 @@ fn norm([x, y, z]: Vector) -> f64 {
 }
 
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;

@@ -112,9 +112,10 @@ fn norm([x, y, z]: Vector) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use model::{Evidence, InPlane, InSpace, Reactions, Stability};
+    use model::Reactions;
 
     use super::*;
+    use crate::certificate::tests::answer;
 
     /// Three bars of 1, 2 and 3 m along a direction, the second one back.
     fn folded(direction: Vector, aside: Vector) -> (Chain, Vec<Vector>) {
@@ -176,18 +177,9 @@ mod tests {
         let family = |solver: SolverName, axial_n: [f64; 3]| {
             let answer = Equilibrium {
                 solver,
-                energy_j: 0.0,
                 joints_m: joints_m.clone(),
-                multipliers_n: vec![],
                 reactions_n: Reactions { start: [0.0, 0.0, 7.0], end: [0.0; 3] },
-                axial_n: axial_n.to_vec(),
-                stability: Stability {
-                    in_plane: InPlane::Minimum,
-                    index_in_plane: 0,
-                    in_space: InSpace::Stable,
-                    index_in_space: 0,
-                },
-                evidence: Evidence::new("given", 0.0, 0.0, 0),
+                ..answer([0.0; 3], axial_n, 0.0)
             };
             let found = force_family(&chain, &answer).unwrap();
             (found.choice, found.start_force_n)

@@ -44,7 +44,7 @@ use crate::slack::exact::ExactSides;
 /// assert!((hanging.energy_j.mid() + 10.0 * (2.0 * 0.45 + 1.5 * 0.45)).abs() < 1e-14);
 /// // They bridge what is left between -0.9 m and -0.8 m.
 /// assert!((hanging.gap_m.mid() - 0.3_f64.hypot(0.1)).abs() < 1e-15);
-/// assert_eq!(hanging.dimension_in_plane(), 0);
+/// assert_eq!(hanging.dimension_in_plane, 0);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -64,7 +64,7 @@ pub struct SlackFamily {
     pub index_in_plane: usize,
     /// Dimension of the family in the plane: the number of slack bars less two, but one for those that
     /// only turn, folded, about a gap of nothing.
-    pub dimension: usize,
+    pub dimension_in_plane: usize,
     /// The family in the plane, if it is a manifold and the second derivative across it regular. Else
     /// the sides are slack bars, in their order, and last the gap.
     pub topology: Result<Topology, TopologyError>,
@@ -76,12 +76,6 @@ impl SlackFamily {
     #[must_use]
     pub fn index_in_space(&self) -> usize {
         2 * self.index_in_plane
-    }
-
-    /// Dimension of the family in the plane.
-    #[must_use]
-    pub fn dimension_in_plane(&self) -> usize {
-        self.dimension
     }
 
     /// Angle of each bar from the descending vertical, rad: 0 or π, and none for the slack bars.
@@ -166,7 +160,7 @@ fn family(system: &System, exact: Option<&ExactSides>, signs: &[i8], group: u8) 
         Some(sides) => closed_polygons(&slack, &sides.lengths()[range.clone()]),
         None => polygons(slack, distance),
     };
-    let (dimension, topology) = match polygons {
+    let (dimension_in_plane, topology) = match polygons {
         Ok(polygons) => polygons,
         Err(existence) => return existence,
     };
@@ -183,7 +177,7 @@ fn family(system: &System, exact: Option<&ExactSides>, signs: &[i8], group: u8) 
         energy_j: energy * newton * Interval::point(system.length_unit_m),
         axial_n: forces.into_iter().map(|force| force * newton).collect(),
         index_in_plane: signs.iter().filter(|sign| **sign < 0).count(),
-        dimension,
+        dimension_in_plane,
         topology,
     }))
 }

@@ -300,14 +300,19 @@ mod tests {
         assert!(isolated(&even, Pattern(0b0110), 1, false).is_none());
     }
 
+    /// Three bars over 1 m, each with its weight at its end.
+    fn with_weights_at_ends(lengths: [f64; 3]) -> System {
+        let bars = lengths.map(|length| Bar::new(length, 1.0, length, [0.0; 3]).unwrap());
+        let anchors = Anchors { start_m: [0.0; 3], end_m: [1.0, 0.0, 0.0] };
+        let chain = Chain::new("straight", 10.0, anchors, bars.to_vec()).unwrap();
+        System::new(&chain, JointLoads::NONE)
+    }
+
     /// Weights −1, 0, 1 and lengths 1, 3, 3 with the signs + − +: the moments are 1, 2 and 4, the
     /// signed variance 4 − 2² is nothing, and nothing is said.
     #[test]
     fn straight_positions_without_variance_are_not_isolated() {
-        let bars = [1.0, 3.0, 3.0].map(|length| Bar::new(length, 1.0, length, [0.0; 3]).unwrap());
-        let anchors = Anchors { start_m: [0.0; 3], end_m: [1.0, 0.0, 0.0] };
-        let chain = Chain::new("straight", 10.0, anchors, bars.to_vec()).unwrap();
-        let system = System::new(&chain, JointLoads::NONE);
+        let system = with_weights_at_ends([1.0, 3.0, 3.0]);
         for (way, pattern) in [(1, 0b010), (-1, 0b101)] {
             assert!(isolated(&system, Pattern(pattern), way, false).is_none());
         }
@@ -317,10 +322,7 @@ mod tests {
     /// 5 − 3² is −4. About a mean of 1 it would be 4 − 4, nothing.
     #[test]
     fn the_variance_is_about_the_mean_of_the_weights() {
-        let bars = [1.0, 4.0, 4.0].map(|length| Bar::new(length, 1.0, length, [0.0; 3]).unwrap());
-        let anchors = Anchors { start_m: [0.0; 3], end_m: [1.0, 0.0, 0.0] };
-        let chain = Chain::new("straight", 10.0, anchors, bars.to_vec()).unwrap();
-        let system = System::new(&chain, JointLoads::NONE);
+        let system = with_weights_at_ends([1.0, 4.0, 4.0]);
         for (way, pattern) in [(1, 0b010), (-1, 0b101)] {
             assert!(isolated(&system, Pattern(pattern), way, false).is_some());
         }

@@ -88,7 +88,7 @@ fn slack_bars_make_families_that_the_topology_needs() {
     assert_eq!(census.alternating_sum(), topology.euler);
     for family in &census.families {
         assert_eq!(&family.signs[2..4], [0, 0]);
-        assert_eq!(family.dimension_in_plane(), 0);
+        assert_eq!(family.dimension_in_plane, 0);
         assert_eq!(
             family.topology.as_ref().unwrap().betti,
             [2],
@@ -139,7 +139,7 @@ fn three_slack_bars_are_a_curve_of_equilibria() {
     let census = census(&problem(&chain, [0.43, 0.0, 0.1]));
     assert!(census.complete, "{:?}", census.undecided);
     assert!(!census.families.is_empty());
-    assert!(census.families.iter().all(|family| family.dimension_in_plane() == 1));
+    assert!(census.families.iter().all(|family| family.dimension_in_plane == 1));
     assert_eq!(census.alternating_sum(), census.topology.as_ref().unwrap().euler);
 }
 

@@ -23,7 +23,7 @@ fn bars_that_also_fit_into_one_line_are_a_family_all_the_same() {
     let [family] = &at.families[..] else { panic!("{:?}", at.families) };
     assert_eq!(family.signs, [1, 0, 0, 0]);
     assert_eq!(family.topology, Err(TopologyError::Straight { sides: vec![1, 2] }));
-    assert_eq!(family.dimension_in_plane(), 1);
+    assert_eq!(family.dimension_in_plane, 1);
     // The bar's middle is 0.75 m deep.
     assert!((family.energy_j.mid() + 9.81 * 0.75).abs() < 1e-14);
     assert_eq!(at.completeness(), Status::Open(model::Reason::SingularFamilies { listed: 1 }));
@@ -54,7 +54,7 @@ fn bars_that_close_upon_themselves_turn_about_a_point() {
     let triangle = census(&[(1.0, 1.0), (1.0, 0.0), (1.0, 0.0), (1.0, 0.0)], [0.0, 0.0, -1.0]);
     let family = triangle.families.iter().find(|f| f.signs == [1, 0, 0, 0]).unwrap();
     assert_eq!(family.topology.as_ref().unwrap().betti, [2, 2]);
-    assert_eq!((family.dimension_in_plane(), family.index_in_plane), (1, 0));
+    assert_eq!((family.dimension_in_plane, family.index_in_plane), (1, 0));
     assert_eq!((family.gap_m.lo(), family.gap_m.hi()), (0.0, 0.0));
     assert!((family.energy_j.mid() + 9.81 * 0.5).abs() < 1e-14);
     // Standing it leaves 2 m: 1, 1, 1, 2 is one circle.
@@ -83,7 +83,7 @@ fn folded_bars_turn_about_a_point() {
             // The longest is as long as the others.
             let longest = if slack.len() == 2 { 1 } else { 2 };
             assert_eq!(folded.topology, Err(TopologyError::Straight { sides: vec![longest] }));
-            assert_eq!((folded.dimension_in_plane(), folded.gap_m.hi().to_bits()), (1, 0));
+            assert_eq!((folded.dimension_in_plane, folded.gap_m.hi().to_bits()), (1, 0));
         }
     }
 }

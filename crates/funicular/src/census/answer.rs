@@ -409,7 +409,7 @@ fn slack(family: &SlackFamily) -> Slack {
         pull_n: family.pull_n.map(ends),
         index_in_plane: family.index_in_plane,
         index_in_space: family.index_in_space(),
-        dimension_in_plane: family.dimension_in_plane(),
+        dimension_in_plane: family.dimension_in_plane,
         is_manifold: family.topology.is_ok(),
     }
 }

@@ -12,7 +12,7 @@ fn paper() -> Problem {
 }
 
 /// An answer with the numbers the certificate reads; reference digits, external.
-fn answer(end: Vector, axial_n: [f64; 3], energy_j: f64) -> Equilibrium {
+pub(crate) fn answer(end: Vector, axial_n: [f64; 3], energy_j: f64) -> Equilibrium {
     Equilibrium {
         solver: SolverName::LAGRANGE,
         energy_j,

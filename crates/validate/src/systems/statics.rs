@@ -65,6 +65,19 @@ struct Units {
 }
 
 impl SystemStatics {
+    /// Nothing is violated.
+    const NOTHING: Self = Self {
+        support: 0.0,
+        length: 0.0,
+        law: 0.0,
+        force: 0.0,
+        moment: 0.0,
+        joint: 0.0,
+        balance: 0.0,
+        derived: 0.0,
+        worst: Place::Whole,
+    };
+
     /// The largest violation; NaN if any number of the answer is not finite or missing.
     #[must_use]
     pub fn largest(&self) -> f64 {
@@ -96,17 +109,7 @@ impl SystemStatics {
 /// tolerance.
 #[must_use]
 pub fn judge(system: &System, answer: &SystemEquilibrium) -> SystemStatics {
-    let mut found = SystemStatics {
-        support: 0.0,
-        length: 0.0,
-        law: 0.0,
-        force: 0.0,
-        moment: 0.0,
-        joint: 0.0,
-        balance: 0.0,
-        derived: 0.0,
-        worst: Place::Whole,
-    };
+    let mut found = SystemStatics::NOTHING;
     let (joints, members) = (system.joints().len(), system.members().len());
     let fits = [answer.joints_m.len(), answer.reactions_n.len()] == [joints; 2]
         && [answer.start_forces_n.len(), answer.end_forces_n.len(), answer.axial_n.len()]

@@ -265,8 +265,9 @@ fn families(census: &Summary) -> String {
          way they can;\nthe dimension is that in the plane, where two slack bars have two ways):\n{rows}\n"
     );
     if census.slack_families.iter().any(|family| !family.is_manifold) {
-        text += "* no manifold: the slack bars also fit into one line, or close upon themselves folded; no other \
-                 equilibrium is near.\n";
+        text +=
+            "* no manifold: the slack bars also fit into one line, or close upon themselves folded";
+        text += if census.decided { "; no other equilibrium is near.\n" } else { ".\n" };
     }
     left_out(&mut text, census.slack_families.len(), PRINTED_OPEN, "families");
     text + "\n"

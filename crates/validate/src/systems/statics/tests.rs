@@ -128,20 +128,6 @@ pub(in crate::systems) fn crooked(
 
 const UNITS: Units = Units { rounding_m: 0.25, rounding_n: 0.5, size_m: 4.0, largest_n: 8.0 };
 
-fn nothing() -> SystemStatics {
-    SystemStatics {
-        support: 0.0,
-        length: 0.0,
-        law: 0.0,
-        force: 0.0,
-        moment: 0.0,
-        joint: 0.0,
-        balance: 0.0,
-        derived: 0.0,
-        worst: Place::Whole,
-    }
-}
-
 fn close(found: f64, wanted: f64) {
     assert!((found - wanted).abs() < 1e-14 * wanted.abs().max(1.0), "{found}, not {wanted}");
 }
@@ -154,7 +140,7 @@ fn close(found: f64, wanted: f64) {
 fn what_is_left_over_on_a_member_is_a_part_of_its_largest_force() {
     let (system, mut answer) = crooked(|_, _| ());
     answer.axial_n[0] += 2.5;
-    let mut found = nothing();
+    let mut found = SystemStatics::NOTHING;
     member(&system, &answer, 0, &UNITS, &mut found);
     close(found.force, (3818.0_f64.sqrt() - 0.5) / 80.0);
     close(found.moment, (535_429.0_f64.sqrt() / 8.0 - 23.5) / 560.0);
@@ -163,7 +149,7 @@ fn what_is_left_over_on_a_member_is_a_part_of_its_largest_force() {
     assert_eq!((found.law.to_bits(), found.worst), (0, Place::Member(1)));
     // Where rounding is as much as the distance there is no direction.
     for (rounding_m, derived) in [(7.0, 0.0), (6.875, 0.025)] {
-        let mut found = nothing();
+        let mut found = SystemStatics::NOTHING;
         member(&system, &answer, 0, &Units { rounding_m, ..UNITS }, &mut found);
         close(found.derived, derived);
     }
@@ -176,7 +162,7 @@ fn the_laws_of_members_are_those_of_their_kinds() {
     let told = |kind: Kind, stiffness_n: Option<f64>, distance_m: f64, axial_n: f64| {
         let body = Bar::homogeneous(8.0, 0.0).unwrap();
         let member = Member { kind, stiffness_n, ..Member::bar(0, 1, body) };
-        let mut found = nothing();
+        let mut found = SystemStatics::NOTHING;
         law(&member, distance_m, axial_n, 4.0, &UNITS, Place::Member(1), &mut found);
         [found.length, found.law]
     };
@@ -276,7 +262,7 @@ fn supports_bear_what_is_normal_to_their_motions() {
         let system = floor_m.map_or(system.clone(), |floor_m| system.with_floor(floor_m).unwrap());
         answer.joints_m[1] = [1.8 - 3.2, 5.0, 2.4 + 2.4];
         answer.reactions_n[1] = [3.6 - 6.4, 0.0, 4.8 + 4.8];
-        let mut found = nothing();
+        let mut found = SystemStatics::NOTHING;
         support(&system, &answer, 1, &UNITS, &mut found);
         assert_eq!(found.worst, Place::Joint(1));
         (found.support, found.joint)
@@ -310,7 +296,7 @@ fn supports_bear_what_is_normal_to_their_motions() {
 #[test]
 fn a_floor_pushes_what_lies_on_it_alone() {
     let told = |above_m: f64, push_n: f64| {
-        let mut found = nothing();
+        let mut found = SystemStatics::NOTHING;
         on_floor(above_m, push_n, 3, &UNITS, &mut found);
         (found.support, found.joint, found.worst)
     };
@@ -347,7 +333,7 @@ fn units_are_the_largest_numbers_of_an_answer() {
 /// The larger of two stays, with its place; what is none stays whatever comes.
 #[test]
 fn the_largest_violation_is_kept_with_its_place() {
-    let mut found = nothing();
+    let mut found = SystemStatics::NOTHING;
     found.note(|s| &mut s.force, 0.5, Place::Joint(1));
     found.note(|s| &mut s.joint, 0.25, Place::Joint(2));
     found.note(|s| &mut s.force, 0.25, Place::Joint(3));

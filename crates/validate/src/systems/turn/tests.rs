@@ -1,9 +1,6 @@
 //! Turns by hand.
 
-use model::Bar;
-use model::system::{Joint, Member};
-
-use super::super::tests::lamp;
+use super::super::tests::propped;
 use super::*;
 
 /// A quarter turn about (1, 2), and from there to (10, 20).
@@ -16,33 +13,6 @@ fn a_place_turns_about_its_pivot_and_goes_along() {
     close(turn.vector([5.0, 10.0, 3.0]), [-5.0, 10.0, 3.0]);
     close(turn.place([6.0, 12.0, 3.0]), [5.0, 30.0, 3.0]);
     close(Turn::NONE.place([6.0, 12.0, 3.0]), [6.0, 12.0, 3.0]);
-}
-
-/// A weight on a bar of 5 m, drawn aside by nothing: it hangs where it likes on a circle about the
-/// vertical through (1, 2), here held up by another bar from 6 m below.
-fn propped(cos: f64, sin: f64) -> (System, SystemEquilibrium) {
-    let joints = vec![
-        Joint::anchor("A", [1.0, 2.0, 0.0]),
-        Joint::anchor("B", [1.0, 2.0, -6.0]),
-        Joint::free("P").with_mass(0.2),
-    ];
-    let bar = Bar::homogeneous(5.0, 0.0).unwrap();
-    let members = vec![Member::bar(0, 2, bar), Member::bar(2, 1, bar)];
-    let system = System::new("propped", 10.0, joints, members).unwrap();
-    let (_, like) = lamp();
-    let out = [4.0 * cos, 4.0 * sin];
-    let upper = [-out[0] / 3.0, -out[1] / 3.0, 1.0];
-    let lower = [out[0] / 3.0, out[1] / 3.0, 1.0];
-    let answer = SystemEquilibrium {
-        energy_j: -6.0,
-        joints_m: vec![[1.0, 2.0, 0.0], [1.0, 2.0, -6.0], [1.0 + out[0], 2.0 + out[1], -3.0]],
-        start_forces_n: vec![upper, lower.map(|x| -x)],
-        end_forces_n: vec![upper.map(|x| -x), lower],
-        axial_n: vec![5.0 / 3.0, -5.0 / 3.0],
-        reactions_n: vec![upper, lower, [0.0; 3]],
-        ..like
-    };
-    (system, answer)
 }
 
 #[test]
