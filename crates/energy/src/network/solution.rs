@@ -158,7 +158,7 @@ fn self_stresses(second: &SecondOrder, least: bool) -> Option<SelfStresses> {
     if basis.is_empty() {
         None
     } else {
-        Some(SelfStresses { dimension: basis.len(), basis, choice, ranges: None })
+        Some(SelfStresses { dimension: basis.len(), basis, choice, misfit_m: None, ranges: None })
     }
 }
 

@@ -135,7 +135,7 @@ fn named(
         Forces::Unique | Forces::Found | Forces::Uncounted => ForceChoice::Unknown,
     };
     let basis = basis.filter(|basis| !basis.is_empty())?.to_vec();
-    Some(SelfStresses { dimension: basis.len(), basis, choice, ranges: ranges() })
+    Some(SelfStresses { dimension: basis.len(), basis, choice, misfit_m: None, ranges: ranges() })
 }
 
 /// The counts, where there are any.

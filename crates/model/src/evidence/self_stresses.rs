@@ -17,6 +17,11 @@ pub struct SelfStresses {
     pub basis: Vec<Vec<f64>>,
     /// Which of the forces the answer names.
     pub choice: ForceChoice,
+    /// The largest difference between the length of an inextensible member and the distance of its
+    /// ends, m: these members overdetermine the shape, which is the one that meets all lengths best
+    /// (see [`Misfit`](crate::system::Misfit)). Without value where a solver does not say.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub misfit_m: Option<f64>,
     /// What is open of the axial force of each member, where the solver tells it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub ranges: Option<Vec<ForceRange>>,

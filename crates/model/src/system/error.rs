@@ -114,6 +114,24 @@ pub enum SystemError {
         /// The stiffness as given.
         stiffness_n: f64,
     },
+    /// Occurs when the tolerance of a length is zero, negative, infinite, not a number, or as large as the length.
+    #[error("the tolerance of a length must be positive and less than the length, {} m, got {} m", Readable(*length_m), Readable(*tolerance_m))]
+    LengthTolerance {
+        /// Number of the member, from 1.
+        member: usize,
+        /// Its length.
+        length_m: f64,
+        /// The tolerance as given.
+        tolerance_m: f64,
+    },
+    /// Occurs when a tolerance of its length is given for a member that stretches.
+    #[error(
+        "a member with a stiffness has the length that its force gives it: a tolerance says nothing of it"
+    )]
+    ElasticTolerance {
+        /// Number of the member, from 1.
+        member: usize,
+    },
     /// Occurs when a force acts at a point that is not on its member, or is not finite.
     #[error(
         "a force on a member must be finite and act between 0 and its length {} m, got {component_n} N \
@@ -246,6 +264,14 @@ fn check_member(number: usize, member: &Member, joints: &[Joint]) -> Result<(), 
         return Err(SystemError::Stiffness { member: number, stiffness_n });
     }
     let length_m = member.body.length_m();
+    if let Some(tolerance_m) = member.length_tolerance_m {
+        if member.stiffness_n.is_some() {
+            return Err(SystemError::ElasticTolerance { member: number });
+        }
+        if !(tolerance_m > 0.0 && tolerance_m < length_m) {
+            return Err(SystemError::LengthTolerance { member: number, length_m, tolerance_m });
+        }
+    }
     for load in &member.loads {
         let component_n = first_bad(load.force_n);
         if component_n.is_some() || !(0.0..=length_m).contains(&load.at_m) {

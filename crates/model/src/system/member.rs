@@ -19,8 +19,30 @@ pub struct Member {
     pub body: Bar,
     /// Axial stiffness `EA`, N: the force that would double the length. `None` is inextensible.
     pub stiffness_n: Option<f64>,
+    /// How far the length of an inextensible member may be off, m. `None` is rounding: see
+    /// [`within_m`](Self::within_m).
+    pub length_tolerance_m: Option<f64>,
     /// Constant forces at points of the member, besides its weight.
     pub loads: Vec<PointLoad>,
+}
+
+/// How far a length may be off, as a part of it, where the file gives no tolerance. Bars of a frame
+/// that are more than needed overdetermine its shape, and no lengths that are rounded fit it
+/// exactly: digits written to nine places are meant to.
+pub const LENGTH_ROUNDING: f64 = 1e-9;
+
+/// The misfit of one length where the lengths of inextensible members overdetermine the shape.
+///
+/// Of the shape that meets all lengths best: least $\sum e^2/l$ over the differences $e$ between
+/// distance and length, which is where equally stiff members would come to rest without loads.
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
+pub struct Misfit {
+    /// Number of the member, from 0.
+    pub member: usize,
+    /// Distance of its ends less its length, m.
+    pub misfit_m: f64,
+    /// What it may be: [`Member::within_m`].
+    pub within_m: f64,
 }
 
 /// Which changes of its length a member resists. With `l` the unstretched and `d` the present
@@ -54,7 +76,15 @@ impl Member {
     /// A rigid bar.
     #[must_use]
     pub fn bar(from: usize, to: usize, body: Bar) -> Self {
-        Self { from, to, kind: Kind::Bar, body, stiffness_n: None, loads: Vec::new() }
+        Self {
+            from,
+            to,
+            kind: Kind::Bar,
+            body,
+            stiffness_n: None,
+            length_tolerance_m: None,
+            loads: Vec::new(),
+        }
     }
 
     /// An inextensible cable.
@@ -67,6 +97,26 @@ impl Member {
     #[must_use]
     pub fn with_stiffness(self, stiffness_n: f64) -> Self {
         Self { stiffness_n: Some(stiffness_n), ..self }
+    }
+
+    /// The same member with a length known to within this, m.
+    #[must_use]
+    pub fn with_length_tolerance(self, length_tolerance_m: f64) -> Self {
+        Self { length_tolerance_m: Some(length_tolerance_m), ..self }
+    }
+
+    /// How far the length may be off where lengths overdetermine a shape, m: the tolerance given, or
+    /// [`LENGTH_ROUNDING`] of the length.
+    ///
+    /// ```
+    /// use model::{Bar, system::Member};
+    /// let bar = Member::bar(0, 1, Bar::homogeneous(5.0, 0.0)?);
+    /// assert_eq!((bar.within_m(), bar.with_length_tolerance(1e-3).within_m()), (5e-9, 1e-3));
+    /// # Ok::<(), model::BarError>(())
+    /// ```
+    #[must_use]
+    pub fn within_m(&self) -> f64 {
+        self.length_tolerance_m.unwrap_or(LENGTH_ROUNDING * self.body.length_m())
     }
 
     /// The greatest distance of its ends that the member allows, m; infinite where it stretches or

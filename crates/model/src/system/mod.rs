@@ -27,7 +27,7 @@ pub use answer::{SystemEquilibrium, SystemStability};
 pub use error::SystemError;
 pub(crate) use error::UNIT_TOLERANCE;
 pub use joint::{Joint, Support};
-pub use member::{Kind, Member, PointLoad};
+pub use member::{Kind, LENGTH_ROUNDING, Member, Misfit, PointLoad};
 pub use prestress::PrestressError;
 pub use refusal::SystemRefusal;
 pub use symmetry::Part;

@@ -35,6 +35,7 @@ const MEMBER_KEYS: &[&str] = &[
     "kind",
     "stiffness_n",
     "prestress_n",
+    "length_tolerance_m",
     "forces",
 ];
 const FORCE_KEYS: &[&str] = &["force_n", "at_m"];
@@ -263,6 +264,8 @@ impl Reading<'_> {
                 | SystemError::Parallel { member, .. }
                 | SystemError::NoSuchJoint { member, .. }
                 | SystemError::Stiffness { member, .. }
+                | SystemError::LengthTolerance { member, .. }
+                | SystemError::ElasticTolerance { member }
                 | SystemError::PointLoad { member, .. } => {
                     let member = *member;
                     at_member(Kind::System(error), member)
@@ -382,7 +385,8 @@ fn member(table: &Table<'_>) -> Result<Member, SystemFileError> {
         }
     }
     let stiffness_n = table.number("stiffness_n")?;
-    let member = Member { from: 0, to: 0, kind, body, stiffness_n, loads };
+    let length_tolerance_m = table.number("length_tolerance_m")?;
+    let member = Member { from: 0, to: 0, kind, body, stiffness_n, length_tolerance_m, loads };
     network_rows::prestressed(member, table.number("prestress_n")?)
         .map_err(|(key, kind)| table.error(kind, key))
 }

@@ -37,6 +37,7 @@ pub(super) const BARS: Known = Known {
         "kind",
         "stiffness_n",
         "prestress_n",
+        "length_tolerance_m",
         "force_x_n",
         "force_y_n",
         "force_z_n",
@@ -159,7 +160,8 @@ pub(super) fn member(
     let kind = row.word("kind")?;
     let kind = member_kind(kind.as_deref()).map_err(|kind| (Some("kind"), kind))?;
     let stiffness_n = row.number("stiffness_n")?;
-    let member = Member { from, to, kind, body, stiffness_n, loads: load(row, length_m)? };
+    let (length_tolerance_m, loads) = (row.number("length_tolerance_m")?, load(row, length_m)?);
+    let member = Member { from, to, kind, body, stiffness_n, length_tolerance_m, loads };
     prestressed(member, row.number("prestress_n")?).map_err(|(column, kind)| (Some(column), kind))
 }
 

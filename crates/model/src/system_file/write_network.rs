@@ -78,6 +78,9 @@ fn write_member(text: &mut String, system: &System, member: &Member) {
     if let Some(stiffness_n) = member.stiffness_n {
         let _ = writeln!(text, "stiffness_n = {stiffness_n:?}");
     }
+    if let Some(tolerance_m) = member.length_tolerance_m {
+        let _ = writeln!(text, "length_tolerance_m = {tolerance_m:?}");
+    }
     if !member.loads.is_empty() {
         let forces = member.loads.iter();
         let forces = forces.map(|load| {

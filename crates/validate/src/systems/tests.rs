@@ -295,6 +295,7 @@ fn a_named_self_stress_that_is_none_is_seen() {
             dimension: 1,
             basis: vec![stress.to_vec()],
             choice: ForceChoice::Unknown,
+            misfit_m: None,
             ranges: None,
         });
         let agreement = compare(&system, &mut [first, second], &Tolerances::project());
