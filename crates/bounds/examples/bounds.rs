@@ -1,6 +1,6 @@
 //! The bounds of chains of many sizes, with their gaps and their times.
 //!
-//! `cargo run --release -p bounds --features sdp --example bounds`
+//! `cargo run --profile dist -p bounds --features sdp --example bounds`
 
 use std::time::Instant;
 

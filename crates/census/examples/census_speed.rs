@@ -1,6 +1,6 @@
 //! How long a census takes: the paper's chain and random ones.
 //!
-//! `cargo run --release -p census --example census_speed -- [MAX_BARS] [CHAINS] [MIN_BARS]`
+//! `cargo run --profile dist -p census --example census_speed -- [MAX_BARS] [CHAINS] [MIN_BARS]`
 //!
 //! Every line with a target says whether all chains met it; the program fails if one is incomplete
 //! or slower. The last line is the growth of the mean time per bar, which the estimate of a refused

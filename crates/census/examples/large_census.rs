@@ -1,6 +1,6 @@
 //! Time and memory of compact censuses of long chains.
 //!
-//! `cargo run --release -p census --example large_census -- [BARS] [CHAINS]`
+//! `cargo run --profile dist -p census --example large_census -- [BARS] [CHAINS]`
 //!
 //! The chains: equal bars between level anchors, at a slant and on one vertical; bars of 1, 2, 3
 //! and 4 units in turns; and random ones, with lengths from 0.3 to 1, masses from 0.1 to 1 and

@@ -1,4 +1,4 @@
-//! How fast the minimiser is: `cargo run --release -p energy --example energy_speed`.
+//! How fast the minimiser is: `cargo run --profile dist -p energy --example energy_speed`.
 //!
 //! Every figure is the least of several runs: what the machine does besides only adds. The chains
 //! are those of the bars to clear: equal bars, total length 1.5 times the span, anchors (0, 0, 0)

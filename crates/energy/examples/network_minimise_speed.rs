@@ -1,6 +1,6 @@
 //! How long the positions-first solver takes for systems of growing size.
 //!
-//! `cargo run --release -p energy --example network_minimise_speed [kind [n ...]]` prints a line
+//! `cargo run --profile dist -p energy --example network_minimise_speed [kind [n ...]]` prints a line
 //! for each size *n*:
 //!
 //! | kind | system |

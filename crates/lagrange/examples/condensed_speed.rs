@@ -2,7 +2,7 @@
 //! and (1, 0, -0.2):
 //!
 //! ```text
-//! cargo run --release -p lagrange --example condensed_speed
+//! cargo run --profile dist -p lagrange --example condensed_speed
 //! ```
 //!
 //! For each number of bars the median and the least of many runs of each part: reading the bars

@@ -1,6 +1,6 @@
 //! Time of one solve against the size of a system of rigid bars.
 //!
-//! `cargo run --release -p lagrange --example network_solve_speed -- net 32 100` takes square nets
+//! `cargo run --profile dist -p lagrange --example network_solve_speed -- net 32 100` takes square nets
 //! hung from their four corners, by their joints a side; `cables` the same of cables; `bridle 1000`
 //! takes three chains of so many bars that meet in a joint; `tree 1000` a dangling tree of so many
 //! bars; `crumpled` nets of cables with all their edges held, the cables between as long as their

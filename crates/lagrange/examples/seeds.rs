@@ -1,6 +1,6 @@
 //! Random seeds on chains of equal bars: how many converge, and in how long.
 //!
-//! `cargo run --release -p lagrange --example seeds`
+//! `cargo run --profile dist -p lagrange --example seeds`
 
 use std::f64::consts::PI;
 use std::time::Instant;

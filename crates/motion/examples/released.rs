@@ -2,7 +2,7 @@
 //! released: microseconds of the processor a step, then the places of its joints at the end (m,
 //! comma separated).
 //!
-//! `cargo run --release -p motion --example released open|closed N STEP_S STEPS
+//! `cargo run --profile dist -p motion --example released open|closed N STEP_S STEPS
 //! second|fourth|eighth`
 //!
 //! `benches/peers/motion` sets it beside other programs.

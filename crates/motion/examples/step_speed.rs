@@ -1,6 +1,6 @@
 //! Microseconds a bar and step, for chains that hang from one anchor and between two.
 //!
-//! `cargo run --release -p motion --example step_speed [largest]`
+//! `cargo run --profile dist -p motion --example step_speed [largest]`
 //!
 //! Time is that on the processor, where the system tells it (Linux): other programs take none of
 //! it.

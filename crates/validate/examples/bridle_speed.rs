@@ -1,5 +1,5 @@
 //! A bridle of three long strands beside chains, in one run:
-//! `cargo run --release -p validate --example bridle_speed [bars of a strand [rounds]]`.
+//! `cargo run --profile dist -p validate --example bridle_speed [bars of a strand [rounds]]`.
 //!
 //! Three strands of n bars (100,000 if nothing is said) meet in a joint with the mass of a strand.
 //! Beside it stand chains of n and of 3 n bars, by the solvers of chains of both crates. Each round

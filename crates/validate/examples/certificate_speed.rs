@@ -1,6 +1,6 @@
 //! Time and memory of the certificate that no configuration of a large system has less energy.
 //!
-//! `cargo run --release -p validate --example certificate_speed [KIND N ...]`, by default
+//! `cargo run --profile dist -p validate --example certificate_speed [KIND N ...]`, by default
 //! `net 708 chain 1000000`:
 //!
 //! | kind | system |

@@ -1,5 +1,5 @@
 //! Our time for nets of cables beside that of clarabel's cone programme, in one run:
-//! `cargo run --release -p validate --features bounds --example third_road [members ...]`.
+//! `cargo run --profile dist -p validate --features bounds --example third_road [members ...]`.
 //!
 //! Times are those of the processor on Linux (in steps of 10 ms), which other work does not change,
 //! elsewhere those of the clock. One run on a server (AMD EPYC):
