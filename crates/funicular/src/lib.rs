@@ -137,6 +137,7 @@ pub use extremes::Extremes;
 pub use formats::ForceTable;
 pub use judge::{Judge, Judged};
 pub use mode_pages::{animated_modes, drawn_modes};
+pub use model::AxialForce;
 pub use modes::{JointAt, Mode, Modes, ModesAnswer, Summary, WithModes};
 pub use motion::Order;
 pub use problem::{Problem, case, case_text};

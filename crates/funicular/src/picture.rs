@@ -2,7 +2,7 @@
 
 use figures::{StructureError, SystemShape};
 use model::system::{System, SystemEquilibrium};
-use model::{Equilibrium, Vector};
+use model::{AxialForce, Equilibrium, Vector};
 
 /// An equilibrium of a system as an SVG file.
 ///
@@ -21,7 +21,8 @@ use model::{Equilibrium, Vector};
 ///
 /// [`StructureError`] when a place is not finite.
 pub fn of_system(system: &System, answer: &SystemEquilibrium) -> Result<String, StructureError> {
-    let SystemEquilibrium { joints_m, axial_n, reactions_n, .. } = answer;
+    let SystemEquilibrium { joints_m, reactions_n, .. } = answer;
+    let axial_n = &largest_n(&answer.axial_forces(system));
     SystemShape { system, joints_m, axial_n, reactions_n }.svg()
 }
 
@@ -39,8 +40,14 @@ pub fn of_chain(chain: &model::Chain, answer: &Equilibrium) -> Result<String, St
     if let Some(last) = reactions_n.last_mut() {
         *last = answer.reactions_n.end;
     }
-    let Equilibrium { joints_m, axial_n, .. } = answer;
+    let axial_n = &largest_n(&answer.axial_forces());
+    let joints_m = &answer.joints_m;
     SystemShape { system: &system, joints_m, axial_n, reactions_n: &reactions_n }.svg()
+}
+
+/// What a picture shows of a member: its axial force where it is largest.
+fn largest_n(axial: &[AxialForce]) -> Vec<f64> {
+    axial.iter().map(AxialForce::largest_n).collect()
 }
 
 /// Positions, axial forces and forces of the ground from anywhere as an SVG file; each list as long

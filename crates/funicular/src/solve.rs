@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 use std::num::NonZeroUsize;
 
-use model::{Equilibrium, Rung, SolverName, SystemSummary};
+use model::{AxialForce, Equilibrium, Rung, SolverName, SystemSummary};
 use serde::Serialize;
 use serde_json::Value;
 use validate::Agreement;
@@ -244,24 +244,28 @@ impl SolveAnswer {
         Ok(())
     }
 
-    /// Bars as CSV, a line per solver and bar: its joints and its axial force, tension positive.
+    /// Bars as CSV, a line per solver and bar: its joints and its axial force, tension positive, with the
+    /// weight at the joints, at both ends, and where it is largest.
     ///
     /// # Errors
     ///
     /// When `to` cannot be written.
     pub fn write_bars_csv(&self, mut to: impl Write) -> io::Result<()> {
-        writeln!(to, "solver,bar,from,to,axial_n")?;
+        writeln!(to, "solver,bar,from,to,axial_n,axial_from_n,axial_to_n,axial_max_n")?;
         for e in self.equilibria() {
             let forces = Numbers::of(&e.axial_n);
-            for (k, axial_n) in e.axial_n.iter().enumerate() {
+            for (k, (axial_n, along)) in e.axial_n.iter().zip(e.axial_forces()).enumerate() {
                 let bar = k + 1;
-                writeln!(to, "{},{bar},{k},{bar},{}", e.solver, forces.cell(*axial_n))?;
+                let cells = [*axial_n, along.from_n, along.to_n, along.largest_n()]
+                    .map(|force| forces.cell(force).to_string())
+                    .join(",");
+                writeln!(to, "{},{bar},{k},{bar},{cells}", e.solver)?;
             }
         }
         Ok(())
     }
 
-    fn object<'a>(&'a self, equilibria: &'a [Equilibrium]) -> Object<'a> {
+    fn object<'a, E>(&'a self, equilibria: &'a [E]) -> Object<'a, E> {
         Object {
             schema_version: SCHEMA_VERSION,
             system: &self.system,
@@ -275,17 +279,40 @@ impl SolveAnswer {
 /// As `funicular solve --json` prints it.
 impl Serialize for SolveAnswer {
     fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        self.object(self.equilibria()).serialize(serializer)
+        let equilibria: Vec<_> = self.equilibria().iter().map(WithEnds::of).collect();
+        self.object(&equilibria).serialize(serializer)
     }
 }
 
 #[derive(Serialize)]
-struct Object<'a> {
+struct Object<'a, E> {
     schema_version: u32,
     system: &'a SystemSummary,
-    equilibria: &'a [Equilibrium],
+    equilibria: &'a [E],
     agreement: Option<&'a Agreement>,
     failures: Vec<Failure>,
+}
+
+/// An equilibrium with the axial forces of its bars at their ends.
+#[derive(Serialize)]
+struct WithEnds<'a> {
+    #[serde(flatten)]
+    equilibrium: &'a Equilibrium,
+    axial_from_n: Vec<f64>,
+    axial_to_n: Vec<f64>,
+    axial_max_n: Vec<f64>,
+}
+
+impl<'a> WithEnds<'a> {
+    fn of(equilibrium: &'a Equilibrium) -> Self {
+        let axial = equilibrium.axial_forces();
+        Self {
+            equilibrium,
+            axial_from_n: axial.iter().map(|along| along.from_n).collect(),
+            axial_to_n: axial.iter().map(|along| along.to_n).collect(),
+            axial_max_n: axial.iter().map(AxialForce::largest_n).collect(),
+        }
+    }
 }
 
 /// A solver without an answer.

@@ -171,8 +171,8 @@ impl SystemSolution {
         Ok(())
     }
 
-    /// Members as CSV, a line per solver and member: its joints, axial force, and the forces on it
-    /// at both. What is zero but for rounding is written as 0.
+    /// Members as CSV, a line per solver and member: its joints, axial force (with the weight at the
+    /// joints, at both ends, and where it is largest), and the forces on it at both joints. What is zero but for rounding is written as 0.
     ///
     /// # Errors
     ///
@@ -180,7 +180,7 @@ impl SystemSolution {
     pub fn write_bars_csv(&self, mut to: impl Write) -> io::Result<()> {
         writeln!(
             to,
-            "solver,bar,from,to,axial_n,start_x_n,start_y_n,start_z_n,end_x_n,end_y_n,end_z_n"
+            "solver,bar,from,to,axial_n,axial_from_n,axial_to_n,axial_max_n,start_x_n,start_y_n,start_z_n,end_x_n,end_y_n,end_z_n"
         )?;
         for e in self.equilibria() {
             let ends = e.start_forces_n.as_flattened().iter().chain(e.end_forces_n.as_flattened());
@@ -188,7 +188,10 @@ impl SystemSolution {
             for (k, member) in self.system.members().iter().enumerate() {
                 let name = |joint: usize| quoted(&self.system.joints()[joint].name);
                 let (from, end) = (name(member.from), name(member.to));
-                let force = axial.cell(e.axial_n[k]);
+                let along = e.axial_force(&self.system, k);
+                let force = [e.axial_n[k], along.from_n, along.to_n, along.largest_n()]
+                    .map(|force| axial.cell(force).to_string())
+                    .join(",");
                 let (start_n, end_n) =
                     (ends.cells(e.start_forces_n[k]), ends.cells(e.end_forces_n[k]));
                 writeln!(to, "{},{},{from},{end},{force},{start_n},{end_n}", e.solver, k + 1)?;
@@ -321,16 +324,23 @@ impl Serialize for Bars<'_> {
             from: &'a str,
             to: &'a str,
             axial_n: f64,
+            axial_from_n: f64,
+            axial_to_n: f64,
+            axial_max_n: f64,
             force_at_start_n: Vector,
             force_at_end_n: Vector,
         }
         let Self(system, e) = self;
         let mut list = serializer.serialize_seq(Some(e.axial_n.len()))?;
         for (k, member) in system.members().iter().enumerate() {
+            let along = e.axial_force(system, k);
             list.serialize_element(&Bar {
                 from: &system.joints()[member.from].name,
                 to: &system.joints()[member.to].name,
                 axial_n: e.axial_n[k],
+                axial_from_n: along.from_n,
+                axial_to_n: along.to_n,
+                axial_max_n: along.largest_n(),
                 force_at_start_n: e.start_forces_n[k],
                 force_at_end_n: e.end_forces_n[k],
             })?;

@@ -29,6 +29,7 @@
 //! Joint 0 is the start anchor *O*, joint *n* the end anchor; bar *i* = 1..n runs from joint *i*−1
 //! to joint *i*. Vectors are `[x, y, z]` in the world frame.
 
+mod axial;
 mod bar;
 pub mod cases;
 mod chain;
@@ -44,6 +45,7 @@ mod sum;
 pub mod system;
 pub mod system_file;
 
+pub use axial::AxialForce;
 pub use bar::{Bar, BarError};
 pub use chain::{
     Anchors, Chain, ChainError, SMALLEST_TOTAL, STANDARD_GRAVITY_M_S2, SystemSummary,

@@ -25,8 +25,12 @@ pub fn census<'py>(
         let tell = |done, waiting| watch.tell("cells", done, done + waiting);
         if let Some(system) = of.as_system() {
             let found = census.run_system_watched(system, &|at| tell(at.done, at.waiting))?;
-            let arrays: Vec<_> =
-                found.equilibria().iter().cloned().map(Arrays::of_system).collect();
+            let arrays: Vec<_> = found
+                .equilibria()
+                .iter()
+                .cloned()
+                .map(|one| Arrays::of_system(found.system(), one))
+                .collect();
             return Ok((serde_json::to_string(&found), arrays));
         }
         let found = census.run_watched(&of, &|at| tell(at.done, at.waiting))?;

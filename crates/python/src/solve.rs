@@ -4,7 +4,8 @@ use std::sync::Arc;
 
 use funicular::prelude::{Equilibrium, Solve, Vector};
 use funicular::{Error, Solution, picture};
-use model::system::SystemEquilibrium;
+use model::AxialForce;
+use model::system::{System, SystemEquilibrium};
 use numpy::PyReadonlyArrayDyn;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
@@ -20,6 +21,7 @@ pub struct Arrays {
     /// Those of a chain alone.
     multipliers_n: Option<Vec<Vector>>,
     axial_n: Vec<f64>,
+    along: Vec<AxialForce>,
     start_forces_n: Vec<Vector>,
     end_forces_n: Vec<Vector>,
     reactions_n: Vec<Vector>,
@@ -28,6 +30,7 @@ pub struct Arrays {
 impl Arrays {
     /// Of a chain.
     pub fn of_chain(found: Equilibrium) -> Self {
+        let along = found.axial_forces();
         let forces = found.multipliers_n;
         let mut reactions_n = vec![[0.0; 3]; found.joints_m.len()];
         if let [first, .., last] = &mut reactions_n[..] {
@@ -41,13 +44,15 @@ impl Arrays {
             joints_m: found.joints_m,
             multipliers_n: Some(forces),
             axial_n: found.axial_n,
+            along,
             reactions_n,
         }
     }
 
     /// Of another system.
-    pub fn of_system(found: SystemEquilibrium) -> Self {
+    pub fn of_system(system: &System, found: SystemEquilibrium) -> Self {
         Self {
+            along: found.axial_forces(system),
             joints_m: found.joints_m,
             multipliers_n: None,
             axial_n: found.axial_n,
@@ -65,6 +70,10 @@ impl Arrays {
             self.multipliers_n.map(|multipliers| rows(py, multipliers)).transpose()?;
         dict.set_item("multipliers_n", multipliers)?;
         dict.set_item("axial_n", column(py, self.axial_n))?;
+        let along = |of: fn(&AxialForce) -> f64| column(py, self.along.iter().map(of).collect());
+        dict.set_item("axial_from_n", along(|axial| axial.from_n))?;
+        dict.set_item("axial_to_n", along(|axial| axial.to_n))?;
+        dict.set_item("axial_max_n", along(AxialForce::largest_n))?;
         dict.set_item("start_forces_n", rows(py, self.start_forces_n)?)?;
         dict.set_item("end_forces_n", rows(py, self.end_forces_n)?)?;
         dict.set_item("reactions_n", rows(py, self.reactions_n)?)?;
@@ -115,7 +124,14 @@ fn parts(found: Solution) -> (serde_json::Result<String>, Vec<Arrays>) {
         }
         Solution::System(answer) => {
             let text = serde_json::to_string(&answer.summary());
-            (text, answer.into_equilibria().into_iter().map(Arrays::of_system).collect())
+            (text, {
+                let system = answer.system().clone();
+                answer
+                    .into_equilibria()
+                    .into_iter()
+                    .map(|found| Arrays::of_system(&system, found))
+                    .collect()
+            })
         }
     }
 }

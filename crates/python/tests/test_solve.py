@@ -37,6 +37,22 @@ def test_forces_of_a_chain_balance_every_bar():
     assert np.array_equal(a.reaction("0"), a.reactions_n[0])
 
 
+def test_axial_forces_at_the_ends():
+    # A rope of 50 kg with 100 kg at its end: the anchor holds 150 kg.
+    rope = {
+        "joints": {"A": {"at_m": [0, 0, 0]}, "P": {"mass_kg": 100}},
+        "bars": [{"from": "A", "to": "P", "length_m": 10, "mass_kg": 50, "kind": "cable"}],
+    }
+    a = fn.solve(rope)
+    assert np.allclose([a.axial_from_n, a.axial_n, a.axial_to_n], np.multiply([[150], [125], [100]], WEIGHT_N))
+    assert np.allclose(a.axial_max_n, 150 * WEIGHT_N)
+    b = fn.solve_many(lengths=[[1, 1]], masses=[[1, 1]], ends=[[1, 0, 0]], gravity=10.0)
+    # A level V: (H, 10 N) at the anchors along (1, sqrt 3) / 2, H = 10 / (2 sqrt 3).
+    level, up = 10 / np.sqrt(12), np.sqrt(0.75)
+    assert np.allclose(b.axial_ends_n[0, :, 0], [0.5 * level + 10 * up, 0.5 * level])
+    assert np.allclose(b.table["largest_tension_n"], 0.5 * level + 10 * up)
+
+
 def test_the_same_system_in_five_ways():
     toml = """
     name = "lamp"

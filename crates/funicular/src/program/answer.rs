@@ -83,7 +83,7 @@ fn shape(e: &Equilibrium) -> Shape<'_> {
         name: &|joint| joint.to_string(),
         ends: &|bar| [bar, bar + 1],
         joints_m: &e.joints_m,
-        axial_n: &e.axial_n,
+        axial: e.axial_forces(),
         reactions_n: vec![(0, e.reactions_n.start), (last, e.reactions_n.end)],
         forces_n: Some(&e.multipliers_n),
         idle: &|_| "no force",

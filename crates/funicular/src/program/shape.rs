@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use funicular::Extremes;
-use model::{ForceRange, Vector};
+use model::{AxialForce, ForceRange, Vector};
 
 use crate::tables::{numbers_from, short, table, wrapped};
 
@@ -42,8 +42,8 @@ pub struct Shape<'a> {
     pub ends: &'a dyn Fn(usize) -> [usize; 2],
     /// Places, m.
     pub joints_m: &'a [Vector],
-    /// Axial forces of the bars, tension positive, N.
-    pub axial_n: &'a [f64],
+    /// Axial forces along the bars.
+    pub axial: Vec<AxialForce>,
     /// Forces of the ground, N, with their joints.
     pub reactions_n: Vec<(usize, Vector)>,
     /// Forces at the joints of a chain, N: on the bar before, at joint 0 on bar 1.
@@ -59,11 +59,11 @@ pub struct Shape<'a> {
 impl Shape<'_> {
     /// The tables, and what stands out.
     pub fn text(&self, summary: bool) -> String {
-        let long = self.joints_m.len().max(self.axial_n.len()) > PRINTED + 1;
+        let long = self.joints_m.len().max(self.axial.len()) > PRINTED + 1;
         let mut text = String::new();
         if !summary && !long {
             text += &self.joints();
-            text += &self.bars("Bars", (0..self.axial_n.len()).collect());
+            text += &self.bars("Bars", (0..self.axial.len()).collect());
         } else if !summary {
             text += &self.extremes();
         }
@@ -97,16 +97,16 @@ impl Shape<'_> {
     /// Some bars, each with its axial force and how steeply it rises from its first joint to its
     /// second.
     fn bars(&self, title: &str, bars: Vec<usize>) -> String {
-        let mut head = vec!["bar", "from", "to", "axial / N", "", "rises / deg"];
+        let mut head = vec!["bar", "from", "to", "at from / N", "at to / N", "", "rises / deg"];
         if self.ranges.is_some() {
             head.push("may be / N");
         }
         let mut table = table(head);
-        let axial = Rounded::of(self.axial_n);
+        let axial = self.rounded();
         for bar in bars {
             let [from, to] = (self.ends)(bar);
-            let force = axial.number(self.axial_n[bar]);
-            let what = match force {
+            let along = self.axial[bar];
+            let what = match axial.number(along.largest_n()) {
                 n if n > 0.0 => "tension",
                 n if n < 0.0 => "compression",
                 _ => (self.idle)(bar),
@@ -115,7 +115,8 @@ impl Shape<'_> {
                 (bar + 1).to_string(),
                 (self.name)(from),
                 (self.name)(to),
-                short(force),
+                axial.short(along.from_n),
+                axial.short(along.to_n),
                 what.to_owned(),
                 self.rise([from, to]),
             ];
@@ -123,12 +124,10 @@ impl Shape<'_> {
             table.add_row(row);
         }
         numbers_from(&mut table, 3);
-        if let Some(words) = table.column_mut(4) {
+        if let Some(words) = table.column_mut(5) {
             words.set_cell_alignment(comfy_table::CellAlignment::Left);
         }
-        let title = format!(
-            "{title} (axial force: tension positive; weights at the joints by the lever rule):"
-        );
+        let title = format!("{title} (axial force at both ends: tension positive):");
         titled(&title, &table)
     }
 
@@ -143,9 +142,10 @@ impl Shape<'_> {
 
     /// The bars with the largest tension and compression of a long system.
     fn extremes(&self) -> String {
-        let mut order: Vec<usize> = (0..self.axial_n.len()).collect();
+        let mut order: Vec<usize> = (0..self.axial.len()).collect();
         let wanted = EXTREMES.min(order.len() - 1);
-        let by_force = |a: &usize, b: &usize| self.axial_n[*b].total_cmp(&self.axial_n[*a]);
+        let force = |bar: &usize| self.axial[*bar].largest_n();
+        let by_force = |a: &usize, b: &usize| force(b).total_cmp(&force(a));
         order.select_nth_unstable_by(wanted, by_force);
         let mut most = order[..wanted].to_vec();
         let rest = order.len() - wanted;
@@ -154,7 +154,7 @@ impl Shape<'_> {
         most.sort_by(by_force);
         least.sort_by(by_force);
         most.extend(least);
-        let title = format!("Of {} bars those at both ends", self.axial_n.len());
+        let title = format!("Of {} bars those at both ends", self.axial.len());
         self.bars(&title, most)
     }
 
@@ -162,7 +162,9 @@ impl Shape<'_> {
         let mut table = table(["joint", "Fx / N", "Fy / N", "Fz / N", "size / N"]);
         let all: Vec<Vector> = self.reactions_n.iter().map(|(_, force)| *force).collect();
         // A support that bears nothing has the rounding of the bars' forces.
-        let forces = Rounded::of(all.as_flattened().iter().chain(self.axial_n));
+        let forces = Rounded {
+            rounding: self.rounded().rounding.max(Rounded::of(all.as_flattened()).rounding),
+        };
         let mut shown: Vec<_> = self.reactions_n.iter().collect();
         let hidden = shown.len() > PRINTED;
         if hidden {
@@ -180,10 +182,16 @@ impl Shape<'_> {
         titled(&format!("Forces of the ground on the joints{which}:"), &table)
     }
 
+    /// What counts as zero beside the axial forces.
+    fn rounded(&self) -> Rounded {
+        let forces: Vec<f64> = self.axial.iter().map(AxialForce::largest_n).collect();
+        Rounded::of(&forces)
+    }
+
     /// Sag, lowest joint, largest forces and where.
     fn summary(&self) -> String {
         let supports = self.reactions_n.iter().map(|(joint, _)| *joint);
-        let Some(extremes) = Extremes::of(self.joints_m, supports, self.axial_n) else {
+        let Some(extremes) = Extremes::of(self.joints_m, supports, &self.axial) else {
             return "\n".to_owned();
         };
         let places = Rounded::of(self.joints_m.as_flattened());

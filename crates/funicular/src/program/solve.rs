@@ -74,7 +74,9 @@ pub struct Solve {
     /// Write bars, a line per bar, to this CSV file
     ///
     /// Columns: `solver`; `bar`, its number from 1; `from`, `to`, its joints; `axial_n`, its axial
-    /// force, tension positive; for a system of bars by name `start_x_n` to `end_z_n`, the forces
+    /// force, tension positive, with its weight lumped to its joints: the value in the middle of a
+    /// homogeneous bar; `axial_from_n`, `axial_to_n`, the same at both ends; `axial_max_n`, where it
+    /// is largest; for a system of bars by name `start_x_n` to `end_z_n`, the forces
     /// on it at both.
     #[arg(long, value_name = "FILE")]
     pub bars_csv: Option<PathBuf>,

@@ -66,7 +66,7 @@ fn shape(system: &System, e: &SystemEquilibrium, summary: bool) -> String {
         name: &|joint| Printable(&system.joints()[joint].name).to_string(),
         ends: &|bar| [system.members()[bar].from, system.members()[bar].to],
         joints_m: &e.joints_m,
-        axial_n: &e.axial_n,
+        axial: e.axial_forces(system),
         reactions_n: held.map(|(k, (_, force))| (k, *force)).collect(),
         forces_n: None,
         idle: &|bar| idle(&system.members()[bar], &e.joints_m),

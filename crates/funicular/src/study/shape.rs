@@ -97,7 +97,7 @@ impl StudyShape {
         let joints = &first.joints_m;
         let (start_m, end_m) = (*joints.first()?, *joints.last()?);
         let Reactions { start, end } = first.reactions_n;
-        let extremes = Extremes::of(joints, [0, joints.len() - 1], &first.axial_n)?;
+        let extremes = Extremes::of(joints, [0, joints.len() - 1], &first.axial_forces())?;
         let rises_deg = joints.windows(2).map(|ends| rise_deg(ends[0], ends[1])).collect();
         let span_m = Some(Anchors { start_m, end_m }.span_m());
         let shape = Self::judged(answer, first.energy_j, extremes, vec![start, end], rises_deg);
@@ -110,7 +110,7 @@ impl StudyShape {
         let held: Vec<usize> =
             joints.enumerate().filter_map(|(k, joint)| joint.support.at_m().and(Some(k))).collect();
         let reactions = held.iter().map(|joint| first.reactions_n[*joint]).collect();
-        let extremes = Extremes::of(places, held, &first.axial_n)?;
+        let extremes = Extremes::of(places, held, &first.axial_forces(system))?;
         let rises =
             system.members().iter().map(|member| rise_deg(places[member.from], places[member.to]));
         Some(Self::judged(answer, first.energy_j, extremes, reactions, rises.collect()))

@@ -72,8 +72,9 @@ fn every_column_and_key_of_two_bars_is_that_of_a_v() {
         shapes += 1;
         // Each bar's weight of 20 N hangs half at the middle joint, half at an anchor.
         let sag = (1.0 - 0.25 * distance * distance).sqrt();
-        let tension = 10.0 / sag;
-        let level = tension * 0.5 * distance;
+        let level = 10.0 / sag * 0.5 * distance;
+        // At the anchor, where the bar bears its whole weight.
+        let tension = level * 0.5 * distance + 20.0 * sag;
         let close = |x: f64, wanted: f64, what: &str| {
             assert!((x - wanted).abs() < 1e-9 * wanted.abs().max(1.0), "{what}: {x} {wanted}");
         };

@@ -74,6 +74,36 @@ fn the_json_of_a_system_names_joints_bars_and_reactions() {
     }
 }
 
+/// A rope of 50 kg that hangs down with 100 kg at its end: the anchor holds 150 kg, and so does the
+/// rope there.
+#[test]
+fn the_largest_tension_is_that_at_the_end_where_it_is_largest() {
+    let folder = folder("rope");
+    let rope = "joints = { A = { at_m = [0, 0, 0] }, P = { mass_kg = 100 } }\n\
+                bars = [{ from = \"A\", to = \"P\", length_m = 10, mass_kg = 50, kind = \"cable\" }]\n";
+    let chain = "loads = [{ joint = 1, mass_kg = 1e-300 }]\n\
+                 anchors = { start_m = [0, 0, 0], end_m = [0, 0, -10.1] }\n\
+                 bars = [{ length_m = 10, mass_kg = 50 }, { length_m = 0.2, mass_kg = 100, centre_m = 0.1 }]\n";
+    let held_n = 150.0 * 9.806_65;
+    std::fs::write(folder.join("rope.toml"), rope).unwrap();
+    let text = run(&folder, &["solve", "rope.toml", "--svg", "rope.svg"]).stdout;
+    let text = String::from_utf8(text).unwrap();
+    assert!(text.contains("Largest tension: 1471 N"), "{text}");
+    assert!(text.contains(" 1471 ") && text.contains(" 980.665 "), "{text}");
+    assert!(std::fs::read_to_string(folder.join("rope.svg")).unwrap().contains("1471 N"));
+    let study = ["study", "rope.toml", "--vary", "joints.P.mass_kg=100", "--csv", "s.csv"];
+    run(&folder, &study);
+    let study = std::fs::read_to_string(folder.join("s.csv")).unwrap();
+    let mut lines = study.lines().map(|line| line.split(',').collect::<Vec<_>>());
+    let (head, row) = (lines.next().unwrap(), lines.next().unwrap());
+    let column = head.iter().position(|name| *name == "tension_n").unwrap();
+    assert!((row[column].parse::<f64>().unwrap() - held_n).abs() < 1e-9, "{study}");
+    // The same where the rope is a bar of a chain.
+    std::fs::write(folder.join("chain.toml"), chain.split_once('\n').unwrap().1).unwrap();
+    let text = String::from_utf8(run(&folder, &["solve", "chain.toml"]).stdout).unwrap();
+    assert!(text.contains("Largest tension"), "{text}");
+}
+
 #[test]
 fn tables_csv_and_picture_of_a_system() {
     let folder = folder("systems-files");

@@ -19,6 +19,20 @@ from .system import STANDARD_GRAVITY, System, printable
 from .table import Table, vectors
 
 
+ARRAYS = (
+    "joints_m",
+    "axial_n",
+    "axial_from_n",
+    "axial_to_n",
+    "axial_max_n",
+    "start_forces_n",
+    "end_forces_n",
+    "reactions_n",
+    "multipliers_n",
+)
+"""What an equilibrium has for its joints and members."""
+
+
 class Equilibrium:
     """One equilibrium: places of the joints, forces, and how far it is proved.
 
@@ -27,7 +41,10 @@ class Equilibrium:
     ``joints_m``
         (joints, 3) places, m.
     ``axial_n``
-        (members,) axial forces, tension positive, N; weights lumped to the joints by the lever rule.
+        (members,) axial forces, tension positive, N; weights lumped to the joints by the lever rule: the value in the middle
+        of a homogeneous member.
+    ``axial_from_n``, ``axial_to_n``, ``axial_max_n``
+        (members,) the same at the joint where the member begins, where it ends, and where it is largest, N.
     ``start_forces_n``, ``end_forces_n``
         (members, 3) forces on each member at the joint where it begins, and ends, N.
     ``reactions_n``
@@ -39,6 +56,9 @@ class Equilibrium:
 
     joints_m: Array
     axial_n: Array
+    axial_from_n: Array
+    axial_to_n: Array
+    axial_max_n: Array
     start_forces_n: Array
     end_forces_n: Array
     reactions_n: Array
@@ -47,7 +67,7 @@ class Equilibrium:
     def __init__(self, system: System, data: dict[str, Any], arrays: dict[str, Any]) -> None:
         self.system = system
         self.data = data
-        for name in ("joints_m", "axial_n", "start_forces_n", "end_forces_n", "reactions_n", "multipliers_n"):
+        for name in ARRAYS:
             setattr(self, name, arrays[name])
 
     @property
@@ -102,6 +122,9 @@ class Equilibrium:
                 "from": [names[a] for a, _ in ends],
                 "to": [names[b] for _, b in ends],
                 "axial_n": self.axial_n,
+                "axial_from_n": self.axial_from_n,
+                "axial_to_n": self.axial_to_n,
+                "axial_max_n": self.axial_max_n,
                 **vectors("start_", "_n", self.start_forces_n),
                 **vectors("end_", "_n", self.end_forces_n),
             }
@@ -123,7 +146,7 @@ class Equilibrium:
 
     def svg(self) -> str:
         """The picture to scale: joints, supports, loads, reactions, tension and compression."""
-        arrays = (np.ascontiguousarray(a) for a in (self.joints_m, self.axial_n, self.reactions_n))
+        arrays = (np.ascontiguousarray(a) for a in (self.joints_m, self.axial_max_n, self.reactions_n))
         return _native.draw(self.system._problem, *arrays)
 
     def plot(self, ax: Any = None, *, space: bool | None = None, forces: bool = True) -> Any:

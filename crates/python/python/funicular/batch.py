@@ -83,6 +83,17 @@ class Batch:
         return self
 
     @property
+    def axial_ends_n(self) -> Array:
+        """(k, n, 2) axial forces at both ends of each bar, N: a heavy bar that is not level has its largest at one of them."""
+        along = np.diff(self.joints_m, axis=1)
+        along = along / np.linalg.norm(along, axis=2, keepdims=True)
+        # Entry 0 is the force on bar 1, the others that on the bar before.
+        starts = -self.forces_n[:, :-1]
+        starts[:, 0] *= -1.0
+        ends: Array = np.stack([-(starts * along).sum(axis=2), (self.forces_n[:, 1:] * along).sum(axis=2)], axis=2)
+        return ends
+
+    @property
     def table(self) -> Table:
         """A row for each chain: energy, pull on both anchors, largest axial forces, how sure."""
         start, end = np.linalg.norm(self.forces_n[:, 0], axis=1), np.linalg.norm(self.forces_n[:, -1], axis=1)
@@ -92,8 +103,8 @@ class Batch:
                 "energy_j": self.energy_j,
                 "start_n": start,
                 "end_n": end,
-                "largest_tension_n": self.axial_n.max(axis=1, initial=-np.inf),
-                "largest_compression_n": -self.axial_n.min(axis=1, initial=np.inf),
+                "largest_tension_n": self.axial_ends_n.max(axis=(1, 2), initial=-np.inf),
+                "largest_compression_n": -self.axial_ends_n.min(axis=(1, 2), initial=np.inf),
                 "statics": self.statics,
                 "rung": self.rung.astype(np.int64),
             }

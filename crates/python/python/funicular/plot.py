@@ -38,8 +38,8 @@ def plot(equilibrium: Equilibrium, ax: Any = None, *, space: bool | None = None,
         figure = pyplot.figure()
         ax = figure.add_subplot(projection="3d") if space else figure.add_subplot()
     places = joints if space else np.column_stack([across @ level, joints[:, 2]])
-    largest = float(np.abs(equilibrium.axial_n).max(initial=0.0)) or 1.0
-    for (a, b), axial in zip(equilibrium.system.member_joints, equilibrium.axial_n):
+    largest = float(np.abs(equilibrium.axial_max_n).max(initial=0.0)) or 1.0
+    for (a, b), axial in zip(equilibrium.system.member_joints, equilibrium.axial_max_n):
         line = places[[a, b]].T
         if not forces:
             ax.plot(*line, color="black", linewidth=1.5)

@@ -89,15 +89,17 @@ fn ladder(pieces: &[Piece]) -> Table {
 
 fn sheet<'a>(piece: &Piece) -> Result<Block<'a>, StructureError> {
     let Some(e) = piece.answer.equilibria.first() else { return Err(StructureError::Empty) };
+    let axial = e.axial_forces(&piece.system);
+    let axial_n: Vec<f64> = axial.iter().map(model::AxialForce::largest_n).collect();
     let shape = SystemShape {
         system: &piece.system,
         joints_m: &e.joints_m,
-        axial_n: &e.axial_n,
+        axial_n: &axial_n,
         reactions_n: &e.reactions_n,
     };
     let panel = shape.in_page(&format!("gallery-{}", piece.exhibit.name))?;
     let lowest = e.joints_m.iter().map(|at| at[2]).fold(f64::INFINITY, f64::min);
-    let most = e.axial_n.iter().fold(0.0, |a: f64, b| a.max(*b));
+    let most = axial_n.iter().fold(0.0, |a: f64, b| a.max(*b));
     let caption = format!(
         "`{}`: {}. {} bars between {} joints; the lowest joint is at {:#} m, the largest tension is {:#} N.",
         piece.exhibit.name,

@@ -92,8 +92,8 @@ fn one(system: &System, number: usize, e: &SystemEquilibrium) -> String {
         joints.add_row([name(k), vector(e.joints_m[k]), held.unwrap_or_default()]);
     }
     let mut members = table(["from", "to", "axial force / N"]);
-    for (member, axial) in system.members().iter().zip(&e.axial_n) {
-        members.add_row([name(member.from), name(member.to), short(*axial)]);
+    for (member, along) in system.members().iter().zip(e.axial_forces(system)) {
+        members.add_row([name(member.from), name(member.to), short(along.largest_n())]);
     }
     numbers_from(&mut members, 2);
     format!("Equilibrium {number}:\n{joints}\n{members}\n\n")

@@ -190,8 +190,9 @@ fn bars(answer: &CensusAnswer) -> String {
     let printed = (PRINTED_BARS / answer.system.bars.max(1)).clamp(1, PRINTED);
     let mut rows = table(["#", "bar", "angle / deg", "signed / deg", "known to", "axial / N", ""]);
     for found in answer.equilibria.iter().take(printed) {
+        let forces = found.equilibrium.axial_forces();
         for (k, angle) in found.angles_deg.iter().enumerate() {
-            let axial = found.equilibrium.axial_n.get(k).copied().unwrap_or_default();
+            let axial = forces.get(k).map_or_else(String::new, |along| short(along.largest_n()));
             let width = found.enclosures.angles_rad.get(k).map_or(0.0, |[low, high]| high - low);
             rows.add_row([
                 if k == 0 { found.label.clone() } else { String::new() },
@@ -199,7 +200,7 @@ fn bars(answer: &CensusAnswer) -> String {
                 long(*angle),
                 found.angles_signed_deg.get(k).copied().map_or_else(String::new, long),
                 format!("{:.0e}", width.to_degrees()),
-                short(axial),
+                axial,
                 carries(found.signs.get(k).copied().unwrap_or_default()).to_owned(),
             ]);
         }

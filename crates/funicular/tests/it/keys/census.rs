@@ -313,7 +313,9 @@ fn census_of_the_lamp() {
     output.is("equilibria[].joints[].at_m[]", json!(joints));
     output.each("equilibria[].bars[].from", json!(["A", "P"]));
     output.each("equilibria[].bars[].to", json!(["P", "B"]));
-    output.is("equilibria[].bars[].axial_n", json!([16.0, 12.0, -16.0, -12.0]));
+    for force in ["axial_n", "axial_from_n", "axial_to_n", "axial_max_n"] {
+        output.is(&format!("equilibria[].bars[].{force}"), json!([16.0, 12.0, -16.0, -12.0]));
+    }
     let starts = [-9.6, 9.6].map(|x| [x, 0.0, 12.8, x, 0.0, -7.2]);
     output.is("equilibria[].bars[].force_at_start_n[]", json!(starts));
     let ends = starts.map(|forces| forces.map(|n: f64| -n));

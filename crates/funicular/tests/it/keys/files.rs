@@ -40,6 +40,10 @@ fn columns_of_answers() {
     output.each("from", json!([0, 1]));
     output.each("to", json!([1, 2]));
     output.each("axial_n", AXIAL);
+    let [anchor, middle] = [0.5 * H + 10.0 * DEPTH, 0.5 * H];
+    output.each("axial_from_n", json!([anchor, middle]));
+    output.each("axial_to_n", json!([middle, anchor]));
+    output.each("axial_max_n", anchor);
     output.done();
     let mut output = Output::csv("solve --csv of a system", test, &read("lamp.csv"));
     output.is("solver", solvers(3));
@@ -56,7 +60,9 @@ fn columns_of_answers() {
     output.each("bar", json!([1, 2]));
     output.each("from", json!(["A", "P"]));
     output.each("to", json!(["P", "B"]));
-    output.each("axial_n", json!([16.0, 12.0]));
+    for force in ["axial_n", "axial_from_n", "axial_to_n", "axial_max_n"] {
+        output.each(force, json!([16.0, 12.0]));
+    }
     for (end, sign) in [("start", 1.0), ("end", -1.0)] {
         output.each(&format!("{end}_x_n"), json!([-9.6 * sign, -9.6 * sign]));
         output.each(&format!("{end}_y_n"), 0.0);

@@ -57,6 +57,11 @@ fn level_v() {
         .each("equilibria[].multipliers_n[][]", json!([-H, 0.0, 10.0, H, 0.0, 0.0, H, 0.0, 10.0]));
     output.each("equilibria[].reactions_n.*[]", json!([H, 0.0, 10.0, -H, 0.0, 10.0]));
     output.each("equilibria[].axial_n[]", AXIAL);
+    // At the anchor (H, 10 N), at the joint between them (H, 0), along (1, √3)/2.
+    let [anchor, middle] = [0.5 * H + 10.0 * DEPTH, 0.5 * H];
+    output.each("equilibria[].axial_from_n[]", json!([anchor, middle]));
+    output.each("equilibria[].axial_to_n[]", json!([middle, anchor]));
+    output.each("equilibria[].axial_max_n[]", anchor);
     output.each("equilibria[].stability.in_plane", "minimum");
     output.each("equilibria[].stability.index_in_plane", 0);
     output.each("equilibria[].stability.in_space", "stable");
@@ -245,7 +250,9 @@ pub fn shape_of_lamp(output: &mut Output) {
     );
     output.each("equilibria[].bars[].from", json!(["A", "P"]));
     output.each("equilibria[].bars[].to", json!(["P", "B"]));
-    output.each("equilibria[].bars[].axial_n", json!([16.0, 12.0]));
+    for force in ["axial_n", "axial_from_n", "axial_to_n", "axial_max_n"] {
+        output.each(&format!("equilibria[].bars[].{force}"), json!([16.0, 12.0]));
+    }
     output
         .each("equilibria[].bars[].force_at_start_n[]", json!([-9.6, 0.0, 12.8, -9.6, 0.0, -7.2]));
     output.each("equilibria[].bars[].force_at_end_n[]", json!([9.6, 0.0, -12.8, 9.6, 0.0, 7.2]));

@@ -1,0 +1,161 @@
+//! The axial force along a member that bears weight: not the same at both ends.
+
+use crate::Vector;
+use crate::system::{System, SystemEquilibrium};
+
+/// The axial force of a member at its ends and its extremes along the member, N, tension positive.
+///
+/// A member that is not level carries its own weight along itself: a rope that hangs down pulls at its
+/// upper end by its whole weight more than at its lower end. A dimension or a strength is to be
+/// held against [`largest_n`](Self::largest_n), not against the force in the middle.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct AxialForce {
+    /// Where the member begins.
+    pub from_n: f64,
+    /// Where it ends.
+    pub to_n: f64,
+    /// The least along it.
+    pub least_n: f64,
+    /// The most along it.
+    pub most_n: f64,
+}
+
+impl AxialForce {
+    /// Of a member from `from_m` to `to_m` whose ends bear the forces `start_n` and `end_n` (on the member,
+    /// N), and loads between them: at which part of its length, and which force, N.
+    ///
+    /// With the unit vector $u$ from its first joint to its second the axial force is
+    /// $-S \cdot u$ at the first and falls by $P \cdot u$ at each load. A member without length has no
+    /// direction: its axial force is `middle_n` everywhere.
+    ///
+    /// ```
+    /// // A rope of 1 m and 10 N hangs down and carries 20 N.
+    /// let rope = model::AxialForce::along(
+    ///     ([0.0; 3], [0.0, 0.0, -1.0]), ([0.0, 0.0, 30.0], [0.0, 0.0, -20.0]), 25.0,
+    ///     [(0.5, [0.0, 0.0, -10.0])],
+    /// );
+    /// assert_eq!((rope.from_n, rope.to_n, rope.largest_n()), (30.0, 20.0, 30.0));
+    /// ```
+    #[must_use]
+    pub fn along(
+        (from_m, to_m): (Vector, Vector),
+        (start_n, end_n): (Vector, Vector),
+        middle_n: f64,
+        loads: impl IntoIterator<Item = (f64, Vector)>,
+    ) -> Self {
+        let d: Vector = std::array::from_fn(|k| to_m[k] - from_m[k]);
+        let length_m = d[0].hypot(d[1]).hypot(d[2]);
+        if length_m <= 0.0 {
+            return Self { from_n: middle_n, to_n: middle_n, least_n: middle_n, most_n: middle_n };
+        }
+        let part = |force: Vector| (0..3).map(|k| force[k] * d[k]).sum::<f64>() / length_m;
+        let (from_n, to_n) = (-part(start_n), part(end_n));
+        let mut loads: Vec<(f64, f64)> =
+            loads.into_iter().map(|(at, force)| (at, part(force))).collect();
+        loads.sort_by(|(a, _), (b, _)| a.total_cmp(b));
+        let mut here = from_n;
+        let (mut least_n, mut most_n) = (from_n.min(to_n), from_n.max(to_n));
+        // Behind the last load stands the force at the end, without the rounding of the sum.
+        let inner = loads.len().saturating_sub(1);
+        for (_, along) in loads.into_iter().take(inner) {
+            here -= along;
+            (least_n, most_n) = (least_n.min(here), most_n.max(here));
+        }
+        Self { from_n, to_n, least_n, most_n }
+    }
+
+    /// The larger of the two extremes, with its sign.
+    #[must_use]
+    pub fn largest_n(&self) -> f64 {
+        if self.most_n >= -self.least_n { self.most_n } else { self.least_n }
+    }
+}
+
+impl SystemEquilibrium {
+    /// The axial force along every member.
+    ///
+    /// The weight of a member whose centre is in its middle counts as spread over it, which puts its extremes at loads and ends;
+    /// of another one it counts as acting at the centre.
+    #[must_use]
+    pub fn axial_forces(&self, system: &System) -> Vec<AxialForce> {
+        (0..system.members().len()).map(|member| self.axial_force(system, member)).collect()
+    }
+
+    /// The same of one member, from 0.
+    ///
+    /// # Panics
+    ///
+    /// If the answer is not one of the system.
+    #[must_use]
+    pub fn axial_force(&self, system: &System, k: usize) -> AxialForce {
+        let member = &system.members()[k];
+        let ends_m = (self.joints_m[member.from], self.joints_m[member.to]);
+        let body = &member.body;
+        let weight_n = |part: f64| [0.0, 0.0, -part * body.mass_kg() * system.gravity_m_s2()];
+        let place = |at_m: f64| at_m / body.length_m();
+        let centre = place(body.centre_m());
+        let mut loads: Vec<(f64, Vector)> =
+            member.loads.iter().map(|load| (place(load.at_m), load.force_n)).collect();
+        loads.sort_by(|(a, _), (b, _)| a.total_cmp(b));
+        if (centre - 0.5).abs() <= f64::EPSILON && !loads.is_empty() {
+            // The weight between one load and the next, in half before and half behind each load's jump.
+            let mut spread = Vec::with_capacity(2 * loads.len() + 1);
+            let mut before = 0.0;
+            for (at, force) in loads {
+                spread.push((at, weight_n(at - before)));
+                spread.push((at, force));
+                before = at;
+            }
+            spread.push((1.0, weight_n(1.0 - before)));
+            loads = spread;
+        } else {
+            loads.push((centre, weight_n(1.0)));
+        }
+        let forces_n = (self.start_forces_n[k], self.end_forces_n[k]);
+        AxialForce::along(ends_m, forces_n, self.axial_n[k], loads)
+    }
+}
+
+impl crate::Equilibrium {
+    /// The axial force along every bar: its ends have the extremes, since weight alone acts between
+    /// them.
+    #[must_use]
+    pub fn axial_forces(&self) -> Vec<AxialForce> {
+        let forces = self.multipliers_n.windows(2).enumerate();
+        let joints = self.joints_m.windows(2).zip(&self.axial_n);
+        joints
+            .zip(forces)
+            .map(|((ends_m, middle_n), (bar, forces))| {
+                // Entry 0 is the force on bar 1, every other one the force on the bar before.
+                let sign = if bar == 0 { 1.0 } else { -1.0 };
+                let forces_n = (forces[0].map(|x| sign * x), forces[1]);
+                AxialForce::along((ends_m[0], ends_m[1]), forces_n, *middle_n, [])
+            })
+            .collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Two opposing loads of 100 N between the ends of a level bar: 100 N between them, 0 outside.
+    #[test]
+    fn loads_along_the_member_put_the_largest_force_between_the_ends() {
+        let forces = AxialForce::along(
+            ([0.0; 3], [2.0, 0.0, 0.0]),
+            ([0.0; 3], [0.0; 3]),
+            0.0,
+            [(0.75, [100.0, 0.0, 0.0]), (0.25, [-100.0, 0.0, 0.0])],
+        );
+        assert_eq!((forces.from_n, forces.to_n), (0.0, 0.0));
+        assert_eq!((forces.least_n, forces.most_n, forces.largest_n()), (0.0, 100.0, 100.0));
+    }
+
+    #[test]
+    fn a_member_without_length_has_its_middle_force_everywhere() {
+        let at = ([1.0; 3], [1.0; 3]);
+        let forces = AxialForce::along(at, ([3.0; 3], [-3.0; 3]), -5.0, []);
+        assert_eq!((forces.from_n, forces.to_n, forces.largest_n()), (-5.0, -5.0, -5.0));
+    }
+}
