@@ -270,11 +270,20 @@ impl Svg {
     }
 
     /// A text of pieces that look different.
+    ///
+    /// Blanks at the start of a piece become a shift.
     pub fn pieces(&mut self, at: [f64; 2], anchor: Anchor, pieces: &[(Look<'_>, &str)]) {
+        /// How wide a blank is, px.
+        const BLANK: usize = 5;
         let mut inner = String::new();
         for (look, text) in pieces {
             let (class, style) = (Class(look.class), Style(look, Kind::Text));
-            let _ = write!(inner, "<tspan{class}{style}>{}</tspan>", Escaped(text));
+            // Blanks at the start of a piece are dropped by some programs: a shift is not.
+            let shown = text.trim_start_matches([' ', '\u{a0}']);
+            let blanks = text.chars().count() - shown.chars().count();
+            let shift =
+                if blanks > 0 { format!(" dx=\"{}\"", BLANK * blanks) } else { String::new() };
+            let _ = write!(inner, "<tspan{class}{style}{shift}>{}</tspan>", Escaped(shown));
         }
         self.text_element(&Look::PLAIN, at, anchor, "", &inner);
     }

@@ -41,7 +41,7 @@
 //! Each is a builder: `new`, what differs from the defaults, `run`. The program `funicular` does
 //! nothing but read its arguments, call these, and print.
 //!
-//! A solver of one's own is held against ours by [`compare()`].
+//! A solver of one's own is held against ours by [`compare()`]. The [guide] has chapters on all of this.
 //!
 //! # Features
 //!
@@ -100,6 +100,7 @@ mod threads;
 #[cfg(feature = "branches")]
 mod trace;
 
+pub mod guide;
 pub mod prelude;
 
 /// The Rust of the README is run with the tests of the documentation.

@@ -43,7 +43,7 @@ def test_axial_forces_at_the_ends():
         "joints": {"A": {"at_m": [0, 0, 0]}, "P": {"mass_kg": 100}},
         "bars": [{"from": "A", "to": "P", "length_m": 10, "mass_kg": 50, "kind": "cable"}],
     }
-    a = fn.solve(rope)
+    a = fn.System.from_dict(rope).solve()
     assert np.allclose([a.axial_from_n, a.axial_n, a.axial_to_n], np.multiply([[150], [125], [100]], WEIGHT_N))
     assert np.allclose(a.axial_max_n, 150 * WEIGHT_N)
     b = fn.solve_many(lengths=[[1, 1]], masses=[[1, 1]], ends=[[1, 0, 0]], gravity=10.0)

@@ -44,7 +44,7 @@ Examples:
   funicular simulate chain.toml --from seed:7 --damping 0.5 --html motion.html    released, it comes to rest
   funicular completions bash > ~/.local/share/bash-completion/completions/funicular";
 
-/// Where does a chain of rigid bars come to rest under its own weight, and how sure can we be?
+/// Where does a system of bars, cables and springs come to rest, and how sure can we be?
 ///
 /// Every equilibrium is found twice, by two solvers that share no mechanics (Lagrange multipliers;
 /// potential energy), and judged by a third party that knows only Newton's laws.

@@ -50,12 +50,27 @@ impl Input {
 pub fn problem(file: Option<&Path>, case: Option<&str>) -> Result<Input, Failure> {
     let (problem, files) = match (file, case) {
         (Some(file), _) if file == Path::new("-") => (standard_input()?, vec![]),
-        (Some(file), _) => Problem::read_with_files(file)?,
+        (Some(file), _) => {
+            meant_as_case(file)?;
+            Problem::read_with_files(file)?
+        }
         (None, Some(name)) => (Problem::case(name)?, vec![]),
         // clap asks for one of them.
         (None, None) => return Err(Failure::bad_input(miette!("name a system file or a case"))),
     };
     Ok(Input { problem, files })
+}
+
+/// A file that does not exist and has the name of a case was meant as that.
+fn meant_as_case(file: &Path) -> Result<(), Failure> {
+    let name = file.to_str().filter(|name| Problem::case(name).is_ok());
+    match name {
+        Some(name) if !file.exists() => Err(Failure::bad_input(miette!(
+            help = format!("there is a case of that name: `--case {name}`"),
+            "there is no file {name}"
+        ))),
+        _ => Ok(()),
+    }
 }
 
 fn standard_input() -> Result<Problem, Failure> {

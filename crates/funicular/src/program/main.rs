@@ -15,6 +15,7 @@ mod diagnostics;
 mod exit;
 mod foreign_input;
 mod format;
+mod help;
 mod in_order;
 mod input;
 mod interrupt;
@@ -42,14 +43,17 @@ mod varied;
 mod verdicts;
 mod which;
 
-use clap::{CommandFactory, Parser};
+use clap::CommandFactory;
 
 use crate::args::{Cli, Command};
 use crate::exit::Exit;
 
 fn main() -> std::process::ExitCode {
     diagnostics::install();
-    let cli = Cli::parse();
+    let cli = match help::parse() {
+        Ok(cli) => cli,
+        Err(exit) => return exit.into(),
+    };
     memory::install(cli.max_memory);
     let exit = match cli.command {
         Command::Reproduce(arguments) => reproduce::run(&arguments),

@@ -13,6 +13,8 @@ const HEIGHT: f64 = 860.0;
 
 /// How wide the curves are, px.
 const STROKE: f64 = 2.0;
+/// How much wider each is than the next one on top of it, px.
+const WIDER: f64 = 1.6;
 
 /// The value of a curve at a shape, where there is one.
 type Value = fn(&StudyShape) -> Option<f64>;
@@ -69,16 +71,20 @@ pub(super) fn figure(found: &StudyAnswer, path: usize) -> String {
         (forces(found), "", "force / N", Unit::Decimal),
         (angles(), &name, "angle above the level / \u{b0}", Unit::Degrees),
     ];
-    for ((curves, x_name, y_name, unit), [top, bottom]) in panels.into_iter().zip(PANELS) {
-        let shapes = points.iter().filter_map(|point| point.shape.as_ref().ok());
-        let values = shapes.flat_map(|shape| curves.iter().filter_map(|curve| curve.2(shape)));
+    let shapes = || points.iter().filter_map(|point| point.shape.as_ref().ok());
+    for ((mut curves, x_name, y_name, unit), [top, bottom]) in panels.into_iter().zip(PANELS) {
+        // What has no value anywhere needs no entry of the legend.
+        curves.retain(|(_, _, value)| shapes().any(|shape| value(shape).is_some()));
+        let values = shapes().flat_map(|shape| curves.iter().filter_map(|curve| curve.2(shape)));
         let y = Axis::around(values, 0.05, [bottom, top]);
         let axes = Axes { x, y, names: [x_name, y_name] };
-        for (_, colour, value) in &curves {
+        for (k, (_, colour, value)) in curves.iter().enumerate() {
+            // Those below are wider: of equal curves all are seen.
+            let width = STROKE + WIDER * (curves.len() - 1 - k) as f64;
             draw(
                 &mut svg,
                 &axes,
-                *colour,
+                (*colour, width),
                 points.iter().map(|point| {
                     let value = point.shape.as_ref().ok().and_then(value)?;
                     Some([over(point), value])
@@ -97,15 +103,15 @@ pub(super) fn figure(found: &StudyAnswer, path: usize) -> String {
 fn draw(
     svg: &mut Svg,
     axes: &Axes<'_>,
-    colour: Colour,
+    (colour, width): (Colour, f64),
     points: impl Iterator<Item = Option<[f64; 2]>>,
 ) {
     let mut run: Vec<[f64; 2]> = vec![];
     let mut end = |run: &mut Vec<[f64; 2]>| {
         match run[..] {
             [] => {}
-            [alone] => svg.circle(Look::fill(colour), alone, STROKE),
-            _ => svg.polyline(Look::stroke(colour, STROKE), run.iter().copied()),
+            [alone] => svg.circle(Look::fill(colour), alone, width),
+            _ => svg.polyline(Look::stroke(colour, width), run.iter().copied()),
         }
         run.clear();
     };
@@ -121,7 +127,7 @@ fn draw(
 /// What the curves are, above the right end of a panel.
 fn legend(svg: &mut Svg, curves: &[Curve], y: f64) {
     /// Room for one entry, px.
-    const ENTRY: f64 = 165.0;
+    const ENTRY: f64 = 180.0;
     let left = RIGHT - ENTRY * curves.len() as f64;
     for (k, (name, colour, _)) in curves.iter().enumerate() {
         let x = left + ENTRY * k as f64;

@@ -8,6 +8,7 @@ mod escapes;
 mod examples;
 mod files;
 mod fuzz;
+mod guide;
 mod judge;
 mod keys;
 mod library;

@@ -314,7 +314,10 @@ fn joints_and_forces_as_csv() {
     let [joints, bars] = [joints, bars].map(|path| std::fs::read_to_string(path).unwrap());
     assert_eq!(joints.lines().count(), 1 + 2 * 11);
     assert!(joints.lines().all(|line| line.matches(',').count() == 7), "{joints}");
-    assert_eq!(bars.lines().next(), Some("solver,bar,from,to,axial_n"));
+    assert_eq!(
+        bars.lines().next(),
+        Some("solver,bar,from,to,axial_n,axial_from_n,axial_to_n,axial_max_n")
+    );
     assert_eq!(bars.lines().count(), 1 + 2 * 10);
     assert!(bars.contains("\nenergy,10,9,10,"), "{bars}");
     // The chain hangs in the plane y = 0, whatever rounding says.
@@ -444,6 +447,28 @@ fn help_version_and_completions() {
     assert!(model::cases::all().iter().all(|case| cases.contains(case.name)));
 }
 
+/// What newcomers type first leads on.
+#[test]
+fn first_guesses_find_their_way() {
+    let said = |arguments: &[&str]| {
+        let output = funicular(arguments);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+        String::from_utf8(output.stderr).unwrap()
+    };
+    let start = said(&[]);
+    assert!(
+        start.lines().count() <= 10 && start.contains("funicular solve --case lamp"),
+        "{start}"
+    );
+    for (word, wanted) in [("plot", "--svg"), ("animate", "--html"), ("chain", "funicular new")] {
+        assert!(said(&[word]).contains(wanted), "{word}");
+    }
+    for wanted in ["funicular new", "--case lamp"] {
+        assert!(said(&["solve"]).contains(wanted), "{wanted}");
+    }
+    assert!(said(&["solve", "footbridge"]).contains("--case footbridge"));
+}
+
 /// An error that nobody reads is the same error: no panic, the right exit code.
 #[test]
 fn a_closed_standard_error_changes_no_exit_code() {
@@ -528,8 +553,8 @@ fn every_command_has_a_manual_page() {
     let page = |name: &str| std::fs::read_to_string(folder.join(format!("{name}.1"))).unwrap();
     let whole = page("funicular");
     let help = stdout(&funicular(&["--help"]));
-    let commands = help.lines().skip_while(|line| *line != "Commands:").skip(1);
-    let names = commands.take_while(|line| !line.is_empty()).filter_map(|line| {
+    let commands = help.lines().skip_while(|line| !line.starts_with("Usage:")).skip(1);
+    let names = commands.take_while(|line| *line != "Options:").filter_map(|line| {
         let name = line.strip_prefix("  ")?.split(' ').next()?;
         (!name.is_empty()).then_some(name)
     });

@@ -14,6 +14,7 @@ mod external;
 mod field;
 mod first_tries;
 mod floor;
+mod frames;
 mod free_turns;
 mod gallery;
 mod independence;

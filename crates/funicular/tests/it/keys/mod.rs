@@ -21,7 +21,7 @@ mod laws;
 mod motion;
 mod names;
 mod open_rungs;
-mod output;
+pub mod output;
 mod reasons;
 mod refusals;
 mod reproduce;

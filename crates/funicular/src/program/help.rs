@@ -1,0 +1,148 @@
+//! The first words: commands in groups, what to type when nothing was, and what a word that is no command may mean.
+
+use std::io::Write as _;
+
+use clap::error::{ContextKind, ContextValue, ErrorKind};
+use clap::{Command, CommandFactory, FromArgMatches};
+
+use crate::args::Cli;
+use crate::exit::Exit;
+
+/// The commands, by what they are for.
+const GROUPS: [(&str, &[&str]); 6] = [
+    ("Equilibria", &["solve", "census", "study", "derivatives", "trace"]),
+    ("Motion", &["modes", "simulate"]),
+    ("Answers of others", &["judge"]),
+    ("Many starts", &["sweep", "basins", "merge"]),
+    ("The paper", &["reproduce"]),
+    ("Files and help", &["cases", "new", "format", "man", "completions"]),
+];
+
+/// What is printed without arguments.
+const START: &str = "\
+funicular finds where systems of bars, cables and springs come to rest, with
+which forces, and how sure that is.
+
+  funicular solve --case lamp      a first answer; `funicular cases` lists the gallery
+  funicular new > system.toml      a file of your own; `funicular format` has every key
+  funicular solve system.toml      its equilibrium, by two solvers, judged and proved
+  funicular census system.toml     every equilibrium, stable or not
+  funicular help                   all commands; `funicular COMMAND --help` all of one
+  funicular reproduce              the paper, judged";
+
+/// Words that were tried and are no commands, with what does that.
+const MEANT: [(&str, &str); 8] = [
+    ("chain", "`funicular new` prints the file of a chain, `funicular solve FILE` solves it"),
+    ("system", "`funicular new` prints a system file, `funicular solve FILE` solves it"),
+    ("plot", "`funicular solve FILE --svg picture.svg` draws"),
+    ("draw", "`funicular solve FILE --svg picture.svg` draws"),
+    ("view", "`funicular solve FILE --svg picture.svg` draws"),
+    (
+        "animate",
+        "`funicular simulate FILE --html motion.html` and `funicular modes FILE --html modes.html` move",
+    ),
+    ("example", "`funicular cases` lists examples, `funicular cases NAME` prints the file of one"),
+    ("gallery", "`funicular cases` lists examples, `funicular cases NAME` prints the file of one"),
+];
+
+/// What `solve` and the others say when no file is named.
+const NO_FILE: &str =
+    "to start: `funicular new > system.toml`, or `--case lamp` (`funicular cases` lists them)";
+
+/// The command line; or how the program ends without one.
+pub fn parse() -> Result<Cli, Exit> {
+    if std::env::args_os().len() <= 1 {
+        say(START);
+        return Err(Exit::BadInput);
+    }
+    let command = grouped(Cli::command());
+    let matches = command.try_get_matches().map_err(|error| explained(&error))?;
+    Cli::from_arg_matches(&matches).map_err(|error| explained(&error))
+}
+
+/// The commands with their help in groups.
+fn grouped(command: Command) -> Command {
+    let about = |name: &str| {
+        let found = command.get_subcommands().find(|sub| sub.get_name() == name);
+        found.and_then(Command::get_about).map(ToString::to_string).unwrap_or_default()
+    };
+    let mut text = String::from("{about-with-newline}\n{usage-heading} {usage}\n");
+    for (title, names) in GROUPS {
+        text += &format!("\n{title}:\n");
+        for name in names {
+            let lines = wrapped(&about(name));
+            text += &format!("  {name:<12} {}\n", lines.join(&format!("\n{:15}", "")));
+        }
+    }
+    text += "\nOptions:\n{options}{after-help}";
+    command.help_template(text)
+}
+
+/// A sentence in lines that leave room for the names of commands in 80 columns.
+fn wrapped(sentence: &str) -> Vec<String> {
+    const WIDTH: usize = 64;
+    let mut lines = vec![String::new()];
+    for word in sentence.split_whitespace() {
+        let last = lines.len() - 1;
+        if !lines[last].is_empty() && lines[last].len() + 1 + word.len() > WIDTH {
+            lines.push(word.to_owned());
+        } else {
+            let line = &mut lines[last];
+            if !line.is_empty() {
+                line.push(' ');
+            }
+            line.push_str(word);
+        }
+    }
+    lines
+}
+
+/// Words for people. Where the terminal is gone there is nobody to read them.
+fn say(text: &str) {
+    let _ = writeln!(std::io::stderr(), "{text}");
+}
+
+/// Print what is wrong with the arguments, and what was probably meant.
+fn explained(error: &clap::Error) -> Exit {
+    // As in `say`.
+    let _ = error.print();
+    let word = match error.get(ContextKind::InvalidSubcommand) {
+        Some(ContextValue::String(word)) => word.as_str(),
+        _ => "",
+    };
+    if let Some((_, meant)) = MEANT.iter().find(|(name, _)| *name == word) {
+        say(&format!("\n{meant}"));
+    }
+    let missing = match error.get(ContextKind::InvalidArg) {
+        Some(ContextValue::Strings(names)) => names.iter().any(|name| name.contains("FILE")),
+        _ => false,
+    };
+    if error.kind() == ErrorKind::MissingRequiredArgument && missing {
+        say(&format!("\n{NO_FILE}"));
+    }
+    if error.use_stderr() { Exit::BadInput } else { Exit::Done }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_command_stands_in_one_group() {
+        let mut grouped: Vec<&str> =
+            GROUPS.iter().flat_map(|(_, names)| names.iter().copied()).collect();
+        let command = Cli::command();
+        let mut commands: Vec<&str> = command.get_subcommands().map(Command::get_name).collect();
+        grouped.sort_unstable();
+        commands.sort_unstable();
+        assert_eq!(grouped, commands);
+    }
+
+    #[test]
+    fn no_word_that_is_explained_is_a_command() {
+        let command = Cli::command();
+        for (word, _) in MEANT {
+            assert!(command.find_subcommand(word).is_none(), "{word}");
+        }
+    }
+}
