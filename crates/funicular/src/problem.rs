@@ -24,7 +24,8 @@ pub struct Problem(Kind);
 #[derive(Debug, Clone, PartialEq)]
 enum Kind {
     Chain(model::Problem),
-    System(System),
+    /// With the chain that it is, where it is one.
+    System(System, Option<Box<model::Problem>>),
 }
 
 impl Problem {
@@ -86,7 +87,7 @@ impl Problem {
     pub fn name(&self) -> &str {
         match &self.0 {
             Kind::Chain(problem) => problem.chain().name(),
-            Kind::System(system) => system.name(),
+            Kind::System(system, _) => system.name(),
         }
     }
 
@@ -95,7 +96,7 @@ impl Problem {
     pub fn as_chain(&self) -> Option<&model::Problem> {
         match &self.0 {
             Kind::Chain(problem) => Some(problem),
-            Kind::System(_) => None,
+            Kind::System(..) => None,
         }
     }
 
@@ -104,13 +105,24 @@ impl Problem {
     pub fn as_system(&self) -> Option<&System> {
         match &self.0 {
             Kind::Chain(_) => None,
-            Kind::System(system) => Some(system),
+            Kind::System(system, _) => Some(system),
         }
     }
 
-    /// The chain, for what is possible with chains alone.
+    /// The chain that this is, however its file is written: a row of rigid bars between two anchors,
+    /// also with weights at its joints, which the bars before them carry then
+    /// ([`Row`](model::system::Row)).
+    #[must_use]
+    pub fn row(&self) -> Option<&model::Problem> {
+        match &self.0 {
+            Kind::Chain(problem) => Some(problem),
+            Kind::System(_, row) => row.as_deref(),
+        }
+    }
+
+    /// The chain, for what is possible with rows between two anchors alone.
     pub(crate) fn chain_for(&self, what: &'static str) -> Result<&model::Problem, Error> {
-        self.as_chain().ok_or(Error::ChainsOnly { what })
+        self.row().ok_or(Error::ChainsOnly { what })
     }
 }
 
@@ -160,7 +172,8 @@ impl From<Described> for Problem {
 
 impl From<System> for Problem {
     fn from(system: System) -> Self {
-        Self(Kind::System(system))
+        let row = system.as_row().map(|row| Box::new(row.problem().clone()));
+        Self(Kind::System(system, row))
     }
 }
 

@@ -21,6 +21,7 @@ mod joint;
 mod member;
 mod prestress;
 mod refusal;
+mod row;
 mod symmetry;
 
 pub use answer::{SystemEquilibrium, SystemStability};
@@ -30,6 +31,7 @@ pub use joint::{Joint, Support};
 pub use member::{Kind, LENGTH_ROUNDING, Member, Misfit, PointLoad};
 pub use prestress::PrestressError;
 pub use refusal::SystemRefusal;
+pub use row::Row;
 pub use symmetry::Part;
 
 use crate::Vector;

@@ -1,6 +1,6 @@
 //! One question to both solvers about a system: their answers compared, judged and certified.
 
-use model::system::{System, SystemEquilibrium};
+use model::system::{Row, System, SystemEquilibrium};
 use model::{NoAnswer, NoCensus, Reason, SolverName, Status};
 use serde::Serialize;
 
@@ -87,16 +87,15 @@ pub fn ask_with(
     watch: &dyn Fn(&str),
 ) -> SystemAnswer {
     let members = system.members().len();
+    let row = system.as_row();
     let mut answers: Vec<Result<SystemEquilibrium, SystemFailure>> = vec![];
     if solvers != Solvers::Energy {
         watch(&format!("lagrange: forces and closures of {members} members"));
-        let found = lagrange::network::solve(system, &lagrange::network::Settings::default());
-        answers.push(found.map(|found| found.equilibrium).map_err(Into::into));
+        answers.push(by_lagrange(system, row.as_ref()));
     }
     if solvers != Solvers::Lagrange {
         watch(&format!("energy: minimisation over the places of {} joints", system.joints().len()));
-        let found = energy::network::minimise(system, &energy::network::Settings::default());
-        answers.push(found.map(|found| found.equilibrium).map_err(Into::into));
+        answers.push(by_energy(system, row.as_ref()));
     }
     watch("the judges");
     let (mut equilibria, mut failures) = (vec![], vec![]);
@@ -119,6 +118,30 @@ pub fn ask_with(
         look_up(system, census, &mut equilibria);
     }
     SystemAnswer { equilibria, failures, agreement }
+}
+
+/// A row between two anchors by the condensed equations, where these have an answer; any other system by all members.
+fn by_lagrange(system: &System, row: Option<&Row>) -> Result<SystemEquilibrium, SystemFailure> {
+    let condensed = |row: &Row| {
+        let settings = lagrange::condensed::Settings::default();
+        lagrange::condensed::solve(row.problem(), &settings).ok()
+    };
+    if let Some((row, found)) = row.and_then(|row| Some((row, condensed(row)?))) {
+        return Ok(row.equilibrium(found.equilibrium));
+    }
+    let found = lagrange::network::solve(system, &lagrange::network::Settings::default())?;
+    Ok(found.equilibrium)
+}
+
+/// A row between two anchors over the directions of its bars, where that has an answer; any other system over the places of its joints.
+fn by_energy(system: &System, row: Option<&Row>) -> Result<SystemEquilibrium, SystemFailure> {
+    let over_directions =
+        |row: &Row| energy::minimise(row.problem(), &energy::Settings::default()).ok();
+    if let Some((row, found)) = row.and_then(|row| Some((row, over_directions(row)?))) {
+        return Ok(row.equilibrium(found.equilibrium));
+    }
+    let found = energy::network::minimise(system, &energy::network::Settings::default())?;
+    Ok(found.equilibrium)
 }
 
 /// Answers are compared; a single one is only judged by Newton's laws.

@@ -50,7 +50,26 @@ pub(crate) fn free_joints(system: &System, answers: &[SystemEquilibrium]) -> Vec
             free[*joint] = open;
         }
     }
+    for joint in in_row(system, answers) {
+        free[joint] = true;
+    }
     free.iter().zip(lie_loose(system, answers)).map(|(free, loose)| *free || loose).collect()
+}
+
+/// The free joints of a row between two anchors: however long it is, the lengths tell.
+fn in_row(system: &System, answers: &[SystemEquilibrium]) -> Vec<usize> {
+    let Some(row) = system.as_row() else { return vec![] };
+    let mut free = answers.iter().map(|answer| {
+        let places: Vec<Vector> = row.joints().iter().map(|k| answer.joints_m[*k]).collect();
+        let (_, free) = crate::free::free_joints(row.problem().chain(), &places)?;
+        Some((free.first, free.last))
+    });
+    match free.next().flatten() {
+        Some(first) if free.all(|other| other == Some(first)) => {
+            row.joints()[first.0..=first.1].to_vec()
+        }
+        _ => vec![],
+    }
 }
 
 /// Which joints nothing but the floor acts on in every answer: it lets them slide.

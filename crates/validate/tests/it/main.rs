@@ -26,6 +26,7 @@ mod networks;
 mod networks_census;
 mod paper;
 mod prescribed;
+mod rows;
 mod statics;
 mod tensegrities;
 mod third_road;

@@ -1,0 +1,211 @@
+//! Systems that are one row of rigid bars between two anchors: chains, however their file is written.
+
+use super::{Kind, Support, System, SystemEquilibrium, SystemStability};
+use crate::{Anchors, Bar, Chain, Equilibrium, InPlane, Problem, Reactions, Stability, Vector};
+
+/// A system that is a row of rigid bars between two anchors under upright loads, as a chain.
+///
+/// A weight at a joint is carried by the bar before it: a bar of mass $m$ and length $l$ with its
+/// centre at $r$ and a mass $M$ at its end is one rigid body of mass $m + M$ with its centre at
+/// $(m r + M l)/(m + M)$. Places, axial forces and reactions are those of the system; the force that the
+/// bar passes on at that joint is less by the weight. The judge holds the answer against the
+/// system itself.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Row {
+    problem: Problem,
+    /// The joint of the system for each joint of the chain.
+    joints: Vec<usize>,
+    /// The member for each bar, and whether it runs the other way.
+    members: Vec<(usize, bool)>,
+    /// Weight at each joint of the chain, N.
+    weights_n: Vec<f64>,
+}
+
+impl System {
+    /// The system as a chain, where it is one: rigid bars in a row between two anchors, nothing on
+    /// the bars but their weight, and no load at the joints that is not straight down.
+    ///
+    /// ```
+    /// use model::system::System;
+    /// let chain = model::cases::paper();
+    /// let row = System::from(chain.chain()).as_row().expect("a row");
+    /// assert_eq!(row.problem().chain().bars(), chain.chain().bars());
+    /// ```
+    #[must_use]
+    pub fn as_row(&self) -> Option<Row> {
+        let members = self.members();
+        let rigid = |k: usize| {
+            let member = &members[k];
+            member.kind == Kind::Bar && member.stiffness_n.is_none() && member.loads.is_empty()
+        };
+        if self.floor_m().is_some()
+            || self.joints().len() != members.len() + 1
+            || !(0..members.len()).all(rigid)
+        {
+            return None;
+        }
+        let (joints, members) = self.walk()?;
+        let (&first, &last) = (joints.first()?, joints.last()?);
+        let weights_n: Option<Vec<f64>> =
+            joints.iter().map(|joint| self.upright_n(*joint)).collect();
+        let weights_n = weights_n?;
+        let bars: Option<Vec<Bar>> = members
+            .iter()
+            .enumerate()
+            .map(|(k, member)| self.loaded(*member, weights_n[k + 1]))
+            .collect();
+        let anchor = |joint: usize| match self.joints()[joint].support {
+            Support::Fixed { at_m } => Some(at_m),
+            _ => None,
+        };
+        let anchors = Anchors { start_m: anchor(first)?, end_m: anchor(last)? };
+        let chain = Chain::new(self.name(), self.gravity_m_s2(), anchors, bars?).ok()?;
+        Some(Row { problem: Problem::new(chain).ok()?, joints, members, weights_n })
+    }
+
+    /// Joints and members in their order from the anchor of the smaller number, if they are one row.
+    fn walk(&self) -> Option<(Vec<usize>, Vec<(usize, bool)>)> {
+        let mut at = vec![[usize::MAX; 2]; self.joints().len()];
+        for (k, member) in self.members().iter().enumerate() {
+            for joint in [member.from, member.to] {
+                let free = at[joint].iter().position(|slot| *slot == usize::MAX)?;
+                at[joint][free] = k;
+            }
+        }
+        let ends = |joint: &usize| at[*joint][1] == usize::MAX;
+        let mut here = (0..at.len()).find(ends)?;
+        let (mut joints, mut members) = (vec![here], Vec::with_capacity(self.members().len()));
+        let mut before = usize::MAX;
+        while let Some(&next) = at[here].iter().find(|k| **k != usize::MAX && **k != before) {
+            let member = &self.members()[next];
+            let turned = member.to == here;
+            here = if turned { member.from } else { member.to };
+            joints.push(here);
+            members.push((next, turned));
+            before = next;
+        }
+        let inner = &joints[1..joints.len() - 1];
+        let free = inner.iter().all(|joint| matches!(self.joints()[*joint].support, Support::Free));
+        (joints.len() == at.len() && free).then_some((joints, members))
+    }
+
+    /// The load at a joint, N downwards; without value where it is not straight down, or acts on an
+    /// anchor.
+    fn upright_n(&self, joint: usize) -> Option<f64> {
+        let joint = &self.joints()[joint];
+        let [x, y, z] = joint.force_n;
+        let down = joint.mass_kg * self.gravity_m_s2() - z;
+        let upright = x.abs() <= 0.0 && y.abs() <= 0.0 && down >= 0.0;
+        (upright && (down <= 0.0 || !joint.support.is_fixed())).then_some(down)
+    }
+
+    /// The body of a member with a weight at its second joint along the row.
+    fn loaded(&self, (member, turned): (usize, bool), weight_n: f64) -> Option<Bar> {
+        let body = self.members()[member].body;
+        let (length_m, mass_kg) = (body.length_m(), body.mass_kg());
+        let centre_m = if turned { length_m - body.centre_m() } else { body.centre_m() };
+        let added_kg = weight_n / self.gravity_m_s2();
+        let total_kg = mass_kg + added_kg;
+        let centre_m = if added_kg > 0.0 {
+            ((mass_kg * centre_m + added_kg * length_m) / total_kg).min(length_m)
+        } else {
+            centre_m
+        };
+        Bar::new(length_m, total_kg, centre_m, body.inertia_kg_m2()).ok()
+    }
+}
+
+impl Row {
+    /// The chain. Moments of inertia are those of the bars alone: no equilibrium depends on them.
+    #[must_use]
+    pub fn problem(&self) -> &Problem {
+        &self.problem
+    }
+
+    /// The joints of the system in the order of the chain.
+    #[must_use]
+    pub fn joints(&self) -> &[usize] {
+        &self.joints
+    }
+
+    /// An answer for the system as one for the chain, for proofs that know chains; without value where it is not
+    /// one of this system. The character in the plane follows from the index alone.
+    #[must_use]
+    pub fn chain_equilibrium(&self, found: &SystemEquilibrium) -> Option<Equilibrium> {
+        let bars = self.members.len();
+        let fits = [found.joints_m.len(), found.reactions_n.len()] == [bars + 1; 2]
+            && [found.axial_n.len(), found.start_forces_n.len(), found.end_forces_n.len()]
+                == [bars; 3];
+        if !fits {
+            return None;
+        }
+        let (first, last) = (self.joints[0], self.joints[bars]);
+        let reactions_n =
+            Reactions { start: found.reactions_n[first], end: found.reactions_n[last] };
+        let passed_on =
+            self.members.iter().zip(&self.weights_n[1..]).map(|((member, turned), n)| {
+                let forces = if *turned { &found.start_forces_n } else { &found.end_forces_n };
+                let [x, y, z] = forces[*member];
+                [x, y, z + n]
+            });
+        let index = found.stability.index_in_plane.unwrap_or_default();
+        Some(Equilibrium {
+            solver: found.solver.clone(),
+            energy_j: found.energy_j,
+            joints_m: self.joints.iter().map(|joint| found.joints_m[*joint]).collect(),
+            multipliers_n: std::iter::once(reactions_n.start).chain(passed_on).collect(),
+            reactions_n,
+            axial_n: self.members.iter().map(|(member, _)| found.axial_n[*member]).collect(),
+            stability: Stability {
+                in_plane: if index == 0 { InPlane::Minimum } else { InPlane::Saddle },
+                index_in_plane: index,
+                in_space: found.stability.in_space,
+                index_in_space: found.stability.index_in_space,
+            },
+            evidence: found.evidence.clone(),
+        })
+    }
+
+    /// An answer for the chain as one for the system.
+    #[must_use]
+    pub fn equilibrium(&self, found: Equilibrium) -> SystemEquilibrium {
+        let forces_n = &found.multipliers_n;
+        let bars = self.members.len();
+        let mut start_forces_n = vec![[0.0; 3]; bars];
+        let mut end_forces_n = vec![[0.0; 3]; bars];
+        let (mut axial_n, mut joints_m) = (vec![0.0; bars], vec![[0.0; 3]; bars + 1]);
+        for (k, &(member, turned)) in self.members.iter().enumerate() {
+            // Entry 0 is the force on bar 1, every other one that on the bar before.
+            let first = if k == 0 { forces_n[0] } else { forces_n[k].map(|x| -x) };
+            let [x, y, z] = forces_n[k + 1];
+            let second: Vector = [x, y, z - self.weights_n[k + 1]];
+            let [start, end] = if turned { [second, first] } else { [first, second] };
+            (start_forces_n[member], end_forces_n[member]) = (start, end);
+            axial_n[member] = found.axial_n[k];
+        }
+        for (joint, at_m) in self.joints.iter().zip(&found.joints_m) {
+            joints_m[*joint] = *at_m;
+        }
+        let mut reactions_n = vec![[0.0; 3]; bars + 1];
+        reactions_n[self.joints[0]] = found.reactions_n.start;
+        reactions_n[self.joints[bars]] = found.reactions_n.end;
+        let flat = found.stability.in_plane == InPlane::Degenerate;
+        let turns = self.problem.chain().anchors_on_one_vertical();
+        SystemEquilibrium {
+            solver: found.solver,
+            energy_j: found.energy_j,
+            joints_m,
+            start_forces_n,
+            end_forces_n,
+            axial_n,
+            reactions_n,
+            stability: SystemStability {
+                in_space: found.stability.in_space,
+                index_in_space: found.stability.index_in_space,
+                index_in_plane: Some(found.stability.index_in_plane),
+                neutral: usize::from(flat) + usize::from(turns),
+            },
+            evidence: found.evidence,
+        }
+    }
+}

@@ -1,0 +1,124 @@
+//! One model: a chain is a system, whatever its file is written like.
+//!
+//! Every chain of the registry and random ones, as a chain, as joints and members, with a load of 0
+//! and of 1e-9 kg at a joint, and with the joints and members in another order: the same places,
+//! forces and rungs.
+
+use model::system::{Joint, Member, System, SystemEquilibrium};
+use model::{Problem, Rung, Vector, cases};
+use samples::random_chain;
+use validate::answer::{Question, Solvers, UseCensus, ask};
+use validate::systems::ask_with;
+
+/// Random chains.
+const CHAINS: u64 = 60;
+
+/// How far places and forces may be apart, in units of the length and of the largest force, where
+/// the load changes nothing.
+const APART: f64 = 1e-12;
+
+/// How the system of a chain is written.
+#[derive(Debug, Clone, Copy)]
+enum Written {
+    /// As the chain.
+    Plain,
+    /// With a load of so many kg at the middle joint.
+    Loaded(f64),
+    /// Joints from the last to the first, every second member turned.
+    Turned,
+}
+
+const WRITTEN: [Written; 4] =
+    [Written::Plain, Written::Loaded(0.0), Written::Loaded(1e-9), Written::Turned];
+
+fn written(problem: &Problem, how: Written) -> System {
+    let system = System::from(problem.chain());
+    let mut joints: Vec<Joint> = system.joints().to_vec();
+    let mut members: Vec<Member> = system.members().to_vec();
+    let last = joints.len() - 1;
+    match how {
+        Written::Plain => {}
+        Written::Loaded(mass_kg) => joints[last.div_ceil(2)].mass_kg = mass_kg,
+        Written::Turned => {
+            joints.reverse();
+            for (k, member) in members.iter_mut().enumerate() {
+                (member.from, member.to) = (last - member.from, last - member.to);
+                if k % 2 == 1 {
+                    let body = &member.body;
+                    let centre_m = body.length_m() - body.centre_m();
+                    let moments = body.inertia_kg_m2();
+                    let turned =
+                        model::Bar::new(body.length_m(), body.mass_kg(), centre_m, moments);
+                    member.body = turned.unwrap();
+                    std::mem::swap(&mut member.from, &mut member.to);
+                }
+            }
+        }
+    }
+    System::new(system.name(), system.gravity_m_s2(), joints, members).unwrap()
+}
+
+/// The places in the order of the chain.
+fn places(found: &SystemEquilibrium, how: Written) -> Vec<Vector> {
+    let mut places = found.joints_m.clone();
+    if matches!(how, Written::Turned) {
+        places.reverse();
+    }
+    places
+}
+
+fn largest(vectors: &[Vector]) -> f64 {
+    vectors.as_flattened().iter().fold(0.0, |most, x| x.abs().max(most))
+}
+
+/// What a way of writing changes of an answer.
+fn misses(name: &str, problem: &Problem) -> Vec<String> {
+    let question = Question { census: UseCensus::Never, ..Question::default() };
+    let chain = ask(problem, &question, &|_| {});
+    let length_m = problem.chain().total_length_m();
+    let mut misses = vec![];
+    for how in WRITTEN {
+        let system = written(problem, how);
+        let found = ask_with(&system, Solvers::Both, UseCensus::Never, &|_| {});
+        if chain.agrees() != found.agrees() {
+            let said = found.agreement.as_ref().map(|agreement| &agreement.disagreement);
+            misses.push(format!(
+                "{name}, {how:?}: agrees: {} {said:?} {:?}",
+                found.agrees(),
+                found.failures
+            ));
+        }
+        for (one, other) in chain.equilibria.iter().zip(&found.equilibria) {
+            // A load of 1e-9 kg moves nothing that a comparison of chains turned about a vertical sees.
+            let load = if let Written::Loaded(mass_kg) = how { mass_kg } else { 0.0 };
+            let apart = APART + load / problem.chain().total_mass_kg();
+            let heights = |places: &[Vector]| places.iter().map(|at| at[2]).collect::<Vec<_>>();
+            let off = heights(&one.joints_m)
+                .iter()
+                .zip(heights(&places(other, how)))
+                .fold(0.0, |most: f64, (a, b)| most.max((a - b).abs()));
+            let scale = largest(&one.joints_m).max(length_m);
+            if matches!(how, Written::Plain | Written::Loaded(0.0))
+                && (off.is_nan() || off > apart * scale)
+            {
+                misses.push(format!("{name}, {how:?}, {}: {off:e} m apart", one.solver));
+            }
+            let [a, b] = [&one.evidence, &other.evidence].map(model::Evidence::rung);
+            if chain.agrees() && b < a.min(Some(Rung::Optimal)) {
+                misses.push(format!("{name}, {how:?}, {}: {a:?} becomes {b:?}", one.solver));
+            }
+        }
+    }
+    misses
+}
+
+#[test]
+fn a_chain_is_a_system_however_it_is_written() {
+    let mut found: Vec<String> =
+        cases::all().iter().flat_map(|case| misses(case.name, &case.problem())).collect();
+    for seed in 0..CHAINS {
+        let (shape, problem) = random_chain(seed);
+        found.extend(misses(&format!("random {seed}, {shape:?}"), &problem));
+    }
+    assert!(found.is_empty(), "{}:\n{}", found.len(), found.join("\n"));
+}
