@@ -14,7 +14,7 @@ use crate::problem::Problem;
 ///
 /// [`Error::NothingToCompare`] for fewer than two answers, [`Error::ChainsOnly`] for other systems.
 pub fn compare(problem: &Problem, answers: &mut [Equilibrium]) -> Result<Agreement, Error> {
-    let chain = problem.chain_for("a comparison")?;
+    let chain = problem.as_chain().ok_or(Error::ChainsOnly { what: "a comparison" })?;
     if answers.len() < 2 {
         return Err(Error::NothingToCompare { answers: answers.len() });
     }

@@ -114,7 +114,7 @@ impl Solve {
         threads: NonZeroUsize,
         watch: &dyn Fn(&str),
     ) -> Result<SolveAnswer, Error> {
-        let chain = problem.chain_for("solving")?;
+        let chain = problem.as_chain().ok_or(Error::ChainsOnly { what: "solving" })?;
         let Self { solvers, equations, census, .. } = *self;
         let answer = ask(chain, &Question { solvers, equations, census, threads }, watch);
         let answer = SolveAnswer { system: chain.chain().summary(), answer };

@@ -40,7 +40,7 @@ pub struct Input {
 impl Input {
     /// The chain, for commands that work for chains alone.
     pub fn into_chain(self, command: &str) -> Result<model::Problem, Failure> {
-        self.problem.as_chain().cloned().ok_or_else(|| {
+        self.problem.row().cloned().ok_or_else(|| {
             Failure::bad_input(miette!("`{command}` is for chains between two anchors"))
         })
     }

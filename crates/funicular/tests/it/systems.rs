@@ -104,6 +104,41 @@ fn the_largest_tension_is_that_at_the_end_where_it_is_largest() {
     assert!(text.contains("Largest tension"), "{text}");
 }
 
+/// A weight at a joint of a chain takes no command away: two bars of 1 m without mass over 1.2 m.
+#[test]
+fn a_loaded_chain_is_traced_swept_and_drawn_as_the_chain_that_it_is() {
+    let folder = folder("loaded-chain");
+    let text = "anchors = { start_m = [0, 0, 0], end_m = [1.2, 0, 0] }\n\
+                bars = [{ length_m = 1, mass_kg = 0, count = 2 }]\n\
+                loads = [{ joint = 1, mass_kg = 2 }]\n";
+    std::fs::write(folder.join("v.toml"), text).unwrap();
+    for arguments in [
+        &["trace", "v.toml", "--vary", "anchors.end_m.x=1.0..1.4:5", "--csv", "t.csv"][..],
+        &["sweep", "v.toml", "--seeds", "50", "--csv", "--out", "sweep"],
+        &["basins", "v.toml", "--out", "basins", "--size", "16"],
+        &["census", "v.toml"],
+        &["solve", "v.toml"],
+    ] {
+        let output = run(&folder, arguments);
+        let said = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(output.status.code(), Some(0), "{arguments:?}: {said}");
+    }
+    // Below the anchors or above them, at sqrt(1 - x^2/4): V = -+ 2 g times that.
+    let trace = std::fs::read_to_string(folder.join("t.csv")).unwrap();
+    let mut lines = trace.lines().map(|line| line.split(',').collect::<Vec<_>>());
+    let head = lines.next().unwrap();
+    let column = |name: &str| head.iter().position(|found| *found == name).unwrap();
+    let [x, energy] = [column("anchors.end_m.x"), column("energy_j")];
+    let mut points = 0;
+    for line in lines {
+        let [x, energy] = [x, energy].map(|k| line[k].parse::<f64>().unwrap());
+        let height = (1.0 - 0.25 * x * x).sqrt();
+        assert!((energy.abs() - 2.0 * 9.80665 * height).abs() < 1e-9, "{line:?}");
+        points += 1;
+    }
+    assert!(points >= 10, "{trace}");
+}
+
 #[test]
 fn tables_csv_and_picture_of_a_system() {
     let folder = folder("systems-files");
