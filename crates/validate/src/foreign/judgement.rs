@@ -7,8 +7,8 @@ use model::{
 };
 use serde::Serialize;
 
-use super::best_forces::{BestForces, best_forces, joint_loads};
-use super::bounds::{Bounds, IMPLAUSIBLE};
+use super::best_forces::{BestForces, best_forces};
+use super::bounds::Bounds;
 use super::complete::{complete, largest_n};
 use super::floor::{above_floor, laid};
 use super::given::ForeignAnswer;
@@ -46,7 +46,7 @@ pub enum Finding {
     },
     /// No law is broken, and no solver found an equilibrium.
     NoEquilibrium,
-    /// The search for the best forces did not end.
+    /// The forces found do not balance to the tolerance, and no proof says that none do.
     ForcesNotFound,
 }
 
@@ -185,7 +185,7 @@ pub fn judge_foreign(
     let mut measured = measure(&laid, answer, &completed, &forces, &bounds);
     above_floor(system, &completed, &bounds, &mut measured);
     let nearest = nearest(system, &completed, bounds.position_m, watch);
-    let finding = finding(system, answer, &forces, &measured, &nearest, &bounds);
+    let finding = finding(system, answer, &measured, &nearest, &bounds);
     watch("the rungs");
     let ladder = ladder(system, &completed, finding, &measured, &nearest, &bounds);
     Ok(Judgement {
@@ -220,9 +220,7 @@ fn measure(
             balance_given(system, completed, reactions_n, bounds, &mut measured);
         }
         ForcesJudged::Found(best) => {
-            let loads_n = model::sum(joint_loads(system).into_iter().map(norm));
-            let at_most_n = IMPLAUSIBLE * best.largest_n.max(loads_n);
-            balance_found(system, completed, at_most_n, bounds, &mut measured);
+            balance_found(system, completed, best, bounds, &mut measured);
         }
     }
     if let Some(reactions_n) = reactions_n {
@@ -235,7 +233,6 @@ fn measure(
 fn finding(
     system: &System,
     answer: &ForeignAnswer,
-    forces: &ForcesJudged,
     measured: &Measured,
     nearest: &Nearest,
     bounds: &Bounds,
@@ -243,7 +240,7 @@ fn finding(
     if !measured.violations.is_empty() {
         return Finding::Refuted;
     }
-    if matches!(forces, ForcesJudged::Found(best) if !best.converged) {
+    if measured.open {
         return Finding::ForcesNotFound;
     }
     let Some(found) = nearest.equilibria.first() else { return Finding::NoEquilibrium };

@@ -48,6 +48,8 @@ mod nearest;
 mod proved;
 mod sentence;
 #[cfg(test)]
+mod sliders_tests;
+#[cfg(test)]
 mod tests;
 mod violation;
 

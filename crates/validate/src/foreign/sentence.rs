@@ -30,7 +30,7 @@ impl Display for Finding {
                 f.write_str("undecided: no law is broken, and no solver found an equilibrium")
             }
             Self::ForcesNotFound => {
-                f.write_str("undecided: the search for the forces that balance best did not end")
+                f.write_str("undecided: the forces found do not balance to the tolerance, nor is it proved that none do")
             }
         }
     }

@@ -59,26 +59,16 @@ fn broken() -> Measured {
 
 #[test]
 fn what_an_answer_comes_to_is_told_in_its_order() {
-    let best = |converged: bool| {
-        let residual = BestForces {
-            axial_n: vec![],
-            left_n: vec![],
-            residual_n: 0.0,
-            largest_n: 0.0,
-            steps: 1,
-            converged,
-        };
-        ForcesJudged::Found(residual)
-    };
-    let told = |answer: &ForeignAnswer, forces: &ForcesJudged, measured: &Measured, nearest| {
-        finding(&lamp(), answer, forces, measured, &nearest, &KNOWN)
+    let told = |answer: &ForeignAnswer, measured: &Measured, nearest| {
+        finding(&lamp(), answer, measured, &nearest, &KNOWN)
     };
     let (with, without) = (given(Some(vec![1.25; 2])), given(None));
     let right = Measured::default();
-    let simply = |nearest| told(&with, &ForcesJudged::Given, &right, nearest);
-    assert_eq!(told(&with, &ForcesJudged::Given, &broken(), near(vec![])), Finding::Refuted);
-    assert_eq!(told(&without, &best(false), &right, near(vec![])), Finding::ForcesNotFound);
-    assert_eq!(told(&without, &best(true), &right, near(vec![])), Finding::NoEquilibrium);
+    let open = Measured { open: true, ..Measured::default() };
+    let simply = |nearest| told(&with, &right, nearest);
+    assert_eq!(told(&with, &broken(), near(vec![])), Finding::Refuted);
+    assert_eq!(told(&without, &open, near(vec![])), Finding::ForcesNotFound);
+    assert_eq!(told(&without, &right, near(vec![])), Finding::NoEquilibrium);
     assert_eq!(simply(near(vec![])), Finding::NoEquilibrium);
     let far = |joints_m: f64| Finding::Far { joints_m, allowed_m: 0.25 };
     assert_eq!(simply(near(vec![one(0.25, 0.0, Some(true))])), Finding::Confirmed);
@@ -94,7 +84,7 @@ fn what_an_answer_comes_to_is_told_in_its_order() {
     for unique in [Some(false), None] {
         assert_eq!(simply(near(vec![one(0.1, 0.75, unique)])), Finding::Confirmed);
     }
-    let found = told(&without, &best(true), &right, near(vec![one(0.1, 0.75, Some(true))]));
+    let found = told(&without, &right, near(vec![one(0.1, 0.75, Some(true))]));
     assert_eq!(found, Finding::Confirmed);
 }
 
