@@ -3,10 +3,13 @@
 //! Minimise $\\tfrac12 |A x + f|^2$ for $l \\le x \\le u$, where a column of $A$ is $\\pm u_e$ at
 //! the two ends of a member. Bertsekas's projected Newton method: unknowns at a bound that the
 //! gradient pushes outwards go there or stay, the others take a Newton step, and the path is bent at the
-//! bounds. The step is $p = -A_F^T (A_F A_F^T + \\varepsilon I)^{-1} r$, the same as
-//! $-(A_F^T A_F + \\varepsilon I)^{-1} A_F^T r$, so that the matrix to factorise is that of the
-//! joints, sparse whatever the number of members in a joint. The ridge $\\varepsilon$ makes it
-//! definite where forces are indeterminate; repeated steps remove what it leaves.
+//! bounds. With the slope $s = A_F^T r$ the step is
+//! $$ p = -(A_F^T A_F + \\varepsilon I)^{-1} s
+//!      = -\\frac1\\varepsilon \\big(s - A_F^T (A_F A_F^T + \\varepsilon I)^{-1} A_F s\\big) , $$
+//! so that the matrix to factorise is that of the joints, sparse whatever the number of members in a
+//! joint. The ridge $\\varepsilon$ makes it definite where forces are indeterminate; repeated steps
+//! remove what it leaves. The shorter $-A_F^T (A_F A_F^T + \\varepsilon I)^{-1} r$ is the same, but its
+//! rounding is that of $r$ over $\\varepsilon$ where no forces balance $r$, this one's that of $s$.
 //!
 //! # References
 //!
@@ -117,7 +120,11 @@ impl Problem<'_> {
 
     /// What is left over at each joint.
     fn left(&self, x: &[f64]) -> Vec<Vector> {
-        let mut left = self.loads.to_vec();
+        self.pulls(self.loads.to_vec(), x)
+    }
+
+    /// `A x` and what is there before.
+    fn pulls(&self, mut left: Vec<Vector>, x: &[f64]) -> Vec<Vector> {
         for (column, x) in self.columns.iter().zip(x) {
             let [from, to] = column.joints;
             let pull = times(*x, column.unit);
@@ -175,18 +182,19 @@ impl Problem<'_> {
             (x[k] <= lower + band && slope[k] > 0.0) || (x[k] >= upper - band && slope[k] < 0.0)
         };
         let moving: Vec<bool> = (0..x.len()).map(|k| !pushes(k)).collect();
-        let moves = self.newton(&moving, left)?;
-        let newton = self.columns.iter().map(|column| -along(column, &moves));
-        let ends = newton.zip(moving).zip(slope);
-        Some(ends.map(|((newton, moving), slope)| if moving { newton } else { -slope }).collect())
+        let held = |k: usize| if moving[k] { slope[k] } else { 0.0 };
+        let held: Vec<f64> = (0..x.len()).map(held).collect();
+        let moves = self.newton(&moving, &self.pulls(vec![[0.0; 3]; left.len()], &held))?;
+        let newton = |k: usize| (along(&self.columns[k], &moves) - slope[k]) / RIDGE;
+        Some((0..x.len()).map(|k| if moving[k] { newton(k) } else { -slope[k] }).collect())
     }
 
-    /// `(A_F A_Fᵀ + ε I)⁻¹ r`, a vector for each joint.
+    /// `(A_F A_Fᵀ + ε I)⁻¹ v`, a vector for each joint.
     ///
     /// Across what a support leaves free the matrix has the ridge alone, which magnifies rounding a
     /// billion times: without the projection of what is found that would become part of the step.
-    fn newton(&self, moving: &[bool], left: &[Vector]) -> Option<Vec<Vector>> {
-        let size = 3 * left.len();
+    fn newton(&self, moving: &[bool], vectors: &[Vector]) -> Option<Vec<Vector>> {
+        let size = 3 * vectors.len();
         let mut entries = Vec::with_capacity(15 * moving.len() + size);
         entries.extend((0..size).map(|k| Triplet::new(k, k, RIDGE)));
         for (column, _) in self.columns.iter().zip(moving).filter(|(_, moving)| **moving) {
@@ -208,9 +216,10 @@ impl Problem<'_> {
         let matrix =
             SparseColMat::<usize, f64>::try_new_from_triplets(size, size, &entries).ok()?;
         let factor = matrix.sp_cholesky(Side::Lower).ok()?;
-        let right = Col::from_fn(size, |k| left[k / 3][k % 3]);
+        let right = Col::from_fn(size, |k| vectors[k / 3][k % 3]);
         let solved = factor.solve(&right);
-        let moves = (0..left.len()).map(|j| [solved[3 * j], solved[3 * j + 1], solved[3 * j + 2]]);
+        let moves =
+            (0..vectors.len()).map(|j| [solved[3 * j], solved[3 * j + 1], solved[3 * j + 2]]);
         Some(self.freed(moves.collect()))
     }
 }

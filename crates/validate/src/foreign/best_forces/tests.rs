@@ -8,6 +8,7 @@ use rand::{RngExt as _, SeedableRng as _};
 use rand_chacha::ChaCha8Rng;
 
 use super::*;
+use crate::foreign::bounds::TOLERANCE;
 use crate::foreign::floor::laid;
 
 /// Far below what is drawn.
@@ -51,7 +52,7 @@ fn drawn(random: &mut ChaCha8Rng) -> (System, Vec<Vector>) {
     if floor {
         places[4][2] = FLOOR_M;
     }
-    let mut members: Vec<Member> = Vec::new();
+    let mut members = vec![Member::bar(2, 3, Bar::homogeneous(1.0, 0.1).unwrap())];
     let mut bounded = 0;
     for _ in 0..random.random_range(2..10) {
         let [from, to] = [(); 2].map(|()| random.random_range(0..joints.len()));
@@ -77,8 +78,28 @@ fn drawn(random: &mut ChaCha8Rng) -> (System, Vec<Vector>) {
             member
         });
     }
-    let system = System::new("drawn", 10.0, joints, members).unwrap();
+    let reach_m =
+        Bounds::of_positions(&system_of(&joints, &members), &places, TOLERANCE).distance_m();
+    if random.random_bool(0.5) {
+        // Loads that forces within the bounds balance.
+        joints.iter_mut().for_each(|joint| joint.force_n = [0.0; 3]);
+        let mut left = joint_loads(&system_of(&joints, &members));
+        for member in &members {
+            let along = minus(places[member.to], places[member.from]);
+            let [low, high] = limits(member, norm(along), reach_m);
+            let force = random.random_range(-5.0..5.0_f64).clamp(low, high);
+            let pull = times(force / norm(along), along);
+            left[member.from] = plus(left[member.from], pull);
+            left[member.to] = minus(left[member.to], pull);
+        }
+        joints.iter_mut().zip(left).for_each(|(joint, left)| joint.force_n = times(-1.0, left));
+    }
+    let system = system_of(&joints, &members);
     (if floor { system.with_floor(FLOOR_M - 1e-9).unwrap() } else { system }, places)
+}
+
+fn system_of(joints: &[Joint], members: &[Member]) -> System {
+    System::new("drawn", 10.0, joints.to_vec(), members.to_vec()).unwrap()
 }
 
 /// What the bounds of a member are, written once more.
@@ -158,13 +179,10 @@ fn least_of_all(system: &System, places: &[Vector], reach_m: f64) -> f64 {
 #[test]
 fn no_other_choice_of_members_at_their_bounds_leaves_less() {
     let mut random = ChaCha8Rng::seed_from_u64(27);
-    let (mut balanced, mut left_over, mut steps) = (0, 0, 0);
+    let (mut balanced, mut left_over) = (0, 0);
     for number in 0..400 {
         let (system, places) = drawn(&mut random);
-        if system.members().is_empty() {
-            continue;
-        }
-        let bounds = Bounds::of_positions(&system, &places, 1e-6);
+        let bounds = Bounds::of_positions(&system, &places, TOLERANCE);
         let system = laid(&system, &places, &bounds);
         let best = best_forces(&system, &places, &bounds);
         let wanted = least_of_all(&system, &places, bounds.distance_m());
@@ -177,9 +195,7 @@ fn no_other_choice_of_members_at_their_bounds_leaves_less() {
             best.converged && best.least_n <= wanted + 1e-9 * scale,
             "{number}: {wanted} {best:?}"
         );
-        steps = steps.max(best.steps);
         if wanted < 1e-9 { balanced += 1 } else { left_over += 1 }
     }
-    assert!(balanced > 20 && left_over > 100, "{balanced} {left_over}");
-    assert!(steps < 30, "{steps}");
+    assert!(balanced > 100 && left_over > 100, "{balanced} {left_over}");
 }
