@@ -190,3 +190,33 @@ fn tolerances_have_their_range() {
         assert_eq!(judged.is_ok(), right, "{tolerance}");
     }
 }
+
+/// 1 kg on two cables of 5 m, 4 m deep: 9.81/2 N times 5/4 in each, 6.13125 N.
+#[test]
+fn forces_of_few_digits_are_judged_as_such_where_their_own_laws_ask_for_it() {
+    let of = lamp();
+    let mut joints = of.joints().to_vec();
+    joints[2].mass_kg = 1.0;
+    let system = System::new("lamp", 9.81, joints, of.members().to_vec()).unwrap();
+    let judged = |deep_m: f64, force_n: f64| {
+        let at = vec![[-3.0, 0.0, 0.0], [3.0, 0.0, 0.0], [0.0, 0.0, -deep_m]];
+        let answer = ForeignAnswer::in_order(&system, "x", at, Some(vec![force_n; 2])).unwrap();
+        judge_foreign(&system, &answer, 1e-6, &|_| {}).unwrap()
+    };
+    let printed = judged(4.0, 6.13);
+    assert_eq!((printed.finding, printed.force_digits), (Finding::Confirmed, Some(3)));
+    assert!((printed.bounds.force_n - 0.005).abs() < 1e-15);
+    // 0.03 N are left, and half a unit in each cable and of the load explains 0.015 N.
+    let wrong = judged(4.0, 6.15);
+    assert_eq!((wrong.finding, wrong.force_digits), (Finding::Refuted, None));
+    assert!((wrong.bounds.force_n - 9.81e-6).abs() < 1e-13);
+    // Enough digits need no help, and a wrong place gets none.
+    assert_eq!(judged(4.0, 6.13125).force_digits, None);
+    let low = judged(4.001, 6.13);
+    assert_eq!((low.finding, low.force_digits), (Finding::Refuted, None));
+    // A millimetre of 6 m: more than 1e-4, less than 1e-3.
+    assert_eq!(low.confirmed_at, Some(1e-3));
+    assert_eq!(printed.confirmed_at, None);
+    // The arch is 8 m off, and no tolerance explains that.
+    assert_eq!(judged(-4.0, -6.13).confirmed_at, None);
+}
