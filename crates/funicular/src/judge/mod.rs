@@ -139,7 +139,7 @@ impl Judged {
 /// let system = model::system::System::from(model::cases::paper().chain());
 /// let answer = formats::answer::parse("joint,x_m,y_m,z_m\n0,0,0,0\n1,0,0,-1\n", "table.csv")?;
 /// let error = funicular::judge::fit(&system, answer[0].clone()).unwrap_err();
-/// assert_eq!(error.to_string(), "the answer has no place for joint \"2\", \"3\"");
+/// assert_eq!(error.to_string(), "the answer has no place for joint \"2\"");
 /// # Ok::<(), formats::FormatError>(())
 /// ```
 pub fn fit(system: &System, answer: Answer) -> Result<ForeignAnswer, GivenError> {

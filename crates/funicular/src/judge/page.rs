@@ -42,6 +42,10 @@ pub(super) fn html(judged: &Judged, notes: &[String]) -> String {
         judgement.bounds.force_n,
         Escaped(&judgement.forces_sentence()),
     );
+    if let Some(sentence) = judgement.tolerance_sentence(system) {
+        // Writing to a String cannot fail.
+        let _ = writeln!(body, "<p>{}</p>", Escaped(&sentence));
+    }
     body += &broken(judged);
     body += "<h2>How large the error is</h2>\n";
     body += &list(&judgement.error_sentences(system));

@@ -92,9 +92,7 @@ pub enum Command {
     /// how large the error is
     ///
     /// Reads answers as JSON, CSV and VTU, and systems of our own files, MoorDyn, COMPAS and the
-    /// force density method. Ends with 0 where the answer is confirmed, 1 where it is refuted, 3
-    /// where it is neither.
-    #[command(after_help = ALL_OR_NOTHING)]
+    /// force density method.
     Judge(crate::judge::Judge),
     /// Run millions of starts through the solvers: which start leads where
     Sweep(crate::sweep::Sweep),

@@ -16,8 +16,18 @@ use crate::output;
 use crate::progress::Progress;
 use crate::threads;
 
+/// The end of the help.
+const EXIT_CODES: &str = "\
+Exit codes:
+  0  confirmed: an equilibrium is within the tolerance of every answer
+  1  refuted: an answer breaks a law by more than the tolerance explains
+  2  bad input or usage
+  3  undecided: no law is broken, but no equilibrium was found within the tolerance; or not written (the disk is full)
+130  interrupted; no file is half written";
+
 /// `funicular judge`.
 #[derive(Debug, Args)]
+#[command(after_help = EXIT_CODES)]
 pub struct Judge {
     /// The system: a system file (TOML or JSON, - for standard input), a MoorDyn input file, COMPAS
     /// JSON, or the nodes of a net of force densities as CSV
@@ -32,7 +42,8 @@ pub struct Judge {
     /// The edges of a net of force densities (CSV: from, to, q_n_m)
     #[arg(long, value_name = "FILE")]
     pub edges: Option<PathBuf>,
-    /// The answer: JSON of `solve --json`, CSV (joint,x_m,y_m,z_m) or VTU, - for standard input.
+    /// The answer: JSON of `solve --json`, CSV (joint,x_m,y_m,z_m; anchors may be left out) or VTU, -
+    /// for standard input.
     /// Nets of force densities have one in their file
     #[arg(long, value_name = "FILE")]
     pub answer: Option<PathBuf>,
@@ -40,7 +51,7 @@ pub struct Judge {
     #[arg(long, value_name = "FILE", requires = "answer")]
     pub members: Option<PathBuf>,
     /// How well the answer is taken to know its numbers: positions in units of the size of the
-    /// system, forces of the largest one
+    /// system, forces of the largest one. Forces printed to fewer digits count as such
     #[arg(long, value_name = "RELATIVE", default_value_t = validate::foreign::bounds::TOLERANCE)]
     pub tolerance: f64,
     /// Print one JSON object (schema_version 2) instead of tables

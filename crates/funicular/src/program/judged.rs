@@ -27,6 +27,9 @@ pub fn text(one: &Ruling) -> String {
         bounds.force_n,
     );
     text += &paragraph(&format!("Verdict: {}.", Printable(&one.finding())));
+    if let Some(sentence) = judgement.tolerance_sentence(system) {
+        text += &paragraph(&sentence);
+    }
     text += &paragraph(&judgement.forces_sentence());
     text.push('\n');
     text += &broken(one);

@@ -132,6 +132,56 @@ fn the_page_needs_nothing_else_and_tells_the_verdict_first() {
     assert_eq!(code, Some(2), "{err}");
 }
 
+/// 1 kg on two cables of 5 m between anchors 4 m apart hangs √21 m deep and draws each with
+/// 9.81/2 N times 5/√21: 5.3518 N.
+#[test]
+fn an_answer_is_judged_by_the_digits_that_it_has() {
+    let folder = folder("judge-digits");
+    let lamp =
+        LAMP.replace("= 10", "= 9.81").replace("3, 0, 0", "2, 0, 0").replace("= 2 }", "= 1 }");
+    write(&folder, "lamp.toml", &lamp);
+    // Without the anchors, which are those of the file.
+    write(&folder, "centimetres.csv", "joint,x_m,y_m,z_m\nP,0,0,-4.58\n");
+    write(&folder, "whole.csv", "joint,x_m,y_m,z_m\nP,0,0,-4.58257569496\n");
+    write(&folder, "forces.csv", "from,to,axial_n\nA,P,5.35\nP,B,5.35\n");
+    write(&folder, "wrong.csv", "from,to,axial_n\nA,P,5.38\nP,B,5.38\n");
+    let unwrapped = |arguments: &[&str]| {
+        let (code, out, err) = judge(&folder, &[&["lamp.toml", "--answer"], arguments].concat());
+        (code, out.split_whitespace().collect::<Vec<_>>().join(" ") + &err)
+    };
+    let (code, out) = unwrapped(&["centimetres.csv"]);
+    assert_eq!(code, Some(1), "{out}");
+    let says = "Positions look rounded to 0.01 m: with --tolerance 1e-3 the answer is confirmed.";
+    assert!(out.contains(says), "{out}");
+    let (code, out) = unwrapped(&["centimetres.csv", "--tolerance", "1e-3"]);
+    assert!(code == Some(0) && !out.contains("--tolerance"), "{out}");
+    let (code, out) = unwrapped(&["whole.csv", "--members", "forces.csv"]);
+    assert_eq!(code, Some(0), "{out}");
+    assert!(out.contains("taken as printed to 3 digits: known to 5.000e-3 N."), "{out}");
+    assert!(!out.contains("0.000e0") && !out.contains("0.00e0"), "{out}");
+    let (code, out) = unwrapped(&["whole.csv", "--members", "wrong.csv"]);
+    assert!(code == Some(1) && out.contains("The forces are those of the answer."), "{out}");
+}
+
+#[test]
+fn the_help_has_the_exit_codes_of_a_judge() {
+    let (code, out, _) = judge(&folder("judge-help"), &["--help"]);
+    assert_eq!((code, out.matches("Exit codes:").count()), (Some(0), 1), "{out}");
+    for says in ["0  confirmed:", "1  refuted:", "3  undecided:"] {
+        assert!(out.contains(says), "{says}: {out}");
+    }
+}
+
+/// With oblique sliders, as in the issue: its own answer in 8 digits, 5e-8 m off.
+#[test]
+fn an_answer_with_oblique_sliders_is_confirmed() {
+    let folder = folder("judge-sliders");
+    write(&folder, "sliders.json", include_str!("judge/sliders.json"));
+    write(&folder, "sliders.csv", include_str!("judge/sliders.csv"));
+    let (code, out, _) = judge(&folder, &["sliders.json", "--answer", "sliders.csv"]);
+    assert!(code == Some(0) && out.contains("Verdict: confirmed"), "{out}");
+}
+
 #[test]
 fn bad_input_is_told_and_ends_with_two() {
     let folder = folder("judge-bad");

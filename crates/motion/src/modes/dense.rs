@@ -5,6 +5,7 @@ use nalgebra::{DMatrix, DVector, SymmetricEigen};
 use super::planes::Sector;
 use super::solved::Solved;
 use super::stiffness::{Entry, Stiffness};
+use crate::error::MotionError;
 
 /// Rows of the constraints whose part independent of the others is less than this, relative, are
 /// dependent.
@@ -15,20 +16,24 @@ const INDEPENDENT: f64 = 1e-10;
 const ZERO: f64 = 1e-10;
 
 /// All modes whose displacements are along the axes of a sector.
-pub(super) fn solve(stiffness: &Stiffness<'_>, sector: &Sector) -> Solved {
+///
+/// # Errors
+///
+/// [`MotionError::Massless`] where the inertia is not positive definite.
+pub(super) fn solve(stiffness: &Stiffness<'_>, sector: &Sector) -> Result<Solved, MotionError> {
     let entries = stiffness.entries(sector);
     let size = entries.size;
     let inertia = matrix(size, size, &entries.inertia);
     // M = L Lᵀ; in z = Lᵀ y the problem is ordinary: L⁻¹ K L⁻ᵀ z = ω² z with R L⁻ᵀ z = 0.
-    let Some(factor) = inertia.cholesky() else { return Solved::none(size) };
-    let lower = factor.l();
-    let solved = |m: &DMatrix<f64>| lower.solve_lower_triangular(m).unwrap_or_else(|| m.clone());
-    let half = solved(&matrix(size, size, &entries.stiffness));
-    let ordinary = solved(&half.transpose());
+    let massless = || massless(stiffness, sector, &inertia);
+    let lower = inertia.clone().cholesky().ok_or_else(massless)?.l();
+    let solved = |m: &DMatrix<f64>| lower.solve_lower_triangular(m).ok_or_else(massless);
+    let half = solved(&matrix(size, size, &entries.stiffness))?;
+    let ordinary = solved(&half.transpose())?;
     let rows = matrix(stiffness.row_count(), size, &entries.rows);
-    let free = null_space(&solved(&rows.transpose()));
+    let free = null_space(&solved(&rows.transpose())?);
     if free.ncols() == 0 {
-        return Solved::none(size);
+        return Ok(Solved::none(size));
     }
     let projected = free.transpose() * &ordinary * &free;
     let symmetric = 0.5 * (&projected + projected.transpose());
@@ -41,20 +46,30 @@ pub(super) fn solve(stiffness: &Stiffness<'_>, sector: &Sector) -> Solved {
         (&symmetric * z - z * eigen.eigenvalues[k]).norm() / z.norm()
     };
     let ordinary_shapes = &free * &eigen.eigenvectors;
-    let shapes =
-        lower.transpose().solve_upper_triangular(&ordinary_shapes).unwrap_or(ordinary_shapes);
+    let shapes = lower.transpose().solve_upper_triangular(&ordinary_shapes).ok_or_else(massless)?;
     let zero =
         ZERO * stiffness.largest_of_forces().min(largest) + size as f64 * f64::EPSILON * largest;
     let columns: Vec<DVector<f64>> = order.iter().map(|&k| shapes.column(k).into_owned()).collect();
     let omega2: Vec<f64> = order.iter().map(|&k| eigen.eigenvalues[k]).collect();
-    Solved {
+    Ok(Solved {
         zero: omega2.iter().map(|o| o.abs() <= zero).collect(),
         residual: order.iter().map(|&k| residual(k)).collect(),
         total: omega2.len(),
         negative: omega2.iter().filter(|&&o| o < -zero).count(),
         omega2,
         shapes: DMatrix::from_columns(&columns),
-    }
+    })
+}
+
+/// The joint that moves no mass of its own: the first one whose inertia, with that of those before
+/// it, is not positive definite.
+fn massless(stiffness: &Stiffness<'_>, sector: &Sector, inertia: &DMatrix<f64>) -> MotionError {
+    let definite =
+        |size: &usize| inertia.view((0, 0), (*size, *size)).into_owned().cholesky().is_some();
+    let sizes: Vec<usize> = (1..=inertia.nrows()).collect();
+    let at = sizes.partition_point(definite).min(inertia.nrows() - 1);
+    let joint = stiffness.mechanism.name(at / sector.axes.len());
+    MotionError::Massless { joint, inertia_kg: 0.0 }
 }
 
 fn matrix(rows: usize, columns: usize, entries: &[Entry]) -> DMatrix<f64> {
@@ -118,4 +133,59 @@ fn take_longest(vectors: &mut Vec<DVector<f64>>, longer_than: f64) -> Option<DVe
     let lengths = vectors.iter().map(DVector::norm);
     let (k, length) = lengths.enumerate().max_by(|a, b| a.1.total_cmp(&b.1))?;
     (length > longer_than).then(|| vectors.swap_remove(k))
+}
+
+#[cfg(test)]
+mod tests {
+    use model::Bar;
+    use model::system::{Joint, Member, System};
+
+    use super::super::planes::sectors;
+    use super::*;
+    use crate::mechanism::Mechanism;
+    use crate::state::State;
+
+    /// Half of 4 kg in the middle of a bar moves with either end: about that middle the ends turn
+    /// without moving any mass, and no mode is left out for that.
+    #[test]
+    fn an_end_without_inertia_of_its_own_is_named() {
+        let joints = vec![
+            Joint::anchor("A", [0.0; 3]),
+            Joint::free("P"),
+            Joint::free("Q"),
+            Joint::anchor("B", [2.0, 0.0, 0.0]),
+        ];
+        let light = Bar::homogeneous(1.0, 0.0).unwrap();
+        let members = |moment: f64| {
+            let heavy = Bar::new(1.0, 4.0, 0.5, [0.0, moment, moment]).unwrap();
+            vec![Member::bar(0, 1, light), Member::bar(1, 2, heavy), Member::bar(2, 3, light)]
+        };
+        let solved = |moment: f64| {
+            let system = System::new("bar", 10.0, joints.clone(), members(moment)).unwrap();
+            let at = [
+                [0.0; 3],
+                [0.5, 0.0, -0.75_f64.sqrt()],
+                [1.5, 0.0, -0.75_f64.sqrt()],
+                [2.0, 0.0, 0.0],
+            ];
+            let mechanism = Mechanism::for_small_motions(&system).unwrap();
+            let state = State::at_rest(mechanism.places(&at).unwrap());
+            let mut vectors = vec![[0.0; 3]; mechanism.constraints()];
+            state.rows(&mechanism, &mut vectors);
+            let densities = vec![1.0; mechanism.bars.len()];
+            let stiffness = Stiffness::new(&mechanism, &state, &vectors, densities);
+            let sectors = sectors(&mechanism, &state, &stiffness.excesses);
+            sectors
+                .iter()
+                .map(|sector| solve(&stiffness, sector).map(|s| s.total))
+                .collect::<Result<Vec<_>, _>>()
+        };
+        // One mode in the plane and two across it.
+        assert_eq!(solved(0.1).unwrap().iter().sum::<usize>(), 3);
+        let refused = solved(0.0).unwrap_err();
+        assert!(
+            matches!(&refused, MotionError::Massless { joint, .. } if joint == "Q"),
+            "{refused}"
+        );
+    }
 }

@@ -173,7 +173,7 @@ pub fn modes(
         return Err(MotionError::TooLarge { joints: mechanism.moving, most: MOST_JOINTS });
     }
     let mut found = about(system, &mechanism, joints_m, axial_n, &|stiffness, sector| {
-        Ok(dense::solve(stiffness, sector))
+        dense::solve(stiffness, sector)
     })?;
     let spins = spins(system);
     found.total += spins.len();
@@ -238,7 +238,7 @@ pub fn lowest_modes(
     let mut found = about(system, &mechanism, joints_m, axial_n, &|stiffness, sector| {
         let size = mechanism.moving * sector.axes.len();
         if is_small || size < lowest::LEAST_SIZE || 4 * count > size {
-            Ok(dense::solve(stiffness, sector))
+            dense::solve(stiffness, sector)
         } else {
             lowest::solve(stiffness, sector, count)
         }
@@ -302,7 +302,7 @@ pub(crate) fn approximate_modes(
     let stiffness = Stiffness::new(mechanism, &state, &vectors, densities);
     let mut columns = Vec::new();
     for sector in planes::sectors(mechanism, &state, &stiffness.excesses) {
-        for shape in dense::solve(&stiffness, &sector).shapes.column_iter() {
+        for shape in dense::solve(&stiffness, &sector)?.shapes.column_iter() {
             let mut column = DVector::zeros(3 * mechanism.moving);
             for (at, part) in shape.iter().enumerate() {
                 let (slot, axis) = (at / sector.axes.len(), sector.axes[at % sector.axes.len()]);

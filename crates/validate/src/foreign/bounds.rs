@@ -14,7 +14,7 @@ pub const TOLERANCE: f64 = 1e-6;
 
 /// Rounding of stored numbers: eight units in the last place of the largest, as everywhere in this
 /// crate.
-const STORED: f64 = 8.0 * f64::EPSILON;
+pub(super) const STORED: f64 = 8.0 * f64::EPSILON;
 
 /// How well an answer is taken to know its numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use model::system::System;
+use model::system::{Joint, System};
 use model::{SolverName, Vector};
 
 /// Joint positions that somebody says are an equilibrium of a system, with forces if they were
@@ -101,7 +101,8 @@ fn listed(what: &str, names: &[String], count: usize) -> String {
 }
 
 impl ForeignAnswer {
-    /// An answer of positions by the names of joints, in any order, one for every joint.
+    /// An answer of positions by the names of joints, in any order, one for every joint that can
+    /// move; an anchor that is not named is where the system has it.
     ///
     /// # Errors
     ///
@@ -111,7 +112,7 @@ impl ForeignAnswer {
     /// ```
     /// use validate::foreign::{ForeignAnswer, GivenError};
     /// let system = model::system::System::from(model::cases::paper().chain());
-    /// let places = [("0", 0.0), ("1", -1.0), ("3", -2.0)];
+    /// let places = [("0", 0.0), ("1", -1.0)];
     /// let places = places.map(|(name, z)| (name.to_owned(), [0.0, 0.0, z]));
     /// let error = ForeignAnswer::by_name(&system, "a table", places).unwrap_err();
     /// assert_eq!(error.to_string(), "the answer has no place for joint \"2\"");
@@ -121,7 +122,9 @@ impl ForeignAnswer {
         source: impl Into<String>,
         places: impl IntoIterator<Item = (String, Vector)>,
     ) -> Result<Self, GivenError> {
-        let joints_m = vectors(system, places)?;
+        let anchored = |joint: &Joint| joint.support.at_m().filter(|_| joint.support.is_fixed());
+        let joints_m = vectors(system, places)?.into_iter().zip(system.joints());
+        let joints_m: Vec<_> = joints_m.map(|(at, joint)| at.or_else(|| anchored(joint))).collect();
         let missing = joints_m.iter().zip(system.joints()).filter(|(place, _)| place.is_none());
         let missing: Vec<_> = missing.map(|(_, joint)| joint.name.clone()).collect();
         if !missing.is_empty() {

@@ -7,9 +7,10 @@ use model::{
 };
 use serde::Serialize;
 
-use super::best_forces::{BestForces, best_forces, joint_loads};
-use super::bounds::{Bounds, IMPLAUSIBLE};
+use super::best_forces::{BestForces, best_forces};
+use super::bounds::Bounds;
 use super::complete::{complete, largest_n};
+use super::digits::printed;
 use super::floor::{above_floor, laid};
 use super::given::ForeignAnswer;
 use super::nearest::{Nearest, NearestEquilibrium, nearest};
@@ -46,7 +47,7 @@ pub enum Finding {
     },
     /// No law is broken, and no solver found an equilibrium.
     NoEquilibrium,
-    /// The search for the best forces did not end.
+    /// The forces found do not balance to the tolerance, and no proof says that none do.
     ForcesNotFound,
 }
 
@@ -73,6 +74,12 @@ pub struct Judgement {
     /// Which forces were judged.
     #[serde(flatten)]
     pub forces: ForcesJudged,
+    /// To how many digits the given forces were taken as printed, where they break a law that the
+    /// tolerance does not explain and these digits do.
+    pub force_digits: Option<usize>,
+    /// The smallest power of ten that as tolerance would have confirmed the answer, of one that is
+    /// not confirmed.
+    pub confirmed_at: Option<f64>,
     /// Everything that is broken.
     pub violations: Vec<Violation>,
     /// The largest violation in units of what the tolerance explains: 1 or less is none.
@@ -126,6 +133,9 @@ pub struct ToleranceError {
 const LEAST: f64 = 1e-13;
 /// Above this every shape is an equilibrium.
 const MOST: f64 = 0.1;
+/// The tolerances that are tried for an answer that is not confirmed at its own.
+const POWERS: [f64; 12] =
+    [1e-12, 1e-11, 1e-10, 1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2, MOST];
 
 /// Judge an answer. `watch` is told what is being done.
 ///
@@ -167,6 +177,43 @@ pub fn judge_foreign(
     if !(LEAST..=MOST).contains(&tolerance) {
         return Err(ToleranceError { tolerance });
     }
+    let Trial { bounds, forces, completed, measured, force_digits } =
+        trial(system, answer, tolerance, watch);
+    let nearest = nearest(system, &completed, bounds.position_m, watch);
+    let finding = finding(system, answer, &measured, &nearest, &bounds);
+    watch("the rungs");
+    let ladder = ladder(system, &completed, finding, &measured, &nearest, &bounds);
+    Ok(Judgement {
+        source: answer.source.clone(),
+        finding,
+        bounds,
+        forces,
+        force_digits,
+        confirmed_at: match finding {
+            Finding::Confirmed => None,
+            _ => confirmed_at(system, answer, tolerance, &nearest, watch),
+        },
+        violations: measured.violations,
+        largest: measured.largest,
+        statics: judge(system, &completed),
+        nearest,
+        ladder,
+        joints_m: completed.joints_m,
+        axial_n: completed.axial_n,
+        reactions_n: answer.reactions_n.clone().unwrap_or(completed.reactions_n),
+    })
+}
+
+/// An answer before all laws at a tolerance.
+struct Trial {
+    bounds: Bounds,
+    forces: ForcesJudged,
+    completed: SystemEquilibrium,
+    measured: Measured,
+    force_digits: Option<usize>,
+}
+
+fn trial(system: &System, answer: &ForeignAnswer, tolerance: f64, watch: &dyn Fn(&str)) -> Trial {
     let bounds = Bounds::of_positions(system, &answer.joints_m, tolerance);
     let laid = laid(system, &answer.joints_m, &bounds);
     let (forces, axial_n) = if let Some(axial_n) = &answer.axial_n {
@@ -182,25 +229,42 @@ pub fn judge_foreign(
     let given = answer.reactions_n.iter().flatten();
     let largest = given.map(|force| norm(*force)).fold(largest_n(system, &completed), f64::max);
     let bounds = bounds.with_largest_force(largest);
-    let mut measured = measure(&laid, answer, &completed, &forces, &bounds);
-    above_floor(system, &completed, &bounds, &mut measured);
-    let nearest = nearest(system, &completed, bounds.position_m, watch);
-    let finding = finding(system, answer, &forces, &measured, &nearest, &bounds);
-    watch("the rungs");
-    let ladder = ladder(system, &completed, finding, &measured, &nearest, &bounds);
-    Ok(Judgement {
-        source: answer.source.clone(),
-        finding,
-        bounds,
-        forces,
-        violations: measured.violations,
-        largest: measured.largest,
-        statics: judge(system, &completed),
-        nearest,
-        ladder,
-        joints_m: completed.joints_m,
-        axial_n: completed.axial_n,
-        reactions_n: answer.reactions_n.clone().unwrap_or(completed.reactions_n),
+    let measured = |bounds: &Bounds| {
+        let mut measured = measure(&laid, answer, &completed, &forces, bounds);
+        above_floor(system, &completed, bounds, &mut measured);
+        measured
+    };
+    let strict = measured(&bounds);
+    let of_forces = strict.violations.iter().all(|violation| violation.law.unit() == "N");
+    if answer.axial_n.is_some() && of_forces && !strict.violations.is_empty() {
+        let numbers = answer.axial_n.iter().flatten().copied();
+        let ground = answer.reactions_n.iter().flatten().flatten().copied();
+        let (digits, half_a_unit_n) = printed(numbers.chain(ground));
+        let bounds = Bounds { force_n: bounds.force_n.max(half_a_unit_n), ..bounds };
+        let measured = measured(&bounds);
+        if measured.violations.is_empty() {
+            return Trial { bounds, forces, completed, measured, force_digits: Some(digits) };
+        }
+    }
+    Trial { bounds, forces, completed, measured: strict, force_digits: None }
+}
+
+/// The smallest of the larger powers of ten at which an answer is confirmed by the equilibrium that
+/// was found next to it.
+fn confirmed_at(
+    system: &System,
+    answer: &ForeignAnswer,
+    tolerance: f64,
+    nearest: &Nearest,
+    watch: &dyn Fn(&str),
+) -> Option<f64> {
+    let apart_m = nearest.equilibria.first()?.joints_m;
+    POWERS.into_iter().filter(|power| *power > tolerance).find(|power| {
+        if Bounds::of_positions(system, &answer.joints_m, *power).position_m < apart_m {
+            return false;
+        }
+        let Trial { bounds, measured, .. } = trial(system, answer, *power, watch);
+        finding(system, answer, &measured, nearest, &bounds) == Finding::Confirmed
     })
 }
 
@@ -220,9 +284,7 @@ fn measure(
             balance_given(system, completed, reactions_n, bounds, &mut measured);
         }
         ForcesJudged::Found(best) => {
-            let loads_n = model::sum(joint_loads(system).into_iter().map(norm));
-            let at_most_n = IMPLAUSIBLE * best.largest_n.max(loads_n);
-            balance_found(system, completed, at_most_n, bounds, &mut measured);
+            balance_found(system, completed, best, bounds, &mut measured);
         }
     }
     if let Some(reactions_n) = reactions_n {
@@ -235,7 +297,6 @@ fn measure(
 fn finding(
     system: &System,
     answer: &ForeignAnswer,
-    forces: &ForcesJudged,
     measured: &Measured,
     nearest: &Nearest,
     bounds: &Bounds,
@@ -243,7 +304,7 @@ fn finding(
     if !measured.violations.is_empty() {
         return Finding::Refuted;
     }
-    if matches!(forces, ForcesJudged::Found(best) if !best.converged) {
+    if measured.open {
         return Finding::ForcesNotFound;
     }
     let Some(found) = nearest.equilibria.first() else { return Finding::NoEquilibrium };

@@ -2,11 +2,14 @@
 //!
 //! Minimise $\\tfrac12 |A x + f|^2$ for $l \\le x \\le u$, where a column of $A$ is $\\pm u_e$ at
 //! the two ends of a member. Bertsekas's projected Newton method: unknowns at a bound that the
-//! gradient pushes outwards stay there, the others take a Newton step, and the path is bent at the
-//! bounds. The step is $p = -A_F^T (A_F A_F^T + \\varepsilon I)^{-1} r$, the same as
-//! $-(A_F^T A_F + \\varepsilon I)^{-1} A_F^T r$, so that the matrix to factorise is that of the
-//! joints, sparse whatever the number of members in a joint. The ridge $\\varepsilon$ makes it
-//! definite where forces are indeterminate; repeated steps remove what it leaves.
+//! gradient pushes outwards go there or stay, the others take a Newton step, and the path is bent at the
+//! bounds. With the slope $s = A_F^T r$ the step is
+//! $$ p = -(A_F^T A_F + \\varepsilon I)^{-1} s
+//!      = -\\frac1\\varepsilon \\big(s - A_F^T (A_F A_F^T + \\varepsilon I)^{-1} A_F s\\big) , $$
+//! so that the matrix to factorise is that of the joints, sparse whatever the number of members in a
+//! joint. The ridge $\\varepsilon$ makes it definite where forces are indeterminate; repeated steps
+//! remove what it leaves. The shorter $-A_F^T (A_F A_F^T + \\varepsilon I)^{-1} r$ is the same, but its
+//! rounding is that of $r$ over $\\varepsilon$ where no forces balance $r$, this one's that of $s$.
 //!
 //! # References
 //!
@@ -26,6 +29,10 @@ const RIDGE: f64 = 1e-9;
 const STEPS: usize = 200;
 /// Halvings of a step.
 const HALVINGS: usize = 40;
+/// The band of unknowns that count as at a bound, at most, in units of the loads.
+const BAND: f64 = 1e-3;
+/// Full steps at the end, at most: each leaves of the slope what the ridge is of an eigenvalue.
+const POLISHES: usize = 5;
 /// Part of the descent promised by the gradient that a step must bring (Armijo).
 const DESCENT: f64 = 1e-4;
 /// A step that lowers the objective by less than this part of it, or of the squared loads'
@@ -56,7 +63,6 @@ pub(super) struct Found {
     /// What is left over at each joint.
     pub(super) left: Vec<Vector>,
     pub(super) steps: usize,
-    pub(super) converged: bool,
 }
 
 impl Problem<'_> {
@@ -65,58 +71,83 @@ impl Problem<'_> {
         let mut x: Vec<f64> =
             self.columns.iter().map(|c| 0.0_f64.clamp(c.lower, c.upper)).collect();
         let mut left = self.left(&x);
-        let loads = sum(self.loads.iter().map(|load| dot(*load, *load)));
-        for steps in 0..STEPS {
+        let loads = size(self.loads);
+        let mut steps = 0;
+        while steps < STEPS {
             let before = size(&left);
-            let Some((next, next_left)) = self.step(&x, &left) else {
-                return Found { x, left, steps, converged: true };
-            };
+            let Some((next, next_left)) = self.step(&x, &left) else { break };
             let after = size(&next_left);
             (x, left) = (next, next_left);
+            steps += 1;
             if before - after <= PROGRESS * before || after <= f64::EPSILON * f64::EPSILON * loads {
-                return Found { x, left, steps: steps + 1, converged: true };
+                break;
             }
         }
-        Found { x, left, steps: STEPS, converged: false }
+        self.polish(&mut x, &mut left);
+        Found { x, left, steps }
+    }
+
+    /// Full steps while they bring the unknowns nearer to where the slope holds them: what is left
+    /// changes by rounding alone when the slope is still the root of that.
+    fn polish(&self, x: &mut Vec<f64>, left: &mut Vec<Vector>) {
+        for _ in 0..POLISHES {
+            let Some(direction) = self.direction(x, left) else { return };
+            let next = self.moved(x, &direction, 1.0);
+            let next_left = self.left(&next);
+            if self.pull(&next, &next_left) >= self.pull(x, left) {
+                return;
+            }
+            (*x, *left) = (next, next_left);
+        }
+    }
+
+    /// What no unknowns within their bounds and up to `at_most` can go below: for every such `z`
+    /// $$ |A z + f| \\ge r \\cdot (A z + f)/|r| = |r| - s \\cdot (x - z)/|r| , \\quad s = A^T r , $$
+    /// and the right side is least with every `z` at one of its ends. This needs no optimal `x`,
+    /// but is near `|r|` only then.
+    pub(super) fn least(&self, found: &Found, at_most: f64) -> f64 {
+        let residual = size(&found.left).sqrt();
+        if residual <= 0.0 {
+            return 0.0;
+        }
+        let gains = self.columns.iter().zip(&found.x).map(|(column, x)| {
+            let ends = [column.lower.max(-at_most), column.upper.min(at_most)];
+            let slope = along(column, &found.left);
+            ends.into_iter().map(|end| slope * (x - end)).fold(0.0, f64::max)
+        });
+        (residual - sum(gains) / residual).max(0.0)
     }
 
     /// What is left over at each joint.
     fn left(&self, x: &[f64]) -> Vec<Vector> {
-        let mut left = self.loads.to_vec();
+        self.pulls(self.loads.to_vec(), x)
+    }
+
+    /// `A x` and what is there before.
+    fn pulls(&self, mut left: Vec<Vector>, x: &[f64]) -> Vec<Vector> {
         for (column, x) in self.columns.iter().zip(x) {
             let [from, to] = column.joints;
             let pull = times(*x, column.unit);
             left[from] = plus(left[from], pull);
             left[to] = minus(left[to], pull);
         }
-        left.into_iter().enumerate().map(|(joint, left)| (self.free)(joint, left)).collect()
+        self.freed(left)
     }
 
-    /// A step that lowers the objective; nothing if there is none.
+    /// Of a vector for each joint the parts that count.
+    fn freed(&self, vectors: Vec<Vector>) -> Vec<Vector> {
+        vectors.into_iter().enumerate().map(|(joint, vector)| (self.free)(joint, vector)).collect()
+    }
+
+    /// A step that lowers the objective; `None` if there is none.
     fn step(&self, x: &[f64], left: &[Vector]) -> Option<(Vec<f64>, Vec<Vector>)> {
-        let slope: Vec<f64> = self.columns.iter().map(|c| along(c, left)).collect();
-        let pushes = |k: usize| {
-            let Column { lower, upper, .. } = self.columns[k];
-            (x[k] <= lower && slope[k] > 0.0) || (x[k] >= upper && slope[k] < 0.0)
-        };
-        let moving: Vec<bool> = (0..x.len()).map(|k| !pushes(k)).collect();
-        let moves = self.newton(&moving, left)?;
-        let direction: Vec<f64> = self
-            .columns
-            .iter()
-            .zip(&moving)
-            .map(|(column, moving)| if *moving { -along(column, &moves) } else { 0.0 })
-            .collect();
+        let direction = self.direction(x, left)?;
         let before = size(left);
         let mut step = 1.0;
         for _ in 0..HALVINGS {
-            let next: Vec<f64> = (0..x.len())
-                .map(|k| {
-                    let Column { lower, upper, .. } = self.columns[k];
-                    (x[k] + step * direction[k]).clamp(lower, upper)
-                })
-                .collect();
-            let promised = -sum((0..x.len()).map(|k| slope[k] * (next[k] - x[k])));
+            let next = self.moved(x, &direction, step);
+            let change = self.columns.iter().zip(next.iter().zip(x));
+            let promised = -sum(change.map(|(c, (next, x))| along(c, left) * (next - x)));
             let next_left = self.left(&next);
             let gained = 0.5 * (before - size(&next_left));
             if gained > 0.0 && gained >= DESCENT * promised {
@@ -127,9 +158,43 @@ impl Problem<'_> {
         None
     }
 
-    /// `(A_F A_Fᵀ + ε I)⁻¹ r`, a vector for each joint.
-    fn newton(&self, moving: &[bool], left: &[Vector]) -> Option<Vec<Vector>> {
-        let size = 3 * left.len();
+    /// A step along a direction, bent at the bounds.
+    fn moved(&self, x: &[f64], direction: &[f64], step: f64) -> Vec<f64> {
+        let ends = self.columns.iter().zip(x).zip(direction);
+        ends.map(|((c, x), d)| (x + step * d).clamp(c.lower, c.upper)).collect()
+    }
+
+    /// How far the slope would move an unknown, at most: zero at the best ones alone.
+    fn pull(&self, x: &[f64], left: &[Vector]) -> f64 {
+        let downhill: Vec<f64> = self.columns.iter().map(|c| -along(c, left)).collect();
+        let changes = self.moved(x, &downhill, 1.0).into_iter().zip(x);
+        changes.map(|(next, x)| (next - x).abs()).fold(0.0, f64::max)
+    }
+
+    /// Newton's direction for the unknowns that move, and downhill for those at a bound.
+    fn direction(&self, x: &[f64], left: &[Vector]) -> Option<Vec<f64>> {
+        // Bertsekas's band: what is this near to a bound and pushed to it counts as at the bound,
+        // or ever shorter steps would be taken towards it.
+        let band = self.pull(x, left).min(BAND * size(self.loads).sqrt());
+        let slope: Vec<f64> = self.columns.iter().map(|c| along(c, left)).collect();
+        let pushes = |k: usize| {
+            let Column { lower, upper, .. } = self.columns[k];
+            (x[k] <= lower + band && slope[k] > 0.0) || (x[k] >= upper - band && slope[k] < 0.0)
+        };
+        let moving: Vec<bool> = (0..x.len()).map(|k| !pushes(k)).collect();
+        let held = |k: usize| if moving[k] { slope[k] } else { 0.0 };
+        let held: Vec<f64> = (0..x.len()).map(held).collect();
+        let moves = self.newton(&moving, &self.pulls(vec![[0.0; 3]; left.len()], &held))?;
+        let newton = |k: usize| (along(&self.columns[k], &moves) - slope[k]) / RIDGE;
+        Some((0..x.len()).map(|k| if moving[k] { newton(k) } else { -slope[k] }).collect())
+    }
+
+    /// `(A_F A_Fᵀ + ε I)⁻¹ v`, a vector for each joint.
+    ///
+    /// Across what a support leaves free the matrix has the ridge alone, which magnifies rounding a
+    /// billion times: without the projection of what is found that would become part of the step.
+    fn newton(&self, moving: &[bool], vectors: &[Vector]) -> Option<Vec<Vector>> {
+        let size = 3 * vectors.len();
         let mut entries = Vec::with_capacity(15 * moving.len() + size);
         entries.extend((0..size).map(|k| Triplet::new(k, k, RIDGE)));
         for (column, _) in self.columns.iter().zip(moving).filter(|(_, moving)| **moving) {
@@ -151,10 +216,11 @@ impl Problem<'_> {
         let matrix =
             SparseColMat::<usize, f64>::try_new_from_triplets(size, size, &entries).ok()?;
         let factor = matrix.sp_cholesky(Side::Lower).ok()?;
-        let right = Col::from_fn(size, |k| left[k / 3][k % 3]);
+        let right = Col::from_fn(size, |k| vectors[k / 3][k % 3]);
         let solved = factor.solve(&right);
-        let moves = (0..left.len()).map(|j| [solved[3 * j], solved[3 * j + 1], solved[3 * j + 2]]);
-        Some(moves.collect())
+        let moves =
+            (0..vectors.len()).map(|j| [solved[3 * j], solved[3 * j + 1], solved[3 * j + 2]]);
+        Some(self.freed(moves.collect()))
     }
 }
 

@@ -26,6 +26,13 @@
 //! refutation where that is at least [`IMPLAUSIBLE`](bounds::IMPLAUSIBLE) times the forces found
 //! and all loads together.
 //!
+//! # Digits
+//!
+//! Given forces that break a law of force alone, and that were printed to a few digits, are judged as
+//! known to half a unit of the last digit of the largest ([`Judgement::force_digits`]). Of an answer
+//! that is not confirmed the smallest power of ten is told at which it would be
+//! ([`Judgement::confirmed_at`]).
+//!
 //! # How large the error is
 //!
 //! Both solvers start at the answer's positions; the equilibrium that is nearest says how large the
@@ -40,6 +47,7 @@
 pub mod best_forces;
 pub mod bounds;
 mod complete;
+mod digits;
 mod floor;
 mod given;
 mod judgement;
@@ -47,6 +55,8 @@ mod least_squares;
 mod nearest;
 mod proved;
 mod sentence;
+#[cfg(test)]
+mod sliders_tests;
 #[cfg(test)]
 mod tests;
 mod violation;

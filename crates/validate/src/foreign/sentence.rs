@@ -5,6 +5,8 @@ use std::fmt::{self, Display, Formatter};
 use model::Place;
 use model::system::System;
 
+use super::bounds::STORED;
+use super::digits;
 use super::given::member_name;
 use super::judgement::{Finding, ForcesJudged, Judgement};
 use super::violation::{Law, Violation};
@@ -30,7 +32,7 @@ impl Display for Finding {
                 f.write_str("undecided: no law is broken, and no solver found an equilibrium")
             }
             Self::ForcesNotFound => {
-                f.write_str("undecided: the search for the forces that balance best did not end")
+                f.write_str("undecided: the forces found do not balance to the tolerance, nor is it proved that none do")
             }
         }
     }
@@ -83,6 +85,19 @@ struct Digits(f64);
 impl Display for Digits {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         written(f, self.0, 9)
+    }
+}
+
+/// The size of an error: zero is 0, not a number of so many digits.
+struct Size(f64);
+
+impl Display for Size {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        if self.0.abs() > 0.0 || self.0.is_nan() {
+            write!(f, "{:.3e}", self.0)
+        } else {
+            f.write_str("0")
+        }
     }
 }
 
@@ -166,13 +181,39 @@ impl Judgement {
     #[must_use]
     pub fn forces_sentence(&self) -> String {
         match &self.forces {
-            ForcesJudged::Given => "The forces are those of the answer.".to_owned(),
+            ForcesJudged::Given => match self.force_digits {
+                None => "The forces are those of the answer.".to_owned(),
+                Some(digits) => format!(
+                    "The forces are those of the answer, taken as printed to {digits} digits: known to {} N.",
+                    Size(self.bounds.force_n)
+                ),
+            },
             ForcesJudged::Found(best) => format!(
-                "The answer has no forces: those that balance best leave {:.2e} N (root of the sum of squares over \
-                 the joints), the largest of them is {:.6e} N.",
-                best.residual_n, best.largest_n
+                "The answer has no forces: those that balance best leave {} N (root of the sum of squares over \
+                 the joints), the largest of them is {} N.",
+                Size(best.residual_n),
+                Digits(best.largest_n)
             ),
         }
+    }
+
+    /// At which tolerance the answer would be confirmed, if it is not and there is one; and to what
+    /// its positions look rounded, if that explains it.
+    #[must_use]
+    pub fn tolerance_sentence(&self, system: &System) -> Option<String> {
+        let tolerance = self.confirmed_at?;
+        let confirmed = format!("with --tolerance {tolerance:.0e} the answer is confirmed.");
+        let moving = system.joints().iter().zip(&self.joints_m);
+        let moving = moving.filter(|(joint, _)| !joint.support.is_fixed());
+        let rounded = digits::places(moving.flat_map(|(_, at_m)| *at_m)).and_then(|places| {
+            let unit_m = 0.1_f64.powi(i32::try_from(places).ok()?);
+            // Half a unit in every direction.
+            let explained =
+                self.nearest()?.joints_m <= 0.5 * 3.0_f64.sqrt() * unit_m * (1.0 + STORED);
+            explained.then(|| format!("Positions look rounded to {unit_m:.places$} m: "))
+        });
+        let capital = || format!("W{}", &confirmed[1..]);
+        Some(rounded.map_or_else(capital, |rounded| rounded + &confirmed))
     }
 
     /// How large the error is, one sentence for each equilibrium and each solver without one.
@@ -185,24 +226,29 @@ impl Judgement {
             let joint = system.joints().get(one.joint).map_or("", |joint| &joint.name);
             let forces = match one.member.checked_sub(1) {
                 Some(k) if k < system.members().len() => format!(
-                    "; forces differ by up to {:.3e} N, in member {}",
-                    one.forces_n,
+                    "; forces differ by up to {} N, in member {}",
+                    Size(one.forces_n),
                     member_name(system, k)
                 ),
                 _ => String::new(),
             };
             // The bounds are rounded outwards: by less than a unit of the last digit told.
             let proved = one.proved.as_ref().map_or_else(String::new, |proved| {
-                let [nearest_m, farthest_m] = outwards(proved.joints_m);
-                let [least_n, most_n] = outwards(proved.forces_n);
+                let [nearest_m, farthest_m] = outwards(proved.joints_m).map(Size);
+                let [least_n, most_n] = outwards(proved.forces_n).map(Size);
                 format!(
-                    " Proved: the largest error of a joint is between {nearest_m:.3e} and {farthest_m:.3e} \
-                     m, of a force between {least_n:.3e} and {most_n:.3e} N."
+                    " Proved: the largest error of a joint is between {nearest_m} and {farthest_m} \
+                     m, of a force between {least_n} and {most_n} N."
                 )
             });
+            let away = if one.joints_m > 0.0 || one.joints_m.is_nan() {
+                format!("up to {} m away, at joint {joint}", Size(one.joints_m))
+            } else {
+                "in the same places".to_owned()
+            };
             format!(
-                "{}, {start}, finds an equilibrium ({rung}) up to {:.3e} m away, at joint {joint}{forces}.{proved}",
-                one.equilibrium.solver, one.joints_m
+                "{}, {start}, finds an equilibrium ({rung}) {away}{forces}.{proved}",
+                one.equilibrium.solver
             )
         });
         let failed =

@@ -4,9 +4,9 @@ use model::system::{Kind, Member, Support, System, SystemEquilibrium};
 use model::{Place, Vector};
 use serde::Serialize;
 
-use super::best_forces::{free_part, joint_loads, law_n, spans};
+use super::best_forces::{BestForces, free_part, joint_loads, law_n, spans};
 use super::bounds::Bounds;
-use crate::vector::{dot, minus, norm, plus, times};
+use crate::vector::{minus, norm, plus, times};
 
 /// A law that an answer breaks by more than its tolerance explains.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -99,6 +99,9 @@ impl Law {
 pub(super) struct Measured {
     pub(super) violations: Vec<Violation>,
     pub(super) largest: f64,
+    /// Whether it is open if forces exist that balance: those found do not, and the proof that none
+    /// do falls short.
+    pub(super) open: bool,
 }
 
 impl Measured {
@@ -230,34 +233,33 @@ pub(super) fn balance_given(
 }
 
 /// The balance of joints whose forces were found: all of them together, since no other forces leave
-/// less.
+/// less than [`BestForces::least_n`].
 ///
-/// Told as a violation where forces up to `at_most_n` cannot explain what is left; the joints are
-/// those where most is.
+/// A violation where forces up to [`BestForces::up_to_n`] cannot explain that; the joints are those
+/// where most is left over.
 pub(super) fn balance_found(
     system: &System,
     answer: &SystemEquilibrium,
-    at_most_n: f64,
+    best: &BestForces,
     bounds: &Bounds,
     found: &mut Measured,
 ) {
-    let balances = balances(system, answer, Some(at_most_n), bounds);
-    let joints = || system.joints().iter().zip(&balances).filter(|(j, _)| !j.support.is_fixed());
-    let left = |(joint, (left, _)): (&model::system::Joint, &(Vector, f64))| {
-        let left = free_part(&joint.support, *left);
-        dot(left, left)
+    let balances = balances(system, answer, Some(best.up_to_n), bounds);
+    let movable = || {
+        let joints = system.joints().iter().zip(&balances).enumerate();
+        joints.filter(|(_, (joint, _))| !joint.support.is_fixed())
     };
-    let residual_n = model::sum(joints().map(left)).sqrt();
-    let explained_n = model::sum(joints().map(|(_, (_, allowed))| allowed * allowed)).sqrt();
-    if residual_n > 0.0 {
-        found.largest = found.largest.max(residual_n / explained_n);
+    let explained_n = model::sum(movable().map(|(_, (_, (_, allowed)))| allowed * allowed)).sqrt();
+    if best.least_n > 0.0 {
+        found.largest = found.largest.max(best.least_n / explained_n);
     }
-    if residual_n <= explained_n {
+    if best.least_n <= explained_n {
+        found.open = best.residual_n > explained_n;
         return;
     }
     // At least one joint is above its share, or they would not be together.
-    for (k, (joint, (left, allowed))) in system.joints().iter().zip(&balances).enumerate() {
-        let left_n = free_part(&joint.support, *left);
+    for (k, (_, (_, allowed))) in movable() {
+        let left_n = best.left_n[k];
         found.note(Place::Joint(k), Law::Balance { left_n }, norm(left_n), *allowed);
     }
 }

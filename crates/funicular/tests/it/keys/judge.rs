@@ -63,6 +63,11 @@ fn too_low() {
     output.is("largest_n", forces[0]);
     output.within("steps", 1.0..=100.0);
     output.is("converged", true);
+    // Ten times the load, which is larger than the forces.
+    output.is("up_to_n", 200.0);
+    output.within("least_n", 0.0..=NOTHING);
+    // 0.1 m of 5 m.
+    output.is("confirmed_at", 0.1);
     output.is("statics.length", more[0] / 3.0);
     for law in ["support", "law", "force", "moment", "joint", "balance", "derived"] {
         output.within(&format!("statics.{law}"), 0.0..=NOTHING);
@@ -168,6 +173,8 @@ fn right() {
     output.is("forces", "given");
     output.within("largest", 0.0..=1e-6);
     output.is("statics.worst", "whole");
+    output.is("confirmed_at", json!(null));
+    output.is("force_digits", json!(null));
     output.is("ladder[].reached", json!([true, true, false, false, true]));
     let solvers = ["places.csv", "lagrange", "energy"];
     output.is("ladder[].proof.solvers[]", solvers.as_slice());

@@ -59,26 +59,16 @@ fn broken() -> Measured {
 
 #[test]
 fn what_an_answer_comes_to_is_told_in_its_order() {
-    let best = |converged: bool| {
-        let residual = BestForces {
-            axial_n: vec![],
-            left_n: vec![],
-            residual_n: 0.0,
-            largest_n: 0.0,
-            steps: 1,
-            converged,
-        };
-        ForcesJudged::Found(residual)
-    };
-    let told = |answer: &ForeignAnswer, forces: &ForcesJudged, measured: &Measured, nearest| {
-        finding(&lamp(), answer, forces, measured, &nearest, &KNOWN)
+    let told = |answer: &ForeignAnswer, measured: &Measured, nearest| {
+        finding(&lamp(), answer, measured, &nearest, &KNOWN)
     };
     let (with, without) = (given(Some(vec![1.25; 2])), given(None));
     let right = Measured::default();
-    let simply = |nearest| told(&with, &ForcesJudged::Given, &right, nearest);
-    assert_eq!(told(&with, &ForcesJudged::Given, &broken(), near(vec![])), Finding::Refuted);
-    assert_eq!(told(&without, &best(false), &right, near(vec![])), Finding::ForcesNotFound);
-    assert_eq!(told(&without, &best(true), &right, near(vec![])), Finding::NoEquilibrium);
+    let open = Measured { open: true, ..Measured::default() };
+    let simply = |nearest| told(&with, &right, nearest);
+    assert_eq!(told(&with, &broken(), near(vec![])), Finding::Refuted);
+    assert_eq!(told(&without, &open, near(vec![])), Finding::ForcesNotFound);
+    assert_eq!(told(&without, &right, near(vec![])), Finding::NoEquilibrium);
     assert_eq!(simply(near(vec![])), Finding::NoEquilibrium);
     let far = |joints_m: f64| Finding::Far { joints_m, allowed_m: 0.25 };
     assert_eq!(simply(near(vec![one(0.25, 0.0, Some(true))])), Finding::Confirmed);
@@ -94,7 +84,7 @@ fn what_an_answer_comes_to_is_told_in_its_order() {
     for unique in [Some(false), None] {
         assert_eq!(simply(near(vec![one(0.1, 0.75, unique)])), Finding::Confirmed);
     }
-    let found = told(&without, &best(true), &right, near(vec![one(0.1, 0.75, Some(true))]));
+    let found = told(&without, &right, near(vec![one(0.1, 0.75, Some(true))]));
     assert_eq!(found, Finding::Confirmed);
 }
 
@@ -199,4 +189,34 @@ fn tolerances_have_their_range() {
         let judged = judge_foreign(&lamp(), &answer, tolerance, &|_| {});
         assert_eq!(judged.is_ok(), right, "{tolerance}");
     }
+}
+
+/// 1 kg on two cables of 5 m, 4 m deep: 9.81/2 N times 5/4 in each, 6.13125 N.
+#[test]
+fn forces_of_few_digits_are_judged_as_such_where_their_own_laws_ask_for_it() {
+    let of = lamp();
+    let mut joints = of.joints().to_vec();
+    joints[2].mass_kg = 1.0;
+    let system = System::new("lamp", 9.81, joints, of.members().to_vec()).unwrap();
+    let judged = |deep_m: f64, force_n: f64| {
+        let at = vec![[-3.0, 0.0, 0.0], [3.0, 0.0, 0.0], [0.0, 0.0, -deep_m]];
+        let answer = ForeignAnswer::in_order(&system, "x", at, Some(vec![force_n; 2])).unwrap();
+        judge_foreign(&system, &answer, 1e-6, &|_| {}).unwrap()
+    };
+    let printed = judged(4.0, 6.13);
+    assert_eq!((printed.finding, printed.force_digits), (Finding::Confirmed, Some(3)));
+    assert!((printed.bounds.force_n - 0.005).abs() < 1e-15);
+    // 0.03 N are left, and half a unit in each cable and of the load explains 0.015 N.
+    let wrong = judged(4.0, 6.15);
+    assert_eq!((wrong.finding, wrong.force_digits), (Finding::Refuted, None));
+    assert!((wrong.bounds.force_n - 9.81e-6).abs() < 1e-13);
+    // Enough digits need no help, and a wrong place gets none.
+    assert_eq!(judged(4.0, 6.13125).force_digits, None);
+    let low = judged(4.001, 6.13);
+    assert_eq!((low.finding, low.force_digits), (Finding::Refuted, None));
+    // A millimetre of 6 m: more than 1e-4, less than 1e-3.
+    assert_eq!(low.confirmed_at, Some(1e-3));
+    assert_eq!(printed.confirmed_at, None);
+    // The arch is 8 m off, and no tolerance explains that.
+    assert_eq!(judged(-4.0, -6.13).confirmed_at, None);
 }

@@ -128,27 +128,40 @@ fn a_balance_is_known_to_the_forces_that_meet_and_their_turns() {
     assert!(norm(minus(wanted_n, [-3.0, 0.0, 4.0])) < 1e-14);
 }
 
-/// √109 N are left at the only joint that moves; forces of so many newtons explain them or not.
+/// Of √109 N that are left at the only joint that moves so much is proved of all forces; forces of
+/// so many newtons explain it or not.
 #[test]
-fn forces_that_were_found_are_told_where_none_explain_what_is_left() {
+fn what_forces_found_leave_is_a_violation_where_it_is_proved_and_none_explain_it() {
     let (system, answer) = lamp_with([5.0, 10.0]);
     let left = 109.0_f64.sqrt();
-    let measured = |at_most_n: f64| {
+    let best = |least_n: f64, up_to_n: f64| BestForces {
+        axial_n: answer.axial_n.clone(),
+        left_n: vec![[0.0; 3], [0.0; 3], [3.0, 0.0, 10.0]],
+        residual_n: left,
+        least_n,
+        up_to_n,
+        largest_n: 10.0,
+        steps: 1,
+        converged: true,
+    };
+    let measured = |least_n: f64, up_to_n: f64| {
         let mut found = Measured::default();
-        balance_found(&system, &answer, at_most_n, &KNOWN, &mut found);
-        let allowed = 0.375 + 2.0 * at_most_n * 0.5 / 4.75;
-        assert!((found.largest - left / allowed).abs() < 1e-13, "{found:?}");
-        found.violations
+        balance_found(&system, &answer, &best(least_n, up_to_n), &KNOWN, &mut found);
+        let allowed = 0.375 + 2.0 * up_to_n * 0.5 / 4.75;
+        assert!((found.largest - least_n / allowed).abs() < 1e-13, "{found:?}");
+        found
     };
     let enough = (left - 0.375) * 4.75;
-    assert_eq!(measured(1.001 * enough), []);
-    let [told] = measured(0.999 * enough)[..] else { panic!() };
+    let explained = measured(left, 1.001 * enough);
+    assert!(explained.violations.is_empty() && !explained.open);
+    let broken = measured(left, 0.999 * enough);
+    let [told] = broken.violations[..] else { panic!() };
     assert_eq!(told.place, Place::Joint(2));
-    assert!((told.value - left).abs() < 1e-14);
-    let (system, answer) = lamp_with([1.25; 2]);
-    let mut found = Measured::default();
-    balance_found(&system, &answer, 10.0, &KNOWN, &mut found);
-    assert!(found.largest < 1e-15 && found.violations.is_empty());
+    assert!((told.value - left).abs() < 1e-14 && !broken.open);
+    // Forces that were found too early prove nothing.
+    let unproved = measured(0.9 * left, 0.999 * enough);
+    assert!(unproved.violations.is_empty() && unproved.open);
+    assert!(measured(0.0, 0.999 * enough).open);
 }
 
 /// (3, 4, 12) N too much of the ground beside 2 N of weight; two anchors know 1/8 N each.
