@@ -10,10 +10,13 @@ mod completeness;
 mod definite;
 mod family;
 mod floor;
+mod forces;
 pub(crate) mod free;
 #[cfg(test)]
 mod free_tests;
 mod prestress;
+mod proved;
+mod scale;
 mod statics;
 #[cfg(test)]
 mod tests;

@@ -82,7 +82,7 @@ fn the_place_is_that_of_the_largest_violation() {
 }
 
 /// The lamp upside down: in balance as bars, both compressed.
-fn arch() -> (System, SystemEquilibrium) {
+pub(super) fn arch() -> (System, SystemEquilibrium) {
     let (system, mut answer) = lamp();
     answer.joints_m[2][2] = 4.0;
     for forces in [&mut answer.start_forces_n, &mut answer.end_forces_n] {
@@ -212,7 +212,7 @@ fn a_part_that_turns_is_turned_before_it_is_compared() {
 
 /// 16 N on four bars of 5 m from the corners of a square (3, 4, 5): those along x may take any part
 /// of it.
-fn four_legs(along_x: f64) -> (System, SystemEquilibrium) {
+pub(super) fn four_legs(along_x: f64) -> (System, SystemEquilibrium) {
     let corners = [[3.0, 0.0, 0.0], [-3.0, 0.0, 0.0], [0.0, 3.0, 0.0], [0.0, -3.0, 0.0]];
     let mut joints: Vec<Joint> = corners
         .iter()

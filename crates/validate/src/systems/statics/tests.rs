@@ -126,7 +126,15 @@ pub(in crate::systems) fn crooked(
     (system, answer)
 }
 
-const UNITS: Units = Units { rounding_m: 0.25, rounding_n: 0.5, size_m: 4.0, largest_n: 8.0 };
+const UNITS: Units = Units {
+    rounding_m: 0.25,
+    rounding_n: 0.5,
+    size_m: 4.0,
+    largest_n: 8.0,
+    acts_n: vec![],
+    meet_n: vec![],
+    total_n: f64::INFINITY,
+};
 
 fn close(found: f64, wanted: f64) {
     assert!((found - wanted).abs() < 1e-14 * wanted.abs().max(1.0), "{found}, not {wanted}");
@@ -141,7 +149,7 @@ fn what_is_left_over_on_a_member_is_a_part_of_its_largest_force() {
     let (system, mut answer) = crooked(|_, _| ());
     answer.axial_n[0] += 2.5;
     let mut found = SystemStatics::NOTHING;
-    member(&system, &answer, 0, &UNITS, &mut found);
+    member(&system, &answer, 0, 7.0, &UNITS, &mut found);
     close(found.force, (3818.0_f64.sqrt() - 0.5) / 80.0);
     close(found.moment, (535_429.0_f64.sqrt() / 8.0 - 23.5) / 560.0);
     close(found.derived, 0.025);
@@ -150,7 +158,7 @@ fn what_is_left_over_on_a_member_is_a_part_of_its_largest_force() {
     // Where rounding is as much as the distance there is no direction.
     for (rounding_m, derived) in [(7.0, 0.0), (6.875, 0.025)] {
         let mut found = SystemStatics::NOTHING;
-        member(&system, &answer, 0, &Units { rounding_m, ..UNITS }, &mut found);
+        member(&system, &answer, 0, 7.0, &Units { rounding_m, ..UNITS }, &mut found);
         close(found.derived, derived);
     }
 }
@@ -163,7 +171,7 @@ fn the_laws_of_members_are_those_of_their_kinds() {
         let body = Bar::homogeneous(8.0, 0.0).unwrap();
         let member = Member { kind, stiffness_n, ..Member::bar(0, 1, body) };
         let mut found = SystemStatics::NOTHING;
-        law(&member, distance_m, axial_n, 4.0, &UNITS, Place::Member(1), &mut found);
+        law(&member, distance_m, axial_n, 4.0, (0.25, 0.5), Place::Member(1), &mut found);
         [found.length, found.law]
     };
     let spring = |kind: Kind, distance_m: f64, axial_n: f64, wanted: f64| {
@@ -314,7 +322,7 @@ fn units_are_the_largest_numbers_of_an_answer() {
     let ulps = 8.0 * f64::EPSILON;
     let (system, mut answer) = crooked(|_, _| ());
     let units = |answer: &SystemEquilibrium| {
-        let Units { rounding_m, rounding_n, size_m, largest_n } = Units::new(&system, answer);
+        let Units { rounding_m, rounding_n, size_m, largest_n, .. } = Units::new(&system, answer);
         [rounding_m / ulps, rounding_n / ulps, size_m, largest_n]
     };
     let wanted = |found: [f64; 4], wanted: [f64; 4]| {
