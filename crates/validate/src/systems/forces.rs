@@ -174,8 +174,9 @@ fn choice(answer: &SystemEquilibrium) -> ForceChoice {
 /// The largest axial force of an answer, where it exceeds all that acts on the system by orders of
 /// magnitude.
 pub(super) fn large(answer: &SystemEquilibrium, scale: &Scale) -> Option<LargeForce> {
-    let (k, force_n) =
-        answer.axial_n.iter().enumerate().max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()))?;
+    let members = answer.axial_n.iter().enumerate();
+    // Of equal ones the first.
+    let (k, force_n) = members.rev().max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()))?;
     let ratio = force_n.abs() / scale.held_n;
     (scale.held_n > 0.0 && ratio >= LARGE).then_some(LargeForce {
         member: k + 1,

@@ -2,6 +2,8 @@
 //! laws of the members, and against a proof that no configuration has less energy; from the
 //! observables alone.
 
+#[cfg(test)]
+mod altered_tests;
 mod ask;
 mod bodies;
 mod certificate;
