@@ -112,9 +112,7 @@ pub fn compare(
     };
     for answer in answers {
         answer.evidence.ladder.agreed = rung.clone();
-        if shape_only {
-            count_self_stresses(system, answer);
-        }
+        count_self_stresses(system, answer, shape_only);
         certify_rung(system, answer);
     }
     agreement
@@ -122,14 +120,14 @@ pub fn compare(
 
 /// One count in all that is said of an answer: a solver that leaves out a cable that has its length and
 /// bears nothing counts fewer self-stresses than the shape has, which the judge then names.
-fn count_self_stresses(system: &System, answer: &mut SystemEquilibrium) {
+fn count_self_stresses(system: &System, answer: &mut SystemEquilibrium, shape_only: bool) {
     let Some(family) = Family::of(system, answer) else { return };
     let (Some(counts), basis) = (family.counts(), family.basis()) else { return };
     let evidence = &mut answer.evidence;
-    if evidence.rigidity.is_some_and(|found| found.self_stresses != counts.self_stresses) {
+    if evidence.rigidity.is_some_and(|found| found.self_stresses < counts.self_stresses) {
         evidence.rigidity = Some(counts);
     }
-    if evidence.self_stresses.is_none() && !basis.is_empty() {
+    if shape_only && evidence.self_stresses.is_none() && !basis.is_empty() {
         evidence.self_stresses = Some(SelfStresses {
             dimension: basis.len(),
             basis: basis.to_vec(),

@@ -25,6 +25,9 @@ const TAUT: f64 = model::system::LENGTH_ROUNDING;
 /// The factor $c$ over the largest entry of the Hessian: far above the curvature of the energy, and
 /// far below what would drown it in rounding.
 const PENALTY: f64 = 1e4;
+/// Members, and coordinates, up to which proofs are tried: their factorisations cost no more than the
+/// solvers' own.
+const MOST: usize = 3000;
 /// Roundings of a unit vector, of its component along a motion, and of the products of an entry.
 const ENTRY_ROUNDINGS: usize = 64;
 
@@ -48,6 +51,9 @@ pub(super) fn proved(system: &System, answer: &SystemEquilibrium) -> Option<Prov
     let acting: Vec<Acting> = (0..members).filter_map(|k| acting(system, answer, k)).collect();
     let free: Vec<Vec<Vector>> =
         system.joints().iter().map(|joint| motions(&joint.support)).collect();
+    if members.max(free.iter().map(Vec::len).sum()) > MOST {
+        return None;
+    }
     Proved::of(is_independent(&acting, &free), is_stable(&acting, &free))
 }
 
