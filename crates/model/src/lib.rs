@@ -54,10 +54,11 @@ pub use chain::{
 pub use ends::{Ends, Finish};
 pub use equilibrium::{Equilibrium, Reactions};
 pub use evidence::{
-    Agreed, Complete, CompleteSystem, Convergence, Disagreement, Evidence, Excess, ForceChoice,
-    ForceFamily, ForceRange, ForceUncertainty, FreeJoints, Ladder, NoAnswer, NoBox, NoCensus,
-    NoCertificate, Optimal, Place, Quantity, Reason, Rigidity, Room, Rung, SelfStresses,
-    StabilityDifference, Statement, Status, UncertaintyCause, Verified, VerifiedSystem,
+    Agreed, Choices, Complete, CompleteSystem, Convergence, Disagreement, Evidence, Excess,
+    ForceChoice, ForceFamily, ForceRange, ForceUncertainty, ForcesFound, FreeJoints, Ladder,
+    LargeForce, NoAnswer, NoBox, NoCensus, NoCertificate, Optimal, Place, Proved, Quantity, Reason,
+    Rigidity, Room, Rung, SelfStresses, StabilityDifference, Statement, Status, UncertaintyCause,
+    Verified, VerifiedSystem,
 };
 pub use problem::{Problem, Refusal, STRAIGHT_TOLERANCE};
 pub use solver_name::SolverName;

@@ -107,6 +107,7 @@ impl Agreement {
             room: None,
             shape_only: self.force_family.is_some(),
             curvature_undecided: self.curvature_undecided.clone(),
+            forces_found: None,
         })
     }
 }

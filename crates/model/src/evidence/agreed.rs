@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::finite;
+use super::force_family::ForceChoice;
 use crate::solver_name::SolverName;
 use crate::stability::Stability;
 
@@ -36,6 +37,85 @@ pub struct Agreed {
     /// ([`Stability::is_compatible_with`]): what each of them finds.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub curvature_undecided: Vec<StabilityDifference>,
+    /// What else there is to say of the forces of a system.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub forces_found: Option<ForcesFound>,
+}
+
+/// What a comparison finds of the forces of a system besides their difference.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub struct ForcesFound {
+    /// The largest force, where it exceeds all that acts on the system by orders of magnitude.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub large: Option<LargeForce>,
+    /// Where the answers name different forces of one family: those that differ most.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub choices: Option<Choices>,
+    /// What the judge proves of the first answer by a factorisation with a bound of its rounding.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub proved: Option<Proved>,
+}
+
+impl ForcesFound {
+    /// Without value where there is nothing to say.
+    #[must_use]
+    pub fn into_option(self) -> Option<Self> {
+        (self != Self::default()).then_some(self)
+    }
+}
+
+/// A force that exceeds all that acts on a system by orders of magnitude, as in a line that is
+/// nearly taut.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct LargeForce {
+    /// The member, from 1.
+    pub member: usize,
+    /// Its axial force, N.
+    #[serde(with = "finite")]
+    pub force_n: f64,
+    /// Over all loads and the prestress of the elastic members together.
+    #[serde(with = "finite")]
+    pub ratio: f64,
+}
+
+/// Two different forces of one family.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Choices {
+    /// The two solvers.
+    pub between: [SolverName; 2],
+    /// Which forces each of them names.
+    pub choices: [ForceChoice; 2],
+    /// The member whose forces differ most, from 1.
+    pub member: usize,
+    /// Its axial force by each of them, N.
+    pub forces_n: [f64; 2],
+}
+
+/// What is proved of the places and forces of an answer as they are stored, by Cholesky's
+/// factorisation in floating point and a bound of its rounding (S. M. Rump, BIT Numer. Math. 46
+/// (2006) 433-452, doi:10.1007/s10543-006-0056-1).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Proved {
+    /// The lengths are independent: there is no self-stress.
+    Rank,
+    /// The energy rises along every motion that keeps the lengths.
+    Stability,
+    /// Both.
+    RankAndStability,
+}
+
+impl Proved {
+    /// Without value where nothing is proved.
+    #[must_use]
+    pub fn of(rank: bool, stability: bool) -> Option<Self> {
+        match (rank, stability) {
+            (true, true) => Some(Self::RankAndStability),
+            (true, false) => Some(Self::Rank),
+            (false, true) => Some(Self::Stability),
+            (false, false) => None,
+        }
+    }
 }
 
 /// What the equilibrium of a system leaves open.
@@ -140,6 +220,24 @@ pub enum Quantity {
     SelfStresses {
         /// The solver.
         solver: SolverName,
+    },
+    /// Difference of the axial forces of two answers that name the same forces of a family, N.
+    NamedForces {
+        /// The two solvers.
+        between: [SolverName; 2],
+    },
+    /// How far the forces of an answer that names those of equally stiff members are from the least
+    /// `sum F² l` among those that balance the same loads, N.
+    EquallyStiff {
+        /// The solver.
+        solver: SolverName,
+    },
+    /// The largest force of an answer over all that acts on the system.
+    LargeForce {
+        /// The solver.
+        solver: SolverName,
+        /// The member, from 1.
+        member: usize,
     },
     /// The energy that an answer names less that of its joints, in units of weight times length.
     EnergyOfJoints {

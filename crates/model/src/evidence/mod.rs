@@ -39,7 +39,8 @@ use std::borrow::Cow;
 use serde::{Deserialize, Serialize};
 
 pub use agreed::{
-    Agreed, Disagreement, Excess, FreeJoints, Place, Quantity, Room, StabilityDifference,
+    Agreed, Choices, Disagreement, Excess, ForcesFound, FreeJoints, LargeForce, Place, Proved,
+    Quantity, Room, StabilityDifference,
 };
 pub use certificate::{NoCertificate, Optimal};
 pub use complete::{Complete, CompleteSystem, NoCensus};

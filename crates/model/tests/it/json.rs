@@ -20,6 +20,7 @@ fn agreed() -> Agreed {
         room: None,
         shape_only: true,
         curvature_undecided: Vec::new(),
+        forces_found: None,
     }
 }
 

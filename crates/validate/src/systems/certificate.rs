@@ -254,7 +254,7 @@ fn tangent_j(member: &Member, density: f64, squared_m2: f64) -> (f64, f64) {
 }
 
 /// Weights and forces at the joints, those of members by the lever rule, N.
-fn joint_loads(system: &System) -> Vec<Vector> {
+pub(super) fn joint_loads(system: &System) -> Vec<Vector> {
     let gravity = system.gravity_m_s2();
     let weight = |mass_kg: f64| [0.0, 0.0, -mass_kg * gravity];
     let own = system.joints().iter().map(|j| plus(j.force_n, weight(j.mass_kg)));

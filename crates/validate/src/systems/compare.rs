@@ -2,19 +2,22 @@
 
 use model::system::{System, SystemEquilibrium};
 use model::{
-    Agreed, Disagreement, Excess, NoAnswer, Optimal, Quantity, Reason, Room, SolverName, Status,
-    Vector,
+    Agreed, Disagreement, Excess, ForceChoice, ForcesFound, NoAnswer, Optimal, Quantity, Reason,
+    Room, SelfStresses, SolverName, Status,
 };
 use serde::Serialize;
 
-use super::certificate::{certify, largest_force_n, size_m, total_load_n};
+use super::certificate::{certify, largest_force_n};
 use super::family::Family;
+use super::forces::{ABSURD, Pair, large};
 use super::free::free_joints;
+use super::proved::proved;
+use super::scale::Scale;
 use super::statics::{SystemStatics, judge};
 use super::turn::turned_onto;
 use crate::compare::{Verdict, other_has_none, with_sentences};
 use crate::tolerances::Tolerances;
-use crate::vector::{minus, norm, plus, worse};
+use crate::vector::{minus, norm, worse};
 
 /// How far answers agree: the object `agreement` of the JSON. Of more than two, the largest
 /// differences of any two.
@@ -36,8 +39,8 @@ pub struct SystemAgreement {
     /// were compared; a part may hang on another one that turns.
     pub turned_parts: usize,
     /// Independent self-stresses of the shape: with any, the forces are one of a family, and that
-    /// both answers name the same of them is no evidence. Nothing where the system is too large to
-    /// count them.
+    /// both answers name the same of them is no evidence. Without value where the system is too large
+    /// to count them and no answer names any.
     pub self_stresses: Option<usize>,
     /// Violations of geometry and of Newton's laws by each answer.
     pub statics: Vec<SystemStatics>,
@@ -60,14 +63,20 @@ impl SystemAgreement {
 struct Judgement<'a> {
     system: &'a System,
     tolerances: &'a Tolerances,
-    length_m: f64,
-    force_n: f64,
-    energy_j: f64,
+    /// The sizes at the first answer.
+    scale: Scale,
     free: Vec<bool>,
-    /// The self-stresses of the first answer's shape.
+    /// The self-stresses of the shape of the answer that others are compared with.
     family: Option<Family>,
+    /// Whether balance and signs leave forces open.
+    shape_only: bool,
+    forces_found: ForcesFound,
     agreement: SystemAgreement,
 }
+
+/// Forces below this part of all that acts are none: a cable that bears as little is at the limit of
+/// its kind.
+const NO_FORCE: f64 = 1e-9;
 
 /// Hold answers against each other, every two of them, and each against Newton's laws, and write
 /// what that proves into their evidence: `agreed`, and `optimal` where a certificate exists.
@@ -82,7 +91,9 @@ pub fn compare(
     tolerances: &Tolerances,
 ) -> SystemAgreement {
     assert!(answers.len() >= 2, "{} answers cannot be compared", answers.len());
-    let agreement = Judgement::new(system, answers, tolerances).run(answers);
+    let Judgement { agreement, shape_only, mut forces_found, .. } =
+        Judgement::new(system, answers, tolerances).run(answers);
+    forces_found.proved = proved(system, &answers[0]);
     let rung = if agreement.agrees() {
         Status::Reached(Agreed {
             solvers: answers.iter().map(|answer| answer.solver.clone()).collect(),
@@ -92,23 +103,45 @@ pub fn compare(
             statics: agreement.statics.iter().map(SystemStatics::largest).fold(0.0, worse),
             free_joints: None,
             room: Room::of(agreement.turned_parts, agreement.free_joints),
-            shape_only: agreement.self_stresses.is_some_and(|dimension| dimension > 0),
+            shape_only,
             curvature_undecided: Vec::new(),
+            forces_found: forces_found.into_option(),
         })
     } else {
         Status::Open(Reason::SolversDisagree(agreement.disagreement.clone()))
     };
     for answer in answers {
         answer.evidence.ladder.agreed = rung.clone();
+        count_self_stresses(system, answer, shape_only);
         certify_rung(system, answer);
     }
     agreement
 }
 
+/// One count in all that is said of an answer: a solver that leaves out a cable that has its length and
+/// bears nothing counts fewer self-stresses than the shape has, which the judge then names.
+fn count_self_stresses(system: &System, answer: &mut SystemEquilibrium, shape_only: bool) {
+    let Some(family) = Family::of(system, answer) else { return };
+    let (Some(counts), basis) = (family.counts(), family.basis()) else { return };
+    let evidence = &mut answer.evidence;
+    if evidence.rigidity.is_some_and(|found| found.self_stresses < counts.self_stresses) {
+        evidence.rigidity = Some(counts);
+    }
+    if shape_only && evidence.self_stresses.is_none() && !basis.is_empty() {
+        evidence.self_stresses = Some(SelfStresses {
+            dimension: basis.len(),
+            basis: basis.to_vec(),
+            choice: ForceChoice::Unknown,
+            misfit_m: None,
+            ranges: None,
+        });
+    }
+}
+
 /// Judge one answer that has no second to compare with.
 pub fn judge_alone(system: &System, answer: &mut SystemEquilibrium) -> SystemStatics {
     let (tolerances, alone) = (Tolerances::project(), std::slice::from_ref(&*answer));
-    let found = Judgement::new(system, alone, &tolerances).run(alone);
+    let found = Judgement::new(system, alone, &tolerances).run(alone).agreement;
     let statics = judge(system, answer);
     let excesses = found.disagreement.excesses;
     answer.evidence.ladder.agreed = Status::Open(if excesses.is_empty() {
@@ -157,16 +190,25 @@ fn certify_row(system: &System, answer: &SystemEquilibrium) -> Option<Optimal> {
 
 impl<'a> Judgement<'a> {
     fn new(system: &'a System, answers: &[SystemEquilibrium], tolerances: &'a Tolerances) -> Self {
-        let size_m = answers.iter().map(|answer| size_m(system, answer)).fold(0.0, worse);
-        let force_n = answers.iter().map(largest_force_n).fold(total_load_n(system), worse);
+        let mut scale = Scale::new(system, &answers[0]);
+        for other in &answers[1..] {
+            let other = Scale::new(system, other);
+            scale.size_m = worse(scale.size_m, other.size_m);
+            (scale.total_n, scale.held_n) =
+                (scale.total_n.min(other.total_n), scale.held_n.min(other.held_n));
+        }
+        if scale.total_n <= 0.0 {
+            // Nothing acts: there is no other size of forces than what is found.
+            scale.total_n = answers.iter().map(largest_force_n).fold(0.0, worse);
+        }
         Self {
             system,
             tolerances,
-            length_m: size_m,
-            force_n,
-            energy_j: if system.is_unloaded() { force_n } else { total_load_n(system) } * size_m,
+            scale,
             free: free_joints(system, answers),
             family: None,
+            shape_only: false,
+            forces_found: ForcesFound::default(),
             agreement: SystemAgreement {
                 joints_m: 0.0,
                 forces_n: 0.0,
@@ -181,14 +223,16 @@ impl<'a> Judgement<'a> {
         }
     }
 
-    fn run(mut self, answers: &[SystemEquilibrium]) -> SystemAgreement {
+    fn run(mut self, answers: &[SystemEquilibrium]) -> Self {
         self.agreement.free_joints = self.free.iter().filter(|free| **free).count();
         for (k, first) in answers.iter().enumerate() {
             self.family = Family::of(self.system, first);
             if k == 0 {
-                self.agreement.self_stresses = self.family.as_ref().map(Family::dimension);
+                self.agreement.self_stresses = self.family.as_ref().and_then(Family::dimension);
             }
             self.named(first);
+            self.equally_stiff(first);
+            self.large(first);
             for second in &answers[k + 1..] {
                 self.pair(first, second);
             }
@@ -203,7 +247,7 @@ impl<'a> Judgement<'a> {
         if !self.agreement.disagreement.is_empty() {
             self.agreement.verdict = Verdict::Disagreed;
         }
-        self.agreement
+        self
     }
 
     fn hold(&mut self, what: Quantity, value: f64, budget: f64) {
@@ -234,24 +278,80 @@ impl<'a> Judgement<'a> {
         self.hold(Quantity::SelfStresses { solver }, left, budget);
     }
 
+    /// An answer that names the forces of equally stiff members has them.
+    fn equally_stiff(&mut self, answer: &SystemEquilibrium) {
+        let named = answer.evidence.self_stresses.as_ref().map(|named| named.choice);
+        let complete = [answer.axial_n.len(), answer.reactions_n.len()]
+            == [self.system.members().len(), self.system.joints().len()];
+        let Some(family) = &self.family else { return };
+        if named == Some(ForceChoice::EquallyStiff) && complete {
+            let off_n = family.off_equally_stiff_n(self.system, answer, self.no_force_n());
+            let unit_n = self.scale.of_forces_n(self.taut_n(answer));
+            let solver = answer.solver.clone();
+            let budget_n = self.tolerances.forces.value * unit_n;
+            self.hold(Quantity::EquallyStiff { solver }, off_n, budget_n);
+        }
+    }
+
+    /// The largest axial force of an answer outside of the family, N.
+    fn taut_n(&self, answer: &SystemEquilibrium) -> f64 {
+        let outside = |k: &usize| self.family.as_ref().is_none_or(|f| !f.takes_part(*k));
+        let members = (0..answer.axial_n.len()).filter(outside);
+        members.map(|k| answer.axial_n[k].abs()).fold(0.0, worse)
+    }
+
+    fn no_force_n(&self) -> f64 {
+        NO_FORCE * self.scale.total_n
+    }
+
+    /// Forces that exceed all that acts by orders of magnitude, and whether signs leave any open.
+    fn large(&mut self, answer: &SystemEquilibrium) {
+        if let Some(found) = large(answer, &self.scale) {
+            let what = Quantity::LargeForce { solver: answer.solver.clone(), member: found.member };
+            self.hold(what, found.ratio, ABSURD);
+            self.forces_found.large.get_or_insert(found);
+        }
+        let least_n = self.no_force_n();
+        let complete = answer.axial_n.len() == self.system.members().len();
+        self.shape_only |= complete
+            && self
+                .family
+                .as_ref()
+                .is_some_and(|family| family.is_open(self.system, &answer.axial_n, least_n));
+    }
+
     /// Two answers: their differences, and their second-order behaviour.
     fn pair(&mut self, first: &SystemEquilibrium, second: &SystemEquilibrium) {
         let (turned, parts) = turned_onto(self.system, first, second, &self.free);
         let joints_m = self.joints_apart_m(first, &turned);
-        let forces_n = self.forces_apart_n(first, &turned);
+        let pair = Pair {
+            system: self.system,
+            answers: [first, &turned],
+            scale: &self.scale,
+            tolerance: self.tolerances.forces.value,
+            family: self.family.as_ref(),
+        };
+        let (apart, (named, choices)) = (pair.apart(), pair.named());
         let energy_j = (first.energy_j - second.energy_j).abs();
+        if let Some(choices) = choices {
+            self.forces_found.choices.get_or_insert(choices);
+        }
         let agreement = &mut self.agreement;
         agreement.joints_m = worse(agreement.joints_m, joints_m);
-        agreement.forces_n = worse(agreement.forces_n, forces_n);
+        agreement.forces_n = worse(agreement.forces_n, apart.most_n);
         agreement.energy_j = worse(agreement.energy_j, energy_j);
         agreement.turned_parts = agreement.turned_parts.max(parts);
         let between = [&first.solver, &second.solver].map(SolverName::clone);
         let tolerances = self.tolerances;
-        let budget = tolerances.joints.value * self.length_m;
+        let budget = tolerances.joints.value * self.scale.size_m;
         self.hold(Quantity::Joints { between: between.clone() }, joints_m, budget);
-        let budget = tolerances.forces.value * self.force_n;
-        self.hold(Quantity::Forces { between: between.clone() }, forces_n, budget);
-        let budget = tolerances.energy.value * self.energy_j;
+        let forces = Quantity::Forces { between: between.clone() };
+        self.hold(forces, apart.value_n, apart.budget_n);
+        if let Some(named) = named {
+            let what = Quantity::NamedForces { between: between.clone() };
+            self.hold(what, named.value_n, named.budget_n);
+        }
+        let budget = tolerances.energy.value * self.scale.energy_j();
         self.hold(Quantity::Energy { between: between.clone() }, energy_j, budget);
         let indices = [first.stability.index_in_space, second.stability.index_in_space];
         self.hold(Quantity::MorseIndex { between }, indices[0].abs_diff(indices[1]) as f64, 0.0);
@@ -264,51 +364,5 @@ impl<'a> Judgement<'a> {
         }
         let held = (0..joints).filter(|k| !self.free[*k]);
         held.map(|k| norm(minus(first.joints_m[k], second.joints_m[k]))).fold(0.0, worse)
-    }
-
-    /// The largest difference of forces that is not a self-stress.
-    fn forces_apart_n(&self, first: &SystemEquilibrium, second: &SystemEquilibrium) -> f64 {
-        let members = self.system.members();
-        let joints = self.free.len();
-        let counts = |answer: &SystemEquilibrium| {
-            let of_members =
-                [&answer.start_forces_n, &answer.end_forces_n].map(Vec::len) == [members.len(); 2];
-            of_members
-                && answer.axial_n.len() == members.len()
-                && answer.reactions_n.len() == joints
-        };
-        if !counts(first) || !counts(second) {
-            return f64::NAN;
-        }
-        let part = self.self_stress_between(first, second);
-        let mut apart = 0.0;
-        let mut reactions: Vec<Vector> =
-            (0..joints).map(|k| minus(first.reactions_n[k], second.reactions_n[k])).collect();
-        for (k, member) in members.iter().enumerate() {
-            let pull = match (&self.family, &part) {
-                (Some(family), Some(part)) if part[k].abs() > 0.0 => family.pull(k, part[k]),
-                _ => [0.0; 3],
-            };
-            // The joints pull at the member's ends, outwards.
-            let start = minus(first.start_forces_n[k], second.start_forces_n[k]);
-            let end = minus(first.end_forces_n[k], second.end_forces_n[k]);
-            apart = worse(apart, norm(plus(start, pull)));
-            apart = worse(apart, norm(minus(end, pull)));
-            reactions[member.from] = plus(reactions[member.from], pull);
-            reactions[member.to] = minus(reactions[member.to], pull);
-        }
-        reactions.into_iter().map(norm).fold(apart, worse)
-    }
-
-    /// The part of the difference of the axial forces that is a self-stress, where there is any.
-    fn self_stress_between(
-        &self,
-        first: &SystemEquilibrium,
-        second: &SystemEquilibrium,
-    ) -> Option<Vec<f64>> {
-        let family = self.family.as_ref().filter(|family| family.dimension() > 0)?;
-        let apart: Vec<f64> =
-            first.axial_n.iter().zip(&second.axial_n).map(|(a, b)| a - b).collect();
-        Some(family.part_of(&apart))
     }
 }

@@ -9,44 +9,56 @@
 //! doi:10.1016/0020-7683(86)90014-4
 
 use faer::Mat;
-use model::Vector;
-use model::system::{Support, System, SystemEquilibrium};
+use model::system::{Kind, LENGTH_ROUNDING, Member, Support, System, SystemEquilibrium};
+use model::{Rigidity, Vector};
 
-use super::floor::sliding;
-use crate::vector::{cross, dot, minus, norm, plus, times};
+use super::floor::{push_n, sliding};
+use super::statics::rounding_m;
+use crate::vector::{cross, dot, minus, norm, plus, times, worse};
 
 /// Free coordinates up to which the rank of the balances is counted: dense singular values.
 const COUNTED: usize = 240;
-
-/// A member this near its length, as a part of it, may carry force; so may the floor under a joint
-/// that is this near to it, as a part of the longest member.
-const TAUT: f64 = 1e-9;
 
 /// Singular values of the balances below this part of the largest are zero: by the forces that go
 /// with them the balances of joints change by less than what two answers may differ by.
 const RANK: f64 = 1e-9;
 
+/// A member whose part of every self-stress of unit size is below this takes part in none: far above
+/// the rounding of singular vectors.
+const TAKES_PART: f64 = 1e-9;
+
+/// A self-stress that an answer names is another one than those known if this part of it is not a
+/// sum of them.
+const ANOTHER: f64 = 1e-6;
+
 /// The self-stresses of a shape.
 pub(super) struct Family {
     /// Orthonormal, one axial force for each member.
     basis: Vec<Vec<f64>>,
+    /// Whether the basis was counted, or holds what the answer names alone.
+    counted: bool,
     /// The most that one of them may leave at a joint.
     pub(super) rounding: f64,
     /// Unit vector along each member.
     along: Vec<Vector>,
+    /// Of each inextensible member that has its length within what its length may be off: distance
+    /// less length, m.
+    misfit_m: Vec<Option<f64>>,
     /// The motions of each joint; along the floor, of those that touch it.
     free: Vec<Vec<Vector>>,
+    /// The rank, and the singular values next to it.
+    counts: Rigidity,
 }
 
 impl Family {
-    /// Count them; nothing where the system is too large, or the answer incomplete.
+    /// Count them. Of a system that is too large the self-stresses are those that the answer names,
+    /// as far as they are in balance. Without value where the answer is incomplete.
     pub(super) fn of(system: &System, answer: &SystemEquilibrium) -> Option<Self> {
         let members = system.members();
         if answer.joints_m.len() != system.joints().len() {
             return None;
         }
-        let lengths_m = system.members().iter().map(|member| member.body.length_m());
-        let near_m = TAUT * lengths_m.fold(0.0, f64::max);
+        let near_m = rounding_m(system, answer);
         let floor_m = system.floor_m().unwrap_or(f64::NEG_INFINITY);
         let free = system.joints().iter().zip(&answer.joints_m).map(|(joint, at_m)| {
             let touches = at_m[2] - floor_m <= near_m;
@@ -54,36 +66,111 @@ impl Family {
         });
         let free: Vec<Vec<Vector>> = free.collect();
         let coordinates: usize = free.iter().map(Vec::len).sum();
-        if coordinates > COUNTED {
-            return None;
-        }
-        let (mut along, mut taut) = (Vec::new(), Vec::new());
+        let (mut along, mut misfit_m) = (Vec::new(), Vec::new());
         for (k, member) in members.iter().enumerate() {
             let d = minus(answer.joints_m[member.to], answer.joints_m[member.from]);
-            let (distance_m, length_m) = (norm(d), member.body.length_m());
+            let distance_m = norm(d);
             along.push(times(1.0 / distance_m, d));
-            if member.stiffness_n.is_none() && (distance_m - length_m).abs() <= TAUT * length_m {
-                taut.push(k);
-            }
+            let bears = answer.axial_n.get(k).is_some_and(|axial_n| axial_n.abs() > 0.0);
+            misfit_m.push(misfit(member, distance_m, bears));
         }
-        let family = Self { basis: vec![], rounding: 0.0, along, free };
-        let balances: Vec<Vec<f64>> =
-            taut.iter().map(|k| family.left_by(system, &unit(*k, members.len()))).collect();
-        let balances = Mat::from_fn(taut.len(), coordinates, |row, column| balances[row][column]);
-        let (stresses, rounding) = null_rows(&balances)?;
-        let basis = stresses.into_iter().map(|stress| {
-            let mut whole = vec![0.0; members.len()];
-            for (&k, force) in taut.iter().zip(stress) {
-                whole[k] = force;
-            }
-            whole
-        });
-        Some(Self { basis: basis.collect(), rounding, ..family })
+        let taut: Vec<usize> = (0..members.len()).filter(|k| misfit_m[*k].is_some()).collect();
+        let counts = Rigidity {
+            rank: coordinates.min(taut.len()),
+            mechanisms: 0,
+            self_stresses: taut.len().saturating_sub(coordinates),
+            gap: [1.0, 0.0],
+        };
+        let mut family =
+            Self { basis: vec![], counted: false, rounding: RANK, along, misfit_m, free, counts };
+        if coordinates <= COUNTED {
+            family.count(system, &taut, coordinates)?;
+        }
+        if let Some(named) = &answer.evidence.self_stresses {
+            named.basis.iter().for_each(|stress| family.add(system, stress));
+        }
+        Some(family)
     }
 
-    /// Number of independent self-stresses.
-    pub(super) fn dimension(&self) -> usize {
-        self.basis.len()
+    /// Rank and self-stresses by singular values.
+    fn count(&mut self, system: &System, taut: &[usize], coordinates: usize) -> Option<()> {
+        let members = self.along.len();
+        let balances: Vec<Vec<f64>> =
+            taut.iter().map(|k| self.left_by(system, &unit(*k, members))).collect();
+        let balances = Mat::from_fn(taut.len(), coordinates, |row, column| balances[row][column]);
+        let Null { rows, zero, rank, gap } = null_rows(&balances)?;
+        self.basis = rows
+            .into_iter()
+            .map(|stress| {
+                let mut whole = vec![0.0; members];
+                for (&k, force) in taut.iter().zip(stress) {
+                    whole[k] = force;
+                }
+                whole
+            })
+            .collect();
+        let self_stresses = self.basis.len();
+        self.counts = Rigidity { rank, mechanisms: coordinates - rank, self_stresses, gap };
+        (self.counted, self.rounding) = (true, zero);
+        Some(())
+    }
+
+    /// Add a self-stress that is named, if it is one, and another one than those known.
+    fn add(&mut self, system: &System, stress: &[f64]) {
+        if stress.len() != self.along.len() || !stress.iter().all(|force| force.is_finite()) {
+            return;
+        }
+        let taut = stress.iter().zip(&self.misfit_m).all(|(n, e)| n.abs() <= 0.0 || e.is_some());
+        let left = self.left_by(system, stress).into_iter().map(f64::abs).fold(0.0, worse);
+        let part = self.part_of(stress);
+        let rest: Vec<f64> = stress.iter().zip(part).map(|(force, part)| force - part).collect();
+        if taut
+            && left <= 2.0 * self.rounding
+            && size(&rest) > ANOTHER
+            && let Some(rest) = normalised(&rest)
+        {
+            self.basis.push(rest);
+            self.counts.rank = self.counts.rank.saturating_sub(usize::from(self.counted));
+            self.counts.mechanisms += usize::from(self.counted);
+            self.counts.self_stresses = self.basis.len();
+        }
+    }
+
+    /// Number of independent self-stresses; without value where they are not counted, and none is
+    /// named.
+    pub(super) fn dimension(&self) -> Option<usize> {
+        (self.counted || !self.basis.is_empty()).then_some(self.basis.len())
+    }
+
+    /// The rank of the lengths and what follows from it; without value where it is not counted.
+    pub(super) fn counts(&self) -> Option<Rigidity> {
+        self.counted.then_some(self.counts)
+    }
+
+    /// The orthonormal basis.
+    pub(super) fn basis(&self) -> &[Vec<f64>] {
+        &self.basis
+    }
+
+    /// Whether a member has a force in some self-stress.
+    pub(super) fn takes_part(&self, member: usize) -> bool {
+        self.basis.iter().any(|stress| stress[member].abs() > TAKES_PART)
+    }
+
+    /// Whether balance and signs leave forces open: not of a single self-stress that would have a
+    /// cable or strut without force push or pull, whichever way it is added.
+    pub(super) fn is_open(&self, system: &System, axial: &[f64], least_n: f64) -> bool {
+        let [stress] = &self.basis[..] else { return !self.basis.is_empty() };
+        let limits = system.members().iter().zip(axial).zip(stress).filter_map(|((m, n), s)| {
+            let sign = match m.kind {
+                Kind::Bar => return None,
+                Kind::Cable => 1.0,
+                Kind::Strut => -1.0,
+            };
+            (n.abs() <= least_n && s.abs() > TAKES_PART).then_some(sign * s)
+        });
+        let limits: Vec<f64> = limits.collect();
+        limits.iter().all(|s| *s > 0.0) || limits.iter().all(|s| *s < 0.0)
     }
 
     /// What axial forces without any load leave along the free motions of the joints.
@@ -102,20 +189,148 @@ impl Family {
 
     /// The part of axial forces that is a self-stress.
     pub(super) fn part_of(&self, axial: &[f64]) -> Vec<f64> {
-        let mut part = vec![0.0; axial.len()];
-        for stress in &self.basis {
-            let share: f64 = stress.iter().zip(axial).map(|(s, a)| s * a).sum();
-            for (part, s) in part.iter_mut().zip(stress) {
-                *part += share * s;
-            }
-        }
-        part
+        onto(&self.basis, axial)
     }
 
     /// The pull of a member with this axial force on the joint where it begins.
     pub(super) fn pull(&self, member: usize, axial: f64) -> Vector {
         times(axial, self.along[member])
     }
+
+    /// How far axial forces are from the share of equally stiff members: least $\sum N^2 l$ among
+    /// all that balance the same loads, $S^T L N = 0$ for every self-stress $S$. The largest change
+    /// of a force, N. What is at the limit of its kind, a cable without force, stays there, and so
+    /// does the floor under a joint that it does not push.
+    pub(super) fn off_equally_stiff_n(
+        &self,
+        system: &System,
+        answer: &SystemEquilibrium,
+        least_n: f64,
+    ) -> f64 {
+        let axial = &answer.axial_n;
+        let roots = roots(system);
+        let Some(stresses) = self.within_signs(system, answer, least_n) else { return f64::NAN };
+        let weighed = |force: &[f64]| force.iter().zip(&roots).map(|(n, root)| n * root).collect();
+        let stiff: Vec<Vec<f64>> = stresses.iter().map(|stress| weighed(stress)).collect();
+        let change = onto(&orthonormal(stiff), &weighed(axial));
+        change.iter().zip(&roots).map(|(n, root)| (n / root).abs()).fold(0.0, worse)
+    }
+
+    /// The self-stresses that change nothing that is at the limit of its kind.
+    fn within_signs(
+        &self,
+        system: &System,
+        answer: &SystemEquilibrium,
+        least_n: f64,
+    ) -> Option<Vec<Vec<f64>>> {
+        let at_limit = |(k, member): (usize, &Member)| {
+            (member.kind != Kind::Bar && answer.axial_n[k].abs() <= least_n).then_some(k)
+        };
+        let members: Vec<usize> =
+            system.members().iter().enumerate().filter_map(at_limit).collect();
+        let joints: Vec<usize> = (0..self.free.len())
+            .filter(|k| {
+                let support = &system.joints()[*k].support;
+                self.free[*k].len() < motions(support).len()
+                    && push_n(system, answer, *k).abs() <= least_n
+            })
+            .collect();
+        let rises = |stress: &[f64], joint: usize| -> f64 {
+            let pulls = system.members().iter().zip(stress).zip(&self.along);
+            pulls
+                .filter(|((_, n), _)| n.abs() > 0.0)
+                .map(|((member, n), along)| {
+                    let sign = f64::from(u8::from(member.from == joint))
+                        - f64::from(u8::from(member.to == joint));
+                    sign * n * along[2]
+                })
+                .sum()
+        };
+        let limits = Mat::from_fn(self.basis.len(), members.len() + joints.len(), |row, column| {
+            let stress = &self.basis[row];
+            members.get(column).map_or_else(
+                || rises(stress, joints[column - members.len()]),
+                |member| stress[*member],
+            )
+        });
+        let parts = null_rows(&limits)?.rows;
+        let sum = |parts: Vec<f64>| {
+            let mut whole = vec![0.0; self.along.len()];
+            for (part, stress) in parts.iter().zip(&self.basis) {
+                whole.iter_mut().zip(stress).for_each(|(whole, n)| *whole += part * n);
+            }
+            whole
+        };
+        Some(parts.into_iter().map(sum).collect())
+    }
+
+    /// Of each inextensible member that has its length, the part of distance less length that no
+    /// other shape would remove: with $e$ the misfits, $S$ the self-stresses and $L$ the lengths,
+    /// $L S (S^T L S)^{-1} S^T e$. The rest is zero at the shape that meets all lengths best, $R^T
+    /// L^{-1} e = 0$ with the rigidity matrix $R$.
+    pub(super) fn unremovable_m(&self, system: &System) -> Vec<f64> {
+        let roots = roots(system);
+        let misfits: Vec<f64> = self.misfit_m.iter().map(|e| e.unwrap_or(0.0)).collect();
+        if !self.counted && self.basis.is_empty() {
+            // More lengths than coordinates overdetermine the shape; which of them is not known.
+            let over = self.counts.self_stresses > 0;
+            return if over { misfits } else { vec![0.0; misfits.len()] };
+        }
+        let stiff = self.basis.iter().map(|s| s.iter().zip(&roots).map(|(n, r)| n * r).collect());
+        let weighed: Vec<f64> = misfits.iter().zip(&roots).map(|(e, root)| e / root).collect();
+        let part = onto(&orthonormal(stiff.collect()), &weighed);
+        part.iter().zip(&roots).map(|(e, root)| e * root).collect()
+    }
+}
+
+/// Roots of the lengths.
+fn roots(system: &System) -> Vec<f64> {
+    system.members().iter().map(|member| member.body.length_m().sqrt()).collect()
+}
+
+/// Distance less length of an inextensible member that has its length: a cable or strut without
+/// force to rounding alone, for else it is slack.
+fn misfit(member: &Member, distance_m: f64, bears: bool) -> Option<f64> {
+    let length_m = member.body.length_m();
+    let misfit_m = distance_m - length_m;
+    let rigid = member.kind == Kind::Bar || bears;
+    let within_m = if rigid { member.within_m() } else { LENGTH_ROUNDING * length_m };
+    (member.stiffness_n.is_none() && misfit_m.abs() <= within_m).then_some(misfit_m)
+}
+
+/// The projection of a vector onto the space of an orthonormal basis.
+fn onto(basis: &[Vec<f64>], vector: &[f64]) -> Vec<f64> {
+    let mut part = vec![0.0; vector.len()];
+    for axis in basis {
+        let share: f64 = axis.iter().zip(vector).map(|(a, v)| a * v).sum();
+        part.iter_mut().zip(axis).for_each(|(part, a)| *part += share * a);
+    }
+    part
+}
+
+/// An orthonormal basis of the same space, by Gram and Schmidt, twice.
+fn orthonormal(vectors: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
+    let mut basis: Vec<Vec<f64>> = vec![];
+    for mut vector in vectors {
+        for _ in 0..2 {
+            let part = onto(&basis, &vector);
+            vector.iter_mut().zip(part).for_each(|(v, part)| *v -= part);
+            let Some(unit) = normalised(&vector) else { break };
+            vector = unit;
+        }
+        basis.push(vector);
+    }
+    basis
+}
+
+fn size(vector: &[f64]) -> f64 {
+    vector.iter().map(|x| x * x).sum::<f64>().sqrt()
+}
+
+/// A vector of unit length; without value of one that vanishes.
+fn normalised(vector: &[f64]) -> Option<Vec<f64>> {
+    let size = size(vector);
+    (size > 0.0).then(|| vector.iter().map(|x| x / size).collect())
 }
 
 /// A unit force in one member.
@@ -142,23 +357,33 @@ pub(super) fn motions(support: &Support) -> Vec<Vector> {
     }
 }
 
-/// An orthonormal basis of the vectors whose combination of rows vanishes, and what counts as
-/// vanishing.
-fn null_rows(matrix: &Mat<f64>) -> Option<(Vec<Vec<f64>>, f64)> {
+/// The vectors whose combination of the rows of a matrix vanishes.
+struct Null {
+    /// An orthonormal basis of them.
+    rows: Vec<Vec<f64>>,
+    /// What counts as vanishing.
+    zero: f64,
+    /// Singular values that count.
+    rank: usize,
+    /// The smallest of them and the largest other one, over the largest.
+    gap: [f64; 2],
+}
+
+fn null_rows(matrix: &Mat<f64>) -> Option<Null> {
     let (rows, columns) = (matrix.nrows(), matrix.ncols());
-    if rows == 0 {
-        return Some((vec![], 0.0));
-    }
-    if columns == 0 {
-        return Some(((0..rows).map(|k| unit(k, rows)).collect(), 0.0));
+    if rows == 0 || columns == 0 {
+        let rows = (0..rows).map(|k| unit(k, rows)).collect();
+        return Some(Null { rows, zero: 0.0, rank: 0, gap: [1.0, 0.0] });
     }
     let svd = matrix.svd().ok()?;
     let values: Vec<f64> = (0..rows.min(columns)).map(|k| svd.S()[k]).collect();
     let most = values.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
     let zero = RANK * most;
     let rank = values.iter().filter(|value| **value > zero).count();
+    let least = if rank > 0 { values[rank - 1] / most } else { 1.0 };
+    let gap = [least, values.get(rank).map_or(0.0, |value| value / most)];
     let stress = |k: usize| (0..rows).map(|row| svd.U()[(row, k)]).collect();
-    Some(((rank..rows).map(stress).collect(), zero))
+    Some(Null { rows: (rank..rows).map(stress).collect(), zero, rank, gap })
 }
 
 #[cfg(test)]

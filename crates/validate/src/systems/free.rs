@@ -12,7 +12,7 @@ use faer::Mat;
 use model::Vector;
 use model::system::{Kind, Member, System, SystemEquilibrium};
 
-use super::certificate::largest_force_n;
+use super::certificate::{largest_force_n, total_load_n};
 use super::floor::{push_n, sliding};
 use crate::vector::{cross, dot, minus, norm, times};
 
@@ -74,7 +74,8 @@ fn in_row(system: &System, answers: &[SystemEquilibrium]) -> Vec<usize> {
 
 /// Which joints nothing but the floor acts on in every answer: it lets them slide.
 fn lie_loose(system: &System, answers: &[SystemEquilibrium]) -> Vec<bool> {
-    /// A force below this part of the largest is none: far above the error of forces.
+    /// A force below this part of the largest is none, or of all that acts where that is less: far
+    /// above the error of forces.
     const NONE: f64 = 1e-8;
     let mut loose: Vec<bool> = system
         .joints()
@@ -88,7 +89,10 @@ fn lie_loose(system: &System, answers: &[SystemEquilibrium]) -> Vec<bool> {
     if !loose.contains(&true) {
         return loose;
     }
-    let least: Vec<f64> = answers.iter().map(|answer| NONE * largest_force_n(answer)).collect();
+    let acts_n = total_load_n(system);
+    let acts_n = if acts_n > 0.0 { acts_n } else { f64::INFINITY };
+    let least = |answer| NONE * largest_force_n(answer).min(acts_n);
+    let least: Vec<f64> = answers.iter().map(least).collect();
     for (k, member) in system.members().iter().enumerate() {
         if answers.iter().zip(&least).any(|(answer, least)| answer.axial_n[k].abs() > *least) {
             loose[member.from] = false;

@@ -2,6 +2,8 @@
 //! laws of the members, and against a proof that no configuration has less energy; from the
 //! observables alone.
 
+#[cfg(test)]
+mod altered_tests;
 mod ask;
 mod bodies;
 mod certificate;
@@ -10,10 +12,13 @@ mod completeness;
 mod definite;
 mod family;
 mod floor;
+mod forces;
 pub(crate) mod free;
 #[cfg(test)]
 mod free_tests;
 mod prestress;
+mod proved;
+mod scale;
 mod statics;
 #[cfg(test)]
 mod tests;

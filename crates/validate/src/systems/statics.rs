@@ -16,14 +16,21 @@ use model::system::{Kind, Member, Support, System, SystemEquilibrium};
 use model::{Place, Vector, sum};
 use serde::Serialize;
 
+use super::family::Family;
 use super::floor::{push_n, rising};
+use super::scale::Scale;
 use crate::vector::{beyond, cross, dot, minus, norm, plus, times, worse};
 
 /// Largest violations of geometry and of Newton's laws by an answer, dimensionless.
 ///
-/// Every member and joint is measured by its own forces and its own length. What counts is beyond
-/// the rounding of the stored numbers: eight units in the last place of the largest coordinate or
-/// length, and of the largest force.
+/// Every member and joint is measured by its own forces and its own length, by forces to no more than
+/// a hundred times what acts there (module `scale`): an absurd force forgives nothing. What counts is
+/// beyond the rounding of the stored numbers: eight units in the last place of the largest coordinate
+/// or length, and of the forces at that joint, the latter never more than a millionth of what acts
+/// there.
+///
+/// Where lengths overdetermine the shape, what no other shape would remove of a misfit may be as large
+/// as [`Member::within_m`].
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct SystemStatics {
     /// Largest distance of a supported joint from its support, in units of the size of the system.
@@ -52,16 +59,39 @@ pub struct SystemStatics {
 /// when it is stored, and two of them are subtracted.
 const STORED_ULPS: f64 = 8.0;
 
+/// Forces left over are measured by the forces that they are left from, but by no more than this
+/// times what acts there. With the budget of 1e-11 the balance of every joint holds to 1e-9 of what
+/// acts on it, whatever its members bear.
+const BORNE: f64 = 100.0;
+
+/// The rounding of forces explains no more than this part of what acts at a joint.
+const MOST_ROUNDING: f64 = 1e-6;
+
 /// What the violations of one answer are measured by.
 struct Units {
     /// Rounding of a coordinate or length, m.
     rounding_m: f64,
-    /// Rounding of a force, N.
+    /// Rounding of the largest force, N.
     rounding_n: f64,
     /// Size of the system, m.
     size_m: f64,
     /// Largest force on a member or of the ground, N.
     largest_n: f64,
+    /// What acts at each joint, N.
+    acts_n: Vec<f64>,
+    /// Sum of the forces at each joint, N.
+    meet_n: Vec<f64>,
+    /// What acts on the whole, N.
+    total_n: f64,
+}
+
+/// What a force left over somewhere is measured by.
+#[derive(Clone, Copy)]
+struct Local {
+    /// What rounding explains of it, N.
+    rounding_n: f64,
+    /// The most that it is measured by, N.
+    most_n: f64,
 }
 
 impl SystemStatics {
@@ -119,8 +149,11 @@ pub fn judge(system: &System, answer: &SystemEquilibrium) -> SystemStatics {
         return found;
     }
     let units = Units::new(system, answer);
-    for k in 0..members {
-        member(system, answer, k, &units, &mut found);
+    let distances_m = distances_m(system, answer, units.rounding_m);
+    for (k, (distance_m, over_m)) in distances_m.into_iter().enumerate() {
+        member(system, answer, k, distance_m, &units, &mut found);
+        let length_m = system.members()[k].body.length_m();
+        found.note(|s| &mut s.length, over_m / length_m, Place::Member(k + 1));
     }
     for (k, violation) in joint_balances(system, answer, &units).into_iter().enumerate() {
         found.note(|s| &mut s.joint, violation, Place::Joint(k));
@@ -133,32 +166,85 @@ pub fn judge(system: &System, answer: &SystemEquilibrium) -> SystemStatics {
     found
 }
 
+/// Rounding of the coordinates of an answer and of the lengths, m.
+pub(super) fn rounding_m(system: &System, answer: &SystemEquilibrium) -> f64 {
+    let coordinates = answer.joints_m.iter().flatten();
+    let far_m = coordinates.fold(0.0, |most: f64, x| worse(most, x.abs()));
+    let longest_m = system.members().iter().map(|m| m.body.length_m()).fold(0.0, f64::max);
+    STORED_ULPS * f64::EPSILON * far_m.max(longest_m)
+}
+
 impl Units {
     fn new(system: &System, answer: &SystemEquilibrium) -> Self {
-        let coordinates = answer.joints_m.iter().flatten();
-        let far_m = coordinates.fold(0.0, |most: f64, x| worse(most, x.abs()));
-        let longest_m = system.members().iter().map(|m| m.body.length_m()).fold(0.0, f64::max);
+        let scale = Scale::new(system, answer);
         let forces = answer.start_forces_n.iter().chain(&answer.end_forces_n);
         let largest_n = forces.chain(&answer.reactions_n).map(|f| norm(*f)).fold(0.0, worse);
-        let origin = system.reference_m();
-        let reach = answer.joints_m.iter().map(|x| norm(minus(*x, origin)));
-        let ulps = STORED_ULPS * f64::EPSILON;
+        let mut meet_n: Vec<f64> = answer.reactions_n.iter().map(|f| norm(*f)).collect();
+        for (k, member) in system.members().iter().enumerate() {
+            meet_n[member.from] += norm(answer.start_forces_n[k]);
+            meet_n[member.to] += norm(answer.end_forces_n[k]);
+        }
+        for (meet_n, acts_n) in meet_n.iter_mut().zip(&scale.joint_n) {
+            *meet_n = worse(*meet_n, *acts_n);
+        }
         Self {
-            rounding_m: ulps * far_m.max(longest_m),
-            rounding_n: ulps * largest_n,
-            size_m: reach.fold(longest_m, worse),
+            rounding_m: rounding_m(system, answer),
+            rounding_n: STORED_ULPS * f64::EPSILON * largest_n,
+            size_m: scale.size_m,
             largest_n,
+            total_n: if scale.total_n > 0.0 { scale.total_n } else { f64::INFINITY },
+            acts_n: scale.joint_n,
+            meet_n,
         }
     }
 
-    /// What of a force left over the rounding does not explain, in units of the forces that it is
-    /// left from.
-    fn of_force(&self, left: Vector, forces: impl IntoIterator<Item = Vector>) -> f64 {
-        let unit = forces.into_iter().map(norm).fold(0.0, worse);
-        let excess = beyond(norm(left), self.rounding_n);
-        // No forces, and none left over.
-        if excess <= 0.0 { 0.0 } else { excess / unit }
+    /// What a force left over at some joints, or between them, is measured by.
+    fn at(&self, joints: &[usize]) -> Local {
+        let most = |of: &[f64]| joints.iter().filter_map(|k| of.get(*k)).copied().reduce(worse);
+        let acts_n = most(&self.acts_n).unwrap_or(f64::INFINITY);
+        let meet_n = most(&self.meet_n).unwrap_or(f64::INFINITY);
+        let rounding_n = (STORED_ULPS * f64::EPSILON * meet_n).min(self.rounding_n);
+        Local { rounding_n: rounding_n.min(MOST_ROUNDING * acts_n), most_n: BORNE * acts_n }
     }
+}
+
+impl Local {
+    /// What of a force left over rounding does not explain, in units of the largest of the forces
+    /// that it is left from.
+    fn part(&self, left_n: f64, largest_n: f64) -> f64 {
+        let excess = beyond(left_n, self.rounding_n);
+        // No forces, and none left over.
+        if excess <= 0.0 { 0.0 } else { excess / self.unit_n(largest_n) }
+    }
+
+    fn unit_n(&self, largest_n: f64) -> f64 {
+        if largest_n.is_nan() { largest_n } else { largest_n.min(self.most_n) }
+    }
+}
+
+/// The distance of the ends of each member, and by how much too much of a misfit that no other shape
+/// would remove: see [`Family::unremovable_m`]. What lengths that overdetermine the shape may be off
+/// is left out of the distance.
+fn distances_m(system: &System, answer: &SystemEquilibrium, rounding_m: f64) -> Vec<(f64, f64)> {
+    let distance =
+        |member: &Member| norm(minus(answer.joints_m[member.to], answer.joints_m[member.from]));
+    let mut all: Vec<(f64, f64)> =
+        system.members().iter().map(|member| (distance(member), 0.0)).collect();
+    let off = |(member, (distance_m, _)): (&Member, &(f64, f64))| {
+        let off_m = (distance_m - member.body.length_m()).abs();
+        member.stiffness_n.is_none() && off_m > rounding_m && off_m <= member.within_m()
+    };
+    // Most often all lengths are met to rounding.
+    if !system.members().iter().zip(&all).any(off) {
+        return all;
+    }
+    let Some(family) = Family::of(system, answer) else { return all };
+    let members = system.members().iter().zip(family.unremovable_m(system));
+    for ((distance_m, over_m), (member, misfit_m)) in all.iter_mut().zip(members) {
+        *distance_m -= misfit_m;
+        *over_m = beyond(misfit_m.abs(), member.within_m());
+    }
+    all
 }
 
 /// Weight and forces of a member: where they act as a part of its length, and what they are.
@@ -174,26 +260,29 @@ fn member(
     system: &System,
     answer: &SystemEquilibrium,
     k: usize,
+    lawful_m: f64,
     units: &Units,
     found: &mut SystemStatics,
 ) {
     let member = &system.members()[k];
     let place = Place::Member(k + 1);
+    let local = units.at(&[member.from, member.to]);
     let along = minus(answer.joints_m[member.to], answer.joints_m[member.from]);
     let distance_m = norm(along);
     let (start, end) = (answer.start_forces_n[k], answer.end_forces_n[k]);
     let loads: Vec<(f64, Vector)> = loads(system, member).collect();
 
     let left = loads.iter().fold(plus(start, end), |left, (_, p)| plus(left, *p));
-    let forces = || [start, end].into_iter().chain(loads.iter().map(|(_, p)| *p));
-    found.note(|s| &mut s.force, units.of_force(left, forces()), place);
+    let forces = [start, end].into_iter().chain(loads.iter().map(|(_, p)| *p));
+    let largest_n = forces.map(norm).fold(0.0, worse);
+    found.note(|s| &mut s.force, local.part(norm(left), largest_n), place);
 
     // What the second joint carries: along the member, or it would turn.
     let carried = loads.iter().fold(end, |sum, (part, p)| plus(sum, times(*part, *p)));
     let turn = cross(along, carried);
-    let unit_n = forces().map(norm).fold(0.0, worse);
+    let unit_n = local.unit_n(largest_n);
     // A displaced end turns the member: force times displacement.
-    let rounding = units.rounding_n * distance_m + unit_n * units.rounding_m;
+    let rounding = local.rounding_n * distance_m + unit_n * units.rounding_m;
     let moment = beyond(norm(turn), rounding);
     let moment = if moment <= 0.0 { 0.0 } else { moment / (unit_n * distance_m) };
     found.note(|s| &mut s.moment, moment, place);
@@ -202,11 +291,10 @@ fn member(
     // Where the ends meet there is no direction, and nothing to compare with.
     if distance_m > units.rounding_m {
         let followed = dot(carried, along) / distance_m;
-        let off = beyond((axial_n - followed).abs(), units.rounding_n);
-        let off = if off <= 0.0 { 0.0 } else { off / unit_n };
+        let off = local.part((axial_n - followed).abs(), largest_n);
         found.note(|s| &mut s.derived, off, place);
     }
-    law(member, distance_m, axial_n, unit_n, units, place, found);
+    law(member, lawful_m, axial_n, unit_n, (units.rounding_m, local.rounding_n), place, found);
 }
 
 /// The law of one member: its length, or its force, or that one of both vanishes.
@@ -215,15 +303,15 @@ fn law(
     distance_m: f64,
     axial_n: f64,
     unit_n: f64,
-    units: &Units,
+    (rounding_m, rounding_n): (f64, f64),
     place: Place,
     found: &mut SystemStatics,
 ) {
     let length_m = member.body.length_m();
-    let longer = beyond(distance_m - length_m, units.rounding_m) / length_m;
-    let shorter = beyond(length_m - distance_m, units.rounding_m) / length_m;
+    let longer = beyond(distance_m - length_m, rounding_m) / length_m;
+    let shorter = beyond(length_m - distance_m, rounding_m) / length_m;
     let of_force = |violation: f64, rounding: f64| {
-        let excess = beyond(violation, units.rounding_n + rounding);
+        let excess = beyond(violation, rounding_n + rounding);
         if excess <= 0.0 { 0.0 } else { excess / unit_n.max(excess) }
     };
     if let Some(stiffness_n) = member.stiffness_n {
@@ -234,7 +322,7 @@ fn law(
                 Kind::Cable => strain.max(0.0),
                 Kind::Strut => strain.min(0.0),
             };
-        let rounding = stiffness_n * units.rounding_m / length_m;
+        let rounding = stiffness_n * rounding_m / length_m;
         found.note(|s| &mut s.law, of_force((axial_n - wanted_n).abs(), rounding), place);
         return;
     }
@@ -278,11 +366,8 @@ fn joint_balances(system: &System, answer: &SystemEquilibrium, units: &Units) ->
             unit_n[joint] = worse(unit_n[joint], norm(force));
         }
     }
-    let relative = |(left, unit): (Vector, f64)| {
-        let excess = beyond(norm(left), units.rounding_n);
-        if excess <= 0.0 { 0.0 } else { excess / unit }
-    };
-    left.into_iter().zip(unit_n).map(relative).collect()
+    let all = left.into_iter().zip(unit_n).enumerate();
+    all.map(|(k, (left, unit_n))| units.at(&[k]).part(norm(left), unit_n)).collect()
 }
 
 /// A supported joint lies on its support, whose force is normal to the motion that it leaves free;
@@ -312,7 +397,8 @@ fn support(
     found.note(|s| &mut s.support, off, Place::Joint(k));
     let push_n = push_n(system, answer, k);
     let along = minus(along, times(push_n, rising(system, k)));
-    found.note(|s| &mut s.joint, units.of_force(along, [reaction]), Place::Joint(k));
+    let off = units.at(&[k]).part(norm(along), norm(reaction));
+    found.note(|s| &mut s.joint, off, Place::Joint(k));
     if let Some(floor_m) = system.floor_m() {
         on_floor(answer.joints_m[k][2] - floor_m, push_n, k, units, found);
     }
@@ -323,10 +409,7 @@ fn support(
 fn on_floor(above_m: f64, push_n: f64, k: usize, units: &Units, found: &mut SystemStatics) {
     let place = Place::Joint(k);
     let height = |above_m: f64| beyond(above_m, units.rounding_m) / units.size_m;
-    let force = |push_n: f64| {
-        let excess = beyond(push_n, units.rounding_n);
-        if excess <= 0.0 { 0.0 } else { excess / units.largest_n }
-    };
+    let force = |push_n: f64| units.at(&[k]).part(push_n, units.largest_n);
     found.note(|s| &mut s.support, height(-above_m), place);
     found.note(|s| &mut s.joint, force(-push_n), place);
     // Of a joint that is pushed above the floor the smaller of both is wrong.
@@ -342,9 +425,9 @@ fn whole(system: &System, answer: &SystemEquilibrium, units: &Units) -> f64 {
     let all: Vec<Vector> =
         at_joints.chain(on_members).chain(answer.reactions_n.iter().copied()).collect();
     let left = std::array::from_fn(|c| sum(all.iter().map(|force| force[c])));
-    let unit = sum(all.iter().map(|force| norm(*force)));
-    let excess = beyond(norm(left), units.rounding_n);
-    if excess <= 0.0 { 0.0 } else { excess / unit }
+    let unit_n = sum(all.iter().map(|force| norm(*force)));
+    let rounding_n = units.rounding_n.min(MOST_ROUNDING * units.total_n);
+    Local { rounding_n, most_n: BORNE * units.total_n }.part(norm(left), unit_n)
 }
 
 /// The energy less that of the joints' places, in units of the sizes of its terms.

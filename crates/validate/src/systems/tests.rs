@@ -1,9 +1,9 @@
 //! The judge of systems on closed forms, right and tampered with.
 
-use model::system::{Joint, Member, System, SystemEquilibrium, SystemStability};
+use model::system::{Joint, Kind, Member, System, SystemEquilibrium, SystemStability};
 use model::{
     Bar, Evidence, Excess, ForceChoice, InSpace, NoAnswer, NoCertificate, Place, Quantity, Reason,
-    SelfStresses, SolverName,
+    Rigidity, SelfStresses, SolverName,
 };
 
 use super::compare::{judge_alone, judge_without};
@@ -82,7 +82,7 @@ fn the_place_is_that_of_the_largest_violation() {
 }
 
 /// The lamp upside down: in balance as bars, both compressed.
-fn arch() -> (System, SystemEquilibrium) {
+pub(super) fn arch() -> (System, SystemEquilibrium) {
     let (system, mut answer) = lamp();
     answer.joints_m[2][2] = 4.0;
     for forces in [&mut answer.start_forces_n, &mut answer.end_forces_n] {
@@ -212,7 +212,7 @@ fn a_part_that_turns_is_turned_before_it_is_compared() {
 
 /// 16 N on four bars of 5 m from the corners of a square (3, 4, 5): those along x may take any part
 /// of it.
-fn four_legs(along_x: f64) -> (System, SystemEquilibrium) {
+pub(super) fn four_legs(along_x: f64) -> (System, SystemEquilibrium) {
     let corners = [[3.0, 0.0, 0.0], [-3.0, 0.0, 0.0], [0.0, 3.0, 0.0], [0.0, -3.0, 0.0]];
     let mut joints: Vec<Joint> = corners
         .iter()
@@ -364,4 +364,51 @@ fn three_answers_are_compared_two_by_two() {
     assert!((found.energy_j - 2.0).abs() < 1e-14);
     assert_eq!(found.statics.len(), 3);
     assert_eq!((found.turned_parts, found.free_joints), (0, 0));
+}
+
+/// A solver that leaves out a cable that has its length and bears nothing counts no self-stress beside
+/// one that counts it. The judge counts one for both, and names it; where signs forbid it, as two
+/// cables that it would make push and pull, it is counted and nothing is open.
+#[test]
+fn no_answer_of_a_family_counts_no_self_stress() {
+    for (cables, open) in [(vec![2], true), (vec![2, 3], true), (vec![0, 2], false)] {
+        let (system, first) = if open { four_legs(1.0) } else { four_legs(0.0) };
+        let mut members = system.members().to_vec();
+        for k in cables {
+            members[k].kind = Kind::Cable;
+        }
+        let (mut joints, mut first) = (system.joints().to_vec(), first);
+        if !open {
+            // Without any load, and a spring elsewhere that gives forces their size.
+            joints[4].mass_kg = 0.0;
+            joints.push(Joint::anchor("E", [0.0; 3]));
+            joints.push(Joint::anchor("F", [3.0, 0.0, 0.0]));
+            let spring = Bar::homogeneous(2.0, 0.0).unwrap();
+            members.push(Member::bar(5, 6, spring).with_stiffness(2.0));
+            first.joints_m.extend([[0.0; 3], [3.0, 0.0, 0.0]]);
+            let pull = [1.0, 0.0, 0.0];
+            let forces = |k: usize| if k < 4 { [0.0; 3] } else { pull };
+            first.axial_n = vec![0.0, 0.0, 0.0, 0.0, 1.0];
+            first.start_forces_n = (0..5).map(|k| forces(k).map(|x| -x)).collect();
+            first.end_forces_n = (0..5).map(forces).collect();
+            first.reactions_n = vec![[0.0; 3]; 7];
+            (first.reactions_n[5], first.reactions_n[6]) = (pull.map(|x| -x), pull);
+            first.energy_j = 0.5;
+        }
+        let system = System::new("legs", 10.0, joints, members).unwrap();
+        let none = Rigidity { rank: 3, mechanisms: 0, self_stresses: 0, gap: [1.0, 0.0] };
+        first.evidence.rigidity = Some(none);
+        let mut second = first.clone();
+        second.solver = SolverName::ENERGY;
+        let mut both = [first, second];
+        let agreement = compare(&system, &mut both, &Tolerances::project());
+        assert!(agreement.agrees(), "{}", agreement.disagreement);
+        assert_eq!(agreement.self_stresses, Some(1));
+        for answer in both {
+            let agreed = answer.evidence.ladder.agreed.proof().unwrap();
+            assert_eq!(agreed.shape_only, open);
+            assert_eq!(answer.evidence.rigidity.unwrap().self_stresses, 1);
+            assert_eq!(answer.evidence.self_stresses.is_some(), open);
+        }
+    }
 }

@@ -5,7 +5,8 @@ use census::network::{SystemBox, prove};
 use model::system::{System, SystemEquilibrium};
 use model::{NoBox, Reason, Status, Verified, VerifiedSystem};
 
-use super::certificate::{largest_force_n, size_m, total_load_n};
+use super::certificate::largest_force_n;
+use super::scale::Scale;
 use crate::tolerances::Tolerances;
 use crate::vector::worse;
 
@@ -45,8 +46,9 @@ fn held_against(
     answer: &SystemEquilibrium,
 ) -> Status<Verified> {
     let length_m = system.total_length_m();
-    let size_m = worse(size_m(system, answer), f64::MIN_POSITIVE);
-    let force_n = worse(largest_force_n(answer), total_load_n(system)).max(f64::MIN_POSITIVE);
+    let scale = Scale::new(system, answer);
+    let size_m = worse(scale.size_m, f64::MIN_POSITIVE);
+    let force_n = worse(scale.of_forces_n(largest_force_n(answer)), f64::MIN_POSITIVE);
     let distance_m = proof.beyond_m(&answer.joints_m);
     let distance_n = proof.beyond_n(&answer.axial_n);
     let tolerances = Tolerances::project();

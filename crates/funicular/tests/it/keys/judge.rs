@@ -119,6 +119,7 @@ fn nearest_of_too_low(output: &mut Output, forces: [f64; 2]) {
     output.each(&at("reason.kind"), "not_tried");
     output.within(&at("proof.gap"), 0.0..=NOTHING);
     output.each(&at("proof.singular"), false);
+    output.each(&at("proof.forces_found.proved"), "rank_and_stability");
 }
 
 /// Not even the first rung, and why.
@@ -187,6 +188,7 @@ fn right() {
         output.within(&at(difference), 0.0..=NOTHING);
     }
     output.is(&at("shape_only"), false);
+    output.is(&at("forces_found.proved"), "rank_and_stability");
     output.within(&at("gap"), 0.0..=NOTHING);
     output.is(&at("singular"), false);
     output.done();

@@ -2,8 +2,8 @@
 //! both. Which reason an answer has is asserted of cases, here and in the crates that give it.
 
 use model::{
-    Disagreement, Excess, InPlane, InSpace, NoBox, NoCensus, NoCertificate, Quantity, Reason,
-    SolverName, Stability, StabilityDifference,
+    Choices, Disagreement, Excess, ForceChoice, ForcesFound, InPlane, InSpace, LargeForce, NoBox,
+    NoCensus, NoCertificate, Proved, Quantity, Reason, SolverName, Stability, StabilityDifference,
 };
 use serde_json::json;
 
@@ -243,7 +243,10 @@ fn reasons_of_solvers_that_disagree() {
         excess(Quantity::MorseIndex { between: pair() }, 7.0),
         excess(Quantity::SelfStresses { solver: solver.clone() }, 8.0),
         excess(Quantity::EnergyOfJoints { solver: solver.clone() }, 9.0),
-        excess(Quantity::AxialForcesAndReactions { solver }, 10.0),
+        excess(Quantity::AxialForcesAndReactions { solver: solver.clone() }, 10.0),
+        excess(Quantity::NamedForces { between: pair() }, 11.0),
+        excess(Quantity::EquallyStiff { solver: solver.clone() }, 12.0),
+        excess(Quantity::LargeForce { solver, member: 16 }, 13.0),
     ];
     let saddle = Stability {
         in_plane: InPlane::Saddle,
@@ -262,6 +265,9 @@ fn reasons_of_solvers_that_disagree() {
         "what the self-stresses of energy leave at a joint: 8.00e0",
         "energy of energy less that of its joints: 9.00e0",
         "axial forces and reactions of energy less its joint forces: 1.00e1",
+        "forces that lagrange and energy name by the same convention / N: 1.10e1",
+        "forces of energy less those of equally stiff members / N: 1.20e1",
+        "force of energy over all that acts on the system, at member 16: 1.30e1",
         "saddle in the plane (index 11), unstable in space (index 12) by lagrange",
         "degenerate in the plane (index 11), unstable in space (index 12) by energy",
     ];
@@ -276,18 +282,59 @@ fn reasons_of_solvers_that_disagree() {
         "self_stresses",
         "energy_of_joints",
         "axial_forces_and_reactions",
+        "named_forces",
+        "equally_stiff",
+        "large_force",
     ];
     output.is("kind", "solvers_disagree");
     output.is("excesses[].what", what.as_slice());
     output.each("excesses[].between[]", json!(["lagrange", "energy"]));
     output.each("excesses[].solver", "energy");
     output.is("excesses[].bar", 15);
-    output.is("excesses[].value", json!([3, 4, 5, 6, 7, 8, 9, 10]));
+    output.is("excesses[].member", 16);
+    output.is("excesses[].value", json!([3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13]));
     output.each("excesses[].budget", 0.125);
     output.is("stability[].between[]", json!(["lagrange", "energy"]));
     output.is("stability[].found[].in_plane", json!(["saddle", "degenerate"]));
     output.each("stability[].found[].index_in_plane", 11);
     output.each("stability[].found[].in_space", "unstable");
     output.each("stability[].found[].index_in_space", 12);
+    output.done();
+}
+
+/// What is found of forces besides their difference. Which findings a comparison has is asserted in
+/// the crate that makes it.
+#[test]
+fn findings_of_forces() {
+    let large = ForcesFound {
+        large: Some(LargeForce { member: 3, force_n: -5e7, ratio: 2.5e6 }),
+        proved: Some(Proved::Rank),
+        ..ForcesFound::default()
+    };
+    let choices = ForcesFound {
+        choices: Some(Choices {
+            between: pair(),
+            choices: [ForceChoice::EquallyStiff, ForceChoice::Unknown],
+            member: 4,
+            forces_n: [0.25, 12.5],
+        }),
+        proved: Some(Proved::Stability),
+        ..ForcesFound::default()
+    };
+    let proved = ForcesFound { proved: Some(Proved::RankAndStability), ..ForcesFound::default() };
+    let findings = [
+        of(&large, &["member 3 bears -5.00e7 N, 2.50e6 times all that acts", "independent"]),
+        of(&choices, &["in member 4 0.25 N by lagrange", "12.5 N by energy", "the energy rises"]),
+        of(&proved, &["the lengths are independent, and the energy rises"]),
+    ];
+    let mut output = output("a finding of forces", "findings_of_forces", &findings);
+    output.is("large.member", 3);
+    output.is("large.force_n", -5e7);
+    output.is("large.ratio", 2.5e6);
+    output.is("choices.between[]", json!(["lagrange", "energy"]));
+    output.is("choices.choices[]", json!(["equally_stiff", "unknown"]));
+    output.is("choices.member", 4);
+    output.is("choices.forces_n[]", json!([0.25, 12.5]));
+    output.is("proved", json!(["rank", "stability", "rank_and_stability"]));
     output.done();
 }

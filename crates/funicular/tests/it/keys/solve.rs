@@ -308,6 +308,7 @@ fn lamp() {
     output.each(&at("reached"), true);
     let how = ["after", "lagrange and energy differ", "exactly one", "no other", "semidefinite"];
     output.says(&at("how"), &how);
+    output.each(&at("proof.forces_found.proved"), "rank_and_stability");
     proofs_of_lamp(&mut output);
     output.within(&at("proof.gap"), 0.0..=NOTHING);
     output.each(&at("proof.singular"), false);

@@ -4,7 +4,8 @@ use std::fmt::{self, Display, Formatter};
 
 use super::{counted, size};
 use crate::evidence::agreed::{
-    Agreed, Disagreement, Excess, FreeJoints, Place, Quantity, Room, StabilityDifference,
+    Agreed, Choices, Disagreement, Excess, ForcesFound, FreeJoints, LargeForce, Place, Proved,
+    Quantity, Room, StabilityDifference,
 };
 use crate::evidence::certificate::Optimal;
 use crate::evidence::complete::{Complete, CompleteSystem};
@@ -107,7 +108,55 @@ impl Display for Agreed {
                 found[0].in_plane, found[1].in_plane
             )?;
         }
-        Ok(())
+        self.forces_found.as_ref().map_or(Ok(()), |found| write!(f, "{found}"))
+    }
+}
+
+impl Display for ForcesFound {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        if let Some(choices) = &self.choices {
+            write!(f, "; {choices}")?;
+        }
+        if let Some(large) = &self.large {
+            write!(f, "; {large}")?;
+        }
+        self.proved.map_or(Ok(()), |proved| write!(f, "; {proved}"))
+    }
+}
+
+impl Display for Choices {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let Self { between, choices, member, forces_n } = self;
+        let [first, second] = forces_n.map(|force_n| Number::significant(force_n, 6));
+        write!(
+            f,
+            "they name different forces of the family: in member {member} {first} N by {} ({}), {second} N by {} ({})",
+            between[0], choices[0], between[1], choices[1]
+        )
+    }
+}
+
+impl Display for LargeForce {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let Self { member, force_n, ratio } = *self;
+        let [force_n, ratio] = [force_n, ratio].map(|value| Number::size(value, 2));
+        write!(
+            f,
+            "member {member} bears {force_n} N, {ratio} times all that acts on the system: the shape is nearly \
+             singular"
+        )
+    }
+}
+
+impl Display for Proved {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Rank => "proved: the lengths are independent",
+            Self::Stability => "proved: the energy rises along every motion that keeps the lengths",
+            Self::RankAndStability => {
+                "proved: the lengths are independent, and the energy rises along every motion that keeps them"
+            }
+        })
     }
 }
 
@@ -235,6 +284,15 @@ impl Display for Quantity {
             }
             Self::SelfStresses { solver } => {
                 write!(f, "what the self-stresses of {solver} leave at a joint")
+            }
+            Self::NamedForces { between: [a, b] } => {
+                write!(f, "forces that {a} and {b} name by the same convention / N")
+            }
+            Self::EquallyStiff { solver } => {
+                write!(f, "forces of {solver} less those of equally stiff members / N")
+            }
+            Self::LargeForce { solver, member } => {
+                write!(f, "force of {solver} over all that acts on the system, at member {member}")
             }
             Self::EnergyOfJoints { solver } => {
                 write!(f, "energy of {solver} less that of its joints")

@@ -102,6 +102,7 @@ fn who_stands_behind_an_answer_is_told() {
         room: None,
         shape_only: true,
         curvature_undecided: vec![],
+        forces_found: None,
     };
     found.equilibrium.evidence.ladder.agreed = Status::Reached(own.clone());
     let source = SolverName::new("a table");

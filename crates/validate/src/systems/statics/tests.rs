@@ -126,7 +126,15 @@ pub(in crate::systems) fn crooked(
     (system, answer)
 }
 
-const UNITS: Units = Units { rounding_m: 0.25, rounding_n: 0.5, size_m: 4.0, largest_n: 8.0 };
+const UNITS: Units = Units {
+    rounding_m: 0.25,
+    rounding_n: 0.5,
+    size_m: 4.0,
+    largest_n: 8.0,
+    acts_n: vec![],
+    meet_n: vec![],
+    total_n: f64::INFINITY,
+};
 
 fn close(found: f64, wanted: f64) {
     assert!((found - wanted).abs() < 1e-14 * wanted.abs().max(1.0), "{found}, not {wanted}");
@@ -141,7 +149,7 @@ fn what_is_left_over_on_a_member_is_a_part_of_its_largest_force() {
     let (system, mut answer) = crooked(|_, _| ());
     answer.axial_n[0] += 2.5;
     let mut found = SystemStatics::NOTHING;
-    member(&system, &answer, 0, &UNITS, &mut found);
+    member(&system, &answer, 0, 7.0, &UNITS, &mut found);
     close(found.force, (3818.0_f64.sqrt() - 0.5) / 80.0);
     close(found.moment, (535_429.0_f64.sqrt() / 8.0 - 23.5) / 560.0);
     close(found.derived, 0.025);
@@ -150,7 +158,7 @@ fn what_is_left_over_on_a_member_is_a_part_of_its_largest_force() {
     // Where rounding is as much as the distance there is no direction.
     for (rounding_m, derived) in [(7.0, 0.0), (6.875, 0.025)] {
         let mut found = SystemStatics::NOTHING;
-        member(&system, &answer, 0, &Units { rounding_m, ..UNITS }, &mut found);
+        member(&system, &answer, 0, 7.0, &Units { rounding_m, ..UNITS }, &mut found);
         close(found.derived, derived);
     }
 }
@@ -163,7 +171,7 @@ fn the_laws_of_members_are_those_of_their_kinds() {
         let body = Bar::homogeneous(8.0, 0.0).unwrap();
         let member = Member { kind, stiffness_n, ..Member::bar(0, 1, body) };
         let mut found = SystemStatics::NOTHING;
-        law(&member, distance_m, axial_n, 4.0, &UNITS, Place::Member(1), &mut found);
+        law(&member, distance_m, axial_n, 4.0, (0.25, 0.5), Place::Member(1), &mut found);
         [found.length, found.law]
     };
     let spring = |kind: Kind, distance_m: f64, axial_n: f64, wanted: f64| {
@@ -314,7 +322,7 @@ fn units_are_the_largest_numbers_of_an_answer() {
     let ulps = 8.0 * f64::EPSILON;
     let (system, mut answer) = crooked(|_, _| ());
     let units = |answer: &SystemEquilibrium| {
-        let Units { rounding_m, rounding_n, size_m, largest_n } = Units::new(&system, answer);
+        let Units { rounding_m, rounding_n, size_m, largest_n, .. } = Units::new(&system, answer);
         [rounding_m / ulps, rounding_n / ulps, size_m, largest_n]
     };
     let wanted = |found: [f64; 4], wanted: [f64; 4]| {
@@ -346,4 +354,46 @@ fn the_largest_violation_is_kept_with_its_place() {
     found.note(|s| &mut s.law, 9.0, Place::Joint(7));
     assert!(found.largest().is_nan() && found.worst == Place::Joint(5));
     assert!(!found.passes(f64::INFINITY));
+}
+
+/// Four legs of 5 m, one of which is 4e-10 m longer: the shape that meets all lengths best leaves
+/// 1e-10 m in each, which is within a billionth of 5 m. Any other shape is off by more than it need
+/// be; and with a tolerance of 1e-11 m that shape is no answer either.
+#[test]
+fn lengths_that_overdetermine_a_shape_are_met_best() {
+    use super::super::tests::four_legs;
+    let (system, right) = four_legs(0.5);
+    let found = |down_m: f64, within_m: Option<f64>| {
+        let mut members = system.members().to_vec();
+        for member in &mut members {
+            member.length_tolerance_m = within_m;
+        }
+        members[0].body = Bar::homogeneous(5.0 + 4e-10, 0.0).unwrap();
+        let system = System::new("legs", 10.0, system.joints().to_vec(), members).unwrap();
+        let mut answer = right.clone();
+        // The leg from (3, 0, 0) is longer, and lies along (-3, 0, -4)/5. With d the place, least
+        // squares of u·d - e: sums of u u' are 18/25 along x and y, 64/25 along z.
+        let (x, z) = (-0.6 * 4e-10 / 0.72, -0.8 * 4e-10 / 2.56);
+        answer.joints_m[4] = [x, 0.0, -4.0 + z - down_m];
+        judge(&system, &answer).length
+    };
+    assert!(found(0.0, None) < 1e-15, "{:e}", found(0.0, None));
+    assert!(found(1e-9, None) > 1e-11);
+    assert!(found(0.0, Some(2e-10)) < 1e-15);
+    assert!((found(0.0, Some(1e-11)) / 2e-11 - 1.0).abs() < 1e-3);
+}
+
+/// What is left at a joint counts against its load of 16 N, whatever its members bear: the unit is a
+/// hundred times that. Of 1e-4 N, rounding of 6.7e8 N explains 1.2e-6.
+#[test]
+fn large_forces_forgive_nothing() {
+    use super::super::tests::four_legs;
+    let (system, mut answer) = four_legs(2.0_f64.powi(26));
+    let balanced = judge(&system, &answer);
+    assert!(balanced.joint < 1e-15, "{balanced:?}");
+    answer.start_forces_n[0][2] += 1e-4;
+    answer.reactions_n[0][2] += 1e-4;
+    answer.end_forces_n[0][2] -= 1e-4;
+    let found = judge(&system, &answer).joint;
+    assert!((found / ((1e-4 - 1.2e-6) / 1600.0) - 1.0).abs() < 0.02, "{found:e}");
 }

@@ -1,0 +1,118 @@
+//! Relative to what: the sizes of lengths, forces and energies that violations and differences are
+//! held against.
+//!
+//! They are those of the *problem*: its lengths, its loads, the prestress of its elastic members.
+//! None of them grows with the forces of an answer, so that no absurd force forgives anything, and
+//! no load vanishes beside a force.
+//!
+//! | size | what it is |
+//! |---|---|
+//! | length | largest distance of a joint from the reference, at most what supports and lengths allow |
+//! | force at a joint | the largest of its load, the weight of its members, the mean load of the system |
+//! | force of the whole | the sum of all loads |
+//! | energy | that times the length |
+//!
+//! In a system without loads the prestress of elastic members stands for the loads: what they bear by
+//! their own law at the places of the answer, each stretched to no more than twice its length.
+
+use model::Vector;
+use model::system::{Kind, Member, System, SystemEquilibrium};
+
+use super::certificate::{joint_loads, size_m, total_load_n};
+use crate::vector::{minus, norm, worse};
+
+/// Elastic members are not stretched by more than their length by any prestress: an answer with
+/// absurd places does not set the size of forces.
+const MOST_STRAIN: f64 = 1.0;
+/// A strain below this is no prestress but the rounding of lengths: see
+/// [`LENGTH_ROUNDING`](model::system::LENGTH_ROUNDING).
+const LEAST_STRAIN: f64 = model::system::LENGTH_ROUNDING;
+/// Forces beyond this many times all that acts make no difference larger: from here on they are a
+/// finding of their own (module `forces`).
+const MOST_FORCE: f64 = 1e6;
+
+/// The sizes for one system, at the places of one answer.
+pub(super) struct Scale {
+    /// Of lengths, m.
+    pub size_m: f64,
+    /// Of all forces that act together, N; zero where nothing acts.
+    pub total_n: f64,
+    /// Loads and prestress together, N.
+    pub held_n: f64,
+    /// Of the forces that act at each joint, N; infinite where nothing acts anywhere, which leaves no
+    /// size but that of the forces found.
+    pub joint_n: Vec<f64>,
+}
+
+impl Scale {
+    pub(super) fn new(system: &System, answer: &SystemEquilibrium) -> Self {
+        let joints = system.joints().len();
+        let prestress: Vec<f64> =
+            system.members().iter().map(|member| prestress_n(member, &answer.joints_m)).collect();
+        let (load_n, prestress_n) = (total_load_n(system), prestress.iter().sum::<f64>());
+        let loaded = load_n > 0.0;
+        let mut joint_n = if loaded {
+            joint_loads(system).into_iter().map(norm).collect()
+        } else {
+            vec![0.0; joints]
+        };
+        for (member, prestress_n) in system.members().iter().zip(&prestress) {
+            let weight_n = member.body.mass_kg() * system.gravity_m_s2();
+            for joint in [member.from, member.to] {
+                joint_n[joint] =
+                    worse(joint_n[joint], if loaded { weight_n } else { *prestress_n });
+            }
+        }
+        let total_n = if loaded { load_n } else { prestress_n };
+        let mean_n = if total_n > 0.0 { total_n / joints as f64 } else { f64::INFINITY };
+        for scale_n in &mut joint_n {
+            *scale_n = scale_n.max(mean_n);
+        }
+        let size_m = size_m(system, answer).min(reach_m(system));
+        Self { size_m, total_n, held_n: load_n + prestress_n, joint_n }
+    }
+
+    /// What differences of forces are relative to where forces of this size meet, N: all that acts, or
+    /// in a nearly singular shape, whose forces are as uncertain as they are large, these, up to
+    /// [`MOST_FORCE`] times that.
+    pub(super) fn of_forces_n(&self, meet_n: f64) -> f64 {
+        if self.total_n > 0.0 {
+            worse(self.total_n, meet_n.min(MOST_FORCE * self.total_n))
+        } else {
+            meet_n
+        }
+    }
+
+    /// Of energies, J.
+    pub(super) fn energy_j(&self) -> f64 {
+        self.total_n * self.size_m
+    }
+}
+
+/// No joint that members hold is further from the reference than the farthest support and all
+/// members in a row; elastic ones at twice their length.
+fn reach_m(system: &System) -> f64 {
+    let origin = system.reference_m();
+    let supports = system.joints().iter().filter_map(|joint| joint.support.at_m());
+    let farthest = supports.map(|at| norm(minus(at, origin))).fold(0.0, f64::max);
+    let floor_m = system.floor_m().map_or(0.0, |floor_m| (floor_m - origin[2]).abs());
+    farthest.max(floor_m) + (1.0 + MOST_STRAIN) * system.total_length_m()
+}
+
+/// What an elastic member bears by its law at these places, N.
+fn prestress_n(member: &Member, joints_m: &[Vector]) -> f64 {
+    let Some(stiffness_n) = member.stiffness_n else { return 0.0 };
+    let (Some(a), Some(b)) = (joints_m.get(member.from), joints_m.get(member.to)) else {
+        return 0.0;
+    };
+    let strain = norm(minus(*b, *a)) / member.body.length_m() - 1.0;
+    let borne = match member.kind {
+        Kind::Bar => strain.abs(),
+        Kind::Cable => strain,
+        Kind::Strut => -strain,
+    };
+    stiffness_n * borne.clamp(LEAST_STRAIN, MOST_STRAIN)
+}
+
+#[cfg(test)]
+mod tests;

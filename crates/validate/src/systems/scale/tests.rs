@@ -1,0 +1,50 @@
+//! Sizes by hand.
+
+use model::Bar;
+use model::system::{Joint, Member};
+
+use super::super::statics::tests::crooked;
+use super::super::tests::lamp;
+use super::*;
+
+/// The crooked bar (module `statics`): at A (1.875, -2.25, -58.5) N of its bar, at B (5.125, -4.75,
+/// -43.5) N; the bar weighs 80 N, and all loads together are 110 N and the roots of 21 and 77.
+#[test]
+fn loads_give_forces_their_size() {
+    let (system, mut answer) = crooked(|_, _| ());
+    let scale = Scale::new(&system, &answer);
+    let total_n = 21.0_f64.sqrt() + 77.0_f64.sqrt() + 110.0;
+    assert!((scale.total_n / total_n - 1.0).abs() < 1e-15);
+    assert_eq!(scale.joint_n, [80.0, 80.0]);
+    assert!((scale.energy_j() / (8.0 * total_n) - 1.0).abs() < 1e-15);
+    // No force of an answer changes any of it, and no place makes it larger than its bar allows.
+    answer.axial_n[0] = 1e12;
+    answer.end_forces_n[0] = [1e12; 3];
+    answer.joints_m[1] = [1e9; 3];
+    let absurd = Scale::new(&system, &answer);
+    assert_eq!(absurd.joint_n, scale.joint_n);
+    assert_eq!(absurd.size_m.to_bits(), 16.0_f64.to_bits());
+}
+
+/// A joint that carries nothing has the mean load: 2 N on three joints.
+#[test]
+fn a_joint_without_load_has_the_mean_load() {
+    let (system, answer) = lamp();
+    let scale = Scale::new(&system, &answer);
+    assert_eq!(scale.joint_n, [2.0 / 3.0, 2.0 / 3.0, 2.0]);
+}
+
+/// Springs of 6 N and 1 m, drawn to 1.5 and 3 m: 3 N, and 6 N instead of 12.
+#[test]
+fn prestress_gives_forces_their_size_where_nothing_is_loaded() {
+    let joints =
+        vec![Joint::anchor("A", [0.0; 3]), Joint::anchor("B", [4.5, 0.0, 0.0]), Joint::free("P")];
+    let spring =
+        |from, to| Member::bar(from, to, Bar::homogeneous(1.0, 0.0).unwrap()).with_stiffness(6.0);
+    let system = System::new("springs", 10.0, joints, vec![spring(0, 2), spring(2, 1)]).unwrap();
+    let (_, like) = lamp();
+    let joints_m = vec![[0.0; 3], [4.5, 0.0, 0.0], [1.5, 0.0, 0.0]];
+    let scale = Scale::new(&system, &SystemEquilibrium { joints_m, ..like });
+    assert_eq!([scale.total_n, scale.held_n], [9.0, 9.0]);
+    assert_eq!(scale.joint_n, [3.0, 6.0, 6.0]);
+}
