@@ -63,6 +63,7 @@
 
 mod coarse;
 mod cone;
+mod decided;
 mod densities;
 mod derivatives;
 mod directions;

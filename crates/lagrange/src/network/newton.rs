@@ -13,6 +13,7 @@
 
 use nalgebra::Vector3;
 
+use super::decided::Decided;
 use super::framework::Framework;
 use super::law::by_direction;
 use super::residual::Residual;
@@ -55,7 +56,11 @@ pub(super) struct Run {
 impl Run {
     /// A run that has made no step yet.
     pub fn at(framework: &Framework, state: State) -> Self {
-        Self { residual: Residual::new(framework, &state), state, steps: 0 }
+        Self::within(framework, state, None)
+    }
+
+    fn within(framework: &Framework, state: State, decided: Option<&mut Decided>) -> Self {
+        Self { residual: Residual::within(framework, &state, decided), state, steps: 0 }
     }
 }
 
@@ -76,8 +81,9 @@ pub(super) fn polish(
     settings: &Settings,
     state: State,
     patience: Patience,
+    mut decided: Option<&mut Decided>,
 ) -> Run {
-    let mut run = Run::at(framework, with_held(framework, state));
+    let mut run = Run::within(framework, with_held(framework, state), decided.as_deref_mut());
     let (mut merit, mut slow) = (run.residual.merit, 0);
     while run.steps < settings.max_iterations {
         let done = run.residual.size() <= settings.tolerance;
@@ -92,8 +98,13 @@ pub(super) fn polish(
             derivative.and_then(|d| d.solve(framework, stiffness, (forces, lengths), REFINED));
         let Some((step, _)) = step else { break };
         run.steps += 1;
-        let Some((state, residual)) = search(framework, &run, &step, done) else { break };
+        let next = search(framework, &run, &step, done, decided.as_deref_mut());
+        let Some((state, residual)) = next else { break };
         (run.state, run.residual) = (state, residual);
+        if let Some(decided) = decided.as_deref_mut() {
+            decided.renew(framework, &run.state);
+            run.residual = Residual::within(framework, &run.state, Some(decided));
+        }
         slow += 1;
         if run.residual.merit <= HALVED * merit {
             (merit, slow) = (run.residual.merit, 0);
@@ -106,11 +117,17 @@ pub(super) fn polish(
 }
 
 /// The longest of the halved steps that lowers the merit.
-fn search(framework: &Framework, run: &Run, step: &Step, done: bool) -> Option<(State, Residual)> {
+fn search(
+    framework: &Framework,
+    run: &Run,
+    step: &Step,
+    done: bool,
+    mut decided: Option<&mut Decided>,
+) -> Option<(State, Residual)> {
     let mut t = 1.0;
     for _ in 0..if done { 1 } else { HALVINGS } {
         let state = step.applied(&run.state, t);
-        let residual = Residual::new(framework, &state);
+        let residual = Residual::within(framework, &state, decided.as_deref_mut());
         if residual.merit <= run.residual.merit * (1.0 - 2.0 * ARMIJO * t) {
             return Some((state, residual));
         }

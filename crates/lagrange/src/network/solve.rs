@@ -3,9 +3,10 @@
 use std::iter;
 use std::time::Instant;
 
-use model::system::{Kind, System};
+use model::system::{Kind, Misfit, System};
 use nalgebra::Vector3;
 
+use super::decided::{Decided, SHARP, cuts};
 use super::elements;
 use super::error::Error;
 use super::floor::{above, below};
@@ -32,6 +33,9 @@ const SIGNS_SEEN: f64 = 1e-6;
 /// its corners, those that ought not come back one by one (12 changes in the place of 2).
 const CAREFUL_CHANGES: usize = 4;
 const WORST_PUSH: f64 = 0.9;
+/// Forces of this many times the loads have a rounding of 1e-7 of these and more, which the places
+/// of near joints multiply.
+const ABSURD: f64 = 1e9;
 /// A cable shorter than this part of its length is slack at the start.
 const SLACK_LENGTH: f64 = 1e-3;
 /// Tries to leave an unstable equilibrium, each by a small move of every joint.
@@ -196,8 +200,90 @@ impl<'a> Solver<'a> {
         Self { system, settings, framework, stiffness, factorisations: 0, began }
     }
 
+    /// Newton's method: where lengths overdetermine the shape with the part of them that places
+    /// decide, first as far as tolerances allow.
+    fn with_signs(&mut self, start: State, patience: Patience) -> Result<Run, Error> {
+        let mut refused = None;
+        for cut in self.cuts(&start) {
+            match self.at_cut(start.clone(), patience, cut) {
+                Ok(run) => return Ok(run),
+                Err(error) => refused = clearer(refused, error),
+            }
+        }
+        let run = match self.at_signs(start, patience, None) {
+            Ok(run) => run,
+            Err(error) => return Err(clearer(refused, error).unwrap_or(Error::Unloaded)),
+        };
+        // The place it has come to may be singular where the start was not.
+        let cuts = self.cuts(&run.state);
+        for &cut in &cuts {
+            let mut state = run.state.clone();
+            state.axial = Decided::new(&self.framework, &state, cut)?.share(&self.framework, &state.axial);
+            match self.at_cut(state, patience, cut) {
+                Ok(run) => return Ok(run),
+                Err(error) => refused = clearer(refused, error),
+            }
+        }
+        match refused {
+            Some(error) if cuts.contains(&SHARP) => Err(error),
+            _ => Ok(run),
+        }
+    }
+
+    fn cuts(&mut self, state: &State) -> Vec<f64> {
+        let (cuts, factorisations) = cuts(&self.framework, &mut self.stiffness, state);
+        self.factorisations += factorisations;
+        cuts
+    }
+
+    /// The same at one cut; refused where lengths are off by more than their tolerances.
+    fn at_cut(&mut self, state: State, patience: Patience, cut: f64) -> Result<Run, Error> {
+        let mut decided = Decided::new(&self.framework, &state, cut)?;
+        let run = self.at_signs(state, patience, Some(&mut decided))?;
+        decided.renew(&self.framework, &run.state);
+        let misfits = self.misfits(&run, &mut decided);
+        let fits = misfits.iter().all(|misfit| misfit.misfit_m.abs() <= misfit.within_m);
+        if fits { Ok(run) } else { Err(Error::Misfit { misfits }) }
+    }
+
+    /// How far the members that overdetermine a shape are from their lengths there.
+    fn misfits(&self, run: &Run, decided: &mut Decided) -> Vec<Misfit> {
+        let (framework, unit) = (&self.framework, self.framework.units.length_m);
+        let misfit = |member: usize| {
+            let link = &framework.links[member];
+            let misfit_m = (run.residual.directions[member].1 - link.length) * unit;
+            Misfit { member, misfit_m, within_m: link.within * unit }
+        };
+        let mut misfits: Vec<_> = decided.members(framework).into_iter().map(misfit).collect();
+        misfits.sort_by(|a, b| ratio(b).total_cmp(&ratio(a)));
+        misfits
+    }
+
+    /// Refuse forces that only rounding decides.
+    fn not_absurd(&self, run: Run) -> Result<Run, Error> {
+        let (framework, axial) = (&self.framework, &run.state.axial);
+        let elastic = framework.links.iter().zip(axial).filter(|(link, _)| link.compliance > 0.0);
+        let borne = elastic.map(|(_, axial)| axial.abs());
+        let loads = framework.nodes.iter().map(|node| node.load.norm());
+        let scale = borne.chain(loads).fold(framework.least_scale(&run.state), f64::max);
+        let worst = (0..axial.len()).max_by(|a, b| axial[*a].abs().total_cmp(&axial[*b].abs()));
+        match worst {
+            Some(member) if axial[member].abs() > ABSURD * scale => Err(Error::Absurd {
+                member,
+                force_n: axial[member] * framework.units.force_n,
+                ratio: axial[member].abs() / scale,
+            }),
+            _ => Ok(run),
+        }
+    }
+
     /// Newton's method, with the set of taut members changed until all signs are right.
-    fn with_signs(&mut self, mut state: State, patience: Patience) -> Result<Run, Error> {
+    fn at_signs(
+        &mut self,
+        mut state: State,
+        patience: Patience,
+        mut decided: Option<&mut Decided>,
+    ) -> Result<Run, Error> {
         let settings = self.settings;
         let one_sided = self.framework.links.iter().any(|link| link.kind != Kind::Bar);
         let mut tight = !one_sided;
@@ -205,7 +291,17 @@ impl<'a> Solver<'a> {
             let tolerance =
                 if tight { settings.tolerance } else { settings.tolerance.max(SIGNS_SEEN) };
             let settings = Settings { tolerance, ..settings };
-            let run = polish(&self.framework, &mut self.stiffness, &settings, state, patience);
+            if let Some(decided) = decided.as_deref_mut() {
+                decided.renew(&self.framework, &state);
+            }
+            let run = polish(
+                &self.framework,
+                &mut self.stiffness,
+                &settings,
+                state,
+                patience,
+                decided.as_deref_mut(),
+            );
             self.factorisations += run.steps;
             if run.residual.size().is_nan() || run.residual.size() > tolerance {
                 let (system, framework) = (self.system, &self.framework);
@@ -214,7 +310,7 @@ impl<'a> Solver<'a> {
             let share = if change < CAREFUL_CHANGES { WORST_PUSH } else { 0.0 };
             state = match signs_mended(&self.framework, &self.settings, &run, share) {
                 Some(next) => next,
-                None if tight => return Ok(run),
+                None if tight => return self.not_absurd(run),
                 None => {
                     tight = true;
                     run.state
@@ -405,6 +501,23 @@ impl<'a> Solver<'a> {
         let links = self.framework.links.iter().zip(&directions);
         links.map(|(link, (u, _))| u.dot(&link.span(&moves))).collect()
     }
+}
+
+/// A misfit in units of what it may be.
+fn ratio(misfit: &Misfit) -> f64 {
+    misfit.misfit_m.abs() / misfit.within_m
+}
+
+/// Of two refusals the one that says more: the least misfit of all, before any other.
+fn clearer(before: Option<Error>, error: Error) -> Option<Error> {
+    let size = |error: &Error| match error {
+        Error::Misfit { misfits } => misfits.first().map_or(0.0, ratio),
+        _ => f64::INFINITY,
+    };
+    Some(match before {
+        Some(before) if size(&before) <= size(&error) => before,
+        _ => error,
+    })
 }
 
 /// The state with cables that push made slack and slack ones that are too long made taut,

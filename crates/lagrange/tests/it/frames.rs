@@ -1,0 +1,222 @@
+//! Frames of rigid members whose lengths overdetermine the shape, against least squares by dense
+//! singular values (nalgebra) at the places of the answer.
+
+use lagrange::network::{Error, Forces, Settings, Solution, solve};
+use model::system::{Joint, Kind, Member, System};
+use model::{Bar, ForceRange};
+use nalgebra::{DMatrix, DVector, Vector3};
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+
+const GRAVITY: f64 = 9.80665;
+
+/// How the places of a frame are drawn.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Draw {
+    Integer,
+    OneDecimal,
+    Real,
+    /// Anchors on a circle, the joint on its axis.
+    Ring,
+    /// All in the plane y = 0.
+    Flat,
+}
+
+const DRAWS: [Draw; 5] = [Draw::Integer, Draw::OneDecimal, Draw::Real, Draw::Ring, Draw::Flat];
+
+fn place(rng: &mut ChaCha8Rng, draw: Draw) -> Vector3<f64> {
+    let mut at = Vector3::from_fn(|_, _| rng.random_range(-4.0..4.0_f64));
+    match draw {
+        Draw::Integer => at = at.map(f64::round),
+        Draw::OneDecimal => at = at.map(|x| (10.0 * x).round() / 10.0),
+        Draw::Flat => at.y = 0.0,
+        Draw::Real | Draw::Ring => {}
+    }
+    at
+}
+
+/// A frame of up to three joints with 4 to 12 legs each, joined by bars; `elastic` makes the last
+/// leg of each joint a stretched or pressed one. Lengths are the distances, rounded to doubles,
+/// times one plus a random number up to `off`.
+pub fn frame(seed: u64, draw: Draw, elastic: bool, off: f64) -> System {
+    let mut rng = ChaCha8Rng::seed_from_u64(seed);
+    let count = if draw == Draw::Ring { 1 } else { 1 + (seed % 3) as usize };
+    let (mut joints, mut places, mut members) = (Vec::new(), Vec::new(), Vec::new());
+    for k in 0..count {
+        let at = if draw == Draw::Ring {
+            Vector3::new(0.0, 0.0, rng.random_range(-2.0..2.0_f64).round() + 0.5)
+        } else {
+            place(&mut rng, draw)
+        };
+        let mut force: [f64; 3] = [0.0; 3].map(|_| f64::from(rng.random_range(-20..20_i32)));
+        if draw == Draw::Flat {
+            force[1] = 0.0;
+        }
+        joints.push(Joint::free(format!("P{k}")).with_mass(f64::from(1 + k as u32)).with_force(force));
+        places.push(at);
+    }
+    let mut join = |places: &[Vector3<f64>], rng: &mut ChaCha8Rng, from: usize, to: usize, own: bool| {
+        let distance = (places[to] - places[from]).norm();
+        let length = distance * (1.0 + off * rng.random_range(-1.0..1.0));
+        let body = |length| Bar::homogeneous(length, 0.5).unwrap();
+        members.push(if own {
+            let strain = rng.random_range(-1e-3..1e-3);
+            Member::bar(from, to, body(distance * (1.0 + strain))).with_stiffness(1e4)
+        } else {
+            Member::bar(from, to, body(length))
+        });
+    };
+    for k in 0..count {
+        let legs = rng.random_range(4..=12_usize);
+        for leg in 0..legs {
+            let at = if draw == Draw::Ring {
+                let turn = std::f64::consts::TAU * leg as f64 / legs as f64;
+                Vector3::new(2.0 * turn.cos(), 2.0 * turn.sin(), 0.0)
+            } else {
+                place(&mut rng, draw)
+            };
+            if (at - places[k]).norm() < 0.5 {
+                continue;
+            }
+            joints.push(Joint::anchor(format!("A{k}-{leg}"), at.into()));
+            places.push(at);
+            join(&places, &mut rng, places.len() - 1, k, elastic && leg + 1 == legs);
+        }
+        if k > 0 && (places[k] - places[k - 1]).norm() > 0.5 {
+            join(&places, &mut rng, k - 1, k, false);
+        }
+    }
+    System::new(format!("{draw:?} {seed}"), GRAVITY, joints, members).unwrap()
+}
+
+/// Directions of the members of an answer.
+fn directions(system: &System, solution: &Solution) -> Vec<(Vector3<f64>, f64)> {
+    let at = |joint: usize| Vector3::from(solution.equilibrium.joints_m[joint]);
+    let spans = system.members().iter().map(|m| at(m.to) - at(m.from));
+    spans.map(|span| (span.normalize(), span.norm())).collect()
+}
+
+/// Load of each joint with the weights of its homogeneous members.
+fn loads(system: &System) -> Vec<Vector3<f64>> {
+    let down = |mass: f64| Vector3::new(0.0, 0.0, -mass * system.gravity_m_s2());
+    let joints = system.joints().iter();
+    let mut loads: Vec<_> =
+        joints.map(|joint| Vector3::from(joint.force_n) + down(joint.mass_kg)).collect();
+    for member in system.members() {
+        for joint in [member.from, member.to] {
+            loads[joint] += down(0.5 * member.body.mass_kg());
+        }
+    }
+    loads
+}
+
+/// Cut of singular values, over the largest.
+const CUT: f64 = 1e-6;
+
+/// Least `sum t^2 l` over the rigid members at these directions, the elastic ones as they are.
+/// Also how far the answer is from it, over the smallest singular value that counts, and the
+/// number of self-stresses.
+fn least(system: &System, solution: &Solution) -> (Vec<f64>, f64, usize) {
+    let directions = directions(system, solution);
+    let free: Vec<usize> =
+        (0..system.joints().len()).filter(|j| !system.joints()[*j].support.is_fixed()).collect();
+    let row = |joint: usize| free.iter().position(|f| *f == joint).map(|k| 3 * k);
+    let rigid: Vec<usize> = (0..system.members().len())
+        .filter(|m| system.members()[*m].stiffness_n.is_none())
+        .collect();
+    let mut matrix = DMatrix::zeros(3 * free.len(), rigid.len());
+    let mut right = DVector::zeros(3 * free.len());
+    for (joint, load) in loads(system).iter().enumerate() {
+        if let Some(at) = row(joint) {
+            right.rows_mut(at, 3).copy_from(load);
+        }
+    }
+    for (k, (member, (u, length))) in system.members().iter().zip(&directions).enumerate() {
+        for (joint, sign) in [(member.from, 1.0), (member.to, -1.0)] {
+            let Some(at) = row(joint) else { continue };
+            if let Some(column) = rigid.iter().position(|r| *r == k) {
+                let weight = member.body.length_m().sqrt().recip();
+                matrix.view_mut((at, column), (3, 1)).copy_from(&(-u * (sign * weight)));
+            } else {
+                let l = member.body.length_m();
+                let axial = member.stiffness_n.unwrap() * (length - l) / l;
+                let mut part = right.rows_mut(at, 3);
+                part += u * (sign * axial);
+            }
+        }
+    }
+    let svd = matrix.svd(true, true);
+    let most = svd.singular_values.max();
+    let counted = svd.singular_values.iter().filter(|s| **s > CUT * most);
+    let (rank, weakest) = (counted.clone().count(), counted.fold(most, |a, b| a.min(*b)));
+    let scaled = svd.solve(&right, CUT * most).unwrap();
+    let mut axial = solution.equilibrium.axial_n.clone();
+    for (column, &member) in rigid.iter().enumerate() {
+        axial[member] = scaled[column] / system.members()[member].body.length_m().sqrt();
+    }
+    (axial, most / weakest, rigid.len() - rank)
+}
+
+/// What is wrong with an answer of a frame of bars.
+pub fn faults(system: &System, solution: &Solution) -> Vec<String> {
+    let mut faults = Vec::new();
+    let axial_n = &solution.equilibrium.axial_n;
+    let (directions, loads) = (directions(system, solution), loads(system));
+    let count = loads.len() as f64;
+    let mean = loads.iter().map(|load| load.norm()).sum::<f64>() / count;
+    let mut left = loads.clone();
+    for ((member, axial), (u, length)) in system.members().iter().zip(axial_n).zip(&directions) {
+        left[member.from] += u * *axial;
+        left[member.to] -= u * *axial;
+        let misfit = (length - member.body.length_m()).abs();
+        if member.stiffness_n.is_none() && misfit > 1.001 * member.within_m() {
+            faults.push(format!("a length is off by {misfit:e}"));
+        }
+    }
+    for (joint, load) in system.joints().iter().zip(loads.iter().zip(&left)) {
+        let (load, left) = load;
+        if !joint.support.is_fixed() && left.norm() > 1e-9 * load.norm().max(mean) {
+            faults.push(format!("{} is out of balance by {:e}", joint.name, left.norm()));
+        }
+    }
+    let (least, condition, self_stresses) = least(system, solution);
+    let largest_load = loads.iter().map(|load| load.norm()).fold(0.0, f64::max);
+    for (member, (shown, least)) in axial_n.iter().zip(&least).enumerate() {
+        if (shown - least).abs() > 1e-6 * largest_load * condition.max(1.0) {
+            faults.push(format!("member {member} bears {shown} N, least {least} N"));
+        }
+    }
+    if solution.self_stresses.as_ref().is_some_and(|basis| basis.len() != self_stresses) {
+        faults.push(format!("not {self_stresses} self-stresses"));
+    }
+    if self_stresses > 0 && solution.forces != Forces::LeastNorm {
+        faults.push(format!("forces {:?}", solution.forces));
+    }
+    faults
+}
+
+fn all_frames(seeds: std::ops::Range<u64>, off: f64) -> impl Iterator<Item = System> {
+    seeds.flat_map(move |seed| {
+        DRAWS.into_iter().flat_map(move |draw| [false, true].map(|e| frame(seed, draw, e, off)))
+    })
+}
+
+/// Every frame of rounded lengths is answered, in balance, with the least forces.
+#[test]
+fn rounded_lengths_bear_only_the_loads() {
+    let (mut wrong, mut refused, mut answers) = (Vec::new(), Vec::new(), 0);
+    for system in all_frames(0..60, 0.0) {
+        match solve(&system, &Settings::default()) {
+            Ok(solution) => {
+                answers += 1;
+                let faults = faults(&system, &solution);
+                if !faults.is_empty() {
+                    wrong.push(format!("{}: {}", system.name(), faults.join(", ")));
+                }
+            }
+            Err(error) => refused.push(format!("{}: {error}", system.name())),
+        }
+    }
+    assert!(wrong.is_empty(), "{} of {answers}:\n{}", wrong.len(), wrong.join("\n"));
+    assert!(refused.is_empty(), "{} refused:\n{}", refused.len(), refused.join("\n"));
+}
