@@ -8,6 +8,7 @@
 use faer::{Mat, Side};
 use nalgebra::{Matrix3, Vector3};
 
+use super::decided::SHARP;
 use super::directions::Directions;
 use super::framework::{Framework, Node, across};
 use super::law::by_direction;
@@ -16,8 +17,6 @@ use super::solution::NO_FORCE;
 use super::state::State;
 use super::stiffness::Stiffness;
 
-/// A singular value below this fraction of the largest is zero.
-const RANK: f64 = 1e-9;
 /// A curvature below this fraction of the largest $|N|/d$ is zero, or, where elastic members are
 /// far stiffer, below their rounding.
 const FLAT: f64 = 1e-9;
@@ -236,7 +235,7 @@ fn kernels(rows: &Mat<f64>) -> Kernels {
     };
     let values = svd.S().column_vector();
     let largest = values[0];
-    let rank = (0..values.nrows()).filter(|&k| values[k] > RANK * largest).count();
+    let rank = (0..values.nrows()).filter(|&k| values[k] > SHARP * largest).count();
     let motions = svd.V().subcols(rank, width - rank).to_owned();
     let stresses = svd.U().subcols(rank, height - rank).to_owned();
     let beside = |k: usize| if largest > 0.0 { values[k] / largest } else { 0.0 };

@@ -14,6 +14,7 @@ use super::framework::{Framework, Link};
 use super::hanging::{FIRST_END, Hanging, LAST_END, SECOND_END};
 use super::law::by_direction;
 use super::newton::{Patience, Run, polish};
+use super::residual::Residual;
 use super::possible::{check, check_loaded, is_loaded, too_short};
 use super::second_order::SecondOrder;
 use super::seed::Seed;
@@ -240,10 +241,35 @@ impl<'a> Solver<'a> {
     fn at_cut(&mut self, state: State, patience: Patience, cut: f64) -> Result<Run, Error> {
         let mut decided = Decided::new(&self.framework, &state, cut)?;
         let run = self.at_signs(state, patience, Some(&mut decided))?;
+        let run = self.at_share(run, &mut decided);
         decided.renew(&self.framework, &run.state);
         let misfits = self.misfits(&run, &mut decided);
         let fits = misfits.iter().all(|misfit| misfit.misfit_m.abs() <= misfit.within_m);
         if fits { Ok(run) } else { Err(Error::Misfit { misfits }) }
+    }
+
+    /// The same equilibrium where the least forces are in balance as well. Near a singular shape
+    /// the ones found, with their self-stresses, balance a little beside it.
+    fn at_share(&mut self, run: Run, decided: &mut Decided) -> Run {
+        let mut state = run.state.clone();
+        decided.renew(&self.framework, &state);
+        state.axial = decided.share(&self.framework, &state.axial);
+        let (framework, stiffness) = (&self.framework, &mut self.stiffness);
+        let mut shared =
+            polish(framework, stiffness, &self.settings, state, Patience::Full, Some(decided));
+        self.factorisations += shared.steps;
+        if shared.residual.size().is_nan() || shared.residual.size() > self.settings.tolerance {
+            return run;
+        }
+        // Self-stresses count at the second order: those that were found stay.
+        decided.renew(framework, &shared.state);
+        let (found, least) = (&run.state.axial, decided.share(framework, &run.state.axial));
+        for (axial, (found, least)) in shared.state.axial.iter_mut().zip(found.iter().zip(least)) {
+            *axial += found - least;
+        }
+        let residual = Residual::within(framework, &shared.state, Some(decided));
+        let holds = residual.size() <= self.settings.tolerance;
+        if holds { Run { residual, ..shared } } else { run }
     }
 
     /// How far the members that overdetermine a shape are from their lengths there.

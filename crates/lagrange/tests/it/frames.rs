@@ -1,9 +1,9 @@
 //! Frames of rigid members whose lengths overdetermine the shape, against least squares by dense
 //! singular values (nalgebra) at the places of the answer.
 
-use lagrange::network::{Error, Forces, Settings, Solution, solve};
-use model::system::{Joint, Kind, Member, System};
-use model::{Bar, ForceRange};
+use lagrange::network::{Forces, Settings, Solution, solve};
+use model::system::{Joint, Member, System};
+use model::Bar;
 use nalgebra::{DMatrix, DVector, Vector3};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
