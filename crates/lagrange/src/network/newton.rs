@@ -95,7 +95,10 @@ pub(super) fn polish(
             Derivative::new(framework, stiffness, &run.state, &run.residual)
         };
         let step =
-            derivative.and_then(|d| d.solve(framework, stiffness, (forces, lengths), REFINED));
+            derivative.and_then(|d| {
+            let decided = decided.as_deref_mut();
+            d.solve(framework, stiffness, (forces, lengths), REFINED, decided)
+        });
         let Some((step, _)) = step else { break };
         run.steps += 1;
         let next = search(framework, &run, &step, done, decided.as_deref_mut());
@@ -190,13 +193,14 @@ impl Derivative {
 
     /// The step that takes unbalanced forces and misfits of the lengths away to first order, and
     /// the part of their norm that it leaves, once that is below `enough` or falls no further;
-    /// nothing when it leaves all.
+    /// nothing when it leaves all. Of misfits that no places take away nothing is left.
     pub fn solve(
         &self,
         framework: &Framework,
         stiffness: &mut Stiffness,
         (forces, lengths): (&[Vector3<f64>], &[f64]),
         enough: f64,
+        mut decided: Option<&mut Decided>,
     ) -> Option<(Step, f64)> {
         let mut step = Step {
             places: vec![Vector3::zeros(); framework.nodes.len()],
@@ -208,6 +212,9 @@ impl Derivative {
         for _ in 0..SWEEPS {
             let better = self.refined(&step, framework, stiffness, &left.0, &left.1);
             left = self.left(&better, framework, forces, lengths);
+            if let Some(decided) = decided.as_deref_mut() {
+                left.1 = decided.part(framework, &left.1);
+            }
             let size = size(framework, &left.0, &left.1, self.unit);
             if size.is_nan() || size >= last {
                 break;

@@ -37,6 +37,13 @@ const WORST_PUSH: f64 = 0.9;
 /// Forces of this many times the loads have a rounding of 1e-7 of these and more, which the places
 /// of near joints multiply.
 const ABSURD: f64 = 1e9;
+/// Starts of the search for places where lengths fit, the moves of joints for them in units of the
+/// mean length, and the part of its length by which a member may be off where it ends.
+const ASSEMBLIES: usize = 60;
+const ASSEMBLY_KICK: f64 = 2.0;
+const NEARLY: f64 = 1e-6;
+/// Self-stresses beyond this multiple of the least forces stiffen nothing more.
+const LARGE_STRESS: f64 = 10.0;
 /// A cable shorter than this part of its length is slack at the start.
 const SLACK_LENGTH: f64 = 1e-3;
 /// Tries to leave an unstable equilibrium, each by a small move of every joint.
@@ -121,7 +128,10 @@ fn hang(
         return Err(error);
     }
     let start = hanging.state(&solver.framework);
-    let run = solver.settled(&start, 0)?;
+    let run = match solver.settled(&start, 0) {
+        Err(refused @ Error::Misfit { .. }) => solver.assembled(&start).ok_or(refused)?,
+        other => other?,
+    };
     solver.stable(run)
 }
 
@@ -261,15 +271,22 @@ impl<'a> Solver<'a> {
         if shared.residual.size().is_nan() || shared.residual.size() > self.settings.tolerance {
             return run;
         }
-        // Self-stresses count at the second order: those that were found stay.
+        // Self-stresses count at the second order: those that were found stay, as long as the least
+        // forces are not rounded off beside them.
         decided.renew(framework, &shared.state);
-        let (found, least) = (&run.state.axial, decided.share(framework, &run.state.axial));
-        for (axial, (found, least)) in shared.state.axial.iter_mut().zip(found.iter().zip(least)) {
-            *axial += found - least;
+        let least = decided.share(framework, &run.state.axial);
+        let stresses = run.state.axial.iter().zip(least).map(|(found, least)| found - least);
+        let stresses: Vec<f64> = stresses.collect();
+        let size = |forces: &[f64]| forces.iter().fold(0.0_f64, |most, t| most.max(t.abs()));
+        let most = LARGE_STRESS * size(&shared.state.axial).max(framework.least_scale(&shared.state));
+        let part = (most / size(&stresses).max(most)).min(1.0);
+        let mut state = shared.state.clone();
+        for (axial, stress) in state.axial.iter_mut().zip(stresses) {
+            *axial += part * stress;
         }
-        let residual = Residual::within(framework, &shared.state, Some(decided));
-        let holds = residual.size() <= self.settings.tolerance;
-        if holds { Run { residual, ..shared } } else { run }
+        let found = polish(framework, stiffness, &self.settings, state, Patience::Full, Some(decided));
+        let holds = found.residual.size() <= self.settings.tolerance;
+        if holds { found } else { shared }
     }
 
     /// How far the members that overdetermine a shape are from their lengths there.
@@ -368,6 +385,29 @@ impl<'a> Solver<'a> {
             }
         }
         result
+    }
+
+    /// A rest where the lengths fit, from many starts: lengths that overdetermine a shape have many
+    /// places where no small move makes them fit better.
+    fn assembled(&mut self, from: &State) -> Option<Run> {
+        let mut start = from.clone();
+        // Only rigid bars have a length whatever they bear.
+        let rigid = |link: &Link| link.kind == Kind::Bar && link.compliance <= 0.0;
+        start.taut = self.framework.links.iter().map(rigid).collect();
+        (0..ASSEMBLIES).find_map(|kick| {
+            let fitted = self.fitted(self.kicked(&start, kick, ASSEMBLY_KICK));
+            let links = self.framework.links.iter().zip(&fitted.residual.lengths);
+            let fits = |(link, misfit): (&Link, &f64)| {
+                misfit.abs() <= link.within.max(NEARLY * link.length)
+            };
+            if !links.into_iter().all(fits) {
+                return None;
+            }
+            let mut state = fitted.state;
+            state.taut.clone_from(&from.taut);
+            state.axial = self.best_forces(&state);
+            self.with_signs(state, Patience::Full).ok()
+        })
     }
 
     /// Places near some where every member has a length at which it bears no force: with these a
