@@ -61,6 +61,7 @@
 //! | $D(p)$ | `Law` | span of a run |
 //! | $R$ | `rows` | derivative of the lengths of inextensible taut members by the places |
 
+mod admissible;
 mod coarse;
 mod cone;
 mod decided;

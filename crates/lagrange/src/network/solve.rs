@@ -188,7 +188,16 @@ fn by_runs(
     }
     let second_order = SecondOrder::in_tension(framework, &run.state)?;
     let factorisations = run.steps;
-    Some(solution((system, framework), settings, run, second_order, factorisations, began))
+    let found = Found {
+        residual: run.residual,
+        tolerance: settings.tolerance,
+        state: run.state,
+        factorisations,
+        second_order,
+        least: false,
+        solve_s: began.elapsed().as_secs_f64(),
+    };
+    Some(Solution::new(system, framework, found))
 }
 
 struct Solver<'a> {
@@ -265,7 +274,7 @@ impl<'a> Solver<'a> {
         decided.renew(&self.framework, &state);
         state.axial = decided.share(&self.framework, &state.axial);
         let (framework, stiffness) = (&self.framework, &mut self.stiffness);
-        let mut shared =
+        let shared =
             polish(framework, stiffness, &self.settings, state, Patience::Full, Some(decided));
         self.factorisations += shared.steps;
         if shared.residual.size().is_nan() || shared.residual.size() > self.settings.tolerance {
@@ -502,10 +511,38 @@ impl<'a> Solver<'a> {
         SecondOrder::new(&self.framework, &mut self.stiffness, state, dense)
     }
 
-    fn solution(self, run: Run, second_order: SecondOrder) -> Solution {
-        let (settings, factorisations) = (&self.settings, self.factorisations);
-        let of = (self.system, &self.framework);
-        solution(of, settings, run, second_order, factorisations, self.began)
+    fn solution(mut self, mut run: Run, second_order: SecondOrder) -> Solution {
+        let least = second_order.self_stresses.is_none() && self.shared(&mut run);
+        let found = Found {
+            residual: run.residual,
+            tolerance: self.settings.tolerance,
+            state: run.state,
+            factorisations: self.factorisations,
+            second_order,
+            least,
+            solve_s: self.began.elapsed().as_secs_f64(),
+        };
+        Solution::new(self.system, &self.framework, found)
+    }
+
+    /// Where lengths overdetermine the shape and no basis of self-stresses is at hand, the least
+    /// forces; whether they obey the signs and are the ones taken.
+    fn shared(&mut self, run: &mut Run) -> bool {
+        let Some(cut) = self.cuts(&run.state).pop() else { return false };
+        let Ok(mut decided) = Decided::new(&self.framework, &run.state, cut) else { return false };
+        let mut state = run.state.clone();
+        state.axial = decided.share(&self.framework, &state.axial);
+        let residual = Residual::within(&self.framework, &state, Some(&mut decided));
+        let next = Run { state, residual, steps: 0 };
+        let signs = signs_mended(&self.framework, &self.settings, &next, 0.0);
+        let directions = next.residual.directions.iter().map(|(u, _)| u);
+        let pushes = self.framework.pushes(directions, &next.state.axial);
+        let pulled = pushes.iter().any(|push| *push < -NO_FORCE * next.residual.unit);
+        let holds = next.residual.size() <= self.settings.tolerance && signs.is_none() && !pulled;
+        if holds {
+            *run = next;
+        }
+        holds
     }
 
     /// The state of a seed.
@@ -626,25 +663,6 @@ fn signs_mended(
         }
     }
     Some(state)
-}
-
-fn solution(
-    (system, framework): (&System, &Framework),
-    settings: &Settings,
-    run: Run,
-    second_order: SecondOrder,
-    factorisations: usize,
-    began: Instant,
-) -> Solution {
-    let found = Found {
-        residual: run.residual,
-        tolerance: settings.tolerance,
-        state: run.state,
-        factorisations,
-        second_order,
-        solve_s: began.elapsed().as_secs_f64(),
-    };
-    Solution::new(system, framework, found)
 }
 
 /// A fixed direction for each joint and each try, spread without pattern (golden ratios).
