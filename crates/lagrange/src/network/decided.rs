@@ -171,6 +171,25 @@ impl Decided {
         rows.map(|(((_, w), part), t)| if *w > 0.0 { w * part } else { *t }).collect()
     }
 
+    /// The axial forces with the least complementary energy that balance the loads best beside those
+    /// of elastic members, which stay.
+    pub fn bear(&mut self, framework: &Framework, axial: &[f64]) -> Vec<f64> {
+        let rows = self.rows.iter().zip(axial);
+        let mut forces: Vec<f64> =
+            rows.map(|((_, w), t)| if *w > 0.0 { 0.0 } else { *t }).collect();
+        for _ in 0..SWEEPS {
+            let pulls = self.rows.iter().zip(&forces).map(|((u, _), t)| u * *t);
+            let mut moves = self.stiffness.gather(framework, &framework.unbalance(pulls));
+            self.stiffness.solve(&mut moves);
+            let moves = self.stiffness.scatter(framework, &moves);
+            let rows = framework.links.iter().zip(&self.rows).zip(&mut forces);
+            for ((link, (u, w)), t) in rows {
+                *t += w * u.dot(&link.span(&moves));
+            }
+        }
+        forces
+    }
+
     /// The members that take part in a self-stress: the part of lengths without pattern that is in
     /// no shape shows them.
     pub fn members(&mut self, framework: &Framework) -> Vec<usize> {

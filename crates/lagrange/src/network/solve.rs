@@ -41,7 +41,7 @@ const ABSURD: f64 = 1e9;
 /// mean length, and the part of its length by which a member may be off where it ends.
 const ASSEMBLIES: usize = 60;
 const ASSEMBLY_KICK: f64 = 2.0;
-const NEARLY: f64 = 1e-6;
+const NEARLY: f64 = 1e-4;
 /// Self-stresses beyond this multiple of the least forces stiffen nothing more.
 const LARGE_STRESS: f64 = 10.0;
 /// A cable shorter than this part of its length is slack at the start.
@@ -129,8 +129,8 @@ fn hang(
     }
     let start = hanging.state(&solver.framework);
     let run = match solver.settled(&start, 0) {
-        Err(refused @ Error::Misfit { .. }) => solver.assembled(&start).ok_or(refused)?,
-        other => other?,
+        Err(error) => solver.assembled(&start, error)?,
+        Ok(run) => run,
     };
     solver.stable(run)
 }
@@ -225,9 +225,18 @@ impl<'a> Solver<'a> {
     fn with_signs(&mut self, start: State, patience: Patience) -> Result<Run, Error> {
         let mut refused = None;
         for cut in self.cuts(&start) {
-            match self.at_cut(start.clone(), patience, cut) {
-                Ok(run) => return Ok(run),
-                Err(error) => refused = clearer(refused, error),
+            // Misfits may have become forces on the way here: then once more without them.
+            let mut afresh = start.clone();
+            let mut decided = Decided::new(&self.framework, &start, cut)?;
+            afresh.axial = decided.bear(&self.framework, &start.axial);
+            for state in [start.clone(), afresh] {
+                match self.at_cut(state, patience, cut) {
+                    Ok(run) => return Ok(run),
+                    Err(error) => refused = clearer(refused, error),
+                }
+                if matches!(refused, Some(Error::Misfit { .. })) {
+                    break;
+                }
             }
         }
         let run = match self.at_signs(start, patience, None) {
@@ -398,25 +407,36 @@ impl<'a> Solver<'a> {
 
     /// A rest where the lengths fit, from many starts: lengths that overdetermine a shape have many
     /// places where no small move makes them fit better.
-    fn assembled(&mut self, from: &State) -> Option<Run> {
+    fn assembled(&mut self, from: &State, error: Error) -> Result<Run, Error> {
+        let mut refused = Some(error);
+        if self.cuts(from).is_empty() && !matches!(refused, Some(Error::Misfit { .. })) {
+            return refused.map_or(Err(Error::Unloaded), Err);
+        }
         let mut start = from.clone();
         // Only rigid bars have a length whatever they bear.
         let rigid = |link: &Link| link.kind == Kind::Bar && link.compliance <= 0.0;
         start.taut = self.framework.links.iter().map(rigid).collect();
-        (0..ASSEMBLIES).find_map(|kick| {
+        for kick in 0..ASSEMBLIES {
             let fitted = self.fitted(self.kicked(&start, kick, ASSEMBLY_KICK));
             let links = self.framework.links.iter().zip(&fitted.residual.lengths);
             let fits = |(link, misfit): (&Link, &f64)| {
                 misfit.abs() <= link.within.max(NEARLY * link.length)
             };
             if !links.into_iter().all(fits) {
-                return None;
+                continue;
             }
             let mut state = fitted.state;
             state.taut.clone_from(&from.taut);
             state.axial = self.best_forces(&state);
-            self.with_signs(state, Patience::Full).ok()
-        })
+            match self.with_signs(state, Patience::Full) {
+                Ok(run) => return Ok(run),
+                Err(error) => refused = clearer(refused, error),
+            }
+            if matches!(&refused, Some(Error::Misfit { misfits }) if nearly(misfits)) {
+                break;
+            }
+        }
+        Err(refused.unwrap_or(Error::Unloaded))
     }
 
     /// Places near some where every member has a length at which it bears no force: with these a
@@ -609,6 +629,13 @@ impl<'a> Solver<'a> {
 /// A misfit in units of what it may be.
 fn ratio(misfit: &Misfit) -> f64 {
     misfit.misfit_m.abs() / misfit.within_m
+}
+
+/// Whether misfits are those of lengths that do not fit, not of a search that has gone astray.
+fn nearly(misfits: &[Misfit]) -> bool {
+    misfits.iter().all(|misfit| {
+        misfit.misfit_m.abs() <= misfit.within_m * (NEARLY / model::system::LENGTH_ROUNDING)
+    })
 }
 
 /// Of two refusals the one that says more: the least misfit of all, before any other.
