@@ -26,7 +26,7 @@ use super::stiffness::Stiffness;
 /// plane by 1e-8. Its square is above the rounding of the matrix.
 pub(super) const SHARP: f64 = 1e-6;
 /// The widest one: motions beyond change lengths by an error that is no tolerance any more.
-const WIDEST: f64 = 1e-2;
+pub(super) const WIDEST: f64 = 1e-2;
 /// Sweeps of refinement: each leaves of what a motion of the singular value s changes the part
 /// cut²/(cut² + s²).
 const SWEEPS: usize = 8;

@@ -28,6 +28,9 @@ const PENALTY: f64 = 1e5;
 const SWEEPS: usize = 8;
 /// Refinement of a step ends when the residual of the linear system has fallen to this part.
 const REFINED: f64 = 3e-6;
+/// A sweep that leaves this part of what was left, as with a line that is nearly taut, has too small
+/// a correction: it is made so long that it leaves least.
+const POOR_SWEEP: f64 = 0.1;
 /// A step is accepted when the merit falls by this part of what the slope promises.
 const ARMIJO: f64 = 1e-4;
 /// A step is halved at most so many times.
@@ -209,13 +212,26 @@ impl Derivative {
         let mut left = (forces.to_vec(), lengths.to_vec());
         let first = size(framework, forces, lengths, self.unit);
         let mut last = f64::INFINITY;
-        for _ in 0..SWEEPS {
-            let better = self.refined(&step, framework, stiffness, &left.0, &left.1);
-            left = self.left(&better, framework, forces, lengths);
+        let mut leaves = |step: &Step| {
+            let mut left = self.left(step, framework, forces, lengths);
             if let Some(decided) = decided.as_deref_mut() {
                 left.1 = decided.part(framework, &left.1);
             }
             let size = size(framework, &left.0, &left.1, self.unit);
+            (left, size)
+        };
+        for _ in 0..SWEEPS {
+            let mut better = self.refined(&step, framework, stiffness, &left.0, &left.1);
+            let (mut leaves_now, mut size) = leaves(&better);
+            if size > POOR_SWEEP * POOR_SWEEP * last.min(first) {
+                let by = self.best_length(framework, &left, &leaves_now);
+                let longer = step.towards(&better, by);
+                let (leaves_longer, least) = leaves(&longer);
+                if least < size {
+                    (better, leaves_now, size) = (longer, leaves_longer, least);
+                }
+            }
+            left = leaves_now;
             if size.is_nan() || size >= last {
                 break;
             }
@@ -226,6 +242,22 @@ impl Derivative {
         }
         // A step that leaves all of the residual does not count.
         (last < first).then(|| (step, (last / first).sqrt()))
+    }
+
+    /// How many times a correction should be made, from what is left before and after one.
+    fn best_length(
+        &self,
+        framework: &Framework,
+        before: &(Vec<Vector3<f64>>, Vec<f64>),
+        after: &(Vec<Vector3<f64>>, Vec<f64>),
+    ) -> f64 {
+        let taken: Vec<_> = before.0.iter().zip(&after.0).map(|(b, a)| b - a).collect();
+        let shortened: Vec<_> = before.1.iter().zip(&after.1).map(|(b, a)| b - a).collect();
+        let nodes = framework.nodes.iter().zip(before.0.iter().zip(&taken));
+        let work = nodes.map(|(node, (b, t))| node.free.components(b).dot(&node.free.components(t)));
+        let of_forces = work.sum::<f64>() / (self.unit * self.unit);
+        let of_lengths: f64 = before.1.iter().zip(&shortened).map(|(b, s)| b * s).sum();
+        (of_forces + of_lengths) / size(framework, &taken, &shortened, self.unit)
     }
 
     /// The step plus the solution for what is left.
@@ -279,6 +311,16 @@ impl Derivative {
 }
 
 impl Step {
+    /// On the way from here to another step, in units of the way.
+    fn towards(&self, other: &Self, by: f64) -> Self {
+        let places = self.places.iter().zip(&other.places);
+        let axial = self.axial.iter().zip(&other.axial);
+        Self {
+            places: places.map(|(a, b)| a + (b - a) * by).collect(),
+            axial: axial.map(|(a, b)| a + (b - a) * by).collect(),
+        }
+    }
+
     fn applied(&self, state: &State, t: f64) -> State {
         let mut next = state.moved(&self.places, t);
         for (axial, step) in next.axial.iter_mut().zip(&self.axial) {

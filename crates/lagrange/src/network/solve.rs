@@ -6,7 +6,7 @@ use std::time::Instant;
 use model::system::{Kind, Misfit, System};
 use nalgebra::Vector3;
 
-use super::decided::{Decided, SHARP, cuts};
+use super::decided::{Decided, SHARP, WIDEST, cuts};
 use super::elements;
 use super::error::Error;
 use super::floor::{above, below};
@@ -37,6 +37,9 @@ const WORST_PUSH: f64 = 0.9;
 /// Forces of this many times the loads have a rounding of 1e-7 of these and more, which the places
 /// of near joints multiply.
 const ABSURD: f64 = 1e9;
+/// Residual at which misfits are looked at for the first time: they are known to about its square
+/// root where motions are weak, and to it elsewhere, and tolerances are 1e-9 and more.
+const MISFITS_SEEN: f64 = 1e-10;
 /// Starts of the search for places where lengths fit, the moves of joints for them in units of the
 /// mean length, and the part of its length by which a member may be off where it ends.
 const ASSEMBLIES: usize = 60;
@@ -239,9 +242,15 @@ impl<'a> Solver<'a> {
                 }
             }
         }
-        let run = match self.at_signs(start, patience, None) {
+        let overdetermined = refused.is_some();
+        let run = match self.at_signs(start.clone(), patience, None) {
             Ok(run) => run,
-            Err(error) => return Err(clearer(refused, error).unwrap_or(Error::Unloaded)),
+            Err(error) if !overdetermined => return Err(error),
+            // A flat frame whose lengths are far off is at best flat.
+            Err(_) => match self.at_cut(start, patience, WIDEST) {
+                Ok(run) => return Ok(run),
+                Err(error) => return Err(clearer(refused, error).unwrap_or(Error::Unloaded)),
+            },
         };
         // The place it has come to may be singular where the start was not.
         let cuts = self.cuts(&run.state);
@@ -268,10 +277,21 @@ impl<'a> Solver<'a> {
     /// The same at one cut; refused where lengths are off by more than their tolerances.
     fn at_cut(&mut self, state: State, patience: Patience, cut: f64) -> Result<Run, Error> {
         let mut decided = Decided::new(&self.framework, &state, cut)?;
-        let run = self.at_signs(state, patience, Some(&mut decided))?;
+        // Misfits show long before rounding.
+        let settings = self.settings;
+        self.settings.tolerance = settings.tolerance.max(MISFITS_SEEN);
+        let near = self.at_signs(state, patience, Some(&mut decided));
+        self.settings = settings;
+        let near = self.fitting(near?, &mut decided)?;
+        let run = self.at_signs(near.state, patience, Some(&mut decided))?;
         let run = self.at_share(run, &mut decided);
+        self.fitting(run, &mut decided)
+    }
+
+    /// Refuse a shape where lengths are off by more than their tolerances.
+    fn fitting(&self, run: Run, decided: &mut Decided) -> Result<Run, Error> {
         decided.renew(&self.framework, &run.state);
-        let misfits = self.misfits(&run, &mut decided);
+        let misfits = self.misfits(&run, decided);
         let fits = misfits.iter().all(|misfit| misfit.misfit_m.abs() <= misfit.within_m);
         if fits { Ok(run) } else { Err(Error::Misfit { misfits }) }
     }
