@@ -97,8 +97,7 @@ pub(super) fn polish(
         } else {
             Derivative::new(framework, stiffness, &run.state, &run.residual)
         };
-        let step =
-            derivative.and_then(|d| {
+        let step = derivative.and_then(|d| {
             let decided = decided.as_deref_mut();
             d.solve(framework, stiffness, (forces, lengths), REFINED, decided)
         });
@@ -254,7 +253,8 @@ impl Derivative {
         let taken: Vec<_> = before.0.iter().zip(&after.0).map(|(b, a)| b - a).collect();
         let shortened: Vec<_> = before.1.iter().zip(&after.1).map(|(b, a)| b - a).collect();
         let nodes = framework.nodes.iter().zip(before.0.iter().zip(&taken));
-        let work = nodes.map(|(node, (b, t))| node.free.components(b).dot(&node.free.components(t)));
+        let work =
+            nodes.map(|(node, (b, t))| node.free.components(b).dot(&node.free.components(t)));
         let of_forces = work.sum::<f64>() / (self.unit * self.unit);
         let of_lengths: f64 = before.1.iter().zip(&shortened).map(|(b, s)| b * s).sum();
         (of_forces + of_lengths) / size(framework, &taken, &shortened, self.unit)

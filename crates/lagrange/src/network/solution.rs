@@ -86,11 +86,8 @@ impl Solution {
         let size = residual.size();
         let Residual { forces: mut left, directions, .. } = residual;
         let basis = second_order.self_stresses.as_deref();
-        let forces = if least {
-            Forces::LeastNorm
-        } else {
-            choose(framework, &mut state, basis, tolerance)
-        };
+        let forces =
+            if least { Forces::LeastNorm } else { choose(framework, &mut state, basis, tolerance) };
         if forces == Forces::LeastNorm {
             let pulls = directions.iter().zip(&state.axial).map(|((u, _), axial)| u * *axial);
             left = framework.unbalance(pulls);

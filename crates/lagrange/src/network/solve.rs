@@ -1,62 +1,34 @@
 //! The solve: hang, settle, polish, and look at the second order.
 
-use std::iter;
 use std::time::Instant;
 
-use model::system::{Kind, Misfit, System};
+use model::system::{Kind, System};
 use nalgebra::Vector3;
 
-use super::decided::{Decided, SHARP, WIDEST, cuts};
 use super::elements;
 use super::error::Error;
 use super::floor::{above, below};
 use super::framework::{Framework, Link};
 use super::hanging::{FIRST_END, Hanging, LAST_END, SECOND_END};
 use super::law::by_direction;
-use super::newton::{Patience, Run, polish};
-use super::residual::Residual;
+use super::newton::{Patience, Run};
 use super::possible::{check, check_loaded, is_loaded, too_short};
+use super::readings::nearly;
 use super::second_order::SecondOrder;
 use super::seed::Seed;
 use super::settings::Settings;
 use super::settle::settle;
-use super::solution::{Found, NO_FORCE, Solution};
+use super::signs::signs_mended;
+use super::solution::{Found, Solution};
 use super::state::State;
 use super::stiffness::Stiffness;
 
-/// Changes of the set of taut members before the iteration counts as failed.
-const SIGN_CHANGES: usize = 30;
-/// Residual at which signs are looked at for the first time: far above rounding, so that a wrong
-/// one costs few steps, and far below the forces that are likely.
-const SIGNS_SEEN: f64 = 1e-6;
-/// At the first changes only members that push this part of the worst push, or more, are made
-/// slack: that relieves their neighbours. Where all are, along the edge of a net that hangs from
-/// its corners, those that ought not come back one by one (12 changes in the place of 2).
-const CAREFUL_CHANGES: usize = 4;
-const WORST_PUSH: f64 = 0.9;
-/// Forces of this many times the loads have a rounding of 1e-7 of these and more, which the places
-/// of near joints multiply.
-const ABSURD: f64 = 1e9;
-/// Residual at which misfits are looked at for the first time: they are known to about its square
-/// root where motions are weak, and to it elsewhere, and tolerances are 1e-9 and more.
-const MISFITS_SEEN: f64 = 1e-10;
-/// Starts of the search for places where lengths fit, the moves of joints for them in units of the
-/// mean length, and the part of its length by which a member may be off where it ends.
-const ASSEMBLIES: usize = 60;
-const ASSEMBLY_KICK: f64 = 2.0;
-const NEARLY: f64 = 1e-4;
-/// Self-stresses beyond this multiple of the least forces stiffen nothing more.
-const LARGE_STRESS: f64 = 10.0;
 /// A cable shorter than this part of its length is slack at the start.
 const SLACK_LENGTH: f64 = 1e-3;
 /// Tries to leave an unstable equilibrium, each by a small move of every joint.
 const ESCAPES: usize = 4;
 /// Such moves, in units of the mean length: the next one where the last one led nowhere.
-const KICKS: [f64; 5] = [0.01, 0.1, 0.5, 1.0, 2.0];
-/// Ridge of the least squares for lengths, in units of their largest error.
-const LENGTH_RIDGE: f64 = 0.1;
-/// A step of these is halved at most so many times.
-const LENGTH_HALVINGS: i32 = 24;
+pub(super) const KICKS: [f64; 5] = [0.01, 0.1, 0.5, 1.0, 2.0];
 /// A system without loads whose elastic members all bear less than this part of their stiffness is
 /// not prestressed: that much is rounding.
 const NO_STRAIN: f64 = 1e-12;
@@ -203,12 +175,13 @@ fn by_runs(
     Some(Solution::new(system, framework, found))
 }
 
-struct Solver<'a> {
-    system: &'a System,
-    settings: Settings,
-    framework: Framework,
-    stiffness: Stiffness,
-    factorisations: usize,
+/// A solve under way.
+pub(super) struct Solver<'a> {
+    pub system: &'a System,
+    pub settings: Settings,
+    pub framework: Framework,
+    pub stiffness: Stiffness,
+    pub factorisations: usize,
     began: Instant,
 }
 
@@ -221,185 +194,6 @@ impl<'a> Solver<'a> {
         began: Instant,
     ) -> Self {
         Self { system, settings, framework, stiffness, factorisations: 0, began }
-    }
-
-    /// Newton's method: where lengths overdetermine the shape with the part of them that places
-    /// decide, first as far as tolerances allow.
-    fn with_signs(&mut self, start: State, patience: Patience) -> Result<Run, Error> {
-        let mut refused = None;
-        for cut in self.cuts(&start) {
-            // Misfits may have become forces on the way here: then once more without them.
-            let mut afresh = start.clone();
-            let mut decided = Decided::new(&self.framework, &start, cut)?;
-            afresh.axial = decided.bear(&self.framework, &start.axial);
-            for state in [start.clone(), afresh] {
-                match self.at_cut(state, patience, cut) {
-                    Ok(run) => return Ok(run),
-                    Err(error) => refused = clearer(refused, error),
-                }
-                if matches!(refused, Some(Error::Misfit { .. })) {
-                    break;
-                }
-            }
-        }
-        let overdetermined = refused.is_some();
-        let run = match self.at_signs(start.clone(), patience, None) {
-            Ok(run) => run,
-            Err(error) if !overdetermined => return Err(error),
-            // A flat frame whose lengths are far off is at best flat.
-            Err(_) => match self.at_cut(start, patience, WIDEST) {
-                Ok(run) => return Ok(run),
-                Err(error) => return Err(clearer(refused, error).unwrap_or(Error::Unloaded)),
-            },
-        };
-        // The place it has come to may be singular where the start was not.
-        let cuts = self.cuts(&run.state);
-        for &cut in &cuts {
-            let mut state = run.state.clone();
-            state.axial = Decided::new(&self.framework, &state, cut)?.share(&self.framework, &state.axial);
-            match self.at_cut(state, patience, cut) {
-                Ok(run) => return Ok(run),
-                Err(error) => refused = clearer(refused, error),
-            }
-        }
-        match refused {
-            Some(error) if cuts.contains(&SHARP) => Err(error),
-            _ => Ok(run),
-        }
-    }
-
-    fn cuts(&mut self, state: &State) -> Vec<f64> {
-        let (cuts, factorisations) = cuts(&self.framework, &mut self.stiffness, state);
-        self.factorisations += factorisations;
-        cuts
-    }
-
-    /// The same at one cut; refused where lengths are off by more than their tolerances.
-    fn at_cut(&mut self, state: State, patience: Patience, cut: f64) -> Result<Run, Error> {
-        let mut decided = Decided::new(&self.framework, &state, cut)?;
-        // Misfits show long before rounding.
-        let settings = self.settings;
-        self.settings.tolerance = settings.tolerance.max(MISFITS_SEEN);
-        let near = self.at_signs(state, patience, Some(&mut decided));
-        self.settings = settings;
-        let near = self.fitting(near?, &mut decided)?;
-        let run = self.at_signs(near.state, patience, Some(&mut decided))?;
-        let run = self.at_share(run, &mut decided);
-        self.fitting(run, &mut decided)
-    }
-
-    /// Refuse a shape where lengths are off by more than their tolerances.
-    fn fitting(&self, run: Run, decided: &mut Decided) -> Result<Run, Error> {
-        decided.renew(&self.framework, &run.state);
-        let misfits = self.misfits(&run, decided);
-        let fits = misfits.iter().all(|misfit| misfit.misfit_m.abs() <= misfit.within_m);
-        if fits { Ok(run) } else { Err(Error::Misfit { misfits }) }
-    }
-
-    /// The same equilibrium where the least forces are in balance as well. Near a singular shape
-    /// the ones found, with their self-stresses, balance a little beside it.
-    fn at_share(&mut self, run: Run, decided: &mut Decided) -> Run {
-        let mut state = run.state.clone();
-        decided.renew(&self.framework, &state);
-        state.axial = decided.share(&self.framework, &state.axial);
-        let (framework, stiffness) = (&self.framework, &mut self.stiffness);
-        let shared =
-            polish(framework, stiffness, &self.settings, state, Patience::Full, Some(decided));
-        self.factorisations += shared.steps;
-        if shared.residual.size().is_nan() || shared.residual.size() > self.settings.tolerance {
-            return run;
-        }
-        // Self-stresses count at the second order: those that were found stay, as long as the least
-        // forces are not rounded off beside them.
-        decided.renew(framework, &shared.state);
-        let least = decided.share(framework, &run.state.axial);
-        let stresses = run.state.axial.iter().zip(least).map(|(found, least)| found - least);
-        let stresses: Vec<f64> = stresses.collect();
-        let size = |forces: &[f64]| forces.iter().fold(0.0_f64, |most, t| most.max(t.abs()));
-        let most = LARGE_STRESS * size(&shared.state.axial).max(framework.least_scale(&shared.state));
-        let part = (most / size(&stresses).max(most)).min(1.0);
-        let mut state = shared.state.clone();
-        for (axial, stress) in state.axial.iter_mut().zip(stresses) {
-            *axial += part * stress;
-        }
-        let found = polish(framework, stiffness, &self.settings, state, Patience::Full, Some(decided));
-        let holds = found.residual.size() <= self.settings.tolerance;
-        if holds { found } else { shared }
-    }
-
-    /// How far the members that overdetermine a shape are from their lengths there.
-    fn misfits(&self, run: &Run, decided: &mut Decided) -> Vec<Misfit> {
-        let (framework, unit) = (&self.framework, self.framework.units.length_m);
-        let misfit = |member: usize| {
-            let link = &framework.links[member];
-            let misfit_m = (run.residual.directions[member].1 - link.length) * unit;
-            Misfit { member, misfit_m, within_m: link.within * unit }
-        };
-        let mut misfits: Vec<_> = decided.members(framework).into_iter().map(misfit).collect();
-        misfits.sort_by(|a, b| ratio(b).total_cmp(&ratio(a)));
-        misfits
-    }
-
-    /// Refuse forces that only rounding decides.
-    fn not_absurd(&self, run: Run) -> Result<Run, Error> {
-        let (framework, axial) = (&self.framework, &run.state.axial);
-        let elastic = framework.links.iter().zip(axial).filter(|(link, _)| link.compliance > 0.0);
-        let borne = elastic.map(|(_, axial)| axial.abs());
-        let loads = framework.nodes.iter().map(|node| node.load.norm());
-        let scale = borne.chain(loads).fold(framework.least_scale(&run.state), f64::max);
-        let worst = (0..axial.len()).max_by(|a, b| axial[*a].abs().total_cmp(&axial[*b].abs()));
-        match worst {
-            Some(member) if axial[member].abs() > ABSURD * scale => Err(Error::Absurd {
-                member,
-                force_n: axial[member] * framework.units.force_n,
-                ratio: axial[member].abs() / scale,
-            }),
-            _ => Ok(run),
-        }
-    }
-
-    /// Newton's method, with the set of taut members changed until all signs are right.
-    fn at_signs(
-        &mut self,
-        mut state: State,
-        patience: Patience,
-        mut decided: Option<&mut Decided>,
-    ) -> Result<Run, Error> {
-        let settings = self.settings;
-        let one_sided = self.framework.links.iter().any(|link| link.kind != Kind::Bar);
-        let mut tight = !one_sided;
-        for change in 0..SIGN_CHANGES {
-            let tolerance =
-                if tight { settings.tolerance } else { settings.tolerance.max(SIGNS_SEEN) };
-            let settings = Settings { tolerance, ..settings };
-            if let Some(decided) = decided.as_deref_mut() {
-                decided.renew(&self.framework, &state);
-            }
-            let run = polish(
-                &self.framework,
-                &mut self.stiffness,
-                &settings,
-                state,
-                patience,
-                decided.as_deref_mut(),
-            );
-            self.factorisations += run.steps;
-            if run.residual.size().is_nan() || run.residual.size() > tolerance {
-                let (system, framework) = (self.system, &self.framework);
-                return Err(run.residual.not_converged(system, framework, self.factorisations));
-            }
-            let share = if change < CAREFUL_CHANGES { WORST_PUSH } else { 0.0 };
-            state = match signs_mended(&self.framework, &self.settings, &run, share) {
-                Some(next) => next,
-                None if tight => return self.not_absurd(run),
-                None => {
-                    tight = true;
-                    run.state
-                }
-            };
-        }
-        let run = Run::at(&self.framework, state);
-        Err(run.residual.not_converged(self.system, &self.framework, self.factorisations))
     }
 
     /// A rest of the true members near a state, moved a little: the shape as cables is often a
@@ -418,110 +212,16 @@ impl<'a> Solver<'a> {
             }
             let fits = rest.fits;
             result = self.with_signs(rest.state, Patience::Full);
-            if fits && result.is_ok() {
+            let never_fits = matches!(&result, Err(Error::Misfit { misfits }) if nearly(&self.framework, misfits));
+            if never_fits || (fits && result.is_ok()) {
                 break;
             }
         }
         result
     }
 
-    /// A rest where the lengths fit, from many starts: lengths that overdetermine a shape have many
-    /// places where no small move makes them fit better.
-    fn assembled(&mut self, from: &State, error: Error) -> Result<Run, Error> {
-        let mut refused = Some(error);
-        if self.cuts(from).is_empty() && !matches!(refused, Some(Error::Misfit { .. })) {
-            return refused.map_or(Err(Error::Unloaded), Err);
-        }
-        let mut start = from.clone();
-        // Only rigid bars have a length whatever they bear.
-        let rigid = |link: &Link| link.kind == Kind::Bar && link.compliance <= 0.0;
-        start.taut = self.framework.links.iter().map(rigid).collect();
-        for kick in 0..ASSEMBLIES {
-            let fitted = self.fitted(self.kicked(&start, kick, ASSEMBLY_KICK));
-            let links = self.framework.links.iter().zip(&fitted.residual.lengths);
-            let fits = |(link, misfit): (&Link, &f64)| {
-                misfit.abs() <= link.within.max(NEARLY * link.length)
-            };
-            if !links.into_iter().all(fits) {
-                continue;
-            }
-            let mut state = fitted.state;
-            state.taut.clone_from(&from.taut);
-            state.axial = self.best_forces(&state);
-            match self.with_signs(state, Patience::Full) {
-                Ok(run) => return Ok(run),
-                Err(error) => refused = clearer(refused, error),
-            }
-            if matches!(&refused, Some(Error::Misfit { misfits }) if nearly(misfits)) {
-                break;
-            }
-        }
-        Err(refused.unwrap_or(Error::Unloaded))
-    }
-
-    /// Places near some where every member has a length at which it bears no force: with these a
-    /// rest, and none has less energy, where no load acts along a free direction.
-    fn without_forces(&mut self, places: &[Vector3<f64>]) -> Option<Run> {
-        let bars = self.framework.links.iter().map(|link| link.kind == Kind::Bar);
-        let none = vec![0.0; self.framework.links.len()];
-        let start = State::new(places.to_vec(), none, bars.collect());
-        let sizes = iter::once(0.0).chain(KICKS).enumerate();
-        sizes.into_iter().find_map(|(kick, size)| {
-            let mut run = self.fitted(self.kicked(&start, kick, size));
-            for _ in 0..SIGN_CHANGES {
-                if run.residual.size() > self.settings.tolerance {
-                    return None;
-                }
-                match signs_mended(&self.framework, &self.settings, &run, 0.0) {
-                    Some(next) => run = self.fitted(next),
-                    None => return Some(run),
-                }
-            }
-            None
-        })
-    }
-
-    /// The lengths alone, by least squares (Levenberg and Marquardt): where they say nothing about
-    /// a direction no joint moves along it.
-    fn fitted(&mut self, state: State) -> Run {
-        let mut run = Run::at(&self.framework, state);
-        for _ in 0..self.settings.max_iterations {
-            let step = self.length_step(&run);
-            let mut sizes = (0..LENGTH_HALVINGS).map(|k| 0.5_f64.powi(k));
-            let better = sizes.find_map(|t| {
-                let next = Run::at(&self.framework, run.state.moved(&step, t));
-                (next.residual.merit < run.residual.merit).then_some(next)
-            });
-            let Some(better) = better else { break };
-            run = better;
-        }
-        run
-    }
-
-    /// One step towards the lengths of the taut members. The ridge falls with the error, so that
-    /// steps become Newton's, also where two places with the right lengths are about to meet.
-    fn length_step(&mut self, run: &Run) -> Vec<Vector3<f64>> {
-        let residual = &run.residual;
-        let along = |k: usize| f64::from(u8::from(run.state.taut[k]));
-        let directions = residual.directions.iter().enumerate();
-        let blocks = directions.map(|(k, (u, _))| by_direction(u, 0.0, along(k)));
-        self.stiffness.assemble(&self.framework, blocks);
-        self.stiffness.shift(LENGTH_RIDGE * residual.length.0);
-        self.stiffness.factorise_definite();
-        self.factorisations += 1;
-        let mut moves = vec![Vector3::zeros(); self.framework.nodes.len()];
-        let links = self.framework.links.iter().zip(&residual.directions);
-        for ((link, (u, _)), misfit) in links.zip(&residual.lengths) {
-            moves[link.from] -= u * *misfit;
-            moves[link.to] += u * *misfit;
-        }
-        let mut moves = self.stiffness.gather(&self.framework, &moves);
-        self.stiffness.solve(&mut moves);
-        self.stiffness.scatter(&self.framework, &moves)
-    }
-
     /// The state with every joint moved along its free directions, by up to this size.
-    fn kicked(&self, from: &State, kick: usize, size: f64) -> State {
+    pub fn kicked(&self, from: &State, kick: usize, size: f64) -> State {
         let mut state = State::new(from.places.clone(), from.axial.clone(), from.taut.clone());
         let joints = state.places.iter_mut().zip(&self.framework.nodes).enumerate();
         for (joint, (place, node)) in joints {
@@ -563,26 +263,6 @@ impl<'a> Solver<'a> {
             solve_s: self.began.elapsed().as_secs_f64(),
         };
         Solution::new(self.system, &self.framework, found)
-    }
-
-    /// Where lengths overdetermine the shape and no basis of self-stresses is at hand, the least
-    /// forces; whether they obey the signs and are the ones taken.
-    fn shared(&mut self, run: &mut Run) -> bool {
-        let Some(cut) = self.cuts(&run.state).pop() else { return false };
-        let Ok(mut decided) = Decided::new(&self.framework, &run.state, cut) else { return false };
-        let mut state = run.state.clone();
-        state.axial = decided.share(&self.framework, &state.axial);
-        let residual = Residual::within(&self.framework, &state, Some(&mut decided));
-        let next = Run { state, residual, steps: 0 };
-        let signs = signs_mended(&self.framework, &self.settings, &next, 0.0);
-        let directions = next.residual.directions.iter().map(|(u, _)| u);
-        let pushes = self.framework.pushes(directions, &next.state.axial);
-        let pulled = pushes.iter().any(|push| *push < -NO_FORCE * next.residual.unit);
-        let holds = next.residual.size() <= self.settings.tolerance && signs.is_none() && !pulled;
-        if holds {
-            *run = next;
-        }
-        holds
     }
 
     /// The state of a seed.
@@ -630,7 +310,7 @@ impl<'a> Solver<'a> {
     }
 
     /// Axial forces that leave the joints least out of balance.
-    fn best_forces(&mut self, state: &State) -> Vec<f64> {
+    pub fn best_forces(&mut self, state: &State) -> Vec<f64> {
         let directions = state.directions(&self.framework);
         let blocks = directions.iter().map(|(u, _)| by_direction(u, 0.0, 1.0));
         self.stiffness.assemble(&self.framework, blocks);
@@ -644,72 +324,6 @@ impl<'a> Solver<'a> {
         let links = self.framework.links.iter().zip(&directions);
         links.map(|(link, (u, _))| u.dot(&link.span(&moves))).collect()
     }
-}
-
-/// A misfit in units of what it may be.
-fn ratio(misfit: &Misfit) -> f64 {
-    misfit.misfit_m.abs() / misfit.within_m
-}
-
-/// Whether misfits are those of lengths that do not fit, not of a search that has gone astray.
-fn nearly(misfits: &[Misfit]) -> bool {
-    misfits.iter().all(|misfit| {
-        misfit.misfit_m.abs() <= misfit.within_m * (NEARLY / model::system::LENGTH_ROUNDING)
-    })
-}
-
-/// Of two refusals the one that says more: the least misfit of all, before any other.
-fn clearer(before: Option<Error>, error: Error) -> Option<Error> {
-    let size = |error: &Error| match error {
-        Error::Misfit { misfits } => misfits.first().map_or(0.0, ratio),
-        _ => f64::INFINITY,
-    };
-    Some(match before {
-        Some(before) if size(&before) <= size(&error) => before,
-        _ => error,
-    })
-}
-
-/// The state with cables that push made slack and slack ones that are too long made taut,
-/// struts the other way round; nothing when there are none. Of those that push only the ones that
-/// push at least this share of the worst.
-fn signs_mended(
-    framework: &Framework,
-    settings: &Settings,
-    run: &Run,
-    share: f64,
-) -> Option<State> {
-    let state = &run.state;
-    let least = NO_FORCE.max(run.residual.size()) * run.residual.unit;
-    let longer = settings.tolerance.max(run.residual.size());
-    let wrong = |(k, link): (usize, &Link)| {
-        if link.kind == Kind::Bar {
-            return None;
-        }
-        let axial = state.axial[k];
-        let excess = run.residual.directions[k].1 - link.length;
-        let outside = if link.kind == Kind::Cable { excess } else { -excess };
-        let pushes = state.taut[k] && axial.abs() > least && !link.bears(axial);
-        let reaches = !state.taut[k] && outside > longer * link.length;
-        (pushes || reaches).then_some(k)
-    };
-    let wrong: Vec<usize> = framework.links.iter().enumerate().filter_map(wrong).collect();
-    if wrong.is_empty() {
-        return None;
-    }
-    let pushing = wrong.iter().filter(|k| state.taut[**k]);
-    let enough = share * pushing.map(|k| state.axial[*k].abs()).fold(0.0, f64::max);
-    let mut state = state.clone();
-    for k in wrong {
-        if state.taut[k] && state.axial[k].abs() < enough {
-            continue;
-        }
-        state.taut[k] = !state.taut[k];
-        if !state.taut[k] {
-            state.axial[k] = 0.0;
-        }
-    }
-    Some(state)
 }
 
 /// A fixed direction for each joint and each try, spread without pattern (golden ratios).
