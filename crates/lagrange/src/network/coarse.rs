@@ -97,6 +97,7 @@ fn refine(
             from,
             to,
             length,
+            within: 0.0,
             compliance: group.iter().map(|step| step.compliance).sum(),
             kind: if cable { Kind::Cable } else { Kind::Bar },
         });

@@ -273,7 +273,8 @@ impl<'a> Derivatives<'a> {
             return Ok(self.none());
         }
         let sides = (forces, lengths.as_slice());
-        let solved = self.derivative.solve(&self.framework, &mut self.stiffness, sides, ROUNDING);
+        let solved =
+            self.derivative.solve(&self.framework, &mut self.stiffness, sides, ROUNDING, None);
         match solved {
             Some((step, left)) if left <= SOLVED => Ok(step),
             Some((_, left)) => Err(Error::NoDerivative { left }),

@@ -164,6 +164,7 @@ impl<'a> Shape<'a> {
             from: element.from,
             to: element.to,
             length: runs.steps[element.steps.clone()].iter().map(|step| step.length).sum(),
+            within: 0.0,
             compliance: 0.0,
             kind: Kind::Bar,
         });

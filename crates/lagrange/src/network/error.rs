@@ -1,5 +1,6 @@
 //! What can go wrong in a solve of a system.
 
+use model::system::Misfit;
 use serde::Serialize;
 
 use super::settings::SettingsError;
@@ -86,20 +87,42 @@ pub enum Error {
     Unloaded,
     /// Occurs when the iteration ends before balance and lengths hold.
     #[error(
-        "not converged after {iterations} factorisations: balance of {joint} is off by {unbalance:.3e} of the \
-         largest force, the length of member {member} by {misfit_m:.3e} m"
+        "not converged after {iterations} factorisations: balance of {joint} is off by {unbalance:.3e} of \
+         the loads there, the length of member {member} by {misfit_m:.3e} m"
     )]
     NotConverged {
         /// Sparse factorisations.
         iterations: usize,
         /// Name of the joint that is least in balance.
         joint: String,
-        /// What is left there, in units of the largest force.
+        /// What is left there, in units of the loads of the joint (of the mean load, where that is
+        /// more).
         unbalance: f64,
         /// Number of the member whose length is furthest off, from 0.
         member: usize,
         /// How far, m.
         misfit_m: f64,
+    },
+    /// Occurs when the lengths of inextensible members overdetermine the shape, and the shape that
+    /// meets them best is off by more than their tolerances.
+    #[error("{}", misfit_text(misfits))]
+    Misfit {
+        /// The members that overdetermine the shape, the largest misfit for its tolerance first.
+        misfits: Vec<Misfit>,
+    },
+    /// Occurs when forces are so large beside the loads that rounding of them is no small part of
+    /// the loads: nothing but rounding decides them.
+    #[error(
+        "member {member} would bear {force_n:.3e} N, {ratio:.1e} times the loads: so near to a singular shape \
+         the forces are not decided by numbers of sixteen digits"
+    )]
+    Absurd {
+        /// Number of the member, from 0.
+        member: usize,
+        /// Its axial force, N.
+        force_n: f64,
+        /// Its size over the loads and what elastic members bear.
+        ratio: f64,
     },
     /// Occurs when the set of joints that lie on the floor does not settle.
     #[error("which joints lie on the floor is still open after {rounds} rounds")]
@@ -135,4 +158,22 @@ pub enum Error {
         /// Name of the joint.
         joint: String,
     },
+}
+
+fn misfit_text(misfits: &[Misfit]) -> String {
+    let Some(worst) = misfits.first() else {
+        return "the lengths of inextensible members do not fit together".into();
+    };
+    let beyond = misfits.iter().filter(|misfit| misfit.misfit_m.abs() > misfit.within_m);
+    let more = match beyond.count().saturating_sub(1) {
+        0 => String::new(),
+        1 => ", and one more is off".into(),
+        more => format!(", and {more} more are off"),
+    };
+    format!(
+        "rigid members have lengths that fit no shape: at best the ends of member {} are {:.3e} m further apart \
+         than its length, and it may be off by {:.3e} m{more}; say how far the lengths are known \
+         (length_tolerance_m), or how stiff the members are (stiffness_n)",
+        worst.member, worst.misfit_m, worst.within_m
+    )
 }

@@ -15,6 +15,7 @@ use std::collections::VecDeque;
 use model::system::{System, SystemEquilibrium};
 use nalgebra::{Matrix3, Vector3};
 
+use super::decided::{Decided, SHARP};
 use super::directions::Directions;
 use super::error::Error;
 use super::framework::{Framework, Lying, Node, across};
@@ -29,9 +30,9 @@ use super::stiffness::Stiffness;
 /// ends where the estimate of how many are lifted goes to and fro.
 const ROUNDS: usize = 200;
 const TOGETHER: usize = 30;
-/// A joint this part of the mean length above or below the floor touches it: lengths are right to
-/// that.
-const ON_FLOOR: f64 = 1e-12;
+/// A joint touches the floor where its height is that of the floor to so many roundings of the
+/// largest coordinate.
+const ON_FLOOR: f64 = 8.0 * f64::EPSILON;
 /// A self-stress, of unit norm, that presses less than this on the floor does not press on it.
 const NO_PUSH: f64 = 1e-9;
 /// A free direction that rises less than this is level: the floor cannot hold it.
@@ -106,7 +107,7 @@ fn open_pushes(
     solution: &Solution,
 ) -> Option<Vec<bool>> {
     let floor_m = system.floor_m()?;
-    let depth_m = ON_FLOOR * framework.units.length_m;
+    let depth_m = ON_FLOOR * largest_coordinate_m(&solution.equilibrium, floor_m);
     let joints = framework.nodes.iter().zip(&solution.equilibrium.joints_m);
     let touches = joints.zip(lies).map(|((node, at_m), lies)| {
         *lies || ((floor_m - at_m[2]).abs() <= depth_m && lift(node).is_some())
@@ -145,15 +146,22 @@ fn with_open_pushes(
     let state = State::of(&laid, &solution);
     let mut stiffness = Stiffness::new(&laid, false)?;
     let second_order = SecondOrder::new(&laid, &mut stiffness, &state, settings.dense_freedoms);
+    let mut decided = Decided::new(&laid, &state, SHARP)?;
     let found = Found {
-        residual: Residual::new(&laid, &state),
+        residual: Residual::within(&laid, &state, Some(&mut decided)),
         state,
         tolerance: settings.tolerance,
         factorisations: solution.factorisations,
         second_order,
+        least: false,
         solve_s: solution.equilibrium.evidence.solve_s,
     };
     Ok(Solution::new(system, &laid, found))
+}
+
+/// Largest coordinate of a joint or the floor, m.
+fn largest_coordinate_m(answer: &SystemEquilibrium, floor_m: f64) -> f64 {
+    answer.joints_m.iter().flatten().fold(floor_m.abs(), |most, x| most.max(x.abs()))
 }
 
 /// Largest force of a member or load, N.
@@ -212,7 +220,7 @@ fn mended(
     together: bool,
 ) -> Vec<bool> {
     let floor_m = system.floor_m().unwrap_or(f64::NEG_INFINITY);
-    let depth_m = ON_FLOOR * framework.units.length_m;
+    let depth_m = ON_FLOOR * largest_coordinate_m(answer, floor_m);
     let least_n = NO_FORCE * largest_n(framework, answer);
     let mut next = lies.to_vec();
     let mut pulled = Vec::new();

@@ -10,6 +10,8 @@ use model::system::{Joint, Kind, Member, Support, System};
 use nalgebra::{Matrix3, Vector3};
 
 use super::directions::Directions;
+use super::possible::is_loaded;
+use super::state::State;
 
 /// A strain of prestressed members: the unit of force of a system without loads need only be near
 /// its forces.
@@ -42,6 +44,8 @@ pub(super) struct Link {
     pub to: usize,
     /// Unstretched length.
     pub length: f64,
+    /// How far the length may be off.
+    pub within: f64,
     /// Elongation by a unit of axial force, `l / EA`; zero when inextensible.
     pub compliance: f64,
     /// Which sign of axial force it can have.
@@ -141,6 +145,17 @@ impl Framework {
         Some(if link.bears(force) { force } else { 0.0 })
     }
 
+    /// What forces at a joint are measured against at least: the mean load, which is the unit; in
+    /// a system without loads the largest force that an elastic member bears.
+    pub fn least_scale(&self, state: &State) -> f64 {
+        if is_loaded(self) {
+            return 1.0;
+        }
+        let elastic = self.links.iter().zip(&state.axial).filter(|(link, _)| link.compliance > 0.0);
+        let borne = elastic.map(|(_, axial)| axial.abs()).fold(0.0, f64::max);
+        borne.max(f64::MIN_POSITIVE)
+    }
+
     /// Sum of the pulls of all members and of the load at each joint; `pulls` are the forces with
     /// which the members pull their first joint towards their last.
     pub fn unbalance(&self, pulls: impl Iterator<Item = Vector3<f64>>) -> Vec<Vector3<f64>> {
@@ -236,6 +251,7 @@ fn link(member: &Member, units: Units) -> Link {
         from: member.from,
         to: member.to,
         length,
+        within: member.within_m() / units.length_m,
         compliance: member.stiffness_n.map_or(0.0, |stiffness| length * units.force_n / stiffness),
         kind: member.kind,
     }

@@ -61,8 +61,11 @@
 //! | $D(p)$ | `Law` | span of a run |
 //! | $R$ | `rows` | derivative of the lengths of inextensible taut members by the places |
 
+mod admissible;
+mod assembly;
 mod coarse;
 mod cone;
+mod decided;
 mod densities;
 mod derivatives;
 mod directions;
@@ -77,12 +80,14 @@ mod order;
 mod paper;
 mod possible;
 mod ranges;
+mod readings;
 mod residual;
 mod runs;
 mod second_order;
 mod seed;
 mod settings;
 mod settle;
+mod signs;
 mod solution;
 mod solve;
 mod state;

@@ -13,6 +13,7 @@
 
 use nalgebra::Vector3;
 
+use super::decided::Decided;
 use super::framework::Framework;
 use super::law::by_direction;
 use super::residual::Residual;
@@ -27,6 +28,9 @@ const PENALTY: f64 = 1e5;
 const SWEEPS: usize = 8;
 /// Refinement of a step ends when the residual of the linear system has fallen to this part.
 const REFINED: f64 = 3e-6;
+/// A sweep that leaves this part of what was left, as with a line that is nearly taut, has too small
+/// a correction: it is made so long that it leaves least.
+const POOR_SWEEP: f64 = 0.1;
 /// A step is accepted when the merit falls by this part of what the slope promises.
 const ARMIJO: f64 = 1e-4;
 /// A step is halved at most so many times.
@@ -55,7 +59,11 @@ pub(super) struct Run {
 impl Run {
     /// A run that has made no step yet.
     pub fn at(framework: &Framework, state: State) -> Self {
-        Self { residual: Residual::new(framework, &state), state, steps: 0 }
+        Self::within(framework, state, None)
+    }
+
+    fn within(framework: &Framework, state: State, decided: Option<&mut Decided>) -> Self {
+        Self { residual: Residual::within(framework, &state, decided), state, steps: 0 }
     }
 }
 
@@ -76,8 +84,9 @@ pub(super) fn polish(
     settings: &Settings,
     state: State,
     patience: Patience,
+    mut decided: Option<&mut Decided>,
 ) -> Run {
-    let mut run = Run::at(framework, with_held(framework, state));
+    let mut run = Run::within(framework, with_held(framework, state), decided.as_deref_mut());
     let (mut merit, mut slow) = (run.residual.merit, 0);
     while run.steps < settings.max_iterations {
         let done = run.residual.size() <= settings.tolerance;
@@ -88,12 +97,19 @@ pub(super) fn polish(
         } else {
             Derivative::new(framework, stiffness, &run.state, &run.residual)
         };
-        let step =
-            derivative.and_then(|d| d.solve(framework, stiffness, (forces, lengths), REFINED));
+        let step = derivative.and_then(|d| {
+            let decided = decided.as_deref_mut();
+            d.solve(framework, stiffness, (forces, lengths), REFINED, decided)
+        });
         let Some((step, _)) = step else { break };
         run.steps += 1;
-        let Some((state, residual)) = search(framework, &run, &step, done) else { break };
+        let next = search(framework, &run, &step, done, decided.as_deref_mut());
+        let Some((state, residual)) = next else { break };
         (run.state, run.residual) = (state, residual);
+        if let Some(decided) = decided.as_deref_mut() {
+            decided.renew(framework, &run.state);
+            run.residual = Residual::within(framework, &run.state, Some(decided));
+        }
         slow += 1;
         if run.residual.merit <= HALVED * merit {
             (merit, slow) = (run.residual.merit, 0);
@@ -106,11 +122,17 @@ pub(super) fn polish(
 }
 
 /// The longest of the halved steps that lowers the merit.
-fn search(framework: &Framework, run: &Run, step: &Step, done: bool) -> Option<(State, Residual)> {
+fn search(
+    framework: &Framework,
+    run: &Run,
+    step: &Step,
+    done: bool,
+    mut decided: Option<&mut Decided>,
+) -> Option<(State, Residual)> {
     let mut t = 1.0;
     for _ in 0..if done { 1 } else { HALVINGS } {
         let state = step.applied(&run.state, t);
-        let residual = Residual::new(framework, &state);
+        let residual = Residual::within(framework, &state, decided.as_deref_mut());
         if residual.merit <= run.residual.merit * (1.0 - 2.0 * ARMIJO * t) {
             return Some((state, residual));
         }
@@ -173,13 +195,14 @@ impl Derivative {
 
     /// The step that takes unbalanced forces and misfits of the lengths away to first order, and
     /// the part of their norm that it leaves, once that is below `enough` or falls no further;
-    /// nothing when it leaves all.
+    /// nothing when it leaves all. Of misfits that no places take away nothing is left.
     pub fn solve(
         &self,
         framework: &Framework,
         stiffness: &mut Stiffness,
         (forces, lengths): (&[Vector3<f64>], &[f64]),
         enough: f64,
+        mut decided: Option<&mut Decided>,
     ) -> Option<(Step, f64)> {
         let mut step = Step {
             places: vec![Vector3::zeros(); framework.nodes.len()],
@@ -188,10 +211,26 @@ impl Derivative {
         let mut left = (forces.to_vec(), lengths.to_vec());
         let first = size(framework, forces, lengths, self.unit);
         let mut last = f64::INFINITY;
-        for _ in 0..SWEEPS {
-            let better = self.refined(&step, framework, stiffness, &left.0, &left.1);
-            left = self.left(&better, framework, forces, lengths);
+        let mut leaves = |step: &Step| {
+            let mut left = self.left(step, framework, forces, lengths);
+            if let Some(decided) = decided.as_deref_mut() {
+                left.1 = decided.part(framework, &left.1);
+            }
             let size = size(framework, &left.0, &left.1, self.unit);
+            (left, size)
+        };
+        for _ in 0..SWEEPS {
+            let mut better = self.refined(&step, framework, stiffness, &left.0, &left.1);
+            let (mut leaves_now, mut size) = leaves(&better);
+            if size > POOR_SWEEP * POOR_SWEEP * last.min(first) {
+                let by = self.best_length(framework, &left, &leaves_now);
+                let longer = step.towards(&better, by);
+                let (leaves_longer, least) = leaves(&longer);
+                if least < size {
+                    (better, leaves_now, size) = (longer, leaves_longer, least);
+                }
+            }
+            left = leaves_now;
             if size.is_nan() || size >= last {
                 break;
             }
@@ -202,6 +241,23 @@ impl Derivative {
         }
         // A step that leaves all of the residual does not count.
         (last < first).then(|| (step, (last / first).sqrt()))
+    }
+
+    /// How many times a correction should be made, from what is left before and after one.
+    fn best_length(
+        &self,
+        framework: &Framework,
+        before: &(Vec<Vector3<f64>>, Vec<f64>),
+        after: &(Vec<Vector3<f64>>, Vec<f64>),
+    ) -> f64 {
+        let taken: Vec<_> = before.0.iter().zip(&after.0).map(|(b, a)| b - a).collect();
+        let shortened: Vec<_> = before.1.iter().zip(&after.1).map(|(b, a)| b - a).collect();
+        let nodes = framework.nodes.iter().zip(before.0.iter().zip(&taken));
+        let work =
+            nodes.map(|(node, (b, t))| node.free.components(b).dot(&node.free.components(t)));
+        let of_forces = work.sum::<f64>() / (self.unit * self.unit);
+        let of_lengths: f64 = before.1.iter().zip(&shortened).map(|(b, s)| b * s).sum();
+        (of_forces + of_lengths) / size(framework, &taken, &shortened, self.unit)
     }
 
     /// The step plus the solution for what is left.
@@ -255,6 +311,16 @@ impl Derivative {
 }
 
 impl Step {
+    /// On the way from here to another step, in units of the way.
+    fn towards(&self, other: &Self, by: f64) -> Self {
+        let places = self.places.iter().zip(&other.places);
+        let axial = self.axial.iter().zip(&other.axial);
+        Self {
+            places: places.map(|(a, b)| a + (b - a) * by).collect(),
+            axial: axial.map(|(a, b)| a + (b - a) * by).collect(),
+        }
+    }
+
     fn applied(&self, state: &State, t: f64) -> State {
         let mut next = state.moved(&self.places, t);
         for (axial, step) in next.axial.iter_mut().zip(&self.axial) {

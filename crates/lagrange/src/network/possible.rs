@@ -16,9 +16,6 @@ const UNHELD: f64 = 1e-12;
 /// this.
 const HELD: f64 = 1e-18;
 
-/// A member between two anchors fits to this part of its length.
-const HELD_MISFIT: f64 = 1e-12;
-
 /// Refuse members between anchors that do not fit, and systems that no support holds.
 pub(super) fn check(system: &System, framework: &Framework) -> Result<(), Error> {
     check_held(framework)?;
@@ -70,7 +67,7 @@ fn check_held(framework: &Framework) -> Result<(), Error> {
             Kind::Cable => excess,
             Kind::Strut => -excess,
         };
-        if misfit > HELD_MISFIT * link.length {
+        if misfit > link.within {
             let unit = framework.units.length_m;
             let (length_m, distance_m) = (link.length * unit, distance * unit);
             return Err(Error::HeldMisfit { member, length_m, distance_m });

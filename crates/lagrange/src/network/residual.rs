@@ -2,22 +2,32 @@
 
 use nalgebra::Vector3;
 
+use super::decided::Decided;
 use super::error::Error;
 use super::framework::Framework;
 use super::state::State;
 use model::system::System;
 
+/// Balance is measured against the loads of a joint, or where the forces in its members are far
+/// larger, near a singular shape, against this part of them: the tolerance is then some fifty
+/// roundings of these forces.
+const OF_FORCES: f64 = 1e-2;
+/// But never against more than this many times the loads: what rounding of larger forces leaves
+/// over is a part of the loads that matters.
+const OF_LOADS: f64 = 1e6;
+
 /// Balance of the joints and lengths of the members that keep one.
 pub(super) struct Residual {
     /// Unbalanced force at each joint.
     pub forces: Vec<Vector3<f64>>,
-    /// Length by the law minus length, of each taut member; zero for the others.
+    /// Length by the law minus length, of each taut member; zero for the others. Where lengths
+    /// overdetermine the shape the part of it that places decide.
     pub lengths: Vec<f64>,
     /// Direction and length of each member.
     pub directions: Vec<(Vector3<f64>, f64)>,
-    /// Largest force, the unit of `balance`.
+    /// Largest force, the unit of forces in `merit`.
     pub unit: f64,
-    /// Largest unbalanced force along a free direction, in units of the largest force, and its
+    /// Largest unbalanced force along a free direction, in units of what loads its joint, and the
     /// joint.
     pub balance: (f64, usize),
     /// Largest error of a length, in units of the length, and its member.
@@ -28,6 +38,11 @@ pub(super) struct Residual {
 
 impl Residual {
     pub fn new(framework: &Framework, state: &State) -> Self {
+        Self::within(framework, state, None)
+    }
+
+    /// With the part of the lengths that places decide alone.
+    pub fn within(framework: &Framework, state: &State, decided: Option<&mut Decided>) -> Self {
         let directions = state.directions(framework);
         let pulls = directions.iter().zip(&state.axial).map(|((u, _), axial)| u * *axial);
         let forces = framework.unbalance(pulls);
@@ -35,26 +50,30 @@ impl Residual {
         // In units of what is too large for a number every force would be small.
         let unit = if unit.is_finite() { unit } else { f64::NAN };
         let mut merit = 0.0;
-        let free = framework.nodes.iter().zip(&forces).map(|(node, force)| {
+        let free = framework.nodes.iter().zip(&forces).zip(units(framework, state));
+        let free = free.map(|((node, force), of)| {
             let square = node.free.components(force).norm_squared();
             merit += square;
-            square
+            square.sqrt() / of
         });
-        let (square, joint) = largest(free);
-        let balance = (square.sqrt() / unit, joint);
+        let balance = largest(free);
         // One by one: the square of the smallest number is none.
         merit = merit / unit / unit;
-        let mut lengths = Vec::with_capacity(directions.len());
         let links =
             framework.links.iter().zip(&directions).zip(state.axial.iter().zip(&state.taut));
-        let relative = links.map(|((link, (_, length)), (axial, taut))| {
+        let misfits = links.map(|((link, (_, length)), (axial, taut))| {
             let keeps = *taut && framework.moves(link);
-            let misfit = if keeps { link.length + link.compliance * axial - length } else { 0.0 };
-            lengths.push(misfit);
+            if keeps { link.length + link.compliance * axial - length } else { 0.0 }
+        });
+        let lengths: Vec<f64> = misfits.collect();
+        let lengths = match decided {
+            Some(decided) => decided.part(framework, &lengths),
+            None => lengths,
+        };
+        let length = largest(framework.links.iter().zip(&lengths).map(|(link, misfit)| {
             merit += misfit * misfit;
             misfit.abs() / link.length
-        });
-        let length = largest(relative);
+        }));
         Self { forces, lengths, directions, unit, balance, length, merit }
     }
 
@@ -80,6 +99,22 @@ impl Residual {
             misfit_m: self.lengths.get(member).map_or(0.0, |r| r.abs()) * framework.units.length_m,
         }
     }
+}
+
+/// What the balance of each joint is measured against.
+fn units<'a>(framework: &'a Framework, state: &State) -> impl Iterator<Item = f64> + 'a {
+    let mut forces = vec![0.0; framework.nodes.len()];
+    for (link, axial) in framework.links.iter().zip(&state.axial) {
+        forces[link.from] += axial.abs();
+        forces[link.to] += axial.abs();
+    }
+    let least = framework.least_scale(state);
+    framework.nodes.iter().zip(forces).map(move |(node, force)| {
+        let loads = node.load.norm().max(least);
+        let unit = loads.max((OF_FORCES * force).min(OF_LOADS * loads));
+        // In units of what is too large for a number every force would be small.
+        if force.is_finite() { unit } else { f64::NAN }
+    })
 }
 
 /// Largest value and its place; a NaN is the largest.

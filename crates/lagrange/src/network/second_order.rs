@@ -6,8 +6,10 @@
 //! $\sum C^T \big(\tfrac{N}{d} (1 - u u^T) + \tfrac{1}{c} u u^T\big) C$ on the kernel of $R$.
 
 use faer::{Mat, Side};
+use model::system::Kind;
 use nalgebra::{Matrix3, Vector3};
 
+use super::decided::SHARP;
 use super::directions::Directions;
 use super::framework::{Framework, Node, across};
 use super::law::by_direction;
@@ -16,8 +18,6 @@ use super::solution::NO_FORCE;
 use super::state::State;
 use super::stiffness::Stiffness;
 
-/// A singular value below this fraction of the largest is zero.
-const RANK: f64 = 1e-9;
 /// A curvature below this fraction of the largest $|N|/d$ is zero, or, where elastic members are
 /// far stiffer, below their rounding.
 const FLAT: f64 = 1e-9;
@@ -26,6 +26,8 @@ const ROUNDING: f64 = 1e-13;
 /// curvature counts as one if it is smaller than this times the squared singular values of the
 /// rows.
 const RIGID: f64 = 1e6;
+/// Steps towards self-stresses that stiffen mechanisms; each at least halves what is left of one.
+const STIFFENING_STEPS: usize = 100;
 /// Joints and forces lie in a plane to this part of the extent.
 const PLANE: f64 = 1e-9;
 
@@ -186,7 +188,11 @@ impl Dense {
         let stiffest = links.iter().filter_map(|link| link.along).fold(0.0, f64::max);
         let flat = (FLAT * largest).max(ROUNDING * stiffest);
         let projected = motions.transpose() * &hessian * &motions;
-        let curvatures = eigenvalues(&projected);
+        let mut curvatures = eigenvalues(&projected);
+        if stresses.ncols() > 0 && curvatures.iter().any(|c| *c < -flat) {
+            let of = (framework, links.as_slice(), first_unknown.as_slice(), rigid.as_slice());
+            curvatures = stiffened(of, &motions, &stresses, projected).unwrap_or(curvatures);
+        }
         let index = curvatures.iter().filter(|c| **c < -flat).count();
         let neutral = curvatures.iter().filter(|c| c.abs() <= flat).count();
         let self_stresses = (0..stresses.ncols())
@@ -200,6 +206,55 @@ impl Dense {
             .collect();
         Self { count: (index, neutral), mechanisms: motions.ncols(), self_stresses, rank_gap }
     }
+}
+
+/// Curvatures along mechanisms with the self-stresses of rigid bars that stiffen them most: a
+/// minimum on the lengths needs some forces that make it one, not those that are shown
+/// (Connelly and Whiteley 1996). Steps along the gradient of the least curvature, which is concave
+/// in the self-stresses. `None` where a self-stress has a member with a sign, or nothing is gained.
+fn stiffened(
+    (framework, links, first_unknown, rigid): (&Framework, &[Link], &[usize], &[usize]),
+    motions: &Mat<f64>,
+    stresses: &Mat<f64>,
+    mut projected: Mat<f64>,
+) -> Option<Vec<f64>> {
+    let signed = |k: &usize| framework.links[*k].kind != Kind::Bar;
+    if rigid.iter().any(signed) || !framework.lying.is_empty() {
+        return None;
+    }
+    let size = motions.nrows();
+    let by_stress = |column: usize| {
+        let mut hessian = Mat::<f64>::zeros(size, size);
+        for (row, &k) in rigid.iter().enumerate() {
+            let (from, to) = (framework.links[k].from, framework.links[k].to);
+            if framework.nodes[from].freedom() + framework.nodes[to].freedom() > 0 {
+                let across = stresses[(row, column)] / framework.links[k].length;
+                let block = by_direction(&links[k].u, across, 0.0);
+                add(framework, first_unknown, &mut hessian, k, &block);
+            }
+        }
+        motions.transpose() * &hessian * motions
+    };
+    let changes: Vec<Mat<f64>> = (0..stresses.ncols()).map(by_stress).collect();
+    for _ in 0..STIFFENING_STEPS {
+        let eigen = projected.self_adjoint_eigen(Side::Lower).ok()?;
+        let (values, vectors) = (eigen.S().column_vector(), eigen.U());
+        let weakest = vectors.col(0);
+        if values[0] >= 0.0 {
+            break;
+        }
+        let slopes: Vec<f64> =
+            changes.iter().map(|change| weakest.transpose() * change * weakest).collect();
+        let square: f64 = slopes.iter().map(|slope| slope * slope).sum();
+        if square <= FLAT * FLAT {
+            return None;
+        }
+        // To twice the way at which the weakest one alone were zero.
+        for (slope, change) in slopes.iter().zip(&changes) {
+            projected += change * faer::Scale(-2.0 * values[0] * slope / square);
+        }
+    }
+    Some(eigenvalues(&projected))
 }
 
 /// First unknown of each joint.
@@ -236,7 +291,7 @@ fn kernels(rows: &Mat<f64>) -> Kernels {
     };
     let values = svd.S().column_vector();
     let largest = values[0];
-    let rank = (0..values.nrows()).filter(|&k| values[k] > RANK * largest).count();
+    let rank = (0..values.nrows()).filter(|&k| values[k] > SHARP * largest).count();
     let motions = svd.V().subcols(rank, width - rank).to_owned();
     let stresses = svd.U().subcols(rank, height - rank).to_owned();
     let beside = |k: usize| if largest > 0.0 { values[k] / largest } else { 0.0 };

@@ -11,8 +11,10 @@ use serde::Serialize;
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Settings {
-    /// An answer has converged when every joint is in balance to this part of the largest force and
-    /// every length is right to this part of it. (Places of far joints are rounded to doubles after
+    /// An answer has converged when every joint is in balance to this part of its loads, or of the
+    /// mean load where that is more, and every length is right to this part of it. Beside a singular
+    /// shape, where forces are far larger than loads, a hundredth of the forces at a joint counts as
+    /// load, up to a million times the load: rounding. (Places of far joints are rounded to doubles after
     /// that.)
     ///
     /// Default 1e-12. Range 1e-14 to 1e-3.

@@ -1,9 +1,10 @@
 //! The answer for a system.
 
-use model::system::{System, SystemEquilibrium, SystemStability};
+use model::system::{Kind, System, SystemEquilibrium, SystemStability};
 use model::{Evidence, ForceChoice, ForceRange, InSpace, Rigidity, SelfStresses, SolverName};
-use nalgebra::Vector3;
+use nalgebra::{DMatrix, DVector, Vector3};
 
+use super::admissible::shortest;
 use super::framework::{Framework, end_loads_n};
 use super::ranges::ranges;
 use super::residual::Residual;
@@ -16,11 +17,11 @@ pub enum Forces {
     /// There are no others.
     Unique,
     /// Self-stresses can be added. Shown is the member of the family with the least sum of squared
-    /// axial forces times lengths: the limit of equally stiff members.
+    /// axial forces times lengths: the limit of equally stiff members. Of those in which no cable
+    /// pushes and no strut or floor pulls.
     LeastNorm,
-    /// Self-stresses can be added, and the member with the least norm would ask a cable to push,
-    /// a strut or the floor to pull, or would not be in balance because the joints are so near to a line or a
-    /// plane. Shown is the one that the iteration found.
+    /// Self-stresses can be added, and the member with the least norm was not in balance. Shown is
+    /// the one that the iteration found.
     Found,
     /// The system is too large to count self-stresses (see
     /// [`Settings::dense_freedoms`](super::Settings::dense_freedoms)).
@@ -32,8 +33,8 @@ pub enum Forces {
 pub struct Solution {
     /// The equilibrium as everyone reads it.
     pub equilibrium: SystemEquilibrium,
-    /// Balance of the joints in units of the largest force, or lengths in units of the length,
-    /// whichever is larger.
+    /// Balance of the joints in units of their loads, or lengths in units of the length, whichever is
+    /// larger. See [`Settings::tolerance`](super::Settings::tolerance).
     pub residual: f64,
     /// Sparse factorisations of all stages.
     pub factorisations: usize,
@@ -60,6 +61,8 @@ pub struct Solution {
 
 /// A force below this part of the largest one counts as zero.
 pub(super) const NO_FORCE: f64 = 1e-10;
+/// A member with less than this in every self-stress of the basis, of unit norm, takes part in none.
+const NO_PART: f64 = 1e-9;
 /// A member whose length is off by less than this part of it just reaches.
 const NO_SLACK: f64 = 1e-10;
 
@@ -71,22 +74,26 @@ pub(super) struct Found {
     pub tolerance: f64,
     pub factorisations: usize,
     pub second_order: SecondOrder,
+    /// Whether the forces are the least ones already.
+    pub least: bool,
     pub solve_s: f64,
 }
 
 impl Solution {
     pub(super) fn new(system: &System, framework: &Framework, found: Found) -> Self {
-        let Found { mut state, residual, tolerance, factorisations, second_order, solve_s } = found;
+        let Found { mut state, residual, tolerance, factorisations, second_order, least, solve_s } =
+            found;
         let size = residual.size();
         let Residual { forces: mut left, directions, .. } = residual;
+        let basis = second_order.self_stresses.as_deref();
         let forces =
-            choose(framework, &mut state, second_order.self_stresses.as_deref(), tolerance);
+            if least { Forces::LeastNorm } else { choose(framework, &mut state, basis, tolerance) };
         if forces == Forces::LeastNorm {
             let pulls = directions.iter().zip(&state.axial).map(|((u, _), axial)| u * *axial);
             left = framework.unbalance(pulls);
         }
         let mut evidence = Evidence::new(
-            "balance of joints in units of the largest force, and lengths in units of the length",
+            "balance of joints in units of their loads, and lengths in units of the length",
             size,
             tolerance,
             factorisations,
@@ -106,9 +113,10 @@ impl Solution {
                 rigid && reaches && state.axial[k].abs() <= NO_FORCE * largest
             })
             .collect::<Vec<_>>();
-        evidence.self_stresses = named(second_order.self_stresses.as_deref(), forces, || {
-            ranges(framework, state.clone(), &limp)
-        });
+        let basis = second_order.self_stresses.as_deref();
+        let misfit_m = largest_misfit(framework, basis.unwrap_or_default(), &directions);
+        evidence.self_stresses =
+            named(basis, forces, misfit_m, || ranges(framework, state.clone(), &limp));
         Self {
             residual: size,
             equilibrium: Answer { system, framework, state, directions, left }
@@ -128,6 +136,7 @@ impl Solution {
 fn named(
     basis: Option<&[Vec<f64>]>,
     forces: Forces,
+    misfit_m: f64,
     ranges: impl FnOnce() -> Option<Vec<ForceRange>>,
 ) -> Option<SelfStresses> {
     let choice = match forces {
@@ -135,7 +144,21 @@ fn named(
         Forces::Unique | Forces::Found | Forces::Uncounted => ForceChoice::Unknown,
     };
     let basis = basis.filter(|basis| !basis.is_empty())?.to_vec();
-    Some(SelfStresses { dimension: basis.len(), basis, choice, misfit_m: None, ranges: ranges() })
+    let (dimension, misfit_m, ranges) = (basis.len(), Some(misfit_m), ranges());
+    Some(SelfStresses { dimension, basis, choice, misfit_m, ranges })
+}
+
+/// Largest misfit of a member that takes part in a self-stress, m.
+fn largest_misfit(
+    framework: &Framework,
+    basis: &[Vec<f64>],
+    directions: &[(Vector3<f64>, f64)],
+) -> f64 {
+    let links = framework.links.iter().zip(directions).enumerate();
+    let misfits = links
+        .filter(|(k, _)| basis.iter().any(|stress| stress[*k].abs() > NO_PART))
+        .map(|(_, (link, (_, distance)))| (distance - link.length).abs());
+    misfits.fold(0.0, f64::max) * framework.units.length_m
 }
 
 /// The counts, where there are any.
@@ -182,23 +205,64 @@ fn choose(
         without(&mut least, &stress);
         orthonormal.push(stress);
     }
-    let largest = state.largest_force(framework);
-    let borne = framework.links.iter().zip(&least).zip(&state.taut);
-    let allowed = borne
-        .filter(|(_, taut)| **taut)
-        .all(|((link, axial), _)| axial.abs() <= NO_FORCE * largest || link.bears(*axial));
-    if !allowed {
+    let found = state.axial.clone();
+    let Some(least) = admissible(framework, state, &least, &orthonormal) else {
         return Forces::Found;
-    }
-    let found = std::mem::replace(&mut state.axial, least);
-    let directions = state.directions(framework);
-    let pushes = framework.pushes(directions.iter().map(|(u, _)| u), &state.axial);
-    let pulled = pushes.iter().any(|push| *push < -NO_FORCE * largest);
-    if pulled || Residual::new(framework, state).balance.0 > tolerance {
+    };
+    state.axial = least;
+    if Residual::new(framework, state).balance.0 > tolerance {
         state.axial = found;
         return Forces::Found;
     }
     Forces::LeastNorm
+}
+
+/// The least forces with the right signs of taut members and of the pushes of the floor; `None`
+/// where no forces in balance have them.
+fn admissible(
+    framework: &Framework,
+    state: &State,
+    least: &[f64],
+    basis: &[Vec<f64>],
+) -> Option<Vec<f64>> {
+    let directions = state.directions(framework);
+    let pushes = |axial: &[f64]| framework.pushes(directions.iter().map(|(u, _)| u), axial);
+    let none = pushes(&vec![0.0; least.len()]);
+    let links = || framework.links.iter().zip(&state.taut).enumerate();
+    // Each with the sign that makes it positive; slack members bear nothing.
+    let signed = links().filter_map(|(k, (link, taut))| match link.kind {
+        Kind::Cable if *taut => Some((k, 1.0)),
+        Kind::Strut if *taut => Some((k, -1.0)),
+        _ => None,
+    });
+    let signed: Vec<(usize, f64)> = signed.collect();
+    let rows = |axial: &[f64], pushes: Vec<f64>| -> Vec<f64> {
+        signed.iter().map(|(k, sign)| sign * axial[*k]).chain(pushes).collect()
+    };
+    let now = DVector::from_vec(rows(least, pushes(least)));
+    let no_force = NO_FORCE * state.largest_force(framework);
+    if now.iter().all(|force| *force >= -no_force) {
+        return Some(least.to_vec());
+    }
+    let columns: Vec<DVector<f64>> = basis
+        .iter()
+        .map(|stress| {
+            let changes = pushes(stress).into_iter().zip(&none).map(|(push, none)| push - none);
+            DVector::from_vec(rows(stress, changes.collect()))
+        })
+        .collect();
+    let part = shortest(&DMatrix::from_columns(&columns), &-now)?;
+    let mut forces = least.to_vec();
+    for (stress, part) in basis.iter().zip(part.iter()) {
+        forces.iter_mut().zip(stress).for_each(|(force, stress)| *force += part * stress);
+    }
+    for (k, sign) in signed {
+        // At its limit to rounding.
+        if sign * forces[k] < no_force {
+            forces[k] = 0.0;
+        }
+    }
+    Some(forces)
 }
 
 /// What the observables follow from.

@@ -1,6 +1,5 @@
 //! The solve: hang, settle, polish, and look at the second order.
 
-use std::iter;
 use std::time::Instant;
 
 use model::system::{Kind, System};
@@ -12,36 +11,24 @@ use super::floor::{above, below};
 use super::framework::{Framework, Link};
 use super::hanging::{FIRST_END, Hanging, LAST_END, SECOND_END};
 use super::law::by_direction;
-use super::newton::{Patience, Run, polish};
+use super::newton::{Patience, Run};
 use super::possible::{check, check_loaded, is_loaded, too_short};
+use super::readings::nearly;
 use super::second_order::SecondOrder;
 use super::seed::Seed;
 use super::settings::Settings;
 use super::settle::settle;
-use super::solution::{Found, NO_FORCE, Solution};
+use super::signs::signs_mended;
+use super::solution::{Found, Solution};
 use super::state::State;
 use super::stiffness::Stiffness;
 
-/// Changes of the set of taut members before the iteration counts as failed.
-const SIGN_CHANGES: usize = 30;
-/// Residual at which signs are looked at for the first time: far above rounding, so that a wrong
-/// one costs few steps, and far below the forces that are likely.
-const SIGNS_SEEN: f64 = 1e-6;
-/// At the first changes only members that push this part of the worst push, or more, are made
-/// slack: that relieves their neighbours. Where all are, along the edge of a net that hangs from
-/// its corners, those that ought not come back one by one (12 changes in the place of 2).
-const CAREFUL_CHANGES: usize = 4;
-const WORST_PUSH: f64 = 0.9;
 /// A cable shorter than this part of its length is slack at the start.
 const SLACK_LENGTH: f64 = 1e-3;
 /// Tries to leave an unstable equilibrium, each by a small move of every joint.
 const ESCAPES: usize = 4;
 /// Such moves, in units of the mean length: the next one where the last one led nowhere.
-const KICKS: [f64; 5] = [0.01, 0.1, 0.5, 1.0, 2.0];
-/// Ridge of the least squares for lengths, in units of their largest error.
-const LENGTH_RIDGE: f64 = 0.1;
-/// A step of these is halved at most so many times.
-const LENGTH_HALVINGS: i32 = 24;
+pub(super) const KICKS: [f64; 5] = [0.01, 0.1, 0.5, 1.0, 2.0];
 /// A system without loads whose elastic members all bear less than this part of their stiffness is
 /// not prestressed: that much is rounding.
 const NO_STRAIN: f64 = 1e-12;
@@ -116,7 +103,10 @@ fn hang(
         return Err(error);
     }
     let start = hanging.state(&solver.framework);
-    let run = solver.settled(&start, 0)?;
+    let run = match solver.settled(&start, 0) {
+        Err(error) => solver.assembled(&start, error)?,
+        Ok(run) => run,
+    };
     solver.stable(run)
 }
 
@@ -173,15 +163,25 @@ fn by_runs(
     }
     let second_order = SecondOrder::in_tension(framework, &run.state)?;
     let factorisations = run.steps;
-    Some(solution((system, framework), settings, run, second_order, factorisations, began))
+    let found = Found {
+        residual: run.residual,
+        tolerance: settings.tolerance,
+        state: run.state,
+        factorisations,
+        second_order,
+        least: false,
+        solve_s: began.elapsed().as_secs_f64(),
+    };
+    Some(Solution::new(system, framework, found))
 }
 
-struct Solver<'a> {
-    system: &'a System,
-    settings: Settings,
-    framework: Framework,
-    stiffness: Stiffness,
-    factorisations: usize,
+/// A solve under way.
+pub(super) struct Solver<'a> {
+    pub system: &'a System,
+    pub settings: Settings,
+    pub framework: Framework,
+    pub stiffness: Stiffness,
+    pub factorisations: usize,
     began: Instant,
 }
 
@@ -194,35 +194,6 @@ impl<'a> Solver<'a> {
         began: Instant,
     ) -> Self {
         Self { system, settings, framework, stiffness, factorisations: 0, began }
-    }
-
-    /// Newton's method, with the set of taut members changed until all signs are right.
-    fn with_signs(&mut self, mut state: State, patience: Patience) -> Result<Run, Error> {
-        let settings = self.settings;
-        let one_sided = self.framework.links.iter().any(|link| link.kind != Kind::Bar);
-        let mut tight = !one_sided;
-        for change in 0..SIGN_CHANGES {
-            let tolerance =
-                if tight { settings.tolerance } else { settings.tolerance.max(SIGNS_SEEN) };
-            let settings = Settings { tolerance, ..settings };
-            let run = polish(&self.framework, &mut self.stiffness, &settings, state, patience);
-            self.factorisations += run.steps;
-            if run.residual.size().is_nan() || run.residual.size() > tolerance {
-                let (system, framework) = (self.system, &self.framework);
-                return Err(run.residual.not_converged(system, framework, self.factorisations));
-            }
-            let share = if change < CAREFUL_CHANGES { WORST_PUSH } else { 0.0 };
-            state = match signs_mended(&self.framework, &self.settings, &run, share) {
-                Some(next) => next,
-                None if tight => return Ok(run),
-                None => {
-                    tight = true;
-                    run.state
-                }
-            };
-        }
-        let run = Run::at(&self.framework, state);
-        Err(run.residual.not_converged(self.system, &self.framework, self.factorisations))
     }
 
     /// A rest of the true members near a state, moved a little: the shape as cables is often a
@@ -241,76 +212,16 @@ impl<'a> Solver<'a> {
             }
             let fits = rest.fits;
             result = self.with_signs(rest.state, Patience::Full);
-            if fits && result.is_ok() {
+            let never_fits = matches!(&result, Err(Error::Misfit { misfits }) if nearly(&self.framework, misfits));
+            if never_fits || (fits && result.is_ok()) {
                 break;
             }
         }
         result
     }
 
-    /// Places near some where every member has a length at which it bears no force: with these a
-    /// rest, and none has less energy, where no load acts along a free direction.
-    fn without_forces(&mut self, places: &[Vector3<f64>]) -> Option<Run> {
-        let bars = self.framework.links.iter().map(|link| link.kind == Kind::Bar);
-        let none = vec![0.0; self.framework.links.len()];
-        let start = State::new(places.to_vec(), none, bars.collect());
-        let sizes = iter::once(0.0).chain(KICKS).enumerate();
-        sizes.into_iter().find_map(|(kick, size)| {
-            let mut run = self.fitted(self.kicked(&start, kick, size));
-            for _ in 0..SIGN_CHANGES {
-                if run.residual.size() > self.settings.tolerance {
-                    return None;
-                }
-                match signs_mended(&self.framework, &self.settings, &run, 0.0) {
-                    Some(next) => run = self.fitted(next),
-                    None => return Some(run),
-                }
-            }
-            None
-        })
-    }
-
-    /// The lengths alone, by least squares (Levenberg and Marquardt): where they say nothing about
-    /// a direction no joint moves along it.
-    fn fitted(&mut self, state: State) -> Run {
-        let mut run = Run::at(&self.framework, state);
-        for _ in 0..self.settings.max_iterations {
-            let step = self.length_step(&run);
-            let mut sizes = (0..LENGTH_HALVINGS).map(|k| 0.5_f64.powi(k));
-            let better = sizes.find_map(|t| {
-                let next = Run::at(&self.framework, run.state.moved(&step, t));
-                (next.residual.merit < run.residual.merit).then_some(next)
-            });
-            let Some(better) = better else { break };
-            run = better;
-        }
-        run
-    }
-
-    /// One step towards the lengths of the taut members. The ridge falls with the error, so that
-    /// steps become Newton's, also where two places with the right lengths are about to meet.
-    fn length_step(&mut self, run: &Run) -> Vec<Vector3<f64>> {
-        let residual = &run.residual;
-        let along = |k: usize| f64::from(u8::from(run.state.taut[k]));
-        let directions = residual.directions.iter().enumerate();
-        let blocks = directions.map(|(k, (u, _))| by_direction(u, 0.0, along(k)));
-        self.stiffness.assemble(&self.framework, blocks);
-        self.stiffness.shift(LENGTH_RIDGE * residual.length.0);
-        self.stiffness.factorise_definite();
-        self.factorisations += 1;
-        let mut moves = vec![Vector3::zeros(); self.framework.nodes.len()];
-        let links = self.framework.links.iter().zip(&residual.directions);
-        for ((link, (u, _)), misfit) in links.zip(&residual.lengths) {
-            moves[link.from] -= u * *misfit;
-            moves[link.to] += u * *misfit;
-        }
-        let mut moves = self.stiffness.gather(&self.framework, &moves);
-        self.stiffness.solve(&mut moves);
-        self.stiffness.scatter(&self.framework, &moves)
-    }
-
     /// The state with every joint moved along its free directions, by up to this size.
-    fn kicked(&self, from: &State, kick: usize, size: f64) -> State {
+    pub fn kicked(&self, from: &State, kick: usize, size: f64) -> State {
         let mut state = State::new(from.places.clone(), from.axial.clone(), from.taut.clone());
         let joints = state.places.iter_mut().zip(&self.framework.nodes).enumerate();
         for (joint, (place, node)) in joints {
@@ -340,10 +251,18 @@ impl<'a> Solver<'a> {
         SecondOrder::new(&self.framework, &mut self.stiffness, state, dense)
     }
 
-    fn solution(self, run: Run, second_order: SecondOrder) -> Solution {
-        let (settings, factorisations) = (&self.settings, self.factorisations);
-        let of = (self.system, &self.framework);
-        solution(of, settings, run, second_order, factorisations, self.began)
+    fn solution(mut self, mut run: Run, second_order: SecondOrder) -> Solution {
+        let least = second_order.self_stresses.is_none() && self.shared(&mut run);
+        let found = Found {
+            residual: run.residual,
+            tolerance: self.settings.tolerance,
+            state: run.state,
+            factorisations: self.factorisations,
+            second_order,
+            least,
+            solve_s: self.began.elapsed().as_secs_f64(),
+        };
+        Solution::new(self.system, &self.framework, found)
     }
 
     /// The state of a seed.
@@ -391,7 +310,7 @@ impl<'a> Solver<'a> {
     }
 
     /// Axial forces that leave the joints least out of balance.
-    fn best_forces(&mut self, state: &State) -> Vec<f64> {
+    pub fn best_forces(&mut self, state: &State) -> Vec<f64> {
         let directions = state.directions(&self.framework);
         let blocks = directions.iter().map(|(u, _)| by_direction(u, 0.0, 1.0));
         self.stiffness.assemble(&self.framework, blocks);
@@ -405,67 +324,6 @@ impl<'a> Solver<'a> {
         let links = self.framework.links.iter().zip(&directions);
         links.map(|(link, (u, _))| u.dot(&link.span(&moves))).collect()
     }
-}
-
-/// The state with cables that push made slack and slack ones that are too long made taut,
-/// struts the other way round; nothing when there are none. Of those that push only the ones that
-/// push at least this share of the worst.
-fn signs_mended(
-    framework: &Framework,
-    settings: &Settings,
-    run: &Run,
-    share: f64,
-) -> Option<State> {
-    let state = &run.state;
-    let least = NO_FORCE.max(run.residual.size()) * run.residual.unit;
-    let longer = settings.tolerance.max(run.residual.size());
-    let wrong = |(k, link): (usize, &Link)| {
-        if link.kind == Kind::Bar {
-            return None;
-        }
-        let axial = state.axial[k];
-        let excess = run.residual.directions[k].1 - link.length;
-        let outside = if link.kind == Kind::Cable { excess } else { -excess };
-        let pushes = state.taut[k] && axial.abs() > least && !link.bears(axial);
-        let reaches = !state.taut[k] && outside > longer * link.length;
-        (pushes || reaches).then_some(k)
-    };
-    let wrong: Vec<usize> = framework.links.iter().enumerate().filter_map(wrong).collect();
-    if wrong.is_empty() {
-        return None;
-    }
-    let pushing = wrong.iter().filter(|k| state.taut[**k]);
-    let enough = share * pushing.map(|k| state.axial[*k].abs()).fold(0.0, f64::max);
-    let mut state = state.clone();
-    for k in wrong {
-        if state.taut[k] && state.axial[k].abs() < enough {
-            continue;
-        }
-        state.taut[k] = !state.taut[k];
-        if !state.taut[k] {
-            state.axial[k] = 0.0;
-        }
-    }
-    Some(state)
-}
-
-fn solution(
-    (system, framework): (&System, &Framework),
-    settings: &Settings,
-    run: Run,
-    second_order: SecondOrder,
-    factorisations: usize,
-    began: Instant,
-) -> Solution {
-    let found = Found {
-        residual: run.residual,
-        tolerance: settings.tolerance,
-        state: run.state,
-        factorisations,
-        second_order,
-        solve_s: began.elapsed().as_secs_f64(),
-    };
-    Solution::new(system, framework, found)
 }
 
 /// A fixed direction for each joint and each try, spread without pattern (golden ratios).

@@ -11,6 +11,7 @@ mod derivatives;
 mod details;
 mod extremes;
 mod false_roots;
+mod frames;
 mod judge;
 mod network;
 mod network_derivatives;

@@ -118,7 +118,8 @@ fn long_strands_keep_their_digits() {
     }
     let system = System::new("bridle", 9.80665, joints, members).unwrap();
     let answer = solve(&system, &Settings::default()).unwrap();
-    assert!(answer.residual <= 1e-14, "{:e}", answer.residual);
+    // Of the loads: forces are a thousand times these.
+    assert!(answer.residual <= 1e-13, "{:e}", answer.residual);
     assert!(answer.factorisations <= 10, "{}", answer.factorisations);
     // A third of everything hangs at each anchor.
     let third = system.total_mass_kg() * 9.80665 / 3.0;

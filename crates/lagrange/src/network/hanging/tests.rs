@@ -10,7 +10,14 @@ fn hanging(force: Pair, slack: Pair) -> (Framework, Hanging) {
     let framework = Framework {
         units: Units { length_m: 1.0, force_n: 1.0, origin_m: Vector3::zeros() },
         nodes: vec![node.clone(), node],
-        links: vec![Link { from: 0, to: 1, length: 2.0, compliance: 0.0, kind: Kind::Cable }],
+        links: vec![Link {
+            from: 0,
+            to: 1,
+            length: 2.0,
+            within: 0.0,
+            compliance: 0.0,
+            kind: Kind::Cable,
+        }],
         lying: Vec::new(),
     };
     let hanging = Hanging {

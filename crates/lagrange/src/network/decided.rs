@@ -1,0 +1,202 @@
+//! What the lengths of inextensible members decide, where there are more than the shape needs.
+//!
+//! With the rows $R$ of the taut inextensible members and $L$ their lengths, errors $e$ of the
+//! lengths have the part
+//!
+//! $$ e_d = R y, \qquad R^T L^{-1} R\, y = R^T L^{-1} e, $$
+//!
+//! that moves of the joints take away. The rest is in no shape: $L^{-1} (e - e_d)$ balances without
+//! loads, and rigid members do not say what force it is. The shape that meets the lengths best has
+//! $e_d = 0$. Forces split by the same projection: $t = L^{-1} R y$ with $R^T t$ given has the least
+//! complementary energy $\sum t^2 l$, which is the share of equally stiff members.
+//!
+//! The rank of $R$ is read at a *cut*: motions that change the lengths by less than this part of
+//! what the stiffest motion does count as mechanisms.
+
+use nalgebra::Vector3;
+
+use super::error::Error;
+use super::framework::Framework;
+use super::law::by_direction;
+use super::state::State;
+use super::stiffness::Stiffness;
+
+/// The cut where lengths are taken as they are: a line with a slack of 1e-10 of its span, whose
+/// forces are real, has 1e-5; lengths that are rounded to doubles leave a flat frame out of its
+/// plane by 1e-8. Its square is above the rounding of the matrix.
+pub(super) const SHARP: f64 = 1e-6;
+/// The widest one: motions beyond change lengths by an error that is no tolerance any more.
+pub(super) const WIDEST: f64 = 1e-2;
+/// Sweeps of refinement: each leaves of what a motion of the singular value s changes the part
+/// cut²/(cut² + s²).
+const SWEEPS: usize = 8;
+/// Refinement ends where a sweep changes less than this part.
+const SWEPT: f64 = 1e-15;
+/// A member takes part in a self-stress where this part of an error of lengths without pattern, or
+/// more, is in no shape.
+const TAKES_PART: f64 = 1e-7;
+/// Golden ratio: multiples of it are spread without pattern.
+const GOLDEN: f64 = 0.618_033_988_749_894_9;
+
+/// Of each member its direction and $1/l$, the latter zero for those that do not keep a length.
+fn rows(framework: &Framework, state: &State) -> Vec<(Vector3<f64>, f64)> {
+    let links = framework.links.iter().zip(state.directions(framework)).zip(&state.taut);
+    links
+        .map(|((link, (u, _)), taut)| {
+            let rigid = *taut && link.compliance <= 0.0 && framework.moves(link);
+            (u, if rigid { link.length.recip() } else { 0.0 })
+        })
+        .collect()
+}
+
+/// $R^T L^{-1} R$
+fn assemble(framework: &Framework, stiffness: &mut Stiffness, rows: &[(Vector3<f64>, f64)]) {
+    stiffness.assemble(framework, rows.iter().map(|(u, weight)| by_direction(u, 0.0, *weight)));
+}
+
+/// Number of self-stresses at a cut, by the signs of pivots (Sylvester): as many negative ones has
+/// the matrix less the square of the cut as there are mechanisms.
+fn self_stresses(
+    framework: &Framework,
+    stiffness: &mut Stiffness,
+    rows: &[(Vector3<f64>, f64)],
+    cut: f64,
+) -> usize {
+    assemble(framework, stiffness, rows);
+    stiffness.shift(-cut * cut * stiffness.largest());
+    stiffness.factorise_indefinite();
+    let rank = framework.freedoms().saturating_sub(stiffness.negative_pivots());
+    rows.iter().filter(|(_, weight)| *weight > 0.0).count().saturating_sub(rank)
+}
+
+/// The cut at which a shape is singular that becomes so within the tolerances of its lengths: a
+/// move by d changes a length l to the second order, by d²/2l.
+fn wide(framework: &Framework) -> f64 {
+    let rigid = framework.links.iter().filter(|link| link.compliance <= 0.0);
+    let widest = rigid.map(|link| link.within / link.length).fold(0.0, f64::max);
+    (2.0 * widest).sqrt().clamp(SHARP, WIDEST)
+}
+
+/// The cuts at which lengths overdetermine a shape, the widest first; the second one where it finds
+/// less self-stresses. Also the number of factorisations.
+pub(super) fn cuts(
+    framework: &Framework,
+    stiffness: &mut Stiffness,
+    state: &State,
+) -> (Vec<f64>, usize) {
+    let (rows, wide) = (rows(framework, state), wide(framework));
+    if rows.iter().all(|(_, weight)| *weight <= 0.0) {
+        return (Vec::new(), 0);
+    }
+    let most = self_stresses(framework, stiffness, &rows, wide);
+    if most == 0 {
+        return (Vec::new(), 1);
+    }
+    let clear = self_stresses(framework, stiffness, &rows, SHARP);
+    let cuts = match clear {
+        0 => vec![wide],
+        _ if clear == most => vec![SHARP],
+        _ => vec![wide, SHARP],
+    };
+    (cuts, 2)
+}
+
+/// The projection onto what lengths decide at a shape.
+pub(super) struct Decided {
+    pub cut: f64,
+    rows: Vec<(Vector3<f64>, f64)>,
+    stiffness: Stiffness,
+}
+
+impl Decided {
+    /// At a state and a cut.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Memory`] when the factor cannot be held.
+    pub fn new(framework: &Framework, state: &State, cut: f64) -> Result<Self, Error> {
+        let stiffness = Stiffness::new(framework, false)?;
+        let mut decided = Self { cut, rows: Vec::new(), stiffness };
+        decided.renew(framework, state);
+        Ok(decided)
+    }
+
+    /// The same at another state.
+    pub fn renew(&mut self, framework: &Framework, state: &State) {
+        self.rows = rows(framework, state);
+        assemble(framework, &mut self.stiffness, &self.rows);
+        self.stiffness.shift(self.cut * self.cut * self.stiffness.largest());
+        self.stiffness.factorise_definite();
+    }
+
+    /// The part of errors of lengths that places decide; those of elastic members are decided by
+    /// their forces, and stay.
+    pub fn part(&mut self, framework: &Framework, errors: &[f64]) -> Vec<f64> {
+        let of_rows = self.rows.iter().zip(errors);
+        let mut left: Vec<f64> =
+            of_rows.map(|((_, weight), e)| if *weight > 0.0 { *e } else { 0.0 }).collect();
+        let largest = left.iter().fold(0.0_f64, |most, e| most.max(e.abs()));
+        for _ in 0..SWEEPS {
+            let mut forces = vec![Vector3::zeros(); framework.nodes.len()];
+            for ((link, (u, weight)), e) in framework.links.iter().zip(&self.rows).zip(&left) {
+                forces[link.from] -= u * (weight * e);
+                forces[link.to] += u * (weight * e);
+            }
+            let mut moves = self.stiffness.gather(framework, &forces);
+            self.stiffness.solve(&mut moves);
+            let moves = self.stiffness.scatter(framework, &moves);
+            let mut change = 0.0_f64;
+            for ((link, (u, weight)), e) in framework.links.iter().zip(&self.rows).zip(&mut left) {
+                if *weight > 0.0 {
+                    let taken = u.dot(&link.span(&moves));
+                    change = change.max(taken.abs());
+                    *e -= taken;
+                }
+            }
+            if change <= SWEPT * largest {
+                break;
+            }
+        }
+        errors.iter().zip(left).map(|(e, left)| e - left).collect()
+    }
+
+    /// The axial forces with the least complementary energy that balance the same loads; those of
+    /// elastic members stay.
+    pub fn share(&mut self, framework: &Framework, axial: &[f64]) -> Vec<f64> {
+        let rows = self.rows.iter().zip(axial);
+        let stretches: Vec<f64> =
+            rows.map(|((_, w), t)| if *w > 0.0 { t / w } else { 0.0 }).collect();
+        let parts = self.part(framework, &stretches);
+        let rows = self.rows.iter().zip(parts).zip(axial);
+        rows.map(|(((_, w), part), t)| if *w > 0.0 { w * part } else { *t }).collect()
+    }
+
+    /// The axial forces with the least complementary energy that balance the loads best beside those
+    /// of elastic members, which stay.
+    pub fn bear(&mut self, framework: &Framework, axial: &[f64]) -> Vec<f64> {
+        let rows = self.rows.iter().zip(axial);
+        let mut forces: Vec<f64> =
+            rows.map(|((_, w), t)| if *w > 0.0 { 0.0 } else { *t }).collect();
+        for _ in 0..SWEEPS {
+            let pulls = self.rows.iter().zip(&forces).map(|((u, _), t)| u * *t);
+            let mut moves = self.stiffness.gather(framework, &framework.unbalance(pulls));
+            self.stiffness.solve(&mut moves);
+            let moves = self.stiffness.scatter(framework, &moves);
+            let rows = framework.links.iter().zip(&self.rows).zip(&mut forces);
+            for ((link, (u, w)), t) in rows {
+                *t += w * u.dot(&link.span(&moves));
+            }
+        }
+        forces
+    }
+
+    /// The members that take part in a self-stress: the part of lengths without pattern that is in
+    /// no shape shows them.
+    pub fn members(&mut self, framework: &Framework) -> Vec<usize> {
+        let probe = |k: usize| framework.links[k].length * (0.5 + (k as f64 * GOLDEN).fract());
+        let probe: Vec<f64> = (0..framework.links.len()).map(probe).collect();
+        let parts = self.part(framework, &probe);
+        let open = |k: &usize| (probe[*k] - parts[*k]).abs() > TAKES_PART * probe[*k];
+        (0..probe.len()).filter(|k| self.rows[*k].1 > 0.0 && open(k)).collect()
+    }
+}
