@@ -1,6 +1,7 @@
 //! Why there is no answer.
 
 use model::Vector;
+use model::system::Misfit;
 use serde::Serialize;
 
 /// Why a minimisation gave no answer. `Ok` means converged to a local minimum, nothing less.
@@ -63,6 +64,13 @@ pub enum Error {
         member: usize,
         /// Its misfit, m.
         misfit_m: f64,
+    },
+    /// Occurs when more inextensible members meet than decide the shape, and their lengths do not
+    /// fit each other within their tolerances.
+    #[error("{}", misfit_message(misfits))]
+    Misfit {
+        /// The members that would be under self-stress, the worst first.
+        misfits: Vec<Misfit>,
     },
     /// Occurs when the iterations are used up.
     #[error(
@@ -137,6 +145,22 @@ pub enum Error {
     },
 }
 
+/// The worst misfit with its numbers, how many more, and what helps.
+fn misfit_message(misfits: &[Misfit]) -> String {
+    let Some(Misfit { member, misfit_m, within_m }) = misfits.first() else {
+        return "the lengths do not fit each other".to_owned();
+    };
+    let over = misfits.iter().filter(|other| other.misfit_m.abs() > other.within_m).count();
+    format!(
+        "the lengths overdetermine the shape and do not fit each other: in the shape that meets them best \
+         member {} is {misfit_m:e} m off, where {within_m:e} m are allowed, and {} more are off by more than \
+         allowed; give the lengths more exactly, or their length_tolerance_m, or stiffness_n: then the \
+         self-stress is real",
+        member + 1,
+        over.saturating_sub(1),
+    )
+}
+
 impl Error {
     /// The kind of the error in a few words, for counting.
     #[must_use]
@@ -149,6 +173,7 @@ impl Error {
             Self::Falls { .. } => "falls",
             Self::Seed { .. } => "bad seed",
             Self::NotClosed { .. } => "not closed",
+            Self::Misfit { .. } => "misfit",
             Self::IterationLimit { .. } => "iteration limit",
             Self::Stalled { .. } => "stalled",
             Self::NoMinimum { .. } => "no minimum",
@@ -179,6 +204,7 @@ mod tests {
             (Error::Falls { joint: 0, force_n: 1.0 }, "falls"),
             (Error::Seed { joints: 2, given: 1 }, "bad seed"),
             (Error::NotClosed { member: 1, misfit_m: 0.1 }, "not closed"),
+            (Error::Misfit { misfits: Vec::new() }, "misfit"),
             (
                 Error::IterationLimit { iterations: 3, unbalance: 0.1, misfit: 0.1 },
                 "iteration limit",

@@ -12,6 +12,7 @@ use crate::network::error::Error;
 use crate::network::factor::Factor;
 use crate::network::frame::Frame;
 use crate::network::interior::{ITERATIONS, Interior, relaxable};
+use crate::network::limit::Limit;
 use crate::network::newton::{FIRST_STRAIN, Newton, finite};
 use crate::network::potential::{Iterate, Potential};
 use crate::network::settings::Settings;
@@ -74,7 +75,7 @@ pub fn minimise(system: &System, settings: &Settings) -> Result<Solution, Error>
     let mut found = descend(&frame, factor, first, way, settings, work);
     for attempt in 1..=RESTARTS {
         match found {
-            Err(Error::NotClosed { .. } | Error::Stalled { .. }) => {
+            Err(Error::NotClosed { .. } | Error::Misfit { .. } | Error::Stalled { .. }) => {
                 let factor = Factor::new(&frame.spots, &frame.rods)?;
                 let elsewhere = displaced(&frame, &start, attempt);
                 found = descend(&frame, factor, elsewhere, Way::Stiff, settings, work).or(found);
@@ -159,6 +160,8 @@ pub(super) struct Minimum {
     pub(super) slope: Arc<Slope>,
     pub(super) factor: Factor,
     pub(super) effort: Effort,
+    /// Where lengths overdetermine the shape.
+    pub(super) limit: Option<Limit>,
 }
 
 /// The minimum with bars taken for cables.
@@ -218,7 +221,8 @@ fn descend(
     effort.factorisations = ended.solver.factor.count;
     match (ended.state.take_param(), ended.state.take_gradient()) {
         (Some(shape), Some(slope)) => {
-            Ok(Minimum { shape, slope, factor: ended.solver.factor, effort })
+            let Newton { factor, limit, .. } = ended.solver;
+            Ok(Minimum { shape, slope, factor, effort, limit })
         }
         _ => Err(Error::NotFinite { quantity: "last iterate" }),
     }

@@ -27,6 +27,7 @@ use crate::network::error::Error;
 use crate::network::factor::Factor;
 use crate::network::frame::Frame;
 use crate::network::law::{Excess, Softened};
+use crate::network::limit::Limit;
 use crate::network::polish::NEUTRAL;
 use crate::network::potential::{Iterate, Potential};
 use crate::network::settings::Settings;
@@ -102,6 +103,8 @@ pub(super) struct Newton {
     definite: bool,
     /// Misfit below which Newton's method for places and forces is tried next.
     near: f64,
+    /// The solution where lengths overdetermine it.
+    pub(super) limit: Option<Limit>,
     ended: Ended,
 }
 
@@ -141,6 +144,7 @@ impl Newton {
             shift: 0.0,
             definite: false,
             near: if relaxed { RELAXED } else { NEAR },
+            limit: None,
             ended: Ended::Not,
         }
     }
@@ -312,6 +316,20 @@ impl Newton {
         Ok(Shape { x: shape.x.clone(), force })
     }
 
+    /// The solution next to a shape, by Newton's method for places and forces; where lengths
+    /// overdetermine it, the limit of stiff springs.
+    fn finish(&mut self, shape: &Shape) -> Result<Option<Shape>, Error> {
+        let exact = self.polish(shape);
+        match self.limit(exact.as_ref().unwrap_or(shape))? {
+            Some(limit) if limit.fits() => {
+                self.limit = Some(limit.clone());
+                Ok(Some(limit.shape))
+            }
+            Some(limit) if exact.is_none() => Err(Error::Misfit { misfits: limit.misfits }),
+            _ => Ok(exact),
+        }
+    }
+
     /// Largest elongation of a spring, over the length of its member.
     fn spring_misfit(&self, shape: &Shape, local: &Local) -> f64 {
         let change = local.soft.iter().zip(&shape.force).map(|(soft, force)| soft.force - force);
@@ -341,13 +359,11 @@ impl Solver<Potential, Iterate> for Newton {
         let shape = state.take_param().ok_or(Error::NotFinite { quantity: "iterate" })?;
         let slope = state.take_gradient().ok_or(Error::NotFinite { quantity: "gradient" })?;
         if slope.misfit <= self.near {
-            match self.polish(&shape) {
-                Some(solution) => {
-                    self.ended = Ended::Converged;
-                    return accept(problem, state, Arc::new(solution));
-                }
-                None => self.near = NEAR.min(0.1 * slope.misfit),
+            if let Some(solution) = self.finish(&shape)? {
+                self.ended = Ended::Converged;
+                return accept(problem, state, Arc::new(solution));
             }
+            self.near = NEAR.min(0.1 * slope.misfit);
         }
         let next = Arc::new(self.approach(&shape, &slope)?);
         accept(problem, state, next)

@@ -23,7 +23,7 @@ use crate::network::shape::Shape;
 use crate::vector::{dot, scaled};
 
 /// Strain of the springs in Newton's method for places and forces: what a step leaves of the error.
-const STIFF_STRAIN: f64 = 1e-6;
+pub(super) const STIFF_STRAIN: f64 = 1e-6;
 
 /// Diagonal added there, over the size of the matrix: where a motion is neutral the step has no
 /// part of it.
@@ -101,7 +101,7 @@ impl Newton {
 
     /// Factorise the matrix with stiff springs in the members that resist; whether it is positive
     /// definite.
-    fn factorise_stiff(&mut self, shape: &Shape, stiffness: f64, active: &[bool]) -> bool {
+    pub(super) fn factorise_stiff(&mut self, shape: &Shape, stiffness: f64, active: &[bool]) -> bool {
         let frame = Arc::clone(&self.frame);
         let excess = frame.excesses(&shape.x);
         let largest = frame.largest_force(&shape.force);
@@ -117,7 +117,7 @@ impl Newton {
     }
 
     /// One step with the factorisation at hand.
-    fn chord(&mut self, shape: &Shape, stiffness: f64, active: &[bool]) -> Shape {
+    pub(super) fn chord(&mut self, shape: &Shape, stiffness: f64, active: &[bool]) -> Shape {
         let frame = Arc::clone(&self.frame);
         let excess = frame.excesses(&shape.x);
         let soft: Vec<Softened> = (0..frame.rods.len())

@@ -4,6 +4,7 @@ mod chains;
 mod conditions;
 mod little_force;
 mod network;
+mod network_overdetermined;
 mod network_large;
 mod network_members;
 mod network_random;

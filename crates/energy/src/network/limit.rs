@@ -1,0 +1,291 @@
+//! The limit of stiff springs where lengths overdetermine the shape.
+//!
+//! Springs of stiffness `kappa / l` in place of the inextensible members have a minimiser `x` with
+//! the forces `kappa e / l`. As `kappa` grows
+//!
+//! `x -> x*,   kappa e / l = t + kappa W e* + O(1 / kappa)`,
+//!
+//! with `e*` the misfits that no change of the shape takes up, `Rᵀ W e* = 0`. The part that grows
+//! with the stiffness is that of the misfits, and rigid members cannot tell it; the other one is
+//! what the loads cause, shared as by equally stiff members. So `x*` and `t` solve
+//!
+//! `Rᵀ t = load,   t = W R y,   Rᵀ W e(x) = 0`.
+//!
+//! Each step here is one of the method of multipliers, Newton's method with springs that are stiff
+//! already, followed by [`Share`], which removes from the forces the part of the misfits. Balance in
+//! the motions that keep the lengths sees the forces of the loads alone.
+//!
+//! A shape that is within the tolerances of a singular one, as three bars in a plane that hold a
+//! joint in space, is read as singular: motions that strain the members by less than some softness
+//! are motions. What needs them strained, as a nearly taut line needs its sag, has no equilibrium in
+//! that reading, and the next one is less soft.
+
+use std::sync::Arc;
+
+use model::system::{Kind, Misfit};
+
+use crate::network::error::Error;
+use crate::network::frame::{Frame, Rod};
+use crate::network::law::Excess;
+use crate::network::newton::Newton;
+use crate::network::polish::{STIFF_STRAIN, rounding_floor};
+use crate::network::shape::{Shape, largest};
+use crate::network::share::Share;
+use crate::vector::norm;
+
+/// Softness of the first reading, over the tolerance of the lengths: a member of length `l` that is
+/// turned by an angle `a` has to be longer by `l a² / 2` and strains by `a` in the motion, so `a²`
+/// is of the size of the tolerance. The corrections of [`Share`] make up for a factor of some 1e3.
+const SOFT: f64 = 1e4;
+
+/// The softness of each reading over that of the one before.
+const HARDER: f64 = 1e-3;
+
+/// Softness of the last reading: below it all is rounding.
+const HARDEST: f64 = 1e-14;
+
+/// Steps of one reading, changes of the taut members included.
+const STEPS: usize = 40;
+
+/// A step leaves at most this part of the residual, or it is one of the last.
+const PROGRESS: f64 = 0.5;
+
+/// Residual at which a reading is given up: it started near.
+const ASTRAY: f64 = 10.0;
+
+/// A shape that is overdetermined, in one reading of it.
+#[derive(Debug, Clone)]
+pub(super) struct Limit {
+    pub(super) shape: Shape,
+    /// Inextensible members that are as long as they can be, whether they bear a force or not.
+    pub(super) taut: Vec<bool>,
+    /// The larger of the unbalance and of the misfits that a change of the shape would take up.
+    pub(super) residual: f64,
+    /// Singular values of the rigidity matrix below this part of the largest are zero.
+    pub(super) rank: f64,
+    /// Of the members that take part in a self-stress, largest over its tolerance first.
+    pub(super) misfits: Vec<Misfit>,
+}
+
+impl Limit {
+    /// Whether all lengths are within their tolerances.
+    pub(super) fn fits(&self) -> bool {
+        self.misfits.iter().all(|misfit| misfit.misfit_m.abs() <= misfit.within_m)
+    }
+
+    /// The largest misfit over its tolerance.
+    fn ratio(&self) -> f64 {
+        self.misfits.first().map_or(0.0, |worst| worst.misfit_m.abs() / worst.within_m)
+    }
+}
+
+impl Frame {
+    /// The same with excesses that are linear in the distance.
+    fn linear(&self) -> Self {
+        let rods = self.rods.iter().map(|rod| Rod { linear: true, ..*rod });
+        Self { rods: rods.collect(), ..self.clone() }
+    }
+
+    /// Inextensible members that are taut within their tolerances, joints on the floor within
+    /// rounding, and the elastic members that resist.
+    fn touching(&self, shape: &Shape) -> Vec<bool> {
+        let rounding = rounding_floor(self, shape);
+        let taut = |(e, rod): (usize, &Rod)| {
+            let excess = rod.excess(self.span(&shape.x, e)).value;
+            let within = if rod.ground { rounding } else { rod.within };
+            rod.kind == Kind::Bar
+                || rod.resists(shape.force[e])
+                || (!rod.elastic() && excess.abs() <= within)
+        };
+        self.rods.iter().enumerate().map(taut).collect()
+    }
+
+    /// The misfits of some members, the worst first.
+    fn misfits(&self, excess: &[Excess], members: &[bool]) -> Vec<Misfit> {
+        let misfit = |member: usize| Misfit {
+            member,
+            misfit_m: excess[member].value * self.length_m,
+            within_m: self.rods[member].within * self.length_m,
+        };
+        let mut misfits: Vec<Misfit> =
+            (0..self.members).filter(|&e| members[e]).map(misfit).collect();
+        let ratio = |misfit: &Misfit| misfit.misfit_m.abs() / misfit.within_m;
+        misfits.sort_by(|a, b| ratio(b).total_cmp(&ratio(a)));
+        misfits
+    }
+}
+
+impl Newton {
+    /// The limit at the singular shape next to this one, in the softest reading that has an
+    /// equilibrium within the tolerances; else the reading that fits best. Nothing where no reading
+    /// finds a self-stress and an equilibrium.
+    pub(super) fn limit(&mut self, shape: &Shape) -> Result<Option<Limit>, Error> {
+        let rods = self.frame.rods.iter().filter(|rod| !rod.ground && !rod.elastic());
+        let within = rods.map(|rod| rod.within / rod.length).fold(0.0, f64::max);
+        if within <= 0.0 {
+            return Ok(None);
+        }
+        let given = Arc::clone(&self.frame);
+        self.frame = Arc::new(given.linear());
+        let found = self.readings(shape, within);
+        self.frame = given;
+        Ok(found?.map(|mut limit| {
+            // The force of the other law is that by its own gradient.
+            for (e, rod) in self.frame.rods.iter().enumerate() {
+                if !rod.elastic() && !rod.ground {
+                    limit.shape.force[e] *= rod.length / norm(self.frame.span(&limit.shape.x, e));
+                }
+            }
+            limit
+        }))
+    }
+
+    /// The readings from the softest to the hardest.
+    fn readings(&mut self, shape: &Shape, within: f64) -> Result<Option<Limit>, Error> {
+        let mut share = Share::new(&self.frame)?;
+        let mut softness = (SOFT * within).min(SOFTEST);
+        let mut best: Option<Limit> = None;
+        while softness >= HARDEST {
+            match self.reading(&mut share, shape, softness) {
+                Reading::Found(found) if found.fits() => return Ok(Some(found)),
+                Reading::Found(found) => {
+                    if best.as_ref().is_none_or(|best| found.ratio() < best.ratio()) {
+                        best = Some(found);
+                    }
+                }
+                Reading::Astray => {}
+                Reading::Regular => break,
+            }
+            softness *= HARDER;
+        }
+        Ok(best)
+    }
+
+    /// One reading of the shape.
+    fn reading(&mut self, share: &mut Share, start: &Shape, softness: f64) -> Reading {
+        let frame = Arc::clone(&self.frame);
+        let mut shape = start.clone();
+        let mut taut = frame.touching(&shape);
+        if !share.stand(&shape.x, &taut, softness) {
+            return Reading::Astray;
+        }
+        if share.self_stressed().is_none() {
+            return Reading::Regular;
+        }
+        share_forces(&frame, share, &mut shape.force);
+        let stiffness = frame.force_scale(&shape.force) / STIFF_STRAIN;
+        let mut last: Option<(f64, Shape)> = None;
+        for _ in 0..STEPS {
+            if !self.factorise_stiff(&shape, stiffness, &taut) {
+                return Reading::Astray;
+            }
+            shape = self.chord(&shape, stiffness, &taut);
+            if !share.stand(&shape.x, &taut, softness) {
+                return Reading::Astray;
+            }
+            let stretch = share_forces(&frame, share, &mut shape.force);
+            if change_taut(&frame, &mut shape, &mut taut, &stretch) {
+                last = None;
+                continue;
+            }
+            let residual = self.limit_residual(share, &shape, &taut);
+            if !residual.is_finite() || residual > ASTRAY {
+                return Reading::Astray;
+            }
+            match last {
+                Some((before, there)) if residual > PROGRESS * before => {
+                    let (residual, shape) =
+                        if residual < before { (residual, shape) } else { (before, there) };
+                    if residual > self.tolerance(&shape) {
+                        return Reading::Astray;
+                    }
+                    return self.ended(share, shape, residual, softness);
+                }
+                _ => last = Some((residual, shape.clone())),
+            }
+        }
+        Reading::Astray
+    }
+
+    /// A converged reading.
+    fn ended(&self, share: &mut Share, shape: Shape, residual: f64, softness: f64) -> Reading {
+        let taut = self.frame.touching(&shape);
+        if !share.stand(&shape.x, &taut, softness) {
+            return Reading::Astray;
+        }
+        let Some(stressed) = share.self_stressed() else { return Reading::Regular };
+        let misfits = self.frame.misfits(&self.frame.excesses(&shape.x), &stressed);
+        Reading::Found(Limit { shape, taut, residual, rank: softness.sqrt(), misfits })
+    }
+
+    /// The larger of the unbalance and of the strains that a change of the shape would take up.
+    fn limit_residual(&self, share: &mut Share, shape: &Shape, taut: &[bool]) -> f64 {
+        let frame = &self.frame;
+        let excess = frame.excesses(&shape.x);
+        let springs: Vec<f64> =
+            frame.rods.iter().zip(&excess).map(|(rod, c)| c.value / rod.length).collect();
+        let strain = largest(&share.shared(&springs).force);
+        let misfits = frame.rods.iter().enumerate().map(|(e, rod)| {
+            let misfit = rod.misfit(excess[e].value, shape.force[e]);
+            if rod.elastic() {
+                misfit
+            } else if taut[e] || misfit <= rod.within / rod.length {
+                0.0
+            } else {
+                misfit
+            }
+        });
+        let misfit = misfits.fold(strain, f64::max);
+        frame.slope(shape).unbalance.max(misfit)
+    }
+}
+
+/// What a reading of a shape ends with.
+enum Reading {
+    Found(Limit),
+    /// No equilibrium near the start.
+    Astray,
+    /// No self-stress: the shape is not overdetermined.
+    Regular,
+}
+
+/// Softness of the first reading at most: more than that and nothing is rigid.
+const SOFTEST: f64 = 1e-2;
+
+/// Take out of the forces of the inextensible members what no load causes; the stretches of all.
+fn share_forces(frame: &Frame, share: &mut Share, force: &mut [f64]) -> Vec<f64> {
+    let shared = share.shared(force);
+    for (e, rod) in frame.rods.iter().enumerate() {
+        if !rod.elastic() {
+            force[e] = shared.force[e];
+        }
+    }
+    shared.stretch
+}
+
+/// Let go of members that work against their kind, and take back those that would resist; whether
+/// there are any.
+fn change_taut(frame: &Frame, shape: &mut Shape, taut: &mut [bool], stretch: &[f64]) -> bool {
+    let rounding = rounding_floor(frame, shape);
+    let least = rounding * frame.force_scale(&shape.force);
+    let touching = frame.touching(shape);
+    let mut changed = false;
+    for (e, rod) in frame.rods.iter().enumerate() {
+        if rod.kind == Kind::Bar {
+            continue;
+        }
+        let force = shape.force[e];
+        if taut[e] && force.abs() > least && !rod.resists(force) {
+            (taut[e], changed) = (false, true);
+        } else if !taut[e] {
+            let pulls = if rod.elastic() { rod.excess(frame.span(&shape.x, e)).value } else { stretch[e] };
+            if touching[e] && pulls.abs() > least && rod.resists(pulls) || rod.elastic() && rod.prestress(pulls).abs() > least {
+                (taut[e], changed) = (true, true);
+            }
+        }
+        if !taut[e] {
+            shape.force[e] = 0.0;
+        }
+    }
+    changed
+}

@@ -1,0 +1,372 @@
+//! Frames whose lengths overdetermine the shape, held against the weighted least-norm solution by a
+//! dense singular value decomposition.
+
+use energy::network::{Error, Settings, Solution, minimise};
+use faer::Mat;
+use model::system::{Joint, Kind, Member, Support, System};
+use model::{ForceChoice, Vector};
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+
+use crate::network_support::{G, bar};
+
+/// Balance, over the loads.
+const BALANCE: f64 = 1e-9;
+
+/// Error of a force over the loads and the condition of the frame.
+const FORCE: f64 = 1e-12;
+
+/// Singular values below this part of the largest are zero.
+const RANK: f64 = 1e-7;
+
+fn difference(a: Vector, b: Vector) -> Vector {
+    std::array::from_fn(|k| a[k] - b[k])
+}
+
+fn norm(a: Vector) -> f64 {
+    a.iter().map(|x| x * x).sum::<f64>().sqrt()
+}
+
+/// Loads of the joints, N.
+fn loads(system: &System) -> Vec<Vector> {
+    let own = |joint: &Joint| {
+        let f = joint.force_n;
+        [f[0], f[1], f[2] - joint.mass_kg * G]
+    };
+    let mut loads: Vec<Vector> = system.joints().iter().map(own).collect();
+    for member in system.members() {
+        for joint in [member.from, member.to] {
+            loads[joint][2] -= 0.5 * member.body.mass_kg() * G;
+        }
+    }
+    loads
+}
+
+/// What stands in the equations of the free joints of an answer: gradients of the rigid members by
+/// rows, over the square root of the length, and the loads less what elastic members bear.
+struct Oracle {
+    rigid: Vec<usize>,
+    rows: Mat<f64>,
+    right: Vec<f64>,
+    load: f64,
+}
+
+impl Oracle {
+    fn new(system: &System, solution: &Solution) -> Self {
+        let x = &solution.equilibrium.joints_m;
+        let mut first = vec![None; x.len()];
+        let mut n = 0;
+        for (joint, first) in system.joints().iter().zip(&mut first) {
+            if joint.support == Support::Free {
+                *first = Some(n);
+                n += 3;
+            }
+        }
+        let loads = loads(system);
+        let load = loads.iter().zip(&first).filter(|(_, first)| first.is_some());
+        let load: f64 = load.map(|(load, _)| norm(*load)).sum();
+        let rigid: Vec<usize> =
+            (0..system.members().len()).filter(|&e| system.members()[e].stiffness_n.is_none()).collect();
+        let mut rows = Mat::zeros(rigid.len(), n);
+        let mut right = vec![0.0; n];
+        for (joint, first) in first.iter().enumerate() {
+            for k in 0..3 {
+                if let Some(first) = first {
+                    right[first + k] = loads[joint][k];
+                }
+            }
+        }
+        for (e, member) in system.members().iter().enumerate() {
+            let d = difference(x[member.to], x[member.from]);
+            let length = member.body.length_m();
+            for (joint, sign) in [(member.from, -1.0), (member.to, 1.0)] {
+                let Some(first) = first[joint] else { continue };
+                for k in 0..3 {
+                    let u = sign * d[k] / norm(d);
+                    match member.stiffness_n {
+                        None => {
+                            let row = rigid.iter().position(|r| *r == e).unwrap();
+                            rows[(row, first + k)] = u / length.sqrt();
+                        }
+                        Some(stiffness) => right[first + k] -= u * stiffness * (norm(d) / length - 1.0),
+                    }
+                }
+            }
+        }
+        Self { rigid, rows, right, load }
+    }
+
+    /// The rest of the balance of the free joints.
+    fn unbalance(&self, system: &System, solution: &Solution) -> f64 {
+        let mut rest = self.right.clone();
+        for (row, &e) in self.rigid.iter().enumerate() {
+            let t = solution.equilibrium.axial_n[e] * system.members()[e].body.length_m().sqrt();
+            for (k, rest) in rest.iter_mut().enumerate() {
+                *rest -= t * self.rows[(row, k)];
+            }
+        }
+        rest.iter().fold(0.0, |most: f64, rest| most.max(rest.abs())) / self.load
+    }
+
+    /// Forces with the least `sum t² l`, the condition, and the number of self-stresses.
+    fn forces(&self, system: &System) -> (Vec<f64>, f64, usize) {
+        let svd = self.rows.svd().unwrap();
+        let values: Vec<f64> = (0..self.rows.nrows().min(self.rows.ncols())).map(|k| svd.S()[k]).collect();
+        let rank = values.iter().filter(|value| **value > RANK * values[0]).count();
+        let mut forces = vec![0.0; self.rigid.len()];
+        for k in 0..rank {
+            let part: f64 =
+                (0..self.right.len()).map(|j| svd.V()[(j, k)] * self.right[j]).sum::<f64>() / values[k];
+            for (row, force) in forces.iter_mut().enumerate() {
+                *force += part * svd.U()[(row, k)];
+            }
+        }
+        for (force, &e) in forces.iter_mut().zip(&self.rigid) {
+            *force /= system.members()[e].body.length_m().sqrt();
+        }
+        (forces, values[0] / values[rank - 1], self.rigid.len() - rank)
+    }
+}
+
+/// What holds for every answer of a frame of bars.
+fn check(system: &System, solution: &Solution) -> usize {
+    let found = &solution.equilibrium;
+    for (e, member) in system.members().iter().enumerate() {
+        let d = norm(difference(found.joints_m[member.to], found.joints_m[member.from]));
+        let off = d - member.body.length_m();
+        let within = member.within_m().max(1e-14);
+        assert!(member.stiffness_n.is_some() || off.abs() <= within, "member {e}: {off:e}");
+    }
+    let oracle = Oracle::new(system, solution);
+    let unbalance = oracle.unbalance(system, solution);
+    assert!(unbalance < BALANCE, "unbalance {unbalance:e}");
+    let (forces, condition, self_stresses) = oracle.forces(system);
+    for (force, &e) in forces.iter().zip(&oracle.rigid) {
+        let off = (found.axial_n[e] - force).abs() / oracle.load;
+        assert!(off < FORCE * condition * condition.max(1e2), "member {e}: {} is not {force}: {off:e}, condition {condition:e}", found.axial_n[e]);
+    }
+    if self_stresses > 0 {
+        let named = found.evidence.self_stresses.as_ref().expect("self-stresses");
+        assert_eq!((named.dimension, named.choice), (self_stresses, ForceChoice::EquallyStiff));
+        assert!(named.misfit_m.is_some());
+    }
+    self_stresses
+}
+
+/// A frame with its shape.
+struct Drawn {
+    joints: Vec<Joint>,
+    shape: Vec<Vector>,
+    /// Ends, and a stiffness of those that have one.
+    members: Vec<(usize, usize, Option<f64>)>,
+}
+
+impl Drawn {
+    /// The system with lengths changed by a part each.
+    fn system(&self, change: impl Fn(usize) -> f64, tolerance_m: Option<f64>) -> System {
+        let members = self.members.iter().enumerate().map(|(e, &(from, to, stiffness_n))| {
+            let length = norm(difference(self.shape[to], self.shape[from])) * (1.0 + change(e));
+            let length_tolerance_m = tolerance_m.filter(|_| stiffness_n.is_none());
+            Member { stiffness_n, length_tolerance_m, ..bar(from, to, length, 0.0) }
+        });
+        System::new("a frame", G, self.joints.clone(), members.collect()).expect("a system")
+    }
+}
+
+/// How the places are drawn.
+const STYLES: usize = 4;
+
+fn place(rng: &mut ChaCha8Rng, style: usize) -> Vector {
+    std::array::from_fn(|_| {
+        let value: f64 = rng.random_range(-3.0..3.0);
+        match style {
+            0 => value.round(),
+            1 => (10.0 * value).round() / 10.0,
+            _ => value,
+        }
+    })
+}
+
+/// One to three joints, each on some legs to anchors, the joints connected in a row.
+fn draw(rng: &mut ChaCha8Rng, style: usize) -> Drawn {
+    let free = rng.random_range(1..4);
+    let mut shape: Vec<Vector> = Vec::new();
+    let apart = |shape: &[Vector], at: Vector| shape.iter().all(|x| norm(difference(*x, at)) > 0.7);
+    while shape.len() < free {
+        let at = place(rng, style);
+        if apart(&shape, at) {
+            shape.push(at);
+        }
+    }
+    let mut joints: Vec<Joint> = (0..free)
+        .map(|k| {
+            let force = place(rng, style);
+            Joint { force_n: force, ..Joint::free(format!("P{k}")).with_mass(rng.random_range(1.0..3.0)) }
+        })
+        .collect();
+    let mut members: Vec<(usize, usize, Option<f64>)> = (1..free).map(|k| (k - 1, k, None)).collect();
+    let legs = rng.random_range(4..13);
+    for k in 0..free {
+        for leg in 0..legs {
+            let at = loop {
+                let at = if style == 3 {
+                    // A regular star around the joint, above it.
+                    let angle = std::f64::consts::TAU * leg as f64 / legs as f64;
+                    [shape[k][0] + 2.0 * angle.cos(), shape[k][1] + 2.0 * angle.sin(), shape[k][2] + 1.5]
+                } else {
+                    place(rng, style)
+                };
+                if style == 3 || norm(difference(at, shape[k])) > 0.7 {
+                    break at;
+                }
+            };
+            let elastic = style != 3 && leg > 3 && rng.random_range(0..5) == 0;
+            members.push((shape.len(), k, elastic.then_some(1000.0)));
+            joints.push(Joint::anchor(format!("A{k}-{leg}"), at));
+            shape.push(at);
+        }
+    }
+    Drawn { joints, shape, members }
+}
+
+/// A cantilever of braced bays, each square of which has both diagonals.
+fn tower(bays: usize) -> Drawn {
+    let mut drawn = Drawn { joints: vec![], shape: vec![], members: vec![] };
+    for level in 0..=bays {
+        for (k, [x, y]) in [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].into_iter().enumerate() {
+            let at = [x, y, 1.1 * level as f64];
+            let name = format!("{level}.{k}");
+            let force_n = [3.0 + k as f64, 1.0, -7.0];
+            drawn.shape.push(at);
+            drawn.joints.push(if level == 0 {
+                Joint::anchor(name, at)
+            } else {
+                Joint { force_n, ..Joint::free(name) }
+            });
+        }
+    }
+    for level in 1..=bays {
+        for k in 0..4 {
+            let (here, next) = (4 * level + k, 4 * level + (k + 1) % 4);
+            drawn.members.extend([(here, next, None), (here - 4, here, None), (here - 4, next, None), (next - 4, here, None)]);
+        }
+    }
+    drawn
+}
+
+/// Rounding of a length.
+fn rounded(rng: &mut ChaCha8Rng, size: f64, count: usize) -> Vec<f64> {
+    (0..count).map(|_| rng.random_range(-size..size)).collect()
+}
+
+#[test]
+fn legs_to_anchors_share_as_equally_stiff_ones() {
+    let mut over = 0;
+    for stream in 0..520 {
+        let mut rng = ChaCha8Rng::seed_from_u64(stream);
+        let drawn = draw(&mut rng, stream as usize % STYLES);
+        let size: f64 = [0.0, 1e-15, 1e-12, 3e-11][stream as usize / STYLES % 4];
+        let changes = rounded(&mut rng, size.max(1e-300), drawn.members.len());
+        let system = drawn.system(|e| changes[e], None);
+        match minimise(&system, &Settings::default()) {
+            Ok(solution) => {
+                eprintln!("stream {stream}");
+                over += usize::from(check(&system, &solution) > 0);
+            }
+            Err(error) => eprintln!("stream {stream}: {} {error}", drawn.members.len()),
+        }
+    }
+    eprintln!("{over}");
+    assert!(over > 500, "{over}");
+}
+
+#[test]
+fn towers_share_as_equally_stiff_ones() {
+    for bays in [1, 3, 10] {
+        let drawn = tower(bays);
+        for size in [0.0, 1e-11] {
+            let mut rng = ChaCha8Rng::seed_from_u64(7);
+            let changes = rounded(&mut rng, 1e-300 + size, drawn.members.len());
+            let system = drawn.system(|e| changes[e], None);
+            let solution = minimise(&system, &Settings::default()).expect("a tower");
+            check(&system, &solution);
+        }
+    }
+}
+
+/// Lengths that are off by a part of 1e-6 are refused, and solved where they are known to 1e-5 m.
+#[test]
+fn misfits_are_refused_or_within_their_tolerance() {
+    for stream in 0..60 {
+        let mut rng = ChaCha8Rng::seed_from_u64(stream);
+        let drawn = draw(&mut rng, stream as usize % STYLES);
+        let changes = rounded(&mut rng, 1e-6, drawn.members.len());
+        let refused = minimise(&drawn.system(|e| changes[e], None), &Settings::default());
+        let Err(Error::Misfit { misfits }) = refused else { panic!("{stream}: {refused:?}") };
+        assert!(misfits[0].misfit_m.abs() > misfits[0].within_m);
+        let system = drawn.system(|e| changes[e], Some(2e-5));
+        let solution = minimise(&system, &Settings::default()).expect("within tolerance");
+        check(&system, &solution);
+    }
+}
+
+/// Three bars in a vertical plane to a joint in space: a bar too many in the plane, and a motion out
+/// of it, whatever the last digits of the lengths.
+#[test]
+fn bars_in_a_plane_are_read_as_such() {
+    let shape = vec![[0.3, 0.0, -1.7], [-1.0, 0.0, 0.2], [0.1, 0.0, 0.5], [1.6, 0.0, -0.1]];
+    let mut joints: Vec<Joint> = shape.iter().map(|at| Joint::anchor("A", *at)).collect();
+    for (k, joint) in joints.iter_mut().enumerate() {
+        joint.name = format!("J{k}");
+    }
+    joints[0] = Joint::free("P").with_mass(2.0);
+    let members = (1..4).map(|k| (k, 0, None)).collect();
+    let drawn = Drawn { joints, shape, members };
+    for stream in 0..40 {
+        let mut rng = ChaCha8Rng::seed_from_u64(stream);
+        let size = [1e-15, 1e-13, 1e-11, 1e-10][stream as usize % 4];
+        let changes = rounded(&mut rng, size, 3);
+        let system = drawn.system(|e| changes[e], None);
+        let solution = minimise(&system, &Settings::default()).expect("a minimum");
+        assert_eq!(check(&system, &solution), 1, "{stream}");
+        assert!(solution.equilibrium.joints_m[0][1].abs() < 1e-12);
+    }
+}
+
+/// Gaps above the floor: the cable bears all, down to rounding.
+#[test]
+fn a_gap_above_the_floor_is_a_gap() {
+    for gap in [3e-15, 1e-13, 1e-12, 3e-12, 1e-11, 3e-10, 1e-8, 1e-6] {
+        let joints = vec![Joint::anchor("A", [0.0; 3]), Joint::free("P").with_mass(1.0)];
+        let cable = Member { kind: Kind::Cable, ..bar(0, 1, 1.0, 0.0) };
+        let system = System::new("gap", G, joints, vec![cable]).unwrap().with_floor(-1.0 - gap).unwrap();
+        let solution = minimise(&system, &Settings::default()).expect("a minimum");
+        let force = solution.equilibrium.axial_n[0];
+        assert!((force - 10.0).abs() < 1e-9, "{gap:e}: {force}");
+    }
+}
+
+/// A line of four parts, longer than its span by a part `slack`: the joints hang from their shape.
+/// Expected values from Newton's method with fifty digits.
+#[test]
+fn nearly_taut_lines_keep_their_sag() {
+    for slack in [1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10] {
+        let lengths = [0.7, 1.1, 0.9, 1.3].map(|l| l * (1.0 + slack));
+        let joints = vec![
+            Joint::anchor("A", [0.0; 3]),
+            Joint::free("P").with_mass(1.0),
+            Joint::free("Q").with_mass(1.0),
+            Joint::free("R").with_mass(1.0),
+            Joint::anchor("B", [4.0, 0.0, 0.0]),
+        ];
+        let members = (0..4).map(|e| bar(e, e + 1, lengths[e], 0.5)).collect();
+        let system = System::new("line", G, joints, members).unwrap();
+        match minimise(&system, &Settings::default()) {
+            Ok(solution) => {
+                let found = &solution.equilibrium;
+                eprintln!("slack {slack:e} {:?} {:?} res {:e}", found.joints_m, found.axial_n, found.evidence.residual);
+            }
+            Err(error) => eprintln!("slack {slack:e} {error}"),
+        }
+    }
+}
