@@ -72,6 +72,26 @@ pub enum Error {
         /// The members that would be under self-stress, the worst first.
         misfits: Vec<Misfit>,
     },
+    /// Occurs when the joints balance with forces so large beside the loads and the prestress of the
+    /// system that their rounding is no longer small beside these: next to a singular shape.
+    #[error(
+        "the lengths are kept with {ratio:e} times the loads in member {member} alone, of which nothing is \
+         certain: the shape is next to one that bears any forces"
+    )]
+    Absurd {
+        /// Number of the member with the largest force, from 1.
+        member: usize,
+        /// Its force over the sum of the loads and the largest force of an elastic member.
+        ratio: f64,
+    },
+    /// Occurs when joints are out of balance by more than a part of what loads them.
+    #[error("joint {joint} is out of balance by {unbalance:e} of its load")]
+    Unbalanced {
+        /// Number of the joint, from 0.
+        joint: usize,
+        /// The unbalanced force over the load of the joint, or over the mean load where that is more.
+        unbalance: f64,
+    },
     /// Occurs when the iterations are used up.
     #[error(
         "not converged after {iterations} iterations: unbalanced force {unbalance:e} of the largest, lengths \
@@ -174,6 +194,8 @@ impl Error {
             Self::Seed { .. } => "bad seed",
             Self::NotClosed { .. } => "not closed",
             Self::Misfit { .. } => "misfit",
+            Self::Absurd { .. } => "absurd forces",
+            Self::Unbalanced { .. } => "out of balance",
             Self::IterationLimit { .. } => "iteration limit",
             Self::Stalled { .. } => "stalled",
             Self::NoMinimum { .. } => "no minimum",
@@ -205,6 +227,8 @@ mod tests {
             (Error::Seed { joints: 2, given: 1 }, "bad seed"),
             (Error::NotClosed { member: 1, misfit_m: 0.1 }, "not closed"),
             (Error::Misfit { misfits: Vec::new() }, "misfit"),
+            (Error::Absurd { member: 1, ratio: 1e9 }, "absurd forces"),
+            (Error::Unbalanced { joint: 1, unbalance: 0.1 }, "out of balance"),
             (
                 Error::IterationLimit { iterations: 3, unbalance: 0.1, misfit: 0.1 },
                 "iteration limit",

@@ -28,7 +28,7 @@ use crate::network::error::Error;
 use crate::network::frame::{Frame, Rod};
 use crate::network::law::Excess;
 use crate::network::newton::Newton;
-use crate::network::polish::{STIFF_STRAIN, rounding_floor};
+use crate::network::polish::{STIFF_STRAIN, STIFFER, STIFFEST_STRAIN, rounding_floor};
 use crate::network::shape::{Shape, largest};
 use crate::network::share::Share;
 use crate::vector::norm;
@@ -37,6 +37,9 @@ use crate::vector::norm;
 /// turned by an angle `a` has to be longer by `l a² / 2` and strains by `a` in the motion, so `a²`
 /// is of the size of the tolerance. The corrections of [`Share`] make up for a factor of some 1e3.
 const SOFT: f64 = 1e4;
+
+/// Softness of the first reading at most: more than that and nothing is rigid.
+const SOFTEST: f64 = 1e-2;
 
 /// The softness of each reading over that of the one before.
 const HARDER: f64 = 1e-3;
@@ -79,6 +82,17 @@ impl Limit {
     }
 }
 
+/// What a reading of a shape ends with.
+pub(super) enum Reading {
+    Found(Limit),
+    /// A joint that seemed to lie on the floor is above it, and then nothing is overdetermined.
+    Released(Shape),
+    /// No equilibrium near the start.
+    Astray,
+    /// No self-stress: the shape is not overdetermined.
+    Regular,
+}
+
 impl Frame {
     /// The same with excesses that are linear in the distance.
     fn linear(&self) -> Self {
@@ -117,48 +131,50 @@ impl Frame {
 
 impl Newton {
     /// The limit at the singular shape next to this one, in the softest reading that has an
-    /// equilibrium within the tolerances; else the reading that fits best. Nothing where no reading
-    /// finds a self-stress and an equilibrium.
-    pub(super) fn limit(&mut self, shape: &Shape) -> Result<Option<Limit>, Error> {
+    /// equilibrium within the tolerances; else the reading that fits best. [`Reading::Regular`] where
+    /// no reading finds a self-stress and an equilibrium.
+    pub(super) fn limit(&mut self, shape: &Shape) -> Result<Reading, Error> {
         let rods = self.frame.rods.iter().filter(|rod| !rod.ground && !rod.elastic());
         let within = rods.map(|rod| rod.within / rod.length).fold(0.0, f64::max);
         if within <= 0.0 {
-            return Ok(None);
+            return Ok(Reading::Regular);
         }
         let given = Arc::clone(&self.frame);
         self.frame = Arc::new(given.linear());
         let found = self.readings(shape, within);
         self.frame = given;
-        Ok(found?.map(|mut limit| {
+        let mut found = found?;
+        if let Reading::Found(limit) = &mut found {
             // The force of the other law is that by its own gradient.
             for (e, rod) in self.frame.rods.iter().enumerate() {
                 if !rod.elastic() && !rod.ground {
                     limit.shape.force[e] *= rod.length / norm(self.frame.span(&limit.shape.x, e));
                 }
             }
-            limit
-        }))
+        }
+        Ok(found)
     }
 
     /// The readings from the softest to the hardest.
-    fn readings(&mut self, shape: &Shape, within: f64) -> Result<Option<Limit>, Error> {
+    fn readings(&mut self, shape: &Shape, within: f64) -> Result<Reading, Error> {
         let mut share = Share::new(&self.frame)?;
         let mut softness = (SOFT * within).min(SOFTEST);
         let mut best: Option<Limit> = None;
         while softness >= HARDEST {
             match self.reading(&mut share, shape, softness) {
-                Reading::Found(found) if found.fits() => return Ok(Some(found)),
+                Reading::Found(found) if found.fits() => return Ok(Reading::Found(found)),
                 Reading::Found(found) => {
                     if best.as_ref().is_none_or(|best| found.ratio() < best.ratio()) {
                         best = Some(found);
                     }
                 }
+                Reading::Released(shape) => return Ok(Reading::Released(shape)),
                 Reading::Astray => {}
                 Reading::Regular => break,
             }
             softness *= HARDER;
         }
-        Ok(best)
+        Ok(best.map_or(Reading::Regular, Reading::Found))
     }
 
     /// One reading of the shape.
@@ -173,9 +189,10 @@ impl Newton {
             return Reading::Regular;
         }
         share_forces(&frame, share, &mut shape.force);
-        let stiffness = frame.force_scale(&shape.force) / STIFF_STRAIN;
+        let mut strain = STIFF_STRAIN;
         let mut last: Option<(f64, Shape)> = None;
         for _ in 0..STEPS {
+            let stiffness = frame.force_scale(&shape.force) / strain;
             if !self.factorise_stiff(&shape, stiffness, &taut) {
                 return Reading::Astray;
             }
@@ -194,8 +211,25 @@ impl Newton {
             }
             match last {
                 Some((before, there)) if residual > PROGRESS * before => {
-                    let (residual, shape) =
-                        if residual < before { (residual, shape) } else { (before, there) };
+                    let better = if residual < before { (residual, shape) } else { (before, there) };
+                    if strain > STIFFEST_STRAIN && better.0 > rounding_floor(&frame, &better.1) {
+                        strain *= STIFFER;
+                        shape = better.1.clone();
+                        last = Some(better);
+                        continue;
+                    }
+                    let (residual, mut better) = better;
+                    if release_floor(&frame, &mut better, &mut taut) {
+                        (shape, last) = (better, None);
+                        if !share.stand(&shape.x, &taut, softness) {
+                            return Reading::Astray;
+                        }
+                        if share.self_stressed().is_none() {
+                            return Reading::Released(shape);
+                        }
+                        continue;
+                    }
+                    let shape = better;
                     if residual > self.tolerance(&shape) {
                         return Reading::Astray;
                     }
@@ -240,18 +274,6 @@ impl Newton {
     }
 }
 
-/// What a reading of a shape ends with.
-enum Reading {
-    Found(Limit),
-    /// No equilibrium near the start.
-    Astray,
-    /// No self-stress: the shape is not overdetermined.
-    Regular,
-}
-
-/// Softness of the first reading at most: more than that and nothing is rigid.
-const SOFTEST: f64 = 1e-2;
-
 /// Take out of the forces of the inextensible members what no load causes; the stretches of all.
 fn share_forces(frame: &Frame, share: &mut Share, force: &mut [f64]) -> Vec<f64> {
     let shared = share.shared(force);
@@ -261,6 +283,18 @@ fn share_forces(frame: &Frame, share: &mut Share, force: &mut [f64]) -> Vec<f64>
         }
     }
     shared.stretch
+}
+
+/// Let go of the floor where it is not reached, by more than rounding; whether there is such a joint.
+fn release_floor(frame: &Frame, shape: &mut Shape, taut: &mut [bool]) -> bool {
+    let rounding = rounding_floor(frame, shape);
+    let mut released = false;
+    for (e, rod) in frame.rods.iter().enumerate().filter(|(_, rod)| rod.ground) {
+        if taut[e] && rod.excess(frame.span(&shape.x, e)).value < -rounding {
+            (taut[e], shape.force[e], released) = (false, 0.0, true);
+        }
+    }
+    released
 }
 
 /// Let go of members that work against their kind, and take back those that would resist; whether

@@ -74,16 +74,19 @@ pub fn minimise(system: &System, settings: &Settings) -> Result<Solution, Error>
     let (first, way) = if astray { (start.clone(), Way::Free) } else { (relaxed, Way::Relaxed) };
     let mut found = descend(&frame, factor, first, way, settings, work);
     for attempt in 1..=RESTARTS {
-        match found {
-            Err(Error::NotClosed { .. } | Error::Misfit { .. } | Error::Stalled { .. }) => {
-                let factor = Factor::new(&frame.spots, &frame.rods)?;
-                let elsewhere = displaced(&frame, &start, attempt);
-                found = descend(&frame, factor, elsewhere, Way::Stiff, settings, work).or(found);
-            }
-            _ => break,
+        if !found.as_ref().is_err_and(hard_to_close) {
+            break;
         }
+        let factor = Factor::new(&frame.spots, &frame.rods)?;
+        let elsewhere = displaced(&frame, &start, attempt);
+        found = descend(&frame, factor, elsewhere, Way::Stiff, settings, work).or(found);
     }
     Solution::new(system, &frame, found?, settings, clock)
+}
+
+/// Whether the lengths may be kept elsewhere, or with more weight on them.
+fn hard_to_close(error: &Error) -> bool {
+    matches!(error, Error::NotClosed { .. } | Error::Misfit { .. } | Error::Stalled { .. })
 }
 
 /// The start with each joint moved by up to the length of the longest member, without any symmetry.
@@ -112,8 +115,14 @@ pub fn minimise_from(
     check_held(&frame)?;
     let start = seeded(&frame, seed_m)?;
     let factor = Factor::new(&frame.spots, &frame.rods)?;
-    let minimum = descend(&frame, factor, start, Way::Free, settings, Effort::default())?;
-    Solution::new(system, &frame, minimum, settings, clock)
+    let mut found =
+        descend(&frame, factor, start.clone(), Way::Free, settings, Effort::default());
+    if found.as_ref().is_err_and(hard_to_close) {
+        // A seed that nearly keeps its lengths is not to be crushed by its loads.
+        let factor = Factor::new(&frame.spots, &frame.rods)?;
+        found = descend(&frame, factor, start, Way::Stiff, settings, Effort::default()).or(found);
+    }
+    Solution::new(system, &frame, found?, settings, clock)
 }
 
 /// The seed in the solver's units, on the supports. Elastic members bear what their lengths say

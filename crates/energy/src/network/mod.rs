@@ -60,6 +60,7 @@
 //! held against approximate minimum degree for nets of 100 x 100, 200 x 200 and 316 x 316: 0.56 to
 //! 0.51 s, 3.5 to 3.5 s, 11.3 to 11.4 s. It is not used.
 
+mod balance;
 mod component;
 mod error;
 mod factor;

@@ -27,7 +27,7 @@ use crate::network::error::Error;
 use crate::network::factor::Factor;
 use crate::network::frame::Frame;
 use crate::network::law::{Excess, Softened};
-use crate::network::limit::Limit;
+use crate::network::limit::{Limit, Reading};
 use crate::network::polish::NEUTRAL;
 use crate::network::potential::{Iterate, Potential};
 use crate::network::settings::Settings;
@@ -320,13 +320,18 @@ impl Newton {
     /// overdetermine it, the limit of stiff springs.
     fn finish(&mut self, shape: &Shape) -> Result<Option<Shape>, Error> {
         let exact = self.polish(shape);
+        let absurd = exact.as_ref().and_then(|exact| self.frame.absurd(exact));
+        let exact = exact.filter(|_| absurd.is_none());
         match self.limit(exact.as_ref().unwrap_or(shape))? {
-            Some(limit) if limit.fits() => {
+            Reading::Found(limit) if limit.fits() => {
                 self.limit = Some(limit.clone());
                 Ok(Some(limit.shape))
             }
-            Some(limit) if exact.is_none() => Err(Error::Misfit { misfits: limit.misfits }),
-            _ => Ok(exact),
+            Reading::Found(limit) if exact.is_none() => {
+                Err(Error::Misfit { misfits: limit.misfits })
+            }
+            Reading::Released(shape) => Ok(self.polish(&shape)),
+            _ => absurd.map_or(Ok(exact), Err),
         }
     }
 

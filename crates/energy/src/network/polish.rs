@@ -25,6 +25,14 @@ use crate::vector::{dot, scaled};
 /// Strain of the springs in Newton's method for places and forces: what a step leaves of the error.
 pub(super) const STIFF_STRAIN: f64 = 1e-6;
 
+/// Of lengths that the shape hardly feels it leaves more: a line whose parts are at an angle `a` to
+/// each other strains by `a` times a displacement, and springs of strain `a²` halve the error. Where
+/// steps bring little the springs become stiffer by this factor,
+pub(super) const STIFFER: f64 = 1e-3;
+
+/// down to this strain, at which the rounding of the springs is a part 1e-4 of the forces.
+pub(super) const STIFFEST_STRAIN: f64 = 1e-12;
+
 /// Diagonal added there, over the size of the matrix: where a motion is neutral the step has no
 /// part of it.
 pub(super) const NEUTRAL: f64 = 1e-10;
@@ -49,12 +57,13 @@ impl Newton {
     pub(super) fn polish(&mut self, shape: &Shape) -> Option<Shape> {
         let frame = Arc::clone(&self.frame);
         let (mut shape, mut slope) = (shape.clone(), frame.slope(shape));
-        let stiffness = frame.force_scale(&shape.force) / STIFF_STRAIN;
+        let mut strain = STIFF_STRAIN;
         let (mut steps, mut changes) = (POLISH, CHANGES);
         let mut active = frame.active(&shape);
         while steps > 0 {
             steps -= 1;
             let start = slope.residual();
+            let stiffness = frame.force_scale(&shape.force) / strain;
             if !self.factorise_stiff(&shape, stiffness, &active) {
                 return None;
             }
@@ -66,7 +75,7 @@ impl Newton {
                     return None;
                 }
                 if after >= before && before <= self.tolerance(&shape) {
-                    return Some(shape);
+                    break;
                 }
                 if chord > 0 && after > CHORD_PROGRESS * before {
                     break;
@@ -89,6 +98,10 @@ impl Newton {
             // Below the tolerance it goes on as long as that brings something.
             let rounded = slope.residual() <= rounding_floor(&frame, &shape);
             let slow = slope.residual() > CHORD_PROGRESS * start;
+            if !rounded && slow && strain > STIFFEST_STRAIN {
+                (strain, steps) = (strain * STIFFER, steps + 1);
+                continue;
+            }
             if rounded || (slow && slope.residual() <= self.tolerance(&shape)) {
                 return Some(shape);
             }

@@ -85,6 +85,10 @@ impl Solution {
             return Err(Error::NoMinimum { index: second.index });
         }
         let tolerance = settings.tolerance.max(rounding_floor(frame, &shape));
+        if let Some(absurd) = frame.absurd(&shape) {
+            return Err(absurd);
+        }
+        frame.check_balance(&shape, settings.tolerance)?;
         if let Some(member) = wrong_sign(frame, &shape) {
             let force_n = shape.force[member] * frame.force_n;
             if frame.rods[member].ground {
