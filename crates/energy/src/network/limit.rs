@@ -53,6 +53,9 @@ const STEPS: usize = 40;
 /// A step leaves at most this part of the residual, or it is one of the last.
 const PROGRESS: f64 = 0.5;
 
+/// Unbalance, over the largest force, of a start in which the loads are borne.
+const BORNE: f64 = 1e-3;
+
 /// Residual at which a reading is given up: it started near.
 const ASTRAY: f64 = 10.0;
 
@@ -189,6 +192,10 @@ impl Newton {
             return Reading::Regular;
         }
         share_forces(&frame, share, &mut shape.force);
+        // What the softness takes away no longer bears its load: such a load needs the strain.
+        if frame.slope(start).residual() < BORNE && frame.slope(&shape).unbalance > BORNE {
+            return Reading::Astray;
+        }
         let mut strain = STIFF_STRAIN;
         let mut last: Option<(f64, Shape)> = None;
         for _ in 0..STEPS {

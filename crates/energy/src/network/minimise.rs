@@ -25,6 +25,9 @@ use crate::vector::{along, dot, scaled};
 /// have places where it nearly closes.
 const RESTARTS: u32 = 4;
 
+/// Misfit of a seed that is meant to be near its answer.
+const NEAR_SEED: f64 = 0.1;
+
 /// The golden section: its multiples are spread evenly.
 const GOLDEN: f64 = 0.618_033_988_75;
 
@@ -117,10 +120,11 @@ pub fn minimise_from(
     let factor = Factor::new(&frame.spots, &frame.rods)?;
     let mut found =
         descend(&frame, factor, start.clone(), Way::Free, settings, Effort::default());
-    if found.as_ref().is_err_and(hard_to_close) {
-        // A seed that nearly keeps its lengths is not to be crushed by its loads.
+    if found.as_ref().is_err_and(hard_to_close) && frame.slope(&start).misfit < NEAR_SEED {
+        // The loads have crushed it, which its lengths would not allow.
         let factor = Factor::new(&frame.spots, &frame.rods)?;
-        found = descend(&frame, factor, start, Way::Stiff, settings, Effort::default()).or(found);
+        let near = descend(&frame, factor, start, Way::Relaxed, settings, Effort::default());
+        found = near.or(found);
     }
     Solution::new(system, &frame, found?, settings, clock)
 }

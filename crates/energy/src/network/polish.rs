@@ -48,34 +48,89 @@ const CHANGES: usize = 40;
 /// stiff springs point the old way.
 const CHORD_NEAR: f64 = 1e-8;
 
+/// Residual over its rounding up to which stiffer springs would bring nothing.
+const ROUNDED: f64 = 8.0;
+
+/// Largest misfit after the steps of one stiffness with which stiffer springs are tried.
+const SLOW: f64 = 1e-5;
+
+/// Growth of the largest force with which stiffer springs have gone astray.
+const INFLATED: f64 = 100.0;
+
 /// A chord step must leave at most this part of the residual.
 const CHORD_PROGRESS: f64 = 0.3;
 
+/// How steps with springs of one strain ended.
+enum Polished {
+    /// Down to rounding.
+    Rounded(Shape),
+    /// Within the tolerance.
+    Converged(Shape),
+    /// The steps were used up near a solution.
+    Slow(Shape),
+    Astray,
+}
+
+impl Polished {
+    fn shape(&self) -> Option<&Shape> {
+        match self {
+            Self::Rounded(shape) | Self::Converged(shape) | Self::Slow(shape) => Some(shape),
+            Self::Astray => None,
+        }
+    }
+}
+
 impl Newton {
-    /// Newton's method for places and forces. Nothing where it does not converge, or not to a
+    /// Newton's method for places and forces. `None` where it does not converge, or not to a
     /// minimum.
+    ///
+    /// Steps that bring little are either rounding, or the springs are too soft for lengths that the
+    /// shape hardly feels: then stiffer ones go on. Where lengths overdetermine the shape that makes
+    /// forces of the misfits, and what was found before is the answer.
     pub(super) fn polish(&mut self, shape: &Shape) -> Option<Shape> {
+        let mut found = self.polish_with(shape, STIFF_STRAIN);
+        let mut strain = STIFF_STRAIN * STIFFER;
+        while strain >= STIFFEST_STRAIN {
+            let start = match &found {
+                Polished::Converged(shape) | Polished::Slow(shape) => shape,
+                Polished::Rounded(_) | Polished::Astray => break,
+            };
+            let most = INFLATED * self.frame.force_scale(&start.force);
+            let next = self.polish_with(start, strain);
+            match next.shape() {
+                Some(shape) if self.frame.force_scale(&shape.force) <= most => found = next,
+                _ => break,
+            }
+            strain *= STIFFER;
+        }
+        match found {
+            Polished::Rounded(shape) | Polished::Converged(shape) => Some(shape),
+            Polished::Slow(_) | Polished::Astray => None,
+        }
+    }
+
+    /// The same with springs of one strain.
+    fn polish_with(&mut self, shape: &Shape, strain: f64) -> Polished {
         let frame = Arc::clone(&self.frame);
         let (mut shape, mut slope) = (shape.clone(), frame.slope(shape));
-        let mut strain = STIFF_STRAIN;
+        let stiffness = frame.force_scale(&shape.force) / strain;
         let (mut steps, mut changes) = (POLISH, CHANGES);
         let mut active = frame.active(&shape);
         while steps > 0 {
             steps -= 1;
             let start = slope.residual();
-            let stiffness = frame.force_scale(&shape.force) / strain;
             if !self.factorise_stiff(&shape, stiffness, &active) {
-                return None;
+                return Polished::Astray;
             }
             for chord in 0..CHORDS {
                 let next = self.chord(&shape, stiffness, &active);
                 let there = frame.slope(&next);
                 let (before, after) = (slope.residual(), there.residual());
                 if !after.is_finite() {
-                    return None;
+                    return Polished::Astray;
                 }
                 if after >= before && before <= self.tolerance(&shape) {
-                    break;
+                    return self.polished(shape, before);
                 }
                 if chord > 0 && after > CHORD_PROGRESS * before {
                     break;
@@ -88,7 +143,7 @@ impl Newton {
             let resist = frame.active(&shape);
             if resist != active {
                 if changes == 0 {
-                    return None;
+                    return Polished::Astray;
                 }
                 (active, changes, steps) = (resist, changes - 1, steps + 1);
                 release(&mut shape, &active);
@@ -96,20 +151,26 @@ impl Newton {
                 continue;
             }
             // Below the tolerance it goes on as long as that brings something.
-            let rounded = slope.residual() <= rounding_floor(&frame, &shape);
-            let slow = slope.residual() > CHORD_PROGRESS * start;
-            if !rounded && slow && strain > STIFFEST_STRAIN {
-                (strain, steps) = (strain * STIFFER, steps + 1);
-                continue;
+            let residual = slope.residual();
+            let slow = residual > CHORD_PROGRESS * start;
+            if residual <= rounding_floor(&frame, &shape)
+                || (slow && residual <= self.tolerance(&shape))
+            {
+                return self.polished(shape, residual);
             }
-            if rounded || (slow && slope.residual() <= self.tolerance(&shape)) {
-                return Some(shape);
-            }
-            if slope.residual() > 2.0 * start.max(NEAR) {
-                return None;
+            if residual > 2.0 * start.max(NEAR) {
+                return Polished::Astray;
             }
         }
-        None
+        if slope.misfit < SLOW { Polished::Slow(shape) } else { Polished::Astray }
+    }
+
+    fn polished(&self, shape: Shape, residual: f64) -> Polished {
+        if residual <= ROUNDED * rounding_floor(&self.frame, &shape) {
+            Polished::Rounded(shape)
+        } else {
+            Polished::Converged(shape)
+        }
     }
 
     /// Factorise the matrix with stiff springs in the members that resist; whether it is positive
