@@ -53,8 +53,10 @@ const STEPS: usize = 40;
 /// A step leaves at most this part of the residual, or it is one of the last.
 const PROGRESS: f64 = 0.5;
 
-/// Unbalance, over the largest force, of a start in which the loads are borne.
-const BORNE: f64 = 1e-3;
+/// Residual of a start in which the loads are borne; and what of the mean load may be left where
+/// they still are.
+const BORNE: f64 = 1e-6;
+const UNBORNE: f64 = 1e-2;
 
 /// Residual at which a reading is given up: it started near.
 const ASTRAY: f64 = 10.0;
@@ -65,6 +67,9 @@ pub(super) struct Limit {
     pub(super) shape: Shape,
     /// Inextensible members that are as long as they can be, whether they bear a force or not.
     pub(super) taut: Vec<bool>,
+    /// Self-stress with which the shape is stable although it is not with the forces alone; empty
+    /// where none is needed. Rigid members can bear any, and one is enough.
+    pub(super) stiffening: Vec<f64>,
     /// The larger of the unbalance and of the misfits that a change of the shape would take up.
     pub(super) residual: f64,
     /// Singular values of the rigidity matrix below this part of the largest are zero.
@@ -115,6 +120,13 @@ impl Frame {
                 || (!rod.elastic() && excess.abs() <= within)
         };
         self.rods.iter().enumerate().map(taut).collect()
+    }
+
+    /// Whether the joints still balance: by a part of the mean load, or nearly as well as before.
+    fn borne(&self, shape: &Shape, unbalance: f64, before: f64) -> bool {
+        let loads: f64 = self.loads.iter().map(|load| norm(*load)).sum();
+        let rest = (unbalance - 10.0 * before) * self.force_scale(&shape.force);
+        loads <= 0.0 || rest <= UNBORNE * loads / self.joints as f64
     }
 
     /// The misfits of some members, the worst first.
@@ -193,15 +205,26 @@ impl Newton {
         }
         share_forces(&frame, share, &mut shape.force);
         // What the softness takes away no longer bears its load: such a load needs the strain.
-        if frame.slope(start).residual() < BORNE && frame.slope(&shape).unbalance > BORNE {
+        let (before, after) = (frame.slope(start), frame.slope(&shape));
+        if before.residual() < BORNE && !frame.borne(&shape, after.unbalance, before.unbalance) {
             return Reading::Astray;
         }
+        let mut stiffening = Vec::new();
         let mut strain = STIFF_STRAIN;
         let mut last: Option<(f64, Shape)> = None;
         for _ in 0..STEPS {
             let stiffness = frame.force_scale(&shape.force) / strain;
-            if !self.factorise_stiff(&shape, stiffness, &taut) {
-                return Reading::Astray;
+            while !self.factorise_stiff(&stressed(&shape, &stiffening), stiffness, &taut) {
+                if !stiffening.is_empty() {
+                    return Reading::Astray;
+                }
+                let shared = share.shared(&start.force).force;
+                stiffening = start.force.iter().zip(shared).map(|(all, part)| all - part).collect();
+                for (part, rod) in stiffening.iter_mut().zip(&frame.rods) {
+                    if rod.elastic() {
+                        *part = 0.0;
+                    }
+                }
             }
             shape = self.chord(&shape, stiffness, &taut);
             if !share.stand(&shape.x, &taut, softness) {
@@ -240,7 +263,7 @@ impl Newton {
                     if residual > self.tolerance(&shape) {
                         return Reading::Astray;
                     }
-                    return self.ended(share, shape, residual, softness);
+                    return self.ended(share, shape, stiffening, residual, softness);
                 }
                 _ => last = Some((residual, shape.clone())),
             }
@@ -249,14 +272,22 @@ impl Newton {
     }
 
     /// A converged reading.
-    fn ended(&self, share: &mut Share, shape: Shape, residual: f64, softness: f64) -> Reading {
+    fn ended(
+        &self,
+        share: &mut Share,
+        shape: Shape,
+        stiffening: Vec<f64>,
+        residual: f64,
+        softness: f64,
+    ) -> Reading {
         let taut = self.frame.touching(&shape);
         if !share.stand(&shape.x, &taut, softness) {
             return Reading::Astray;
         }
         let Some(stressed) = share.self_stressed() else { return Reading::Regular };
         let misfits = self.frame.misfits(&self.frame.excesses(&shape.x), &stressed);
-        Reading::Found(Limit { shape, taut, residual, rank: softness.sqrt(), misfits })
+        let rank = softness.sqrt();
+        Reading::Found(Limit { shape, taut, stiffening, residual, rank, misfits })
     }
 
     /// The larger of the unbalance and of the strains that a change of the shape would take up.
@@ -279,6 +310,15 @@ impl Newton {
         let misfit = misfits.fold(strain, f64::max);
         frame.slope(shape).unbalance.max(misfit)
     }
+}
+
+/// A shape with a self-stress besides its forces.
+pub(super) fn stressed(shape: &Shape, stress: &[f64]) -> Shape {
+    let mut shape = shape.clone();
+    for (force, stress) in shape.force.iter_mut().zip(stress) {
+        *force += stress;
+    }
+    shape
 }
 
 /// Take out of the forces of the inextensible members what no load causes; the stretches of all.

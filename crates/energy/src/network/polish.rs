@@ -48,9 +48,6 @@ const CHANGES: usize = 40;
 /// stiff springs point the old way.
 const CHORD_NEAR: f64 = 1e-8;
 
-/// Residual over its rounding up to which stiffer springs would bring nothing.
-const ROUNDED: f64 = 8.0;
-
 /// Largest misfit after the steps of one stiffness with which stiffer springs are tried.
 const SLOW: f64 = 1e-5;
 
@@ -166,7 +163,10 @@ impl Newton {
     }
 
     fn polished(&self, shape: Shape, residual: f64) -> Polished {
-        if residual <= ROUNDED * rounding_floor(&self.frame, &shape) {
+        // A nearly taut line has forces of the load over its slope, and an error of a length moves it
+        // by as many times that error.
+        let turned = self.frame.largest_force(&shape.force).max(1.0);
+        if turned * residual <= rounding_floor(&self.frame, &shape) {
             Polished::Rounded(shape)
         } else {
             Polished::Converged(shape)
@@ -175,7 +175,12 @@ impl Newton {
 
     /// Factorise the matrix with stiff springs in the members that resist; whether it is positive
     /// definite.
-    pub(super) fn factorise_stiff(&mut self, shape: &Shape, stiffness: f64, active: &[bool]) -> bool {
+    pub(super) fn factorise_stiff(
+        &mut self,
+        shape: &Shape,
+        stiffness: f64,
+        active: &[bool],
+    ) -> bool {
         let frame = Arc::clone(&self.frame);
         let excess = frame.excesses(&shape.x);
         let largest = frame.largest_force(&shape.force);

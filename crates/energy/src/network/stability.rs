@@ -10,7 +10,7 @@ use model::Vector;
 
 use crate::network::factor::Factor;
 use crate::network::frame::{Frame, Spot};
-use crate::network::limit::Limit;
+use crate::network::limit::{Limit, stressed};
 use crate::network::shape::{Shape, largest};
 use crate::vector::{along, cross, dot, norm, unit};
 
@@ -67,7 +67,10 @@ pub(super) fn second_order(
 ) -> SecondOrder {
     let mut second = if frame.freedom <= DENSE {
         let dense = match limit {
-            Some(limit) => Dense::with(frame, shape, |e| limit.taut[e], limit.rank),
+            Some(limit) => {
+                let shape = stressed(shape, &limit.stiffening);
+                Dense::with(frame, &shape, |e| limit.taut[e], limit.rank)
+            }
             None => Dense::new(frame, shape),
         };
         let (index, neutral, condition) = dense.count();
