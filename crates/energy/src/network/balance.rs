@@ -31,9 +31,8 @@ impl Frame {
         let worst = |(a, b): (&f64, &f64)| a.abs().total_cmp(&b.abs());
         let mut members = (0..self.members).map(|e| (e, &shape.force[e]));
         let first = members.next()?;
-        let (member, _) = members.fold(first, |most, next| {
-            if worst((most.1, next.1)).is_lt() { next } else { most }
-        });
+        let (member, _) = members
+            .fold(first, |most, next| if worst((most.1, next.1)).is_lt() { next } else { most });
         (rounding_floor(self, shape) * ratio > ABSURD)
             .then_some(Error::Absurd { member: member + 1, ratio })
     }

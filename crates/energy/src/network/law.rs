@@ -155,7 +155,16 @@ mod tests {
     const KINDS: [Kind; 3] = [Kind::Bar, Kind::Cable, Kind::Strut];
 
     fn rod(kind: Kind, flexibility: f64) -> Rod {
-        Rod { from: 0, to: 1, length: 2.0, kind, flexibility, ground: false, within: 0.0, linear: false }
+        Rod {
+            from: 0,
+            to: 1,
+            length: 2.0,
+            kind,
+            flexibility,
+            ground: false,
+            within: 0.0,
+            linear: false,
+        }
     }
 
     #[test]

@@ -147,8 +147,9 @@ impl Frame {
 impl Newton {
     /// The limit at the singular shape next to this one, in the softest reading that has an
     /// equilibrium within the tolerances; else the reading that fits best. [`Reading::Regular`] where
-    /// no reading finds a self-stress and an equilibrium.
-    pub(super) fn limit(&mut self, shape: &Shape) -> Result<Reading, Error> {
+    /// no reading finds a self-stress and an equilibrium. A shape is `exact` where it is a solution
+    /// that meets all lengths.
+    pub(super) fn limit(&mut self, shape: &Shape, exact: bool) -> Result<Reading, Error> {
         let rods = self.frame.rods.iter().filter(|rod| !rod.ground && !rod.elastic());
         let within = rods.map(|rod| rod.within / rod.length).fold(0.0, f64::max);
         if within <= 0.0 {
@@ -156,7 +157,7 @@ impl Newton {
         }
         let given = Arc::clone(&self.frame);
         self.frame = Arc::new(given.linear());
-        let found = self.readings(shape, within);
+        let found = self.readings(shape, within, exact);
         self.frame = given;
         let mut found = found?;
         if let Reading::Found(limit) = &mut found {
@@ -171,7 +172,7 @@ impl Newton {
     }
 
     /// The readings from the softest to the hardest.
-    fn readings(&mut self, shape: &Shape, within: f64) -> Result<Reading, Error> {
+    fn readings(&mut self, shape: &Shape, within: f64, exact: bool) -> Result<Reading, Error> {
         let mut share = Share::new(&self.frame)?;
         let mut softness = (SOFT * within).min(SOFTEST);
         let mut best: Option<Limit> = None;
@@ -184,12 +185,20 @@ impl Newton {
                     }
                 }
                 Reading::Released(shape) => return Ok(Reading::Released(shape)),
-                Reading::Astray => {}
                 Reading::Regular => break,
+                // All lengths are met, and they say all: the singular reading was the only other one.
+                Reading::Astray if exact && self.determinate(&mut share, shape) => break,
+                Reading::Astray => {}
             }
             softness *= HARDER;
         }
         Ok(best.map_or(Reading::Regular, Reading::Found))
+    }
+
+    /// Whether the lengths say all there is to say at a shape, down to rounding.
+    fn determinate(&self, share: &mut Share, shape: &Shape) -> bool {
+        share.stand(&shape.x, &self.frame.touching(shape), HARDEST)
+            && share.self_stressed().is_none()
     }
 
     /// One reading of the shape.
@@ -241,7 +250,8 @@ impl Newton {
             }
             match last {
                 Some((before, there)) if residual > PROGRESS * before => {
-                    let better = if residual < before { (residual, shape) } else { (before, there) };
+                    let better =
+                        if residual < before { (residual, shape) } else { (before, there) };
                     if strain > STIFFEST_STRAIN && better.0 > rounding_floor(&frame, &better.1) {
                         strain *= STIFFER;
                         shape = better.1.clone();
@@ -359,8 +369,11 @@ fn change_taut(frame: &Frame, shape: &mut Shape, taut: &mut [bool], stretch: &[f
         if taut[e] && force.abs() > least && !rod.resists(force) {
             (taut[e], changed) = (false, true);
         } else if !taut[e] {
-            let pulls = if rod.elastic() { rod.excess(frame.span(&shape.x, e)).value } else { stretch[e] };
-            if touching[e] && pulls.abs() > least && rod.resists(pulls) || rod.elastic() && rod.prestress(pulls).abs() > least {
+            let pulls =
+                if rod.elastic() { rod.excess(frame.span(&shape.x, e)).value } else { stretch[e] };
+            if touching[e] && pulls.abs() > least && rod.resists(pulls)
+                || rod.elastic() && rod.prestress(pulls).abs() > least
+            {
                 (taut[e], changed) = (true, true);
             }
         }

@@ -118,8 +118,7 @@ pub fn minimise_from(
     check_held(&frame)?;
     let start = seeded(&frame, seed_m)?;
     let factor = Factor::new(&frame.spots, &frame.rods)?;
-    let mut found =
-        descend(&frame, factor, start.clone(), Way::Free, settings, Effort::default());
+    let mut found = descend(&frame, factor, start.clone(), Way::Free, settings, Effort::default());
     if found.as_ref().is_err_and(hard_to_close) && frame.slope(&start).misfit < NEAR_SEED {
         // The loads have crushed it, which its lengths would not allow.
         let factor = Factor::new(&frame.spots, &frame.rods)?;

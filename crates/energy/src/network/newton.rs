@@ -49,10 +49,6 @@ const LAST_STRAIN: f64 = 1e-9;
 /// Misfit below which Newton's method for places and forces is tried.
 pub(super) const NEAR: f64 = 1e-3;
 
-/// Misfit below which the limit of stiff springs is tried where no shape is found that meets all
-/// lengths.
-const NEAR_LIMIT: f64 = 0.05;
-
 /// Misfit from a relaxation, which is right for most members: it is tried in any case.
 const RELAXED: f64 = 0.5;
 
@@ -322,14 +318,11 @@ impl Newton {
 
     /// The solution next to a shape, by Newton's method for places and forces; where lengths
     /// overdetermine it, the limit of stiff springs.
-    fn finish(&mut self, shape: &Shape, misfit: f64) -> Result<Option<Shape>, Error> {
+    fn finish(&mut self, shape: &Shape) -> Result<Option<Shape>, Error> {
         let exact = self.polish(shape);
         let absurd = exact.as_ref().and_then(|exact| self.frame.absurd(exact));
         let exact = exact.filter(|_| absurd.is_none());
-        if exact.is_none() && misfit > NEAR_LIMIT {
-            return Ok(None);
-        }
-        match self.limit(exact.as_ref().unwrap_or(shape))? {
+        match self.limit(exact.as_ref().unwrap_or(shape), exact.is_some())? {
             Reading::Found(limit) if limit.fits() => {
                 self.limit = Some(limit.clone());
                 Ok(Some(limit.shape))
@@ -371,11 +364,12 @@ impl Solver<Potential, Iterate> for Newton {
         let shape = state.take_param().ok_or(Error::NotFinite { quantity: "iterate" })?;
         let slope = state.take_gradient().ok_or(Error::NotFinite { quantity: "gradient" })?;
         if slope.misfit <= self.near {
-            if let Some(solution) = self.finish(&shape, slope.misfit)? {
+            if let Some(solution) = self.finish(&shape)? {
                 self.ended = Ended::Converged;
                 return accept(problem, state, Arc::new(solution));
             }
-            self.near = NEAR.min(0.1 * slope.misfit);
+            // Off a saddle the misfit need not become less than it was there.
+            self.near = NEAR.min((0.1 * slope.misfit).max(self.settings.tolerance));
         }
         let next = Arc::new(self.approach(&shape, &slope)?);
         accept(problem, state, next)

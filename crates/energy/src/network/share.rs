@@ -81,9 +81,11 @@ impl Share {
                 direction: self.excess[e].gradient,
             })
             .collect();
-        frame.fill(&mut self.factor, |e| blocks[e], |joint| {
-            softness * if sizes[joint] > 0.0 { sizes[joint] } else { 1.0 }
-        });
+        frame.fill(
+            &mut self.factor,
+            |e| blocks[e],
+            |joint| softness * if sizes[joint] > 0.0 { sizes[joint] } else { 1.0 },
+        );
         self.factor.cholesky()
     }
 
@@ -95,7 +97,8 @@ impl Share {
 
     /// `Rᵀ t`
     fn joint_forces(&self, force: impl Fn(usize) -> f64) -> Vec<f64> {
-        let pull = |e: usize| scaled(if self.taut[e] { force(e) } else { 0.0 }, self.excess[e].gradient);
+        let pull =
+            |e: usize| scaled(if self.taut[e] { force(e) } else { 0.0 }, self.excess[e].gradient);
         self.frame.resisted(pull)
     }
 

@@ -237,8 +237,16 @@ mod tests {
 
     #[test]
     fn a_strain_below_its_rounding_is_none() {
-        let rod =
-            Rod { from: 0, to: 1, length: 3.0, kind: Kind::Bar, flexibility: 0.5, ground: false, within: 0.0, linear: false };
+        let rod = Rod {
+            from: 0,
+            to: 1,
+            length: 3.0,
+            kind: Kind::Bar,
+            flexibility: 0.5,
+            ground: false,
+            within: 0.0,
+            linear: false,
+        };
         let frame = Frame {
             origin_m: [0.0; 3],
             length_m: 1.0,

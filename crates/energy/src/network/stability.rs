@@ -219,9 +219,8 @@ impl Dense {
     fn with(frame: &Frame, shape: &Shape, taut: impl Fn(usize) -> bool, zero: f64) -> Self {
         let n = frame.freedom;
         let excess = frame.excesses(&shape.x);
-        let taut: Vec<usize> = (0..frame.rods.len())
-            .filter(|&e| taut(e) && !frame.rods[e].elastic())
-            .collect();
+        let taut: Vec<usize> =
+            (0..frame.rods.len()).filter(|&e| taut(e) && !frame.rods[e].elastic()).collect();
         let mut rigidity = Mat::<f64>::zeros(taut.len(), n);
         for (row, &e) in taut.iter().enumerate() {
             let rod = &frame.rods[e];

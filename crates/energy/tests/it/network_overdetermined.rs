@@ -65,8 +65,9 @@ impl Oracle {
         let loads = loads(system);
         let load = loads.iter().zip(&first).filter(|(_, first)| first.is_some());
         let load: f64 = load.map(|(load, _)| norm(*load)).sum();
-        let rigid: Vec<usize> =
-            (0..system.members().len()).filter(|&e| system.members()[e].stiffness_n.is_none()).collect();
+        let rigid: Vec<usize> = (0..system.members().len())
+            .filter(|&e| system.members()[e].stiffness_n.is_none())
+            .collect();
         let mut rows = Mat::zeros(rigid.len(), n);
         let mut right = vec![0.0; n];
         for (joint, first) in first.iter().enumerate() {
@@ -88,7 +89,9 @@ impl Oracle {
                             let row = rigid.iter().position(|r| *r == e).unwrap();
                             rows[(row, first + k)] = u / length.sqrt();
                         }
-                        Some(stiffness) => right[first + k] -= u * stiffness * (norm(d) / length - 1.0),
+                        Some(stiffness) => {
+                            right[first + k] -= u * stiffness * (norm(d) / length - 1.0)
+                        }
                     }
                 }
             }
@@ -111,12 +114,14 @@ impl Oracle {
     /// Forces with the least `sum t² l`, the condition, and the number of self-stresses.
     fn forces(&self, system: &System) -> (Vec<f64>, f64, usize) {
         let svd = self.rows.svd().unwrap();
-        let values: Vec<f64> = (0..self.rows.nrows().min(self.rows.ncols())).map(|k| svd.S()[k]).collect();
+        let values: Vec<f64> =
+            (0..self.rows.nrows().min(self.rows.ncols())).map(|k| svd.S()[k]).collect();
         let rank = values.iter().filter(|value| **value > RANK * values[0]).count();
         let mut forces = vec![0.0; self.rigid.len()];
         for k in 0..rank {
             let part: f64 =
-                (0..self.right.len()).map(|j| svd.V()[(j, k)] * self.right[j]).sum::<f64>() / values[k];
+                (0..self.right.len()).map(|j| svd.V()[(j, k)] * self.right[j]).sum::<f64>()
+                    / values[k];
             for (row, force) in forces.iter_mut().enumerate() {
                 *force += part * svd.U()[(row, k)];
             }
@@ -143,7 +148,11 @@ fn check(system: &System, solution: &Solution) -> usize {
     let (forces, condition, self_stresses) = oracle.forces(system);
     for (force, &e) in forces.iter().zip(&oracle.rigid) {
         let off = (found.axial_n[e] - force).abs() / oracle.load;
-        assert!(off < FORCE * condition * condition.max(1e2), "member {e}: {} is not {force}: {off:e}, condition {condition:e}", found.axial_n[e]);
+        assert!(
+            off < FORCE * condition * condition.max(1e2),
+            "member {e}: {} is not {force}: {off:e}, condition {condition:e}",
+            found.axial_n[e]
+        );
     }
     // Larger ones are not counted.
     if self_stresses > 0 && oracle.right.len() <= 240 {
@@ -202,10 +211,14 @@ fn draw(rng: &mut ChaCha8Rng, style: usize) -> Drawn {
     let mut joints: Vec<Joint> = (0..free)
         .map(|k| {
             let force = place(rng, style);
-            Joint { force_n: force, ..Joint::free(format!("P{k}")).with_mass(rng.random_range(1.0..3.0)) }
+            Joint {
+                force_n: force,
+                ..Joint::free(format!("P{k}")).with_mass(rng.random_range(1.0..3.0))
+            }
         })
         .collect();
-    let mut members: Vec<(usize, usize, Option<f64>)> = (1..free).map(|k| (k - 1, k, None)).collect();
+    let mut members: Vec<(usize, usize, Option<f64>)> =
+        (1..free).map(|k| (k - 1, k, None)).collect();
     let legs = rng.random_range(4..13);
     for k in 0..free {
         for leg in 0..legs {
@@ -213,7 +226,11 @@ fn draw(rng: &mut ChaCha8Rng, style: usize) -> Drawn {
                 let at = if style == 3 {
                     // A regular star around the joint, above it.
                     let angle = std::f64::consts::TAU * leg as f64 / legs as f64;
-                    [shape[k][0] + 2.0 * angle.cos(), shape[k][1] + 2.0 * angle.sin(), shape[k][2] + 1.5]
+                    [
+                        shape[k][0] + 2.0 * angle.cos(),
+                        shape[k][1] + 2.0 * angle.sin(),
+                        shape[k][2] + 1.5,
+                    ]
                 } else {
                     place(rng, style)
                 };
@@ -234,7 +251,8 @@ fn draw(rng: &mut ChaCha8Rng, style: usize) -> Drawn {
 fn tower(bays: usize) -> Drawn {
     let mut drawn = Drawn { joints: vec![], shape: vec![], members: vec![] };
     for level in 0..=bays {
-        for (k, [x, y]) in [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].into_iter().enumerate() {
+        for (k, [x, y]) in [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].into_iter().enumerate()
+        {
             let at = [x, y, 1.1 * level as f64];
             let name = format!("{level}.{k}");
             let force_n = [3.0 + k as f64, 1.0, -7.0];
@@ -249,7 +267,12 @@ fn tower(bays: usize) -> Drawn {
     for level in 1..=bays {
         for k in 0..4 {
             let (here, next) = (4 * level + k, 4 * level + (k + 1) % 4);
-            drawn.members.extend([(here, next, None), (here - 4, here, None), (here - 4, next, None), (next - 4, here, None)]);
+            drawn.members.extend([
+                (here, next, None),
+                (here - 4, here, None),
+                (here - 4, next, None),
+                (next - 4, here, None),
+            ]);
         }
     }
     drawn
@@ -294,8 +317,7 @@ fn towers_share_as_equally_stiff_ones() {
                 .iter()
                 .map(|at| std::array::from_fn(|k| at[k] + rng.random_range(-0.01..0.01)))
                 .collect();
-            let solution =
-                minimise_from(&system, &seed, &Settings::default()).expect("a tower");
+            let solution = minimise_from(&system, &seed, &Settings::default()).expect("a tower");
             check(&system, &solution);
         }
     }
@@ -354,7 +376,8 @@ fn a_gap_above_the_floor_is_a_gap() {
     for gap in [1e-14, 1e-13, 1e-12, 3e-12, 1e-11, 3e-10, 1e-8, 1e-6] {
         let joints = vec![Joint::anchor("A", [0.0; 3]), Joint::free("P").with_mass(1.0)];
         let cable = Member { kind: Kind::Cable, ..bar(0, 1, 1.0, 0.0) };
-        let system = System::new("gap", G, joints, vec![cable]).unwrap().with_floor(-1.0 - gap).unwrap();
+        let system =
+            System::new("gap", G, joints, vec![cable]).unwrap().with_floor(-1.0 - gap).unwrap();
         let solution = minimise(&system, &Settings::default()).expect("a minimum");
         let force = solution.equilibrium.axial_n[0];
         assert!((force - 10.0).abs() < 1e-9, "{gap:e}: {force}");
@@ -365,15 +388,51 @@ fn a_gap_above_the_floor_is_a_gap() {
 /// components of the force of its first member so that the line ends at its anchor, by Newton's
 /// method with 80 decimal digits, from the lengths as doubles.
 const LINES: [(f64, [f64; 3], [f64; 4]); 9] = [
-    (1e-2, [-0.15221238883205679, -0.25281256589108708, -0.21773506375989574], [118.57445038745917, 116.27145657310071, 115.8801231556684, 117.41956511380592]),
-    (1e-3, [-0.048355459238778702, -0.079711420168709773, -0.068722930785856437], [369.55243156649908, 368.82097672027373, 368.69882839667588, 369.1865913779456]),
-    (1e-4, [-0.015298430572199926, -0.02519953933055058, -0.021727926818691998], [1166.9163018550009, 1166.6848961200462, 1166.6463209277842, 1166.8005954035275]),
-    (1e-5, [-0.0048380130386943597, -0.0079685592431516516, -0.0068708417291262385], [3689.5722815784011, 3689.4991015206142, 3689.4869046049203, 3689.5356914361146]),
-    (1e-6, [-0.0015299211557637212, -0.0025198722633176665, -0.0021727467551930653], [11667.280900933047, 11667.257759267599, 11667.253902315788, 11667.269330096737]),
-    (1e-7, [-0.00048380377396008872, -0.00079685334193766279, -0.00068708272068522969], [36895.127629844312, 36895.120311804007, 36895.119092130379, 36895.123970824046]),
-    (1e-8, [-0.00015299219364567758, -0.00025198714459964786, -0.00021727462953498834], [116672.6208276058, 116672.61851343817, 116672.61812774355, 116672.61967052198]),
-    (1e-9, [-4.8380382524782196e-05, -7.9685335990350566e-05, -6.8708274392020844e-05], [368951.19650484691, 368951.19577304285, 368951.19565107545, 368951.19613894488]),
-    (1e-10, [-1.5299222202826299e-05, -2.5198718924426553e-05, -2.1727466827446962e-05], [1166725.9789645085, 1166725.9787330918, 1166725.9786945223, 1166725.9788488001]),
+    (
+        1e-2,
+        [-0.15221238883205679, -0.25281256589108708, -0.21773506375989574],
+        [118.57445038745917, 116.27145657310071, 115.8801231556684, 117.41956511380592],
+    ),
+    (
+        1e-3,
+        [-0.048355459238778702, -0.079711420168709773, -0.068722930785856437],
+        [369.55243156649908, 368.82097672027373, 368.69882839667588, 369.1865913779456],
+    ),
+    (
+        1e-4,
+        [-0.015298430572199926, -0.02519953933055058, -0.021727926818691998],
+        [1166.9163018550009, 1166.6848961200462, 1166.6463209277842, 1166.8005954035275],
+    ),
+    (
+        1e-5,
+        [-0.0048380130386943597, -0.0079685592431516516, -0.0068708417291262385],
+        [3689.5722815784011, 3689.4991015206142, 3689.4869046049203, 3689.5356914361146],
+    ),
+    (
+        1e-6,
+        [-0.0015299211557637212, -0.0025198722633176665, -0.0021727467551930653],
+        [11667.280900933047, 11667.257759267599, 11667.253902315788, 11667.269330096737],
+    ),
+    (
+        1e-7,
+        [-0.00048380377396008872, -0.00079685334193766279, -0.00068708272068522969],
+        [36895.127629844312, 36895.120311804007, 36895.119092130379, 36895.123970824046],
+    ),
+    (
+        1e-8,
+        [-0.00015299219364567758, -0.00025198714459964786, -0.00021727462953498834],
+        [116672.6208276058, 116672.61851343817, 116672.61812774355, 116672.61967052198],
+    ),
+    (
+        1e-9,
+        [-4.8380382524782196e-05, -7.9685335990350566e-05, -6.8708274392020844e-05],
+        [368951.19650484691, 368951.19577304285, 368951.19565107545, 368951.19613894488],
+    ),
+    (
+        1e-10,
+        [-1.5299222202826299e-05, -2.5198718924426553e-05, -2.1727466827446962e-05],
+        [1166725.9789645085, 1166725.9787330918, 1166725.9786945223, 1166725.9788488001],
+    ),
 ];
 
 /// A line of four parts, longer than its span by a part `slack`. A rounding of a length changes the

@@ -18,7 +18,8 @@ fn truss(flexibility: f64) -> (Frame, Shape) {
         kind,
         flexibility,
         ground: false,
-        within: 0.0, linear: false,
+        within: 0.0,
+        linear: false,
     };
     let held = Spot { first: 0, freedom: 0, axes: [ZERO3; 3] };
     let axes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
