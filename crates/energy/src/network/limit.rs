@@ -58,6 +58,9 @@ const PROGRESS: f64 = 0.5;
 const BORNE: f64 = 1e-6;
 const UNBORNE: f64 = 1e-2;
 
+/// A self-stress in forces, over the largest, that is none.
+const UNSHARED: f64 = 1e-9;
+
 /// Residual at which a reading is given up: it started near.
 const ASTRAY: f64 = 10.0;
 
@@ -186,7 +189,8 @@ impl Newton {
                 }
                 Reading::Released(shape) => return Ok(Reading::Released(shape)),
                 Reading::Regular => break,
-                // All lengths are met, and they say all: the singular reading was the only other one.
+                // All lengths are met and all forces follow from the loads: the singular reading was
+                // the only other one.
                 Reading::Astray if exact && self.determinate(&mut share, shape) => break,
                 Reading::Astray => {}
             }
@@ -195,10 +199,15 @@ impl Newton {
         Ok(best.map_or(Reading::Regular, Reading::Found))
     }
 
-    /// Whether the lengths say all there is to say at a shape, down to rounding.
+    /// Whether the forces of a shape have no part that is a self-stress, down to rounding.
     fn determinate(&self, share: &mut Share, shape: &Shape) -> bool {
-        share.stand(&shape.x, &self.frame.touching(shape), HARDEST)
-            && share.self_stressed().is_none()
+        if !share.stand(&shape.x, &self.frame.touching(shape), HARDEST) {
+            return false;
+        }
+        let mut shared = shape.force.clone();
+        share_forces(&self.frame, share, &mut shared);
+        let rest: Vec<f64> = shared.iter().zip(&shape.force).map(|(a, b)| a - b).collect();
+        largest(&rest) <= UNSHARED * largest(&shape.force)
     }
 
     /// One reading of the shape.

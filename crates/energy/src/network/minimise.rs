@@ -82,7 +82,7 @@ pub fn minimise(system: &System, settings: &Settings) -> Result<Solution, Error>
         }
         let factor = Factor::new(&frame.spots, &frame.rods)?;
         let elsewhere = displaced(&frame, &start, attempt);
-        found = descend(&frame, factor, elsewhere, Way::Stiff, settings, work).or(found);
+        found = better(descend(&frame, factor, elsewhere, Way::Stiff, settings, work), found);
     }
     Solution::new(system, &frame, found?, settings, clock)
 }
@@ -90,6 +90,14 @@ pub fn minimise(system: &System, settings: &Settings) -> Result<Solution, Error>
 /// Whether the lengths may be kept elsewhere, or with more weight on them.
 fn hard_to_close(error: &Error) -> bool {
     matches!(error, Error::NotClosed { .. } | Error::Misfit { .. } | Error::Stalled { .. })
+}
+
+/// An answer, or the error that says most: misfits of a shape that is otherwise found.
+fn better(new: Result<Minimum, Error>, old: Result<Minimum, Error>) -> Result<Minimum, Error> {
+    match (new, old) {
+        (new @ (Ok(_) | Err(Error::Misfit { .. })), Err(_)) => new,
+        (_, old) => old,
+    }
 }
 
 /// The start with each joint moved by up to the length of the longest member, without any symmetry.
@@ -123,7 +131,7 @@ pub fn minimise_from(
         // The loads have crushed it, which its lengths would not allow.
         let factor = Factor::new(&frame.spots, &frame.rods)?;
         let near = descend(&frame, factor, start, Way::Relaxed, settings, Effort::default());
-        found = near.or(found);
+        found = better(near, found);
     }
     Solution::new(system, &frame, found?, settings, clock)
 }

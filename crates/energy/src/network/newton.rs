@@ -49,6 +49,9 @@ const LAST_STRAIN: f64 = 1e-9;
 /// Misfit below which Newton's method for places and forces is tried.
 pub(super) const NEAR: f64 = 1e-3;
 
+/// Misfit that is rounding in any system.
+const ROUNDED: f64 = 8.0 * f64::EPSILON;
+
 /// Misfit from a relaxation, which is right for most members: it is tried in any case.
 const RELAXED: f64 = 0.5;
 
@@ -369,7 +372,7 @@ impl Solver<Potential, Iterate> for Newton {
                 return accept(problem, state, Arc::new(solution));
             }
             // Off a saddle the misfit need not become less than it was there.
-            self.near = NEAR.min((0.1 * slope.misfit).max(self.settings.tolerance));
+            self.near = NEAR.min((0.1 * slope.misfit).max(ROUNDED));
         }
         let next = Arc::new(self.approach(&shape, &slope)?);
         accept(problem, state, next)

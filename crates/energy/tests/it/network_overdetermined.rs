@@ -317,7 +317,8 @@ fn towers_share_as_equally_stiff_ones() {
                 .iter()
                 .map(|at| std::array::from_fn(|k| at[k] + rng.random_range(-0.01..0.01)))
                 .collect();
-            let solution = minimise_from(&system, &seed, &Settings::default()).expect("a tower");
+            let solution = minimise_from(&system, &seed, &Settings::default())
+                .unwrap_or_else(|error| panic!("{bays} {size}: {error}"));
             check(&system, &solution);
         }
     }
