@@ -132,6 +132,13 @@ impl Frame {
         loads <= 0.0 || rest <= UNBORNE * loads / self.joints as f64
     }
 
+    /// The part of the forces of the inextensible members that no load causes.
+    fn self_stress(&self, share: &mut Share, shape: &Shape) -> Vec<f64> {
+        let mut force = shape.force.clone();
+        share_forces(self, share, &mut force);
+        shape.force.iter().zip(force).map(|(all, part)| all - part).collect()
+    }
+
     /// The misfits of some members, the worst first.
     fn misfits(&self, excess: &[Excess], members: &[bool]) -> Vec<Misfit> {
         let misfit = |member: usize| Misfit {
@@ -204,9 +211,7 @@ impl Newton {
         if !share.stand(&shape.x, &self.frame.touching(shape), HARDEST) {
             return false;
         }
-        let mut shared = shape.force.clone();
-        share_forces(&self.frame, share, &mut shared);
-        let rest: Vec<f64> = shared.iter().zip(&shape.force).map(|(a, b)| a - b).collect();
+        let rest = self.frame.self_stress(share, shape);
         largest(&rest) <= UNSHARED * largest(&shape.force)
     }
 
@@ -231,19 +236,23 @@ impl Newton {
         let mut strain = STIFF_STRAIN;
         let mut last: Option<(f64, Shape)> = None;
         for _ in 0..STEPS {
-            let stiffness = frame.force_scale(&shape.force) / strain;
-            while !self.factorise_stiff(&stressed(&shape, &stiffening), stiffness, &taut) {
-                if !stiffening.is_empty() {
+            if !self.factorise_stiff(
+                &stressed(&shape, &stiffening),
+                frame.force_scale(&shape.force) / strain,
+                &taut,
+            ) {
+                if strain > STIFFEST_STRAIN {
+                    // Pushed members must not buckle in what strains them little.
+                    strain *= STIFFER;
+                } else if stiffening.is_empty() {
+                    stiffening = frame.self_stress(share, start);
+                    strain = STIFF_STRAIN;
+                } else {
                     return Reading::Astray;
                 }
-                let shared = share.shared(&start.force).force;
-                stiffening = start.force.iter().zip(shared).map(|(all, part)| all - part).collect();
-                for (part, rod) in stiffening.iter_mut().zip(&frame.rods) {
-                    if rod.elastic() {
-                        *part = 0.0;
-                    }
-                }
+                continue;
             }
+            let stiffness = frame.force_scale(&shape.force) / strain;
             shape = self.chord(&shape, stiffness, &taut);
             if !share.stand(&shape.x, &taut, softness) {
                 return Reading::Astray;

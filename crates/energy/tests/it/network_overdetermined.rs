@@ -294,13 +294,11 @@ fn legs_to_anchors_share_as_equally_stiff_ones() {
         let system = drawn.system(|e| changes[e], None);
         match minimise(&system, &Settings::default()) {
             Ok(solution) => {
-                eprintln!("stream {stream}");
                 over += usize::from(check(&system, &solution) > 0);
             }
-            Err(error) => eprintln!("stream {stream}: {} {error}", drawn.members.len()),
+            Err(error) => assert!(matches!(error, Error::NotClosed { .. }), "{stream}: {error}"),
         }
     }
-    eprintln!("{over}");
     assert!(over > 500, "{over}");
 }
 
