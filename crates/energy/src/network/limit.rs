@@ -31,6 +31,7 @@ use crate::network::newton::Newton;
 use crate::network::polish::{STIFF_STRAIN, STIFFER, STIFFEST_STRAIN, rounding_floor};
 use crate::network::shape::{Shape, largest};
 use crate::network::share::Share;
+use crate::network::stability::DENSE;
 use crate::vector::norm;
 
 /// Softness of the first reading, over the tolerance of the lengths: a member of length `l` that is
@@ -184,6 +185,10 @@ impl Newton {
     /// The readings from the softest to the hardest.
     fn readings(&mut self, shape: &Shape, within: f64, exact: bool) -> Result<Reading, Error> {
         let mut share = Share::new(&self.frame)?;
+        // In large systems no self-stress is named, so forces that have none need no other reading.
+        if exact && self.frame.freedom > DENSE && self.determinate(&mut share, shape) {
+            return Ok(Reading::Regular);
+        }
         let mut softness = (SOFT * within).min(SOFTEST);
         let mut best: Option<Limit> = None;
         while softness >= HARDEST {

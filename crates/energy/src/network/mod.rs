@@ -26,6 +26,9 @@
 //!    definite, and saddles are left along the lowest mode.
 //! 4. Newton's method for places and forces together ends at rounding level.
 //!
+//! Where lengths overdetermine the shape the last step has a limit only without their misfits: see
+//! `limit` and `share`.
+//!
 //! All four use one matrix: a block for every joint and for every pair of joints that a member
 //! connects, symmetric and positive definite wherever it is used, with no rows for the multipliers.
 //! It is eliminated with the joints in an order of least fill-in by faer: O(n) for chains and

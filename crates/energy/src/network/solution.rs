@@ -53,7 +53,8 @@ pub struct Work {
     pub relaxation: u64,
     /// Iterations of Newton's method on the system itself.
     pub iterations: u64,
-    /// Factorisations of the matrix of all coordinates.
+    /// Factorisations of the matrix of all coordinates; those of the springs that share forces are
+    /// not counted.
     pub factorisations: u64,
     /// Largest unbalanced force at a joint over the largest force of the system.
     pub unbalance: f64,
