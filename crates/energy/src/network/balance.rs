@@ -55,7 +55,7 @@ impl Frame {
         for (joint, spot) in self.spots.iter().enumerate() {
             let scale = loads[joint].max(least).max(NO_STRAIN);
             let rest = largest(&unbalance[spot.first..spot.first + spot.freedom]);
-            if !(rest <= tolerance.max(BALANCE) * scale + rounding * forces[joint]) {
+            if rest > tolerance.max(BALANCE) * scale + rounding * forces[joint] {
                 return Err(Error::Unbalanced { joint, unbalance: rest / scale });
             }
         }

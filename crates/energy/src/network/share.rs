@@ -129,9 +129,8 @@ impl Share {
                 floor[e] += self.weight(e) * stretch[e];
             }
         }
-        let bears = |(e, stretch): (usize, &f64)| match self.frame.rods[e].ground {
-            true => floor[e],
-            false => self.weight(e) * stretch,
+        let bears = |(e, stretch): (usize, &f64)| {
+            if self.frame.rods[e].ground { floor[e] } else { self.weight(e) * stretch }
         };
         Shared { force: stretch.iter().enumerate().map(bears).collect(), stretch }
     }
