@@ -1,6 +1,7 @@
 //! Why there is no answer.
 
 use model::Vector;
+use model::system::Misfit;
 use serde::Serialize;
 
 /// Why a minimisation gave no answer. `Ok` means converged to a local minimum, nothing less.
@@ -63,6 +64,33 @@ pub enum Error {
         member: usize,
         /// Its misfit, m.
         misfit_m: f64,
+    },
+    /// Occurs when more inextensible members meet than decide the shape, and their lengths do not
+    /// fit each other within their tolerances.
+    #[error("{}", misfit_message(misfits))]
+    Misfit {
+        /// The members that would be under self-stress, the worst first.
+        misfits: Vec<Misfit>,
+    },
+    /// Occurs when the joints balance with forces so large beside the loads and the prestress of the
+    /// system that their rounding is no longer small beside these: next to a singular shape.
+    #[error(
+        "the lengths are kept with {ratio:e} times the loads in member {member} alone, of which nothing is \
+         certain: the shape is next to one that bears any forces"
+    )]
+    Absurd {
+        /// Number of the member with the largest force, from 1.
+        member: usize,
+        /// Its force over the sum of the loads and the largest force of an elastic member.
+        ratio: f64,
+    },
+    /// Occurs when joints are out of balance by more than a part of what loads them.
+    #[error("joint {joint} is out of balance by {unbalance:e} of its load")]
+    Unbalanced {
+        /// Number of the joint, from 0.
+        joint: usize,
+        /// The unbalanced force over the load of the joint, or over the mean load where that is more.
+        unbalance: f64,
     },
     /// Occurs when the iterations are used up.
     #[error(
@@ -137,6 +165,22 @@ pub enum Error {
     },
 }
 
+/// The worst misfit with its numbers, how many more, and what helps.
+fn misfit_message(misfits: &[Misfit]) -> String {
+    let Some(Misfit { member, misfit_m, within_m }) = misfits.first() else {
+        return "the lengths do not fit each other".to_owned();
+    };
+    let over = misfits.iter().filter(|other| other.misfit_m.abs() > other.within_m).count();
+    format!(
+        "the lengths overdetermine the shape and do not fit each other: in the shape that meets them best \
+         member {} is {misfit_m:e} m off, where {within_m:e} m are allowed, and {} more are off by more than \
+         allowed; give the lengths more exactly, or their length_tolerance_m, or stiffness_n: then the \
+         self-stress is real",
+        member + 1,
+        over.saturating_sub(1),
+    )
+}
+
 impl Error {
     /// The kind of the error in a few words, for counting.
     #[must_use]
@@ -149,6 +193,9 @@ impl Error {
             Self::Falls { .. } => "falls",
             Self::Seed { .. } => "bad seed",
             Self::NotClosed { .. } => "not closed",
+            Self::Misfit { .. } => "misfit",
+            Self::Absurd { .. } => "absurd forces",
+            Self::Unbalanced { .. } => "out of balance",
             Self::IterationLimit { .. } => "iteration limit",
             Self::Stalled { .. } => "stalled",
             Self::NoMinimum { .. } => "no minimum",
@@ -179,6 +226,9 @@ mod tests {
             (Error::Falls { joint: 0, force_n: 1.0 }, "falls"),
             (Error::Seed { joints: 2, given: 1 }, "bad seed"),
             (Error::NotClosed { member: 1, misfit_m: 0.1 }, "not closed"),
+            (Error::Misfit { misfits: Vec::new() }, "misfit"),
+            (Error::Absurd { member: 1, ratio: 1e9 }, "absurd forces"),
+            (Error::Unbalanced { joint: 1, unbalance: 0.1 }, "out of balance"),
             (
                 Error::IterationLimit { iterations: 3, unbalance: 0.1, misfit: 0.1 },
                 "iteration limit",

@@ -30,6 +30,10 @@ pub(super) struct Rod {
     /// No member: its second joint is not to get below its first one, a point of the floor. It acts
     /// as a cable whose excess length is the depth, and whose pull is the push of the floor.
     pub(super) ground: bool,
+    /// How far the length may be off where lengths overdetermine the shape.
+    pub(super) within: f64,
+    /// Whether its excess is `|d| - l` although it is inextensible.
+    pub(super) linear: bool,
 }
 
 /// The system without units: lengths in the longest member's, forces in the sum of all loads.
@@ -148,6 +152,8 @@ impl Frame {
                 .stiffness_n
                 .map_or(0.0, |stiffness| member.body.length_m() / length_m * total / stiffness),
             ground: false,
+            within: member.within_m() / length_m,
+            linear: false,
         });
         let mut frame = Self {
             origin_m,
@@ -187,6 +193,8 @@ impl Frame {
                 kind,
                 flexibility: 0.0,
                 ground: true,
+                within: 0.0,
+                linear: false,
             });
         }
     }
@@ -216,7 +224,13 @@ impl Frame {
 
     /// Derivative by the coordinates of `sum pull(e) . (x_to - x_from) - sum load . x`.
     pub(super) fn gradient(&self, pull: impl Fn(usize) -> Vector) -> Vec<f64> {
-        let mut forces: Vec<Vector> = self.loads.iter().map(|load| scaled(-1.0, *load)).collect();
+        let loads = self.reduced(&self.loads);
+        self.resisted(pull).iter().zip(loads).map(|(pull, load)| pull - load).collect()
+    }
+
+    /// The same without the loads.
+    pub(super) fn resisted(&self, pull: impl Fn(usize) -> Vector) -> Vec<f64> {
+        let mut forces = vec![[0.0; 3]; self.spots.len()];
         for (e, rod) in self.rods.iter().enumerate() {
             let pull = pull(e);
             forces[rod.from] = along(forces[rod.from], -1.0, pull);

@@ -13,6 +13,9 @@
 //! member is the multiplier of its length: the derivative of the least energy by that length, with
 //! the sign changed. The floor under a joint is a cable whose excess is the depth, `c = -d_z`,
 //! linear in the places.
+//!
+//! Where lengths overdetermine the shape and are not met, the two laws differ: `linear` members
+//! have that of elastic ones without being longer by a force.
 
 use model::Vector;
 use model::system::Kind;
@@ -44,7 +47,7 @@ impl Rod {
     pub(super) fn excess(&self, d: Vector) -> Excess {
         if self.ground {
             Excess { value: -d[2], gradient: [0.0, 0.0, -1.0], bend: 0.0, stiff: 0.0 }
-        } else if self.elastic() {
+        } else if self.elastic() || self.linear {
             let length = norm(d).max(f64::MIN_POSITIVE);
             Excess {
                 value: length - self.length,
@@ -152,7 +155,16 @@ mod tests {
     const KINDS: [Kind; 3] = [Kind::Bar, Kind::Cable, Kind::Strut];
 
     fn rod(kind: Kind, flexibility: f64) -> Rod {
-        Rod { from: 0, to: 1, length: 2.0, kind, flexibility, ground: false }
+        Rod {
+            from: 0,
+            to: 1,
+            length: 2.0,
+            kind,
+            flexibility,
+            ground: false,
+            within: 0.0,
+            linear: false,
+        }
     }
 
     #[test]

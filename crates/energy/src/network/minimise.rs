@@ -12,6 +12,7 @@ use crate::network::error::Error;
 use crate::network::factor::Factor;
 use crate::network::frame::Frame;
 use crate::network::interior::{ITERATIONS, Interior, relaxable};
+use crate::network::limit::Limit;
 use crate::network::newton::{FIRST_STRAIN, Newton, finite};
 use crate::network::potential::{Iterate, Potential};
 use crate::network::settings::Settings;
@@ -23,6 +24,9 @@ use crate::vector::{along, dot, scaled};
 /// Starts elsewhere where the lengths could not be kept from the first one: a loop that closes may
 /// have places where it nearly closes.
 const RESTARTS: u32 = 4;
+
+/// Misfit of a seed that is meant to be near its answer.
+const NEAR_SEED: f64 = 0.1;
 
 /// The golden section: its multiples are spread evenly.
 const GOLDEN: f64 = 0.618_033_988_75;
@@ -73,16 +77,27 @@ pub fn minimise(system: &System, settings: &Settings) -> Result<Solution, Error>
     let (first, way) = if astray { (start.clone(), Way::Free) } else { (relaxed, Way::Relaxed) };
     let mut found = descend(&frame, factor, first, way, settings, work);
     for attempt in 1..=RESTARTS {
-        match found {
-            Err(Error::NotClosed { .. } | Error::Stalled { .. }) => {
-                let factor = Factor::new(&frame.spots, &frame.rods)?;
-                let elsewhere = displaced(&frame, &start, attempt);
-                found = descend(&frame, factor, elsewhere, Way::Stiff, settings, work).or(found);
-            }
-            _ => break,
+        if !found.as_ref().is_err_and(hard_to_close) {
+            break;
         }
+        let factor = Factor::new(&frame.spots, &frame.rods)?;
+        let elsewhere = displaced(&frame, &start, attempt);
+        found = better(descend(&frame, factor, elsewhere, Way::Stiff, settings, work), found);
     }
     Solution::new(system, &frame, found?, settings, clock)
+}
+
+/// Whether the lengths may be kept elsewhere, or with more weight on them.
+fn hard_to_close(error: &Error) -> bool {
+    matches!(error, Error::NotClosed { .. } | Error::Misfit { .. } | Error::Stalled { .. })
+}
+
+/// An answer, or the error that says most: misfits of a shape that is otherwise found.
+fn better(new: Result<Minimum, Error>, old: Result<Minimum, Error>) -> Result<Minimum, Error> {
+    match (new, old) {
+        (new @ (Ok(_) | Err(Error::Misfit { .. })), Err(_)) => new,
+        (_, old) => old,
+    }
 }
 
 /// The start with each joint moved by up to the length of the longest member, without any symmetry.
@@ -111,8 +126,14 @@ pub fn minimise_from(
     check_held(&frame)?;
     let start = seeded(&frame, seed_m)?;
     let factor = Factor::new(&frame.spots, &frame.rods)?;
-    let minimum = descend(&frame, factor, start, Way::Free, settings, Effort::default())?;
-    Solution::new(system, &frame, minimum, settings, clock)
+    let mut found = descend(&frame, factor, start.clone(), Way::Free, settings, Effort::default());
+    if found.as_ref().is_err_and(hard_to_close) && frame.slope(&start).misfit < NEAR_SEED {
+        // The loads have crushed it, which its lengths would not allow.
+        let factor = Factor::new(&frame.spots, &frame.rods)?;
+        let near = descend(&frame, factor, start, Way::Relaxed, settings, Effort::default());
+        found = better(near, found);
+    }
+    Solution::new(system, &frame, found?, settings, clock)
 }
 
 /// The seed in the solver's units, on the supports. Elastic members bear what their lengths say
@@ -159,6 +180,8 @@ pub(super) struct Minimum {
     pub(super) slope: Arc<Slope>,
     pub(super) factor: Factor,
     pub(super) effort: Effort,
+    /// Where lengths overdetermine the shape.
+    pub(super) limit: Option<Limit>,
 }
 
 /// The minimum with bars taken for cables.
@@ -218,7 +241,8 @@ fn descend(
     effort.factorisations = ended.solver.factor.count;
     match (ended.state.take_param(), ended.state.take_gradient()) {
         (Some(shape), Some(slope)) => {
-            Ok(Minimum { shape, slope, factor: ended.solver.factor, effort })
+            let Newton { factor, limit, .. } = ended.solver;
+            Ok(Minimum { shape, slope, factor, effort, limit })
         }
         _ => Err(Error::NotFinite { quantity: "last iterate" }),
     }

@@ -27,6 +27,7 @@ use crate::network::error::Error;
 use crate::network::factor::Factor;
 use crate::network::frame::Frame;
 use crate::network::law::{Excess, Softened};
+use crate::network::limit::{Limit, Reading};
 use crate::network::polish::NEUTRAL;
 use crate::network::potential::{Iterate, Potential};
 use crate::network::settings::Settings;
@@ -47,6 +48,9 @@ const LAST_STRAIN: f64 = 1e-9;
 
 /// Misfit below which Newton's method for places and forces is tried.
 pub(super) const NEAR: f64 = 1e-3;
+
+/// Misfit that is rounding in any system.
+const ROUNDED: f64 = 8.0 * f64::EPSILON;
 
 /// Misfit from a relaxation, which is right for most members: it is tried in any case.
 const RELAXED: f64 = 0.5;
@@ -102,6 +106,8 @@ pub(super) struct Newton {
     definite: bool,
     /// Misfit below which Newton's method for places and forces is tried next.
     near: f64,
+    /// The solution where lengths overdetermine it.
+    pub(super) limit: Option<Limit>,
     ended: Ended,
 }
 
@@ -141,6 +147,7 @@ impl Newton {
             shift: 0.0,
             definite: false,
             near: if relaxed { RELAXED } else { NEAR },
+            limit: None,
             ended: Ended::Not,
         }
     }
@@ -312,6 +319,25 @@ impl Newton {
         Ok(Shape { x: shape.x.clone(), force })
     }
 
+    /// The solution next to a shape, by Newton's method for places and forces; where lengths
+    /// overdetermine it, the limit of stiff springs.
+    fn finish(&mut self, shape: &Shape) -> Result<Option<Shape>, Error> {
+        let exact = self.polish(shape);
+        let absurd = exact.as_ref().and_then(|exact| self.frame.absurd(exact));
+        let exact = exact.filter(|_| absurd.is_none());
+        match self.limit(exact.as_ref().unwrap_or(shape), exact.is_some())? {
+            Reading::Found(limit) if limit.fits() => {
+                self.limit = Some(limit.clone());
+                Ok(Some(limit.shape))
+            }
+            Reading::Found(limit) if exact.is_none() => {
+                Err(Error::Misfit { misfits: limit.misfits })
+            }
+            Reading::Released(shape) => Ok(self.polish(&shape)),
+            _ => absurd.map_or(Ok(exact), Err),
+        }
+    }
+
     /// Largest elongation of a spring, over the length of its member.
     fn spring_misfit(&self, shape: &Shape, local: &Local) -> f64 {
         let change = local.soft.iter().zip(&shape.force).map(|(soft, force)| soft.force - force);
@@ -341,13 +367,12 @@ impl Solver<Potential, Iterate> for Newton {
         let shape = state.take_param().ok_or(Error::NotFinite { quantity: "iterate" })?;
         let slope = state.take_gradient().ok_or(Error::NotFinite { quantity: "gradient" })?;
         if slope.misfit <= self.near {
-            match self.polish(&shape) {
-                Some(solution) => {
-                    self.ended = Ended::Converged;
-                    return accept(problem, state, Arc::new(solution));
-                }
-                None => self.near = NEAR.min(0.1 * slope.misfit),
+            if let Some(solution) = self.finish(&shape)? {
+                self.ended = Ended::Converged;
+                return accept(problem, state, Arc::new(solution));
             }
+            // Off a saddle the misfit need not become less than it was there.
+            self.near = NEAR.min((0.1 * slope.misfit).max(ROUNDED));
         }
         let next = Arc::new(self.approach(&shape, &slope)?);
         accept(problem, state, next)

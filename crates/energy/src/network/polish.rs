@@ -23,7 +23,15 @@ use crate::network::shape::Shape;
 use crate::vector::{dot, scaled};
 
 /// Strain of the springs in Newton's method for places and forces: what a step leaves of the error.
-const STIFF_STRAIN: f64 = 1e-6;
+pub(super) const STIFF_STRAIN: f64 = 1e-6;
+
+/// Of lengths that the shape hardly feels it leaves more: a line whose parts are at an angle `a` to
+/// each other strains by `a` times a displacement, and springs of strain `a²` halve the error. Where
+/// steps bring little the springs become stiffer by this factor,
+pub(super) const STIFFER: f64 = 1e-3;
+
+/// down to this strain, at which the rounding of the springs is a part 1e-4 of the forces.
+pub(super) const STIFFEST_STRAIN: f64 = 1e-12;
 
 /// Diagonal added there, over the size of the matrix: where a motion is neutral the step has no
 /// part of it.
@@ -40,33 +48,86 @@ const CHANGES: usize = 40;
 /// stiff springs point the old way.
 const CHORD_NEAR: f64 = 1e-8;
 
+/// Largest misfit after the steps of one stiffness with which stiffer springs are tried.
+const SLOW: f64 = 1e-5;
+
+/// Growth of the largest force with which stiffer springs have gone astray.
+const INFLATED: f64 = 100.0;
+
 /// A chord step must leave at most this part of the residual.
 const CHORD_PROGRESS: f64 = 0.3;
 
+/// How steps with springs of one strain ended.
+enum Polished {
+    /// Down to rounding.
+    Rounded(Shape),
+    /// Within the tolerance.
+    Converged(Shape),
+    /// The steps were used up near a solution.
+    Slow(Shape),
+    Astray,
+}
+
+impl Polished {
+    fn shape(&self) -> Option<&Shape> {
+        match self {
+            Self::Rounded(shape) | Self::Converged(shape) | Self::Slow(shape) => Some(shape),
+            Self::Astray => None,
+        }
+    }
+}
+
 impl Newton {
-    /// Newton's method for places and forces. Nothing where it does not converge, or not to a
+    /// Newton's method for places and forces. `None` where it does not converge, or not to a
     /// minimum.
+    ///
+    /// Steps that bring little are either rounding, or the springs are too soft for lengths that the
+    /// shape hardly feels: then stiffer ones go on. Where lengths overdetermine the shape that makes
+    /// forces of the misfits, and what was found before is the answer.
     pub(super) fn polish(&mut self, shape: &Shape) -> Option<Shape> {
+        let mut found = self.polish_with(shape, STIFF_STRAIN);
+        let mut strain = STIFF_STRAIN * STIFFER;
+        while strain >= STIFFEST_STRAIN {
+            let start = match &found {
+                Polished::Converged(shape) | Polished::Slow(shape) => shape,
+                Polished::Rounded(_) | Polished::Astray => break,
+            };
+            let most = INFLATED * self.frame.force_scale(&start.force);
+            let next = self.polish_with(start, strain);
+            match next.shape() {
+                Some(shape) if self.frame.force_scale(&shape.force) <= most => found = next,
+                _ => break,
+            }
+            strain *= STIFFER;
+        }
+        match found {
+            Polished::Rounded(shape) | Polished::Converged(shape) => Some(shape),
+            Polished::Slow(_) | Polished::Astray => None,
+        }
+    }
+
+    /// The same with springs of one strain.
+    fn polish_with(&mut self, shape: &Shape, strain: f64) -> Polished {
         let frame = Arc::clone(&self.frame);
         let (mut shape, mut slope) = (shape.clone(), frame.slope(shape));
-        let stiffness = frame.force_scale(&shape.force) / STIFF_STRAIN;
+        let stiffness = frame.force_scale(&shape.force) / strain;
         let (mut steps, mut changes) = (POLISH, CHANGES);
         let mut active = frame.active(&shape);
         while steps > 0 {
             steps -= 1;
             let start = slope.residual();
             if !self.factorise_stiff(&shape, stiffness, &active) {
-                return None;
+                return Polished::Astray;
             }
             for chord in 0..CHORDS {
                 let next = self.chord(&shape, stiffness, &active);
                 let there = frame.slope(&next);
                 let (before, after) = (slope.residual(), there.residual());
                 if !after.is_finite() {
-                    return None;
+                    return Polished::Astray;
                 }
                 if after >= before && before <= self.tolerance(&shape) {
-                    return Some(shape);
+                    return self.polished(shape, before);
                 }
                 if chord > 0 && after > CHORD_PROGRESS * before {
                     break;
@@ -79,7 +140,7 @@ impl Newton {
             let resist = frame.active(&shape);
             if resist != active {
                 if changes == 0 {
-                    return None;
+                    return Polished::Astray;
                 }
                 (active, changes, steps) = (resist, changes - 1, steps + 1);
                 release(&mut shape, &active);
@@ -87,21 +148,39 @@ impl Newton {
                 continue;
             }
             // Below the tolerance it goes on as long as that brings something.
-            let rounded = slope.residual() <= rounding_floor(&frame, &shape);
-            let slow = slope.residual() > CHORD_PROGRESS * start;
-            if rounded || (slow && slope.residual() <= self.tolerance(&shape)) {
-                return Some(shape);
+            let residual = slope.residual();
+            let slow = residual > CHORD_PROGRESS * start;
+            if residual <= rounding_floor(&frame, &shape)
+                || (slow && residual <= self.tolerance(&shape))
+            {
+                return self.polished(shape, residual);
             }
-            if slope.residual() > 2.0 * start.max(NEAR) {
-                return None;
+            if residual > 2.0 * start.max(NEAR) {
+                return Polished::Astray;
             }
         }
-        None
+        if slope.misfit < SLOW { Polished::Slow(shape) } else { Polished::Astray }
+    }
+
+    fn polished(&self, shape: Shape, residual: f64) -> Polished {
+        // A nearly taut line has forces of the load over its slope, and an error of a length moves it
+        // by as many times that error.
+        let turned = self.frame.largest_force(&shape.force).max(1.0);
+        if turned * residual <= rounding_floor(&self.frame, &shape) {
+            Polished::Rounded(shape)
+        } else {
+            Polished::Converged(shape)
+        }
     }
 
     /// Factorise the matrix with stiff springs in the members that resist; whether it is positive
     /// definite.
-    fn factorise_stiff(&mut self, shape: &Shape, stiffness: f64, active: &[bool]) -> bool {
+    pub(super) fn factorise_stiff(
+        &mut self,
+        shape: &Shape,
+        stiffness: f64,
+        active: &[bool],
+    ) -> bool {
         let frame = Arc::clone(&self.frame);
         let excess = frame.excesses(&shape.x);
         let largest = frame.largest_force(&shape.force);
@@ -117,7 +196,7 @@ impl Newton {
     }
 
     /// One step with the factorisation at hand.
-    fn chord(&mut self, shape: &Shape, stiffness: f64, active: &[bool]) -> Shape {
+    pub(super) fn chord(&mut self, shape: &Shape, stiffness: f64, active: &[bool]) -> Shape {
         let frame = Arc::clone(&self.frame);
         let excess = frame.excesses(&shape.x);
         let soft: Vec<Softened> = (0..frame.rods.len())

@@ -8,6 +8,7 @@ use model::{Evidence, ForceChoice, InSpace, SelfStresses, SolverName, Vector};
 
 use crate::network::error::Error;
 use crate::network::frame::{Frame, end_loads_n};
+use crate::network::limit::Limit;
 use crate::network::minimise::Minimum;
 use crate::network::polish::rounding_floor;
 use crate::network::settings::Settings;
@@ -52,7 +53,8 @@ pub struct Work {
     pub relaxation: u64,
     /// Iterations of Newton's method on the system itself.
     pub iterations: u64,
-    /// Factorisations of the matrix of all coordinates.
+    /// Factorisations of the matrix of all coordinates; those of the springs that share forces are
+    /// not counted.
     pub factorisations: u64,
     /// Largest unbalanced force at a joint over the largest force of the system.
     pub unbalance: f64,
@@ -77,21 +79,17 @@ impl Solution {
         settings: &Settings,
         clock: Instant,
     ) -> Result<Self, Error> {
-        let Minimum { shape, mut slope, mut factor, effort } = minimum;
-        let mut shape = Arc::unwrap_or_clone(shape);
-        let second = second_order(frame, &shape, &mut factor);
+        let Minimum { shape, slope, mut factor, effort, limit } = minimum;
+        let least = limit.is_some();
+        let second = second_order(frame, &shape, limit.as_ref(), &mut factor);
         if second.index > 0 {
             return Err(Error::NoMinimum { index: second.index });
         }
         let tolerance = settings.tolerance.max(rounding_floor(frame, &shape));
-        let mut least = false;
-        if let Some(force) = second.least.clone() {
-            let other = Shape { x: shape.x.clone(), force };
-            let there = frame.slope(&other);
-            if there.residual() <= tolerance && wrong_sign(frame, &other).is_none() {
-                (shape, slope, least) = (other, Arc::new(there), true);
-            }
+        if let Some(absurd) = frame.absurd(&shape) {
+            return Err(absurd);
         }
+        frame.check_balance(&shape, settings.tolerance)?;
         if let Some(member) = wrong_sign(frame, &shape) {
             let force_n = shape.force[member] * frame.force_n;
             if frame.rods[member].ground {
@@ -109,10 +107,11 @@ impl Solution {
         };
         let iterations = usize::try_from(effort.relaxation + effort.iterations);
         let iterations = iterations.unwrap_or(usize::MAX);
-        let mut evidence = Evidence::new(RESIDUAL_OF, slope.residual(), tolerance, iterations);
+        let residual = limit.as_ref().map_or_else(|| slope.residual(), |limit| limit.residual);
+        let mut evidence = Evidence::new(RESIDUAL_OF, residual, tolerance, iterations);
         evidence.nullity = second.neutral;
         evidence.condition = second.condition;
-        evidence.self_stresses = self_stresses(&second, least);
+        evidence.self_stresses = self_stresses(&second, limit.as_ref());
         evidence.rigidity = second.rigidity.map(|counted| model::Rigidity {
             rank: counted.rank,
             mechanisms: counted.mechanisms,
@@ -152,14 +151,13 @@ impl Frame {
 }
 
 /// What equilibrium leaves open of the forces, and which of them are named.
-fn self_stresses(second: &SecondOrder, least: bool) -> Option<SelfStresses> {
+fn self_stresses(second: &SecondOrder, limit: Option<&Limit>) -> Option<SelfStresses> {
     let basis = second.self_stresses.clone();
-    let choice = if least { ForceChoice::EquallyStiff } else { ForceChoice::Unknown };
-    if basis.is_empty() {
-        None
-    } else {
-        Some(SelfStresses { dimension: basis.len(), basis, choice, misfit_m: None, ranges: None })
-    }
+    let choice = limit.map_or(ForceChoice::Unknown, |_| ForceChoice::EquallyStiff);
+    let misfits = limit.map(|limit| limit.misfits.iter().map(|misfit| misfit.misfit_m.abs()));
+    let misfit_m = misfits.map(|misfits| misfits.fold(0.0, f64::max));
+    let dimension = basis.len();
+    (dimension > 0).then_some(SelfStresses { dimension, basis, choice, misfit_m, ranges: None })
 }
 
 /// The observables in the world.
@@ -240,8 +238,16 @@ mod tests {
 
     #[test]
     fn a_strain_below_its_rounding_is_none() {
-        let rod =
-            Rod { from: 0, to: 1, length: 3.0, kind: Kind::Bar, flexibility: 0.5, ground: false };
+        let rod = Rod {
+            from: 0,
+            to: 1,
+            length: 3.0,
+            kind: Kind::Bar,
+            flexibility: 0.5,
+            ground: false,
+            within: 0.0,
+            linear: false,
+        };
         let frame = Frame {
             origin_m: [0.0; 3],
             length_m: 1.0,

@@ -9,7 +9,8 @@ use faer::{Mat, Side};
 use model::Vector;
 
 use crate::network::factor::Factor;
-use crate::network::frame::{Frame, Rod, Spot};
+use crate::network::frame::{Frame, Spot};
+use crate::network::limit::{Limit, stressed};
 use crate::network::shape::{Shape, largest};
 use crate::vector::{along, cross, dot, norm, unit};
 
@@ -53,23 +54,31 @@ pub(super) struct SecondOrder {
     /// Orthonormal self-stresses, one force for each member; none where forces are unique or not
     /// counted.
     pub(super) self_stresses: Vec<Vec<f64>>,
-    /// Forces of the least norm, where they are not unique.
-    pub(super) least: Option<Vec<f64>>,
     /// Largest over smallest eigenvalue that is not zero, by magnitude.
     pub(super) condition: f64,
 }
 
 /// The second order at an equilibrium.
-pub(super) fn second_order(frame: &Frame, shape: &Shape, factor: &mut Factor) -> SecondOrder {
+pub(super) fn second_order(
+    frame: &Frame,
+    shape: &Shape,
+    limit: Option<&Limit>,
+    factor: &mut Factor,
+) -> SecondOrder {
     let mut second = if frame.freedom <= DENSE {
-        let dense = Dense::new(frame, shape);
+        let dense = match limit {
+            Some(limit) => {
+                let shape = stressed(shape, &limit.stiffening);
+                Dense::with(frame, &shape, |e| limit.taut[e], limit.rank)
+            }
+            None => Dense::new(frame, shape),
+        };
         let (index, neutral, condition) = dense.count();
         SecondOrder {
             index,
             neutral,
             index_in_plane: None,
             self_stresses: dense.self_stresses(frame),
-            least: dense.least_forces(frame, shape),
             rigidity: Some(dense.rigidity),
             condition,
         }
@@ -83,7 +92,6 @@ pub(super) fn second_order(frame: &Frame, shape: &Shape, factor: &mut Factor) ->
             index_in_plane: None,
             rigidity: None,
             self_stresses: Vec::new(),
-            least: None,
             condition: 1.0,
         }
     };
@@ -203,18 +211,25 @@ struct Dense {
 
 impl Dense {
     fn new(frame: &Frame, shape: &Shape) -> Self {
+        Self::with(frame, shape, |e| resists(frame, shape, e), RANK)
+    }
+
+    /// With the members that are taut, and the part of the largest singular value below which all
+    /// are zero.
+    fn with(frame: &Frame, shape: &Shape, taut: impl Fn(usize) -> bool, zero: f64) -> Self {
         let n = frame.freedom;
         let excess = frame.excesses(&shape.x);
-        let taut: Vec<usize> = (0..frame.rods.len())
-            .filter(|&e| resists(frame, shape, e) && !frame.rods[e].elastic())
-            .collect();
+        let taut: Vec<usize> =
+            (0..frame.rods.len()).filter(|&e| taut(e) && !frame.rods[e].elastic()).collect();
         let mut rigidity = Mat::<f64>::zeros(taut.len(), n);
         for (row, &e) in taut.iter().enumerate() {
             let rod = &frame.rods[e];
+            // Of unit length also where the member is not quite as long as it should be.
+            let direction = unit(excess[e].gradient).unwrap_or(excess[e].gradient);
             for (joint, sign) in [(rod.from, -1.0), (rod.to, 1.0)] {
                 let spot = &frame.spots[joint];
                 for k in 0..spot.freedom {
-                    rigidity[(row, spot.first + k)] += sign * dot(excess[e].gradient, spot.axes[k]);
+                    rigidity[(row, spot.first + k)] += sign * dot(direction, spot.axes[k]);
                 }
             }
         }
@@ -236,7 +251,7 @@ impl Dense {
             }
         }
         let size = frame.largest_force(&shape.force);
-        let (motions, stresses, rigidity) = kernels(&rigidity);
+        let (motions, stresses, rigidity) = kernels(&rigidity, zero);
         Self { hessian: motions.transpose() * &hessian * &motions, size, stresses, taut, rigidity }
     }
 
@@ -275,42 +290,10 @@ impl Dense {
         };
         (0..stresses).map(stress).collect()
     }
-
-    /// The forces with the least `sum F² l` that balance the same loads: the limit of equally stiff
-    /// members as they become rigid, above a floor that is rigid as supports are. Nothing where the
-    /// forces are unique, or where a cable or strut would have to work against its kind.
-    fn least_forces(&self, frame: &Frame, shape: &Shape) -> Option<Vec<f64>> {
-        let stresses = self.stresses.ncols();
-        if stresses == 0 {
-            return None;
-        }
-        // No self-stress is in the floor alone, so the members' lengths make a norm of it.
-        let weight = |rod: &Rod| if rod.ground { 0.0 } else { rod.length };
-        let weighted = Mat::from_fn(self.taut.len(), stresses, |row, k| {
-            self.stresses[(row, k)] * weight(&frame.rods[self.taut[row]])
-        });
-        let force = Mat::from_fn(self.taut.len(), 1, |row, _| shape.force[self.taut[row]]);
-        let gram = self.stresses.transpose() * &weighted;
-        let right = weighted.transpose() * &force;
-        let part = faer::linalg::solvers::Solve::solve(&gram.partial_piv_lu(), &right);
-        let change = &self.stresses * &part;
-        let mut least = shape.force.clone();
-        for (row, &e) in self.taut.iter().enumerate() {
-            least[e] -= change[(row, 0)];
-            if !frame.rods[e].resists(least[e]) {
-                // What is just taut may bear nothing.
-                if least[e].abs() > ZERO * self.size {
-                    return None;
-                }
-                least[e] = 0.0;
-            }
-        }
-        Some(least)
-    }
 }
 
 /// Orthonormal bases of the motions that keep the lengths and of the self-stresses.
-fn kernels(rigidity: &Mat<f64>) -> (Mat<f64>, Mat<f64>, Rigidity) {
+fn kernels(rigidity: &Mat<f64>, zero: f64) -> (Mat<f64>, Mat<f64>, Rigidity) {
     let (m, n) = (rigidity.nrows(), rigidity.ncols());
     let unsolved =
         |rank| Rigidity { rank, self_stresses: m - rank, mechanisms: n - rank, gap: [1.0, 0.0] };
@@ -322,7 +305,7 @@ fn kernels(rigidity: &Mat<f64>) -> (Mat<f64>, Mat<f64>, Rigidity) {
     };
     let values: Vec<f64> = (0..m.min(n)).map(|k| svd.S()[k]).collect();
     let most = values.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
-    let rank = values.iter().filter(|value| **value > RANK * most).count();
+    let rank = values.iter().filter(|value| **value > zero * most).count();
     let gap = [
         if rank > 0 { values[rank - 1] / most } else { 1.0 },
         values.get(rank).map_or(0.0, |value| value / most),

@@ -6,6 +6,7 @@ mod little_force;
 mod network;
 mod network_large;
 mod network_members;
+mod network_overdetermined;
 mod network_random;
 mod network_support;
 mod network_work;

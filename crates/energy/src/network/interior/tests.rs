@@ -19,6 +19,8 @@ fn interior(rods: &[(f64, Kind)], force: &[f64], slack: &[f64]) -> (Interior, Sh
         kind,
         flexibility: 0.0,
         ground: false,
+        within: 0.0,
+        linear: false,
     };
     let frame = Frame {
         origin_m: ZERO3,

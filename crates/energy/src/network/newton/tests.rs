@@ -11,8 +11,16 @@ const ZERO3: Vector = [0.0; 3];
 fn newton() -> Newton {
     let held = Spot { first: 0, freedom: 0, axes: [ZERO3; 3] };
     let axes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-    let rod =
-        |from, to, length, kind| Rod { from, to, length, kind, flexibility: 0.0, ground: false };
+    let rod = |from, to, length, kind| Rod {
+        from,
+        to,
+        length,
+        kind,
+        flexibility: 0.0,
+        ground: false,
+        within: 0.0,
+        linear: false,
+    };
     let frame = Frame {
         origin_m: ZERO3,
         length_m: 4.0,

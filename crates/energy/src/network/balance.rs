@@ -1,0 +1,64 @@
+//! Forces held against what the problem brings, not against the answer.
+//!
+//! The scale of a joint is its load, or the mean load of all joints where that is more; of a system
+//! without loads it is the largest force of an elastic member. A force found is no scale: an absurd
+//! one would forgive everything.
+
+use crate::network::error::Error;
+use crate::network::frame::Frame;
+use crate::network::polish::rounding_floor;
+use crate::network::shape::{NO_STRAIN, Shape, largest};
+use crate::vector::norm;
+
+/// Unbalanced force at a joint over its scale that counts as balance.
+const BALANCE: f64 = 1e-9;
+
+/// Rounding of a force over the loads from which on the forces say nothing.
+const ABSURD: f64 = 1e-6;
+
+impl Frame {
+    /// The largest force of an elastic member: the prestress, where no load acts.
+    fn elastic_force(&self, shape: &Shape) -> f64 {
+        let elastic = self.rods.iter().zip(&shape.force).filter(|(rod, _)| rod.elastic());
+        elastic.fold(0.0, |most, (_, force)| force.abs().max(most))
+    }
+
+    /// Forces whose rounding is a part [`ABSURD`] of all loads and of the prestress, or more.
+    pub(super) fn absurd(&self, shape: &Shape) -> Option<Error> {
+        let loads: f64 = self.loads.iter().map(|load| norm(*load)).sum();
+        let scale = loads.max(self.elastic_force(shape)).max(NO_STRAIN);
+        let ratio = largest(&shape.force) / scale;
+        let worst = |(a, b): (&f64, &f64)| a.abs().total_cmp(&b.abs());
+        let mut members = (0..self.members).map(|e| (e, &shape.force[e]));
+        let first = members.next()?;
+        let (member, _) = members
+            .fold(first, |most, next| if worst((most.1, next.1)).is_lt() { next } else { most });
+        (rounding_floor(self, shape) * ratio > ABSURD)
+            .then_some(Error::Absurd { member: member + 1, ratio })
+    }
+
+    /// Refuse joints that are out of balance.
+    ///
+    /// What the rounding of the forces at a joint leaves is allowed: of places of size `X` the
+    /// direction of a member of length `l` has `X / l` units in the last place.
+    pub(super) fn check_balance(&self, shape: &Shape, tolerance: f64) -> Result<(), Error> {
+        let unbalance = self.lagrangian_gradient(&self.excesses(&shape.x), &shape.force);
+        let loads: Vec<f64> = self.loads.iter().map(|load| norm(*load)).collect();
+        let mean = loads.iter().sum::<f64>() / self.joints as f64;
+        let least = if mean > 0.0 { mean } else { self.elastic_force(shape) };
+        let mut forces = vec![0.0; self.spots.len()];
+        for (rod, force) in self.rods.iter().zip(&shape.force) {
+            forces[rod.from] += force.abs();
+            forces[rod.to] += force.abs();
+        }
+        let rounding = rounding_floor(self, shape);
+        for (joint, spot) in self.spots.iter().enumerate() {
+            let scale = loads[joint].max(least).max(NO_STRAIN);
+            let rest = largest(&unbalance[spot.first..spot.first + spot.freedom]);
+            if rest > tolerance.max(BALANCE) * scale + rounding * forces[joint] {
+                return Err(Error::Unbalanced { joint, unbalance: rest / scale });
+            }
+        }
+        Ok(())
+    }
+}
