@@ -83,6 +83,7 @@ mod second_order;
 mod seed;
 mod settings;
 mod settle;
+mod smooth;
 mod solution;
 mod solve;
 mod state;

@@ -61,7 +61,7 @@ pub struct Solution {
 /// A force below this part of the largest one counts as zero.
 pub(super) const NO_FORCE: f64 = 1e-10;
 /// A member whose length is off by less than this part of it just reaches.
-const NO_SLACK: f64 = 1e-10;
+pub(super) const NO_SLACK: f64 = 1e-10;
 
 /// What the answer is made of.
 pub(super) struct Found {
