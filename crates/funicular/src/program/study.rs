@@ -54,7 +54,7 @@ Examples:
   funicular study --case three-equal-bars --vary anchors.end_m.z=-2.9..-0.1:100 --csv study.csv
   funicular study --case lamp --vary joints.lamp.mass_kg=1..5:21
 
-Exit codes, the worst of what `solve` ends with at each point that can hang:
+Exit codes: the worst that `solve` ends with at any point that can hang
   0  done; both solvers agree wherever the system can hang
   1  a check failed: the solvers disagree somewhere
   2  bad input or usage, or no point describes what can hang
