@@ -193,10 +193,8 @@ impl Sheet<'_> {
         for row in 0..self.batch.num_rows() {
             let length_m = self.there(&lengths, row, LENGTH)?;
             let mass_kg = self.there(&masses, row, MASS)?;
-            let given = centres.as_ref().and_then(|column| column.get(row));
-            let centre_m = given.unwrap_or(0.5 * length_m);
-            let inertia = Bar::slender_inertia(length_m, mass_kg);
-            let bar = Bar::new(length_m, mass_kg, centre_m, inertia).map_err(|error| {
+            let centre_m = centres.as_ref().and_then(|column| column.get(row));
+            let bar = Bar::given(length_m, mass_kg, centre_m, None).map_err(|error| {
                 let column = match error {
                     BarError::Mass { .. } => MASS,
                     BarError::Centre { .. } => CENTRE,

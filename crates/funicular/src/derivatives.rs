@@ -77,7 +77,7 @@ pub struct NumberGradient {
     pub of: String,
     /// Its value, in m or N.
     pub value: f64,
-    /// By lengths, masses and stiffnesses of bars, forces on free joints and places of anchors.
+    /// By lengths, masses, stiffnesses and prestresses of bars, forces on free joints and places of anchors.
     pub derivatives: Vec<Derivative>,
 }
 
@@ -118,8 +118,8 @@ pub enum DerivativesError {
     },
     /// Occurs when derivatives by a parameter are not known.
     #[error(
-        "there are no derivatives by `{text}`: there are some by `length_m`, `mass_kg` and \
-         `stiffness_n` of one bar, `mass_kg` and `force_n` of a joint, `at_m` of an anchor"
+        "there are no derivatives by `{text}`: there are some by `length_m`, `mass_kg`, \
+         `stiffness_n` and `prestress_n` of one bar, `mass_kg` and `force_n` of a joint, `at_m` of an anchor"
     )]
     NoParameter {
         /// The text.
@@ -222,6 +222,9 @@ impl Derivatives {
             if member.stiffness_n.is_some() {
                 add(bar(k, BarField::Stiffness), gradient.by_stiffness[k]);
             }
+            if member.prestress.is_some() {
+                add(bar(k, BarField::Prestress), gradient.by_prestress[k]);
+            }
         }
         for (k, joint) in self.system.joints().iter().enumerate() {
             let number = |field| Number::Joint(joint.name.clone(), field);
@@ -242,8 +245,9 @@ impl Derivatives {
 
     /// The derivatives of joints and forces by one parameter, such as `bars.2.length_m`.
     ///
-    /// The mass and the stiffness of a bar stay when its length changes, and so do the relative
-    /// places of its centre and its loads.
+    /// A parameter is the number of the system file: `length_m` of a prestressed bar is its length
+    /// under the prestress. All others stay; a centre that is left out and forces in the middle
+    /// stay in the middle.
     ///
     /// # Errors
     ///
@@ -276,6 +280,9 @@ impl Derivatives {
             }
             Number::Bar(Which::One(bar), BarField::Mass) => {
                 (Some(network::Parameter::Mass { member: bar - 1 }), 1.0)
+            }
+            Number::Bar(Which::One(bar), BarField::Prestress) => {
+                (Some(network::Parameter::Prestress { member: bar - 1 }), 1.0)
             }
             Number::Bar(Which::One(bar), BarField::Stiffness) => {
                 (Some(network::Parameter::Stiffness { member: bar - 1 }), 1.0)

@@ -143,7 +143,7 @@ impl Modes {
             index_by_modes: found.index(),
             out_of_balance: found.out_of_balance,
             modes_in_all: found.total,
-            modes: with_enclosures(found.modes, &enclosed, &between),
+            modes: with_enclosures(system, found.modes, &enclosed, &between),
             enclosed,
         })
     }
@@ -261,9 +261,11 @@ impl Summary {
     }
 }
 
-/// Modes with the enclosures of their `ω²`: the k-th smallest of both are of each other. Spins of
-/// bars stand behind the negative ones, and are zero by their meaning.
+/// Modes with the enclosures of their `ω²`: the k-th smallest of both are of each other, and what is
+/// proved is what is shown. Spins of bars stand behind the negative ones, and are zero by their
+/// meaning.
 fn with_enclosures(
+    system: &System,
     modes: Vec<motion::Mode>,
     enclosed: &Enclosed,
     between: &[[f64; 2]],
@@ -274,6 +276,10 @@ fn with_enclosures(
         let is_spin = matches!(mode.what, What::Spin { .. });
         let spin = (is_spin && is_reached).then_some([0.0; 2]);
         let omega2_between_s2 = if is_spin { spin } else { next.next() };
+        let mode = match omega2_between_s2 {
+            Some(ends) if !is_spin => within(system, mode, ends),
+            _ => mode,
+        };
         Mode {
             what: words(&mode),
             frequency_hz: mode.frequency_hz(),
@@ -285,6 +291,31 @@ fn with_enclosures(
         }
     };
     modes.into_iter().map(with).collect()
+}
+
+/// A mode with a number in its enclosure, and called what the enclosure proves: the solver's zero
+/// has a threshold, the proof has none.
+fn within(system: &System, mut mode: motion::Mode, [low, high]: [f64; 2]) -> motion::Mode {
+    let omega2_s2 = mode.omega2_s2.clamp(low, high);
+    mode.residual_s2 += (omega2_s2 - mode.omega2_s2).abs();
+    mode.omega2_s2 = omega2_s2;
+    let is_named = matches!(mode.what, What::Turn { .. } | What::Neutral);
+    if low > 0.0 {
+        mode.what = What::Oscillation;
+    } else if high < 0.0 {
+        mode.what = What::Leaving;
+    } else if omega2_s2.abs() <= 0.0 && !is_named {
+        mode.what = only_turn(system).unwrap_or(What::Neutral);
+    }
+    mode
+}
+
+/// The turn about a vertical that the supports leave to the system, if there is one alone.
+fn only_turn(system: &System) -> Option<What> {
+    let parts = system.parts();
+    let mut axes = parts.iter().filter_map(|part| part.axis_m);
+    let axis_m = axes.next()?;
+    axes.next().is_none().then_some(What::Turn { axis_m })
 }
 
 /// What a mode is, in words.

@@ -6,12 +6,22 @@ use crate::readable::Readable;
 /// of inertia.
 ///
 /// The moments are data of the mechanism (paper, section II); no equilibrium depends on them.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy)]
 pub struct Bar {
     length_m: f64,
     mass_kg: f64,
     centre_m: f64,
     inertia_kg_m2: [f64; 3],
+    /// Whether centre and moments were given; if not, they follow the length and the mass.
+    is_given: [bool; 2],
+}
+
+/// Bars are equal by their numbers, given or not.
+impl PartialEq for Bar {
+    fn eq(&self, other: &Self) -> bool {
+        let numbers = |bar: &Self| (bar.length_m, bar.mass_kg, bar.centre_m, bar.inertia_kg_m2);
+        numbers(self) == numbers(other)
+    }
 }
 
 /// Why a bar cannot be built.
@@ -72,6 +82,33 @@ impl Bar {
         centre_m: f64,
         inertia_kg_m2: [f64; 3],
     ) -> Result<Self, BarError> {
+        Self::given(length_m, mass_kg, Some(centre_m), Some(inertia_kg_m2))
+    }
+
+    /// A bar as a system file gives it: without a centre that is in the middle, without moments
+    /// they are those of [`slender_inertia`](Self::slender_inertia), and follow when the length or
+    /// the mass is changed.
+    ///
+    /// # Errors
+    ///
+    /// As [`new`](Self::new).
+    ///
+    /// ```
+    /// use model::Bar;
+    /// let bar = Bar::given(2.0, 3.0, None, Some([0.0, 1.0, 2.0]))?;
+    /// assert_eq!((bar.centre_m(), bar.given_centre_m()), (1.0, None));
+    /// assert_eq!(bar.given_inertia_kg_m2(), Some([0.0, 1.0, 2.0]));
+    /// # Ok::<(), model::BarError>(())
+    /// ```
+    pub fn given(
+        length_m: f64,
+        mass_kg: f64,
+        given_centre_m: Option<f64>,
+        given_inertia_kg_m2: Option<[f64; 3]>,
+    ) -> Result<Self, BarError> {
+        let centre_m = given_centre_m.unwrap_or(0.5 * length_m);
+        let inertia_kg_m2 =
+            given_inertia_kg_m2.unwrap_or_else(|| Self::slender_inertia(length_m, mass_kg));
         if !(length_m.is_finite() && length_m > 0.0) {
             return Err(BarError::Length { length_m });
         }
@@ -86,7 +123,8 @@ impl Bar {
                 return Err(BarError::Inertia { moment_kg_m2 });
             }
         }
-        Ok(Self { length_m, mass_kg, centre_m, inertia_kg_m2 })
+        let is_given = [given_centre_m.is_some(), given_inertia_kg_m2.is_some()];
+        Ok(Self { length_m, mass_kg, centre_m, inertia_kg_m2, is_given })
     }
 
     /// A homogeneous slender bar: centre in the middle, moments `[0, m l²/12, m l²/12]`.
@@ -103,7 +141,7 @@ impl Bar {
     /// # Ok::<(), model::BarError>(())
     /// ```
     pub fn homogeneous(length_m: f64, mass_kg: f64) -> Result<Self, BarError> {
-        Self::new(length_m, mass_kg, 0.5 * length_m, Self::slender_inertia(length_m, mass_kg))
+        Self::given(length_m, mass_kg, None, None)
     }
 
     /// Principal central moments `[0, m l²/12, m l²/12]` of a homogeneous slender bar, kg m²: mass
@@ -144,5 +182,29 @@ impl Bar {
     #[must_use]
     pub fn inertia_kg_m2(&self) -> [f64; 3] {
         self.inertia_kg_m2
+    }
+
+    /// The centre of weight where it was given, and not left out for the middle, m.
+    #[must_use]
+    pub fn given_centre_m(&self) -> Option<f64> {
+        self.is_given[0].then_some(self.centre_m)
+    }
+
+    /// The moments where they were given, and not left out for those of a slender bar, kg m².
+    #[must_use]
+    pub fn given_inertia_kg_m2(&self) -> Option<[f64; 3]> {
+        self.is_given[1].then_some(self.inertia_kg_m2)
+    }
+
+    /// The same body unstretched, where it is longer by the factor `stretch`: every point stays at
+    /// the same part of the length, so that the moments across, `∫ (s − r)² dm`, go with its
+    /// square. The moment about the bar stays.
+    pub(crate) fn unstretched(&self, stretch: f64) -> Result<Self, BarError> {
+        let length_m = self.length_m / stretch;
+        // The last place of it may be past the end by rounding.
+        let centre_m = self.given_centre_m().map(|centre_m| (centre_m / stretch).min(length_m));
+        let across = |moment: f64| moment / stretch / stretch;
+        let inertia = self.given_inertia_kg_m2().map(|[x, y, z]| [x, across(y), across(z)]);
+        Self::given(length_m, self.mass_kg, centre_m, inertia)
     }
 }

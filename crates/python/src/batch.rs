@@ -95,13 +95,8 @@ impl Batch {
         let n = self.bars;
         let bar = |k: usize| {
             let (length_m, mass_kg) = (self.lengths_m[k], self.masses_kg[k]);
-            match &self.centres_m {
-                None => Bar::homogeneous(length_m, mass_kg),
-                Some(centres) => {
-                    let inertia = Bar::slender_inertia(length_m, mass_kg);
-                    Bar::new(length_m, mass_kg, centres[k], inertia)
-                }
-            }
+            let centre_m = self.centres_m.as_ref().map(|centres| centres[k]);
+            Bar::given(length_m, mass_kg, centre_m, None)
         };
         let bars = (chain * n..(chain + 1) * n).map(bar).collect::<Result<Vec<_>, _>>()?;
         let anchors = Anchors { start_m: self.starts_m[chain], end_m: self.ends_m[chain] };

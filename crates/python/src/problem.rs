@@ -33,11 +33,9 @@ fn bars(
     inertias: Option<&[Vector]>,
 ) -> Result<Vec<Bar>, funicular::Error> {
     let bar = |k: usize| {
-        let (length_m, mass_kg) = (lengths[k], masses[k]);
-        let centre_m = centres.map_or(0.5 * length_m, |centres| centres[k]);
-        let slender = Bar::slender_inertia(length_m, mass_kg);
-        let inertia = inertias.map_or(slender, |inertias| inertias[k]);
-        Ok(Bar::new(length_m, mass_kg, centre_m, inertia)?)
+        let centre_m = centres.map(|centres| centres[k]);
+        let inertia = inertias.map(|inertias| inertias[k]);
+        Ok(Bar::given(lengths[k], masses[k], centre_m, inertia)?)
     };
     (0..lengths.len()).map(bar).collect()
 }

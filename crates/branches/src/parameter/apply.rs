@@ -1,6 +1,6 @@
 //! From numbers to chains.
 
-use model::system::{SystemError, SystemRefusal};
+use model::system::{PrestressError, SystemError, SystemRefusal};
 use model::{Anchors, Bar, BarError, Chain, ChainError, Problem, Refusal};
 
 use crate::parameter::number::{AnchorEnd, BarField, Number, Which};
@@ -16,6 +16,14 @@ pub enum PointError {
         bar: usize,
         /// What is wrong with it.
         error: BarError,
+    },
+    /// Occurs when a prestress does not fit its member.
+    #[error("bar {bar}: {error}")]
+    Prestress {
+        /// Number of the bar, from 1.
+        bar: usize,
+        /// What is wrong with it.
+        error: PrestressError,
     },
     /// Occurs when a number of the chain is out of range.
     #[error(transparent)]
@@ -89,8 +97,7 @@ impl UncheckedChain {
     }
 }
 
-/// A bar whose numbers are not checked yet. A centre and moments that are the defaults of a system
-/// file stay the defaults.
+/// A bar whose numbers are not checked yet. A centre and moments that were left out stay so.
 pub(crate) struct UncheckedBar {
     pub(crate) length_m: f64,
     pub(crate) mass_kg: f64,
@@ -100,17 +107,11 @@ pub(crate) struct UncheckedBar {
 
 impl UncheckedBar {
     pub(super) fn new(bar: &Bar) -> Self {
-        let same = |a: f64, b: f64| a.to_bits() == b.to_bits();
-        let (length_m, mass_kg) = (bar.length_m(), bar.mass_kg());
-        let centre = bar.centre_m();
-        let inertia = bar.inertia_kg_m2();
-        let slender = Bar::slender_inertia(length_m, mass_kg);
-        let is_slender = inertia.iter().zip(slender).all(|(a, b)| same(*a, b));
         Self {
-            length_m,
-            mass_kg,
-            centre_m: (!same(centre, 0.5 * length_m)).then_some(centre),
-            inertia_kg_m2: (!is_slender).then_some(inertia),
+            length_m: bar.length_m(),
+            mass_kg: bar.mass_kg(),
+            centre_m: bar.given_centre_m(),
+            inertia_kg_m2: bar.given_inertia_kg_m2(),
         }
     }
 
@@ -124,7 +125,7 @@ impl UncheckedBar {
                 self.inertia_kg_m2.get_or_insert(slender)[axis] = value;
             }
             // Of the member around the bar.
-            BarField::Stiffness => {}
+            BarField::Stiffness | BarField::Prestress | BarField::LengthTolerance => {}
         }
     }
 
@@ -134,12 +135,6 @@ impl UncheckedBar {
     }
 
     pub(super) fn bar(&self) -> Result<Bar, BarError> {
-        let slender = Bar::slender_inertia(self.length_m, self.mass_kg);
-        Bar::new(
-            self.length_m,
-            self.mass_kg,
-            self.centre_m(),
-            self.inertia_kg_m2.unwrap_or(slender),
-        )
+        Bar::given(self.length_m, self.mass_kg, self.centre_m, self.inertia_kg_m2)
     }
 }

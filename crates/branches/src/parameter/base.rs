@@ -29,7 +29,12 @@ pub trait Base {
 impl Base for Chain {
     fn check(&self, parameter: &Parameter) -> Result<(), ParameterError> {
         match &parameter.number {
-            Number::Floor | Number::Joint(..) | Number::Bar(_, BarField::Stiffness) => {
+            Number::Floor
+            | Number::Joint(..)
+            | Number::Bar(
+                _,
+                BarField::Stiffness | BarField::Prestress | BarField::LengthTolerance,
+            ) => {
                 let what = format!("a chain has no `{}`", parameter.number);
                 Err(of_path(parameter, what, "it belongs to systems with `[joints]`"))
             }

@@ -64,9 +64,9 @@ pub enum Which {
 /// Which number of a bar.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum BarField {
-    /// `length_m`. A centre of weight in the middle, and the moments of a slender bar, go with it.
+    /// `length_m`. A centre of weight and moments of inertia that are not given go with it.
     Length,
-    /// `mass_kg`. The moments of a slender bar go with it.
+    /// `mass_kg`. Moments of inertia that are not given go with it.
     Mass,
     /// `centre_m`.
     Centre,
@@ -74,12 +74,24 @@ pub enum BarField {
     Inertia(usize),
     /// `stiffness_n`, of a system.
     Stiffness,
+    /// `prestress_n`, of a system.
+    Prestress,
+    /// `length_tolerance_m`, of a system.
+    LengthTolerance,
 }
 
 const TOP: &[&str] = &["gravity_m_s2", "floor_m", "anchors", "joints", "bars"];
 const ANCHORS: &[&str] = &["start_m", "end_m"];
 const JOINT: &[&str] = &["at_m", "mass_kg", "force_n"];
-const BAR: &[&str] = &["length_m", "mass_kg", "centre_m", "inertia_kg_m2", "stiffness_n"];
+const BAR: &[&str] = &[
+    "length_m",
+    "mass_kg",
+    "centre_m",
+    "inertia_kg_m2",
+    "stiffness_n",
+    "prestress_n",
+    "length_tolerance_m",
+];
 const AXES: [&str; 3] = ["x", "y", "z"];
 
 impl Number {
@@ -90,11 +102,12 @@ impl Number {
             Self::Gravity => "m/s^2",
             Self::Floor
             | Self::Anchor(..)
-            | Self::Bar(_, BarField::Length | BarField::Centre)
+            | Self::Bar(_, BarField::Length | BarField::Centre | BarField::LengthTolerance)
             | Self::Joint(_, JointField::Place(_)) => "m",
             Self::Bar(_, BarField::Mass) | Self::Joint(_, JointField::Mass) => "kg",
             Self::Bar(_, BarField::Inertia(_)) => "kg m^2",
-            Self::Bar(_, BarField::Stiffness) | Self::Joint(_, JointField::Force(_)) => "N",
+            Self::Bar(_, BarField::Stiffness | BarField::Prestress)
+            | Self::Joint(_, JointField::Force(_)) => "N",
         }
     }
 
@@ -138,6 +151,8 @@ impl Number {
                     "mass_kg" => BarField::Mass,
                     "centre_m" => BarField::Centre,
                     "stiffness_n" => BarField::Stiffness,
+                    "prestress_n" => BarField::Prestress,
+                    "length_tolerance_m" => BarField::LengthTolerance,
                     _ => BarField::Inertia(parts.axis()?),
                 };
                 Self::Bar(which, field)
@@ -173,6 +188,8 @@ impl fmt::Display for Number {
                     BarField::Centre => f.write_str("centre_m"),
                     BarField::Inertia(axis) => write!(f, "inertia_kg_m2.{}", AXES[*axis]),
                     BarField::Stiffness => f.write_str("stiffness_n"),
+                    BarField::Prestress => f.write_str("prestress_n"),
+                    BarField::LengthTolerance => f.write_str("length_tolerance_m"),
                 }
             }
             Self::Joint(joint, field) => {

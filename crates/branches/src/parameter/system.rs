@@ -17,6 +17,7 @@ use crate::parameter::number::{BarField, JointField, Number, Which};
 pub fn apply(base: &System, numbers: &[(Number, f64)]) -> Result<System, PointError> {
     let (mut joints, mut members) = (base.joints().to_vec(), base.members().to_vec());
     let (mut gravity_m_s2, mut floor_m) = (base.gravity_m_s2(), base.floor_m());
+    let mut of_members = Vec::new();
     for (number, value) in numbers {
         match base.resolved(number) {
             Number::Gravity => gravity_m_s2 = *value,
@@ -29,13 +30,16 @@ pub fn apply(base: &System, numbers: &[(Number, f64)]) -> Result<System, PointEr
             // Of no row of bars; such variations are refused before.
             Number::Anchor(..) => {}
             Number::Bar(which, field) => {
-                for (k, member) in members.iter_mut().enumerate() {
-                    if which == Which::All || which == Which::One(k + 1) {
-                        set_member(member, field, *value)
-                            .map_err(|error| PointError::Bar { bar: k + 1, error })?;
-                    }
-                }
+                of_members.push((which, field, *value));
             }
+        }
+    }
+    for (k, member) in members.iter_mut().enumerate() {
+        let of_this = |which| which == Which::All || which == Which::One(k + 1);
+        let mut numbers = of_members.iter().filter(|(which, ..)| of_this(*which)).peekable();
+        if numbers.peek().is_some() {
+            *member =
+                with(member.clone(), k + 1, numbers.map(|(_, field, value)| (*field, *value)))?;
         }
     }
     let mut system = System::new(base.name(), gravity_m_s2, joints, members)?;
@@ -67,19 +71,35 @@ fn place(support: &mut Support) -> Option<&mut Vector> {
     }
 }
 
-fn set_member(member: &mut Member, field: BarField, value: f64) -> Result<(), model::BarError> {
-    if field == BarField::Stiffness {
-        member.stiffness_n = Some(value);
-        return Ok(());
-    }
+/// A member with other numbers, all as a system file gives them: what follows from them, as an
+/// unstretched length, is found when all are set.
+fn with(
+    member: Member,
+    bar: usize,
+    numbers: impl Iterator<Item = (BarField, f64)>,
+) -> Result<Member, PointError> {
+    let mut prestress_n = member.prestress_n();
+    let mut member = member.as_given();
     let half_m = 0.5 * member.body.length_m();
-    let mut bar = UncheckedBar::new(&member.body);
-    bar.set(field, value);
-    member.body = bar.bar()?;
+    let mut body = UncheckedBar::new(&member.body);
+    for (field, value) in numbers {
+        match field {
+            BarField::Stiffness => member.stiffness_n = Some(value),
+            BarField::Prestress => prestress_n = Some(value),
+            BarField::LengthTolerance => member.length_tolerance_m = Some(value),
+            _ => body.set(field, value),
+        }
+    }
+    member.body = body.bar().map_err(|error| PointError::Bar { bar, error })?;
     for load in &mut member.loads {
         if load.at_m.to_bits() == half_m.to_bits() {
             load.at_m = 0.5 * member.body.length_m();
         }
     }
-    Ok(())
+    match prestress_n {
+        Some(prestress_n) => {
+            member.with_prestress(prestress_n).map_err(|error| PointError::Prestress { bar, error })
+        }
+        None => Ok(member),
+    }
 }

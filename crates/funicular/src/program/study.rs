@@ -39,11 +39,14 @@ Columns:
   refused                    why there is no shape; else empty";
 
 const EXAMPLES: &str = "\
-A parameter is any number of the system file and its values, as in `funicular trace`:
+A parameter is a number of the system file and its values, as in `funicular trace`; it means
+what it means in the file:
   --vary anchors.end_m.x=0.5..2.6:50        --vary bars.2.mass_kg=0.1,1,10
 A system with joints by name has besides
   --vary joints.P.force_n.x=0..50:51        --vary joints.B.at_m.x=1..3:21
   --vary 'bars.*.stiffness_n=1e4,1e6'       --vary floor_m=-3..-1:5
+  --vary bars.1.prestress_n=0..200:21       --vary bars.1.length_tolerance_m=1e-3
+Forces on bars and directions of supports do not vary.
 Bars are numbered from 1 as they are solved: a table with count = 3 is three bars.
 
 Examples:
@@ -51,11 +54,11 @@ Examples:
   funicular study --case three-equal-bars --vary anchors.end_m.z=-2.9..-0.1:100 --csv study.csv
   funicular study --case lamp --vary joints.lamp.mass_kg=1..5:21
 
-Exit codes:
+Exit codes: the worst that `solve` ends with at any point that can hang
   0  done; both solvers agree wherever the system can hang
   1  a check failed: the solvers disagree somewhere
   2  bad input or usage, or no point describes what can hang
-  3  a solver has no answer somewhere
+  3  a solver has no answer somewhere, or one that is not decided
 130  interrupted; no file is half written";
 
 /// Points of a path printed one by one; of more, as many spread over the path.

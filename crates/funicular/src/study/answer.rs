@@ -155,11 +155,12 @@ impl StudyAnswer {
         self.shapes().any(|shape| shape.check_failed)
     }
 
-    /// Whether every point is solved and agreed on, or refused because nothing can hang there.
+    /// Whether every point is solved by every solver that was asked, as a solve of it alone would
+    /// have it, or refused because nothing can hang there.
     #[must_use]
     pub fn is_decided(&self) -> bool {
         self.points.iter().all(|point| match &point.shape {
-            Ok(shape) => shape.joints_differ_m.is_none() || shape.agrees,
+            Ok(shape) => shape.is_decided,
             Err(none) => none.refused,
         })
     }

@@ -58,6 +58,9 @@ pub struct StudyShape {
     pub agrees: bool,
     /// Whether a check failed.
     pub check_failed: bool,
+    /// Whether every solver that was asked has an answer that it converged to.
+    #[serde(skip)]
+    pub is_decided: bool,
     /// Largest distance of a joint between the two answers, m, if there are two.
     pub joints_differ_m: Option<f64>,
     /// Largest difference of a force, N.
@@ -136,6 +139,7 @@ impl StudyShape {
             rung: answer.rung(),
             agrees: answer.agrees(),
             check_failed: answer.check_failed(),
+            is_decided: answer.is_decided(),
             joints_differ_m: differ.map(|[joints_m, _]| joints_m),
             forces_differ_n: differ.map(|[_, forces_n]| forces_n),
         }

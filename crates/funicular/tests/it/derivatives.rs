@@ -3,60 +3,21 @@
 #![expect(clippy::unwrap_used, reason = "helpers of tests")]
 
 use assert_cmd::Command;
-use branches::{Combine, Variation};
 use funicular::prelude::*;
 use serde_json::Value;
 
-/// A bridle in space with a cable, a spring, a slider and a force: nothing about it is symmetric.
-const BRIDLE: &str = r#"
-gravity_m_s2 = 9.81
-[joints]
-A = { at_m = [-2, -1, 0.3] }
-B = { at_m = [2, -0.5, 0] }
-C = { at_m = [0.2, 2, -0.2] }
-S = { at_m = [0, -2, -1], along = [0, 3, -4], mass_kg = 0.5 }
-P = { mass_kg = 2, force_n = [0.3, 0.1, 0] }
-Q = { mass_kg = 0.7 }
-[[bars]]
-from = "A"
-to = "Q"
-length_m = 1.5
-mass_kg = 0.8
-[[bars]]
-from = "Q"
-to = "P"
-length_m = 1.4
-mass_kg = 0.5
-stiffness_n = 300
-[[bars]]
-from = "B"
-to = "P"
-length_m = 2.6
-mass_kg = 1
-[[bars]]
-from = "C"
-to = "P"
-length_m = 2.7
-mass_kg = 0.4
-kind = "cable"
-stiffness_n = 500
-[[bars]]
-from = "S"
-to = "P"
-length_m = 1.9
-mass_kg = 0.6
-"#;
+use crate::edited;
 
 fn bridle() -> Problem {
-    Problem::parse(BRIDLE, "bridle.toml").unwrap()
+    edited::problem(&edited::bridle())
 }
 
-/// What `energy` finds with one number changed: joints, axial forces, forces of the ground.
+/// What `energy` finds with one number of the file changed: joints, axial forces, forces of the
+/// ground.
 fn hanging(parameter: &str, value: f64) -> [Vec<f64>; 3] {
-    let vary = [format!("{parameter}={value:?}").parse().unwrap()];
-    let system = bridle().as_system().unwrap().clone();
-    let system = Variation::new(system, &vary, Combine::Zip).unwrap().system(&[value]).unwrap();
-    let answer = Solve::new().solvers(Solvers::Energy).run_system(&system).unwrap();
+    let problem = edited::edited(&edited::bridle(), parameter, value);
+    let system = problem.as_system().unwrap();
+    let answer = Solve::new().solvers(Solvers::Energy).run_system(system).unwrap();
     let found = &answer.equilibria()[0];
     [found.joints_m.concat(), found.axial_n.clone(), found.reactions_n.concat()]
 }
@@ -68,12 +29,19 @@ fn changes_and_gradients_are_the_differences_of_the_other_solver() {
     let pull = derivatives.gradient("bars.4.axial_n").unwrap();
     for (parameter, at) in [
         ("bars.1.length_m", 1.5),
-        ("bars.2.stiffness_n", 300.0),
+        ("bars.2.length_m", 1.45),
+        ("bars.2.mass_kg", 0.5),
+        ("bars.2.stiffness_n", 310.0),
+        ("bars.2.prestress_n", 17.0),
         ("bars.3.mass_kg", 1.0),
-        ("joints.P.mass_kg", 2.0),
+        ("bars.4.length_m", 2.8),
+        ("bars.4.stiffness_n", 520.0),
+        ("bars.4.prestress_n", 21.0),
+        ("bars.5.length_m", 1.95),
+        ("joints.P.mass_kg", 2.2),
         ("joints.P.force_n.x", 0.3),
-        ("joints.Q.force_n.y", 0.0),
-        ("joints.C.at_m.y", 2.0),
+        ("joints.P.force_n.y", 0.1),
+        ("joints.C.at_m.y", 2.1),
         ("joints.A.at_m.z", 0.3),
     ] {
         let step = 1e-3_f64 * f64::max(at, 1.0);
@@ -193,6 +161,20 @@ fn what_has_no_derivative_is_refused() {
     let said = String::from_utf8(output.stderr).unwrap();
     assert_eq!(output.status.code(), Some(3), "{said}");
     assert!(said.contains("no derivative here"), "{said}");
+
+    // So does a triangle of rods below one rod, whatever is asked.
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("turning.json");
+    let turning = r#"{"joints": {"A": {"at_m": [0,0,0]}, "P": {}, "Q": {"mass_kg":1}, "R": {"mass_kg":2}},
+        "bars": [{"from":"A","to":"P","length_m":1,"mass_kg":0}, {"from":"P","to":"Q","length_m":1,"mass_kg":0},
+                 {"from":"P","to":"R","length_m":1,"mass_kg":0}, {"from":"Q","to":"R","length_m":1,"mass_kg":0}]}"#;
+    std::fs::write(&path, turning).unwrap();
+    for asked in [&[][..], &["--of", "joints.Q.at_m.x"], &["--by", "bars.1.length_m"]] {
+        let output = derivatives(&[&[path.to_str().unwrap()], asked].concat());
+        let said = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(3), "{said}");
+        assert!(said.contains("1 independent motions meet no stiffness"), "{said}");
+    }
 
     for (arguments, wanted) in [
         (["--case", "lamp", "--of", "joints.A.at_m.x"], "no number of the equilibrium"),

@@ -70,6 +70,24 @@ bars = [
 ]
 "#;
 
+/// Two masses on a triangle of rods lie on the floor and turn about their anchor's vertical: the one
+/// mode is proved to be zero, and is called so.
+#[test]
+fn a_mode_that_is_proved_to_be_zero_is_called_a_turn() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = r#"{"joints": {"A": {"at_m": [0.35,1.52,2.18]}, "P": {"mass_kg": 6}, "Q": {"mass_kg": 9}},
+        "bars": [{"from":"A","to":"P","length_m":4.75,"mass_kg":0}, {"from":"A","to":"Q","length_m":5.15,"mass_kg":0},
+                 {"from":"P","to":"Q","length_m":5.16,"mass_kg":0}], "floor_m": 1.93}"#;
+    std::fs::write(folder.path().join("turns.json"), text).unwrap();
+    let found = json(folder.path(), &["modes", "turns.json", "--json"]);
+    let modes = found["equilibria"][0]["modes"].as_array().unwrap();
+    assert_eq!(modes.len(), 1);
+    assert_eq!(modes[0]["omega2_between_s2"], serde_json::json!([0.0, 0.0]));
+    assert_eq!(modes[0]["omega2_s2"], 0.0);
+    assert_eq!(modes[0]["what"], "turn about the vertical at x = 0.35 m, y = 1.52 m");
+    assert!(modes[0].get("frequency_hz").is_none(), "{modes:?}");
+}
+
 #[test]
 fn closed_forms_lie_in_the_enclosures_and_large_systems_say_that_they_have_none() {
     let folder = tempfile::tempdir().unwrap();

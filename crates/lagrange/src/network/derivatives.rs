@@ -7,8 +7,18 @@
 //! $$ M \frac{d(x, N)}{d\theta} = \frac{\partial G}{\partial\theta}, $$
 //!
 //! and the gradient of one number $J(x, N)$ by all parameters follows from one solve with its
-//! derivatives on the right (the adjoint), since $M^{-T} = M^{-1}$. Slack members stay slack: at a
-//! cable that is just taut there are two one-sided derivatives, and these are none of them.
+//! derivatives on the right (the adjoint), since $M^{-T} = M^{-1}$. Slack members stay slack.
+//!
+//! Parameters are the numbers that were given. A member that bears $F$ at the length $d$ has, with
+//! $EA = k$ and without a prestress $F = 0$, under the force $N$ the length
+//!
+//! $$ D = d\,\frac{k + N}{k + F}, \qquad
+//!    \frac{\partial D}{\partial d} = \frac{k + N}{k + F}, \qquad
+//!    \frac{\partial D}{\partial k} = d\,\frac{F - N}{(k + F)^2}, \qquad
+//!    \frac{\partial D}{\partial F} = -d\,\frac{k + N}{(k + F)^2} . $$
+//!
+//! There is no derivative where a motion meets no stiffness, where self-stresses leave the forces
+//! open, and where a member or the floor has just no force ([`Error`]).
 
 use model::Vector;
 use model::system::{Kind, System};
@@ -18,6 +28,7 @@ use super::error::Error;
 use super::framework::Framework;
 use super::newton::{Derivative, Step};
 use super::residual::Residual;
+use super::smooth;
 use super::solution::Solution;
 use super::state::State;
 use super::stiffness::Stiffness;
@@ -30,14 +41,20 @@ const ROUNDING: f64 = 1e-15;
 /// A parameter of a system.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Parameter {
-    /// Unstretched length of a member, m; its mass, its stiffness EA and the relative places of its
-    /// loads stay.
+    /// Length of a member as it was given, m: its unstretched length, or that under its prestress.
+    /// All other numbers given stay; a centre that was not given and loads in the middle stay in
+    /// the middle.
     Length {
         /// Number of the member.
         member: usize,
     },
     /// Stiffness EA of an elastic member, N. An inextensible one has the derivative zero.
     Stiffness {
+        /// Number of the member.
+        member: usize,
+    },
+    /// Prestress of an elastic member, N: the axial force at the length given. Without one it is 0.
+    Prestress {
         /// Number of the member.
         member: usize,
     },
@@ -81,6 +98,8 @@ pub struct Gradient {
     pub by_length: Vec<f64>,
     /// By their stiffnesses EA, 1/N; zero for inextensible members.
     pub by_stiffness: Vec<f64>,
+    /// By the prestress at their lengths, 1/N; zero for inextensible members.
+    pub by_prestress: Vec<f64>,
     /// By their masses, 1/kg.
     pub by_mass: Vec<f64>,
     /// By forces on the joints, 1/N.
@@ -129,11 +148,14 @@ impl<'a> Derivatives<'a> {
     ///
     /// # Errors
     ///
-    /// [`Error::Memory`]; [`Error::NoDerivative`] when the factor is not finite.
+    /// [`Error::Memory`]; [`Error::NoDerivative`] when the factor is not finite;
+    /// [`Error::FreeMotion`], [`Error::OpenForces`], [`Error::JustTaut`] and [`Error::JustTouches`]
+    /// where the equilibrium has no derivatives.
     pub fn new(system: &'a System, solution: &Solution) -> Result<Self, Error> {
         let framework = Framework::of(system, solution);
         let state = State::of(&framework, solution);
         let residual = Residual::new(&framework, &state);
+        smooth::check(system, &framework, &state, &residual, solution)?;
         let mut stiffness = Stiffness::new(&framework, false)?;
         let derivative = Derivative::new(&framework, &mut stiffness, &state, &residual)
             .ok_or(Error::NoDerivative { left: 1.0 })?;
@@ -155,7 +177,13 @@ impl<'a> Derivatives<'a> {
         let mut change = self.none();
         let (mut forces, mut lengths) = self.nothing();
         match parameter {
-            Parameter::Length { member } => lengths[member] = self.by_length(member),
+            Parameter::Length { member } => {
+                lengths[member] = self.by_length(member);
+                let link = &self.framework.links[member];
+                let [start, end] = self.loads_by_length(member);
+                (forces[link.from], forces[link.to]) = (start, end);
+            }
+            Parameter::Prestress { member } => lengths[member] = self.by_prestress(member),
             Parameter::Stiffness { member } => lengths[member] = self.by_stiffness(member),
             Parameter::Mass { member } => {
                 let link = &self.framework.links[member];
@@ -247,7 +275,20 @@ impl<'a> Derivatives<'a> {
         });
         let by_anchor = by_anchor.collect();
         Ok(Gradient {
-            by_length: members.clone().map(|k| adjoint.axial[k] * self.by_length(k)).collect(),
+            by_length: members
+                .clone()
+                .map(|k| {
+                    let link = &self.framework.links[k];
+                    let [start, end] = self.loads_by_length(k);
+                    adjoint.axial[k] * self.by_length(k)
+                        + adjoint.places[link.from].dot(&start)
+                        + adjoint.places[link.to].dot(&end)
+                })
+                .collect(),
+            by_prestress: members
+                .clone()
+                .map(|k| adjoint.axial[k] * self.by_prestress(k))
+                .collect(),
             by_stiffness: members
                 .clone()
                 .map(|k| adjoint.axial[k] * self.by_stiffness(k))
@@ -322,22 +363,57 @@ impl<'a> Derivatives<'a> {
         (vec![Vector3::zeros(); self.framework.nodes.len()], vec![0.0; self.framework.links.len()])
     }
 
-    /// What the law of a member gains with its length: $1 + N/EA$.
-    fn by_length(&self, member: usize) -> f64 {
-        let link = &self.framework.links[member];
-        (1.0 + link.compliance * self.axial[member] / link.length) / self.framework.units.length_m
+    /// Stiffness and axial force of an elastic member, and the prestress at its length, N.
+    fn elastic(&self, member: usize) -> Option<[f64; 3]> {
+        let given = &self.system.members()[member];
+        let axial_n = self.axial[member] * self.framework.units.force_n;
+        Some([given.stiffness_n?, axial_n, given.prestress_n().unwrap_or(0.0)])
     }
 
-    /// What it gains with the stiffness: $-l N/(EA)^2$.
+    /// What the law of a member gains with its length.
+    fn by_length(&self, member: usize) -> f64 {
+        let stretch = self.elastic(member).map_or(1.0, |[k, n, f]| (k + n) / (k + f));
+        stretch / self.framework.units.length_m
+    }
+
+    /// What it gains with the stiffness.
     fn by_stiffness(&self, member: usize) -> f64 {
-        let link = &self.framework.links[member];
-        let stiffness = link.length / link.compliance * self.framework.units.force_n;
-        if link.compliance > 0.0 { -link.compliance * self.axial[member] / stiffness } else { 0.0 }
+        self.elastic(member)
+            .map_or(0.0, |[k, n, f]| self.given_length(member) * (f - n) / (k + f) / (k + f))
+    }
+
+    /// What it gains with the prestress.
+    fn by_prestress(&self, member: usize) -> f64 {
+        self.elastic(member)
+            .map_or(0.0, |[k, n, f]| -self.given_length(member) * (k + n) / (k + f) / (k + f))
+    }
+
+    /// The length given, in units of the solver.
+    fn given_length(&self, member: usize) -> f64 {
+        self.system.members()[member].given_body().length_m() / self.framework.units.length_m
+    }
+
+    /// What the forces at the two joints of a member gain with its length: loads at places that are
+    /// given in metres come nearer to the beginning, relative to the length.
+    fn loads_by_length(&self, member: usize) -> [Vector3<f64>; 2] {
+        let member = &self.system.members()[member];
+        let body = member.given_body();
+        let length_m = body.length_m();
+        let weight = -Vector3::z() * (body.mass_kg() * self.system.gravity_m_s2());
+        let centre = body.given_centre_m().map(|centre_m| (centre_m, weight));
+        let loads = member.given_loads().iter();
+        // A load in the middle stays there, whether or not its place was given.
+        let loads = loads.filter(|load| load.at_m.to_bits() != (0.5 * length_m).to_bits());
+        let loads = loads.map(|load| (load.at_m, Vector3::from(load.force_n)));
+        let shift: Vector3<f64> =
+            loads.chain(centre).map(|(at_m, force)| force * (at_m / length_m / length_m)).sum();
+        let shift = shift / self.framework.units.force_n;
+        [shift, -shift]
     }
 
     /// Vertical forces at its two joints from a unit of mass.
     fn by_mass(&self, member: usize) -> [f64; 2] {
-        let body = &self.system.members()[member].body;
+        let body = self.system.members()[member].given_body();
         let weight = -self.system.gravity_m_s2() / self.framework.units.force_n;
         let fraction = body.centre_m() / body.length_m();
         [weight * (1.0 - fraction), weight * fraction]

@@ -142,11 +142,49 @@ pub enum Error {
         /// Unknowns of the matrix.
         unknowns: usize,
     },
-    /// Occurs when derivatives are asked for where there are none: a motion that meets no
-    /// stiffness, a self-stress, or an inextensible member between the anchors that are to move.
+    /// Occurs when derivatives are asked for at an equilibrium that a motion leaves at rest: a part
+    /// that turns freely about the vertical, for one.
     #[error(
-        "no derivative here: the equations leave {left:.1e} of a change; a motion without stiffness or a \
-         self-stress does that"
+        "no derivative here: {motions} independent motions meet no stiffness, as where a part turns freely; \
+         where it comes to rest is no function of the parameters"
+    )]
+    FreeMotion {
+        /// Number of independent motions.
+        motions: usize,
+    },
+    /// Occurs when derivatives are asked for where equilibrium leaves the forces open.
+    #[error(
+        "no derivative here: {dimension} independent self-stresses leave the forces open, and the lengths of \
+         rigid members cannot change one by one"
+    )]
+    OpenForces {
+        /// Number of independent self-stresses.
+        dimension: usize,
+    },
+    /// Occurs when derivatives are asked for where a cable or strut has just its length and bears
+    /// no force.
+    #[error(
+        "no derivative here: member {member} has just its length and bears no force; a change to one side \
+         loads it, to the other it is slack, and the derivatives of both sides differ"
+    )]
+    JustTaut {
+        /// Number of the member, from 0.
+        member: usize,
+    },
+    /// Occurs when derivatives are asked for where a joint just touches the floor.
+    #[error(
+        "no derivative here: joint {joint} just touches the floor, which does not push it; a change to one \
+         side lifts it, to the other it is pushed, and the derivatives of both sides differ"
+    )]
+    JustTouches {
+        /// Name of the joint.
+        joint: String,
+    },
+    /// Occurs when derivatives are asked for where there are none: an inextensible member between
+    /// the anchors that are to move, or equations that are singular beyond what is counted.
+    #[error(
+        "no derivative here: the equations leave {left:.1e} of a change; a motion without stiffness, a \
+         self-stress or a rigid member that an anchor would stretch does that"
     )]
     NoDerivative {
         /// The part of the change that no step takes away.

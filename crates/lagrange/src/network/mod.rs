@@ -88,6 +88,7 @@ mod seed;
 mod settings;
 mod settle;
 mod signs;
+mod smooth;
 mod solution;
 mod solve;
 mod state;

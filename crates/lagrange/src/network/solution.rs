@@ -64,7 +64,7 @@ pub(super) const NO_FORCE: f64 = 1e-10;
 /// A member with less than this in every self-stress of the basis, of unit norm, takes part in none.
 const NO_PART: f64 = 1e-9;
 /// A member whose length is off by less than this part of it just reaches.
-const NO_SLACK: f64 = 1e-10;
+pub(super) const NO_SLACK: f64 = 1e-10;
 
 /// What the answer is made of.
 pub(super) struct Found {

@@ -12,8 +12,9 @@ const STEP: f64 = 1e-4;
 /// What they agree to, in units of the largest derivative of a kind.
 const AGREE: f64 = 1e-6;
 
-/// A bridle in space of bars, a cable, springs and a slider, with a load on a bar and a spring
-/// between two anchors.
+/// A bridle in space of bars, a cable, springs and a slider, with loads on bars and a spring between
+/// two anchors; a spring with a load, a cable and the spring between the anchors are given by what
+/// they bear at a length. Centres that are given and such that are not; no two terms of one size.
 fn bridle() -> System {
     let mut joints = vec![
         Joint::anchor("A", [-2.0, -1.0, 0.3]),
@@ -25,38 +26,46 @@ fn bridle() -> System {
     joints.push(Joint::free("P").with_mass(2.0).with_force([0.3, 0.1, 0.0]));
     joints.extend(["Q", "R"].map(|name| Joint::free(name).with_mass(0.7)));
     let load = PointLoad { at_m: 0.4, force_n: [0.2, 0.0, -0.5] };
+    let on_spring = [PointLoad { at_m: 0.3, force_n: [-0.1, 0.6, 0.25] }];
+    let spring = Member::bar(5, 4, Bar::new(1.5, 0.5, 0.4, [0.0; 3]).unwrap());
+    let spring = Member { loads: on_spring.into(), ..spring }.with_stiffness(300.0);
+    let held = Member::bar(0, 1, Bar::new(3.3, 0.3, 1.1, [0.0; 3]).unwrap());
     let members = vec![
         bar(0, 5, 1.5, 0.8),
-        bar(5, 4, 1.4, 0.5).with_stiffness(300.0),
+        spring.with_prestress(17.0).unwrap(),
         Member { loads: vec![load], ..bar(1, 6, 1.2, 1.0) },
         cable(6, 4, 1.5, 0.2),
-        cable(2, 4, 2.7, 0.4).with_stiffness(50.0),
-        bar(3, 4, 1.9, 0.6),
-        bar(0, 1, 3.5, 0.3).with_stiffness(20.0),
+        cable(2, 4, 3.0, 0.4).with_stiffness(50.0).with_prestress(5.0).unwrap(),
+        Member::bar(3, 4, Bar::new(1.9, 0.6, 0.5, [0.0; 3]).unwrap()),
+        held.with_stiffness(20.0).with_prestress(-3.0).unwrap(),
     ];
     System::new("bridle", 9.80665, joints, members).unwrap()
+}
+
+/// The member that is described by its numbers larger by these: length, mass, stiffness, prestress.
+fn given(member: &mut Member, [length_m, mass_kg, stiffness_n, more_n]: [f64; 4]) {
+    let prestress_n = member.prestress_n();
+    let mut given = member.clone().as_given();
+    let (body, centre_m) = (given.body, given.body.given_centre_m());
+    let (length_m, mass_kg) = (body.length_m() + length_m, body.mass_kg() + mass_kg);
+    given.body = Bar::given(length_m, mass_kg, centre_m, None).unwrap();
+    given.stiffness_n = given.stiffness_n.map(|k| k + stiffness_n);
+    let is_prestressed = given.stiffness_n.is_some() && (prestress_n.is_some() || more_n != 0.0);
+    *member = if is_prestressed {
+        given.with_prestress(prestress_n.unwrap_or(0.0) + more_n).unwrap()
+    } else {
+        given
+    };
 }
 
 /// The system with one parameter larger by `by`.
 fn with(system: &System, parameter: Parameter, by: f64) -> System {
     let (mut joints, mut members) = (system.joints().to_vec(), system.members().to_vec());
     match parameter {
-        Parameter::Length { member } => {
-            let member = &mut members[member];
-            let factor = 1.0 + by / member.body.length_m();
-            let centre_m = member.body.centre_m() * factor;
-            let length_m = member.body.length_m() * factor;
-            member.body = Bar::new(length_m, member.body.mass_kg(), centre_m, [0.0; 3]).unwrap();
-            member.loads.iter_mut().for_each(|load| load.at_m *= factor);
-        }
-        Parameter::Stiffness { member } => {
-            members[member].stiffness_n = members[member].stiffness_n.map(|ea| ea + by);
-        }
-        Parameter::Mass { member } => {
-            let body = &mut members[member].body;
-            let mass_kg = body.mass_kg() + by;
-            *body = Bar::new(body.length_m(), mass_kg, body.centre_m(), [0.0; 3]).unwrap();
-        }
+        Parameter::Length { member } => given(&mut members[member], [by, 0.0, 0.0, 0.0]),
+        Parameter::Mass { member } => given(&mut members[member], [0.0, by, 0.0, 0.0]),
+        Parameter::Stiffness { member } => given(&mut members[member], [0.0, 0.0, by, 0.0]),
+        Parameter::Prestress { member } => given(&mut members[member], [0.0, 0.0, 0.0, by]),
         Parameter::Force { joint, axis } => joints[joint].force_n[axis] += by,
         Parameter::Anchor { joint, axis } => {
             if let Support::Fixed { at_m } = &mut joints[joint].support {
@@ -91,7 +100,7 @@ fn parameters(system: &System) -> Vec<Parameter> {
     for member in 0..system.members().len() {
         all.extend([Parameter::Length { member }, Parameter::Mass { member }]);
         if system.members()[member].stiffness_n.is_some() {
-            all.push(Parameter::Stiffness { member });
+            all.extend([Parameter::Stiffness { member }, Parameter::Prestress { member }]);
         }
     }
     for (joint, given) in system.joints().iter().enumerate() {
@@ -145,6 +154,7 @@ fn the_gradient_is_the_adjoint_of_the_changes() {
         let adjoint = match parameter {
             Parameter::Length { member } => gradient.by_length[member],
             Parameter::Stiffness { member } => gradient.by_stiffness[member],
+            Parameter::Prestress { member } => gradient.by_prestress[member],
             Parameter::Mass { member } => gradient.by_mass[member],
             Parameter::Force { joint, axis } => gradient.by_force[joint][axis],
             Parameter::Anchor { joint, axis } => gradient.by_anchor[joint][axis],
@@ -213,4 +223,48 @@ fn refusals() {
     // A pendulum: sideways force moves it by l / W.
     let aside = derivatives.change(Parameter::Force { joint: 2, axis: 1 }).unwrap();
     close(aside.joints_m[2][1], 2.0 / 9.80665);
+}
+
+/// Where equilibria have no derivatives, each for its own reason.
+#[test]
+fn what_is_not_smooth_is_refused() {
+    let refused = |joints: Vec<Joint>, members: Vec<Member>, floor_m: Option<f64>| {
+        let system = System::new("rough", 10.0, joints, members).unwrap();
+        let system = floor_m.map_or(Ok(system.clone()), |z| system.with_floor(z)).unwrap();
+        Derivatives::new(&system, &hang(&system)).err()
+    };
+    let anchor = || Joint::anchor("A", [0.0; 3]);
+    // A triangle of rods below one rod turns about the vertical: Q and R hang level with each other
+    // or not, but on no line with A.
+    let joints = || {
+        let loaded = ["Q", "R"].map(|name| Joint::free(name).with_mass(2.0));
+        [anchor(), Joint::free("P")].into_iter().chain(loaded).collect::<Vec<_>>()
+    };
+    let triangle =
+        vec![bar(0, 1, 1.0, 0.0), bar(1, 2, 1.3, 0.0), bar(1, 3, 1.1, 0.0), bar(2, 3, 1.0, 0.0)];
+    assert_eq!(refused(joints(), triangle, None), Some(Error::FreeMotion { motions: 1 }));
+    // Four legs: one self-stress.
+    let mut legs: Vec<Joint> = [[3.0, 0.0], [-3.0, 0.0], [0.0, 3.0], [0.0, -3.0]]
+        .iter()
+        .enumerate()
+        .map(|(k, [x, y])| Joint::anchor(k.to_string(), [*x, *y, 0.0]))
+        .collect();
+    legs.push(Joint::free("P").with_mass(1.0));
+    let rods = (0..4).map(|k| bar(k, 4, 5.0, 0.0)).collect();
+    assert_eq!(refused(legs, rods, None), Some(Error::OpenForces { dimension: 1 }));
+    // A weight on a thread of 2 m, and an elastic cable to a point 5 m aside that is as far away as
+    // the cable is long.
+    let beside =
+        vec![anchor(), Joint::anchor("B", [3.0, 0.0, 2.0]), Joint::free("P").with_mass(1.0)];
+    let thread = || vec![bar(0, 2, 2.0, 0.0), cable(1, 2, 5.0, 0.0).with_stiffness(100.0)];
+    assert_eq!(refused(beside.clone(), thread(), None), Some(Error::JustTaut { member: 1 }));
+    let mut shorter = thread();
+    shorter[1] = cable(1, 2, 4.9, 0.0).with_stiffness(100.0);
+    assert_eq!(refused(beside, shorter, None), None);
+    // Which just reaches the floor, and is pushed by it where it is elastic and lies there.
+    let weight = || vec![anchor(), Joint::free("P").with_mass(1.0)];
+    let touches = Some(Error::JustTouches { joint: "P".into() });
+    let soft = || vec![bar(0, 1, 2.0, 0.0).with_stiffness(20.0)];
+    assert_eq!(refused(weight(), soft(), Some(-3.0)), touches);
+    assert_eq!(refused(weight(), soft(), Some(-3.1)), None);
 }

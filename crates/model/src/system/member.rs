@@ -1,5 +1,6 @@
 //! Members between joints.
 
+use super::Prestress;
 use crate::{Bar, Vector};
 
 /// A straight member between two joints.
@@ -19,6 +20,9 @@ pub struct Member {
     pub body: Bar,
     /// Axial stiffness `EA`, N: the force that would double the length. `None` is inextensible.
     pub stiffness_n: Option<f64>,
+    /// What was given in the place of the unstretched length: see
+    /// [`with_prestress`](Self::with_prestress), which sets it together with the body.
+    pub prestress: Option<Box<Prestress>>,
     /// How far the length of an inextensible member may be off, m. `None` is rounding: see
     /// [`within_m`](Self::within_m).
     pub length_tolerance_m: Option<f64>,
@@ -82,6 +86,7 @@ impl Member {
             kind: Kind::Bar,
             body,
             stiffness_n: None,
+            prestress: None,
             length_tolerance_m: None,
             loads: Vec::new(),
         }

@@ -29,7 +29,7 @@ pub use error::SystemError;
 pub(crate) use error::UNIT_TOLERANCE;
 pub use joint::{Joint, Support};
 pub use member::{Kind, LENGTH_ROUNDING, Member, Misfit, PointLoad};
-pub use prestress::PrestressError;
+pub use prestress::{Prestress, PrestressError};
 pub use refusal::SystemRefusal;
 pub use row::Row;
 pub use symmetry::Part;

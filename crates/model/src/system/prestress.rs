@@ -4,6 +4,20 @@ use super::{Kind, Member, PointLoad};
 use crate::readable::Readable;
 use crate::{Bar, BarError};
 
+/// What is given of a prestressed member: the member at the length at which it bears its prestress.
+///
+/// The numbers of a system file, of which the unstretched member follows
+/// ([`Member::with_prestress`]).
+#[derive(Debug, Clone, PartialEq)]
+pub struct Prestress {
+    /// The axial force, tension positive, N.
+    pub force_n: f64,
+    /// Length, mass, centre of weight and moments of inertia under this force.
+    pub body: Bar,
+    /// Forces on the member, at places on this length.
+    pub loads: Vec<PointLoad>,
+}
+
 /// Why a member has no unstretched length that goes with a prestress.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -64,7 +78,8 @@ impl Member {
     /// $$ l = \frac{d}{1 + F/EA}, \qquad\text{since}\qquad F = EA\,\frac{d - l}{l}. $$
     ///
     /// Its mass stays, and with the length the places of its weight and of its loads are scaled:
-    /// they are at the same parts of it.
+    /// they are at the same parts of it. The moments of inertia across it are scaled by the square.
+    /// The member as it was is kept in [`prestress`](Self::prestress); give the stiffness before.
     ///
     /// # Errors
     ///
@@ -78,27 +93,53 @@ impl Member {
     /// // At a quarter of its stiffness it is a quarter longer than it was.
     /// let tight = rope.with_stiffness(800.0).with_prestress(200.0)?;
     /// assert_eq!((tight.body.length_m(), tight.body.centre_m(), tight.body.mass_kg()), (4.0, 2.0, 2.0));
+    /// assert_eq!((tight.given_body().length_m(), tight.prestress_n()), (5.0, Some(200.0)));
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    pub fn with_prestress(mut self, prestress_n: f64) -> Result<Self, PrestressError> {
-        let stiffness_n = self.stiffness_n.ok_or(PrestressError::Inextensible)?;
-        let stretch = self.stretch(stiffness_n, prestress_n)?;
-        let body = self.body;
-        let (stressed_m, mass_kg) = (body.length_m(), body.mass_kg());
-        let length_m = stressed_m / stretch;
-        // The last place of it may be past the end by rounding.
-        let scaled = |at_m: f64| (at_m / stretch).min(length_m);
-        let slender = Bar::slender_inertia(stressed_m, mass_kg);
-        let stands_in = slender.map(f64::to_bits) == body.inertia_kg_m2().map(f64::to_bits);
-        let inertia_kg_m2 =
-            if stands_in { Bar::slender_inertia(length_m, mass_kg) } else { body.inertia_kg_m2() };
-        let middle = body.centre_m().to_bits() == (0.5 * stressed_m).to_bits();
-        let centre_m = if middle { 0.5 * length_m } else { scaled(body.centre_m()) };
-        self.body = Bar::new(length_m, mass_kg, centre_m, inertia_kg_m2)?;
-        for PointLoad { at_m, .. } in &mut self.loads {
-            *at_m = scaled(*at_m);
+    pub fn with_prestress(self, prestress_n: f64) -> Result<Self, PrestressError> {
+        let mut member = self.as_given();
+        let stiffness_n = member.stiffness_n.ok_or(PrestressError::Inextensible)?;
+        let stretch = member.stretch(stiffness_n, prestress_n)?;
+        let given =
+            Prestress { force_n: prestress_n, body: member.body, loads: member.loads.clone() };
+        member.body = given.body.unstretched(stretch)?;
+        let (length_m, stressed_m) = (member.body.length_m(), given.body.length_m());
+        for PointLoad { at_m, .. } in &mut member.loads {
+            // The end stays the end; what is past it stays past it, and is refused with the system.
+            let is_past = *at_m > stressed_m;
+            *at_m /= stretch;
+            *at_m = if is_past { *at_m } else { at_m.min(length_m) };
         }
-        Ok(self)
+        member.prestress = Some(Box::new(given));
+        Ok(member)
+    }
+
+    /// The member with the length, places and moments that were given, and no prestress: of one
+    /// without a prestress itself.
+    #[must_use]
+    pub fn as_given(mut self) -> Self {
+        if let Some(given) = self.prestress.take() {
+            (self.body, self.loads) = (given.body, given.loads);
+        }
+        self
+    }
+
+    /// The body as it was given: at the length under the prestress, or unstretched.
+    #[must_use]
+    pub fn given_body(&self) -> &Bar {
+        self.prestress.as_ref().map_or(&self.body, |given| &given.body)
+    }
+
+    /// The forces on the member, at places on the length that was given.
+    #[must_use]
+    pub fn given_loads(&self) -> &[PointLoad] {
+        self.prestress.as_ref().map_or(&self.loads, |given| &given.loads)
+    }
+
+    /// The axial force that the member bears at the length given, N, where it was given.
+    #[must_use]
+    pub fn prestress_n(&self) -> Option<f64> {
+        self.prestress.as_ref().map(|given| given.force_n)
     }
 
     /// `1 + F/EA`: the length under a force over the unstretched one.

@@ -174,12 +174,8 @@ impl<'a> Sheet<'a> {
         let length_m = self.number("length_m", cells[header.length])?;
         let mass_kg = self.number("mass_kg", cells[header.mass])?;
         let centre = header.centre.map(|k| cells[k]).filter(|cell| !cell.trim().is_empty());
-        let centre_m = match centre {
-            Some(cell) => self.number("centre_m", cell)?,
-            None => 0.5 * length_m,
-        };
-        let inertia = Bar::slender_inertia(length_m, mass_kg);
-        Bar::new(length_m, mass_kg, centre_m, inertia).map_err(|error| {
+        let centre_m = centre.map(|cell| self.number("centre_m", cell)).transpose()?;
+        Bar::given(length_m, mass_kg, centre_m, None).map_err(|error| {
             let (key, part) = match error {
                 BarError::Length { .. } => ("length_m", cells[header.length]),
                 BarError::Mass { .. } => ("mass_kg", cells[header.mass]),

@@ -249,12 +249,10 @@ pub(super) fn bar(table: &Table<'_>, length: &Value<'_>) -> Result<Bar, SystemFi
     let length_m = table.number_of("length_m", length)?;
     let mass = table.require("mass_kg", "a mass in kilograms")?;
     let mass_kg = table.number_of("mass_kg", mass)?;
-    let centre_m = table.number("centre_m")?.unwrap_or(0.5 * length_m);
-    let inertia = match table.get("inertia_kg_m2") {
-        Some(value) => table.vector("inertia_kg_m2", value)?,
-        None => Bar::slender_inertia(length_m, mass_kg),
-    };
-    Bar::new(length_m, mass_kg, centre_m, inertia).map_err(|error| {
+    let centre_m = table.number("centre_m")?;
+    let inertia = table.get("inertia_kg_m2");
+    let inertia = inertia.map(|value| table.vector("inertia_kg_m2", value)).transpose()?;
+    Bar::given(length_m, mass_kg, centre_m, inertia).map_err(|error| {
         let kind = Kind::Bar(error);
         match error {
             BarError::Length { .. } => table.error(kind, "length_m"),

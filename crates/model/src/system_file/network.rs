@@ -386,7 +386,7 @@ fn member(table: &Table<'_>) -> Result<Member, SystemFileError> {
     }
     let stiffness_n = table.number("stiffness_n")?;
     let length_tolerance_m = table.number("length_tolerance_m")?;
-    let member = Member { from: 0, to: 0, kind, body, stiffness_n, length_tolerance_m, loads };
+    let member = Member { kind, stiffness_n, length_tolerance_m, loads, ..Member::bar(0, 0, body) };
     network_rows::prestressed(member, table.number("prestress_n")?)
         .map_err(|(key, kind)| table.error(kind, key))
 }

@@ -146,9 +146,7 @@ pub(super) fn member(
     let joint = |column| number(&row.name(column)?).map_err(|kind| (Some(column), kind));
     let (from, to) = (joint("from")?, joint("to")?);
     let (length_m, mass_kg) = (row.needed("length_m")?, row.needed("mass_kg")?);
-    let centre_m = row.number("centre_m")?.unwrap_or(0.5 * length_m);
-    let inertia = Bar::slender_inertia(length_m, mass_kg);
-    let body = Bar::new(length_m, mass_kg, centre_m, inertia).map_err(|error| {
+    let body = Bar::given(length_m, mass_kg, row.number("centre_m")?, None).map_err(|error| {
         let column = match error {
             BarError::Mass { .. } => "mass_kg",
             BarError::Centre { .. } => "centre_m",
@@ -161,7 +159,8 @@ pub(super) fn member(
     let kind = member_kind(kind.as_deref()).map_err(|kind| (Some("kind"), kind))?;
     let stiffness_n = row.number("stiffness_n")?;
     let (length_tolerance_m, loads) = (row.number("length_tolerance_m")?, load(row, length_m)?);
-    let member = Member { from, to, kind, body, stiffness_n, length_tolerance_m, loads };
+    let bar = Member::bar(from, to, body);
+    let member = Member { kind, stiffness_n, length_tolerance_m, loads, ..bar };
     prestressed(member, row.number("prestress_n")?).map_err(|(column, kind)| (Some(column), kind))
 }
 

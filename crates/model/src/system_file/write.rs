@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use crate::{Bar, Chain, Vector};
 
 /// The system file of a chain. Equal bars in a row become one table with `count`; the centre and
-/// the moments of inertia are left out where they are the defaults.
+/// the moments of inertia are left out where they were not given.
 ///
 /// ```
 /// let chain = model::cases::paper().into_chain();
@@ -33,21 +33,30 @@ fn write_run(text: &mut String, bar: &Bar, count: usize) {
     let (length, mass) = (bar.length_m(), bar.mass_kg());
     // Writing to a String cannot fail.
     let _ = write!(text, "\n[[bars]]\nlength_m = {length:?}\nmass_kg = {mass:?}\n");
-    if differ(&[bar.centre_m()], &[0.5 * length]) {
-        let _ = writeln!(text, "centre_m = {:?}", bar.centre_m());
-    }
-    if differ(&bar.inertia_kg_m2(), &Bar::slender_inertia(length, mass)) {
-        let _ = writeln!(text, "inertia_kg_m2 = {}", vector(bar.inertia_kg_m2()));
-    }
+    write_given(text, bar);
     if count > 1 {
         let _ = writeln!(text, "count = {count}");
     }
 }
 
-/// Whether two bars are the same in every bit; `==` takes -0 for 0.
+/// Centre and moments where they are given.
+pub(super) fn write_given(text: &mut String, bar: &Bar) {
+    // Writing to a String cannot fail.
+    if let Some(centre_m) = bar.given_centre_m() {
+        let _ = writeln!(text, "centre_m = {centre_m:?}");
+    }
+    if let Some(inertia_kg_m2) = bar.given_inertia_kg_m2() {
+        let _ = writeln!(text, "inertia_kg_m2 = {}", vector(inertia_kg_m2));
+    }
+}
+
+/// Whether two bars are the same in every bit, given or not; `==` takes -0 for 0.
 fn same(a: &Bar, b: &Bar) -> bool {
     let numbers = |bar: &Bar| [bar.length_m(), bar.mass_kg(), bar.centre_m()];
-    !differ(&numbers(a), &numbers(b)) && !differ(&a.inertia_kg_m2(), &b.inertia_kg_m2())
+    let given = |bar: &Bar| (bar.given_centre_m().is_some(), bar.given_inertia_kg_m2().is_some());
+    given(a) == given(b)
+        && !differ(&numbers(a), &numbers(b))
+        && !differ(&a.inertia_kg_m2(), &b.inertia_kg_m2())
 }
 
 /// Whether two rows of numbers differ in any bit.

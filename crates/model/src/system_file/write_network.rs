@@ -2,8 +2,7 @@
 
 use std::fmt::Write as _;
 
-use super::write::{differ, vector};
-use crate::Bar;
+use super::write::{differ, vector, write_given};
 use crate::system::{Joint, Kind, Member, Support, System};
 
 /// The system file of a system of bars, every joint with its name and every member on its own.
@@ -56,7 +55,7 @@ fn entry(joint: &Joint) -> String {
 
 fn write_member(text: &mut String, system: &System, member: &Member) {
     let name = |joint: usize| toml::Value::from(system.joints()[joint].name.as_str());
-    let body = &member.body;
+    let body = member.given_body();
     let (length_m, mass_kg) = (body.length_m(), body.mass_kg());
     let _ = write!(
         text,
@@ -64,12 +63,7 @@ fn write_member(text: &mut String, system: &System, member: &Member) {
         name(member.from),
         name(member.to),
     );
-    if differ(&[body.centre_m()], &[0.5 * length_m]) {
-        let _ = writeln!(text, "centre_m = {:?}", body.centre_m());
-    }
-    if differ(&body.inertia_kg_m2(), &Bar::slender_inertia(length_m, mass_kg)) {
-        let _ = writeln!(text, "inertia_kg_m2 = {}", vector(body.inertia_kg_m2()));
-    }
+    write_given(text, body);
     match member.kind {
         Kind::Bar => {}
         Kind::Cable => text.push_str("kind = \"cable\"\n"),
@@ -78,11 +72,15 @@ fn write_member(text: &mut String, system: &System, member: &Member) {
     if let Some(stiffness_n) = member.stiffness_n {
         let _ = writeln!(text, "stiffness_n = {stiffness_n:?}");
     }
+    if let Some(prestress_n) = member.prestress_n() {
+        let _ = writeln!(text, "prestress_n = {prestress_n:?}");
+    }
     if let Some(tolerance_m) = member.length_tolerance_m {
         let _ = writeln!(text, "length_tolerance_m = {tolerance_m:?}");
     }
-    if !member.loads.is_empty() {
-        let forces = member.loads.iter();
+    let loads = member.given_loads();
+    if !loads.is_empty() {
+        let forces = loads.iter();
         let forces = forces.map(|load| {
             format!("{{ force_n = {}, at_m = {:?} }}", vector(load.force_n), load.at_m)
         });

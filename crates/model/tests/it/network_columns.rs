@@ -57,10 +57,12 @@ fn every_column_arrives_where_it_belongs() {
     let load = |at_m, force_n| vec![PointLoad { at_m, force_n }];
     let off = Bar::new(1.5, 1.0, 0.5, Bar::slender_inertia(1.5, 1.0)).unwrap();
     // A quarter of its stiffness makes it a quarter longer.
-    let cable = Member::cable(1, 2, bar(1.2)).with_stiffness(1e5);
+    let cable = Member { loads: load(0.75, [1.0, 0.0, 0.0]), ..Member::cable(1, 2, bar(1.5)) };
+    let cable = cable.with_stiffness(1e5).with_prestress(2.5e4).unwrap();
+    assert_eq!((cable.body.length_m(), cable.loads[0].at_m), (1.2, 0.6));
     let members = vec![
         Member::bar(0, 1, off),
-        Member { loads: load(0.6, [1.0, 0.0, 0.0]), ..cable },
+        cable,
         Member {
             kind: Kind::Strut,
             loads: load(0.25, [0.0, 0.0, 1.0]),

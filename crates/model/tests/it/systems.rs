@@ -234,8 +234,19 @@ fn a_prestress_gives_the_unstretched_length() {
     let pressed =
         system(&strand("kind = \"strut\"\nstiffness_n = 1e3\nprestress_n = -500\ncount = 2"));
     assert_eq!(pressed.members()[1].body, Bar::homogeneous(10.0, 3.0).unwrap());
-    // What is written has the unstretched length, and is the same system.
-    assert_eq!(system(&write_network(&pressed)), pressed);
+    // Moments that are given go with the square of the length, that about the bar stays.
+    let moments =
+        system(&strand("stiffness_n = 1e3\nprestress_n = 250\ninertia_kg_m2 = [7, 25, 50]"));
+    let shorter = Bar::new(4.0, 3.0, 2.0, [7.0, 16.0, 32.0]).unwrap();
+    assert_eq!(moments.members()[0].body, shorter);
+    // What is written are the numbers given, also such as are the defaults.
+    let given = "length_m = 5.0\nmass_kg = 3.0\ncentre_m = 2.5\ninertia_kg_m2 = [0.0, 6.25, 6.25]\n\
+                 stiffness_n = 0.3\nprestress_n = 0.1\nforces = [{ force_n = [0.0, 1.0, 0.0], at_m = 4.9 }]\n";
+    let awkward = system(&strand(given.split_once("mass_kg = 3.0\n").unwrap().1));
+    assert!(write_network(&awkward).ends_with(given), "{}", write_network(&awkward));
+    for prestressed in [read, pressed, moments, awkward] {
+        assert_eq!(system(&write_network(&prestressed)), prestressed);
+    }
 }
 
 #[test]

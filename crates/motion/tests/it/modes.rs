@@ -31,6 +31,40 @@ fn near(found: &[f64], told: &[f64], tolerance: f64) {
     }
 }
 
+/// Two members of mass m that bear F at the length d of 1 m, in one line with a point mass M between
+/// them. Across the line `ω² = 2 (F/d)/μ`, along it `ω² = 2 (EA + F)/d/μ`, since `EA (D/l − 1)` has
+/// the slope `EA/l` and `l = d EA/(EA + F)`; with `μ = M + 2 (m r² + J)/d²`, where r, from the anchor,
+/// and J are those at the length d.
+#[test]
+fn moments_of_a_prestressed_member_are_those_at_the_length_given() {
+    let (m, mass_kg, prestress_n, stiffness_n) = (12.0, 1.0, 500.0, 1000.0);
+    // As good as no gravity: the members stay in line.
+    let joints = vec![
+        Joint::anchor("A", [0.0; 3]),
+        Joint::anchor("B", [2.0, 0.0, 0.0]),
+        Joint::free("P").with_mass(mass_kg),
+    ];
+    for (centre_m, inertia, moment) in [
+        (None, None, 1.0),
+        (None, Some([0.0, 1.0, 1.0]), 1.0),
+        (None, Some([0.5, 1.0, 1.0]), 1.0),
+        (Some(0.25), Some([0.5, 2.5, 2.5]), 2.5),
+    ] {
+        let body = Bar::given(1.0, m, centre_m, inertia).unwrap();
+        let r = centre_m.unwrap_or(0.5);
+        let member = |from| Member::bar(from, 2, body).with_stiffness(stiffness_n);
+        let members = [0, 1].map(|from| member(from).with_prestress(prestress_n).unwrap());
+        let system = System::new("string", 1e-9, joints.clone(), members.into()).unwrap();
+        let at = [[0.0; 3], [2.0, 0.0, 0.0], [1.0, 0.0, 0.0]];
+        let found = modes(&system, &at, None).unwrap();
+        let found = found.modes.iter().filter(|mode| !matches!(mode.what, What::Spin { .. }));
+        let found: Vec<f64> = found.map(|mode| mode.omega2_s2).collect();
+        let moving = mass_kg + 2.0 * (m * r * r + moment);
+        let (across, along) = (2.0 * prestress_n, 2.0 * (stiffness_n + prestress_n));
+        near(&found, &[across, across, along].map(|k| k / moving), 1e-9);
+    }
+}
+
 #[test]
 fn point_masses_on_massless_links_have_the_zeros_of_laguerre() {
     near(&frequencies(&links(2), &[1.0; 2]), &[2.0 - 2.0_f64.sqrt(), 2.0 + 2.0_f64.sqrt()], 1e-13);

@@ -249,10 +249,10 @@ fn distances_m(system: &System, answer: &SystemEquilibrium, rounding_m: f64) -> 
 
 /// Weight and forces of a member: where they act as a part of its length, and what they are.
 fn loads<'a>(system: &System, member: &'a Member) -> impl Iterator<Item = (f64, Vector)> + 'a {
-    let body = &member.body;
+    let body = member.given_body();
     let length_m = body.length_m();
     let weight = [0.0, 0.0, -body.mass_kg() * system.gravity_m_s2()];
-    let forces = member.loads.iter().map(move |load| (load.at_m / length_m, load.force_n));
+    let forces = member.given_loads().iter().map(move |load| (load.at_m / length_m, load.force_n));
     forces.chain([(body.centre_m() / length_m, weight)])
 }
 
@@ -315,13 +315,17 @@ fn law(
         if excess <= 0.0 { 0.0 } else { excess / unit_n.max(excess) }
     };
     if let Some(stiffness_n) = member.stiffness_n {
-        let strain = (distance_m - length_m) / length_m;
-        let wanted_n = stiffness_n
-            * match member.kind {
-                Kind::Bar => strain,
-                Kind::Cable => strain.max(0.0),
-                Kind::Strut => strain.min(0.0),
-            };
+        // From the numbers given, F at the length d, and not from the unstretched length l that the
+        // solvers have: EA (D/l - 1) with l = d EA/(EA + F).
+        let (given_m, prestress_n) =
+            (member.given_body().length_m(), member.prestress_n().unwrap_or(0.0));
+        let elastic_n =
+            (stiffness_n + prestress_n) * ((distance_m - given_m) / given_m) + prestress_n;
+        let wanted_n = match member.kind {
+            Kind::Bar => elastic_n,
+            Kind::Cable => elastic_n.max(0.0),
+            Kind::Strut => elastic_n.min(0.0),
+        };
         let rounding = stiffness_n * rounding_m / length_m;
         found.note(|s| &mut s.law, of_force((axial_n - wanted_n).abs(), rounding), place);
         return;

@@ -296,6 +296,10 @@ fn refusals_of_lagrange_for_systems() {
         of(&Error::Floor { rounds: 13 }, &["after 13 rounds"]),
         of(&Error::Unstable { index: 14 }, &["of index 14"]),
         of(&Error::Memory { unknowns: 15 }, &["of 15 unknowns"]),
+        of(&Error::FreeMotion { motions: 16 }, &["16 independent motions meet no stiffness"]),
+        of(&Error::OpenForces { dimension: 17 }, &["17 independent self-stresses"]),
+        of(&Error::JustTaut { member: 18 }, &["member 18 has just its length"]),
+        of(&Error::JustTouches { joint: joint() }, &["joint P just touches the floor"]),
         of(&Error::NoDerivative { left: 0.375 }, &["leave 3.8e-1 of a change"]),
         of(&Error::NotAnAnchor { joint: joint() }, &["joint P is no anchor"]),
     ];
@@ -314,6 +318,10 @@ fn refusals_of_lagrange_for_systems() {
         "floor",
         "unstable",
         "memory",
+        "free_motion",
+        "open_forces",
+        "just_taut",
+        "just_touches",
         "no_derivative",
         "not_an_anchor",
     ];
@@ -333,7 +341,7 @@ fn refusals_of_lagrange_for_systems() {
     output.is("from", "A");
     output.is("to", "B");
     output.is("reach_m", 4.5);
-    output.is("member", json!([10, 12]));
+    output.is("member", json!([10, 12, 18]));
     output.is("length_m", 3.5);
     output.is("iterations", 11);
     output.is("unbalance", 0.125);
@@ -341,6 +349,8 @@ fn refusals_of_lagrange_for_systems() {
     output.is("rounds", 13);
     output.is("index", 14);
     output.is("unknowns", 15);
+    output.is("motions", 16);
+    output.is("dimension", 17);
     output.is("left", 0.375);
     output.done();
 }

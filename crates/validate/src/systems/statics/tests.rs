@@ -73,6 +73,33 @@ fn a_wrong_elongation_is_a_part_of_the_force() {
     );
 }
 
+/// A spring that bears 2 N at 1.2 m, EA 6 N, is 0.9 m long unstretched, (6 + 2) 1.5/1.2 - 6 = 4 N at
+/// 1.5 m. An unstretched length that is wrong in the system, and an answer that fits it, are seen:
+/// 6 (1.5/1 - 1) = 3 N from 1 m.
+#[test]
+fn the_law_of_a_prestressed_member_is_that_of_the_numbers_given() {
+    let joints = vec![Joint::anchor("A", [0.0; 3]), Joint::free("P").with_mass(0.4)];
+    let spring = Member::bar(0, 1, Bar::homogeneous(1.2, 0.0).unwrap()).with_stiffness(6.0);
+    let spring = spring.with_prestress(2.0).unwrap();
+    let (_, like) = lamp();
+    let law = |length_m: f64, axial_n: f64| {
+        let body = Bar::homogeneous(length_m, 0.0).unwrap();
+        let member = Member { body, ..spring.clone() };
+        let system = System::new("spring", 10.0, joints.clone(), vec![member]).unwrap();
+        let answer = SystemEquilibrium {
+            joints_m: vec![[0.0; 3], [0.0, 0.0, -1.5]],
+            start_forces_n: vec![[0.0, 0.0, axial_n]],
+            end_forces_n: vec![[0.0, 0.0, -axial_n]],
+            axial_n: vec![axial_n],
+            reactions_n: vec![[0.0, 0.0, axial_n], [0.0; 3]],
+            ..like.clone()
+        };
+        judge(&system, &answer).law
+    };
+    assert!(law(spring.body.length_m(), 4.0) < 1e-14);
+    close(law(1.0, 3.0), 1.0 / 3.0);
+}
+
 /// A short spring of 2^40 N at its length: places are stored to 8 units in the last place of it,
 /// which are 2^-9 N, however short.
 #[test]

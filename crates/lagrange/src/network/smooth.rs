@@ -1,0 +1,89 @@
+//! Whether an equilibrium has derivatives by its parameters.
+//!
+//! The equations of module `derivatives` are smooth where every cable is either slack or bears a
+//! force, and every joint is either above the floor or pushed by it; and they fix the change where
+//! no motion is without stiffness and no self-stress is open. Elsewhere numbers that a
+//! factorisation may give all the same are one of many, or those of one side.
+
+use model::system::{Kind, System};
+
+use super::error::Error;
+use super::framework::Framework;
+use super::residual::Residual;
+use super::solution::{NO_FORCE, NO_SLACK, Solution};
+use super::state::State;
+
+/// Refuse an equilibrium without derivatives.
+pub(super) fn check(
+    system: &System,
+    framework: &Framework,
+    state: &State,
+    residual: &Residual,
+    solution: &Solution,
+) -> Result<(), Error> {
+    let motions = solution.equilibrium.stability.neutral;
+    if motions > 0 {
+        return Err(Error::FreeMotion { motions });
+    }
+    let stresses = solution.self_stresses.iter().flatten();
+    let dimension = stresses.filter(|stress| moves(framework, stress)).count();
+    if dimension > 0 {
+        return Err(Error::OpenForces { dimension });
+    }
+    let largest = state.largest_force(framework);
+    if let Some(member) = just_taut(framework, state, residual, largest) {
+        return Err(Error::JustTaut { member });
+    }
+    let just_touches = touching(framework, state, residual, largest)
+        .or_else(|| above(system, framework, solution));
+    match just_touches.map(|joint| system.joints()[joint].name.clone()) {
+        Some(joint) => Err(Error::JustTouches { joint }),
+        None => Ok(()),
+    }
+}
+
+/// Whether a self-stress is in members whose ends can move.
+fn moves(framework: &Framework, stress: &[f64]) -> bool {
+    let borne = framework.links.iter().zip(stress);
+    borne.filter(|(_, force)| force.abs() > NO_FORCE).any(|(link, _)| framework.moves(link))
+}
+
+/// The first cable or strut that has just its length and bears no force.
+fn just_taut(
+    framework: &Framework,
+    state: &State,
+    residual: &Residual,
+    largest: f64,
+) -> Option<usize> {
+    let mut links = framework.links.iter().zip(&residual.directions).zip(&state.axial);
+    links.position(|((link, (_, length)), axial)| {
+        link.kind != Kind::Bar
+            && axial.abs() <= NO_FORCE * largest
+            && (length - link.length).abs() <= NO_SLACK * link.length
+    })
+}
+
+/// The first joint that lies on the floor, which does not push it.
+fn touching(
+    framework: &Framework,
+    state: &State,
+    residual: &Residual,
+    largest: f64,
+) -> Option<usize> {
+    let directions = residual.directions.iter().map(|(u, _)| u);
+    let pushes = framework.pushes(directions, &state.axial);
+    let mut lying = framework.lying.iter().zip(pushes);
+    lying.find(|(_, push)| push.abs() <= NO_FORCE * largest).map(|(lying, _)| lying.joint)
+}
+
+/// The first joint that can move and is at the height of the floor, without lying on it.
+fn above(system: &System, framework: &Framework, solution: &Solution) -> Option<usize> {
+    let floor_m = system.floor_m()?;
+    let near_m = NO_SLACK * framework.units.length_m;
+    let heights = solution.equilibrium.joints_m.iter().map(|at_m| at_m[2] - floor_m);
+    let mut free = heights.enumerate().filter(|(joint, _)| {
+        framework.nodes[*joint].freedom() > 0
+            && framework.lying.iter().all(|lying| lying.joint != *joint)
+    });
+    free.find(|(_, height_m)| height_m.abs() <= near_m).map(|(joint, _)| joint)
+}
