@@ -181,7 +181,7 @@ fn nearly_taut() -> (System, SystemEquilibrium) {
     let (left, right) = ([-half_m / sag_m, 0.0, 1.0], [half_m / sag_m, 0.0, 1.0]);
     let (_, like) = lamp();
     let answer = SystemEquilibrium {
-        energy_j: -2.0 * (sag_m),
+        energy_j: -2.0 * sag_m,
         joints_m: vec![[-half_m, 0.0, 0.0], [half_m, 0.0, 0.0], [0.0, 0.0, -sag_m]],
         start_forces_n: vec![left, right.map(|x| -x)],
         end_forces_n: vec![left.map(|x| -x), right],

@@ -18,6 +18,7 @@ pub(super) const ABSURD: f64 = 1e9;
 
 /// A difference, and what it may be where it is the largest part of that, N.
 #[derive(Clone, Copy)]
+#[expect(clippy::struct_field_names, reason = "the unit of each")]
 pub(super) struct Apart {
     /// The largest difference.
     pub most_n: f64,

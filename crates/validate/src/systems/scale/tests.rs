@@ -45,6 +45,6 @@ fn prestress_gives_forces_their_size_where_nothing_is_loaded() {
     let (_, like) = lamp();
     let joints_m = vec![[0.0; 3], [4.5, 0.0, 0.0], [1.5, 0.0, 0.0]];
     let scale = Scale::new(&system, &SystemEquilibrium { joints_m, ..like });
-    assert_eq!([scale.total_n, scale.held_n], [9.0, 9.0]);
+    assert_eq!((scale.total_n, scale.held_n), (9.0, 9.0));
     assert_eq!(scale.joint_n, [3.0, 6.0, 6.0]);
 }
