@@ -126,6 +126,14 @@ impl Frame {
         self.rods.iter().enumerate().map(taut).collect()
     }
 
+    /// Whether no joint is below the floor by more than rounding: the floor has no tolerance that a misfit could be
+    /// put into.
+    fn above_floor(&self, shape: &Shape) -> bool {
+        let rounding = rounding_floor(self, shape);
+        let mut ground = self.rods.iter().enumerate().filter(|(_, rod)| rod.ground);
+        ground.all(|(e, rod)| rod.excess(self.span(&shape.x, e)).value <= rounding)
+    }
+
     /// Whether the joints still balance: by a part of the mean load, or nearly as well as before.
     fn borne(&self, shape: &Shape, unbalance: f64, before: f64) -> bool {
         let loads: f64 = self.loads.iter().map(|load| norm(*load)).sum();
@@ -314,7 +322,7 @@ impl Newton {
         softness: f64,
     ) -> Reading {
         let taut = self.frame.touching(&shape);
-        if !share.stand(&shape.x, &taut, softness) {
+        if !self.frame.above_floor(&shape) || !share.stand(&shape.x, &taut, softness) {
             return Reading::Astray;
         }
         let Some(stressed) = share.self_stressed() else { return Reading::Regular };

@@ -168,8 +168,9 @@ impl Shares {
             let mut row = DVector::zeros(unknowns);
             add(&mut row, member.from, u.map(|x| -x));
             add(&mut row, member.to, u);
-            rows.push(row / length.sqrt());
-            rigid.push((m, length.sqrt()));
+            let root = member.body.length_m().sqrt();
+            rows.push(row / root);
+            rigid.push((m, root));
         }
         let matrix = DMatrix::from_columns(&rows);
         let svd = matrix.svd(true, true);
