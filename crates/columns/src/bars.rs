@@ -40,7 +40,7 @@ pub fn read_bars(path: impl AsRef<Path>) -> Result<Vec<Bar>, ColumnsError> {
         let rows = source.bars()?;
         let columns = check_columns(path, &source)?;
         let mut bars = Vec::with_capacity(rows);
-        source.read(&mut |rows, cells| {
+        source.read(|rows, cells| {
             let first = bars.len() as u64 + 1;
             Sheet { path, columns, rows, cells, first }.append_to(&mut bars)?;
             Ok(true)

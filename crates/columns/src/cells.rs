@@ -3,7 +3,7 @@
 use ::parquet::basic::{ConvertedType, LogicalType, Repetition, Type as Physical};
 use ::parquet::column::reader::{ColumnReader, ColumnReaderImpl, get_column_reader};
 use ::parquet::data_type::{
-    BoolType, ByteArray, ByteArrayType, DataType, DoubleType, FloatType, Int32Type, Int64Type,
+    BoolType, ByteArrayType, DataType, DoubleType, FloatType, Int32Type, Int64Type,
 };
 use ::parquet::errors::ParquetError;
 use ::parquet::schema::types::{ColumnDescPtr, Type};
@@ -38,12 +38,14 @@ impl Holds {
             (Physical::INT32 | Physical::INT64, meaning) => match meaning {
                 (Some(LogicalType::Integer(kind)), _) if kind.is_signed => Some(Self::Numbers),
                 (None, NONE | INT_8 | INT_16 | INT_32 | INT_64) => Some(Self::Numbers),
-                (Some(LogicalType::Integer(_)), _) => Some(Self::Counts),
-                (None, UINT_8 | UINT_16 | UINT_32 | UINT_64) => Some(Self::Counts),
+                (Some(LogicalType::Integer(_)), _)
+                | (None, UINT_8 | UINT_16 | UINT_32 | UINT_64) => Some(Self::Counts),
                 _ => None,
             },
-            (Physical::BYTE_ARRAY, (Some(LogicalType::String | LogicalType::Json), _))
-            | (Physical::BYTE_ARRAY, (None, UTF8 | JSON)) => Some(Self::Text),
+            (
+                Physical::BYTE_ARRAY,
+                (Some(LogicalType::String | LogicalType::Json), _) | (None, UTF8 | JSON),
+            ) => Some(Self::Text),
             _ => None,
         }
     }
@@ -123,33 +125,24 @@ impl Cells {
         }
     }
 
-    /// The number of a row, if it has one; a boolean is 1 or 0.
-    #[expect(clippy::cast_precision_loss, reason = "the double nearest to a whole number")]
+    /// The number of a row, if it has one: the double nearest to it. A boolean is 1 or 0.
     pub fn number(&self, row: usize) -> Option<f64> {
-        if !self.is_there(row) {
-            return None;
-        }
-        let counts = self.holds == Holds::Counts;
-        match &self.values {
-            Values::F64(values) => values.cells.get(row).copied(),
-            Values::F32(values) => values.cells.get(row).map(|x| (*x).into()),
-            Values::I32(values) if counts => {
-                values.cells.get(row).map(|x| x.cast_unsigned().into())
-            }
-            Values::I32(values) => values.cells.get(row).map(|x| (*x).into()),
-            Values::I64(values) if counts => {
-                values.cells.get(row).map(|x| x.cast_unsigned() as f64)
-            }
-            Values::I64(values) => values.cells.get(row).map(|x| *x as f64),
-            Values::Booleans(values) => values.cells.get(row).map(|x| f64::from(u8::from(*x))),
-            Values::Text(_) => None,
-        }
+        self.is_there(row).then_some(match (&self.values, self.holds) {
+            (Values::F64(values), _) => values.cells[row],
+            (Values::F32(values), _) => values.cells[row].into(),
+            (Values::I32(values), Holds::Counts) => values.cells[row].cast_unsigned().into(),
+            (Values::I32(values), _) => values.cells[row].into(),
+            (Values::I64(values), Holds::Counts) => values.cells[row].cast_unsigned() as f64,
+            (Values::I64(values), _) => values.cells[row] as f64,
+            (Values::Booleans(values), _) => u8::from(values.cells[row]).into(),
+            (Values::Text(_), _) => return None,
+        })
     }
 
     /// The text of a row of a column of text; empty if it has no value.
     pub fn text(&self, row: usize) -> Option<&[u8]> {
         let Values::Text(values) = &self.values else { return None };
-        Some(values.cells.get(row).filter(|_| self.is_there(row)).map_or(&[], ByteArray::data))
+        Some(if self.is_there(row) { values.cells[row].data() } else { &[] })
     }
 
     fn is_there(&self, row: usize) -> bool {

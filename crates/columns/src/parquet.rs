@@ -192,7 +192,7 @@ pub fn read(
             let found = found.map(|field| format!("{} ({})", field.name(), type_of(field)));
             return Err(ColumnsError::other_columns(path, schema, found.collect()));
         }
-        source.read(&mut |_, cells| {
+        source.read(|_, cells| {
             let columns = schema.columns.iter().zip(cells);
             let columns = columns.map(|(column, cells)| {
                 let wrong = || format!("column `{}` holds what it should not", column.name);

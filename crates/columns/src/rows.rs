@@ -28,7 +28,7 @@ pub fn read_rows(path: impl AsRef<Path>, rows: &mut dyn Rows) -> Result<(), Colu
             return Ok(());
         }
         let mut number = 0;
-        source.read(&mut |rows_here, columns| {
+        source.read(|rows_here, columns| {
             let mut cells = Vec::with_capacity(columns.len());
             for row in 0..rows_here {
                 number += 1;

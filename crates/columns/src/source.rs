@@ -102,10 +102,11 @@ impl<'p> Source<'p> {
     /// How many bars there are: at least one, and no more than a system may have.
     pub fn bars(&self) -> Result<usize, ColumnsError> {
         let path = self.path.to_owned();
-        match self.rows()? {
-            0 => Err(ColumnsError::NoBars { path }),
-            rows if rows <= most_bars() as u64 => Ok(rows as usize),
-            rows => Err(ColumnsError::TooManyBars { path, rows, limit: most_bars() }),
+        let rows = self.rows()?;
+        match usize::try_from(rows) {
+            Ok(0) => Err(ColumnsError::NoBars { path }),
+            Ok(rows) if rows <= most_bars() => Ok(rows),
+            _ => Err(ColumnsError::TooManyBars { path, rows, limit: most_bars() }),
         }
     }
 
@@ -122,7 +123,7 @@ impl<'p> Source<'p> {
     /// Hand over the rows, some at a time with how many they are, until `each` wants no more.
     pub fn read(
         &self,
-        each: &mut dyn FnMut(usize, &[Cells]) -> Result<bool, ColumnsError>,
+        mut each: impl FnMut(usize, &[Cells]) -> Result<bool, ColumnsError>,
     ) -> Result<(), ColumnsError> {
         self.rows()?;
         let budget = Budget::of(self.path);

@@ -116,12 +116,15 @@ pub fn page(dictionary: bool, values: i32, encoding: Encoding, bytes: &[u8]) -> 
 /// A whole number in groups of seven bits, the lowest first.
 pub fn number(mut number: u64) -> Vec<u8> {
     let mut bytes = Vec::new();
-    while number > 0x7f {
-        bytes.push(0x80 | (number & 0x7f) as u8);
+    loop {
+        let group = number.to_le_bytes()[0] & 0x7f;
         number >>= 7;
+        if number == 0 {
+            bytes.push(group);
+            return bytes;
+        }
+        bytes.push(0x80 | group);
     }
-    bytes.push(number as u8);
-    bytes
 }
 
 /// A string or a number of the files here, written by its encoding.

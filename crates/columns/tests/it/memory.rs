@@ -184,7 +184,7 @@ fn text_comes_in_every_encoding_and_with_gaps() {
 #[test]
 #[cfg(target_os = "linux")]
 fn a_name_of_many_rows_is_there_once() {
-    const ROWS: usize = 1 << 14;
+    const ROWS: i32 = 1 << 14;
     /// All that the tests of this process hold together, kB.
     const MOST: u64 = 3_000_000;
     let folder = tempfile::tempdir().unwrap();
@@ -192,16 +192,16 @@ fn a_name_of_many_rows_is_there_once() {
     let name = ByteArray::from(vec![b'n'; 400_000]);
     // A dictionary page of that name; indices of no bits, in one run of all rows.
     let dictionary = [&400_000_u32.to_le_bytes(), name.data()].concat();
-    let indices = [vec![0], number(ROWS as u64 * 2)].concat();
+    let indices = [vec![0], number(u64::from(ROWS.cast_unsigned()) * 2)].concat();
     let pages = [
         page(true, 1, Encoding::PLAIN, &dictionary),
-        page(false, ROWS as i32, Encoding::RLE_DICTIONARY, &indices),
+        page(false, ROWS, Encoding::RLE_DICTIONARY, &indices),
     ]
     .concat();
     let (field, compression) = (field(Physical::BYTE_ARRAY), Compression::UNCOMPRESSED);
     let encoding = Encoding::RLE_DICTIONARY;
-    Forged { field, compression, encoding, rows: ROWS as i64, pages }.write(&path);
-    assert_eq!(read(&path).unwrap().rows, ROWS);
+    Forged { field, compression, encoding, rows: ROWS.into(), pages }.write(&path);
+    assert_eq!(i32::try_from(read(&path).unwrap().rows), Ok(ROWS));
     let status = std::fs::read_to_string("/proc/self/status").unwrap();
     let peak = status.lines().find_map(|line| line.strip_prefix("VmHWM:")).unwrap();
     let peak: u64 = peak.trim().trim_end_matches(" kB").parse().unwrap();
