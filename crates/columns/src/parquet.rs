@@ -170,7 +170,7 @@ fn data(kind: Kind, cells: &Cells) -> Option<Data> {
     }
 }
 
-/// The notes kept with a table, in order; what the format itself keeps there too.
+/// The notes kept with a table, in order, and behind them what is said of its columns.
 pub fn notes(path: &Path) -> Result<Vec<(String, String)>, ColumnsError> {
     guarded(path, || {
         let source = Source::open(path)?;

@@ -132,7 +132,8 @@ pub fn read_table(
     }
 }
 
-/// The notes of a Parquet table, key by key; what the format itself keeps there is among them.
+/// The notes of a Parquet table, key by key; what is said of its columns (`NAME.unit`,
+/// `NAME.description`) is among them.
 ///
 /// # Errors
 ///
