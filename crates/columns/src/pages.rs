@@ -23,8 +23,21 @@ pub struct Pages {
     nullable: bool,
     /// Memory of a value, bytes.
     value: u64,
+    /// What the dictionary takes beside its bytes, and what the page at hand takes.
     dictionary: Share,
     page: Share,
+}
+
+/// The bytes of a page, which text that was read of it holds on to.
+struct Held {
+    bytes: Bytes,
+    _share: Share,
+}
+
+impl AsRef<[u8]> for Held {
+    fn as_ref(&self) -> &[u8] {
+        &self.bytes
+    }
 }
 
 impl Pages {
@@ -55,19 +68,21 @@ impl Pages {
             Page::DataPageV2 { is_compressed, .. } => (levels(&page)?, *is_compressed),
             _ => (0, true),
         };
-        if packed && self.codec != CompressionCodec::UNCOMPRESSED {
+        let bytes = if packed && self.codec != CompressionCodec::UNCOMPRESSED {
             let (levels, values) = page.buffer().split_at_checked(levels).ok_or_else(cut_off)?;
             let mut values = unpacked(self.codec, values, &self.page)?;
             values.splice(..0, levels.iter().copied());
             values.shrink_to_fit();
-            *buffer(&mut page) = values.into();
-        }
-        let held = (page.buffer().len() as u64).saturating_add(self.claimed(&page)?);
-        let share = if page.is_dictionary_page() { &mut self.dictionary } else { &mut self.page };
-        // Whoever reads may still hold the page before this one.
-        let mut next = share.empty();
-        next.take(held)?;
-        *share = next;
+            values.into()
+        } else {
+            page.buffer().clone()
+        };
+        let mut share = self.page.empty();
+        share.take(bytes.len() as u64)?;
+        *buffer(&mut page) = Bytes::from_owner(Held { bytes, _share: share });
+        let mut claimed = self.page.empty();
+        claimed.take(self.claimed(&page)?)?;
+        *(if page.is_dictionary_page() { &mut self.dictionary } else { &mut self.page }) = claimed;
         Ok(page)
     }
 

@@ -159,6 +159,12 @@ impl<'p> Source<'p> {
         rows: usize,
         budget: &Arc<Budget>,
     ) -> Result<Cells, ColumnsError> {
+        let (start, length) = chunk.byte_range();
+        let whole = self.file.metadata().map_err(|error| ColumnsError::file(self.path, error))?;
+        if start.checked_add(length).is_none_or(|end| end > whole.len()) {
+            let reason = format!("{length} bytes from {start} on are not all there");
+            return Err(self.error(chunk, ParquetError::EOF(reason)));
+        }
         let grown = chunk.encodings().any(|encoding| encoding == Encoding::DELTA_BYTE_ARRAY);
         let grown = grown.then(|| Share::new(budget, &chunk.column_path().string()));
         Pages::new(self.file.clone(), chunk, rows, budget)

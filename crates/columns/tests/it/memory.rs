@@ -48,20 +48,25 @@ fn field(physical: Physical) -> Type {
     field.with_logical_type(meaning).build().unwrap()
 }
 
-/// 4 GiB of zeros as a frame of Zstandard, by RFC 8878: blocks of one byte 128 Ki times.
-fn zeros(says_its_size: bool) -> Vec<u8> {
+/// Blocks of 128 Ki zeros that are 4 GiB.
+const FOUR_GIB: u32 = 1 << 15;
+
+/// Bytes and many zeros behind them as a frame of Zstandard, by RFC 8878: each block of zeros takes
+/// four bytes.
+fn zeros(says_its_size: bool, head: &[u8], blocks: u32) -> Vec<u8> {
     const BLOCK: u32 = 1 << 17;
     const REPEATED: u32 = 1;
     let mut frame = vec![0x28, 0xb5, 0x2f, 0xfd];
     // A window of 128 KiB; the size, if it is there, in eight bytes.
     frame.extend([if says_its_size { 0xc0 } else { 0 }, 0x38]);
     if says_its_size {
-        frame.extend((1_u64 << 32).to_le_bytes());
+        frame.extend((head.len() as u64 + u64::from(blocks) * u64::from(BLOCK)).to_le_bytes());
     }
-    let blocks = 1 << 15;
+    frame.extend(&(u32::try_from(head.len()).unwrap() << 3).to_le_bytes()[..3]);
+    frame.extend(head);
     for block in 0..blocks {
-        let head = BLOCK << 3 | REPEATED << 1 | u32::from(block + 1 == blocks);
-        frame.extend(&head.to_le_bytes()[..3]);
+        let about = BLOCK << 3 | REPEATED << 1 | u32::from(block + 1 == blocks);
+        frame.extend(&about.to_le_bytes()[..3]);
         frame.push(0);
     }
     frame
@@ -98,15 +103,15 @@ fn what_a_page_claims_is_asked_for_before() {
     let most = u64::from(i32::MAX.cast_unsigned());
     let many = run(MANY, MANY, 0, 0);
     let suffixes = [run(128, 1, 0, 0), many.clone()].concat();
-    let of_lengths = many.len() as u64 + 4 * MANY;
-    let of_suffixes = suffixes.len() as u64 + 4 * (MANY + 1);
-    let of_dictionary = 4 + most * size_of::<ByteArray>() as u64;
+    let of_lengths = 4 * MANY;
+    let of_suffixes = 4 * (MANY + 1);
+    let of_dictionary = most * size_of::<ByteArray>() as u64;
     // The letter, and a match of 4 + 15 and what the bytes say.
     let of_letters = 1 + 19 + 255 * 2_200_000;
     let cases = [
         ("snappy", number_of, Compression::SNAPPY, plain, number(most), most),
-        ("zeros", number_of, zstd, plain, zeros(true), 1 << 32),
-        ("more zeros", number_of, zstd, plain, zeros(false), BUDGET + 1),
+        ("zeros", number_of, zstd, plain, zeros(true, &[], FOUR_GIB), 1 << 32),
+        ("more zeros", number_of, zstd, plain, zeros(false, &[], FOUR_GIB), BUDGET + 1),
         ("letters", number_of, lz4, plain, letters(2_200_000), of_letters),
         ("dictionary", text, none, plain, vec![0; 4], of_dictionary),
         ("lengths", text, none, lengths, many, of_lengths),
@@ -149,6 +154,28 @@ fn text_that_grows_row_by_row_is_asked_for_row_by_row() {
     };
     assert_eq!(forged(2).unwrap().texts, ["a".repeat(40), "a".repeat(80)]);
     let error = forged(ROWS).err().unwrap();
+    assert!(matches!(error, ColumnsError::Memory { .. }), "{error}");
+}
+
+/// Rows that are read together hold the pages of all of them: here 100 MiB each.
+#[test]
+fn pages_are_held_as_long_as_their_text() {
+    const BLOCKS: u32 = 800;
+    let text = BLOCKS << 17;
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("pages.parquet");
+    let encoding = Encoding::PLAIN;
+    let read = |rows: usize| {
+        let bytes = zeros(false, &text.to_le_bytes(), BLOCKS);
+        let pages = page(false, 1, encoding, &bytes).repeat(rows);
+        let (field, compression) =
+            (field(Physical::BYTE_ARRAY), Compression::ZSTD(ZstdLevel::default()));
+        let rows = i64::try_from(rows).unwrap();
+        Forged { field, compression, encoding, rows, pages }.write(&path);
+        read(&path)
+    };
+    assert_eq!(read(2).unwrap().rows, 2);
+    let error = read(20).err().unwrap();
     assert!(matches!(error, ColumnsError::Memory { .. }), "{error}");
 }
 
