@@ -10,9 +10,9 @@ use std::io::{BufRead, BufReader, Write as _};
 use std::path::Path;
 
 use crate::atomic::AtomicFile;
-use crate::bars::open;
 use crate::error::ColumnsError;
-use crate::table::{Data, Kind, Schema};
+use crate::source::open;
+use crate::table::{Data, Schema};
 
 /// Rows read at a time.
 const BATCH_ROWS: usize = 1 << 14;
@@ -74,12 +74,6 @@ pub fn read(
     schema: &Schema,
     each: &mut dyn FnMut(&[Data]),
 ) -> Result<(), ColumnsError> {
-    if let Some(text) = schema.columns.iter().find(|column| column.kind == Kind::Utf8) {
-        // Nothing that is read back holds text.
-        let (column, wanted) = (text.name.clone(), "numbers, to be read back from CSV");
-        let found = "text".to_owned();
-        return Err(ColumnsError::WrongType { path: path.to_owned(), column, wanted, found });
-    }
     let mut lines = Lines { path, file: BufReader::new(open(path)?), line: String::new(), row: 0 };
     let names = lines.next()?.unwrap_or_default().to_owned();
     if names != header(schema) {

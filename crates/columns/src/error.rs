@@ -58,6 +58,20 @@ pub enum ColumnsError {
         /// What can be read.
         supported: &'static str,
     },
+    /// Occurs when a column claims more memory than there is for the columns of a file.
+    #[error("{}: column `{column}` claims {claimed} bytes of memory; of {budget} for a file, {left} are left", path.display())]
+    Memory {
+        /// The file.
+        path: PathBuf,
+        /// The column.
+        column: String,
+        /// What a page or a dictionary of it needs at least, bytes.
+        claimed: u64,
+        /// What the others leave, bytes.
+        left: u64,
+        /// What all of them may hold, bytes.
+        budget: u64,
+    },
     /// Occurs when a column is in the file that means nothing here.
     #[error("{}: unknown column `{column}`; allowed are {allowed}", path.display())]
     UnknownColumn {

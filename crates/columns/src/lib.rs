@@ -23,12 +23,17 @@
 
 mod atomic;
 mod bars;
+mod budget;
+mod cells;
 mod csv;
 mod error;
 mod guard;
+mod pages;
 mod parquet;
 mod rows;
+mod source;
 mod table;
+mod unpack;
 mod writer;
 
 pub use atomic::{AtomicFile, abandon, unfinished, write_whole};

@@ -4,23 +4,21 @@ use std::io::Write as _;
 use std::path::Path;
 use std::sync::Arc;
 
-use ::parquet::arrow::ArrowWriter;
-use ::parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
-use ::parquet::basic::{Compression, Encoding, ZstdLevel};
+use ::parquet::basic::{
+    Compression, Encoding, LogicalType, Repetition, Type as Physical, ZstdLevel,
+};
+use ::parquet::data_type::{ByteArray, ByteArrayType, DoubleType, Int32Type, Int64Type};
+use ::parquet::errors::ParquetError;
 use ::parquet::file::metadata::KeyValue;
 use ::parquet::file::properties::{EnabledStatistics, WriterProperties};
-use ::parquet::schema::types::ColumnPath;
-use arrow_array::cast::AsArray;
-use arrow_array::types::{Float64Type, Int16Type, UInt16Type, UInt64Type};
-use arrow_array::{
-    Array, ArrayRef, Float64Array, Int16Array, RecordBatch, StringArray, UInt16Array, UInt64Array,
-};
-use arrow_schema::{DataType, Field, SchemaRef};
+use ::parquet::file::writer::{SerializedColumnWriter, SerializedFileWriter};
+use ::parquet::schema::types::{ColumnPath, Type, TypePtr};
 
 use crate::atomic::AtomicFile;
-use crate::bars::{BATCH_ROWS, footer, open};
+use crate::cells::{Cells, Values, type_of};
 use crate::error::ColumnsError;
 use crate::guard::guarded;
+use crate::source::Source;
 use crate::table::{Column, Data, Kind, Schema, Spread};
 
 /// What the files say wrote them. Without a version: the same rows and notes give the same bytes
@@ -36,25 +34,36 @@ const DICTIONARY: usize = 1 << 16;
 const PAGE_ROWS: usize = 1 << 16;
 
 pub struct ParquetWriter {
-    schema: SchemaRef,
-    writer: ArrowWriter<AtomicFile>,
+    writer: SerializedFileWriter<AtomicFile>,
 }
 
 impl ParquetWriter {
     pub fn new(path: &Path, file: AtomicFile, schema: &Schema) -> Result<Self, ColumnsError> {
-        let arrow = arrow_schema(schema);
-        let writer = ArrowWriter::try_new(file, arrow.clone(), Some(properties(schema)))
-            .map_err(|error| write_error(path, error))?;
-        Ok(Self { schema: arrow, writer })
+        fields(schema)
+            .and_then(|fields| Type::group_type_builder("table").with_fields(fields).build())
+            .and_then(|root| {
+                SerializedFileWriter::new(file, Arc::new(root), Arc::new(properties(schema)))
+            })
+            .map(|writer| Self { writer })
+            .map_err(|error| write_error(path, error))
     }
 
     pub fn write(&mut self, path: &Path, columns: Vec<Data>) -> Result<(), ColumnsError> {
-        let arrays = columns.into_iter().map(array).collect();
-        RecordBatch::try_new(self.schema.clone(), arrays)
-            .map_err(Into::into)
-            .and_then(|batch| self.writer.write(&batch))
-            .and_then(|()| self.writer.flush())
-            .map_err(|error| write_error(path, error))
+        if columns.first().is_none_or(Data::is_empty) {
+            return Ok(());
+        }
+        self.write_group(columns).map_err(|error| write_error(path, error))
+    }
+
+    fn write_group(&mut self, columns: Vec<Data>) -> Result<(), ParquetError> {
+        let mut group = self.writer.next_row_group()?;
+        for data in columns {
+            // There are as many as in the schema.
+            let Some(mut column) = group.next_column()? else { break };
+            write_cells(&mut column, data)?;
+            column.close()?;
+        }
+        group.close().map(|_| ())
     }
 
     pub fn finish(self, path: &Path) -> Result<AtomicFile, ColumnsError> {
@@ -65,10 +74,30 @@ impl ParquetWriter {
     }
 }
 
+fn write_cells(column: &mut SerializedColumnWriter<'_>, data: Data) -> Result<usize, ParquetError> {
+    fn whole<T: Into<i32>>(cells: Vec<T>) -> Vec<i32> {
+        cells.into_iter().map(Into::into).collect()
+    }
+    match data {
+        Data::F64(cells) => column.typed::<DoubleType>().write_batch(&cells, None, None),
+        Data::U64(cells) => {
+            let cells: Vec<i64> = cells.into_iter().map(u64::cast_signed).collect();
+            column.typed::<Int64Type>().write_batch(&cells, None, None)
+        }
+        Data::I16(cells) => column.typed::<Int32Type>().write_batch(&whole(cells), None, None),
+        Data::U16(cells) => column.typed::<Int32Type>().write_batch(&whole(cells), None, None),
+        Data::Utf8(cells) => {
+            let cells: Vec<ByteArray> =
+                cells.into_iter().map(|text| text.into_bytes().into()).collect();
+            column.typed::<ByteArrayType>().write_batch(&cells, None, None)
+        }
+    }
+}
+
 /// The encoder wraps the error of the disk; it is the disk's all the same.
-fn write_error(path: &Path, error: ::parquet::errors::ParquetError) -> ColumnsError {
+fn write_error(path: &Path, error: ParquetError) -> ColumnsError {
     let error = match error {
-        ::parquet::errors::ParquetError::External(cause) => {
+        ParquetError::External(cause) => {
             cause.downcast::<std::io::Error>().map_or_else(std::io::Error::other, |error| *error)
         }
         error => std::io::Error::other(error),
@@ -79,13 +108,13 @@ fn write_error(path: &Path, error: ::parquet::errors::ParquetError) -> ColumnsEr
 fn properties(schema: &Schema) -> WriterProperties {
     let level = ZstdLevel::try_new(1).unwrap_or_default();
     let notes = schema.notes.iter().map(|(key, value)| KeyValue::new(key.clone(), value.clone()));
+    let notes = notes.chain(schema.columns.iter().flat_map(about));
     let mut builder = WriterProperties::builder()
         .set_created_by(CREATED_BY.to_owned())
         .set_compression(Compression::ZSTD(level))
         .set_dictionary_enabled(false)
         .set_dictionary_page_size_limit(DICTIONARY)
         .set_data_page_row_count_limit(PAGE_ROWS)
-        .set_max_row_group_row_count(None)
         .set_statistics_enabled(EnabledStatistics::Chunk)
         .set_offset_index_disabled(true)
         .set_key_value_metadata(Some(notes.collect()));
@@ -103,65 +132,49 @@ fn properties(schema: &Schema) -> WriterProperties {
     builder.build()
 }
 
-fn arrow_schema(schema: &Schema) -> SchemaRef {
-    let fields: Vec<_> = schema.columns.iter().map(field).collect();
-    Arc::new(arrow_schema::Schema::new(fields))
+/// What there is to say about a column.
+fn about(column: &Column) -> [KeyValue; 2] {
+    let note = |key, value: &String| KeyValue::new(format!("{}.{key}", column.name), value.clone());
+    [note("unit", &column.unit), note("description", &column.description)]
 }
 
-fn field(column: &Column) -> Field {
-    let about = [("unit", &column.unit), ("description", &column.description)];
-    Field::new(&column.name, data_type(column.kind), false).with_metadata(
-        about
-            .into_iter()
-            .map(|(key, value)| (key.to_owned(), value.clone()))
-            .collect::<std::collections::HashMap<_, _>>(),
-    )
+/// The columns as the format has them.
+fn fields(schema: &Schema) -> Result<Vec<TypePtr>, ParquetError> {
+    let field = |column: &Column| {
+        let (physical, meaning) = match column.kind {
+            Kind::U64 => (Physical::INT64, Some(LogicalType::integer(64, false))),
+            Kind::I16 => (Physical::INT32, Some(LogicalType::integer(16, true))),
+            Kind::U16 => (Physical::INT32, Some(LogicalType::integer(16, false))),
+            Kind::F64 => (Physical::DOUBLE, None),
+            Kind::Utf8 => (Physical::BYTE_ARRAY, Some(LogicalType::String)),
+        };
+        let field = Type::primitive_type_builder(&column.name, physical);
+        field.with_repetition(Repetition::REQUIRED).with_logical_type(meaning).build().map(Arc::new)
+    };
+    schema.columns.iter().map(field).collect()
 }
 
-fn data_type(kind: Kind) -> DataType {
-    match kind {
-        Kind::U64 => DataType::UInt64,
-        Kind::I16 => DataType::Int16,
-        Kind::U16 => DataType::UInt16,
-        Kind::F64 => DataType::Float64,
-        Kind::Utf8 => DataType::Utf8,
+/// Cells of a column that was checked to be of this kind; `None` if a number is too large for it.
+fn data(kind: Kind, cells: &Cells) -> Option<Data> {
+    fn narrow<T: TryFrom<i32>>(cells: &[i32]) -> Option<Vec<T>> {
+        cells.iter().map(|cell| T::try_from(*cell).ok()).collect()
+    }
+    match (kind, &cells.values) {
+        (Kind::F64, Values::F64(values)) => Some(Data::F64(values.cells.clone())),
+        (Kind::U64, Values::I64(values)) => {
+            Some(Data::U64(values.cells.iter().map(|cell| cell.cast_unsigned()).collect()))
+        }
+        (Kind::I16, Values::I32(values)) => narrow(&values.cells).map(Data::I16),
+        (Kind::U16, Values::I32(values)) => narrow(&values.cells).map(Data::U16),
+        _ => None,
     }
 }
 
-fn array(data: Data) -> ArrayRef {
-    match data {
-        Data::U64(cells) => Arc::new(UInt64Array::from(cells)),
-        Data::I16(cells) => Arc::new(Int16Array::from(cells)),
-        Data::U16(cells) => Arc::new(UInt16Array::from(cells)),
-        Data::F64(cells) => Arc::new(Float64Array::from(cells)),
-        Data::Utf8(cells) => Arc::new(StringArray::from(cells)),
-    }
-}
-
-fn data(array: &ArrayRef) -> Option<Data> {
-    Some(match array.data_type() {
-        _ if array.null_count() > 0 => return None,
-        DataType::UInt64 => Data::U64(array.as_primitive::<UInt64Type>().values().to_vec()),
-        DataType::Int16 => Data::I16(array.as_primitive::<Int16Type>().values().to_vec()),
-        DataType::UInt16 => Data::U16(array.as_primitive::<UInt16Type>().values().to_vec()),
-        DataType::Float64 => Data::F64(array.as_primitive::<Float64Type>().values().to_vec()),
-        DataType::Utf8 => Data::Utf8(
-            array
-                .as_string::<i32>()
-                .iter()
-                .map(|cell| cell.unwrap_or_default().to_owned())
-                .collect(),
-        ),
-        _ => return None,
-    })
-}
-
-/// The notes kept with a table, in order; what the format itself keeps there too.
+/// The notes kept with a table, in order, and behind them what is said of its columns.
 pub fn notes(path: &Path) -> Result<Vec<(String, String)>, ColumnsError> {
-    let file = open(path)?;
     guarded(path, || {
-        let metadata = footer(path, &file)?;
-        let pairs = metadata.metadata().file_metadata().key_value_metadata();
+        let source = Source::open(path)?;
+        let pairs = source.metadata.file_metadata().key_value_metadata();
         let pair = |pair: &KeyValue| (pair.key.clone(), pair.value.clone().unwrap_or_default());
         Ok(pairs.into_iter().flatten().map(pair).collect())
     })
@@ -172,29 +185,21 @@ pub fn read(
     schema: &Schema,
     each: &mut dyn FnMut(&[Data]),
 ) -> Result<(), ColumnsError> {
-    let file = open(path)?;
     guarded(path, || {
-        let metadata = footer(path, &file)?;
-        let fields = metadata.schema().fields();
-        let same = fields.len() == schema.columns.len()
-            && fields.iter().zip(&schema.columns).all(|(field, column)| {
-                *field.name() == column.name && *field.data_type() == data_type(column.kind)
-            });
-        if !same {
-            let found =
-                fields.iter().map(|field| format!("{} ({})", field.name(), field.data_type()));
+        let source = Source::open(path)?;
+        if !fields(schema).is_ok_and(|fields| fields == source.fields()) {
+            let found = source.fields().iter();
+            let found = found.map(|field| format!("{} ({})", field.name(), type_of(field)));
             return Err(ColumnsError::other_columns(path, schema, found.collect()));
         }
-        let damaged = |error: &dyn std::fmt::Display| ColumnsError::damaged(path, error);
-        let batches = ParquetRecordBatchReaderBuilder::new_with_metadata(file, metadata)
-            .with_batch_size(BATCH_ROWS)
-            .build()
-            .map_err(|error| damaged(&error))?;
-        for batch in batches {
-            let batch = batch.map_err(|error| damaged(&error))?;
-            let columns: Option<Vec<_>> = batch.columns().iter().map(data).collect();
-            each(&columns.ok_or_else(|| damaged(&"a cell is missing"))?);
-        }
-        Ok(())
+        source.read(|_, cells| {
+            let columns = schema.columns.iter().zip(cells);
+            let columns = columns.map(|(column, cells)| {
+                let wrong = || format!("column `{}` holds what it should not", column.name);
+                data(column.kind, cells).ok_or_else(|| ColumnsError::damaged(path, &wrong()))
+            });
+            each(&columns.collect::<Result<Vec<_>, _>>()?);
+            Ok(true)
+        })
     })
 }

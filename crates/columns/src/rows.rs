@@ -1,16 +1,13 @@
 //! Rows of a Parquet file for whoever knows what its columns mean: joints, bars between them.
 
-use std::fs::File;
 use std::path::Path;
 
-use ::parquet::arrow::arrow_reader::{ArrowReaderMetadata, ParquetRecordBatchReaderBuilder};
-use arrow_array::{Array, ArrayRef, BooleanArray, LargeStringArray, StringArray, cast::AsArray};
-use arrow_schema::DataType;
 use model::system_file::{Cell, Rows};
 
-use crate::bars::{BATCH_ROWS, Numbers, check_rows, footer, is_float, numbers, open};
+use crate::cells::Cells;
 use crate::error::ColumnsError;
 use crate::guard::guarded;
+use crate::source::Source;
 
 const WANTED: &str = "numbers (floating point of 32 or 64 bits, or integers), text, or booleans";
 
@@ -22,83 +19,40 @@ const WANTED: &str = "numbers (floating point of 32 or 64 bits, or integers), te
 /// [`ColumnsError`] with the file. What `rows` refuses is for it to tell: reading ends there.
 pub fn read_rows(path: impl AsRef<Path>, rows: &mut dyn Rows) -> Result<(), ColumnsError> {
     let path = path.as_ref();
-    let file = open(path)?;
-    guarded(path, || hand_over(path, file, rows))
-}
-
-fn hand_over(path: &Path, file: File, rows: &mut dyn Rows) -> Result<(), ColumnsError> {
-    let metadata = footer(path, &file)?;
-    check_rows(path, &metadata)?;
-    check_types(path, &metadata)?;
-    let names: Vec<String> =
-        metadata.schema().fields().iter().map(|field| field.name().clone()).collect();
-    let damaged = |error: &dyn std::fmt::Display| ColumnsError::damaged(path, error);
-    let batches = ParquetRecordBatchReaderBuilder::new_with_metadata(file, metadata)
-        .with_batch_size(BATCH_ROWS)
-        .build()
-        .map_err(|error| damaged(&error))?;
-    if !rows.names(&names.iter().map(String::as_str).collect::<Vec<_>>()) {
-        return Ok(());
-    }
-    for batch in batches {
-        let batch = batch.map_err(|error| damaged(&error))?;
-        let columns: Vec<Cells<'_>> = batch.columns().iter().map(Cells::of).collect();
-        let mut cells = Vec::with_capacity(columns.len());
-        for row in 0..batch.num_rows() {
-            cells.clear();
-            cells.extend(columns.iter().map(|column| column.cell(row)));
-            if !rows.row(&cells) {
-                return Ok(());
+    guarded(path, || {
+        let source = Source::open(path)?;
+        source.bars()?;
+        source.check_types(WANTED, |_| true)?;
+        let names: Vec<&str> = source.fields().iter().map(|field| field.name()).collect();
+        if !rows.names(&names) {
+            return Ok(());
+        }
+        let mut number = 0;
+        source.read(|rows_here, columns| {
+            let mut cells = Vec::with_capacity(columns.len());
+            for row in 0..rows_here {
+                number += 1;
+                cells.clear();
+                for (column, name) in columns.iter().zip(&names) {
+                    cells.push(cell(column, row).ok_or_else(|| {
+                        let reason = format!("row {number}, column `{name}`: text is not UTF-8");
+                        ColumnsError::damaged(path, &reason)
+                    })?);
+                }
+                if !rows.row(&cells) {
+                    return Ok(false);
+                }
             }
-        }
-    }
-    Ok(())
+            Ok(true)
+        })
+    })
 }
 
-fn check_types(path: &Path, metadata: &ArrowReaderMetadata) -> Result<(), ColumnsError> {
-    for field in metadata.schema().fields() {
-        let kind = field.data_type();
-        let text = matches!(kind, DataType::Utf8 | DataType::LargeUtf8 | DataType::Boolean);
-        if !(text || kind.is_integer() || is_float(kind)) {
-            return Err(ColumnsError::WrongType {
-                path: path.to_owned(),
-                column: field.name().clone(),
-                wanted: WANTED,
-                found: kind.to_string(),
-            });
-        }
-    }
-    Ok(())
-}
-
-/// A column of a batch.
-enum Cells<'a> {
-    Numbers(Numbers),
-    Text(&'a StringArray),
-    LargeText(&'a LargeStringArray),
-    Booleans(&'a BooleanArray),
-}
-
-impl<'a> Cells<'a> {
-    fn of(array: &'a ArrayRef) -> Self {
-        match array.data_type() {
-            DataType::Utf8 => Self::Text(array.as_string()),
-            DataType::LargeUtf8 => Self::LargeText(array.as_string()),
-            DataType::Boolean => Self::Booleans(array.as_boolean()),
-            _ => Self::Numbers(numbers(array)),
-        }
-    }
-
-    fn cell(&self, row: usize) -> Cell<'a> {
-        let text = |text: &'a str| if text.is_empty() { Cell::Nothing } else { Cell::Text(text) };
-        match self {
-            Self::Numbers(numbers) => numbers.get(row).map_or(Cell::Nothing, Cell::Number),
-            Self::Text(array) if array.is_valid(row) => text(array.value(row)),
-            Self::LargeText(array) if array.is_valid(row) => text(array.value(row)),
-            Self::Booleans(array) if array.is_valid(row) => {
-                Cell::Number(if array.value(row) { 1.0 } else { 0.0 })
-            }
-            Self::Text(_) | Self::LargeText(_) | Self::Booleans(_) => Cell::Nothing,
-        }
+/// A cell; `None` if it is text that cannot be read.
+fn cell(column: &Cells, row: usize) -> Option<Cell<'_>> {
+    match column.text(row) {
+        Some([]) => Some(Cell::Nothing),
+        Some(text) => std::str::from_utf8(text).ok().map(Cell::Text),
+        None => Some(column.number(row).map_or(Cell::Nothing, Cell::Number)),
     }
 }

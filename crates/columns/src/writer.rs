@@ -6,7 +6,7 @@ use crate::atomic::AtomicFile;
 use crate::csv::CsvWriter;
 use crate::error::ColumnsError;
 use crate::parquet::ParquetWriter;
-use crate::table::{Data, Schema};
+use crate::table::{Data, Kind, Schema};
 
 /// The form of a table on disk.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -109,7 +109,7 @@ impl TableWriter {
     }
 }
 
-/// Read a table back, some rows at a time.
+/// Read a table of numbers back, some rows at a time.
 ///
 /// # Errors
 ///
@@ -120,13 +120,20 @@ pub fn read_table(
     schema: &Schema,
     each: &mut dyn FnMut(&[Data]),
 ) -> Result<(), ColumnsError> {
+    if let Some(text) = schema.columns.iter().find(|column| column.kind == Kind::Utf8) {
+        // Nothing that is read back holds text.
+        let (column, wanted) = (text.name.clone(), "numbers, to be read back");
+        let found = "text".to_owned();
+        return Err(ColumnsError::WrongType { path: path.to_owned(), column, wanted, found });
+    }
     match format {
         Format::Parquet => crate::parquet::read(path, schema, each),
         Format::Csv => crate::csv::read(path, schema, each),
     }
 }
 
-/// The notes of a Parquet table, key by key; what the format itself keeps there is among them.
+/// The notes of a Parquet table, key by key; what is said of its columns (`NAME.unit`,
+/// `NAME.description`) is among them.
 ///
 /// # Errors
 ///
@@ -152,7 +159,7 @@ pub fn read_notes(path: &Path) -> Result<Vec<(String, String)>, ColumnsError> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::table::{Column, Kind, Spread};
+    use crate::table::{Column, Spread};
 
     #[test]
     fn notes_are_read_back_from_a_file() {

@@ -3,18 +3,15 @@
 
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 
-use arrow_array::{
-    ArrayRef, Float32Array, Float64Array, Int16Array, Int64Array, RecordBatch, StringArray,
-    UInt32Array,
-};
 use columns::{ColumnsError, read_bars};
 use model::{Bar, BarError};
-use parquet::arrow::ArrowWriter;
-use parquet::basic::Compression;
+use parquet::basic::{Compression, LogicalType};
+use parquet::data_type::{ByteArray, ByteArrayType, DoubleType, FloatType, Int32Type, Int64Type};
 use parquet::file::metadata::{ParquetMetaDataReader, ParquetMetaDataWriter};
 use parquet::file::properties::WriterProperties;
+
+use crate::files::{Cells, cells, doubles, write};
 
 struct Folder(tempfile::TempDir);
 
@@ -27,30 +24,15 @@ impl Folder {
         self.0.path().join("bars.parquet")
     }
 
-    fn write(&self, columns: &[(&str, ArrayRef)]) -> PathBuf {
+    fn write(&self, columns: &[Cells]) -> PathBuf {
         self.compressed(columns, Compression::UNCOMPRESSED)
     }
 
-    fn compressed(&self, columns: &[(&str, ArrayRef)], compression: Compression) -> PathBuf {
-        let batch = RecordBatch::try_from_iter_with_nullable(
-            columns.iter().map(|(n, a)| (*n, a.clone(), true)),
-        )
-        .unwrap();
-        self.batch(&batch, compression)
-    }
-
-    fn batch(&self, batch: &RecordBatch, compression: Compression) -> PathBuf {
+    fn compressed(&self, columns: &[Cells], compression: Compression) -> PathBuf {
         let properties = WriterProperties::builder().set_compression(compression).build();
-        let file = File::create(self.path()).unwrap();
-        let mut writer = ArrowWriter::try_new(file, batch.schema(), Some(properties)).unwrap();
-        writer.write(batch).unwrap();
-        writer.close().unwrap();
+        write(&self.path(), columns, properties);
         self.path()
     }
-}
-
-fn doubles<const N: usize>(values: [f64; N]) -> ArrayRef {
-    Arc::new(Float64Array::from(values.to_vec()))
 }
 
 fn error(path: impl AsRef<Path>) -> ColumnsError {
@@ -60,11 +42,10 @@ fn error(path: impl AsRef<Path>) -> ColumnsError {
 #[test]
 fn the_columns_come_in_any_order_and_with_gaps_in_the_centres() {
     let folder = Folder::new();
-    let centres: ArrayRef = Arc::new(Float64Array::from(vec![Some(0.25), None]));
     let path = folder.write(&[
-        ("centre_m", centres),
-        ("mass_kg", doubles([2.0, 0.0])),
-        ("length_m", doubles([1.0, 0.5])),
+        cells::<DoubleType>("centre_m", None, vec![Some(0.25), None]),
+        doubles("mass_kg", [2.0, 0.0]),
+        doubles("length_m", [1.0, 0.5]),
     ]);
     let inertia = Bar::slender_inertia(1.0, 2.0);
     let wanted = [Bar::new(1.0, 2.0, 0.25, inertia).unwrap(), Bar::homogeneous(0.5, 0.0).unwrap()];
@@ -73,10 +54,12 @@ fn the_columns_come_in_any_order_and_with_gaps_in_the_centres() {
 
 #[test]
 fn the_numbers_are_of_any_width_and_any_compression() {
-    let columns: [(&str, ArrayRef); 3] = [
-        ("length_m", Arc::new(Int64Array::from(vec![3, 4]))),
-        ("mass_kg", Arc::new(UInt32Array::from(vec![1, 2]))),
-        ("centre_m", Arc::new(Float32Array::from(vec![0.5, 0.75]))),
+    // The largest number of 32 bits is -1 to whoever overlooks that it has no sign.
+    let counts = Some(LogicalType::integer(32, false));
+    let columns = [
+        cells::<Int64Type>("length_m", None, vec![Some(3), Some(4)]),
+        cells::<Int32Type>("mass_kg", counts, vec![Some(1), Some(-1)]),
+        cells::<FloatType>("centre_m", None, vec![Some(0.5), Some(0.75)]),
     ];
     for compression in [
         Compression::UNCOMPRESSED,
@@ -88,11 +71,16 @@ fn the_numbers_are_of_any_width_and_any_compression() {
         let bars = read_bars(Folder::new().compressed(&columns, compression)).unwrap();
         let found: Vec<_> =
             bars.iter().map(|b| (b.length_m(), b.mass_kg(), b.centre_m())).collect();
-        assert_eq!(found, [(3.0, 1.0, 0.5), (4.0, 2.0, 0.75)], "{compression:?}");
+        assert_eq!(found, [(3.0, 1.0, 0.5), (4.0, 4_294_967_295.0, 0.75)], "{compression:?}");
     }
-    let narrow: [(&str, ArrayRef); 2] =
-        [("length_m", Arc::new(Int16Array::from(vec![3]))), ("mass_kg", doubles([1.0]))];
-    assert_eq!(read_bars(Folder::new().write(&narrow)).unwrap().len(), 1);
+    let small = Some(LogicalType::integer(16, true));
+    let long = Some(LogicalType::integer(64, false));
+    let whole = [
+        cells::<Int32Type>("length_m", small, vec![Some(3)]),
+        cells::<Int64Type>("mass_kg", long, vec![Some(-1)]),
+    ];
+    let bars = read_bars(Folder::new().write(&whole)).unwrap();
+    assert_eq!(bars, [Bar::homogeneous(3.0, 2_f64.powi(64)).unwrap()]);
 }
 
 /// The writer of the tests packs no better than the reader unpacks: the description alone says
@@ -100,7 +88,7 @@ fn the_numbers_are_of_any_width_and_any_compression() {
 #[test]
 fn a_compression_that_cannot_be_read_is_no_damage() {
     let folder = Folder::new();
-    let columns = [("length_m", doubles([1.0])), ("mass_kg", doubles([2.0]))];
+    let columns = [doubles("length_m", [1.0]), doubles("mass_kg", [2.0])];
     for (compression, name) in [
         (Compression::GZIP(parquet::basic::GzipLevel::default()), "GZIP"),
         (Compression::BROTLI(parquet::basic::BrotliLevel::default()), "BROTLI"),
@@ -149,7 +137,7 @@ fn bad_cells_are_named_by_row_and_column() {
     ];
     for (bad, values, wanted) in cases {
         let columns = ["length_m", "mass_kg", "centre_m"]
-            .map(|name| (name, if name == bad { doubles(values) } else { doubles([1.0; 3]) }));
+            .map(|name| doubles(name, if name == bad { values } else { [1.0; 3] }));
         let error = error(folder.write(&columns));
         let text = error.to_string();
         assert!(
@@ -169,7 +157,7 @@ fn a_gap_is_allowed_in_the_centres_alone() {
     for bad in ["length_m", "mass_kg"] {
         let columns = ["length_m", "mass_kg"].map(|name| {
             let gap = if name == bad { None } else { Some(1.0) };
-            (name, Arc::new(Float64Array::from(vec![Some(1.0), gap])) as ArrayRef)
+            cells::<DoubleType>(name, None, vec![Some(1.0), gap])
         });
         let error = error(folder.write(&columns));
         assert!(
@@ -183,39 +171,39 @@ fn a_gap_is_allowed_in_the_centres_alone() {
 fn rows_are_counted_across_batches() {
     let mut lengths = vec![1.0; 100_000];
     lengths[65_432] = -1.0;
-    let masses: ArrayRef = Arc::new(Float64Array::from(vec![1.0; lengths.len()]));
-    let lengths: ArrayRef = Arc::new(Float64Array::from(lengths));
+    let masses = doubles("mass_kg", vec![1.0; lengths.len()]);
     let path = Folder::new();
-    let error = error(path.write(&[("length_m", lengths), ("mass_kg", masses)]));
+    let error = error(path.write(&[doubles("length_m", lengths), masses]));
     assert!(matches!(error, ColumnsError::Bar { row: 65_433, error: BarError::Length { .. }, .. }));
 }
 
 #[test]
 fn columns_that_do_not_belong_are_refused() {
     let folder = Folder::new();
-    let one = || doubles([1.0]);
-    let unknown = error(folder.write(&[("length_m", one()), ("mass_kg", one()), ("mass", one())]));
+    let one = |name| doubles(name, [1.0]);
+    let unknown = error(folder.write(&[one("length_m"), one("mass_kg"), one("mass")]));
     assert!(matches!(&unknown, ColumnsError::UnknownColumn { column, .. } if column == "mass"));
     assert!(unknown.to_string().contains("allowed are length_m, mass_kg, centre_m"));
 
-    let missing = error(folder.write(&[("length_m", one())]));
+    let missing = error(folder.write(&[one("length_m")]));
     assert!(matches!(missing, ColumnsError::MissingColumn { column: "mass_kg", .. }));
 
-    let text: ArrayRef = Arc::new(StringArray::from(vec!["1.0"]));
-    let wrong = error(folder.write(&[("length_m", one()), ("mass_kg", text)]));
-    assert!(matches!(&wrong, ColumnsError::WrongType { column, found, .. }
-        if column == "mass_kg" && found == "Utf8"));
+    let text = vec![Some(ByteArray::from("1.0"))];
+    let text = cells::<ByteArrayType>("mass_kg", Some(LogicalType::String), text);
+    let day = cells::<Int32Type>("mass_kg", Some(LogicalType::Date), vec![Some(1)]);
+    for (cells, wanted) in [(text, "BYTE_ARRAY (UTF8)"), (day, "INT32 (DATE)")] {
+        let wrong = error(folder.write(&[one("length_m"), cells]));
+        assert!(
+            matches!(&wrong, ColumnsError::WrongType { column, found, .. }
+            if column == "mass_kg" && found == wanted),
+            "{wrong}"
+        );
+    }
 
-    let schema = arrow_schema::Schema::new(
-        ["length_m", "mass_kg", "mass_kg"]
-            .map(|n| arrow_schema::Field::new(n, arrow_schema::DataType::Float64, false))
-            .to_vec(),
-    );
-    let batch = RecordBatch::try_new(Arc::new(schema), vec![one(), one(), one()]).unwrap();
-    let twice = error(folder.batch(&batch, Compression::UNCOMPRESSED));
+    let twice = error(folder.write(&[one("length_m"), one("mass_kg"), one("mass_kg")]));
     assert!(matches!(&twice, ColumnsError::DuplicateColumn { column, .. } if column == "mass_kg"));
 
-    let none = error(folder.write(&[("length_m", doubles([])), ("mass_kg", doubles([]))]));
+    let none = error(folder.write(&[doubles("length_m", []), doubles("mass_kg", [])]));
     assert!(matches!(none, ColumnsError::NoBars { .. }));
 }
 
@@ -239,9 +227,9 @@ fn what_is_no_parquet_file_is_refused() {
 fn damage_is_an_error_and_never_a_panic() {
     let folder = Folder::new();
     let values: Vec<f64> = (1..=300).map(|k| f64::from(k).sqrt()).collect();
-    let column = || Arc::new(Float64Array::from(values.clone())) as ArrayRef;
+    let column = |name| doubles(name, values.clone());
     let level = parquet::basic::ZstdLevel::default();
-    let columns = [("length_m", column()), ("mass_kg", column())];
+    let columns = [column("length_m"), column("mass_kg")];
     let path = folder.compressed(&columns, Compression::ZSTD(level));
     let whole = fs::read(&path).unwrap();
     let good = read_bars(&path).unwrap();
@@ -270,20 +258,13 @@ fn damage_is_an_error_and_never_a_panic() {
 #[test]
 fn a_million_rows_are_read() {
     let values: Vec<f64> = (0..1_000_000).map(|k| 1.0 + f64::from(k) * 1e-6).collect();
-    let column = || Arc::new(Float64Array::from(values.clone())) as ArrayRef;
+    let column = |name| doubles(name, values.clone());
+    let halves = doubles("centre_m", values.iter().map(|x| 0.5 * x));
     let folder = Folder::new();
-    let path = folder.write(&[
-        ("length_m", column()),
-        ("mass_kg", column()),
-        ("centre_m", doubles_half(&values)),
-    ]);
+    let path = folder.write(&[column("length_m"), column("mass_kg"), halves]);
     let start = std::time::Instant::now();
     let bars = read_bars(path).unwrap();
     println!("{} bars in {:?}", bars.len(), start.elapsed());
     assert_eq!(bars.len(), 1_000_000);
     assert_eq!(bars[999_999], Bar::homogeneous(values[999_999], values[999_999]).unwrap());
-}
-
-fn doubles_half(values: &[f64]) -> ArrayRef {
-    Arc::new(Float64Array::from_iter_values(values.iter().map(|x| 0.5 * x)))
 }

@@ -5,5 +5,7 @@
 #[cfg(unix)]
 mod atomic;
 mod bars;
+mod files;
+mod memory;
 mod rows;
 mod tables;
