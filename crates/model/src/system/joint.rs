@@ -13,6 +13,9 @@ pub struct Joint {
     pub mass_kg: f64,
     /// A constant force at the joint besides the weight of its mass, world frame, N.
     pub force_n: Vector,
+    /// Where the structure is drawn with it, m: the equilibrium that is wanted is next to the
+    /// drawing. `None` for a joint that is held, or where nothing is drawn.
+    pub near_m: Option<Vector>,
 }
 
 /// What holds a joint. The force of a support is normal to the motion that it leaves free.
@@ -51,6 +54,23 @@ impl Support {
         }
     }
 
+    /// Distance of a point from where the support lets the joint be, m.
+    #[must_use]
+    pub fn distance_m(&self, point_m: Vector) -> f64 {
+        let away = |at_m: Vector| -> Vector { std::array::from_fn(|k| point_m[k] - at_m[k]) };
+        let along = |a: Vector, b: Vector| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+        match *self {
+            Self::Free => 0.0,
+            Self::Fixed { at_m } => along(away(at_m), away(at_m)).sqrt(),
+            Self::Line { at_m, direction } => {
+                let (off, part) = (away(at_m), along(away(at_m), direction));
+                let across: Vector = std::array::from_fn(|k| off[k] - part * direction[k]);
+                along(across, across).sqrt()
+            }
+            Self::Plane { at_m, normal } => along(away(at_m), normal).abs(),
+        }
+    }
+
     /// Whether the joint can move at all.
     #[must_use]
     pub fn is_fixed(&self) -> bool {
@@ -62,7 +82,8 @@ impl Joint {
     /// A joint that only its members hold.
     #[must_use]
     pub fn free(name: impl Into<String>) -> Self {
-        Self { name: name.into(), support: Support::Free, mass_kg: 0.0, force_n: [0.0; 3] }
+        let support = Support::Free;
+        Self { name: name.into(), support, mass_kg: 0.0, force_n: [0.0; 3], near_m: None }
     }
 
     /// A joint that cannot move.
@@ -94,5 +115,24 @@ impl Joint {
     #[must_use]
     pub fn with_force(self, force_n: Vector) -> Self {
         Self { force_n, ..self }
+    }
+
+    /// The same joint, drawn at this place, m.
+    #[must_use]
+    pub fn near(self, near_m: Vector) -> Self {
+        Self { near_m: Some(near_m), ..self }
+    }
+
+    /// Where it is drawn, m: its place in the drawing, or else that of its support.
+    ///
+    /// ```
+    /// use model::system::Joint;
+    /// assert_eq!(Joint::free("P").near([1.0, 0.0, 2.0]).drawn_m(), Some([1.0, 0.0, 2.0]));
+    /// assert_eq!(Joint::anchor("A", [0.0; 3]).drawn_m(), Some([0.0; 3]));
+    /// assert_eq!(Joint::free("Q").drawn_m(), None);
+    /// ```
+    #[must_use]
+    pub fn drawn_m(&self) -> Option<Vector> {
+        self.near_m.or_else(|| self.support.at_m())
     }
 }
