@@ -67,6 +67,7 @@ mod frame;
 mod interior;
 mod law;
 mod minimise;
+mod near;
 mod newton;
 mod polish;
 mod potential;
@@ -77,7 +78,7 @@ mod stability;
 mod start;
 
 pub use error::Error;
-pub use minimise::{minimise, minimise_from};
+pub use minimise::{minimise, minimise_from, minimise_near};
 pub use settings::Settings;
 pub use solution::{Forces, Solution, Work};
 pub use stability::Rigidity;

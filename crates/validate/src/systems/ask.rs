@@ -1,11 +1,12 @@
 //! One question to both solvers about a system: their answers compared, judged and certified.
 
 use model::system::{System, SystemEquilibrium};
-use model::{NoAnswer, NoCensus, Reason, SolverName, Status};
+use model::{NoAnswer, NoCensus, Reason, SolverName, Status, Vector};
 use serde::Serialize;
 
 use super::compare::{SystemAgreement, compare, judge_alone, judge_without};
 use super::completeness::look_up;
+use super::near::{Near, lower_j, next_to};
 use super::verified::verify;
 use crate::answer::{Solvers, UseCensus};
 use crate::tolerances::Tolerances;
@@ -19,6 +20,9 @@ pub struct SystemAnswer {
     pub failures: Vec<SystemFailure>,
     /// The comparison, if there are two to compare.
     pub agreement: Option<SystemAgreement>,
+    /// How the first of them lies to the drawing, where the system is drawn: then the question is
+    /// the equilibrium next to it, and else the lowest of all.
+    pub near: Option<Near>,
 }
 
 /// Why a solver has no answer for a system.
@@ -59,7 +63,8 @@ impl SystemAnswer {
     }
 }
 
-/// Ask. `watch` is told what is being done.
+/// Ask for the lowest equilibrium, or for the one next to the structure as it is drawn
+/// ([`System::drawing`]). `watch` is told what is being done.
 ///
 /// A solver that has no answer does not take the other's away: see [`SystemAnswer::failures`].
 ///
@@ -86,18 +91,9 @@ pub fn ask_with(
     census: UseCensus,
     watch: &dyn Fn(&str),
 ) -> SystemAnswer {
-    let members = system.members().len();
-    let mut answers: Vec<Result<SystemEquilibrium, SystemFailure>> = vec![];
-    if solvers != Solvers::Energy {
-        watch(&format!("lagrange: forces and closures of {members} members"));
-        let found = lagrange::network::solve(system, &lagrange::network::Settings::default());
-        answers.push(found.map(|found| found.equilibrium).map_err(Into::into));
-    }
-    if solvers != Solvers::Lagrange {
-        watch(&format!("energy: minimisation over the places of {} joints", system.joints().len()));
-        let found = energy::network::minimise(system, &energy::network::Settings::default());
-        answers.push(found.map(|found| found.equilibrium).map_err(Into::into));
-    }
+    let drawing_m = system.drawing();
+    let mut answers = answers(system, drawing_m.as_deref(), solvers, watch);
+    let mut near = drawing_m.and_then(|drawing_m| next_to(system, &drawing_m, &mut answers));
     watch("the judges");
     let (mut equilibria, mut failures) = (vec![], vec![]);
     for answer in answers {
@@ -118,7 +114,42 @@ pub fn ask_with(
         verify(system, &mut equilibria);
         look_up(system, census, &mut equilibria);
     }
-    SystemAnswer { equilibria, failures, agreement }
+    if let (Some(near), Some(first)) = (&mut near, equilibria.first()) {
+        watch("the lowest equilibrium");
+        near.lower_j = lower_j(system, solvers, first);
+    }
+    SystemAnswer { equilibria, failures, agreement, near }
+}
+
+/// What the solvers find, each by its own method: next to the drawing, or the lowest.
+fn answers(
+    system: &System,
+    drawing_m: Option<&[Vector]>,
+    solvers: Solvers,
+    watch: &dyn Fn(&str),
+) -> Vec<Result<SystemEquilibrium, SystemFailure>> {
+    let mut answers: Vec<Result<SystemEquilibrium, SystemFailure>> = vec![];
+    if solvers != Solvers::Energy {
+        use lagrange::network::{Seed, Settings, solve, solve_from};
+        watch(&format!("lagrange: forces and closures of {} members", system.members().len()));
+        let settings = Settings::default();
+        let found = match drawing_m {
+            Some(drawing_m) => solve_from(system, &Seed::at(drawing_m.to_vec()), &settings),
+            None => solve(system, &settings),
+        };
+        answers.push(found.map(|found| found.equilibrium).map_err(Into::into));
+    }
+    if solvers != Solvers::Lagrange {
+        use energy::network::{Settings, minimise, minimise_near};
+        watch(&format!("energy: minimisation over the places of {} joints", system.joints().len()));
+        let settings = Settings::default();
+        let found = match drawing_m {
+            Some(drawing_m) => minimise_near(system, drawing_m, &settings),
+            None => minimise(system, &settings),
+        };
+        answers.push(found.map(|found| found.equilibrium).map_err(Into::into));
+    }
+    answers
 }
 
 /// Answers are compared; a single one is only judged by Newton's laws.

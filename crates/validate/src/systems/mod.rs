@@ -13,6 +13,7 @@ mod floor;
 pub(crate) mod free;
 #[cfg(test)]
 mod free_tests;
+mod near;
 mod prestress;
 mod statics;
 #[cfg(test)]
@@ -25,6 +26,7 @@ pub use ask::{SystemAnswer, SystemFailure, ask, ask_with};
 pub use certificate::certify;
 pub use compare::{SystemAgreement, compare, judge_alone};
 pub use completeness::{certify_by_census, look_up};
+pub use near::Near;
 pub use prestress::{Held, PrestressStability, Standing, Stress, prestress_stability};
 pub use statics::{SystemStatics, judge};
 pub use verified::verify;
