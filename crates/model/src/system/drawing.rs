@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use super::{Joint, LENGTH_ROUNDING, System, SystemError};
-use crate::Vector;
+use crate::{Anchors, Vector};
 
 impl System {
     /// The place of every joint as it is drawn, m; `None` where nothing is drawn.
@@ -29,12 +29,12 @@ impl System {
     }
 
     /// The same system with another drawing: a place for every joint, m. Those of joints that are
-    /// held do not count.
+    /// held do not count, and one that slides is put where its support lets it be, as near as it
+    /// can.
     ///
     /// # Errors
     ///
-    /// [`SystemError`] when a joint is drawn where its support does not let it be, when two are
-    /// drawn at one place, or when a coordinate is not finite.
+    /// [`SystemError`] when two joints are drawn at one place, or a coordinate is not finite.
     ///
     /// # Panics
     ///
@@ -42,7 +42,8 @@ impl System {
     pub fn drawn_at(mut self, places_m: &[Vector]) -> Result<Self, SystemError> {
         assert_eq!(places_m.len(), self.joints.len(), "a place for every joint");
         for (joint, place_m) in self.joints.iter_mut().zip(places_m) {
-            joint.near_m = (!joint.support.is_fixed()).then_some(*place_m);
+            let drawn = !joint.support.is_fixed();
+            joint.near_m = drawn.then(|| joint.support.nearest_m(*place_m));
         }
         super::error::check(self.gravity_m_s2, &self.joints, &self.members)?;
         Ok(self)
@@ -69,7 +70,9 @@ pub(super) fn check(joints: &[Joint]) -> Result<(), SystemError> {
         let Some(place_m) = joint.drawn_m() else {
             return Err(SystemError::NotDrawn { name: name(), joint: number });
         };
-        let distance_m = joint.near_m.map_or(0.0, |near_m| joint.support.distance_m(near_m));
+        let distance_m = joint.near_m.map_or(0.0, |start_m| {
+            Anchors { start_m, end_m: joint.support.nearest_m(start_m) }.span_m()
+        });
         if distance_m > LENGTH_ROUNDING * reach_m(joint) {
             return Err(SystemError::DrawnOffSupport { name: name(), joint: number, distance_m });
         }

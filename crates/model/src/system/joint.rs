@@ -54,20 +54,29 @@ impl Support {
         }
     }
 
-    /// Distance of a point from where the support lets the joint be, m.
+    /// The place nearest to a point at which the support lets the joint be, m.
+    ///
+    /// ```
+    /// use model::system::Support;
+    /// let along_x = Support::Line { at_m: [0.0, 0.0, 2.0], direction: [1.0, 0.0, 0.0] };
+    /// assert_eq!(along_x.nearest_m([3.0, 4.0, 5.0]), [3.0, 0.0, 2.0]);
+    /// let level = Support::Plane { at_m: [0.0, 0.0, 2.0], normal: [0.0, 0.0, 1.0] };
+    /// assert_eq!(level.nearest_m([3.0, 4.0, 5.0]), [3.0, 4.0, 2.0]);
+    /// ```
     #[must_use]
-    pub fn distance_m(&self, point_m: Vector) -> f64 {
-        let away = |at_m: Vector| -> Vector { std::array::from_fn(|k| point_m[k] - at_m[k]) };
-        let along = |a: Vector, b: Vector| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+    pub fn nearest_m(&self, point_m: Vector) -> Vector {
+        let part = |at_m: Vector, along: Vector| -> f64 {
+            (0..3).map(|k| (point_m[k] - at_m[k]) * along[k]).sum()
+        };
         match *self {
-            Self::Free => 0.0,
-            Self::Fixed { at_m } => along(away(at_m), away(at_m)).sqrt(),
+            Self::Free => point_m,
+            Self::Fixed { at_m } => at_m,
             Self::Line { at_m, direction } => {
-                let (off, part) = (away(at_m), along(away(at_m), direction));
-                let across: Vector = std::array::from_fn(|k| off[k] - part * direction[k]);
-                along(across, across).sqrt()
+                std::array::from_fn(|k| at_m[k] + part(at_m, direction) * direction[k])
             }
-            Self::Plane { at_m, normal } => along(away(at_m), normal).abs(),
+            Self::Plane { at_m, normal } => {
+                std::array::from_fn(|k| point_m[k] - part(at_m, normal) * normal[k])
+            }
         }
     }
 

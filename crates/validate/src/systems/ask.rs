@@ -114,7 +114,9 @@ pub fn ask_with(
         verify(system, &mut equilibria);
         look_up(system, census, &mut equilibria);
     }
-    if let (Some(near), Some(first)) = (&mut near, equilibria.first()) {
+    if let (Some(near), Some(first)) = (&mut near, equilibria.first())
+        && census != UseCensus::Never
+    {
         watch("the lowest equilibrium");
         near.lower_j = lower_j(system, solvers, first);
     }

@@ -41,7 +41,7 @@ pub struct Near {
     /// Whether it is the neighbour of the drawing: no joint has moved by half a member, and no
     /// barrier lies between.
     pub is_neighbour: bool,
-    /// The energy of a lower equilibrium, J, where one was found.
+    /// The energy of a lower equilibrium, J, where one was looked for and found.
     pub lower_j: Option<f64>,
 }
 
