@@ -232,6 +232,7 @@ struct Object<'a> {
     equilibria: Vec<Named<'a>>,
     agreement: Option<&'a SystemAgreement>,
     failures: Vec<Failure>,
+    #[serde(skip_serializing_if = "Option::is_none")]
     near: Option<&'a Near>,
 }
 

@@ -16,7 +16,7 @@ use crate::network::near::loaded;
 use crate::network::newton::{FIRST_STRAIN, NEAR, Newton, Pace, STEP, finite};
 use crate::network::potential::{Iterate, Potential};
 use crate::network::settings::Settings;
-use crate::network::shape::{Shape, Slope};
+use crate::network::shape::Shape;
 use crate::network::solution::Solution;
 use crate::network::start::hanging;
 use crate::vector::{along, dot, scaled};
@@ -201,7 +201,6 @@ pub(super) struct Effort {
 /// What a run of the minimiser ends with.
 pub(super) struct Minimum {
     pub(super) shape: Arc<Shape>,
-    pub(super) slope: Arc<Slope>,
     pub(super) factor: Factor,
     pub(super) effort: Effort,
 }
@@ -284,11 +283,9 @@ fn descend(
     outcome(&ended.state)?;
     effort.iterations = ended.state.get_iter();
     effort.factorisations = ended.solver.factor.count;
-    match (ended.state.take_param(), ended.state.take_gradient()) {
-        (Some(shape), Some(slope)) => {
-            Ok(Minimum { shape, slope, factor: ended.solver.factor, effort })
-        }
-        _ => Err(Error::NotFinite { quantity: "last iterate" }),
+    match ended.state.take_param() {
+        Some(shape) => Ok(Minimum { shape, factor: ended.solver.factor, effort }),
+        None => Err(Error::NotFinite { quantity: "last iterate" }),
     }
 }
 

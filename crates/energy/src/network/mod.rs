@@ -8,9 +8,9 @@
 //!
 //! | symbol | code | meaning | unit inside |
 //! |---|---|---|---|
-//! | `x` | `Shape::x` | places of the joints | longest member |
+//! | `x` | `Shape::x` | places of the joints | about the longest member |
 //! | `F` | `Shape::force` | axial forces, tension positive: multipliers of the lengths | sum of the loads |
-//! | `c`, `J` | `Excess` | excess length and its gradient, see `law` | longest member |
+//! | `c`, `J` | `Excess` | excess length and its gradient, see `law` | about the longest member |
 //! | `phi` | `Rod::flexibility` | elongation by a unit force | |
 //! | `kappa` | `stiffness / length` | springs of the augmented Lagrangian | |
 //!
@@ -76,6 +76,7 @@ mod shape;
 mod solution;
 mod stability;
 mod start;
+mod weak;
 
 pub use error::Error;
 pub use minimise::{minimise, minimise_from, minimise_near};

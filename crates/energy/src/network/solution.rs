@@ -13,6 +13,7 @@ use crate::network::polish::rounding_floor;
 use crate::network::settings::Settings;
 use crate::network::shape::{NO_STRAIN, Shape};
 use crate::network::stability::{Rigidity, SecondOrder, second_order};
+use crate::network::weak;
 use crate::vector::{along, dot, norm, scaled};
 
 /// A local minimum of the energy: the equilibrium with its evidence, and what the search cost.
@@ -77,8 +78,10 @@ impl Solution {
         settings: &Settings,
         clock: Instant,
     ) -> Result<Self, Error> {
-        let Minimum { shape, mut slope, mut factor, effort } = minimum;
-        let mut shape = Arc::unwrap_or_clone(shape);
+        let Minimum { shape, mut factor, effort } = minimum;
+        let shape = Arc::unwrap_or_clone(shape);
+        let mut shape = weak::settled(system, frame, &mut factor, shape);
+        let mut slope = Arc::new(frame.slope(&shape));
         let second = second_order(frame, &shape, &mut factor);
         if second.index > 0 {
             return Err(Error::NoMinimum { index: second.index });

@@ -68,6 +68,7 @@ mod derivatives;
 mod directions;
 mod elements;
 mod error;
+mod fitted;
 mod floor;
 mod framework;
 mod hanging;
@@ -87,6 +88,7 @@ mod solution;
 mod solve;
 mod state;
 mod stiffness;
+mod weak;
 
 pub use derivatives::{Change, Derivatives, Gradient, Parameter};
 pub use error::Error;
