@@ -254,12 +254,12 @@ const DRAWN_STEP: f64 = 0.1;
 
 impl Way {
     fn pace(self) -> Pace {
-        let pace = Pace { strain: FIRST_STRAIN, near: NEAR, step: STEP };
+        let pace = Pace { strain: FIRST_STRAIN, near: NEAR, step: STEP, own: false };
         match self {
             Self::Relaxed => Pace { near: RELAXED, ..pace },
             Self::Free => pace,
             Self::Stiff => Pace { strain: STIFF_STRAIN, ..pace },
-            Self::Near => Pace { strain: STIFF_STRAIN, near: DRAWN, step: DRAWN_STEP },
+            Self::Near => Pace { strain: STIFF_STRAIN, near: DRAWN, step: DRAWN_STEP, own: true },
         }
     }
 }

@@ -66,6 +66,9 @@ const NOISE: f64 = 64.0 * f64::EPSILON;
 pub(super) const STEP: f64 = 2.0;
 const STRUT_STEP: f64 = 0.3;
 
+/// Stiffness of the spring of an elastic member that keeps its own, over its own.
+const OWN: f64 = 1e6;
+
 /// Halvings of a step before the shift grows.
 const HALVINGS: usize = 5;
 
@@ -101,6 +104,8 @@ pub(super) struct Newton {
     near: f64,
     /// Largest relative displacement of the ends of a member in one step, over its length.
     step: f64,
+    /// Whether elastic members keep their own stiffness.
+    own: bool,
     ended: Ended,
 }
 
@@ -113,6 +118,9 @@ pub(super) struct Pace {
     pub(super) near: f64,
     /// Largest relative displacement of the ends of a member in one step, over its length.
     pub(super) step: f64,
+    /// Whether elastic members keep their own stiffness: softened by the springs, a shallow dome
+    /// would snap through.
+    pub(super) own: bool,
 }
 
 /// The augmented Lagrangian at one configuration.
@@ -150,12 +158,15 @@ impl Newton {
             definite: false,
             near: pace.near,
             step: pace.step,
+            own: pace.own,
             ended: Ended::Not,
         }
     }
 
     fn kappa(&self, rod: usize) -> f64 {
-        self.stiffness / self.frame.rods[rod].length
+        let rod = &self.frame.rods[rod];
+        let kappa = self.stiffness / rod.length;
+        if self.own && rod.elastic() { kappa.max(OWN / rod.flexibility) } else { kappa }
     }
 
     /// The members with their springs, and the value of the augmented Lagrangian.

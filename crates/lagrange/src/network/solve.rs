@@ -205,7 +205,12 @@ impl<'a> Solver<'a> {
             let tolerance =
                 if tight { settings.tolerance } else { settings.tolerance.max(SIGNS_SEEN) };
             let settings = Settings { tolerance, ..settings };
-            let run = polish(&self.framework, &mut self.stiffness, &settings, state, patience);
+            let mut run = polish(&self.framework, &mut self.stiffness, &settings, state, patience);
+            if run.residual.balance.0 <= tolerance && run.residual.length.0 > tolerance {
+                // Stiff members more than needed: their lengths settle with their true stiffness.
+                let of = (self.system, &self.framework);
+                run = weak::settled(of.0, of.1, &mut self.stiffness, run);
+            }
             self.factorisations += run.steps;
             if run.residual.size().is_nan() || run.residual.size() > tolerance {
                 let (system, framework) = (self.system, &self.framework);

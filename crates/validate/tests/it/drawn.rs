@@ -222,7 +222,8 @@ fn drawn_wrong(system: &System, part: f64, seed: u64) -> System {
     let lengths = system.members().iter().map(|member| member.body.length_m());
     let off_m = part * lengths.fold(f64::INFINITY, f64::min);
     let places: Vec<Vector> = system.drawing().unwrap();
-    let moved = places.iter().map(|place| place.map(|x| x + off_m * random.random_range(-1.0..1.0)));
+    let moved =
+        places.iter().map(|place| place.map(|x| x + off_m * random.random_range(-1.0..1.0)));
     system.clone().drawn_at(&moved.collect::<Vec<_>>()).unwrap()
 }
 
@@ -249,7 +250,10 @@ fn shapes_drawn_wrong_lead_to_the_neighbour_or_say_so() {
                     found += usize::from(same && answer.agrees());
                 }
             }
-            assert!(part > 0.1 || found == 2 * usize::try_from(seeds).unwrap(), "{name} {part}: {found}");
+            assert!(
+                part > 0.1 || found == 2 * usize::try_from(seeds).unwrap(),
+                "{name} {part}: {found}"
+            );
         }
     }
 }

@@ -27,7 +27,7 @@ fn newton() -> Newton {
     };
     let factor = Factor::new(&frame.spots, &frame.rods).unwrap();
     let settings = Settings::default();
-    let pace = Pace { strain: FIRST_STRAIN, near: NEAR, step: STEP };
+    let pace = Pace { strain: FIRST_STRAIN, near: NEAR, step: STEP, own: false };
     Newton::new(Arc::new(frame), factor, settings, &[2.0, -1.0], pace)
 }
 
