@@ -32,7 +32,7 @@ pub(super) struct Rod {
     pub(super) ground: bool,
 }
 
-/// The system without units: lengths in about the longest member's, forces in the sum of all loads.
+/// The system without units: lengths in the longest member's, forces in the sum of all loads.
 ///
 /// A force at a point of a straight member is linear in the places of the ends. Hence all weights
 /// and constant forces of a member act as if divided between its joints in the ratio of the lever
@@ -119,12 +119,10 @@ impl Frame {
     pub(super) fn new(system: &System) -> Result<Self, Error> {
         let origin_m = system.reference_m();
         let lengths = system.members().iter().map(|member| member.body.length_m());
-        let longest_m = lengths.fold(0.0, f64::max);
-        if longest_m <= 0.0 {
+        let length_m = lengths.fold(0.0, f64::max);
+        if length_m <= 0.0 {
             return Err(Error::NoMember);
         }
-        // A power of two: numbers are divided by it without rounding.
-        let length_m = longest_m.log2().round().exp2();
         let loads_n = loads_n(system);
         let mut total: f64 = loads_n.iter().map(|load| norm(*load)).sum();
         if total <= 0.0 {
@@ -181,7 +179,7 @@ impl Frame {
                 continue;
             }
             let kind = Kind::Cable;
-            // The unit of length: depths are held against about the longest member.
+            // The unit of length: depths are held against the longest member.
             self.rods.push(Rod {
                 from: point,
                 to,

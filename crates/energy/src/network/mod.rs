@@ -8,9 +8,9 @@
 //!
 //! | symbol | code | meaning | unit inside |
 //! |---|---|---|---|
-//! | `x` | `Shape::x` | places of the joints | about the longest member |
+//! | `x` | `Shape::x` | places of the joints | longest member |
 //! | `F` | `Shape::force` | axial forces, tension positive: multipliers of the lengths | sum of the loads |
-//! | `c`, `J` | `Excess` | excess length and its gradient, see `law` | about the longest member |
+//! | `c`, `J` | `Excess` | excess length and its gradient, see `law` | longest member |
 //! | `phi` | `Rod::flexibility` | elongation by a unit force | |
 //! | `kappa` | `stiffness / length` | springs of the augmented Lagrangian | |
 //!

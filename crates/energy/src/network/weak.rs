@@ -6,7 +6,8 @@
 //!
 //! `c = (|X|² - l² + 2 X·u + u·u) / (|X + u| + l)`, `X` the difference of the ends,
 //!
-//! with `|X|² - l²` from exact products. The energy of the displacements is quadratic but for
+//! with `|X|² - l²` from exact products, in metres, so that anchors and lengths are those of the file
+//! to the last digit. The energy of the displacements is quadratic but for
 //! rounding, with the members' own stiffnesses; its minimum gives the forces, and is found by steps
 //! with one factorisation.
 
@@ -32,11 +33,14 @@ const RIGID: f64 = 1e3;
 /// Diagonal over the largest force, for motions that nothing resists.
 const NEUTRAL: f64 = 1e-10;
 
-/// Displacements from the places of a shape.
+/// Displacements from the places of a shape, m.
 struct Displaced<'a> {
     frame: &'a Frame,
+    /// Unstretched length of each member.
+    lengths: &'a [f64],
     x: &'a [Vector],
     u: Vec<Vector>,
+    /// Axial forces in the unit of the frame.
     force: Vec<f64>,
 }
 
@@ -59,12 +63,10 @@ pub(super) fn settled(system: &System, frame: &Frame, factor: &mut Factor, shape
     if !factor.cholesky() {
         return shape;
     }
-    let mut here = Displaced {
-        frame,
-        x: &shape.x,
-        u: cut_off_supports(system, frame),
-        force: shape.force.clone(),
-    };
+    let lengths: Vec<f64> = system.members().iter().map(|m| m.body.length_m()).collect();
+    let (x, u): (Vec<_>, Vec<_>) =
+        (0..shape.x.len()).map(|k| place_m(system, frame, &shape, k)).unzip();
+    let mut here = Displaced { frame, lengths: &lengths, x: &x, u, force: shape.force.clone() };
     let mut error = here.error(&active);
     for _ in 0..STEPS {
         let next = here.stepped(factor, &active, &stiffness);
@@ -75,7 +77,10 @@ pub(super) fn settled(system: &System, frame: &Frame, factor: &mut Factor, shape
         }
         (here, error) = (next, left);
     }
-    let x = shape.x.iter().zip(&here.u).map(|(x, u)| along(*x, 1.0, *u)).collect();
+    let back = |(x, u): (&Vector, &Vector)| -> Vector {
+        std::array::from_fn(|k| ((x[k] - frame.origin_m[k]) + u[k]) / frame.length_m)
+    };
+    let x = here.x.iter().zip(&here.u).map(back).collect();
     Shape { x, force: here.force }
 }
 
@@ -84,15 +89,16 @@ fn resists((rod, force): (&Rod, &f64)) -> bool {
     rod.resists(*force)
 }
 
-/// What rounding cuts off the places of supports when they are measured from the origin.
-fn cut_off_supports(system: &System, frame: &Frame) -> Vec<Vector> {
-    let cut = |joint: usize| -> Vector {
-        let at_m = system.joints().get(joint).and_then(|joint| joint.support.at_m());
-        let Some(at_m) = at_m else { return [0.0; 3] };
-        let cut = |k: usize| added(at_m[k], -frame.origin_m[k])[1] / frame.length_m;
-        std::array::from_fn(cut)
+/// Where a joint of a shape is, m, and what rounding cuts off; an anchor is where it is held.
+fn place_m(system: &System, frame: &Frame, shape: &Shape, joint: usize) -> (Vector, Vector) {
+    let at_m = system.joints().get(joint).and_then(|joint| joint.support.at_m());
+    let (from_m, base) = match at_m {
+        Some(at_m) => (at_m, frame.supports[joint]),
+        None => (frame.origin_m, [0.0; 3]),
     };
-    (0..frame.spots.len()).map(cut).collect()
+    let sums: [[f64; 2]; 3] =
+        std::array::from_fn(|k| added(from_m[k], (shape.x[joint][k] - base[k]) * frame.length_m));
+    (sums.map(|sum| sum[0]), sums.map(|sum| sum[1]))
 }
 
 impl Displaced<'_> {
@@ -101,15 +107,13 @@ impl Displaced<'_> {
         let rod = &self.frame.rods[e];
         let apart = along(self.u[rod.to], -1.0, self.u[rod.from]);
         let ends = (self.x[rod.to], self.x[rod.from]);
-        let span = self.frame.span(self.x, e);
-        let here = along(span, 1.0, apart);
-        let whole: Excess = rod.excess(here);
-        if rod.ground {
-            return (whole.value, whole.gradient);
-        }
-        let squares = difference_of_squares(ends, apart, rod.length);
-        let both = if rod.elastic() { norm(here) + rod.length } else { 2.0 * rod.length };
-        (squares / both, whole.gradient)
+        let span_m = along(self.frame.span(self.x, e), 1.0, apart);
+        let unit = 1.0 / self.frame.length_m;
+        let whole: Excess = rod.excess(scaled(unit, span_m));
+        let Some(&length_m) = self.lengths.get(e) else { return (whole.value, whole.gradient) };
+        let squares = difference_of_squares(ends, apart, length_m);
+        let both = if rod.elastic() { norm(span_m) + length_m } else { 2.0 * length_m };
+        (squares / both * unit, whole.gradient)
     }
 
     /// The largest unbalanced force, or error of the force of an elastic member, over the largest
@@ -148,7 +152,8 @@ impl Displaced<'_> {
         factor.solve(&mut step);
         let change = |e: usize| dot(self.excess(e).1, frame.relative(&step, e));
         let force = (0..force.len()).map(|e| force[e] + stiffness(e) * change(e)).collect();
-        Self { frame, x: self.x, u: frame.moved(&self.u, 1.0, &step), force }
+        let u = frame.moved(&self.u, frame.length_m, &step);
+        Self { frame, lengths: self.lengths, x: self.x, u, force }
     }
 }
 

@@ -67,8 +67,7 @@ impl Link {
 /// The units in which the solver computes.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Units {
-    /// About the mean length of the members, m: a power of two, by which numbers are divided without
-    /// rounding.
+    /// Mean length of the members, m.
     pub length_m: f64,
     /// Mean load of the joints, N; where there is none, the force of elastic members at some
     /// strain.
@@ -193,8 +192,7 @@ fn units(system: &System, nodes: &[Node]) -> Units {
     let mean = |total: f64, count: usize| (total > 0.0).then(|| total / count as f64);
     let load_n = mean(model::sum(nodes.iter().map(|node| node.load.norm())), nodes.len());
     Units {
-        length_m: mean(system.total_length_m(), system.members().len())
-            .map_or(1.0, |mean_m| mean_m.log2().round().exp2()),
+        length_m: mean(system.total_length_m(), system.members().len()).unwrap_or(1.0),
         force_n: load_n.or_else(|| prestress_n(system)).unwrap_or(1.0),
         origin_m: system.reference_m().into(),
     }

@@ -5,12 +5,12 @@
 //!
 //! $$ d - l = \frac{(d_x^2 + d_y^2 + d_z^2) - l^2}{d + l} $$
 //!
-//! with products and sums in twice the digits, at places that keep what rounding cut off. In frames
+//! with products and sums in twice the digits, in metres, at places that keep what rounding cut off:
+//! anchors and lengths are those of the file to the last digit. In frames
 //! with more elastic members than needed the forces follow from the elongations alone; Newton's
 //! steps with the members' true stiffnesses bring both to agree.
 
-use model::system::{Joint, System};
-use nalgebra::Vector3;
+use model::system::System;
 
 use super::framework::{Framework, Link};
 use super::newton::{Derivative, Run};
@@ -37,9 +37,8 @@ pub(super) fn settled(
     if framework.links.iter().all(|link| link.compliance <= 0.0) {
         return run;
     }
-    let cut = cut_off_supports(system, framework);
     let mut best = run;
-    let mut misfits = exact_misfits(framework, &cut, &best);
+    let mut misfits = exact_misfits(system, framework, &best);
     let mut error = force_error(framework, &best, &misfits);
     for _ in 0..ROUNDS {
         if error <= 0.0 {
@@ -52,7 +51,7 @@ pub(super) fn settled(
         let state = step.applied(&best.state, 1.0);
         let residual = Residual::new(framework, &state);
         let next = Run { state, residual, steps: best.steps + 1 };
-        let there = exact_misfits(framework, &cut, &next);
+        let there = exact_misfits(system, framework, &next);
         let left = force_error(framework, &next, &there);
         // NaN is no progress.
         if left.is_nan() || left >= PROGRESS * error {
@@ -64,11 +63,13 @@ pub(super) fn settled(
 }
 
 /// Length by the law minus length of each taut member, without cancellation where it is elastic.
-fn exact_misfits(framework: &Framework, cut: &[Vector3<f64>], run: &Run) -> Vec<f64> {
+fn exact_misfits(system: &System, framework: &Framework, run: &Run) -> Vec<f64> {
+    let places = places_m(system, framework, &run.state);
     let misfit = |(k, link): (usize, &Link)| {
         if link.compliance > 0.0 && run.state.taut[k] && framework.moves(link) {
-            link.compliance * run.state.axial[k]
-                - elongation(link, &run.state, &(cut[link.to] - cut[link.from]))
+            let length_m = system.members()[k].body.length_m();
+            let longer_m = elongation_m(&places[link.from], &places[link.to], length_m);
+            link.compliance * run.state.axial[k] - longer_m / framework.units.length_m
         } else {
             run.residual.lengths[k]
         }
@@ -76,15 +77,30 @@ fn exact_misfits(framework: &Framework, cut: &[Vector3<f64>], run: &Run) -> Vec<
     framework.links.iter().enumerate().map(misfit).collect()
 }
 
-/// What rounding cuts off the places of supports when they are measured from the origin.
-fn cut_off_supports(system: &System, framework: &Framework) -> Vec<Vector3<f64>> {
+/// A place in twice the digits: what is rounded, and what rounding has cut off.
+type Place = [(f64, f64); 3];
+
+/// The places of a state, m; those of anchors are exact.
+fn places_m(system: &System, framework: &Framework, state: &State) -> Vec<Place> {
     let units = framework.units;
-    let cut = |joint: &Joint| {
-        let at_m = joint.support.at_m().unwrap_or(units.origin_m.into());
-        let cut = |axis: usize| two_sum(at_m[axis], -units.origin_m[axis]).1 / units.length_m;
-        Vector3::from_fn(|axis, _| cut(axis))
+    let place = |joint: usize| {
+        let node = &framework.nodes[joint];
+        let lies = framework.lying.iter().any(|lying| lying.joint == joint);
+        let at_m = system.joints()[joint].support.at_m().filter(|_| !lies);
+        std::array::from_fn(|axis| {
+            let (base, at_m) = match at_m {
+                Some(at_m) => (node.base[axis], at_m[axis]),
+                None => (0.0, units.origin_m[axis]),
+            };
+            let (moved, cut) = two_sum(state.places[joint][axis], -base);
+            let moved_m = moved * units.length_m;
+            let rounded = moved.mul_add(units.length_m, -moved_m);
+            let cut_m = (cut + state.rests[joint][axis]) * units.length_m + rounded;
+            let (sum, rest) = two_sum(at_m, moved_m);
+            two_sum(sum, rest + cut_m)
+        })
     };
-    system.joints().iter().map(cut).collect()
+    (0..framework.nodes.len()).map(place).collect()
 }
 
 /// The largest error of a balance or of an elastic member's force, in units of the largest force.
@@ -98,22 +114,19 @@ fn force_error(framework: &Framework, run: &Run, misfits: &[f64]) -> f64 {
 }
 
 /// How much longer than unstretched a member is, right to rounding of this small number.
-/// `off` is what the places leave out of the span.
-fn elongation(link: &Link, state: &State, off: &Vector3<f64>) -> f64 {
-    let (mut square, mut rest) = negative_square(link.length);
-    for axis in 0..3 {
-        let (from, to) = (link.from, link.to);
-        let (span, cut) = two_sum(state.places[to][axis], -state.places[from][axis]);
-        let cut = cut + (state.rests[to][axis] - state.rests[from][axis]) + off[axis];
-        let (span, cut) = two_sum(span, cut);
+fn elongation_m(from: &Place, to: &Place, length_m: f64) -> f64 {
+    let (mut square, mut rest) = negative_square(length_m);
+    for (from, to) in from.iter().zip(to) {
+        let (span, cut) = two_sum(to.0, -from.0);
+        let (span, cut) = two_sum(span, cut + (to.1 - from.1));
         let product = span * span;
         let below = span.mul_add(span, -product) + 2.0 * span * cut;
         let (sum, lost) = two_sum(square, product);
         (square, rest) = (sum, rest + lost + below);
     }
     let difference = square + rest;
-    let length = (link.length * link.length + difference).sqrt();
-    difference / (length + link.length)
+    let length = (length_m * length_m + difference).sqrt();
+    difference / (length + length_m)
 }
 
 /// `-l²` in twice the digits.
