@@ -128,7 +128,7 @@ pub enum DerivativesError {
 }
 
 impl Derivatives {
-    /// Of the hanging equilibrium of a problem.
+    /// Of the hanging equilibrium of a problem, or of the one next to it as it is drawn.
     ///
     /// # Errors
     ///
@@ -136,7 +136,13 @@ impl Derivatives {
     pub fn of(problem: &Problem) -> Result<Self, Error> {
         let system = system_of(problem);
         system.refusal()?;
-        let solution = network::solve(&system, &Settings::default())?;
+        let settings = Settings::default();
+        let solution = match system.drawing() {
+            Some(drawing_m) => {
+                network::solve_from(&system, &network::Seed::at(drawing_m), &settings)?
+            }
+            None => network::solve(&system, &settings)?,
+        };
         Ok(Self { system, solution })
     }
 

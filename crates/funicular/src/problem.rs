@@ -3,10 +3,12 @@
 use std::cell::RefCell;
 use std::path::{Path, PathBuf};
 
+use model::Vector;
 use model::system::System;
 use model::system_file::{self, Described, Readers, Rows};
 
 use crate::error::Error;
+use crate::judge::ForeignAnswer;
 
 /// A system of bars for which the question "where does it come to rest?" has an answer: a chain
 /// between two anchors, or joints with members between them.
@@ -118,6 +120,35 @@ impl Problem {
             Kind::Chain(problem) => Some(problem),
             Kind::System(_, row) => row.as_deref(),
         }
+    }
+
+    /// The same problem with another question: the equilibrium next to this shape, a place for every
+    /// joint, m. A chain becomes a system with joints named by their numbers, from `0`. Every
+    /// builder then starts there: [`Solve`](crate::Solve), [`Study`](crate::Study),
+    /// [`Modes`](crate::Modes), [`Derivatives`](crate::Derivatives), [`Simulate`](crate::Simulate).
+    ///
+    /// ```
+    /// use funicular::prelude::*;
+    /// // A rod of 1 m that may turn about its foot: it hangs, or stands on its head.
+    /// let text = "joints = { A = { at_m = [0, 0, 0] }, P = { mass_kg = 1 } }\n\
+    ///             bars = [{ from = \"A\", to = \"P\", length_m = 1, mass_kg = 0 }]";
+    /// let rod = Problem::parse(text, "rod.toml")?;
+    /// let up = [[0.0; 3], [0.0, 0.0, 0.9]];
+    /// let found = Solve::new().near(&rod, &up)?;
+    /// let standing = &found.as_system().unwrap().equilibria()[0];
+    /// assert!((standing.joints_m[1][2] - 1.0).abs() < 1e-12);
+    /// assert_eq!(standing.stability.index_in_space, 2);
+    /// # Ok::<(), Error>(())
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// [`Error::System`] when two joints are at one place, or a coordinate is not finite;
+    /// [`Error::Given`] when there are more or fewer places than joints.
+    pub fn near(&self, joints_m: &[Vector]) -> Result<Self, Error> {
+        let system = crate::system_of(self);
+        let shape = ForeignAnswer::in_order(&system, "a shape", joints_m.to_vec(), None)?;
+        Ok(system.drawn_at(&shape.joints_m)?.into())
     }
 
     /// The chain, for what is possible with rows between two anchors alone.

@@ -2,7 +2,7 @@
 
 use std::num::NonZeroUsize;
 
-use model::Rung;
+use model::{Rung, Vector};
 use rayon::prelude::*;
 use serde::Serialize;
 
@@ -130,6 +130,16 @@ impl Solve {
             Some(system) => self.run_system_watched(system, watch).map(Solution::System),
             None => self.run_watched(problem, watch).map(Solution::Chain),
         }
+    }
+
+    /// Solve for the equilibrium next to a shape, a place for every joint, m, by both solvers: see
+    /// [`Problem::near`]. [`SystemSolution::near`] says how the answer lies to the shape.
+    ///
+    /// # Errors
+    ///
+    /// As [`Problem::near`] and [`run_any`](Self::run_any).
+    pub fn near(&self, problem: &Problem, joints_m: &[Vector]) -> Result<Solution, Error> {
+        self.run_any(&problem.near(joints_m)?)
     }
 
     /// Solve many problems in parallel, each on one thread. The answers are in the order of the

@@ -7,7 +7,7 @@ use model::system::{System, SystemEquilibrium, SystemStability};
 use model::{Evidence, Rung, SolverName, Vector};
 use serde::Serialize;
 use serde::ser::SerializeSeq;
-use validate::systems::{SystemAgreement, SystemAnswer, SystemFailure, ask_with};
+use validate::systems::{Near, SystemAgreement, SystemAnswer, SystemFailure, ask_with};
 
 use crate::csv::{Numbers, quoted};
 use crate::error::Error;
@@ -114,6 +114,13 @@ impl SystemSolution {
         self.answer.agreement.as_ref()
     }
 
+    /// How the answer lies to the shape given, where the question is the equilibrium next to it;
+    /// nothing where it is the lowest of all.
+    #[must_use]
+    pub fn near(&self) -> Option<&Near> {
+        self.answer.near.as_ref()
+    }
+
     /// Whether both solvers answered and agree, and the judge finds both in balance.
     #[must_use]
     pub fn agrees(&self) -> bool {
@@ -127,15 +134,16 @@ impl SystemSolution {
         disagree || self.equilibria().iter().any(|answer| answer.evidence.ladder.failed())
     }
 
-    /// Whether every solver that was asked has an answer, and each has converged or is proved to be
-    /// an equilibrium.
+    /// Whether every solver that was asked has an answer, each has converged or is proved to be an
+    /// equilibrium, and it is the neighbour of the drawing where that is the question.
     #[must_use]
     pub fn is_decided(&self) -> bool {
         let known = |answer: &SystemEquilibrium| {
             let ladder = &answer.evidence.ladder;
             ladder.converged.is_reached() || ladder.verified.is_reached()
         };
-        self.failures().is_empty() && self.equilibria().iter().all(known)
+        let asked_for = self.near().is_none_or(|near| near.is_neighbour);
+        asked_for && self.failures().is_empty() && self.equilibria().iter().all(known)
     }
 
     /// The highest rung that an answer has reached.
@@ -208,6 +216,7 @@ impl SystemSolution {
             equilibria: self.equilibria().iter().map(named).collect(),
             agreement: self.agreement(),
             failures: self.failures().iter().map(Failure::of_system).collect(),
+            near: self.near(),
         }
     }
 }
@@ -226,6 +235,8 @@ struct Object<'a> {
     equilibria: Vec<Named<'a>>,
     agreement: Option<&'a SystemAgreement>,
     failures: Vec<Failure>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    near: Option<&'a Near>,
 }
 
 #[derive(Serialize)]

@@ -112,6 +112,26 @@ const TENSEGRITIES: &[Exhibit] = registry! {
     "simplex-tower": "two prisms, one on the other",
 };
 
+const DRAWN: &[Exhibit] = registry! {
+    Exhibit,
+    "warren-truss": "a planar truss as it is drawn: the method of joints",
+    "pratt-truss": "a planar truss with both diagonals, of rigid bars",
+    "lattice-tower": "an X-braced tower of elastic bars in the wind",
+    "star-dome": "the shallow dome of Levy and Spillers under 0.3 of their load",
+    "geiger-dome": "a prestressed cable dome",
+};
+
+/// Structures that stand where they are drawn: trusses, a tower, domes.
+#[must_use]
+pub fn drawn() -> &'static [Exhibit] {
+    DRAWN
+}
+
+/// Every system of joints and members with a name: [`systems`] and [`drawn`].
+pub fn exhibits() -> impl Iterator<Item = &'static Exhibit> {
+    systems().chain(DRAWN)
+}
+
 /// Tensegrities that no load holds up: cables of a given prestress around rigid struts, each with
 /// the stress that is known of it in a closed form.
 #[must_use]
@@ -125,7 +145,7 @@ pub fn gallery() -> &'static [Exhibit] {
     GALLERY
 }
 
-/// All systems of joints and members: the gallery and the tensegrities.
+/// All systems that hang or hold themselves: the gallery and the tensegrities.
 pub fn systems() -> impl Iterator<Item = &'static Exhibit> {
     GALLERY.iter().chain(TENSEGRITIES)
 }
@@ -139,7 +159,7 @@ pub fn systems() -> impl Iterator<Item = &'static Exhibit> {
 /// ```
 #[must_use]
 pub fn exhibit(name: &str) -> Option<&'static Exhibit> {
-    systems().find(|exhibit| exhibit.name == name)
+    exhibits().find(|exhibit| exhibit.name == name)
 }
 
 /// All cases: chains.
@@ -196,11 +216,11 @@ mod tests {
 
     #[test]
     fn every_system_can_be_asked_about_and_has_a_name_of_its_own() {
-        for (k, exhibit) in systems().enumerate() {
+        for (k, exhibit) in exhibits().enumerate() {
             assert!(exhibit.system().refusal().is_ok());
             let name = exhibit.name;
             assert!(name.chars().all(|c| c.is_ascii_lowercase() || c == '-'), "{name}");
-            assert!(systems().take(k).all(|other| other.name != name), "{name}");
+            assert!(exhibits().take(k).all(|other| other.name != name), "{name}");
             assert!(get(name).is_none(), "{name}");
             assert!(
                 exhibit.text.starts_with("# ") && exhibit.text.contains("# Reference:"),

@@ -142,6 +142,7 @@ impl Problem {
                 support: support(supports[k], at_m[k], directions[k]),
                 mass_kg: joint_masses[k],
                 force_n: forces[k],
+                near_m: None,
             });
             let joints = joints.collect();
             let bodies = bars(&lengths, &masses, centres.as_deref(), None)?;

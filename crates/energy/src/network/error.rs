@@ -124,6 +124,16 @@ pub enum Error {
         /// Number of independent directions in which the energy falls.
         index: usize,
     },
+    /// Occurs when the descent from a drawing leads far away from it: no minimum lies next to it.
+    #[error(
+        "no minimum near the drawing: the descent ends where joint {joint} is {moved_m} m away"
+    )]
+    NoMinimumNear {
+        /// Name of the joint.
+        joint: String,
+        /// How far it is from where it was drawn, m.
+        moved_m: f64,
+    },
     /// Occurs when joints balance with a cable that pushes or a strut that pulls alone.
     #[error(
         "no minimum found: the joints would balance with {force_n} N in member {member}, which it cannot \
@@ -199,6 +209,7 @@ impl Error {
             Self::IterationLimit { .. } => "iteration limit",
             Self::Stalled { .. } => "stalled",
             Self::NoMinimum { .. } => "no minimum",
+            Self::NoMinimumNear { .. } => "no minimum near",
             Self::WrongSign { .. } => "wrong sign of a force",
             Self::FloorPulls { .. } => "floor pulls",
             Self::NotFinite { .. } => "not finite",
@@ -235,6 +246,7 @@ mod tests {
             ),
             (Error::Stalled { unbalance: 0.1, misfit: 0.1 }, "stalled"),
             (Error::NoMinimum { index: 1 }, "no minimum"),
+            (Error::NoMinimumNear { joint: "P".to_owned(), moved_m: 1.0 }, "no minimum near"),
             (Error::WrongSign { member: 1, force_n: 1.0 }, "wrong sign of a force"),
             (Error::FloorPulls { joint: 1, force_n: 1.0 }, "floor pulls"),
             (Error::NotFinite { quantity: "energy" }, "not finite"),

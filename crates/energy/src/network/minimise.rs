@@ -13,10 +13,11 @@ use crate::network::factor::Factor;
 use crate::network::frame::Frame;
 use crate::network::interior::{ITERATIONS, Interior, relaxable};
 use crate::network::limit::Limit;
-use crate::network::newton::{FIRST_STRAIN, Newton, finite};
+use crate::network::near::loaded;
+use crate::network::newton::{FIRST_STRAIN, NEAR, Newton, Pace, STEP, finite};
 use crate::network::potential::{Iterate, Potential};
 use crate::network::settings::Settings;
-use crate::network::shape::{Shape, Slope};
+use crate::network::shape::Shape;
 use crate::network::solution::Solution;
 use crate::network::start::hanging;
 use crate::vector::{along, dot, scaled};
@@ -136,6 +137,50 @@ pub fn minimise_from(
     Solution::new(system, &frame, found?, settings, clock)
 }
 
+/// Find the local minimum next to a structure as it is drawn, m.
+///
+/// The descent begins with the forces of the linear analysis at that shape and takes small steps,
+/// so that it stays in the basin that the drawing lies in. Where it lies in none, the minimum found
+/// is elsewhere: how far is for the caller to say.
+///
+/// # Errors
+///
+/// [`Error`]; `Ok` means what it means for [`minimise`].
+///
+/// ```
+/// use model::Bar;
+/// use model::system::{Joint, Member, System};
+/// // Two props of 5 m, elastic, feet 6 m apart, 10 N on top: under the load they stand.
+/// let joints = vec![
+///     Joint::anchor("A", [-3.0, 0.0, 0.0]),
+///     Joint::anchor("B", [3.0, 0.0, 0.0]),
+///     Joint::anchor("C", [0.0, 3.0, 0.0]),
+///     Joint::free("top").with_force([0.0, 0.0, -10.0]),
+/// ];
+/// let bar = Bar::homogeneous(5.0, 0.0)?;
+/// let members = (0..3).map(|foot| Member::bar(foot, 3, bar).with_stiffness(1e6)).collect();
+/// let system = System::new("props", 10.0, joints, members)?;
+/// let drawn = [[-3.0, 0.0, 0.0], [3.0, 0.0, 0.0], [0.0, 3.0, 0.0], [0.0, 0.0, 4.0]];
+/// let solution = energy::network::minimise_near(&system, &drawn, &Default::default())?;
+/// assert!((solution.equilibrium.joints_m[3][2] - 4.0).abs() < 1e-4);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn minimise_near(
+    system: &System,
+    drawing_m: &[Vector],
+    settings: &Settings,
+) -> Result<Solution, Error> {
+    settings.validate()?;
+    let clock = Instant::now();
+    let frame = Arc::new(Frame::new(system)?);
+    check_held(&frame)?;
+    let drawn = seeded(&frame, drawing_m)?;
+    let mut factor = Factor::new(&frame.spots, &frame.rods)?;
+    let start = loaded(&frame, &mut factor, &drawn);
+    let minimum = descend(&frame, factor, start, Way::Near, settings, Effort::default())?;
+    Solution::new(system, &frame, minimum, settings, clock)
+}
+
 /// The seed in the solver's units, on the supports. Elastic members bear what their lengths say
 /// where no load gives a scale of the forces, the others nothing.
 fn seeded(frame: &Frame, seed_m: &[Vector]) -> Result<Shape, Error> {
@@ -177,7 +222,6 @@ pub(super) struct Effort {
 /// What a run of the minimiser ends with.
 pub(super) struct Minimum {
     pub(super) shape: Arc<Shape>,
-    pub(super) slope: Arc<Slope>,
     pub(super) factor: Factor,
     pub(super) effort: Effort,
     /// Where lengths overdetermine the shape.
@@ -213,10 +257,35 @@ enum Way {
     Free,
     /// Anywhere, for lengths that are hard to keep: they come before the loads.
     Stiff,
+    /// Next to the minimum, with forces near those there.
+    Near,
 }
 
 /// First strain of the springs where the lengths come before the loads.
 const STIFF_STRAIN: f64 = 1e-3;
+
+/// Misfit from a relaxation, which is right for most members, up to which Newton's method for
+/// places and forces is tried: in any case.
+const RELAXED: f64 = 0.5;
+
+/// The same next to a drawing: from further away it might leave the basin.
+const DRAWN: f64 = 0.05;
+
+/// Largest relative displacement of the ends of a member in one step next to a drawing, over its
+/// length: less than what turns a member over.
+const DRAWN_STEP: f64 = 0.1;
+
+impl Way {
+    fn pace(self) -> Pace {
+        let pace = Pace { strain: FIRST_STRAIN, near: NEAR, step: STEP, own: false };
+        match self {
+            Self::Relaxed => Pace { near: RELAXED, ..pace },
+            Self::Free => pace,
+            Self::Stiff => Pace { strain: STIFF_STRAIN, ..pace },
+            Self::Near => Pace { strain: STIFF_STRAIN, near: DRAWN, step: DRAWN_STEP, own: true },
+        }
+    }
+}
 
 /// Down to a local minimum.
 fn descend(
@@ -227,9 +296,7 @@ fn descend(
     settings: &Settings,
     mut effort: Effort,
 ) -> Result<Minimum, Error> {
-    let strain = if way == Way::Stiff { STIFF_STRAIN } else { FIRST_STRAIN };
-    let relaxed = way == Way::Relaxed;
-    let solver = Newton::new(Arc::clone(frame), factor, *settings, &start.force, relaxed, strain);
+    let solver = Newton::new(Arc::clone(frame), factor, *settings, &start.force, way.pace());
     let mut ended = Executor::new(Potential { frame: Arc::clone(frame) }, solver)
         .configure(|state: Iterate| state.param(Arc::new(start)).max_iters(settings.max_iterations))
         .ctrlc(false)
@@ -239,12 +306,12 @@ fn descend(
     outcome(&ended.state)?;
     effort.iterations = ended.state.get_iter();
     effort.factorisations = ended.solver.factor.count;
-    match (ended.state.take_param(), ended.state.take_gradient()) {
-        (Some(shape), Some(slope)) => {
+    match ended.state.take_param() {
+        Some(shape) => {
             let Newton { factor, limit, .. } = ended.solver;
-            Ok(Minimum { shape, slope, factor, effort, limit })
+            Ok(Minimum { shape, factor, effort, limit })
         }
-        _ => Err(Error::NotFinite { quantity: "last iterate" }),
+        None => Err(Error::NotFinite { quantity: "last iterate" }),
     }
 }
 

@@ -52,9 +52,6 @@ pub(super) const NEAR: f64 = 1e-3;
 /// Misfit that is rounding in any system.
 const ROUNDED: f64 = 8.0 * f64::EPSILON;
 
-/// Misfit from a relaxation, which is right for most members: it is tried in any case.
-const RELAXED: f64 = 0.5;
-
 /// First shift and smallest one, over the size of the matrix.
 const FIRST_SHIFT: f64 = 1e-3;
 const SMALLEST_SHIFT: f64 = 1e-8;
@@ -70,8 +67,11 @@ const NOISE: f64 = 64.0 * f64::EPSILON;
 
 /// Largest relative displacement of the ends of a member in one step, over its length; of a strut,
 /// which must not be turned inside out: its energy falls for ever on the other side.
-const STEP: f64 = 2.0;
+pub(super) const STEP: f64 = 2.0;
 const STRUT_STEP: f64 = 0.3;
+
+/// Stiffness of the spring of an elastic member that keeps its own, over its own.
+const OWN: f64 = 1e6;
 
 /// Halvings of a step before the shift grows.
 const HALVINGS: usize = 5;
@@ -108,7 +108,25 @@ pub(super) struct Newton {
     near: f64,
     /// The solution where lengths overdetermine it.
     pub(super) limit: Option<Limit>,
+    /// Largest relative displacement of the ends of a member in one step, over its length.
+    step: f64,
+    /// Whether elastic members keep their own stiffness.
+    own: bool,
     ended: Ended,
+}
+
+/// How boldly a run goes.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Pace {
+    /// Strain of the springs under the largest force at first.
+    pub(super) strain: f64,
+    /// Misfit below which Newton's method for places and forces is tried.
+    pub(super) near: f64,
+    /// Largest relative displacement of the ends of a member in one step, over its length.
+    pub(super) step: f64,
+    /// Whether elastic members keep their own stiffness: softened by the springs, a shallow dome
+    /// would snap through.
+    pub(super) own: bool,
 }
 
 /// The augmented Lagrangian at one configuration.
@@ -128,32 +146,34 @@ impl Local {
 }
 
 impl Newton {
-    /// From a start that is `relaxed` (the solution of the relaxation) or anything else, with
-    /// springs of some strain under the largest force.
+    /// From a start with these forces.
     pub(super) fn new(
         frame: Arc<Frame>,
         factor: Factor,
         settings: Settings,
         force: &[f64],
-        relaxed: bool,
-        strain: f64,
+        pace: Pace,
     ) -> Self {
         Self {
-            stiffness: frame.force_scale(force) / strain,
+            stiffness: frame.force_scale(force) / pace.strain,
             frame,
             factor,
             settings,
             misfit: f64::INFINITY,
             shift: 0.0,
             definite: false,
-            near: if relaxed { RELAXED } else { NEAR },
+            near: pace.near,
             limit: None,
+            step: pace.step,
+            own: pace.own,
             ended: Ended::Not,
         }
     }
 
     fn kappa(&self, rod: usize) -> f64 {
-        self.stiffness / self.frame.rods[rod].length
+        let rod = &self.frame.rods[rod];
+        let kappa = self.stiffness / rod.length;
+        if self.own && rod.elastic() { kappa.max(OWN / rod.flexibility) } else { kappa }
     }
 
     /// The members with their springs, and the value of the augmented Lagrangian.
@@ -218,7 +238,8 @@ impl Newton {
     fn longest_part(&self, step: &[f64]) -> f64 {
         let rods = self.frame.rods.iter().enumerate();
         rods.fold(1.0, |part, (e, rod)| {
-            let most = if rod.kind == Kind::Strut { STRUT_STEP } else { STEP } * rod.length;
+            let strut = rod.kind == Kind::Strut;
+            let most = if strut { STRUT_STEP.min(self.step) } else { self.step } * rod.length;
             part.min(most / norm(self.frame.relative(step, e)).max(f64::MIN_POSITIVE))
         })
     }

@@ -14,6 +14,7 @@ use crate::network::polish::rounding_floor;
 use crate::network::settings::Settings;
 use crate::network::shape::{NO_STRAIN, Shape};
 use crate::network::stability::{Rigidity, SecondOrder, second_order};
+use crate::network::weak;
 use crate::vector::{along, dot, norm, scaled};
 
 /// A local minimum of the energy: the equilibrium with its evidence, and what the search cost.
@@ -79,8 +80,13 @@ impl Solution {
         settings: &Settings,
         clock: Instant,
     ) -> Result<Self, Error> {
-        let Minimum { shape, slope, mut factor, effort, limit } = minimum;
+        let Minimum { shape, mut factor, effort, limit } = minimum;
+        let mut shape = Arc::unwrap_or_clone(shape);
         let least = limit.is_some();
+        if !least {
+            shape = weak::settled(system, frame, &mut factor, shape);
+        }
+        let slope = frame.slope(&shape);
         let second = second_order(frame, &shape, limit.as_ref(), &mut factor);
         if second.index > 0 {
             return Err(Error::NoMinimum { index: second.index });

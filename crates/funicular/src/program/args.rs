@@ -117,7 +117,7 @@ pub enum Command {
     /// is stored so far.
     Simulate(crate::simulate::Simulate),
     /// Print a system file with comments, to start from (`funicular format` has every key)
-    New,
+    New(crate::new::New),
     /// Print the page of the file format: every key with its unit, what is allowed, and an example
     /// (`funicular help file` too)
     #[command(alias = "file", after_long_help = model::system_file::FORMAT)]

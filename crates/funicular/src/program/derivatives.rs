@@ -10,7 +10,7 @@ use model::system::System;
 use serde::Serialize;
 
 use crate::exit::{Exit, Failure};
-use crate::input::{Input, Source};
+use crate::input::{Drawn, Input};
 use crate::interrupt::end_on_interrupt;
 use crate::output;
 use crate::printable::Printable;
@@ -40,7 +40,7 @@ Exit codes:
 #[command(after_help = EXAMPLES)]
 pub struct Arguments {
     #[command(flatten)]
-    pub input: Source,
+    pub input: Drawn,
     /// The derivatives of this number of the equilibrium by all parameters: `joints.P.at_m.z`,
     /// `bars.2.axial_n`
     #[arg(long, value_name = "NUMBER", conflicts_with = "by")]

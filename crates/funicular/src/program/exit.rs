@@ -78,7 +78,7 @@ impl Failure {
             Error::File(error) => Self::bad_input(SystemFileReport::from(error)),
             Error::UnknownCase { suggestion, .. } => {
                 let chains = model::cases::all().iter().map(|case| case.name);
-                let systems = model::cases::systems().map(|exhibit| exhibit.name);
+                let systems = model::cases::exhibits().map(|exhibit| exhibit.name);
                 let names: Vec<_> = chains.chain(systems).collect();
                 let all = format!("the cases are: {}", names.join(", "));
                 let help = match suggestion {

@@ -4,12 +4,14 @@ use std::io::Read as _;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
+use formats::answer::{Answer, Forces};
 use funicular::{Error, Problem};
 use miette::miette;
 use model::system_file::most_file_bytes;
 
 use crate::case_name::CaseName;
 use crate::exit::Failure;
+use crate::foreign_input;
 
 /// Where a command that takes one system takes it from.
 #[derive(Debug, Args)]
@@ -27,6 +29,66 @@ impl Source {
     pub fn read(&self) -> Result<Input, Failure> {
         problem(self.file.as_deref(), self.case.as_deref())
     }
+}
+
+/// The same for a command that also takes a shape.
+#[derive(Debug, Args)]
+pub struct Drawn {
+    #[command(flatten)]
+    source: Source,
+    #[command(flatten)]
+    shape: Shape,
+}
+
+/// A shape next to which the equilibrium is wanted.
+#[derive(Debug, Args)]
+pub struct Shape {
+    /// Find the equilibrium next to this shape, not the lowest: CSV (joint,x_m,y_m,z_m), JSON of
+    /// `solve --json` (its first equilibrium) or VTU, - for standard input
+    ///
+    /// A system file whose joints have places near_m is solved next to these without it.
+    #[arg(long, value_name = "FILE")]
+    pub near: Option<PathBuf>,
+}
+
+impl Drawn {
+    /// The system, drawn with the shape that was given, and the files that were read.
+    pub fn read(&self) -> Result<Input, Failure> {
+        if self.shape.is_standard_input() && self.source.file.as_deref() == Some(Path::new("-")) {
+            return Err(Failure::bad_input(miette!(
+                "the system and its shape cannot both come from standard input"
+            )));
+        }
+        let Input { problem, mut files } = self.source.read()?;
+        files.extend(self.shape.near.clone());
+        let problem = match self.shape.read()? {
+            Some(shape) => next_to(&problem, &shape)?,
+            None => problem,
+        };
+        Ok(Input { problem, files })
+    }
+}
+
+impl Shape {
+    pub fn is_standard_input(&self) -> bool {
+        self.near.as_deref() == Some(Path::new("-"))
+    }
+
+    /// The shape, if one was given.
+    pub fn read(&self) -> Result<Option<Answer>, Failure> {
+        let Some(path) = &self.near else { return Ok(None) };
+        let (text, name) = foreign_input::text(path)?;
+        let shapes = formats::answer::parse(&text, &name).map_err(Error::from)?;
+        Ok(shapes.into_iter().next())
+    }
+}
+
+/// The problem with the question of the equilibrium next to a shape.
+pub fn next_to(problem: &Problem, shape: &Answer) -> Result<Problem, Error> {
+    // The forces of an answer are no part of the question.
+    let shape = Answer { forces: Forces::None, reactions_n: None, ..shape.clone() };
+    let fitted = funicular::judge::fit(&funicular::system_of(problem), shape)?;
+    problem.near(&fitted.joints_m)
 }
 
 /// A system and where it comes from.

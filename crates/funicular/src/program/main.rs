@@ -68,7 +68,7 @@ fn main() -> std::process::ExitCode {
         Command::Basins(arguments) => basins::run(&arguments),
         Command::Modes(arguments) => modes::run(&arguments),
         Command::Simulate(arguments) => simulate::run(&arguments),
-        Command::New => new::run(),
+        Command::New(arguments) => new::run(&arguments),
         Command::Format => format::run(),
         Command::Cases(arguments) => cases::run(&arguments),
         Command::Man(arguments) => man::run(&arguments),

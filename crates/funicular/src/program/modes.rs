@@ -10,7 +10,7 @@ use miette::miette;
 use model::system::System;
 
 use crate::exit::{Exit, Failure};
-use crate::input::{Input, Source};
+use crate::input::{Drawn, Input};
 use crate::interrupt::end_on_interrupt;
 use crate::output;
 use crate::printable::Printable;
@@ -30,7 +30,7 @@ as in `simulate`.";
 #[command(after_long_help = HELP)]
 pub struct Modes {
     #[command(flatten)]
-    pub input: Source,
+    pub input: Drawn,
     /// Print one JSON object (schema_version 2) with the shapes instead of tables
     #[arg(long)]
     pub json: bool,

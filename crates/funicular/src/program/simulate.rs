@@ -17,7 +17,7 @@ use model::system::System;
 use self::columns::Rows;
 use crate::exit::{Exit, Failure};
 use crate::foreign_input;
-use crate::input::{Input, Source};
+use crate::input::{Drawn, Input};
 use crate::interrupt::on_interrupt;
 use crate::output;
 use crate::printable::Printable;
@@ -29,7 +29,7 @@ use crate::tables::short;
 #[command(after_long_help = ensemble::HELP)]
 pub struct Simulate {
     #[command(flatten)]
-    pub input: Source,
+    pub input: Drawn,
     /// Where it begins, at rest: `rest` (the stable equilibrium), `equilibrium:2` (as `modes` and
     /// `census` number them), `angles=0,60,-60` (bars of a chain from the descending vertical,
     /// degrees), `seed:7` (at random)

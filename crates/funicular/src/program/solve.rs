@@ -8,6 +8,7 @@ mod several;
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
+use formats::answer::Answer;
 use funicular::{Error, Solution, SolveAnswer, SystemSolution, picture};
 use miette::miette;
 use validate::answer::{Equations, Solvers, UseCensus};
@@ -15,7 +16,7 @@ use validate::answer::{Equations, Solvers, UseCensus};
 use crate::answer;
 use crate::case_name::CaseName;
 use crate::exit::{Exit, Failure};
-use crate::input::{self, Input};
+use crate::input::{self, Input, Shape, next_to};
 use crate::interrupt::end_on_interrupt;
 use crate::output;
 use crate::progress::Progress;
@@ -51,6 +52,8 @@ pub struct Solve {
     /// How many threads; 0 means one per processor. No answer depends on it
     #[arg(long, value_name = "T", default_value_t = 0, value_parser = threads::parse, allow_negative_numbers = true)]
     pub threads: usize,
+    #[command(flatten)]
+    pub shape: Shape,
     /// Which solver; one alone gets no comparison
     #[arg(long, value_enum, default_value_t = Which::Both)]
     pub solver: Which,
@@ -118,6 +121,18 @@ impl Solve {
             .census(self.census.map_or(census, UseCensus::from))
     }
 
+    /// The shape next to which the equilibrium is wanted, if one was given.
+    fn shape(&self) -> Result<Option<Answer>, Failure> {
+        let standard = |path: &PathBuf| path.as_path() == Path::new("-");
+        let inputs = self.files.iter().chain(&self.batch);
+        if self.shape.is_standard_input() && inputs.into_iter().any(standard) {
+            return Err(Failure::bad_input(miette!(
+                "the system and its shape cannot both come from standard input"
+            )));
+        }
+        self.shape.read()
+    }
+
     /// An option that names a file for the answer to one system.
     fn file_for_one(&self) -> Option<&'static str> {
         let files = [("--csv", &self.csv), ("--bars-csv", &self.bars_csv), ("--svg", &self.svg)];
@@ -139,7 +154,12 @@ fn one(arguments: &Solve, file: Option<&Path>) -> Result<Exit, Failure> {
     threads::install(arguments.threads)?;
     let progress = Progress::start();
     progress.say("reading");
-    let Input { problem, files } = input::problem(file, arguments.case.as_deref())?;
+    let shape = arguments.shape()?;
+    let Input { mut problem, mut files } = input::problem(file, arguments.case.as_deref())?;
+    if let Some(shape) = shape {
+        problem = next_to(&problem, &shape)?;
+        files.extend(arguments.shape.near.clone());
+    }
     let outputs = [&arguments.csv, &arguments.bars_csv, &arguments.svg];
     output::check(outputs.into_iter().flatten().map(PathBuf::as_path), &files)?;
     let solve = arguments.question(UseCensus::Auto);

@@ -9,7 +9,7 @@ use funicular::{Study, StudyAnswer, StudyPoint};
 use miette::miette;
 
 use crate::exit::{Exit, Failure};
-use crate::input::{Input, Source};
+use crate::input::{Drawn, Input};
 use crate::interrupt::end_on_interrupt;
 use crate::output;
 use crate::printable::Printable;
@@ -69,7 +69,7 @@ const PRINTED: usize = 24;
 #[command(after_help = EXAMPLES)]
 pub struct Arguments {
     #[command(flatten)]
-    pub input: Source,
+    pub input: Drawn,
     #[command(flatten)]
     pub varied: Varied,
     /// Print one JSON object (schema_version 2) instead of tables

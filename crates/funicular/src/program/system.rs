@@ -27,6 +27,7 @@ pub fn answer(solution: &SystemSolution, summary: bool) -> String {
         text += &shape(system, first, summary);
     }
     text += &overview(solution.equilibria());
+    text += &question(solution);
     text += &ladder(solution.equilibria().iter().map(|e| (&e.solver, &e.evidence)));
     for failure in solution.failures() {
         // Writing to a String cannot fail.
@@ -40,6 +41,35 @@ pub fn answer(solution: &SystemSolution, summary: bool) -> String {
         );
     }
     text
+}
+
+/// In a line which question this answers.
+fn question(solution: &SystemSolution) -> String {
+    let proved = solution.equilibria().iter().any(|e| e.evidence.ladder.optimal.is_reached());
+    let Some(near) = solution.near() else {
+        let proved = if proved { "proved" } else { "not proved" };
+        return format!("The lowest equilibrium of all ({proved}).\n");
+    };
+    let moved = format!(
+        "joint {} is {:.3e} m from it, {:.2} % of the shortest member there",
+        Printable(&near.joint),
+        near.moved_m,
+        100.0 * near.moved
+    );
+    let barrier = near.barrier_j.map_or_else(String::new, |barrier_j| {
+        format!(", and the energy rises by {barrier_j:.3e} J on the way")
+    });
+    let found = if near.is_neighbour {
+        format!("The equilibrium nearest to the shape given ({moved})")
+    } else {
+        format!("Not the neighbour of the shape given ({moved}{barrier})")
+    };
+    let lower = match near.lower_j {
+        Some(lower_j) => format!("; a lower one exists, at {} J", long(lower_j)),
+        None if proved => "; it is the lowest of all (proved)".to_owned(),
+        None => String::new(),
+    };
+    wrapped(&format!("{found}{lower}."), 0) + "\n"
 }
 
 fn overview(equilibria: &[SystemEquilibrium]) -> String {

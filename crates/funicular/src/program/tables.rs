@@ -38,7 +38,7 @@ pub fn cases() -> String {
         chains.add_row([case.name, case.about]);
     }
     let mut systems = table(["system of bars", "what it is"]);
-    for exhibit in cases::systems() {
+    for exhibit in cases::exhibits() {
         systems.add_row([exhibit.name, exhibit.about]);
     }
     format!("{chains}\n\n{systems}\n")

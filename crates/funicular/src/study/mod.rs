@@ -8,6 +8,7 @@ pub use self::answer::{StudyAnswer, StudyPoint};
 pub use self::shape::{NoShape, StudyShape};
 
 use branches::{Base, Number, PointError, Variation};
+use model::Vector;
 use rayon::prelude::*;
 use validate::answer::{Solvers, UseCensus};
 
@@ -128,31 +129,42 @@ impl Study {
         if let Some(system) = problem.as_system() {
             let variation = self.parameters.over(system.clone())?;
             let at = |values: &[f64]| variation.system(values).map(Problem::from);
-            return self.all(&variation, Subject::of_system(system), &at, watch);
+            let drawn = system.drawing().is_some();
+            return self.all(&variation, Subject::of_system(system), drawn, &at, watch);
         }
         let variation = self.parameters.of(problem, "a study")?;
         let at = |values: &[f64]| variation.problem(values).map(Problem::from);
-        self.all(&variation, Subject::of_chain(variation.base()), &at, watch)
+        self.all(&variation, Subject::of_chain(variation.base()), false, &at, watch)
     }
 
+    /// All points. Of a system that is drawn each is solved next to the one before it on its path: the
+    /// branch that the drawing begins on is followed.
     fn all<B: Base + Sync>(
         &self,
         variation: &Variation<B>,
         subject: Subject,
+        drawn: bool,
         at: &(dyn Fn(&[f64]) -> Result<Problem, PointError> + Sync),
         watch: &(dyn Fn() + Sync),
     ) -> Result<StudyAnswer, Error> {
         let solve = Solve::new().solvers(self.solvers).census(UseCensus::Never);
-        let paths = variation.paths().iter().enumerate();
-        let all: Vec<_> = paths
-            .flat_map(|(path, points)| points.iter().map(move |values| (path + 1, values)))
-            .collect();
-        let point = |(path, values): (usize, &Vec<f64>)| {
-            let shape = NoShape::or(at(values), |problem| StudyShape::hanging(problem, &solve));
+        let point = |path: usize, values: &Vec<f64>, before: &mut Option<Vec<Vector>>| {
+            let shape =
+                NoShape::or(at(values), |problem| StudyShape::found(problem, before, &solve));
             watch();
             StudyPoint { path, values: values.clone(), shape }
         };
-        let points = threads::on(self.threads, || all.into_par_iter().map(point).collect())?;
+        let paths: Vec<_> = variation.paths().iter().enumerate().collect();
+        let along = |(path, points): (usize, &Vec<Vec<f64>>)| -> Vec<StudyPoint> {
+            if drawn {
+                let mut before = None;
+                return points.iter().map(|at| point(path + 1, at, &mut before)).collect();
+            }
+            points.par_iter().map(|at| point(path + 1, at, &mut None)).collect()
+        };
+        let points = threads::on(self.threads, || {
+            paths.into_par_iter().map(along).flatten_iter().collect()
+        })?;
         let numbers = variation.numbers();
         Ok(StudyAnswer {
             subject,

@@ -81,9 +81,23 @@ impl StudyShape {
         (0..self.reactions_n.len()).filter_map(|k| self.support_n(k)).reduce(f64::max)
     }
 
-    /// The shape in which a problem hangs.
-    pub(super) fn hanging(problem: &Problem, solve: &Solve) -> Result<Self, NoShape> {
-        let answer = solve.run_here(problem).map_err(|error| NoShape::unsolved(&error))?;
+    /// The shape in which a problem hangs; next to the shape `before`, which it takes the place of,
+    /// where there is one.
+    pub(super) fn found(
+        problem: &Problem,
+        before: &mut Option<Vec<Vector>>,
+        solve: &Solve,
+    ) -> Result<Self, NoShape> {
+        let answer = match before {
+            Some(joints_m) => solve.threads(0).near(problem, joints_m),
+            None => solve.run_here(problem),
+        };
+        let answer = answer.map_err(|error| NoShape::unsolved(&error))?;
+        if let Some(found) = answer.as_system()
+            && let (Some(_), Some(first)) = (found.near(), found.equilibria().first())
+        {
+            *before = Some(first.joints_m.clone());
+        }
         let found = match &answer {
             Solution::Chain(found) => {
                 found.equilibria().first().and_then(|first| Self::of_chain(first, &answer))

@@ -6,6 +6,7 @@ use model::system::Kind;
 use nalgebra::Vector3;
 
 use super::error::Error;
+use super::fitted::fitted_forces;
 use super::framework::Link;
 use super::law::by_direction;
 use super::newton::{Patience, Run};
@@ -51,7 +52,8 @@ impl Solver<'_> {
             }
             let mut state = fitted.state;
             state.taut.clone_from(&from.taut);
-            state.axial = self.best_forces(&state);
+            state.axial = fitted_forces(&self.framework, &mut self.stiffness, &state);
+            self.factorisations += 1;
             match self.with_signs(state, Patience::Full) {
                 Ok(run) => return Ok(run),
                 Err(error) => refused = clearer(refused, error),

@@ -71,6 +71,7 @@ mod derivatives;
 mod directions;
 mod elements;
 mod error;
+mod fitted;
 mod floor;
 mod framework;
 mod hanging;
@@ -93,6 +94,7 @@ mod solution;
 mod solve;
 mod state;
 mod stiffness;
+mod weak;
 
 pub use derivatives::{Change, Derivatives, Gradient, Parameter};
 pub use error::Error;

@@ -175,7 +175,27 @@ impl Derivative {
         state: &State,
         residual: &Residual,
     ) -> Option<Self> {
-        let new = Self::unfactored(framework, state, residual);
+        Self::unfactored(framework, state, residual).factored(framework, stiffness)
+    }
+
+    /// The same with the true stiffness of the elastic members, however stiff they are.
+    pub fn elastic(
+        framework: &Framework,
+        stiffness: &mut Stiffness,
+        state: &State,
+        residual: &Residual,
+    ) -> Option<Self> {
+        let mut new = Self::unfactored(framework, state, residual);
+        for row in &mut new.rows {
+            if row.taut && row.compliance > 0.0 {
+                row.along = row.compliance.recip();
+            }
+        }
+        new.factored(framework, stiffness)
+    }
+
+    fn factored(self, framework: &Framework, stiffness: &mut Stiffness) -> Option<Self> {
+        let new = self;
         let blocks = new.rows.iter().map(|row| by_direction(&row.u, row.across, row.along));
         stiffness.assemble(framework, blocks);
         let finite = stiffness.factorise_indefinite();
@@ -321,7 +341,7 @@ impl Step {
         }
     }
 
-    fn applied(&self, state: &State, t: f64) -> State {
+    pub fn applied(&self, state: &State, t: f64) -> State {
         let mut next = state.moved(&self.places, t);
         for (axial, step) in next.axial.iter_mut().zip(&self.axial) {
             *axial += step * t;

@@ -10,6 +10,7 @@ use super::settings::Settings;
 use super::solution::NO_FORCE;
 use super::solve::Solver;
 use super::state::State;
+use super::weak;
 
 /// Changes of the set of taut members before the iteration counts as failed.
 pub(super) const SIGN_CHANGES: usize = 30;
@@ -43,7 +44,7 @@ impl Solver<'_> {
             if let Some(decided) = decided.as_deref_mut() {
                 decided.renew(&self.framework, &state);
             }
-            let run = polish(
+            let mut run = polish(
                 &self.framework,
                 &mut self.stiffness,
                 &settings,
@@ -51,6 +52,13 @@ impl Solver<'_> {
                 patience,
                 decided.as_deref_mut(),
             );
+            if decided.is_none()
+                && run.residual.balance.0 <= tolerance
+                && run.residual.length.0 > tolerance
+            {
+                // Stiff members more than needed: their lengths settle with their true stiffness.
+                run = self.settled_weakly(run);
+            }
             self.factorisations += run.steps;
             if run.residual.size().is_nan() || run.residual.size() > tolerance {
                 let (system, framework) = (self.system, &self.framework);
@@ -59,7 +67,10 @@ impl Solver<'_> {
             let share = if change < CAREFUL_CHANGES { WORST_PUSH } else { 0.0 };
             state = match signs_mended(&self.framework, &self.settings, &run, share) {
                 Some(next) => next,
-                None if tight => return self.not_absurd(run),
+                None if tight => {
+                    let run = if decided.is_none() { self.settled_weakly(run) } else { run };
+                    return self.not_absurd(run);
+                }
                 None => {
                     tight = true;
                     run.state
@@ -68,6 +79,11 @@ impl Solver<'_> {
         }
         let run = Run::at(&self.framework, state);
         Err(run.residual.not_converged(self.system, &self.framework, self.factorisations))
+    }
+
+    /// With the forces of elastic members right to rounding.
+    fn settled_weakly(&mut self, run: Run) -> Run {
+        weak::settled(self.system, &self.framework, &mut self.stiffness, run)
     }
 
     /// Refuse forces that only rounding decides.

@@ -7,10 +7,10 @@ use nalgebra::Vector3;
 
 use super::elements;
 use super::error::Error;
+use super::fitted::fitted_forces;
 use super::floor::{above, below};
 use super::framework::{Framework, Link};
 use super::hanging::{FIRST_END, Hanging, LAST_END, SECOND_END};
-use super::law::by_direction;
 use super::newton::{Patience, Run};
 use super::possible::{check, check_loaded, is_loaded, too_short};
 use super::readings::nearly;
@@ -32,8 +32,6 @@ pub(super) const KICKS: [f64; 5] = [0.01, 0.1, 0.5, 1.0, 2.0];
 /// A system without loads whose elastic members all bear less than this part of their stiffness is
 /// not prestressed: that much is rounding.
 const NO_STRAIN: f64 = 1e-12;
-/// Ridge of the least squares for the forces of a seed, in units of the stiffness.
-const RIDGE: f64 = 1e-9;
 
 /// The hanging equilibrium of a system: the lowest one where every bar is in tension (then it is
 /// the only minimum), and a local minimum of the energy otherwise.
@@ -277,7 +275,10 @@ impl<'a> Solver<'a> {
         state.axial = match &seed.axial_n {
             Some(axial_n) => axial_n.iter().map(|axial| axial / units.force_n).collect(),
             None if self.system.is_unloaded() => self.prestress(&state),
-            None => self.best_forces(&state),
+            None => {
+                self.factorisations += 1;
+                fitted_forces(&self.framework, &mut self.stiffness, &state)
+            }
         };
         let directions = state.directions(&self.framework);
         for (k, link) in self.framework.links.iter().enumerate() {
@@ -307,22 +308,6 @@ impl<'a> Solver<'a> {
             if link.bears(force) { force } else { 0.0 }
         };
         self.framework.links.iter().zip(&directions).map(force).collect()
-    }
-
-    /// Axial forces that leave the joints least out of balance.
-    pub fn best_forces(&mut self, state: &State) -> Vec<f64> {
-        let directions = state.directions(&self.framework);
-        let blocks = directions.iter().map(|(u, _)| by_direction(u, 0.0, 1.0));
-        self.stiffness.assemble(&self.framework, blocks);
-        self.stiffness.shift(RIDGE);
-        self.stiffness.factorise_definite();
-        self.factorisations += 1;
-        let loads: Vec<_> = self.framework.nodes.iter().map(|node| node.load).collect();
-        let mut moves = self.stiffness.gather(&self.framework, &loads);
-        self.stiffness.solve(&mut moves);
-        let moves = self.stiffness.scatter(&self.framework, &moves);
-        let links = self.framework.links.iter().zip(&directions);
-        links.map(|(link, (u, _))| u.dot(&link.span(&moves))).collect()
     }
 }
 

@@ -32,7 +32,7 @@ pub enum SystemError {
         /// Number of the second of them, from 0.
         joint: usize,
     },
-    /// Occurs when a coordinate of a support is infinite or not a number.
+    /// Occurs when a coordinate of a support or of a drawing is infinite or not a number.
     #[error("the coordinates of joint {name:?} must be finite, got {coordinate_m} m")]
     Coordinate {
         /// Name of the joint.
@@ -147,6 +147,36 @@ pub enum SystemError {
         /// The component of largest size, or the first that is not finite.
         component_n: f64,
     },
+    /// Occurs when a drawing leaves a joint out.
+    #[error(
+        "joint {name:?} is not drawn: with a place near_m for one joint, all that are free need one"
+    )]
+    NotDrawn {
+        /// Name of the joint.
+        name: String,
+        /// Number of the joint, from 0.
+        joint: usize,
+    },
+    /// Occurs when two joints are drawn at one place.
+    #[error("joints {other:?} and {name:?} are drawn at one place")]
+    DrawnTogether {
+        /// Name of the second joint.
+        name: String,
+        /// Its number, from 0.
+        joint: usize,
+        /// Name of the first joint.
+        other: String,
+    },
+    /// Occurs when a joint is drawn where its support does not let it be.
+    #[error("joint {name:?} is drawn {} m away from where its support lets it be", Readable(*distance_m))]
+    DrawnOffSupport {
+        /// Name of the joint.
+        name: String,
+        /// Number of the joint, from 0.
+        joint: usize,
+        /// How far away.
+        distance_m: f64,
+    },
     /// Occurs when the height of the floor is infinite or not a number.
     #[error("the height of the floor must be finite, got {floor_m} m")]
     Floor {
@@ -209,6 +239,7 @@ pub(super) fn check(
         }
         check_joint(number, joint)?;
     }
+    super::drawing::check(joints)?;
     let mut pairs = HashMap::with_capacity(members.len());
     for (k, member) in members.iter().enumerate() {
         check_member(k + 1, member, joints)?;
@@ -227,7 +258,8 @@ pub(super) fn check(
 
 fn check_joint(number: usize, joint: &Joint) -> Result<(), SystemError> {
     let name = || joint.name.clone();
-    if let Some(coordinate_m) = joint.support.at_m().and_then(first_bad) {
+    let places = [joint.support.at_m(), joint.near_m];
+    if let Some(coordinate_m) = places.into_iter().flatten().find_map(first_bad) {
         return Err(SystemError::Coordinate { name: name(), joint: number, coordinate_m });
     }
     if let Support::Line { direction: [x, y, z], .. } | Support::Plane { normal: [x, y, z], .. } =

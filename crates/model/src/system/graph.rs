@@ -1,7 +1,7 @@
 //! Which joints are connected, and how far apart members let them be.
 
 use std::cmp::Ordering;
-use std::collections::{BinaryHeap, HashMap};
+use std::collections::{BinaryHeap, HashMap, HashSet};
 
 use super::System;
 
@@ -88,6 +88,27 @@ impl Graph {
             parts.push(part);
         }
         parts
+    }
+
+    /// Whether a way over members, without these, leads from a joint to another that is `held`.
+    pub(super) fn meets(
+        &self,
+        start: usize,
+        without: &[usize],
+        held: &impl Fn(usize) -> bool,
+    ) -> bool {
+        let (mut seen, mut open) = (HashSet::from([start]), vec![start]);
+        while let Some(joint) = open.pop() {
+            for &(member, other, _) in self.at(joint) {
+                if !without.contains(&member) && seen.insert(other) {
+                    if held(other) {
+                        return true;
+                    }
+                    open.push(other);
+                }
+            }
+        }
+        false
     }
 
     /// Shortest ways from a joint (Dijkstra), none longer than `limit_m`. With a member to leave

@@ -13,6 +13,9 @@ pub struct Joint {
     pub mass_kg: f64,
     /// A constant force at the joint besides the weight of its mass, world frame, N.
     pub force_n: Vector,
+    /// Where the structure is drawn with it, m: the equilibrium that is wanted is next to the
+    /// drawing. `None` for a joint that is held, or where nothing is drawn.
+    pub near_m: Option<Vector>,
 }
 
 /// What holds a joint. The force of a support is normal to the motion that it leaves free.
@@ -51,6 +54,32 @@ impl Support {
         }
     }
 
+    /// The place nearest to a point at which the support lets the joint be, m.
+    ///
+    /// ```
+    /// use model::system::Support;
+    /// let along_x = Support::Line { at_m: [0.0, 0.0, 2.0], direction: [1.0, 0.0, 0.0] };
+    /// assert_eq!(along_x.nearest_m([3.0, 4.0, 5.0]), [3.0, 0.0, 2.0]);
+    /// let level = Support::Plane { at_m: [0.0, 0.0, 2.0], normal: [0.0, 0.0, 1.0] };
+    /// assert_eq!(level.nearest_m([3.0, 4.0, 5.0]), [3.0, 4.0, 2.0]);
+    /// ```
+    #[must_use]
+    pub fn nearest_m(&self, point_m: Vector) -> Vector {
+        let part = |at_m: Vector, along: Vector| -> f64 {
+            (0..3).map(|k| (point_m[k] - at_m[k]) * along[k]).sum()
+        };
+        match *self {
+            Self::Free => point_m,
+            Self::Fixed { at_m } => at_m,
+            Self::Line { at_m, direction } => {
+                std::array::from_fn(|k| at_m[k] + part(at_m, direction) * direction[k])
+            }
+            Self::Plane { at_m, normal } => {
+                std::array::from_fn(|k| point_m[k] - part(at_m, normal) * normal[k])
+            }
+        }
+    }
+
     /// Whether the joint can move at all.
     #[must_use]
     pub fn is_fixed(&self) -> bool {
@@ -62,7 +91,8 @@ impl Joint {
     /// A joint that only its members hold.
     #[must_use]
     pub fn free(name: impl Into<String>) -> Self {
-        Self { name: name.into(), support: Support::Free, mass_kg: 0.0, force_n: [0.0; 3] }
+        let support = Support::Free;
+        Self { name: name.into(), support, mass_kg: 0.0, force_n: [0.0; 3], near_m: None }
     }
 
     /// A joint that cannot move.
@@ -94,5 +124,24 @@ impl Joint {
     #[must_use]
     pub fn with_force(self, force_n: Vector) -> Self {
         Self { force_n, ..self }
+    }
+
+    /// The same joint, drawn at this place, m.
+    #[must_use]
+    pub fn near(self, near_m: Vector) -> Self {
+        Self { near_m: Some(near_m), ..self }
+    }
+
+    /// Where it is drawn, m: its place in the drawing, or else that of its support.
+    ///
+    /// ```
+    /// use model::system::Joint;
+    /// assert_eq!(Joint::free("P").near([1.0, 0.0, 2.0]).drawn_m(), Some([1.0, 0.0, 2.0]));
+    /// assert_eq!(Joint::anchor("A", [0.0; 3]).drawn_m(), Some([0.0; 3]));
+    /// assert_eq!(Joint::free("Q").drawn_m(), None);
+    /// ```
+    #[must_use]
+    pub fn drawn_m(&self) -> Option<Vector> {
+        self.near_m.or_else(|| self.support.at_m())
     }
 }

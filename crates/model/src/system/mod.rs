@@ -15,6 +15,7 @@
 
 mod answer;
 mod convert;
+mod drawing;
 mod error;
 mod graph;
 mod joint;

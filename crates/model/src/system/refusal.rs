@@ -1,7 +1,7 @@
 //! Systems that are no equilibrium problem.
 
-use super::System;
 use super::graph::Graph;
+use super::{Support, System};
 use crate::readable::{Computed, Readable};
 
 /// Why a system has no equilibrium to be found.
@@ -132,6 +132,8 @@ const PAIRS: usize = 2_000_000;
 impl System {
     /// Accept the system as an equilibrium problem, or say why it has no answer.
     ///
+    /// Joints in one straight line between others are refused only where no other member holds them.
+    ///
     /// Lengths are held against every loop of members that is shortest for one of its members, and
     /// against the shortest ways between anchors (where anchors times members are at most two
     /// million): conditions that are necessary, and for chains sufficient.
@@ -239,6 +241,9 @@ impl System {
                 let (from, to) = (joints[start].name.clone(), joints[joint].name.clone());
                 let near = distance_m.max(reach_m) * crate::STRAIGHT_TOLERANCE;
                 if (reach_m - distance_m).abs() <= near {
+                    if self.holds_inner(graph, &ways.way(joint), None) {
+                        continue;
+                    }
                     return Err(SystemRefusal::Taut { from, to, joint, distance_m, reach_m });
                 }
                 if reach_m < distance_m {
@@ -247,6 +252,22 @@ impl System {
             }
         }
         Ok(())
+    }
+
+    /// Whether other members hold every joint that is inside a way over members in one line: joints
+    /// of trusses lie straight between others and are held by their diagonals. Nothing else holds
+    /// those of a taut rope, and a load there has no finite force.
+    fn holds_inner(&self, graph: &Graph, way: &[usize], also: Option<usize>) -> bool {
+        let inner = &way[1..way.len() - 1];
+        let mut along: Vec<usize> = also.into_iter().collect();
+        for pair in way.windows(2) {
+            along.extend(graph.at(pair[0]).iter().filter(|end| end.1 == pair[1]).map(|end| end.0));
+        }
+        let held = |joint: usize| {
+            let support = &self.joints()[joint].support;
+            matches!(support, Support::Fixed { .. } | Support::Line { .. }) || way.contains(&joint)
+        };
+        !inner.is_empty() && inner.iter().all(|joint| graph.meets(*joint, &along, &held))
     }
 
     fn loops_close(&self, graph: &Graph) -> Result<(), SystemRefusal> {
@@ -258,10 +279,14 @@ impl System {
             let near = length_m * crate::STRAIGHT_TOLERANCE;
             let ways = graph.distances(member.from, length_m + near, Some((k, member.to)));
             let Some(rest_m) = ways.get(member.to) else { continue };
+            let folded = (length_m - rest_m).abs() <= near;
+            if folded && self.holds_inner(graph, &ways.way(member.to), Some(k)) {
+                continue;
+            }
             let (number, name) = (k + 1, |joint: usize| self.joints()[joint].name.clone());
             let (from, to) = (name(member.from), name(member.to));
             let way = shortened(ways.way(member.to).into_iter().map(name).collect());
-            return Err(if (length_m - rest_m).abs() <= near {
+            return Err(if folded {
                 SystemRefusal::Folded { member: number, from, to, length_m, way }
             } else {
                 SystemRefusal::TooLong { member: number, from, to, length_m, rest_m, way }

@@ -15,13 +15,14 @@ use super::load::{Loaded, load};
 use super::loads;
 use super::network;
 use super::source::Source;
-use super::table::{Table, Value};
+use super::table::Table;
 use crate::{Anchors, Bar, BarError, Chain, ChainError, Problem, Refusal, STANDARD_GRAVITY_M_S2};
 
 const ROOT_KEYS: &[&str] = &[
     "name",
     "gravity_m_s2",
     "floor_m",
+    "plane",
     "anchors",
     "bars",
     "bars_file",
@@ -75,6 +76,10 @@ impl Source<'_> {
         root.only(ROOT_KEYS)?;
         if root.get("joints").is_some() || root.get("joints_file").is_some() {
             return network::read(&root).map(Described::System);
+        }
+        if root.get("plane").is_some() {
+            let kind = Kind::Conflict { key: "plane", other: "anchors" };
+            return Err(root.error(kind, "plane"));
         }
         let (chain, places) = self.chain_of(&root)?;
         if root.get("loads").is_none() && root.get("floor_m").is_none() {
@@ -141,7 +146,7 @@ impl Source<'_> {
         let tree = self.tree()?;
         let root = Table::root(self, tree.get_ref());
         root.only(ROOT_KEYS)?;
-        for key in ["joints", "joints_file", "loads", "floor_m"] {
+        for key in ["joints", "joints_file", "loads", "floor_m", "plane"] {
             if root.get(key).is_some() {
                 return Err(root.error(Kind::NotAChain { key }, key));
             }
@@ -232,7 +237,7 @@ fn bars(root: &Table<'_>, tables: &DeArray<'_>) -> Result<(Vec<Bar>, Origin), Sy
         let table = root.table(&format!("bars[{}]", k + 1), value)?;
         table.only(BAR_KEYS)?;
         let length = table.require("length_m", "a length in metres")?;
-        let bar = bar(&table, length)?;
+        let bar = bar(&table, table.number_of("length_m", length)?)?;
         let count = table.count("count")?;
         if count > most_bars() - bars.len() {
             return Err(table.error(Kind::TooManyBars { limit: most_bars() }, "count"));
@@ -245,8 +250,7 @@ fn bars(root: &Table<'_>, tables: &DeArray<'_>) -> Result<(Vec<Bar>, Origin), Sy
 }
 
 /// The body of one bar: length, mass, centre, moments.
-pub(super) fn bar(table: &Table<'_>, length: &Value<'_>) -> Result<Bar, SystemFileError> {
-    let length_m = table.number_of("length_m", length)?;
+pub(super) fn bar(table: &Table<'_>, length_m: f64) -> Result<Bar, SystemFileError> {
     let mass = table.require("mass_kg", "a mass in kilograms")?;
     let mass_kg = table.number_of("mass_kg", mass)?;
     let centre_m = table.number("centre_m")?;

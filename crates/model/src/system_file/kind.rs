@@ -114,6 +114,42 @@ pub enum SystemFileErrorKind {
         /// The one most like it.
         suggestion: Option<&'static str>,
     },
+    /// Occurs when a joint lies outside the plane that all are to keep to.
+    #[error(
+        "joint {joint:?} lies at {axis} = {} m, and the plane {plane:?} of the others at {axis} = {} m",
+        Readable(*at_m), Readable(*plane_m)
+    )]
+    OffPlane {
+        /// Name of the joint.
+        joint: String,
+        /// The plane.
+        plane: &'static str,
+        /// The coordinate that all have in common.
+        axis: char,
+        /// That of the joint.
+        at_m: f64,
+        /// That of the plane.
+        plane_m: f64,
+    },
+    /// Occurs when a joint slides out of the plane that all are to keep to.
+    #[error("joint {joint:?} slides out of the plane {plane:?}")]
+    LeavesPlane {
+        /// Name of the joint.
+        joint: String,
+        /// The plane.
+        plane: &'static str,
+    },
+    /// Occurs when a member takes its length from the drawing, and its joints are drawn at one
+    /// place.
+    #[error(
+        "joints {from:?} and {to:?} are drawn at one place: a member between them has no length"
+    )]
+    NoDrawnLength {
+        /// Name of a joint.
+        from: String,
+        /// Name of the other.
+        to: String,
+    },
     /// Occurs when a load acts on an anchor, where it moves nothing.
     #[error("joint {joint:?} is an anchor: a load there goes straight into the ground")]
     LoadedAnchor {
@@ -284,6 +320,11 @@ impl SystemFileErrorKind {
             Self::OutOfScope { .. } => SCOPE,
             Self::NotAChain { .. } => "only commands for any system read such files",
             Self::LoadedAnchor { .. } => "remove the load, or put it on a joint that can move",
+            Self::OffPlane { .. } | Self::LeavesPlane { .. } => {
+                "with `plane` all joints lie in one plane and stay in it; without, every joint says \
+                 itself how it slides"
+            }
+            Self::NoDrawnLength { .. } => "give the member a length_m, or draw one joint elsewhere",
             Self::NoLoadGiven => {
                 "mass_kg hangs a mass there, force_n = [x, y, z] pulls with a constant force"
             }
@@ -380,6 +421,10 @@ fn system_help(error: &SystemError) -> Option<&'static str> {
         SystemError::Overflow { .. } | SystemError::Underflow { .. } => {
             Some("check the units: lengths are in metres, masses in kilograms, forces in newtons")
         }
+        SystemError::NotDrawn { .. } => Some(
+            "give it a place: near_m = [x, y, z]; without any near_m the lowest equilibrium is found",
+        ),
+        SystemError::DrawnTogether { .. } => Some("give one of them another place near_m"),
         SystemError::NoMembers => Some("describe every bar under a line [[bars]]"),
         _ => None,
     }

@@ -79,6 +79,7 @@ pub mod columns;
 mod csv;
 mod described;
 mod document;
+mod drawing;
 mod duplicate;
 mod error;
 mod json;

@@ -7,11 +7,12 @@ use toml::Spanned;
 use toml::de::DeArray;
 
 use super::document::bar;
+use super::drawing;
 use super::error::SystemFileError;
 use super::kind::SystemFileErrorKind as Kind;
 use super::limits::most_bars;
 use super::network_rows::{self, FREE, member_kind};
-use super::row_table::Row;
+use super::row_table::{Known, Row};
 use super::sheet::SheetFile;
 use super::suggest::nearest;
 use super::table::{Table, Value};
@@ -22,8 +23,8 @@ use crate::system::{
 };
 
 const ROOT_KEYS: &[&str] =
-    &["name", "gravity_m_s2", "floor_m", "joints", "joints_file", "bars", "bars_file"];
-const JOINT_KEYS: &[&str] = &["at_m", "free", "along", "normal", "mass_kg", "force_n"];
+    &["name", "gravity_m_s2", "floor_m", "plane", "joints", "joints_file", "bars", "bars_file"];
+const JOINT_KEYS: &[&str] = &["at_m", "near_m", "free", "along", "normal", "mass_kg", "force_n"];
 const MEMBER_KEYS: &[&str] = &[
     "from",
     "to",
@@ -42,6 +43,10 @@ const FORCE_KEYS: &[&str] = &["force_n", "at_m"];
 const WANTED_JOINTS: &str = "a table of joints, such as A = { at_m = [0, 0, 0] }";
 const WANTED_BARS: &str = "one or more tables [[bars]] with from, to, length_m and mass_kg";
 
+/// The columns of a file of bars, between joints that are drawn or not.
+const BARS: &Known = &network_rows::BARS;
+const DRAWN_BARS: &Known = &network_rows::DRAWN_BARS;
+
 /// So many joints are looked through for the one that was meant.
 const MOST_NAMES: usize = 10_000;
 
@@ -52,6 +57,8 @@ struct Reading<'a> {
     /// Where each named joint stands.
     joint_spans: Vec<Range<usize>>,
     numbers: HashMap<String, usize>,
+    /// Whether a place is drawn for any joint.
+    drawn: bool,
     members: Vec<Member>,
     /// Where each `[[bars]]` table stands, with the number of its first member, from 1.
     tables: Vec<(usize, Range<usize>)>,
@@ -76,6 +83,7 @@ pub(super) fn read(root: &Table<'_>) -> Result<System, SystemFileError> {
         joints: Vec::new(),
         joint_spans: Vec::new(),
         numbers: HashMap::new(),
+        drawn: false,
         members: Vec::new(),
         tables: Vec::new(),
         joints_file: None,
@@ -83,6 +91,7 @@ pub(super) fn read(root: &Table<'_>) -> Result<System, SystemFileError> {
     };
     reading.joints()?;
     reading.joints_of_file()?;
+    reading.drawn = reading.joints.iter().any(|joint| joint.near_m.is_some());
     reading.bars()?;
     reading.finish(name, gravity)
 }
@@ -127,11 +136,17 @@ impl Reading<'_> {
         }
         let mut members = Vec::new();
         let number = |name: &str| self.number(name);
+        let is_drawn = self.drawn;
+        let drawn = |from: usize, to: usize| {
+            let (from, to) = (&self.joints[from], &self.joints[to]);
+            if is_drawn { drawing::length_m(from, to, 1) } else { Ok(None) }
+        };
         let mut take = |row: &Row<'_>| {
-            members.push(network_rows::member(row, &number)?);
+            members.push(network_rows::member(row, &number, &drawn)?);
             Ok(())
         };
-        let file = SheetFile::read(self.root, "bars_file", &network_rows::BARS, &mut take)?;
+        let known = if is_drawn { DRAWN_BARS } else { BARS };
+        let file = SheetFile::read(self.root, "bars_file", known, &mut take)?;
         self.bars_file = file;
         self.members = members;
         Ok(())
@@ -158,8 +173,14 @@ impl Reading<'_> {
         table.only(MEMBER_KEYS)?;
         let (from, from_name) = self.joint(table, "from")?;
         let (to, to_name) = self.joint(table, "to")?;
-        let model = member(table)?;
         let count = table.count("count")?;
+        let ends = self.drawn.then(|| [from, to].map(|end| self.joints[end].clone()));
+        let drawn = || {
+            let length = |[from, to]: &[Joint; 2]| drawing::length_m(from, to, count);
+            let length = ends.as_ref().map_or(Ok(None), length);
+            length.map_err(|kind| table.error(kind, "length_m"))
+        };
+        let model = member(table, &drawn)?;
         if count > most_bars() - self.members.len() {
             return Err(table.error(Kind::TooManyBars { limit: most_bars() }, "count"));
         }
@@ -169,7 +190,11 @@ impl Reading<'_> {
             let there = if k == count {
                 to
             } else {
-                self.joints.push(Joint::free(format!("{run}.{k}")));
+                let name = format!("{run}.{k}");
+                self.joints.push(match &ends {
+                    Some([from, to]) => drawing::between(name, from, to, k, count),
+                    None => Joint::free(name),
+                });
                 self.joints.len() - 1
             };
             self.members.push(Member { from: here, to: there, ..model.clone() });
@@ -218,9 +243,8 @@ impl Reading<'_> {
     }
 
     fn finish(self, name: &str, gravity_m_s2: f64) -> Result<System, SystemFileError> {
-        let Self { root, joints, joint_spans, members, tables, joints_file, bars_file, numbers } =
+        let Self { root, mut joints, joint_spans, members, tables, joints_file, bars_file, .. } =
             self;
-        drop(numbers);
         let names: Vec<String> =
             joints.iter().take(joint_spans.len()).map(|joint| joint.name.clone()).collect();
         // What stands in the file as a joint or a table of bars is the place of an error about it.
@@ -241,6 +265,12 @@ impl Reading<'_> {
             let span = tables[table - 1].1.clone();
             root.error_at(kind, &format!("bars[{table}]"), span)
         };
+        if let Some(plane) = root.text("plane")? {
+            drawing::keep_to_plane(&mut joints, plane).map_err(|(joint, kind)| match joint {
+                Some(joint) => at_joint(kind, joint),
+                None => root.error(kind, "plane"),
+            })?;
+        }
         let floor_m = root.number("floor_m")?;
         let above_floor = |system: System| match floor_m {
             Some(floor_m) => system.with_floor(floor_m),
@@ -256,6 +286,9 @@ impl Reading<'_> {
                 | SystemError::Direction { joint, .. }
                 | SystemError::Mass { joint, .. }
                 | SystemError::BelowFloor { joint, .. }
+                | SystemError::NotDrawn { joint, .. }
+                | SystemError::DrawnTogether { joint, .. }
+                | SystemError::DrawnOffSupport { joint, .. }
                 | SystemError::Force { joint, .. } => {
                     let joint = *joint;
                     at_joint(Kind::System(error), joint)
@@ -305,8 +338,12 @@ fn joint(name: &str, table: &Table<'_>) -> Result<Joint, SystemFileError> {
     {
         return Err(table.error(Kind::LoadedAnchor { joint: name.to_owned() }, key));
     }
-    let force_n = force_n.unwrap_or_default();
-    Ok(Joint { name: name.to_owned(), support, mass_kg: mass.unwrap_or(0.0), force_n })
+    let near_m = vector("near_m")?;
+    if support.is_fixed() && near_m.is_some() {
+        return Err(table.error(Kind::Conflict { key: "near_m", other: "at_m" }, "near_m"));
+    }
+    let (force_n, mass_kg) = (force_n.unwrap_or_default(), mass.unwrap_or(0.0));
+    Ok(Joint { name: name.to_owned(), support, mass_kg, force_n, near_m })
 }
 
 fn support(table: &Table<'_>, at_m: Option<Vector>) -> Result<Support, SystemFileError> {
@@ -370,10 +407,21 @@ fn unit(table: &Table<'_>, key: &'static str) -> Result<Vector, SystemFileError>
     }
 }
 
-/// The member that a `[[bars]]` table describes, without its joints.
-fn member(table: &Table<'_>) -> Result<Member, SystemFileError> {
-    let length = table.require("length_m", "a length in metres")?;
-    let body = bar(table, length)?;
+/// The member that a `[[bars]]` table describes, without its joints; its length, where none is
+/// given, is that of the drawing.
+fn member(
+    table: &Table<'_>,
+    drawn: &dyn Fn() -> Result<Option<f64>, SystemFileError>,
+) -> Result<Member, SystemFileError> {
+    const WANTED: &str = "a length in metres, or places near_m of the joints";
+    let length_m = match table.number("length_m")? {
+        Some(length_m) => length_m,
+        None => match drawn()? {
+            Some(length_m) => length_m,
+            None => table.number_of("length_m", table.require("length_m", WANTED)?)?,
+        },
+    };
+    let body = bar(table, length_m)?;
     let kind = member_kind(table.text("kind")?).map_err(|kind| table.error(kind, "kind"))?;
     let mut loads = Vec::new();
     if let Some(value) = table.get("forces") {

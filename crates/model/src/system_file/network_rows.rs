@@ -7,6 +7,7 @@ use crate::system::{Joint, Kind as MemberKind, Member, PointLoad, PrestressError
 use crate::{Bar, BarError, Vector};
 
 const PLACE: [&str; 3] = ["x_m", "y_m", "z_m"];
+const NEAR: [&str; 3] = ["near_x_m", "near_y_m", "near_z_m"];
 const FORCE: [&str; 3] = ["force_x_n", "force_y_n", "force_z_n"];
 
 /// The columns of joints.
@@ -22,6 +23,9 @@ pub(super) const JOINTS: Known = Known {
         "force_x_n",
         "force_y_n",
         "force_z_n",
+        "near_x_m",
+        "near_y_m",
+        "near_z_m",
     ],
     needed: &[],
 };
@@ -43,13 +47,19 @@ pub(super) const BARS: Known = Known {
         "force_z_n",
         "force_at_m",
     ],
-    needed: &[
-        ("from", "a column of names of joints"),
-        ("to", "a column of names of joints"),
-        ("length_m", "a column of lengths in metres"),
-        ("mass_kg", "a column of masses in kilograms"),
-    ],
+    needed: NEEDED,
 };
+
+const NEEDED: &[(&str, &str)] = &[
+    ("from", "a column of names of joints"),
+    ("to", "a column of names of joints"),
+    ("mass_kg", "a column of masses in kilograms"),
+    ("length_m", "a column of lengths in metres, or the places near_m of the joints"),
+];
+
+/// The columns of bars between joints that are drawn: their lengths may be those of the drawing.
+pub(super) const DRAWN_BARS: Known =
+    Known { columns: BARS.columns, needed: NEEDED.split_at(NEEDED.len() - 1).0 };
 
 /// The kinds of members by their words; the first is meant where none is named.
 const KINDS: [(&str, MemberKind); 3] =
@@ -92,7 +102,11 @@ pub(super) fn joint(row: &Row<'_>) -> Result<Joint, Wrong> {
             loaded(force_n[k].abs() > 0.0).map_err(|kind| (Some(FORCE[k]), kind))?;
         }
     }
-    Ok(Joint { name, support, mass_kg, force_n })
+    let near_m = row.vector(NEAR)?;
+    if support.is_fixed() && near_m.is_some() {
+        return Err((Some(NEAR[0]), Kind::Conflict { key: NEAR[0], other: PLACE[0] }));
+    }
+    Ok(Joint { name, support, mass_kg, force_n, near_m })
 }
 
 /// A joint with a place is held there, unless `fixed` says that the place is only where it was
@@ -138,14 +152,22 @@ pub(super) fn sliding(word: &str, at_m: Vector) -> Option<Support> {
     })
 }
 
-/// The member of a row, between joints whose numbers `number` knows.
+/// The member of a row, between joints whose numbers `number` knows, and their distance where they
+/// are drawn `drawn`.
 pub(super) fn member(
     row: &Row<'_>,
     number: &dyn Fn(&str) -> Result<usize, Kind>,
+    drawn: &dyn Fn(usize, usize) -> Result<Option<f64>, Kind>,
 ) -> Result<Member, Wrong> {
     let joint = |column| number(&row.name(column)?).map_err(|kind| (Some(column), kind));
     let (from, to) = (joint("from")?, joint("to")?);
-    let (length_m, mass_kg) = (row.needed("length_m")?, row.needed("mass_kg")?);
+    let given = row.number("length_m")?;
+    let drawn = || drawn(from, to).map_err(|kind| (Some("length_m"), kind));
+    let length_m = match given.map_or_else(drawn, |given| Ok(Some(given)))? {
+        Some(length_m) => length_m,
+        None => row.needed("length_m")?,
+    };
+    let mass_kg = row.needed("mass_kg")?;
     let body = Bar::given(length_m, mass_kg, row.number("centre_m")?, None).map_err(|error| {
         let column = match error {
             BarError::Mass { .. } => "mass_kg",

@@ -44,6 +44,9 @@ fn entry(joint: &Joint) -> String {
         Support::Plane { normal, .. } => keys.push(format!("normal = {}", vector(normal))),
         Support::Free | Support::Fixed { .. } => {}
     }
+    if let Some(near_m) = joint.near_m {
+        keys.push(format!("near_m = {}", vector(near_m)));
+    }
     if differ(&[joint.mass_kg], &[0.0]) {
         keys.push(format!("mass_kg = {:?}", joint.mass_kg));
     }

@@ -5,6 +5,7 @@
 mod advice;
 mod columns;
 mod constructors;
+mod drawings;
 mod evidence_parts;
 mod evidence_words;
 mod files;

@@ -1,11 +1,12 @@
 //! One question to both solvers about a system: their answers compared, judged and certified.
 
 use model::system::{Row, System, SystemEquilibrium};
-use model::{NoAnswer, NoCensus, Reason, SolverName, Status};
+use model::{NoAnswer, NoCensus, Reason, SolverName, Status, Vector};
 use serde::Serialize;
 
 use super::compare::{SystemAgreement, compare, judge_alone, judge_without};
 use super::completeness::look_up;
+use super::near::{Near, lower_j, next_to};
 use super::verified::verify;
 use crate::answer::{Solvers, UseCensus};
 use crate::tolerances::Tolerances;
@@ -19,6 +20,9 @@ pub struct SystemAnswer {
     pub failures: Vec<SystemFailure>,
     /// The comparison, if there are two to compare.
     pub agreement: Option<SystemAgreement>,
+    /// How the first of them lies to the drawing, where the system is drawn: then the question is
+    /// the equilibrium next to it, and else the lowest of all.
+    pub near: Option<Near>,
 }
 
 /// Why a solver has no answer for a system.
@@ -59,7 +63,8 @@ impl SystemAnswer {
     }
 }
 
-/// Ask. `watch` is told what is being done.
+/// Ask for the lowest equilibrium, or for the one next to the structure as it is drawn
+/// ([`System::drawing`]). `watch` is told what is being done.
 ///
 /// A solver that has no answer does not take the other's away: see [`SystemAnswer::failures`].
 ///
@@ -86,17 +91,9 @@ pub fn ask_with(
     census: UseCensus,
     watch: &dyn Fn(&str),
 ) -> SystemAnswer {
-    let members = system.members().len();
-    let row = system.as_row();
-    let mut answers: Vec<Result<SystemEquilibrium, SystemFailure>> = vec![];
-    if solvers != Solvers::Energy {
-        watch(&format!("lagrange: forces and closures of {members} members"));
-        answers.push(by_lagrange(system, row.as_ref()));
-    }
-    if solvers != Solvers::Lagrange {
-        watch(&format!("energy: minimisation over the places of {} joints", system.joints().len()));
-        answers.push(by_energy(system, row.as_ref()));
-    }
+    let drawing_m = system.drawing();
+    let mut answers = answers(system, drawing_m.as_deref(), solvers, watch);
+    let mut near = drawing_m.and_then(|drawing_m| next_to(system, &drawing_m, &mut answers));
     watch("the judges");
     let (mut equilibria, mut failures) = (vec![], vec![]);
     for answer in answers {
@@ -117,7 +114,43 @@ pub fn ask_with(
         verify(system, &mut equilibria);
         look_up(system, census, &mut equilibria);
     }
-    SystemAnswer { equilibria, failures, agreement }
+    if let (Some(near), Some(first)) = (&mut near, equilibria.first())
+        && census != UseCensus::Never
+    {
+        watch("the lowest equilibrium");
+        near.lower_j = lower_j(system, solvers, first);
+    }
+    SystemAnswer { equilibria, failures, agreement, near }
+}
+
+/// What the solvers find, each by its own method: next to the drawing, or the lowest.
+fn answers(
+    system: &System,
+    drawing_m: Option<&[Vector]>,
+    solvers: Solvers,
+    watch: &dyn Fn(&str),
+) -> Vec<Result<SystemEquilibrium, SystemFailure>> {
+    let row = system.as_row();
+    let mut answers: Vec<Result<SystemEquilibrium, SystemFailure>> = vec![];
+    if solvers != Solvers::Energy {
+        use lagrange::network::{Seed, Settings, solve_from};
+        watch(&format!("lagrange: forces and closures of {} members", system.members().len()));
+        let near = |drawing_m: &[Vector]| {
+            let found = solve_from(system, &Seed::at(drawing_m.to_vec()), &Settings::default())?;
+            Ok(found.equilibrium)
+        };
+        answers.push(drawing_m.map_or_else(|| by_lagrange(system, row.as_ref()), near));
+    }
+    if solvers != Solvers::Lagrange {
+        use energy::network::{Settings, minimise_near};
+        watch(&format!("energy: minimisation over the places of {} joints", system.joints().len()));
+        let near = |drawing_m: &[Vector]| {
+            let found = minimise_near(system, drawing_m, &Settings::default())?;
+            Ok(found.equilibrium)
+        };
+        answers.push(drawing_m.map_or_else(|| by_energy(system, row.as_ref()), near));
+    }
+    answers
 }
 
 /// A row between two anchors by the condensed equations, where these have an answer; any other system by all members.

@@ -16,6 +16,7 @@ mod forces;
 pub(crate) mod free;
 #[cfg(test)]
 mod free_tests;
+mod near;
 mod prestress;
 mod proved;
 mod scale;
@@ -30,6 +31,7 @@ pub use ask::{SystemAnswer, SystemFailure, ask, ask_with};
 pub use certificate::certify;
 pub use compare::{SystemAgreement, compare, judge_alone};
 pub use completeness::{certify_by_census, look_up};
+pub use near::Near;
 pub use prestress::{Held, PrestressStability, Standing, Stress, prestress_stability};
 pub use statics::{SystemStatics, judge};
 pub use verified::verify;

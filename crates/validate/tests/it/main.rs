@@ -10,6 +10,7 @@ mod chains_cables;
 mod chains_catenary;
 mod chains_million;
 mod chains_stability;
+mod drawn;
 mod external;
 mod field;
 mod first_tries;

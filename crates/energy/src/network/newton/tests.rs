@@ -35,7 +35,8 @@ fn newton() -> Newton {
     };
     let factor = Factor::new(&frame.spots, &frame.rods).unwrap();
     let settings = Settings::default();
-    Newton::new(Arc::new(frame), factor, settings, &[2.0, -1.0], false, FIRST_STRAIN)
+    let pace = Pace { strain: FIRST_STRAIN, near: NEAR, step: STEP, own: false };
+    Newton::new(Arc::new(frame), factor, settings, &[2.0, -1.0], pace)
 }
 
 fn places(first: f64, second: f64) -> Shape {

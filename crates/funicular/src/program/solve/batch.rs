@@ -6,6 +6,7 @@ use std::io::{self, BufReader, ErrorKind, IsTerminal as _, Write as _};
 use std::ops::ControlFlow;
 use std::path::Path;
 
+use formats::answer::Answer;
 use funicular::{Problem, Solve};
 use miette::miette;
 use validate::answer::UseCensus;
@@ -15,6 +16,7 @@ use super::object::{self, Origin, Unanswered};
 use crate::diagnostics::tell;
 use crate::exit::{Exit, Failure};
 use crate::in_order::in_order;
+use crate::input::next_to;
 use crate::interrupt::{end_between_lines, whole_line};
 use crate::output;
 use crate::progress::Progress;
@@ -27,7 +29,8 @@ pub fn run(arguments: &super::Solve, path: &Path) -> Result<Exit, Failure> {
     let lines = open(path)?;
     // A census takes far longer than a solution.
     let solve = arguments.question(UseCensus::Never);
-    let work = |line: Line| answer(&solve, &line, arguments.summary);
+    let shape = arguments.shape()?;
+    let work = |line: Line| answer(&solve, &line, shape.as_ref(), arguments.summary);
     // What is written to a terminal is progress enough.
     let progress = (!io::stdout().is_terminal()).then(Progress::start);
     let mut tally = Tally::default();
@@ -72,11 +75,17 @@ fn open(path: &Path) -> Result<Lines, Failure> {
 }
 
 /// The answer to a line as a line.
-fn answer(solve: &Solve, line: &Line, summary: bool) -> (String, Exit) {
+fn answer(solve: &Solve, line: &Line, shape: Option<&Answer>, summary: bool) -> (String, Exit) {
+    let drawn = |problem: Problem| match shape {
+        Some(shape) => next_to(&problem, shape),
+        None => Ok(problem),
+    };
     let origin = Origin::Line(line.number);
     let (text, exit) = match &line.text {
         Err(reason) => (Unanswered::because(reason).line(origin), Exit::BadInput),
-        Ok(text) => match Problem::parse(text, "line").and_then(|problem| solve.run_here(&problem))
+        Ok(text) => match Problem::parse(text, "line")
+            .and_then(drawn)
+            .and_then(|problem| solve.run_here(&problem))
         {
             Ok(solution) => {
                 let exit = super::verdict(solution.check_failed(), solution.is_decided());

@@ -3,6 +3,7 @@
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
+use formats::answer::Answer;
 use funicular::Solution;
 use miette::miette;
 use validate::answer::UseCensus;
@@ -11,7 +12,7 @@ use super::object::{self, Origin, Unanswered};
 use crate::answer;
 use crate::exit::{Exit, Failure};
 use crate::in_order::in_order;
-use crate::input;
+use crate::input::{self, next_to};
 use crate::interrupt::end_on_interrupt;
 use crate::output;
 use crate::printable::Printable;
@@ -53,7 +54,8 @@ pub fn run(arguments: &super::Solve) -> Result<Exit, Failure> {
             }
         }
     };
-    let work = |path: &PathBuf| one(arguments, path);
+    let shape = arguments.shape()?;
+    let work = |path: &PathBuf| one(arguments, path, shape.as_ref());
     in_order(
         rayon::current_num_threads(),
         arguments.files.iter(),
@@ -64,12 +66,16 @@ pub fn run(arguments: &super::Solve) -> Result<Exit, Failure> {
     stopped.map_or(Ok(worst), Err)
 }
 
-fn one(arguments: &super::Solve, path: &Path) -> Said {
+fn one(arguments: &super::Solve, path: &Path, shape: Option<&Answer>) -> Said {
     let name = path.display().to_string();
     let origin = Origin::File(&name);
     let solve = arguments.question(UseCensus::Auto);
     let read = input::problem(Some(path), None);
-    let solved = read.and_then(|input| Ok(solve.run_here(&input.problem)?));
+    let solved = read.and_then(|input| {
+        let problem = input.problem;
+        let problem = shape.map_or(Ok(problem.clone()), |shape| next_to(&problem, shape))?;
+        Ok(solve.run_here(&problem)?)
+    });
     let failure = match solved {
         Ok(solution) => return said(arguments, origin, &solution),
         Err(failure) => failure,

@@ -131,6 +131,10 @@ fn refusals_of_energy_for_systems() {
         ),
         of(&Error::NoMinimum { index: 10 }, &["in 10 independent directions"]),
         of(
+            &Error::NoMinimumNear { joint: "P".into(), moved_m: 14.5 },
+            &["no minimum near the drawing", "joint P is 14.5 m away"],
+        ),
+        of(
             &Error::WrongSign { member: 11, force_n: -6.5 },
             &["would balance with -6.5 N in member 11"],
         ),
@@ -155,6 +159,7 @@ fn refusals_of_energy_for_systems() {
         "iteration_limit",
         "stalled",
         "no_minimum",
+        "no_minimum_near",
         "wrong_sign",
         "floor_pulls",
         "not_finite",
@@ -166,7 +171,8 @@ fn refusals_of_energy_for_systems() {
     output.is("value", 2.5);
     output.is("low", 1e-14);
     output.is("high", 0.5);
-    output.is("joint", json!([3, 4, 12]));
+    output.is("joint", json!([3, 4, "P", 12]));
+    output.is("moved_m", 14.5);
     output.is("direction[]", json!([0.25, 0.75, -1.5]));
     output.is("force_n", json!([5.5, -6.5, 7.5]));
     output.is("joints", 6);

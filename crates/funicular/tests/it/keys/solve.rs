@@ -406,3 +406,25 @@ pub fn refusals_of_a_fall(output: &mut Output) {
     output.is("failures[].refusal.member", 1);
     output.near("failures[].refusal.force_n", 1e-9, 10.0);
 }
+
+/// A rod of 1 m and 1 kg at its top, drawn on its head and 0.1 m short: it stands there, and would
+/// hang with 2 m less of height.
+#[test]
+fn a_drawn_rod() {
+    let folder = tempfile::tempdir().unwrap();
+    let rod = "gravity_m_s2 = 10\nplane = \"xz\"\n[joints]\nfoot = { at_m = [0, 0, 0] }\n\
+        P = { near_m = [0, 0, 0.9], mass_kg = 1 }\n[[bars]]\nfrom = \"foot\"\nto = \"P\"\nlength_m = 1\n\
+        mass_kg = 0\n";
+    std::fs::write(folder.path().join("rod.toml"), rod).unwrap();
+    // `energy` finds minima alone, and there is none: undecided.
+    let (code, text) = run(folder.path(), &["solve", "rod.toml", "--json"]);
+    assert_eq!(code, Some(3));
+    let mut output = Output::json("solve a system", "a_drawn_rod", &text);
+    output.near("near.moved", 1e-12, 0.1);
+    output.near("near.moved_m", 1e-12, 0.1);
+    output.is("near.joint", "P");
+    output.is("near.is_neighbour", true);
+    output.is("near.barrier_j", json!([null]));
+    output.near("near.lower_j", 1e-12, -10.0);
+    output.done();
+}

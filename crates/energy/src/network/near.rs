@@ -1,0 +1,64 @@
+//! Forces to begin with next to a drawing: those of the linear analysis.
+//!
+//! At the shape as it is drawn the members are springs, elastic ones with their own stiffness and
+//! the excess that they have there, inextensible ones so stiff that nothing else moves them. The
+//! quadratic energy has its minimum where `(sum k J Jᵀ) u = p - sum k c J`; the forces are
+//! `k (c + J u)`. A motion that no member resists, as the sideways one of a taut string, is left to
+//! a ridge: it takes part in no force.
+
+use crate::network::factor::Factor;
+use crate::network::frame::Frame;
+use crate::network::shape::Shape;
+use crate::vector::scaled;
+
+/// Stiffness of inextensible members over that of the stiffest elastic one: their forces are right
+/// to the inverse of it, which is enough to begin with.
+const RIGID: f64 = 1e3;
+
+/// The ridge over the stiffest member: far below what a mechanism of a real structure has, far above
+/// rounding.
+const RIDGE: f64 = 1e-9;
+
+/// Where a cable or a strut would be loose by less than this of its length it is taken for taut.
+const LOOSE: f64 = 1e-3;
+
+/// The drawing with the forces of its linear analysis. Cables and struts that would have the wrong
+/// sign bear nothing.
+pub(super) fn loaded(frame: &Frame, factor: &mut Factor, drawn: &Shape) -> Shape {
+    let excess = frame.excesses(&drawn.x);
+    let elastic = frame.rods.iter().filter(|rod| rod.elastic()).map(|rod| 1.0 / rod.flexibility);
+    let stiffest = elastic.fold(0.0, f64::max);
+    let rigid = if stiffest > 0.0 { RIGID * stiffest } else { 1.0 };
+    let taut = |e: usize| {
+        let rod = &frame.rods[e];
+        let off = excess[e].value / rod.length;
+        off.abs() <= LOOSE || rod.resists(off)
+    };
+    let stiffness = |e: usize| {
+        let rod = &frame.rods[e];
+        match (taut(e), rod.elastic()) {
+            (false, _) => 0.0,
+            (true, true) => 1.0 / rod.flexibility,
+            (true, false) => rigid / rod.length,
+        }
+    };
+    let strained = |e: usize| {
+        let own = if frame.rods[e].elastic() { excess[e].value } else { 0.0 };
+        stiffness(e) * own
+    };
+    let ridge = RIDGE * stiffest.max(rigid);
+    frame.fill(factor, |e| excess[e].block(0.0, stiffness(e)), |_| ridge);
+    if !factor.cholesky() {
+        return drawn.clone();
+    }
+    let mut moves = frame.gradient(|e| scaled(strained(e), excess[e].gradient));
+    for value in &mut moves {
+        *value = -*value;
+    }
+    factor.solve(&mut moves);
+    let force = (0..frame.rods.len()).map(|e| {
+        let force = strained(e) + stiffness(e) * excess[e].change(frame.relative(&moves, e));
+        if frame.rods[e].resists(force) { force } else { 0.0 }
+    });
+    Shape { x: drawn.x.clone(), force: force.collect() }
+}

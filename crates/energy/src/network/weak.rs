@@ -1,0 +1,197 @@
+//! Elastic members under weak loads: forces from displacements, not from lengths.
+//!
+//! The excess of a stiff member under a weak load is the small difference of two lengths. Here it is
+//! taken from the place at which a joint stands, `x`, and a displacement `u` from there that is far
+//! smaller than the last digit of `x`:
+//!
+//! `c = (|X|² - l² + 2 X·u + u·u) / (|X + u| + l)`, `X` the difference of the ends,
+//!
+//! with `|X|² - l²` from exact products, in metres, so that anchors and lengths are those of the file
+//! to the last digit. The energy of the displacements is quadratic but for
+//! rounding, with the members' own stiffnesses; its minimum gives the forces, and is found by steps
+//! with one factorisation.
+
+use model::Vector;
+use model::system::System;
+
+use crate::network::factor::Factor;
+use crate::network::frame::{Frame, Rod};
+use crate::network::law::Excess;
+use crate::network::shape::{Shape, largest};
+use crate::vector::{along, dot, norm, scaled};
+
+/// Steps at most; few are enough.
+const STEPS: usize = 12;
+
+/// A step must leave less than this part of the error.
+const PROGRESS: f64 = 0.5;
+
+/// Stiffness of what stands for an inextensible member, over the stiffest elastic one: errors of
+/// lengths fall by this in a step.
+const RIGID: f64 = 1e3;
+
+/// Diagonal over the largest force, for motions that nothing resists.
+const NEUTRAL: f64 = 1e-10;
+
+/// Displacements from the places of a shape, m.
+struct Displaced<'a> {
+    frame: &'a Frame,
+    /// Unstretched length of each member.
+    lengths: &'a [f64],
+    x: &'a [Vector],
+    u: Vec<Vector>,
+    /// Axial forces in the unit of the frame.
+    force: Vec<f64>,
+}
+
+/// The shape with the forces of its elastic members settled to rounding.
+pub(super) fn settled(system: &System, frame: &Frame, factor: &mut Factor, shape: Shape) -> Shape {
+    let stiffest = frame.rods.iter().filter(|rod| rod.elastic()).map(|rod| 1.0 / rod.flexibility);
+    let rigid = RIGID * stiffest.fold(0.0, f64::max);
+    if rigid <= 0.0 {
+        return shape;
+    }
+    let excess = frame.excesses(&shape.x);
+    let active: Vec<bool> = frame.rods.iter().zip(&shape.force).map(resists).collect();
+    let stiffness = |e: usize| match (active[e], frame.rods[e].elastic()) {
+        (false, _) => 0.0,
+        (true, true) => 1.0 / frame.rods[e].flexibility,
+        (true, false) => rigid,
+    };
+    let neutral = NEUTRAL * frame.largest_force(&shape.force);
+    frame.fill(factor, |e| excess[e].block(shape.force[e], stiffness(e)), |_| neutral);
+    if !factor.cholesky() {
+        return shape;
+    }
+    let lengths: Vec<f64> = system.members().iter().map(|m| m.body.length_m()).collect();
+    let (x, u): (Vec<_>, Vec<_>) =
+        (0..shape.x.len()).map(|k| place_m(system, frame, &shape, k)).unzip();
+    let mut here = Displaced { frame, lengths: &lengths, x: &x, u, force: shape.force.clone() };
+    let mut error = here.error(&active);
+    for _ in 0..STEPS {
+        let next = here.stepped(factor, &active, &stiffness);
+        let left = next.error(&active);
+        // NaN is no progress.
+        if left.is_nan() || left >= PROGRESS * error {
+            break;
+        }
+        (here, error) = (next, left);
+    }
+    let back = |(x, u): (&Vector, &Vector)| -> Vector {
+        std::array::from_fn(|k| ((x[k] - frame.origin_m[k]) + u[k]) / frame.length_m)
+    };
+    let x = here.x.iter().zip(&here.u).map(back).collect();
+    Shape { x, force: here.force }
+}
+
+/// Whether a member resists at this force; a bar always does.
+fn resists((rod, force): (&Rod, &f64)) -> bool {
+    rod.resists(*force)
+}
+
+/// Where a joint of a shape is, m, and what rounding cuts off; an anchor is where it is held.
+fn place_m(system: &System, frame: &Frame, shape: &Shape, joint: usize) -> (Vector, Vector) {
+    let at_m = system.joints().get(joint).and_then(|joint| joint.support.at_m());
+    let (from_m, base) = match at_m {
+        Some(at_m) => (at_m, frame.supports[joint]),
+        None => (frame.origin_m, [0.0; 3]),
+    };
+    let sums: [[f64; 2]; 3] =
+        std::array::from_fn(|k| added(from_m[k], (shape.x[joint][k] - base[k]) * frame.length_m));
+    (sums.map(|sum| sum[0]), sums.map(|sum| sum[1]))
+}
+
+impl Displaced<'_> {
+    /// What the excess of a member is, and its direction.
+    fn excess(&self, e: usize) -> (f64, Vector) {
+        let rod = &self.frame.rods[e];
+        let apart = along(self.u[rod.to], -1.0, self.u[rod.from]);
+        let ends = (self.x[rod.to], self.x[rod.from]);
+        let span_m = along(self.frame.span(self.x, e), 1.0, apart);
+        let unit = 1.0 / self.frame.length_m;
+        let whole: Excess = rod.excess(scaled(unit, span_m));
+        let Some(&length_m) = self.lengths.get(e) else { return (whole.value, whole.gradient) };
+        let squares = difference_of_squares(ends, apart, length_m);
+        let both = if rod.elastic() { norm(span_m) + length_m } else { 2.0 * length_m };
+        (squares / both * unit, whole.gradient)
+    }
+
+    /// The largest unbalanced force, or error of the force of an elastic member, over the largest
+    /// force.
+    fn error(&self, active: &[bool]) -> f64 {
+        let unbalance = largest(&self.gradient(|e| self.force[e]));
+        let rods =
+            self.frame.rods.iter().enumerate().filter(|(e, rod)| active[*e] && rod.elastic());
+        let laws = rods.map(|(e, rod)| (self.excess(e).0 / rod.flexibility - self.force[e]).abs());
+        laws.fold(unbalance, f64::max) / self.frame.largest_force(&self.force)
+    }
+
+    fn gradient(&self, force: impl Fn(usize) -> f64) -> Vec<f64> {
+        self.frame.gradient(|e| scaled(force(e), self.excess(e).1))
+    }
+
+    /// After one step with the factorisation at hand.
+    fn stepped(
+        &self,
+        factor: &mut Factor,
+        active: &[bool],
+        stiffness: &impl Fn(usize) -> f64,
+    ) -> Self {
+        let frame = self.frame;
+        // An elastic member has the force of its excess, an inextensible one more than it had.
+        let force: Vec<f64> = (0..frame.rods.len())
+            .map(|e| {
+                let own = if frame.rods[e].elastic() { 0.0 } else { self.force[e] };
+                if active[e] { own + stiffness(e) * self.excess(e).0 } else { 0.0 }
+            })
+            .collect();
+        let mut step = self.gradient(|e| force[e]);
+        for value in &mut step {
+            *value = -*value;
+        }
+        factor.solve(&mut step);
+        let change = |e: usize| dot(self.excess(e).1, frame.relative(&step, e));
+        let force = (0..force.len()).map(|e| force[e] + stiffness(e) * change(e)).collect();
+        let u = frame.moved(&self.u, frame.length_m, &step);
+        Self { frame, lengths: self.lengths, x: self.x, u, force }
+    }
+}
+
+/// `|X + u|² - l²` for `X` from one place to another.
+fn difference_of_squares((to, from): (Vector, Vector), apart: Vector, length: f64) -> f64 {
+    let square = length * length;
+    let (mut sum, mut rest) = (-square, -length.mul_add(length, -square));
+    for k in 0..3 {
+        let [span, cut] = added(to[k], -from[k]);
+        let [span, cut] = added(span, cut + apart[k]);
+        let product = span * span;
+        let [next, lost] = added(sum, product);
+        sum = next;
+        rest += lost + span.mul_add(span, -product) + 2.0 * span * cut;
+    }
+    sum + rest
+}
+
+/// A sum and what rounding cuts off it.
+fn added(a: f64, b: f64) -> [f64; 2] {
+    let sum = a + b;
+    let second = sum - a;
+    [sum, (a - (sum - second)) + (b - second)]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn squares_differ_by_what_the_ends_moved() {
+        // 2, 3, 6 is 7 long; moved by e along itself it is (7 + e)² - 49 = 14 e + e².
+        for e in [1e-2, 1e-9, 1e-18, 1e-25] {
+            let u = [2.0, 3.0, 6.0].map(|x: f64| x / 7.0 * e);
+            let found = difference_of_squares(([2.0, 3.0, 6.0], [0.0; 3]), u, 7.0);
+            assert!((found / (14.0 * e + e * e) - 1.0).abs() < 1e-14, "{e}: {found}");
+        }
+        let across = difference_of_squares(([2.0, 0.0, 0.0], [0.0; 3]), [0.0, 1e-9, 0.0], 2.0);
+        assert!((across / 1e-18 - 1.0).abs() < 1e-14);
+    }
+}

@@ -1,0 +1,48 @@
+//! Axial forces fitted to a shape, to begin with.
+//!
+//! Rigid members: the forces that leave the joints least out of balance, of these the least. With
+//! elastic ones: the least complementary energy $\\sum c\\,(N - N_0)^2/2$ of forces in balance, where
+//! $N_0$ is what a member bears at the length that it has in the shape; so a prestress stays what it
+//! is, and what does not fit is relaxed. Both are one solve with $\\sum k\\, u u^T$, $k = 1/c$.
+
+use model::system::Kind;
+
+use super::framework::{Framework, Link};
+use super::law::by_direction;
+use super::state::State;
+use super::stiffness::Stiffness;
+
+/// Stiffness that stands for a rigid member, in units of the stiffest elastic one.
+const RIGID: f64 = 1e3;
+/// Ridge of the least squares, in units of the stiffness.
+const RIDGE: f64 = 1e-9;
+
+/// Forces fitted to the places of a state.
+pub(super) fn fitted_forces(
+    framework: &Framework,
+    stiffness: &mut Stiffness,
+    state: &State,
+) -> Vec<f64> {
+    let directions = state.directions(framework);
+    let elastic = |link: &Link| (link.compliance > 0.0).then(|| link.compliance.recip());
+    let stiffest = framework.links.iter().filter_map(elastic).fold(0.0, f64::max);
+    let rigid = if stiffest > 0.0 { RIGID * stiffest } else { 1.0 };
+    let member = |(k, link): (usize, &Link)| {
+        let Some(along) = elastic(link) else { return (rigid, 0.0) };
+        let own = (directions[k].1 - link.length) * along;
+        let slack = link.kind != Kind::Bar && own.abs() > 0.0 && !link.bears(own);
+        if slack { (0.0, 0.0) } else { (along, own) }
+    };
+    let members: Vec<(f64, f64)> = framework.links.iter().enumerate().map(member).collect();
+    let blocks = directions.iter().zip(&members).map(|((u, _), (k, _))| by_direction(u, 0.0, *k));
+    stiffness.assemble(framework, blocks);
+    stiffness.shift(RIDGE * stiffest.max(rigid));
+    stiffness.factorise_definite();
+    let pulls = directions.iter().zip(&members).map(|((u, _), (_, own))| u * *own);
+    let loads = framework.unbalance(pulls);
+    let mut moves = stiffness.gather(framework, &loads);
+    stiffness.solve(&mut moves);
+    let moves = stiffness.scatter(framework, &moves);
+    let links = framework.links.iter().zip(&directions).zip(&members);
+    links.map(|((link, (u, _)), (k, own))| own + k * u.dot(&link.span(&moves))).collect()
+}

@@ -1,0 +1,139 @@
+//! Elastic members under weak loads: forces right to rounding, not only lengths.
+//!
+//! A strain of $10^{-9}$ taken from the difference of two lengths has seven digits left, and the
+//! force no more. The elongation is therefore taken from
+//!
+//! $$ d - l = \frac{(d_x^2 + d_y^2 + d_z^2) - l^2}{d + l} $$
+//!
+//! with products and sums in twice the digits, in metres, at places that keep what rounding cut off:
+//! anchors and lengths are those of the file to the last digit. In frames
+//! with more elastic members than needed the forces follow from the elongations alone; Newton's
+//! steps with the members' true stiffnesses bring both to agree.
+
+use model::system::System;
+
+use super::framework::{Framework, Link};
+use super::newton::{Derivative, Run};
+use super::residual::Residual;
+use super::state::{State, two_sum};
+use super::stiffness::Stiffness;
+
+/// Steps at most; two or three are enough.
+const ROUNDS: usize = 8;
+
+/// A step must leave less than this part of the error.
+const PROGRESS: f64 = 0.5;
+
+/// What a linear solve leaves of the errors.
+const SOLVED: f64 = 1e-9;
+
+/// The run with the forces of elastic members settled to rounding.
+pub(super) fn settled(
+    system: &System,
+    framework: &Framework,
+    stiffness: &mut Stiffness,
+    run: Run,
+) -> Run {
+    if framework.links.iter().all(|link| link.compliance <= 0.0) {
+        return run;
+    }
+    let mut best = run;
+    let mut misfits = exact_misfits(system, framework, &best);
+    let mut error = force_error(framework, &best, &misfits);
+    for _ in 0..ROUNDS {
+        if error <= 0.0 {
+            break;
+        }
+        let derivative = Derivative::elastic(framework, stiffness, &best.state, &best.residual);
+        let of = (best.residual.forces.as_slice(), misfits.as_slice());
+        let step = derivative.and_then(|d| d.solve(framework, stiffness, of, SOLVED, None));
+        let Some((step, _)) = step else { break };
+        let state = step.applied(&best.state, 1.0);
+        let residual = Residual::new(framework, &state);
+        let next = Run { state, residual, steps: best.steps + 1 };
+        let there = exact_misfits(system, framework, &next);
+        let left = force_error(framework, &next, &there);
+        // NaN is no progress.
+        if left.is_nan() || left >= PROGRESS * error {
+            break;
+        }
+        (best, misfits, error) = (next, there, left);
+    }
+    best
+}
+
+/// Length by the law minus length of each taut member, without cancellation where it is elastic.
+fn exact_misfits(system: &System, framework: &Framework, run: &Run) -> Vec<f64> {
+    let places = places_m(system, framework, &run.state);
+    let misfit = |(k, link): (usize, &Link)| {
+        if link.compliance > 0.0 && run.state.taut[k] && framework.moves(link) {
+            let length_m = system.members()[k].body.length_m();
+            let longer_m = elongation_m(&places[link.from], &places[link.to], length_m);
+            link.compliance * run.state.axial[k] - longer_m / framework.units.length_m
+        } else {
+            run.residual.lengths[k]
+        }
+    };
+    framework.links.iter().enumerate().map(misfit).collect()
+}
+
+/// A place in twice the digits: what is rounded, and what rounding has cut off.
+type Place = [(f64, f64); 3];
+
+/// The places of a state, m; those of anchors are exact.
+fn places_m(system: &System, framework: &Framework, state: &State) -> Vec<Place> {
+    let units = framework.units;
+    let place = |joint: usize| {
+        let node = &framework.nodes[joint];
+        let lies = framework.lying.iter().any(|lying| lying.joint == joint);
+        let at_m = system.joints()[joint].support.at_m().filter(|_| !lies);
+        std::array::from_fn(|axis| {
+            let (base, at_m) = match at_m {
+                Some(at_m) => (node.base[axis], at_m[axis]),
+                None => (0.0, units.origin_m[axis]),
+            };
+            let (moved, cut) = two_sum(state.places[joint][axis], -base);
+            let moved_m = moved * units.length_m;
+            let rounded = moved.mul_add(units.length_m, -moved_m);
+            let cut_m = (cut + state.rests[joint][axis]) * units.length_m + rounded;
+            let (sum, rest) = two_sum(at_m, moved_m);
+            two_sum(sum, rest + cut_m)
+        })
+    };
+    (0..framework.nodes.len()).map(place).collect()
+}
+
+/// The largest error of a balance or of an elastic member's force, in units of the largest force.
+fn force_error(framework: &Framework, run: &Run, misfits: &[f64]) -> f64 {
+    let elastic = framework.links.iter().zip(misfits).filter(|(link, _)| link.compliance > 0.0);
+    let forces = elastic.map(|(link, misfit)| misfit.abs() / link.compliance / run.residual.unit);
+    forces.fold(
+        run.residual.balance.0,
+        |a, b| if a.is_nan() || b.is_nan() { f64::NAN } else { a.max(b) },
+    )
+}
+
+/// How much longer than unstretched a member is, right to rounding of this small number.
+fn elongation_m(from: &Place, to: &Place, length_m: f64) -> f64 {
+    let (mut square, mut rest) = negative_square(length_m);
+    for (from, to) in from.iter().zip(to) {
+        let (span, cut) = two_sum(to.0, -from.0);
+        let (span, cut) = two_sum(span, cut + (to.1 - from.1));
+        let product = span * span;
+        let below = span.mul_add(span, -product) + 2.0 * span * cut;
+        let (sum, lost) = two_sum(square, product);
+        (square, rest) = (sum, rest + lost + below);
+    }
+    let difference = square + rest;
+    let length = (length_m * length_m + difference).sqrt();
+    difference / (length + length_m)
+}
+
+/// `-l²` in twice the digits.
+fn negative_square(length: f64) -> (f64, f64) {
+    let square = length * length;
+    (-square, -length.mul_add(length, -square))
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,19 @@
+//! Elongations against exact numbers.
+
+use super::*;
+
+const ORIGIN: Place = [(0.0, 0.0); 3];
+
+#[test]
+fn small_elongations_keep_their_digits() {
+    // 3, 4, 0 and a move of e along the member: longer by e, whatever is cut off the places.
+    for e in [1e-3, 1e-9, 1e-15, 1e-20, 1e-25] {
+        let to = [two_sum(3.0, 0.6 * e), two_sum(4.0, 0.8 * e), (0.0, 0.0)];
+        let found = elongation_m(&ORIGIN, &to, 5.0);
+        // 0.6 and 0.8 are rounded: 0.36 + 0.64 is one to the last place.
+        assert!((found / e - 1.0).abs() < 1e-14, "{e}: {found}");
+    }
+    // Across by e: longer by e²/10.
+    let across = elongation_m(&ORIGIN, &[(3.0, 0.0), (4.0, 0.0), (1e-6, 0.0)], 5.0);
+    assert!((across / 1e-13 - 1.0).abs() < 1e-12);
+}

@@ -1,0 +1,95 @@
+//! The structure as drawn: places next to which the equilibrium is wanted.
+
+use std::collections::HashMap;
+
+use super::{Joint, LENGTH_ROUNDING, System, SystemError};
+use crate::{Anchors, Vector};
+
+impl System {
+    /// The place of every joint as it is drawn, m; `None` where nothing is drawn.
+    ///
+    /// ```
+    /// use model::system::{Joint, Member, System};
+    /// use model::Bar;
+    /// let bar = Bar::homogeneous(1.0, 0.0)?;
+    /// let prop = |top: Joint| {
+    ///     let joints = vec![Joint::anchor("foot", [0.0; 3]), top.with_mass(1.0)];
+    ///     System::new("a prop", 9.81, joints, vec![Member::bar(0, 1, bar)])
+    /// };
+    /// let upright = prop(Joint::free("top").near([0.0, 0.0, 1.0]))?;
+    /// assert_eq!(upright.drawing(), Some(vec![[0.0; 3], [0.0, 0.0, 1.0]]));
+    /// assert_eq!(prop(Joint::free("top"))?.drawing(), None);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn drawing(&self) -> Option<Vec<Vector>> {
+        let drawn = self.joints.iter().any(|joint| joint.near_m.is_some());
+        let places = || self.joints.iter().map(Joint::drawn_m).collect();
+        if drawn { places() } else { None }
+    }
+
+    /// The same system with another drawing: a place for every joint, m. Those of joints that are
+    /// held do not count, and one that slides is put where its support lets it be, as near as it
+    /// can.
+    ///
+    /// # Errors
+    ///
+    /// [`SystemError`] when two joints are drawn at one place, or a coordinate is not finite.
+    ///
+    /// # Panics
+    ///
+    /// When there are more or fewer places than joints.
+    pub fn drawn_at(mut self, places_m: &[Vector]) -> Result<Self, SystemError> {
+        assert_eq!(places_m.len(), self.joints.len(), "a place for every joint");
+        for (joint, place_m) in self.joints.iter_mut().zip(places_m) {
+            let drawn = !joint.support.is_fixed();
+            joint.near_m = drawn.then(|| joint.support.nearest_m(*place_m));
+        }
+        super::error::check(self.gravity_m_s2, &self.joints, &self.members)?;
+        Ok(self)
+    }
+
+    /// The same system without a drawing: the question is the lowest equilibrium.
+    #[must_use]
+    pub fn undrawn(mut self) -> Self {
+        for joint in &mut self.joints {
+            joint.near_m = None;
+        }
+        self
+    }
+}
+
+/// Refuse a drawing that leaves joints out, puts two at one place, or leaves a support.
+pub(super) fn check(joints: &[Joint]) -> Result<(), SystemError> {
+    if joints.iter().all(|joint| joint.near_m.is_none()) {
+        return Ok(());
+    }
+    let mut seen: HashMap<[u64; 3], usize> = HashMap::with_capacity(joints.len());
+    for (number, joint) in joints.iter().enumerate() {
+        let name = || joint.name.clone();
+        let Some(place_m) = joint.drawn_m() else {
+            return Err(SystemError::NotDrawn { name: name(), joint: number });
+        };
+        let distance_m = joint.near_m.map_or(0.0, |start_m| {
+            Anchors { start_m, end_m: joint.support.nearest_m(start_m) }.span_m()
+        });
+        if distance_m > LENGTH_ROUNDING * reach_m(joint) {
+            return Err(SystemError::DrawnOffSupport { name: name(), joint: number, distance_m });
+        }
+        // Minus zero is zero.
+        let bits = place_m.map(|x| (x + 0.0).to_bits());
+        if let Some(other) = seen.insert(bits, number)
+            && !(joint.support.is_fixed() && joints[other].support.is_fixed())
+        {
+            let other = joints[other].name.clone();
+            return Err(SystemError::DrawnTogether { name: name(), joint: number, other });
+        }
+    }
+    Ok(())
+}
+
+/// The largest coordinate of what a joint's support and drawing name: rounding is measured by it.
+fn reach_m(joint: &Joint) -> f64 {
+    let places = [joint.support.at_m(), joint.near_m];
+    places.into_iter().flatten().flatten().fold(0.0, |a: f64, x| a.max(x.abs()))
+}

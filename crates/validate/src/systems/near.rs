@@ -1,0 +1,166 @@
+//! The question of a drawing: the equilibrium next to a shape, and whether what was found is it.
+
+use model::system::{Kind, Member, System, SystemEquilibrium};
+use model::{SolverName, Vector, sum};
+use serde::Serialize;
+
+use super::ask::SystemFailure;
+use super::certificate::total_load_n;
+use crate::answer::Solvers;
+use crate::vector::{dot, minus, norm, plus, times, worse};
+
+/// A joint that moved further than this part of the shortest member at it is not where it was
+/// drawn: half a member is about what turns a triangle of bars over.
+const FAR: f64 = 0.5;
+
+/// Places on the straight way from the drawing to the answer at which the energy is looked at.
+const STATIONS: u32 = 32;
+
+/// A barrier below this part of the change of the energy along the way is rounding.
+const BARRIER: f64 = 1e-6;
+
+/// Systems of up to this many members are also asked for their lowest equilibrium: a second.
+const MEMBERS: usize = 2_000;
+
+/// An energy is lower by more than this part of load times size: what solvers agree to.
+const LOWER: f64 = 1e-9;
+
+/// How the equilibrium that was found lies to the shape that was given.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Near {
+    /// Largest move of a joint from its place in the drawing, in units of the shortest member at it.
+    pub moved: f64,
+    /// The same, m.
+    pub moved_m: f64,
+    /// That joint.
+    pub joint: String,
+    /// How far the energy rises on the straight way from the drawing to the equilibrium, J: a
+    /// structure that has snapped through has passed a barrier. Nothing where there is none, or
+    /// where rigid members have no energy.
+    pub barrier_j: Option<f64>,
+    /// Whether it is the neighbour of the drawing: no joint has moved by half a member, and no
+    /// barrier lies between.
+    pub is_neighbour: bool,
+    /// The energy of a lower equilibrium, J, where one was looked for and found.
+    pub lower_j: Option<f64>,
+}
+
+impl Near {
+    /// Hold an answer against the drawing.
+    #[must_use]
+    pub fn of(system: &System, drawing_m: &[Vector], answer: &SystemEquilibrium) -> Self {
+        let mut shortest = vec![f64::INFINITY; drawing_m.len()];
+        for member in system.members() {
+            for joint in [member.from, member.to] {
+                shortest[joint] = shortest[joint].min(member.body.length_m());
+            }
+        }
+        let moves = drawing_m.iter().zip(&answer.joints_m).zip(system.joints()).enumerate();
+        let (mut moved, mut moved_m, mut at) = (0.0, 0.0, 0);
+        for (k, ((drawn, found), joint)) in moves {
+            let move_m = norm(minus(*found, *drawn));
+            let part = move_m / shortest[k];
+            if !joint.support.is_fixed() && worse(part, moved) > moved {
+                (moved, moved_m, at) = (part, move_m, k);
+            }
+        }
+        let barrier_j = barrier_j(system, drawing_m, &answer.joints_m);
+        Self {
+            moved,
+            moved_m,
+            joint: system.joints()[at].name.clone(),
+            barrier_j,
+            is_neighbour: moved <= FAR && barrier_j.is_none(),
+            lower_j: None,
+        }
+    }
+}
+
+/// How the answers lie to the drawing: that of the first. What `energy` found elsewhere, where
+/// `lagrange` found the neighbour, is no answer to this question.
+pub(super) fn next_to(
+    system: &System,
+    drawing_m: &[Vector],
+    answers: &mut Vec<Result<SystemEquilibrium, SystemFailure>>,
+) -> Option<Near> {
+    let near = |answer: &SystemEquilibrium| Near::of(system, drawing_m, answer);
+    let first = answers.iter().flatten().map(near).next()?;
+    for answer in answers {
+        let Ok(found) = answer else { continue };
+        let there = near(found);
+        if found.solver == SolverName::ENERGY && first.is_neighbour && !there.is_neighbour {
+            let Near { joint, moved_m, .. } = there;
+            *answer = Err(energy::network::Error::NoMinimumNear { joint, moved_m }.into());
+        }
+    }
+    Some(first)
+}
+
+/// The energy of a lower equilibrium than this, J, if the solvers that are asked find one.
+pub(super) fn lower_j(
+    system: &System,
+    solvers: Solvers,
+    answer: &SystemEquilibrium,
+) -> Option<f64> {
+    if system.members().len() > MEMBERS || answer.evidence.ladder.optimal.is_reached() {
+        return None;
+    }
+    let hanging = system.clone().undrawn();
+    let energy = || {
+        let settings = energy::network::Settings::default();
+        energy::network::minimise(&hanging, &settings).ok().map(|found| found.equilibrium)
+    };
+    let lagrange = || {
+        let settings = lagrange::network::Settings::default();
+        lagrange::network::solve(&hanging, &settings).ok().map(|found| found.equilibrium)
+    };
+    let lowest = if solvers == Solvers::Lagrange { lagrange() } else { energy() }?;
+    let unit_j = total_load_n(system) * system.total_length_m();
+    (answer.energy_j - lowest.energy_j > LOWER * unit_j).then_some(lowest.energy_j)
+}
+
+/// How far the energy rises on the straight way between two shapes, J, if it rises and falls again.
+fn barrier_j(system: &System, from_m: &[Vector], to_m: &[Vector]) -> Option<f64> {
+    if system.members().iter().any(|member| member.stiffness_n.is_none()) {
+        return None;
+    }
+    let at = |station: u32| {
+        let part = f64::from(station) / f64::from(STATIONS);
+        let places = from_m.iter().zip(to_m);
+        let between = places.map(|(a, b)| plus(*a, times(part, minus(*b, *a))));
+        potential_j(system, &between.collect::<Vec<_>>())
+    };
+    let (start, end) = (at(0), at(STATIONS));
+    let top = (1..STATIONS).map(at).fold(f64::NEG_INFINITY, f64::max);
+    let rise = top - start.max(end);
+    (rise > BARRIER * (start - end).abs()).then_some(rise)
+}
+
+/// Energy of the loads and of the elastic members at these places, J.
+fn potential_j(system: &System, places_m: &[Vector]) -> f64 {
+    let gravity = system.gravity_m_s2();
+    let weight = |mass_kg: f64| [0.0, 0.0, -mass_kg * gravity];
+    let joints = system.joints().iter().zip(places_m);
+    let joints = joints.map(|(joint, at)| -dot(plus(joint.force_n, weight(joint.mass_kg)), *at));
+    let members = system.members().iter().map(|member| {
+        let [a, b] = [places_m[member.from], places_m[member.to]];
+        let body = &member.body;
+        let at = |at_m: f64| plus(a, times(at_m / body.length_m(), minus(b, a)));
+        let own = -dot(weight(body.mass_kg()), at(body.centre_m()));
+        let loads = member.loads.iter().map(|load| -dot(load.force_n, at(load.at_m)));
+        own + sum(loads) + strain_j(member, norm(minus(b, a)))
+    });
+    sum(joints) + sum(members)
+}
+
+/// Energy of an elastic member at this length, J.
+fn strain_j(member: &Member, length_m: f64) -> f64 {
+    let longer = length_m - member.body.length_m();
+    let resists = match member.kind {
+        Kind::Bar => true,
+        Kind::Cable => longer > 0.0,
+        Kind::Strut => longer < 0.0,
+    };
+    let stiffness_n = member.stiffness_n.filter(|_| resists).unwrap_or(0.0);
+    0.5 * stiffness_n * longer * longer / member.body.length_m()
+}
