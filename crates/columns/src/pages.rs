@@ -19,7 +19,8 @@ use crate::unpack::unpacked;
 pub struct Pages {
     packed: SerializedPageReader<File>,
     codec: CompressionCodec,
-    encodings: Vec<Encoding>,
+    /// Whether text may share its beginning with the text before, as the footer has it.
+    shared: bool,
     nullable: bool,
     /// Memory of a value, bytes.
     value: u64,
@@ -52,7 +53,7 @@ impl Pages {
         Ok(Self {
             packed: SerializedPageReader::new(file, &plain.build()?, rows, None)?,
             codec: chunk.compression_codec(),
-            encodings: chunk.encodings().collect(),
+            shared: shared(chunk),
             nullable: chunk.column_descr().max_def_level() > 0,
             value: match chunk.column_type() {
                 Type::BYTE_ARRAY => size_of::<ByteArray>() as u64,
@@ -91,10 +92,10 @@ impl Pages {
         let length = size_of::<i32>() as u64;
         match (page, page.encoding()) {
             (Page::DictionaryPage { num_values, .. }, _) => Ok(u64::from(*num_values) * self.value),
-            (_, encoding) if !self.encodings.contains(&encoding) => {
-                let reason =
-                    format!("a page is encoded by {encoding}, which the footer does not list");
-                Err(ParquetError::General(reason))
+            // Whoever reads it asks for each text, if the footer says so.
+            (_, Encoding::DELTA_BYTE_ARRAY) if !self.shared => {
+                let reason = "the footer does not list the encoding of a page";
+                Err(ParquetError::General(reason.to_owned()))
             }
             (_, Encoding::DELTA_LENGTH_BYTE_ARRAY) => {
                 Ok(deltas(self.values(page)?).ok_or_else(cut_off)?.0.saturating_mul(length))
@@ -121,6 +122,11 @@ impl Pages {
         };
         bytes.get(skipped..).ok_or_else(cut_off)
     }
+}
+
+/// Whether text of this column may share its beginning with the text before.
+pub fn shared(chunk: &ColumnChunkMetaData) -> bool {
+    chunk.encodings().any(|encoding| encoding == Encoding::DELTA_BYTE_ARRAY)
 }
 
 fn cut_off() -> ParquetError {

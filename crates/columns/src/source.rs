@@ -5,7 +5,7 @@ use std::io::{Read as _, Seek as _, SeekFrom};
 use std::path::Path;
 use std::sync::Arc;
 
-use ::parquet::basic::{CompressionCodec, Encoding};
+use ::parquet::basic::CompressionCodec;
 use ::parquet::errors::ParquetError;
 use ::parquet::file::FOOTER_SIZE;
 use ::parquet::file::metadata::{
@@ -17,7 +17,7 @@ use model::system_file::{most_bars, most_file_bytes};
 use crate::budget::{Budget, Share};
 use crate::cells::{Cells, Holds, type_of};
 use crate::error::ColumnsError;
-use crate::pages::Pages;
+use crate::pages::{Pages, shared};
 use crate::unpack::COMPRESSIONS;
 
 /// Rows decoded at a time: three columns of them stay in the second-level cache.
@@ -165,8 +165,7 @@ impl<'p> Source<'p> {
             let reason = format!("{length} bytes from {start} on are not all there");
             return Err(self.error(chunk, ParquetError::EOF(reason)));
         }
-        let grown = chunk.encodings().any(|encoding| encoding == Encoding::DELTA_BYTE_ARRAY);
-        let grown = grown.then(|| Share::new(budget, &chunk.column_path().string()));
+        let grown = shared(chunk).then(|| Share::new(budget, &chunk.column_path().string()));
         Pages::new(self.file.clone(), chunk, rows, budget)
             .and_then(|pages| {
                 let other = || ParquetError::NYI("another type".to_owned());
