@@ -20,6 +20,7 @@ pub fn answer(answer: &SolveAnswer, summary: bool) -> String {
         text += &shape(first).text(summary);
     }
     text += &overview(equilibria, answer.agreement().and_then(|agreement| agreement.turned_rad));
+    text += lowest(equilibria.iter().any(|e| e.evidence.ladder.optimal.is_reached()));
     text += &ladder(equilibria.iter().map(|e| (&e.solver, &e.evidence)));
     for failure in answer.failures() {
         // Writing to a String cannot fail.
@@ -29,6 +30,15 @@ pub fn answer(answer: &SolveAnswer, summary: bool) -> String {
         text += &self::agreement(agreement);
     }
     text
+}
+
+/// Which question is answered where no shape was given.
+pub fn lowest(proved: bool) -> &'static str {
+    if proved {
+        "The lowest equilibrium of all (proved).\n"
+    } else {
+        "The lowest equilibrium of all (not proved).\n"
+    }
 }
 
 /// A column for each solver. Where the chain turns freely, the second answer is shown turned onto

@@ -6,7 +6,7 @@ use funicular::SystemSolution;
 use model::Vector;
 use model::system::{Kind, Member, System, SystemEquilibrium};
 
-use crate::answer::ladder;
+use crate::answer::{ladder, lowest};
 use crate::printable::Printable;
 use crate::shape::Shape;
 use crate::tables::{duration, long, numbers_from, short, table, word, wrapped};
@@ -47,8 +47,7 @@ pub fn answer(solution: &SystemSolution, summary: bool) -> String {
 fn question(solution: &SystemSolution) -> String {
     let proved = solution.equilibria().iter().any(|e| e.evidence.ladder.optimal.is_reached());
     let Some(near) = solution.near() else {
-        let proved = if proved { "proved" } else { "not proved" };
-        return format!("The lowest equilibrium of all ({proved}).\n");
+        return lowest(proved).to_owned();
     };
     let moved = format!(
         "joint {} is {:.3e} m from it, {:.2} % of the shortest member there",

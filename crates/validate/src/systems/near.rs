@@ -19,6 +19,9 @@ const STATIONS: u32 = 32;
 /// A barrier below this part of the change of the energy along the way is rounding.
 const BARRIER: f64 = 1e-6;
 
+/// So is one below this part of the energies themselves, which are sums of many numbers.
+const SUMMED: f64 = 1e-9;
+
 /// Systems of up to this many members are also asked for their lowest equilibrium: a second.
 const MEMBERS: usize = 2_000;
 
@@ -133,7 +136,8 @@ fn barrier_j(system: &System, from_m: &[Vector], to_m: &[Vector]) -> Option<f64>
     let (start, end) = (at(0), at(STATIONS));
     let top = (1..STATIONS).map(at).fold(f64::NEG_INFINITY, f64::max);
     let rise = top - start.max(end);
-    (rise > BARRIER * (start - end).abs()).then_some(rise)
+    let rounding = SUMMED * (start.abs() + top.abs() + end.abs());
+    (rise > rounding.max(BARRIER * (start - end).abs())).then_some(rise)
 }
 
 /// Energy of the loads and of the elastic members at these places, J.

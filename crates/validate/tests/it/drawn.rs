@@ -160,8 +160,10 @@ fn the_tower_tends_to_its_linear_analysis_as_its_loads_vanish() {
     for part in [1.0, 1e-3, 1e-6] {
         let system = loaded(&system, part);
         let (moves, forces) = linear(&system);
-        // Strains of some 1e-5 under the whole load change the forces by as much.
-        let within = (1e-4 * part).max(1e-6) * part * total_n;
+        // Strains of some 1e-5 under the whole load change the forces by as much; and lengths that
+        // are rounded to doubles strain a frame with more members than needed.
+        let rounded_n = 1e8 * f64::EPSILON;
+        let within = 1e-4 * part * part * total_n + rounded_n;
         for e in &neighbour(&system).equilibria {
             close(&e.axial_n, &forces, within);
         }
