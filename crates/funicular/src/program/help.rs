@@ -1,5 +1,6 @@
 //! The first words: commands in groups, what to type when nothing was, and what a word that is no command may mean.
 
+use std::fmt::Write as _;
 use std::io::Write as _;
 
 use clap::error::{ContextKind, ContextValue, ErrorKind};
@@ -62,16 +63,18 @@ pub fn parse() -> Result<Cli, Exit> {
 
 /// The commands with their help in groups.
 fn grouped(command: Command) -> Command {
+    /// Under the first word of what a command is for.
+    const INDENT: &str = "\n               ";
     let about = |name: &str| {
         let found = command.get_subcommands().find(|sub| sub.get_name() == name);
         found.and_then(Command::get_about).map(ToString::to_string).unwrap_or_default()
     };
     let mut text = String::from("{about-with-newline}\n{usage-heading} {usage}\n");
     for (title, names) in GROUPS {
-        text += &format!("\n{title}:\n");
+        text.extend(["\n", title, ":\n"]);
         for name in names {
             let lines = wrapped(&about(name));
-            text += &format!("  {name:<12} {}\n", lines.join(&format!("\n{:15}", "")));
+            let _ = writeln!(text, "  {name:<12} {}", lines.join(INDENT));
         }
     }
     text += "\nOptions:\n{options}{after-help}";

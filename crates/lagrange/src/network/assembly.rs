@@ -56,7 +56,7 @@ impl Solver<'_> {
             self.factorisations += 1;
             match self.with_signs(state, Patience::Full) {
                 Ok(run) => return Ok(run),
-                Err(error) => refused = clearer(refused, error),
+                Err(error) => refused = Some(clearer(refused, error)),
             }
             if matches!(&refused, Some(Error::Misfit { misfits }) if nearly(&self.framework, misfits))
             {

@@ -212,6 +212,8 @@ fn misfit_text(misfits: &[Misfit]) -> String {
         "rigid members have lengths that fit no shape: at best the ends of member {} are {:.3e} m further apart \
          than its length, and it may be off by {:.3e} m{more}; say how far the lengths are known \
          (length_tolerance_m), or how stiff the members are (stiffness_n)",
-        worst.member, worst.misfit_m, worst.within_m
+        worst.member + 1,
+        worst.misfit_m,
+        worst.within_m
     )
 }

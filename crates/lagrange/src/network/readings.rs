@@ -37,7 +37,7 @@ impl Solver<'_> {
             for state in [start.clone(), afresh] {
                 match self.at_cut(state, patience, cut) {
                     Ok(run) => return Ok(run),
-                    Err(error) => refused = clearer(refused, error),
+                    Err(error) => refused = Some(clearer(refused, error)),
                 }
                 if matches!(refused, Some(Error::Misfit { .. })) {
                     break;
@@ -51,7 +51,7 @@ impl Solver<'_> {
             // A flat frame whose lengths are far off is at best flat.
             Err(_) => match self.at_cut(start, patience, WIDEST) {
                 Ok(run) => return Ok(run),
-                Err(error) => return Err(clearer(refused, error).unwrap_or(Error::Unloaded)),
+                Err(error) => return Err(clearer(refused, error)),
             },
         };
         // The place it has come to may be singular where the start was not.
@@ -62,7 +62,7 @@ impl Solver<'_> {
                 Decided::new(&self.framework, &state, cut)?.share(&self.framework, &state.axial);
             match self.at_cut(state, patience, cut) {
                 Ok(run) => return Ok(run),
-                Err(error) => refused = clearer(refused, error),
+                Err(error) => refused = Some(clearer(refused, error)),
             }
         }
         match refused {
@@ -180,13 +180,13 @@ pub(super) fn nearly(framework: &Framework, misfits: &[Misfit]) -> bool {
 }
 
 /// Of two refusals the one that says more: the least misfit of all, before any other.
-pub(super) fn clearer(before: Option<Error>, error: Error) -> Option<Error> {
+pub(super) fn clearer(before: Option<Error>, error: Error) -> Error {
     let size = |error: &Error| match error {
         Error::Misfit { misfits } => misfits.first().map_or(0.0, ratio),
         _ => f64::INFINITY,
     };
-    Some(match before {
+    match before {
         Some(before) if size(&before) <= size(&error) => before,
         _ => error,
-    })
+    }
 }

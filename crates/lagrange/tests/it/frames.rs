@@ -52,9 +52,7 @@ pub fn frame(seed: u64, draw: Draw, elastic: bool, off: f64) -> System {
         if draw == Draw::Flat {
             force[1] = 0.0;
         }
-        joints.push(
-            Joint::free(format!("P{k}")).with_mass(f64::from(1 + k as u32)).with_force(force),
-        );
+        joints.push(Joint::free(format!("P{k}")).with_mass((1 + k) as f64).with_force(force));
         places.push(at);
     }
     let mut join =
@@ -166,7 +164,7 @@ pub fn faults(system: &System, solution: &Solution) -> Vec<String> {
     let axial_n = &solution.equilibrium.axial_n;
     let (directions, loads) = (directions(system, solution), loads(system));
     let count = loads.len() as f64;
-    let mean = loads.iter().map(|load| load.norm()).sum::<f64>() / count;
+    let mean = loads.iter().map(Vector3::norm).sum::<f64>() / count;
     let mut left = loads.clone();
     for ((member, axial), (u, length)) in system.members().iter().zip(axial_n).zip(&directions) {
         left[member.from] += u * *axial;
@@ -183,7 +181,7 @@ pub fn faults(system: &System, solution: &Solution) -> Vec<String> {
         }
     }
     let (least, condition, self_stresses) = least(system, solution);
-    let largest_load = loads.iter().map(|load| load.norm()).fold(0.0, f64::max);
+    let largest_load = loads.iter().map(Vector3::norm).fold(0.0, f64::max);
     for (member, (shown, least)) in axial_n.iter().zip(&least).enumerate() {
         if (shown - least).abs() > 1e-6 * largest_load * condition.max(1.0) {
             faults.push(format!("member {member} bears {shown} N, least {least} N"));
@@ -365,11 +363,7 @@ fn towers_above_the_dense_limit_share_their_loads() {
         let mut joints: Vec<_> =
             (0..4).map(|k| Joint::anchor(format!("A{k}"), at(k).into())).collect();
         joints.extend((4..4 * cells + 4).map(|k| {
-            Joint::free(format!("P{k}")).with_mass(1.0).with_force([
-                3.0,
-                -1.0,
-                f64::from(k as u32 % 5),
-            ])
+            Joint::free(format!("P{k}")).with_mass(1.0).with_force([3.0, -1.0, (k % 5) as f64])
         }));
         let bar = |a: usize, b: usize| {
             Member::bar(a, b, Bar::homogeneous((at(b) - at(a)).norm(), 0.1).unwrap())

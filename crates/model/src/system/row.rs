@@ -21,6 +21,9 @@ pub struct Row {
     weights_n: Vec<f64>,
 }
 
+/// Joints in their order, and members in theirs, with whether each runs the other way.
+type Walk = (Vec<usize>, Vec<(usize, bool)>);
+
 impl System {
     /// The system as a chain, where it is one: rigid bars in a row between two anchors, nothing on
     /// the bars but their weight, and no load at the joints that is not straight down.
@@ -64,7 +67,7 @@ impl System {
     }
 
     /// Joints and members in their order from the anchor of the smaller number, if they are one row.
-    fn walk(&self) -> Option<(Vec<usize>, Vec<(usize, bool)>)> {
+    fn walk(&self) -> Option<Walk> {
         let mut at = vec![[usize::MAX; 2]; self.joints().len()];
         for (k, member) in self.members().iter().enumerate() {
             for joint in [member.from, member.to] {

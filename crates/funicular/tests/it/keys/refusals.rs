@@ -4,6 +4,8 @@
 use serde::Serialize;
 use serde_json::{Value, json};
 
+use model::system::Misfit;
+
 use super::output::Output;
 
 /// Objects as lines of JSON, each with words that its sentence has to say.
@@ -302,12 +304,6 @@ fn refusals_of_lagrange_for_systems() {
         of(&Error::Floor { rounds: 13 }, &["after 13 rounds"]),
         of(&Error::Unstable { index: 14 }, &["of index 14"]),
         of(&Error::Memory { unknowns: 15 }, &["of 15 unknowns"]),
-        of(&Error::FreeMotion { motions: 16 }, &["16 independent motions meet no stiffness"]),
-        of(&Error::OpenForces { dimension: 17 }, &["17 independent self-stresses"]),
-        of(&Error::JustTaut { member: 18 }, &["member 18 has just its length"]),
-        of(&Error::JustTouches { joint: joint() }, &["joint P just touches the floor"]),
-        of(&Error::NoDerivative { left: 0.375 }, &["leave 3.8e-1 of a change"]),
-        of(&Error::NotAnAnchor { joint: joint() }, &["joint P is no anchor"]),
     ];
     let test = "refusals_of_lagrange_for_systems";
     let mut output = output("a refusal of lagrange for a system", test, &refusals);
@@ -324,12 +320,6 @@ fn refusals_of_lagrange_for_systems() {
         "floor",
         "unstable",
         "memory",
-        "free_motion",
-        "open_forces",
-        "just_taut",
-        "just_touches",
-        "no_derivative",
-        "not_an_anchor",
     ];
     output.is("kind", kinds.as_slice());
     output.is("name", "tolerance");
@@ -347,7 +337,7 @@ fn refusals_of_lagrange_for_systems() {
     output.is("from", "A");
     output.is("to", "B");
     output.is("reach_m", 4.5);
-    output.is("member", json!([10, 12, 18]));
+    output.is("member", json!([10, 12]));
     output.is("length_m", 3.5);
     output.is("iterations", 11);
     output.is("unbalance", 0.125);
@@ -355,8 +345,84 @@ fn refusals_of_lagrange_for_systems() {
     output.is("rounds", 13);
     output.is("index", 14);
     output.is("unknowns", 15);
+    output.done();
+}
+
+/// Where no derivative exists.
+#[test]
+fn refusals_of_lagrange_for_derivatives() {
+    use lagrange::network::Error;
+    let joint = || "P".to_owned();
+    let refusals = [
+        of(&Error::FreeMotion { motions: 16 }, &["16 independent motions meet no stiffness"]),
+        of(&Error::OpenForces { dimension: 17 }, &["17 independent self-stresses"]),
+        of(&Error::JustTaut { member: 18 }, &["member 18 has just its length"]),
+        of(&Error::JustTouches { joint: joint() }, &["joint P just touches the floor"]),
+        of(&Error::NoDerivative { left: 0.375 }, &["leave 3.8e-1 of a change"]),
+        of(&Error::NotAnAnchor { joint: joint() }, &["joint P is no anchor"]),
+    ];
+    let test = "refusals_of_lagrange_for_derivatives";
+    let mut output = output("a refusal of lagrange for a system", test, &refusals);
+    let kinds = [
+        "free_motion",
+        "open_forces",
+        "just_taut",
+        "just_touches",
+        "no_derivative",
+        "not_an_anchor",
+    ];
+    output.is("kind", kinds.as_slice());
     output.is("motions", 16);
     output.is("dimension", 17);
+    output.is("member", 18);
+    output.each("joint", "P");
     output.is("left", 0.375);
+    output.done();
+}
+
+/// Lengths that do not fit each other, and forces that nothing decides.
+#[test]
+fn refusals_of_lagrange_for_frames() {
+    use lagrange::network::Error;
+    let misfits = vec![Misfit { member: 1, misfit_m: 0.25, within_m: 0.125 }];
+    let refusals = [
+        of(&Error::Misfit { misfits }, &["ends of member 2 are 2.500e-1 m", "length_tolerance_m"]),
+        of(
+            &Error::Absurd { member: 2, force_n: 3.5, ratio: 4.5 },
+            &["member 2 would bear 3.500e0 N, 4.5e0 times the loads"],
+        ),
+    ];
+    let test = "refusals_of_lagrange_for_frames";
+    let mut output = output("a refusal of lagrange for a system", test, &refusals);
+    output.is("kind", json!(["misfit", "absurd"]));
+    output.is("misfits[].member", 1);
+    output.is("misfits[].misfit_m", 0.25);
+    output.is("misfits[].within_m", 0.125);
+    output.is("member", 2);
+    output.is("force_n", 3.5);
+    output.is("ratio", 4.5);
+    output.done();
+}
+
+/// The same of the other solver.
+#[test]
+fn refusals_of_energy_for_frames() {
+    use energy::network::Error;
+    let misfits = vec![Misfit { member: 1, misfit_m: 0.25, within_m: 0.125 }];
+    let refusals = [
+        of(&Error::Misfit { misfits }, &["member 2 is 2.5e-1 m off, where 1.25e-1 m"]),
+        of(&Error::Absurd { member: 2, ratio: 4.5 }, &["4.5e0 times the loads in member 2"]),
+        of(&Error::Unbalanced { joint: 3, unbalance: 0.5 }, &["joint 3 is out of balance by 5e-1"]),
+    ];
+    let test = "refusals_of_energy_for_frames";
+    let mut output = output("a refusal of energy for a system", test, &refusals);
+    output.is("kind", json!(["misfit", "absurd", "unbalanced"]));
+    output.is("misfits[].member", 1);
+    output.is("misfits[].misfit_m", 0.25);
+    output.is("misfits[].within_m", 0.125);
+    output.is("member", 2);
+    output.is("ratio", 4.5);
+    output.is("joint", 3);
+    output.is("unbalance", 0.5);
     output.done();
 }

@@ -82,7 +82,9 @@ fn drawn(random: &mut ChaCha8Rng) -> (System, Vec<Vector>) {
         Bounds::of_positions(&system_of(&joints, &members), &places, TOLERANCE).distance_m();
     if random.random_bool(0.5) {
         // Loads that forces within the bounds balance.
-        joints.iter_mut().for_each(|joint| joint.force_n = [0.0; 3]);
+        for joint in &mut joints {
+            joint.force_n = [0.0; 3];
+        }
         let mut left = joint_loads(&system_of(&joints, &members));
         for member in &members {
             let along = minus(places[member.to], places[member.from]);
