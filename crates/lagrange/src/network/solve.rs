@@ -142,7 +142,9 @@ pub fn solve_from(system: &System, seed: &Seed, settings: &Settings) -> Result<S
         let stiffness = Stiffness::new(&framework, false)?;
         let mut solver = Solver::new(system, framework, *settings, stiffness, began);
         let start = solver.start(seed);
-        let start = if seed.axial_n.is_none() { solver.closed(start) } else { start };
+        // Without loads the lengths of the shape are all that says what the members bear.
+        let to_fit = seed.axial_n.is_none() && !system.is_unloaded();
+        let start = if to_fit { solver.closed(start) } else { start };
         let run = solver.with_signs(start, Patience::Full)?;
         let second_order = solver.second_order(&run.state);
         Ok(solver.solution(run, second_order))
