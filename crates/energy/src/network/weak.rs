@@ -20,6 +20,9 @@ use crate::network::law::Excess;
 use crate::network::shape::{Shape, largest};
 use crate::vector::{along, dot, norm, scaled};
 
+/// Forces that are right to this part of the largest need nothing more.
+const SETTLED: f64 = 1e-10;
+
 /// Steps at most; few are enough.
 const STEPS: usize = 12;
 
@@ -58,16 +61,19 @@ pub(super) fn settled(system: &System, frame: &Frame, factor: &mut Factor, shape
         (true, true) => 1.0 / frame.rods[e].flexibility,
         (true, false) => rigid,
     };
-    let neutral = NEUTRAL * frame.largest_force(&shape.force);
-    frame.fill(factor, |e| excess[e].block(shape.force[e], stiffness(e)), |_| neutral);
-    if !factor.cholesky() {
-        return shape;
-    }
     let lengths: Vec<f64> = system.members().iter().map(|m| m.body.length_m()).collect();
     let (x, u): (Vec<_>, Vec<_>) =
         (0..shape.x.len()).map(|k| place_m(system, frame, &shape, k)).unzip();
     let mut here = Displaced { frame, lengths: &lengths, x: &x, u, force: shape.force.clone() };
     let mut error = here.error(&active);
+    if error <= SETTLED {
+        return shape;
+    }
+    let neutral = NEUTRAL * frame.largest_force(&shape.force);
+    frame.fill(factor, |e| excess[e].block(shape.force[e], stiffness(e)), |_| neutral);
+    if !factor.cholesky() {
+        return shape;
+    }
     for _ in 0..STEPS {
         let next = here.stepped(factor, &active, &stiffness);
         let left = next.error(&active);

@@ -510,6 +510,24 @@ fn a_new_file_can_be_solved_as_it_is_and_from_standard_input() {
 }
 
 #[test]
+fn a_new_truss_stands_where_it_is_drawn() {
+    let new = funicular(&["new", "--truss"]);
+    assert_eq!(new.status.code(), Some(0));
+    let mut solve = Command::cargo_bin("funicular").unwrap();
+    let output =
+        solve.env("NO_COLOR", "1").args(["solve", "-"]).write_stdin(new.stdout).output().unwrap();
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let text = stdout(&output);
+    // 4.5 times 100 kg g times 5/8, and 2.5 times that times sqrt(89)/8: by the method of joints.
+    for wanted in
+        ["Largest tension: 2758.12 N", "Largest compression: 2891.12 N", "The equilibrium nearest"]
+    {
+        assert!(text.contains(wanted), "{wanted}\n{text}");
+    }
+    assert!(text.lines().all(|line| line.chars().count() <= 80), "{text}");
+}
+
+#[test]
 fn where_the_chain_turns_freely_both_answers_are_shown_in_one_plane() {
     let text = stdout(&funicular(&["solve", "--case", "three-equal-bars"]));
     let row = text.lines().find(|line| line.contains("force at start")).unwrap();

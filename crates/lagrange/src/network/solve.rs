@@ -29,6 +29,11 @@ const SLACK_LENGTH: f64 = 1e-3;
 const ESCAPES: usize = 4;
 /// Such moves, in units of the mean length: the next one where the last one led nowhere.
 pub(super) const KICKS: [f64; 5] = [0.01, 0.1, 0.5, 1.0, 2.0];
+/// A shape whose stiff members miss their lengths by more than this part is closed first. Stiff are
+/// those that the mean load stretches by less; cables and struts further off are loose.
+const MISDRAWN: f64 = 1e-3;
+const STIFF: f64 = 1e-3;
+const LOOSE: f64 = 0.1;
 /// A system without loads whose elastic members all bear less than this part of their stiffness is
 /// not prestressed: that much is rounding.
 const NO_STRAIN: f64 = 1e-12;
@@ -125,6 +130,9 @@ pub fn solve_from(system: &System, seed: &Seed, settings: &Settings) -> Result<S
         let stiffness = Stiffness::new(&framework, false)?;
         let mut solver = Solver::new(system, framework, *settings, stiffness, began);
         let start = solver.start(seed);
+        // Without loads the lengths of the shape are all that says what the members bear.
+        let to_fit = seed.axial_n.is_none() && !system.is_unloaded();
+        let start = if to_fit { solver.closed(start) } else { start };
         let run = solver.with_signs(start, Patience::Full)?;
         let second_order = solver.second_order(&run.state);
         Ok(solver.solution(run, second_order))
@@ -261,6 +269,28 @@ impl<'a> Solver<'a> {
             solve_s: self.began.elapsed().as_secs_f64(),
         };
         Solution::new(self.system, &self.framework, found)
+    }
+
+    /// A state whose stiff members have not their lengths by far, moved until they have: forces
+    /// fitted to such a shape lead Newton's method astray.
+    fn closed(&mut self, state: State) -> State {
+        let mut unloaded = state.clone();
+        unloaded.axial.fill(0.0);
+        let directions = state.directions(&self.framework);
+        let mut off = 0.0_f64;
+        for (k, link) in self.framework.links.iter().enumerate() {
+            let misfit = (directions[k].1 / link.length - 1.0).abs();
+            let stiff = link.compliance <= STIFF * link.length;
+            unloaded.taut[k] = stiff && (link.kind == Kind::Bar || misfit <= LOOSE);
+            off = off.max(if unloaded.taut[k] { misfit } else { 0.0 });
+        }
+        if off <= MISDRAWN {
+            return state;
+        }
+        let units = self.framework.units;
+        let places = self.fitted(unloaded).state.places;
+        let to_m = |place: &Vector3<f64>| (place * units.length_m + units.origin_m).into();
+        self.start(&Seed::at(places.iter().map(to_m).collect()))
     }
 
     /// The state of a seed.

@@ -18,6 +18,9 @@ use super::residual::Residual;
 use super::state::{State, two_sum};
 use super::stiffness::Stiffness;
 
+/// Forces that are right to this part of the largest need nothing more.
+const SETTLED: f64 = 1e-10;
+
 /// Steps at most; two or three are enough.
 const ROUNDS: usize = 8;
 
@@ -40,10 +43,10 @@ pub(super) fn settled(
     let mut best = run;
     let mut misfits = exact_misfits(system, framework, &best);
     let mut error = force_error(framework, &best, &misfits);
+    if error <= SETTLED {
+        return best;
+    }
     for _ in 0..ROUNDS {
-        if error <= 0.0 {
-            break;
-        }
         let derivative = Derivative::elastic(framework, stiffness, &best.state, &best.residual);
         let of = (best.residual.forces.as_slice(), misfits.as_slice());
         let step = derivative.and_then(|d| d.solve(framework, stiffness, of, SOLVED, None));

@@ -251,10 +251,9 @@ fn shapes_drawn_wrong_lead_to_the_neighbour_or_say_so() {
                     found += usize::from(same && answer.agrees());
                 }
             }
-            assert!(
-                part > 0.1 || found == 2 * usize::try_from(seeds).unwrap(),
-                "{name} {part}: {found}"
-            );
+            // All of them, both solvers, up to 5 %.
+            let least = if part < 0.1 { 6 } else { 0 };
+            assert!(found >= least, "{name} {part}: {found}");
         }
     }
 }
