@@ -90,7 +90,7 @@ impl Solver<'_> {
 
     /// The lengths alone, by least squares (Levenberg and Marquardt): where they say nothing about
     /// a direction no joint moves along it.
-    fn fitted(&mut self, state: State) -> Run {
+    pub(super) fn fitted(&mut self, state: State) -> Run {
         let mut run = Run::at(&self.framework, state);
         for _ in 0..self.settings.max_iterations {
             let step = self.length_step(&run);
