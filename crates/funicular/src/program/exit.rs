@@ -4,6 +4,7 @@ use branches::{ContinuationError, ParameterError};
 use funicular::Error;
 use funicular::judge::GivenError;
 use miette::{LabeledSpan, miette};
+use validate::systems::SystemFailure;
 
 use crate::diagnostics::{SystemFileReport, tell};
 
@@ -86,6 +87,11 @@ impl Failure {
                     None => all,
                 };
                 Self::bad_input(miette!(help = help, "{error}"))
+            }
+            Error::UnsolvedSystem(ref answer)
+                if answer.failures().iter().all(SystemFailure::is_misfit) =>
+            {
+                Self::bad_input(miette!("{error}"))
             }
             Error::Unsolved(_)
             | Error::UnsolvedSystem(_)

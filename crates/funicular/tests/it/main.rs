@@ -17,6 +17,7 @@ mod modes;
 mod motion;
 mod pages;
 mod program;
+mod promise;
 mod reached;
 mod replaced;
 mod slurm;

@@ -39,6 +39,16 @@ pub enum SystemFailure {
 }
 
 impl SystemFailure {
+    /// Whether the lengths of rigid members fit no shape: no search would find one.
+    #[must_use]
+    pub fn is_misfit(&self) -> bool {
+        matches!(
+            self,
+            Self::Lagrange(lagrange::network::Error::Misfit { .. })
+                | Self::Energy(energy::network::Error::Misfit { .. })
+        )
+    }
+
     /// The solver that has no answer.
     #[must_use]
     pub fn solver(&self) -> SolverName {

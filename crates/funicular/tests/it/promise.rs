@@ -1,0 +1,138 @@
+//! Agreed means right: systems that once ended as agreed, proved or confirmed and were not.
+//!
+//! Expected forces of overdetermined frames are those of NumPy's `lstsq` at the shape that SciPy's
+//! `least_squares` finds for the lengths: least $\sum t^2 l$ under balance.
+
+#![expect(clippy::unwrap_used, reason = "helpers of tests")]
+
+use std::path::Path;
+
+use serde_json::Value;
+
+use crate::keys::output::run;
+
+const FOLDER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/it/promise");
+
+/// What a command prints of a file of the folder, and its exit code.
+fn said(arguments: &[&str]) -> (Option<i32>, String) {
+    run(Path::new(FOLDER), arguments)
+}
+
+fn solved(file: &str) -> Value {
+    let (code, text) = said(&["solve", file, "--json"]);
+    assert_eq!(code, Some(0), "{file}");
+    let answer: Value = serde_json::from_str(&text).unwrap();
+    assert_eq!(answer["agreement"]["verdict"], "agreed", "{file}");
+    answer
+}
+
+fn axial_n(answer: &Value, solver: usize) -> Vec<f64> {
+    let bars = answer["equilibria"][solver]["bars"].as_array().unwrap();
+    bars.iter().map(|bar| bar["axial_n"].as_f64().unwrap()).collect()
+}
+
+#[test]
+fn overdetermined_frames_bear_the_share_of_equally_stiff_bars() {
+    let frames: [(&str, &[f64]); 3] = [
+        ("1-tetrapod.json", &[-7.9080319, 19.061756256, -29.887541991, 13.167457291]),
+        ("1-1e61.json", &[-13.444564652, -0.15175543, -7.395033532, 0.937709492]),
+        (
+            "1-only_this.json",
+            &[
+                -6.852318514,
+                62.782638126,
+                -54.058160269,
+                -40.102182168,
+                0.0,
+                -47.770424759,
+                -14.815667035,
+                -28.780654545,
+            ],
+        ),
+    ];
+    for (file, expected) in frames {
+        let answer = solved(file);
+        for solver in 0..2 {
+            let found = axial_n(&answer, solver);
+            assert_eq!(found.len(), expected.len());
+            for (found, expected) in found.iter().zip(expected) {
+                assert!((found - expected).abs() < 2e-8, "{file} {solver}: {found} {expected}");
+            }
+        }
+        let (_, text) = said(&["solve", file]);
+        assert!(text.contains(" any"), "{file}: no bar of a self-stress is open:\n{text}");
+    }
+    // The same through the commands that repeat the question.
+    let vary = ["study", "1-tetrapod.json", "--vary", "joints.P.mass_kg=2", "--json"];
+    let (code, text) = said(&vary);
+    let study: Value = serde_json::from_str(&text).unwrap();
+    assert_eq!(code, Some(0));
+    let largest = study["points"][0]["compression_n"][1].as_f64().unwrap();
+    assert!((largest - 29.887541991).abs() < 2e-8, "{largest}");
+}
+
+/// A millionth more on one leg is no rounding: bad input, with the misfits and what helps.
+#[test]
+fn lengths_that_cannot_be_assembled_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = std::fs::read_to_string(Path::new(FOLDER).join("1-tetrapod.json")).unwrap();
+    let longer = text.replace("6.708203932499369", "6.708213932499369");
+    assert_ne!(text, longer);
+    std::fs::write(folder.path().join("longer.json"), &longer).unwrap();
+    let (code, text) = run(folder.path(), &["solve", "longer.json", "--json"]);
+    assert_eq!(code, Some(2), "{text}");
+    let answer: Value = serde_json::from_str(&text).unwrap();
+    for failure in answer["failures"].as_array().unwrap() {
+        assert_eq!(failure["refusal"]["kind"], "misfit");
+        assert_eq!(failure["refusal"]["misfits"].as_array().unwrap().len(), 4);
+        assert!(failure["reason"].as_str().unwrap().contains("length_tolerance_m"));
+    }
+    let tolerant =
+        longer.replace("\"mass_kg\": 0.0", "\"mass_kg\": 0.0, \"length_tolerance_m\": 1e-4");
+    std::fs::write(folder.path().join("tolerant.json"), tolerant).unwrap();
+    assert_eq!(run(folder.path(), &["solve", "tolerant.json"]).0, Some(0));
+}
+
+/// A weight on a cable 1e-12 m above the floor: the cable bears all of it.
+#[test]
+fn what_does_not_touch_the_floor_is_not_borne_by_it() {
+    let answer = solved("4-floor.json");
+    for solver in 0..2 {
+        assert!((axial_n(&answer, solver)[0] - 9.80665).abs() < 1e-9, "{answer}");
+    }
+}
+
+/// A moment about the bar, which nothing feels, changes no frequency.
+#[test]
+fn a_moment_about_the_axis_changes_no_frequency() {
+    let frequencies = |file: &str| {
+        let (code, text) = said(&["modes", file, "--json"]);
+        assert_eq!(code, Some(0), "{file}");
+        let modes: Value = serde_json::from_str(&text).unwrap();
+        let modes = modes["equilibria"][0]["modes"].as_array().unwrap().clone();
+        modes.iter().map(|mode| mode["omega2_s2"].as_f64().unwrap()).collect::<Vec<f64>>()
+    };
+    let plain = frequencies("5-inertia_default.json");
+    let spinning = frequencies("5-inertia_same_plus_spin.json");
+    assert!(!plain.is_empty() && plain.len() == spinning.len());
+    for (one, other) in plain.iter().zip(&spinning) {
+        assert!((one - other).abs() <= 1e-9 * one.abs(), "{one} {other}");
+    }
+}
+
+/// One solver has no answer: so has the study.
+#[test]
+fn a_study_ends_as_solve_does() {
+    let solve = said(&["solve", "7-study_exit0.json"]).0;
+    let study =
+        said(&["study", "7-study_exit0.json", "--vary", "joints.P0.mass_kg=3068.785648936557"]).0;
+    assert_eq!(study, solve);
+}
+
+/// A triangle that turns freely has a zero mode, and is called that.
+#[test]
+fn a_zero_mode_is_called_one() {
+    let (code, text) = said(&["modes", "8-modes_label.json"]);
+    assert_eq!(code, Some(0));
+    assert!(text.contains("turn"), "{text}");
+}
