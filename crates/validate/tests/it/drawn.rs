@@ -2,7 +2,7 @@
 //! method of joints, a linear stiffness computation by nalgebra, and published numbers.
 
 use model::cases::exhibit;
-use model::system::{Joint, Member, System, SystemEquilibrium};
+use model::system::{Joint, Member, Support, System, SystemEquilibrium};
 use model::{Bar, STANDARD_GRAVITY_M_S2 as G, Vector};
 use nalgebra::{DMatrix, DVector, Vector3};
 use rand::{RngExt as _, SeedableRng as _};
@@ -38,7 +38,6 @@ fn linear(system: &System) -> (DVector<f64>, Vec<f64>) {
     for joint in system.joints() {
         let axes = Vector3::ith;
         let unit: Vec<Vector3<f64>> = (0..3).map(|k| axes(k, 1.0)).collect();
-        use model::system::Support;
         columns.push(match joint.support {
             Support::Free => unit,
             Support::Fixed { .. } => vec![],
