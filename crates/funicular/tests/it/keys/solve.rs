@@ -426,5 +426,9 @@ fn a_drawn_rod() {
     output.is("near.is_neighbour", true);
     output.is("near.barrier_j", json!([null]));
     output.near("near.lower_j", 1e-12, -10.0);
+    // The descent ends where the rod hangs, 1 m below the foot.
+    output.near("failures[].refusal.moved_m", 1e-9, 1.9);
+    output.is("equilibria[].evidence.ladder[].reason.solver", json!(["energy"]));
+    output.within("equilibria[].evidence.ladder[].reason.statics", 0.0..=NOTHING);
     output.done();
 }
