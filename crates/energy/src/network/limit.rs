@@ -48,6 +48,10 @@ const HARDER: f64 = 1e-3;
 /// Softness of the last reading: below it all is rounding.
 const HARDEST: f64 = 1e-14;
 
+/// Softness up to which a self-stress may take a joint on the floor into it. The floor has no tolerance: a bar that leans
+/// on it by the angle `a` is as singular as `a²`, and shares nothing with it unless that is rounding.
+const FLOOR_SOFTNESS: f64 = 1e-13;
+
 /// Steps of one reading, changes of the taut members included.
 const STEPS: usize = 40;
 
@@ -326,6 +330,10 @@ impl Newton {
             return Reading::Astray;
         }
         let Some(stressed) = share.self_stressed() else { return Reading::Regular };
+        let mut with_floor = self.frame.rods.iter().zip(&stressed);
+        if softness > FLOOR_SOFTNESS && with_floor.any(|(rod, stressed)| rod.ground && *stressed) {
+            return Reading::Astray;
+        }
         let misfits = self.frame.misfits(&self.frame.excesses(&shape.x), &stressed);
         let rank = softness.sqrt();
         Reading::Found(Limit { shape, taut, stiffening, residual, rank, misfits })

@@ -27,8 +27,11 @@ const MEMBERS: &[&str] = &[
     "axial_n",
     "solver",
     "bar",
-    // What `solve --bars-csv` writes besides; both follow from the axial force and the loads of the
+    // What `solve --bars-csv` writes besides; all follow from the axial force and the loads of the
     // member.
+    "axial_from_n",
+    "axial_to_n",
+    "axial_max_n",
     "start_x_n",
     "start_y_n",
     "start_z_n",

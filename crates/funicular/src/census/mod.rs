@@ -83,7 +83,7 @@ impl Census {
         problem: &Problem,
         watch: &(dyn Fn(Progress) + Sync),
     ) -> Result<CensusAnswer, Error> {
-        let problem = problem.chain_for("a census")?;
+        let problem = problem.as_chain().ok_or(Error::ChainsOnly { what: "a census" })?;
         threads::on(self.threads, || {
             let census = census::Census::take_watched(problem, &self.settings, watch)?;
             let verdict = census.check(problem);
@@ -116,7 +116,7 @@ impl Census {
         made: usize,
         watch: &(dyn Fn(Progress) + Sync),
     ) -> Result<LargeCensusAnswer, Error> {
-        let problem = problem.chain_for("a census")?;
+        let problem = problem.as_chain().ok_or(Error::ChainsOnly { what: "a census" })?;
         threads::on(self.threads, || {
             let census = CompactCensus::take(problem, &self.settings, watch)?;
             let verdict = census.check(problem);

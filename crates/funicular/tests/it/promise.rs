@@ -110,7 +110,8 @@ fn a_moment_about_the_axis_changes_no_frequency() {
         assert_eq!(code, Some(0), "{file}");
         let modes: Value = serde_json::from_str(&text).unwrap();
         let modes = modes["equilibria"][0]["modes"].as_array().unwrap().clone();
-        modes.iter().map(|mode| mode["omega2_s2"].as_f64().unwrap()).collect::<Vec<f64>>()
+        let swings = modes.iter().filter(|mode| !mode["what"].as_str().unwrap().contains("spin"));
+        swings.map(|mode| mode["omega2_s2"].as_f64().unwrap()).collect::<Vec<f64>>()
     };
     let plain = frequencies("5-inertia_default.json");
     let spinning = frequencies("5-inertia_same_plus_spin.json");

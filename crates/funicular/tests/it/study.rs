@@ -285,8 +285,10 @@ const OF_CHAIN: [(&str, &str, f64); 7] = [
     ("bars.inertia_kg_m2", "bars.3.inertia_kg_m2.z", 0.05),
 ];
 
-/// Keys with numbers that do not vary: of a load on a chain `joints.K` is varied.
-const NO_PARAMETERS: [&str; 6] = [
+/// Keys with numbers that do not vary: of a load on a chain `joints.K` is varied, and where a joint is
+/// drawn decides which equilibrium is meant.
+const NO_PARAMETERS: [&str; 7] = [
+    "joints.NAME.near_m",
     "loads.mass_kg",
     "loads.force_n",
     "joints.NAME.along",
@@ -323,11 +325,11 @@ fn every_parameter_means_the_number_of_the_file() {
             let [energy_j, tension_n] = match &solved {
                 Solution::Chain(answer) => {
                     let first = &answer.equilibria()[0];
-                    [first.energy_j, largest(&first.axial_n)]
+                    [first.energy_j, largest(&first.axial_forces())]
                 }
                 Solution::System(answer) => {
                     let first = &answer.equilibria()[0];
-                    [first.energy_j, largest(&first.axial_n)]
+                    [first.energy_j, largest(&first.axial_forces(answer.system()))]
                 }
             };
             assert!((shape.energy_j - energy_j).abs() < 1e-12 * energy_j.abs(), "{path} = {value}");
@@ -345,8 +347,8 @@ fn every_parameter_means_the_number_of_the_file() {
     assert_eq!(keys, known);
 }
 
-fn largest(forces_n: &[f64]) -> f64 {
-    forces_n.iter().copied().fold(0.0, f64::max)
+fn largest(axial: &[funicular::AxialForce]) -> f64 {
+    axial.iter().map(|along| along.most_n).fold(0.0, f64::max)
 }
 
 /// A string of two halves that bear 100 N at 1 m, EA 1000 N, over a span of 2 m: under 1 kg in the

@@ -114,7 +114,7 @@ fn a_loaded_chain_is_traced_swept_and_drawn_as_the_chain_that_it_is() {
     std::fs::write(folder.join("v.toml"), text).unwrap();
     for arguments in [
         &["trace", "v.toml", "--vary", "anchors.end_m.x=1.0..1.4:5", "--csv", "t.csv"][..],
-        &["sweep", "v.toml", "--seeds", "50", "--csv", "--out", "sweep"],
+        &["sweep", "v.toml", "--seeds", "50", "--format", "csv", "--out", "sweep"],
         &["basins", "v.toml", "--out", "basins", "--size", "16"],
         &["census", "v.toml"],
         &["solve", "v.toml"],

@@ -25,7 +25,7 @@ pub struct Row {
 type Walk = (Vec<usize>, Vec<(usize, bool)>);
 
 impl System {
-    /// The system as a chain, where it is one: rigid bars in a row between two anchors, nothing on
+    /// The system as a chain, where it is one: rigid bars of exact length in a row between two anchors, nothing on
     /// the bars but their weight, and no load at the joints that is not straight down.
     ///
     /// ```
@@ -39,7 +39,10 @@ impl System {
         let members = self.members();
         let rigid = |k: usize| {
             let member = &members[k];
-            member.kind == Kind::Bar && member.stiffness_n.is_none() && member.loads.is_empty()
+            member.kind == Kind::Bar
+                && member.stiffness_n.is_none()
+                && member.length_tolerance_m.is_none()
+                && member.loads.is_empty()
         };
         if self.floor_m().is_some()
             || self.joints().len() != members.len() + 1

@@ -190,7 +190,7 @@ fn too_flat_to_tell() {
         json!(["solvers_disagree", "not_tried", "not_tried", "not_tried"]),
     );
     output.is("ladder[].reason.excesses[].what", "joints");
-    output.is("ladder[].reason.excesses[].between[]", json!(["places.csv", "lagrange"]));
+    output.is("ladder[].reason.excesses[].between[]", json!(["places.csv", "energy"]));
     output.near("ladder[].reason.excesses[].value", 1e-9, 1e-4);
     output.near("ladder[].reason.excesses[].budget", 1e-12, 2e-6);
     output.is("ladder[].reason.stability[]", json!([]));
