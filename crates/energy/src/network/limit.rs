@@ -48,9 +48,9 @@ const HARDER: f64 = 1e-3;
 /// Softness of the last reading: below it all is rounding.
 const HARDEST: f64 = 1e-14;
 
-/// Softness up to which a self-stress may take a joint on the floor into it. The floor has no tolerance: a bar that leans
-/// on it by the angle `a` is as singular as `a²`, and shares nothing with it unless that is rounding.
-const FLOOR_SOFTNESS: f64 = 1e-13;
+/// What a self-stress with the floor in it may leave at a joint, over its size. The floor has no tolerance: a bar that leans on it
+/// by the angle `a` leaves `a`, and shares nothing with it unless that is rounding.
+const LEANING: f64 = 1e-10;
 
 /// Steps of one reading, changes of the taut members included.
 const STEPS: usize = 40;
@@ -150,6 +150,19 @@ impl Frame {
         let mut force = shape.force.clone();
         share_forces(self, share, &mut force);
         shape.force.iter().zip(force).map(|(all, part)| all - part).collect()
+    }
+
+    /// Whether a self-stress of these members is out of balance at a shape by more than rounding.
+    fn leaning(&self, share: &mut Share, shape: &Shape, members: &[bool]) -> bool {
+        let size = self.force_scale(&shape.force);
+        let any = |(e, stressed): (usize, &bool)| {
+            // Without order, so that it has a part of every self-stress.
+            if *stressed { size * (0.5 + (0.618_033_988_75 * (e + 1) as f64).fract()) } else { 0.0 }
+        };
+        let force = members.iter().enumerate().map(any).collect();
+        let stress = self.self_stress(share, &Shape { x: shape.x.clone(), force });
+        let with = self.slope(&stressed(shape, &stress)).unbalance;
+        with - self.slope(shape).unbalance > LEANING
     }
 
     /// The misfits of some members, the worst first.
@@ -331,7 +344,9 @@ impl Newton {
         }
         let Some(stressed) = share.self_stressed() else { return Reading::Regular };
         let mut with_floor = self.frame.rods.iter().zip(&stressed);
-        if softness > FLOOR_SOFTNESS && with_floor.any(|(rod, stressed)| rod.ground && *stressed) {
+        if with_floor.any(|(rod, stressed)| rod.ground && *stressed)
+            && self.frame.leaning(share, &shape, &stressed)
+        {
             return Reading::Astray;
         }
         let misfits = self.frame.misfits(&self.frame.excesses(&shape.x), &stressed);
