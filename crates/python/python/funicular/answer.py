@@ -214,6 +214,21 @@ class Answer:
         return self.equilibria[0].joints_m
 
     @property
+    def axial_from_n(self) -> Array:
+        """(members,) Axial forces at the joints where the members begin, N."""
+        return self.equilibria[0].axial_from_n
+
+    @property
+    def axial_to_n(self) -> Array:
+        """(members,) Axial forces at the joints where the members end, N."""
+        return self.equilibria[0].axial_to_n
+
+    @property
+    def axial_max_n(self) -> Array:
+        """(members,) Axial forces where they are largest, N."""
+        return self.equilibria[0].axial_max_n
+
+    @property
     def axial_n(self) -> Array:
         """(members,) axial forces, tension positive, N."""
         return self.equilibria[0].axial_n
