@@ -94,8 +94,14 @@ impl StudyShape {
         };
         let answer = answer.map_err(|error| NoShape::unsolved(&error))?;
         if let Some(found) = answer.as_system()
-            && let (Some(_), Some(first)) = (found.near(), found.equilibria().first())
+            && let (Some(near), Some(first)) = (found.near(), found.equilibria().first())
         {
+            if !near.is_neighbour {
+                return Err(NoShape::unsolved(&format!(
+                    "the branch ends here, or the steps are too long: joint {:?} of what was found is {:.3e} m away",
+                    near.joint, near.moved_m
+                )));
+            }
             *before = Some(first.joints_m.clone());
         }
         let found = match &answer {
