@@ -359,9 +359,9 @@ fn joint(system: &System, name: &str) -> Result<usize, SimulateError> {
 }
 
 fn named(found: equilibria::Equilibria, label: &str) -> Result<Vec<Vector>, Error> {
-    let labels: Vec<String> = found.list.iter().map(|e| e.label().to_owned()).collect();
-    let wanted = found.list.into_iter().find(|e| e.label() == label);
-    let at = wanted.map(|e| e.joints_m().to_vec());
+    let labels: Vec<String> = found.list.iter().map(|one| one.label.clone()).collect();
+    let wanted = found.list.into_iter().find(|one| one.label == label);
+    let at = wanted.map(|one| one.found.joints_m);
     at.ok_or_else(|| SimulateError::NoSuchEquilibrium { label: label.to_owned(), labels }.into())
 }
 

@@ -113,9 +113,6 @@ fn parts(error: &Error) -> Parts {
         Error::Unsolved(answer) => {
             ("Unsolved", failures(answer.failures().iter().map(funicular::Failure::of)))
         }
-        Error::UnsolvedSystem(answer) => {
-            ("Unsolved", failures(answer.failures().iter().map(funicular::Failure::of_system)))
-        }
         Error::Given(error) => given(error),
         Error::Tolerance(error) => {
             let tolerance = error.tolerance;

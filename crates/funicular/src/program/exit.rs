@@ -88,13 +88,12 @@ impl Failure {
                 };
                 Self::bad_input(miette!(help = help, "{error}"))
             }
-            Error::UnsolvedSystem(ref answer)
+            Error::Unsolved(ref answer)
                 if answer.failures().iter().all(SystemFailure::is_misfit) =>
             {
                 Self::bad_input(miette!("{error}"))
             }
             Error::Unsolved(_)
-            | Error::UnsolvedSystem(_)
             | Error::Lagrange(_)
             | Error::Condensed(_)
             | Error::Energy(_)

@@ -369,10 +369,10 @@ fn a_limit_of_memory_is_kept() {
     };
     let chain = |count: u64| SYSTEM.replace("count = 3", &format!("count = {count}"));
     fs::write(folder.join("chain.toml"), chain(500_000)).unwrap();
-    let output = limited("150MB", PROGRAM + 150_000, "chain.toml");
+    let output = limited("450MB", PROGRAM + 450_000, "chain.toml");
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     fs::write(folder.join("longer.toml"), chain(500_001)).unwrap();
-    let output = limited("150MB", PROGRAM, "longer.toml");
+    let output = limited("450MB", PROGRAM, "longer.toml");
     assert_eq!(output.status.code(), Some(2), "{}", stderr(&output));
     assert!(stderr(&output).contains("500000"), "{}", stderr(&output));
     fs::write(folder.join("most.toml"), chain(20_000_000)).unwrap();

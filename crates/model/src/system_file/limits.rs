@@ -13,8 +13,8 @@ pub const MAX_FILE_BYTES: u64 = 64 << 20;
 pub const MAX_BARS_FILE_BYTES: u64 = 100 * MAX_BARS as u64;
 
 /// Memory that a bar of a chain needs, from its file to the answers of both solvers, bytes: at most
-/// 250 are measured, with two million bars.
-pub const BYTES_PER_BAR: u64 = 300;
+/// 760 are measured, with a hundred thousand bars.
+pub const BYTES_PER_BAR: u64 = 900;
 
 /// Memory that a byte of a system file needs while it is parsed, bytes: at most 67 are measured, of
 /// a file of empty arrays (48 of one of empty lines).
@@ -30,7 +30,7 @@ static FILE_BYTES: AtomicU64 = AtomicU64::new(MAX_FILE_BYTES);
 ///
 /// ```standalone_crate
 /// use model::system_file::{limit_memory, parse};
-/// limit_memory(300_000);
+/// limit_memory(900_000);
 /// let chain = |count| format!(
 ///     "anchors = {{ start_m = [0, 0, 0], end_m = [0, 0, -1] }}\n\
 ///      [[bars]]\nlength_m = 1\nmass_kg = 1\ncount = {count}\n"

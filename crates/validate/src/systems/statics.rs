@@ -281,8 +281,10 @@ fn member(
     let carried = loads.iter().fold(end, |sum, (part, p)| plus(sum, times(*part, *p)));
     let turn = cross(along, carried);
     let unit_n = local.unit_n(largest_n);
-    // A displaced end turns the member: force times displacement.
-    let rounding = local.rounding_n * distance_m + unit_n * units.rounding_m;
+    // A displaced end turns the member: force times displacement. Far from its ends a long row bears
+    // what acts on all of it.
+    let turned_n = unit_n.max(largest_n.min(units.total_n));
+    let rounding = local.rounding_n * distance_m + turned_n * units.rounding_m;
     let moment = beyond(norm(turn), rounding);
     let moment = if moment <= 0.0 { 0.0 } else { moment / (unit_n * distance_m) };
     found.note(|s| &mut s.moment, moment, place);

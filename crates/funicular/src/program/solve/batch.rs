@@ -7,9 +7,9 @@ use std::ops::ControlFlow;
 use std::path::Path;
 
 use formats::answer::Answer;
-use funicular::{Problem, Solve};
+use funicular::{Lists, Problem, Solve};
 use miette::miette;
-use validate::answer::UseCensus;
+use validate::UseCensus;
 
 use super::lines::{Line, Lines};
 use super::object::{self, Origin, Unanswered};
@@ -30,7 +30,7 @@ pub fn run(arguments: &super::Solve, path: &Path) -> Result<Exit, Failure> {
     // A census takes far longer than a solution.
     let solve = arguments.question(UseCensus::Never);
     let shape = arguments.shape()?;
-    let work = |line: Line| answer(&solve, &line, shape.as_ref(), arguments.summary);
+    let work = |line: Line| answer(&solve, &line, shape.as_ref(), arguments.lists());
     // What is written to a terminal is progress enough.
     let progress = (!io::stdout().is_terminal()).then(Progress::start);
     let mut tally = Tally::default();
@@ -75,7 +75,7 @@ fn open(path: &Path) -> Result<Lines, Failure> {
 }
 
 /// The answer to a line as a line.
-fn answer(solve: &Solve, line: &Line, shape: Option<&Answer>, summary: bool) -> (String, Exit) {
+fn answer(solve: &Solve, line: &Line, shape: Option<&Answer>, lists: Lists) -> (String, Exit) {
     let drawn = |problem: Problem| match shape {
         Some(shape) => next_to(&problem, shape),
         None => Ok(problem),
@@ -87,9 +87,9 @@ fn answer(solve: &Solve, line: &Line, shape: Option<&Answer>, summary: bool) -> 
             .and_then(drawn)
             .and_then(|problem| solve.run_here(&problem))
         {
-            Ok(solution) => {
-                let exit = super::verdict(solution.check_failed(), solution.is_decided());
-                (object::answer(origin, &solution, summary, false), exit)
+            Ok(answer) => {
+                let exit = super::verdict(&answer);
+                (object::answer(origin, &answer, lists, false), exit)
             }
             Err(error) => {
                 let text = Unanswered::of(&error).line(origin);
