@@ -28,8 +28,8 @@ const RESTARTS: usize = 4;
 
 /// Where lengths overdetermine a shape it has places that nearly close, and others that close, by the
 /// dozen: as many starts as make this number of free coordinates together, and at most so many.
-const COORDINATES: usize = 360;
-const MOST_RESTARTS: usize = 40;
+const COORDINATES: usize = 900;
+const MOST_RESTARTS: usize = 100;
 
 /// Another shape has less energy if it is less by this part: the rest is rounding.
 const LESS: f64 = 1e-9;

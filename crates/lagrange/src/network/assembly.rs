@@ -23,7 +23,7 @@ const MOST_ASSEMBLIES: usize = 400;
 const ASSEMBLIES: usize = 60;
 /// Shapes with fewer free directions are assembled again in search of less energy, from so many starts.
 const SMALL: usize = 30;
-const AGAIN: usize = 60;
+const AGAIN: usize = 200;
 /// Less energy is less by this part: the rest is rounding.
 const LESS: f64 = 1e-9;
 const ASSEMBLY_KICK: f64 = 2.0;
