@@ -1,5 +1,6 @@
 //! A system set in motion.
 
+use std::collections::HashMap;
 use std::ops::ControlFlow;
 use std::str::FromStr;
 
@@ -284,10 +285,14 @@ impl Simulate {
         let at = self.position(problem, &system)?;
         let mut simulation = Simulation::new(&system, &at, self.settings)?;
         simulation.push(&self.impulses(&system)?)?;
+        let numbers = system.joints().iter().enumerate();
+        let numbers: HashMap<_, _> = numbers.map(|(k, joint)| (joint.name.as_str(), k)).collect();
         for (name, force) in self.forces.joints() {
             let force = force.clone();
             let of_time = Box::new(move |time_s: f64| force.at(time_s));
-            simulation.add_force(joint(&system, name)?, of_time)?;
+            let number = numbers.get(name.as_str()).copied();
+            let number = number.ok_or_else(|| SimulateError::NoSuchJoint { name: name.clone() })?;
+            simulation.add_force(number, of_time)?;
         }
         let step_s = self.time_s / steps as f64;
         for step in 0..=steps {

@@ -1,7 +1,6 @@
 //! `funicular solve --batch`: a system in every line, an answer in every line.
 
 use std::fmt;
-use std::fs::File;
 use std::io::{self, BufReader, ErrorKind, IsTerminal as _, Write as _};
 use std::ops::ControlFlow;
 use std::path::Path;
@@ -9,6 +8,7 @@ use std::path::Path;
 use formats::answer::Answer;
 use funicular::{Lists, Problem, Solve};
 use miette::miette;
+use model::open_input;
 use validate::UseCensus;
 
 use super::lines::{Line, Lines};
@@ -65,10 +65,7 @@ fn open(path: &Path) -> Result<Lines, Failure> {
     if path == Path::new("-") {
         return Ok(Lines::of(BufReader::new(io::stdin())));
     }
-    let file = File::open(path).and_then(|file| {
-        if file.metadata()?.is_dir() { Err(ErrorKind::IsADirectory.into()) } else { Ok(file) }
-    });
-    let file = file.map_err(|error| {
+    let file = open_input(path).map_err(|error| {
         Failure::bad_input(miette!("cannot read the systems from {}: {error}", path.display()))
     })?;
     Ok(Lines::of(BufReader::new(file)))
