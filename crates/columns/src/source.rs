@@ -63,8 +63,8 @@ impl<'p> Source<'p> {
         let groups = self.metadata.row_groups().iter();
         for column in groups.flat_map(RowGroupMetaData::columns) {
             match column.compression_codec() {
-                UNCOMPRESSED | SNAPPY | ZSTD | LZ4 | LZ4_RAW => {}
-                found @ (GZIP | BROTLI | LZO) => {
+                UNCOMPRESSED | SNAPPY | GZIP | ZSTD | LZ4 | LZ4_RAW => {}
+                found @ (BROTLI | LZO) => {
                     return Err(ColumnsError::Compression {
                         path: self.path.to_owned(),
                         column: column.column_path().string(),

@@ -20,8 +20,6 @@
 //! same laws ([`foreign`]).
 
 pub mod answer;
-#[cfg(feature = "bounds")]
-pub mod cables;
 pub mod census_checks;
 pub mod certificate;
 pub mod compare;

@@ -49,7 +49,8 @@ pub(crate) fn support_at(svg: &mut Svg, support: Support, at: [f64; 2], scene: &
         Support::Plane(normal) => match scene.direction(normal) {
             // The rail on the other side than the normal points to.
             Some([x, y]) => rail(svg, at, [-y, x], 1.0),
-            None => square(svg, at),
+            // All that moves in such a drawing moves in it.
+            None => {}
         },
     }
 }
@@ -77,7 +78,7 @@ fn rail(svg: &mut Svg, [x, y]: [f64; 2], [u, v]: [f64; 2], side: f64) {
     svg.line(Look::stroke(DARK, 1.6).class("support"), ends[0], ends[1]);
 }
 
-/// A rail that is seen end on, a plane seen flat.
+/// A rail that is seen end on.
 fn square(svg: &mut Svg, [x, y]: [f64; 2]) {
     let side = RAIL[1] + 2.0;
     let look = Look::stroke(DARK, 1.4).class("support");

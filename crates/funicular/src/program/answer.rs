@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use funicular::SolveAnswer;
-use model::system::{Kind, Member, System, SystemEquilibrium};
+use model::system::{Kind, Member, Support, System, SystemEquilibrium};
 use model::{Evidence, SolverName, Vector};
 
 use crate::printable::Printable;
@@ -130,7 +130,9 @@ fn overview(equilibria: &[SystemEquilibrium]) -> String {
 fn shape(system: &System, e: &SystemEquilibrium, summary: bool) -> String {
     let held = system.joints().iter().zip(&e.reactions_n).enumerate();
     let lies = |force: &[f64; 3]| force.iter().any(|n| n.abs() > 0.0);
-    let held = held.filter(|(_, (joint, force))| joint.support.at_m().is_some() || lies(force));
+    // What a plane keeps in it, as that of a planar drawing, is shown where it bears something.
+    let holds = |support: Support| matches!(support, Support::Fixed { .. } | Support::Line { .. });
+    let held = held.filter(|(_, (joint, force))| holds(joint.support) || lies(force));
     let shape = Shape {
         name: &|joint| Printable(&system.joints()[joint].name).to_string(),
         ends: &|bar| [system.members()[bar].from, system.members()[bar].to],

@@ -92,7 +92,13 @@ impl StudyShape {
         };
         let answer = answer.map_err(|error| NoShape::unsolved(&error))?;
         let first = answer.equilibria().first();
-        if let (Some(_), Some(first)) = (answer.near(), first) {
+        if let (Some(near), Some(first)) = (answer.near(), first) {
+            if !near.is_neighbour {
+                return Err(NoShape::unsolved(&format!(
+                    "the branch ends here, or the steps are too long: joint {:?} of what was found is {:.3e} m away",
+                    near.joint, near.moved_m
+                )));
+            }
             *before = Some(first.joints_m.clone());
         }
         let shape = Self::of(&answer).ok_or_else(|| NoShape::unsolved(&"no equilibrium"))?;

@@ -4,6 +4,7 @@ mod batch;
 mod census;
 mod census_systems;
 mod derivatives;
+mod drawn;
 mod edited;
 mod escapes;
 mod examples;
