@@ -203,7 +203,10 @@ impl Units {
         let most = |of: &[f64]| joints.iter().filter_map(|k| of.get(*k)).copied().reduce(worse);
         let acts_n = most(&self.acts_n).unwrap_or(f64::INFINITY);
         let meet_n = most(&self.meet_n).unwrap_or(f64::INFINITY);
-        let rounding_n = (STORED_ULPS * f64::EPSILON * meet_n).min(self.rounding_n);
+        // Small forces in a long row are differences of what acts on all of it.
+        let whole_n = if self.total_n.is_finite() { self.total_n } else { 0.0 };
+        let rounding_n = STORED_ULPS * f64::EPSILON * worse(meet_n, whole_n);
+        let rounding_n = rounding_n.min(self.rounding_n);
         Local { rounding_n: rounding_n.min(MOST_ROUNDING * acts_n), most_n: BORNE * acts_n }
     }
 }

@@ -7,7 +7,7 @@
 use model::system::{Joint, Member, System, SystemEquilibrium};
 use model::{Problem, Rung, Vector, cases};
 use samples::random_chain;
-use validate::answer::{Question, Solvers, UseCensus, ask};
+use validate::answer::{Question, UseCensus, ask};
 use validate::systems::ask_with;
 
 /// Random chains.
