@@ -46,12 +46,13 @@ pub(crate) fn support_at(svg: &mut Svg, support: Support, at: [f64; 2], scene: &
             Some(along) => [1.0, -1.0].into_iter().for_each(|side| rail(svg, at, along, side)),
             None => square(svg, at),
         },
-        Support::Plane(normal) => match scene.direction(normal) {
-            // The rail on the other side than the normal points to.
-            Some([x, y]) => rail(svg, at, [-y, x], 1.0),
-            // All that moves in such a drawing moves in it.
-            None => {}
-        },
+        // All that moves in a drawing seen flat moves in it.
+        Support::Plane(normal) => {
+            if let Some([x, y]) = scene.direction(normal) {
+                // The rail on the other side than the normal points to.
+                rail(svg, at, [-y, x], 1.0);
+            }
+        }
     }
 }
 
