@@ -4,12 +4,14 @@ use std::io::Read;
 
 use ::parquet::basic::CompressionCodec;
 use ::parquet::errors::ParquetError;
+use flate2::read::MultiGzDecoder;
 use lz4_flex::block::DecompressError;
+use ruzstd::decoding::StreamingDecoder;
 
 use crate::budget::{Share, external};
 
 /// The compressions that [`unpacked`] knows.
-pub const COMPRESSIONS: &str = "Snappy, Zstandard, LZ4 and no compression";
+pub const COMPRESSIONS: &str = "Snappy, gzip, Zstandard, LZ4 and no compression";
 
 /// How much larger than packed a page of unknown size is expected to be.
 const EXPECTED_RATIO: usize = 4;
@@ -29,6 +31,7 @@ pub fn unpacked(
             share.fits(size as u64)?;
             snap::raw::Decoder::new().decompress_vec(packed).map_err(external)
         }
+        CompressionCodec::GZIP => drained(MultiGzDecoder::new(packed), share),
         CompressionCodec::ZSTD => zstd(packed, share),
         CompressionCodec::LZ4_RAW => lz4_block(packed, share),
         // Three formats have had this name.
@@ -40,11 +43,10 @@ pub fn unpacked(
 }
 
 fn zstd(packed: &[u8], share: &Share) -> Result<Vec<u8>, ParquetError> {
-    match zstd::zstd_safe::get_frame_content_size(packed) {
-        Ok(Some(size)) => zstd::bulk::decompress(packed, share.fits(size)?).map_err(external),
-        Ok(None) => drained(zstd::Decoder::with_buffer(packed)?, share),
-        Err(_) => Err(ParquetError::General("no frame of Zstandard".to_owned())),
-    }
+    let frame = StreamingDecoder::new(packed).map_err(external)?;
+    // 0 of a frame that does not say.
+    share.fits(frame.decoder.content_size())?;
+    drained(frame, share)
 }
 
 /// What a stream of unknown length holds.

@@ -11,7 +11,7 @@ use crate::table::{Data, Kind, Schema};
 /// The form of a table on disk.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Format {
-    /// Apache Parquet: units and descriptions in the metadata, compressed by Zstandard.
+    /// Apache Parquet: units and descriptions in the metadata, compressed by gzip.
     Parquet,
     /// Comma-separated values: names in the first line, doubles in the shortest digits that read
     /// back to the same bits.

@@ -1,26 +1,27 @@
-//! The energy of all configurations of the paper's example, bounded without any guess.
+//! The energy of all configurations of the paper's example: E1 has the least, E2 the greatest.
 //!
-//! Convex programmes, solved by clarabel and rounded to proofs, against the equilibria that the
-//! solvers found: the semidefinite bounds are tight on both sides, the bound by cables is not.
+//! Their stress matrices prove it, positive semidefinite at E1 (although bar 3 is in compression),
+//! negative at E2, and singular at both: the chain turns about the vertical of its anchors.
 
-use bounds::{BoundError, BoundSettings, Sense, cable_bound, semidefinite};
+use model::system::System;
 use serde::Serialize;
+use validate::certificate::{certify, certify_highest};
+use validate::systems::hang_as_cables;
 
-use crate::example::Example;
+use crate::example::{Example, ExampleError};
 
 /// Bounds on V of every configuration of the example, mgl with the paper's zero.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Bounds {
-    /// No configuration has less energy: semidefinite programme, rounded to a proof.
+    /// No configuration has less energy: the certificate of E1 by `lagrange`.
     pub lower_mgl: f64,
-    /// V(E1) by `lagrange` less that bound.
+    /// V(E1) by `energy` less that bound.
     pub gap_to_e1_mgl: f64,
-    /// No configuration has more energy.
+    /// No configuration has more energy: the certificate of E2 by `lagrange`.
     pub upper_mgl: f64,
     /// That bound less V(E2) by `lagrange`.
     pub gap_to_e2_mgl: f64,
-    /// The lower bound with bars as cables: second-order cones. Not tight, since bar 3 is in
-    /// compression.
+    /// Least energy with bars as cables: second-order cones. Lower, since bar 3 is in compression.
     pub cables_mgl: f64,
 }
 
@@ -32,26 +33,23 @@ const TIGHT_MGL: f64 = 1e-12;
 const ROUNDING_MGL: f64 = 1e-14;
 
 impl Bounds {
-    /// Solve the programmes.
+    /// Certify both ends, and hang the example as cables.
     ///
     /// # Errors
     ///
-    /// [`BoundError`] when one of them is not solved.
-    pub fn compute(example: &Example) -> Result<Self, BoundError> {
+    /// [`ExampleError`] when E1 or E2 gets no certificate, or the cones are not solved.
+    pub fn compute(example: &Example) -> Result<Self, ExampleError> {
         let problem = model::cases::paper();
-        let settings = BoundSettings::default();
-        let mgl = |energy_j: f64| example.v_mgl(energy_j);
-        let lower_mgl = mgl(semidefinite(&problem, Sense::Lower, &settings)?.rigorous_j);
-        let upper_mgl = mgl(semidefinite(&problem, Sense::Upper, &settings)?.rigorous_j);
-        let cables_mgl = mgl(cable_bound(&problem, &settings)?.rigorous_j);
-        let [e1, e2] = [&example.lagrange.e1, &example.lagrange.e2]
-            .map(|found| example.by_lagrange(found).v_mgl);
+        let [e1, e2] = [&example.lagrange.e1, &example.lagrange.e2];
+        let lower_mgl = example.v_mgl(certify(&problem, &e1.equilibrium)?.bound_j);
+        let upper_mgl = example.v_mgl(certify_highest(&problem, &e2.equilibrium)?.bound_j);
+        let cables = hang_as_cables(&System::from(problem.chain()))?;
         Ok(Self {
             lower_mgl,
-            gap_to_e1_mgl: e1 - lower_mgl,
+            gap_to_e1_mgl: example.by_energy_e1().v_mgl - lower_mgl,
             upper_mgl,
-            gap_to_e2_mgl: upper_mgl - e2,
-            cables_mgl,
+            gap_to_e2_mgl: upper_mgl - example.by_lagrange(e2).v_mgl,
+            cables_mgl: example.v_mgl(cables.energy_j),
         })
     }
 
@@ -71,8 +69,12 @@ mod tests {
     fn e1_is_the_global_minimum_and_e2_the_global_maximum() {
         let bounds = Bounds::compute(&Example::solve().unwrap()).unwrap();
         assert!(bounds.are_tight(), "{bounds:?}");
+        // The roots of the sextic, to 30 digits.
+        assert!((bounds.lower_mgl - 2.335_468_651_999_305).abs() < TIGHT_MGL, "{bounds:?}");
+        assert!((bounds.upper_mgl - 3.664_531_348_000_695).abs() < TIGHT_MGL, "{bounds:?}");
         // Closed form: with slack cables the chain hangs straight down, V = 6 - 2.5 - 1.5 = 2.
-        assert!((bounds.cables_mgl - 2.0).abs() < 1e-12, "{bounds:?}");
+        // clarabel's tolerance is 1e-9.
+        assert!((bounds.cables_mgl - 2.0).abs() < 1e-8, "{bounds:?}");
         for gap in [f64::NAN, -1e-6, 1e-6] {
             assert!(!Bounds { gap_to_e1_mgl: gap, ..bounds }.are_tight());
             assert!(!Bounds { gap_to_e2_mgl: gap, ..bounds }.are_tight());

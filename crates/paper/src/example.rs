@@ -25,9 +25,12 @@ pub enum ExampleError {
     /// Occurs when `energy` finds no minimum.
     #[error("energy: {0}")]
     Energy(#[from] energy::Error),
-    /// Occurs when a convex programme is not solved.
-    #[error("bounds: {0}")]
-    Bounds(#[from] bounds::BoundError),
+    /// Occurs when E1 or E2 is not certified to have the least or the greatest energy.
+    #[error("certificate: {0}")]
+    Certificate(#[from] model::NoCertificate),
+    /// Occurs when the example as cables is not solved.
+    #[error("cables: {0}")]
+    Cables(#[from] validate::systems::ConeError),
     /// Occurs when the census refuses the example.
     #[error("census: {0}")]
     Census(#[from] census::CensusError),

@@ -23,7 +23,7 @@ def test_the_example_of_the_paper():
     assert abs(a.multipliers_n[0, 2] / WEIGHT_N - VERTICAL) < 1e-12
     assert a.proofs.verified.width < 1e-12 and a.proofs.verified.circle is True
     assert [p.reached for p in a.proofs] == [True] * 5
-    assert a.data["schema_version"] == 2
+    assert a.data["schema_version"] == 3
 
 
 def test_forces_of_a_chain_balance_every_bar():

@@ -1,5 +1,5 @@
 //! Our time for nets of cables beside that of clarabel's cone programme, in one run:
-//! `cargo run --profile dist -p validate --features bounds --example third_road [members ...]`.
+//! `cargo run --profile dist -p validate --features cones --example third_road [members ...]`.
 //!
 //! Times are those of the processor on Linux (in steps of 10 ms), which other work does not change,
 //! elsewhere those of the clock. One run on a server (AMD EPYC):
@@ -11,9 +11,9 @@
 
 use std::time::Instant;
 
-use bounds::{BoundSettings, cable_system};
 use model::Bar;
 use model::system::{Joint, Member, System};
+use validate::systems::hang_as_cables;
 
 /// A square net of massless cables of 1.05 m with 1 kg at each joint, hung from all joints of its
 /// edge, which are 1 m apart.
@@ -75,8 +75,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let (places, energy_s) = timed(&clock, || {
             energy::network::minimise(&system, &energy::network::Settings::default())
         })?;
-        let (cones, clarabel_s) =
-            timed(&clock, || cable_system(&system, &BoundSettings::default()))?;
+        let (cones, clarabel_s) = timed(&clock, || hang_as_cables(&system))?;
         let ours = forces.equilibrium.energy_j;
         let apart = [places.equilibrium.energy_j, cones.energy_j]
             .map(|other| ((other - ours) / ours).abs())

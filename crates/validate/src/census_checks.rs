@@ -3,15 +3,14 @@
 //! The census proves its list by intervals, from the balance of moments alone. Here others judge it
 //! who share no formula with it: `lagrange` started at every listed equilibrium has to stay there,
 //! the statics judge has to find every bar in balance, whatever random seeds of either solver find
-//! has to be listed, and no energy may lie outside the bounds by semidefinite programming, between
-//! which the first and the last of the list have to fit exactly.
+//! has to be listed, and the stress matrices of the first and the last of the list have to certify
+//! that no configuration has less energy, none more.
 
-#[cfg(feature = "bounds")]
-use bounds::{BoundError, BoundSettings, Sense, semidefinite};
 use census::{Census, Interval};
 use lagrange::{Seed, Settings, SolveError, Solver};
-use model::{Chain, Problem, Vector};
+use model::{Chain, Equilibrium, NoCertificate, Problem, Vector};
 
+use crate::certificate::{certify, certify_highest};
 use crate::statics::{judge, stored_rounding_m};
 
 /// Where a position stands in a census.
@@ -182,27 +181,18 @@ pub fn statics(problem: &Problem, census: &Census) -> f64 {
     judged.fold(0.0, worse)
 }
 
-/// The energies of the first and the last of the list less the semidefinite bounds of all
-/// configurations, from within: in units of total weight times total length. Roundings apart
-/// neither is negative, and both vanish if nothing lower and nothing higher exists.
+/// How far the certificates of the lowest and of the highest of the list miss their energies, in
+/// units of the weight between the anchors times the total length.
 ///
 /// # Errors
 ///
-/// [`BoundError`] when a programme is not solved.
-#[cfg(feature = "bounds")]
-pub fn gaps(problem: &Problem, census: &Census) -> Result<[f64; 2], BoundError> {
-    let chain = problem.chain();
-    let unit_j = chain.total_mass_kg() * chain.gravity_m_s2() * chain.total_length_m();
-    let settings = BoundSettings::default();
-    let lower = semidefinite(problem, Sense::Lower, &settings)?.rigorous_j;
-    let upper = semidefinite(problem, Sense::Upper, &settings)?.rigorous_j;
-    let single = census.equilibria.iter().map(|equilibrium| equilibrium.energy_j);
-    let families = census.families.iter().map(|family| family.energy_j);
-    let (low, high) = single
-        .chain(families)
-        .map(Interval::mid)
-        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), e| (low.min(e), high.max(e)));
-    Ok([(low - lower) / unit_j, (upper - high) / unit_j])
+/// [`NoCertificate`] when something lower or higher is not excluded.
+pub fn gaps(problem: &Problem, census: &Census) -> Result<[f64; 2], NoCertificate> {
+    let answers = census.to_model();
+    let by_energy = |a: &&Equilibrium, b: &&Equilibrium| a.energy_j.total_cmp(&b.energy_j);
+    let lowest = answers.iter().min_by(by_energy).ok_or(NoCertificate::Unusable)?;
+    let highest = answers.iter().max_by(by_energy).ok_or(NoCertificate::Unusable)?;
+    Ok([certify(problem, lowest)?.gap, certify_highest(problem, highest)?.gap])
 }
 
 /// The accuracy to which a solver may place a joint, in units of the total length: what coordinates

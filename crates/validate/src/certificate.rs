@@ -41,6 +41,10 @@
 //! minima); S. M. Rump, Acta Numerica 19 (2010) 287-449, doi:10.1017/S096249291000005X (rounding
 //! error bounds).
 
+mod highest;
+
+pub use highest::certify_highest;
+
 use crate::lever::{carried_kg, far_kg};
 use crate::statics::stored_rounding_m;
 use model::{Bar, Chain, Equilibrium, NoCertificate, Optimal, Problem, Vector, sum};
@@ -70,11 +74,11 @@ pub const GAP_TOLERANCE: f64 = 1e-10;
 /// times its length.
 const NO_FORCE: f64 = 1e-12;
 
-/// Proof that no configuration of the chain has less energy than `lower_bound_j`.
+/// Proof that no configuration of the chain has less energy than `bound_j`.
 #[derive(Debug, Clone, PartialEq, serde::Serialize)]
 pub struct Certificate {
     /// No configuration has less energy than this, J (from the height of joint 0).
-    pub lower_bound_j: f64,
+    pub bound_j: f64,
     /// Energy found minus the lower bound, J.
     pub gap_j: f64,
     /// The same in units of the weight between the anchors (what the lever rule leaves on them does
@@ -110,7 +114,7 @@ impl Certificate {
 /// let certificate = certify(&problem, &found)?;
 /// // Bar 3 props the chain up, and the chain turns freely about the vertical of the anchors.
 /// assert_eq!((certificate.compressed_bar, certificate.singular), (Some(3), true));
-/// let bound = certificate.lower_bound_j / 9.80665 + 6.0;
+/// let bound = certificate.bound_j / 9.80665 + 6.0;
 /// assert!(bound <= 2.335_468_651_999_31 && bound > 2.335_468_65);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
@@ -149,15 +153,15 @@ pub fn certify(problem: &Problem, found: &Equilibrium) -> Result<Certificate, No
         compressed.map_or(0.0, |k| closure_slack(bars, &forces, force_n, difference, k, nu_k));
     let rounding_j = TERM_ULPS * U * (force_n * (length_m + norm(difference)))
         + STORED_ULPS * U * resting_n * difference[2].abs();
-    let lower_bound_j = resting_n * difference[2] + (work - cables - slack_j - 2.0 * rounding_j);
-    let gap_j = found.energy_j - lower_bound_j;
+    let bound_j = resting_n * difference[2] + (work - cables - slack_j - 2.0 * rounding_j);
+    let gap_j = found.energy_j - bound_j;
     let gap = gap_j / (hanging_n(chain) * length_m);
     // An energy below a proven bound is as wrong as one far above it; NaN fails both.
     if !(0.0..=GAP_TOLERANCE).contains(&gap) {
         return Err(NoCertificate::Gap { gap });
     }
     let compressed_bar = compressed.map(|k| k + 1);
-    Ok(Certificate { lower_bound_j, gap_j, gap, compressed_bar, singular })
+    Ok(Certificate { bound_j, gap_j, gap, compressed_bar, singular })
 }
 
 /// Largest distance of the last joint from its anchor, as a part of the slack of the chain.

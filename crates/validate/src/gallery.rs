@@ -8,7 +8,7 @@ use model::STANDARD_GRAVITY_M_S2 as G;
 use model::cases::{Exhibit, exhibits};
 use model::system::{System, SystemEquilibrium};
 
-use crate::answer::Solvers;
+use crate::question::Solvers;
 use crate::systems::{SystemAnswer, ask};
 
 /// A number of an exhibit that is known in a closed form.

@@ -10,16 +10,8 @@ use std::process::Command;
 use serde_json::Value;
 
 /// Packages that would let mechanics live in `model`.
-const LINEAR_ALGEBRA: &[&str] = &[
-    "nalgebra",
-    "argmin",
-    "argmin-math",
-    "clarabel",
-    "faer",
-    "ndarray",
-    "num-dual",
-    "dense-lapack",
-];
+const LINEAR_ALGEBRA: &[&str] =
+    &["nalgebra", "argmin", "argmin-math", "clarabel", "faer", "ndarray", "num-dual"];
 
 /// Data that both solvers may use: problems and answers, and the random chains of their tests.
 const DATA: &[&str] = &["model", SAMPLES];

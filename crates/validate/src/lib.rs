@@ -20,8 +20,6 @@
 //! same laws ([`foreign`]).
 
 pub mod answer;
-#[cfg(feature = "bounds")]
-pub mod cables;
 pub mod census_checks;
 pub mod certificate;
 pub mod compare;
@@ -35,6 +33,7 @@ mod free;
 pub mod gallery;
 pub mod independence;
 pub mod lever;
+pub mod question;
 pub mod statics;
 pub mod systems;
 pub mod table;
@@ -43,4 +42,5 @@ pub mod units;
 mod vector;
 
 pub use compare::{Agreement, Verdict, compare};
+pub use question::{Equations, Question, Solvers, UseCensus};
 pub use tolerances::Tolerances;

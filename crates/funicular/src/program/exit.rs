@@ -4,6 +4,7 @@ use branches::{ContinuationError, ParameterError};
 use funicular::Error;
 use funicular::judge::GivenError;
 use miette::{LabeledSpan, miette};
+use model::steers;
 use validate::systems::SystemFailure;
 
 use crate::diagnostics::{SystemFileReport, tell};
@@ -88,13 +89,12 @@ impl Failure {
                 };
                 Self::bad_input(miette!(help = help, "{error}"))
             }
-            Error::UnsolvedSystem(ref answer)
+            Error::Unsolved(ref answer)
                 if answer.failures().iter().all(SystemFailure::is_misfit) =>
             {
                 Self::bad_input(miette!("{error}"))
             }
             Error::Unsolved(_)
-            | Error::UnsolvedSystem(_)
             | Error::Lagrange(_)
             | Error::Condensed(_)
             | Error::Energy(_)
@@ -139,16 +139,17 @@ impl Failure {
 
     /// The error with the place in the text of the parameter.
     fn parameter(error: &ParameterError) -> Self {
-        let label = LabeledSpan::new_with_span(Some(error.what.clone()), error.span.clone());
+        let text = in_place(&error.text);
+        let label = LabeledSpan::new_with_span(Some(in_place(&error.what)), error.span.clone());
         let report = miette!(
             labels = vec![label],
-            help = error.help.clone(),
+            help = in_place(&error.help),
             "{}, character {}: {}",
-            error.text,
+            text,
             error.column(),
-            error.what
+            in_place(&error.what)
         );
-        Self::bad_input(report.with_source_code(error.text.clone()))
+        Self::bad_input(report.with_source_code(text))
     }
 
     /// The way to end.
@@ -166,6 +167,12 @@ impl Failure {
         tell(format_args!("{:?}", self.report));
         self.exit
     }
+}
+
+/// A text in which every character that steers is replaced, and every other stays in its place.
+fn in_place(text: &str) -> String {
+    let shown = |c: char| if steers(c) { "?".repeat(c.len_utf8()) } else { c.to_string() };
+    text.chars().map(shown).collect()
 }
 
 impl From<Error> for Failure {

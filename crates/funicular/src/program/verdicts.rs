@@ -135,8 +135,8 @@ fn seeds(r: &Reproduction) -> String {
 fn bounds(r: &Reproduction) -> String {
     let b = &r.bounds;
     format!(
-        "No configuration has less energy than {:.12} mgl nor more than {:.12} mgl (semidefinite programmes, rounded \
-         to proofs):\nE1 is the global minimum to {:.0e} mgl, E2 the global maximum to {:.0e} mgl.",
+        "No configuration has less energy than {:.12} mgl nor more than {:.12} mgl (stress \
+         matrices of E1 and E2):\nE1 is the global minimum to {:.0e} mgl, E2 the global maximum to {:.0e} mgl.",
         b.lower_mgl, b.upper_mgl, b.gap_to_e1_mgl, b.gap_to_e2_mgl,
     )
 }

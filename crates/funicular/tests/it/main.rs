@@ -22,6 +22,7 @@ mod promise;
 mod reached;
 mod replaced;
 mod slurm;
+mod small_files;
 mod starts;
 mod study;
 mod sweep;

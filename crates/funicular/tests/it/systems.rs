@@ -38,7 +38,7 @@ fn the_json_of_a_system_names_joints_bars_and_reactions() {
     let output = run(&folder, &["solve", "lamp.toml", "--json"]);
     assert_eq!(output.status.code(), Some(0));
     let answer: Value = serde_json::from_slice(&output.stdout).unwrap();
-    assert_eq!(answer["schema_version"], 2);
+    assert_eq!(answer["schema_version"], 3);
     let system = &answer["system"];
     assert_eq!((&system["bars"], &system["joints"]), (&2.into(), &3.into()));
     assert_eq!(system["total_length_m"], 10.0);

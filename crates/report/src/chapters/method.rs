@@ -25,7 +25,7 @@ pub(crate) fn blocks(r: &Reproduction) -> Vec<Block<'_>> {
                 .to_owned(),
             "A **third judge** knows neither: it takes the joints and the forces of an answer and checks Newton's laws, bar by bar.".to_owned(),
             "The **census** lists all equilibria with proof (interval arithmetic), the **certificate** proves that one is the lowest \
-             of all configurations (the stress matrix, factorised; and semidefinite bounds that need no guess)."
+             of all configurations (the stress matrix, factorised)."
                 .to_owned(),
         ]),
         Block::Figure(figures::convergence(r)),

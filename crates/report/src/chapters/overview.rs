@@ -93,7 +93,7 @@ fn findings(r: &Reproduction) -> Vec<String> {
         r.completeness.planar, r.completeness.circles
     ));
     items.push(format!(
-        "**E1 is the lowest of all positions, E2 the highest**: [semidefinite bounds](#positions) without any guess are \
+        "**E1 is the lowest of all positions, E2 the highest**: [the bounds](#positions) of their stress matrices are \
          {} mgl away.",
         in_words(r.bounds.gap_to_e1_mgl.max(r.bounds.gap_to_e2_mgl), 2)
     ));

@@ -20,9 +20,10 @@ pub(crate) fn blocks<'a>(r: &'a Reproduction, census: &Census) -> Vec<Block<'a>>
         Block::Table(angles(r)),
         Block::Table(forces(r)),
         text(format!(
-            "Bounds without any guess: no configuration has less energy than {} mgl nor more than {} mgl (semidefinite \
-             programmes, rounded to proofs). E1 lies {} mgl above the first, E2 {} mgl below the second. With bars \
-             as cables the lower bound is only {} mgl, since bar BD is in compression.",
+            "No configuration has less energy than {} mgl nor more than {} mgl: the stress matrix is positive \
+             semidefinite at E1, negative at E2, and singular at both by the turn about the vertical. E1 lies {} mgl \
+             above the first bound, E2 {} mgl below the second. With bars as cables the least energy is only {} mgl, \
+             since bar BD is in compression.",
             fixed(b.lower_mgl, 11),
             fixed(b.upper_mgl, 11),
             in_words(b.gap_to_e1_mgl, 2),

@@ -320,7 +320,7 @@ fn the_bound_of_two_bars_is_their_energy_less_rounding() {
     let certificate = certify(&problem, &found).unwrap();
     let rounding = 2.0 * 32.0 * 34.0 * (18.0 + 226.0_f64.sqrt()) * U;
     assert!((certificate.gap_j / rounding - 1.0).abs() < 0.01, "{certificate:?}");
-    is(certificate.gap_j, -81.0 - certificate.lower_bound_j);
+    is(certificate.gap_j, -81.0 - certificate.bound_j);
     is(certificate.gap, certificate.gap_j / (21.0 * 18.0));
     assert!(certificate.compressed_bar.is_none() && !certificate.singular);
 }

@@ -6,6 +6,8 @@
 mod altered_tests;
 mod ask;
 mod bodies;
+#[cfg(feature = "cones")]
+mod cables;
 mod certificate;
 pub(crate) mod compare;
 mod completeness;
@@ -28,10 +30,14 @@ mod verified;
 mod verticals;
 
 pub use ask::{SystemAnswer, SystemFailure, ask, ask_with};
+#[cfg(feature = "cones")]
+pub use cables::{Cables, ConeError, hang_as_cables};
 pub use certificate::certify;
 pub use compare::{SystemAgreement, compare, judge_alone};
 pub use completeness::{certify_by_census, look_up};
+pub(crate) use forces::ABSURD;
 pub use near::Near;
 pub use prestress::{Held, PrestressStability, Standing, Stress, prestress_stability};
+pub(crate) use scale::Scale;
 pub use statics::{SystemStatics, judge};
 pub use verified::verify;

@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use super::ask::SystemFailure;
 use super::certificate::total_load_n;
-use crate::answer::Solvers;
+use crate::question::Solvers;
 use crate::vector::{dot, minus, norm, plus, times, worse};
 
 /// A joint that moved further than this part of the shortest member at it is not where it was
@@ -131,7 +131,7 @@ fn barrier_j(system: &System, from_m: &[Vector], to_m: &[Vector]) -> Option<f64>
         let part = f64::from(station) / f64::from(STATIONS);
         let places = from_m.iter().zip(to_m);
         let between = places.map(|(a, b)| plus(*a, times(part, minus(*b, *a))));
-        potential_j(system, &between.collect::<Vec<_>>())
+        potential_j(system, system.members(), &between.collect::<Vec<_>>())
     };
     let (start, end) = (at(0), at(STATIONS));
     let top = (1..STATIONS).map(at).fold(f64::NEG_INFINITY, f64::max);
@@ -140,13 +140,13 @@ fn barrier_j(system: &System, from_m: &[Vector], to_m: &[Vector]) -> Option<f64>
     (rise > rounding.max(BARRIER * (start - end).abs())).then_some(rise)
 }
 
-/// Energy of the loads and of the elastic members at these places, J.
-fn potential_j(system: &System, places_m: &[Vector]) -> f64 {
+/// Energy of the loads and of the elastic ones of these members at these places, J.
+pub(super) fn potential_j(system: &System, members: &[Member], places_m: &[Vector]) -> f64 {
     let gravity = system.gravity_m_s2();
     let weight = |mass_kg: f64| [0.0, 0.0, -mass_kg * gravity];
     let joints = system.joints().iter().zip(places_m);
     let joints = joints.map(|(joint, at)| -dot(plus(joint.force_n, weight(joint.mass_kg)), *at));
-    let members = system.members().iter().map(|member| {
+    let members = members.iter().map(|member| {
         let [a, b] = [places_m[member.from], places_m[member.to]];
         let body = &member.body;
         let at = |at_m: f64| plus(a, times(at_m / body.length_m(), minus(b, a)));

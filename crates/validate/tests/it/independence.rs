@@ -25,7 +25,7 @@ fn the_guard_sees_real_edges() {
         ("energy", "argmin"),
         // A development dependency, an optional one, one behind another.
         ("lagrange", "num-dual"),
-        ("bounds", "clarabel"),
+        ("validate", "clarabel"),
         ("lagrange", "samples"),
         ("energy", "samples"),
     ] {

@@ -6,7 +6,6 @@ mod agreement;
 mod census;
 mod chains;
 mod chains_as_networks;
-mod chains_cables;
 mod chains_catenary;
 mod chains_million;
 mod chains_stability;

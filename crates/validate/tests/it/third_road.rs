@@ -1,16 +1,17 @@
 //! Cables as a second-order cone programme, solved by clarabel: a third road to the same answers.
 
-use bounds::{BoundError, BoundSettings, cable_system};
 use model::system::{Joint, Kind, Member, System};
 use model::{Bar, Vector};
 use validate::answer::Solvers;
-use validate::systems::ask;
+use validate::systems::{ConeError, ask, hang_as_cables};
+
+use samples::{Shape, random_chain};
 
 use crate::floor::net;
 
 /// What clarabel's tolerance of 1e-9 leaves of energies, relative to their size: 1e-10 at worst.
 const ENERGY: f64 = 1e-8;
-/// And of forces, in units of the largest: 8e-6 at worst.
+/// And of forces, in units of the largest: 8e-6 at worst, 6e-5 where lengths differ by six orders.
 const FORCE: f64 = 1e-4;
 
 /// Nets of cables above a floor: energies and forces of three roads. Places of what lies loose are
@@ -23,7 +24,7 @@ fn three_roads_lead_to_the_same_nets() {
             let system = net(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15), elastic, false);
             let answer = ask(&system, Solvers::Both, &|_| {});
             assert!(answer.agrees(), "{seed} {elastic}");
-            let cones = cable_system(&system, &BoundSettings::default()).unwrap();
+            let cones = hang_as_cables(&system).unwrap();
             for e in &answer.equilibria {
                 let largest = e.axial_n.iter().fold(0.0, |most: f64, n| most.max(n.abs()));
                 energies = energies.max((e.energy_j - cones.energy_j).abs() / e.energy_j.abs());
@@ -35,6 +36,43 @@ fn three_roads_lead_to_the_same_nets() {
     }
     println!("energies {energies:.1e}, forces {forces:.1e}");
     assert!(energies < ENERGY && forces < FORCE, "energies {energies}, forces {forces}");
+}
+
+/// Chains of all hard shapes: where every bar is in tension the cables are the chain, else they hang
+/// lower.
+#[test]
+fn chains_hang_as_cables_or_higher() {
+    /// A bar that bears less than this part of the largest force may as well be slack.
+    const TENSION: f64 = 1e-6;
+    /// Of weight times length, where bars of all sizes are mixed: 7e-7 at worst, else 5e-9.
+    const MIXED: f64 = 1e-5;
+    let (mut taut, mut pressed) = (0, 0);
+    for seed in 0..200 {
+        let (shape, problem) = random_chain(seed);
+        let settings = lagrange::condensed::Settings::default();
+        let found = lagrange::condensed::solve(&problem, &settings).unwrap().equilibrium;
+        let chain = problem.chain();
+        let cones = hang_as_cables(&System::from(chain)).unwrap();
+        let unit_j = chain.total_mass_kg() * chain.gravity_m_s2() * chain.total_length_m();
+        let largest = found.axial_n.iter().fold(0.0, |most: f64, n| most.max(n.abs()));
+        let higher = (found.energy_j - cones.energy_j) / unit_j;
+        let what = format!("{seed}, {shape:?}: {higher:e}");
+        if found.axial_n.iter().any(|n| *n <= TENSION * largest) {
+            pressed += 1;
+            assert!(higher > -ENERGY, "{what}");
+            continue;
+        }
+        taut += 1;
+        assert!(higher.abs() < if shape == Shape::Mixed { MIXED } else { ENERGY }, "{what}");
+        // Small differences of lengths make large ones of these forces.
+        if matches!(shape, Shape::Mixed | Shape::NearlyTaut | Shape::Together) {
+            continue;
+        }
+        for (ours, theirs) in found.axial_n.iter().zip(&cones.axial_n) {
+            assert!((ours - theirs).abs() < FORCE * largest, "{what}: {ours} {theirs}");
+        }
+    }
+    assert!(taut > 100 && pressed > 50, "{taut} taut, {pressed} pressed");
 }
 
 /// Sliders, a force aside, an elastic member between anchors, and what is refused.
@@ -58,7 +96,7 @@ fn supports_and_held_members_are_those_of_the_system() {
         Member::cable(0, 1, body(2.9)).with_stiffness(100.0),
     ];
     let system = System::new("slider", 9.81, joints.clone(), members.clone()).unwrap();
-    let cones = cable_system(&system, &BoundSettings::default()).unwrap();
+    let cones = hang_as_cables(&system).unwrap();
     let answer = ask(&system, Solvers::Both, &|_| {});
     assert!(answer.agrees());
     for e in &answer.equilibria {
@@ -74,6 +112,6 @@ fn supports_and_held_members_are_those_of_the_system() {
     assert!((cones.axial_n[2] - 100.0 * 0.1 / 2.9).abs() < 1e-12);
     let strut = Member { kind: Kind::Strut, ..members[0].clone() };
     let pushed = System::new("pushed", 9.81, joints, vec![strut, members[1].clone()]).unwrap();
-    let refused = cable_system(&pushed, &BoundSettings::default());
-    assert!(matches!(refused, Err(BoundError::Strut { member: 1 })));
+    let refused = hang_as_cables(&pushed);
+    assert!(matches!(refused, Err(ConeError::Strut { member: 1 })));
 }
