@@ -1,4 +1,5 @@
-//! The gallery: systems of bars, hanging or drawn, of which a number is known in a closed form, by both solvers.
+//! The gallery: systems of bars, hanging or drawn, of which a number is known in a closed form, by
+//! both solvers.
 //!
 //! Each reference number is of kind `analytic`: it follows from the numbers of the system file by
 //! the formula that stands beside it, and from no solver.
