@@ -135,8 +135,9 @@ fn better(
 
 /// The start with each joint moved by up to the length of the longest member, without any symmetry.
 fn displaced(frame: &Frame, start: &Shape, attempt: usize) -> Shape {
-    let step: Vec<f64> =
-        (0..frame.freedom).map(|k| (attempt as f64 * (1.0 + GOLDEN * k as f64)).sin()).collect();
+    let step: Vec<f64> = (0..frame.freedom)
+        .map(|k| (attempt as f64 * SPREAD * (1.0 + GOLDEN * k as f64).sqrt()).sin())
+        .collect();
     Shape { x: frame.moved(&start.x, 1.0, &step), force: vec![0.0; start.force.len()] }
 }
 
