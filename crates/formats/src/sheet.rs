@@ -7,8 +7,11 @@ pub(crate) struct Sheet<'a> {
     file: &'a str,
     columns: Vec<Option<usize>>,
     names: &'a [&'a str],
-    rows: Vec<(usize, Box<[String]>)>,
+    rows: Vec<Record>,
 }
+
+/// The line in which a row begins, and its cells.
+type Record = (usize, Box<[String]>);
 
 /// A row of a sheet.
 pub(crate) struct Row<'a> {
@@ -104,7 +107,7 @@ impl Row<'_> {
 }
 
 /// The records of a text with the lines they begin in, without empty lines.
-fn records(file: &str, text: &str) -> Result<Vec<(usize, Box<[String]>)>, FormatError> {
+fn records(file: &str, text: &str) -> Result<Vec<Record>, FormatError> {
     let mut records = Vec::new();
     let (mut cells, mut cell, mut quoted, mut was_quoted) = (vec![], String::new(), false, false);
     let (mut line, mut began) = (1, 1);
@@ -151,7 +154,7 @@ fn finished(cell: &mut String, quoted: &mut bool) -> String {
     text
 }
 
-fn push(records: &mut Vec<(usize, Box<[String]>)>, line: usize, cells: &mut Vec<String>) {
+fn push(records: &mut Vec<Record>, line: usize, cells: &mut Vec<String>) {
     let cells = std::mem::take(cells);
     if cells.len() > 1 || cells.iter().any(|cell| !cell.is_empty()) {
         records.push((line, cells.into_boxed_slice()));

@@ -261,6 +261,19 @@ fn slack_cables_are_proved_slack() {
     let axial_n = [1.25, 1.25, 0.0, 0.0, 0.0];
     let proof = proved(&net, &at, &axial_n);
     assert_eq!((proof.slack, proof.loose_joints), (vec![2, 3, 4], vec![4]));
+    // The weight of a cable that an anchor bears alone leaves it loose, whichever end that is; at its
+    // own end it does not.
+    let heavy = |from: usize, to: usize, centre_m: f64| {
+        let body = Bar::new(6.0, 1.0, centre_m, [0.0; 3]).unwrap();
+        let members = [&members[..4], &[Member::cable(from, to, body)]].concat();
+        prove(&system(joints.clone(), members), &at, &axial_n)
+    };
+    for on_anchor in [heavy(3, 4, 0.0), heavy(4, 3, 6.0)] {
+        assert_eq!(on_anchor.unwrap().loose_joints, vec![4]);
+    }
+    for on_joint in [heavy(3, 4, 6.0), heavy(4, 3, 0.0)] {
+        assert!(on_joint.is_err());
+    }
     // Just long enough is neither slack nor taut.
     members[2] = Member::cable(2, 3, light(5.0));
     let net = system(joints, members);
@@ -298,7 +311,13 @@ fn slack_struts_are_proved_slack() {
     let axial_n = [1.25, 1.25, 0.0];
     let proof = proved(&with(Kind::Strut, 4.5), &at(-4.0), &axial_n);
     assert_eq!((proof.slack, proof.loose_joints), (vec![2], vec![]));
-    for (kind, length_m, z) in [(Kind::Strut, 5.0002, -4.0004), (Kind::Cable, 4.9998, -3.9996)] {
+    // Or that is as long as the distance, which a proof encloses and does not tell from it.
+    for (kind, length_m, z) in [
+        (Kind::Strut, 5.0002, -4.0004),
+        (Kind::Cable, 4.9998, -3.9996),
+        (Kind::Strut, 5.0, -4.0004),
+        (Kind::Cable, 5.0, -3.9996),
+    ] {
         let refused = prove(&with(kind, length_m), &at(z), &axial_n);
         assert_eq!(refused, Err(NoBox::NotSlack { member: 3 }));
     }

@@ -159,8 +159,13 @@ impl System {
     /// Sum of the masses of joints and members, kg.
     #[must_use]
     pub fn total_mass_kg(&self) -> f64 {
+        crate::sum(self.masses_kg())
+    }
+
+    /// Masses of joints and members, kg.
+    fn masses_kg(&self) -> impl Iterator<Item = f64> {
         let members = self.members.iter().map(|member| member.body.mass_kg());
-        crate::sum(self.joints.iter().map(|joint| joint.mass_kg).chain(members))
+        self.joints.iter().map(|joint| joint.mass_kg).chain(members)
     }
 
     /// The number of the joint of this name.
