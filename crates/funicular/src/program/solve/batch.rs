@@ -8,7 +8,6 @@ use std::path::Path;
 
 use formats::answer::Answer;
 use funicular::{Problem, Solve};
-use miette::miette;
 use validate::answer::UseCensus;
 
 use super::lines::{Line, Lines};
@@ -69,7 +68,7 @@ fn open(path: &Path) -> Result<Lines, Failure> {
         if file.metadata()?.is_dir() { Err(ErrorKind::IsADirectory.into()) } else { Ok(file) }
     });
     let file = file.map_err(|error| {
-        Failure::bad_input(miette!("cannot read the systems from {}: {error}", path.display()))
+        Failure::bad_input(format!("cannot read the systems from {}: {error}", path.display()))
     })?;
     Ok(Lines::of(BufReader::new(file)))
 }
