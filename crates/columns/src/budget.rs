@@ -2,9 +2,9 @@
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::sync::atomic::{AtomicU64, Ordering};
 
 use ::parquet::errors::ParquetError;
+use model::budget::{self, OutOfMemory};
 use model::system_file::most_bars;
 
 use crate::error::ColumnsError;
@@ -20,20 +20,13 @@ const MOST_BYTES: u64 = 1 << 29;
 #[derive(Debug)]
 pub struct Budget {
     path: PathBuf,
-    limit: u64,
-    held: AtomicU64,
+    bytes: budget::Budget,
 }
 
 impl Budget {
     pub fn of(path: &Path) -> Arc<Self> {
         let limit = (most_bars() as u64).saturating_mul(BYTES_PER_BAR).min(MOST_BYTES);
-        Arc::new(Self { path: path.to_owned(), limit, held: AtomicU64::new(0) })
-    }
-
-    /// What is left, bytes.
-    pub fn left(&self) -> usize {
-        let left = self.limit.saturating_sub(self.held.load(Ordering::Relaxed));
-        usize::try_from(left).unwrap_or(usize::MAX)
+        Arc::new(Self { path: path.to_owned(), bytes: budget::Budget::new(limit) })
     }
 }
 
@@ -55,32 +48,34 @@ impl Share {
         Self::new(&self.budget, &self.column)
     }
 
+    /// What is left for all columns, bytes.
     pub fn left(&self) -> usize {
-        self.budget.left()
+        usize::try_from(self.budget.bytes.left()).unwrap_or(usize::MAX)
     }
 
     /// A size that a file claims, as far as there is room for it.
     pub fn fits(&self, claimed: u64) -> Result<usize, ParquetError> {
-        let left = self.left();
-        usize::try_from(claimed).ok().filter(|size| *size <= left).ok_or_else(|| {
-            let (path, column) = (self.budget.path.clone(), self.column.clone());
-            let (left, budget) = (left as u64, self.budget.limit);
-            external(ColumnsError::Memory { path, column, claimed, left, budget })
-        })
+        self.budget.bytes.fits(claimed).map_err(|error| self.refused(error))?;
+        usize::try_from(claimed).map_err(external)
     }
 
     /// Hold so much more.
     pub fn take(&mut self, bytes: u64) -> Result<(), ParquetError> {
-        self.fits(bytes)?;
+        self.budget.bytes.take(bytes).map_err(|error| self.refused(error))?;
         self.held += bytes;
-        self.budget.held.fetch_add(bytes, Ordering::Relaxed);
         Ok(())
+    }
+
+    fn refused(&self, error: OutOfMemory) -> ParquetError {
+        let (path, column) = (self.budget.path.clone(), self.column.clone());
+        let OutOfMemory { needed: claimed, left, limit: budget } = error;
+        external(ColumnsError::Memory { path, column, claimed, left, budget })
     }
 }
 
 impl Drop for Share {
     fn drop(&mut self) {
-        self.budget.held.fetch_sub(self.held, Ordering::Relaxed);
+        self.budget.bytes.give_back(self.held);
     }
 }
 

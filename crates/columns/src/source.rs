@@ -1,7 +1,7 @@
 //! A Parquet file to be read: what its end says, and its rows.
 
 use std::fs::File;
-use std::io::{Read as _, Seek as _, SeekFrom};
+use std::io::{ErrorKind, Read as _, Seek as _, SeekFrom};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -12,6 +12,7 @@ use ::parquet::file::metadata::{
     ColumnChunkMetaData, ParquetMetaData, ParquetMetaDataReader, RowGroupMetaData,
 };
 use ::parquet::schema::types::TypePtr;
+use model::open_input;
 use model::system_file::{most_bars, most_file_bytes};
 
 use crate::budget::{Budget, Share};
@@ -32,12 +33,11 @@ pub struct Source<'p> {
 /// Open a regular file with something in it.
 pub fn open(path: &Path) -> Result<File, ColumnsError> {
     let io = |error| ColumnsError::file(path, error);
-    let file = File::open(path).map_err(io)?;
-    let about = file.metadata().map_err(io)?;
-    if about.is_dir() {
-        return Err(ColumnsError::Folder { path: path.to_owned() });
-    }
-    if about.len() == 0 {
+    let file = open_input(path).map_err(|error| match error.kind() {
+        ErrorKind::IsADirectory => ColumnsError::Folder { path: path.to_owned() },
+        _ => io(error),
+    })?;
+    if file.metadata().map_err(io)?.len() == 0 {
         return Err(ColumnsError::Empty { path: path.to_owned() });
     }
     Ok(file)

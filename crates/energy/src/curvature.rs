@@ -222,16 +222,9 @@ impl Curvature {
         }
         let inside = |size: f64| self.index(-size) - self.index(size);
         let none = inside(zero);
-        let (mut low, mut high) = self.enclosure_of_smallest(zero);
-        while high > (1.0 + CONDITION_PART) * low {
-            let middle = (low * high).sqrt();
-            if inside(middle) == none {
-                low = middle;
-            } else {
-                high = middle;
-            }
-        }
-        largest / (low * high).sqrt()
+        let enclosure = self.enclosure_of_smallest(zero);
+        let (low, high) = enclosed(enclosure, CONDITION_PART, |size| inside(size) == none);
+        largest / between(low, high)
     }
 
     /// Bounds for the smallest eigenvalue. Where every bar is in tension it lies between the
@@ -323,17 +316,9 @@ impl Curvature {
         if self.index(threshold) == 0 {
             return None;
         }
-        let mut low = threshold;
         // All N_i + high are positive.
-        let mut high = (1.0 + ENCLOSURE) * -self.slope.lowest;
-        while high > (1.0 + ENCLOSURE) * low && high > threshold {
-            let middle = (low * high).sqrt();
-            if self.index(middle) == 0 {
-                high = middle;
-            } else {
-                low = middle;
-            }
-        }
+        let high = (1.0 + ENCLOSURE) * -self.slope.lowest;
+        let (_, high) = enclosed((threshold, high), ENCLOSURE, |shift| self.index(shift) > 0);
         let mut mode: Vec<Vector> = (0..self.links.bars()).map(|i| self.start_of_mode(i)).collect();
         for _ in 0..INVERSE_ITERATIONS {
             mode = self.respond((1.0 + ENCLOSURE) * high, &mode);
@@ -366,6 +351,29 @@ impl Curvature {
         tangent(self.shape.u[i], v)
     }
 }
+
+/// The geometric mean, of numbers whose product may be less or more than any double too.
+fn between(low: f64, high: f64) -> f64 {
+    low.sqrt() * high.sqrt()
+}
+
+/// Bounds drawn together until they differ by this part: sizes for which `below` holds are less
+/// than what is enclosed.
+fn enclosed(bounds: (f64, f64), part: f64, below: impl Fn(f64) -> bool) -> (f64, f64) {
+    let (mut low, mut high) = bounds;
+    for _ in 0..HALVINGS {
+        if high <= (1.0 + part) * low {
+            break;
+        }
+        let middle = between(low, high);
+        if below(middle) { low = middle } else { high = middle }
+    }
+    (low, high)
+}
+
+/// Halvings of the logarithm after which any two positive doubles differ by less than a part of
+/// 0.006: the logarithm to base 2 of `ln(2^2098) / 0.006`.
+const HALVINGS: usize = 18;
 
 /// How closely the smallest eigenvalue is enclosed for the condition, relative.
 const CONDITION_PART: f64 = 0.2;

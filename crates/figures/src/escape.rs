@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use model::steers;
+
 /// A text as XML and HTML have it, in elements and in quoted attributes.
 ///
 /// ```
@@ -29,11 +31,11 @@ impl fmt::Display for Escaped<'_> {
     }
 }
 
-/// Whether a character cannot stand as it is. XML has a place for neither control characters, but
+/// Whether a character cannot stand as it is, or turns the text round it. XML has a place for neither control characters, but
 /// for the ends of lines and tabulators, nor the two non-characters, not even as a reference.
 fn special(c: char) -> bool {
     let white = matches!(c, '\n' | '\t');
-    matches!(c, '&' | '<' | '>' | '"' | '\u{fffe}' | '\u{ffff}') || (c.is_control() && !white)
+    matches!(c, '&' | '<' | '>' | '"' | '\u{fffe}' | '\u{ffff}') || (steers(c) && !white)
 }
 
 #[cfg(test)]
@@ -43,7 +45,7 @@ mod tests {
     #[test]
     fn every_text_is_well_formed() {
         assert_eq!(
-            Escaped("a<b>&\"c\u{1}\n\u{7f}\u{ffff}\u{1f517}").to_string(),
+            Escaped("a<b>&\"c\u{1}\n\u{7f}\u{202e}\u{1f517}").to_string(),
             "a&lt;b&gt;&amp;&quot;c \n  \u{1f517}"
         );
         assert_eq!(Escaped("").to_string(), "");

@@ -1,5 +1,7 @@
 //! Why a file of another program cannot be used.
 
+use model::budget::OutOfMemory;
+
 /// Why a file cannot be used: which file, which line where that is known, and what is wrong.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("{file}:{}{what}", line.map_or_else(|| " ".to_owned(), |line| format!("{line}: ")))]
@@ -76,6 +78,9 @@ pub enum Wrong {
         /// Which.
         what: String,
     },
+    /// Occurs when what the file describes needs more memory than there is.
+    #[error("{0}")]
+    Memory(OutOfMemory),
     /// Occurs when what was read is no system: a length that is no length, a member twice.
     #[error("{reason}")]
     NoSystem {
@@ -117,4 +122,14 @@ pub(crate) fn shortened(text: &str) -> String {
         out.push_str("...");
     }
     out
+}
+
+/// A whole number that was checked to fit.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "whole, from 0 to 2^32"
+)]
+pub(crate) fn as_count(x: f64) -> usize {
+    x as usize
 }

@@ -1,5 +1,9 @@
 //! Forces at joints as functions of time, from a table.
 
+use std::collections::HashMap;
+
+use model::name_of_cell;
+
 use crate::error::{FormatError, Wrong};
 use crate::sheet::Sheet;
 
@@ -38,11 +42,16 @@ impl ForceTable {
     pub fn parse(text: &str, file: &str) -> Result<Self, FormatError> {
         let sheet = Sheet::parse(file, text, COLUMNS, &[])?;
         COLUMNS.iter().try_for_each(|name| sheet.need(name))?;
-        let mut table = Self::default();
+        let (mut table, mut numbers) = (Self::default(), HashMap::new());
         for row in sheet.rows() {
             let time_s = row.number("time_s")?;
             let force_n = [row.number("x_n")?, row.number("y_n")?, row.number("z_n")?];
-            let points = &mut table.of(row.text("joint")).points;
+            let joint = name_of_cell(row.text("joint"));
+            let number = *numbers.entry(joint.to_owned()).or_insert_with(|| {
+                table.joints.push((joint.to_owned(), ForceOverTime::default()));
+                table.joints.len() - 1
+            });
+            let points = &mut table.joints[number].1.points;
             if points.last().is_some_and(|(before_s, _)| *before_s >= time_s) {
                 return Err(row.error(Wrong::Value {
                     what: "time_s".to_owned(),
@@ -59,15 +68,6 @@ impl ForceTable {
     #[must_use]
     pub fn joints(&self) -> &[(String, ForceOverTime)] {
         &self.joints
-    }
-
-    fn of(&mut self, joint: &str) -> &mut ForceOverTime {
-        let known = self.joints.iter().position(|(name, _)| name == joint);
-        let at = known.unwrap_or_else(|| {
-            self.joints.push((joint.to_owned(), ForceOverTime::default()));
-            self.joints.len() - 1
-        });
-        &mut self.joints[at].1
     }
 }
 

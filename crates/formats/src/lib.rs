@@ -10,6 +10,7 @@
 pub mod answer;
 mod error;
 mod force_table;
+mod json;
 mod sheet;
 pub mod system;
 

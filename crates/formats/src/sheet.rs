@@ -7,7 +7,7 @@ pub(crate) struct Sheet<'a> {
     file: &'a str,
     columns: Vec<Option<usize>>,
     names: &'a [&'a str],
-    rows: Vec<(usize, Vec<String>)>,
+    rows: Vec<(usize, Box<[String]>)>,
 }
 
 /// A row of a sheet.
@@ -104,7 +104,7 @@ impl Row<'_> {
 }
 
 /// The records of a text with the lines they begin in, without empty lines.
-fn records(file: &str, text: &str) -> Result<Vec<(usize, Vec<String>)>, FormatError> {
+fn records(file: &str, text: &str) -> Result<Vec<(usize, Box<[String]>)>, FormatError> {
     let mut records = Vec::new();
     let (mut cells, mut cell, mut quoted, mut was_quoted) = (vec![], String::new(), false, false);
     let (mut line, mut began) = (1, 1);
@@ -151,9 +151,9 @@ fn finished(cell: &mut String, quoted: &mut bool) -> String {
     text
 }
 
-fn push(records: &mut Vec<(usize, Vec<String>)>, line: usize, cells: &mut Vec<String>) {
+fn push(records: &mut Vec<(usize, Box<[String]>)>, line: usize, cells: &mut Vec<String>) {
     let cells = std::mem::take(cells);
     if cells.len() > 1 || cells.iter().any(|cell| !cell.is_empty()) {
-        records.push((line, cells));
+        records.push((line, cells.into_boxed_slice()));
     }
 }

@@ -16,11 +16,11 @@ fn main() -> Result<(), Error> {
     let mut agreed = 0;
     println!("span_m,pull_n,sag_m");
     for (span_m, answer) in spans_m.iter().zip(answers) {
-        let Solution::Chain(answer) = answer? else { continue };
+        let answer = answer?;
         agreed += usize::from(answer.agrees());
         let hanging = &answer.equilibria()[0];
         let sag_m = -hanging.joints_m.iter().map(|joint| joint[2]).fold(0.0, f64::min);
-        println!("{span_m},{},{sag_m}", -hanging.reactions_n.start[0]);
+        println!("{span_m},{},{sag_m}", -hanging.reactions_n[0][0]);
     }
     eprintln!("{agreed} of {} agree", problems.len());
     Ok(())

@@ -15,7 +15,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 
     answer.write_csv(std::io::stdout().lock())?;
     for found in answer.equilibria() {
-        let [x, _, z] = found.reactions_n.start;
+        let [x, _, z] = found.reactions_n[0];
         eprintln!(
             "{}: {} pulls on the start with {x:.3} N, {z:.3} N",
             found.solver,

@@ -67,9 +67,9 @@ impl Animation {
         self.equilibria = Resting::new(&self.system, std::iter::empty());
         for located in &found.list {
             // A mirror image of a chain that turns freely is the same place.
-            if self.equilibria.nearest(located.joints_m()).is_none() {
-                self.equilibria.add(located.joints_m());
-                self.labels.push(located.label().to_owned());
+            if self.equilibria.nearest(&located.found.joints_m).is_none() {
+                self.equilibria.add(&located.found.joints_m);
+                self.labels.push(located.label.clone());
                 self.distances_m.push(Vec::new());
             }
         }

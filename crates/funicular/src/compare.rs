@@ -1,8 +1,10 @@
 //! Answers of any solvers, held against each other.
 
-use model::Equilibrium;
-use validate::{Agreement, Tolerances};
+use model::system::SystemEquilibrium;
+use validate::Tolerances;
+use validate::systems::SystemAgreement;
 
+use crate::equilibria::system_of;
 use crate::error::Error;
 use crate::problem::Problem;
 
@@ -12,11 +14,13 @@ use crate::problem::Problem;
 ///
 /// # Errors
 ///
-/// [`Error::NothingToCompare`] for fewer than two answers, [`Error::ChainsOnly`] for other systems.
-pub fn compare(problem: &Problem, answers: &mut [Equilibrium]) -> Result<Agreement, Error> {
-    let chain = problem.as_chain().ok_or(Error::ChainsOnly { what: "a comparison" })?;
+/// [`Error::NothingToCompare`] for fewer than two answers.
+pub fn compare(
+    problem: &Problem,
+    answers: &mut [SystemEquilibrium],
+) -> Result<SystemAgreement, Error> {
     if answers.len() < 2 {
         return Err(Error::NothingToCompare { answers: answers.len() });
     }
-    Ok(validate::compare(chain, answers, &Tolerances::project()))
+    Ok(validate::systems::compare(&system_of(problem), answers, &Tolerances::project()))
 }

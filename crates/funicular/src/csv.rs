@@ -49,12 +49,13 @@ impl fmt::Display for Three {
     }
 }
 
-/// A name, in quotes where it has to be (RFC 4180).
+/// A name, in quotes where it has to be (RFC 4180), and never a formula.
 pub(crate) fn quoted(name: &str) -> Cow<'_, str> {
+    let name = model::text_cell(name);
     if name.contains([',', '"', '\n', '\r']) {
         format!("\"{}\"", name.replace('"', "\"\"")).into()
     } else {
-        name.into()
+        name
     }
 }
 
@@ -78,6 +79,7 @@ mod tests {
     #[test]
     fn names_with_commas_and_quotes_are_quoted() {
         assert_eq!(quoted("lamp"), "lamp");
+        assert_eq!(quoted("=HYPERLINK(\"x\",1)"), "\"'=HYPERLINK(\"\"x\"\",1)\"");
         assert_eq!(quoted("a \"b\", c"), "\"a \"\"b\"\", c\"");
     }
 }

@@ -99,7 +99,7 @@ impl Ensemble {
         let found = equilibria::all(problem, CENSUS_BARS)?;
         // What cannot be moved is refused here, and is not the fate of every position.
         if let Some(first) = found.list.first() {
-            Simulation::new(&system, first.joints_m(), settings)?;
+            Simulation::new(&system, &first.found.joints_m, settings)?;
         }
         let text = match problem.as_chain() {
             Some(chain) => SystemText::of(chain.chain()),
@@ -112,7 +112,7 @@ impl Ensemble {
             step_s,
             steps_per_look,
             looks: steps.div_ceil(steps_per_look),
-            rest: Resting::new(&system, found.list.iter().map(Located::joints_m)),
+            rest: Resting::new(&system, found.list.iter().map(|one| &one.found.joints_m[..])),
             positions: Stream::new(self.number),
             system,
         };
@@ -160,17 +160,14 @@ const MOTION: &str = "motion";
 
 /// An equilibrium as an entry of the list.
 fn listed(located: &Located, is_proven: bool) -> Member {
-    let (energy_j, index_in_plane) = match located {
-        Located::Chain(_, e) => (e.energy_j, Some(e.stability.index_in_plane)),
-        Located::System(e) => (e.energy_j, None),
-    };
+    let Located { label, found } = located;
     Member {
         origin: if is_proven { Origin::Proven } else { Origin::Discovered },
-        energy_j,
+        energy_j: found.energy_j,
         angles_rad: Vec::new(),
-        index_in_plane,
-        mirrored: located.label().ends_with('\''),
-        joints_m: Some(located.joints_m().to_vec()),
+        index_in_plane: found.stability.index_in_plane,
+        mirrored: label.ends_with('\''),
+        joints_m: Some(found.joints_m.clone()),
     }
 }
 

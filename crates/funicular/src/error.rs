@@ -1,7 +1,6 @@
 //! What can go wrong.
 
 use crate::solve::SolveAnswer;
-use crate::system::SystemSolution;
 use crate::threads::MOST_THREADS;
 
 /// Why there is no answer.
@@ -49,9 +48,6 @@ pub enum Error {
     /// why.
     #[error("{}", reasons(.0.failures()))]
     Unsolved(Box<SolveAnswer>),
-    /// Occurs when every solver that was asked about a system gave up.
-    #[error("{}", reasons(.0.failures()))]
-    UnsolvedSystem(Box<SystemSolution>),
     /// Occurs when a system is no equilibrium problem: a part falls, lengths cannot close a loop.
     #[error(transparent)]
     SystemRefused(#[from] model::system::SystemRefusal),

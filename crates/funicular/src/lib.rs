@@ -25,9 +25,8 @@
 //!
 //! | to do | with |
 //! |---|---|
-//! | the hanging equilibrium, by both solvers, judged and proved | [`Solve`] |
-//! | the same of any system of bars, cables and struts, elastic or not | [`Solve::run_system`] |
-//! | the same of many chains and systems in parallel | [`Solve::run_all`] |
+//! | the hanging equilibrium of a chain, or of bars, cables and struts, elastic or not, by both solvers, judged and proved | [`Solve`] |
+//! | the same of many systems in parallel | [`Solve::run_all`] |
 //! | every equilibrium, stable or not, and the proof that there is no other | [`Census`] |
 //! | the hanging shape over a parameter: sag, forces, angles | [`Study`] |
 //! | all equilibria over a parameter: branches, folds, exchanges of stability | [`Trace`] |
@@ -87,7 +86,6 @@ mod problem;
 mod reproduce;
 mod resting;
 mod simulate;
-mod solution;
 mod solve;
 #[cfg(feature = "sweep")]
 pub mod starts;
@@ -95,7 +93,6 @@ pub mod starts;
 mod study;
 #[cfg(feature = "sweep")]
 mod sweep;
-mod system;
 mod threads;
 #[cfg(feature = "branches")]
 mod trace;
@@ -143,7 +140,5 @@ pub use modes::{JointAt, Mode, Modes, ModesAnswer, Summary, WithModes};
 pub use motion::Order;
 pub use problem::{Problem, case, case_text};
 pub use simulate::{Motion, Simulate, SimulateError, Start};
-pub use solution::Solution;
-pub use solve::{Failure, SCHEMA_VERSION, Solve, SolveAnswer};
-pub use system::SystemSolution;
+pub use solve::{Failure, Lists, SCHEMA_VERSION, Solve, SolveAnswer};
 pub use threads::MOST_THREADS;

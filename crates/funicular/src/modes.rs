@@ -121,25 +121,22 @@ impl Modes {
     }
 
     fn with_modes(&self, system: &System, located: &Located) -> Result<WithModes, Error> {
-        let (joints_m, axial_n) = (located.joints_m(), Some(located.axial_n()));
+        let Located { label, found: equilibrium } = located;
+        let (joints_m, axial_n) = (&equilibrium.joints_m, Some(&equilibrium.axial_n[..]));
         let is_large = system.joints().len() > ALL_JOINTS;
         let found = match self.lowest.or(is_large.then_some(LOWEST)) {
             Some(count) => motion::lowest_modes(system, joints_m, axial_n, count)?,
             None => motion::modes(system, joints_m, axial_n)?,
         };
-        let (enclosed, between) = enclose(system, joints_m, located.axial_n());
-        let joints = system.joints().iter().zip(located.joints_m());
+        let (enclosed, between) = enclose(system, joints_m, &equilibrium.axial_n);
+        let joints = system.joints().iter().zip(joints_m);
         let joints = joints.map(|(joint, at_m)| JointAt { name: joint.name.clone(), at_m: *at_m });
-        let (solver, energy_j) = match located {
-            Located::Chain(_, e) => (e.solver.clone(), e.energy_j),
-            Located::System(e) => (e.solver.clone(), e.energy_j),
-        };
         Ok(WithModes {
-            label: located.label().to_owned(),
-            solver,
-            energy_j,
+            label: label.clone(),
+            solver: equilibrium.solver.clone(),
+            energy_j: equilibrium.energy_j,
             joints: joints.collect(),
-            index_in_space: located.index(),
+            index_in_space: equilibrium.stability.index_in_space,
             index_by_modes: found.index(),
             out_of_balance: found.out_of_balance,
             modes_in_all: found.total,

@@ -3,6 +3,7 @@
 
 use std::fmt::Write as _;
 
+use figures::Escaped;
 use model::Vector;
 use model::system::System;
 
@@ -11,9 +12,9 @@ const SCENE: &str = include_str!("scene.js");
 
 /// A page with `@SCENE@`, `@TITLE@` and `@DATA@` filled in. It needs nothing but itself.
 pub(crate) fn filled(page: &str, system: &System, data: &str) -> String {
-    page.replace("@SCENE@", SCENE.trim_end())
-        .replace("@TITLE@", &escaped(system.name()))
-        .replace("@DATA@", data)
+    // A name must not fill in the rest of the page.
+    let title = Escaped(system.name()).to_string().replace('@', "&#64;");
+    page.replace("@SCENE@", SCENE.trim_end()).replace("@TITLE@", &title).replace("@DATA@", data)
 }
 
 /// The entries of which bars there are and which joints are held (on a line or plane too), with a
@@ -50,20 +51,4 @@ pub(crate) fn list(out: &mut String, numbers: impl Iterator<Item = f64>) {
 /// What stands before item `k` of a list.
 pub(crate) fn comma(k: usize) -> &'static str {
     if k > 0 { "," } else { "" }
-}
-
-/// Text of a caller for a page: what would end it, or fill in the rest of a template, is escaped.
-fn escaped(text: &str) -> String {
-    let mut out = String::with_capacity(text.len());
-    for c in text.chars() {
-        match c {
-            '&' => out.push_str("&amp;"),
-            '<' => out.push_str("&lt;"),
-            '>' => out.push_str("&gt;"),
-            // A name must not fill in the rest of the page.
-            '@' => out.push_str("&#64;"),
-            _ => out.push(c),
-        }
-    }
-    out
 }

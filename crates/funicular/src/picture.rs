@@ -2,17 +2,14 @@
 
 use figures::{StructureError, SystemShape};
 use model::system::{System, SystemEquilibrium};
-use model::{AxialForce, Equilibrium, Vector};
+use model::{AxialForce, Vector};
 
 /// An equilibrium of a system as an SVG file.
 ///
 /// ```
 /// use funicular::prelude::*;
-/// let chain = Problem::case("two-bars")?;
-/// let chain = chain.as_chain().unwrap();
-/// let system = System::from(chain.chain());
-/// let answer = Solve::new().run_system(&system)?;
-/// let svg = funicular::picture::of_system(&system, &answer.equilibria()[0]).unwrap();
+/// let answer = Solve::new().run(&Problem::case("two-bars")?)?;
+/// let svg = funicular::picture::of_system(answer.system(), &answer.equilibria()[0]).unwrap();
 /// assert!(svg.starts_with("<svg") || svg.starts_with("<?xml"));
 /// # Ok::<(), Error>(())
 /// ```
@@ -24,25 +21,6 @@ pub fn of_system(system: &System, answer: &SystemEquilibrium) -> Result<String, 
     let SystemEquilibrium { joints_m, reactions_n, .. } = answer;
     let axial_n = &largest_n(&answer.axial_forces(system));
     SystemShape { system, joints_m, axial_n, reactions_n }.svg()
-}
-
-/// An equilibrium of a chain as an SVG file.
-///
-/// # Errors
-///
-/// [`StructureError`] when a place is not finite.
-pub fn of_chain(chain: &model::Chain, answer: &Equilibrium) -> Result<String, StructureError> {
-    let system = System::from(chain);
-    let mut reactions_n = vec![[0.0; 3]; answer.joints_m.len()];
-    if let Some(first) = reactions_n.first_mut() {
-        *first = answer.reactions_n.start;
-    }
-    if let Some(last) = reactions_n.last_mut() {
-        *last = answer.reactions_n.end;
-    }
-    let axial_n = &largest_n(&answer.axial_forces());
-    let joints_m = &answer.joints_m;
-    SystemShape { system: &system, joints_m, axial_n, reactions_n: &reactions_n }.svg()
 }
 
 /// What a picture shows of a member: its axial force where it is largest.

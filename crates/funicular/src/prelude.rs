@@ -1,8 +1,8 @@
 //! What most programs need: `use funicular::prelude::*;`.
 
-pub use model::system::{Joint, Kind, Member, Support, System};
-pub use model::{Anchors, Bar, Chain, Equilibrium, Rung, SolverName, Vector};
-pub use validate::answer::{Equations, Solvers, UseCensus};
+pub use model::system::{Joint, Kind, Member, Support, System, SystemEquilibrium};
+pub use model::{Anchors, Bar, Chain, Rung, SolverName, Vector};
+pub use validate::{Equations, Solvers, UseCensus};
 
 #[cfg(feature = "sweep")]
 pub use crate::basins::Basins;
@@ -19,12 +19,10 @@ pub use crate::problem::Problem;
 #[cfg(feature = "paper")]
 pub use crate::reproduce::Reproduce;
 pub use crate::simulate::{Simulate, Start};
-pub use crate::solution::Solution;
-pub use crate::solve::Solve;
+pub use crate::solve::{Solve, SolveAnswer};
 #[cfg(feature = "branches")]
 pub use crate::study::Study;
 #[cfg(feature = "sweep")]
 pub use crate::sweep::{Spread, Sweep};
-pub use crate::system::SystemSolution;
 #[cfg(feature = "branches")]
 pub use crate::trace::Trace;

@@ -135,7 +135,7 @@ impl Problem {
     /// let rod = Problem::parse(text, "rod.toml")?;
     /// let up = [[0.0; 3], [0.0, 0.0, 0.9]];
     /// let found = Solve::new().near(&rod, &up)?;
-    /// let standing = &found.as_system().unwrap().equilibria()[0];
+    /// let standing = &found.equilibria()[0];
     /// assert!((standing.joints_m[1][2] - 1.0).abs() < 1e-12);
     /// assert_eq!(standing.stability.index_in_space, 2);
     /// # Ok::<(), Error>(())

@@ -1,5 +1,6 @@
 //! A system set in motion.
 
+use std::collections::HashMap;
 use std::ops::ControlFlow;
 use std::str::FromStr;
 
@@ -284,10 +285,14 @@ impl Simulate {
         let at = self.position(problem, &system)?;
         let mut simulation = Simulation::new(&system, &at, self.settings)?;
         simulation.push(&self.impulses(&system)?)?;
+        let numbers = system.joints().iter().enumerate();
+        let numbers: HashMap<_, _> = numbers.map(|(k, joint)| (joint.name.as_str(), k)).collect();
         for (name, force) in self.forces.joints() {
             let force = force.clone();
             let of_time = Box::new(move |time_s: f64| force.at(time_s));
-            simulation.add_force(joint(&system, name)?, of_time)?;
+            let number = numbers.get(name.as_str()).copied();
+            let number = number.ok_or_else(|| SimulateError::NoSuchJoint { name: name.clone() })?;
+            simulation.add_force(number, of_time)?;
         }
         let step_s = self.time_s / steps as f64;
         for step in 0..=steps {
@@ -359,9 +364,9 @@ fn joint(system: &System, name: &str) -> Result<usize, SimulateError> {
 }
 
 fn named(found: equilibria::Equilibria, label: &str) -> Result<Vec<Vector>, Error> {
-    let labels: Vec<String> = found.list.iter().map(|e| e.label().to_owned()).collect();
-    let wanted = found.list.into_iter().find(|e| e.label() == label);
-    let at = wanted.map(|e| e.joints_m().to_vec());
+    let labels: Vec<String> = found.list.iter().map(|one| one.label.clone()).collect();
+    let wanted = found.list.into_iter().find(|one| one.label == label);
+    let at = wanted.map(|one| one.found.joints_m);
     at.ok_or_else(|| SimulateError::NoSuchEquilibrium { label: label.to_owned(), labels }.into())
 }
 

@@ -8,7 +8,7 @@ use sweep::{
     Axis, Manifest, Member, Run, RunSettings, SCHEMA_VERSION, Settings, Shard, Source, Summary,
     SystemText,
 };
-use validate::answer::Solvers;
+use validate::Solvers;
 
 use crate::error::Error;
 use crate::problem::Problem;

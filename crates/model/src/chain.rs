@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::mass_range::too_wide;
 use crate::readable::Readable;
 use crate::{Bar, Vector, sum};
 
@@ -102,6 +103,17 @@ pub enum ChainError {
         /// Its value in SI units.
         total: f64,
     },
+    /// Occurs when the lightest mass is lost in the rounding of the heaviest.
+    #[error(
+        "the masses of this chain reach from {} kg to {} kg: the lightest is lost in the \
+         rounding of the heaviest", Readable(*lightest_kg), Readable(*heaviest_kg)
+    )]
+    MassRange {
+        /// The lightest mass that is not zero.
+        lightest_kg: f64,
+        /// The heaviest mass.
+        heaviest_kg: f64,
+    },
 }
 
 /// Least total length (m), weight (N), and weight times length (J) of a chain.
@@ -162,6 +174,9 @@ impl Chain {
             if total < SMALLEST_TOTAL && !may_vanish {
                 return Err(ChainError::Underflow { quantity, total });
             }
+        }
+        if let Some((lightest_kg, heaviest_kg)) = too_wide(bars.iter().map(Bar::mass_kg)) {
+            return Err(ChainError::MassRange { lightest_kg, heaviest_kg });
         }
         let name = name.into();
         let (total_length_m, total_mass_kg) = (length_m, mass_kg);

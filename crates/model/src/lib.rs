@@ -31,22 +31,28 @@
 
 mod axial;
 mod bar;
+pub mod budget;
 pub mod cases;
+mod cell;
 mod chain;
 mod ends;
 mod equilibrium;
 pub mod evidence;
+mod input;
+mod mass_range;
 pub mod number;
 mod problem;
 mod readable;
 mod solver_name;
 mod stability;
+mod steers;
 mod sum;
 pub mod system;
 pub mod system_file;
 
 pub use axial::AxialForce;
 pub use bar::{Bar, BarError};
+pub use cell::{name_of_cell, text_cell};
 pub use chain::{
     Anchors, Chain, ChainError, SMALLEST_TOTAL, STANDARD_GRAVITY_M_S2, SystemSummary,
     VERTICAL_TOLERANCE,
@@ -60,9 +66,11 @@ pub use evidence::{
     Rigidity, Room, Rung, SelfStresses, StabilityDifference, Statement, Status, UncertaintyCause,
     Verified, VerifiedSystem,
 };
+pub use input::open_input;
 pub use problem::{Problem, Refusal, STRAIGHT_TOLERANCE};
 pub use solver_name::SolverName;
 pub use stability::{InPlane, InSpace, Stability};
+pub use steers::steers;
 pub use sum::sum;
 
 /// A point or a vector in the world frame: `[x, y, z]`, unit as said where it is used.

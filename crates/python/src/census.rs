@@ -29,14 +29,16 @@ pub fn census<'py>(
                 .equilibria()
                 .iter()
                 .cloned()
-                .map(|one| Arrays::of_system(found.system(), one))
+                .map(|one| Arrays::new(found.system(), one, false))
                 .collect();
             return Ok((serde_json::to_string(&found), arrays));
         }
         let found = census.run_watched(&of, &|at| tell(at.done, at.waiting))?;
-        let arrays =
-            found.equilibria.iter().map(|found| Arrays::of_chain(found.equilibrium.clone()));
-        let arrays = arrays.collect();
+        let system = funicular::system_of(&of);
+        let Some(row) = system.as_row() else { unreachable!("a chain is a row") };
+        let as_system = |found: &funicular::census::Found| row.equilibrium(found.equilibrium.clone());
+        let equilibria = found.equilibria.iter().map(as_system);
+        let arrays = equilibria.map(|one| Arrays::new(&system, one, true)).collect();
         Ok((serde_json::to_string(&found), arrays))
     })?;
     let (text, arrays) = found.map_err(|error: funicular::Error| raise(&error))?;

@@ -1,5 +1,7 @@
 //! Text on its way to people: nothing in it may steer a terminal.
 
+use model::steers;
+
 /// The text with every character that could move a cursor, change a terminal's state, or turn the
 /// direction of the text round (Unicode's explicit directional formatting, UAX #9) shown as its
 /// escape. Line ends stay.
@@ -13,9 +15,4 @@ pub fn printable(text: &str) -> String {
         }
     }
     out
-}
-
-fn steers(c: char) -> bool {
-    c.is_control()
-        || matches!(c, '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}' | '\u{2028}' | '\u{2029}')
 }

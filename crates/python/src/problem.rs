@@ -183,7 +183,14 @@ impl Problem {
     #[staticmethod]
     fn cases() -> Vec<&'static str> {
         let chains = model::cases::all().iter().map(|case| case.name);
-        chains.chain(model::cases::gallery().iter().map(|exhibit| exhibit.name)).collect()
+        chains.chain(model::cases::exhibits().map(|exhibit| exhibit.name)).collect()
+    }
+
+    /// The same with another question: the equilibrium next to this shape.
+    fn near(&self, py: Python<'_>, joints_m: Doubles<'_>) -> PyResult<Self> {
+        let joints = vectors(&joints_m)?;
+        let drawn = py.detach(|| self.of.near(&joints));
+        drawn.map(Self::new).map_err(|error| raise(&error))
     }
 
     /// The name.

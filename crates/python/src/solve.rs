@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
-use funicular::prelude::{Equilibrium, Solve, Vector};
-use funicular::{Error, Solution, picture};
+use funicular::prelude::{Solve, SolveAnswer, Vector};
+use funicular::{Error, Lists, picture};
 use model::AxialForce;
 use model::system::{System, SystemEquilibrium};
 use numpy::PyReadonlyArrayDyn;
@@ -28,33 +28,16 @@ pub struct Arrays {
 }
 
 impl Arrays {
-    /// Of a chain.
-    pub fn of_chain(found: Equilibrium) -> Self {
-        let along = found.axial_forces();
-        let forces = found.multipliers_n;
-        let mut reactions_n = vec![[0.0; 3]; found.joints_m.len()];
-        if let [first, .., last] = &mut reactions_n[..] {
-            (*first, *last) = (found.reactions_n.start, found.reactions_n.end);
-        }
-        let inner = found.axial_n.len().saturating_sub(1);
-        let opposite = forces.iter().skip(1).take(inner).map(|force| force.map(|x| -x));
+    /// Of a system; `is_chain` says whether it was given as a chain between two anchors, which alone has
+    /// multipliers.
+    pub fn new(system: &System, found: SystemEquilibrium, is_chain: bool) -> Self {
+        // The ground on the first bar; on each bar the next one, or the ground.
+        let multipliers =
+            || found.start_forces_n.iter().take(1).chain(&found.end_forces_n).copied().collect();
         Self {
-            start_forces_n: forces.iter().take(1).copied().chain(opposite).collect(),
-            end_forces_n: forces.iter().skip(1).copied().collect(),
-            joints_m: found.joints_m,
-            multipliers_n: Some(forces),
-            axial_n: found.axial_n,
-            along,
-            reactions_n,
-        }
-    }
-
-    /// Of another system.
-    pub fn of_system(system: &System, found: SystemEquilibrium) -> Self {
-        Self {
+            multipliers_n: is_chain.then(multipliers),
             along: found.axial_forces(system),
             joints_m: found.joints_m,
-            multipliers_n: None,
             axial_n: found.axial_n,
             start_forces_n: found.start_forces_n,
             end_forces_n: found.end_forces_n,
@@ -108,32 +91,19 @@ pub fn solve<'py>(
         .census(words::census(census)?);
     let of = Arc::clone(&problem.of);
     let found = work::run(py, threads, progress.as_ref(), move |watch| {
-        let found = solve.run_any_watched(&of, &|what| watch.tell(what, 0, 0))?;
-        Ok::<_, Error>(parts(found))
+        let found = solve.run_watched(&of, &|what| watch.tell(what, 0, 0))?;
+        Ok::<_, Error>(parts(found, of.as_chain().is_some()))
     })?;
     let (text, all) = found.map_err(|error| raise(&error))?;
     told(py, text.map_err(|error| unwritten(&error))?, all)
 }
 
 /// The summary and the arrays.
-fn parts(found: Solution) -> (serde_json::Result<String>, Vec<Arrays>) {
-    match found {
-        Solution::Chain(answer) => {
-            let text = answer.summary().map(|value| value.to_string());
-            (text, answer.into_equilibria().into_iter().map(Arrays::of_chain).collect())
-        }
-        Solution::System(answer) => {
-            let text = serde_json::to_string(&answer.summary());
-            (text, {
-                let system = answer.system().clone();
-                answer
-                    .into_equilibria()
-                    .into_iter()
-                    .map(|found| Arrays::of_system(&system, found))
-                    .collect()
-            })
-        }
-    }
+fn parts(answer: SolveAnswer, is_chain: bool) -> (serde_json::Result<String>, Vec<Arrays>) {
+    let text = serde_json::to_string(&answer.json(Lists::None));
+    let (system, equilibria) = answer.into_parts();
+    let arrays = equilibria.into_iter().map(|found| Arrays::new(&system, found, is_chain));
+    (text, arrays.collect())
 }
 
 /// A drawing of joints, axial forces and forces of the ground to scale, as SVG.

@@ -113,9 +113,6 @@ fn parts(error: &Error) -> Parts {
         Error::Unsolved(answer) => {
             ("Unsolved", failures(answer.failures().iter().map(funicular::Failure::of)))
         }
-        Error::UnsolvedSystem(answer) => {
-            ("Unsolved", failures(answer.failures().iter().map(funicular::Failure::of_system)))
-        }
         Error::Given(error) => given(error),
         Error::Tolerance(error) => {
             let tolerance = error.tolerance;
@@ -183,6 +180,7 @@ fn chain(error: &ChainError) -> Parts {
         ChainError::Anchor { coordinate_m } => fields!(coordinate_m),
         ChainError::Overflow { quantity } => fields!(quantity),
         ChainError::Underflow { quantity, total } => fields!(quantity, total),
+        ChainError::MassRange { lightest_kg, heaviest_kg } => fields!(lightest_kg, heaviest_kg),
         _ => vec![],
     };
     ("ChainError", fields)
@@ -198,6 +196,7 @@ fn system(error: &SystemError) -> Parts {
         SystemError::Force { name, joint, component_n } => fields!(name, joint, component_n),
         SystemError::NoSuchJoint { member, joint, joints } => fields!(member, joint, joints),
         SystemError::SelfLoop { member, joint } => fields!(member, joint),
+        SystemError::MassRange { lightest_kg, heaviest_kg } => fields!(lightest_kg, heaviest_kg),
         _ => vec![],
     };
     ("SystemError", fields)

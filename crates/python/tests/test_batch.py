@@ -33,6 +33,19 @@ def test_a_batch_is_its_chains(solver):
     assert b.table.rows == 300 and len(b) == 300
 
 
+def test_what_is_masked_or_missing_is_refused():
+    lengths, masses, ends = random_chains(5, 3)
+    hidden = np.ma.array(lengths, mask=np.eye(5, 3, dtype=bool))
+    with pytest.raises(fn.ShapeError, match="lengths: .* masked entries"):
+        fn.solve_many(hidden, masses, ends)
+    shown = np.ma.array(lengths, mask=False)
+    assert fn.solve_many(shown, masses, ends).joints_m.tobytes() == fn.solve_many(lengths, masses, ends).joints_m.tobytes()
+    for name in ("starts", "masses", "ends"):
+        given = {"masses": masses, "ends": ends, name: None}
+        with pytest.raises(fn.ShapeError, match=name):
+            fn.solve_many(lengths, **given)
+
+
 def test_the_bits_do_not_depend_on_threads():
     data = random_chains(2000, 4)
     one, two = (fn.solve_many(*data, threads=threads) for threads in (1, 2))

@@ -23,7 +23,7 @@ def test_the_example_of_the_paper():
     assert abs(a.multipliers_n[0, 2] / WEIGHT_N - VERTICAL) < 1e-12
     assert a.proofs.verified.width < 1e-12 and a.proofs.verified.circle is True
     assert [p.reached for p in a.proofs] == [True] * 5
-    assert a.data["schema_version"] == 2
+    assert a.data["schema_version"] == 3
 
 
 def test_forces_of_a_chain_balance_every_bar():
@@ -51,6 +51,65 @@ def test_axial_forces_at_the_ends():
     level, up = 10 / np.sqrt(12), np.sqrt(0.75)
     assert np.allclose(b.axial_ends_n[0, :, 0], [0.5 * level + 10 * up, 0.5 * level])
     assert np.allclose(b.table["largest_tension_n"], 0.5 * level + 10 * up)
+
+
+def gable():
+    # Feet 6 m apart, two bars of 5 m and EA = 1000 N, 10 kg between them.
+    return fn.System.from_arrays(
+        joints=3,
+        anchors={0: (-3, 0, 0), 1: (3, 0, 0)},
+        bars=[[0, 2], [1, 2]],
+        lengths=[5, 5],
+        joint_masses={2: 10},
+        stiffnesses=[1e3, 1e3],
+        gravity=10,
+    )
+
+
+def height_of_a_gable():
+    # Each bar has the length l and pushes with 200 N/m (5 - l): 100 N = 400 (5 - l) h / l, above its largest value.
+    low, high = 2.0, 4.0
+    for _ in range(100):
+        h = (low + high) / 2
+        length = np.hypot(3, h)
+        low, high = (h, high) if 400 * (5 - length) * h / length > 100 else (low, h)
+    return low
+
+
+def test_the_equilibrium_next_to_a_shape():
+    up = [[-3, 0, 0], [3, 0, 0], [0.1, 0, 3.9]]
+    h = height_of_a_gable()
+    lowest = gable().solve()
+    assert lowest.near is None and lowest.joints_m[2, 2] < -4 and lowest.rung == "optimal"
+    for a in (gable().solve(near=up, solver="lagrange"), gable().near(up).solve(solver="lagrange")):
+        # It stands in its plane, and falls to the side.
+        assert np.allclose(a.joints_m[2], (0, 0, h), atol=1e-10) and a.stability.index_in_space == 1
+        assert a.near.is_neighbour and a.near.joint == "2"
+        assert abs(a.near.moved_m - np.hypot(0.1, 3.9 - h)) < 1e-9
+        assert abs(a.near.lower_j - lowest.energy_j) < 1e-9
+    # 200 N/m along each bar; across it the force turns.
+    length = np.hypot(3, h)
+    turned = -200 * (5 - length) / length
+    omega2 = [2 * turned / 10] + [
+        (400 * along**2 + 2 * turned * (1 - along**2)) / 10 for along in (3 / length, h / length)
+    ]
+    modes = gable().modes(near=up)
+    assert len(modes) == 1 and np.allclose(modes[0].omega2_s2, omega2, atol=1e-8)
+    motion = gable().simulate(near=up, time=0.1)
+    assert np.allclose(motion.joints_m[:, 2], (0, 0, h), atol=1e-6)
+
+
+def test_what_stands_where_it_is_drawn():
+    truss = fn.System.case("warren-truss").solve()
+    assert truss.agrees and truss.near.is_neighbour and truss.near.lower_j < -1000
+    # By the method of joints.
+    assert abs(truss.axial_n.min() + 250 * WEIGHT_N * np.sqrt(89) / 8) < 1e-8
+    with pytest.raises(fn.errors.SystemError, match="drawn at one place"):
+        gable().near([[-3, 0, 0], [3, 0, 0], [3, 0, 0]])
+    with pytest.raises(fn.errors.AnswerError):
+        gable().solve(near=[[0, 0, 0]])
+    with pytest.raises(fn.errors.ShapeError):
+        gable().modes(near=[0, 0, 0])
 
 
 def test_the_same_system_in_five_ways():

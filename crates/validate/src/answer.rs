@@ -12,14 +12,13 @@
 //! assert!(answer.equilibria.iter().all(|e| e.evidence.rung() == Some(model::Rung::Optimal)));
 //! ```
 
-use std::num::NonZeroUsize;
-
 use census::{Census, Topology, TopologyError};
 use model::{Equilibrium, NoAnswer, Problem, SolverName};
 use serde::Serialize;
 
 use crate::compare::{Agreement, compare, judge_alone, judge_without};
 use crate::completeness::{certify_by_census, without_census};
+pub use crate::question::{Equations, Question, Solvers, UseCensus};
 use crate::tolerances::Tolerances;
 
 /// Tests per pattern for that: several times what generic chains need, and a second or so at most.
@@ -29,70 +28,6 @@ const CENSUS_TESTS: u64 = 2_000;
 /// The same where the lengths fit into a straight line, so that the census cannot be complete: what
 /// generic chains need for each of their equilibria.
 const CENSUS_TESTS_STRAIGHT: u64 = 400;
-
-/// What is asked, and of whom.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Question {
-    /// Which solvers. Default both.
-    pub solvers: Solvers,
-    /// Which equations `lagrange` solves. Default the condensed ones.
-    pub equations: Equations,
-    /// Whether the answers are looked up in a census. Default where that is quick.
-    pub census: UseCensus,
-    /// How many threads `lagrange` uses for one long chain; the answer does not depend on it.
-    /// Default one. (A census runs on the threads of rayon's pool.)
-    pub threads: NonZeroUsize,
-}
-
-impl Default for Question {
-    fn default() -> Self {
-        Self {
-            solvers: Solvers::Both,
-            equations: Equations::Condensed,
-            census: UseCensus::Auto,
-            threads: NonZeroUsize::MIN,
-        }
-    }
-}
-
-/// Which solvers are asked.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Solvers {
-    /// Forces first: constraints and multipliers. Alone it gets no comparison.
-    Lagrange,
-    /// Energy first: minimisation. Alone it gets no comparison.
-    Energy,
-    /// Both, and the comparison.
-    #[default]
-    Both,
-}
-
-/// Which of the systems of equations `lagrange` solves.
-///
-/// They have the same solutions; a test compares them. The angles of the full one lose digits where
-/// strands hang side by side or a chain is nearly straight, and its cost grows faster than the
-/// number of bars.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Equations {
-    /// Three equations for the pull on the first anchor, whatever the number of bars.
-    #[default]
-    Condensed,
-    /// The paper's: all coordinates and all multipliers at once; for some 30 bars.
-    Full,
-}
-
-/// Whether answers are looked up in a census: whether they are proved to be equilibria, and with
-/// which others.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum UseCensus {
-    /// No census.
-    Never,
-    /// Where it takes a second at most: chains of up to 8 bars.
-    #[default]
-    Auto,
-    /// Wherever there can be one: chains of up to 16 bars, in some ten seconds.
-    Always,
-}
 
 /// Both answers with what is known of them.
 #[derive(Debug, Clone, PartialEq)]

@@ -2,7 +2,7 @@
 //! list.
 
 use census::{Census, CensusError, SlackFamily};
-use model::{Chain, Equilibrium, Problem, Reason, Status, Verified};
+use model::{Chain, Equilibrium, Problem, Reason, Status, Vector, Verified};
 
 use crate::census_checks::{Nearest, nearest, nearest_degenerate, nearest_straight, placed};
 use crate::tolerances::Tolerances;
@@ -39,16 +39,7 @@ pub fn certify_by_census(problem: &Problem, census: &Census, answer: &mut Equili
         });
         ladder.complete = census.completeness();
     } else {
-        let near = |distance: Option<f64>| distance.filter(|distance| !refutes(chain, *distance));
-        let joints_m = &answer.joints_m;
-        let reason = if let Some(distance) = near(nearest_degenerate(chain, census, joints_m)) {
-            Reason::AtDegenerate { distance }
-        } else if let Some(distance) = near(nearest_straight(chain, census, joints_m)) {
-            Reason::AtStraight { distance }
-        } else {
-            not_listed(chain, census, place, answer.energy_j)
-        };
-        match reason {
+        match unlisted(chain, census, &answer.joints_m, answer.energy_j) {
             Reason::RefutedByCensus { distance } => ladder.refute(distance),
             reason => {
                 ladder.verified = Status::Open(reason.clone());
@@ -66,7 +57,24 @@ pub fn without_census(error: &CensusError, answer: &mut Equilibrium) {
     ladder.complete = Status::Open(reason);
 }
 
-/// Why an answer is not among the equilibria of the list.
+/// Why an answer is not among the isolated equilibria of the list.
+pub(crate) fn unlisted(
+    chain: &Chain,
+    census: &Census,
+    joints_m: &[Vector],
+    energy_j: f64,
+) -> Reason {
+    let near = |distance: Option<f64>| distance.filter(|distance| !refutes(chain, *distance));
+    if let Some(distance) = near(nearest_degenerate(chain, census, joints_m)) {
+        Reason::AtDegenerate { distance }
+    } else if let Some(distance) = near(nearest_straight(chain, census, joints_m)) {
+        Reason::AtStraight { distance }
+    } else {
+        not_listed(chain, census, nearest(chain, census, joints_m), energy_j)
+    }
+}
+
+/// The same where it is at no other position that the census names.
 fn not_listed(chain: &Chain, census: &Census, place: Option<Nearest>, energy_j: f64) -> Reason {
     if in_family(chain, census, energy_j) {
         return Reason::SlackFamily;

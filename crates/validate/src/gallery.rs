@@ -1,13 +1,14 @@
-//! The gallery: systems of bars whose equilibrium is known in a closed form, by both solvers.
+//! The gallery: systems of bars, hanging or drawn, of which a number is known in a closed form, by
+//! both solvers.
 //!
 //! Each reference number is of kind `analytic`: it follows from the numbers of the system file by
 //! the formula that stands beside it, and from no solver.
 
 use model::STANDARD_GRAVITY_M_S2 as G;
-use model::cases::{Exhibit, gallery};
+use model::cases::{Exhibit, exhibits};
 use model::system::{System, SystemEquilibrium};
 
-use crate::answer::Solvers;
+use crate::question::Solvers;
 use crate::systems::{SystemAnswer, ask};
 
 /// A number of an exhibit that is known in a closed form.
@@ -38,7 +39,7 @@ pub struct Piece {
     pub closed_form: ClosedForm,
 }
 
-/// All of the gallery, solved.
+/// All of the gallery, and the structures that stand where they are drawn, solved.
 ///
 /// ```
 /// for piece in validate::gallery::solve() {
@@ -57,7 +58,7 @@ pub fn solve() -> Vec<Piece> {
         let answer = ask(&system, Solvers::Both, &|_| {});
         Some(Piece { exhibit, system, answer, closed_form: closed_form(exhibit.name)? })
     };
-    gallery().iter().filter_map(one).collect()
+    exhibits().filter_map(one).collect()
 }
 
 /// What is known of an exhibit.
@@ -104,6 +105,31 @@ fn closed_form(name: &str) -> Option<ClosedForm> {
             ),
             "four-bar-linkage" => {
                 ("pull of a crank", "5/8 of 8 kg g", "N", 5.0 * G, |s, e| axial(s, e, "A", "C"))
+            }
+            "warren-truss" => (
+                "force of the end diagonal",
+                "−5/2 · 100 kg g · √89/8",
+                "N",
+                -250.0 * G * 89.0_f64.sqrt() / 8.0,
+                |s, e| axial(s, e, "A", "E"),
+            ),
+            "pratt-truss" => {
+                ("upward force at the roller", "3/2 · 1000 N", "N", 1500.0, |s, e| {
+                    reaction(s, e, "L4")[2]
+                })
+            }
+            "lattice-tower" => ("upward force at all feet", "200 kg g", "N", 200.0 * G, |_, e| {
+                e.reactions_n.iter().map(|force| force[2]).sum()
+            }),
+            "star-dome" => {
+                ("upward force at all supports", "the load", "N", 294.196_481_19, |_, e| {
+                    e.reactions_n.iter().map(|force| force[2]).sum()
+                })
+            }
+            "geiger-dome" => {
+                ("upward force at a support", "1/8 of 180 kg g", "N", 22.5 * G, |s, e| {
+                    reaction(s, e, "S0")[2]
+                })
             }
             _ => return None,
         };

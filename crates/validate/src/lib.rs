@@ -33,6 +33,7 @@ mod free;
 pub mod gallery;
 pub mod independence;
 pub mod lever;
+pub mod question;
 pub mod statics;
 pub mod systems;
 pub mod table;
@@ -41,4 +42,5 @@ pub mod units;
 mod vector;
 
 pub use compare::{Agreement, Verdict, compare};
+pub use question::{Equations, Question, Solvers, UseCensus};
 pub use tolerances::Tolerances;

@@ -32,6 +32,21 @@ fn curvature(axial: &[f64], motion: Motion) -> Curvature {
     Curvature { links: Arc::new(links), shape: Arc::new(shape), slope: Arc::new(slope) }
 }
 
+/// The condition is a ratio: it is the same in any unit of force, also where products of two forces
+/// are less than any double.
+#[test]
+fn the_condition_of_small_forces_is_that_of_large_ones() {
+    let axial = [-1.0, 2.0, 3.0, 4.0];
+    let condition =
+        |unit: f64| curvature(&axial.map(|n| n * unit), Motion::Plane).condition(1e-9 * unit);
+    let usual = condition(1.0);
+    assert!(usual >= 1.0);
+    for unit in [1e-200, 1e-100, 1e100, 1e200] {
+        let found = condition(unit);
+        assert!((found / usual - 1.0).abs() < 1e-9, "{unit:e}: {found}, not {usual}");
+    }
+}
+
 /// By interlacing: two rows in the plane pass two forces, three rows in space, where every force
 /// counts twice, pass one.
 #[test]

@@ -24,10 +24,21 @@ use crate::vector::{along, dot, scaled};
 
 /// Starts elsewhere where the lengths could not be kept from the first one: a loop that closes may
 /// have places where it nearly closes.
-const RESTARTS: u32 = 4;
+const RESTARTS: usize = 4;
+
+/// Where lengths overdetermine a shape it has places that nearly close, and others that close, by the
+/// dozen: as many starts as make this number of free coordinates together, and at most so many.
+const COORDINATES: usize = 900;
+const MOST_RESTARTS: usize = 100;
+
+/// Another shape has less energy if it is less by this part: the rest is rounding.
+const LESS: f64 = 1e-9;
 
 /// Misfit of a seed that is meant to be near its answer.
 const NEAR_SEED: f64 = 0.1;
+
+/// Square roots of numbers that no ratio connects, as turns that have nothing in common.
+const SPREAD: f64 = 7.0;
 
 /// The golden section: its multiples are spread evenly.
 const GOLDEN: f64 = 0.618_033_988_75;
@@ -77,13 +88,19 @@ pub fn minimise(system: &System, settings: &Settings) -> Result<Solution, Error>
     let astray = frame.slope(&relaxed).residual() > frame.slope(&start).residual().max(1.0);
     let (first, way) = if astray { (start.clone(), Way::Free) } else { (relaxed, Way::Relaxed) };
     let mut found = descend(&frame, factor, first, way, settings, work);
-    for attempt in 1..=RESTARTS {
-        if !found.as_ref().is_err_and(hard_to_close) {
+    let most = (COORDINATES / frame.freedom.max(1)).min(MOST_RESTARTS);
+    for attempt in 1..=most.max(RESTARTS) {
+        let again = match &found {
+            Ok(minimum) => attempt <= most && may_be_lower(minimum),
+            Err(error) => hard_to_close(error),
+        };
+        if !again {
             break;
         }
         let factor = Factor::new(&frame.spots, &frame.rods)?;
         let elsewhere = displaced(&frame, &start, attempt);
-        found = better(descend(&frame, factor, elsewhere, Way::Stiff, settings, work), found);
+        let other = descend(&frame, factor, elsewhere, Way::Stiff, settings, work);
+        found = better(&frame, other, found);
     }
     Solution::new(system, &frame, found?, settings, clock)
 }
@@ -93,19 +110,33 @@ fn hard_to_close(error: &Error) -> bool {
     matches!(error, Error::NotClosed { .. } | Error::Misfit { .. } | Error::Stalled { .. })
 }
 
-/// An answer, or the error that says most: misfits of a shape that is otherwise found.
-fn better(new: Result<Minimum, Error>, old: Result<Minimum, Error>) -> Result<Minimum, Error> {
+/// Whether lengths that overdetermine a shape may close elsewhere with less energy. Not where every
+/// member pulls.
+fn may_be_lower(minimum: &Minimum) -> bool {
+    minimum.limit.is_some() && minimum.shape.force.iter().any(|force| *force < 0.0)
+}
+
+/// The answer with less energy, or the error that says most: misfits of a shape that is otherwise
+/// found.
+fn better(
+    frame: &Frame,
+    new: Result<Minimum, Error>,
+    old: Result<Minimum, Error>,
+) -> Result<Minimum, Error> {
     match (new, old) {
+        (Ok(new), Ok(old)) => {
+            let [lower, known] = [&new, &old].map(|minimum| frame.energy(&minimum.shape));
+            Ok(if lower < known - LESS * known.abs().max(1.0) { new } else { old })
+        }
         (new @ (Ok(_) | Err(Error::Misfit { .. })), Err(_)) => new,
         (_, old) => old,
     }
 }
 
 /// The start with each joint moved by up to the length of the longest member, without any symmetry.
-fn displaced(frame: &Frame, start: &Shape, attempt: u32) -> Shape {
-    let step: Vec<f64> = (0..frame.freedom)
-        .map(|k| (f64::from(attempt) * (1.0 + GOLDEN * k as f64)).sin())
-        .collect();
+fn displaced(frame: &Frame, start: &Shape, attempt: usize) -> Shape {
+    let step: Vec<f64> =
+        (0..frame.freedom).map(|k| (attempt as f64 * (1.0 + GOLDEN * k as f64)).sin()).collect();
     Shape { x: frame.moved(&start.x, 1.0, &step), force: vec![0.0; start.force.len()] }
 }
 
@@ -132,7 +163,7 @@ pub fn minimise_from(
         // The loads have crushed it, which its lengths would not allow.
         let factor = Factor::new(&frame.spots, &frame.rods)?;
         let near = descend(&frame, factor, start, Way::Relaxed, settings, Effort::default());
-        found = better(near, found);
+        found = better(&frame, near, found);
     }
     Solution::new(system, &frame, found?, settings, clock)
 }

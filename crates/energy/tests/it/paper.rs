@@ -4,6 +4,7 @@
 use crate::support::{difference, random_seed, rng, unbalanced};
 use energy::{
     Motion, Seed, Settings, minimise, minimise_from, potential_j, reaction_by_differences,
+    second_order,
 };
 use model::{InPlane, InSpace, STANDARD_GRAVITY_M_S2 as MG, cases};
 
@@ -143,4 +144,16 @@ fn e2_as_a_seed_is_left_for_e1() {
 fn the_work_without_a_guess_is_frozen() {
     let solution = minimise(&cases::paper(), &Settings::default()).unwrap();
     assert_eq!((solution.work.iterations, solution.work.evaluations), (7, 21));
+}
+
+/// E2, the paper's chain upside down: a maximum among the motions in its plane, of which there is one,
+/// and falling in two directions of space (40-digit root finding).
+#[test]
+fn indices_in_the_plane_and_in_space_are_two_numbers() {
+    let problem = cases::paper();
+    let e2 = [73.920_588_792_231_34_f64, -38.599_136_184_451_89, -19.694_867_976_133_02];
+    let seed = Seed::angles(&problem, &e2.map(f64::to_radians)).unwrap();
+    let stability = second_order(&problem, &seed).unwrap().stability;
+    assert_eq!((stability.in_plane, stability.index_in_plane), (InPlane::Maximum, 1));
+    assert_eq!((stability.in_space, stability.index_in_space), (InSpace::Unstable, 2));
 }

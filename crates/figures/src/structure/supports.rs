@@ -46,11 +46,13 @@ pub(crate) fn support_at(svg: &mut Svg, support: Support, at: [f64; 2], scene: &
             Some(along) => [1.0, -1.0].into_iter().for_each(|side| rail(svg, at, along, side)),
             None => square(svg, at),
         },
-        Support::Plane(normal) => match scene.direction(normal) {
-            // The rail on the other side than the normal points to.
-            Some([x, y]) => rail(svg, at, [-y, x], 1.0),
-            None => square(svg, at),
-        },
+        // All that moves in a drawing seen flat moves in it.
+        Support::Plane(normal) => {
+            if let Some([x, y]) = scene.direction(normal) {
+                // The rail on the other side than the normal points to.
+                rail(svg, at, [-y, x], 1.0);
+            }
+        }
     }
 }
 
@@ -77,7 +79,7 @@ fn rail(svg: &mut Svg, [x, y]: [f64; 2], [u, v]: [f64; 2], side: f64) {
     svg.line(Look::stroke(DARK, 1.6).class("support"), ends[0], ends[1]);
 }
 
-/// A rail that is seen end on, a plane seen flat.
+/// A rail that is seen end on.
 fn square(svg: &mut Svg, [x, y]: [f64; 2]) {
     let side = RAIL[1] + 2.0;
     let look = Look::stroke(DARK, 1.4).class("support");

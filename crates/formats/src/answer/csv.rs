@@ -1,5 +1,9 @@
 //! Answers as comma-separated values.
 
+use std::collections::HashMap;
+
+use model::name_of_cell;
+
 use crate::answer::{Answer, Forces, Joints};
 use crate::error::{FormatError, Wrong};
 use crate::sheet::Sheet;
@@ -54,16 +58,16 @@ pub fn parse_csv(text: &str, file: &str) -> Result<Vec<Answer>, FormatError> {
     if reactions {
         REACTION.iter().try_for_each(|name| sheet.need(name))?;
     }
-    let mut answers: Vec<(String, Collected)> = Vec::new();
+    let (mut answers, mut numbers) = (Vec::<(String, Collected)>::new(), HashMap::new());
     for row in sheet.rows() {
         let solver = row.text("solver");
         let source = if solver.is_empty() { file } else { solver };
-        let index = answers.iter().position(|(name, _)| name == source).unwrap_or_else(|| {
+        let index = *numbers.entry(source.to_owned()).or_insert_with(|| {
             answers.push((source.to_owned(), Collected::default()));
             answers.len() - 1
         });
         let collected = &mut answers[index].1;
-        let name = row.text("joint").to_owned();
+        let name = name_of_cell(row.text("joint")).to_owned();
         if name.is_empty() {
             return Err(row.error(Wrong::Missing { what: "name of the joint".to_owned() }));
         }
@@ -116,15 +120,16 @@ pub fn parse_member_forces(text: &str, file: &str) -> Result<Vec<MemberForces>, 
     for name in &MEMBERS[..3] {
         sheet.need(name)?;
     }
-    let mut lists: Vec<MemberForces> = Vec::new();
+    let (mut lists, mut numbers) = (Vec::<MemberForces>::new(), HashMap::new());
     for row in sheet.rows() {
         let solver = Some(row.text("solver").to_owned()).filter(|name| !name.is_empty());
-        let index = lists.iter().position(|(name, _)| *name == solver).unwrap_or_else(|| {
+        let index = *numbers.entry(solver.clone()).or_insert_with(|| {
             lists.push((solver, Vec::new()));
             lists.len() - 1
         });
         let force = row.number("axial_n")?;
-        lists[index].1.push((row.text("from").to_owned(), row.text("to").to_owned(), force));
+        let [from, to] = ["from", "to"].map(|end| name_of_cell(row.text(end)).to_owned());
+        lists[index].1.push((from, to, force));
     }
     if lists.is_empty() {
         return Err(FormatError::new(file, None, Wrong::Missing { what: "member".to_owned() }));

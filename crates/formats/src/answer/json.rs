@@ -5,6 +5,7 @@ use serde_json::{Map, Value};
 
 use crate::answer::{Answer, Forces, Joints};
 use crate::error::{FormatError, Wrong, shortened};
+use crate::json;
 
 /// Parse JSON: every equilibrium of `solve --json` or `census --json`, or one object with the same
 /// keys.
@@ -13,10 +14,7 @@ use crate::error::{FormatError, Wrong, shortened};
 ///
 /// [`FormatError`] with the reason.
 pub fn parse_json(text: &str, file: &str) -> Result<Vec<Answer>, FormatError> {
-    let root: Value =
-        serde_json::from_str(text.trim_start_matches('\u{feff}')).map_err(|error| {
-            FormatError::new(file, Some(error.line()), Wrong::Json { reason: error.to_string() })
-        })?;
+    let root = json::parse(text, file)?;
     let reader = Reader { file };
     let Some(object) = root.as_object() else {
         return Err(reader.value("the text", "a JSON object", &root));

@@ -10,6 +10,8 @@ mod csv;
 mod json;
 mod vtu;
 
+use std::collections::HashMap;
+
 use model::Vector;
 
 use crate::error::{FormatError, Wrong};
@@ -100,9 +102,11 @@ pub fn attach_forces(
 ) -> Result<(), FormatError> {
     let missing = |what| Err(FormatError::new(file, None, Wrong::Missing { what }));
     let mut taken = vec![false; lists.len()];
+    let numbers: HashMap<_, _> =
+        lists.iter().enumerate().map(|(k, (name, _))| (name.as_deref(), k)).collect();
     for answer in answers.iter_mut() {
-        let of = |(name, _): &MemberForces| name.as_deref().is_none_or(|n| n == answer.source);
-        let Some(k) = lists.iter().position(of) else {
+        let of_all = || numbers.get(&None);
+        let Some(&k) = numbers.get(&Some(answer.source.as_str())).or_else(of_all) else {
             return missing(format!("list of the forces of {:?}", answer.source));
         };
         taken[k] = true;

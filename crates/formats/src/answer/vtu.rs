@@ -8,10 +8,13 @@ use model::Vector;
 use roxmltree::{Document, Node, ParsingOptions};
 
 use crate::answer::{Answer, Forces, Joints};
-use crate::error::{FormatError, Wrong, number};
+use crate::error::{FormatError, Wrong, as_count, number};
 
 /// VTK's numbers for a line of two points, and for one of many.
 const LINES: [usize; 2] = [3, 4];
+
+/// More attributes than any element of the format has.
+const MOST_ATTRIBUTES: usize = 100;
 
 /// Parse a VTU file: its points are the joints in the order of the system, its lines members.
 ///
@@ -19,6 +22,7 @@ const LINES: [usize; 2] = [3, 4];
 ///
 /// [`FormatError`] with the line and the reason: what is not ASCII, not a line, or not understood.
 pub fn parse_vtu(text: &str, file: &str) -> Result<Answer, FormatError> {
+    check_attributes(text, file)?;
     let options = ParsingOptions { allow_dtd: false, ..ParsingOptions::default() };
     let text = text.trim_start_matches('\u{feff}');
     let document = Document::parse_with_options(text, options).map_err(|error| {
@@ -55,6 +59,19 @@ pub fn parse_vtu(text: &str, file: &str) -> Result<Answer, FormatError> {
         forces: Forces::Numbered(forces.collect()),
         reactions_n: None,
     })
+}
+
+/// Refuse an element with more attributes than any of VTK has, as the parser holds each of them
+/// against all others. What follows a `<` up to the next one contains all of the element's.
+fn check_attributes(text: &str, file: &str) -> Result<(), FormatError> {
+    let elements = text.split('<').skip(1).filter(|part| !part.starts_with('!'));
+    let mut elements = elements.map(|part| (part, part.matches('=').count()));
+    let Some((part, found)) = elements.find(|(_, found)| *found > MOST_ATTRIBUTES) else {
+        return Ok(());
+    };
+    let line = text[..part.as_ptr().addr() - text.as_ptr().addr()].matches('\n').count() + 1;
+    let what = format!("an element with {found} attributes");
+    Err(FormatError::new(file, Some(line), Wrong::Unknown { what }))
 }
 
 struct Reader<'a> {
@@ -144,14 +161,4 @@ impl Reader<'_> {
         }
         Ok(members)
     }
-}
-
-/// A whole number that was checked to fit.
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "whole, from 0 to 2^32"
-)]
-fn as_count(x: f64) -> usize {
-    x as usize
 }

@@ -14,6 +14,7 @@ use std::collections::{HashMap, HashSet};
 use serde_json::{Map, Value};
 
 use crate::error::{FormatError, Wrong, shortened};
+use crate::json;
 use crate::system::force_density::{Edge, ForceDensityNet, Node};
 
 const PLACE: [&str; 3] = ["x", "y", "z"];
@@ -29,10 +30,7 @@ const EDGE_RESULTS: &[&str] = &["length", "force", "_l", "_f"];
 ///
 /// [`FormatError`] with the part that is wrong, missing or not understood.
 pub fn parse_compas(text: &str, file: &str) -> Result<ForceDensityNet, FormatError> {
-    let root: Value =
-        serde_json::from_str(text.trim_start_matches('\u{feff}')).map_err(|error| {
-            FormatError::new(file, Some(error.line()), Wrong::Json { reason: error.to_string() })
-        })?;
+    let root = json::parse(text, file)?;
     let reader = Reader { file };
     let kind = root.get("dtype").or_else(|| root.get("datatype")).and_then(Value::as_str);
     let kind = kind.ok_or_else(|| reader.missing("text `dtype`"))?;

@@ -4,5 +4,6 @@
 
 mod answers;
 mod compas;
+mod forces;
 mod moordyn;
 mod nets;

@@ -51,6 +51,8 @@ fn lines_are_runs_of_elastic_cables_with_their_weight_in_water() {
     let rope = &system.members()[4];
     assert!(rope.body.mass_kg() <= 0.0 && rope.loads.len() == 1);
     assert!((rope.loads[0].force_n[2] - 150.0 * (displaced_kg_m - 20.0)).abs() < 1e-9);
+    // In the middle of a piece of 15 m.
+    assert_eq!((rope.body.length_m(), rope.loads[0].at_m), (15.0, 7.5));
     // A float of a cubic metre that weighs 100 kg: 900 kg of lift.
     assert!((system.joints()[2].force_n[2] - 9000.0).abs() < 1e-9);
     assert_eq!(system.joints()[1].support.at_m(), Some([60.0, 0.0, -10.0]));

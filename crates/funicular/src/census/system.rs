@@ -7,8 +7,8 @@ use model::system::{System, SystemEquilibrium};
 use serde::Serialize;
 
 use crate::csv::{Numbers, quoted};
-use crate::solve::SCHEMA_VERSION;
-use crate::system::{Named, Summary};
+use crate::modes::Summary;
+use crate::solve::{Lists, Named, SCHEMA_VERSION};
 
 /// All equilibria of a system with their proofs, and what is known of the list.
 #[derive(Debug, Clone, PartialEq)]
@@ -77,10 +77,10 @@ impl SystemCensusAnswer {
 impl Serialize for SystemCensusAnswer {
     fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let system = &self.system;
-        let named = |equilibrium| Named { system, equilibrium, bare: false };
+        let named = |equilibrium| Named { system, equilibrium, lists: Lists::Objects };
         Object {
             schema_version: SCHEMA_VERSION,
-            system: Summary::of(system),
+            system: Summary::new(system),
             equilibria: self.equilibria.iter().map(named).collect(),
             census: Whole {
                 complete: self.census.complete,
@@ -100,7 +100,7 @@ impl Serialize for SystemCensusAnswer {
 #[derive(Serialize)]
 struct Object<'a> {
     schema_version: u32,
-    system: Summary<'a>,
+    system: Summary,
     equilibria: Vec<Named<'a>>,
     census: Whole<'a>,
 }

@@ -3,37 +3,50 @@
 use std::fmt::Write as _;
 
 use funicular::SolveAnswer;
-use model::{Equilibrium, Evidence, SolverName, Vector};
-use validate::Agreement;
+use model::system::{Kind, Member, Support, System, SystemEquilibrium};
+use model::{Evidence, SolverName, Vector};
 
+use crate::printable::Printable;
 use crate::shape::Shape;
-use crate::tables::{duration, long, rung, short, system_line, table, vector, word, wrapped};
+use crate::tables::{duration, long, numbers_from, rung, short, table, word, wrapped};
 
 /// Where the sentences of the ladder begin.
 const LADDER_INDENT: usize = 15;
 
 /// The whole answer.
-pub fn answer(answer: &SolveAnswer, summary: bool) -> String {
-    let (system, equilibria) = (answer.system(), answer.equilibria());
-    let mut text = system_line(system);
-    if let Some(first) = equilibria.first() {
-        text += &shape(first).text(summary);
+pub fn answer(solution: &SolveAnswer, summary: bool) -> String {
+    let system = solution.system();
+    let (members, joints) = (system.members().len(), system.joints().len());
+    let name = format!("{}: {members} members between {joints} joints,", Printable(system.name()));
+    let mut text = format!(
+        "{}\n{} m long, {} kg, g = {} m/s^2\n\n",
+        wrapped(&name, 0),
+        short(system.total_length_m()),
+        short(system.total_mass_kg()),
+        short(system.gravity_m_s2()),
+    );
+    if let Some(first) = solution.equilibria().first() {
+        text += &shape(system, first, summary);
     }
-    text += &overview(equilibria, answer.agreement().and_then(|agreement| agreement.turned_rad));
-    text += lowest(equilibria.iter().any(|e| e.evidence.ladder.optimal.is_reached()));
-    text += &ladder(equilibria.iter().map(|e| (&e.solver, &e.evidence)));
-    for failure in answer.failures() {
+    text += &overview(solution.equilibria());
+    text += &question(solution);
+    text += &ladder(solution.equilibria().iter().map(|e| (&e.solver, &e.evidence)));
+    for failure in solution.failures() {
         // Writing to a String cannot fail.
         let _ = writeln!(text, "No answer of {failure}");
     }
-    if let Some(agreement) = answer.agreement() {
-        text += &self::agreement(agreement);
+    if let Some(agreement) = solution.agreement() {
+        let _ = writeln!(
+            text,
+            "Agreement: {} (joints {:.1e} m, forces {:.1e} N, energy {:.1e} J)",
+            agreement.verdict, agreement.joints_m, agreement.forces_n, agreement.energy_j
+        );
     }
     text
 }
 
 /// Which question is answered where no shape was given.
-pub fn lowest(proved: bool) -> &'static str {
+fn lowest(proved: bool) -> &'static str {
     if proved {
         "The lowest equilibrium of all (proved).\n"
     } else {
@@ -41,65 +54,32 @@ pub fn lowest(proved: bool) -> &'static str {
     }
 }
 
-/// A column for each solver. Where the chain turns freely, the second answer is shown turned onto
-/// the first.
-fn overview(equilibria: &[Equilibrium], turned_rad: Option<f64>) -> String {
-    let head = [String::new()].into_iter().chain(equilibria.iter().map(|e| e.solver.to_string()));
-    let mut table = table([""; 0]);
-    table.set_header(head);
-    let mut row = |what: &str, cell: &dyn Fn(usize, &Equilibrium) -> String| {
-        let cells = equilibria.iter().enumerate().map(|(k, e)| cell(k, e));
-        table.add_row([what.to_owned()].into_iter().chain(cells));
+/// In a line which question this answers.
+fn question(solution: &SolveAnswer) -> String {
+    let proved = solution.equilibria().iter().any(|e| e.evidence.ladder.optimal.is_reached());
+    let Some(near) = solution.near() else {
+        return lowest(proved).to_owned();
     };
-    let force = |k: usize, f: Vector| vector(if k == 1 { turn(f, turned_rad) } else { f });
-    row("energy / J", &|_, e| long(e.energy_j));
-    row("force at start / N", &|k, e| force(k, e.reactions_n.start));
-    row("force at end / N", &|k, e| force(k, e.reactions_n.end));
-    row("in the plane", &|_, e| {
-        format!("{} ({})", word(&e.stability.in_plane), e.stability.index_in_plane)
+    let moved = format!(
+        "joint {} is {:.3e} m from it, {:.2} % of the shortest member there",
+        Printable(&near.joint),
+        near.moved_m,
+        100.0 * near.moved
+    );
+    let barrier = near.barrier_j.map_or_else(String::new, |barrier_j| {
+        format!(", and the energy rises by {barrier_j:.3e} J on the way")
     });
-    row("in space", &|_, e| {
-        format!("{} ({})", word(&e.stability.in_space), e.stability.index_in_space)
-    });
-    row("residual", &|_, e| format!("{:.1e}", e.evidence.residual));
-    row("steps", &|_, e| e.evidence.iterations.to_string());
-    row("time", &|_, e| duration(e.evidence.solve_s));
-    let turned = turned_rad.map_or_else(String::new, |angle| {
-        format!(
-            "(the chain turns freely about the vertical through its anchors: energy is shown turned by {} degrees)\n",
-            short(angle.to_degrees())
-        )
-    });
-    let turned = wrapped(&turned, 1);
-    format!(
-        "{table}\n(in brackets: the number of directions in which the energy falls)\n{turned}\n"
-    )
-}
-
-/// A force turned about the vertical. What the rounding of the turn leaves of a component
-/// counts as zero.
-fn turn(force @ [x, y, z]: Vector, angle_rad: Option<f64>) -> Vector {
-    let Some(angle_rad) = angle_rad else { return force };
-    let (sin, cos) = angle_rad.sin_cos();
-    let rounding = f64::EPSILON * x.hypot(y).hypot(z);
-    let turned = [cos * x - sin * y, sin * x + cos * y, z];
-    turned.map(|component: f64| if component.abs() <= rounding { 0.0 } else { component })
-}
-
-/// One equilibrium; the other solver's agrees with it or the verdict says so.
-fn shape(e: &Equilibrium) -> Shape<'_> {
-    let last = e.joints_m.len().saturating_sub(1);
-    Shape {
-        name: &|joint| joint.to_string(),
-        ends: &|bar| [bar, bar + 1],
-        joints_m: &e.joints_m,
-        axial: e.axial_forces(),
-        reactions_n: vec![(0, e.reactions_n.start), (last, e.reactions_n.end)],
-        forces_n: Some(&e.multipliers_n),
-        idle: &|_| "no force",
-        ranges: None,
-        solver: &e.solver,
-    }
+    let found = if near.is_neighbour {
+        format!("The equilibrium nearest to the shape given ({moved})")
+    } else {
+        format!("Not the neighbour of the shape given ({moved}{barrier})")
+    };
+    let lower = match near.lower_j {
+        Some(lower_j) => format!("; a lower one exists, at {} J", long(lower_j)),
+        None if proved => "; it is the lowest of all (proved)".to_owned(),
+        None => String::new(),
+    };
+    wrapped(&format!("{found}{lower}."), 0) + "\n"
 }
 
 /// How far each equilibrium is proved, rung by rung.
@@ -131,16 +111,54 @@ pub fn ladder<'a>(answers: impl Iterator<Item = (&'a SolverName, &'a Evidence)>)
     text + "\n"
 }
 
-fn agreement(agreement: &Agreement) -> String {
-    let mut text = format!(
-        "Agreement: {} (joints {:.1e} m, forces {:.1e} N, energy {:.1e} J)",
-        agreement.verdict, agreement.joints_m, agreement.forces_n, agreement.energy_j
-    );
-    if agreement.force_family.is_some() {
-        text += " of the shape alone: the forces are indeterminate";
+fn overview(equilibria: &[SystemEquilibrium]) -> String {
+    let mut table = table(["solver", "energy / J", "in space", "residual", "steps", "time"]);
+    for e in equilibria {
+        table.add_row([
+            e.solver.to_string(),
+            long(e.energy_j),
+            format!("{} ({})", word(&e.stability.in_space), e.stability.index_in_space),
+            format!("{:.1e}", e.evidence.residual),
+            e.evidence.iterations.to_string(),
+            duration(e.evidence.solve_s),
+        ]);
     }
-    if let Some(free) = agreement.free {
-        let _ = write!(text, "; not compared: {free}");
+    numbers_from(&mut table, 1);
+    format!("{table}\n(in brackets: the number of directions in which the energy falls)\n\n")
+}
+
+fn shape(system: &System, e: &SystemEquilibrium, summary: bool) -> String {
+    let held = system.joints().iter().zip(&e.reactions_n).enumerate();
+    let lies = |force: &[f64; 3]| force.iter().any(|n| n.abs() > 0.0);
+    // What a plane keeps in it, as that of a planar drawing, is shown where it bears something.
+    let holds = |support: Support| matches!(support, Support::Fixed { .. } | Support::Line { .. });
+    let held = held.filter(|(_, (joint, force))| holds(joint.support) || lies(force));
+    let shape = Shape {
+        name: &|joint| Printable(&system.joints()[joint].name).to_string(),
+        ends: &|bar| [system.members()[bar].from, system.members()[bar].to],
+        joints_m: &e.joints_m,
+        axial: e.axial_forces(system),
+        reactions_n: held.map(|(k, (_, force))| (k, *force)).collect(),
+        idle: &|bar| idle(&system.members()[bar], &e.joints_m),
+        ranges: e.evidence.self_stresses.as_ref().and_then(|family| family.ranges.as_deref()),
+        solver: &e.solver,
+    };
+    shape.text(summary)
+}
+
+/// What a member without force does: a cable or a strut may be away from its length, or have it and
+/// bear nothing, which decides nothing about either.
+fn idle(member: &Member, joints_m: &[Vector]) -> &'static str {
+    /// A member whose length is off by less than this part of it has it.
+    const JUST: f64 = 1e-10;
+    let [a, b] = [joints_m[member.from], joints_m[member.to]];
+    let distance_m = (b[0] - a[0]).hypot(b[1] - a[1]).hypot(b[2] - a[2]);
+    let longer = distance_m / member.body.length_m() - 1.0;
+    match member.kind {
+        Kind::Cable if longer < -JUST => "slack",
+        Kind::Cable => "just taut",
+        Kind::Strut if longer > JUST => "loose",
+        Kind::Strut => "just tight",
+        Kind::Bar => "no force",
     }
-    text + "\n"
 }

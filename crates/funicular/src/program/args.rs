@@ -60,9 +60,11 @@ pub struct Cli {
     /// What to do.
     #[command(subcommand)]
     pub command: Command,
-    /// Refuse what would need more memory: 80 bytes for each byte of a system file, 300 for each
-    /// bar of a chain. A sweep needs 50 MB for each thread, basins 50 bytes for each start, a trace
-    /// what its --max-points says. If not given, files of 64 MiB and 20 million bars: some 6 GB
+    /// Refuse what would need more memory: 80 bytes for each byte of a system file, 120 for each of
+    /// an answer in JSON, 300 for each bar of a chain, 5000 for each member of another system and
+    /// four times its name for each joint. A line of a batch may need all of it. A sweep needs 50 MB
+    /// for each thread, basins 50 bytes for each start, a trace what its --max-points says. If not
+    /// given, 24 GB, files of 64 MiB and 20 million bars
     #[arg(long, value_name = "SIZE", global = true, hide_short_help = true, value_parser = crate::memory::parse)]
     pub max_memory: Option<u64>,
 }

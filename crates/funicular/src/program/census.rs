@@ -33,7 +33,7 @@ const SHAPES: usize = 70;
 pub struct Census {
     #[command(flatten)]
     pub input: Source,
-    /// Print one JSON object (schema_version 2) instead of tables
+    /// Print one JSON object (schema_version 3) instead of tables
     #[arg(long)]
     pub json: bool,
     /// Refuse chains of more bars (16 if not given), and bridles (one joint held by three strands

@@ -52,7 +52,7 @@ pub struct Arguments {
     /// Write the gradient to this CSV file: columns parameter, derivative, unit
     #[arg(long, value_name = "FILE", requires = "of")]
     pub csv: Option<PathBuf>,
-    /// Print one JSON object (schema_version 2) instead of tables
+    /// Print one JSON object (schema_version 3) instead of tables
     #[arg(long)]
     pub json: bool,
 }

@@ -3,6 +3,7 @@
 use branches::{ContinuationError, ParameterError};
 use funicular::Error;
 use funicular::judge::GivenError;
+use model::steers;
 use validate::systems::SystemFailure;
 
 use crate::diagnostics::Diagnostic;
@@ -87,13 +88,12 @@ impl Failure {
                 };
                 Self::bad_input(Diagnostic::from(error).with_help(help))
             }
-            Error::UnsolvedSystem(ref answer)
+            Error::Unsolved(ref answer)
                 if answer.failures().iter().all(SystemFailure::is_misfit) =>
             {
                 Self::bad_input(error)
             }
             Error::Unsolved(_)
-            | Error::UnsolvedSystem(_)
             | Error::Lagrange(_)
             | Error::Condensed(_)
             | Error::Energy(_)
@@ -137,9 +137,10 @@ impl Failure {
 
     /// The error with the place in the text of the parameter.
     fn parameter(error: &ParameterError) -> Self {
-        let message = format!("{}, character {}: {}", error.text, error.column(), error.what);
-        let diagnostic = Diagnostic::from(message).with_help(error.help.clone());
-        Self::bad_input(diagnostic.at(&error.text, error.span.clone(), error.what.clone()))
+        let (text, what) = (in_place(&error.text), in_place(&error.what));
+        let message = format!("{text}, character {}: {what}", error.column());
+        let diagnostic = Diagnostic::from(message).with_help(in_place(&error.help));
+        Self::bad_input(diagnostic.at(&text, error.span.clone(), what))
     }
 
     /// The way to end.
@@ -157,6 +158,12 @@ impl Failure {
         self.diagnostic.print();
         self.exit
     }
+}
+
+/// A text in which every character that steers is replaced, and every other stays in its place.
+fn in_place(text: &str) -> String {
+    let shown = |c: char| if steers(c) { "?".repeat(c.len_utf8()) } else { c.to_string() };
+    text.chars().map(shown).collect()
 }
 
 impl From<Error> for Failure {

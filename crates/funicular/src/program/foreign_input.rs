@@ -1,12 +1,12 @@
 //! Systems and answers of other programs: which reader, and the text.
 
-use std::fs::File;
-use std::io::Read;
+use std::io::{ErrorKind, Read};
 use std::path::{Path, PathBuf};
 
 use formats::system::{parse_compas, parse_moordyn, parse_net};
 use funicular::Error;
 use funicular::judge::Subject;
+use model::open_input;
 use model::system_file::most_file_bytes;
 
 use crate::exit::Failure;
@@ -83,12 +83,13 @@ pub fn text(path: &Path) -> Result<(String, String), Failure> {
     let limit = most.saturating_add(1);
     let read = if standard {
         std::io::stdin().lock().take(limit).read_to_end(&mut bytes)
-    } else if path.is_dir() {
-        return Err(unreadable(&"it is a folder"));
     } else {
-        File::open(path).and_then(|file| file.take(limit).read_to_end(&mut bytes))
+        open_input(path).and_then(|file| file.take(limit).read_to_end(&mut bytes))
     };
-    read.map_err(|error| unreadable(&error))?;
+    read.map_err(|error| match error.kind() {
+        ErrorKind::IsADirectory => unreadable(&"it is a folder"),
+        _ => unreadable(&error),
+    })?;
     if bytes.len() as u64 > most {
         return Err(unreadable(&format_args!("it is longer than {most} bytes")));
     }

@@ -53,7 +53,7 @@ pub struct Judge {
     /// system, forces of the largest one. Forces printed to fewer digits count as such
     #[arg(long, value_name = "RELATIVE", default_value_t = validate::foreign::bounds::TOLERANCE)]
     pub tolerance: f64,
-    /// Print one JSON object (schema_version 2) instead of tables
+    /// Print one JSON object (schema_version 3) instead of tables
     #[arg(long)]
     pub json: bool,
     /// Write the judgement as a page that needs nothing else (of several answers: FILE-1.html,

@@ -35,7 +35,6 @@ mod simulate;
 mod solve;
 mod study;
 mod sweep;
-mod system;
 mod tables;
 mod threads;
 mod trace;

@@ -30,7 +30,7 @@ as in `simulate`.";
 pub struct Modes {
     #[command(flatten)]
     pub input: Drawn,
-    /// Print one JSON object (schema_version 2) with the shapes instead of tables
+    /// Print one JSON object (schema_version 3) with the shapes instead of tables
     #[arg(long)]
     pub json: bool,
     /// All equilibria, by a census, of chains of up to N bars; the stable one of longer chains and

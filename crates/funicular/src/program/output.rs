@@ -75,8 +75,12 @@ pub fn check<'a>(
     Ok(())
 }
 
-/// A file can be written only into a folder that is there, and where the system lets us.
+/// A file can be written only into a folder that is there, and where the system lets us; `-` is meant
+/// as standard output, not as a name.
 fn check_one(path: &Path) -> Result<(), Failure> {
+    if path == Path::new("-") {
+        return Err(cannot_write(path, "it names no file; standard output is /dev/stdout"));
+    }
     match path.parent().filter(|folder| !folder.as_os_str().is_empty()) {
         Some(folder) if !folder.is_dir() => {
             Err(cannot_write(path, format_args!("there is no folder {}", folder.display())))

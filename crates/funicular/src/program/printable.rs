@@ -3,6 +3,8 @@
 
 use std::fmt;
 
+use model::steers;
+
 /// A text that is not the program's own, such as the name of a system: every control character is
 /// shown as its escape, line ends too, so that it stays within its line.
 pub struct Printable<'a>(pub &'a str);
@@ -18,13 +20,6 @@ impl fmt::Display for Printable<'_> {
         }
         Ok(())
     }
-}
-
-/// Whether a character may move the cursor, change the terminal's state, or turn the direction of
-/// the text round (Unicode's explicit directional formatting, UAX #9).
-fn steers(c: char) -> bool {
-    c.is_control()
-        || matches!(c, '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}' | '\u{2028}' | '\u{2029}')
 }
 
 /// Everything that is printed passes here: what still steers becomes a question mark. Line ends

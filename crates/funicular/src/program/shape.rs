@@ -34,7 +34,7 @@ fn open(range: ForceRange, rounded: &Rounded) -> String {
     }
 }
 
-/// An equilibrium of a chain or of a system, as the tables have it.
+/// An equilibrium as the tables have it.
 pub struct Shape<'a> {
     /// The name of a joint, for a terminal.
     pub name: &'a dyn Fn(usize) -> String,
@@ -46,8 +46,6 @@ pub struct Shape<'a> {
     pub axial: Vec<AxialForce>,
     /// Forces of the ground, N, with their joints.
     pub reactions_n: Vec<(usize, Vector)>,
-    /// Forces at the joints of a chain, N: on the bar before, at joint 0 on bar 1.
-    pub forces_n: Option<&'a [Vector]>,
     /// A word for a bar without force.
     pub idle: &'a dyn Fn(usize) -> &'static str,
     /// What is open of the forces of the bars, where they are a family.
@@ -67,31 +65,22 @@ impl Shape<'_> {
         } else if !summary {
             text += &self.extremes();
         }
-        if !summary && self.forces_n.is_none() {
+        if !summary {
             text += &self.reactions();
         }
         text + &self.summary()
     }
 
     fn joints(&self) -> String {
-        let mut table = match self.forces_n {
-            Some(_) => table(["joint", "x / m", "y / m", "z / m", "Fx / N", "Fy / N", "Fz / N"]),
-            None => table(["joint", "x / m", "y / m", "z / m"]),
-        };
+        let mut table = table(["joint", "x / m", "y / m", "z / m"]);
         let places = Rounded::of(self.joints_m.as_flattened());
-        let forces = Rounded::of(self.forces_n.unwrap_or_default().as_flattened());
         for (k, at_m) in self.joints_m.iter().enumerate() {
             let mut row = vec![(self.name)(k)];
             row.extend(at_m.map(|x| places.short(x)));
-            row.extend(self.forces_n.into_iter().flat_map(|f| f[k].map(|x| forces.short(x))));
             table.add_row(row);
         }
         numbers_from(&mut table, 1);
-        let what = match self.forces_n {
-            Some(_) => " and the forces at them (on the bar before; at joint 0 on bar 1)",
-            None => "",
-        };
-        titled(&format!("Joints{what}, by {}:", self.solver), &table)
+        titled(&format!("Joints, by {}:", self.solver), &table)
     }
 
     /// Some bars, each with its axial force and how steeply it rises from its first joint to its

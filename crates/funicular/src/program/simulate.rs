@@ -157,13 +157,11 @@ pub fn run(arguments: &Simulate) -> Result<Exit, Failure> {
         }
     });
     drop(progress);
-    // What is stored up to a step that fails is kept too.
     let interrupted = stop.load(Ordering::SeqCst);
-    if kept.stored > 0 {
-        kept.finish(arguments)?;
-        output::print(&kept.text(&system, interrupted))?;
-    }
+    // What is there is replaced by a result alone: a motion up to a step that fails is none.
     moved?;
+    kept.finish(arguments)?;
+    output::print(&kept.text(&system, interrupted))?;
     Ok(if interrupted { Exit::Interrupted } else { Exit::Done })
 }
 

@@ -9,8 +9,8 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 use formats::answer::Answer;
-use funicular::{Error, Solution, SolveAnswer, SystemSolution, picture};
-use validate::answer::{Equations, Solvers, UseCensus};
+use funicular::{Error, Lists, SolveAnswer, picture};
+use validate::{Equations, Solvers, UseCensus};
 
 use crate::answer;
 use crate::case_name::CaseName;
@@ -19,7 +19,6 @@ use crate::input::{self, Input, Shape, next_to};
 use crate::interrupt::end_on_interrupt;
 use crate::output;
 use crate::progress::Progress;
-use crate::system;
 use crate::threads;
 use crate::which::Which;
 
@@ -56,21 +55,24 @@ pub struct Solve {
     /// Which solver; one alone gets no comparison
     #[arg(long, value_enum, default_value_t = Which::Both)]
     pub solver: Which,
-    /// Which equations lagrange solves
-    #[arg(long, value_enum, default_value_t = System::Condensed)]
-    pub system: System,
-    /// Print one JSON object (schema_version 2) instead of tables
+    /// Which equations lagrange solves for rigid bars in a row between two anchors; `full` refuses
+    /// any other system
+    #[arg(long, alias = "system", value_enum, default_value_t = Of::Condensed)]
+    pub equations: Of,
+    /// Print one JSON object (schema_version 3) instead of tables
     #[arg(long)]
     pub json: bool,
-    /// Leave out the arrays over joints and bars
+    /// Leave out joints, bars and forces of the ground
     #[arg(long)]
     pub summary: bool,
+    /// In JSON, an array over joints or bars for each quantity, in the order of the file, in the
+    /// place of an object for each: for long chains and large nets
+    #[arg(long, requires = "json", conflicts_with = "summary")]
+    pub columns: bool,
     /// Write joints, a line per joint, to this CSV file
     ///
-    /// Columns: `solver`; `joint`, its number or name; `x_m`, `y_m`, `z_m`, its place; for a chain
-    /// `force_x_n`, `force_y_n`, `force_z_n`, the force on the bar before the joint (at joint 0 of
-    /// the ground on bar 1); for another system `reaction_x_n`, `reaction_y_n`, `reaction_z_n`, the
-    /// force of the ground on it.
+    /// Columns: `solver`; `joint`, its name (of a chain its number, from 0); `x_m`, `y_m`, `z_m`,
+    /// its place; `reaction_x_n`, `reaction_y_n`, `reaction_z_n`, the force of the ground on it.
     #[arg(long, value_name = "FILE")]
     pub csv: Option<PathBuf>,
     /// Write bars, a line per bar, to this CSV file
@@ -78,8 +80,7 @@ pub struct Solve {
     /// Columns: `solver`; `bar`, its number from 1; `from`, `to`, its joints; `axial_n`, its axial
     /// force, tension positive, with its weight lumped to its joints: the value in the middle of a
     /// homogeneous bar; `axial_from_n`, `axial_to_n`, the same at both ends; `axial_max_n`, where it
-    /// is largest; for a system of bars by name `start_x_n` to `end_z_n`, the forces
-    /// on it at both.
+    /// is largest; `start_x_n` to `end_z_n`, the forces on it at both.
     #[arg(long, value_name = "FILE")]
     pub bars_csv: Option<PathBuf>,
     /// Draw the system to scale with loads, reactions and axial forces into this SVG file
@@ -93,7 +94,7 @@ pub struct Solve {
 /// strands hang side by side or a chain is nearly straight, and its cost grows faster than the
 /// number of bars.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum System {
+pub enum Of {
     /// Three equations for the pull on the first anchor, whatever the number of bars
     Condensed,
     /// The paper's: all coordinates and all multipliers at once; for some 30 bars
@@ -116,8 +117,17 @@ impl Solve {
     fn question(&self, census: UseCensus) -> funicular::Solve {
         funicular::Solve::new()
             .solvers(self.solver.into())
-            .equations(self.system.into())
+            .equations(self.equations.into())
             .census(self.census.map_or(census, UseCensus::from))
+    }
+
+    /// How JSON has joints and bars.
+    fn lists(&self) -> Lists {
+        match (self.summary, self.columns) {
+            (true, _) => Lists::None,
+            (false, true) => Lists::Columns,
+            (false, false) => Lists::Objects,
+        }
     }
 
     /// The shape next to which the equilibrium is wanted, if one was given.
@@ -162,19 +172,24 @@ fn one(arguments: &Solve, file: Option<&Path>) -> Result<Exit, Failure> {
     let outputs = [&arguments.csv, &arguments.bars_csv, &arguments.svg];
     output::check(outputs.into_iter().flatten().map(PathBuf::as_path), &files)?;
     let solve = arguments.question(UseCensus::Auto);
-    let answer = solve.run_any_watched(&problem, &|what| progress.say(what));
-    match answer.or_else(|error| unsolved(arguments, error))? {
-        Solution::System(answer) => system_answer(arguments, &answer, progress),
-        Solution::Chain(answer) => chain_answer(arguments, &problem, &answer, progress),
+    let answer = solve.run_watched(&problem, &|what| progress.say(what));
+    let answer = answer.or_else(|error| unsolved(arguments, error))?;
+    write_files(arguments, &answer, &progress)?;
+    drop(progress);
+    if arguments.json {
+        output::print_json(&answer.json(arguments.lists()))?;
+    } else {
+        output::print(&answer::answer(&answer, arguments.summary))?;
     }
+    Ok(verdict(&answer))
 }
 
-fn chain_answer(
+/// The files that are asked for besides what is printed.
+fn write_files(
     arguments: &Solve,
-    problem: &funicular::Problem,
     answer: &SolveAnswer,
-    progress: Progress,
-) -> Result<Exit, Failure> {
+    progress: &Progress,
+) -> Result<(), Failure> {
     if let Some(path) = &arguments.csv {
         progress.say(&format!("writing {}", path.display()));
         output::write_stream(path, |file| answer.write_csv(file))?;
@@ -183,47 +198,11 @@ fn chain_answer(
         progress.say(&format!("writing {}", path.display()));
         output::write_stream(path, |file| answer.write_bars_csv(file))?;
     }
-    if let (Some(path), Some(chain), [first, ..]) =
-        (&arguments.svg, problem.as_chain(), answer.equilibria())
-    {
-        let drawn = picture::of_chain(chain.chain(), first);
-        output::write_whole(path, &drawn.map_err(Failure::undecided)?)?;
-    }
-    drop(progress);
-    if arguments.json && arguments.summary {
-        output::print_json(&answer.summary().map_err(|error| output::no_json(&error))?)?;
-    } else if arguments.json {
-        output::print_json(answer)?;
-    } else {
-        output::print(&answer::answer(answer, arguments.summary))?;
-    }
-    Ok(verdict(answer.check_failed(), answer.is_decided()))
-}
-
-fn system_answer(
-    arguments: &Solve,
-    answer: &SystemSolution,
-    progress: Progress,
-) -> Result<Exit, Failure> {
-    if let Some(path) = &arguments.csv {
-        output::write_stream(path, |file| answer.write_joints_csv(file))?;
-    }
-    if let Some(path) = &arguments.bars_csv {
-        output::write_stream(path, |file| answer.write_bars_csv(file))?;
-    }
     if let (Some(path), [first, ..]) = (&arguments.svg, answer.equilibria()) {
         let drawn = picture::of_system(answer.system(), first);
         output::write_whole(path, &drawn.map_err(Failure::undecided)?)?;
     }
-    drop(progress);
-    if arguments.json && arguments.summary {
-        output::print_json(&answer.summary())?;
-    } else if arguments.json {
-        output::print_json(answer)?;
-    } else {
-        output::print(&system::answer(answer, arguments.summary))?;
-    }
-    Ok(verdict(answer.check_failed(), answer.is_decided()))
+    Ok(())
 }
 
 /// Where no solver has an answer, JSON is an object all the same: without equilibria, and with the
@@ -231,28 +210,27 @@ fn system_answer(
 fn unsolved<T>(arguments: &Solve, error: Error) -> Result<T, Failure> {
     match &error {
         Error::Unsolved(answer) if arguments.json => output::print_json(answer)?,
-        Error::UnsolvedSystem(answer) if arguments.json => output::print_json(answer)?,
         _ => {}
     }
     Err(error.into())
 }
 
 /// A failed check is worse than an answer that is missing or has not converged.
-fn verdict(check_failed: bool, decided: bool) -> Exit {
-    if check_failed {
+fn verdict(answer: &SolveAnswer) -> Exit {
+    if answer.check_failed() {
         Exit::CheckFailed
-    } else if decided {
+    } else if answer.is_decided() {
         Exit::Done
     } else {
         Exit::Undecided
     }
 }
 
-impl From<System> for Equations {
-    fn from(system: System) -> Self {
-        match system {
-            System::Condensed => Self::Condensed,
-            System::Full => Self::Full,
+impl From<Of> for Equations {
+    fn from(of: Of) -> Self {
+        match of {
+            Of::Condensed => Self::Condensed,
+            Of::Full => Self::Full,
         }
     }
 }

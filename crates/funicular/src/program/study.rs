@@ -71,7 +71,7 @@ pub struct Arguments {
     pub input: Drawn,
     #[command(flatten)]
     pub varied: Varied,
-    /// Print one JSON object (schema_version 2) instead of tables
+    /// Print one JSON object (schema_version 3) instead of tables
     #[arg(long)]
     pub json: bool,
     /// Write a line per point to this CSV file (columns: --help)

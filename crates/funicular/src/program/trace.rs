@@ -70,7 +70,7 @@ pub struct Arguments {
     pub input: Source,
     #[command(flatten)]
     pub varied: Varied,
-    /// Print one JSON object (schema_version 2) instead of tables
+    /// Print one JSON object (schema_version 3) instead of tables
     #[arg(long)]
     pub json: bool,
     /// Write all points of all branches, a line each, to this CSV file (columns: --help)

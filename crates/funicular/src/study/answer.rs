@@ -10,8 +10,8 @@ use serde::Serialize;
 use super::figure;
 use super::shape::{NoShape, StudyShape};
 use crate::csv::quoted;
+use crate::modes::Summary;
 use crate::solve::SCHEMA_VERSION;
-use crate::system::Summary;
 
 /// The columns of every study between its parameters and its supports.
 const COLUMNS: [&str; 12] = [
@@ -259,7 +259,7 @@ impl Serialize for StudyAnswer {
         #[serde(untagged)]
         enum About<'a> {
             Chain(&'a SystemSummary),
-            System(Summary<'a>),
+            System(Summary),
         }
         #[derive(Serialize)]
         struct Point<'a> {
@@ -279,7 +279,7 @@ impl Serialize for StudyAnswer {
         let Self { subject, parameters, units, points, .. } = self;
         let system = match subject {
             Subject::Chain(summary) => About::Chain(summary),
-            Subject::System(system) => About::System(Summary::of(system)),
+            Subject::System(system) => About::System(Summary::new(system)),
         };
         let supports = self.supports();
         let reactions =

@@ -10,7 +10,7 @@ pub use self::shape::{NoShape, StudyShape};
 use branches::{Base, Number, PointError, Variation};
 use model::Vector;
 use rayon::prelude::*;
-use validate::answer::{Solvers, UseCensus};
+use validate::{Solvers, UseCensus};
 
 use self::answer::Subject;
 use crate::error::Error;

@@ -1,14 +1,12 @@
 //! The hanging shape at a point of a study.
 
 use branches::PointError;
-use model::system::{System, SystemEquilibrium};
-use model::{Anchors, Equilibrium, Reactions, Rung, Vector};
+use model::{Rung, Vector};
 use serde::Serialize;
 
 use crate::extremes::Extremes;
 use crate::problem::Problem;
-use crate::solution::Solution;
-use crate::solve::Solve;
+use crate::solve::{Solve, SolveAnswer};
 
 /// Why a point has no hanging shape.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
@@ -93,70 +91,44 @@ impl StudyShape {
             None => solve.run_here(problem),
         };
         let answer = answer.map_err(|error| NoShape::unsolved(&error))?;
-        if let Some(found) = answer.as_system()
-            && let (Some(_), Some(first)) = (found.near(), found.equilibria().first())
-        {
+        let first = answer.equilibria().first();
+        if let (Some(near), Some(first)) = (answer.near(), first) {
+            if !near.is_neighbour {
+                return Err(NoShape::unsolved(&format!(
+                    "the branch ends here, or the steps are too long: joint {:?} of what was found is {:.3e} m away",
+                    near.joint, near.moved_m
+                )));
+            }
             *before = Some(first.joints_m.clone());
         }
-        let found = match &answer {
-            Solution::Chain(found) => {
-                found.equilibria().first().and_then(|first| Self::of_chain(first, &answer))
-            }
-            Solution::System(found) => {
-                let first = found.equilibria().first();
-                first.and_then(|first| Self::of_system(found.system(), first, &answer))
-            }
-        };
-        found.ok_or_else(|| NoShape::unsolved(&"no equilibrium"))
+        let shape = Self::of(&answer).ok_or_else(|| NoShape::unsolved(&"no equilibrium"))?;
+        let span_m = problem.as_chain().map(|chain| chain.chain().anchors().span_m());
+        Ok(Self { span_m, ..shape })
     }
 
-    fn of_chain(first: &Equilibrium, answer: &Solution) -> Option<Self> {
-        let joints = &first.joints_m;
-        let (start_m, end_m) = (*joints.first()?, *joints.last()?);
-        let Reactions { start, end } = first.reactions_n;
-        let extremes = Extremes::of(joints, [0, joints.len() - 1], &first.axial_forces())?;
-        let rises_deg = joints.windows(2).map(|ends| rise_deg(ends[0], ends[1])).collect();
-        let span_m = Some(Anchors { start_m, end_m }.span_m());
-        let shape = Self::judged(answer, first.energy_j, extremes, vec![start, end], rises_deg);
-        Some(Self { span_m, ..shape })
-    }
-
-    fn of_system(system: &System, first: &SystemEquilibrium, answer: &Solution) -> Option<Self> {
+    fn of(answer: &SolveAnswer) -> Option<Self> {
+        let (system, first) = (answer.system(), answer.equilibria().first()?);
         let places = &first.joints_m;
         let joints = system.joints().iter();
         let held: Vec<usize> =
             joints.enumerate().filter_map(|(k, joint)| joint.support.at_m().and(Some(k))).collect();
         let reactions = held.iter().map(|joint| first.reactions_n[*joint]).collect();
-        let extremes = Extremes::of(places, held, &first.axial_forces(system))?;
         let rises =
             system.members().iter().map(|member| rise_deg(places[member.from], places[member.to]));
-        Some(Self::judged(answer, first.energy_j, extremes, reactions, rises.collect()))
-    }
-
-    fn judged(
-        answer: &Solution,
-        energy_j: f64,
-        extremes: Extremes,
-        reactions_n: Vec<Vector>,
-        rises_deg: Vec<f64>,
-    ) -> Self {
-        let differ = match answer {
-            Solution::Chain(found) => found.agreement().map(|both| [both.joints_m, both.forces_n]),
-            Solution::System(found) => found.agreement().map(|both| [both.joints_m, both.forces_n]),
-        };
-        Self {
+        let agreement = answer.agreement();
+        Some(Self {
             span_m: None,
-            energy_j,
-            extremes,
-            reactions_n,
-            rises_deg,
+            energy_j: first.energy_j,
+            extremes: Extremes::of(places, held, &first.axial_forces(system))?,
+            reactions_n: reactions,
+            rises_deg: rises.collect(),
             rung: answer.rung(),
             agrees: answer.agrees(),
             check_failed: answer.check_failed(),
             is_decided: answer.is_decided(),
-            joints_differ_m: differ.map(|[joints_m, _]| joints_m),
-            forces_differ_n: differ.map(|[_, forces_n]| forces_n),
-        }
+            joints_differ_m: agreement.map(|both| both.joints_m),
+            forces_differ_n: agreement.map(|both| both.forces_n),
+        })
     }
 }
 

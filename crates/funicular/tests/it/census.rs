@@ -67,7 +67,7 @@ fn json(arguments: &[&str], code: i32) -> Value {
     let output = funicular(&[arguments, &["--json"]].concat());
     assert_eq!(output.status.code(), Some(code), "{}", stderr(&output));
     let value: Value = serde_json::from_slice(&output.stdout).unwrap();
-    assert_eq!(value["schema_version"], 2);
+    assert_eq!(value["schema_version"], 3);
     let census = &value["census"];
     assert_eq!(
         census["count"].as_u64().unwrap(),

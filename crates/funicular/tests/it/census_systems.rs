@@ -41,7 +41,7 @@ fn json_of_system(path: &str) -> Value {
     let value: Value = serde_json::from_slice(&output.stdout).unwrap();
     assert_eq!(
         (&value["schema_version"], &value["census"]["check_passed"]),
-        (&2.into(), &true.into())
+        (&3.into(), &true.into())
     );
     value
 }

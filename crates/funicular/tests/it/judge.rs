@@ -245,7 +245,7 @@ const LINE: &str = "---- MoorDyn Input File ----\na hanging line\n---- LINE TYPE
 
 fn solved_line(text: &str) -> String {
     let foreign = parse_moordyn(text, "line.txt").unwrap();
-    let answer = funicular::Solve::new().run_system(&foreign.system).unwrap();
+    let answer = funicular::Solve::new().run(&foreign.system.clone().into()).unwrap();
     assert!(answer.agrees());
     let joints = foreign.system.joints().iter().zip(&answer.equilibria()[0].joints_m);
     let rows = joints.map(|(joint, [x, y, z])| format!("{},{x:?},{y:?},{z:?}\n", joint.name));

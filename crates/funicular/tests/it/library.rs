@@ -2,7 +2,6 @@
 
 #![expect(clippy::unwrap_used, reason = "helpers of tests")]
 
-use funicular::SolveAnswer;
 use funicular::prelude::*;
 
 fn cases() -> Vec<Problem> {
@@ -12,7 +11,7 @@ fn cases() -> Vec<Problem> {
 }
 
 /// What an answer says but for the times.
-fn without_times(answer: &SolveAnswer) -> Vec<Equilibrium> {
+fn without_times(answer: &SolveAnswer) -> Vec<SystemEquilibrium> {
     let mut equilibria = answer.equilibria().to_vec();
     for equilibrium in &mut equilibria {
         equilibrium.evidence.solve_s = 0.0;
@@ -29,8 +28,8 @@ fn a_batch_keeps_the_order_and_is_what_each_run_says_whatever_the_threads() {
         let batch = Solve::new().threads(threads).run_all(&problems).unwrap();
         assert_eq!(batch.len(), problems.len());
         for ((problem, alone), together) in problems.iter().zip(&single).zip(&batch) {
-            let together = together.as_ref().unwrap().as_chain().unwrap();
-            assert_eq!(together.system().name, problem.name());
+            let together = together.as_ref().unwrap();
+            assert_eq!(together.system().name(), problem.name());
             assert_eq!(without_times(alone), without_times(together), "{}", problem.name());
             assert_eq!(alone.agreement(), together.agreement());
         }
@@ -60,6 +59,25 @@ fn the_full_and_the_condensed_equations_have_the_same_answer() {
     for (a, b) in condensed.joints_m.iter().flatten().zip(full.joints_m.iter().flatten()) {
         assert!((a - b).abs() < 1e-12, "{a} {b}");
     }
+    assert!(full.evidence.iterations != condensed.evidence.iterations);
+}
+
+/// A row of bars has the paper's multipliers, however it is written; with a weight at a joint the force
+/// that a bar passes on there is that of the bars alone.
+#[test]
+fn the_full_equations_and_multipliers_are_those_of_a_row() {
+    let paper = Problem::case("three-equal-bars").unwrap();
+    let full = Solve::new().equations(Equations::Full).census(UseCensus::Never);
+    let answer = full.run(&paper).unwrap();
+    let multipliers = answer.multipliers_n(&answer.equilibria()[0]).unwrap();
+    let up_mg = multipliers[0][2] / model::STANDARD_GRAVITY_M_S2;
+    assert!((up_mg - 2.312_944_292_241_838).abs() < 1e-12, "{up_mg}");
+    let cable = Problem::case("bridle").unwrap();
+    assert!(matches!(full.run(&cable), Err(Error::ChainsOnly { .. })));
+    let drawn = paper.near(&answer.equilibria()[0].joints_m).unwrap();
+    assert!(matches!(full.run(&drawn), Err(Error::ChainsOnly { .. })));
+    let found = Solve::new().census(UseCensus::Never).run(&cable).unwrap();
+    assert_eq!(found.multipliers_n(&found.equilibria()[0]), None);
 }
 
 /// What `solve` looks up in a census only where it is asked to.
@@ -129,13 +147,11 @@ fn a_batch_takes_chains_and_systems_alike() {
     let solve = Solve::new().census(UseCensus::Never).threads(2);
     let answers = solve.run_all(&problems).unwrap();
     let lamp = answers[0].as_ref().unwrap();
-    assert!(
-        lamp.agrees() && lamp.is_decided() && !lamp.check_failed() && lamp.as_chain().is_none()
-    );
+    assert!(lamp.agrees() && lamp.is_decided() && !lamp.check_failed());
     // By the triangle 3, 4, 5.
-    assert!((lamp.as_system().unwrap().equilibria()[0].axial_n[1] - 12.5).abs() < 1e-9);
+    assert!((lamp.equilibria()[0].axial_n[1] - 12.5).abs() < 1e-9);
     assert!(matches!(answers[1], Err(Error::SystemRefused(_))));
-    assert!(answers[2].as_ref().unwrap().as_chain().is_some_and(SolveAnswer::agrees));
+    assert!(answers[2].as_ref().is_ok_and(SolveAnswer::agrees));
 }
 
 /// The axial forces of the paper's chain, from the multipliers of its lowest equilibrium (in
@@ -158,7 +174,10 @@ fn bars_csv_names_each_bar_beside_its_own_force() {
     let mut lines = text.lines();
     assert_eq!(
         lines.next(),
-        Some("solver,bar,from,to,axial_n,axial_from_n,axial_to_n,axial_max_n")
+        Some(
+            "solver,bar,from,to,axial_n,axial_from_n,axial_to_n,axial_max_n,\
+             start_x_n,start_y_n,start_z_n,end_x_n,end_y_n,end_z_n"
+        )
     );
     for solver in ["lagrange", "energy"] {
         for (k, expected) in expected.iter().enumerate() {

@@ -26,7 +26,7 @@ fn file(folder: &Path, name: &str, text: &str) -> String {
 #[test]
 fn modes_of_the_paper_have_the_keys_that_others_rely_on() {
     let found = json(&["modes", "--case", "three-equal-bars", "--json"]);
-    assert_eq!(found["schema_version"], 2);
+    assert_eq!(found["schema_version"], 3);
     assert_eq!(found["complete"], true);
     let equilibria = found["equilibria"].as_array().unwrap();
     assert_eq!(equilibria.len(), 4);

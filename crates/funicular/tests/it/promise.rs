@@ -71,6 +71,48 @@ fn overdetermined_frames_bear_the_share_of_equally_stiff_bars() {
     assert!((largest - 29.887_541_991).abs() < 2e-8, "{largest}");
 }
 
+/// Forces that balance with a self-stress of any size: seen as long as it hides no load, refused where
+/// it does. The self-stress of four bars is that of the determinants of the other three.
+#[test]
+fn forces_beside_which_no_load_is_seen_are_not_confirmed() {
+    let anchors = [[3.0, 2.0, 1.0], [2.0, 1.0, 3.0], [3.0, 1.0, -1.0], [3.0, 0.0, 3.0_f64]];
+    let lengths = [45.0, 25.0, 48.0, 25.0].map(f64::sqrt);
+    let along: [[f64; 3]; 4] = std::array::from_fn(|k| {
+        let from_p = [anchors[k][0] + 1.0, anchors[k][1] + 3.0, anchors[k][2] - 3.0];
+        from_p.map(|part| part / lengths[k])
+    });
+    let stress: [f64; 4] = std::array::from_fn(|k| {
+        let [a, b, c] = [1, 2, 3].map(|next| along[(k + next) % 4]);
+        let across =
+            [b[1] * c[2] - b[2] * c[1], b[2] * c[0] - b[0] * c[2], b[0] * c[1] - b[1] * c[0]];
+        let det: f64 = a.iter().zip(across).map(|(a, b)| a * b).sum();
+        if k % 2 == 0 { det } else { -det }
+    });
+    let borne = [-7.908_031_9, 19.061_756_256, -29.887_541_991, 13.167_457_291];
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name);
+    std::fs::copy(Path::new(FOLDER).join("1-tetrapod.json"), path("tetrapod.json")).unwrap();
+    std::fs::write(path("places.csv"), "joint,x_m,y_m,z_m\nP,-1,-3,3\n").unwrap();
+    let judged = |size_n: f64| {
+        let mut text = String::from("from,to,axial_n\n");
+        for k in 0..4 {
+            text += &format!("A{k},P,{}\n", borne[k] + size_n * stress[k]);
+        }
+        std::fs::write(path("forces.csv"), text).unwrap();
+        let files = ["--answer", "places.csv", "--members", "forces.csv", "--json"];
+        let (code, text) = run(folder.path(), &[&["judge", "tetrapod.json"][..], &files].concat());
+        let answer: Value = serde_json::from_str(&text).unwrap();
+        (code, answer["finding"].as_str().unwrap().to_owned())
+    };
+    // Six digits of 1e5 N still show the 20 N of the load.
+    for size_n in [0.0, 1.0, 1e5] {
+        assert_eq!(judged(size_n), (Some(0), "confirmed".to_owned()), "{size_n}");
+    }
+    for size_n in [1e9, 9.12e12, 1e30] {
+        assert_eq!(judged(size_n), (Some(3), "loads_hidden".to_owned()), "{size_n}");
+    }
+}
+
 /// A millionth more on one leg is no rounding: bad input, with the misfits and what helps.
 #[test]
 fn lengths_that_cannot_be_assembled_are_refused() {

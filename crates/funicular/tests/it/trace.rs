@@ -43,7 +43,7 @@ fn the_level_chain_has_its_folds_and_branch_points() {
     let output = funicular(&arguments);
     assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
     let json: Value = serde_json::from_slice(&output.stdout).unwrap();
-    assert_eq!(json["schema_version"], 2);
+    assert_eq!(json["schema_version"], 3);
     let trace = &json["traces"][0];
     let events = trace["events"].as_array().unwrap();
     // Closed forms: crates/branches/tests/it/closed_forms.rs.

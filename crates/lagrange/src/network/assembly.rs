@@ -15,9 +15,17 @@ use super::signs::{SIGN_CHANGES, signs_mended};
 use super::solve::{KICKS, Solver};
 use super::state::State;
 
-/// Starts of the search for places where lengths fit, the moves of joints for them in units of the
-/// mean length, and the part of its length by which a member may be off where it ends.
+/// Starts of the search for places where lengths fit: as many as make this number of free directions
+/// together, at most and at least so many; the moves of joints for them in units of the mean length,
+/// and the part of its length by which a member may be off where it ends.
+const DIRECTIONS: usize = 3600;
+const MOST_ASSEMBLIES: usize = 400;
 const ASSEMBLIES: usize = 60;
+/// Shapes with fewer free directions are assembled again in search of less energy, from so many starts.
+const SMALL: usize = 30;
+const AGAIN: usize = 200;
+/// Less energy is less by this part: the rest is rounding.
+const LESS: f64 = 1e-9;
 const ASSEMBLY_KICK: f64 = 2.0;
 pub(super) const NEARLY: f64 = 1e-4;
 /// Ridge of the least squares for lengths, in units of their largest error.
@@ -37,23 +45,9 @@ impl Solver<'_> {
         if !search {
             return refused.map_or(Err(Error::Unloaded), Err);
         }
-        let mut start = from.clone();
-        // Only rigid bars have a length whatever they bear.
-        let rigid = |link: &Link| link.kind == Kind::Bar && link.compliance <= 0.0;
-        start.taut = self.framework.links.iter().map(rigid).collect();
-        for kick in 0..ASSEMBLIES {
-            let fitted = self.fitted(self.kicked(&start, kick, ASSEMBLY_KICK));
-            let links = self.framework.links.iter().zip(&fitted.residual.lengths);
-            let fits = |(link, misfit): (&Link, &f64)| {
-                misfit.abs() <= link.within.max(NEARLY * link.length)
-            };
-            if !links.into_iter().all(fits) {
-                continue;
-            }
-            let mut state = fitted.state;
-            state.taut.clone_from(&from.taut);
-            state.axial = fitted_forces(&self.framework, &mut self.stiffness, &state);
-            self.factorisations += 1;
+        let starts = DIRECTIONS / self.framework.freedoms().max(1);
+        for kick in 0..starts.clamp(ASSEMBLIES, MOST_ASSEMBLIES) {
+            let Some(state) = self.fits_at(from, kick) else { continue };
             match self.with_signs(state, Patience::Full) {
                 Ok(run) => return Ok(run),
                 Err(error) => refused = Some(clearer(refused, error)),
@@ -64,6 +58,57 @@ impl Solver<'_> {
             }
         }
         Err(refused.unwrap_or(Error::Unloaded))
+    }
+
+    /// The rest with the least energy among those that other starts lead to: where lengths overdetermine
+    /// a small shape, and some members push.
+    pub(super) fn lowest(&mut self, from: &State, mut run: Run) -> Run {
+        let small = self.framework.freedoms() <= SMALL;
+        if !small || run.state.axial.iter().all(|n| *n >= 0.0) || self.cuts(&run.state).is_empty() {
+            return run;
+        }
+        for kick in 0..AGAIN {
+            let Some(state) = self.fits_at(from, kick) else { continue };
+            let Ok(other) = self.with_signs(state, Patience::Full) else { continue };
+            let [lower, known] = [&other, &run].map(|run| run.state.energy(&self.framework));
+            if lower < known - LESS * known.abs().max(1.0) {
+                run = other;
+            }
+        }
+        run
+    }
+
+    /// A start moved to places where the lengths of rigid bars nearly fit, if that leads to any.
+    fn fits_at(&mut self, from: &State, kick: usize) -> Option<State> {
+        let mut start = from.clone();
+        // Only rigid bars have a length whatever they bear.
+        let rigid = |link: &Link| link.kind == Kind::Bar && link.compliance <= 0.0;
+        start.taut = self.framework.links.iter().map(rigid).collect();
+        let fitted = self.fitted(self.strewn(start, kick));
+        let mut links = self.framework.links.iter().zip(&fitted.residual.lengths);
+        let fits =
+            |(link, misfit): (&Link, &f64)| misfit.abs() <= link.within.max(NEARLY * link.length);
+        if !links.all(fits) {
+            return None;
+        }
+        let mut state = fitted.state;
+        state.taut.clone_from(&from.taut);
+        state.axial = fitted_forces(&self.framework, &mut self.stiffness, &state);
+        self.factorisations += 1;
+        Some(state)
+    }
+
+    /// The state with every joint moved along its free directions, each without regard to the others.
+    fn strewn(&self, mut state: State, start: usize) -> State {
+        let joints = state.places.iter_mut().zip(&self.framework.nodes).enumerate();
+        for (joint, (place, node)) in joints {
+            let axis = |axis: usize| {
+                let word = mixed((joint as u64) << 34 | (start as u64) << 2 | axis as u64);
+                ASSEMBLY_KICK * (2.0 * (word as f64 / u64::MAX as f64) - 1.0)
+            };
+            *place += node.free.part(&Vector3::new(axis(0), axis(1), axis(2)));
+        }
+        state
     }
 
     /// Places near some where every member has a length at which it bears no force: with these a
@@ -126,4 +171,13 @@ impl Solver<'_> {
         self.stiffness.solve(&mut moves);
         self.stiffness.scatter(&self.framework, &moves)
     }
+}
+
+/// A word without pattern (G. L. Steele, D. Lea, C. H. Flood, Fast splittable pseudorandom number
+/// generators, OOPSLA 2014).
+fn mixed(counter: u64) -> u64 {
+    let mut word = counter.wrapping_add(1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+    word = (word ^ (word >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    word = (word ^ (word >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    word ^ (word >> 31)
 }

@@ -92,8 +92,10 @@ fn hang(
         if end > LAST_END && !hanging.clear(&solver.framework) {
             continue;
         }
-        match solver.with_signs(hanging.state(&solver.framework), patience) {
+        let start = hanging.state(&solver.framework);
+        match solver.with_signs(start.clone(), patience) {
             Ok(run) => {
+                let run = solver.lowest(&start, run);
                 let second_order = solver.second_order(&run.state);
                 if second_order.index == 0 {
                     return Ok(solver.solution(run, second_order));
@@ -110,6 +112,7 @@ fn hang(
         Err(error) => solver.assembled(&start, error)?,
         Ok(run) => run,
     };
+    let run = solver.lowest(&start, run);
     solver.stable(run)
 }
 

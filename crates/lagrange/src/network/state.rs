@@ -62,6 +62,17 @@ impl State {
             .collect()
     }
 
+    /// Energy of the loads and of the elastic members at their forces.
+    pub fn energy(&self, framework: &Framework) -> f64 {
+        let loads = framework.nodes.iter().zip(&self.places).map(|(n, at)| -n.load.dot(at));
+        let stored = framework
+            .links
+            .iter()
+            .zip(&self.axial)
+            .map(|(l, force)| 0.5 * l.compliance * force * force);
+        model::sum(loads.chain(stored))
+    }
+
     /// Largest force in a member or load of a joint.
     pub fn largest_force(&self, framework: &Framework) -> f64 {
         let squares = framework.nodes.iter().map(|node| node.load.norm_squared());

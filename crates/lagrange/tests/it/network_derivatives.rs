@@ -164,10 +164,12 @@ fn the_gradient_is_the_adjoint_of_the_changes() {
     }
 }
 
-/// The stiffness matrices of the anchors are symmetric together, and a common translation of all
-/// supports changes nothing.
+/// The stiffness matrices of the anchors are those of differences, entry by entry (none of them is its
+/// own transpose), symmetric together, and a common translation of all supports changes nothing.
 #[test]
 fn anchors_as_springs() {
+    /// The largest entry is less, N/m.
+    const LARGEST: f64 = 100.0;
     let joints = vec![
         Joint::anchor("A", [-2.0, -1.0, 0.3]),
         Joint::anchor("B", [2.0, -0.5, 0.0]),
@@ -191,6 +193,14 @@ fn anchors_as_springs() {
                 derivatives.anchor_stiffness(of, by).unwrap(),
                 derivatives.anchor_stiffness(by, of).unwrap(),
             );
+            for axis in 0..3 {
+                let reactions = &differences(&system, Parameter::Anchor { joint: by, axis })[2];
+                for (row, differ) in reactions[3 * of..3 * of + 3].iter().enumerate() {
+                    assert!((one[row][axis] - differ).abs() < AGREE * LARGEST, "{one:?}");
+                }
+            }
+            let skew = (0..3).map(|k| (one[k][(k + 1) % 3] - one[(k + 1) % 3][k]).abs());
+            assert!(of == by || skew.fold(0.0, f64::max) > 1e-2, "{one:?}");
             for row in 0..3 {
                 for column in 0..3 {
                     assert!((one[row][column] - other[column][row]).abs() < 1e-9);

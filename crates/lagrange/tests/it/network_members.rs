@@ -234,3 +234,20 @@ fn nullity_counts_free_turns_and_self_stresses() {
     members.push(bar(3, 2, 4.0, 0.0));
     assert_eq!(nullity(held, members), 1);
 }
+
+/// 1 N on a rod of 2 m, and 1e-8 N towards the anchor of a cable that just reaches: it would have to
+/// push with that, and hangs slack, so that the weight moves by 2e-8 m. Away from it the cable holds.
+#[test]
+fn a_cable_that_pushes_a_little_is_slack() {
+    for (aside_n, moves_m, pull_n) in [(1e-8, 2e-8, 0.0), (-1e-8, 0.0, 1e-8)] {
+        let joints = vec![
+            Joint::anchor("A", [0.0; 3]),
+            Joint::anchor("B", [3.0, 0.0, -2.0]),
+            Joint::free("P").with_force([aside_n, 0.0, -1.0]),
+        ];
+        let found = hang(&system(joints, vec![bar(0, 2, 2.0, 0.0), cable(1, 2, 3.0, 0.0)]));
+        let (at, axial) = (found.equilibrium.joints_m[2], &found.equilibrium.axial_n);
+        assert!((at[0] - moves_m).abs() < 1e-13, "{at:?}");
+        assert!((axial[1] - pull_n).abs() < 1e-13, "{axial:?}");
+    }
+}

@@ -3,6 +3,7 @@
 use std::collections::{HashMap, HashSet};
 
 use super::{Joint, Member, Support};
+use crate::mass_range::too_wide;
 use crate::readable::Readable;
 use crate::{SMALLEST_TOTAL, Vector};
 
@@ -215,6 +216,17 @@ pub enum SystemError {
         /// Its value in SI units.
         total: f64,
     },
+    /// Occurs when the lightest mass is lost in the rounding of the heaviest.
+    #[error(
+        "the masses of this system reach from {} kg to {} kg: the lightest is lost in the \
+         rounding of the heaviest", Readable(*lightest_kg), Readable(*heaviest_kg)
+    )]
+    MassRange {
+        /// The lightest mass that is not zero.
+        lightest_kg: f64,
+        /// The heaviest mass.
+        heaviest_kg: f64,
+    },
 }
 
 /// How far from 1 the length of a direction may be: the rounding of its three components.
@@ -345,7 +357,8 @@ fn check_totals(
 ) -> Result<(), SystemError> {
     let length_m = crate::sum(members.iter().map(|member| member.body.length_m()));
     let masses = joints.iter().map(|joint| joint.mass_kg);
-    let mass_kg = crate::sum(masses.chain(members.iter().map(|member| member.body.mass_kg())));
+    let masses = masses.chain(members.iter().map(|member| member.body.mass_kg()));
+    let mass_kg = crate::sum(masses.clone());
     let forces = joints.iter().map(|joint| joint.force_n);
     let forces = forces.chain(members.iter().flat_map(|m| m.loads.iter().map(|l| l.force_n)));
     let force_n = crate::sum(forces.map(|[x, y, z]| x.hypot(y).hypot(z)));
@@ -368,7 +381,12 @@ fn check_totals(
             return Err(SystemError::Underflow { quantity, total });
         }
     }
-    Ok(())
+    match too_wide(masses) {
+        Some((lightest_kg, heaviest_kg)) => {
+            Err(SystemError::MassRange { lightest_kg, heaviest_kg })
+        }
+        None => Ok(()),
+    }
 }
 
 fn first_bad(vector: Vector) -> Option<f64> {

@@ -17,13 +17,13 @@ use std::path::Path;
 
 use super::error::SystemFileError;
 use super::kind::SystemFileErrorKind as Kind;
-use super::limits::{MAX_BARS_FILE_BYTES, most_bars};
+use super::limits::{most_bars, most_bars_file_bytes};
 use super::load::{Loaded, load, without_mark};
 use super::location::span_of;
 use super::suggest::nearest;
 use crate::{Bar, BarError};
 
-const COLUMNS: &[&str] = &["length_m", "mass_kg", "centre_m"];
+pub(super) const COLUMNS: &[&str] = &["length_m", "mass_kg", "centre_m"];
 const WANTED_LENGTH: &str = "a column of lengths in metres";
 
 /// Read a bars file.
@@ -33,7 +33,7 @@ const WANTED_LENGTH: &str = "a column of lengths in metres";
 /// [`SystemFileError`] with the place and the reason; its key is the column.
 pub fn read_bars(path: impl AsRef<Path>) -> Result<Vec<Bar>, SystemFileError> {
     let path = path.as_ref();
-    let loaded = load(path, MAX_BARS_FILE_BYTES).map_err(|error| {
+    let loaded = load(path, most_bars_file_bytes()).map_err(|error| {
         let file = path.display().to_string();
         SystemFileError::new(&file, "", None, None, Kind::Unreadable(error))
     })??;

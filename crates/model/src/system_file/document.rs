@@ -5,14 +5,15 @@ use std::ops::Range;
 use toml::Spanned;
 use toml::de::{DeArray, DeTable};
 
-use super::columns::Sheet;
+use super::columns::{self, Sheet};
 use super::described::Described;
 use super::duplicate;
 use super::error::SystemFileError;
 use super::kind::SystemFileErrorKind as Kind;
-use super::limits::{MAX_BARS_FILE_BYTES, most_bars};
-use super::load::{Loaded, load};
+use super::limits::most_bars;
+use super::load::Loaded;
 use super::loads;
+use super::named;
 use super::network;
 use super::source::Source;
 use super::table::Table;
@@ -215,10 +216,7 @@ impl Source<'_> {
             let bars = bars.map_err(|cause| error(Kind::ForeignBars(cause)))?;
             return Ok((bars, Origin::Foreign(value)));
         }
-        let loaded = match load(&path, MAX_BARS_FILE_BYTES) {
-            Ok(loaded) => loaded?,
-            Err(cause) => return Err(error(Kind::UnreadableBars { path, error: cause })),
-        };
+        let loaded = named::text(root, "bars_file", path, columns::COLUMNS)?;
         let bars = Sheet::of(&loaded).bars()?;
         Ok((bars, Origin::File(value, loaded)))
     }

@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use crate::budget::OutOfMemory;
 use crate::readable::Readable;
 use crate::system::{PrestressError, SystemError, SystemRefusal};
 use crate::{BarError, ChainError, Refusal};
@@ -29,6 +30,14 @@ pub enum SystemFileErrorKind {
         path: PathBuf,
         /// Why it cannot be read.
         error: std::io::Error,
+    },
+    /// Occurs when a file that the system file names has none of the columns that it may have.
+    #[error("the first line of {} names no column", path.display())]
+    NoColumns {
+        /// The file.
+        path: PathBuf,
+        /// The columns that it may have.
+        allowed: &'static [&'static str],
     },
     /// Occurs when the reader of another kind of bars file fails.
     #[error("{0}")]
@@ -218,6 +227,9 @@ pub enum SystemFileErrorKind {
         /// The limit.
         limit: usize,
     },
+    /// Occurs when a system by name, with its names, needs more memory than there is.
+    #[error("{0}")]
+    Memory(OutOfMemory),
     /// Occurs when a bars file has a header and no rows.
     #[error("there are columns but no bars")]
     NoRows,
@@ -308,6 +320,9 @@ impl SystemFileErrorKind {
             Self::UnknownJoint { suggestion, .. } => {
                 return suggestion.as_ref().map(|near| format!("did you mean {near:?}?"));
             }
+            Self::NoColumns { allowed, .. } => {
+                return Some(format!("columns may be: {}", allowed.join(", ")));
+            }
             Self::MissingKey { key, wanted } => return Some(format!("{key} must be {wanted}")),
             Self::OutOfRange { wanted, .. } => return Some(format!("allowed: {wanted}")),
             Self::Conflict { key, other } => {
@@ -350,6 +365,7 @@ impl SystemFileErrorKind {
                 "numbers are written without quotes"
             }
             Self::WrongCount { .. } => "a vector is written [x, y, z]",
+            Self::Memory(_) => "fewer members, or shorter names of joints, need less memory",
             Self::TooManyBars { .. } => {
                 "an answer over more bars than this does not fit into 24 GB of memory"
             }
@@ -392,12 +408,17 @@ fn place_in_file(row: usize, column: Option<&str>) -> String {
     column.map_or_else(|| format!("{row}: "), |column| format!("{row}, column `{column}`: "))
 }
 
+/// What to do about masses of which the lightest is lost.
+const MASS_RANGE_HELP: &str =
+    "check the units: masses are in kilograms; a mass that does not count may be 0";
+
 fn chain_help(error: &ChainError) -> Option<&'static str> {
     match error {
         ChainError::NoBars => Some("describe every bar under a line [[bars]]"),
         ChainError::Overflow { .. } | ChainError::Underflow { .. } => {
             Some("check the units: lengths are in metres, masses in kilograms")
         }
+        ChainError::MassRange { .. } => Some(MASS_RANGE_HELP),
         ChainError::Gravity { .. } | ChainError::Anchor { .. } => None,
     }
 }
@@ -421,6 +442,7 @@ fn system_help(error: &SystemError) -> Option<&'static str> {
         SystemError::Overflow { .. } | SystemError::Underflow { .. } => {
             Some("check the units: lengths are in metres, masses in kilograms, forces in newtons")
         }
+        SystemError::MassRange { .. } => Some(MASS_RANGE_HELP),
         SystemError::NotDrawn { .. } => Some(
             "give it a place: near_m = [x, y, z]; without any near_m the lowest equilibrium is found",
         ),

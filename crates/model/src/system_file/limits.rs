@@ -1,6 +1,6 @@
 //! How large a system may be.
 
-use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
+use crate::budget::{memory, set_memory};
 
 /// Most bars of one system: what an answer over so many joints still leaves of 24 GB of memory.
 pub const MAX_BARS: usize = 20_000_000;
@@ -13,24 +13,24 @@ pub const MAX_FILE_BYTES: u64 = 64 << 20;
 pub const MAX_BARS_FILE_BYTES: u64 = 100 * MAX_BARS as u64;
 
 /// Memory that a bar of a chain needs, from its file to the answers of both solvers, bytes: at most
-/// 250 are measured, with two million bars.
-pub const BYTES_PER_BAR: u64 = 300;
+/// 760 are measured, with a hundred thousand bars.
+pub const BYTES_PER_BAR: u64 = 900;
 
 /// Memory that a byte of a system file needs while it is parsed, bytes: at most 67 are measured, of
 /// a file of empty arrays (48 of one of empty lines).
 pub const BYTES_PER_FILE_BYTE: u64 = 80;
 
-static BARS: AtomicUsize = AtomicUsize::new(MAX_BARS);
-static FILE_BYTES: AtomicU64 = AtomicU64::new(MAX_FILE_BYTES);
-
 /// Hold all readers of this process to what fits into so much memory, bytes: files longer than a
-/// [`BYTES_PER_FILE_BYTE`]-th of it, and chains of more bars than a [`BYTES_PER_BAR`]-th, are
-/// refused where the file says so, before they are made. Never more than [`MAX_FILE_BYTES`] and
-/// [`MAX_BARS`], which hold until this is called.
+/// [`BYTES_PER_FILE_BYTE`]-th of it, chains of more bars than a [`BYTES_PER_BAR`]-th, and other systems
+/// of more members than a [`BYTES_PER_MEMBER`]-th, are refused where the file says so, before they are
+/// made. Never more than [`MAX_FILE_BYTES`], [`MAX_BARS`] and
+/// [`MAX_MEMORY`](crate::budget::MAX_MEMORY), which hold until this is called.
+///
+/// [`BYTES_PER_MEMBER`]: crate::budget::BYTES_PER_MEMBER
 ///
 /// ```standalone_crate
 /// use model::system_file::{limit_memory, parse};
-/// limit_memory(300_000);
+/// limit_memory(900_000);
 /// let chain = |count| format!(
 ///     "anchors = {{ start_m = [0, 0, 0], end_m = [0, 0, -1] }}\n\
 ///      [[bars]]\nlength_m = 1\nmass_kg = 1\ncount = {count}\n"
@@ -40,19 +40,22 @@ static FILE_BYTES: AtomicU64 = AtomicU64::new(MAX_FILE_BYTES);
 /// assert!(error.to_string().starts_with("chain.toml:5:9: bars[1].count"), "{error}");
 /// ```
 pub fn limit_memory(bytes: u64) {
-    let bars = usize::try_from(bytes / BYTES_PER_BAR).unwrap_or(usize::MAX);
-    BARS.store(bars.min(MAX_BARS), Ordering::Relaxed);
-    FILE_BYTES.store((bytes / BYTES_PER_FILE_BYTE).min(MAX_FILE_BYTES), Ordering::Relaxed);
+    set_memory(bytes);
 }
 
 /// Most bars of one system, as [`limit_memory`] has it.
 #[must_use]
 pub fn most_bars() -> usize {
-    BARS.load(Ordering::Relaxed)
+    usize::try_from(memory() / BYTES_PER_BAR).unwrap_or(usize::MAX).min(MAX_BARS)
 }
 
 /// Longest system file, bytes, as [`limit_memory`] has it.
 #[must_use]
 pub fn most_file_bytes() -> u64 {
-    FILE_BYTES.load(Ordering::Relaxed)
+    (memory() / BYTES_PER_FILE_BYTE).min(MAX_FILE_BYTES)
+}
+
+/// Longest file of bars or joints, bytes: what is read of it stays in memory beside its text.
+pub(super) fn most_bars_file_bytes() -> u64 {
+    memory().min(MAX_BARS_FILE_BYTES)
 }

@@ -1,11 +1,11 @@
 //! Files as text.
 
-use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
 
 use super::error::SystemFileError;
 use super::kind::SystemFileErrorKind as Kind;
+use crate::open_input;
 
 /// What the replacement character stands for in a text takes three bytes in it.
 const REPLACEMENT_BYTES: usize = char::REPLACEMENT_CHARACTER.len_utf8();
@@ -23,7 +23,7 @@ pub(super) struct Loaded {
 /// The length is counted while reading: pipes and devices do not know theirs.
 pub(super) fn load(path: &Path, limit: u64) -> io::Result<Result<Loaded, SystemFileError>> {
     let file = path.display().to_string();
-    let source = File::open(path)?;
+    let source = open_input(path)?;
     let length = source.metadata()?.len();
     let mut bytes = Vec::with_capacity(usize::try_from(length.min(limit)).unwrap_or(0));
     source.take(limit + 1).read_to_end(&mut bytes)?;

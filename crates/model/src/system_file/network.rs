@@ -10,7 +10,6 @@ use super::document::bar;
 use super::drawing;
 use super::error::SystemFileError;
 use super::kind::SystemFileErrorKind as Kind;
-use super::limits::most_bars;
 use super::network_rows::{self, FREE, member_kind};
 use super::row_table::{Known, Row};
 use super::sheet::SheetFile;
@@ -50,6 +49,9 @@ const DRAWN_BARS: &Known = &network_rows::DRAWN_BARS;
 /// So many joints are looked through for the one that was meant.
 const MOST_NAMES: usize = 10_000;
 
+/// Room for the number behind the name of a row.
+const DIGITS: usize = 9;
+
 /// A system while it is read.
 struct Reading<'a> {
     root: &'a Table<'a>,
@@ -57,6 +59,8 @@ struct Reading<'a> {
     /// Where each named joint stands.
     joint_spans: Vec<Range<usize>>,
     numbers: HashMap<String, usize>,
+    /// How many runs between two joints have been named.
+    runs: HashMap<String, usize>,
     /// Whether a place is drawn for any joint.
     drawn: bool,
     members: Vec<Member>,
@@ -83,6 +87,7 @@ pub(super) fn read(root: &Table<'_>) -> Result<System, SystemFileError> {
         joints: Vec::new(),
         joint_spans: Vec::new(),
         numbers: HashMap::new(),
+        runs: HashMap::new(),
         drawn: false,
         members: Vec::new(),
         tables: Vec::new(),
@@ -118,6 +123,8 @@ impl Reading<'_> {
         let before = joints.len();
         let mut take = |row: &Row<'_>| {
             let joint = network_rows::joint(row)?;
+            let asked = root.source().budget.take_joints(1, joint.name.len());
+            asked.map_err(|error| (Some("name"), Kind::Memory(error)))?;
             numbers.insert(joint.name.clone(), joints.len());
             joints.push(joint);
             Ok(())
@@ -141,7 +148,9 @@ impl Reading<'_> {
             let (from, to) = (&self.joints[from], &self.joints[to]);
             if is_drawn { drawing::length_m(from, to, 1) } else { Ok(None) }
         };
+        let budget = &self.root.source().budget;
         let mut take = |row: &Row<'_>| {
+            budget.take_members(1).map_err(|error| (None, Kind::Memory(error)))?;
             members.push(network_rows::member(row, &number, &drawn)?);
             Ok(())
         };
@@ -181,10 +190,11 @@ impl Reading<'_> {
             length.map_err(|kind| table.error(kind, "length_m"))
         };
         let model = member(table, &drawn)?;
-        if count > most_bars() - self.members.len() {
-            return Err(table.error(Kind::TooManyBars { limit: most_bars() }, "count"));
-        }
         let run = self.free_run(from_name, to_name, count);
+        let budget = &table.source().budget;
+        let asked = budget.take_members(count);
+        let asked = asked.and_then(|()| budget.take_joints(count, run.len() + DIGITS));
+        asked.map_err(|error| table.error(Kind::Memory(error), "count"))?;
         let mut here = from;
         for k in 1..=count {
             let there = if k == count {
@@ -207,9 +217,13 @@ impl Reading<'_> {
     fn free_run(&mut self, from: &str, to: &str, count: usize) -> String {
         let mut run = format!("{from}-{to}");
         if count > 1 {
-            let mut again = 1;
+            let again = self.runs.entry(run.clone()).or_insert(0);
+            *again += 1;
+            if *again > 1 {
+                run = format!("{from}-{to}#{again}");
+            }
             while self.numbers.contains_key(&format!("{run}.1")) {
-                again += 1;
+                *again += 1;
                 run = format!("{from}-{to}#{again}");
             }
             self.numbers.insert(format!("{run}.1"), self.joints.len());

@@ -82,14 +82,14 @@ fn described(
 ) -> Result<Described, SystemFileError> {
     let (reader, rows) = readers.map(|readers| (readers.bars, readers.rows)).unzip();
     if !json::is_json(text) {
-        return Source { file, text, folder, reader, rows }.described();
+        return Source { folder, reader, rows, ..Source::of(file, text) }.described();
     }
     let failed = |(offset, message): (usize, String)| {
         let kind = Kind::Json(message);
         SystemFileError::new(file, text, Some(offset..offset), None, kind)
     };
     let same = json::as_toml(text).map_err(failed)?;
-    let source = Source { file, text: &same, folder, reader, rows };
+    let source = Source { folder, reader, rows, ..Source::of(file, &same) };
     source.described().map_err(|error| error.of_text(text))
 }
 
@@ -102,7 +102,7 @@ pub fn read_system(path: impl AsRef<Path>) -> Result<Chain, SystemFileError> {
     let path = path.as_ref();
     let Loaded { file, text } = open(path)?;
     let text = without_mark(&text);
-    Source { file: &file, text, folder: path.parent(), reader: None, rows: None }.chain()
+    Source { folder: path.parent(), ..Source::of(&file, text) }.chain()
 }
 
 /// Read a system file that describes an equilibrium problem.
@@ -128,7 +128,7 @@ pub fn read_problem_with(
     let path = path.as_ref();
     let Loaded { file, text } = open(path)?;
     let text = without_mark(&text);
-    Source { file: &file, text, folder: path.parent(), reader: Some(reader), rows: None }.problem()
+    Source { folder: path.parent(), reader: Some(reader), ..Source::of(&file, text) }.problem()
 }
 
 /// Parse the text of a system file; `file` is its name in errors. The bars must stand in the text:
@@ -148,7 +148,7 @@ pub fn read_problem_with(
 /// # Ok::<(), model::system_file::SystemFileError>(())
 /// ```
 pub fn parse_system(text: &str, file: &str) -> Result<Chain, SystemFileError> {
-    Source { file, text: without_mark(text), folder: None, reader: None, rows: None }.chain()
+    Source::of(file, without_mark(text)).chain()
 }
 
 /// Parse the text of a system file that describes an equilibrium problem; see [`parse_system`].
@@ -169,7 +169,7 @@ pub fn parse_system(text: &str, file: &str) -> Result<Chain, SystemFileError> {
 /// assert_eq!(error, format!("{place}{why}"));
 /// ```
 pub fn parse_problem(text: &str, file: &str) -> Result<Problem, SystemFileError> {
-    Source { file, text: without_mark(text), folder: None, reader: None, rows: None }.problem()
+    Source::of(file, without_mark(text)).problem()
 }
 
 fn open(path: &Path) -> Result<Loaded, SystemFileError> {

@@ -3,10 +3,9 @@
 use std::borrow::Cow;
 
 use super::kind::SystemFileErrorKind as Kind;
-use super::limits::most_bars;
 use super::rows::{Cell, Rows};
 use super::suggest::nearest;
-use crate::Vector;
+use crate::{Vector, name_of_cell};
 
 /// What is wrong with a row, and in which of the known columns.
 pub(super) type Wrong = (Option<&'static str>, Kind);
@@ -107,9 +106,6 @@ impl Rows for RowTable<'_> {
     fn row(&mut self, cells: &[Cell<'_>]) -> bool {
         self.rows += 1;
         let number = self.rows;
-        if number > most_bars() {
-            return self.fail(number, None, Kind::TooManyBars { limit: most_bars() });
-        }
         let row = Row { number, known: self.known, places: &self.places, cells };
         match (self.take)(&row) {
             Ok(()) => true,
@@ -173,7 +169,7 @@ impl Row<'_> {
         const LARGEST: f64 = 9_007_199_254_740_992.0;
         match self.cell(column) {
             Cell::Nothing => Err((Some(column), Kind::EmptyCell)),
-            Cell::Text(text) => Ok(Cow::Borrowed(text)),
+            Cell::Text(text) => Ok(Cow::Borrowed(name_of_cell(text))),
             Cell::Number(number) if number.fract() == 0.0 && number.abs() < LARGEST => {
                 Ok(Cow::Owned(format!("{number}")))
             }

@@ -5,8 +5,8 @@ use std::path::PathBuf;
 use super::csv;
 use super::error::SystemFileError;
 use super::kind::SystemFileErrorKind as Kind;
-use super::limits::MAX_BARS_FILE_BYTES;
-use super::load::{Loaded, load, without_mark};
+use super::load::{Loaded, without_mark};
+use super::named;
 use super::row_table::{Fault, Known, Row, RowTable, Wrong};
 use super::table::Table;
 
@@ -41,10 +41,7 @@ impl SheetFile {
                 None => Ok(Some(sheet)),
             };
         }
-        let loaded = match load(&path, MAX_BARS_FILE_BYTES) {
-            Ok(loaded) => loaded?,
-            Err(error) => return Err(root.error(Kind::UnreadableBars { path, error }, key)),
-        };
+        let loaded = named::text(root, key, path.clone(), known.columns)?;
         let fed = csv::feed(without_mark(&loaded.text), &mut rows);
         let fault = rows.finish();
         let sheet = Self { key, path, text: Some(loaded) };

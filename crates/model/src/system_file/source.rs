@@ -8,6 +8,7 @@ use super::error::SystemFileError;
 use super::kind::SystemFileErrorKind as Kind;
 use super::rows::RowsReader;
 use crate::Bar;
+use crate::budget::Budget;
 
 /// Reads bars from a file of another kind than [`columns`](super::columns), for
 /// [`read_problem_with`](super::read_problem_with): `None` if it does not know this kind.
@@ -31,9 +32,15 @@ pub(super) struct Source<'a> {
     pub(super) folder: Option<&'a Path>,
     pub(super) reader: Option<BarsReader<'a>>,
     pub(super) rows: Option<RowsReader<'a>>,
+    /// What the system may come to need.
+    pub(super) budget: Budget,
 }
 
-impl Source<'_> {
+impl<'a> Source<'a> {
+    /// A text that comes from no folder, with all memory there is.
+    pub(super) fn of(file: &'a str, text: &'a str) -> Self {
+        Self { file, text, folder: None, reader: None, rows: None, budget: Budget::default() }
+    }
     pub(super) fn error(
         &self,
         kind: Kind,

@@ -65,6 +65,31 @@ fn moments_of_a_prestressed_member_are_those_at_the_length_given() {
     }
 }
 
+/// A weight on a link of 1 m swings with `ω² = g/l` across an elastic cable that is slack, and with
+/// `ω² = g/l + EA/(m l_0)`, about, where one of the same stiffness is just taut: a slack one is no
+/// spring.
+#[test]
+fn a_slack_elastic_cable_is_no_spring() {
+    let (mass_kg, stiffness_n) = (2.0, 30.0);
+    let joints = vec![
+        Joint::anchor("A", [0.0; 3]),
+        Joint::anchor("B", [1.5, 0.0, -1.0]),
+        Joint::free("P").with_mass(mass_kg),
+    ];
+    let link = Member::bar(0, 2, Bar::homogeneous(1.0, 0.0).unwrap());
+    let at = [[0.0; 3], [1.5, 0.0, -1.0], [0.0, 0.0, -1.0]];
+    let omega2 = |length_m: f64| {
+        let body = Bar::homogeneous(length_m, 0.0).unwrap();
+        let cable = Member::cable(1, 2, body).with_stiffness(stiffness_n);
+        let system = System::new("tied", G, joints.clone(), vec![link.clone(), cable]).unwrap();
+        let found = modes(&system, &at, None).unwrap();
+        found.modes.iter().map(|mode| mode.omega2_s2).collect::<Vec<f64>>()
+    };
+    near(&omega2(1.7), &[G, G], 1e-9);
+    let taut = omega2(1.5 * (1.0 - 1e-9));
+    near(&taut, &[G, G + stiffness_n / 1.5 / mass_kg], 1e-6);
+}
+
 #[test]
 fn point_masses_on_massless_links_have_the_zeros_of_laguerre() {
     near(&frequencies(&links(2), &[1.0; 2]), &[2.0 - 2.0_f64.sqrt(), 2.0 + 2.0_f64.sqrt()], 1e-13);

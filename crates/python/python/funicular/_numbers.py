@@ -23,6 +23,9 @@ MOST_WIDTH = 8
 
 def array(argument: str, value: Any, shape: tuple[int | str, ...]) -> Array:
     """A contiguous array of doubles of this shape, whatever it was before; letters stand for any size."""
+    if np.ma.is_masked(value):
+        # What the mask hides would be taken for a number.
+        raise _misshapen(argument, shape, "an array with masked entries")
     try:
         given = np.asarray(value)
     except Exception as error:

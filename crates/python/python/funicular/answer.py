@@ -199,6 +199,15 @@ class Answer:
         return list(self.data["failures"])
 
     @property
+    def near(self) -> Record | None:
+        """How the first answer lies to the shape next to which it was sought; ``None`` where the lowest was sought.
+
+        ``is_neighbour``; ``joint``, ``moved_m`` and ``moved`` (in units of the shortest member there): the largest move;
+        ``barrier_j``: how far the energy rises on the way; ``lower_j``: the energy of a lower equilibrium, if one is known.
+        """
+        return Record(self.data["near"]) if self.data.get("near") else None
+
+    @property
     def agreement(self) -> Record | None:
         """The comparison of both answers, with its numbers; ``None`` if there is one answer."""
         return Record(self.data["agreement"]) if self.data["agreement"] else None
@@ -317,6 +326,7 @@ class Answer:
 def solve(
     system: System | None = None,
     *,
+    near: Numbers | None = None,
     lengths: Numbers | None = None,
     masses: Numbers | None = None,
     end: Vector | None = None,
@@ -330,11 +340,12 @@ def solve(
     threads: int = 0,
     progress: Progress = None,
 ) -> Answer:
-    """The hanging equilibrium, by two solvers that share no mechanics, compared, judged and proved as far as it goes.
+    """The lowest equilibrium, or the one next to a shape, by two solvers that share no mechanics, compared, judged and proved as far as it goes.
 
     Parameters
     ----------
     system : a :class:`System`; or give a chain by ``lengths``, ``masses``, ``end`` and what else its arrays need
+    near : (joints, 3) m, optional: a shape, next to which the equilibrium is sought: see :meth:`System.near`
     solver : ``both``, ``lagrange`` or ``energy``
     equations : ``condensed``, or ``full`` for all coordinates and multipliers of the paper (some 30 bars)
     census : ``auto`` looks up chains of up to 8 bars in the list of all equilibria, ``never`` none, ``always`` all
@@ -371,6 +382,7 @@ def solve(
         raise InputError("give a system or the arrays of a chain, not both")
     if not isinstance(system, System):
         raise InputError(f"a System is wanted, got {type(system).__name__}")
+    system = system._asked(near)
     with shown(progress) as callback:
         found = _native.solve(
             system._problem, str(solver), str(equations), str(census), whole("threads", threads), callback

@@ -199,7 +199,7 @@ def _arrays(lengths: Any, masses: Any, ends: Any, starts: Any, centres: Any) -> 
     bars = array("lengths", lengths, ("k", "n") if np.ndim(lengths) == 2 else ("n",)).shape[-1]
     whole_arrays: dict[str, Array | None] = {"centres": None}
     for name, value in given.items():
-        if value is None:
+        if value is None and name == "centres":
             continue
         size = 3 if name in ("ends", "starts") else bars
         shape: tuple[int, ...] = (chains, size) if np.ndim(value) == 2 else (size,)

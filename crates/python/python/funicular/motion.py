@@ -13,7 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _native
-from ._numbers import Array, Vector, array, number, vector, whole
+from ._numbers import Array, Numbers, Vector, array, number, vector, whole
 from ._progress import Progress, shown
 from .errors import SettingError
 from .system import System, printable
@@ -80,6 +80,7 @@ class Motion:
 def simulate(
     system: System,
     *,
+    near: Numbers | None = None,
     start: Start = "rest",
     time: float = 10.0,
     step: float = 1e-3,
@@ -96,6 +97,7 @@ def simulate(
 
     Parameters
     ----------
+    near : (joints, 3) m, optional: a shape, next to whose equilibrium ``rest`` is: see :meth:`System.near`
     start : ``rest`` (the stable equilibrium), ``equilibrium:2``, ``angles=0,60,-60`` (bars from the descending
         vertical, degrees), ``seed:7`` (at random), or (joints, 3) places, m
     time, step, store : s; ``store`` is the time between stored times, a thousandth of the whole if not given
@@ -127,6 +129,7 @@ def simulate(
     >>> bool(abs(m.velocities_m_s[-1, 0, 0] - 6) < 1e-3)
     True
     """
+    system = system._asked(near)
     word, joints = (start, None) if isinstance(start, str) else ("rest", array("start", start, ("joints", 3)))
     impulses = [(str(joint), vector(f"pushes[{joint!r}]", push)) for joint, push in (pushes or {}).items()]
     _affordable(system, number("time", time), number("step", step), store)
@@ -242,6 +245,7 @@ class ModesOf:
 def modes(
     system: System,
     *,
+    near: Numbers | None = None,
     max_bars: int | None = None,
     lowest: int | None = None,
     threads: int = 0,
@@ -249,7 +253,7 @@ def modes(
 ) -> Modes:
     """Small oscillations. Raises MotionError.
 
-    ``max_bars``: take a census of chains of up to so many (8). ``lowest``: find so many modes of each equilibrium; if
+    ``near``: (joints, 3) m, a shape, about whose equilibrium they are: see :meth:`System.near`. ``max_bars``: take a census of chains of up to so many (8). ``lowest``: find so many modes of each equilibrium; if
     not given all of systems of up to 100 joints, and 20 of larger ones.
 
     >>> import funicular as fn
@@ -260,6 +264,7 @@ def modes(
     >>> len(rope.modes(lowest=30)[0].omega2_s2)
     30
     """
+    system = system._asked(near)
     bars = None if max_bars is None else whole("max_bars", max_bars)
     count = None if lowest is None else whole("lowest", lowest)
     with shown(progress) as callback:

@@ -337,23 +337,48 @@ class System:
         """The system file that reads back to the same system, bit for bit."""
         return self._problem.toml()
 
+    def near(self, joints: Numbers) -> System:
+        """The same system with another question: the equilibrium next to this shape, not the lowest.
+
+        ``joints``: (joints, 3) m, where every joint is drawn; one that is held stays where it is. All that is asked of
+        the system begins there: ``solve``, ``modes``, ``simulate``; their argument ``near`` does the same for one
+        question. A chain becomes a system of joints and members.
+
+        A rod of 1 m that may turn about its foot hangs, or stands on its head:
+
+        >>> import funicular as fn
+        >>> rod = fn.System.from_arrays(joints=2, anchors={0: (0, 0, 0)}, bars=[[0, 1]], lengths=[1], joint_masses={1: 1.0})
+        >>> a = rod.near([[0, 0, 0], [0, 0, 0.9]]).solve(solver="lagrange")
+        >>> a.joints_m[1].round(12).tolist(), a.is_stable, a.near.is_neighbour
+        ([0.0, 0.0, 1.0], False, True)
+
+        Raises ShapeError, AnswerError when there are more or fewer places than joints, SystemError when two are at one
+        place.
+        """
+        return System._of(self._problem.near(array("joints", joints, ("joints", 3))))
+
+    def _asked(self, near: Numbers | None) -> System:
+        return self if near is None else self.near(near)
+
     def solve(
         self,
         *,
+        near: Numbers | None = None,
         solver: str = "both",
         equations: str = "condensed",
         census: str = "auto",
         threads: int = 0,
         progress: Progress = None,
     ) -> Answer:
-        """The hanging equilibrium, by both solvers, compared, judged, and proved as far as it goes.
+        """The lowest equilibrium, or the one next to a shape, by both solvers, compared, judged, and proved as far as it
+        goes.
 
         See :func:`funicular.solve`, which takes the same settings.
         """
         from .answer import solve
 
         return solve(
-            self, solver=solver, equations=equations, census=census, threads=threads, progress=progress
+            self, near=near, solver=solver, equations=equations, census=census, threads=threads, progress=progress
         )
 
     def census(self, *, max_bars: int | None = None, threads: int = 0, progress: Progress = None) -> Census:
@@ -385,6 +410,7 @@ class System:
     def modes(
         self,
         *,
+        near: Numbers | None = None,
         max_bars: int | None = None,
         lowest: int | None = None,
         threads: int = 0,
@@ -393,7 +419,7 @@ class System:
         """Small oscillations about its equilibria. See :class:`funicular.Modes`."""
         from .motion import modes
 
-        return modes(self, max_bars=max_bars, lowest=lowest, threads=threads, progress=progress)
+        return modes(self, near=near, max_bars=max_bars, lowest=lowest, threads=threads, progress=progress)
 
     def __repr__(self) -> str:
         bars = len(self.member_joints)

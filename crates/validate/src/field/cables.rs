@@ -7,8 +7,8 @@ use serde::Deserialize;
 use super::elastic_catenary::{ElasticCatenary, EndForces};
 use super::entry::{BothSolvers, Compared, Entry, HandCheck};
 use super::run_of_members::{end_forces, run_of_members, run_on_floor};
-use crate::answer::Solvers;
 use crate::foreign::{ForeignAnswer, judge_foreign};
+use crate::question::Solvers;
 use crate::systems::ask;
 
 const MOORPY: &str = "NREL MoorPy, tests/test_catenary.py, \

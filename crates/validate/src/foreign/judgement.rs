@@ -17,7 +17,7 @@ use super::nearest::{Nearest, NearestEquilibrium, nearest};
 use super::violation::{
     Measured, Violation, balance_found, balance_given, geometry_and_laws, whole,
 };
-use crate::systems::{SystemStatics, certify, judge};
+use crate::systems::{ABSURD, Scale, SystemStatics, certify, judge};
 use crate::vector::norm;
 
 /// What the judgement comes to.
@@ -43,6 +43,19 @@ pub enum Finding {
         /// The largest difference of an axial force, N.
         forces_n: f64,
         /// What the tolerance allows, N.
+        allowed_n: f64,
+    },
+    /// No law is broken, but forces that are not unique exceed the loads so far that what the
+    /// tolerance allows them hides the loads, or that no system bears them: a self-stress of any size
+    /// may be among them.
+    LoadsHidden {
+        /// The member with the largest force, from 1.
+        member: usize,
+        /// Its axial force, N.
+        force_n: f64,
+        /// All loads, and the prestress of elastic members, N.
+        loads_n: f64,
+        /// What the tolerance allows a force, N.
         allowed_n: f64,
     },
     /// No law is broken, and no solver found an equilibrium.
@@ -180,7 +193,7 @@ pub fn judge_foreign(
     let Trial { bounds, forces, completed, measured, force_digits } =
         trial(system, answer, tolerance, watch);
     let nearest = nearest(system, &completed, bounds.position_m, watch);
-    let finding = finding(system, answer, &measured, &nearest, &bounds);
+    let finding = finding(system, answer, (&completed, &measured), &nearest, &bounds);
     watch("the rungs");
     let ladder = ladder(system, &completed, finding, &measured, &nearest, &bounds);
     Ok(Judgement {
@@ -263,8 +276,9 @@ fn confirmed_at(
         if Bounds::of_positions(system, &answer.joints_m, *power).position_m < apart_m {
             return false;
         }
-        let Trial { bounds, measured, .. } = trial(system, answer, *power, watch);
-        finding(system, answer, &measured, nearest, &bounds) == Finding::Confirmed
+        let Trial { bounds, completed, measured, .. } = trial(system, answer, *power, watch);
+        let judged = (&completed, &measured);
+        finding(system, answer, judged, nearest, &bounds) == Finding::Confirmed
     })
 }
 
@@ -297,7 +311,7 @@ fn measure(
 fn finding(
     system: &System,
     answer: &ForeignAnswer,
-    measured: &Measured,
+    (completed, measured): (&SystemEquilibrium, &Measured),
     nearest: &Nearest,
     bounds: &Bounds,
 ) -> Finding {
@@ -317,7 +331,26 @@ fn finding(
     if answer.axial_n.is_some() && found.forces_unique == Some(true) && forces_n > allowed_n {
         return Finding::OtherForces { forces_n, allowed_n };
     }
+    if found.forces_unique != Some(true)
+        && let Some(hidden) = loads_hidden(system, completed, bounds)
+    {
+        return hidden;
+    }
     Finding::Confirmed
+}
+
+/// Whether the loads are lost beside the forces of an answer.
+fn loads_hidden(
+    system: &System,
+    completed: &SystemEquilibrium,
+    bounds: &Bounds,
+) -> Option<Finding> {
+    let (loads_n, allowed_n) = (Scale::new(system, completed).held_n, bounds.force_n);
+    let forces = completed.axial_n.iter().enumerate();
+    let (k, &force_n) = forces.max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()))?;
+    let hidden = allowed_n >= loads_n || force_n.abs() >= ABSURD * loads_n;
+    let finding = Finding::LoadsHidden { member: k + 1, force_n, loads_n, allowed_n };
+    (loads_n > 0.0 && hidden).then_some(finding)
 }
 
 /// How far the force of a member (from 1) may be off.
@@ -365,27 +398,31 @@ fn ladder(
     } else {
         Status::Open(Reason::AboveTolerance(convergence))
     };
-    ladder.agreed = Status::Open(match nearest.equilibria.first() {
-        _ if !measured.violations.is_empty() => {
-            refused(Quantity::SystemStatics { solver, place }, measured.largest, 1.0)
+    let apart =
+        |found: &NearestEquilibrium, excess: fn([SolverName; 2]) -> Quantity, value, budget| {
+            let what = excess([solver.clone(), found.equilibrium.solver.clone()]);
+            let excesses = vec![Excess { what, value, budget }];
+            Reason::SolversDisagree(Disagreement { excesses, stability: vec![] })
+        };
+    ladder.agreed = Status::Open(match (finding, nearest.equilibria.first()) {
+        _ if !measured.violations.is_empty() => refused(
+            Quantity::SystemStatics { solver: solver.clone(), place },
+            measured.largest,
+            1.0,
+        ),
+        (Finding::LoadsHidden { member, force_n, loads_n, allowed_n }, _) => {
+            let most = ABSURD.min(force_n.abs() / allowed_n);
+            let solver = solver.clone();
+            refused(Quantity::LargeForce { solver, member }, force_n.abs() / loads_n, most)
         }
-        Some(found) => {
-            let between = [solver, found.equilibrium.solver.clone()];
-            let excess = match finding {
-                Finding::OtherForces { forces_n, allowed_n } => Excess {
-                    what: Quantity::Forces { between },
-                    value: forces_n,
-                    budget: allowed_n,
-                },
-                _ => Excess {
-                    what: Quantity::Joints { between },
-                    value: found.joints_m,
-                    budget: bounds.position_m,
-                },
-            };
-            Reason::SolversDisagree(Disagreement { excesses: vec![excess], stability: vec![] })
+        (Finding::OtherForces { forces_n, allowed_n }, Some(found)) => {
+            apart(found, |between| Quantity::Forces { between }, forces_n, allowed_n)
         }
-        None => Reason::NotTried,
+        (_, Some(found)) => {
+            let budget_m = bounds.position_m;
+            apart(found, |between| Quantity::Joints { between }, found.joints_m, budget_m)
+        }
+        (_, None) => Reason::NotTried,
     });
     // A certificate needs no second answer: it bounds the energy of every configuration.
     if let Err(because) = certify(system, completed) {

@@ -28,6 +28,12 @@ impl Display for Finding {
                 "undecided: the positions are those of an equilibrium, whose forces differ by {forces_n:.3e} N from \
                  those given; the tolerance is {allowed_n:.1e} N"
             ),
+            Self::LoadsHidden { member, force_n, loads_n, allowed_n } => write!(
+                f,
+                "undecided: the positions are those of an equilibrium, but the forces, up to {force_n:.3e} N in member \
+                 {member}, exceed all loads ({loads_n:.3e} N) by so much that the tolerance, {allowed_n:.1e} N, hides them: \
+                 a self-stress of any size may be among the forces"
+            ),
             Self::NoEquilibrium => {
                 f.write_str("undecided: no law is broken, and no solver found an equilibrium")
             }

@@ -7,7 +7,7 @@ use model::{Bar, ForceChoice, SelfStresses, SolverName};
 use super::compare::judge_alone;
 use super::tests::{four_legs, lamp};
 use super::{ask_with, compare};
-use crate::answer::{Solvers, UseCensus};
+use crate::question::{Question, UseCensus};
 use crate::tolerances::Tolerances;
 use crate::vector::{minus, plus, times};
 
@@ -122,7 +122,8 @@ fn on_the_floor() -> (System, SystemEquilibrium) {
 /// As `energy` solves it.
 fn solved(joints: Vec<Joint>, members: Vec<Member>) -> (System, SystemEquilibrium) {
     let system = System::new("solved", 10.0, joints, members).unwrap();
-    let answer = ask_with(&system, Solvers::Both, UseCensus::Never, &|_| {});
+    let answer =
+        ask_with(&system, &Question { census: UseCensus::Never, ..Question::default() }, &|_| {});
     assert!(answer.agrees(), "{:?} {:?}", answer.failures, answer.agreement);
     (system, answer.equilibria[1].clone())
 }

@@ -8,7 +8,7 @@ use super::compare::{SystemAgreement, compare, judge_alone, judge_without};
 use super::completeness::look_up;
 use super::near::{Near, lower_j, next_to};
 use super::verified::verify;
-use crate::answer::{Solvers, UseCensus};
+use crate::question::{Equations, Question, Solvers, UseCensus};
 use crate::tolerances::Tolerances;
 
 /// Both answers for a system with what is known of them.
@@ -33,6 +33,9 @@ pub enum SystemFailure {
     /// Occurs when `lagrange` has no answer.
     #[error("lagrange: {0}")]
     Lagrange(#[from] lagrange::network::Error),
+    /// Occurs when `lagrange` is asked for the paper's equations of a row, and has no answer.
+    #[error("lagrange: {0}")]
+    Full(#[from] lagrange::SolveError),
     /// Occurs when `energy` has no answer.
     #[error("energy: {0}")]
     Energy(#[from] energy::network::Error),
@@ -53,7 +56,7 @@ impl SystemFailure {
     #[must_use]
     pub fn solver(&self) -> SolverName {
         match self {
-            Self::Lagrange(_) => SolverName::LAGRANGE,
+            Self::Lagrange(_) | Self::Full(_) => SolverName::LAGRANGE,
             Self::Energy(_) => SolverName::ENERGY,
         }
     }
@@ -79,7 +82,7 @@ impl SystemAnswer {
 /// A solver that has no answer does not take the other's away: see [`SystemAnswer::failures`].
 ///
 /// ```
-/// use validate::{answer::Solvers, systems::ask};
+/// use validate::{Solvers, systems::ask};
 /// // The paper's chain as a system of joints and members: its hanging shape has
 /// // V = 2.33546865 mgl above three lengths below joint 0, 2.33546865 - 6 from joint 0 itself.
 /// let chain = model::cases::paper().into_chain();
@@ -89,20 +92,19 @@ impl SystemAnswer {
 /// ```
 #[must_use]
 pub fn ask(system: &System, solvers: Solvers, watch: &dyn Fn(&str)) -> SystemAnswer {
-    ask_with(system, solvers, UseCensus::Auto, watch)
+    ask_with(system, &Question { solvers, ..Question::default() }, watch)
 }
 
-/// The same, with or without the proofs in interval arithmetic: the rungs `verified` and
-/// `complete`.
+/// The same in full: with which equations, with or without the proofs in interval arithmetic (the
+/// rungs `verified` and `complete`), on how many threads.
 #[must_use]
-pub fn ask_with(
-    system: &System,
-    solvers: Solvers,
-    census: UseCensus,
-    watch: &dyn Fn(&str),
-) -> SystemAnswer {
+pub fn ask_with(system: &System, question: &Question, watch: &dyn Fn(&str)) -> SystemAnswer {
+    let Question { solvers, census, .. } = *question;
     let drawing_m = system.drawing();
-    let mut answers = answers(system, drawing_m.as_deref(), solvers, watch);
+    let mut answers = match &drawing_m {
+        Some(drawing_m) => near_to(system, drawing_m, solvers, watch),
+        None => lowest(system, question, watch),
+    };
     let mut near = drawing_m.and_then(|drawing_m| next_to(system, &drawing_m, &mut answers));
     watch("the judges");
     let (mut equilibria, mut failures) = (vec![], vec![]);
@@ -133,44 +135,74 @@ pub fn ask_with(
     SystemAnswer { equilibria, failures, agreement, near }
 }
 
-/// What the solvers find, each by its own method: next to the drawing, or the lowest.
-fn answers(
+/// What the solvers find next to a drawing, each by its own method.
+fn near_to(
     system: &System,
-    drawing_m: Option<&[Vector]>,
+    drawing_m: &[Vector],
     solvers: Solvers,
     watch: &dyn Fn(&str),
 ) -> Vec<Result<SystemEquilibrium, SystemFailure>> {
-    let row = system.as_row();
-    let mut answers: Vec<Result<SystemEquilibrium, SystemFailure>> = vec![];
+    let mut answers = vec![];
     if solvers != Solvers::Energy {
         use lagrange::network::{Seed, Settings, solve_from};
-        watch(&format!("lagrange: forces and closures of {} members", system.members().len()));
-        let near = |drawing_m: &[Vector]| {
-            let found = solve_from(system, &Seed::at(drawing_m.to_vec()), &Settings::default())?;
-            Ok(found.equilibrium)
-        };
-        answers.push(drawing_m.map_or_else(|| by_lagrange(system, row.as_ref()), near));
+        say_lagrange(system, watch);
+        let found = solve_from(system, &Seed::at(drawing_m.to_vec()), &Settings::default());
+        answers.push(found.map(|found| found.equilibrium).map_err(SystemFailure::from));
     }
     if solvers != Solvers::Lagrange {
         use energy::network::{Settings, minimise_near};
-        watch(&format!("energy: minimisation over the places of {} joints", system.joints().len()));
-        let near = |drawing_m: &[Vector]| {
-            let found = minimise_near(system, drawing_m, &Settings::default())?;
-            Ok(found.equilibrium)
-        };
-        answers.push(drawing_m.map_or_else(|| by_energy(system, row.as_ref()), near));
+        say_energy(system, watch);
+        let found = minimise_near(system, drawing_m, &Settings::default());
+        answers.push(found.map(|found| found.equilibrium).map_err(SystemFailure::from));
     }
     answers
 }
 
-/// A row between two anchors by the condensed equations, where these have an answer; any other system by all members.
-fn by_lagrange(system: &System, row: Option<&Row>) -> Result<SystemEquilibrium, SystemFailure> {
-    let condensed = |row: &Row| {
+/// The lowest equilibrium that each solver finds.
+fn lowest(
+    system: &System,
+    question: &Question,
+    watch: &dyn Fn(&str),
+) -> Vec<Result<SystemEquilibrium, SystemFailure>> {
+    let row = system.as_row();
+    let mut answers = vec![];
+    if question.solvers != Solvers::Energy {
+        say_lagrange(system, watch);
+        answers.push(by_lagrange(system, row.as_ref(), question));
+    }
+    if question.solvers != Solvers::Lagrange {
+        say_energy(system, watch);
+        answers.push(by_energy(system, row.as_ref()));
+    }
+    answers
+}
+
+fn say_lagrange(system: &System, watch: &dyn Fn(&str)) {
+    watch(&format!("lagrange: forces and closures of {} members", system.members().len()));
+}
+
+fn say_energy(system: &System, watch: &dyn Fn(&str)) {
+    watch(&format!("energy: minimisation over the places of {} joints", system.joints().len()));
+}
+
+/// A row between two anchors by the condensed equations, where these have an answer, or by the paper's; any other system
+/// by all members.
+fn by_lagrange(
+    system: &System,
+    row: Option<&Row>,
+    question: &Question,
+) -> Result<SystemEquilibrium, SystemFailure> {
+    if let Some(row) = row {
+        if question.equations == Equations::Full {
+            let found = lagrange::solve(row.problem(), &lagrange::Settings::default())?;
+            return Ok(row.equilibrium(found.equilibrium));
+        }
+        // The bits of the answer do not depend on how many share the work.
+        let mut solver = lagrange::condensed::Solver::with_processors(question.threads);
         let settings = lagrange::condensed::Settings::default();
-        lagrange::condensed::solve(row.problem(), &settings).ok()
-    };
-    if let Some((row, found)) = row.and_then(|row| Some((row, condensed(row)?))) {
-        return Ok(row.equilibrium(found.equilibrium));
+        if let Ok(found) = solver.solve(row.problem(), &settings) {
+            return Ok(row.equilibrium(found.equilibrium));
+        }
     }
     let found = lagrange::network::solve(system, &lagrange::network::Settings::default())?;
     Ok(found.equilibrium)

@@ -167,13 +167,9 @@ pub fn judge_without(
 
 /// The rungs above `agreed`.
 fn certify_rung(system: &System, answer: &mut SystemEquilibrium) {
-    let optimal = match certify(system, answer) {
-        Ok(proof) => Status::Reached(proof),
-        Err(because) => match certify_row(system, answer) {
-            Some(proof) => Status::Reached(proof),
-            None => Status::Open(Reason::NoCertificate(because)),
-        },
-    };
+    let proof = certify_row(system, answer).map_or_else(|| certify(system, answer), Ok);
+    let optimal =
+        proof.map_or_else(|because| Status::Open(Reason::NoCertificate(because)), Status::Reached);
     let ladder = &mut answer.evidence.ladder;
     // Proofs in intervals are asked for apart.
     ladder.verified = Status::Open(Reason::NotTried);
@@ -181,7 +177,8 @@ fn certify_rung(system: &System, answer: &mut SystemEquilibrium) {
     ladder.optimal = optimal;
 }
 
-/// The certificate of a row between two anchors, which bounds what a bar in compression costs where the whole row turns about a vertical.
+/// The certificate of a row between two anchors: without a factorisation, and it bounds what a bar in
+/// compression costs where the whole row turns about a vertical.
 fn certify_row(system: &System, answer: &SystemEquilibrium) -> Option<Optimal> {
     let row = system.as_row()?;
     let found = row.chain_equilibrium(answer)?;

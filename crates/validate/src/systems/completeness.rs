@@ -4,9 +4,9 @@
 use census::Settings;
 use census::network::{SystemCensus, SystemPosition};
 use model::system::{System, SystemEquilibrium};
-use model::{NoCensus, Reason, Status};
+use model::{NoCensus, Reason, Status, Vector};
 
-use crate::answer::UseCensus;
+use crate::question::UseCensus;
 use crate::tolerances::Tolerances;
 
 /// Systems of up to this many members are looked up in their census without being asked to.
@@ -48,16 +48,37 @@ pub fn look_up(system: &System, census: UseCensus, answers: &mut [SystemEquilibr
 pub fn certify_by_census(system: &System, census: &SystemCensus, answer: &mut SystemEquilibrium) {
     let distances = census.equilibria.iter().map(|position| distance(system, position, answer));
     let nearest = distances.min_by(f64::total_cmp);
-    let ladder = &mut answer.evidence.ladder;
     let accuracy = Tolerances::project().joints.value + PLACED;
-    match nearest {
-        Some(distance) if distance <= accuracy => ladder.complete = census.completeness(system),
-        Some(distance) if census.complete && census.families() == 0 && distance.is_finite() => {
-            ladder.refute(distance);
-        }
-        Some(distance) => ladder.complete = Status::Open(Reason::Elsewhere { distance }),
-        None => ladder.complete = Status::Open(Reason::NothingListed),
+    if nearest.is_some_and(|distance| distance <= accuracy) {
+        answer.evidence.ladder.complete = census.completeness(system);
+        return;
     }
+    let is_whole = census.complete && census.families() == 0;
+    let because = unlisted_row(system, census, answer).unwrap_or(match nearest {
+        Some(distance) if is_whole && distance.is_finite() => Reason::RefutedByCensus { distance },
+        Some(distance) => Reason::Elsewhere { distance },
+        None => Reason::NothingListed,
+    });
+    let ladder = &mut answer.evidence.ladder;
+    match because {
+        Reason::RefutedByCensus { distance } => ladder.refute(distance),
+        because => ladder.complete = Status::Open(because),
+    }
+}
+
+/// Why the census of a row does not list an answer: it also knows straight and degenerate positions,
+/// and families with slack bars.
+fn unlisted_row(
+    system: &System,
+    census: &SystemCensus,
+    answer: &SystemEquilibrium,
+) -> Option<Reason> {
+    let row = system.as_row()?;
+    let of_row = census.chains().find(|chain| chain.joints == row.joints())?;
+    let joints_m: Vec<Vector> =
+        row.joints().iter().map(|k| answer.joints_m.get(*k).copied()).collect::<Option<_>>()?;
+    let chain = row.problem().chain();
+    Some(crate::completeness::unlisted(chain, &of_row.census, &joints_m, answer.energy_j))
 }
 
 /// How far outside of a listed position the worst coordinate of an answer lies, in units of the

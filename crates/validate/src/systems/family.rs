@@ -9,7 +9,7 @@
 //! doi:10.1016/0020-7683(86)90014-4
 
 use faer::Mat;
-use model::system::{Kind, LENGTH_ROUNDING, Member, Support, System, SystemEquilibrium};
+use model::system::{Joint, Kind, LENGTH_ROUNDING, Member, Support, System, SystemEquilibrium};
 use model::{Rigidity, Vector};
 
 use super::floor::{push_n, sliding};
@@ -52,10 +52,14 @@ pub(super) struct Family {
 
 impl Family {
     /// Count them. Of a system that is too large the self-stresses are those that the answer names,
-    /// as far as they are in balance. Without value where the answer is incomplete.
+    /// as far as they are in balance. Without value where the answer is incomplete, or the
+    /// system is large and the answer names none.
     pub(super) fn of(system: &System, answer: &SystemEquilibrium) -> Option<Self> {
         let members = system.members();
-        if answer.joints_m.len() != system.joints().len() {
+        let named = &answer.evidence.self_stresses;
+        let motions_of = |joint: &Joint| motions(&joint.support).len();
+        let is_large = || system.joints().iter().map(motions_of).sum::<usize>() > 2 * COUNTED;
+        if answer.joints_m.len() != system.joints().len() || named.is_none() && is_large() {
             return None;
         }
         let near_m = rounding_m(system, answer);
@@ -86,7 +90,7 @@ impl Family {
         if coordinates <= COUNTED {
             family.count(system, &taut, coordinates)?;
         }
-        if let Some(named) = &answer.evidence.self_stresses {
+        if let Some(named) = named {
             named.basis.iter().for_each(|stress| family.add(system, stress));
         }
         Some(family)

@@ -14,7 +14,7 @@ const LARGE: f64 = 1e6;
 /// Forces of this many times all that acts are no answer. In balance they would need directions that
 /// differ by less than 1e-9 from those of a singular shape, which is one to the accuracy of lengths
 /// ([`LENGTH_ROUNDING`](model::system::LENGTH_ROUNDING)).
-pub(super) const ABSURD: f64 = 1e9;
+pub(crate) const ABSURD: f64 = 1e9;
 
 /// A difference, and what it may be where it is the largest part of that, N.
 #[derive(Clone, Copy)]

@@ -36,8 +36,11 @@ pub(crate) fn free_joints(system: &System, answers: &[SystemEquilibrium]) -> Vec
     if !answers.iter().all(complete) {
         return vec![false; joints];
     }
-    let members_of = members_of(system);
     let unloaded = unloaded(system, answers);
+    if !unloaded.contains(&true) {
+        return lie_loose(system, answers);
+    }
+    let members_of = members_of(system);
     let bears = bearing(system, answers, &members_of, &unloaded);
     let idle: Vec<bool> = (0..joints)
         .map(|joint| unloaded[joint] && members_of[joint].iter().all(|k| !bears[*k]))

@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use super::ask::SystemFailure;
 use super::certificate::total_load_n;
-use crate::answer::Solvers;
+use crate::question::Solvers;
 use crate::vector::{dot, minus, norm, plus, times, worse};
 
 /// A joint that moved further than this part of the shortest member at it is not where it was

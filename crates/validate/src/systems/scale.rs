@@ -32,7 +32,7 @@ const LEAST_STRAIN: f64 = model::system::LENGTH_ROUNDING;
 const MOST_FORCE: f64 = 1e6;
 
 /// The sizes for one system, at the places of one answer.
-pub(super) struct Scale {
+pub(crate) struct Scale {
     /// Of lengths, m.
     pub size_m: f64,
     /// Of all forces that act together, N; zero where nothing acts.
@@ -45,7 +45,7 @@ pub(super) struct Scale {
 }
 
 impl Scale {
-    pub(super) fn new(system: &System, answer: &SystemEquilibrium) -> Self {
+    pub(crate) fn new(system: &System, answer: &SystemEquilibrium) -> Self {
         let joints = system.joints().len();
         let prestress: Vec<f64> =
             system.members().iter().map(|member| prestress_n(member, &answer.joints_m)).collect();

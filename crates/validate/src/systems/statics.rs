@@ -203,7 +203,10 @@ impl Units {
         let most = |of: &[f64]| joints.iter().filter_map(|k| of.get(*k)).copied().reduce(worse);
         let acts_n = most(&self.acts_n).unwrap_or(f64::INFINITY);
         let meet_n = most(&self.meet_n).unwrap_or(f64::INFINITY);
-        let rounding_n = (STORED_ULPS * f64::EPSILON * meet_n).min(self.rounding_n);
+        // Small forces in a long row are differences of what acts on all of it.
+        let whole_n = if self.total_n.is_finite() { self.total_n } else { 0.0 };
+        let rounding_n = STORED_ULPS * f64::EPSILON * worse(meet_n, whole_n);
+        let rounding_n = rounding_n.min(self.rounding_n);
         Local { rounding_n: rounding_n.min(MOST_ROUNDING * acts_n), most_n: BORNE * acts_n }
     }
 }
@@ -281,8 +284,10 @@ fn member(
     let carried = loads.iter().fold(end, |sum, (part, p)| plus(sum, times(*part, *p)));
     let turn = cross(along, carried);
     let unit_n = local.unit_n(largest_n);
-    // A displaced end turns the member: force times displacement.
-    let rounding = local.rounding_n * distance_m + unit_n * units.rounding_m;
+    // A displaced end turns the member: force times displacement. Far from its ends a long row bears
+    // what acts on all of it.
+    let turned_n = unit_n.max(largest_n.min(units.total_n));
+    let rounding = local.rounding_n * distance_m + turned_n * units.rounding_m;
     let moment = beyond(norm(turn), rounding);
     let moment = if moment <= 0.0 { 0.0 } else { moment / (unit_n * distance_m) };
     found.note(|s| &mut s.moment, moment, place);

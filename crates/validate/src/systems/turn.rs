@@ -1,6 +1,7 @@
 //! Free turns: the bodies of one answer are turned onto those of another before the two are
 //! compared.
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 use model::Vector;
@@ -43,26 +44,27 @@ impl Turn {
 ///
 /// What comes out is an answer as good as the one that went in: where the judge of statics finds a
 /// larger violation in it than its budget, nothing is turned.
-pub(crate) fn turned_onto(
+pub(crate) fn turned_onto<'a>(
     system: &System,
     first: &SystemEquilibrium,
-    second: &SystemEquilibrium,
+    second: &'a SystemEquilibrium,
     left_out: &[bool],
-) -> (SystemEquilibrium, usize) {
+) -> (Cow<'a, SystemEquilibrium>, usize) {
+    let as_it_is = (Cow::Borrowed(second), 0);
     let joints = system.joints().len();
     let complete = [&first.joints_m, &second.joints_m].map(Vec::len) == [joints; 2]
         && [&second.start_forces_n, &second.end_forces_n].map(Vec::len)
             == [system.members().len(); 2]
         && second.reactions_n.len() == joints;
-    if !complete {
-        return (second.clone(), 0);
+    if !complete || is_held_row(system, second) {
+        return as_it_is;
     }
     let budget = Tolerances::project().statics.value;
     let mut bodies = Bodies::new(system);
     let before = bodies.all.len();
     add_hinged(system, first, second, &mut bodies);
     if bodies.all.len() == 1 {
-        return (second.clone(), 0);
+        return as_it_is;
     }
     let turned = turned(system, second, &bodies, &turns(&bodies, first, second, left_out));
     let untouched = judge(system, second).largest();
@@ -71,15 +73,26 @@ pub(crate) fn turned_onto(
         largest <= budget || largest <= untouched
     };
     if sound(&turned) {
-        return (turned, bodies.all.len() - 1);
+        return (Cow::Owned(turned), bodies.all.len() - 1);
     }
     if before == bodies.all.len() || before == 1 {
-        return (second.clone(), 0);
+        return as_it_is;
     }
     // What hangs on single joints, without what hinges on several.
     let bodies = Bodies::new(system);
     let turned = self::turned(system, second, &bodies, &turns(&bodies, first, second, left_out));
-    if sound(&turned) { (turned, before - 1) } else { (second.clone(), 0) }
+    if sound(&turned) { (Cow::Owned(turned), before - 1) } else { as_it_is }
+}
+
+/// Whether nothing of a row can turn: its anchors are not on one vertical, and its level pull, which
+/// is the same all along it, is felt.
+fn is_held_row(system: &System, answer: &SystemEquilibrium) -> bool {
+    let Some(row) = system.as_row() else { return false };
+    let sizes_n = answer.end_forces_n.iter().map(|force| norm(*force));
+    let largest_n = sizes_n.fold(0.0, worse);
+    let [x, y, _] = answer.reactions_n[row.joints()[0]];
+    !row.problem().chain().anchors_on_one_vertical()
+        && x.hypot(y) > Tolerances::project().forces.value * largest_n
 }
 
 /// Bodies that hinge on joints of one vertical in both answers.

@@ -7,7 +7,7 @@
 use model::system::{Joint, Member, System, SystemEquilibrium};
 use model::{Problem, Rung, Vector, cases};
 use samples::random_chain;
-use validate::answer::{Question, Solvers, UseCensus, ask};
+use validate::answer::{Question, UseCensus, ask};
 use validate::systems::ask_with;
 
 /// Random chains.
@@ -79,7 +79,11 @@ fn misses(name: &str, problem: &Problem) -> Vec<String> {
     let mut misses = vec![];
     for how in WRITTEN {
         let system = written(problem, how);
-        let found = ask_with(&system, Solvers::Both, UseCensus::Never, &|_| {});
+        let found = ask_with(
+            &system,
+            &Question { census: UseCensus::Never, ..Question::default() },
+            &|_| {},
+        );
         if chain.agrees() != found.agrees() {
             let said = found.agreement.as_ref().map(|agreement| &agreement.disagreement);
             misses.push(format!(
@@ -121,4 +125,17 @@ fn a_chain_is_a_system_however_it_is_written() {
         found.extend(misses(&format!("random {seed}, {shape:?}"), &problem));
     }
     assert!(found.is_empty(), "{}:\n{}", found.len(), found.join("\n"));
+}
+
+/// The judge's budgets do not depend on the number of bars: in a hundred thousand of them the pull is
+/// many times what acts at a joint.
+#[test]
+fn a_long_row_agrees() {
+    let problem = samples::equal_bars(100_000, 100_000.0, 1e5, [50_000.0, 0.0, -1.0]);
+    let question = Question { census: UseCensus::Never, ..Question::default() };
+    let found = ask_with(&System::from(problem.chain()), &question, &|_| {});
+    let said = found.agreement.as_ref().map(|agreement| &agreement.disagreement);
+    assert!(found.agrees(), "{said:?}");
+    let rungs: Vec<_> = found.equilibria.iter().map(|one| one.evidence.rung()).collect();
+    assert_eq!(rungs, [Some(Rung::Optimal); 2]);
 }

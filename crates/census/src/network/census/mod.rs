@@ -48,6 +48,10 @@ use crate::settings::Settings;
 /// listed.
 const MAX_FRAMED: usize = 64;
 
+/// Joints of a net beyond which nothing is looked at: knots, swings and strands that are searched have
+/// far fewer, and what tells one reason of a refusal from another takes the square of their number.
+const MOST_JOINTS: usize = 1000;
+
 /// Most positions that are listed.
 pub const MAX_POSITIONS: usize = 4096;
 
@@ -219,6 +223,10 @@ fn of_part(
 ) -> Result<(PartCensus, Vec<Choice>), NoCensus> {
     let (mut chain, mut framed, mut net) = (None, 0, None);
     let cores = match &part.core {
+        Core::Net { joints, members } if joints.len() > MOST_JOINTS => {
+            let closures = members.len().saturating_sub(joints.len());
+            return Err(NoCensus::Closures { closures });
+        }
         Core::Net { joints, members } => {
             let loads = borne(system, frame, &part.hanging);
             let order =

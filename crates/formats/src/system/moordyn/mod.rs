@@ -18,10 +18,11 @@ mod sections;
 
 use std::collections::HashMap;
 
+use model::budget::Budget;
 use model::system::{Joint, Member, PointLoad, System};
 use model::{Bar, Vector};
 
-use crate::error::{FormatError, Wrong};
+use crate::error::{FormatError, Wrong, as_count};
 use crate::system::ForeignSystem;
 use options::Options;
 use sections::{Row, Section, Sections};
@@ -86,6 +87,9 @@ const FREE: &[&str] = &["free", "connect", "point", "con"];
 /// Segments of one line.
 const MOST_SEGMENTS: f64 = 1e6;
 
+/// Room for the words and the number around the name of a line in that of a joint.
+const DIGITS: usize = 16;
+
 /// Properties of a line.
 struct LineType {
     weight_n_m: f64,
@@ -115,9 +119,11 @@ pub fn parse_moordyn(text: &str, file: &str) -> Result<ForeignSystem, FormatErro
         }
         joints.push(joint);
     }
-    let mut members = Vec::new();
+    let (mut members, budget) = (Vec::new(), Budget::default());
     for row in sections.need(Section::Lines)?.rows(LINE_COLUMNS)? {
-        notes.push(line(&row, &types, &numbers, options.gravity_m_s2, &mut joints, &mut members)?);
+        let gravity_m_s2 = options.gravity_m_s2;
+        let into = (&mut joints, &mut members);
+        notes.push(line(&row, &types, &numbers, gravity_m_s2, &budget, into)?);
     }
     let name = sections.title();
     let system = System::new(name, options.gravity_m_s2, joints, members).map_err(|error| {
@@ -221,8 +227,8 @@ fn line(
     types: &HashMap<String, LineType>,
     numbers: &HashMap<String, usize>,
     gravity_m_s2: f64,
-    joints: &mut Vec<Joint>,
-    members: &mut Vec<Member>,
+    budget: &Budget,
+    (joints, members): (&mut Vec<Joint>, &mut Vec<Member>),
 ) -> Result<String, FormatError> {
     let (id, kind) = (row.text("id")?, row.text("type")?);
     let Some(line_type) = types.get(kind) else {
@@ -241,6 +247,10 @@ fn line(
         let (what, found) = ("NumSegs".to_owned(), segments.to_string());
         return Err(row.error(Wrong::Value { what, wanted: "a whole number up to 1e6", found }));
     }
+    let count = as_count(segments);
+    let asked =
+        budget.take_members(count).and_then(|()| budget.take_joints(count, id.len() + DIGITS));
+    asked.map_err(|error| row.error(Wrong::Memory(error)))?;
     let piece_m = length_m / segments;
     let weight_n = line_type.weight_n_m * piece_m;
     let mass_kg = if weight_n > 0.0 { weight_n / gravity_m_s2 } else { 0.0 };
@@ -248,9 +258,8 @@ fn line(
         .map_err(|error| row.error(Wrong::NoSystem { reason: error.to_string() }))?;
     let lift = PointLoad { at_m: 0.5 * piece_m, force_n: [0.0, 0.0, -weight_n] };
     let mut here = from;
-    let mut k = 1.0;
-    while k <= segments {
-        let there = if k < segments {
+    for k in 1..=count {
+        let there = if k < count {
             joints.push(Joint::free(format!("line {id}.{k}")));
             joints.len() - 1
         } else {
@@ -262,7 +271,6 @@ fn line(
         }
         members.push(member);
         here = there;
-        k += 1.0;
     }
     Ok(format!(
         "line {id}: {segments} elastic cables of {piece_m} m, EA = {} N, {} N/m in water",

@@ -1,14 +1,14 @@
 //! `funicular solve --batch`: a system in every line, an answer in every line.
 
 use std::fmt;
-use std::fs::File;
 use std::io::{self, BufReader, ErrorKind, IsTerminal as _, Write as _};
 use std::ops::ControlFlow;
 use std::path::Path;
 
 use formats::answer::Answer;
-use funicular::{Problem, Solve};
-use validate::answer::UseCensus;
+use funicular::{Lists, Problem, Solve};
+use model::open_input;
+use validate::UseCensus;
 
 use super::lines::{Line, Lines};
 use super::object::{self, Origin, Unanswered};
@@ -29,7 +29,7 @@ pub fn run(arguments: &super::Solve, path: &Path) -> Result<Exit, Failure> {
     // A census takes far longer than a solution.
     let solve = arguments.question(UseCensus::Never);
     let shape = arguments.shape()?;
-    let work = |line: Line| answer(&solve, &line, shape.as_ref(), arguments.summary);
+    let work = |line: Line| answer(&solve, &line, shape.as_ref(), arguments.lists());
     // What is written to a terminal is progress enough.
     let progress = (!io::stdout().is_terminal()).then(Progress::start);
     let mut tally = Tally::default();
@@ -64,17 +64,14 @@ fn open(path: &Path) -> Result<Lines, Failure> {
     if path == Path::new("-") {
         return Ok(Lines::of(BufReader::new(io::stdin())));
     }
-    let file = File::open(path).and_then(|file| {
-        if file.metadata()?.is_dir() { Err(ErrorKind::IsADirectory.into()) } else { Ok(file) }
-    });
-    let file = file.map_err(|error| {
+    let file = open_input(path).map_err(|error| {
         Failure::bad_input(format!("cannot read the systems from {}: {error}", path.display()))
     })?;
     Ok(Lines::of(BufReader::new(file)))
 }
 
 /// The answer to a line as a line.
-fn answer(solve: &Solve, line: &Line, shape: Option<&Answer>, summary: bool) -> (String, Exit) {
+fn answer(solve: &Solve, line: &Line, shape: Option<&Answer>, lists: Lists) -> (String, Exit) {
     let drawn = |problem: Problem| match shape {
         Some(shape) => next_to(&problem, shape),
         None => Ok(problem),
@@ -86,9 +83,9 @@ fn answer(solve: &Solve, line: &Line, shape: Option<&Answer>, summary: bool) -> 
             .and_then(drawn)
             .and_then(|problem| solve.run_here(&problem))
         {
-            Ok(solution) => {
-                let exit = super::verdict(solution.check_failed(), solution.is_decided());
-                (object::answer(origin, &solution, summary, false), exit)
+            Ok(answer) => {
+                let exit = super::verdict(&answer);
+                (object::answer(origin, &answer, lists, false), exit)
             }
             Err(error) => {
                 let text = Unanswered::of(&error).line(origin);

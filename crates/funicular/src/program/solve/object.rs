@@ -1,6 +1,6 @@
 //! The JSON of one answer among many: the object of a single answer, and where its system stands.
 
-use funicular::{Error, Solution};
+use funicular::{Error, Lists, SolveAnswer};
 use serde::Serialize;
 
 use crate::exit::Failure;
@@ -66,10 +66,6 @@ impl Unanswered {
                 let failures = answer.failures().iter().map(funicular::Failure::of).collect();
                 Self { failures, ..because }
             }
-            Error::UnsolvedSystem(answer) => {
-                let failures = answer.failures().iter().map(funicular::Failure::of_system);
-                Self { failures: failures.collect(), ..because }
-            }
             _ => because,
         }
     }
@@ -88,19 +84,11 @@ impl Unanswered {
 /// An answer as JSON, in one line or for people, with a line end.
 pub fn answer(
     origin: Origin<'_>,
-    solution: &Solution,
-    summary: bool,
+    answer: &SolveAnswer,
+    lists: Lists,
     pretty: bool,
 ) -> serde_json::Result<String> {
-    match solution {
-        Solution::Chain(chain) if summary => {
-            text(&Placed { origin, content: chain.summary()? }, pretty)
-        }
-        Solution::System(system) if summary => {
-            text(&Placed { origin, content: system.summary() }, pretty)
-        }
-        solution => text(&Placed { origin, content: solution }, pretty),
-    }
+    text(&Placed { origin, content: answer.json(lists) }, pretty)
 }
 
 fn text(object: &impl Serialize, pretty: bool) -> serde_json::Result<String> {

@@ -4,8 +4,8 @@ use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
 use formats::answer::Answer;
-use funicular::Solution;
-use validate::answer::UseCensus;
+use funicular::SolveAnswer;
+use validate::UseCensus;
 
 use super::object::{self, Origin, Unanswered};
 use crate::answer;
@@ -15,7 +15,6 @@ use crate::input::{self, next_to};
 use crate::interrupt::end_on_interrupt;
 use crate::output;
 use crate::printable::Printable;
-use crate::system;
 use crate::threads;
 
 /// What is printed about a file.
@@ -76,7 +75,7 @@ fn one(arguments: &super::Solve, path: &Path, shape: Option<&Answer>) -> Said {
         Ok(solve.run_here(&problem)?)
     });
     let failure = match solved {
-        Ok(solution) => return said(arguments, origin, &solution),
+        Ok(answer) => return said(arguments, origin, &answer),
         Err(failure) => failure,
     };
     let exit = failure.exit();
@@ -88,10 +87,10 @@ fn one(arguments: &super::Solve, path: &Path, shape: Option<&Answer>) -> Said {
     Said { text: heading(&name), failure: Some(failure), exit }
 }
 
-fn said(arguments: &super::Solve, origin: Origin<'_>, solution: &Solution) -> Said {
-    let exit = super::verdict(solution.check_failed(), solution.is_decided());
+fn said(arguments: &super::Solve, origin: Origin<'_>, answer: &SolveAnswer) -> Said {
+    let exit = super::verdict(answer);
     if arguments.json {
-        return match object::answer(origin, solution, arguments.summary, true) {
+        return match object::answer(origin, answer, arguments.lists(), true) {
             Ok(text) => Said { text, failure: None, exit },
             Err(error) => {
                 let failure = output::no_json(&error);
@@ -100,10 +99,7 @@ fn said(arguments: &super::Solve, origin: Origin<'_>, solution: &Solution) -> Sa
         };
     }
     let name = if let Origin::File(name) = origin { heading(name) } else { String::new() };
-    let text = match solution {
-        Solution::Chain(chain) => answer::answer(chain, arguments.summary),
-        Solution::System(system) => system::answer(system, arguments.summary),
-    };
+    let text = answer::answer(answer, arguments.summary);
     Said { text: name + &text + "\n", failure: None, exit }
 }
 

@@ -73,7 +73,7 @@ fn by_signs_and_pulls() {
 #[test]
 fn it_hangs_or_stands() {
     let mut output = census("census of a chain", "it_hangs_or_stands", LEVEL_V);
-    output.is("schema_version", 2);
+    output.is("schema_version", 3);
     system_of_level_v(&mut output);
     output.each("equilibria[].solver", "census");
     output.is("equilibria[].energy_j", json!([-10.0 * DEPTH, 10.0 * DEPTH]));
@@ -304,7 +304,7 @@ fn slack_bars_that_fit_into_a_line() {
 #[test]
 fn census_of_the_lamp() {
     let mut output = census("census of a system", "census_of_the_lamp", LAMP);
-    output.is("schema_version", 2);
+    output.is("schema_version", 3);
     system_of_lamp(&mut output);
     output.each("equilibria[].solver", "census");
     output.is("equilibria[].energy_j", json!([-48.0, 48.0]));

@@ -22,7 +22,7 @@ fn judged(test: &'static str, height: &str, more: &[&str], code: i32) -> Output 
     let (found, text) = run(folder.path(), &[&arguments[..], more].concat());
     assert_eq!(found, Some(code), "{text}");
     let mut output = Output::json("judge", test, &text);
-    output.is("schema_version", 2);
+    output.is("schema_version", 3);
     output.is("system.name", "lamp");
     output.is("system.joints", 3);
     output.is("system.bars", 2);

@@ -19,7 +19,7 @@ fn swinging_and_falling() {
     std::fs::write(folder.path().join("v.toml"), LEVEL_V).unwrap();
     let text = good(folder.path(), &["modes", "v.toml", "--json"]);
     let mut output = Output::json("modes", "swinging_and_falling", &text);
-    output.is("schema_version", 2);
+    output.is("schema_version", 3);
     joints_of_level_v(&mut output);
     output.is("complete", true);
     let at = |key: &str| format!("equilibria[].{key}");

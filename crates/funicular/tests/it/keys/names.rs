@@ -84,6 +84,9 @@ fn verdicts_of_all_kinds() {
     assert_eq!(name(&Verdict::Agreed), "agreed");
     assert_eq!(name(&Verdict::Disagreed), "disagreed");
     assert_eq!(name(&Finding::NoEquilibrium), json!({ "finding": "no_equilibrium" }));
+    let hidden = Finding::LoadsHidden { member: 1, force_n: 2.0, loads_n: 3.0, allowed_n: 4.0 };
+    let keys = json!({ "finding": "loads_hidden", "member": 1, "force_n": 2.0, "loads_n": 3.0, "allowed_n": 4.0 });
+    assert_eq!(name(&hidden), keys);
     assert_eq!(name(&Finding::ForcesNotFound), json!({ "finding": "forces_not_found" }));
     for (validity, called) in [
         (Validity::Holds, "holds"),

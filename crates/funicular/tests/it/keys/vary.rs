@@ -28,7 +28,7 @@ fn study_of_a_chain() {
     let arguments = ["study", "v.toml", "--vary", "gravity_m_s2=10,20", "--json", "--csv", "v.csv"];
     let text = good(folder.path(), &arguments);
     let mut output = Output::json("study of a chain", "study_of_a_chain", &text);
-    output.is("schema_version", 2);
+    output.is("schema_version", 3);
     system_of_level_v(&mut output);
     output.is("parameters[]", "gravity_m_s2");
     output.is("units[]", "m/s^2");
@@ -128,7 +128,7 @@ fn study_of_a_system() {
     let vary = ["study", "lamp.toml", "--vary", "joints.P.mass_kg=2,4"];
     let text = good(folder.path(), &[&vary[..], &["--json", "--csv", "lamp.csv"]].concat());
     let mut output = Output::json("study of a system", "study_of_a_system", &text);
-    output.is("schema_version", 2);
+    output.is("schema_version", 3);
     system_of_lamp(&mut output);
     output.is("parameters[]", "joints.P.mass_kg");
     output.is("units[]", "kg");
@@ -174,7 +174,7 @@ fn study_of_a_system() {
 
 /// What every kind of derivatives says of the lamp.
 fn about_lamp(output: &mut Output) {
-    output.is("schema_version", 2);
+    output.is("schema_version", 3);
     output.is("system.name", "lamp");
     output.is("system.joints", 3);
     output.is("system.bars", 2);
@@ -262,7 +262,7 @@ fn branches_over_gravity() {
     let arguments = ["trace", "v.toml", "--vary", "gravity_m_s2=10,20", "--json", "--csv", "v.csv"];
     let text = good(folder.path(), &arguments);
     let mut output = Output::json("trace", "branches_over_gravity", &text);
-    output.is("schema_version", 2);
+    output.is("schema_version", 3);
     system_of_level_v(&mut output);
     let at = |key: &str| format!("traces[].{key}");
     output.is(&at("parameters[]"), "gravity_m_s2");

@@ -60,7 +60,8 @@ fn broken() -> Measured {
 #[test]
 fn what_an_answer_comes_to_is_told_in_its_order() {
     let told = |answer: &ForeignAnswer, measured: &Measured, nearest| {
-        finding(&lamp(), answer, measured, &nearest, &KNOWN)
+        let at_rest = at_rest(&SolverName::ENERGY);
+        finding(&lamp(), answer, (&at_rest, measured), &nearest, &KNOWN)
     };
     let (with, without) = (given(Some(vec![1.25; 2])), given(None));
     let right = Measured::default();
@@ -155,6 +156,13 @@ fn rungs_that_are_not_reached_say_why() {
     let other = Finding::OtherForces { forces_n: 0.75, allowed_n: 0.625 };
     let other = of(other, &right, vec![one(0.1, 0.75, Some(true))]);
     assert_eq!(other.agreed.reason().cloned(), apart(Quantity::Forces { between }, 0.75, 0.625));
+
+    // Loads of 2 N beside 3e9 N, of which half a newton is known.
+    let hidden = Finding::LoadsHidden { member: 2, force_n: -3e9, loads_n: 2.0, allowed_n: 0.5 };
+    let hidden = of(hidden, &right, vec![one(0.1, 3e9, Some(false))]);
+    let Some(Reason::JudgeRefuses { excesses }) = hidden.agreed.reason() else { panic!() };
+    let what = Quantity::LargeForce { solver: SolverName::new("a table"), member: 2 };
+    assert_eq!(excesses[..], [Excess { what, value: 1.5e9, budget: 1e9 }]);
 
     let refuted = of(Finding::Refuted, &broken(), vec![one(0.75, 0.0, Some(true))]);
     let Some(Reason::JudgeRefuses { excesses }) = refuted.agreed.reason() else { panic!() };

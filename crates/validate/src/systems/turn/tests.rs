@@ -36,11 +36,11 @@ fn what_is_not_complete_is_not_turned() {
     for change in changes {
         let mut short = second.clone();
         change(&mut short);
-        assert_eq!(turned_onto(&system, &first, &short, &[false; 3]), (short, 0));
+        assert_eq!(turned_onto(&system, &first, &short, &[false; 3]), (Cow::Borrowed(&short), 0));
     }
     let mut short = first;
     short.joints_m.truncate(2);
-    assert_eq!(turned_onto(&system, &short, &second, &[false; 3]), (second, 0));
+    assert_eq!(turned_onto(&system, &short, &second, &[false; 3]), (Cow::Borrowed(&second), 0));
 }
 
 /// What is out of balance before is turned, what would only get so is not: the joint that is left

@@ -398,3 +398,28 @@ fn work_of_small_nets() {
     ];
     assert_frozen(&found[..], &expected);
 }
+
+/// A net of 40 x 40 elastic cables is refused by the count of its joints; what tells the reasons of a
+/// refusal apart would take minutes.
+#[test]
+fn a_large_net_is_refused_at_once() {
+    const SIDE: usize = 40;
+    let at = |i: usize, j: usize| SIDE * i + j;
+    let joints = (0..SIDE * SIDE).map(|k| {
+        let (i, j) = (k / SIDE, k % SIDE);
+        let corner = i % (SIDE - 1) == 0 && j % (SIDE - 1) == 0;
+        if corner {
+            Joint::anchor(k.to_string(), [i as f64, j as f64, 0.0])
+        } else {
+            Joint::free(k.to_string()).with_mass(1.0)
+        }
+    });
+    let cables = (0..SIDE).flat_map(|i| {
+        (1..SIDE).flat_map(move |j| [(at(i, j - 1), at(i, j)), (at(j - 1, i), at(j, i))])
+    });
+    let cables = cables.map(|(a, b)| Member::cable(a, b, light(1.1)).with_stiffness(1e4));
+    let system = System::new("net", G, joints.collect(), cables.collect()).unwrap();
+    let (members, moving) = (2 * SIDE * (SIDE - 1), SIDE * SIDE - 4);
+    let refused = SystemCensus::take(&system, &Settings::default());
+    assert_eq!(refused, Err(NoCensus::Closures { closures: members - moving }));
+}

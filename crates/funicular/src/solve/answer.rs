@@ -1,0 +1,157 @@
+//! What the solvers found, and how far it is proved.
+
+use std::io::{self, Write};
+
+use model::system::{System, SystemEquilibrium};
+use model::{Rung, SolverName, Vector};
+use validate::systems::{Near, SystemAgreement, SystemAnswer, SystemFailure};
+
+use crate::csv::{Numbers, quoted};
+
+/// What the solvers found for a [`Problem`](crate::Problem), and how far it is proved. A chain is here
+/// a system whose joints are named by their numbers, from `0`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SolveAnswer {
+    system: System,
+    answer: SystemAnswer,
+}
+
+impl SolveAnswer {
+    pub(crate) fn new(system: System, answer: SystemAnswer) -> Self {
+        Self { system, answer }
+    }
+
+    /// What was solved.
+    #[must_use]
+    pub fn system(&self) -> &System {
+        &self.system
+    }
+
+    /// One equilibrium for each solver that has an answer, with its evidence: `lagrange` first.
+    #[must_use]
+    pub fn equilibria(&self) -> &[SystemEquilibrium] {
+        &self.answer.equilibria
+    }
+
+    /// The system and its equilibria, given away: no array is copied.
+    #[must_use]
+    pub fn into_parts(self) -> (System, Vec<SystemEquilibrium>) {
+        (self.system, self.answer.equilibria)
+    }
+
+    /// The answer of one solver, if it has one.
+    #[must_use]
+    pub fn by(&self, solver: &SolverName) -> Option<&SystemEquilibrium> {
+        self.answer.by(solver)
+    }
+
+    /// Why solvers that were asked have no answer.
+    #[must_use]
+    pub fn failures(&self) -> &[SystemFailure] {
+        &self.answer.failures
+    }
+
+    /// The comparison, and the judge's findings, if there are two answers.
+    #[must_use]
+    pub fn agreement(&self) -> Option<&SystemAgreement> {
+        self.answer.agreement.as_ref()
+    }
+
+    /// How the answer lies to the shape given, where the question is the equilibrium next to it;
+    /// no value where it is the lowest of all.
+    #[must_use]
+    pub fn near(&self) -> Option<&Near> {
+        self.answer.near.as_ref()
+    }
+
+    /// The paper's multipliers of an answer, N, where the system is a row of rigid bars between two
+    /// anchors: first the force of the ground on the first bar, then at each joint the force of the
+    /// next bar on the one before, last that of the ground on the last bar.
+    #[must_use]
+    pub fn multipliers_n(&self, answer: &SystemEquilibrium) -> Option<Vec<Vector>> {
+        Some(self.system.as_row()?.chain_equilibrium(answer)?.multipliers_n)
+    }
+
+    /// Whether both solvers answered and agree, the judge finds both in balance, and no census
+    /// refutes them.
+    #[must_use]
+    pub fn agrees(&self) -> bool {
+        self.answer.agrees() && !self.check_failed()
+    }
+
+    /// Whether a check has failed: the answers disagree, the judge refuses one, or a complete
+    /// census refutes one.
+    #[must_use]
+    pub fn check_failed(&self) -> bool {
+        let disagree = self.agreement().is_some_and(|agreement| !agreement.agrees());
+        disagree || self.equilibria().iter().any(|answer| answer.evidence.ladder.failed())
+    }
+
+    /// Whether every solver that was asked has an answer, each has converged or is proved to be an
+    /// equilibrium, and it is the neighbour of the drawing where that is the question.
+    #[must_use]
+    pub fn is_decided(&self) -> bool {
+        let known = |answer: &SystemEquilibrium| {
+            let ladder = &answer.evidence.ladder;
+            ladder.converged.is_reached() || ladder.verified.is_reached()
+        };
+        let asked_for = self.near().is_none_or(|near| near.is_neighbour);
+        asked_for && self.failures().is_empty() && self.equilibria().iter().all(known)
+    }
+
+    /// The highest rung that an answer has reached.
+    #[must_use]
+    pub fn rung(&self) -> Option<Rung> {
+        self.equilibria().iter().filter_map(|equilibrium| equilibrium.evidence.rung()).max()
+    }
+
+    /// Joints as CSV, a line per solver and joint: its place, and the force of the ground on it.
+    /// What is zero but for rounding is written as 0.
+    ///
+    /// # Errors
+    ///
+    /// When `to` cannot be written.
+    pub fn write_csv(&self, mut to: impl Write) -> io::Result<()> {
+        writeln!(to, "solver,joint,x_m,y_m,z_m,reaction_x_n,reaction_y_n,reaction_z_n")?;
+        for e in self.equilibria() {
+            let places = Numbers::of(e.joints_m.as_flattened());
+            // A support that bears nothing has the rounding of the members' forces.
+            let forces = Numbers::of(e.reactions_n.as_flattened().iter().chain(&e.axial_n));
+            let joints = self.system.joints().iter().zip(&e.joints_m).zip(&e.reactions_n);
+            for ((joint, at_m), force_n) in joints {
+                let (place, force) = (places.cells(*at_m), forces.cells(*force_n));
+                writeln!(to, "{},{},{place},{force}", e.solver, quoted(&joint.name))?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Members as CSV, a line per solver and member: its joints, axial force (with the weight at the
+    /// joints, at both ends, and where it is largest), and the forces on it at both joints. What is zero but for rounding is written as 0.
+    ///
+    /// # Errors
+    ///
+    /// When `to` cannot be written.
+    pub fn write_bars_csv(&self, mut to: impl Write) -> io::Result<()> {
+        writeln!(
+            to,
+            "solver,bar,from,to,axial_n,axial_from_n,axial_to_n,axial_max_n,start_x_n,start_y_n,start_z_n,end_x_n,end_y_n,end_z_n"
+        )?;
+        for e in self.equilibria() {
+            let ends = e.start_forces_n.as_flattened().iter().chain(e.end_forces_n.as_flattened());
+            let (ends, axial) = (Numbers::of(ends), Numbers::of(&e.axial_n));
+            for (k, member) in self.system.members().iter().enumerate() {
+                let name = |joint: usize| quoted(&self.system.joints()[joint].name);
+                let (from, end) = (name(member.from), name(member.to));
+                let along = e.axial_force(&self.system, k);
+                let force = [e.axial_n[k], along.from_n, along.to_n, along.largest_n()]
+                    .map(|force| axial.cell(force).to_string())
+                    .join(",");
+                let (start_n, end_n) =
+                    (ends.cells(e.start_forces_n[k]), ends.cells(e.end_forces_n[k]));
+                writeln!(to, "{},{},{from},{end},{force},{start_n},{end_n}", e.solver, k + 1)?;
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,278 @@
+//! Small files that would take the machine, wait for ever, or show what is not theirs.
+
+#![cfg(unix)]
+#![expect(clippy::unwrap_used, reason = "helpers of tests")]
+
+use std::fmt::Write as _;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Output;
+use std::time::Duration;
+
+use assert_cmd::Command;
+
+/// Patience of a loaded machine; what is refused here took minutes, or memory without end.
+const PATIENCE: Duration = Duration::from_secs(100);
+
+fn folder(name: &str) -> PathBuf {
+    let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("small-files").join(name);
+    let _ = fs::remove_dir_all(&path);
+    fs::create_dir_all(&path).unwrap();
+    path
+}
+
+fn run(folder: &Path, arguments: &[&str]) -> Output {
+    let mut command = Command::cargo_bin("funicular").unwrap();
+    command.current_dir(folder).env("NO_COLOR", "1").timeout(PATIENCE);
+    command.args(arguments).output().unwrap()
+}
+
+/// Standard error as one line, without the frame of the report.
+fn stderr(output: &Output) -> String {
+    let text = String::from_utf8(output.stderr.clone()).unwrap();
+    let words = text.split(|c: char| c.is_whitespace() || c == '│' || c == '×');
+    words.filter(|word| !word.is_empty()).collect::<Vec<_>>().join(" ")
+}
+
+#[track_caller]
+fn refused(output: &Output, because: &str) {
+    assert_eq!(output.status.code(), Some(2), "{}", stderr(output));
+    assert!(stderr(output).contains(because), "{}", stderr(output));
+}
+
+/// A million joints whose names have ten thousand letters each: 10 GB in 20 kB.
+fn long_names() -> String {
+    let name = "x".repeat(10_000);
+    format!(
+        "{{\"joints\": {{\"{name}\": {{\"at_m\": [0, 0, 0]}}, \"B\": {{\"at_m\": [600000, 0, 0]}}}}, \
+         \"bars\": [{{\"from\": \"{name}\", \"to\": \"B\", \"length_m\": 1, \"mass_kg\": 1, \"count\": 1000000}}]}}"
+    )
+}
+
+#[test]
+fn names_times_a_count_are_refused_before_they_are_made() {
+    let folder = folder("names");
+    fs::write(folder.join("names.json"), long_names()).unwrap();
+    let output = run(&folder, &["solve", "names.json"]);
+    refused(&output, "bytes of memory are needed; of 24000000000");
+    // A line of a batch that is refused takes none of the others with it.
+    let lamp = "{\"anchors\": {\"start_m\": [0, 0, 0], \"end_m\": [1, 0, 0]}, \
+                \"bars\": [{\"length_m\": 1, \"mass_kg\": 1, \"count\": 2}]}";
+    fs::write(folder.join("lines"), format!("{}\n{lamp}\n", long_names())).unwrap();
+    let output = run(&folder, &["solve", "--batch", "lines", "--summary"]);
+    let text = String::from_utf8(output.stdout.clone()).unwrap();
+    let lines: Vec<&str> = text.lines().collect();
+    assert!(lines[0].contains("bytes of memory are needed"), "{text}");
+    assert!(lines[1].contains("\"verdict\":\"agreed\""), "{text}");
+}
+
+/// Each line may have so many segments, all of them together may not.
+#[test]
+fn segments_of_all_lines_share_one_budget() {
+    let folder = folder("segments");
+    let mut text = "--- LINE TYPES ---\nTypeName Diam Mass/m EA BA/-zeta EI Cd Ca CdAx CaAx\n(-)\n\
+        chain 0.2 100 1e9 -1 0 1 1 0 0\n--- POINT PROPERTIES ---\n\
+        ID Type X Y Z Mass Volume CdA Ca\n(-)\n1 Fixed 0 0 -50 0 0 0 0\n2 Fixed 60 0 -10 0 0 0 0\n\
+        --- LINES ---\nID LineType AttachA AttachB UnstrLen NumSegs LineOutputs\n(-)\n"
+        .to_owned();
+    for line in 1..=40 {
+        let _ = writeln!(text, "{line} chain 1 2 80 1000 -");
+    }
+    text += "--- OPTIONS ---\n0.001 dtM\n--- need this line ---\n";
+    fs::write(folder.join("lines.dat"), text).unwrap();
+    fs::write(folder.join("answer.csv"), "joint,x_m,y_m,z_m\n1,0,0,-50\n").unwrap();
+    let judge = ["judge", "lines.dat", "--answer", "answer.csv", "--max-memory", "100MB"];
+    refused(&run(&folder, &judge), "of memory are needed; of 100000000");
+}
+
+/// A tree of JSON takes many times its text.
+#[test]
+fn answers_in_json_have_a_budget() {
+    let folder = folder("json");
+    fs::write(folder.join("answer.json"), format!("[{}{{}}]", "{\"\":0},".repeat(100_000)))
+        .unwrap();
+    let judge = ["judge", "--case", "lamp", "--answer", "answer.json", "--max-memory", "80MB"];
+    refused(&run(&folder, &judge), "of memory are needed; of 80000000");
+}
+
+/// As many unknown joints as a table of forces holds, and as many attributes as an element of XML
+/// holds, take time in proportion.
+#[test]
+fn long_tables_of_names_take_time_in_proportion() {
+    let folder = folder("long");
+    let mut text = "time_s,joint,x_n,y_n,z_n\n".to_owned();
+    for k in 0..300_000 {
+        let _ = writeln!(text, "0,joint{k},0,0,0");
+    }
+    fs::write(folder.join("forces.csv"), text).unwrap();
+    let output = run(&folder, &["simulate", "--case", "lamp", "--forces", "forces.csv"]);
+    refused(&output, "joint0");
+    let mut element = "<VTKFile type=\"UnstructuredGrid\"".to_owned();
+    for k in 0..300_000 {
+        let _ = write!(element, " a{k}=\"\"");
+    }
+    fs::write(folder.join("answer.vtu"), format!("<!-- === -->\n{element}/>")).unwrap();
+    let output = run(&folder, &["judge", "--case", "lamp", "--answer", "answer.vtu"]);
+    refused(&output, "answer.vtu:2: an element with 300001 attributes is not understood");
+}
+
+/// A pipe that nobody writes into is not waited for, whoever names it.
+#[test]
+fn pipes_without_a_writer_are_not_waited_for() {
+    let folder = folder("pipes");
+    let made = std::process::Command::new("mkfifo").arg(folder.join("pipe")).status();
+    assert!(made.unwrap().success());
+    let anchors = "anchors = { start_m = [0, 0, 0], end_m = [1, 0, -1] }\n";
+    fs::write(folder.join("chain.toml"), format!("bars_file = \"pipe\"\n{anchors}")).unwrap();
+    let named = "joints_file = \"pipe\"\nbars = [{ from = \"A\", to = \"B\", length_m = 1, mass_kg = 1 }]\n";
+    fs::write(folder.join("named.toml"), named).unwrap();
+    for arguments in [
+        &["solve", "chain.toml"][..],
+        &["solve", "named.toml"],
+        &["solve", "pipe"],
+        &["solve", "--batch", "pipe"],
+        &["solve", "--case", "lamp", "--near", "pipe"],
+        &["judge", "--case", "lamp", "--answer", "pipe"],
+        &["simulate", "--case", "lamp", "--forces", "pipe"],
+    ] {
+        refused(&run(&folder, arguments), "a pipe with a name");
+    }
+}
+
+/// What a system file names need not be what its writer may read.
+#[test]
+fn errors_show_nothing_of_a_file_that_is_no_table() {
+    let folder = folder("foreign");
+    let anchors = "anchors = { start_m = [0, 0, 0], end_m = [1, 0, -1] }\n";
+    let bars = "bars = [{ from = \"A\", to = \"B\", length_m = 1, mass_kg = 1 }]\n";
+    let joints = "joints = { A = { at_m = [0, 0, 0] } }\n";
+    for (name, text) in [
+        ("chain.toml", format!("bars_file = \"secret\"\n{anchors}")),
+        ("joints.toml", format!("joints_file = \"secret\"\n{bars}")),
+        ("bars.toml", format!("bars_file = \"secret\"\n{joints}")),
+    ] {
+        fs::write(folder.join(name), text).unwrap();
+        for secret in
+            ["root:$6$salt:20000:0:99999\nuser:$6$\n", "key,$6$\n", "\u{1}\n$6$", "$6$\n\n"]
+        {
+            fs::write(folder.join("secret"), secret).unwrap();
+            let output = run(&folder, &["solve", name]);
+            refused(&output, "names no column");
+            assert!(!stderr(&output).contains("$6$"), "{name}: {}", stderr(&output));
+        }
+        fs::write(folder.join("secret"), b"$6$\xff\n").unwrap();
+        let output = run(&folder, &["solve", name]);
+        refused(&output, "names no column");
+        assert!(!stderr(&output).contains("$6$"), "{name}: {}", stderr(&output));
+    }
+}
+
+/// The lamp on two cables, between joints that a table would compute.
+const FORMULAS: &str = "name = \"a\\u202eb\\u0007\"\n\
+    [joints]\n\"=1+2\" = { at_m = [-3, 0, 0] }\n\"@B\" = { at_m = [3, 0, 0] }\n\"-\\u202eP\" = { mass_kg = 2 }\n\
+    [[bars]]\nfrom = \"=1+2\"\nto = \"-\\u202eP\"\nlength_m = 5\nmass_kg = 0\nkind = \"cable\"\n\
+    [[bars]]\nfrom = \"-\\u202eP\"\nto = \"@B\"\nlength_m = 5\nmass_kg = 0\nkind = \"cable\"\n";
+
+/// Names that begin like a formula are text in tables, and read back as they are; in pictures and
+/// pages no name turns the text round it.
+#[test]
+fn names_stay_names_in_tables_pictures_and_pages() {
+    let folder = folder("names-out");
+    fs::write(folder.join("lamp.toml"), FORMULAS).unwrap();
+    let solve = [
+        "solve",
+        "lamp.toml",
+        "--csv",
+        "joints.csv",
+        "--bars-csv",
+        "bars.csv",
+        "--svg",
+        "lamp.svg",
+    ];
+    let output = run(&folder, &solve);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    for file in ["joints.csv", "bars.csv"] {
+        let text = fs::read_to_string(folder.join(file)).unwrap();
+        let cells = text.lines().flat_map(|line| line.split(','));
+        // A number may begin with a sign.
+        let formula =
+            |cell: &&str| cell.starts_with(['=', '+', '-', '@']) && cell.parse::<f64>().is_err();
+        assert_eq!(cells.clone().find(formula), None, "{text}");
+        assert!(
+            cells.clone().any(|cell| cell == "'=1+2") && cells.clone().any(|cell| cell == "'@B")
+        );
+    }
+    let judge = [
+        "judge",
+        "lamp.toml",
+        "--answer",
+        "joints.csv",
+        "--members",
+        "bars.csv",
+        "--html",
+        "lamp.html",
+    ];
+    let output = run(&folder, &judge);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let output = run(&folder, &["modes", "lamp.toml", "--html", "modes.html"]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    for file in ["lamp.svg", "lamp-1.html", "modes.html"] {
+        let text = fs::read_to_string(folder.join(file)).unwrap();
+        let bad = text.chars().find(|c| model::steers(*c) && !matches!(c, '\n' | '\t'));
+        assert_eq!(bad, None, "{file}");
+    }
+}
+
+/// A text of the command line comes back without what would colour the terminal.
+#[test]
+fn a_parameter_is_not_echoed_raw() {
+    let folder = folder("vary");
+    let study = ["study", "--case", "lamp", "--vary", "joints.lamp.mass_kg=1\u{1b}[31m,2"];
+    let mut command = Command::cargo_bin("funicular").unwrap();
+    let output = command.current_dir(&folder).env("FORCE_COLOR", "1").args(study).output().unwrap();
+    let text = String::from_utf8(output.stderr).unwrap();
+    assert!(text.contains("1?[31m") && !text.contains("1\u{1b}[31m"), "{text:?}");
+}
+
+/// `-` is standard output where something is read, and no name of a file.
+#[test]
+fn a_dash_is_no_file() {
+    let folder = folder("dash");
+    let output = run(&folder, &["solve", "--case", "lamp", "--csv", "-"]);
+    refused(&output, "standard output is /dev/stdout");
+    assert_eq!(fs::read_dir(&folder).unwrap().count(), 0);
+}
+
+/// A motion that fails at its first step is no result, and replaces none.
+#[test]
+fn a_motion_that_fails_replaces_nothing() {
+    let folder = folder("motion");
+    fs::write(folder.join("m.csv"), "precious\n").unwrap();
+    let simulate = [
+        "simulate",
+        "--case",
+        "three-equal-bars",
+        "--from",
+        "seed:7",
+        "--step",
+        "10",
+        "--time",
+        "100",
+        "--out",
+        "m.csv",
+    ];
+    refused(&run(&folder, &simulate), "take a shorter step");
+    assert_eq!(fs::read_to_string(folder.join("m.csv")).unwrap(), "precious\n");
+    assert_eq!(fs::read_dir(&folder).unwrap().count(), 1);
+}
+
+/// Masses of which the lightest is lost in the heaviest are refused with their numbers, at once: with 10,000 bars
+/// beside them one of the solvers did not come back.
+#[test]
+fn masses_too_far_apart_are_refused() {
+    let folder = folder("masses");
+    let text = "anchors = { start_m = [0, 0, 0], end_m = [6000, 0, 0] }\n\
+        bars = [{ length_m = 1, mass_kg = 0.5, count = 10000 }, { length_m = 1, mass_kg = 1e200 }]\n";
+    fs::write(folder.join("chain.toml"), text).unwrap();
+    refused(&run(&folder, &["solve", "chain.toml"]), "reach from 0.5 kg to 1e200 kg");
+}

@@ -1,0 +1,68 @@
+//! What is asked of the solvers.
+
+use std::num::NonZeroUsize;
+
+/// What is asked, and of whom.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Question {
+    /// Which solvers. Default both.
+    pub solvers: Solvers,
+    /// Which equations `lagrange` solves for a row of rigid bars between two anchors. Default the
+    /// condensed ones.
+    pub equations: Equations,
+    /// Whether the answers are looked up in a census. Default where that is quick.
+    pub census: UseCensus,
+    /// How many threads `lagrange` uses for one long chain; the answer does not depend on it.
+    /// Default one. (A census runs on the threads of rayon's pool.)
+    pub threads: NonZeroUsize,
+}
+
+impl Default for Question {
+    fn default() -> Self {
+        Self {
+            solvers: Solvers::Both,
+            equations: Equations::Condensed,
+            census: UseCensus::Auto,
+            threads: NonZeroUsize::MIN,
+        }
+    }
+}
+
+/// Which solvers are asked.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Solvers {
+    /// Forces first: constraints and multipliers. Alone it gets no comparison.
+    Lagrange,
+    /// Energy first: minimisation. Alone it gets no comparison.
+    Energy,
+    /// Both, and the comparison.
+    #[default]
+    Both,
+}
+
+/// Which of the systems of equations `lagrange` solves.
+///
+/// They have the same solutions; a test compares them. The angles of the full one lose digits where
+/// strands hang side by side or a chain is nearly straight, and its cost grows faster than the
+/// number of bars.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Equations {
+    /// Three equations for the pull on the first anchor, whatever the number of bars.
+    #[default]
+    Condensed,
+    /// The paper's: all coordinates and all multipliers at once; for some 30 bars.
+    Full,
+}
+
+/// Whether answers are looked up in a census: whether they are proved to be equilibria, and with
+/// which others.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum UseCensus {
+    /// No census.
+    Never,
+    /// Where it takes a second at most: chains of up to 8 bars.
+    #[default]
+    Auto,
+    /// Wherever there can be one: chains of up to 16 bars, in some ten seconds.
+    Always,
+}
