@@ -5,7 +5,6 @@ use std::path::PathBuf;
 
 use clap::Args;
 use funicular::{Basins, Field};
-use miette::miette;
 use model::SolverName;
 
 use crate::cost::tell_time;
@@ -62,7 +61,7 @@ pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
     threads::install(0)?;
     let Input { problem, files } = arguments.input.read()?;
     let [i, j] = arguments.bars[..] else {
-        return Err(Failure::bad_input(miette!("--bars wants two bars, as in --bars 1,2")));
+        return Err(Failure::bad_input("--bars wants two bars, as in --bars 1,2"));
     };
     let basins = Basins::new().size(arguments.size).bars([i, j]).others_deg(arguments.others);
     basins.check(&problem)?;

@@ -11,11 +11,11 @@ use census::{CensusError, Settings, rough_time};
 use clap::Args;
 use funicular::Error;
 use funicular::census::Summary;
-use miette::miette;
 use model::NoCensus;
 use model::system::System;
 
 use crate::cost::tell_time;
+use crate::diagnostics::Diagnostic;
 use crate::exit::{Exit, Failure};
 use crate::input::{Input, Source};
 use crate::interrupt::end_on_interrupt;
@@ -173,7 +173,7 @@ fn of_system(
         arguments.svg.as_deref().map_or_else(Vec::new, |path| output::numbered(path, shown.len()));
     for (path, shape) in drawings.iter().zip(shown) {
         let drawn = funicular::picture::of_system(system, shape)
-            .map_err(|error| Failure::undecided(miette!("no picture: {error}")))?;
+            .map_err(|error| Failure::undecided(format!("no picture: {error}")))?;
         output::write_whole(path, &drawn)?;
     }
     drop(progress);
@@ -198,7 +198,7 @@ fn refuse(error: Error) -> Failure {
         } else {
             "`funicular solve` finds equilibria of nets of any size; nobody knows how many there are".to_owned()
         };
-        return Failure::bad_input(miette!(help = help, "{error}"));
+        return Failure::bad_input(Diagnostic::from(error).with_help(help));
     }
     if let Error::SystemCensus(NoCensus::Bridle { bars, .. }) = error {
         let time = rough_time(bridle_seconds(bars));
@@ -214,7 +214,7 @@ fn refuse(error: Error) -> Failure {
                 Settings::MAX_BARS
             )
         };
-        return Failure::bad_input(miette!(help = help, "{error}"));
+        return Failure::bad_input(Diagnostic::from(error).with_help(help));
     }
     let Error::Census(CensusError::TooManyBars { bars, estimate_s, .. }) = error else {
         return error.into();
@@ -233,5 +233,5 @@ fn refuse(error: Error) -> Failure {
             rough_time(estimate_s)
         )
     };
-    Failure::bad_input(miette!(help = help, "{error}"))
+    Failure::bad_input(Diagnostic::from(error).with_help(help))
 }

@@ -1,106 +1,135 @@
 //! Errors with the line they are about.
 
-use std::io::Write as _;
+use std::fmt;
+use std::io::{IsTerminal as _, Write as _};
+use std::ops::Range;
 
-use miette::{Diagnostic, LabeledSpan, NamedSource, SourceCode};
 use model::system_file::SystemFileError;
+use unicode_width::UnicodeWidthStr as _;
 
 use crate::printable::{Printable, filtered};
+use crate::tables::wrapped;
 
-/// Show errors with their source lines, and without a backtrace of the program's inside.
-pub fn install() {
-    // The hook can be set once per process; a second call would come from a test and is harmless.
-    let _ = miette::set_hook(Box::new(|_| {
-        Box::new(miette::MietteHandlerOpts::new().context_lines(1).tab_width(4).build())
-    }));
-}
-
-/// An error in a system file as miette shows it.
+/// What is wrong, the line that it is in, and what to do about it.
 #[derive(Debug)]
-pub struct SystemFileReport {
-    error: SystemFileError,
-    source: NamedSource<String>,
+pub struct Diagnostic {
+    message: String,
+    line: Option<Box<Line>>,
+    help: Option<String>,
 }
 
-impl From<SystemFileError> for SystemFileReport {
-    fn from(error: SystemFileError) -> Self {
-        let end = error.span().map_or(0, |span| span.end);
-        let source = NamedSource::new(printable(error.file()), excerpt(error.text(), end));
-        Self { error, source }
-    }
+/// A line with a part that is marked.
+#[derive(Debug)]
+struct Line {
+    number: usize,
+    before: String,
+    marked: String,
+    after: String,
+    label: String,
 }
 
-/// Longest column that is shown in its line; an error beyond it is told by its place alone.
-const WIDEST: usize = 400;
+/// The most characters of a line that are shown before a mark; a mark beyond is told by its place
+/// alone.
+const BEFORE: usize = 400;
 
-/// Bytes of a line that are shown after what an error is about, or at all.
+/// The most characters that are shown of a mark, and of what follows it.
 const SHOWN: usize = 200;
 
-/// A text for a terminal: what would steer it, such as escape sequences, becomes question marks, as
-/// many as it has bytes.
-fn printable(text: &str) -> String {
-    text.chars().fold(String::with_capacity(text.len()), |mut out, c| {
-        if c.is_control() && !matches!(c, '\n' | '\t' | '\r') {
-            out.extend(std::iter::repeat_n('?', c.len_utf8()));
-        } else {
-            out.push(c);
+impl<T: fmt::Display> From<T> for Diagnostic {
+    fn from(message: T) -> Self {
+        Self { message: message.to_string(), line: None, help: None }
+    }
+}
+
+impl Diagnostic {
+    /// An error in a system file.
+    pub fn of_file(error: &SystemFileError) -> Self {
+        let label = Printable(error.key().unwrap_or("here")).to_string();
+        let line = error.span().and_then(|span| Line::of(error.text(), span, label)).map(Box::new);
+        Self { message: error.to_string(), line, help: error.help() }
+    }
+
+    /// With what to do about it.
+    pub fn with_help(self, help: impl Into<Option<String>>) -> Self {
+        Self { help: help.into(), ..self }
+    }
+
+    /// With the part of a text that it is about.
+    pub fn at(self, text: &str, span: Range<usize>, label: String) -> Self {
+        Self { line: Line::of(text, span, label).map(Box::new), ..self }
+    }
+
+    /// What is wrong, and what to do about it.
+    pub fn words(&self) -> (&str, Option<&str>) {
+        (&self.message, self.help.as_deref())
+    }
+
+    /// Print it to standard error.
+    pub fn print(&self) {
+        let plain = std::env::var_os("NO_COLOR").is_some_and(|value| !value.is_empty());
+        tell(self.shown(!plain && std::io::stderr().is_terminal()));
+    }
+
+    fn shown(&self, colours: bool) -> String {
+        let [red, blue, off] =
+            if colours { ["\u{1b}[1;31m", "\u{1b}[1;34m", "\u{1b}[0m"] } else { [""; 3] };
+        let paragraph = |colour: &str, head: &str, text: &str| {
+            // No line of a message begins where a line of the program's own does.
+            let text = format!("{head}: {text}").replace('\n', "\n  ");
+            let lines: Vec<String> = text.lines().map(|line| wrapped(line, 2)).collect();
+            format!("{colour}{head}{off}{}", &lines.join("\n")[head.len()..])
+        };
+        let mut parts = vec![paragraph(red, "error", &self.message)];
+        if let Some(line) = &self.line {
+            let Line { number, before, marked, after, label } = line.as_ref();
+            let number = number.to_string();
+            let gutter = " ".repeat(number.len());
+            let indent = " ".repeat(before.width());
+            let carets = "^".repeat(marked.width().max(1));
+            parts.push(format!(
+                "{blue}{gutter} |{off}\n{blue}{number} |{off} {before}{marked}{after}\n\
+                 {blue}{gutter} |{off} {indent}{red}{carets} {label}{off}"
+            ));
         }
-        out
-    })
-}
-
-/// A text whose lines are no longer than is good to look at, the one with `end` in it not before
-/// that. Nothing moves that stands before `end`.
-fn excerpt(text: &str, end: usize) -> String {
-    let mut out = String::new();
-    let mut at = 0;
-    for line in text.split_inclusive('\n') {
-        let content = line.trim_end_matches('\n');
-        // Before the end all stays, so that places stay: only the last line that is shown may be
-        // cut.
-        let keep = if at + line.len() <= end { line.len() } else { end.saturating_sub(at) + SHOWN };
-        if content.len() > keep {
-            let cut = (keep..content.len()).find(|k| content.is_char_boundary(*k));
-            out.push_str(&printable(&content[..cut.unwrap_or(content.len())]));
-            out.push_str(if line.ends_with('\n') { "...\n" } else { "..." });
-        } else {
-            out.push_str(&printable(line));
-        }
-        at += line.len();
-    }
-    out
-}
-
-impl std::fmt::Display for SystemFileReport {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(&printable(&self.error.to_string()))
+        parts.extend(self.help.as_ref().map(|help| paragraph(blue, "help", help)));
+        parts.join("\n")
     }
 }
 
-// Why a file cannot be read is part of the message; as a source it would be told twice.
-impl std::error::Error for SystemFileReport {}
-
-impl Diagnostic for SystemFileReport {
-    fn help<'a>(&'a self) -> Option<Box<dyn std::fmt::Display + 'a>> {
-        self.error.help().map(|help| Box::new(help) as Box<dyn std::fmt::Display>)
+impl Line {
+    /// `None` where the mark is too far on in its line.
+    fn of(text: &str, span: Range<usize>, label: String) -> Option<Self> {
+        let (until, rest) = text.split_at_checked(span.start)?;
+        let first = until.rfind('\n').map_or(0, |end| end + 1);
+        let rest = rest.lines().next().unwrap_or_default();
+        let (marked, after) = rest.split_at_checked(span.len().min(rest.len()))?;
+        let before = &until[first..];
+        (before.chars().count() <= BEFORE).then(|| Self {
+            number: until.matches('\n').count() + 1,
+            before: clean(before),
+            marked: clean(&cut(marked)),
+            after: clean(&cut(after)),
+            label,
+        })
     }
+}
 
-    fn source_code(&self) -> Option<&dyn SourceCode> {
-        let near = self.error.position().is_some_and(|place| place.column <= WIDEST);
-        near.then_some(&self.source as &dyn SourceCode)
+/// A text that is not longer than is good to look at.
+fn cut(text: &str) -> String {
+    match text.char_indices().nth(SHOWN) {
+        Some((end, _)) => text[..end].to_owned() + "...",
+        None => text.to_owned(),
     }
+}
 
-    fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
-        self.source_code()?;
-        let span = self.error.span()?;
-        let label = Printable(self.error.key().unwrap_or("here")).to_string();
-        Some(Box::new(std::iter::once(LabeledSpan::new_with_span(Some(label), span))))
-    }
+/// A part of a line as it is shown: no tabs, and nothing that steers the terminal.
+fn clean(text: &str) -> String {
+    filtered(&text.replace('\t', "    "), false)
 }
 
 /// Tell something on standard error. Nobody may be reading there, and then there is nobody to tell
 /// that.
-pub fn tell(text: impl std::fmt::Display) {
+pub fn tell(text: impl fmt::Display) {
     let _ = writeln!(std::io::stderr(), "{}", filtered(&text.to_string(), true));
 }
 
@@ -108,17 +137,42 @@ pub fn tell(text: impl std::fmt::Display) {
 mod tests {
     use super::*;
 
+    fn shown(text: &str, span: Range<usize>) -> String {
+        Diagnostic::from("wrong")
+            .at(text, span, "here".to_owned())
+            .with_help("do".to_owned())
+            .shown(false)
+    }
+
+    /// Marks stand below what they are about, also behind tabs and wide letters.
     #[test]
-    fn a_file_cannot_steer_the_terminal() {
-        assert_eq!(printable("a\u{1b}]0;title\u{7}\u{9b}\tb\n"), "a?]0;title???\tb\n");
+    fn the_line_is_shown_and_marked() {
+        let wanted = "error: wrong\n  |\n2 | y = 3 # 4\n  |     ^ here\nhelp: do";
+        assert_eq!(shown("x = 1\ny = 3 # 4\nz = 5", 10..11), wanted);
+        let wanted = "error: wrong\n  |\n1 |     \u{68a1} = 3\n  |          ^ here\nhelp: do";
+        assert_eq!(shown("\t\u{68a1} = 3\n", 7..8), wanted);
     }
 
     #[test]
-    fn what_stands_before_an_error_stays_where_it_is_and_long_lines_end() {
-        let text = format!("x = 1\ny = {}\nz = {}", "1".repeat(500), "2".repeat(9));
-        let shown = excerpt(&text, 10);
-        assert!(shown.starts_with(&text[..10 + SHOWN]));
-        assert!(shown.ends_with("111...\nz = 222222222"));
-        assert_eq!(excerpt("short\n", 3), "short\n");
+    fn a_file_cannot_steer_the_terminal() {
+        assert!(shown("a\u{1b}]0;title\u{7}\u{9b}b\n", 0..1).contains("| a?]0;title??b\n"));
+    }
+
+    #[test]
+    fn long_lines_are_cut_and_marks_far_on_are_not_shown() {
+        let text = "1".repeat(500);
+        let line = format!("| {}{}...\n", "1".repeat(10), "1".repeat(SHOWN));
+        assert!(shown(&text, 9..10).contains(&line));
+        assert_eq!(shown(&text, 450..451), "error: wrong\nhelp: do");
+        assert_eq!(shown("\u{e4}", 1..2), "error: wrong\nhelp: do");
+    }
+
+    #[test]
+    fn long_messages_are_wrapped() {
+        let text = Diagnostic::from("word ".repeat(30)).shown(true);
+        assert!(text.starts_with("\u{1b}[1;31merror\u{1b}[0m: word word"));
+        assert!(text.lines().all(|line| line.len() <= 80 + 11), "{text}");
+        assert_eq!(text.matches("word").count(), 30);
+        assert_eq!(Diagnostic::from("a\nerror: b").shown(false), "error: a\n  error: b");
     }
 }

@@ -3,11 +3,10 @@
 use branches::{ContinuationError, ParameterError};
 use funicular::Error;
 use funicular::judge::GivenError;
-use miette::{LabeledSpan, miette};
 use model::steers;
 use validate::systems::SystemFailure;
 
-use crate::diagnostics::{SystemFileReport, tell};
+use crate::diagnostics::Diagnostic;
 
 /// A way to end, with its exit code (0 agreed, 1 a check failed, 2 bad input, 3 undecided).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -59,25 +58,25 @@ impl From<Exit> for std::process::ExitCode {
 /// What stopped a command, and the way to end for it.
 #[derive(Debug)]
 pub struct Failure {
-    report: miette::Report,
+    diagnostic: Diagnostic,
     exit: Exit,
 }
 
 impl Failure {
     /// The user's input cannot be used.
-    pub fn bad_input(report: impl Into<miette::Report>) -> Self {
-        Self { report: report.into(), exit: Exit::BadInput }
+    pub fn bad_input(diagnostic: impl Into<Diagnostic>) -> Self {
+        Self { diagnostic: diagnostic.into(), exit: Exit::BadInput }
     }
 
     /// A solver gave up.
-    pub fn undecided(report: impl Into<miette::Report>) -> Self {
-        Self { report: report.into(), exit: Exit::Undecided }
+    pub fn undecided(diagnostic: impl Into<Diagnostic>) -> Self {
+        Self { diagnostic: diagnostic.into(), exit: Exit::Undecided }
     }
 
     /// What the library refuses is bad input; what its solvers do not reach is undecided.
     fn of(error: Error) -> Self {
         match error {
-            Error::File(error) => Self::bad_input(SystemFileReport::from(error)),
+            Error::File(error) => Self::bad_input(Diagnostic::of_file(&error)),
             Error::UnknownCase { suggestion, .. } => {
                 let chains = model::cases::all().iter().map(|case| case.name);
                 let systems = model::cases::exhibits().map(|exhibit| exhibit.name);
@@ -87,69 +86,61 @@ impl Failure {
                     Some(name) => format!("did you mean `{name}`? {all}"),
                     None => all,
                 };
-                Self::bad_input(miette!(help = help, "{error}"))
+                Self::bad_input(Diagnostic::from(error).with_help(help))
             }
             Error::Unsolved(ref answer)
                 if answer.failures().iter().all(SystemFailure::is_misfit) =>
             {
-                Self::bad_input(miette!("{error}"))
+                Self::bad_input(error)
             }
             Error::Unsolved(_)
             | Error::Lagrange(_)
             | Error::Condensed(_)
             | Error::Energy(_)
-            | Error::Network(_) => Self::undecided(miette!("{error}")),
+            | Error::Network(_)
+            | Error::Basins(_)
+            | Error::Reproduction(_)
+            | Error::Report(_) => Self::undecided(error),
             // A disk that fails says nothing about the input, and those who run many may try again.
             Error::Store(error) => {
-                let message = error.to_string();
-                let report = match error.help() {
-                    Some(help) => miette!(help = help, "{message}"),
-                    None => miette!("{message}"),
-                };
-                if error.may_pass() { Self::undecided(report) } else { Self::bad_input(report) }
+                let help = error.help().map(Into::into);
+                let diagnostic = Diagnostic::from(&error).with_help(help);
+                if error.may_pass() {
+                    Self::undecided(diagnostic)
+                } else {
+                    Self::bad_input(diagnostic)
+                }
             }
             Error::GridSeeds { ref nearest, bars, .. } => {
                 let near = nearest.iter().map(|(side, all)| format!("{all} = {side}^{bars}"));
                 let near = near.collect::<Vec<_>>().join(" and ");
                 let help = format!("the nearest are --seeds {near}");
-                Self::bad_input(miette!(help = help, "{error}"))
+                Self::bad_input(Diagnostic::from(error).with_help(help))
             }
             Error::Parameter(error) => Self::parameter(&error),
             Error::Continuation(ContinuationError::TooManyPoints { points, .. }) => {
                 let help = format!("with --max-points {points} it is done all the same");
-                Self::bad_input(miette!(help = help, "{error}"))
+                Self::bad_input(Diagnostic::from(error).with_help(help))
             }
             Error::Format(error) => {
-                let message = error.to_string();
-                match error.help {
-                    Some(help) => Self::bad_input(miette!(help = help, "{message}")),
-                    None => Self::bad_input(miette!("{message}")),
-                }
+                let diagnostic = Diagnostic::from(&error);
+                Self::bad_input(diagnostic.with_help(error.help))
             }
             Error::Given(GivenError::UnknownJoint { name, suggestion: Some(near) }) => {
                 let help = format!("did you mean {near:?}?");
-                Self::bad_input(miette!(help = help, "the system has no joint {name:?}"))
+                let message = format!("the system has no joint {name:?}");
+                Self::bad_input(Diagnostic::from(message).with_help(help))
             }
-            Error::Basins(_) | Error::Reproduction(_) | Error::Report(_) => {
-                Self::undecided(miette!("{error}"))
-            }
-            _ => Self::bad_input(miette!("{error}")),
+            _ => Self::bad_input(error),
         }
     }
 
     /// The error with the place in the text of the parameter.
     fn parameter(error: &ParameterError) -> Self {
-        let text = in_place(&error.text);
-        let label = LabeledSpan::new_with_span(Some(in_place(&error.what)), error.span.clone());
-        let report = miette!(
-            labels = vec![label],
-            help = in_place(&error.help),
-            "{}, character {}: {}",
-            text,
-            error.column(),
-            in_place(&error.what)
-        );
-        Self::bad_input(report.with_source_code(text))
+        let (text, what) = (in_place(&error.text), in_place(&error.what));
+        let message = format!("{text}, character {}: {what}", error.column());
+        let diagnostic = Diagnostic::from(message).with_help(in_place(&error.help));
+        Self::bad_input(diagnostic.at(&text, error.span.clone(), what))
     }
 
     /// The way to end.
@@ -157,14 +148,14 @@ impl Failure {
         self.exit
     }
 
-    /// What is wrong, in a line, and what to do about it.
-    pub fn message(&self) -> (String, Option<String>) {
-        (self.report.to_string(), self.report.help().map(|help| help.to_string()))
+    /// What is wrong, and what to do about it.
+    pub fn words(&self) -> (&str, Option<&str>) {
+        self.diagnostic.words()
     }
 
-    /// Print the report to standard error and say how to end.
+    /// Print it to standard error and say how to end.
     pub fn report(self) -> Exit {
-        tell(format_args!("{:?}", self.report));
+        self.diagnostic.print();
         self.exit
     }
 }

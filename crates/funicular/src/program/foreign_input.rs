@@ -6,7 +6,6 @@ use std::path::{Path, PathBuf};
 use formats::system::{parse_compas, parse_moordyn, parse_net};
 use funicular::Error;
 use funicular::judge::Subject;
-use miette::miette;
 use model::open_input;
 use model::system_file::most_file_bytes;
 
@@ -25,7 +24,7 @@ pub fn system(arguments: &Judge) -> Result<(Subject, Vec<PathBuf>), Failure> {
         format => format,
     };
     if format != Format::ForceDensity && arguments.edges.is_some() {
-        return Err(Failure::bad_input(miette!("--edges is for nets of force densities")));
+        return Err(Failure::bad_input("--edges is for nets of force densities"));
     }
     let subject = match format {
         Format::Moordyn => {
@@ -38,9 +37,9 @@ pub fn system(arguments: &Judge) -> Result<(Subject, Vec<PathBuf>), Failure> {
         }
         Format::ForceDensity => {
             let Some(edges) = arguments.edges.as_deref() else {
-                return Err(Failure::bad_input(miette!(
-                    "a net of force densities needs its edges too: --edges FILE"
-                )));
+                return Err(Failure::bad_input(
+                    "a net of force densities needs its edges too: --edges FILE",
+                ));
             };
             let (nodes, edges) = (text(path)?, text(edges)?);
             let net = parse_net((&nodes.0, &nodes.1), (&edges.0, &edges.1), &nodes.1);
@@ -76,7 +75,7 @@ pub fn text(path: &Path) -> Result<(String, String), Failure> {
     let standard = path == Path::new("-");
     let name = if standard { "standard input".to_owned() } else { path.display().to_string() };
     let unreadable = |why: &dyn std::fmt::Display| {
-        Failure::bad_input(miette!("{} cannot be read: {why}", crate::printable::Printable(&name)))
+        Failure::bad_input(format!("{} cannot be read: {why}", crate::printable::Printable(&name)))
     };
     let mut bytes = Vec::new();
     // One byte more than is allowed shows that it is too long.

@@ -6,10 +6,10 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use formats::answer::{Answer, Forces};
 use funicular::{Error, Problem};
-use miette::miette;
 use model::system_file::most_file_bytes;
 
 use crate::case_name::CaseName;
+use crate::diagnostics::Diagnostic;
 use crate::exit::Failure;
 use crate::foreign_input;
 
@@ -55,9 +55,9 @@ impl Drawn {
     /// The system, drawn with the shape that was given, and the files that were read.
     pub fn read(&self) -> Result<Input, Failure> {
         if self.shape.is_standard_input() && self.source.file.as_deref() == Some(Path::new("-")) {
-            return Err(Failure::bad_input(miette!(
-                "the system and its shape cannot both come from standard input"
-            )));
+            return Err(Failure::bad_input(
+                "the system and its shape cannot both come from standard input",
+            ));
         }
         let Input { problem, mut files } = self.source.read()?;
         files.extend(self.shape.near.clone());
@@ -103,7 +103,7 @@ impl Input {
     /// The chain, for commands that work for chains alone.
     pub fn into_chain(self, command: &str) -> Result<model::Problem, Failure> {
         self.problem.row().cloned().ok_or_else(|| {
-            Failure::bad_input(miette!("`{command}` is for chains between two anchors"))
+            Failure::bad_input(format!("`{command}` is for chains between two anchors"))
         })
     }
 }
@@ -118,7 +118,7 @@ pub fn problem(file: Option<&Path>, case: Option<&str>) -> Result<Input, Failure
         }
         (None, Some(name)) => (Problem::case(name)?, vec![]),
         // clap asks for one of them.
-        (None, None) => return Err(Failure::bad_input(miette!("name a system file or a case"))),
+        (None, None) => return Err(Failure::bad_input("name a system file or a case")),
     };
     Ok(Input { problem, files })
 }
@@ -127,10 +127,11 @@ pub fn problem(file: Option<&Path>, case: Option<&str>) -> Result<Input, Failure
 fn meant_as_case(file: &Path) -> Result<(), Failure> {
     let name = file.to_str().filter(|name| Problem::case(name).is_ok());
     match name {
-        Some(name) if !file.exists() => Err(Failure::bad_input(miette!(
-            help = format!("there is a case of that name: `--case {name}`"),
-            "there is no file {name}"
-        ))),
+        Some(name) if !file.exists() => {
+            let help = format!("there is a case of that name: `--case {name}`");
+            let message = format!("there is no file {name}");
+            Err(Failure::bad_input(Diagnostic::from(message).with_help(help)))
+        }
         _ => Ok(()),
     }
 }
@@ -139,7 +140,7 @@ fn standard_input() -> Result<Problem, Failure> {
     /// Stands for the file in errors.
     const NAME: &str = "standard input";
     let unreadable = |error: &dyn std::fmt::Display| {
-        Failure::bad_input(miette!("{NAME} cannot be read: {error}"))
+        Failure::bad_input(format!("{NAME} cannot be read: {error}"))
     };
     let mut text = vec![];
     // One byte more than is allowed shows that it is too long.

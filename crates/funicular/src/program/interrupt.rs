@@ -5,8 +5,6 @@ use std::io;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, PoisonError};
 
-use miette::miette;
-
 use crate::exit::{Exit, Failure};
 
 /// Set by the first Ctrl-C while something is done that can be gone on with.
@@ -78,7 +76,7 @@ pub fn whole_line(write: impl FnOnce() -> io::Result<()>) -> io::Result<()> {
 
 fn watch(heard: impl FnMut() + Send + 'static) -> Result<(), Failure> {
     ctrlc::set_handler(heard)
-        .map_err(|error| Failure::bad_input(miette!("Ctrl-C cannot be watched for: {error}")))
+        .map_err(|error| Failure::bad_input(format!("Ctrl-C cannot be watched for: {error}")))
 }
 
 fn end() {

@@ -5,7 +5,6 @@ use std::path::{Path, PathBuf};
 use clap::{Args, ValueEnum};
 use formats::answer::Answer;
 use funicular::judge::{Ruling, Subject};
-use miette::miette;
 
 use crate::case_name::CaseName;
 use crate::exit::{Exit, Failure};
@@ -86,9 +85,9 @@ pub fn run(arguments: &Judge) -> Result<Exit, Failure> {
     let standard = |path: &Option<PathBuf>| path.as_deref() == Some(Path::new("-"));
     let readers = [&arguments.file, &arguments.answer, &arguments.members, &arguments.edges];
     if readers.into_iter().filter(|path| standard(path)).count() > 1 {
-        return Err(Failure::bad_input(miette!(
-            "the system and its answer cannot both come from standard input"
-        )));
+        return Err(Failure::bad_input(
+            "the system and its answer cannot both come from standard input",
+        ));
     }
     let progress = Progress::start();
     progress.say("reading");
@@ -141,7 +140,7 @@ fn answers(
         return subject
             .own_answer()
             .map(|answer| vec![answer])
-            .ok_or_else(|| Failure::bad_input(miette!("an answer is needed: --answer FILE")));
+            .ok_or_else(|| Failure::bad_input("an answer is needed: --answer FILE"));
     };
     let (text, name) = foreign_input::text(path)?;
     let mut answers = formats::answer::parse(&text, &name).map_err(funicular::Error::from)?;

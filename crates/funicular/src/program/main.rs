@@ -48,7 +48,6 @@ use crate::args::{Cli, Command};
 use crate::exit::Exit;
 
 fn main() -> std::process::ExitCode {
-    diagnostics::install();
     let cli = match help::parse() {
         Ok(cli) => cli,
         Err(exit) => return exit.into(),

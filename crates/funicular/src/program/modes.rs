@@ -6,7 +6,6 @@ use std::path::PathBuf;
 use clap::Args;
 use comfy_table::{CellAlignment, ColumnConstraint, Table};
 use funicular::{Enclosed, ModesAnswer, WithModes};
-use miette::miette;
 use model::system::System;
 
 use crate::exit::{Exit, Failure};
@@ -92,14 +91,13 @@ fn write_pictures(arguments: &Modes, system: &System, answer: &ModesAnswer) -> R
         let found = answer.equilibria.iter().find(|found| found.label == arguments.equilibrium);
         let Some(found) = found else {
             let labels: Vec<&str> = answer.equilibria.iter().map(|e| e.label.as_str()).collect();
-            return Err(Failure::bad_input(miette!(
+            return Err(Failure::bad_input(format!(
                 "there is no equilibrium {:?}; there are {}",
                 arguments.equilibrium,
                 labels.join(", ")
             )));
         };
-        let svg = funicular::drawn_modes(system, found)
-            .map_err(|error| Failure::undecided(miette!("{error}")))?;
+        let svg = funicular::drawn_modes(system, found).map_err(Failure::undecided)?;
         output::write_whole(path, &svg)?;
     }
     if let Some(path) = &arguments.html {

@@ -6,7 +6,6 @@ use std::io::{self, BufWriter, ErrorKind, StdoutLock, Write};
 use std::path::{Path, PathBuf};
 
 use columns::AtomicFile;
-use miette::miette;
 use serde::Serialize;
 
 use crate::exit::Failure;
@@ -45,7 +44,7 @@ pub fn print_json(object: &impl Serialize) -> Result<(), Failure> {
 
 /// What cannot be said in JSON: a number that is not finite, which no answer has.
 pub fn no_json(error: &serde_json::Error) -> Failure {
-    Failure::undecided(miette!("the answer cannot be written as JSON: {error}"))
+    Failure::undecided(format!("the answer cannot be written as JSON: {error}"))
 }
 
 /// Refuse, before the work, what cannot be written after it, and what would overwrite a file that
@@ -106,13 +105,13 @@ fn place(path: &Path) -> Option<PathBuf> {
 }
 
 fn cannot_write(path: &Path, why: impl Display) -> Failure {
-    Failure::bad_input(miette!("cannot write {}: {why}", path.display()))
+    Failure::bad_input(format!("cannot write {}: {why}", path.display()))
 }
 
 /// A disk that is full says nothing about the input: what was asked is undecided, and may be asked
 /// again.
 pub fn not_written(what: &str, error: &io::Error) -> Failure {
-    let report = miette!("cannot write {what}: {error}");
+    let report = format!("cannot write {what}: {error}");
     match error.kind() {
         ErrorKind::StorageFull | ErrorKind::QuotaExceeded | ErrorKind::FileTooLarge => {
             Failure::undecided(report)
@@ -162,6 +161,6 @@ pub fn write_stream(
 /// Make a folder with its parents.
 pub fn make_folder(path: &Path) -> Result<(), Failure> {
     fs::create_dir_all(path).map_err(|error| {
-        Failure::bad_input(miette!("cannot make the folder {}: {error}", path.display()))
+        Failure::bad_input(format!("cannot make the folder {}: {error}", path.display()))
     })
 }

@@ -3,7 +3,6 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use miette::miette;
 use validate::table::csv;
 
 use crate::exit::{Exit, Failure};
@@ -41,7 +40,7 @@ pub fn run(arguments: &Reproduce) -> Result<Exit, Failure> {
     let report = funicular::Reproduce::new().run_watched(|what| progress.say(what))?;
     drop(progress);
     let reproduction = report.reproduction();
-    let json = || report.json().map_err(|error| Failure::undecided(miette!("{error}")));
+    let json = || report.json().map_err(Failure::undecided);
     if let Some(folder) = &arguments.out {
         let texts = [report.html(), report.markdown(), json()?, csv(&reproduction.cases)];
         for (name, text) in FILES.into_iter().zip(&texts) {

@@ -10,7 +10,6 @@ use std::sync::atomic::Ordering;
 use ::columns::{ColumnsError, Format};
 use clap::Args;
 use funicular::{Animation, Error, ForceTable, Order, Problem, Start};
-use miette::miette;
 use model::Vector;
 use model::system::System;
 
@@ -104,7 +103,7 @@ fn format(path: &Path) -> Result<Format, Failure> {
         .into_iter()
         .find(|format| path.extension().is_some_and(|e| e.eq_ignore_ascii_case(format.extension())))
         .ok_or_else(|| {
-            Failure::bad_input(miette!(
+            Failure::bad_input(format!(
                 "cannot write {}: its name has to end in .csv or .parquet",
                 path.display()
             ))
@@ -259,5 +258,5 @@ impl Kept {
 }
 
 fn unwritten(error: &ColumnsError) -> Failure {
-    Failure::undecided(miette!("{error}"))
+    Failure::undecided(error)
 }

@@ -10,7 +10,6 @@ use std::path::{Path, PathBuf};
 use clap::{Args, ValueEnum};
 use formats::answer::Answer;
 use funicular::{Error, Lists, SolveAnswer, picture};
-use miette::miette;
 use validate::{Equations, Solvers, UseCensus};
 
 use crate::answer;
@@ -136,9 +135,9 @@ impl Solve {
         let standard = |path: &PathBuf| path.as_path() == Path::new("-");
         let inputs = self.files.iter().chain(&self.batch);
         if self.shape.is_standard_input() && inputs.into_iter().any(standard) {
-            return Err(Failure::bad_input(miette!(
-                "the system and its shape cannot both come from standard input"
-            )));
+            return Err(Failure::bad_input(
+                "the system and its shape cannot both come from standard input",
+            ));
         }
         self.shape.read()
     }
@@ -201,7 +200,7 @@ fn write_files(
     }
     if let (Some(path), [first, ..]) = (&arguments.svg, answer.equilibria()) {
         let drawn = picture::of_system(answer.system(), first);
-        output::write_whole(path, &drawn.map_err(|error| Failure::undecided(miette!("{error}")))?)?;
+        output::write_whole(path, &drawn.map_err(Failure::undecided)?)?;
     }
     Ok(())
 }

@@ -6,7 +6,6 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use clap::Args;
 use funicular::{Study, StudyAnswer, StudyPoint};
-use miette::miette;
 
 use crate::exit::{Exit, Failure};
 use crate::input::{Drawn, Input};
@@ -107,7 +106,7 @@ pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
     drop(progress);
     // Results are replaced by results alone: a refusal comes before any file.
     if let Some(reason) = found.refused_everywhere() {
-        return Err(Failure::bad_input(miette!(
+        return Err(Failure::bad_input(format!(
             "no value of the parameters describes what can hang; the first: {reason}"
         )));
     }

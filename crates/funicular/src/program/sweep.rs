@@ -9,7 +9,6 @@ use std::time::{Duration, Instant};
 use ::sweep::{Manifest, Run, RunSettings, SCHEMA_VERSION, StoreSummary};
 use funicular::Error;
 use indicatif::{HumanCount, ProgressBar, ProgressState, ProgressStyle};
-use miette::miette;
 use serde_json::{Value, json};
 
 pub use self::arguments::Sweep;
@@ -167,7 +166,7 @@ pub(crate) fn json_object(manifest: &Manifest, summary: &StoreSummary, out: &Pat
 
 pub(crate) fn print_json(object: &Value) -> Result<(), Failure> {
     let text = serde_json::to_string_pretty(object).map_err(|error| {
-        Failure::undecided(miette!("the summary cannot be written as JSON: {error}"))
+        Failure::undecided(format!("the summary cannot be written as JSON: {error}"))
     })?;
     output::print(&(text + "\n"))
 }

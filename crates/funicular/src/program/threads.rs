@@ -1,7 +1,6 @@
 //! How many threads the program works on.
 
 use funicular::MOST_THREADS;
-use miette::miette;
 
 use crate::exit::Failure;
 
@@ -20,7 +19,7 @@ pub fn install(threads: usize) -> Result<(), Failure> {
     rayon::ThreadPoolBuilder::new()
         .num_threads(threads)
         .build_global()
-        .map_err(|error| Failure::bad_input(miette!("no {threads} threads: {error}")))
+        .map_err(|error| Failure::bad_input(format!("no {threads} threads: {error}")))
 }
 
 /// The number of threads for what was asked, never 0.
@@ -34,7 +33,7 @@ pub fn resolve(threads: usize) -> Result<usize, Failure> {
         Ok(text) => match parse(text.trim()) {
             Ok(0) => Ok(processors.min(MOST_THREADS)),
             Ok(threads) => Ok(threads),
-            Err(wanted) => Err(Failure::bad_input(miette!(
+            Err(wanted) => Err(Failure::bad_input(format!(
                 "the variable RAYON_NUM_THREADS is `{text}`: {wanted}"
             ))),
         },

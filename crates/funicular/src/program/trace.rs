@@ -8,9 +8,9 @@ use branches::{Abscissa, ContinuationError};
 use census::CensusError;
 use clap::Args;
 use funicular::{Error, Problem, Trace, TraceAnswer};
-use miette::miette;
 
 use crate::cost::tell_time;
+use crate::diagnostics::Diagnostic;
 use crate::exit::{Exit, Failure};
 use crate::input::Source;
 use crate::interrupt::end_on_interrupt;
@@ -103,7 +103,7 @@ pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
     let problem = Problem::from(chain);
     if !(1..=system.bars).contains(&arguments.bar) {
         let bars = system.bars;
-        return Err(Failure::bad_input(miette!(
+        return Err(Failure::bad_input(format!(
             "there is no bar {}: the chain has {bars} bars, numbered from 1",
             arguments.bar
         )));
@@ -158,13 +158,14 @@ fn refuse(error: Error) -> Failure {
         return error.into();
     }
     let help = "`funicular study FILE --vary ...` takes the same parameters and follows the hanging shape of a chain \
-                of any length; to follow all equilibria, take bars together";
-    Failure::bad_input(miette!(help = help, "{error}"))
+                of any length; to follow all equilibria, take bars together"
+        .to_owned();
+    Failure::bad_input(Diagnostic::from(error).with_help(help))
 }
 
 fn verdict(found: &TraceAnswer) -> Result<Exit, Failure> {
     if let Some(reason) = found.refused_everywhere() {
-        return Err(Failure::bad_input(miette!(
+        return Err(Failure::bad_input(format!(
             "no value of the parameters describes a chain that can hang; the first: {reason}"
         )));
     }

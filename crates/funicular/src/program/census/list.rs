@@ -4,10 +4,9 @@ use census::{Estimate, Settings};
 use clap::ValueEnum;
 use funicular::LargeCensusAnswer;
 use funicular::census::List;
-use miette::miette;
 
 use crate::census::{Census, SHAPES, exit, how_far, refuse as refuse_census, table};
-use crate::diagnostics::tell;
+use crate::diagnostics::{Diagnostic, tell};
 use crate::exit::{Exit, Failure};
 use crate::output;
 use crate::progress::Progress;
@@ -63,13 +62,13 @@ pub fn refuse(arguments: &Census, bars: usize, estimate: Estimate) -> Result<(),
             gigabytes(bytes)
         )
     };
-    Err(Failure::bad_input(miette!(
-        help = help,
+    let message = format!(
         "the list of some {:.0e} equilibria would take about {}; the limit is {}",
         estimate.equilibria,
         size(bytes),
         size(most)
-    )))
+    );
+    Err(Failure::bad_input(Diagnostic::from(message).with_help(help)))
 }
 
 /// A limit that is certainly large enough, for an estimate that is good to a factor of two.

@@ -3,7 +3,6 @@
 use ::sweep::Shard;
 use clap::Args;
 use funicular::Ensemble;
-use miette::miette;
 use serde_json::json;
 
 use super::{Simulate, simulate};
@@ -66,7 +65,7 @@ pub fn run(arguments: &Simulate, seeds: u64) -> Result<Exit, Failure> {
     threads::install(threads)?;
     let interrupt = on_interrupt()?;
     let Some(out) = &arguments.out else {
-        return Err(Failure::bad_input(miette!("--seeds writes a folder: --out is missing")));
+        return Err(Failure::bad_input("--seeds writes a folder: --out is missing"));
     };
     let Input { problem, .. } = arguments.input.read()?;
     let progress = Progress::start();

@@ -7,7 +7,6 @@ use std::path::Path;
 
 use formats::answer::Answer;
 use funicular::{Lists, Problem, Solve};
-use miette::miette;
 use model::open_input;
 use validate::UseCensus;
 
@@ -66,7 +65,7 @@ fn open(path: &Path) -> Result<Lines, Failure> {
         return Ok(Lines::of(BufReader::new(io::stdin())));
     }
     let file = open_input(path).map_err(|error| {
-        Failure::bad_input(miette!("cannot read the systems from {}: {error}", path.display()))
+        Failure::bad_input(format!("cannot read the systems from {}: {error}", path.display()))
     })?;
     Ok(Lines::of(BufReader::new(file)))
 }

@@ -47,8 +47,8 @@ impl Unanswered {
 
     /// What stopped the answer.
     pub fn by(failure: &Failure) -> Self {
-        let (error, help) = failure.message();
-        Self { help, ..Self::because(&error) }
+        let (error, help) = failure.words();
+        Self { help: help.map(str::to_owned), ..Self::because(&error) }
     }
 
     /// What the library says of a line, with its place taken apart.

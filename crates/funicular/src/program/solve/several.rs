@@ -5,7 +5,6 @@ use std::path::{Path, PathBuf};
 
 use formats::answer::Answer;
 use funicular::SolveAnswer;
-use miette::miette;
 use validate::UseCensus;
 
 use super::object::{self, Origin, Unanswered};
@@ -29,7 +28,7 @@ struct Said {
 /// Run the command for several files.
 pub fn run(arguments: &super::Solve) -> Result<Exit, Failure> {
     if let Some(option) = arguments.file_for_one() {
-        return Err(Failure::bad_input(miette!("{option} writes one file, for one system")));
+        return Err(Failure::bad_input(format!("{option} writes one file, for one system")));
     }
     end_on_interrupt()?;
     threads::install(arguments.threads)?;
