@@ -2,13 +2,14 @@
 
 use funicular::prelude::{Anchors, Bar, Chain, Error, SolverName, Solvers, Vector};
 use lagrange::condensed;
+use model::system::System;
 use model::{Equilibrium, Problem, Rung};
 use numpy::{PyArrayMethods as _, PyReadonlyArrayDyn};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use rayon::prelude::*;
-use validate::answer::{Question, SolverFailure, UseCensus, ask};
-use validate::statics;
+use validate::systems::{SystemFailure, ask_with};
+use validate::{Question, UseCensus, statics};
 
 use crate::arrays::{column, numbers, vectors};
 use crate::raise::{exception, parts};
@@ -115,33 +116,29 @@ impl Batch {
                     continue;
                 }
             };
-            if self.solvers == Solvers::Lagrange {
-                // The memory of one solver serves all chains of the block.
-                match solver.solve(&problem, &settings) {
-                    Ok(found) => {
-                        block.add(&found.equilibrium, judged(&problem, &found.equilibrium));
-                        solver.take_back(found);
-                    }
-                    Err(error) => {
-                        let failure = SolverFailure::from(error);
-                        block.add_failure(chain, self.bars, unsolved(&[failure]));
-                    }
+            // The memory of one solver serves all chains of the block.
+            let alone = self.solvers == Solvers::Lagrange;
+            match alone.then(|| solver.solve(&problem, &settings)) {
+                Some(Ok(found)) => {
+                    block.add(&found.equilibrium, judged(&problem, &found.equilibrium));
+                    solver.take_back(found);
                 }
-            } else {
-                self.asked(chain, &problem, &mut block);
+                _ => self.asked(chain, &problem, &mut block),
             }
         }
         block
     }
 
-    /// By the other roads: asked, compared and certified like a chain alone, but for the census.
+    /// Asked, compared and certified like a system alone, but for the census.
     fn asked(&self, chain: usize, problem: &Problem, block: &mut Block) {
         let question =
             Question { solvers: self.solvers, census: UseCensus::Never, ..Question::default() };
-        let answer = ask(problem, &question, &|_| {});
+        let system = System::from(problem.chain());
+        let answer = ask_with(&system, &question, &|_| {});
         let first = answer.by(&SolverName::LAGRANGE).or(answer.equilibria.first());
-        match first {
-            Some(found) => block.add(found, judged(problem, found)),
+        let as_chain = |found| system.as_row()?.chain_equilibrium(found);
+        match first.and_then(as_chain) {
+            Some(found) => block.add(&found, judged(problem, &found)),
             None => block.add_failure(chain, self.bars, unsolved(&answer.failures)),
         }
     }
@@ -152,7 +149,7 @@ fn judged(problem: &Problem, found: &Equilibrium) -> f64 {
     statics::judge(problem.chain(), &found.joints_m, &found.multipliers_n).largest()
 }
 
-fn unsolved(failures: &[SolverFailure]) -> Told {
+fn unsolved(failures: &[SystemFailure]) -> Told {
     let message = failures.iter().map(ToString::to_string).collect::<Vec<_>>().join("; ");
     let failures: Vec<_> = failures.iter().map(funicular::Failure::of).collect();
     let text = serde_json::to_string(&failures).unwrap_or_else(|_| "[]".to_owned());

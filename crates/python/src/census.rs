@@ -36,7 +36,8 @@ pub fn census<'py>(
         let found = census.run_watched(&of, &|at| tell(at.done, at.waiting))?;
         let system = funicular::system_of(&of);
         let Some(row) = system.as_row() else { unreachable!("a chain is a row") };
-        let as_system = |found: &funicular::census::Found| row.equilibrium(found.equilibrium.clone());
+        let as_system =
+            |found: &funicular::census::Found| row.equilibrium(found.equilibrium.clone());
         let equilibria = found.equilibria.iter().map(as_system);
         let arrays = equilibria.map(|one| Arrays::new(&system, one, true)).collect();
         Ok((serde_json::to_string(&found), arrays))

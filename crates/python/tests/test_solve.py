@@ -21,7 +21,7 @@ def test_the_example_of_the_paper():
     assert [e.solver for e in a.equilibria] == ["lagrange", "energy"]
     assert abs(np.hypot(*a.multipliers_n[0, :2]) / WEIGHT_N - HORIZONTAL) < 1e-12
     assert abs(a.multipliers_n[0, 2] / WEIGHT_N - VERTICAL) < 1e-12
-    assert a.proofs.verified.width < 1e-12 and a.proofs.verified.circle is True
+    assert a.proofs.verified.width < 1e-12 and a.proofs.verified.system.turns == 1
     assert [p.reached for p in a.proofs] == [True] * 5
     assert a.data["schema_version"] == 3
 

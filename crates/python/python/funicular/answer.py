@@ -82,7 +82,7 @@ class Equilibrium:
 
     @cached_property
     def stability(self) -> Record:
-        """``in_space`` (``stable`` or ``unstable``), ``index_in_space``, ``in_plane``, ``index_in_plane``."""
+        """``in_space`` (``stable`` or ``unstable``), ``index_in_space``, ``index_in_plane``, ``neutral``."""
         return Record(self.data["stability"])
 
     @property
