@@ -94,10 +94,9 @@ fn forces_beside_which_no_load_is_seen_are_not_confirmed() {
     std::fs::copy(Path::new(FOLDER).join("1-tetrapod.json"), path("tetrapod.json")).unwrap();
     std::fs::write(path("places.csv"), "joint,x_m,y_m,z_m\nP,-1,-3,3\n").unwrap();
     let judged = |size_n: f64| {
-        let mut text = String::from("from,to,axial_n\n");
-        for k in 0..4 {
-            text += &format!("A{k},P,{}\n", borne[k] + size_n * stress[k]);
-        }
+        let line = |k: usize| format!("A{k},P,{}", borne[k] + size_n * stress[k]);
+        let lines: Vec<String> = (0..4).map(line).collect();
+        let text = format!("from,to,axial_n\n{}\n", lines.join("\n"));
         std::fs::write(path("forces.csv"), text).unwrap();
         let files = ["--answer", "places.csv", "--members", "forces.csv", "--json"];
         let (code, text) = run(folder.path(), &[&["judge", "tetrapod.json"][..], &files].concat());
