@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use super::table;
 
 /// Types that no command prints as JSON, and why.
-const NOT_PRINTED: [(&str, &str); 21] = [
+const NOT_PRINTED: [(&str, &str); 20] = [
     ("census::Census", "`census --json` prints its own `Summary`"),
     ("census::DegenerateEquilibrium", "printed as `Merged` of the program"),
     ("census::Face", "asserted as `chart`: some faces, by one enum"),
@@ -28,7 +28,6 @@ const NOT_PRINTED: [(&str, &str); 21] = [
     ("sweep::PartList", "the list of a part of an unfinished sweep"),
     ("sweep::Axis", "a manifest names its source `grid`"),
     ("validate::Cables", "printed by `reproduce` as `agreement.cables`"),
-    ("validate::SolverFailure", "printed as the refusal itself"),
     ("validate::SystemFailure", "printed as the refusal itself"),
 ];
 

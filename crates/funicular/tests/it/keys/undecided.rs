@@ -181,11 +181,11 @@ fn judged_chains() {
             "gravity_m_s2 = 10\nanchors = {{ start_m = [0, 0, 0], end_m = {end} }}\nbars = [{bars}]\n"
         );
         let problem = funicular::Problem::parse(&text, "chain.toml").unwrap();
-        let question =
-            validate::Question { census: validate::UseCensus::Never, ..Default::default() };
-        let answer = validate::answer::ask(problem.as_chain().unwrap(), &question, &|_| {});
-        assert!(answer.agrees());
-        answer.agreement.unwrap()
+        let tolerances = validate::Tolerances::project();
+        let (_, agreement) =
+            validate::table::both(problem.as_chain().unwrap(), &tolerances).unwrap();
+        assert!(agreement.agrees());
+        agreement
     };
     let (heavy, light) =
         ("{ length_m = 1, mass_kg = 1 }", "{ length_m = 1, mass_kg = 0, count = 2 }");
