@@ -1,7 +1,7 @@
 //! How far a census carries the answer of a solver: alone in a proven box, and one of a complete
 //! list.
 
-use census::{Census, CensusError, SlackFamily};
+use census::{Census, SlackFamily};
 use model::{Chain, Equilibrium, Problem, Reason, Status, Vector, Verified};
 
 use crate::census_checks::{Nearest, nearest, nearest_degenerate, nearest_straight, placed};
@@ -47,14 +47,6 @@ pub fn certify_by_census(problem: &Problem, census: &Census, answer: &mut Equili
             }
         }
     }
-}
-
-/// Say on an answer that there is no census, and why.
-pub fn without_census(error: &CensusError, answer: &mut Equilibrium) {
-    let reason = Reason::NoCensus(error.reason());
-    let ladder = &mut answer.evidence.ladder;
-    ladder.verified = Status::Open(reason.clone());
-    ladder.complete = Status::Open(reason);
 }
 
 /// Why an answer is not among the isolated equilibria of the list.

@@ -1,13 +1,14 @@
 //! The only place where the two solvers meet.
 //!
 //! ```
-//! use validate::answer::{Question, ask};
+//! use validate::{Solvers, systems::ask};
 //! // The paper's chain: three bars of 1 m and 1 kg, anchors 2 m apart on one vertical.
-//! let answer = ask(&model::cases::paper(), &Question::default(), &|_| {});
+//! let system = model::system::System::from(model::cases::paper().chain());
+//! let answer = ask(&system, Solvers::Both, &|_| {});
 //! assert!(answer.agrees());
 //! for found in &answer.equilibria {
 //!     // lambda_3, the vertical force of the ground on bar 1, in mg (a root finder of 40 digits).
-//!     assert!((found.multipliers_n[0][2] / 9.80665 - 2.312_944_292_241_838).abs() < 1e-12);
+//!     assert!((found.reactions_n[0][2] / 9.80665 - 2.312_944_292_241_838).abs() < 1e-12);
 //!     assert_eq!(found.evidence.rung(), Some(model::Rung::Optimal));
 //! }
 //! ```

@@ -8,8 +8,7 @@ use model::{Equilibrium, Problem, Rung};
 use rayon::prelude::*;
 use serde::Serialize;
 
-use crate::answer::{Equations, Question, UseCensus, ask_within};
-use crate::compare::Agreement;
+use crate::compare::{Agreement, compare};
 use crate::tolerances::Tolerances;
 use crate::units::Units;
 
@@ -62,7 +61,7 @@ impl CaseResult {
     }
 }
 
-/// Both answers to one problem, judged.
+/// Both answers to one problem, judged; of `lagrange` by the paper's equations.
 ///
 /// # Errors
 ///
@@ -71,17 +70,14 @@ pub fn both(
     problem: &Problem,
     tolerances: &Tolerances,
 ) -> Result<([Equilibrium; 2], Agreement), String> {
-    let question =
-        Question { equations: Equations::Full, census: UseCensus::Never, ..Question::default() };
-    let answer = ask_within(problem, &question, tolerances, &|_| {});
-    if let Some(failure) = answer.failures.first() {
-        return Err(failure.to_string());
-    }
-    match (<[Equilibrium; 2]>::try_from(answer.equilibria), answer.agreement) {
-        (Ok(answers), Some(agreement)) => Ok((answers, agreement)),
-        // Both were asked and neither failed.
-        _ => Err("the answers are not two".to_owned()),
-    }
+    let lagrange = lagrange::solve(problem, &lagrange::Settings::default());
+    let energy = energy::minimise(problem, &energy::Settings::default());
+    let mut answers = [
+        lagrange.map_err(|error| format!("lagrange: {error}"))?.equilibrium,
+        energy.map_err(|error| format!("energy: {error}"))?.equilibrium,
+    ];
+    let agreement = compare(problem, &mut answers, tolerances);
+    Ok((answers, agreement))
 }
 
 /// Both solvers on the given cases, in parallel; the order of the results is that of the cases.

@@ -76,27 +76,21 @@ impl SolveAnswer {
     /// refutes them.
     #[must_use]
     pub fn agrees(&self) -> bool {
-        self.answer.agrees() && !self.check_failed()
+        self.answer.agrees()
     }
 
     /// Whether a check has failed: the answers disagree, the judge refuses one, or a complete
     /// census refutes one.
     #[must_use]
     pub fn check_failed(&self) -> bool {
-        let disagree = self.agreement().is_some_and(|agreement| !agreement.agrees());
-        disagree || self.equilibria().iter().any(|answer| answer.evidence.ladder.failed())
+        self.answer.check_failed()
     }
 
     /// Whether every solver that was asked has an answer, each has converged or is proved to be an
     /// equilibrium, and it is the neighbour of the drawing where that is the question.
     #[must_use]
     pub fn is_decided(&self) -> bool {
-        let known = |answer: &SystemEquilibrium| {
-            let ladder = &answer.evidence.ladder;
-            ladder.converged.is_reached() || ladder.verified.is_reached()
-        };
-        let asked_for = self.near().is_none_or(|near| near.is_neighbour);
-        asked_for && self.failures().is_empty() && self.equilibria().iter().all(known)
+        self.answer.is_decided()
     }
 
     /// The highest rung that an answer has reached.

@@ -95,7 +95,7 @@ pub(super) fn nearest(
     }
     let without_guess = found.is_empty();
     if without_guess {
-        let fresh = ask(system, crate::answer::Solvers::Both, watch);
+        let fresh = ask(system, crate::question::Solvers::Both, watch);
         if !fresh.equilibria.is_empty() {
             (found, failures) = (fresh.equilibria, fresh.failures);
             unique = vec![None; found.len()];

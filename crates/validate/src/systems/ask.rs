@@ -69,10 +69,32 @@ impl SystemAnswer {
         self.equilibria.iter().find(|equilibrium| equilibrium.solver == *solver)
     }
 
-    /// Whether both solvers answered and agree, and the judge finds both in balance.
+    /// Whether both solvers answered and agree, the judge finds both in balance, and no census
+    /// refutes them.
     #[must_use]
     pub fn agrees(&self) -> bool {
-        self.agreement.as_ref().is_some_and(SystemAgreement::agrees)
+        self.agreement.as_ref().is_some_and(SystemAgreement::agrees) && !self.check_failed()
+    }
+
+    /// Whether a check has failed: the answers disagree, the judge refuses one, or a complete
+    /// census refutes one.
+    #[must_use]
+    pub fn check_failed(&self) -> bool {
+        let disagree = self.agreement.as_ref().is_some_and(|agreement| !agreement.agrees());
+        disagree || self.equilibria.iter().any(|answer| answer.evidence.ladder.failed())
+    }
+
+    /// Whether every solver that was asked has an answer, each has converged or is proved to be an
+    /// equilibrium, and it is the neighbour of the drawing where that is the question.
+    #[must_use]
+    pub fn is_decided(&self) -> bool {
+        let known = |answer: &SystemEquilibrium| {
+            let ladder = &answer.evidence.ladder;
+            // A box around the answer proves more than a residual.
+            ladder.converged.is_reached() || ladder.verified.is_reached()
+        };
+        let asked_for = self.near.as_ref().is_none_or(|near| near.is_neighbour);
+        asked_for && self.failures.is_empty() && self.equilibria.iter().all(known)
     }
 }
 

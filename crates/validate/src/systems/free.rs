@@ -37,20 +37,19 @@ pub(crate) fn free_joints(system: &System, answers: &[SystemEquilibrium]) -> Vec
         return vec![false; joints];
     }
     let unloaded = unloaded(system, answers);
-    if !unloaded.contains(&true) {
-        return lie_loose(system, answers);
-    }
-    let members_of = members_of(system);
-    let bears = bearing(system, answers, &members_of, &unloaded);
-    let idle: Vec<bool> = (0..joints)
-        .map(|joint| unloaded[joint] && members_of[joint].iter().all(|k| !bears[*k]))
-        .collect();
     let mut free = vec![false; joints];
-    for part in parts(system, &members_of, &idle) {
-        let room = answers.iter().map(|answer| with_room(system, answer, &members_of, &part));
-        let all = room.reduce(|a, b| a.into_iter().zip(b).map(|(a, b)| a && b).collect());
-        for (joint, open) in part.iter().zip(all.unwrap_or_default()) {
-            free[*joint] = open;
+    if unloaded.contains(&true) {
+        let members_of = members_of(system);
+        let bears = bearing(system, answers, &members_of, &unloaded);
+        let idle: Vec<bool> = (0..joints)
+            .map(|joint| unloaded[joint] && members_of[joint].iter().all(|k| !bears[*k]))
+            .collect();
+        for part in parts(system, &members_of, &idle) {
+            let room = answers.iter().map(|answer| with_room(system, answer, &members_of, &part));
+            let all = room.reduce(|a, b| a.into_iter().zip(b).map(|(a, b)| a && b).collect());
+            for (joint, open) in part.iter().zip(all.unwrap_or_default()) {
+                free[*joint] = open;
+            }
         }
     }
     for joint in in_row(system, answers) {

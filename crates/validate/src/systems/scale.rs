@@ -29,7 +29,7 @@ const MOST_STRAIN: f64 = 1.0;
 const LEAST_STRAIN: f64 = model::system::LENGTH_ROUNDING;
 /// Forces beyond this many times all that acts make no difference larger: from here on they are a
 /// finding of their own (module `forces`).
-const MOST_FORCE: f64 = 1e6;
+pub(super) const MOST_FORCE: f64 = 1e6;
 
 /// The sizes for one system, at the places of one answer.
 pub(crate) struct Scale {

@@ -16,9 +16,11 @@ use model::system::{Kind, Member, Support, System, SystemEquilibrium};
 use model::{Place, Vector, sum};
 use serde::Serialize;
 
+use super::certificate::total_load_n;
 use super::family::Family;
 use super::floor::{push_n, rising};
-use super::scale::Scale;
+use super::free::free_joints;
+use super::scale::{MOST_FORCE, Scale};
 use crate::vector::{beyond, cross, dot, minus, norm, plus, times, worse};
 
 /// Largest violations of geometry and of Newton's laws by an answer, dimensionless.
@@ -83,6 +85,8 @@ struct Units {
     meet_n: Vec<f64>,
     /// What acts on the whole, N.
     total_n: f64,
+    /// Joints on which and on whose members nothing acts: see [`free_joints`].
+    free: Vec<bool>,
 }
 
 /// What a force left over somewhere is measured by.
@@ -92,6 +96,8 @@ struct Local {
     rounding_n: f64,
     /// The most that it is measured by, N.
     most_n: f64,
+    /// The least that it is measured by, N: what acts on the whole where nothing acts there.
+    least_n: f64,
 }
 
 impl SystemStatics {
@@ -195,6 +201,12 @@ impl Units {
             total_n: if scale.total_n > 0.0 { scale.total_n } else { f64::INFINITY },
             acts_n: scale.joint_n,
             meet_n,
+            // Without loads the prestress of springs acts everywhere.
+            free: if total_load_n(system) > 0.0 {
+                free_joints(system, std::slice::from_ref(answer))
+            } else {
+                vec![]
+            },
         }
     }
 
@@ -207,7 +219,11 @@ impl Units {
         let whole_n = if self.total_n.is_finite() { self.total_n } else { 0.0 };
         let rounding_n = STORED_ULPS * f64::EPSILON * worse(meet_n, whole_n);
         let rounding_n = rounding_n.min(self.rounding_n);
-        Local { rounding_n: rounding_n.min(MOST_ROUNDING * acts_n), most_n: BORNE * acts_n }
+        let rounding_n = rounding_n.min(MOST_ROUNDING * acts_n);
+        // Members that bear nothing have no size of their own.
+        let idle = joints.iter().any(|k| self.free.get(*k) == Some(&true));
+        let least_n = if idle { whole_n } else { 0.0 };
+        Local { rounding_n, most_n: worse(BORNE * acts_n, least_n), least_n }
     }
 }
 
@@ -221,7 +237,7 @@ impl Local {
     }
 
     fn unit_n(&self, largest_n: f64) -> f64 {
-        if largest_n.is_nan() { largest_n } else { largest_n.min(self.most_n) }
+        if largest_n.is_nan() { largest_n } else { largest_n.max(self.least_n).min(self.most_n) }
     }
 }
 
@@ -284,9 +300,9 @@ fn member(
     let carried = loads.iter().fold(end, |sum, (part, p)| plus(sum, times(*part, *p)));
     let turn = cross(along, carried);
     let unit_n = local.unit_n(largest_n);
-    // A displaced end turns the member: force times displacement. Far from its ends a long row bears
-    // what acts on all of it.
-    let turned_n = unit_n.max(largest_n.min(units.total_n));
+    // A displaced end turns the member: force times displacement. A long row bears what acts on all
+    // of it, a nearly taut one more.
+    let turned_n = unit_n.max(largest_n.min(MOST_FORCE * units.total_n));
     let rounding = local.rounding_n * distance_m + turned_n * units.rounding_m;
     let moment = beyond(norm(turn), rounding);
     let moment = if moment <= 0.0 { 0.0 } else { moment / (unit_n * distance_m) };
@@ -436,7 +452,7 @@ fn whole(system: &System, answer: &SystemEquilibrium, units: &Units) -> f64 {
     let left = std::array::from_fn(|c| sum(all.iter().map(|force| force[c])));
     let unit_n = sum(all.iter().map(|force| norm(*force)));
     let rounding_n = units.rounding_n.min(MOST_ROUNDING * units.total_n);
-    Local { rounding_n, most_n: BORNE * units.total_n }.part(norm(left), unit_n)
+    Local { rounding_n, most_n: BORNE * units.total_n, least_n: 0.0 }.part(norm(left), unit_n)
 }
 
 /// The energy less that of the joints' places, in units of the sizes of its terms.

@@ -39,7 +39,7 @@ fn a_turn_is_taken_back_before_the_rows_are_written() {
         second.energy_j += 9.81;
         second.axial_n[1] += 9.81;
         let mut answers = [first.clone(), second];
-        let agreement = crate::compare::compare(&problem, &mut answers, &Tolerances::project());
+        let agreement = compare(&problem, &mut answers, &Tolerances::project());
         let units = Units::new(problem.chain(), &answers[0].multipliers_n);
         let rows = rows("turned", &answers, &agreement, &units);
         // The energy, two joints between the anchors, four forces, and three bars.
@@ -127,7 +127,7 @@ fn long_chains_are_told_by_their_ends() {
         let settings = lagrange::condensed::Settings::default();
         let first = lagrange::condensed::solve(&problem, &settings).unwrap().equilibrium;
         let mut answers = [first.clone(), first];
-        let agreement = crate::compare::compare(&problem, &mut answers, &Tolerances::project());
+        let agreement = compare(&problem, &mut answers, &Tolerances::project());
         let units = Units::new(problem.chain(), &answers[0].multipliers_n);
         let rows = rows("long", &answers, &agreement, &units);
         assert_eq!(rows.last().unwrap().observable, format!("axial[{}]_n", bars.min(10)));

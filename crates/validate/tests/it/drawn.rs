@@ -7,7 +7,7 @@ use model::{Bar, STANDARD_GRAVITY_M_S2 as G, Vector};
 use nalgebra::{DMatrix, DVector, Vector3};
 use rand::{RngExt as _, SeedableRng as _};
 use rand_chacha::ChaCha8Rng;
-use validate::answer::Solvers;
+use validate::Solvers;
 use validate::systems::{Near, SystemAnswer, ask};
 
 fn drawn(name: &str) -> System {

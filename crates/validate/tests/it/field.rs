@@ -1,7 +1,7 @@
 //! The field, judged: verdicts follow from numbers, and runs of members tend to the closed form.
 
 use model::SolverName;
-use validate::answer::Solvers;
+use validate::Solvers;
 use validate::field::elastic_catenary::ElasticCatenary;
 use validate::field::entry::{BothSolvers, Compared, Entry, FieldVerdict};
 use validate::field::record::field;

@@ -3,7 +3,7 @@
 
 use model::system::{Joint, Kind, Member, Support, System, SystemEquilibrium};
 use model::{Bar, ForceChoice, Rung, Vector};
-use validate::answer::Solvers;
+use validate::Solvers;
 use validate::foreign::{Finding, ForeignAnswer, Law, bounds, judge_foreign};
 use validate::systems::{SystemAgreement, ask, certify, compare, judge};
 use validate::tolerances::Tolerances;

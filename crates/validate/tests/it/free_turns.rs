@@ -5,7 +5,7 @@ use model::system::{Joint, Member, System, SystemEquilibrium};
 use model::{Bar, Excess, Quantity, Status, Vector};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use validate::answer::Solvers;
+use validate::Solvers;
 use validate::systems::{SystemAgreement, ask, compare};
 use validate::tolerances::Tolerances;
 

@@ -4,7 +4,7 @@
 use model::cases::exhibit;
 use model::system::{System, SystemEquilibrium};
 use model::{Rung, STANDARD_GRAVITY_M_S2 as G};
-use validate::answer::Solvers;
+use validate::Solvers;
 use validate::systems::ask;
 
 /// Relative to the number itself: both solvers reach 2e-13 on the linkage, the worst of all.

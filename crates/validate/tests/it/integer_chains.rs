@@ -4,12 +4,13 @@
 //! `CHAINS=3000 cargo test --release -p validate --test it integer -- --nocapture` tries more of
 //! them, and lists those that do not agree.
 
-use model::{Anchors, Bar, Chain, Equilibrium, Problem};
+use model::system::{System, SystemEquilibrium};
+use model::{Anchors, Bar, Chain, Problem};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
-use validate::answer::{Question, UseCensus, ask};
-use validate::compare::Agreement;
+use validate::systems::{ask, ask_with};
+use validate::{Question, Solvers, UseCensus};
 
 /// Two to eight bars with lengths of 1 to 5 m and masses of 0 to 3 kg, their centres at quarters.
 fn drawn(seed: u64) -> Option<Problem> {
@@ -35,11 +36,11 @@ fn drawn(seed: u64) -> Option<Problem> {
 
 /// What is known of a chain on which the solvers do not agree, the census included.
 fn what_speaks_against(problem: &Problem) -> String {
-    let answer = ask(problem, &Question::default(), &|_| {});
+    let answer = ask(&System::from(problem.chain()), Solvers::Both, &|_| {});
     let mut told: Vec<String> = answer.failures.iter().map(ToString::to_string).collect();
     told.extend(answer.agreement.iter().map(|agreement| agreement.disagreement.to_string()));
     for found in &answer.equilibria {
-        let Equilibrium { solver, joints_m, axial_n, evidence, .. } = found;
+        let SystemEquilibrium { solver, joints_m, axial_n, evidence, .. } = found;
         told.push(format!("{solver}: {joints_m:?} {axial_n:?} {:?}", evidence.ladder.verified));
     }
     let bars = problem.chain().bars().iter().map(|b| (b.length_m(), b.mass_kg(), b.centre_m()));
@@ -55,9 +56,8 @@ fn both_solvers_agree_on_chains_of_small_integers() {
         .filter_map(|seed| {
             let problem = drawn(seed)?;
             let question = Question { census: UseCensus::Never, ..Question::default() };
-            let answer = ask(&problem, &question, &|_| {});
-            let agrees = answer.agreement.as_ref().is_some_and(Agreement::agrees);
-            let why = (!agrees).then(|| what_speaks_against(&problem));
+            let answer = ask_with(&System::from(problem.chain()), &question, &|_| {});
+            let why = (!answer.agrees()).then(|| what_speaks_against(&problem));
             Some((seed, why))
         })
         .collect();

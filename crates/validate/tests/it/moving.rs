@@ -3,17 +3,16 @@
 //! of the modes give the index.
 
 use model::system::System;
-use model::{Equilibrium, Problem, SolverName, Vector};
+use model::{Equilibrium, Problem, Vector};
 use motion::{MotionError, Order, Settings, Simulation, What, modes, random_position};
 use rayon::prelude::*;
-use validate::answer::{Question, ask};
 
 /// Longest chain of the registry whose census is taken here.
 const CENSUS_BARS: usize = 6;
 
 fn hanging(problem: &Problem) -> Equilibrium {
-    let answer = ask(problem, &Question::default(), &|_| {});
-    answer.by(&SolverName::LAGRANGE).unwrap().clone()
+    let settings = lagrange::condensed::Settings::default();
+    lagrange::condensed::solve(problem, &settings).unwrap().equilibrium
 }
 
 /// All planar equilibria by the census.

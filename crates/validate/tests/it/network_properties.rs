@@ -2,7 +2,7 @@
 
 use model::Bar;
 use model::system::{Joint, Member, PointLoad, Support, System, SystemEquilibrium};
-use validate::answer::Solvers;
+use validate::Solvers;
 use validate::systems::ask;
 
 use crate::networks::{Members, bridle, net, tree};

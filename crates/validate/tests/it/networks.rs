@@ -12,7 +12,7 @@ use model::{Bar, Excess, NoBox, Quantity, Reason, Status, Verified};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
-use validate::answer::Solvers;
+use validate::Solvers;
 use validate::systems::{SystemAnswer, ask};
 
 /// Which kinds of members a system has.

@@ -10,7 +10,7 @@ use model::system::{Joint, Member, System, SystemEquilibrium};
 use model::{Bar, Ladder};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use validate::answer::Solvers;
+use validate::Solvers;
 use validate::systems::{ask, certify_by_census};
 
 struct Draft {

@@ -2,7 +2,7 @@
 
 use model::Bar;
 use model::system::{Joint, Member, Support, System, SystemEquilibrium};
-use validate::answer::Solvers;
+use validate::Solvers;
 use validate::systems::ask;
 
 /// Length, m, and weight, N, of a member, and how many there are.

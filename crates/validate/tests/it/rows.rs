@@ -4,13 +4,15 @@
 //! and of 1e-9 kg at a joint, and with the joints and members in another order: the same places,
 //! forces and rungs.
 
+use lagrange::condensed;
 use model::system::{Joint, Member, System, SystemEquilibrium};
-use model::{Problem, Rung, Vector, cases};
+use model::{Equilibrium, Problem, Rung, Vector, cases};
+use rayon::prelude::*;
 use samples::random_chain;
-use validate::answer::{Question, UseCensus, ask};
 use validate::systems::ask_with;
+use validate::{Question, Tolerances, UseCensus, compare};
 
-/// Random chains.
+/// Random chains; `CHAINS=10000` tries more of them.
 const CHAINS: u64 = 60;
 
 /// How far places and forces may be apart, in units of the length and of the largest force, where
@@ -74,17 +76,19 @@ fn largest(vectors: &[Vector]) -> f64 {
 /// What a way of writing changes of an answer.
 fn misses(name: &str, problem: &Problem) -> Vec<String> {
     let question = Question { census: UseCensus::Never, ..Question::default() };
-    let chain = ask(problem, &question, &|_| {});
+    let lagrange = condensed::solve(problem, &condensed::Settings::default());
+    let energy = energy::minimise(problem, &energy::Settings::default());
+    let answers =
+        [lagrange.ok().map(|one| one.equilibrium), energy.ok().map(|one| one.equilibrium)];
+    let mut chain: Vec<Equilibrium> = answers.into_iter().flatten().collect();
+    let chain_agrees =
+        chain.len() == 2 && compare(problem, &mut chain, &Tolerances::project()).agrees();
     let length_m = problem.chain().total_length_m();
     let mut misses = vec![];
     for how in WRITTEN {
         let system = written(problem, how);
-        let found = ask_with(
-            &system,
-            &Question { census: UseCensus::Never, ..Question::default() },
-            &|_| {},
-        );
-        if chain.agrees() != found.agrees() {
+        let found = ask_with(&system, &question, &|_| {});
+        if chain_agrees != found.agrees() {
             let said = found.agreement.as_ref().map(|agreement| &agreement.disagreement);
             misses.push(format!(
                 "{name}, {how:?}: agrees: {} {said:?} {:?}",
@@ -92,7 +96,7 @@ fn misses(name: &str, problem: &Problem) -> Vec<String> {
                 found.failures
             ));
         }
-        for (one, other) in chain.equilibria.iter().zip(&found.equilibria) {
+        for (one, other) in chain.iter().zip(&found.equilibria) {
             // A load of 1e-9 kg moves nothing that a comparison of chains turned about a vertical sees.
             let load = if let Written::Loaded(mass_kg) = how { mass_kg } else { 0.0 };
             let apart = APART + load / problem.chain().total_mass_kg();
@@ -108,7 +112,7 @@ fn misses(name: &str, problem: &Problem) -> Vec<String> {
                 misses.push(format!("{name}, {how:?}, {}: {off:e} m apart", one.solver));
             }
             let [a, b] = [&one.evidence, &other.evidence].map(model::Evidence::rung);
-            if chain.agrees() && b < a.min(Some(Rung::Optimal)) {
+            if chain_agrees && b < a.min(Some(Rung::Optimal)) {
                 misses.push(format!("{name}, {how:?}, {}: {a:?} becomes {b:?}", one.solver));
             }
         }
@@ -120,10 +124,12 @@ fn misses(name: &str, problem: &Problem) -> Vec<String> {
 fn a_chain_is_a_system_however_it_is_written() {
     let mut found: Vec<String> =
         cases::all().iter().flat_map(|case| misses(case.name, &case.problem())).collect();
-    for seed in 0..CHAINS {
+    let count = std::env::var("CHAINS").ok().and_then(|n| n.parse().ok()).unwrap_or(CHAINS);
+    let random = (0..count).into_par_iter().flat_map_iter(|seed| {
         let (shape, problem) = random_chain(seed);
-        found.extend(misses(&format!("random {seed}, {shape:?}"), &problem));
-    }
+        misses(&format!("random {seed}, {shape:?}"), &problem)
+    });
+    found.extend(random.collect::<Vec<_>>());
     assert!(found.is_empty(), "{}:\n{}", found.len(), found.join("\n"));
 }
 

@@ -6,7 +6,7 @@ use lagrange::network::Settings as ByForces;
 use model::cases::exhibit;
 use model::system::{Joint, Kind, Member, System, SystemEquilibrium};
 use model::{Bar, Rung, Vector};
-use validate::answer::Solvers;
+use validate::Solvers;
 use validate::systems::{Held, Standing, Stress, ask, prestress_stability};
 
 /// Relative to the largest number of its kind: both solvers reach 3e-14.

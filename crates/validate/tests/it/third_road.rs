@@ -2,7 +2,7 @@
 
 use model::system::{Joint, Kind, Member, System};
 use model::{Bar, Vector};
-use validate::answer::Solvers;
+use validate::Solvers;
 use validate::systems::{ConeError, ask, hang_as_cables};
 
 use samples::{Shape, random_chain};

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use super::table;
 
 /// Types that no command prints as JSON, and why.
-const NOT_PRINTED: [(&str, &str); 20] = [
+const NOT_PRINTED: [(&str, &str); 19] = [
     ("census::Census", "`census --json` prints its own `Summary`"),
     ("census::DegenerateEquilibrium", "printed as `Merged` of the program"),
     ("census::Face", "asserted as `chart`: some faces, by one enum"),
@@ -27,7 +27,6 @@ const NOT_PRINTED: [(&str, &str); 20] = [
     ("report::View", "data of the figure on the report's page, looked at in a browser"),
     ("sweep::PartList", "the list of a part of an unfinished sweep"),
     ("sweep::Axis", "a manifest names its source `grid`"),
-    ("validate::SolverFailure", "printed as the refusal itself"),
     ("validate::SystemFailure", "printed as the refusal itself"),
 ];
 

@@ -181,11 +181,15 @@ fn judged_chains() {
             "gravity_m_s2 = 10\nanchors = {{ start_m = [0, 0, 0], end_m = {end} }}\nbars = [{bars}]\n"
         );
         let problem = funicular::Problem::parse(&text, "chain.toml").unwrap();
-        let question =
-            validate::Question { census: validate::UseCensus::Never, ..Default::default() };
-        let answer = validate::answer::ask(problem.as_chain().unwrap(), &question, &|_| {});
-        assert!(answer.agrees());
-        answer.agreement.unwrap()
+        let chain = problem.as_chain().unwrap();
+        let lagrange =
+            lagrange::condensed::solve(chain, &lagrange::condensed::Settings::default()).unwrap();
+        let energy = energy::minimise(chain, &energy::Settings::default()).unwrap();
+        let mut answers = [lagrange.equilibrium, energy.equilibrium];
+        let tolerances = validate::Tolerances::project();
+        let agreement = validate::compare::compare(chain, &mut answers, &tolerances);
+        assert!(agreement.agrees());
+        agreement
     };
     let (heavy, light) =
         ("{ length_m = 1, mass_kg = 1 }", "{ length_m = 1, mass_kg = 0, count = 2 }");

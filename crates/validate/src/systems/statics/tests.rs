@@ -161,6 +161,7 @@ const UNITS: Units = Units {
     acts_n: vec![],
     meet_n: vec![],
     total_n: f64::INFINITY,
+    free: vec![],
 };
 
 fn close(found: f64, wanted: f64) {
