@@ -210,3 +210,40 @@ fn forces_of_another() {
     output.is("ladder[].reason.excesses[].what", "forces");
     output.done();
 }
+
+/// 20 N on four bars of 5 m, 6.25 N in each, and a self-stress beside which they vanish.
+#[test]
+fn loads_hidden() {
+    let folder = tempfile::tempdir().unwrap();
+    let anchors = [("A", -3, 4), ("B", 3, 4), ("C", -3, -4), ("D", 3, -4)];
+    let joint = |(name, x, z): (&str, i32, i32)| format!("{name} = {{ at_m = [{x}, 0, {z}] }}\n");
+    let bar = |(name, ..): (&str, i32, i32)| {
+        format!("[[bars]]\nfrom = \"{name}\"\nto = \"P\"\nlength_m = 5\nmass_kg = 0\n")
+    };
+    let force = |(name, _, z): (&str, i32, i32)| {
+        format!("{name},P,{}\n", 1e12 + 6.25 * f64::from(z.signum()))
+    };
+    let frame =
+        "gravity_m_s2 = 10\n[joints]\nP = { at_m = [0, 0, 0], free = \"xz\", mass_kg = 2 }\n"
+            .to_owned()
+            + &anchors.map(joint).concat()
+            + &anchors.map(bar).concat();
+    let forces = "from,to,axial_n\n".to_owned() + &anchors.map(force).concat();
+    std::fs::write(folder.path().join("frame.toml"), frame).unwrap();
+    std::fs::write(folder.path().join("places.csv"), "joint,x_m,y_m,z_m\nP,0,0,0\n").unwrap();
+    std::fs::write(folder.path().join("forces.csv"), forces).unwrap();
+    let (code, text) = run(
+        folder.path(),
+        &["judge", "frame.toml", "--answer", "places.csv", "--members", "forces.csv", "--json"],
+    );
+    assert_eq!(code, Some(3), "{text}");
+    let mut output = Output::json("judge", "loads_hidden", &text);
+    output.is("finding", "loads_hidden");
+    output.near("force_n", 1e-15, 1e12 + 6.25);
+    output.is("loads_n", 20.0);
+    // A millionth of the largest, and its rounding.
+    output.near("allowed_n", 1e-8, 1e6);
+    output.within("member", 1.0..=2.0);
+    output.is("ladder[].reason.excesses[].what", "large_force");
+    output.done();
+}
