@@ -15,15 +15,11 @@ use super::signs::{SIGN_CHANGES, signs_mended};
 use super::solve::{KICKS, Solver};
 use super::state::State;
 
-/// Starts of the search for places where lengths fit: as many as make this number of free directions
-/// together, at most and at least so many; the moves of joints for them in units of the mean length,
-/// and the part of its length by which a member may be off where it ends.
-const DIRECTIONS: usize = 3600;
-const MOST_ASSEMBLIES: usize = 400;
-const ASSEMBLIES: usize = 60;
-/// Shapes with fewer free directions are assembled again in search of less energy, from so many starts.
+/// Starts of the search for places where lengths fit, the moves of joints for them in units of the
+/// mean length, and the part of its length by which a member may be off where it ends.
+const ASSEMBLIES: usize = 100;
+/// Shapes with fewer free directions are assembled again in search of less energy.
 const SMALL: usize = 30;
-const AGAIN: usize = 200;
 /// Less energy is less by this part: the rest is rounding.
 const LESS: f64 = 1e-9;
 const ASSEMBLY_KICK: f64 = 2.0;
@@ -45,8 +41,7 @@ impl Solver<'_> {
         if !search {
             return refused.map_or(Err(Error::Unloaded), Err);
         }
-        let starts = DIRECTIONS / self.framework.freedoms().max(1);
-        for kick in 0..starts.clamp(ASSEMBLIES, MOST_ASSEMBLIES) {
+        for kick in 0..ASSEMBLIES {
             let Some(state) = self.fits_at(from, kick) else { continue };
             match self.with_signs(state, Patience::Full) {
                 Ok(run) => return Ok(run),
@@ -67,7 +62,7 @@ impl Solver<'_> {
         if !small || run.state.axial.iter().all(|n| *n >= 0.0) || self.cuts(&run.state).is_empty() {
             return run;
         }
-        for kick in 0..AGAIN {
+        for kick in 0..ASSEMBLIES {
             let Some(state) = self.fits_at(from, kick) else { continue };
             let Ok(other) = self.with_signs(state, Patience::Full) else { continue };
             let [lower, known] = [&other, &run].map(|run| run.state.energy(&self.framework));
