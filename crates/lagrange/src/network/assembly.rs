@@ -17,7 +17,7 @@ use super::state::State;
 
 /// Starts of the search for places where lengths fit, the moves of joints for them in units of the
 /// mean length, and the part of its length by which a member may be off where it ends.
-const ASSEMBLIES: usize = 100;
+const ASSEMBLIES: usize = 60;
 /// Shapes with fewer free directions are assembled again in search of less energy.
 const SMALL: usize = 30;
 /// Less energy is less by this part: the rest is rounding.

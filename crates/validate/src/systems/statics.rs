@@ -91,6 +91,7 @@ struct Units {
 
 /// What a force left over somewhere is measured by.
 #[derive(Clone, Copy)]
+#[expect(clippy::struct_field_names, reason = "the unit of each")]
 struct Local {
     /// What rounding explains of it, N.
     rounding_n: f64,

@@ -214,30 +214,53 @@ fn solved(system: &System) -> SystemAnswer {
     ask_with(system, &Question { census: UseCensus::Never, ..Question::default() }, &|_| {})
 }
 
+/// The frame with its joints drawn at these places, which asks for the equilibrium next to them.
+fn drawn(system: &System, places: &[Vector]) -> System {
+    let near = |(joint, at): (&Joint, &Vector)| match joint.support {
+        Support::Free => joint.clone().near(*at),
+        _ => joint.clone(),
+    };
+    let joints = system.joints().iter().zip(places).map(near).collect();
+    System::new("drawn", system.gravity_m_s2(), joints, system.members().to_vec()).unwrap()
+}
+
+/// Of frames that end without agreement from their lengths alone at most this part: places where all
+/// lengths fit have to be found among many where they nearly do, and some frames fit in two ways.
+const UNDECIDED: f64 = 0.01;
+
 #[test]
 fn loads_are_shared_as_by_equally_stiff_bars() {
-    let mut all = Vec::new();
+    let (mut all, mut undecided, mut frames_drawn) = (Vec::new(), 0, 0);
     for draw in DRAWS {
         let seeds = 0..frames();
-        let drawn: Vec<(u64, System)> =
-            seeds.filter_map(|seed| Some((seed, frame(draw, seed)?.0))).collect();
-        assert!(2 * drawn.len() as u64 > frames(), "{draw:?}: only {} frames", drawn.len());
-        let failed: Vec<String> = drawn
+        let frames_of: Vec<(u64, System, Vec<Vector>)> = seeds
+            .filter_map(|seed| frame(draw, seed).map(|(system, places)| (seed, system, places)))
+            .collect();
+        assert!(2 * frames_of.len() as u64 > frames(), "{draw:?}: only {}", frames_of.len());
+        let judged: Vec<(Option<String>, bool)> = frames_of
             .par_iter()
-            .filter_map(|(seed, system)| {
-                let answer = solved(system);
-                let wrong = answer.equilibria.iter().find_map(|found| wrong(system, found));
-                let wrong = wrong.or_else(|| {
-                    (!answer.agrees())
-                        .then(|| format!("{:?} {:?}", answer.failures, answer.agreement))
-                });
-                wrong.map(|why| format!("{draw:?} {seed}: {why}"))
+            .map(|(seed, system, places)| {
+                let of = |system: &System| {
+                    let answer = solved(system);
+                    let wrong = answer.equilibria.iter().find_map(|found| wrong(system, found));
+                    (wrong, answer)
+                };
+                let (wrong, answer) = of(system);
+                let (wrong_drawn, as_drawn) = of(&drawn(system, places));
+                let apart = (!as_drawn.agrees())
+                    .then(|| format!("drawn: {:?} {:?}", as_drawn.failures, as_drawn.agreement));
+                let why = wrong.or(wrong_drawn).or(apart);
+                (why.map(|why| format!("{draw:?} {seed}: {why}")), answer.agrees())
             })
             .collect();
-        println!("{draw:?}: {} frames, {} wrong", drawn.len(), failed.len());
+        let open = judged.iter().filter(|(_, agrees)| !agrees).count();
+        let failed: Vec<String> = judged.into_iter().filter_map(|(why, _)| why).collect();
+        println!("{draw:?}: {} frames, {} wrong, {open} open", frames_of.len(), failed.len());
+        (undecided, frames_drawn) = (undecided + open, frames_drawn + frames_of.len());
         all.extend(failed);
     }
     assert!(all.is_empty(), "{} frames:\n{}", all.len(), all.join("\n"));
+    assert!(undecided as f64 <= UNDECIDED * frames_drawn as f64, "{undecided} of {frames_drawn}");
 }
 
 /// One length a millionth off: no rigid bar fits, and both solvers say which.

@@ -245,5 +245,13 @@ fn loads_hidden() {
     output.near("allowed_n", 1e-8, 1e6);
     output.within("member", 1.0..=2.0);
     output.is("ladder[].reason.excesses[].what", "large_force");
+    output.within("ladder[].reason.excesses[].member", 1.0..=2.0);
+    // Four forces pull out of proportion: the bound is far below.
+    output.within("ladder[].reason.gap", 1e6..=1e30);
+    let stresses = |key: &str| format!("nearest.equilibria[].evidence.self_stresses.{key}");
+    output.each(&stresses("choice"), "equally_stiff");
+    output.each(&stresses("dimension"), 1);
+    output.each(&stresses("ranges[].kind"), "any");
+    output.within(&stresses("misfit_m"), 0.0..=1e-15);
     output.done();
 }
