@@ -17,3 +17,11 @@ pub mod large_systems {}
 pub mod limits {}
 #[doc = include_str!("../guide/9-speeds.md")]
 pub mod speeds {}
+#[doc = include_str!("../guide/10-methods.md")]
+pub mod methods {}
+#[doc = include_str!("../guide/11-from-python.md")]
+pub mod from_python {}
+#[doc = include_str!("../guide/12-from-rust.md")]
+pub mod from_rust {}
+#[doc = include_str!("../guide/13-commands.md")]
+pub mod commands {}

@@ -75,3 +75,20 @@ fn its_first_structures_are_solved() {
     assert_eq!(code, Some(3));
     assert!(text.contains("both solvers agree on 16"), "{text}");
 }
+
+/// The examples of the chapter of commands, as they stand there.
+#[test]
+fn its_commands_run() {
+    let folder = tempfile::tempdir().unwrap();
+    let page = include_str!("../../guide/13-commands.md");
+    let lines = page.split('`').filter_map(|code| code.strip_prefix("funicular "));
+    let commands: Vec<Vec<&str>> = lines
+        .map(|line| line.split_whitespace().take_while(|word| *word != ">").collect())
+        // An answer of another program, and a summary of all.
+        .filter(|words: &Vec<_>| words[0] != "judge" && words[0] != "COMMAND")
+        .collect();
+    assert!(commands.len() > 10, "{commands:?}");
+    for command in commands {
+        assert_eq!(run(folder.path(), &command).0, Some(0), "{command:?}");
+    }
+}
