@@ -10,7 +10,7 @@ pub const PAPER: &str = r"@unpublished{bars-multibody,
 /// BibTeX of this program.
 pub const SOFTWARE: &str = concat!(
     r"@software{funicular,
-  title   = {funicular: equilibria of hanging chains of rigid bars, found twice},
+  title   = {funicular: equilibria and motions of systems of bars, cables and springs, found twice},
   author  = {{The funicular developers}},
   version = {",
     env!("CARGO_PKG_VERSION"),

@@ -126,3 +126,29 @@ fn every_crate_has_one_program_of_tests() {
         assert!(tests.join("it/main.rs").is_file(), "{}", tests.display());
     }
 }
+
+/// The citation, the report's entry for it and the article have one title, and what the article cites
+/// and shows is there.
+#[test]
+fn the_software_has_one_title() {
+    let read = |path: &str| std::fs::read_to_string(top().join(path)).unwrap();
+    let citation = read("CITATION.cff");
+    let title = citation.split("title: \"").nth(1).unwrap().split('"').next().unwrap();
+    let article = read("validation/joss/paper.md");
+    assert!(article.contains(&format!("title: \"{title}\"")), "{title}");
+    assert!(read("validation/REPORT.md").contains(&format!("title   = {{{title}}}")), "{title}");
+    let references = read("validation/joss/paper.bib");
+    let listed: Vec<&str> = references
+        .split("@article{")
+        .skip(1)
+        .map(|entry| entry.split(',').next().unwrap())
+        .collect();
+    let cited: Vec<&str> =
+        article.split("[@").skip(1).map(|rest| rest.split(']').next().unwrap()).collect();
+    assert!(listed.iter().all(|key| cited.contains(key)), "{listed:?} {cited:?}");
+    assert!(cited.iter().all(|key| listed.contains(key)), "{listed:?} {cited:?}");
+    let picture = article.split("](").nth(1).unwrap().split(')').next().unwrap();
+    assert!(top().join("validation/joss").join(picture).exists(), "{picture}");
+    // Two pages.
+    assert!((250..=1000).contains(&article.split_whitespace().count()));
+}
