@@ -124,6 +124,8 @@ pub enum Command {
     /// (`funicular help file` too)
     #[command(alias = "file", after_long_help = model::system_file::FORMAT)]
     Format,
+    /// Print a chapter of the guide: first steps, the evidence, motion, methods, limits
+    Guide(crate::guide::Guide),
     /// List the named cases, or print the system file of one (a start for a file of your own)
     Cases(crate::cases::Cases),
     /// Write the manual pages, for `man` to read

@@ -8,6 +8,7 @@ use clap::{Command, CommandFactory, FromArgMatches};
 
 use crate::args::Cli;
 use crate::exit::Exit;
+use crate::guide;
 
 /// The commands, by what they are for.
 const GROUPS: [(&str, &[&str]); 6] = [
@@ -16,7 +17,7 @@ const GROUPS: [(&str, &[&str]); 6] = [
     ("Answers of others", &["judge"]),
     ("Many starts", &["sweep", "basins", "merge"]),
     ("The paper", &["reproduce"]),
-    ("Files and help", &["cases", "new", "format", "man", "completions"]),
+    ("Files and help", &["cases", "new", "format", "guide", "man", "completions"]),
 ];
 
 /// What is printed without arguments.
@@ -56,7 +57,7 @@ pub fn parse() -> Result<Cli, Exit> {
         say(START);
         return Err(Exit::BadInput);
     }
-    let command = grouped(Cli::command());
+    let command = with_chapters(grouped(Cli::command()));
     let matches = command.try_get_matches().map_err(|error| explained(&error))?;
     Cli::from_arg_matches(&matches).map_err(|error| explained(&error))
 }
@@ -79,6 +80,25 @@ fn grouped(command: Command) -> Command {
     }
     text += "\nOptions:\n{options}{after-help}";
     command.help_template(text)
+}
+
+/// The commands, each of whose help ends with its chapter of the guide.
+pub fn with_chapters(mut command: Command) -> Command {
+    let names: Vec<String> =
+        command.get_subcommands().map(|sub| sub.get_name().to_owned()).collect();
+    for name in names {
+        let line = format!("The guide: `funicular guide {}`", guide::chapter_of(&name));
+        let after = |words: Option<&clap::builder::StyledStr>| match words {
+            Some(words) => format!("{words}\n\n{line}"),
+            None => line.clone(),
+        };
+        command = command.mut_subcommand(&name, |sub| {
+            let short = after(sub.get_after_help());
+            let long = after(sub.get_after_long_help().or(sub.get_after_help()));
+            sub.after_help(short).after_long_help(long)
+        });
+    }
+    command
 }
 
 /// A sentence in lines that leave room for the names of commands in 80 columns.

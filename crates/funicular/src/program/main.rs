@@ -15,6 +15,7 @@ mod diagnostics;
 mod exit;
 mod foreign_input;
 mod format;
+mod guide;
 mod help;
 mod in_order;
 mod input;
@@ -68,6 +69,7 @@ fn main() -> std::process::ExitCode {
         Command::Simulate(arguments) => simulate::run(&arguments),
         Command::New(arguments) => new::run(&arguments),
         Command::Format => format::run(),
+        Command::Guide(arguments) => guide::run(&arguments),
         Command::Cases(arguments) => cases::run(&arguments),
         Command::Man(arguments) => man::run(&arguments),
         Command::Completions { shell } => {

@@ -19,7 +19,7 @@ pub struct Man {
 
 /// Run the command.
 pub fn run(arguments: &Man) -> Result<Exit, Failure> {
-    let mut program = Cli::command().disable_help_subcommand(true);
+    let mut program = crate::help::with_chapters(Cli::command()).disable_help_subcommand(true);
     program.build();
     output::make_folder(&arguments.out)?;
     let commands = program.get_subcommands().cloned().collect::<Vec<_>>();
