@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use funicular::SolveAnswer;
+use funicular::{Extremes, SolveAnswer};
 use model::system::{Kind, Member, Support, System, SystemEquilibrium};
 use model::{Evidence, SolverName, Vector};
 
@@ -138,6 +138,7 @@ fn shape(system: &System, e: &SystemEquilibrium, summary: bool) -> String {
         ends: &|bar| [system.members()[bar].from, system.members()[bar].to],
         joints_m: &e.joints_m,
         axial: e.axial_forces(system),
+        extremes: Extremes::of(system, e),
         reactions_n: held.map(|(k, (_, force))| (k, *force)).collect(),
         idle: &|bar| idle(&system.members()[bar], &e.joints_m),
         ranges: e.evidence.self_stresses.as_ref().and_then(|family| family.ranges.as_deref()),

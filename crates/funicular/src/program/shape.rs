@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use funicular::Extremes;
+use funicular::{Extremes, Sag};
 use model::{AxialForce, ForceRange, Vector};
 
 use crate::tables::{numbers_from, short, table, wrapped};
@@ -44,6 +44,8 @@ pub struct Shape<'a> {
     pub joints_m: &'a [Vector],
     /// Axial forces along the bars.
     pub axial: Vec<AxialForce>,
+    /// What stands out.
+    pub extremes: Option<Extremes>,
     /// Forces of the ground, N, with their joints.
     pub reactions_n: Vec<(usize, Vector)>,
     /// A word for a bar without force.
@@ -63,7 +65,7 @@ impl Shape<'_> {
             text += &self.joints();
             text += &self.bars("Bars", (0..self.axial.len()).collect());
         } else if !summary {
-            text += &self.extremes();
+            text += &self.largest();
         }
         if !summary {
             text += &self.reactions();
@@ -130,7 +132,7 @@ impl Shape<'_> {
     }
 
     /// The bars with the largest tension and compression of a long system.
-    fn extremes(&self) -> String {
+    fn largest(&self) -> String {
         let mut order: Vec<usize> = (0..self.axial.len()).collect();
         let wanted = EXTREMES.min(order.len() - 1);
         let force = |bar: &usize| self.axial[*bar].largest_n();
@@ -179,18 +181,22 @@ impl Shape<'_> {
 
     /// Sag, lowest joint, largest forces and where.
     fn summary(&self) -> String {
-        let supports = self.reactions_n.iter().map(|(joint, _)| *joint);
-        let Some(extremes) = Extremes::of(self.joints_m, supports, &self.axial) else {
-            return "\n".to_owned();
-        };
+        let Some(extremes) = &self.extremes else { return "\n".to_owned() };
         let places = Rounded::of(self.joints_m.as_flattened());
         let at = extremes.lowest_m.map(|x| places.short(x)).join(", ");
         let mut text =
             format!("Lowest joint: {}, at ({at}) m.\n", (self.name)(extremes.lowest_joint));
         // Writing to a String cannot fail.
-        if let Some(sag_m) = extremes.sag_m {
-            let sag = places.short(sag_m);
-            let _ = writeln!(text, "Sag: {sag} m below the lowest support.");
+        if let Some(Sag { depth_m, joint, ends }) = extremes.sag {
+            let [from, to] = ends.map(|end| (self.name)(end));
+            let below = if from == to {
+                format!("the lowest support, {from}")
+            } else {
+                format!("the line from {from} to {to}")
+            };
+            let (depth, joint) = (places.short(depth_m), (self.name)(joint));
+            text += &wrapped(&format!("Sag: {depth} m, of joint {joint} below {below}."), 0);
+            text.push('\n');
         }
         let ends = [("tension", extremes.tension_n), ("compression", extremes.compression_n)];
         for (what, largest) in ends {

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use clap::Args;
-use funicular::{Study, StudyAnswer, StudyPoint};
+use funicular::{Study, StudyAnswer, StudyPoint, StudyShape};
 
 use crate::exit::{Exit, Failure};
 use crate::input::{Drawn, Input};
@@ -27,7 +27,9 @@ Columns:
   span_m                     of a chain: distance of the anchors
   agrees                     whether both solvers agree and the judge finds both in balance
   evidence                   the highest rung reached
-  energy_j, sag_m            energy above the first support; depth of the lowest joint below the lowest support
+  energy_j                   energy above the first support
+  sag_m                      the largest depth of a joint below the line between the ends of its row of
+                             members; where no row spans anything, below the lowest support
   lowest_joint, lowest_x_m, lowest_y_m, lowest_z_m
                              the lowest joint, by name or in a chain from 0, and where it is
   tension_n, tension_bar, compression_n, compression_bar
@@ -35,6 +37,7 @@ Columns:
   start_x_n, start_y_n, start_z_n, end_x_n, end_y_n, end_z_n
                              forces of the ground on a chain; of a system NAME_x_n, ... for each support
   rise_1_deg, ...            how steeply each bar rises, from the level
+  one for each --of          its value
   refused                    why there is no shape; else empty";
 
 const EXAMPLES: &str = "\
@@ -47,6 +50,13 @@ A system with joints by name has besides
   --vary bars.1.prestress_n=0..200:21       --vary bars.1.length_tolerance_m=1e-3
 Forces on bars and directions of supports do not vary.
 Bars are numbered from 1 as they are solved: a table with count = 3 is three bars.
+
+--of shows, in the place of sag and forces,
+  --of joints.rider.z     where a joint is (or .x, .y)
+  --of sag.A-B            how deep the row of members from A to B hangs below the line between them
+  --of bars.3.axial_max_n the axial force of a bar where it is largest, tension positive
+                          (axial_from_n and axial_to_n: at its ends)
+  --of height=-2.5        the height of the lowest joint over z = -2.5 m; `height` alone: over the floor
 
 Examples:
   funicular study chain.toml --vary anchors.end_m.x=0.5..2.6:50 --svg sag.svg
@@ -71,6 +81,10 @@ pub struct Arguments {
     pub input: Drawn,
     #[command(flatten)]
     pub varied: Varied,
+    /// Show a number of each shape: `joints.rider.z`, `sag.A-B`, `bars.3.axial_max_n`, `height=-2.5`
+    /// (repeatable)
+    #[arg(long, value_name = "NUMBER", allow_hyphen_values = true)]
+    pub of: Vec<String>,
     /// Print one JSON object (schema_version 3) instead of tables
     #[arg(long)]
     pub json: bool,
@@ -92,6 +106,7 @@ pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
     threads::install(arguments.threads)?;
     let Input { problem, files } = arguments.input.read()?;
     let study = Study::new().over(arguments.varied.parameters()?);
+    let study = arguments.of.iter().fold(study, |study, name| study.of(name));
     let lengths = study.points(&problem)?;
     let (paths, points) = (lengths.len(), lengths.iter().sum::<usize>());
     let figures =
@@ -178,36 +193,15 @@ fn one_path(found: &StudyAnswer, points: &[&StudyPoint]) -> String {
         // Writing to a String cannot fail.
         let _ = writeln!(text, "\n{}", fixed.collect::<Vec<_>>().join(", "));
     }
-    let unit = format!("value / {}", found.units()[last]);
-    let mut head = vec![unit.as_str(), "sag / m", "lowest", "tension / N", "bar"];
-    let supports = found.supports();
-    // Two supports have a column each, of more the largest force is shown.
-    let two = supports.len() == 2;
-    let grounds: Vec<String> = if two {
-        supports.iter().map(|name| format!("{} / N", cut(name))).collect()
-    } else {
-        vec!["ground / N".to_owned()]
-    };
-    head.extend(grounds.iter().map(String::as_str));
-    head.push("evidence");
-    let mut table = table(head);
+    let (head, cells) = columns(found);
+    let head = std::iter::once(format!("value / {}", found.units()[last])).chain(head);
+    let head: Vec<String> = head.chain(["evidence".to_owned()]).collect();
+    let mut table = table(head.iter().map(String::as_str));
     for point in spread(points) {
         let mut row = vec![short(point.values[last])];
         match &point.shape {
             Ok(shape) => {
-                let tension = shape.extremes.tension_n;
-                row.extend([
-                    shape.extremes.sag_m.map_or_else(String::new, short),
-                    cut(&found.joint(shape.extremes.lowest_joint)),
-                    tension.map_or_else(|| "none".to_owned(), |(_, force)| short(force)),
-                    tension.map_or_else(String::new, |(bar, _)| (bar + 1).to_string()),
-                ]);
-                let number = |force: Option<f64>| force.map_or_else(String::new, short);
-                if two {
-                    row.extend([0, 1].map(|support| number(shape.support_n(support))));
-                } else {
-                    row.push(number(shape.largest_support_n()));
-                }
+                row.extend(cells(shape));
                 row.push(match (shape.agrees, shape.rung) {
                     (true, Some(rung)) => rung.to_string(),
                     _ => "no agreement".to_owned(),
@@ -223,6 +217,53 @@ fn one_path(found: &StudyAnswer, points: &[&StudyPoint]) -> String {
         let _ = writeln!(text, "({PRINTED} of {} points; --csv and --json have all)", points.len());
     }
     text
+}
+
+/// What is shown of a shape.
+type Cells<'a> = Box<dyn Fn(&StudyShape) -> Vec<String> + 'a>;
+
+/// The columns between the value and the evidence: what is asked for, else what stands out.
+fn columns(found: &StudyAnswer) -> (Vec<String>, Cells<'_>) {
+    let number = |x: Option<f64>| x.map_or_else(String::new, short);
+    if !found.of().is_empty() {
+        /// Room for the names in a line each, of 80 columns.
+        const ROOM: usize = 52;
+        let wide =
+            found.of().iter().map(|(name, _)| name.chars().count() + 2).sum::<usize>() > ROOM;
+        let head = found.of().iter().map(|(name, unit)| {
+            let name = Printable(name).to_string();
+            let name = if wide { name.replace('.', ".\n") } else { name };
+            format!("{name}\n/ {unit}")
+        });
+        let cells = move |shape: &StudyShape| shape.of.iter().map(|x| number(*x)).collect();
+        return (head.collect(), Box::new(cells));
+    }
+    let mut head: Vec<String> =
+        ["sag / m", "lowest", "tension / N", "bar"].map(String::from).into();
+    let supports = found.supports();
+    // Two supports have a column each, of more the largest force is shown.
+    let two = supports.len() == 2;
+    if two {
+        head.extend(supports.iter().map(|name| format!("{} / N", cut(name))));
+    } else {
+        head.push("ground / N".to_owned());
+    }
+    let cells = move |shape: &StudyShape| {
+        let tension = shape.extremes.tension_n;
+        let mut row = vec![
+            number(shape.extremes.sag_m),
+            cut(&found.joint(shape.extremes.lowest_joint)),
+            tension.map_or_else(|| "none".to_owned(), |(_, force)| short(force)),
+            tension.map_or_else(String::new, |(bar, _)| (bar + 1).to_string()),
+        ];
+        if two {
+            row.extend([0, 1].map(|support| number(shape.support_n(support))));
+        } else {
+            row.push(number(shape.largest_support_n()));
+        }
+        row
+    };
+    (head, Box::new(cells))
 }
 
 /// A name that fits into a column.

@@ -75,6 +75,7 @@ pub struct StudyAnswer {
     pub(super) subject: Subject,
     pub(super) parameters: Vec<String>,
     pub(super) units: Vec<&'static str>,
+    pub(super) of: Vec<(String, &'static str)>,
     pub(super) paths: usize,
     pub(super) points: Vec<StudyPoint>,
 }
@@ -90,6 +91,12 @@ impl StudyAnswer {
     #[must_use]
     pub fn units(&self) -> &[&'static str] {
         &self.units
+    }
+
+    /// What is shown besides, with its units, in the order of [`StudyShape::of`].
+    #[must_use]
+    pub fn of(&self) -> &[(String, &'static str)] {
+        &self.of
     }
 
     /// The name of the chain or the system whose numbers vary.
@@ -195,6 +202,7 @@ impl StudyAnswer {
             columns.extend(["x", "y", "z"].map(|axis| format!("{support}_{axis}_n")));
         }
         columns.extend((1..=self.bars()).map(|bar| format!("rise_{bar}_deg")));
+        columns.extend(self.of.iter().map(|(name, _)| name.clone()));
         for column in &columns {
             write!(to, ",{}", quoted(column))?;
         }
@@ -242,6 +250,12 @@ impl StudyAnswer {
         for rise in &shape.rises_deg {
             write!(to, ",{rise:?}")?;
         }
+        for value in &shape.of {
+            match value {
+                Some(value) => write!(to, ",{value:?}")?,
+                None => write!(to, ",")?,
+            }
+        }
         writeln!(to, ",")
     }
 
@@ -274,9 +288,12 @@ impl Serialize for StudyAnswer {
             system: About<'a>,
             parameters: &'a [String],
             units: &'a [&'static str],
+            #[serde(skip_serializing_if = "Vec::is_empty")]
+            of: Vec<&'a str>,
             points: Vec<Point<'a>>,
         }
-        let Self { subject, parameters, units, points, .. } = self;
+        let Self { subject, parameters, units, of, points, .. } = self;
+        let of = of.iter().map(|(name, _)| name.as_str()).collect();
         let system = match subject {
             Subject::Chain(summary) => About::Chain(summary),
             Subject::System(system) => About::System(Summary::new(system)),
@@ -288,7 +305,7 @@ impl Serialize for StudyAnswer {
             .iter()
             .map(|point| Point { point, reactions_n: point.shape.as_ref().ok().map(reactions) });
         let points = points.collect();
-        Object { schema_version: SCHEMA_VERSION, system, parameters, units, points }
+        Object { schema_version: SCHEMA_VERSION, system, parameters, units, of, points }
             .serialize(serializer)
     }
 }

@@ -379,6 +379,72 @@ fn text_of(output: &Output) -> String {
     text(&output.stderr)
 }
 
+/// Bars of 4 and 3 m between anchors 5 m apart, one of them 3 m lower: the joint is 12/5 m across the line
+/// between the anchors, which is level to 4/5, so 3 m below it, and only 0.84 m below the lower anchor.
+const SLOPED: &str = r#"{"anchors": {"start_m": [0,0,0], "end_m": [4,0,-3]},
+    "bars": [{"length_m": 4, "mass_kg": 1}, {"length_m": 3, "mass_kg": 1}]}"#;
+
+/// Two cables of 1.25 m over 2 m to a rider on an upright line: 0.75 m below the anchors. The rider is the lowest
+/// support.
+const RIDER: &str = r#"{"joints": {"A": {"at_m": [0,0,0]}, "B": {"at_m": [2,0,0]},
+        "rider": {"at_m": [1,0,5], "along": [0,0,1], "mass_kg": 2}},
+    "bars": [{"from":"A","to":"rider","length_m":1.25,"mass_kg":0,"kind":"cable"},
+             {"from":"rider","to":"B","length_m":1.25,"mass_kg":0,"kind":"cable"}]}"#;
+
+#[test]
+fn sag_is_measured_from_the_line_that_a_row_spans() {
+    let folder = folder("sag");
+    std::fs::write(folder.join("sloped.json"), SLOPED).unwrap();
+    std::fs::write(folder.join("rider.json"), RIDER).unwrap();
+    // The parabola of the footbridge hangs 3 m deep between towers, three anchors lie at its deck.
+    for (arguments, wanted) in [
+        (&["sloped.json"][..], "Sag: 3 m, of joint 1 below the line from 0 to 2."),
+        (&["rider.json"], "Sag: 0.75 m, of joint rider below the line from A to B."),
+        (&["--case", "footbridge"], "Sag: 3 m, of joint l3 below the line from l0 to l6."),
+    ] {
+        let mut solve = Command::cargo_bin("funicular").unwrap();
+        let solve = solve.current_dir(&folder).arg("solve").args(arguments);
+        let said = text(&solve.output().unwrap().stdout);
+        assert!(said.contains(wanted), "{said}");
+    }
+    let vary = ["rider.json", "--vary", "joints.rider.mass_kg=1,2", "--csv", "of.csv"];
+    let of =
+        ["joints.rider.z", "joints.rider.at_m.x", "sag.A-B", "height=-2", "bars.1.axial_max_n"];
+    let of: Vec<&str> = of.into_iter().flat_map(|of| ["--of", of]).collect();
+    let output = study(&folder, &[&vary[..], &of].concat());
+    assert_eq!(output.status.code(), Some(0), "{}", text_of(&output));
+    let said = text(&output.stdout);
+    assert!(
+        said.contains("joints.rider.z") && said.lines().all(|l| l.chars().count() <= 80),
+        "{said}"
+    );
+    for (row, mass_kg) in columns(&folder.join("of.csv")).iter().zip([1.0, 2.0]) {
+        // Each cable holds half the weight at the slope 3 of 5.
+        let pull_n = mass_kg * 9.80665 / 2.0 / 0.6;
+        for (name, wanted) in [
+            ("sag_m", 0.75),
+            ("joints.rider.z", -0.75),
+            ("joints.rider.at_m.x", 1.0),
+            ("sag.A-B", 0.75),
+            ("height=-2", 1.25),
+            ("bars.1.axial_max_n", pull_n),
+        ] {
+            let value: f64 = row[name].parse().unwrap();
+            assert!((value - wanted).abs() < 1e-10, "{name}: {value}");
+        }
+    }
+    for (of, wanted) in [
+        ("joints.ridr.z", "did you mean `rider`"),
+        ("sag.A-C", "there is no joint `C`"),
+        ("bars.3.axial_n", "there is no bar `3`"),
+        ("depth", "is no number of an answer"),
+    ] {
+        let output = study(&folder, &["rider.json", "--vary", "gravity_m_s2=1,2", "--of", of]);
+        assert_eq!(output.status.code(), Some(2));
+        assert!(text_of(&output).contains(wanted), "{}", text_of(&output));
+    }
+}
+
 /// Rods of all but the same lengths, one of them a strut, with masses from 1 to 3000 kg: `lagrange`
 /// has no answer, `solve` ends with 3, and so does a study of that number.
 #[test]
