@@ -9,6 +9,7 @@ mod edited;
 mod escapes;
 mod examples;
 mod files;
+mod format_page;
 mod fuzz;
 mod guide;
 mod judge;

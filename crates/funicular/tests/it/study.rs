@@ -415,7 +415,7 @@ fn sag_is_measured_from_the_line_that_a_row_spans() {
     assert_eq!(output.status.code(), Some(0), "{}", text_of(&output));
     let said = text(&output.stdout);
     assert!(
-        said.contains("joints.rider.z") && said.lines().all(|l| l.chars().count() <= 80),
+        said.contains("axial_max_n") && said.lines().all(|l| l.chars().count() <= 80),
         "{said}"
     );
     for (row, mass_kg) in columns(&folder.join("of.csv")).iter().zip([1.0, 2.0]) {
