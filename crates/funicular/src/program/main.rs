@@ -28,6 +28,7 @@ mod modes;
 mod new;
 mod output;
 mod printable;
+mod printed;
 mod progress;
 mod reproduce;
 mod shape;

@@ -10,10 +10,14 @@ use serde::Serialize;
 
 use crate::exit::Failure;
 use crate::printable::filtered;
+use crate::printed::{self, in_ascii};
+use crate::tables::finished;
 
 /// Print to standard output. A reader that has gone away (`| head`) is no error.
 pub fn print(text: &str) -> Result<(), Failure> {
-    print_stream(|out| out.write_all(filtered(text, false).as_bytes()))
+    let text = filtered(&finished(text), false);
+    let text = if printed::ascii() { in_ascii(&text) } else { text };
+    print_stream(|out| out.write_all(text.as_bytes()))
 }
 
 /// The same for JSON, which escapes what would steer a terminal.

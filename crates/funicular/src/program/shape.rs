@@ -5,7 +5,8 @@ use std::fmt::Write as _;
 use funicular::{Extremes, Sag};
 use model::{AxialForce, ForceRange, Vector};
 
-use crate::tables::{numbers_from, short, table, wrapped};
+use crate::printed::{numbers, quantity};
+use crate::tables::{Table, numbers_from, short, table, wrapped};
 
 /// Joints and bars up to this many are printed one by one; of more the extremes (`--csv`,
 /// `--bars-csv` and `--json` have all).
@@ -63,14 +64,10 @@ impl Shape<'_> {
         let mut text = String::new();
         if !summary && !long {
             text += &self.joints();
-            text += &self.bars("Bars", (0..self.axial.len()).collect());
-        } else if !summary {
-            text += &self.largest();
         }
-        if !summary {
-            text += &self.reactions();
-        }
-        text + &self.summary()
+        text +=
+            &if long { self.largest() } else { self.bars("Bars", (0..self.axial.len()).collect()) };
+        text + &self.reactions() + &self.summary()
     }
 
     fn joints(&self) -> String {
@@ -181,11 +178,10 @@ impl Shape<'_> {
 
     /// Sag, lowest joint, largest forces and where.
     fn summary(&self) -> String {
-        let Some(extremes) = &self.extremes else { return "\n".to_owned() };
+        let Some(extremes) = &self.extremes else { return String::new() };
         let places = Rounded::of(self.joints_m.as_flattened());
-        let at = extremes.lowest_m.map(|x| places.short(x)).join(", ");
-        let mut text =
-            format!("Lowest joint: {}, at ({at}) m.\n", (self.name)(extremes.lowest_joint));
+        let at = numbers(&extremes.lowest_m.map(|x| places.number(x)), "m", short);
+        let mut text = format!("Lowest joint: {}, at {at}.\n", (self.name)(extremes.lowest_joint));
         // Writing to a String cannot fail.
         if let Some(Sag { depth_m, joint, ends }) = extremes.sag {
             let [from, to] = ends.map(|end| (self.name)(end));
@@ -194,23 +190,23 @@ impl Shape<'_> {
             } else {
                 format!("the line from {from} to {to}")
             };
-            let (depth, joint) = (places.short(depth_m), (self.name)(joint));
-            text += &wrapped(&format!("Sag: {depth} m, of joint {joint} below {below}."), 0);
+            let (depth, joint) = (quantity(places.number(depth_m), "m"), (self.name)(joint));
+            text += &wrapped(&format!("Sag: {depth}, of joint {joint} below {below}."), 0);
             text.push('\n');
         }
         let ends = [("tension", extremes.tension_n), ("compression", extremes.compression_n)];
         for (what, largest) in ends {
             let Some((bar, force_n)) = largest else { continue };
             let [from, to] = (self.ends)(bar).map(|joint| (self.name)(joint));
-            let size = short(force_n);
-            let _ = writeln!(text, "Largest {what}: {size} N, in the member from {from} to {to}.");
+            let size = quantity(force_n, "N");
+            let _ = writeln!(text, "Largest {what}: {size}, in the member from {from} to {to}.");
         }
-        text + "\n"
+        text
     }
 }
 
 /// A table under its title.
-fn titled(title: &str, table: &comfy_table::Table) -> String {
+fn titled(title: &str, table: &Table) -> String {
     format!("{}\n{table}\n\n", wrapped(title, 0))
 }
 

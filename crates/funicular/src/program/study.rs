@@ -12,6 +12,7 @@ use crate::input::{Drawn, Input};
 use crate::interrupt::end_on_interrupt;
 use crate::output;
 use crate::printable::Printable;
+use crate::printed::Printed;
 use crate::progress::Progress;
 use crate::tables::{numbers_from, short, table, wrapped};
 use crate::threads;
@@ -85,9 +86,8 @@ pub struct Arguments {
     /// (repeatable)
     #[arg(long, value_name = "NUMBER", allow_hyphen_values = true)]
     pub of: Vec<String>,
-    /// Print one JSON object (schema_version 3) instead of tables
-    #[arg(long)]
-    pub json: bool,
+    #[command(flatten)]
+    pub printed: Printed,
     /// Write a line per point to this CSV file (columns: --help)
     #[arg(long, value_name = "FILE", long_help = CSV)]
     pub csv: Option<PathBuf>,
@@ -102,6 +102,7 @@ pub struct Arguments {
 
 /// Run the command.
 pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
+    arguments.printed.install();
     end_on_interrupt()?;
     threads::install(arguments.threads)?;
     let Input { problem, files } = arguments.input.read()?;
@@ -131,7 +132,7 @@ pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
     for (path, file) in figures.iter().enumerate() {
         output::write_whole(file, &found.figure(path + 1))?;
     }
-    if arguments.json {
+    if arguments.printed.is_json() {
         output::print_json(&found)?;
     } else {
         output::print(&text(&found))?;

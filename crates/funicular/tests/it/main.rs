@@ -18,6 +18,7 @@ mod library;
 mod modes;
 mod motion;
 mod pages;
+mod printing;
 mod program;
 mod promise;
 mod reached;
