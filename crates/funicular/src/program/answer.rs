@@ -20,11 +20,12 @@ pub fn answer(solution: &SolveAnswer, summary: bool, evidence: bool) -> String {
     let (members, joints) = (system.members().len(), system.joints().len());
     let name = format!("{}: {members} members between {joints} joints,", Printable(system.name()));
     let mut text = format!(
-        "{}\n{} long, {}, g = {} m/s^2\n\n",
+        "{}\n{} long, {}, g = {} m/s^2{}\n\n",
         wrapped(&name, 0),
         quantity(system.total_length_m(), "m"),
         quantity(system.total_mass_kg(), "kg"),
         short(system.gravity_m_s2()),
+        stiffness(system),
     );
     let equilibria = solution.equilibria();
     if let Some(first) = equilibria.first() {
@@ -52,6 +53,20 @@ pub fn answer(solution: &SolveAnswer, summary: bool, evidence: bool) -> String {
         );
     }
     text
+}
+
+/// The axial stiffness of the members that have one, which may be made of other numbers of the file.
+fn stiffness(system: &System) -> String {
+    let all = || system.members().iter().filter_map(|member| member.stiffness_n);
+    let (least, most) =
+        all().fold((f64::INFINITY, 0.0), |(a, b): (f64, f64), n| (a.min(n), b.max(n)));
+    match all().next() {
+        None => String::new(),
+        Some(_) if least < most => {
+            format!(", EA {} to {}", quantity(least, "N"), quantity(most, "N"))
+        }
+        Some(_) => format!(", EA {}", quantity(most, "N")),
+    }
 }
 
 /// The energy, and whether it rises in every direction.

@@ -15,6 +15,7 @@ mod guide;
 mod judge;
 mod keys;
 mod library;
+mod material;
 mod modes;
 mod motion;
 mod pages;
