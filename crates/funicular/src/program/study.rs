@@ -50,7 +50,9 @@ A system with joints by name has besides
   --vary 'bars.*.stiffness_n=1e4,1e6'       --vary floor_m=-3..-1:5
   --vary bars.1.prestress_n=0..200:21       --vary bars.1.length_tolerance_m=1e-3
 Forces on bars and directions of supports do not vary.
-Bars are numbered from 1 as they are solved: a table with count = 3 is three bars.
+Bars are numbered from 1 as they are solved: a table with count = 3 is three bars, of which
+  --vary bars.4-6.mass_kg=1,2               --vary 'bars.A-P.*.length_m=0.5..0.6:5'
+are a range and a row of a system, by the joints at its ends.
 
 --of shows, in the place of sag and forces,
   --of joints.rider.z     where a joint is (or .x, .y)
@@ -184,22 +186,29 @@ fn text(found: &StudyAnswer) -> String {
 
 /// A table over the last parameter.
 fn one_path(found: &StudyAnswer, points: &[&StudyPoint]) -> String {
-    let last = found.parameters().len() - 1;
+    let moves = found.moving(points);
     let mut text = String::new();
-    if let (Some(first), true) = (points.first(), last > 0) {
-        let fixed = (0..last).map(|k| {
+    let fixed: Vec<String> = (0..moves.len())
+        .filter(|k| !moves[*k])
+        .filter_map(|k| {
             let name = Printable(&found.parameters()[k]);
-            format!("{name} = {} {}", short(first.values[k]), found.units()[k])
-        });
-        // Writing to a String cannot fail.
-        let _ = writeln!(text, "\n{}", fixed.collect::<Vec<_>>().join(", "));
+            Some(format!("{name} = {} {}", short(points.first()?.values[k]), found.units()[k]))
+        })
+        .collect();
+    if !fixed.is_empty() {
+        text += &wrapped(&format!("\n{}", fixed.join(", ")), 2);
+        text.push('\n');
     }
+    let moving: Vec<usize> = (0..moves.len()).filter(|k| moves[*k]).collect();
+    let parameters = moving.iter().map(|k| match moving.len() {
+        1 => format!("value / {}", found.units()[*k]),
+        _ => broken(&found.parameters()[*k], found.units()[*k], true),
+    });
     let (head, cells) = columns(found);
-    let head = std::iter::once(format!("value / {}", found.units()[last])).chain(head);
-    let head: Vec<String> = head.chain(["evidence".to_owned()]).collect();
+    let head: Vec<String> = parameters.chain(head).chain(["evidence".to_owned()]).collect();
     let mut table = table(head.iter().map(String::as_str));
     for point in spread(points) {
-        let mut row = vec![short(point.values[last])];
+        let mut row: Vec<String> = moving.iter().map(|k| short(point.values[*k])).collect();
         match &point.shape {
             Ok(shape) => {
                 row.extend(cells(shape));
@@ -220,6 +229,13 @@ fn one_path(found: &StudyAnswer, points: &[&StudyPoint]) -> String {
     text
 }
 
+/// The head of a column in lines, at every dot if it is to be narrow.
+fn broken(name: &str, unit: &str, narrow: bool) -> String {
+    let name = Printable(name).to_string();
+    let name = if narrow { name.replace('.', ".\n") } else { name };
+    format!("{name}\n/ {unit}")
+}
+
 /// What is shown of a shape.
 type Cells<'a> = Box<dyn Fn(&StudyShape) -> Vec<String> + 'a>;
 
@@ -231,11 +247,7 @@ fn columns(found: &StudyAnswer) -> (Vec<String>, Cells<'_>) {
         const ROOM: usize = 52;
         let wide =
             found.of().iter().map(|(name, _)| name.chars().count() + 2).sum::<usize>() > ROOM;
-        let head = found.of().iter().map(|(name, unit)| {
-            let name = Printable(name).to_string();
-            let name = if wide { name.replace('.', ".\n") } else { name };
-            format!("{name}\n/ {unit}")
-        });
+        let head = found.of().iter().map(|(name, unit)| broken(name, unit, wide));
         let cells = move |shape: &StudyShape| shape.of.iter().map(|x| number(*x)).collect();
         return (head.collect(), Box::new(cells));
     }

@@ -145,6 +145,22 @@ impl StudyAnswer {
         &self.points
     }
 
+    /// Which parameters take more than one value at these points; the last if none does.
+    #[must_use]
+    pub fn moving(&self, points: &[&StudyPoint]) -> Vec<bool> {
+        let last = self.parameters.len().saturating_sub(1);
+        let moves = |k: usize| {
+            points.windows(2).any(|two| two[0].values[k].total_cmp(&two[1].values[k]).is_ne())
+        };
+        let mut all: Vec<bool> = (0..self.parameters.len()).map(moves).collect();
+        if !all.contains(&true)
+            && let Some(last) = all.get_mut(last)
+        {
+            *last = true;
+        }
+        all
+    }
+
     /// How many paths there are: combinations of all parameters but the last.
     #[must_use]
     pub fn paths(&self) -> usize {

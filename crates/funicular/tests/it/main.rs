@@ -11,6 +11,7 @@ mod examples;
 mod files;
 mod format_page;
 mod fuzz;
+mod guesses;
 mod guide;
 mod judge;
 mod keys;

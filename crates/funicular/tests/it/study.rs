@@ -287,7 +287,15 @@ const OF_CHAIN: [(&str, &str, f64); 7] = [
 
 /// Keys with numbers that do not vary: of a load on a chain `joints.K` is varied, and where a joint is
 /// drawn decides which equilibrium is meant.
-const NO_PARAMETERS: [&str; 7] = [
+/// What people know of a bar is made into other keys where the file is read.
+const NO_PARAMETERS: [&str; 14] = [
+    "bars.mass_kg_per_m",
+    "bars.diameter_m",
+    "bars.density_kg_m3",
+    "bars.young_pa",
+    "bars.force_n_per_m",
+    "bars.temperature_k",
+    "bars.expansion_per_k",
     "joints.NAME.near_m",
     "loads.mass_kg",
     "loads.force_n",
@@ -442,6 +450,59 @@ fn sag_is_measured_from_the_line_that_a_row_spans() {
         let output = study(&folder, &["rider.json", "--vary", "gravity_m_s2=1,2", "--of", of]);
         assert_eq!(output.status.code(), Some(2));
         assert!(text_of(&output).contains(wanted), "{}", text_of(&output));
+    }
+}
+
+/// A rope of four bars to a weight, and one bar on.
+fn rope(mass_kg: f64) -> String {
+    format!(
+        r#"{{"joints": {{"A": {{"at_m": [0,0,0]}}, "B": {{"at_m": [3,0,0]}}, "P": {{"mass_kg": 5}}}},
+        "bars": [{{"from":"A","to":"P","length_m":0.5,"mass_kg":{mass_kg},"count":4}},
+                 {{"from":"P","to":"B","length_m":2,"mass_kg":1}}]}}"#
+    )
+}
+
+#[test]
+fn rows_and_ranges_of_bars_are_those_of_the_file() {
+    let folder = folder("rows");
+    std::fs::write(folder.join("rope.json"), rope(0.1)).unwrap();
+    let edited = Problem::parse(&rope(0.7), "rope.json").unwrap();
+    let solved = Solve::new().run(&edited).unwrap();
+    let wanted = solved.equilibria()[0].energy_j;
+    for vary in ["bars.A-P.*.mass_kg=0.7", "bars.A-P.mass_kg=0.7", "bars.1-4.mass_kg=0.7"] {
+        let output = study(&folder, &["rope.json", "--vary", vary, "--json"]);
+        let json: Value = serde_json::from_slice(&output.stdout).unwrap();
+        let energy = json["points"][0]["energy_j"].as_f64().unwrap();
+        assert!((energy - wanted).abs() < 1e-12 * wanted.abs(), "{vary}: {energy} {wanted}");
+    }
+    for (vary, wanted) in [
+        ("bars.A-Q.*.mass_kg=1", "there is no row of bars `A-Q`"),
+        ("bars.2-9.mass_kg=1", "there is no bar 9"),
+        ("bars.3-2.mass_kg=1", "`3-2` is no bar"),
+    ] {
+        let output = study(&folder, &["rope.json", "--vary", vary]);
+        assert_eq!(output.status.code(), Some(2));
+        assert!(text_of(&output).contains(wanted), "{}", text_of(&output));
+    }
+    let twice = ["--vary", "bars.A-P.*.mass_kg=1", "--vary", "bars.4.mass_kg=2"];
+    let output = study(&folder, &[&["rope.json"], &twice[..]].concat());
+    assert!(text_of(&output).contains("set one number"), "{}", text_of(&output));
+}
+
+#[test]
+fn parameters_in_step_have_a_column_each() {
+    let folder = folder("zip");
+    std::fs::write(folder.join("rope.json"), rope(0.1)).unwrap();
+    let vary = ["--zip", "--vary", "joints.P.mass_kg=11,12", "--vary", "bars.5.mass_kg=21,22"];
+    let output = study(&folder, &[&["rope.json"], &vary[..]].concat());
+    let said = text(&output.stdout);
+    assert!(
+        said.contains("joints.P.mass_kg") && said.lines().all(|l| l.chars().count() <= 80),
+        "{said}"
+    );
+    for pair in [["11", "21"], ["12", "22"]] {
+        let row = |line: &str| line.split_whitespace().take(2).eq(pair);
+        assert!(said.lines().any(row), "{said}");
     }
 }
 
