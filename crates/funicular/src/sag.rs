@@ -45,9 +45,8 @@ impl Sag {
         let rows = Rows::new(system, joints_m);
         let held: Vec<usize> =
             (0..joints_m.len()).filter(|joint| holds_height(system, *joint)).collect();
-        let all = held
-            .iter()
-            .flat_map(|&first| rows.at(first).iter().filter_map(move |next| Some((first, *next))));
+        let all =
+            held.iter().flat_map(|&first| rows.at(first).iter().map(move |next| (first, *next)));
         let sags = all.filter_map(|(first, next)| rows.deepest(&rows.row(first, next)));
         sags.reduce(deeper).or_else(|| rows.below_lowest(&held))
     }
@@ -102,7 +101,7 @@ impl<'a> Rows<'a> {
         &self.ends[self.begins[joint]..self.begins[joint + 1]]
     }
 
-    fn from_to(&self, a: usize, b: usize) -> Vector {
+    fn way_m(&self, a: usize, b: usize) -> Vector {
         std::array::from_fn(|k| self.joints_m[b][k] - self.joints_m[a][k])
     }
 
@@ -131,9 +130,9 @@ impl<'a> Rows<'a> {
         if self.at(here).len() <= 2 {
             return others.next();
         }
-        let came = self.from_to(before, here);
+        let came = self.way_m(before, here);
         let straight = |other: usize| {
-            let goes = self.from_to(here, other);
+            let goes = self.way_m(here, other);
             let plan = (came[0] * goes[0] + came[1] * goes[1]) / (level(came) * level(goes));
             let size = level(goes).hypot(goes[2]) * level(came).hypot(came[2]);
             // To the rounding of a cosine: members in one upright plane are equally straight.
@@ -141,7 +140,7 @@ impl<'a> Rows<'a> {
             (plan, (plan * level(came) * level(goes) + came[2] * goes[2]) / size, other)
         };
         let upright = |other: &usize| {
-            let goes = self.from_to(here, *other);
+            let goes = self.way_m(here, *other);
             level(goes) <= 1e-6 * goes[2].abs()
         };
         let by = |a: &(f64, f64, usize), b: &(f64, f64, usize)| {
@@ -154,13 +153,13 @@ impl<'a> Rows<'a> {
     /// The deepest inner joint of a way below the line between its ends.
     fn deepest(&self, way: &[usize]) -> Option<Sag> {
         let [first, inner @ .., last] = way else { return None };
-        let (ends, d) = ([*first, *last], self.from_to(*first, *last));
+        let (ends, d) = ([*first, *last], self.way_m(*first, *last));
         // One above the other: no line to be below of.
         if level(d) <= LEVEL * d[2].abs() || first == last {
             return None;
         }
         let depths = inner.iter().map(|&joint| {
-            let p = self.from_to(*first, joint);
+            let p = self.way_m(*first, joint);
             let t = (p[0] * d[0] + p[1] * d[1]) / (level(d) * level(d));
             Sag { depth_m: t * d[2] - p[2], joint, ends }
         });

@@ -138,7 +138,7 @@ fn in_a_line(answers: &[(&SolverName, &Evidence)]) -> String {
     for statement in best.ladder.statements() {
         let checked = matches!(statement.rung, Rung::Converged | Rung::Agreed);
         if checked && !statement.reached && answers.len() > 1 {
-            text += &line('-', &statement.rung.to_string(), &statement.how.to_string());
+            text += &line('-', &statement.rung.to_string(), &statement.how);
         }
     }
     let forces = notes(best).into_iter().filter(|(mark, ..)| *mark == '!');
@@ -164,7 +164,7 @@ pub fn ladder(answers: &[(&SolverName, &Evidence)]) -> String {
         let statements = evidence.ladder.statements();
         let marked = statements
             .into_iter()
-            .map(|s| (if s.reached { '+' } else { '-' }, s.rung.to_string(), s.how.to_string()));
+            .map(|s| (if s.reached { '+' } else { '-' }, s.rung.to_string(), s.how));
         let notes = notes(evidence).into_iter().map(|(mark, of, what)| (mark, of.to_owned(), what));
         marked.chain(notes).collect::<Vec<_>>()
     };

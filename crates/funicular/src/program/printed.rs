@@ -169,10 +169,9 @@ pub fn in_ascii(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for c in text.chars() {
         match c {
-            '\u{2500}' => out.push('-'),
+            '\u{2500}' | '\u{2212}' => out.push('-'),
             '\u{2550}' => out.push('='),
             '\u{2026}' => out.push('~'),
-            '\u{2212}' => out.push('-'),
             '\u{b0}' => out.push_str("deg"),
             '\u{b2}' => out.push_str("^2"),
             c if c.is_ascii() => out.push(c),

@@ -109,7 +109,7 @@ pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
     threads::install(arguments.threads)?;
     let Input { problem, files } = arguments.input.read()?;
     let study = Study::new().over(arguments.varied.parameters()?);
-    let study = arguments.of.iter().fold(study, |study, name| study.of(name));
+    let study = arguments.of.iter().fold(study, Study::of);
     let lengths = study.points(&problem)?;
     let (paths, points) = (lengths.len(), lengths.iter().sum::<usize>());
     let figures =

@@ -53,9 +53,9 @@ impl Observable {
         }
         if let Some(rest) = text.strip_prefix("sag.") {
             // Names may have dashes of their own: of all ways to read it the first that is there.
-            let both = rest.match_indices('-').map(|(at, _)| [&rest[..at], &rest[at + 1..]]);
+            let mut both = rest.match_indices('-').map(|(at, _)| [&rest[..at], &rest[at + 1..]]);
             let found = both.clone().find_map(|[a, b]| Some([joint(a).ok()?, joint(b).ok()?]));
-            let [a, b] = both.last().ok_or_else(unknown)?;
+            let [a, b] = both.next_back().ok_or_else(unknown)?;
             return found
                 .map_or_else(|| Ok(Self::Sag([joint(a)?, joint(b)?])), |ends| Ok(Self::Sag(ends)));
         }
