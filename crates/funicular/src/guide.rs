@@ -17,3 +17,5 @@ pub mod large_systems {}
 pub mod limits {}
 #[doc = include_str!("../guide/9-speeds.md")]
 pub mod speeds {}
+#[doc = include_str!("../guide/10-keys.md")]
+pub mod keys {}

@@ -132,3 +132,18 @@ fn boxes_are_of_ascii_where_that_is_all_there_is() {
     }
     assert!(solve(&[]).contains('\u{2500}'));
 }
+
+/// A mooring line of twenty bars, part of which lies on the ground: 57 coordinates of its joints, of which those on
+/// the ground are upright and gone. Both solvers count the same, so it is said once.
+#[test]
+fn both_solvers_count_lengths_alike_on_a_floor() {
+    let folder = tempfile::tempdir().unwrap();
+    let line = "floor_m = -30\n[joints]\nanchor = { at_m = [0, 0, -30] }\nship = { at_m = [60, 0, 0] }\n\
+                [[bars]]\nfrom = 'anchor'\nto = 'ship'\nlength_m = 3.5\nmass_kg = 70\ncount = 20\n";
+    std::fs::write(folder.path().join("line.toml"), line).unwrap();
+    let mut command = Command::cargo_bin("funicular").unwrap();
+    let command = command.current_dir(&folder).args(["solve", "line.toml", "--evidence"]);
+    let text = String::from_utf8(command.output().unwrap().stdout).unwrap();
+    assert_eq!(text.matches("independent lengths").count(), 1, "{text}");
+    assert!(text.contains("20 independent lengths, 35 mechanisms, 0 self-stresses"), "{text}");
+}
