@@ -13,9 +13,9 @@ pub mod judging {}
 pub mod motion {}
 #[doc = include_str!("../guide/7-large-systems.md")]
 pub mod large_systems {}
+#[doc = include_str!("../guide/14-keys.md")]
+pub mod keys {}
 #[doc = include_str!("../guide/8-limits.md")]
 pub mod limits {}
 #[doc = include_str!("../guide/9-speeds.md")]
 pub mod speeds {}
-#[doc = include_str!("../guide/10-keys.md")]
-pub mod keys {}

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use super::table;
 
-const PAGE: &str = include_str!("../../../guide/10-keys.md");
+const PAGE: &str = include_str!("../../../guide/14-keys.md");
 
 /// The sections of the page, with the outputs that each describes.
 const SECTIONS: [(&str, &[&str]); 4] = [
