@@ -18,6 +18,7 @@ use crate::exit::{Exit, Failure};
 use crate::input::{self, Input, Shape, next_to};
 use crate::interrupt::end_on_interrupt;
 use crate::output;
+use crate::printed::Printed;
 use crate::progress::Progress;
 use crate::threads;
 use crate::which::Which;
@@ -59,12 +60,14 @@ pub struct Solve {
     /// any other system
     #[arg(long, alias = "system", value_enum, default_value_t = Of::Condensed)]
     pub equations: Of,
-    /// Print one JSON object (schema_version 3) instead of tables
-    #[arg(long)]
-    pub json: bool,
-    /// Leave out joints, bars and forces of the ground
+    #[command(flatten)]
+    pub printed: Printed,
+    /// Leave out joints, and in JSON bars and forces of the ground too
     #[arg(long)]
     pub summary: bool,
+    /// How far the answer is proved, in full
+    #[arg(long)]
+    pub evidence: bool,
     /// In JSON, an array over joints or bars for each quantity, in the order of the file, in the
     /// place of an object for each: for long chains and large nets
     #[arg(long, requires = "json", conflicts_with = "summary")]
@@ -151,6 +154,7 @@ impl Solve {
 
 /// Run the command.
 pub fn run(arguments: &Solve) -> Result<Exit, Failure> {
+    arguments.printed.install();
     match (&arguments.batch, arguments.files.as_slice()) {
         (Some(batch), _) => batch::run(arguments, batch),
         (None, [_, _, ..]) => several::run(arguments),
@@ -176,10 +180,10 @@ fn one(arguments: &Solve, file: Option<&Path>) -> Result<Exit, Failure> {
     let answer = answer.or_else(|error| unsolved(arguments, error))?;
     write_files(arguments, &answer, &progress)?;
     drop(progress);
-    if arguments.json {
+    if arguments.printed.is_json() {
         output::print_json(&answer.json(arguments.lists()))?;
     } else {
-        output::print(&answer::answer(&answer, arguments.summary))?;
+        output::print(&answer::answer(&answer, arguments.summary, arguments.evidence))?;
     }
     Ok(verdict(&answer))
 }
@@ -209,7 +213,7 @@ fn write_files(
 /// refusals.
 fn unsolved<T>(arguments: &Solve, error: Error) -> Result<T, Failure> {
     match &error {
-        Error::Unsolved(answer) if arguments.json => output::print_json(answer)?,
+        Error::Unsolved(answer) if arguments.printed.is_json() => output::print_json(answer)?,
         _ => {}
     }
     Err(error.into())

@@ -88,6 +88,7 @@ mod limits;
 mod load;
 mod loads;
 mod location;
+mod material;
 mod named;
 mod network;
 mod network_rows;
