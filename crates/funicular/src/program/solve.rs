@@ -54,7 +54,7 @@ pub struct Solve {
     /// Work that each solver may do for one system: numbers in all factors of its matrices, which
     /// is iterations times size. What needs more ends without an answer (exit code 3)
     ///
-    /// If not given, 100000000000: some minutes. A row of bars between two anchors needs no matrix,
+    /// If not given, 10000000000: up to an hour or so. A row of bars between two anchors needs no matrix,
     /// and has a bound of its own.
     #[arg(long, value_name = "N")]
     pub max_work: Option<NonZeroU64>,

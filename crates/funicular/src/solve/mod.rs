@@ -78,7 +78,7 @@ impl Solve {
 
     /// The work that each solver may do, numbers in all factors of its matrices: iterations times
     /// size, the same on every machine. What needs more has no answer, and says so. Without it
-    /// 10^11, some minutes. A row of bars between two anchors has no matrix, and a bound of its own.
+    /// 10^10, up to an hour or so. A row of bars between two anchors has no matrix, and a bound of its own.
     ///
     /// ```
     /// use funicular::prelude::*;

@@ -16,7 +16,7 @@ fn complete(joints: usize) -> Framework {
         nodes: vec![node; joints],
         links: pairs.map(link).collect(),
         lying: Vec::new(),
-        work: crate::network::work::Work::default(),
+        work: Work::default(),
     }
 }
 
