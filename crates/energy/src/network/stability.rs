@@ -120,7 +120,7 @@ fn index_in_plane(frame: &Frame, shape: &Shape) -> Option<usize> {
     if freedom <= DENSE {
         return Some(Dense::new(&flat, shape).count().0);
     }
-    let mut factor = Factor::new(&flat.spots, &flat.rods).ok()?;
+    let mut factor = Factor::new(&flat.spots, &flat.rods, &flat.meter).ok()?;
     Some(below(&flat, shape, &mut factor, ZERO))
 }
 
