@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use funicular::prelude::{Solve, SolveAnswer, Vector};
-use funicular::{Error, Lists, picture};
+use funicular::{Error, Extremes, Lists, picture};
 use model::AxialForce;
 use model::system::{System, SystemEquilibrium};
 use numpy::PyReadonlyArrayDyn;
@@ -25,6 +25,7 @@ pub struct Arrays {
     start_forces_n: Vec<Vector>,
     end_forces_n: Vec<Vector>,
     reactions_n: Vec<Vector>,
+    extremes: Option<Extremes>,
 }
 
 impl Arrays {
@@ -37,6 +38,7 @@ impl Arrays {
         Self {
             multipliers_n: is_chain.then(multipliers),
             along: found.axial_forces(system),
+            extremes: Extremes::of(system, &found),
             joints_m: found.joints_m,
             axial_n: found.axial_n,
             start_forces_n: found.start_forces_n,
@@ -60,6 +62,12 @@ impl Arrays {
         dict.set_item("start_forces_n", rows(py, self.start_forces_n)?)?;
         dict.set_item("end_forces_n", rows(py, self.end_forces_n)?)?;
         dict.set_item("reactions_n", rows(py, self.reactions_n)?)?;
+        let extremes = self.extremes.as_ref();
+        dict.set_item("sag_m", extremes.and_then(|all| all.sag_m))?;
+        let size =
+            |of: fn(&Extremes) -> Option<(usize, f64)>| extremes.and_then(of).map(|(_, n)| n);
+        dict.set_item("largest_tension_n", size(|all| all.tension_n))?;
+        dict.set_item("largest_compression_n", size(|all| all.compression_n))?;
         Ok(dict)
     }
 }

@@ -358,3 +358,44 @@ def test_the_lowest_modes_and_enclosures_of_their_frequencies() -> None:
     told = 9.80665 * 3**0.5
     assert low - 1e-13 <= told <= high + 1e-13 and high - low < 1e-11
     assert hanging.data["enclosed"]["inertia"] == {"negative": 0, "zero": 0, "positive": 1}
+
+
+def test_a_path_and_arrays_as_one_would_type_them(tmp_path):
+    path = tmp_path / "lamp.toml"
+    path.write_text(
+        "gravity_m_s2 = 10\n"
+        "joints = { A = { at_m = [-3, 0, 0] }, B = { at_m = [3, 0, 0] }, lamp = { mass_kg = 2 } }\n"
+        "bars = [{ from = 'A', to = 'lamp', length_m = 5, mass_kg = 0 },\n"
+        "        { from = 'lamp', to = 'B', length_m = 5, mass_kg = 0 }]\n"
+    )
+    # The triangle 3, 4, 5: 20 N on two threads that rise 4 in 5.
+    for given in (path, str(path)):
+        a = fn.solve(given)
+        assert a.joint("lamp") == pytest.approx([0, 0, -4]) and a.joint(2) == pytest.approx([0, 0, -4])
+        assert a.sag_m == pytest.approx(4) and a.largest_tension_n == pytest.approx(12.5)
+        assert a.largest_compression_n is None
+        for ends in (("A", "lamp"), ("lamp", "A"), (2, 0)):
+            member = a.member(*ends)
+            assert member.number == 0 and member.axial_max_n == pytest.approx(12.5)
+            assert member.start_force_n == pytest.approx([-7.5, 0, 10])
+    with pytest.raises(fn.InputError, match="no member between"):
+        a.member("A", "B")
+    with pytest.raises(fn.InputError, match="there is no joint 'C'"):
+        a.joint("C")
+    with pytest.raises(fn.InputError, match="there is no joint 3"):
+        a.member("A", 3)
+    chain = fn.solve([1, 1, 1], [1, 1, 1], (0, 0, -2))
+    named = fn.solve(lengths=[1, 1, 1], masses=[1, 1, 1], end=(0, 0, -2))
+    assert (chain.joints_m == named.joints_m).all()
+    for wrong in (lambda: fn.solve([1, 1], [1, 1], (1, 0, 0), lengths=[1, 1]), lambda: fn.solve(path, [1]), fn.solve):
+        with pytest.raises(fn.InputError):
+            wrong()
+    with pytest.raises(fn.FileError):
+        fn.solve(tmp_path / "none.toml")
+
+
+def test_an_error_says_what_helps():
+    with pytest.raises(fn.FileError) as error:
+        fn.System.from_toml("anchors = { start_m = [0, 0, 0], end_m = [1, 0, 0] }\nbars = [{ lenght_m = 1 }]")
+    assert "help: did you mean `length_m`?" in str(error.value)
+    assert str(pickle.loads(pickle.dumps(error.value))) == str(error.value)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from functools import cached_property
+from os import PathLike
 from typing import Any
 
 import numpy as np
@@ -32,6 +33,9 @@ ARRAYS = (
 )
 """What an equilibrium has for its joints and members."""
 
+EXTREMES = ("sag_m", "largest_tension_n", "largest_compression_n")
+"""What stands out in it."""
+
 
 class Equilibrium:
     """One equilibrium: places of the joints, forces, and how far it is proved.
@@ -52,6 +56,11 @@ class Equilibrium:
     ``multipliers_n``
         (n + 1, 3) for chains: entry 0 the force of the ground on bar 1, entry k that of bar k+1 on bar k, the last that
         of the ground on bar n, N; ``None`` for other systems.
+    ``sag_m``
+        how deep a joint hangs below the line that its row of members spans, the largest, m; ``None`` where no row spans
+        anything and no joint is below the supports.
+    ``largest_tension_n``, ``largest_compression_n``
+        anywhere along a member, both positive, N; ``None`` where nothing pulls, or pushes.
     """
 
     joints_m: Array
@@ -63,11 +72,14 @@ class Equilibrium:
     end_forces_n: Array
     reactions_n: Array
     multipliers_n: Array | None
+    sag_m: float | None
+    largest_tension_n: float | None
+    largest_compression_n: float | None
 
     def __init__(self, system: System, data: dict[str, Any], arrays: dict[str, Any]) -> None:
         self.system = system
         self.data = data
-        for name in ARRAYS:
+        for name in ARRAYS + EXTREMES:
             setattr(self, name, arrays[name])
 
     @property
@@ -130,19 +142,49 @@ class Equilibrium:
             }
         )
 
-    def reaction(self, joint: str | int) -> Array:
-        """(3,) Force of the ground on a joint, by its name or number, N."""
+    def _joint(self, joint: str | int) -> int:
+        """The number of a joint."""
         names = self.system.joint_names
         if isinstance(joint, str):
             if joint not in names:
                 raise InputError(f"there is no joint {joint!r:.80}")
-            number = names.index(joint)
-        else:
-            number = whole("joint", joint)
-            if number >= len(names):
-                raise InputError(f"there is no joint {number}: the last is {len(names) - 1}")
-        force: Array = self.reactions_n[number]
+            return names.index(joint)
+        number = whole("joint", joint)
+        if number >= len(names):
+            raise InputError(f"there is no joint {number}: the last is {len(names) - 1}")
+        return number
+
+    def reaction(self, joint: str | int) -> Array:
+        """(3,) Force of the ground on a joint, by its name or number, N."""
+        force: Array = self.reactions_n[self._joint(joint)]
         return force
+
+    def joint(self, joint: str | int) -> Array:
+        """(3,) Place of a joint, by its name or number, m."""
+        place: Array = self.joints_m[self._joint(joint)]
+        return place
+
+    def member(self, first: str | int, second: str | int) -> Record:
+        """The member between two joints: ``number`` (from 0), ``axial_n``, ``axial_from_n``, ``axial_to_n``, ``axial_max_n``,
+        N, and ``start_force_n``, ``end_force_n``, (3,) N, in the direction in which the system has it.
+
+        Raises InputError where no member connects them, or more than one.
+
+        >>> import funicular as fn
+        >>> lamp = fn.System.case("lamp").solve()
+        >>> lamp.member("A", "lamp").axial_max_n == float(lamp.axial_max_n[0])
+        True
+        """
+        wanted = {self._joint(first), self._joint(second)}
+        found = [k for k, ends in enumerate(self.system.member_joints) if set(ends) == wanted]
+        if len(found) != 1:
+            count = "no member" if not found else f"{len(found)} members"
+            raise InputError(f"{count} between the joints {first!r:.80} and {second!r:.80}")
+        k = found[0]
+        names = ("axial_n", "axial_from_n", "axial_to_n", "axial_max_n")
+        numbers: dict[str, Any] = {name: float(getattr(self, name)[k]) for name in names}
+        forces = {"start_force_n": self.start_forces_n[k], "end_force_n": self.end_forces_n[k]}
+        return Record({"number": k, **numbers, **forces})
 
     def svg(self) -> str:
         """The picture to scale: joints, supports, loads, reactions, tension and compression."""
@@ -306,6 +348,29 @@ class Answer:
         """(3,) Force of the ground on a joint, by its name or number, N."""
         return self.equilibria[0].reaction(joint)
 
+    def joint(self, joint: str | int) -> Array:
+        """(3,) Place of a joint, by its name or number, m."""
+        return self.equilibria[0].joint(joint)
+
+    def member(self, first: str | int, second: str | int) -> Record:
+        """The member between two joints: see :meth:`Equilibrium.member`."""
+        return self.equilibria[0].member(first, second)
+
+    @property
+    def sag_m(self) -> float | None:
+        """The largest depth of a joint below the line that its row of members spans, m."""
+        return self.equilibria[0].sag_m
+
+    @property
+    def largest_tension_n(self) -> float | None:
+        """The largest tension anywhere along a member, N."""
+        return self.equilibria[0].largest_tension_n
+
+    @property
+    def largest_compression_n(self) -> float | None:
+        """The largest compression anywhere along a member, N."""
+        return self.equilibria[0].largest_compression_n
+
     def svg(self) -> str:
         """The picture to scale."""
         return self.equilibria[0].svg()
@@ -324,12 +389,12 @@ class Answer:
 
 
 def solve(
-    system: System | None = None,
+    system: System | str | PathLike[str] | Numbers | None = None,
+    masses: Numbers | None = None,
+    end: Vector | None = None,
     *,
     near: Numbers | None = None,
     lengths: Numbers | None = None,
-    masses: Numbers | None = None,
-    end: Vector | None = None,
     start: Vector = (0.0, 0.0, 0.0),
     centres: Numbers | None = None,
     gravity: float = STANDARD_GRAVITY,
@@ -344,7 +409,8 @@ def solve(
 
     Parameters
     ----------
-    system : a :class:`System`; or give a chain by ``lengths``, ``masses``, ``end`` and what else its arrays need
+    system : a :class:`System`, or the path of a system file; or give a chain by ``lengths`` (here or by that name),
+        ``masses``, ``end`` and what else its arrays need
     near : (joints, 3) m, optional: a shape, next to which the equilibrium is sought: see :meth:`System.near`
     solver : ``both``, ``lagrange`` or ``energy``
     equations : ``condensed``, or ``full`` for all coordinates and multipliers of the paper (some 30 bars)
@@ -372,16 +438,23 @@ def solve(
     ('optimal', True)
     >>> round(float(a.multipliers_n[0, 2]) / 9.80665, 12)    # λ₃ in mg, as a root finder of 40 digits has it
     2.312944292242
+    >>> fn.solve([1, 1, 1], [1, 1, 1], (0, 0, -2)).energy_j == a.energy_j
+    True
     """
+    if isinstance(system, (str, PathLike)):
+        system = System.read(system)
+    elif system is not None and not isinstance(system, System):
+        if lengths is not None:
+            raise InputError("the lengths of the chain are given twice")
+        system, lengths = None, system
     if system is None:
         if lengths is None or masses is None or end is None:
-            raise InputError("give a system, or lengths, masses and end")
-        chain = {"lengths": lengths, "masses": masses, "end": end, "start": start, "centres": centres}
-        system = System(**chain, gravity=gravity, name=name)  # type: ignore[arg-type]
+            raise InputError("give a system, the path of a system file, or lengths, masses and end")
+        system = System(
+            lengths=lengths, masses=masses, end=end, start=start, centres=centres, gravity=gravity, name=name
+        )
     elif lengths is not None or masses is not None or end is not None:
         raise InputError("give a system or the arrays of a chain, not both")
-    if not isinstance(system, System):
-        raise InputError(f"a System is wanted, got {type(system).__name__}")
     system = system._asked(near)
     with shown(progress) as callback:
         found = _native.solve(

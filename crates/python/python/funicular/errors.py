@@ -76,8 +76,13 @@ class Error(Exception):
     def __dir__(self) -> list[str]:
         return [*super().__dir__(), *self.details]
 
+    def __str__(self) -> str:
+        message = super().__str__()
+        help = self.__dict__.get("details", {}).get("help")
+        return f"{message}\nhelp: {help}" if help else message
+
     def __reduce__(self) -> Any:
-        return _make, (type(self).__name__, str(self), self.details)
+        return _make, (type(self).__name__, super().__str__(), self.details)
 
 
 class InternalError(Error, RuntimeError):
