@@ -128,6 +128,8 @@ pub use self::sweep::{Format, PreparedSweep, Spread, Sweep, SweepAnswer};
 pub use self::trace::{Trace, TraceAnswer};
 #[cfg(feature = "sweep")]
 pub use ::sweep::Field;
+#[cfg(feature = "branches")]
+pub use branches::Combine;
 pub use compare::compare;
 pub use enclosed::{Enclosed, Inertia};
 pub use equilibria::system_of;

@@ -20,6 +20,7 @@ mod reproduce;
 mod simulate;
 mod solve;
 mod store;
+mod study;
 mod sweep;
 mod told;
 mod trace;
@@ -44,6 +45,8 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(batch::solve_many, module)?)?;
     module.add_function(wrap_pyfunction!(census::census, module)?)?;
     module.add_function(wrap_pyfunction!(trace::trace, module)?)?;
+    module.add_function(wrap_pyfunction!(study::study, module)?)?;
+    module.add_function(wrap_pyfunction!(study::derivatives, module)?)?;
     module.add_function(wrap_pyfunction!(sweep::sweep, module)?)?;
     module.add_function(wrap_pyfunction!(store::sweep_write, module)?)?;
     module.add_function(wrap_pyfunction!(store::sweep_merge, module)?)?;

@@ -16,6 +16,8 @@ def census():
 
 
 RESULTS = {
+    "study": lambda: fn.System(lengths=[1, 1], masses=[1, 1], end=(1, 0, 0)).study("gravity_m_s2=9,10"),
+    "gradient": lambda: fn.gradient(fn.System(lengths=[1, 1], masses=[1, 1], end=(1, 0, 0)), "joints.1.at_m.z"),
     "system": lambda: fn.System(**CHAIN),
     "drawn system": lambda: fn.System(**CHAIN).near([[0, 0, 0], [0.5, 0, 0.9], [1, 0, 0]]),
     "answer": lambda: fn.solve(**CHAIN),

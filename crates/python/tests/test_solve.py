@@ -399,3 +399,46 @@ def test_an_error_says_what_helps():
         fn.System.from_toml("anchors = { start_m = [0, 0, 0], end_m = [1, 0, 0] }\nbars = [{ lenght_m = 1 }]")
     assert "help: did you mean `length_m`?" in str(error.value)
     assert str(pickle.loads(pickle.dumps(error.value))) == str(error.value)
+
+
+V = """
+gravity_m_s2 = 10
+joints = { A = { at_m = [-3, 0, 0] }, B = { at_m = [3, 0, 0] }, P = { mass_kg = 0.8 } }
+bars = [{ from = "A", to = "P", length_m = 5, mass_kg = 0 }, { from = "P", to = "B", length_m = 5, mass_kg = 0 }]
+"""
+
+
+def test_a_study_is_the_triangle_at_every_span():
+    v = fn.System.from_toml(V)
+    s = v.study("joints.B.at_m.x=1,3,5,9", of=["joints.P.z"])
+    # Half the span is 2, 3, 4, 6 m: a triangle of 5 m sides, the last out of reach.
+    sag = np.sqrt(25 - np.array([2, 3, 4]) ** 2)
+    assert s.table["sag_m"][:3] == pytest.approx(sag) and np.isnan(s.table["sag_m"][3])
+    assert s.table["joints.P.z"][:3] == pytest.approx(-sag)
+    assert s.table["tension_n"][:3] == pytest.approx(4 * 5 / sag)
+    assert s.table["agrees"][:3].tolist() == [1, 1, 1] and s.table["refused"][3] and not s.table["refused"][0]
+    assert s.agrees and s.parameters == ["joints.B.at_m.x"] and "<svg" in s.svg()
+    both = v.study("joints.P.mass_kg=1,2", "gravity_m_s2=9,10", zip=True)
+    assert both.table["tension_n"] == pytest.approx([9 / 2 * 5 / 4, 20 / 2 * 5 / 4])
+    with pytest.raises(fn.ParameterError, match="unknown key"):
+        v.study("joints.P.mas_kg=1,2")
+    with pytest.raises(fn.InputError, match="no path 2"):
+        s.svg(2)
+
+
+def test_derivatives_are_those_of_the_triangle():
+    v = fn.System.from_toml(V)
+    found = fn.gradient(v, "joints.P.at_m.z")
+    # z = -sqrt(l^2 - 9): a metre more of both bars lowers it by l/h, of one by half.
+    assert found.value == pytest.approx(-4) and found["bars.1.length_m"] == pytest.approx(-0.625)
+    assert set(found.table["parameter"]) >= {"bars.1.length_m", "bars.2.length_m"}
+    with pytest.raises(KeyError):
+        found["bars.3.length_m"]
+    by = fn.change(v, "bars.1.length_m")
+    assert by.joints_m.P[2] == pytest.approx(-0.625) and by.unit == "m"
+    pairs = {(pair.of, pair.by): pair.stiffness_n_m for pair in fn.anchor_stiffness(v)}
+    # The pull W/2 a/sqrt(l^2 - a^2) of half the span a grows by W l^2/(4 h^3) with the span.
+    assert pairs["B", "B"][0][0] == pytest.approx(8 * 25 / (4 * 64))
+    for wrong in (lambda: fn.gradient(v, "joints.P.at_m.w"), lambda: fn.change(v, "bars.1.color")):
+        with pytest.raises(fn.errors.InputError):
+            wrong()

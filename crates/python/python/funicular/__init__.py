@@ -13,6 +13,8 @@ and every answer says how far it is proved. World frame, Z up, gravity along -Z,
 | the hanging equilibrium | :func:`solve`, :meth:`System.solve` |
 | many chains at a time | :func:`solve_many` |
 | every equilibrium, with proof | :meth:`System.census` |
+| the equilibrium over a parameter | :meth:`System.study` |
+| its derivatives | :func:`gradient`, :func:`change`, :func:`anchor_stiffness` |
 | all equilibria over a parameter | :meth:`System.trace` |
 | which start leads where | :func:`sweep` |
 | motion, small oscillations | :func:`simulate`, :meth:`System.modes` |
@@ -35,6 +37,7 @@ from .evidence import Evidence, Proof, Proofs, Record
 from .judge import Judgement, judge
 from .motion import Modes, ModesOf, Motion, simulate
 from .reproduce import Reproduction, reproduce
+from .study import Gradient, Study, anchor_stiffness, change, gradient, study
 from .sweep import Sweep, sweep
 from .system import STANDARD_GRAVITY, System
 from .table import Table
@@ -60,6 +63,7 @@ __all__ = [
     "Census",
     "Equilibrium",
     "Evidence",
+    "Gradient",
     "Judgement",
     "Modes",
     "ModesOf",
@@ -68,19 +72,24 @@ __all__ = [
     "Proofs",
     "Record",
     "Reproduction",
+    "Study",
     "Sweep",
     "System",
     "Table",
     "Trace",
     "__version__",
+    "anchor_stiffness",
     "cases",
+    "change",
     "get_threads",
+    "gradient",
     "judge",
     "reproduce",
     "set_threads",
     "simulate",
     "solve",
     "solve_many",
+    "study",
     "sweep",
     *_errors,
 ]

@@ -17,6 +17,7 @@ __all__ = [
     "__version__",
     "arrow_stream",
     "census",
+    "derivatives",
     "draw",
     "get_threads",
     "judge",
@@ -26,6 +27,7 @@ __all__ = [
     "simulate",
     "solve",
     "solve_many",
+    "study",
     "sweep",
     "sweep_merge",
     "sweep_write",
@@ -113,6 +115,18 @@ def census(
 def trace(
     problem: Problem, vary: list[str], max_points: int | None, threads: int, progress: _Progress
 ) -> tuple[str, str, bool, bool]: ...
+def study(
+    problem: Problem,
+    vary: list[str],
+    zip: bool,
+    numbers: list[str],
+    solver: str,
+    threads: int,
+    progress: _Progress,
+) -> tuple[str, str, list[str], bool, bool]: ...
+def derivatives(
+    problem: Problem, number: str | None, by: str | None, threads: int, progress: _Progress
+) -> str: ...
 def sweep(
     problem: Problem, seeds: int, number: int, spread: str, solver: str, threads: int, progress: _Progress
 ) -> str: ...

@@ -45,6 +45,7 @@ __all__ = [
     "SystemError",
     "Taut",
     "TraceError",
+    "DerivativesError",
     "Unconnected",
     "UnknownCase",
     "Unresolved",
@@ -77,12 +78,12 @@ class Error(Exception):
         return [*super().__dir__(), *self.details]
 
     def __str__(self) -> str:
-        message = super().__str__()
-        help = self.__dict__.get("details", {}).get("help")
-        return f"{message}\nhelp: {help}" if help else message
+        message = str(self.args[0]) if self.args else ""
+        helps = self.__dict__.get("details", {}).get("help")
+        return f"{message}\nhelp: {helps}" if helps else message
 
     def __reduce__(self) -> Any:
-        return _make, (type(self).__name__, super().__str__(), self.details)
+        return _make, (type(self).__name__, self.args[0] if self.args else "", self.details)
 
 
 class InternalError(Error, RuntimeError):
@@ -285,6 +286,12 @@ class TraceError(Error):
     """No equilibrium can be followed."""
 
 
+class DerivativesError(InputError):
+    """What is asked for is no number of the equilibrium, or no parameter that has derivatives."""
+
+    text: str
+
+
 class SweepError(Error):
     """A sweep cannot be prepared."""
 
@@ -296,9 +303,6 @@ class StoreError(Error, OSError):
     """
 
     may_pass: int
-
-    def __str__(self) -> str:
-        return str(self.args[0]) if self.args else ""
 
 
 class MotionError(Error):
@@ -313,8 +317,4 @@ def _make(name: str, message: str, details: dict[str, Any]) -> Error:
     """The error of this class name."""
     found = globals().get(name, Error)
     cls: type[Error] = found if isinstance(found, type) and issubclass(found, Error) else Error
-    error = cls(message, **details)
-    help_text = details.get("help")
-    if help_text and hasattr(error, "add_note"):
-        error.add_note(str(help_text))
-    return error
+    return cls(message, **details)

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from .answer import Answer
     from .census import Census
     from .motion import Modes, Motion
+    from .study import Study
     from .sweep import Sweep
     from .trace import Trace
 
@@ -400,6 +401,12 @@ class System:
         from .sweep import sweep
 
         return sweep(self, seeds, **settings)
+
+    def study(self, *vary: str, **settings: Any) -> Study:
+        """The equilibrium over numbers of its file. See :func:`funicular.study`."""
+        from .study import study
+
+        return study(self, *vary, **settings)
 
     def simulate(self, **settings: Any) -> Motion:
         """The system in motion. See :func:`funicular.simulate`."""

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import csv
+import io
 from collections.abc import Iterator, Mapping, Sequence
 from html import escape
 from typing import TYPE_CHECKING, Any, Union
@@ -102,3 +104,21 @@ def _column(values: Any) -> Column:
 def vectors(prefix: str, unit: str, values: npt.NDArray[np.float64]) -> dict[str, npt.NDArray[np.float64]]:
     """Three columns of an array of shape (n, 3)."""
     return {f"{prefix}{axis}{unit}": values[:, k] for k, axis in enumerate("xyz")}
+
+
+def read_csv(text: str, counts: Sequence[str] = (), texts: Sequence[str] = ()) -> Table:
+    """A table of our own CSV: whole numbers in the columns of ``counts``, -1 where a cell is empty; ``true`` and ``false`` as 1 and
+    0; ``texts`` as they are; all others as doubles, NaN where a cell is empty."""
+    head, *lines = list(csv.reader(io.StringIO(text))) or [[]]
+    columns: dict[str, Any] = {}
+    for k, name in enumerate(head):
+        cells = [line[k] for line in lines]
+        if name in texts:
+            columns[name] = cells
+        elif name in counts:
+            columns[name] = np.array([int(cell) if cell else -1 for cell in cells], dtype=np.int64)
+        elif any(cell in ("true", "false") for cell in cells):
+            columns[name] = np.array([cell == "true" for cell in cells], dtype=np.int64)
+        else:
+            columns[name] = np.array([float(cell) if cell else np.nan for cell in cells], dtype=np.float64)
+    return Table(columns)

@@ -2,19 +2,15 @@
 
 from __future__ import annotations
 
-import csv
-import io
 import json
 from typing import Any
-
-import numpy as np
 
 from . import _native
 from ._numbers import whole
 from ._progress import Progress, shown
 from .evidence import Record
 from .system import System, printable
-from .table import Table
+from .table import Table, read_csv
 
 
 class Trace:
@@ -51,17 +47,7 @@ class Trace:
     @property
     def table(self) -> Table:
         """A row for each point of each branch; empty cells are NaN, or -1 where numbers count."""
-        head, *lines = list(csv.reader(io.StringIO(self._points))) or [[]]
-        columns: dict[str, Any] = {}
-        for k, name in enumerate(head):
-            cells = [line[k] for line in lines]
-            if name in COUNTS:
-                columns[name] = np.array([int(cell) if cell else -1 for cell in cells], dtype=np.int64)
-            elif name == "proved":
-                columns[name] = np.array([cell == "true" for cell in cells], dtype=np.int64)
-            else:
-                columns[name] = np.array([float(cell) if cell else np.nan for cell in cells], dtype=np.float64)
-        return Table(columns)
+        return read_csv(self._points, COUNTS)
 
     def __repr__(self) -> str:
         branches = sum(len(path["branches"]) for path in self.data["traces"])

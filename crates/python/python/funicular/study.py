@@ -1,0 +1,167 @@
+"""The equilibrium over numbers of the file, and its derivatives by them."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from . import _native
+from ._numbers import whole
+from ._progress import Progress, shown
+from .errors import InputError
+from .evidence import Record
+from .system import System, printable
+from .table import Table, read_csv
+
+
+class Study:
+    """The equilibrium at each combination of the parameters, by both solvers, compared and judged.
+
+    ``table``: a row for each point, with the parameters, sag, forces, angles and what was asked for besides, units in the
+    names; ``refused`` says why a point has none. ``svg(path)``: a figure of a path, from 1. ``agrees``: whether all points
+    that can hang are agreed upon.
+
+    >>> import funicular as fn
+    >>> v = fn.System(lengths=[1, 1], masses=[1, 1], end=(1, 0, 0))
+    >>> s = v.study("anchors.end_m.x=0.4..2.2:10", of=["joints.1.z"])
+    >>> s.table["sag_m"][:3].round(6).tolist()          # a triangle: sqrt(1 - (d/2)^2)
+    [0.979796, 0.953939, 0.916515]
+    >>> s.table["refused"][-1]                          # anchors 2.2 m apart
+    'the anchors are 2.2 m apart and the bars reach only 2 m: 0.2 m are missing'
+    """
+
+    def __init__(
+        self, system: System, text: str, points: str, figures: list[str], failed: bool, decided: bool
+    ) -> None:
+        self.system = system
+        self.data: dict[str, Any] = json.loads(text)
+        self._points = points
+        self._figures = figures
+        self.check_failed = failed
+        self.is_decided = decided
+
+    @property
+    def agrees(self) -> bool:
+        """Whether no check failed and every point that can hang has an answer of both solvers."""
+        return self.is_decided and not self.check_failed
+
+    @property
+    def parameters(self) -> list[str]:
+        """What varies, by its path in a system file."""
+        return list(self.data["parameters"])
+
+    @property
+    def table(self) -> Table:
+        """A row for each point."""
+        return read_csv(self._points, counts=COUNTS, texts=TEXTS)
+
+    def svg(self, path: int = 1) -> str:
+        """Sag, forces and angles over the last parameter, along one path."""
+        if not 1 <= whole("path", path, 1) <= len(self._figures):
+            raise InputError(f"there is no path {path}: there are {len(self._figures)}")
+        return self._figures[path - 1]
+
+    def _repr_svg_(self) -> str:
+        return self.svg()
+
+    def __repr__(self) -> str:
+        return f"<Study of {printable(self.system.name)!r} over {', '.join(self.parameters)}: {self.table.rows} points>"
+
+
+COUNTS = ("path", "tension_bar", "compression_bar")
+"""Columns of whole numbers."""
+TEXTS = ("evidence", "lowest_joint", "refused")
+"""Columns of words and names."""
+
+
+def study(
+    system: System,
+    *vary: str,
+    zip: bool = False,
+    of: Sequence[str] = (),
+    solver: str = "both",
+    threads: int = 0,
+    progress: Progress = None,
+) -> Study:
+    """The equilibrium over numbers of its file, such as ``bars.1.length_m=1,1.1,1.2`` or ``anchors.end_m.x=0.5..1.5:40``.
+
+    Several are combined, or taken in step with ``zip``. ``of``: numbers to show besides, such as ``joints.P.z``, ``sag.A-B``,
+    ``bars.1.axial_max_n``, ``height``.
+
+    Raises ParameterError.
+    """
+    with shown(progress) as callback:
+        found = _native.study(
+            system._problem,
+            list(map(str, vary)),
+            bool(zip),
+            list(map(str, of)),
+            str(solver),
+            whole("threads", threads),
+            callback,
+        )
+    return Study(system, *found)
+
+
+class Gradient(Record):
+    """The derivatives of one number of an equilibrium: ``of``, ``value`` (m or N), ``derivatives``; ``gradient["bars.1.length_m"]``
+    is the derivative by that parameter, ``table`` has all with their units."""
+
+    def __getitem__(self, parameter: str) -> float:
+        for one in self.data["derivatives"]:
+            if one["parameter"] == parameter:
+                return float(one["value"])
+        raise KeyError(parameter)
+
+    @property
+    def table(self) -> Table:
+        """A row for each parameter: its path, the derivative, its unit."""
+        rows = self.data["derivatives"]
+        values = np.array([row["value"] for row in rows], dtype=np.float64)
+        return Table(
+            {"parameter": [row["parameter"] for row in rows], "value": values, "unit": [row["unit"] for row in rows]}
+        )
+
+
+def gradient(system: System, of: str, *, threads: int = 0, progress: Progress = None) -> Gradient:
+    """The derivatives of one number of the equilibrium, ``joints.P.at_m.z`` or ``bars.2.axial_n``, by lengths, masses, stiffnesses,
+    prestresses, forces and anchors, by ``lagrange``.
+
+    >>> import funicular as fn
+    >>> v = fn.System.from_toml('''
+    ... gravity_m_s2 = 10
+    ... joints = { A = { at_m = [-3, 0, 0] }, B = { at_m = [3, 0, 0] }, P = { mass_kg = 0.8 } }
+    ... bars = [{ from = "A", to = "P", length_m = 5, mass_kg = 0 }, { from = "P", to = "B", length_m = 5, mass_kg = 0 }]
+    ... ''')
+    >>> round(fn.gradient(v, "joints.P.at_m.z")["bars.1.length_m"], 12)      # half of l/h
+    -0.625
+
+    Raises DerivativesError where ``of`` is no such number, Error where the equilibrium has no derivatives.
+    """
+    with shown(progress) as callback:
+        text = _native.derivatives(system._problem, str(of), None, whole("threads", threads), callback)
+    return Gradient(json.loads(text))
+
+
+def change(system: System, by: str, *, threads: int = 0, progress: Progress = None) -> Record:
+    """How the whole equilibrium changes by one parameter, such as ``bars.1.length_m`` or ``anchors.end_m.x``: ``unit``, ``joints_m``
+    and ``reactions_n`` by name, ``axial_n``, each per unit of the parameter.
+
+    Raises DerivativesError where there are no derivatives by it, Error where the equilibrium has none.
+    """
+    with shown(progress) as callback:
+        text = _native.derivatives(system._problem, None, str(by), whole("threads", threads), callback)
+    return Record(json.loads(text))
+
+
+def anchor_stiffness(system: System, *, threads: int = 0, progress: Progress = None) -> list[Record]:
+    """The stiffness matrices of all pairs of anchors: ``of``, ``by``, ``stiffness_n_m`` (3 lists of 3), N/m.
+
+    Raises Error where the equilibrium has no derivatives, or an anchor cannot move alone.
+    """
+    with shown(progress) as callback:
+        text = _native.derivatives(system._problem, None, None, whole("threads", threads), callback)
+    return [Record(pair) for pair in json.loads(text)]
