@@ -21,7 +21,8 @@ const ABSURD: f64 = 1e-6;
 pub(super) struct Balance {
     /// Unbalanced force over the scale of the joint.
     pub(super) unbalance: f64,
-    /// What that may be: the tolerance, and the rounding of the forces that meet there.
+    /// What that may be: the tolerance of the search in that unit, which is over the largest force,
+    /// but no more than [`BALANCE`]; and the rounding of the forces that meet there.
     pub(super) allowed: f64,
 }
 
@@ -61,14 +62,17 @@ impl Frame {
             forces[rod.to] += force.abs();
         }
         let rounding = rounding_floor(self, shape);
-        let least_allowed = tolerance.max(rounding);
-        let mut worst = Balance { unbalance: 0.0, allowed: least_allowed };
+        let searched = tolerance.max(rounding);
+        let most = self.force_scale(&shape.force);
+        let mut worst = Balance { unbalance: 0.0, allowed: searched };
         for (joint, spot) in self.spots.iter().enumerate() {
             let scale = loads[joint].max(least).max(NO_STRAIN);
             let rest = largest(&unbalance[spot.first..spot.first + spot.freedom]);
             let rounded = rounding * forces[joint] / scale;
-            let here = Balance { unbalance: rest / scale, allowed: least_allowed + rounded };
-            if here.unbalance > tolerance.max(BALANCE) + rounded {
+            let kept = tolerance.max(BALANCE);
+            let allowed = (searched * most / scale).min(kept) + rounded;
+            let here = Balance { unbalance: rest / scale, allowed };
+            if here.unbalance > kept + rounded {
                 return Err(Error::Unbalanced { joint, unbalance: here.unbalance });
             }
             if here.unbalance * worst.allowed > worst.unbalance * here.allowed {
