@@ -1,7 +1,10 @@
 //! What stands out in an equilibrium.
 
+use model::system::{System, SystemEquilibrium};
 use model::{AxialForce, Vector};
 use serde::Serialize;
+
+use crate::sag::Sag;
 
 /// What is this much smaller than the largest force is the rounding of a zero: solvers agree to
 /// less.
@@ -10,14 +13,21 @@ const ROUNDING: f64 = 1e-12;
 /// What stands out in an equilibrium: how deep it hangs, and where the forces are largest.
 ///
 /// ```
-/// use funicular::{AxialForce, Extremes};
+/// use funicular::{Extremes, prelude::*};
 /// // A lamp on two threads of 5 m between anchors 6 m apart: the triangle 3, 4, 5.
-/// let joints_m = [[-3.0, 0.0, 0.0], [0.0, 0.0, -4.0], [3.0, 0.0, 0.0]];
-/// let pull = AxialForce { from_n: 12.5, to_n: 12.5, least_n: 12.5, most_n: 12.5 };
-/// let extremes = Extremes::of(&joints_m, [0, 2], &[pull; 2]).expect("joints");
-/// assert_eq!((extremes.lowest_joint, extremes.sag_m), (1, Some(4.0)));
-/// assert_eq!(extremes.tension_n, Some((0, 12.5)));
+/// let answer = Solve::new().run(&Problem::parse(
+///     "gravity_m_s2 = 10\n\
+///      joints = { A = { at_m = [-3, 0, 0] }, B = { at_m = [3, 0, 0] }, lamp = { mass_kg = 2 } }\n\
+///      bars = [{ from = 'A', to = 'lamp', length_m = 5, mass_kg = 0 },\n\
+///              { from = 'lamp', to = 'B', length_m = 5, mass_kg = 0 }]",
+///     "lamp.toml",
+/// )?)?;
+/// let extremes = Extremes::of(answer.system(), &answer.equilibria()[0]).expect("joints");
+/// assert_eq!(extremes.lowest_joint, 2);
+/// assert!((extremes.sag_m.unwrap() - 4.0).abs() < 1e-12);
+/// assert!((extremes.tension_n.unwrap().1 - 12.5).abs() < 1e-11);
 /// assert_eq!(extremes.compression_n, None);
+/// # Ok::<(), Error>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[non_exhaustive]
@@ -26,8 +36,12 @@ pub struct Extremes {
     pub lowest_joint: usize,
     /// Where it is, m.
     pub lowest_m: Vector,
-    /// How far below the lowest support it is, m; nothing where there is no support.
+    /// The largest depth of a joint below the line that its row of members spans, m; where no row
+    /// spans anything, of the lowest joint below the lowest support. `None` where neither is.
     pub sag_m: Option<f64>,
+    /// The same with the joint and the ends of the line.
+    #[serde(skip)]
+    pub sag: Option<Sag>,
     /// The bar, from 0, with the largest tension anywhere along it, and that, N; without value where
     /// no bar pulls.
     pub tension_n: Option<(usize, f64)>,
@@ -37,18 +51,14 @@ pub struct Extremes {
 }
 
 impl Extremes {
-    /// Of places in m, the joints that are held, and the axial forces along the bars; without value where
-    /// there is no joint.
+    /// Of an equilibrium of a system; `None` where there is no joint.
     #[must_use]
-    pub fn of(
-        joints_m: &[Vector],
-        supports: impl IntoIterator<Item = usize>,
-        axial: &[AxialForce],
-    ) -> Option<Self> {
+    pub fn of(system: &System, found: &SystemEquilibrium) -> Option<Self> {
+        let (joints_m, axial) = (&found.joints_m, found.axial_forces(system));
         let height = |joint: &usize| joints_m[*joint][2];
         let by_height = |a: &usize, b: &usize| height(a).total_cmp(&height(b));
         let lowest_joint = (0..joints_m.len()).min_by(by_height)?;
-        let support = supports.into_iter().min_by(by_height);
+        let sag = Sag::largest(system, joints_m);
         let size = axial.iter().fold(0.0, |most: f64, along| most.max(along.largest_n().abs()));
         let largest = |of: fn(&AxialForce) -> f64| {
             let forces = axial.iter().map(of).enumerate();
@@ -61,7 +71,8 @@ impl Extremes {
         Some(Self {
             lowest_joint,
             lowest_m: joints_m[lowest_joint],
-            sag_m: support.map(|joint| height(&joint) - height(&lowest_joint)),
+            sag_m: sag.map(|sag| sag.depth_m),
+            sag,
             tension_n: largest(|along| along.most_n),
             compression_n: largest(|along| -along.least_n),
         })

@@ -25,3 +25,5 @@ pub mod from_python {}
 pub mod from_rust {}
 #[doc = include_str!("../guide/13-commands.md")]
 pub mod commands {}
+#[doc = include_str!("../guide/14-keys.md")]
+pub mod keys {}

@@ -85,6 +85,7 @@ mod problem;
 #[cfg(feature = "paper")]
 mod reproduce;
 mod resting;
+mod sag;
 mod simulate;
 mod solve;
 #[cfg(feature = "sweep")]
@@ -139,6 +140,7 @@ pub use model::AxialForce;
 pub use modes::{JointAt, Mode, Modes, ModesAnswer, Summary, WithModes};
 pub use motion::Order;
 pub use problem::{Problem, case, case_text};
+pub use sag::Sag;
 pub use simulate::{Motion, Simulate, SimulateError, Start};
 pub use solve::{Failure, Lists, SCHEMA_VERSION, Solve, SolveAnswer};
 pub use threads::MOST_THREADS;

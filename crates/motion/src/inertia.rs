@@ -52,10 +52,4 @@ impl EndInertia {
             to: m * to_centre * to_centre + j,
         }
     }
-
-    /// Whether the member has neither mass nor moment.
-    #[must_use]
-    pub fn is_massless(&self) -> bool {
-        self.from <= 0.0 && self.to <= 0.0
-    }
 }

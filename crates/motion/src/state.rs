@@ -1,5 +1,6 @@
 //! Places and velocities, with the rounding of the places kept.
 
+use intervals::two_sum;
 use model::Vector;
 
 use crate::mechanism::Mechanism;
@@ -69,12 +70,4 @@ impl State {
 #[inline]
 pub(crate) fn half_excess(squared: f64, length: f64) -> f64 {
     0.5 * (squared - length * length) / (length * length)
-}
-
-/// Sum, and what its rounding lost (Knuth).
-#[inline]
-fn two_sum(a: f64, b: f64) -> (f64, f64) {
-    let sum = a + b;
-    let of_b = sum - a;
-    (sum, (a - (sum - of_b)) + (b - of_b))
 }

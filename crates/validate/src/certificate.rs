@@ -47,6 +47,7 @@ pub use highest::certify_highest;
 
 use crate::lever::{carried_kg, far_kg};
 use crate::statics::stored_rounding_m;
+use crate::vector::norm;
 use model::{Bar, Chain, Equilibrium, NoCertificate, Optimal, Problem, Vector, sum};
 
 /// Unit roundoff of doubles.
@@ -278,11 +279,6 @@ fn closure_slack(
     let s = e + length_k * (1.0 + stretch_k.abs());
     let tau_k = nu_k.abs() / (length_k * length_k);
     tau_k * (s * e + 0.5 * e * e) * (1.0 + TERM_ULPS * U)
-}
-
-/// Euclidean norm.
-fn norm([x, y, z]: Vector) -> f64 {
-    x.hypot(y).hypot(z)
 }
 
 #[cfg(test)]

@@ -1,11 +1,12 @@
 //! Whether the numbers of one answer belong together: its energy, reactions and axial forces follow
 //! from its joints and joint forces.
 
-use model::{Chain, Equilibrium, Vector, sum};
+use model::{Chain, Equilibrium, sum};
 use serde::Serialize;
 
 use crate::lever::{centre_part, far_kg};
 use crate::statics::stored_rounding_m;
+use crate::vector::{minus, norm};
 
 /// Largest differences between what an answer says and what follows from its joints and forces.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -54,7 +55,7 @@ pub fn consistency(chain: &Chain, answer: &Equilibrium) -> Consistency {
     let energy_j = if off_j <= rounding_j { 0.0 } else { off_j - rounding_j };
 
     let axial = bars.iter().enumerate().map(|(i, bar)| {
-        let along = difference(joints[i + 1], joints[i]);
+        let along = minus(joints[i + 1], joints[i]);
         let mut force = forces[i + 1];
         // The part of the weight that the lever rule gives to the far joint.
         force[2] -= far_kg(bar) * chain.gravity_m_s2();
@@ -67,8 +68,8 @@ pub fn consistency(chain: &Chain, answer: &Equilibrium) -> Consistency {
         if off_n <= 0.0 { 0.0 } else { off_n }
     });
     let ends = [
-        norm(difference(answer.reactions_n.start, forces[0])),
-        norm(difference(answer.reactions_n.end, forces[bars.len()])),
+        norm(minus(answer.reactions_n.start, forces[0])),
+        norm(minus(answer.reactions_n.end, forces[bars.len()])),
     ];
     Consistency {
         energy: energy_j / (weight_n * chain.total_length_m()),
@@ -80,14 +81,6 @@ pub fn consistency(chain: &Chain, answer: &Equilibrium) -> Consistency {
 /// The larger of two differences; NaN is the worst of all.
 fn worse(a: f64, b: f64) -> f64 {
     if a.is_nan() || b.is_nan() { f64::NAN } else { a.max(b) }
-}
-
-fn difference(a: Vector, b: Vector) -> Vector {
-    std::array::from_fn(|k| a[k] - b[k])
-}
-
-fn norm([x, y, z]: Vector) -> f64 {
-    x.hypot(y).hypot(z)
 }
 
 #[cfg(test)]

@@ -3,6 +3,7 @@
 use model::{Chain, Equilibrium, ForceFamily, FreeJoints, Vector};
 
 use crate::force_family::beside_the_family;
+use crate::vector::{minus, norm};
 
 /// The differences of two answers.
 pub(crate) struct Differences {
@@ -71,16 +72,8 @@ pub(crate) fn worst(values: impl Iterator<Item = f64>) -> f64 {
     values.fold(0.0, |a: f64, b| if a.is_nan() || b.is_nan() { f64::NAN } else { a.max(b) })
 }
 
-fn minus(a: Vector, b: Vector) -> Vector {
-    std::array::from_fn(|k| a[k] - b[k])
-}
-
 fn distance(a: Vector, b: Vector) -> f64 {
     norm(minus(a, b))
-}
-
-fn norm([x, y, z]: Vector) -> f64 {
-    x.hypot(y).hypot(z)
 }
 
 #[cfg(test)]

@@ -9,6 +9,7 @@
 use model::{Chain, Equilibrium, ForceChoice, ForceFamily, STRAIGHT_TOLERANCE, SolverName, Vector};
 
 use crate::statics::stored_rounding_m;
+use crate::vector::{cross, dot, minus, norm};
 
 /// The family of forces that an answer is one of, or nothing where equilibrium determines them.
 ///
@@ -92,22 +93,6 @@ pub(crate) fn beside_the_family(family: &ForceFamily, differences_n: &mut [Vecto
             *part -= sign(k) * mean * along;
         }
     }
-}
-
-fn minus(a: Vector, b: Vector) -> Vector {
-    std::array::from_fn(|k| a[k] - b[k])
-}
-
-fn dot(a: Vector, b: Vector) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-fn cross(a: Vector, b: Vector) -> Vector {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-}
-
-fn norm([x, y, z]: Vector) -> f64 {
-    x.hypot(y).hypot(z)
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! What is asked of the solvers.
 
-use std::num::NonZeroUsize;
+use std::num::{NonZeroU64, NonZeroUsize};
 
 /// What is asked, and of whom.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -15,6 +15,25 @@ pub struct Question {
     /// How many threads `lagrange` uses for one long chain; the answer does not depend on it.
     /// Default one. (A census runs on the threads of rayon's pool.)
     pub threads: NonZeroUsize,
+    /// Work that each solver may do for a system that is no row between two anchors, numbers in all
+    /// factors of its matrices. Default what its own settings say.
+    pub max_work: Option<NonZeroU64>,
+}
+
+impl Question {
+    /// Settings of `lagrange` with the work that it may do.
+    pub(crate) fn lagrange(&self) -> lagrange::network::Settings {
+        let usual = lagrange::network::Settings::default();
+        let max_work = self.max_work.map_or(usual.max_work, NonZeroU64::get);
+        lagrange::network::Settings { max_work, ..usual }
+    }
+
+    /// The same of `energy`.
+    pub(crate) fn energy(&self) -> energy::network::Settings {
+        let usual = energy::network::Settings::default();
+        let max_work = self.max_work.map_or(usual.max_work, NonZeroU64::get);
+        energy::network::Settings { max_work, ..usual }
+    }
 }
 
 impl Default for Question {
@@ -24,6 +43,7 @@ impl Default for Question {
             equations: Equations::Condensed,
             census: UseCensus::Auto,
             threads: NonZeroUsize::MIN,
+            max_work: None,
         }
     }
 }

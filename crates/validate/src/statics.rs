@@ -13,6 +13,7 @@ use serde::Serialize;
 
 use crate::free::free_joints;
 use crate::lever::centre_part;
+use crate::vector::{beyond, cross, minus, norm, worse};
 
 /// Largest violations of geometry and of Newton's laws, dimensionless.
 ///
@@ -249,28 +250,6 @@ fn unusable() -> Statics {
         turn: nan,
         worst_bar: 0,
     }
-}
-
-/// What of a violation is beyond the rounding; NaN stays NaN (`f64::max` would forget it).
-fn beyond(violation: f64, rounding: f64) -> f64 {
-    if violation <= rounding { 0.0 } else { violation - rounding }
-}
-
-/// The larger of two violations; NaN is the worst of all (`f64::max` would forget it).
-fn worse(a: f64, b: f64) -> f64 {
-    if a.is_nan() || b.is_nan() { f64::NAN } else { a.max(b) }
-}
-
-fn minus(a: Vector, b: Vector) -> Vector {
-    std::array::from_fn(|k| a[k] - b[k])
-}
-
-fn cross(a: Vector, b: Vector) -> Vector {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-}
-
-fn norm([x, y, z]: Vector) -> f64 {
-    x.hypot(y).hypot(z)
 }
 
 #[cfg(test)]

@@ -3,6 +3,7 @@
 use model::{Chain, Vector};
 
 use crate::statics::stored_rounding_m;
+use crate::vector::norm;
 
 /// Units in which differences are judged.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -31,8 +32,4 @@ impl Units {
             rounding_m: stored_rounding_m(chain),
         }
     }
-}
-
-fn norm([x, y, z]: Vector) -> f64 {
-    x.hypot(y).hypot(z)
 }

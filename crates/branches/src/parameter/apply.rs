@@ -3,7 +3,7 @@
 use model::system::{PrestressError, SystemError, SystemRefusal};
 use model::{Anchors, Bar, BarError, Chain, ChainError, Problem, Refusal};
 
-use crate::parameter::number::{AnchorEnd, BarField, Number, Which};
+use crate::parameter::number::{AnchorEnd, BarField, Number};
 
 /// Why a point of a variation is refused: the values describe no problem.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -82,14 +82,10 @@ impl UncheckedChain {
             Number::Anchor(AnchorEnd::Start, axis) => self.anchors.start_m[*axis] = value,
             Number::Anchor(AnchorEnd::End, axis) => self.anchors.end_m[*axis] = value,
             // A chain has neither; its variations are refused before.
-            Number::Floor | Number::Joint(..) => {}
-            Number::Bar(Which::All, field) => {
-                for bar in &mut self.bars {
-                    bar.set(*field, value);
-                }
-            }
-            Number::Bar(Which::One(bar), field) => {
-                if let Some(bar) = bar.checked_sub(1).and_then(|k| self.bars.get_mut(k)) {
+            Number::Floor | Number::Joint(..) | Number::Row(..) => {}
+            Number::Bar(which, field) => {
+                let named = self.bars.iter_mut().enumerate().filter(|(k, _)| which.has(k + 1));
+                for (_, bar) in named {
                     bar.set(*field, value);
                 }
             }

@@ -31,6 +31,7 @@ impl Base for Chain {
         match &parameter.number {
             Number::Floor
             | Number::Joint(..)
+            | Number::Row(..)
             | Number::Bar(
                 _,
                 BarField::Stiffness | BarField::Prestress | BarField::LengthTolerance,
@@ -45,8 +46,12 @@ impl Base for Chain {
 }
 
 impl Base for System {
-    /// An end of a row of bars is a joint.
+    /// An end of a row of bars is a joint, and the bars of a row have numbers.
     fn resolved(&self, number: &Number) -> Number {
+        if let Number::Row(name, field) = number {
+            return row(self, name)
+                .map_or(number.clone(), |[a, b]| Number::Bar(Which::Range(a, b), *field));
+        }
         let Number::Anchor(end, axis) = number else { return number.clone() };
         let ends = ends(self).map(|[start, last]| match end {
             AnchorEnd::Start => start,
@@ -60,6 +65,15 @@ impl Base for System {
         match &parameter.number {
             Number::Gravity | Number::Floor => Ok(()),
             Number::Bar(which, _) => bar(parameter, *which, self.members().len(), "system"),
+            Number::Row(name, _) if row(self, name).is_some() => Ok(()),
+            Number::Row(name, _) => {
+                let what = format!("there is no row of bars `{name}`");
+                Err(of_path(
+                    parameter,
+                    what,
+                    "rows are called by the joints at their ends, FROM-TO",
+                ))
+            }
             Number::Anchor(..) if ends(self).is_some() => Ok(()),
             Number::Anchor(..) => {
                 let what = "the system is no chain between two anchors";
@@ -100,7 +114,7 @@ fn held(parameter: &Parameter, joint: &Joint, field: JointField) -> Result<(), P
 /// Whether there are so many bars.
 fn bar(parameter: &Parameter, which: Which, bars: usize, what: &str) -> Result<(), ParameterError> {
     match which {
-        Which::One(bar) if bar > bars => {
+        Which::One(bar) | Which::Range(_, bar) if bar > bars => {
             let path = path(parameter);
             let at = path.find(|c: char| c.is_ascii_digit()).unwrap_or(0);
             let digits = path[at..].chars().take_while(char::is_ascii_digit).count();
@@ -136,4 +150,21 @@ fn ends(system: &System) -> Option<[usize; 2]> {
     let last = members.len();
     let held = |joint: usize| joints.get(joint).is_some_and(|j| j.support.is_fixed());
     (row && joints.len() == last + 1 && held(0) && held(last)).then_some([0, last])
+}
+
+/// The first and the last bar, from 1, of the row between two joints, whose joints are called `FROM-TO.1` and so on.
+fn row(system: &System, name: &str) -> Option<[usize; 2]> {
+    // The second row between two joints is called `FROM-TO#2`.
+    let ends = name.split_once('#').map_or(name, |(ends, _)| ends);
+    let known = |name: &str| system.joint(name);
+    let mut splits = ends.match_indices('-').map(|(at, _)| (&ends[..at], &ends[at + 1..]));
+    let (from, to) = splits.find_map(|(a, b)| Some((known(a)?, known(b)?)))?;
+    let members = system.members();
+    if let Some(first) = known(&format!("{name}.1")) {
+        let begins = members.iter().position(|m| (m.from, m.to) == (from, first))?;
+        let ends = (begins..members.len()).find(|k| members[*k].to == to)?;
+        return Some([begins + 1, ends + 1]);
+    }
+    let one = members.iter().position(|m| (m.from, m.to) == (from, to))?;
+    Some([one + 1; 2])
 }

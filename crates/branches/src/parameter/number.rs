@@ -26,6 +26,9 @@ pub enum Number {
     Anchor(AnchorEnd, usize),
     /// A number of a bar or of all bars: `bars.2.mass_kg`, `bars.*.length_m`.
     Bar(Which, BarField),
+    /// A number of the bars of a row of a system, by the names of its ends: `bars.A-P.*.mass_kg`. A name with
+    /// dots or brackets stands in quotes: `bars."A-P#2".*.mass_kg`.
+    Row(String, BarField),
     /// A number of a joint of a system, by its name: `joints.P.mass_kg`. A name with dots or
     /// brackets stands in quotes: `joints."A-P.1".force_n.x`.
     Joint(String, JointField),
@@ -57,6 +60,8 @@ pub enum Which {
     /// The bar of this number, counted from 1 along the chain: a table with `count = 3` is three
     /// bars.
     One(usize),
+    /// From one bar to another, both of them: `1-20`.
+    Range(usize, usize),
     /// Every bar: `*`.
     All,
 }
@@ -94,29 +99,71 @@ const BAR: &[&str] = &[
 ];
 const AXES: [&str; 3] = ["x", "y", "z"];
 
+impl Which {
+    /// Whether it names the bar of this number, from 1.
+    #[must_use]
+    pub fn has(self, bar: usize) -> bool {
+        let (first, last) = self.ends();
+        (first..=last).contains(&bar)
+    }
+
+    /// The first bar and the last.
+    fn ends(self) -> (usize, usize) {
+        match self {
+            Self::One(bar) => (bar, bar),
+            Self::Range(first, last) => (first, last),
+            Self::All => (1, usize::MAX),
+        }
+    }
+
+    fn overlaps(self, other: Self) -> bool {
+        let ((a, b), (c, d)) = (self.ends(), other.ends());
+        a <= d && c <= b
+    }
+}
+
+impl BarField {
+    fn unit(self) -> &'static str {
+        match self {
+            Self::Length | Self::Centre | Self::LengthTolerance => "m",
+            Self::Mass => "kg",
+            Self::Inertia(_) => "kg m^2",
+            Self::Stiffness | Self::Prestress => "N",
+        }
+    }
+}
+
+impl fmt::Display for BarField {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Length => f.write_str("length_m"),
+            Self::Mass => f.write_str("mass_kg"),
+            Self::Centre => f.write_str("centre_m"),
+            Self::Inertia(axis) => write!(f, "inertia_kg_m2.{}", AXES[*axis]),
+            Self::Stiffness => f.write_str("stiffness_n"),
+            Self::Prestress => f.write_str("prestress_n"),
+            Self::LengthTolerance => f.write_str("length_tolerance_m"),
+        }
+    }
+}
+
 impl Number {
     /// The unit of this number.
     #[must_use]
     pub fn unit(&self) -> &'static str {
         match self {
             Self::Gravity => "m/s^2",
-            Self::Floor
-            | Self::Anchor(..)
-            | Self::Bar(_, BarField::Length | BarField::Centre | BarField::LengthTolerance)
-            | Self::Joint(_, JointField::Place(_)) => "m",
-            Self::Bar(_, BarField::Mass) | Self::Joint(_, JointField::Mass) => "kg",
-            Self::Bar(_, BarField::Inertia(_)) => "kg m^2",
-            Self::Bar(_, BarField::Stiffness | BarField::Prestress)
-            | Self::Joint(_, JointField::Force(_)) => "N",
+            Self::Floor | Self::Anchor(..) | Self::Joint(_, JointField::Place(_)) => "m",
+            Self::Bar(_, field) | Self::Row(_, field) => field.unit(),
+            Self::Joint(_, JointField::Mass) => "kg",
+            Self::Joint(_, JointField::Force(_)) => "N",
         }
     }
 
     /// Whether both set one number of a system file: `bars.1.length_m` and `bars.*.length_m` do.
     pub(crate) fn overlaps(&self, other: &Self) -> bool {
         match (self, other) {
-            (Self::Bar(one, field), Self::Bar(two, same)) => {
-                field == same && (one == two || *one == Which::All || *two == Which::All)
-            }
+            (Self::Bar(one, field), Self::Bar(two, same)) => field == same && one.overlaps(*two),
             _ => self == other,
         }
     }
@@ -145,7 +192,7 @@ impl Number {
                 Self::Anchor(which, parts.axis()?)
             }
             _ => {
-                let which = parts.bar()?;
+                let bars = parts.bars()?;
                 let field = match parts.key(BAR, "a bar")? {
                     "length_m" => BarField::Length,
                     "mass_kg" => BarField::Mass,
@@ -155,7 +202,10 @@ impl Number {
                     "length_tolerance_m" => BarField::LengthTolerance,
                     _ => BarField::Inertia(parts.axis()?),
                 };
-                Self::Bar(which, field)
+                match bars {
+                    Bars::Numbered(which) => Self::Bar(which, field),
+                    Bars::Row(name) => Self::Row(name, field),
+                }
             }
         };
         match parts.rest.first() {
@@ -177,23 +227,15 @@ impl fmt::Display for Number {
             Self::Floor => f.write_str("floor_m"),
             Self::Anchor(AnchorEnd::Start, axis) => write!(f, "anchors.start_m.{}", AXES[*axis]),
             Self::Anchor(AnchorEnd::End, axis) => write!(f, "anchors.end_m.{}", AXES[*axis]),
-            Self::Bar(which, field) => {
-                match which {
-                    Which::One(bar) => write!(f, "bars.{bar}.")?,
-                    Which::All => f.write_str("bars.*.")?,
-                }
-                match field {
-                    BarField::Length => f.write_str("length_m"),
-                    BarField::Mass => f.write_str("mass_kg"),
-                    BarField::Centre => f.write_str("centre_m"),
-                    BarField::Inertia(axis) => write!(f, "inertia_kg_m2.{}", AXES[*axis]),
-                    BarField::Stiffness => f.write_str("stiffness_n"),
-                    BarField::Prestress => f.write_str("prestress_n"),
-                    BarField::LengthTolerance => f.write_str("length_tolerance_m"),
-                }
-            }
+            Self::Bar(which, field) => match which {
+                Which::One(bar) => write!(f, "bars.{bar}.{field}"),
+                Which::Range(first, last) => write!(f, "bars.{first}-{last}.{field}"),
+                Which::All => write!(f, "bars.*.{field}"),
+            },
+            Self::Row(row, field) if needs_quotes(row) => write!(f, "bars.\"{row}\".*.{field}"),
+            Self::Row(row, field) => write!(f, "bars.{row}.*.{field}"),
             Self::Joint(joint, field) => {
-                if joint.contains(['.', '[', ']', '=', ',']) {
+                if needs_quotes(joint) {
                     write!(f, "joints.\"{joint}\".")?;
                 } else {
                     write!(f, "joints.{joint}.")?;
@@ -206,6 +248,10 @@ impl fmt::Display for Number {
             }
         }
     }
+}
+
+fn needs_quotes(name: &str) -> bool {
+    name.contains(['.', '[', ']', '=', ','])
 }
 
 /// Where the first `=` outside quotes is.
@@ -273,6 +319,12 @@ fn words(text: &str, end: usize) -> Result<Vec<Range<usize>>, ParameterError> {
         words.push(start..end);
     }
     Ok(words)
+}
+
+/// Bars as a path names them.
+enum Bars {
+    Numbered(Which),
+    Row(String),
 }
 
 /// What is left of a path.
@@ -348,12 +400,27 @@ impl Parts<'_> {
         Ok(name.to_owned())
     }
 
-    fn bar(&mut self) -> Result<Which, ParameterError> {
-        const ALLOWED: &str = "the number of a bar, from 1, or * for all";
+    fn bars(&mut self) -> Result<Bars, ParameterError> {
+        const ALLOWED: &str =
+            "the number of a bar, from 1, a range 1-20, a row FROM-TO.*, or * for all";
         let (word, span) = self.next("`bars`", ALLOWED)?;
-        match word.parse::<usize>() {
-            _ if word == "*" => Ok(Which::All),
-            Ok(bar) if bar > 0 => Ok(Which::One(bar)),
+        let number = |word: &str| word.parse::<usize>().ok().filter(|bar| *bar > 0);
+        let range = word.split_once('-').and_then(|(a, b)| Some((number(a)?, number(b)?)));
+        match (number(&word), range) {
+            _ if word == "*" => Ok(Bars::Numbered(Which::All)),
+            (Some(bar), _) => Ok(Bars::Numbered(Which::One(bar))),
+            (None, Some((first, last))) if first <= last => {
+                Ok(Bars::Numbered(Which::Range(first, last)))
+            }
+            (None, None)
+                if word.contains('-') && number(word.trim_start_matches('-')).is_none() =>
+            {
+                // The star behind a row may be left out.
+                if self.rest.first().is_some_and(|next| &self.text[next.clone()] == "*") {
+                    self.rest.remove(0);
+                }
+                Ok(Bars::Row(word.trim_matches('"').to_owned()))
+            }
             _ => {
                 let what = format!("`{word}` is no bar");
                 Err(ParameterError::new(self.text, span, what, format!("allowed here: {ALLOWED}")))
@@ -392,6 +459,10 @@ mod tests {
             ("joints.\"A-P.1\".mass_kg", "joints.\"A-P.1\".mass_kg"),
             ("joints.\"P\".at_m.z", "joints.P.at_m.z"),
             ("bars.1.stiffness_n", "bars.1.stiffness_n"),
+            ("bars.2-5.mass_kg", "bars.2-5.mass_kg"),
+            ("bars.A-P.*.mass_kg", "bars.A-P.*.mass_kg"),
+            ("bars.A-P.inertia_kg_m2.z", "bars.A-P.*.inertia_kg_m2.z"),
+            ("bars.\"A.1-P\".*.mass_kg", "bars.\"A.1-P\".*.mass_kg"),
         ] {
             assert_eq!(Number::parse(text, text.len()).unwrap().to_string(), wanted);
         }
@@ -405,6 +476,8 @@ mod tests {
         assert!(all.overlaps(&first) && first.overlaps(&all));
         assert!(!all.overlaps(&number("bars.1.mass_kg")) && !all.overlaps(&number("gravity_m_s2")));
         assert!(!number("bars.2.length_m").overlaps(&first));
+        assert!(number("bars.1-3.length_m").overlaps(&number("bars.3-4.length_m")));
+        assert!(!number("bars.1-3.length_m").overlaps(&number("bars.4.length_m")));
         assert!(number("gravity_m_s2").overlaps(&number("gravity_m_s2")));
     }
 }

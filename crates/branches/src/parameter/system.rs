@@ -5,7 +5,7 @@ use model::system::{Joint, Member, Support, System};
 
 use crate::parameter::apply::{PointError, UncheckedBar};
 use crate::parameter::base::Base;
-use crate::parameter::number::{BarField, JointField, Number, Which};
+use crate::parameter::number::{BarField, JointField, Number};
 
 /// The system with these numbers in place of its own, validated.
 ///
@@ -28,15 +28,14 @@ pub fn apply(base: &System, numbers: &[(Number, f64)]) -> Result<System, PointEr
                 }
             }
             // Of no row of bars; such variations are refused before.
-            Number::Anchor(..) => {}
+            Number::Anchor(..) | Number::Row(..) => {}
             Number::Bar(which, field) => {
                 of_members.push((which, field, *value));
             }
         }
     }
     for (k, member) in members.iter_mut().enumerate() {
-        let of_this = |which| which == Which::All || which == Which::One(k + 1);
-        let mut numbers = of_members.iter().filter(|(which, ..)| of_this(*which)).peekable();
+        let mut numbers = of_members.iter().filter(|(which, ..)| which.has(k + 1)).peekable();
         if numbers.peek().is_some() {
             *member =
                 with(member.clone(), k + 1, numbers.map(|(_, field, value)| (*field, *value)))?;

@@ -85,7 +85,7 @@ fn errors_say_what_where_and_what_is_allowed() {
         ("anchors.end_m=1", 14, "a part of it is missing", "x, y, z"),
         ("anchors.middle_m.x=1", 9, "unknown key `middle_m`", "start_m, end_m"),
         ("bars.0.mass_kg=1", 6, "`0` is no bar", "from 1"),
-        ("bars.two.mass_kg=1", 6, "`two` is no bar", "from 1, or * for all"),
+        ("bars.two.mass_kg=1", 6, "`two` is no bar", "a range 1-20, a row FROM-TO.*, or * for all"),
         ("bars.2.mass_kg.x=1", 16, "has no parts", "bars.2.mass_kg="),
         ("=1", 1, "unknown key ``", "gravity_m_s2, floor_m, anchors, joints, bars"),
         ("gravity_m_s2", 13, "`=` and the values are missing", "0.1,1,10"),

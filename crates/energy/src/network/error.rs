@@ -105,6 +105,17 @@ pub enum Error {
         /// Largest misfit of a length over the length.
         misfit: f64,
     },
+    /// Occurs when the work of a minimisation is used up.
+    #[error(
+        "not converged within the work it may do: factors of {spent} numbers were computed, and max_work is \
+         {max_work}"
+    )]
+    Work {
+        /// Numbers in all factors computed.
+        spent: u64,
+        /// How many may be.
+        max_work: u64,
+    },
     /// Occurs when no step lowers the energy and the residual is still above its tolerance.
     #[error(
         "no step lowers the energy any further: unbalanced force {unbalance:e} of the largest, lengths off \
@@ -207,6 +218,7 @@ impl Error {
             Self::Absurd { .. } => "absurd forces",
             Self::Unbalanced { .. } => "out of balance",
             Self::IterationLimit { .. } => "iteration limit",
+            Self::Work { .. } => "work used up",
             Self::Stalled { .. } => "stalled",
             Self::NoMinimum { .. } => "no minimum",
             Self::NoMinimumNear { .. } => "no minimum near",
@@ -244,6 +256,7 @@ mod tests {
                 Error::IterationLimit { iterations: 3, unbalance: 0.1, misfit: 0.1 },
                 "iteration limit",
             ),
+            (Error::Work { spent: 2, max_work: 1 }, "work used up"),
             (Error::Stalled { unbalance: 0.1, misfit: 0.1 }, "stalled"),
             (Error::NoMinimum { index: 1 }, "no minimum"),
             (Error::NoMinimumNear { joint: "P".to_owned(), moved_m: 1.0 }, "no minimum near"),

@@ -15,6 +15,7 @@ use model::Vector;
 
 use crate::network::error::Error;
 use crate::network::frame::{Rod, Spot};
+use crate::network::work::Meter;
 use crate::vector::dot;
 
 /// What a member puts on the difference of its ends: `isotropic I + along d dᵀ`.
@@ -56,6 +57,7 @@ pub(super) struct Factor {
     lower: Vec<f64>,
     memory: MemBuffer,
     kept: Kept,
+    meter: Meter,
     /// Factorisations made.
     pub(super) count: u64,
 }
@@ -124,7 +126,7 @@ fn lower_pattern(spots: &[Spot], columns: &[Vec<usize>]) -> (Vec<usize>, Vec<usi
 
 impl Factor {
     /// Choose the order of elimination and find the pattern of the factor.
-    pub(super) fn new(spots: &[Spot], rods: &[Rod]) -> Result<Self, Error> {
+    pub(super) fn new(spots: &[Spot], rods: &[Rod], meter: &Meter) -> Result<Self, Error> {
         let columns = neighbours(spots, rods);
         let forward = order(spots, &columns)?;
         let n = forward.len();
@@ -163,6 +165,7 @@ impl Factor {
             pattern,
             symbolic,
             kept: Kept::Nothing,
+            meter: meter.clone(),
             count: 0,
         })
     }
@@ -210,9 +213,14 @@ impl Factor {
         }
     }
 
+    fn counted(&mut self) {
+        self.count += 1;
+        self.meter.count(self.lower.len());
+    }
+
     /// Cholesky's factorisation of the matrix; whether the matrix is positive definite.
     pub(super) fn cholesky(&mut self) -> bool {
-        self.count += 1;
+        self.counted();
         let matrix = SparseColMatRef::new(self.pattern.as_ref(), &self.values);
         let done = self.symbolic.factorize_numeric_llt(
             &mut self.lower,
@@ -233,7 +241,7 @@ impl Factor {
     /// The factorisation `L D Lᵀ` and its number of negative pivots: by Sylvester's law that of
     /// negative eigenvalues. Nothing where a pivot vanishes.
     pub(super) fn negative_pivots(&mut self) -> Option<usize> {
-        self.count += 1;
+        self.counted();
         let matrix = SparseColMatRef::new(self.pattern.as_ref(), &self.values);
         let done = self.symbolic.factorize_numeric_ldlt(
             &mut self.lower,

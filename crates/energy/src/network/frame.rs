@@ -4,6 +4,7 @@ use model::Vector;
 use model::system::{Joint, Kind, Member, Support, System};
 
 use crate::network::error::Error;
+use crate::network::work::Meter;
 use crate::vector::{along, cross, dot, norm, scaled, unit};
 
 /// A joint with the directions in which it can move.
@@ -61,6 +62,8 @@ pub(super) struct Frame {
     pub(super) loads: Vec<Vector>,
     /// Number of coordinates.
     pub(super) freedom: usize,
+    /// What minimisations over it cost.
+    pub(super) meter: Meter,
 }
 
 /// A direction that rises less than this is level: the floor cannot hold it.
@@ -166,6 +169,7 @@ impl Frame {
             rods: rods.collect(),
             loads: loads_n.iter().map(|load| scaled(1.0 / total, *load)).collect(),
             freedom,
+            meter: Meter::default(),
         };
         if let Some(floor_m) = system.floor_m() {
             frame.put_floor((floor_m - origin_m[2]) / length_m);

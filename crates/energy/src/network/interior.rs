@@ -209,6 +209,7 @@ impl Solver<Potential, Iterate> for Interior {
         problem: &mut Problem<Potential>,
         mut state: Iterate,
     ) -> Result<(Iterate, Option<KV>), argmin::core::Error> {
+        self.frame.meter.check()?;
         let shape = state.take_param().ok_or(Error::NotFinite { quantity: "iterate" })?;
         let Some((next, part)) = self.mehrotra(&shape) else {
             self.ended = true;

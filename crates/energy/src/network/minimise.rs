@@ -20,6 +20,7 @@ use crate::network::settings::Settings;
 use crate::network::shape::Shape;
 use crate::network::solution::Solution;
 use crate::network::start::hanging;
+use crate::network::work::Meter;
 use crate::vector::{along, dot, scaled};
 
 /// Starts elsewhere where the lengths could not be kept from the first one: a loop that closes may
@@ -74,10 +75,10 @@ const GOLDEN: f64 = 0.618_033_988_75;
 pub fn minimise(system: &System, settings: &Settings) -> Result<Solution, Error> {
     settings.validate()?;
     let clock = Instant::now();
-    let frame = Arc::new(Frame::new(system)?);
+    let frame = Arc::new(metered(system, settings)?);
     check_held(&frame)?;
     let start = hanging(&frame)?;
-    let factor = Factor::new(&frame.spots, &frame.rods)?;
+    let factor = Factor::new(&frame.spots, &frame.rods, &frame.meter)?;
     let mut work = Effort::default();
     let (relaxed, factor) = if relaxable(&frame) {
         relax(&frame, factor, start.clone(), &mut work)?
@@ -91,18 +92,23 @@ pub fn minimise(system: &System, settings: &Settings) -> Result<Solution, Error>
     let most = (COORDINATES / frame.freedom.max(1)).min(MOST_RESTARTS);
     for attempt in 1..=most.max(RESTARTS) {
         let again = match &found {
-            Ok(minimum) => attempt <= most && may_be_lower(minimum),
+            Ok(minimum) => attempt <= most && frame.meter.check().is_ok() && may_be_lower(minimum),
             Err(error) => hard_to_close(error),
         };
         if !again {
             break;
         }
-        let factor = Factor::new(&frame.spots, &frame.rods)?;
+        let factor = Factor::new(&frame.spots, &frame.rods, &frame.meter)?;
         let elsewhere = displaced(&frame, &start, attempt);
         let other = descend(&frame, factor, elsewhere, Way::Stiff, settings, work);
         found = better(&frame, other, found);
     }
     Solution::new(system, &frame, found?, settings, clock)
+}
+
+/// The system in the solver's units, with the work that it may take.
+fn metered(system: &System, settings: &Settings) -> Result<Frame, Error> {
+    Ok(Frame { meter: Meter::until(settings.max_work), ..Frame::new(system)? })
 }
 
 /// Whether the lengths may be kept elsewhere, or with more weight on them.
@@ -128,7 +134,7 @@ fn better(
             let [lower, known] = [&new, &old].map(|minimum| frame.energy(&minimum.shape));
             Ok(if lower < known - LESS * known.abs().max(1.0) { new } else { old })
         }
-        (new @ (Ok(_) | Err(Error::Misfit { .. })), Err(_)) => new,
+        (new @ (Ok(_) | Err(Error::Misfit { .. } | Error::Work { .. })), Err(_)) => new,
         (_, old) => old,
     }
 }
@@ -155,14 +161,14 @@ pub fn minimise_from(
 ) -> Result<Solution, Error> {
     settings.validate()?;
     let clock = Instant::now();
-    let frame = Arc::new(Frame::new(system)?);
+    let frame = Arc::new(metered(system, settings)?);
     check_held(&frame)?;
     let start = seeded(&frame, seed_m)?;
-    let factor = Factor::new(&frame.spots, &frame.rods)?;
+    let factor = Factor::new(&frame.spots, &frame.rods, &frame.meter)?;
     let mut found = descend(&frame, factor, start.clone(), Way::Free, settings, Effort::default());
     if found.as_ref().is_err_and(hard_to_close) && frame.slope(&start).misfit < NEAR_SEED {
         // The loads have crushed it, which its lengths would not allow.
-        let factor = Factor::new(&frame.spots, &frame.rods)?;
+        let factor = Factor::new(&frame.spots, &frame.rods, &frame.meter)?;
         let near = descend(&frame, factor, start, Way::Relaxed, settings, Effort::default());
         found = better(&frame, near, found);
     }
@@ -204,10 +210,10 @@ pub fn minimise_near(
 ) -> Result<Solution, Error> {
     settings.validate()?;
     let clock = Instant::now();
-    let frame = Arc::new(Frame::new(system)?);
+    let frame = Arc::new(metered(system, settings)?);
     check_held(&frame)?;
     let drawn = seeded(&frame, drawing_m)?;
-    let mut factor = Factor::new(&frame.spots, &frame.rods)?;
+    let mut factor = Factor::new(&frame.spots, &frame.rods, &frame.meter)?;
     let start = loaded(&frame, &mut factor, &drawn);
     let minimum = descend(&frame, factor, start, Way::Near, settings, Effort::default())?;
     Solution::new(system, &frame, minimum, settings, clock)

@@ -83,6 +83,7 @@ mod solution;
 mod stability;
 mod start;
 mod weak;
+mod work;
 
 pub use error::Error;
 pub use minimise::{minimise, minimise_from, minimise_near};

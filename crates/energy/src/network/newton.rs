@@ -385,6 +385,7 @@ impl Solver<Potential, Iterate> for Newton {
         problem: &mut Problem<Potential>,
         mut state: Iterate,
     ) -> Result<(Iterate, Option<KV>), argmin::core::Error> {
+        self.frame.meter.check()?;
         let shape = state.take_param().ok_or(Error::NotFinite { quantity: "iterate" })?;
         let slope = state.take_gradient().ok_or(Error::NotFinite { quantity: "gradient" })?;
         if slope.misfit <= self.near {

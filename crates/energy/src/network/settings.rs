@@ -18,11 +18,15 @@ pub struct Settings {
     pub tolerance: f64,
     /// Iterations of Newton's method. Default 1000; at least 1.
     pub max_iterations: u64,
+    /// Numbers in all sparse factors that a minimisation computes, restarts included: iterations
+    /// times size. Default 1e10, a hundred times what a net of 38,000 cables
+    /// takes; at least 1.
+    pub max_work: u64,
 }
 
 impl Default for Settings {
     fn default() -> Self {
-        Self { tolerance: 1e-12, max_iterations: 1000 }
+        Self { tolerance: 1e-12, max_iterations: 1000, max_work: 10_000_000_000 }
     }
 }
 
@@ -41,6 +45,7 @@ impl Settings {
             }
         };
         check("tolerance", self.tolerance, 1e-15, 1e-3)?;
-        check("max_iterations", self.max_iterations as f64, 1.0, u64::MAX as f64)
+        check("max_iterations", self.max_iterations as f64, 1.0, u64::MAX as f64)?;
+        check("max_work", self.max_work as f64, 1.0, u64::MAX as f64)
     }
 }

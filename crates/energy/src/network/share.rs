@@ -59,7 +59,7 @@ pub(super) struct Shared {
 impl Share {
     pub(super) fn new(frame: &Arc<Frame>) -> Result<Self, Error> {
         Ok(Self {
-            factor: Factor::new(&frame.spots, &frame.rods)?,
+            factor: Factor::new(&frame.spots, &frame.rods, &frame.meter)?,
             frame: Arc::clone(frame),
             excess: Vec::new(),
             taut: Vec::new(),

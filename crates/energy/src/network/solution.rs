@@ -266,6 +266,7 @@ mod tests {
             rods: vec![rod],
             loads: vec![[0.0; 3]; 2],
             freedom: 0,
+            meter: crate::network::work::Meter::default(),
         };
         let at = |strain: f64| {
             let force = vec![strain * rod.length / rod.flexibility];

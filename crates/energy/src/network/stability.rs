@@ -33,7 +33,7 @@ const PLANE: f64 = 1e-9;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Rigidity {
     /// Rank of the rigidity matrix: one row for each inextensible member that resists, one column
-    /// for each coordinate of a joint.
+    /// for each coordinate in which a joint can move; joints that touch the floor move along it.
     pub rank: usize,
     /// Independent sets of forces in balance with no load: with none the forces are unique.
     pub self_stresses: usize,
@@ -120,7 +120,7 @@ fn index_in_plane(frame: &Frame, shape: &Shape) -> Option<usize> {
     if freedom <= DENSE {
         return Some(Dense::new(&flat, shape).count().0);
     }
-    let mut factor = Factor::new(&flat.spots, &flat.rods).ok()?;
+    let mut factor = Factor::new(&flat.spots, &flat.rods, &flat.meter).ok()?;
     Some(below(&flat, shape, &mut factor, ZERO))
 }
 
@@ -251,7 +251,11 @@ impl Dense {
             }
         }
         let size = frame.largest_force(&shape.force);
-        let (motions, stresses, rigidity) = kernels(&rigidity, zero);
+        // What keeps joints above the floor stands behind the members, and is no length.
+        let floors = taut.partition_point(|e| *e < frame.members)..taut.len();
+        let floors = floors.filter(|row| (0..n).any(|k| rigidity[(*row, k)].abs() > zero)).count();
+        let (motions, stresses, counted) = kernels(&rigidity, zero);
+        let rigidity = Rigidity { rank: counted.rank.saturating_sub(floors), ..counted };
         Self { hessian: motions.transpose() * &hessian * &motions, size, stresses, taut, rigidity }
     }
 

@@ -50,7 +50,7 @@ impl Densities {
                 }
             }
         }
-        let factor = Factor::new(&spots, &frame.rods)?;
+        let factor = Factor::new(&spots, &frame.rods, &frame.meter)?;
         Ok(Self { spots, factor, scalar })
     }
 

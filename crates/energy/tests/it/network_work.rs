@@ -1,7 +1,7 @@
 //! The work of the minimiser of systems, frozen as that of chains in `work`.
 
 use energy::network::{Error, Settings, Solution, minimise, minimise_from, minimise_near};
-use model::system::{Kind, Member, Support, System};
+use model::system::{Joint, Kind, Member, Support, System};
 use model::{Bar, Vector};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -263,4 +263,37 @@ fn work_on_exhibits() {
         ("geiger-dome", [2, 2, 0, 57, 106, 0]),
     ];
     assert_frozen(&found, &expected);
+}
+
+/// Three cables and a lamp: one factor of 3 coordinates has 6 numbers, and no step of the solve makes
+/// more than 60 of them between two looks at the work.
+#[test]
+fn a_minimisation_ends_with_its_work() {
+    let joints = vec![
+        Joint::anchor("A", [0.0, 0.0, 0.0]),
+        Joint::anchor("B", [2.0, 0.0, 0.5]),
+        Joint::anchor("C", [1.0, 1.5, -0.3]),
+        Joint::free("P").with_mass(3.0),
+    ];
+    let cable = |from| Member::cable(from, 3, Bar::homogeneous(2.0, 1.0).unwrap());
+    let system = System::new("a lamp", G, joints, (0..3).map(cable).collect()).unwrap();
+    let found = minimise(&system, &Settings::default()).unwrap();
+    let mut refused = 0;
+    for max_work in [1, 7, 20, 50, 100, 200, 500, 5000] {
+        match minimise(&system, &Settings { max_work, ..Settings::default() }) {
+            Err(Error::Work { spent, max_work: most }) => {
+                refused += 1;
+                assert!(
+                    most == max_work && spent >= most && spent <= most + 360,
+                    "{spent} of {most}"
+                );
+                assert_eq!(spent % 6, 0);
+            }
+            other => {
+                assert!(max_work >= 50, "{max_work}");
+                assert_eq!(other.unwrap().equilibrium.joints_m, found.equilibrium.joints_m);
+            }
+        }
+    }
+    assert!(refused >= 2, "{refused}");
 }

@@ -2,35 +2,45 @@
 
 use std::fmt::Write as _;
 
-use funicular::SolveAnswer;
+use funicular::{Extremes, SolveAnswer};
 use model::system::{Kind, Member, Support, System, SystemEquilibrium};
-use model::{Evidence, SolverName, Vector};
+use model::{Evidence, Rung, SolverName, Vector};
 
 use crate::printable::Printable;
+use crate::printed::{numbers, quantity};
 use crate::shape::Shape;
 use crate::tables::{duration, long, numbers_from, rung, short, table, word, wrapped};
 
 /// Where the sentences of the ladder begin.
 const LADDER_INDENT: usize = 15;
 
-/// The whole answer.
-pub fn answer(solution: &SolveAnswer, summary: bool) -> String {
+/// The whole answer; how far it is proved in full, or in a line.
+pub fn answer(solution: &SolveAnswer, summary: bool, evidence: bool) -> String {
     let system = solution.system();
     let (members, joints) = (system.members().len(), system.joints().len());
     let name = format!("{}: {members} members between {joints} joints,", Printable(system.name()));
     let mut text = format!(
-        "{}\n{} m long, {} kg, g = {} m/s^2\n\n",
+        "{}\n{} long, {}, g = {} m/s^2{}\n\n",
         wrapped(&name, 0),
-        short(system.total_length_m()),
-        short(system.total_mass_kg()),
+        quantity(system.total_length_m(), "m"),
+        quantity(system.total_mass_kg(), "kg"),
         short(system.gravity_m_s2()),
+        stiffness(system),
     );
-    if let Some(first) = solution.equilibria().first() {
+    let equilibria = solution.equilibria();
+    if let Some(first) = equilibria.first() {
         text += &shape(system, first, summary);
+        text += &energy(first);
     }
-    text += &overview(solution.equilibria());
     text += &question(solution);
-    text += &ladder(solution.equilibria().iter().map(|e| (&e.solver, &e.evidence)));
+    let answers: Vec<_> = equilibria.iter().map(|e| (&e.solver, &e.evidence)).collect();
+    if evidence {
+        text.push('\n');
+        text += &overview(equilibria);
+        text += &ladder(&answers);
+    } else {
+        text += &in_a_line(&answers);
+    }
     for failure in solution.failures() {
         // Writing to a String cannot fail.
         let _ = writeln!(text, "No answer of {failure}");
@@ -43,6 +53,31 @@ pub fn answer(solution: &SolveAnswer, summary: bool) -> String {
         );
     }
     text
+}
+
+/// The axial stiffness of the members that have one, which may be made of other numbers of the file.
+fn stiffness(system: &System) -> String {
+    let all = || system.members().iter().filter_map(|member| member.stiffness_n);
+    let (least, most) =
+        all().fold((f64::INFINITY, 0.0), |(a, b): (f64, f64), n| (a.min(n), b.max(n)));
+    match all().next() {
+        None => String::new(),
+        Some(_) if least < most => {
+            format!(", EA {} to {}", quantity(least, "N"), quantity(most, "N"))
+        }
+        Some(_) => format!(", EA {}", quantity(most, "N")),
+    }
+}
+
+/// The energy, and whether it rises in every direction.
+fn energy(found: &SystemEquilibrium) -> String {
+    let energy = numbers(&[found.energy_j], "J", long);
+    let index = match found.stability.index_in_space {
+        0 => String::new(),
+        1 => ", the energy falls in 1 direction".to_owned(),
+        index => format!(", the energy falls in {index} directions"),
+    };
+    format!("Energy: {energy}, {}{index}.\n", word(&found.stability.in_space))
 }
 
 /// Which question is answered where no shape was given.
@@ -82,30 +117,71 @@ fn question(solution: &SolveAnswer) -> String {
     wrapped(&format!("{found}{lower}."), 0) + "\n"
 }
 
-/// How far each equilibrium is proved, rung by rung.
-pub fn ladder<'a>(answers: impl Iterator<Item = (&'a SolverName, &'a Evidence)>) -> String {
-    let mut text = String::new();
-    for (solver, evidence) in answers {
-        // Writing to a String cannot fail.
-        let _ = writeln!(text, "Evidence for the answer of {solver}: {}", rung(evidence));
-        for s in evidence.ladder.statements() {
-            let mark = if s.reached { "+" } else { "-" };
-            let line = format!("  {mark} {:<10} {}", s.rung.to_string(), s.how);
-            text += &wrapped(&line, LADDER_INDENT);
-            text.push('\n');
+/// What is said of the forces besides the rungs, with a mark and of what.
+fn notes(evidence: &Evidence) -> Vec<(char, &'static str, String)> {
+    let family = evidence.force_family.as_ref().map(|family| ('!', "forces", family.to_string()));
+    let stresses = evidence.self_stresses.as_ref().map(|some| ('!', "forces", some.to_string()));
+    let rigidity = evidence.rigidity.as_ref().map(|some| (' ', "rigidity", some.to_string()));
+    family.into_iter().chain(stresses).chain(rigidity).collect()
+}
+
+/// The rungs in a line; and, where a check was not passed or forces are not unique, how that is.
+fn in_a_line(answers: &[(&SolverName, &Evidence)]) -> String {
+    let highest = |(_, evidence): &&(&SolverName, &Evidence)| evidence.rung();
+    let Some((_, best)) = answers.iter().max_by_key(highest) else { return String::new() };
+    let marks = best.ladder.statements().map(|s| {
+        let mark = if s.reached { '+' } else { '-' };
+        format!("{mark} {}", s.rung)
+    });
+    let marks: Vec<String> = marks.into_iter().collect();
+    let mut text = wrapped(&format!("Evidence: {} (--evidence)", marks.join(" ")), 2) + "\n";
+    for statement in best.ladder.statements() {
+        let checked = matches!(statement.rung, Rung::Converged | Rung::Agreed);
+        if checked && !statement.reached && answers.len() > 1 {
+            text += &line('-', &statement.rung.to_string(), &statement.how);
         }
-        let mut more = |mark: char, of: &str, what: &dyn std::fmt::Display| {
-            text += &wrapped(&format!("  {mark} {of:<10} {what}"), LADDER_INDENT);
-            text.push('\n');
-        };
-        if let Some(family) = &evidence.force_family {
-            more('!', "forces", family);
-        }
-        if let Some(stresses) = &evidence.self_stresses {
-            more('!', "forces", stresses);
-        }
-        if let Some(rigidity) = &evidence.rigidity {
-            more(' ', "rigidity", rigidity);
+    }
+    let forces = notes(best).into_iter().filter(|(mark, ..)| *mark == '!');
+    forces.fold(text, |text, (mark, of, what)| text + &line(mark, of, &what))
+}
+
+/// A line of the ladder.
+fn line(mark: char, of: &str, what: &str) -> String {
+    wrapped(&format!("  {mark} {of:<10} {what}"), LADDER_INDENT) + "\n"
+}
+
+/// How far each equilibrium is proved, rung by rung; once where the evidence for all is the same.
+pub fn ladder(answers: &[(&SolverName, &Evidence)]) -> String {
+    let names: Vec<String> = answers.iter().map(|(solver, _)| solver.to_string()).collect();
+    let mut rungs: Vec<String> = answers.iter().map(|(_, evidence)| rung(evidence)).collect();
+    rungs.dedup();
+    if answers.is_empty() {
+        return String::new();
+    }
+    let mut text =
+        format!("Evidence for the answer of {}: {}\n", names.join(" and "), rungs.join(" and "));
+    let rows = |evidence: &Evidence| {
+        let statements = evidence.ladder.statements();
+        let marked = statements
+            .into_iter()
+            .map(|s| (if s.reached { '+' } else { '-' }, s.rung.to_string(), s.how));
+        let notes = notes(evidence).into_iter().map(|(mark, of, what)| (mark, of.to_owned(), what));
+        marked.chain(notes).collect::<Vec<_>>()
+    };
+    let all: Vec<_> = answers.iter().map(|(_, evidence)| rows(evidence)).collect();
+    let most = all.iter().map(Vec::len).max().unwrap_or_default();
+    for k in 0..most {
+        let said: Vec<_> = all.iter().map(|rows| rows.get(k)).collect();
+        match said[0] {
+            Some((mark, of, what)) if said.iter().all(|other| *other == said[0]) => {
+                text += &line(*mark, of, what);
+            }
+            _ => {
+                for (name, row) in names.iter().zip(said) {
+                    let Some((mark, of, what)) = row else { continue };
+                    text += &line(*mark, of, &format!("{name}: {what}"));
+                }
+            }
         }
     }
     text + "\n"
@@ -138,6 +214,7 @@ fn shape(system: &System, e: &SystemEquilibrium, summary: bool) -> String {
         ends: &|bar| [system.members()[bar].from, system.members()[bar].to],
         joints_m: &e.joints_m,
         axial: e.axial_forces(system),
+        extremes: Extremes::of(system, e),
         reactions_n: held.map(|(k, (_, force))| (k, *force)).collect(),
         idle: &|bar| idle(&system.members()[bar], &e.joints_m),
         ranges: e.evidence.self_stresses.as_ref().and_then(|family| family.ranges.as_deref()),

@@ -122,7 +122,7 @@ pub enum Command {
     New(crate::new::New),
     /// Print the page of the file format: every key with its unit, what is allowed, and an example
     /// (`funicular help file` too)
-    #[command(alias = "file", after_long_help = model::system_file::FORMAT)]
+    #[command(alias = "file")]
     Format,
     /// Print a chapter of the guide: first steps, the evidence, motion, methods, limits
     Guide(crate::guide::Guide),

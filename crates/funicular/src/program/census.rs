@@ -21,6 +21,7 @@ use crate::input::{Input, Source};
 use crate::interrupt::end_on_interrupt;
 use crate::memory;
 use crate::output;
+use crate::printed::Printed;
 use crate::progress::Progress;
 use crate::threads;
 
@@ -33,9 +34,8 @@ const SHAPES: usize = 70;
 pub struct Census {
     #[command(flatten)]
     pub input: Source,
-    /// Print one JSON object (schema_version 3) instead of tables
-    #[arg(long)]
-    pub json: bool,
+    #[command(flatten)]
+    pub printed: Printed,
     /// Refuse chains of more bars (16 if not given), and bridles (one joint held by three strands
     /// of bars) of more bars together (12), with an estimate of what they would cost (at most 24)
     #[arg(long, value_name = "N")]
@@ -67,6 +67,7 @@ pub struct Census {
 
 /// Run the command.
 pub fn run(arguments: &Census) -> Result<Exit, Failure> {
+    arguments.printed.install();
     end_on_interrupt()?;
     let usual = Settings::default();
     let settings = Settings {
@@ -107,7 +108,7 @@ pub fn run(arguments: &Census) -> Result<Exit, Failure> {
         output::write_stream(path, |file| answer.write_csv(file))?;
     }
     drop(progress);
-    if arguments.json {
+    if arguments.printed.is_json() {
         output::print_json(&answer)?;
     } else {
         output::print(&table::text(&answer))?;
@@ -177,7 +178,7 @@ fn of_system(
         output::write_whole(path, &drawn)?;
     }
     drop(progress);
-    if arguments.json {
+    if arguments.printed.is_json() {
         output::print_json(&answer)?;
     } else {
         output::print(&system::text(&answer))?;

@@ -14,6 +14,7 @@ use crate::input::{Drawn, Input};
 use crate::interrupt::end_on_interrupt;
 use crate::output;
 use crate::printable::Printable;
+use crate::printed::Printed;
 use crate::tables::{numbers_from, short, table};
 
 /// Of a gradient the largest are printed; of more anchors each alone.
@@ -52,9 +53,8 @@ pub struct Arguments {
     /// Write the gradient to this CSV file: columns parameter, derivative, unit
     #[arg(long, value_name = "FILE", requires = "of")]
     pub csv: Option<PathBuf>,
-    /// Print one JSON object (schema_version 3) instead of tables
-    #[arg(long)]
-    pub json: bool,
+    #[command(flatten)]
+    pub printed: Printed,
 }
 
 #[derive(Serialize)]
@@ -79,6 +79,7 @@ struct Anchors {
 
 /// Run the command.
 pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
+    arguments.printed.install();
     end_on_interrupt()?;
     let Input { problem, files } = arguments.input.read()?;
     output::check(arguments.csv.iter().map(PathBuf::as_path), &files)?;
@@ -89,14 +90,14 @@ pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
         if let Some(path) = &arguments.csv {
             output::write_stream(path, |file| found.write_csv(file))?;
         }
-        return print(arguments.json, system, &gradient(&found), &found);
+        return print(arguments.printed.is_json(), system, &gradient(&found), &found);
     }
     if let Some(by) = &arguments.by {
         let found = derivatives.change(by)?;
-        return print(arguments.json, system, &change(&found), &found);
+        return print(arguments.printed.is_json(), system, &change(&found), &found);
     }
     let anchors = Anchors { anchors: derivatives.anchor_stiffness()? };
-    print(arguments.json, system, &stiffness(&anchors.anchors), &anchors)
+    print(arguments.printed.is_json(), system, &stiffness(&anchors.anchors), &anchors)
 }
 
 fn print(json: bool, system: &System, text: &str, found: &impl Serialize) -> Result<Exit, Failure> {

@@ -3,12 +3,13 @@
 use std::io::{ErrorKind, Read};
 use std::path::{Path, PathBuf};
 
-use formats::system::{parse_compas, parse_moordyn, parse_net};
-use funicular::Error;
+use formats::system::{ForeignSystem, parse_compas, parse_moordyn, parse_net};
 use funicular::judge::Subject;
+use funicular::{Error, Problem};
 use model::open_input;
 use model::system_file::most_file_bytes;
 
+use crate::diagnostics::Diagnostic;
 use crate::exit::Failure;
 use crate::input;
 use crate::judge::{Format, Judge};
@@ -52,6 +53,49 @@ pub fn system(arguments: &Judge) -> Result<(Subject, Vec<PathBuf>), Failure> {
     };
     let files = [Some(path.to_owned()), arguments.edges.clone()];
     Ok((subject, files.into_iter().flatten().collect()))
+}
+
+/// The problem of a file of another program; `None` if it is not known as one.
+///
+/// The bottom of the sea is a floor of the system; a net of force densities is the system that has them at its
+/// places, and its equilibrium next to these is wanted.
+pub fn problem(path: &Path) -> Result<Option<Problem>, Failure> {
+    let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
+    match ending.to_ascii_lowercase().as_str() {
+        "csv" => {
+            let message = format!("{} is a table, not a system file", path.display());
+            let help = "a system file names it, bars_file = \"...\" or joints_file = \"...\" (`funicular format`); \
+                        of a net of force densities `funicular judge NODES --edges EDGES` reads both tables";
+            Err(Failure::bad_input(Diagnostic::from(message).with_help(help.to_owned())))
+        }
+        "dat" | "txt" => moordyn(path),
+        "json" if guess(path, false)? == Format::Compas => {
+            let (text, name) = text(path)?;
+            let net = parse_compas(&text, &name).map_err(Error::from)?;
+            let places_m = net.places_m();
+            let system = net.system_at(&places_m, &name).map_err(Error::from)?;
+            Ok(Some(Problem::from(system).near(&places_m)?))
+        }
+        _ => Ok(None),
+    }
+}
+
+/// A MoorDyn file, which has sections under lines of dashes, as no system file has.
+fn moordyn(path: &Path) -> Result<Option<Problem>, Failure> {
+    let (text, name) = text(path)?;
+    if !text.lines().any(|line| line.starts_with("---")) {
+        return Ok(None);
+    }
+    let ForeignSystem { system, floor_m, .. } = parse_moordyn(&text, &name).map_err(Error::from)?;
+    let system = match floor_m {
+        Some(floor_m) => {
+            let above = system.with_floor(floor_m);
+            above.map_err(|error| Failure::bad_input(format!("{name}: {error}")))?
+        }
+        None => system,
+    };
+    system.refusal().map_err(|refusal| Failure::bad_input(format!("{name}: {refusal}")))?;
+    Ok(Some(system.into()))
 }
 
 /// Which format a file is in.

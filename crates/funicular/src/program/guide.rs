@@ -8,7 +8,7 @@ use crate::exit::{Exit, Failure};
 use crate::output;
 
 /// Names of the chapters, and their text.
-pub const CHAPTERS: [(&str, &str); 13] = [
+pub const CHAPTERS: [(&str, &str); 14] = [
     ("first-steps", include_str!("../../guide/1-first-steps.md")),
     ("systems", include_str!("../../guide/2-systems.md")),
     ("evidence", include_str!("../../guide/3-evidence.md")),
@@ -22,6 +22,7 @@ pub const CHAPTERS: [(&str, &str); 13] = [
     ("from-python", include_str!("../../guide/11-from-python.md")),
     ("from-rust", include_str!("../../guide/12-from-rust.md")),
     ("commands", include_str!("../../guide/13-commands.md")),
+    ("keys", include_str!("../../guide/14-keys.md")),
 ];
 
 /// The chapter for a command.
@@ -48,22 +49,21 @@ pub struct Guide {
 
 /// Print a chapter, or the list of them.
 pub fn run(arguments: &Guide) -> Result<Exit, Failure> {
-    let text = match &arguments.chapter {
-        Some(wanted) => CHAPTERS
-            .iter()
-            .find(|(name, _)| name == wanted)
-            .map_or_else(String::new, |(_, text)| (*text).to_owned()),
-        None => {
-            let mut list = String::from("`funicular guide CHAPTER` prints one of these:\n\n");
-            for (name, text) in CHAPTERS {
-                let title = text.lines().next().unwrap_or_default().trim_start_matches("# ");
-                let _ = writeln!(list, "  {name:<15} {title}");
-            }
-            list
-        }
-    };
+    let wanted = arguments.chapter.as_deref();
+    let chapter = CHAPTERS.iter().find(|(name, _)| Some(*name) == wanted);
+    let text = chapter.map_or_else(list, |(_, text)| (*text).to_owned());
     output::print(&text)?;
     Ok(Exit::Done)
+}
+
+/// The names of the chapters and their titles.
+fn list() -> String {
+    let mut list = String::from("`funicular guide CHAPTER` prints one of these:\n\n");
+    for (name, text) in CHAPTERS {
+        let title = text.lines().next().unwrap_or_default().trim_start_matches("# ");
+        let _ = writeln!(list, "  {name:<15} {title}");
+    }
+    list
 }
 
 #[cfg(test)]

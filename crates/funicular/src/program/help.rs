@@ -1,5 +1,6 @@
 //! The first words: commands in groups, what to type when nothing was, and what a word that is no command may mean.
 
+use std::ffi::OsString;
 use std::fmt::Write as _;
 use std::io::Write as _;
 
@@ -58,8 +59,19 @@ pub fn parse() -> Result<Cli, Exit> {
         return Err(Exit::BadInput);
     }
     let command = with_chapters(grouped(Cli::command()));
-    let matches = command.try_get_matches().map_err(|error| explained(&error))?;
+    let matches = command.try_get_matches_from(asked()).map_err(|error| explained(&error))?;
     Cli::from_arg_matches(&matches).map_err(|error| explained(&error))
+}
+
+/// The words of the command line. The help of the file format is its page, as it stands: clap would wrap it.
+fn asked() -> Vec<OsString> {
+    let words: Vec<OsString> = std::env::args_os().collect();
+    match &words[..] {
+        [program, help, page] if help == "help" && (page == "file" || page == "format") => {
+            vec![program.clone(), "format".into()]
+        }
+        _ => words,
+    }
 }
 
 /// The commands with their help in groups.

@@ -114,7 +114,10 @@ pub fn problem(file: Option<&Path>, case: Option<&str>) -> Result<Input, Failure
         (Some(file), _) if file == Path::new("-") => (standard_input()?, vec![]),
         (Some(file), _) => {
             meant_as_case(file)?;
-            Problem::read_with_files(file)?
+            match foreign_input::problem(file)? {
+                Some(problem) => (problem, vec![file.to_owned()]),
+                None => Problem::read_with_files(file)?,
+            }
         }
         (None, Some(name)) => (Problem::case(name)?, vec![]),
         // clap asks for one of them.

@@ -29,6 +29,7 @@ mod modes;
 mod new;
 mod output;
 mod printable;
+mod printed;
 mod progress;
 mod reproduce;
 mod shape;

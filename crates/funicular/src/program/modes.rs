@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 use std::path::PathBuf;
 
 use clap::Args;
-use comfy_table::{CellAlignment, ColumnConstraint, Table};
+use comfy_table::{CellAlignment, ColumnConstraint};
 use funicular::{Enclosed, ModesAnswer, WithModes};
 use model::system::System;
 
@@ -13,8 +13,9 @@ use crate::input::{Drawn, Input};
 use crate::interrupt::end_on_interrupt;
 use crate::output;
 use crate::printable::Printable;
+use crate::printed::Printed;
 use crate::progress::Progress;
-use crate::tables::{numbers_from, short, table, wrapped};
+use crate::tables::{Table, numbers_from, short, table, wrapped};
 use crate::threads;
 
 /// What is taken for granted of positions at rest.
@@ -30,9 +31,8 @@ as in `simulate`.";
 pub struct Modes {
     #[command(flatten)]
     pub input: Drawn,
-    /// Print one JSON object (schema_version 3) with the shapes instead of tables
-    #[arg(long)]
-    pub json: bool,
+    #[command(flatten)]
+    pub printed: Printed,
     /// All equilibria, by a census, of chains of up to N bars; the stable one of longer chains and
     /// of other systems
     #[arg(long, value_name = "N", default_value_t = census::Settings::UNASKED_BARS)]
@@ -62,6 +62,7 @@ fn count(text: &str) -> Result<usize, String> {
 
 /// Run the command.
 pub fn run(arguments: &Modes) -> Result<Exit, Failure> {
+    arguments.printed.install();
     end_on_interrupt()?;
     threads::install(arguments.threads)?;
     let progress = Progress::start();
@@ -77,7 +78,7 @@ pub fn run(arguments: &Modes) -> Result<Exit, Failure> {
     let answer = modes.run(&problem)?;
     drop(progress);
     write_pictures(arguments, &funicular::system_of(&problem), &answer)?;
-    if arguments.json {
+    if arguments.printed.is_json() {
         output::print_json(&answer)?;
     } else {
         output::print(&text(&answer))?;

@@ -10,10 +10,14 @@ use serde::Serialize;
 
 use crate::exit::Failure;
 use crate::printable::filtered;
+use crate::printed::{self, in_ascii};
+use crate::tables::finished;
 
 /// Print to standard output. A reader that has gone away (`| head`) is no error.
 pub fn print(text: &str) -> Result<(), Failure> {
-    print_stream(|out| out.write_all(filtered(text, false).as_bytes()))
+    let text = filtered(&finished(text), false);
+    let text = if printed::ascii() { in_ascii(&text) } else { text };
+    print_stream(|out| out.write_all(text.as_bytes()))
 }
 
 /// The same for JSON, which escapes what would steer a terminal.
@@ -75,11 +79,23 @@ pub fn check<'a>(
     Ok(())
 }
 
+/// Endings of pictures that are not written.
+const PICTURES: [&str; 7] = ["png", "pdf", "jpg", "jpeg", "gif", "eps", "webp"];
+
 /// A file can be written only into a folder that is there, and where the system lets us; `-` is meant
 /// as standard output, not as a name.
 fn check_one(path: &Path) -> Result<(), Failure> {
     if path == Path::new("-") {
         return Err(cannot_write(path, "it names no file; standard output is /dev/stdout"));
+    }
+    let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
+    if PICTURES.contains(&ending.to_ascii_lowercase().as_str()) {
+        let svg = path.with_extension("svg");
+        let why = format!(
+            "pictures are SVG here: write {}, which a browser, Inkscape or rsvg-convert makes into that",
+            svg.display()
+        );
+        return Err(cannot_write(path, why));
     }
     match path.parent().filter(|folder| !folder.as_os_str().is_empty()) {
         Some(folder) if !folder.is_dir() => {

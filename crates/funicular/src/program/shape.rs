@@ -2,10 +2,11 @@
 
 use std::fmt::Write as _;
 
-use funicular::Extremes;
+use funicular::{Extremes, Sag};
 use model::{AxialForce, ForceRange, Vector};
 
-use crate::tables::{numbers_from, short, table, wrapped};
+use crate::printed::{numbers, quantity};
+use crate::tables::{Table, numbers_from, short, table, wrapped};
 
 /// Joints and bars up to this many are printed one by one; of more the extremes (`--csv`,
 /// `--bars-csv` and `--json` have all).
@@ -44,6 +45,8 @@ pub struct Shape<'a> {
     pub joints_m: &'a [Vector],
     /// Axial forces along the bars.
     pub axial: Vec<AxialForce>,
+    /// What stands out.
+    pub extremes: Option<Extremes>,
     /// Forces of the ground, N, with their joints.
     pub reactions_n: Vec<(usize, Vector)>,
     /// A word for a bar without force.
@@ -61,14 +64,10 @@ impl Shape<'_> {
         let mut text = String::new();
         if !summary && !long {
             text += &self.joints();
-            text += &self.bars("Bars", (0..self.axial.len()).collect());
-        } else if !summary {
-            text += &self.extremes();
         }
-        if !summary {
-            text += &self.reactions();
-        }
-        text + &self.summary()
+        text +=
+            &if long { self.largest() } else { self.bars("Bars", (0..self.axial.len()).collect()) };
+        text + &self.reactions() + &self.summary()
     }
 
     fn joints(&self) -> String {
@@ -130,7 +129,7 @@ impl Shape<'_> {
     }
 
     /// The bars with the largest tension and compression of a long system.
-    fn extremes(&self) -> String {
+    fn largest(&self) -> String {
         let mut order: Vec<usize> = (0..self.axial.len()).collect();
         let wanted = EXTREMES.min(order.len() - 1);
         let force = |bar: &usize| self.axial[*bar].largest_n();
@@ -179,32 +178,35 @@ impl Shape<'_> {
 
     /// Sag, lowest joint, largest forces and where.
     fn summary(&self) -> String {
-        let supports = self.reactions_n.iter().map(|(joint, _)| *joint);
-        let Some(extremes) = Extremes::of(self.joints_m, supports, &self.axial) else {
-            return "\n".to_owned();
-        };
+        let Some(extremes) = &self.extremes else { return String::new() };
         let places = Rounded::of(self.joints_m.as_flattened());
-        let at = extremes.lowest_m.map(|x| places.short(x)).join(", ");
-        let mut text =
-            format!("Lowest joint: {}, at ({at}) m.\n", (self.name)(extremes.lowest_joint));
+        let at = numbers(&extremes.lowest_m.map(|x| places.number(x)), "m", short);
+        let mut text = format!("Lowest joint: {}, at {at}.\n", (self.name)(extremes.lowest_joint));
         // Writing to a String cannot fail.
-        if let Some(sag_m) = extremes.sag_m {
-            let sag = places.short(sag_m);
-            let _ = writeln!(text, "Sag: {sag} m below the lowest support.");
+        if let Some(Sag { depth_m, joint, ends }) = extremes.sag {
+            let [from, to] = ends.map(|end| (self.name)(end));
+            let below = if from == to {
+                format!("the lowest support, {from}")
+            } else {
+                format!("the line from {from} to {to}")
+            };
+            let (depth, joint) = (quantity(places.number(depth_m), "m"), (self.name)(joint));
+            text += &wrapped(&format!("Sag: {depth}, of joint {joint} below {below}."), 0);
+            text.push('\n');
         }
         let ends = [("tension", extremes.tension_n), ("compression", extremes.compression_n)];
         for (what, largest) in ends {
             let Some((bar, force_n)) = largest else { continue };
             let [from, to] = (self.ends)(bar).map(|joint| (self.name)(joint));
-            let size = short(force_n);
-            let _ = writeln!(text, "Largest {what}: {size} N, in the member from {from} to {to}.");
+            let size = quantity(force_n, "N");
+            let _ = writeln!(text, "Largest {what}: {size}, in the member from {from} to {to}.");
         }
-        text + "\n"
+        text
     }
 }
 
 /// A table under its title.
-fn titled(title: &str, table: &comfy_table::Table) -> String {
+fn titled(title: &str, table: &Table) -> String {
     format!("{}\n{table}\n\n", wrapped(title, 0))
 }
 

@@ -5,6 +5,7 @@ mod lines;
 mod object;
 mod several;
 
+use std::num::NonZeroU64;
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
@@ -18,6 +19,7 @@ use crate::exit::{Exit, Failure};
 use crate::input::{self, Input, Shape, next_to};
 use crate::interrupt::end_on_interrupt;
 use crate::output;
+use crate::printed::Printed;
 use crate::progress::Progress;
 use crate::threads;
 use crate::which::Which;
@@ -50,6 +52,13 @@ pub struct Solve {
     /// How many threads; 0 means one per processor. No answer depends on it
     #[arg(long, value_name = "T", default_value_t = 0, value_parser = threads::parse, allow_negative_numbers = true)]
     pub threads: usize,
+    /// Work that each solver may do for one system: numbers in all factors of its matrices, which
+    /// is iterations times size. What needs more ends without an answer (exit code 3)
+    ///
+    /// If not given, 10000000000: up to an hour or so. A row of bars between two anchors needs no matrix,
+    /// and has a bound of its own.
+    #[arg(long, value_name = "N")]
+    pub max_work: Option<NonZeroU64>,
     #[command(flatten)]
     pub shape: Shape,
     /// Which solver; one alone gets no comparison
@@ -59,12 +68,14 @@ pub struct Solve {
     /// any other system
     #[arg(long, alias = "system", value_enum, default_value_t = Of::Condensed)]
     pub equations: Of,
-    /// Print one JSON object (schema_version 3) instead of tables
-    #[arg(long)]
-    pub json: bool,
-    /// Leave out joints, bars and forces of the ground
+    #[command(flatten)]
+    pub printed: Printed,
+    /// Leave out joints, and in JSON bars and forces of the ground too
     #[arg(long)]
     pub summary: bool,
+    /// How far the answer is proved, in full
+    #[arg(long)]
+    pub evidence: bool,
     /// In JSON, an array over joints or bars for each quantity, in the order of the file, in the
     /// place of an object for each: for long chains and large nets
     #[arg(long, requires = "json", conflicts_with = "summary")]
@@ -115,10 +126,14 @@ pub enum Census {
 impl Solve {
     /// What is asked, with `census` where the arguments say nothing about it.
     fn question(&self, census: UseCensus) -> funicular::Solve {
-        funicular::Solve::new()
+        let solve = funicular::Solve::new()
             .solvers(self.solver.into())
             .equations(self.equations.into())
-            .census(self.census.map_or(census, UseCensus::from))
+            .census(self.census.map_or(census, UseCensus::from));
+        match self.max_work {
+            Some(max_work) => solve.max_work(max_work),
+            None => solve,
+        }
     }
 
     /// How JSON has joints and bars.
@@ -151,6 +166,7 @@ impl Solve {
 
 /// Run the command.
 pub fn run(arguments: &Solve) -> Result<Exit, Failure> {
+    arguments.printed.install();
     match (&arguments.batch, arguments.files.as_slice()) {
         (Some(batch), _) => batch::run(arguments, batch),
         (None, [_, _, ..]) => several::run(arguments),
@@ -176,10 +192,10 @@ fn one(arguments: &Solve, file: Option<&Path>) -> Result<Exit, Failure> {
     let answer = answer.or_else(|error| unsolved(arguments, error))?;
     write_files(arguments, &answer, &progress)?;
     drop(progress);
-    if arguments.json {
+    if arguments.printed.is_json() {
         output::print_json(&answer.json(arguments.lists()))?;
     } else {
-        output::print(&answer::answer(&answer, arguments.summary))?;
+        output::print(&answer::answer(&answer, arguments.summary, arguments.evidence))?;
     }
     Ok(verdict(&answer))
 }
@@ -209,7 +225,7 @@ fn write_files(
 /// refusals.
 fn unsolved<T>(arguments: &Solve, error: Error) -> Result<T, Failure> {
     match &error {
-        Error::Unsolved(answer) if arguments.json => output::print_json(answer)?,
+        Error::Unsolved(answer) if arguments.printed.is_json() => output::print_json(answer)?,
         _ => {}
     }
     Err(error.into())

@@ -5,13 +5,14 @@ use std::path::PathBuf;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use clap::Args;
-use funicular::{Study, StudyAnswer, StudyPoint};
+use funicular::{Study, StudyAnswer, StudyPoint, StudyShape};
 
 use crate::exit::{Exit, Failure};
 use crate::input::{Drawn, Input};
 use crate::interrupt::end_on_interrupt;
 use crate::output;
 use crate::printable::Printable;
+use crate::printed::Printed;
 use crate::progress::Progress;
 use crate::tables::{numbers_from, short, table, wrapped};
 use crate::threads;
@@ -27,7 +28,9 @@ Columns:
   span_m                     of a chain: distance of the anchors
   agrees                     whether both solvers agree and the judge finds both in balance
   evidence                   the highest rung reached
-  energy_j, sag_m            energy above the first support; depth of the lowest joint below the lowest support
+  energy_j                   energy above the first support
+  sag_m                      the largest depth of a joint below the line between the ends of its row of
+                             members; where no row spans anything, below the lowest support
   lowest_joint, lowest_x_m, lowest_y_m, lowest_z_m
                              the lowest joint, by name or in a chain from 0, and where it is
   tension_n, tension_bar, compression_n, compression_bar
@@ -35,6 +38,7 @@ Columns:
   start_x_n, start_y_n, start_z_n, end_x_n, end_y_n, end_z_n
                              forces of the ground on a chain; of a system NAME_x_n, ... for each support
   rise_1_deg, ...            how steeply each bar rises, from the level
+  one for each --of          its value
   refused                    why there is no shape; else empty";
 
 const EXAMPLES: &str = "\
@@ -46,7 +50,16 @@ A system with joints by name has besides
   --vary 'bars.*.stiffness_n=1e4,1e6'       --vary floor_m=-3..-1:5
   --vary bars.1.prestress_n=0..200:21       --vary bars.1.length_tolerance_m=1e-3
 Forces on bars and directions of supports do not vary.
-Bars are numbered from 1 as they are solved: a table with count = 3 is three bars.
+Bars are numbered from 1 as they are solved: a table with count = 3 is three bars, of which
+  --vary bars.4-6.mass_kg=1,2               --vary 'bars.A-P.*.length_m=0.5..0.6:5'
+are a range and a row of a system, by the joints at its ends.
+
+--of shows, in the place of sag and forces,
+  --of joints.rider.z     where a joint is (or .x, .y)
+  --of sag.A-B            how deep the row of members from A to B hangs below the line between them
+  --of bars.3.axial_max_n the axial force of a bar where it is largest, tension positive
+                          (axial_from_n and axial_to_n: at its ends)
+  --of height=-2.5        the height of the lowest joint over z = -2.5 m; `height` alone: over the floor
 
 Examples:
   funicular study chain.toml --vary anchors.end_m.x=0.5..2.6:50 --svg sag.svg
@@ -71,9 +84,12 @@ pub struct Arguments {
     pub input: Drawn,
     #[command(flatten)]
     pub varied: Varied,
-    /// Print one JSON object (schema_version 3) instead of tables
-    #[arg(long)]
-    pub json: bool,
+    /// Show a number of each shape: `joints.rider.z`, `sag.A-B`, `bars.3.axial_max_n`, `height=-2.5`
+    /// (repeatable)
+    #[arg(long, value_name = "NUMBER", allow_hyphen_values = true)]
+    pub of: Vec<String>,
+    #[command(flatten)]
+    pub printed: Printed,
     /// Write a line per point to this CSV file (columns: --help)
     #[arg(long, value_name = "FILE", long_help = CSV)]
     pub csv: Option<PathBuf>,
@@ -88,10 +104,12 @@ pub struct Arguments {
 
 /// Run the command.
 pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
+    arguments.printed.install();
     end_on_interrupt()?;
     threads::install(arguments.threads)?;
     let Input { problem, files } = arguments.input.read()?;
     let study = Study::new().over(arguments.varied.parameters()?);
+    let study = arguments.of.iter().fold(study, Study::of);
     let lengths = study.points(&problem)?;
     let (paths, points) = (lengths.len(), lengths.iter().sum::<usize>());
     let figures =
@@ -116,7 +134,7 @@ pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
     for (path, file) in figures.iter().enumerate() {
         output::write_whole(file, &found.figure(path + 1))?;
     }
-    if arguments.json {
+    if arguments.printed.is_json() {
         output::print_json(&found)?;
     } else {
         output::print(&text(&found))?;
@@ -168,46 +186,32 @@ fn text(found: &StudyAnswer) -> String {
 
 /// A table over the last parameter.
 fn one_path(found: &StudyAnswer, points: &[&StudyPoint]) -> String {
-    let last = found.parameters().len() - 1;
+    let moves = found.moving(points);
     let mut text = String::new();
-    if let (Some(first), true) = (points.first(), last > 0) {
-        let fixed = (0..last).map(|k| {
+    let fixed: Vec<String> = (0..moves.len())
+        .filter(|k| !moves[*k])
+        .filter_map(|k| {
             let name = Printable(&found.parameters()[k]);
-            format!("{name} = {} {}", short(first.values[k]), found.units()[k])
-        });
-        // Writing to a String cannot fail.
-        let _ = writeln!(text, "\n{}", fixed.collect::<Vec<_>>().join(", "));
+            Some(format!("{name} = {} {}", short(points.first()?.values[k]), found.units()[k]))
+        })
+        .collect();
+    if !fixed.is_empty() {
+        text += &wrapped(&format!("\n{}", fixed.join(", ")), 2);
+        text.push('\n');
     }
-    let unit = format!("value / {}", found.units()[last]);
-    let mut head = vec![unit.as_str(), "sag / m", "lowest", "tension / N", "bar"];
-    let supports = found.supports();
-    // Two supports have a column each, of more the largest force is shown.
-    let two = supports.len() == 2;
-    let grounds: Vec<String> = if two {
-        supports.iter().map(|name| format!("{} / N", cut(name))).collect()
-    } else {
-        vec!["ground / N".to_owned()]
-    };
-    head.extend(grounds.iter().map(String::as_str));
-    head.push("evidence");
-    let mut table = table(head);
+    let moving: Vec<usize> = (0..moves.len()).filter(|k| moves[*k]).collect();
+    let parameters = moving.iter().map(|k| match moving.len() {
+        1 => format!("value / {}", found.units()[*k]),
+        _ => broken(&found.parameters()[*k], found.units()[*k], true),
+    });
+    let (head, cells) = columns(found);
+    let head: Vec<String> = parameters.chain(head).chain(["evidence".to_owned()]).collect();
+    let mut table = table(head.iter().map(String::as_str));
     for point in spread(points) {
-        let mut row = vec![short(point.values[last])];
+        let mut row: Vec<String> = moving.iter().map(|k| short(point.values[*k])).collect();
         match &point.shape {
             Ok(shape) => {
-                let tension = shape.extremes.tension_n;
-                row.extend([
-                    shape.extremes.sag_m.map_or_else(String::new, short),
-                    cut(&found.joint(shape.extremes.lowest_joint)),
-                    tension.map_or_else(|| "none".to_owned(), |(_, force)| short(force)),
-                    tension.map_or_else(String::new, |(bar, _)| (bar + 1).to_string()),
-                ]);
-                let number = |force: Option<f64>| force.map_or_else(String::new, short);
-                if two {
-                    row.extend([0, 1].map(|support| number(shape.support_n(support))));
-                } else {
-                    row.push(number(shape.largest_support_n()));
-                }
+                row.extend(cells(shape));
                 row.push(match (shape.agrees, shape.rung) {
                     (true, Some(rung)) => rung.to_string(),
                     _ => "no agreement".to_owned(),
@@ -223,6 +227,56 @@ fn one_path(found: &StudyAnswer, points: &[&StudyPoint]) -> String {
         let _ = writeln!(text, "({PRINTED} of {} points; --csv and --json have all)", points.len());
     }
     text
+}
+
+/// The head of a column in lines, at every dot if it is to be narrow.
+fn broken(name: &str, unit: &str, narrow: bool) -> String {
+    let name = Printable(name).to_string();
+    let name = if narrow { name.replace('.', ".\n") } else { name };
+    format!("{name}\n/ {unit}")
+}
+
+/// What is shown of a shape.
+type Cells<'a> = Box<dyn Fn(&StudyShape) -> Vec<String> + 'a>;
+
+/// The columns between the value and the evidence: what is asked for, else what stands out.
+fn columns(found: &StudyAnswer) -> (Vec<String>, Cells<'_>) {
+    let number = |x: Option<f64>| x.map_or_else(String::new, short);
+    if !found.of().is_empty() {
+        /// Room for the names in a line each, of 80 columns.
+        const ROOM: usize = 52;
+        let wide =
+            found.of().iter().map(|(name, _)| name.chars().count() + 2).sum::<usize>() > ROOM;
+        let head = found.of().iter().map(|(name, unit)| broken(name, unit, wide));
+        let cells = move |shape: &StudyShape| shape.of.iter().map(|x| number(*x)).collect();
+        return (head.collect(), Box::new(cells));
+    }
+    let mut head: Vec<String> =
+        ["sag / m", "lowest", "tension / N", "bar"].map(String::from).into();
+    let supports = found.supports();
+    // Two supports have a column each, of more the largest force is shown.
+    let two = supports.len() == 2;
+    if two {
+        head.extend(supports.iter().map(|name| format!("{} / N", cut(name))));
+    } else {
+        head.push("ground / N".to_owned());
+    }
+    let cells = move |shape: &StudyShape| {
+        let tension = shape.extremes.tension_n;
+        let mut row = vec![
+            number(shape.extremes.sag_m),
+            cut(&found.joint(shape.extremes.lowest_joint)),
+            tension.map_or_else(|| "none".to_owned(), |(_, force)| short(force)),
+            tension.map_or_else(String::new, |(bar, _)| (bar + 1).to_string()),
+        ];
+        if two {
+            row.extend([0, 1].map(|support| number(shape.support_n(support))));
+        } else {
+            row.push(number(shape.largest_support_n()));
+        }
+        row
+    };
+    (head, Box::new(cells))
 }
 
 /// A name that fits into a column.

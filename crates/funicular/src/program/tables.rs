@@ -1,25 +1,165 @@
 //! Tables and numbers for the terminal.
 
-use comfy_table::{CellAlignment, ColumnConstraint, ContentArrangement, LineStyle, Table, presets};
+use std::fmt;
+use std::ops::{Deref, DerefMut};
+
+use comfy_table::{CellAlignment, ColumnConstraint, ContentArrangement, LineStyle, presets};
 use model::{Evidence, SystemSummary, Vector, cases};
 
 use crate::printable::Printable;
+use crate::printed::{self, Format, head, quantity, scaled};
 
 /// Width of tables where no terminal says its own: what every terminal, mail and report has room
 /// for.
 const WIDTH: u16 = 80;
 
-/// A table in the house style: thin rules, as wide as its content or the terminal.
-pub fn table<'a>(head: impl IntoIterator<Item = &'a str>) -> Table {
-    let mut table = Table::new();
-    table
+/// Stands before each line of a table to paste, until it is printed: all other lines are comments there.
+pub const PASTED: char = '\u{1}';
+
+/// A table, in the format and the units that are asked for.
+pub struct Table {
+    inner: comfy_table::Table,
+    head: Vec<String>,
+    /// The size of the unit of each column, where it is not that of SI.
+    sizes: Vec<Option<f64>>,
+}
+
+/// A table in the house style: thin rules, as wide as its content or the terminal. Where a head ends with a
+/// unit, `Fx / N`, the numbers below are shown in the unit for display.
+pub fn table<'a>(names: impl IntoIterator<Item = &'a str>) -> Table {
+    let (names, sizes): (Vec<_>, Vec<_>) = names.into_iter().map(head).unzip();
+    let mut inner = comfy_table::Table::new();
+    inner
         .load_style(presets::UTF8_HORIZONTAL_ONLY.row_separator(LineStyle::none()))
         .set_content_arrangement(ContentArrangement::Dynamic)
-        .set_header(head.into_iter().collect::<Vec<_>>());
-    if table.width().is_none() {
-        table.set_width(WIDTH);
+        .set_header(names.clone());
+    if inner.width().is_none() {
+        inner.set_width(WIDTH);
     }
-    table
+    Table { inner, head: names, sizes }
+}
+
+impl Table {
+    /// One more row.
+    pub fn add_row(&mut self, cells: impl IntoIterator<Item = impl Into<String>>) {
+        let sizes = self.sizes.iter().copied().chain(std::iter::repeat(None));
+        let cells = cells.into_iter().zip(sizes).map(|(cell, size)| {
+            let cell = cell.into();
+            size.map_or_else(|| cell.clone(), |size| scaled(&cell, size))
+        });
+        self.inner.add_row(cells.collect::<Vec<_>>());
+    }
+
+    /// All cells, the head first, each in one line.
+    fn rows(&self) -> Vec<Vec<String>> {
+        let line = |cell: &str| cell.replace('\n', " ");
+        let head = self.head.iter().map(|cell| line(cell)).collect();
+        let rows = self.inner.row_iter();
+        let cells = rows.map(|row| row.cell_iter().map(|cell| line(&cell.content())).collect());
+        std::iter::once(head).chain(cells).collect()
+    }
+}
+
+impl Deref for Table {
+    type Target = comfy_table::Table;
+
+    fn deref(&self) -> &comfy_table::Table {
+        &self.inner
+    }
+}
+
+impl DerefMut for Table {
+    fn deref_mut(&mut self) -> &mut comfy_table::Table {
+        &mut self.inner
+    }
+}
+
+impl fmt::Display for Table {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let lines = match printed::format() {
+            Format::Text | Format::Json => return self.inner.fmt(f),
+            Format::Markdown => markdown(&self.rows()),
+            Format::Latex => latex(&self.rows()),
+            Format::Csv => self.rows().iter().map(|row| joined(row, ",", quoted)).collect(),
+        };
+        let lines: Vec<String> = lines.iter().map(|line| format!("{PASTED}{line}")).collect();
+        f.write_str(&lines.join("\n"))
+    }
+}
+
+fn joined(row: &[String], between: &str, cell: fn(&str) -> String) -> String {
+    row.iter().map(|text| cell(text)).collect::<Vec<_>>().join(between)
+}
+
+/// Which columns have numbers alone.
+fn numeric(rows: &[Vec<String>]) -> Vec<bool> {
+    let columns = rows.first().map_or(0, Vec::len);
+    let number = |cell: &String| cell.is_empty() || cell.parse::<f64>().is_ok();
+    let column = |k: usize| rows.iter().skip(1).filter_map(move |row| row.get(k));
+    (0..columns).map(|k| column(k).all(number) && column(k).any(|cell| !cell.is_empty())).collect()
+}
+
+fn markdown(rows: &[Vec<String>]) -> Vec<String> {
+    let cell = |text: &str| text.replace('|', "\\|");
+    let line = |row: &Vec<String>| format!("| {} |", joined(row, " | ", cell));
+    let rule =
+        numeric(rows).iter().map(|right| if *right { "---:|" } else { "---|" }).collect::<String>();
+    let mut lines: Vec<String> = rows.iter().map(line).collect();
+    lines.insert(1, format!("|{rule}"));
+    lines
+}
+
+fn latex(rows: &[Vec<String>]) -> Vec<String> {
+    let line = |row: &Vec<String>| joined(row, " & ", escaped) + " \\\\";
+    let sides: String = numeric(rows).iter().map(|right| if *right { 'r' } else { 'l' }).collect();
+    let mut lines = vec![format!("\\begin{{tabular}}{{{sides}}}"), "\\hline".to_owned()];
+    for (k, row) in rows.iter().enumerate() {
+        lines.push(line(row));
+        if k == 0 {
+            lines.push("\\hline".to_owned());
+        }
+    }
+    lines.extend(["\\hline", "\\end{tabular}"].map(str::to_owned));
+    lines
+}
+
+/// A text in LaTeX.
+fn escaped(text: &str) -> String {
+    let mut out = String::new();
+    for c in text.chars() {
+        match c {
+            '\\' => out.push_str("\\textbackslash{}"),
+            '~' => out.push_str("\\textasciitilde{}"),
+            '^' => out.push_str("\\textasciicircum{}"),
+            '&' | '%' | '$' | '#' | '_' | '{' | '}' => out.extend(['\\', c]),
+            _ => out.push(c),
+        }
+    }
+    out
+}
+
+/// A cell of CSV; one that a spreadsheet would compute is kept from that.
+fn quoted(text: &str) -> String {
+    let formula = text.starts_with(['=', '+', '@', '-']) && text.parse::<f64>().is_err();
+    let text = if formula { format!("'{text}") } else { text.to_owned() };
+    if text.contains([',', '"']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text }
+}
+
+/// What is printed, ready for the format that is asked for: where tables are pasted as LaTeX or CSV the lines between
+/// them are comments.
+pub fn finished(text: &str) -> String {
+    let comment = match printed::format() {
+        Format::Text | Format::Json => return text.to_owned(),
+        Format::Markdown => "",
+        Format::Latex => "% ",
+        Format::Csv => "# ",
+    };
+    let line = |line: &str| match line.strip_prefix(PASTED) {
+        Some(pasted) => pasted.to_owned(),
+        None if line.is_empty() => String::new(),
+        None => format!("{comment}{line}"),
+    };
+    text.split('\n').map(line).collect::<Vec<_>>().join("\n")
 }
 
 /// Right-align the columns from `first` on, close to each other, and break none of their numbers.
@@ -47,12 +187,12 @@ pub fn cases() -> String {
 /// What is solved, in a line of its own.
 pub fn system_line(system: &SystemSummary) -> String {
     format!(
-        "{}: {} bars, {} m long, {} kg,\nanchors {} m apart, g = {} m/s^2\n\n",
+        "{}: {} bars, {} long, {},\nanchors {} apart, g = {} m/s^2\n\n",
         Printable(&system.name),
         system.bars,
-        short(system.total_length_m),
-        short(system.total_mass_kg),
-        short(system.span_m),
+        quantity(system.total_length_m, "m"),
+        quantity(system.total_mass_kg, "kg"),
+        quantity(system.span_m, "m"),
         short(system.gravity_m_s2),
     )
 }

@@ -15,6 +15,7 @@ use crate::exit::{Exit, Failure};
 use crate::input::Source;
 use crate::interrupt::end_on_interrupt;
 use crate::output;
+use crate::printed::Printed;
 use crate::progress::Progress;
 use crate::threads;
 use crate::varied::Varied;
@@ -70,9 +71,8 @@ pub struct Arguments {
     pub input: Source,
     #[command(flatten)]
     pub varied: Varied,
-    /// Print one JSON object (schema_version 3) instead of tables
-    #[arg(long)]
-    pub json: bool,
+    #[command(flatten)]
+    pub printed: Printed,
     /// Write all points of all branches, a line each, to this CSV file (columns: --help)
     #[arg(long, value_name = "FILE", long_help = CSV)]
     pub csv: Option<PathBuf>,
@@ -94,6 +94,7 @@ pub struct Arguments {
 
 /// Run the command.
 pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
+    arguments.printed.install();
     end_on_interrupt()?;
     threads::install(0)?;
     let input = arguments.input.read()?;
@@ -137,7 +138,7 @@ pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
         }
     }
     let traces = found.paths();
-    if arguments.json {
+    if arguments.printed.is_json() {
         output::print_json(&found)?;
     } else {
         let many = traces.len() > 1;

@@ -7,7 +7,7 @@ pub use self::answer::SolveAnswer;
 pub(crate) use self::object::Named;
 pub use self::object::{Failure, Lists, SCHEMA_VERSION};
 
-use std::num::NonZeroUsize;
+use std::num::{NonZeroU64, NonZeroUsize};
 
 use model::Vector;
 use rayon::prelude::*;
@@ -41,6 +41,7 @@ pub struct Solve {
     equations: Equations,
     census: UseCensus,
     threads: usize,
+    max_work: Option<NonZeroU64>,
 }
 
 impl Solve {
@@ -73,6 +74,21 @@ impl Solve {
     #[must_use]
     pub fn threads(self, threads: usize) -> Self {
         Self { threads, ..self }
+    }
+
+    /// The work that each solver may do, numbers in all factors of its matrices: iterations times
+    /// size, the same on every machine. What needs more has no answer, and says so. Without it
+    /// 10^10, up to an hour or so. A row of bars between two anchors has no matrix, and a bound of its own.
+    ///
+    /// ```
+    /// use funicular::prelude::*;
+    /// let answer = Solve::new().max_work(std::num::NonZeroU64::MIN).run(&Problem::case("bridle")?);
+    /// assert!(answer.unwrap_err().to_string().contains("max_work is 1"));
+    /// # Ok::<(), Error>(())
+    /// ```
+    #[must_use]
+    pub fn max_work(self, max_work: NonZeroU64) -> Self {
+        Self { max_work: Some(max_work), ..self }
     }
 
     /// Solve.
@@ -173,12 +189,12 @@ impl Solve {
     ) -> Result<SolveAnswer, Error> {
         let system = system_of(problem);
         system.refusal()?;
-        let Self { solvers, equations, census, .. } = *self;
+        let Self { solvers, equations, census, max_work, .. } = *self;
         let is_row = || problem.row().is_some() && system.drawing().is_none();
         if equations == Equations::Full && !is_row() {
             return Err(Error::ChainsOnly { what: FULL });
         }
-        let question = Question { solvers, equations, census, threads };
+        let question = Question { solvers, equations, census, threads, max_work };
         let answer = ask_with(&system, &question, watch);
         let answer = SolveAnswer::new(system, answer);
         if answer.equilibria().is_empty() {

@@ -75,6 +75,7 @@ pub struct StudyAnswer {
     pub(super) subject: Subject,
     pub(super) parameters: Vec<String>,
     pub(super) units: Vec<&'static str>,
+    pub(super) of: Vec<(String, &'static str)>,
     pub(super) paths: usize,
     pub(super) points: Vec<StudyPoint>,
 }
@@ -90,6 +91,12 @@ impl StudyAnswer {
     #[must_use]
     pub fn units(&self) -> &[&'static str] {
         &self.units
+    }
+
+    /// What is shown besides, with its units, in the order of [`StudyShape::of`].
+    #[must_use]
+    pub fn of(&self) -> &[(String, &'static str)] {
+        &self.of
     }
 
     /// The name of the chain or the system whose numbers vary.
@@ -136,6 +143,22 @@ impl StudyAnswer {
     #[must_use]
     pub fn points(&self) -> &[StudyPoint] {
         &self.points
+    }
+
+    /// Which parameters take more than one value at these points; the last if none does.
+    #[must_use]
+    pub fn moving(&self, points: &[&StudyPoint]) -> Vec<bool> {
+        let last = self.parameters.len().saturating_sub(1);
+        let moves = |k: usize| {
+            points.windows(2).any(|two| two[0].values[k].total_cmp(&two[1].values[k]).is_ne())
+        };
+        let mut all: Vec<bool> = (0..self.parameters.len()).map(moves).collect();
+        if !all.contains(&true)
+            && let Some(last) = all.get_mut(last)
+        {
+            *last = true;
+        }
+        all
     }
 
     /// How many paths there are: combinations of all parameters but the last.
@@ -195,6 +218,7 @@ impl StudyAnswer {
             columns.extend(["x", "y", "z"].map(|axis| format!("{support}_{axis}_n")));
         }
         columns.extend((1..=self.bars()).map(|bar| format!("rise_{bar}_deg")));
+        columns.extend(self.of.iter().map(|(name, _)| name.clone()));
         for column in &columns {
             write!(to, ",{}", quoted(column))?;
         }
@@ -242,6 +266,12 @@ impl StudyAnswer {
         for rise in &shape.rises_deg {
             write!(to, ",{rise:?}")?;
         }
+        for value in &shape.of {
+            match value {
+                Some(value) => write!(to, ",{value:?}")?,
+                None => write!(to, ",")?,
+            }
+        }
         writeln!(to, ",")
     }
 
@@ -274,9 +304,12 @@ impl Serialize for StudyAnswer {
             system: About<'a>,
             parameters: &'a [String],
             units: &'a [&'static str],
+            #[serde(skip_serializing_if = "Vec::is_empty")]
+            of: Vec<&'a str>,
             points: Vec<Point<'a>>,
         }
-        let Self { subject, parameters, units, points, .. } = self;
+        let Self { subject, parameters, units, of, points, .. } = self;
+        let of = of.iter().map(|(name, _)| name.as_str()).collect();
         let system = match subject {
             Subject::Chain(summary) => About::Chain(summary),
             Subject::System(system) => About::System(Summary::new(system)),
@@ -288,7 +321,7 @@ impl Serialize for StudyAnswer {
             .iter()
             .map(|point| Point { point, reactions_n: point.shape.as_ref().ok().map(reactions) });
         let points = points.collect();
-        Object { schema_version: SCHEMA_VERSION, system, parameters, units, points }
+        Object { schema_version: SCHEMA_VERSION, system, parameters, units, of, points }
             .serialize(serializer)
     }
 }

@@ -2,6 +2,7 @@
 
 mod answer;
 mod figure;
+mod of;
 mod shape;
 
 pub use self::answer::{StudyAnswer, StudyPoint};
@@ -9,10 +10,12 @@ pub use self::shape::{NoShape, StudyShape};
 
 use branches::{Base, Number, PointError, Variation};
 use model::Vector;
+use model::system::System;
 use rayon::prelude::*;
 use validate::{Solvers, UseCensus};
 
 use self::answer::Subject;
+use self::of::Observable;
 use crate::error::Error;
 use crate::parameters::Parameters;
 use crate::problem::Problem;
@@ -48,6 +51,7 @@ use crate::threads;
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Study {
     parameters: Parameters,
+    of: Vec<String>,
     solvers: Solvers,
     threads: usize,
 }
@@ -67,6 +71,33 @@ impl Study {
     /// [`Error::Parameter`] with the place in the text.
     pub fn vary(self, text: &str) -> Result<Self, Error> {
         Ok(Self { parameters: self.parameters.vary(text)?, ..self })
+    }
+
+    /// Shows one more number of each shape: a place `joints.NAME.z`, the `sag.NAME-NAME` of the row of
+    /// members between two joints, an axial force of a member, `bars.NUMBER.axial_max_n` (or `axial_n`, `axial_from_n`, `axial_to_n`), or the
+    /// `height` of the lowest joint over the floor, Z = 0 where there is none, or over `height=DATUM`.
+    ///
+    /// ```
+    /// use funicular::prelude::*;
+    /// // Two bars of 1 m hang as a V of equal sides under anchors 1 m apart.
+    /// let problem = Problem::parse(
+    ///     "anchors = { start_m = [0, 0, 0], end_m = [1, 0, 0] }\n\
+    ///      bars = [{ length_m = 1, mass_kg = 1, count = 2 }]",
+    ///     "two.toml",
+    /// )?;
+    /// let study = Study::new().vary("gravity_m_s2=1.62,9.81")?.of("joints.1.z").of("height=-2");
+    /// let found = study.run(&problem)?;
+    /// let depth_m = 0.75_f64.sqrt();
+    /// for shape in found.shapes() {
+    ///     let [place_m, height_m] = [shape.of[0].unwrap(), shape.of[1].unwrap()];
+    ///     assert!((place_m + depth_m).abs() < 1e-12 && (height_m - 2.0 + depth_m).abs() < 1e-12);
+    /// }
+    /// # Ok::<(), Error>(())
+    /// ```
+    #[must_use]
+    pub fn of(mut self, name: impl Into<String>) -> Self {
+        self.of.push(name.into());
+        self
     }
 
     /// Over these parameters.
@@ -110,7 +141,8 @@ impl Study {
     ///
     /// # Errors
     ///
-    /// As [`points`](Self::points). A point that is refused or unsolved is no error: it says
+    /// As [`points`](Self::points), and [`Error::Parameter`] when [`of`](Self::of) names nothing of the
+    /// problem. A point that is refused or unsolved is no error: it says
     /// why.
     pub fn run(&self, problem: &Problem) -> Result<StudyAnswer, Error> {
         self.run_watched(problem, &|| {})
@@ -127,14 +159,21 @@ impl Study {
         watch: &(dyn Fn() + Sync),
     ) -> Result<StudyAnswer, Error> {
         if let Some(system) = problem.as_system() {
+            let of = self.observables(system)?;
             let variation = self.parameters.over(system.clone())?;
             let at = |values: &[f64]| variation.system(values).map(Problem::from);
             let drawn = system.drawing().is_some();
-            return self.all(&variation, Subject::of_system(system), drawn, &at, watch);
+            return self.all(&variation, &of, Subject::of_system(system), drawn, &at, watch);
         }
         let variation = self.parameters.of(problem, "a study")?;
+        let of = self.observables(&System::from(variation.base()))?;
         let at = |values: &[f64]| variation.problem(values).map(Problem::from);
-        self.all(&variation, Subject::of_chain(variation.base()), false, &at, watch)
+        self.all(&variation, &of, Subject::of_chain(variation.base()), false, &at, watch)
+    }
+
+    /// What is to be shown besides.
+    fn observables(&self, system: &System) -> Result<Vec<Observable>, Error> {
+        self.of.iter().map(|text| Ok(Observable::parse(text, system)?)).collect()
     }
 
     /// All points. Of a system that is drawn each is solved next to the one before it on its path: the
@@ -142,6 +181,7 @@ impl Study {
     fn all<B: Base + Sync>(
         &self,
         variation: &Variation<B>,
+        of: &[Observable],
         subject: Subject,
         drawn: bool,
         at: &(dyn Fn(&[f64]) -> Result<Problem, PointError> + Sync),
@@ -150,7 +190,7 @@ impl Study {
         let solve = Solve::new().solvers(self.solvers).census(UseCensus::Never);
         let point = |path: usize, values: &Vec<f64>, before: &mut Option<Vec<Vector>>| {
             let shape =
-                NoShape::or(at(values), |problem| StudyShape::found(problem, before, &solve));
+                NoShape::or(at(values), |problem| StudyShape::found(problem, before, &solve, of));
             watch();
             StudyPoint { path, values: values.clone(), shape }
         };
@@ -170,6 +210,7 @@ impl Study {
             subject,
             parameters: numbers.iter().map(ToString::to_string).collect(),
             units: numbers.iter().map(Number::unit).collect(),
+            of: self.of.iter().cloned().zip(of.iter().map(|one| one.unit())).collect(),
             paths: variation.paths().len(),
             points,
         })

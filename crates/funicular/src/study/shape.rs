@@ -4,6 +4,7 @@ use branches::PointError;
 use model::{Rung, Vector};
 use serde::Serialize;
 
+use super::of::Observable;
 use crate::extremes::Extremes;
 use crate::problem::Problem;
 use crate::solve::{Solve, SolveAnswer};
@@ -50,6 +51,10 @@ pub struct StudyShape {
     pub reactions_n: Vec<Vector>,
     /// How steeply each bar rises from its first joint to its second, degrees from the level.
     pub rises_deg: Vec<f64>,
+    /// What [`Study::of`](super::Study::of) asks for; `None` for a sag of joints that no members connect, or
+    /// of which one is above the other.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub of: Vec<Option<f64>>,
     /// The highest rung of evidence.
     pub rung: Option<Rung>,
     /// Whether both solvers answered and agree, and the judge finds both in balance.
@@ -85,6 +90,7 @@ impl StudyShape {
         problem: &Problem,
         before: &mut Option<Vec<Vector>>,
         solve: &Solve,
+        of: &[Observable],
     ) -> Result<Self, NoShape> {
         let answer = match before {
             Some(joints_m) => solve.threads(0).near(problem, joints_m),
@@ -101,25 +107,27 @@ impl StudyShape {
             }
             *before = Some(first.joints_m.clone());
         }
-        let shape = Self::of(&answer).ok_or_else(|| NoShape::unsolved(&"no equilibrium"))?;
+        let shape = Self::of(&answer, of).ok_or_else(|| NoShape::unsolved(&"no equilibrium"))?;
         let span_m = problem.as_chain().map(|chain| chain.chain().anchors().span_m());
         Ok(Self { span_m, ..shape })
     }
 
-    fn of(answer: &SolveAnswer) -> Option<Self> {
+    fn of(answer: &SolveAnswer, of: &[Observable]) -> Option<Self> {
         let (system, first) = (answer.system(), answer.equilibria().first()?);
         let places = &first.joints_m;
         let joints = system.joints().iter();
-        let held: Vec<usize> =
-            joints.enumerate().filter_map(|(k, joint)| joint.support.at_m().and(Some(k))).collect();
-        let reactions = held.iter().map(|joint| first.reactions_n[*joint]).collect();
+        let held =
+            joints.zip(&first.reactions_n).filter(|(joint, _)| joint.support.at_m().is_some());
+        let reactions = held.map(|(_, force)| *force).collect();
         let rises =
             system.members().iter().map(|member| rise_deg(places[member.from], places[member.to]));
         let agreement = answer.agreement();
+        let extremes = Extremes::of(system, first)?;
         Some(Self {
             span_m: None,
             energy_j: first.energy_j,
-            extremes: Extremes::of(places, held, &first.axial_forces(system))?,
+            of: of.iter().map(|one| one.of(system, first, &extremes)).collect(),
+            extremes,
             reactions_n: reactions,
             rises_deg: rises.collect(),
             rung: answer.rung(),

@@ -211,3 +211,32 @@ fn several_files_are_answered_in_their_order_with_the_worst_exit_code() {
     assert_eq!(output.status.code(), Some(2));
     assert!(String::from_utf8(output.stderr).unwrap().contains("--svg"));
 }
+
+/// A line that needs more work than it may do takes itself alone, and names the bound.
+#[test]
+fn a_line_ends_with_its_work() {
+    let folder = folder("work");
+    // A third cable of the lamp's, so that it is no row between two anchors, which needs no matrix.
+    let net = LAMP.replace(r#""joints": {"#, r#""joints": {"C": {"at_m": [0, 3, 0]}, "#).replace(
+        r#""bars": ["#,
+        r#""bars": [{"from": "C", "to": "P", "length_m": 5, "mass_kg": 0, "kind": "cable"}, "#,
+    );
+    std::fs::write(folder.join("all.jsonl"), format!("{net}\n{}\n", chain(1.0))).unwrap();
+    let bounded = run(&folder, &["solve", "--batch", "all.jsonl", "--max-work", "1"]);
+    assert_eq!(bounded.status.code(), Some(3));
+    let [refused, answered] = &objects(&bounded)[..] else { panic!("two lines") };
+    for (failure, solver) in
+        refused["failures"].as_array().unwrap().iter().zip(["lagrange", "energy"])
+    {
+        assert_eq!(
+            (&failure["solver"], &failure["refusal"]["max_work"]),
+            (&solver.into(), &1.into())
+        );
+    }
+    assert_eq!(answered["agreement"]["verdict"], "agreed");
+    let free = run(&folder, &["solve", "--batch", "all.jsonl"]);
+    assert_eq!(
+        (free.status.code(), objects(&free)[0]["agreement"]["verdict"].as_str()),
+        (Some(0), Some("agreed"))
+    );
+}

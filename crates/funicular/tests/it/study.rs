@@ -287,7 +287,15 @@ const OF_CHAIN: [(&str, &str, f64); 7] = [
 
 /// Keys with numbers that do not vary: of a load on a chain `joints.K` is varied, and where a joint is
 /// drawn decides which equilibrium is meant.
-const NO_PARAMETERS: [&str; 7] = [
+/// What people know of a bar is made into other keys where the file is read.
+const NO_PARAMETERS: [&str; 14] = [
+    "bars.mass_kg_per_m",
+    "bars.diameter_m",
+    "bars.density_kg_m3",
+    "bars.young_pa",
+    "bars.force_n_per_m",
+    "bars.temperature_k",
+    "bars.expansion_per_k",
     "joints.NAME.near_m",
     "loads.mass_kg",
     "loads.force_n",
@@ -377,6 +385,125 @@ fn a_prestressed_string_is_that_of_the_file_at_its_own_numbers() {
 
 fn text_of(output: &Output) -> String {
     text(&output.stderr)
+}
+
+/// Bars of 4 and 3 m between anchors 5 m apart, one of them 3 m lower: the joint is 12/5 m across the line
+/// between the anchors, which is level to 4/5, so 3 m below it, and only 0.84 m below the lower anchor.
+const SLOPED: &str = r#"{"anchors": {"start_m": [0,0,0], "end_m": [4,0,-3]},
+    "bars": [{"length_m": 4, "mass_kg": 1}, {"length_m": 3, "mass_kg": 1}]}"#;
+
+/// Two cables of 1.25 m over 2 m to a rider on an upright line: 0.75 m below the anchors. The rider is the lowest
+/// support.
+const RIDER: &str = r#"{"joints": {"A": {"at_m": [0,0,0]}, "B": {"at_m": [2,0,0]},
+        "rider": {"at_m": [1,0,5], "along": [0,0,1], "mass_kg": 2}},
+    "bars": [{"from":"A","to":"rider","length_m":1.25,"mass_kg":0,"kind":"cable"},
+             {"from":"rider","to":"B","length_m":1.25,"mass_kg":0,"kind":"cable"}]}"#;
+
+#[test]
+fn sag_is_measured_from_the_line_that_a_row_spans() {
+    let folder = folder("sag");
+    std::fs::write(folder.join("sloped.json"), SLOPED).unwrap();
+    std::fs::write(folder.join("rider.json"), RIDER).unwrap();
+    // The parabola of the footbridge hangs 3 m deep between towers, three anchors lie at its deck.
+    for (arguments, wanted) in [
+        (&["sloped.json"][..], "Sag: 3 m, of joint 1 below the line from 0 to 2."),
+        (&["rider.json"], "Sag: 0.75 m, of joint rider below the line from A to B."),
+        (&["--case", "footbridge"], "Sag: 3 m, of joint l3 below the line from l0 to l6."),
+    ] {
+        let mut solve = Command::cargo_bin("funicular").unwrap();
+        let solve = solve.current_dir(&folder).arg("solve").args(arguments);
+        let said = text(&solve.output().unwrap().stdout);
+        assert!(said.contains(wanted), "{said}");
+    }
+    let vary = ["rider.json", "--vary", "joints.rider.mass_kg=1,2", "--csv", "of.csv"];
+    let of =
+        ["joints.rider.z", "joints.rider.at_m.x", "sag.A-B", "height=-2", "bars.1.axial_max_n"];
+    let of: Vec<&str> = of.into_iter().flat_map(|of| ["--of", of]).collect();
+    let output = study(&folder, &[&vary[..], &of].concat());
+    assert_eq!(output.status.code(), Some(0), "{}", text_of(&output));
+    let said = text(&output.stdout);
+    assert!(
+        said.contains("axial_max_n") && said.lines().all(|l| l.chars().count() <= 80),
+        "{said}"
+    );
+    for (row, mass_kg) in columns(&folder.join("of.csv")).iter().zip([1.0, 2.0]) {
+        // Each cable holds half the weight at the slope 3 of 5.
+        let pull_n = mass_kg * 9.80665 / 2.0 / 0.6;
+        for (name, wanted) in [
+            ("sag_m", 0.75),
+            ("joints.rider.z", -0.75),
+            ("joints.rider.at_m.x", 1.0),
+            ("sag.A-B", 0.75),
+            ("height=-2", 1.25),
+            ("bars.1.axial_max_n", pull_n),
+        ] {
+            let value: f64 = row[name].parse().unwrap();
+            assert!((value - wanted).abs() < 1e-10, "{name}: {value}");
+        }
+    }
+    for (of, wanted) in [
+        ("joints.ridr.z", "did you mean `rider`"),
+        ("sag.A-C", "there is no joint `C`"),
+        ("bars.3.axial_n", "there is no bar `3`"),
+        ("depth", "is no number of an answer"),
+    ] {
+        let output = study(&folder, &["rider.json", "--vary", "gravity_m_s2=1,2", "--of", of]);
+        assert_eq!(output.status.code(), Some(2));
+        assert!(text_of(&output).contains(wanted), "{}", text_of(&output));
+    }
+}
+
+/// A rope of four bars to a weight, and one bar on.
+fn rope(mass_kg: f64) -> String {
+    format!(
+        r#"{{"joints": {{"A": {{"at_m": [0,0,0]}}, "B": {{"at_m": [3,0,0]}}, "P": {{"mass_kg": 5}}}},
+        "bars": [{{"from":"A","to":"P","length_m":0.5,"mass_kg":{mass_kg},"count":4}},
+                 {{"from":"P","to":"B","length_m":2,"mass_kg":1}}]}}"#
+    )
+}
+
+#[test]
+fn rows_and_ranges_of_bars_are_those_of_the_file() {
+    let folder = folder("rows");
+    std::fs::write(folder.join("rope.json"), rope(0.1)).unwrap();
+    let edited = Problem::parse(&rope(0.7), "rope.json").unwrap();
+    let solved = Solve::new().run(&edited).unwrap();
+    let wanted = solved.equilibria()[0].energy_j;
+    for vary in ["bars.A-P.*.mass_kg=0.7", "bars.A-P.mass_kg=0.7", "bars.1-4.mass_kg=0.7"] {
+        let output = study(&folder, &["rope.json", "--vary", vary, "--json"]);
+        let json: Value = serde_json::from_slice(&output.stdout).unwrap();
+        let energy = json["points"][0]["energy_j"].as_f64().unwrap();
+        assert!((energy - wanted).abs() < 1e-12 * wanted.abs(), "{vary}: {energy} {wanted}");
+    }
+    for (vary, wanted) in [
+        ("bars.A-Q.*.mass_kg=1", "there is no row of bars `A-Q`"),
+        ("bars.2-9.mass_kg=1", "there is no bar 9"),
+        ("bars.3-2.mass_kg=1", "`3-2` is no bar"),
+    ] {
+        let output = study(&folder, &["rope.json", "--vary", vary]);
+        assert_eq!(output.status.code(), Some(2));
+        assert!(text_of(&output).contains(wanted), "{}", text_of(&output));
+    }
+    let twice = ["--vary", "bars.A-P.*.mass_kg=1", "--vary", "bars.4.mass_kg=2"];
+    let output = study(&folder, &[&["rope.json"], &twice[..]].concat());
+    assert!(text_of(&output).contains("set one number"), "{}", text_of(&output));
+}
+
+#[test]
+fn parameters_in_step_have_a_column_each() {
+    let folder = folder("zip");
+    std::fs::write(folder.join("rope.json"), rope(0.1)).unwrap();
+    let vary = ["--zip", "--vary", "joints.P.mass_kg=11,12", "--vary", "bars.5.mass_kg=21,22"];
+    let output = study(&folder, &[&["rope.json"], &vary[..]].concat());
+    let said = text(&output.stdout);
+    assert!(
+        said.contains("joints.P.mass_kg") && said.lines().all(|l| l.chars().count() <= 80),
+        "{said}"
+    );
+    for pair in [["11", "21"], ["12", "22"]] {
+        let row = |line: &str| line.split_whitespace().take(2).eq(pair);
+        assert!(said.lines().any(row), "{said}");
+    }
 }
 
 /// Rods of all but the same lengths, one of them a strut, with masses from 1 to 3000 kg: `lagrange`

@@ -133,6 +133,9 @@ impl Solver<'_> {
     pub(super) fn fitted(&mut self, state: State) -> Run {
         let mut run = Run::at(&self.framework, state);
         for _ in 0..self.settings.max_iterations {
+            if self.framework.work.is_spent() {
+                break;
+            }
             let step = self.length_step(&run);
             let mut sizes = (0..LENGTH_HALVINGS).map(|k| 0.5_f64.powi(k));
             let better = sizes.find_map(|t| {

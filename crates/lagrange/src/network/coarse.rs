@@ -37,6 +37,7 @@ pub(super) fn start(framework: &Framework, runs: &Runs) -> Option<Start> {
         nodes: runs.nodes.clone(),
         links: Vec::new(),
         lying: Vec::new(),
+        work: framework.work.clone(),
     };
     // The pull of an element is the force of its first coarse member and what the lever rule gave
     // to its first joint.

@@ -69,7 +69,10 @@ fn settled(framework: &Framework, runs: &Runs) -> Option<(State, usize)> {
         shape.step(&mut stiffness, error <= CLOSED);
         steps += 1;
         let before = std::mem::replace(&mut error, shape.error());
-        if error.is_nan() || (before <= CLOSED && error > FALL * before) {
+        if error.is_nan()
+            || framework.work.is_spent()
+            || (before <= CLOSED && error > FALL * before)
+        {
             break;
         }
     }
@@ -169,7 +172,13 @@ impl<'a> Shape<'a> {
             kind: Kind::Bar,
         });
         let (units, nodes) = (framework.units, runs.nodes.clone());
-        let skeleton = Framework { units, nodes, links: links.collect(), lying: Vec::new() };
+        let skeleton = Framework {
+            units,
+            nodes,
+            links: links.collect(),
+            lying: Vec::new(),
+            work: framework.work.clone(),
+        };
         let state = State::new(start.places, Vec::new(), Vec::new());
         let laws = laws(runs, &start.pulls);
         Self { runs, skeleton, state, pulls: start.pulls, laws }

@@ -136,6 +136,16 @@ pub enum Error {
         /// Morse index of the last.
         index: usize,
     },
+    /// Occurs when the work that a solve may do is done.
+    #[error(
+        "the work is spent: factors with {spent} entries together were computed, and max_work is {max_work}"
+    )]
+    Work {
+        /// Entries of all factors.
+        spent: u64,
+        /// What [`Settings::max_work`](super::Settings::max_work) allows.
+        max_work: u64,
+    },
     /// Occurs when the factor of the matrix cannot be held in memory.
     #[error("no memory for the factor of a matrix of {unknowns} unknowns")]
     Memory {

@@ -12,6 +12,7 @@ use nalgebra::{Matrix3, Vector3};
 use super::directions::Directions;
 use super::possible::is_loaded;
 use super::state::State;
+use super::work::Work;
 
 /// A strain of prestressed members: the unit of force of a system without loads need only be near
 /// its forces.
@@ -88,6 +89,7 @@ pub(super) struct Framework {
     pub links: Vec<Link>,
     /// Joints that lie on the floor.
     pub lying: Vec<Lying>,
+    pub work: Work,
 }
 
 /// A joint that lies on the floor, which its free directions know nothing of.
@@ -122,7 +124,12 @@ impl Framework {
             node.load /= units.force_n;
         }
         let links = system.members().iter().map(|member| link(member, units)).collect();
-        Self { units, nodes, links, lying: Vec::new() }
+        Self { units, nodes, links, lying: Vec::new(), work: Work::default() }
+    }
+
+    /// With this much work for all solves over it.
+    pub fn within(self, max_work: u64) -> Self {
+        Self { work: Work::new(max_work), ..self }
     }
 
     /// Number of free directions of all joints.

@@ -134,7 +134,7 @@ impl Hanging {
     /// Go on to a gap below `end`; whether it was reached, or is near and no step goes on.
     pub fn advance(&mut self, framework: &Framework, stiffness: &mut Stiffness, end: f64) -> bool {
         while !self.ended(end) && self.steps < MOST_STEPS && self.short < 2 {
-            if self.idle() || !self.step(framework, stiffness) {
+            if self.idle() || framework.work.is_spent() || !self.step(framework, stiffness) {
                 break;
             }
             self.steps += 1;

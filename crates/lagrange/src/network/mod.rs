@@ -95,6 +95,7 @@ mod solve;
 mod state;
 mod stiffness;
 mod weak;
+mod work;
 
 pub use derivatives::{Change, Derivatives, Gradient, Parameter};
 pub use error::Error;

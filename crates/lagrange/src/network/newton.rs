@@ -88,7 +88,7 @@ pub(super) fn polish(
 ) -> Run {
     let mut run = Run::within(framework, with_held(framework, state), decided.as_deref_mut());
     let (mut merit, mut slow) = (run.residual.merit, 0);
-    while run.steps < settings.max_iterations {
+    while run.steps < settings.max_iterations && !framework.work.is_spent() {
         let done = run.residual.size() <= settings.tolerance;
         let Residual { forces, lengths, .. } = &run.residual;
         // What is left of rounding goes with the factor of the last step.

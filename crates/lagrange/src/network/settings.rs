@@ -29,11 +29,21 @@ pub struct Settings {
     ///
     /// Default 300. Range 0 to 3000.
     pub dense_freedoms: usize,
+    /// Work of one solve: entries of all sparse factors that it computes, which is iterations times
+    /// size. A net of 38,000 cables is answered with less than 10^8.
+    ///
+    /// Default 10^10, up to an hour or so. At least 1.
+    pub max_work: u64,
 }
 
 impl Default for Settings {
     fn default() -> Self {
-        Self { tolerance: 1e-12, max_iterations: 100, dense_freedoms: 300 }
+        Self {
+            tolerance: 1e-12,
+            max_iterations: 100,
+            dense_freedoms: 300,
+            max_work: 10_000_000_000,
+        }
     }
 }
 
@@ -62,6 +72,7 @@ impl Settings {
             ("tolerance", self.tolerance, 1e-14, 1e-3),
             ("max_iterations", self.max_iterations as f64, 1.0, 1e9),
             ("dense_freedoms", self.dense_freedoms as f64, 0.0, 3000.0),
+            ("max_work", self.max_work as f64, 1.0, u64::MAX as f64),
         ] {
             if !(low..=high).contains(&value) {
                 return Err(SettingsError { name, value, low, high });

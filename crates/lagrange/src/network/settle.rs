@@ -72,7 +72,7 @@ pub(super) fn settle(framework: &Framework, stiffness: &mut Stiffness, mut state
         factorisations += steps;
         lost = penalty.lost(&state.places);
         restless = if balanced { 0 } else { restless + 1 };
-        if lost.is_some() || restless > RESTLESS {
+        if lost.is_some() || restless > RESTLESS || framework.work.is_spent() {
             break;
         }
         let axial = penalty.forces(framework, &state.places);

@@ -47,7 +47,8 @@ const NO_STRAIN: f64 = 1e-12;
 pub fn solve(system: &System, settings: &Settings) -> Result<Solution, Error> {
     settings.validate()?;
     let began = Instant::now();
-    let framework = Framework::new(system);
+    let framework = Framework::new(system).within(settings.max_work);
+    let work = framework.work.clone();
     check_loaded(&framework)?;
     let solution = above(system, framework, None, settings, |framework| {
         check(system, &framework)?;
@@ -55,8 +56,8 @@ pub fn solve(system: &System, settings: &Settings) -> Result<Solution, Error> {
             Some(solution) => Ok(solution),
             None => hang(system, framework, settings, began),
         }
-    })?;
-    decided(system, solution)
+    });
+    decided(system, work.judged(solution)?)
 }
 
 /// By all members at once.
@@ -125,7 +126,8 @@ pub fn solve_from(system: &System, seed: &Seed, settings: &Settings) -> Result<S
     settings.validate()?;
     seed.check(system)?;
     let began = Instant::now();
-    let framework = Framework::new(system);
+    let framework = Framework::new(system).within(settings.max_work);
+    let work = framework.work.clone();
     check_loaded(&framework)?;
     let lies = below(system, &framework, &seed.joints_m);
     let solution = above(system, framework, Some(lies), settings, |framework| {
@@ -139,8 +141,8 @@ pub fn solve_from(system: &System, seed: &Seed, settings: &Settings) -> Result<S
         let run = solver.with_signs(start, Patience::Full)?;
         let second_order = solver.second_order(&run.state);
         Ok(solver.solution(run, second_order))
-    })?;
-    decided(system, solution)
+    });
+    decided(system, work.judged(solution)?)
 }
 
 /// Refuse a rest without loads and without prestress: the shape is one of many.

@@ -20,6 +20,7 @@ use super::directions::Directions;
 use super::error::Error;
 use super::framework::Framework;
 use super::order::by_degree;
+use super::work::Work;
 
 /// A pivot below this fraction of the largest diagonal entry is no pivot: the direction is left out
 /// of the solve. Some fifty rounding errors.
@@ -55,6 +56,7 @@ pub(super) struct Stiffness {
     values: Vec<f64>,
     symbolic: SymbolicCholesky<usize>,
     factor: Vec<f64>,
+    work: Work,
     memory: MemBuffer,
 }
 
@@ -92,7 +94,8 @@ impl Stiffness {
             .or(symbolic.solve_in_place_scratch::<f64>(3, Par::Seq));
         let memory = MemBuffer::try_new(scratch).map_err(|_| lost())?;
         let (values, factor) = (vec![0.0; rows.len()], vec![0.0; symbolic.len_val()]);
-        Ok(Self { unknowns, places, columns, rows, values, symbolic, factor, memory })
+        let work = framework.work.clone();
+        Ok(Self { unknowns, places, columns, rows, values, symbolic, factor, work, memory })
     }
 
     /// Number of unknowns.
@@ -185,6 +188,7 @@ impl Stiffness {
     }
 
     fn factorise(&mut self, signs: Option<&[i8]>, least: f64) -> bool {
+        self.work.spend(self.factor.len());
         let (size, largest) = (self.size(), self.largest());
         let pattern =
             SymbolicSparseColMatRef::new_checked(size, size, &self.columns, None, &self.rows);

@@ -1,8 +1,8 @@
 //! The work of the solver of systems, frozen as that of chains in `work`.
 
 use lagrange::network::{Error, Forces, Seed, Settings, Solution, solve, solve_from};
-use model::Vector;
-use model::system::{Kind, Support, System};
+use model::system::{Joint, Kind, Member, Support, System};
+use model::{Bar, Vector};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
@@ -172,4 +172,38 @@ fn work_on_exhibits() {
         ("geiger-dome", [2, 2, 54, 108, 0, 0, 0, 0, 0, 0, 0, 0]),
     ];
     assert_frozen(&found[..], &expected);
+}
+
+/// Three cables and a lamp: a solve that may do less work than it needs says so, after no more than
+/// what one round of its loops does, and one that may do more gives the same answer as ever.
+#[test]
+fn a_solve_ends_with_its_work() {
+    let joints = vec![
+        Joint::anchor("A", [0.0, 0.0, 0.0]),
+        Joint::anchor("B", [2.0, 0.0, 0.5]),
+        Joint::anchor("C", [1.0, 1.5, -0.3]),
+        Joint::free("P").with_mass(3.0),
+    ];
+    let cable = |from| Member::cable(from, 3, Bar::homogeneous(2.0, 1.0).unwrap());
+    let system = System::new("a lamp", 9.81, joints, (0..3).map(cable).collect()).unwrap();
+    let found = solve(&system, &Settings::default()).unwrap();
+    let mut refused = 0;
+    for max_work in [1, 7, 20, 50, 100, 200, 500, 5000] {
+        match solve(&system, &Settings { max_work, ..Settings::default() }) {
+            Err(Error::Work { spent, max_work: most }) => {
+                refused += 1;
+                assert!(
+                    most == max_work && spent >= most && spent <= most + 360,
+                    "{spent} of {most}"
+                );
+            }
+            other => {
+                assert!(max_work >= 50, "{max_work}");
+                assert_eq!(other.unwrap().equilibrium.joints_m, found.equilibrium.joints_m);
+            }
+        }
+    }
+    assert!(refused >= 2, "{refused}");
+    let settings = Settings { max_work: 0, ..Settings::default() };
+    assert!(solve(&system, &settings).unwrap_err().to_string().contains("max_work = 0"));
 }

@@ -13,6 +13,7 @@ use super::kind::SystemFileErrorKind as Kind;
 use super::limits::most_bars;
 use super::load::Loaded;
 use super::loads;
+use super::material;
 use super::named;
 use super::network;
 use super::source::Source;
@@ -32,7 +33,18 @@ const ROOT_KEYS: &[&str] = &[
     "joints_file",
 ];
 const ANCHOR_KEYS: &[&str] = &["start_m", "end_m"];
-const BAR_KEYS: &[&str] = &["length_m", "mass_kg", "centre_m", "inertia_kg_m2", "count"];
+const BAR_KEYS: &[&str] = &[
+    "length_m",
+    "mass_kg",
+    "mass_kg_per_m",
+    "diameter_m",
+    "density_kg_m3",
+    "temperature_k",
+    "expansion_per_k",
+    "centre_m",
+    "inertia_kg_m2",
+    "count",
+];
 
 const WANTED_BARS: &str = "one or more tables [[bars]] with length_m and mass_kg";
 
@@ -235,6 +247,7 @@ fn bars(root: &Table<'_>, tables: &DeArray<'_>) -> Result<(Vec<Bar>, Origin), Sy
         let table = root.table(&format!("bars[{}]", k + 1), value)?;
         table.only(BAR_KEYS)?;
         let length = table.require("length_m", "a length in metres")?;
+        material::check_diameter(&table, &["density_kg_m3"])?;
         let bar = bar(&table, table.number_of("length_m", length)?)?;
         let count = table.count("count")?;
         if count > most_bars() - bars.len() {
@@ -247,10 +260,11 @@ fn bars(root: &Table<'_>, tables: &DeArray<'_>) -> Result<(Vec<Bar>, Origin), Sy
     Ok((bars, Origin::Tables(places)))
 }
 
-/// The body of one bar: length, mass, centre, moments.
-pub(super) fn bar(table: &Table<'_>, length_m: f64) -> Result<Bar, SystemFileError> {
-    let mass = table.require("mass_kg", "a mass in kilograms")?;
-    let mass_kg = table.number_of("mass_kg", mass)?;
+/// The body of one bar: length, mass, centre, moments; of the length that the file gives, before any change of
+/// temperature.
+pub(super) fn bar(table: &Table<'_>, given_m: f64) -> Result<Bar, SystemFileError> {
+    let (mass_kg, mass_key) = material::mass_kg(table, given_m)?;
+    let length_m = material::length_m(table, given_m)?;
     let centre_m = table.number("centre_m")?;
     let inertia = table.get("inertia_kg_m2");
     let inertia = inertia.map(|value| table.vector("inertia_kg_m2", value)).transpose()?;
@@ -258,7 +272,7 @@ pub(super) fn bar(table: &Table<'_>, length_m: f64) -> Result<Bar, SystemFileErr
         let kind = Kind::Bar(error);
         match error {
             BarError::Length { .. } => table.error(kind, "length_m"),
-            BarError::Mass { .. } => table.error(kind, "mass_kg"),
+            BarError::Mass { .. } => table.error(kind, mass_key),
             BarError::Centre { .. } => table.error(kind, "centre_m"),
             BarError::Inertia { .. } => {
                 table.component_error(kind, "inertia_kg_m2", |j| j.is_finite() && j >= 0.0)

@@ -69,10 +69,8 @@
 //! let text = "[anchors]\nstart_m = [0, 0, 0]\nend_m = [0, 0, -2]\n\n[[bars]]\nmass = 1\n";
 //! let error = parse_problem(text, "chain.toml").unwrap_err();
 //! assert_eq!(error.to_string(), "chain.toml:6:1: bars[1].mass: unknown key `mass`");
-//! assert_eq!(
-//!     error.help().unwrap(),
-//!     "did you mean `mass_kg`? allowed here: length_m, mass_kg, centre_m, inertia_kg_m2, count"
-//! );
+//! let help = error.help().unwrap();
+//! assert!(help.starts_with("did you mean `mass_kg`? allowed here: length_m, mass_kg, mass_kg_per_m, "));
 //! ```
 
 pub mod columns;
@@ -88,6 +86,7 @@ mod limits;
 mod load;
 mod loads;
 mod location;
+mod material;
 mod named;
 mod network;
 mod network_rows;

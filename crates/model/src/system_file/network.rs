@@ -10,6 +10,7 @@ use super::document::bar;
 use super::drawing;
 use super::error::SystemFileError;
 use super::kind::SystemFileErrorKind as Kind;
+use super::material;
 use super::network_rows::{self, FREE, member_kind};
 use super::row_table::{Known, Row};
 use super::sheet::SheetFile;
@@ -29,11 +30,18 @@ const MEMBER_KEYS: &[&str] = &[
     "to",
     "length_m",
     "mass_kg",
+    "mass_kg_per_m",
+    "diameter_m",
+    "density_kg_m3",
+    "temperature_k",
+    "expansion_per_k",
     "centre_m",
     "inertia_kg_m2",
     "count",
     "kind",
     "stiffness_n",
+    "young_pa",
+    "force_n_per_m",
     "prestress_n",
     "length_tolerance_m",
     "forces",
@@ -435,6 +443,7 @@ fn member(
             None => table.number_of("length_m", table.require("length_m", WANTED)?)?,
         },
     };
+    material::check_diameter(table, &["density_kg_m3", "young_pa"])?;
     let body = bar(table, length_m)?;
     let kind = member_kind(table.text("kind")?).map_err(|kind| table.error(kind, "kind"))?;
     let mut loads = Vec::new();
@@ -446,7 +455,8 @@ fn member(
             loads.push(force(&table.table(&format!("forces[{}]", k + 1), item)?, body.length_m())?);
         }
     }
-    let stiffness_n = table.number("stiffness_n")?;
+    loads.extend(material::spread(table, length_m, body.length_m())?);
+    let stiffness_n = material::stiffness_n(table)?;
     let length_tolerance_m = table.number("length_tolerance_m")?;
     let member = Member { kind, stiffness_n, length_tolerance_m, loads, ..Member::bar(0, 0, body) };
     network_rows::prestressed(member, table.number("prestress_n")?)

@@ -361,7 +361,8 @@ fn help_says_what_is_allowed() {
     let help = |text: &str| parse_problem(text, "f").unwrap_err().help().unwrap();
     assert_eq!(
         help(&anchored("[[bars]]\nlenth_m = 1\n")),
-        "did you mean `length_m`? allowed here: length_m, mass_kg, centre_m, inertia_kg_m2, count"
+        "did you mean `length_m`? allowed here: length_m, mass_kg, mass_kg_per_m, diameter_m, density_kg_m3, temperature_k, \
+         expansion_per_k, centre_m, inertia_kg_m2, count"
     );
     assert_eq!(
         help(&barred("colour = \"red\"")),

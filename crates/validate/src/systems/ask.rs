@@ -121,10 +121,10 @@ pub fn ask(system: &System, solvers: Solvers, watch: &dyn Fn(&str)) -> SystemAns
 /// rungs `verified` and `complete`), on how many threads.
 #[must_use]
 pub fn ask_with(system: &System, question: &Question, watch: &dyn Fn(&str)) -> SystemAnswer {
-    let Question { solvers, census, .. } = *question;
+    let census = question.census;
     let drawing_m = system.drawing();
     let mut answers = match &drawing_m {
-        Some(drawing_m) => near_to(system, drawing_m, solvers, watch),
+        Some(drawing_m) => near_to(system, drawing_m, question, watch),
         None => lowest(system, question, watch),
     };
     let mut near = drawing_m.and_then(|drawing_m| next_to(system, &drawing_m, &mut answers));
@@ -152,7 +152,7 @@ pub fn ask_with(system: &System, question: &Question, watch: &dyn Fn(&str)) -> S
         && census != UseCensus::Never
     {
         watch("the lowest equilibrium");
-        near.lower_j = lower_j(system, solvers, first);
+        near.lower_j = lower_j(system, question, first);
     }
     SystemAnswer { equilibria, failures, agreement, near }
 }
@@ -161,20 +161,19 @@ pub fn ask_with(system: &System, question: &Question, watch: &dyn Fn(&str)) -> S
 fn near_to(
     system: &System,
     drawing_m: &[Vector],
-    solvers: Solvers,
+    question: &Question,
     watch: &dyn Fn(&str),
 ) -> Vec<Result<SystemEquilibrium, SystemFailure>> {
     let mut answers = vec![];
-    if solvers != Solvers::Energy {
-        use lagrange::network::{Seed, Settings, solve_from};
+    if question.solvers != Solvers::Energy {
+        use lagrange::network::{Seed, solve_from};
         say_lagrange(system, watch);
-        let found = solve_from(system, &Seed::at(drawing_m.to_vec()), &Settings::default());
+        let found = solve_from(system, &Seed::at(drawing_m.to_vec()), &question.lagrange());
         answers.push(found.map(|found| found.equilibrium).map_err(SystemFailure::from));
     }
-    if solvers != Solvers::Lagrange {
-        use energy::network::{Settings, minimise_near};
+    if question.solvers != Solvers::Lagrange {
         say_energy(system, watch);
-        let found = minimise_near(system, drawing_m, &Settings::default());
+        let found = energy::network::minimise_near(system, drawing_m, &question.energy());
         answers.push(found.map(|found| found.equilibrium).map_err(SystemFailure::from));
     }
     answers
@@ -194,7 +193,7 @@ fn lowest(
     }
     if question.solvers != Solvers::Lagrange {
         say_energy(system, watch);
-        answers.push(by_energy(system, row.as_ref()));
+        answers.push(by_energy(system, row.as_ref(), question));
     }
     answers
 }
@@ -226,18 +225,22 @@ fn by_lagrange(
             return Ok(row.equilibrium(found.equilibrium));
         }
     }
-    let found = lagrange::network::solve(system, &lagrange::network::Settings::default())?;
+    let found = lagrange::network::solve(system, &question.lagrange())?;
     Ok(found.equilibrium)
 }
 
 /// A row between two anchors over the directions of its bars, where that has an answer; any other system over the places of its joints.
-fn by_energy(system: &System, row: Option<&Row>) -> Result<SystemEquilibrium, SystemFailure> {
+fn by_energy(
+    system: &System,
+    row: Option<&Row>,
+    question: &Question,
+) -> Result<SystemEquilibrium, SystemFailure> {
     let over_directions =
         |row: &Row| energy::minimise(row.problem(), &energy::Settings::default()).ok();
     if let Some((row, found)) = row.and_then(|row| Some((row, over_directions(row)?))) {
         return Ok(row.equilibrium(found.equilibrium));
     }
-    let found = energy::network::minimise(system, &energy::network::Settings::default())?;
+    let found = energy::network::minimise(system, &question.energy())?;
     Ok(found.equilibrium)
 }
 

@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use super::ask::SystemFailure;
 use super::certificate::total_load_n;
-use crate::question::Solvers;
+use crate::question::{Question, Solvers};
 use crate::vector::{dot, minus, norm, plus, times, worse};
 
 /// A joint that moved further than this part of the shortest member at it is not where it was
@@ -102,7 +102,7 @@ pub(super) fn next_to(
 /// The energy of a lower equilibrium than this, J, if the solvers that are asked find one.
 pub(super) fn lower_j(
     system: &System,
-    solvers: Solvers,
+    question: &Question,
     answer: &SystemEquilibrium,
 ) -> Option<f64> {
     if system.members().len() > MEMBERS || answer.evidence.ladder.optimal.is_reached() {
@@ -110,14 +110,12 @@ pub(super) fn lower_j(
     }
     let hanging = system.clone().undrawn();
     let energy = || {
-        let settings = energy::network::Settings::default();
-        energy::network::minimise(&hanging, &settings).ok().map(|found| found.equilibrium)
+        energy::network::minimise(&hanging, &question.energy()).ok().map(|found| found.equilibrium)
     };
     let lagrange = || {
-        let settings = lagrange::network::Settings::default();
-        lagrange::network::solve(&hanging, &settings).ok().map(|found| found.equilibrium)
+        lagrange::network::solve(&hanging, &question.lagrange()).ok().map(|found| found.equilibrium)
     };
-    let lowest = if solvers == Solvers::Lagrange { lagrange() } else { energy() }?;
+    let lowest = if question.solvers == Solvers::Lagrange { lagrange() } else { energy() }?;
     let unit_j = total_load_n(system) * system.total_length_m();
     (answer.energy_j - lowest.energy_j > LOWER * unit_j).then_some(lowest.energy_j)
 }

@@ -33,8 +33,9 @@ fn interior(rods: &[(f64, Kind)], force: &[f64], slack: &[f64]) -> (Interior, Sh
         rods: rods.iter().map(rod).collect(),
         loads: vec![ZERO3; 2],
         freedom: 3,
+        meter: crate::network::work::Meter::default(),
     };
-    let factor = Factor::new(&frame.spots, &frame.rods).unwrap();
+    let factor = Factor::new(&frame.spots, &frame.rods, &frame.meter).unwrap();
     let shape = Shape { x, force: force.to_vec() };
     let interior = Interior::new(Arc::new(frame), factor, &shape);
     (Interior { slack: slack.to_vec(), ..interior }, shape)

@@ -32,8 +32,9 @@ fn newton() -> Newton {
         rods: vec![rod(0, 1, 1.0, Kind::Bar), rod(1, 2, 0.5, Kind::Strut)],
         loads: vec![ZERO3; 3],
         freedom: 6,
+        meter: crate::network::work::Meter::default(),
     };
-    let factor = Factor::new(&frame.spots, &frame.rods).unwrap();
+    let factor = Factor::new(&frame.spots, &frame.rods, &frame.meter).unwrap();
     let settings = Settings::default();
     let pace = Pace { strain: FIRST_STRAIN, near: NEAR, step: STEP, own: false };
     Newton::new(Arc::new(frame), factor, settings, &[2.0, -1.0], pace)

@@ -44,6 +44,7 @@ fn truss(flexibility: f64) -> (Frame, Shape) {
         ],
         loads: vec![ZERO3; 4],
         freedom: 3,
+        meter: crate::network::work::Meter::default(),
     };
     (frame, Shape { x, force: vec![-1.0, -1.0, 0.0] })
 }
@@ -55,7 +56,7 @@ fn a_shallow_truss_snaps_through_where_it_is_soft() {
     // F / l = 1/2 and sin² = 0.01: stiff above k = 49.5.
     for (stiffness, falls) in [(40.0, 2), (49.0, 2), (50.0, 1), (60.0, 1), (f64::INFINITY, 1)] {
         let (frame, shape) = truss(1.0 / stiffness);
-        let mut factor = Factor::new(&frame.spots, &frame.rods).unwrap();
+        let mut factor = Factor::new(&frame.spots, &frame.rods, &frame.meter).unwrap();
         assert_eq!(below(&frame, &shape, &mut factor, ZERO), falls, "{stiffness}");
         // That there is no Cholesky factor, and the signs.
         assert_eq!(factor.count, 2);
@@ -132,7 +133,7 @@ fn what_nearly_nothing_resists_is_neutral() {
         let (mut frame, mut shape) = truss(0.0);
         frame.loads[3] = [0.0, 0.0, -1000.0];
         shape.force = vec![0.0, 0.0, force];
-        let mut factor = Factor::new(&frame.spots, &frame.rods).unwrap();
+        let mut factor = Factor::new(&frame.spots, &frame.rods, &frame.meter).unwrap();
         assert_eq!(below(&frame, &shape, &mut factor, -ZERO), neutral, "{force}");
     }
 }

@@ -40,7 +40,7 @@ impl What {
 
 /// Refuse what would fill a disk.
 pub fn refuse(arguments: &Census, bars: usize, estimate: Estimate) -> Result<(), Failure> {
-    if !arguments.json && arguments.csv.is_none() {
+    if !arguments.printed.is_json() && arguments.csv.is_none() {
         return Ok(());
     }
     let [signs, full] =
@@ -105,7 +105,7 @@ pub fn of_many(
         output::write_stream(path, |file| answer.write_csv(list, file))?;
     }
     drop(progress);
-    if arguments.json {
+    if arguments.printed.is_json() {
         output::print_stream(|out| answer.write_json(list, out))?;
     } else {
         output::print(&table::text(&answer.first))?;
@@ -122,7 +122,7 @@ fn listed(arguments: &Census, answer: &LargeCensusAnswer) -> List {
     if full <= UNASKED {
         return List::Full;
     }
-    if arguments.json || arguments.csv.is_some() {
+    if arguments.printed.is_json() || arguments.csv.is_some() {
         tell(format_args!(
             "Each equilibrium is listed by its signs and its pull (--list signs), {} together; everything (--list \
              full) would be {}.",

@@ -37,7 +37,7 @@ pub fn text(answer: &SystemCensusAnswer) -> String {
     text += &chains(answer);
     text += &nets(answer);
     if let Some(first) = equilibria.first() {
-        text += &ladder(std::iter::once((&first.solver, &first.evidence)));
+        text += &ladder(&[(&first.solver, &first.evidence)]);
     }
     text
 }

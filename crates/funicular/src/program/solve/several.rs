@@ -36,7 +36,7 @@ pub fn run(arguments: &super::Solve) -> Result<Exit, Failure> {
     let mut stopped = None;
     let write = |said: Said| {
         worst = worst.worse(said.exit);
-        let printed = if arguments.json {
+        let printed = if arguments.printed.is_json() {
             output::print_objects(&said.text)
         } else {
             output::print(&said.text)
@@ -79,7 +79,7 @@ fn one(arguments: &super::Solve, path: &Path, shape: Option<&Answer>) -> Said {
         Err(failure) => failure,
     };
     let exit = failure.exit();
-    if arguments.json {
+    if arguments.printed.is_json() {
         // Words and no number: they have a place in JSON.
         let text = Unanswered::by(&failure).pretty(origin).unwrap_or_default();
         return Said { text, failure: None, exit };
@@ -89,7 +89,7 @@ fn one(arguments: &super::Solve, path: &Path, shape: Option<&Answer>) -> Said {
 
 fn said(arguments: &super::Solve, origin: Origin<'_>, answer: &SolveAnswer) -> Said {
     let exit = super::verdict(answer);
-    if arguments.json {
+    if arguments.printed.is_json() {
         return match object::answer(origin, answer, arguments.lists(), true) {
             Ok(text) => Said { text, failure: None, exit },
             Err(error) => {
@@ -99,7 +99,7 @@ fn said(arguments: &super::Solve, origin: Origin<'_>, answer: &SolveAnswer) -> S
         };
     }
     let name = if let Origin::File(name) = origin { heading(name) } else { String::new() };
-    let text = answer::answer(answer, arguments.summary);
+    let text = answer::answer(answer, arguments.summary, arguments.evidence);
     Said { text: name + &text + "\n", failure: None, exit }
 }
 

@@ -6,7 +6,7 @@ use ::sweep::{Comparison, Failure, Manifest, SolverTally, StoreSummary, rate_int
 use serde_json::{Value, json};
 
 use crate::printable::Printable;
-use crate::tables::{numbers_from, short, significant, table, word};
+use crate::tables::{Table, numbers_from, short, significant, table, word};
 
 /// Seeds named one by one in the terminal; `summary.json` has more.
 const NAMED: usize = 20;
@@ -68,11 +68,7 @@ pub fn rate(computed: u64, all: u64, seconds: f64) -> String {
     format!("{computed} seeds in {seconds:.1} s: {} a second, written\n", short(rate.round()))
 }
 
-fn outcomes(
-    manifest: &Manifest,
-    summary: &StoreSummary,
-    solver: &SolverTally,
-) -> comfy_table::Table {
+fn outcomes(manifest: &Manifest, summary: &StoreSummary, solver: &SolverTally) -> Table {
     let all = summary.outcomes.seeds();
     let release = manifest.release.as_ref();
     let [median, most] = if release.is_some() {

@@ -22,6 +22,7 @@ mod motion;
 mod names;
 mod open_rungs;
 pub mod output;
+mod page;
 mod reasons;
 mod refusals;
 mod reproduce;

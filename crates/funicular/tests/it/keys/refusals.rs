@@ -127,6 +127,7 @@ fn refusals_of_energy_for_systems() {
             &Error::IterationLimit { iterations: 9, unbalance: 0.125, misfit: 0.25 },
             &["after 9 iterations: unbalanced force 1.25e-1", "off by 2.5e-1"],
         ),
+        of(&Error::Work { spent: 16, max_work: 15 }, &["factors of 16 numbers", "max_work is 15"]),
         of(
             &Error::Stalled { unbalance: 0.375, misfit: 0.5 },
             &["unbalanced force 3.75e-1", "off by 5e-1"],
@@ -159,6 +160,7 @@ fn refusals_of_energy_for_systems() {
         "seed",
         "not_closed",
         "iteration_limit",
+        "work",
         "stalled",
         "no_minimum",
         "no_minimum_near",
@@ -184,6 +186,8 @@ fn refusals_of_energy_for_systems() {
     output.is("iterations", 9);
     output.is("unbalance", json!([0.125, 0.375]));
     output.is("misfit", json!([0.25, 0.5]));
+    output.is("spent", 16);
+    output.is("max_work", 15);
     output.is("index", 10);
     output.is("quantity", "energy");
     output.is("coordinates", 13);
@@ -303,6 +307,7 @@ fn refusals_of_lagrange_for_systems() {
         ),
         of(&Error::Floor { rounds: 13 }, &["after 13 rounds"]),
         of(&Error::Unstable { index: 14 }, &["of index 14"]),
+        of(&Error::Work { spent: 17, max_work: 16 }, &["17 entries", "max_work is 16"]),
         of(&Error::Memory { unknowns: 15 }, &["of 15 unknowns"]),
     ];
     let test = "refusals_of_lagrange_for_systems";
@@ -319,9 +324,12 @@ fn refusals_of_lagrange_for_systems() {
         "not_converged",
         "floor",
         "unstable",
+        "work",
         "memory",
     ];
     output.is("kind", kinds.as_slice());
+    output.is("spent", 17);
+    output.is("max_work", 16);
     output.is("name", "tolerance");
     output.is("value", 2.5);
     output.is("low", 1e-14);

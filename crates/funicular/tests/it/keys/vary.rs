@@ -126,12 +126,15 @@ fn study_of_too_few_bars() {
 fn study_of_a_system() {
     let folder = folder();
     let vary = ["study", "lamp.toml", "--vary", "joints.P.mass_kg=2,4"];
-    let text = good(folder.path(), &[&vary[..], &["--json", "--csv", "lamp.csv"]].concat());
+    let more = ["--json", "--csv", "lamp.csv", "--of", "joints.P.z"];
+    let text = good(folder.path(), &[&vary[..], &more].concat());
     let mut output = Output::json("study of a system", "study_of_a_system", &text);
     output.is("schema_version", 3);
     system_of_lamp(&mut output);
     output.is("parameters[]", "joints.P.mass_kg");
     output.is("units[]", "kg");
+    output.is("of[]", "joints.P.z");
+    output.each("points[].of[]", -2.4);
     let at = |key: &str| format!("points[].{key}");
     output.each(&at("path"), 1);
     output.is(&at("values[]"), json!([2.0, 4.0]));
@@ -157,6 +160,7 @@ fn study_of_a_system() {
     output.is("joints.P.mass_kg", json!([2.0, 4.0]));
     output.is("energy_j", json!([-48.0, -96.0]));
     output.each("sag_m", 2.4);
+    output.each("joints.P.z", -2.4);
     output.each("lowest_joint", "P");
     output.each("lowest_x_m", 1.8);
     output.each("lowest_z_m", -2.4);

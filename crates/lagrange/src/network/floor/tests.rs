@@ -97,6 +97,7 @@ fn a_pull_lifts_the_weights_that_it_can_bear() {
         nodes: [8.0, 1.0, 2.0, 4.0].map(node).into(),
         links: Vec::new(),
         lying: Vec::new(),
+        work: crate::network::work::Work::default(),
     };
     let neighbours = [vec![1], vec![0, 2], vec![1, 3], vec![2]];
     for (force_n, lifted) in [(1.9, 0), (2.0, 1), (5.9, 1), (6.0, 2), (13.9, 2), (14.0, 3)] {

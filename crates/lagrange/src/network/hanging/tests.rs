@@ -19,6 +19,7 @@ fn hanging(force: Pair, slack: Pair) -> (Framework, Hanging) {
             kind: Kind::Cable,
         }],
         lying: Vec::new(),
+        work: crate::network::work::Work::default(),
     };
     let hanging = Hanging {
         places: vec![Vector3::zeros(), Vector3::x()],

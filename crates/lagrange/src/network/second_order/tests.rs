@@ -18,6 +18,7 @@ fn shape(azimuth: f64, joint: f64, largest: f64, load: f64) -> (Framework, State
         ],
         links: Vec::new(),
         lying: Vec::new(),
+        work: crate::network::work::Work::default(),
     };
     let (up, from) = (Vector3::new(0.0, 0.0, 3.0), Vector3::new(7.0, -2.0, 1.0));
     let places = [up, along * 4.0 + up * 2.0, along * 2.0 + normal * joint];

@@ -19,6 +19,7 @@ fn chosen(largest: f64, cable: f64) -> Forces {
         nodes: vec![node.clone(), node],
         links: vec![link(Kind::Bar), link(Kind::Cable), link(Kind::Bar)],
         lying: Vec::new(),
+        work: crate::network::work::Work::default(),
     };
     let places = vec![Vector3::zeros(), Vector3::x()];
     let mut state = State::new(places, vec![largest, cable, 0.5 * largest], vec![true; 3]);

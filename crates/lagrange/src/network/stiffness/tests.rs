@@ -16,6 +16,7 @@ fn complete(joints: usize) -> Framework {
         nodes: vec![node; joints],
         links: pairs.map(link).collect(),
         lying: Vec::new(),
+        work: Work::default(),
     }
 }
 

@@ -1,0 +1,104 @@
+//! What a study shows besides: places of joints, sags and forces by name.
+
+use model::system::{System, SystemEquilibrium};
+use model::system_file::nearest;
+
+use branches::ParameterError;
+
+use crate::extremes::Extremes;
+use crate::sag::Sag;
+
+const HELP: &str = "`joints.NAME.z` (or x, y), `sag.NAME-NAME`, `bars.NUMBER.axial_max_n` (axial_n, axial_from_n, axial_to_n), `height` or `height=DATUM`";
+
+/// Axial forces of a member, as the JSON of `solve` calls them: in the middle, at both ends, where it is largest.
+const AXIAL: [&str; 4] = ["axial_n", "axial_from_n", "axial_to_n", "axial_max_n"];
+
+/// A number of an equilibrium.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Observable {
+    /// A coordinate of a joint, m.
+    Place(usize, usize),
+    /// The sag of the way of fewest members between two joints, m.
+    Sag([usize; 2]),
+    /// An axial force of a member, N, by its place in [`AXIAL`].
+    Axial(usize, usize),
+    /// The height of the lowest joint over a datum, m.
+    Height(f64),
+}
+
+impl Observable {
+    /// What `text` names in a system.
+    pub(super) fn parse(text: &str, system: &System) -> Result<Self, ParameterError> {
+        let wrong = |what: String, help: String| ParameterError {
+            text: text.to_owned(),
+            span: 0..text.len(),
+            what,
+            help,
+        };
+        let unknown = || wrong(format!("`{text}` is no number of an answer"), HELP.to_owned());
+        let joint = |name: &str| {
+            let quoted = name.strip_prefix('"').and_then(|name| name.strip_suffix('"'));
+            let name = quoted.unwrap_or(name);
+            system.joint(name).ok_or_else(|| {
+                let names: Vec<_> = system.joints().iter().map(|j| j.name.as_str()).collect();
+                let help = nearest(name, &names)
+                    .map_or_else(|| HELP.to_owned(), |meant| format!("did you mean `{meant}`?"));
+                wrong(format!("there is no joint `{name}`"), help)
+            })
+        };
+        if let Some(rest) = text.strip_prefix("joints.") {
+            let (name, axis) = rest.rsplit_once('.').ok_or_else(unknown)?;
+            let axis = ["x", "y", "z"].iter().position(|a| *a == axis).ok_or_else(unknown)?;
+            return Ok(Self::Place(joint(name.strip_suffix(".at_m").unwrap_or(name))?, axis));
+        }
+        if let Some(rest) = text.strip_prefix("sag.") {
+            // Names may have dashes of their own: of all ways to read it the first that is there.
+            let mut both = rest.match_indices('-').map(|(at, _)| [&rest[..at], &rest[at + 1..]]);
+            let found = both.clone().find_map(|[a, b]| Some([joint(a).ok()?, joint(b).ok()?]));
+            let [a, b] = both.next_back().ok_or_else(unknown)?;
+            return found
+                .map_or_else(|| Ok(Self::Sag([joint(a)?, joint(b)?])), |ends| Ok(Self::Sag(ends)));
+        }
+        if let Some(rest) = text.strip_prefix("bars.") {
+            let (bar, key) = rest.split_once('.').ok_or_else(unknown)?;
+            let key = AXIAL.iter().position(|axial| *axial == key).ok_or_else(unknown)?;
+            let members = system.members().len();
+            let number = bar.parse::<usize>().ok().filter(|bar| (1..=members).contains(bar));
+            let none = || wrong(format!("there is no bar `{bar}`"), format!("1 to {members}"));
+            return Ok(Self::Axial(number.ok_or_else(none)? - 1, key));
+        }
+        let datum = match text.split_once('=') {
+            Some(("height", datum)) => datum.parse().ok(),
+            None if text == "height" => Some(system.floor_m().unwrap_or(0.0)),
+            _ => None,
+        };
+        datum.filter(|z: &f64| z.is_finite()).map(Self::Height).ok_or_else(unknown)
+    }
+
+    /// Its unit.
+    pub(super) fn unit(self) -> &'static str {
+        match self {
+            Self::Axial(..) => "N",
+            Self::Place(..) | Self::Sag(_) | Self::Height(_) => "m",
+        }
+    }
+
+    /// Its value; `None` where no members connect the two joints, or one is above the other.
+    pub(super) fn of(
+        self,
+        system: &System,
+        found: &SystemEquilibrium,
+        extremes: &Extremes,
+    ) -> Option<f64> {
+        match self {
+            Self::Place(joint, axis) => Some(found.joints_m[joint][axis]),
+            Self::Sag(ends) => Sag::between(system, &found.joints_m, ends).map(|sag| sag.depth_m),
+            Self::Axial(member, key) => {
+                let along = found.axial_force(system, member);
+                let middle_n = found.axial_n[member];
+                Some([middle_n, along.from_n, along.to_n, along.largest_n()][key])
+            }
+            Self::Height(datum_m) => Some(extremes.lowest_m[2] - datum_m),
+        }
+    }
+}

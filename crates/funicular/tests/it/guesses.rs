@@ -1,0 +1,103 @@
+//! What is typed first: files of other programs, pictures in other formats, new files.
+
+#![expect(clippy::unwrap_used, reason = "helpers of tests")]
+
+use std::path::{Path, PathBuf};
+use std::process::Output;
+
+use assert_cmd::Command;
+use serde_json::Value;
+
+fn folder(name: &str) -> PathBuf {
+    let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("guesses").join(name);
+    let _ = std::fs::remove_dir_all(&path);
+    std::fs::create_dir_all(&path).unwrap();
+    path
+}
+
+fn run(folder: &Path, arguments: &[&str]) -> Output {
+    let mut command = Command::cargo_bin("funicular").unwrap();
+    command.current_dir(folder).args(arguments).output().unwrap()
+}
+
+fn said(output: &Output) -> String {
+    let text = String::from_utf8_lossy(&output.stdout) + String::from_utf8_lossy(&output.stderr);
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+/// A line of 12 m and 100 N/m in water between two fixed points 6 m apart, high above the bottom.
+const LINE: &str = "---- MoorDyn Input File ----\na hanging line\n---- LINE TYPES ----\n\
+    TypeName Diam Mass/m EA BA/-zeta EI Cd Ca CdAx CaAx\n(-) (m) (kg/m) (N) (-) (-) (-) (-) (-) (-)\n\
+    rope 0.001 10.1971621 1e9 -1 0 1 1 0 0\n---- POINTS ----\nID Type X Y Z Mass Volume CdA Ca\n\
+    (-) (-) (m) (m) (m) (kg) (m^3) (m^2) (-)\n1 Fixed 0 0 -10 0 0 0 0\n2 Fixed 6 0 -10 0 0 0 0\n\
+    ---- LINES ----\nID LineType AttachA AttachB UnstrLen NumSegs LineOutputs\n(-) (-) (-) (-) (m) (-) (-)\n\
+    1 rope 1 2 12 40 -\n---- OPTIONS ----\n0.001 dtM\n1000 rhoW\n9.80665 g\n200 WtrDpth\n\
+    ---- need this line ----\n";
+
+/// Each end bears half of the weight in water; every command that solves reads the file.
+#[test]
+fn a_moordyn_file_is_solved() {
+    let folder = folder("moordyn");
+    std::fs::write(folder.join("line.txt"), LINE).unwrap();
+    let output = run(&folder, &["solve", "line.txt", "--json"]);
+    assert_eq!(output.status.code(), Some(0), "{}", said(&output));
+    let json: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(json["agreement"]["verdict"], "agreed");
+    let reactions = json["equilibria"][0]["reactions_n"].as_object().unwrap();
+    // Less the water that a rope of 1 mm displaces.
+    let area_m2 = 0.25 * std::f64::consts::PI * 1e-6;
+    let weight_n = 12.0 * 9.80665 * (10.197_162_1 - 1000.0 * area_m2);
+    let up: Vec<f64> = reactions.values().map(|force| force[2].as_f64().unwrap()).collect();
+    assert_eq!(up.len(), 2);
+    assert!(up.iter().all(|up| (up - 0.5 * weight_n).abs() < 1e-6 * weight_n), "{up:?} {weight_n}");
+    let vary = ["study", "line.txt", "--vary", "gravity_m_s2=1.62,9.80665"];
+    assert_eq!(run(&folder, &vary).status.code(), Some(0));
+    // A system file may have that ending.
+    let new = run(&folder, &["new"]).stdout;
+    std::fs::write(folder.join("system.txt"), new).unwrap();
+    assert_eq!(run(&folder, &["solve", "system.txt"]).status.code(), Some(0));
+}
+
+#[test]
+fn what_is_no_system_is_named() {
+    let folder = folder("named");
+    std::fs::write(folder.join("bars.csv"), "length_m,mass_kg\n1,1\n").unwrap();
+    let output = run(&folder, &["solve", "bars.csv"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(said(&output).contains("is a table") && said(&output).contains("bars_file"));
+    for picture in ["shape.png", "shape.PDF"] {
+        let output = run(&folder, &["solve", "--case", "lamp", "--svg", picture]);
+        assert_eq!(output.status.code(), Some(2));
+        assert!(said(&output).contains("write shape.svg"), "{}", said(&output));
+        assert!(!folder.join(picture).exists());
+    }
+}
+
+#[test]
+fn a_new_file_is_written_once_and_solved() {
+    let folder = folder("new");
+    for (name, arguments) in [
+        ("chain.toml", &["new", "chain.toml"][..]),
+        ("system.toml", &["new", "--system", "system.toml"]),
+        ("truss.toml", &["new", "--truss", "truss.toml"]),
+        ("net.toml", &["new", "--net", "5x4", "net.toml"]),
+    ] {
+        let output = run(&folder, arguments);
+        assert_eq!(output.status.code(), Some(0), "{}", said(&output));
+        let solved = run(&folder, &["solve", name]);
+        assert_eq!(solved.status.code(), Some(0), "{name}: {}", said(&solved));
+        // Never over what is there.
+        std::fs::write(folder.join(name), "mine").unwrap();
+        let again = run(&folder, arguments);
+        assert_eq!(again.status.code(), Some(2));
+        assert!(said(&again).contains("is there already"), "{}", said(&again));
+        assert_eq!(std::fs::read_to_string(folder.join(name)).unwrap(), "mine");
+    }
+    // Inside 3 x 2 joints; each of the 5 x 4 but the corners is there.
+    let net = String::from_utf8(run(&folder, &["new", "--net", "5x4"]).stdout).unwrap();
+    assert_eq!((net.matches("mass_kg = 1 }").count(), net.matches("at_m").count()), (6, 10));
+    for wrong in ["2x5", "5", "axb"] {
+        assert_eq!(run(&folder, &["new", "--net", wrong]).status.code(), Some(2));
+    }
+    assert_eq!(run(&folder, &["new", "--net", "5x5", "--truss"]).status.code(), Some(2));
+}

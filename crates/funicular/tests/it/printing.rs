@@ -1,0 +1,149 @@
+//! What people read: one answer on one screen, tables to paste, units, characters.
+
+#![expect(clippy::unwrap_used, reason = "helpers of tests")]
+
+use assert_cmd::Command;
+
+/// The lamp of 2 kg on cables of 3 and 4 m over 5 m: a right angle, so that they pull with 4/5 and 3/5 of the weight.
+const WEIGHT_N: f64 = 2.0 * 9.80665;
+
+fn solve_in(locale: &str, arguments: &[&str]) -> String {
+    let mut command = Command::cargo_bin("funicular").unwrap();
+    let command = command.env("LC_ALL", locale).args(["solve", "--case", "lamp"]).args(arguments);
+    let output = command.output().unwrap();
+    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    String::from_utf8(output.stdout).unwrap()
+}
+
+fn solve(arguments: &[&str]) -> String {
+    solve_in("C.UTF-8", arguments)
+}
+
+/// The numbers of the line that begins with these words.
+fn numbers(text: &str, line: &str) -> Vec<f64> {
+    let words =
+        |text: &str| text.split([' ', ',', '|', '&']).map(str::to_owned).collect::<Vec<_>>();
+    let begins = |text: &&str| {
+        let found: Vec<_> = words(text).into_iter().filter(|word| !word.is_empty()).collect();
+        let wanted = words(line);
+        found.len() > wanted.len() && found[..wanted.len()] == wanted[..]
+    };
+    let line = text.lines().find(begins).unwrap_or_else(|| panic!("no {line}:\n{text}"));
+    words(line).iter().filter_map(|word| word.parse().ok()).collect()
+}
+
+fn close(x: f64, wanted: f64) {
+    // Six digits are printed.
+    assert!((x - wanted).abs() <= 1e-5 * wanted.abs(), "{x} {wanted}");
+}
+
+#[test]
+fn a_lamp_of_two_members_fits_one_screen() {
+    let text = solve(&[]);
+    assert!(text.lines().count() <= 39, "a prompt has the last of 40 lines:\n{text}");
+    assert!(text.lines().all(|line| line.chars().count() <= 80), "{text}");
+    for (line, at, wanted) in [
+        ("lamp", 2, -2.4),
+        ("1 A lamp", 1, 0.8 * WEIGHT_N),
+        ("1 A lamp", 2, 0.8 * WEIGHT_N),
+        ("2 lamp B", 2, 0.6 * WEIGHT_N),
+    ] {
+        close(numbers(&text, line)[at], wanted);
+    }
+    let ground = &text[text.find("Forces of the ground").unwrap()..];
+    close(numbers(ground, "A")[2], 0.64 * WEIGHT_N);
+    for word in ["Evidence:", "Agreement: agreed"] {
+        assert_eq!(text.lines().filter(|line| line.starts_with(word)).count(), 1, "{text}");
+    }
+    assert!(!text.contains("stress matrix"), "{text}");
+}
+
+#[test]
+fn the_evidence_in_full_says_once_what_both_solvers_say() {
+    let text = solve(&["--evidence"]);
+    for words in ["stress matrix", "Krawczyk", "independent lengths", "the statics judge"] {
+        assert_eq!(text.matches(words).count(), 1, "{words}\n{text}");
+    }
+    for words in ["+ converged  lagrange:", "+ converged  energy:"] {
+        assert!(text.contains(words), "{text}");
+    }
+}
+
+#[test]
+fn a_summary_keeps_forces_and_reactions() {
+    let text = solve(&["--summary"]);
+    assert!(!text.contains("x / m"), "{text}");
+    close(numbers(&text, "1 A lamp")[1], 0.8 * WEIGHT_N);
+    close(numbers(&text, "B")[2], 0.36 * WEIGHT_N);
+}
+
+#[test]
+fn tables_are_pasted_where_they_are_wanted() {
+    let csv = solve(&["--format", "csv"]);
+    assert!(
+        csv.lines().all(|line| line.is_empty() || line.starts_with("# ") || line.contains(','))
+    );
+    close(numbers(&csv, "1 A lamp")[1], 0.8 * WEIGHT_N);
+    let markdown = solve(&["--format", "markdown"]);
+    assert!(markdown.contains("\n| joint | x / m | y / m | z / m |\n|---|---:|---:|---:|\n| A |"));
+    let latex = solve(&["--format", "latex"]);
+    assert_eq!(latex.matches("\\begin{tabular}").count(), 3);
+    for line in latex.lines().filter(|line| line.contains('&')) {
+        assert!(line.ends_with(" \\\\"), "{line}");
+    }
+    let [json, same] = [["--format", "json"], ["--json", "--census=auto"]].map(|arguments| {
+        let mut json: serde_json::Value = serde_json::from_str(&solve(&arguments)).unwrap();
+        for equilibrium in json["equilibria"].as_array_mut().unwrap() {
+            equilibrium["evidence"]["solve_s"] = 0.into();
+        }
+        json
+    });
+    assert_eq!(json, same);
+}
+
+#[test]
+fn units_are_those_that_are_asked_for() {
+    let text = solve(&["--units", "kN,mm"]);
+    for head in ["z / mm", "at from / kN", "Fz / kN"] {
+        assert!(text.contains(head), "{head}\n{text}");
+    }
+    close(numbers(&text, "lamp")[2], -2400.0);
+    close(numbers(&text, "1 A lamp")[1], 0.8e-3 * WEIGHT_N);
+    for words in ["Sag: 2400 mm", "7000 mm long", "Largest tension: 0.0156906 kN"] {
+        assert!(text.contains(words), "{text}");
+    }
+    // A pound-force is that of 0.45359237 kg.
+    let text = solve(&["--units", "lbf,ft"]);
+    close(numbers(&text, "1 A lamp")[1], 0.8 * 2.0 / 0.453_592_37);
+    close(numbers(&text, "lamp")[2], -2.4 / 0.3048);
+    let mut command = Command::cargo_bin("funicular").unwrap();
+    let output = command.args(["solve", "--case", "lamp", "--units", "kp"]).output().unwrap();
+    assert_eq!(output.status.code(), Some(2));
+    assert!(String::from_utf8_lossy(&output.stderr).contains("kgf"));
+}
+
+#[test]
+fn boxes_are_of_ascii_where_that_is_all_there_is() {
+    for (locale, arguments) in
+        [("C.UTF-8", &["--ascii"][..]), ("C", &[]), ("de_DE.ISO-8859-1", &[])]
+    {
+        let text = solve_in(locale, arguments);
+        assert!(text.is_ascii() && text.contains("-----"), "{text}");
+    }
+    assert!(solve(&[]).contains('\u{2500}'));
+}
+
+/// A mooring line of twenty bars, part of which lies on the ground: 57 coordinates of its joints, of which those on
+/// the ground are upright and gone. Both solvers count the same, so it is said once.
+#[test]
+fn both_solvers_count_lengths_alike_on_a_floor() {
+    let folder = tempfile::tempdir().unwrap();
+    let line = "floor_m = -30\n[joints]\nanchor = { at_m = [0, 0, -30] }\nship = { at_m = [60, 0, 0] }\n\
+                [[bars]]\nfrom = 'anchor'\nto = 'ship'\nlength_m = 3.5\nmass_kg = 70\ncount = 20\n";
+    std::fs::write(folder.path().join("line.toml"), line).unwrap();
+    let mut command = Command::cargo_bin("funicular").unwrap();
+    let command = command.current_dir(&folder).args(["solve", "line.toml", "--evidence"]);
+    let text = String::from_utf8(command.output().unwrap().stdout).unwrap();
+    assert_eq!(text.matches("independent lengths").count(), 1, "{text}");
+    assert!(text.contains("20 independent lengths, 35 mechanisms, 0 self-stresses"), "{text}");
+}

@@ -1,0 +1,124 @@
+//! What people know of a bar: mass a metre, diameter and material, loads a metre, a change of temperature. Each
+//! stands for `mass_kg`, `stiffness_n`, `forces` or `length_m`, and is here made into that.
+
+use std::f64::consts::PI;
+
+use super::error::SystemFileError;
+use super::kind::SystemFileErrorKind as Kind;
+use super::table::Table;
+use crate::system::PointLoad;
+
+/// The keys that give a mass, one of which a bar has.
+const MASS: [&str; 3] = ["mass_kg", "mass_kg_per_m", "density_kg_m3"];
+const WANTED_MASS: &str =
+    "a mass in kilograms, or mass_kg_per_m, or density_kg_m3 with diameter_m, in its place";
+const WANTED_SIZE: &str = "positive and finite";
+
+/// The length after a change of temperature: `length_m (1 + expansion_per_k temperature_k)`.
+pub(super) fn length_m(table: &Table<'_>, length_m: f64) -> Result<f64, SystemFileError> {
+    match both(table, ["temperature_k", "expansion_per_k"])? {
+        Some([change_k, expansion_per_k]) => Ok(length_m * (1.0 + expansion_per_k * change_k)),
+        None => Ok(length_m),
+    }
+}
+
+/// The mass of a bar of this length, kg, and the key that gives it.
+pub(super) fn mass_kg(
+    table: &Table<'_>,
+    length_m: f64,
+) -> Result<(f64, &'static str), SystemFileError> {
+    one_of(table, &MASS)?;
+    if let Some(mass_kg) = table.number("mass_kg")? {
+        return Ok((mass_kg, "mass_kg"));
+    }
+    if let Some(per_m) = table.number("mass_kg_per_m")? {
+        return Ok((per_m * length_m, "mass_kg_per_m"));
+    }
+    match table.number("density_kg_m3")? {
+        Some(density) => Ok((density * area_m2(table)? * length_m, "density_kg_m3")),
+        None => {
+            Err(table.error(Kind::MissingKey { key: "mass_kg", wanted: WANTED_MASS }, "mass_kg"))
+        }
+    }
+}
+
+/// The axial stiffness EA, N, if there is one: `young_pa pi diameter_m^2 / 4`.
+pub(super) fn stiffness_n(table: &Table<'_>) -> Result<Option<f64>, SystemFileError> {
+    one_of(table, &["stiffness_n", "young_pa"])?;
+    match table.number("young_pa")? {
+        Some(young_pa) if young_pa > 0.0 && young_pa.is_finite() => {
+            Ok(Some(young_pa * area_m2(table)?))
+        }
+        Some(young_pa) => Err(out_of_range(table, "young_pa", young_pa)),
+        None => table.number("stiffness_n"),
+    }
+}
+
+/// A load a metre, as a force in the middle of a bar: `given_m` long as the file has it, `length_m` now.
+pub(super) fn spread(
+    table: &Table<'_>,
+    given_m: f64,
+    length_m: f64,
+) -> Result<Option<PointLoad>, SystemFileError> {
+    let Some(value) = table.get("force_n_per_m") else { return Ok(None) };
+    let per_m = table.vector("force_n_per_m", value)?;
+    let force_n = per_m.map(|x| x * given_m);
+    if let Some(bad) = force_n.into_iter().find(|x| !x.is_finite()) {
+        let kind = Kind::Force { component_n: bad };
+        return Err(table.component_error(kind, "force_n_per_m", f64::is_finite));
+    }
+    Ok(Some(PointLoad { at_m: 0.5 * length_m, force_n }))
+}
+
+/// Refuse a diameter of which nothing is made.
+pub(super) fn check_diameter(table: &Table<'_>, makers: &[&str]) -> Result<(), SystemFileError> {
+    let used = makers.iter().any(|key| table.get(key).is_some());
+    match table.get("diameter_m") {
+        Some(_) if !used => {
+            const WANTED: &str =
+                "the density in kg/m^3: nothing is made of the diameter without it";
+            let kind = Kind::MissingKey { key: "density_kg_m3", wanted: WANTED };
+            Err(table.error(kind, "diameter_m"))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// The area of a round section.
+fn area_m2(table: &Table<'_>) -> Result<f64, SystemFileError> {
+    let value = table.require("diameter_m", "the diameter in metres")?;
+    let diameter_m = table.number_of("diameter_m", value)?;
+    if diameter_m > 0.0 && diameter_m.is_finite() {
+        Ok(0.25 * PI * diameter_m * diameter_m)
+    } else {
+        Err(out_of_range(table, "diameter_m", diameter_m))
+    }
+}
+
+fn out_of_range(table: &Table<'_>, key: &str, found: f64) -> SystemFileError {
+    table.error(Kind::OutOfRange { found: found.to_string(), wanted: WANTED_SIZE }, key)
+}
+
+/// Two numbers that mean something together alone.
+fn both(table: &Table<'_>, keys: [&'static str; 2]) -> Result<Option<[f64; 2]>, SystemFileError> {
+    const WANTED: [&str; 2] =
+        ["the change of temperature in kelvin", "the part of the length that it grows by a kelvin"];
+    match [table.number(keys[0])?, table.number(keys[1])?] {
+        [None, None] => Ok(None),
+        [Some(first), Some(second)] => Ok(Some([first, second])),
+        numbers => {
+            let missing = usize::from(numbers[0].is_some());
+            let kind = Kind::MissingKey { key: keys[missing], wanted: WANTED[missing] };
+            Err(table.error(kind, keys[1 - missing]))
+        }
+    }
+}
+
+/// Refuse two keys that give the same number.
+fn one_of(table: &Table<'_>, keys: &[&'static str]) -> Result<(), SystemFileError> {
+    let mut given = keys.iter().filter(|key| table.get(key).is_some());
+    match (given.next(), given.next()) {
+        (Some(other), Some(key)) => Err(table.error(Kind::Conflict { key, other }, key)),
+        _ => Ok(()),
+    }
+}
