@@ -93,7 +93,7 @@ impl StudyAnswer {
         &self.units
     }
 
-    /// What is shown besides, with its units, in the order of [`StudyShape::of`].
+    /// What is shown besides, with its units, in the order in which it was asked for.
     #[must_use]
     pub fn of(&self) -> &[(String, &'static str)] {
         &self.of

@@ -27,16 +27,21 @@ class Record:
         self.data = data
 
     def __getattr__(self, name: str) -> Any:
-        if name != "data" and name in self.data:
-            value = self.data[name]
-            return Record(value) if isinstance(value, dict) else value
-        raise AttributeError(f"there is no {name!r}; there are {', '.join(self.data)}")
+        # A copy that is being made has no data yet.
+        data = self.__dict__.get("data", {})
+        if name in data:
+            return _record(data[name])
+        raise AttributeError(f"there is no {name!r}; there are {', '.join(data)}")
 
     def __dir__(self) -> list[str]:
         return [*super().__dir__(), *self.data]
 
     def __repr__(self) -> str:
         return f"Record({self.data!r})"
+
+
+def _record(value: Any) -> Any:
+    return Record(value) if isinstance(value, dict) else value
 
 
 class Proof:
@@ -55,18 +60,14 @@ class Proof:
         self.reason: dict[str, Any] | None = {"kind": reason} if isinstance(reason, str) else reason
 
     def __getattr__(self, name: str) -> Any:
-        if name.startswith("__") or name in ("data", "reason"):
-            raise AttributeError(name)
-        if name == "width" and "box_width" in self.data:
-            return self.data["box_width"]
-        for numbers in (self.data, self.reason or {}):
-            if name in numbers:
-                value = numbers[name]
-                return Record(value) if isinstance(value, dict) else value
-        if name == "width" and self.rung == "verified":
-            return None
-        known = ", ".join([*self.data, *(self.reason or {})])
-        raise AttributeError(f"{self.rung} has no {name!r}; it has {known or 'no numbers'}")
+        # A copy that is being made has nothing yet.
+        numbers = {**(self.__dict__.get("reason") or {}), **self.__dict__.get("data", {})}
+        if name == "width" and (self.__dict__.get("rung") == "verified" or "box_width" in numbers):
+            return numbers.get("box_width")
+        if name in numbers:
+            return _record(numbers[name])
+        rung, known = self.__dict__.get("rung", "a rung"), ", ".join(numbers)
+        raise AttributeError(f"{rung} has no {name!r}; it has {known or 'no numbers'}")
 
     def __dir__(self) -> list[str]:
         return [*super().__dir__(), *self.data]

@@ -236,6 +236,9 @@ class ModesOf:
         self.frequencies_hz: Array = np.array([mode.get("frequency_hz", np.nan) for mode in modes], dtype=np.float64)
         self.rates_1_s: Array = np.array([mode.get("rate_1_s", np.nan) for mode in modes], dtype=np.float64)
 
+    def __repr__(self) -> str:
+        return f"<ModesOf {printable(self.label)!r}: {len(self.omega2_s2)} modes>"
+
     @property
     def table(self) -> Table:
         """A row for each mode."""
