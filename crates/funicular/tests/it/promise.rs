@@ -5,6 +5,7 @@
 
 #![expect(clippy::unwrap_used, reason = "helpers of tests")]
 
+use std::fmt::Write as _;
 use std::path::Path;
 
 use serde_json::Value;
@@ -108,9 +109,9 @@ fn forces_beside_which_no_load_is_seen_are_not_confirmed() {
                 bar["to"] = name("P").into();
                 bars.push(bar);
                 let axial_n = borne[k] + size_n * stress[k];
-                forces += &format!("{},{},{axial_n}\n", name(&format!("A{k}")), name("P"));
+                writeln!(forces, "{},{},{axial_n}", name(&format!("A{k}")), name("P")).unwrap();
             }
-            places += &format!("{},-1,-3,3\n", name("P"));
+            writeln!(places, "{},-1,-3,3", name("P")).unwrap();
         }
         let system = serde_json::json!({ "joints": joints, "bars": bars });
         std::fs::write(path("frames.json"), system.to_string()).unwrap();
