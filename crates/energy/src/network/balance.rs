@@ -16,6 +16,16 @@ const BALANCE: f64 = 1e-9;
 /// Rounding of a force over the loads from which on the forces say nothing.
 const ABSURD: f64 = 1e-6;
 
+/// The balance of a joint.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Balance {
+    /// Unbalanced force over the scale of the joint.
+    pub(super) unbalance: f64,
+    /// What that may be: the tolerance of the search in that unit, which is over the largest force,
+    /// but no more than [`BALANCE`]; and the rounding of the forces that meet there.
+    pub(super) allowed: f64,
+}
+
 impl Frame {
     /// The largest force of an elastic member: the prestress, where no load acts.
     fn elastic_force(&self, shape: &Shape) -> f64 {
@@ -37,11 +47,11 @@ impl Frame {
             .then_some(Error::Absurd { member: member + 1, ratio })
     }
 
-    /// Refuse joints that are out of balance.
+    /// The balance of the joint that is worst held against what it may be; refused where it is more.
     ///
     /// What the rounding of the forces at a joint leaves is allowed: of places of size `X` the
     /// direction of a member of length `l` has `X / l` units in the last place.
-    pub(super) fn check_balance(&self, shape: &Shape, tolerance: f64) -> Result<(), Error> {
+    pub(super) fn balance(&self, shape: &Shape, tolerance: f64) -> Result<Balance, Error> {
         let unbalance = self.lagrangian_gradient(&self.excesses(&shape.x), &shape.force);
         let loads: Vec<f64> = self.loads.iter().map(|load| norm(*load)).collect();
         let mean = loads.iter().sum::<f64>() / self.joints as f64;
@@ -52,13 +62,23 @@ impl Frame {
             forces[rod.to] += force.abs();
         }
         let rounding = rounding_floor(self, shape);
+        let searched = tolerance.max(rounding);
+        let most = self.force_scale(&shape.force);
+        let mut worst = Balance { unbalance: 0.0, allowed: searched };
         for (joint, spot) in self.spots.iter().enumerate() {
             let scale = loads[joint].max(least).max(NO_STRAIN);
             let rest = largest(&unbalance[spot.first..spot.first + spot.freedom]);
-            if rest > tolerance.max(BALANCE) * scale + rounding * forces[joint] {
-                return Err(Error::Unbalanced { joint, unbalance: rest / scale });
+            let rounded = rounding * forces[joint] / scale;
+            let kept = tolerance.max(BALANCE);
+            let allowed = (searched * most / scale).min(kept) + rounded;
+            let here = Balance { unbalance: rest / scale, allowed };
+            if here.unbalance > kept + rounded {
+                return Err(Error::Unbalanced { joint, unbalance: here.unbalance });
+            }
+            if here.unbalance * worst.allowed > worst.unbalance * here.allowed {
+                worst = here;
             }
         }
-        Ok(())
+        Ok(worst)
     }
 }

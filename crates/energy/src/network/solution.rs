@@ -10,7 +10,6 @@ use crate::network::error::Error;
 use crate::network::frame::{Frame, end_loads_n};
 use crate::network::limit::Limit;
 use crate::network::minimise::Minimum;
-use crate::network::polish::rounding_floor;
 use crate::network::settings::Settings;
 use crate::network::shape::{NO_STRAIN, Shape};
 use crate::network::stability::{Rigidity, SecondOrder, second_order};
@@ -57,7 +56,8 @@ pub struct Work {
     /// Factorisations of the matrix of all coordinates; those of the springs that share forces are
     /// not counted.
     pub factorisations: u64,
-    /// Largest unbalanced force at a joint over the largest force of the system.
+    /// Unbalanced force of the joint worst held against its rounding, over its load, or over the mean
+    /// load where that is more.
     pub unbalance: f64,
     /// Largest misfit of a length over the length.
     pub misfit: f64,
@@ -70,7 +70,7 @@ const FORCE_ERROR: f64 = 1e-8;
 
 /// What `Evidence::residual` means here.
 const RESIDUAL_OF: &str =
-    "largest unbalanced force at a joint over the largest force, or misfit of a length";
+    "largest unbalanced force at a joint over its load, or misfit of a length";
 
 impl Solution {
     pub(super) fn new(
@@ -91,11 +91,10 @@ impl Solution {
         if second.index > 0 {
             return Err(Error::NoMinimum { index: second.index });
         }
-        let tolerance = settings.tolerance.max(rounding_floor(frame, &shape));
         if let Some(absurd) = frame.absurd(&shape) {
             return Err(absurd);
         }
-        frame.check_balance(&shape, settings.tolerance)?;
+        let balance = frame.balance(&shape, settings.tolerance)?;
         if let Some(member) = wrong_sign(frame, &shape) {
             let force_n = shape.force[member] * frame.force_n;
             if frame.rods[member].ground {
@@ -113,8 +112,10 @@ impl Solution {
         };
         let iterations = usize::try_from(effort.relaxation + effort.iterations);
         let iterations = iterations.unwrap_or(usize::MAX);
-        let residual = limit.as_ref().map_or_else(|| slope.residual(), |limit| limit.residual);
-        let mut evidence = Evidence::new(RESIDUAL_OF, residual, tolerance, iterations);
+        // That over the largest force is less.
+        let search = limit.as_ref().map_or_else(|| slope.residual(), |limit| limit.residual);
+        let residual = balance.unbalance.max(search);
+        let mut evidence = Evidence::new(RESIDUAL_OF, residual, balance.allowed, iterations);
         evidence.nullity = second.neutral;
         evidence.condition = second.condition;
         evidence.self_stresses = self_stresses(&second, limit.as_ref());
@@ -129,7 +130,7 @@ impl Solution {
             relaxation: effort.relaxation,
             iterations: effort.iterations,
             factorisations: factor.count,
-            unbalance: slope.unbalance,
+            unbalance: balance.unbalance,
             misfit: slope.misfit,
         };
         let mut solution = Self { equilibrium, forces, work };

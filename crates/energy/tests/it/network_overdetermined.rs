@@ -1,5 +1,7 @@
 //! Frames whose lengths overdetermine the shape, held against the weighted least-norm solution by a
 //! dense singular value decomposition.
+//!
+//! `FRAMES=520 cargo test --release -p energy --test it overdetermined` tries more of them.
 
 use energy::network::{Error, Settings, Solution, minimise, minimise_from};
 use faer::Mat;
@@ -282,10 +284,15 @@ fn rounded(rng: &mut ChaCha8Rng, size: f64, count: usize) -> Vec<f64> {
     (0..count).map(|_| rng.random_range(-size..size)).collect()
 }
 
+/// How many frames are tried, unless `FRAMES` says otherwise.
+fn frames(usual: usize) -> usize {
+    std::env::var("FRAMES").map_or(usual, |n| n.parse().expect("a number"))
+}
+
 #[test]
 fn legs_to_anchors_share_as_equally_stiff_ones() {
-    let mut over = 0;
-    for (stream, seed) in (0..520).enumerate() {
+    let (mut over, frames) = (0, frames(130));
+    for (stream, seed) in (0..).take(frames).enumerate() {
         let mut rng = ChaCha8Rng::seed_from_u64(seed);
         let drawn = draw(&mut rng, stream % STYLES);
         let size: f64 = [0.0, 1e-15, 1e-12, 3e-11][stream / STYLES % 4];
@@ -298,7 +305,7 @@ fn legs_to_anchors_share_as_equally_stiff_ones() {
             Err(error) => assert!(matches!(error, Error::NotClosed { .. }), "{stream}: {error}"),
         }
     }
-    assert!(over > 500, "{over}");
+    assert!(26 * over > 25 * frames, "{over} of {frames}");
 }
 
 /// Frames of four bars whose lengths are the doubles next to those of a shape. The joint of the first
@@ -363,8 +370,8 @@ fn towers_share_as_equally_stiff_ones() {
 /// Lengths that are off by a part of 1e-6 are refused, and solved where they are known to 1e-5 m.
 #[test]
 fn misfits_are_refused_or_within_their_tolerance() {
-    let mut not_found = 0;
-    for (stream, seed) in (0..60).enumerate() {
+    let (mut not_found, frames) = (0, frames(20));
+    for (stream, seed) in (0..).take(frames).enumerate() {
         let mut rng = ChaCha8Rng::seed_from_u64(seed);
         let drawn = draw(&mut rng, stream % STYLES);
         let changes = rounded(&mut rng, 1e-6, drawn.members.len());
@@ -381,7 +388,7 @@ fn misfits_are_refused_or_within_their_tolerance() {
         check(&system, &solution);
     }
     // The search ends elsewhere, and says how far off it is there.
-    assert!(not_found <= 1, "{not_found}");
+    assert!(not_found <= frames.div_ceil(60), "{not_found} of {frames}");
 }
 
 /// Three bars in a vertical plane to a joint in space: a bar too many in the plane, and a motion out

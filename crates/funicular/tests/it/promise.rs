@@ -5,6 +5,7 @@
 
 #![expect(clippy::unwrap_used, reason = "helpers of tests")]
 
+use std::fmt::Write as _;
 use std::path::Path;
 
 use serde_json::Value;
@@ -91,25 +92,47 @@ fn forces_beside_which_no_load_is_seen_are_not_confirmed() {
     let borne = [-7.908_031_9, 19.061_756_256, -29.887_541_991, 13.167_457_291];
     let folder = tempfile::tempdir().unwrap();
     let path = |name: &str| folder.path().join(name);
-    std::fs::copy(Path::new(FOLDER).join("1-tetrapod.json"), path("tetrapod.json")).unwrap();
-    std::fs::write(path("places.csv"), "joint,x_m,y_m,z_m\nP,-1,-3,3\n").unwrap();
-    let judged = |size_n: f64| {
-        let line = |k: usize| format!("A{k},P,{}", borne[k] + size_n * stress[k]);
-        let lines: Vec<String> = (0..4).map(line).collect();
-        let text = format!("from,to,axial_n\n{}\n", lines.join("\n"));
-        std::fs::write(path("forces.csv"), text).unwrap();
+    let text = std::fs::read_to_string(Path::new(FOLDER).join("1-tetrapod.json")).unwrap();
+    let one: Value = serde_json::from_str(&text).unwrap();
+    // So many of them side by side, each with its load.
+    let judged = |frames: usize, size_n: f64| {
+        let (mut joints, mut bars) = (serde_json::Map::new(), Vec::new());
+        let (mut places, mut forces) =
+            ("joint,x_m,y_m,z_m\n".to_owned(), "from,to,axial_n\n".to_owned());
+        for frame in 0..frames {
+            let name = |joint: &str| format!("{joint}.{frame}");
+            let own = one["joints"].as_object().unwrap();
+            joints.extend(own.iter().map(|(joint, of)| (name(joint), of.clone())));
+            for (k, bar) in one["bars"].as_array().unwrap().iter().enumerate() {
+                let mut bar = bar.clone();
+                bar["from"] = name(&format!("A{k}")).into();
+                bar["to"] = name("P").into();
+                bars.push(bar);
+                let axial_n = borne[k] + size_n * stress[k];
+                writeln!(forces, "{},{},{axial_n}", name(&format!("A{k}")), name("P")).unwrap();
+            }
+            writeln!(places, "{},-1,-3,3", name("P")).unwrap();
+        }
+        let system = serde_json::json!({ "joints": joints, "bars": bars });
+        std::fs::write(path("frames.json"), system.to_string()).unwrap();
+        std::fs::write(path("places.csv"), places).unwrap();
+        std::fs::write(path("forces.csv"), forces).unwrap();
         let files = ["--answer", "places.csv", "--members", "forces.csv", "--json"];
-        let (code, text) = run(folder.path(), &[&["judge", "tetrapod.json"][..], &files].concat());
+        let (code, text) = run(folder.path(), &[&["judge", "frames.json"][..], &files].concat());
         let answer: Value = serde_json::from_str(&text).unwrap();
         (code, answer["finding"].as_str().unwrap().to_owned())
     };
     // Six digits of 1e5 N still show the 20 N of the load.
     for size_n in [0.0, 1.0, 1e5] {
-        assert_eq!(judged(size_n), (Some(0), "confirmed".to_owned()), "{size_n}");
+        assert_eq!(judged(1, size_n), (Some(0), "confirmed".to_owned()), "{size_n}");
     }
     for size_n in [1e9, 9.12e12, 1e30] {
-        assert_eq!(judged(size_n), (Some(3), "loads_hidden".to_owned()), "{size_n}");
+        assert_eq!(judged(1, size_n), (Some(3), "loads_hidden".to_owned()), "{size_n}");
     }
+    // Six digits of 3e7 N are more than any of three loads, and less than all of them.
+    let most = stress.iter().fold(0.0_f64, |most, part| most.max(part.abs()));
+    assert_eq!(judged(3, 3e7 / most), (Some(3), "loads_hidden".to_owned()));
+    assert_eq!(judged(3, 1e5 / most), (Some(0), "confirmed".to_owned()));
 }
 
 /// A millionth more on one leg is no rounding: bad input, with the misfits and what helps.

@@ -53,7 +53,7 @@ pub enum Finding {
         member: usize,
         /// Its axial force, N.
         force_n: f64,
-        /// All loads, and the prestress of elastic members, N.
+        /// The largest load of a joint, and the prestress of elastic members, N.
         loads_n: f64,
         /// What the tolerance allows a force, N.
         allowed_n: f64,
@@ -339,13 +339,14 @@ fn finding(
     Finding::Confirmed
 }
 
-/// Whether the loads are lost beside the forces of an answer.
+/// Whether the loads are lost beside the forces of an answer: each of them, where many joints bear
+/// one.
 fn loads_hidden(
     system: &System,
     completed: &SystemEquilibrium,
     bounds: &Bounds,
 ) -> Option<Finding> {
-    let (loads_n, allowed_n) = (Scale::new(system, completed).held_n, bounds.force_n);
+    let (loads_n, allowed_n) = (Scale::new(system, completed).seen_n(), bounds.force_n);
     let forces = completed.axial_n.iter().enumerate();
     let (k, &force_n) = forces.max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()))?;
     let hidden = allowed_n >= loads_n || force_n.abs() >= ABSURD * loads_n;

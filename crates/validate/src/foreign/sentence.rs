@@ -31,7 +31,7 @@ impl Display for Finding {
             Self::LoadsHidden { member, force_n, loads_n, allowed_n } => write!(
                 f,
                 "undecided: the positions are those of an equilibrium, but the forces, up to {force_n:.3e} N in member \
-                 {member}, exceed all loads ({loads_n:.3e} N) by so much that the tolerance, {allowed_n:.1e} N, hides them: \
+                 {member}, exceed the load of any joint ({loads_n:.3e} N) by so much that the tolerance, {allowed_n:.1e} N, hides them: \
                  a self-stress of any size may be among the forces"
             ),
             Self::NoEquilibrium => {

@@ -83,6 +83,12 @@ impl Scale {
         }
     }
 
+    /// The largest force that acts at a joint, and all prestress, N: what balance shows of the loads
+    /// where each joint is held against the same error.
+    pub(crate) fn seen_n(&self) -> f64 {
+        self.held_n - self.total_n + self.joint_n.iter().copied().fold(0.0, worse)
+    }
+
     /// Of energies, J.
     pub(super) fn energy_j(&self) -> f64 {
         self.total_n * self.size_m

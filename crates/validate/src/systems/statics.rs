@@ -66,6 +66,10 @@ const STORED_ULPS: f64 = 8.0;
 /// acts on it, whatever its members bear.
 const BORNE: f64 = 100.0;
 
+/// A joint's balance is measured by no less than this times what acts there: one that bears nothing is
+/// out of balance by the rounding of the loads elsewhere, which is a part of no force of its own.
+const IDLE: f64 = 1e-2;
+
 /// The rounding of forces explains no more than this part of what acts at a joint.
 const MOST_ROUNDING: f64 = 1e-6;
 
@@ -393,7 +397,13 @@ fn joint_balances(system: &System, answer: &SystemEquilibrium, units: &Units) ->
         }
     }
     let all = left.into_iter().zip(unit_n).enumerate();
-    all.map(|(k, (left, unit_n))| units.at(&[k]).part(norm(left), unit_n)).collect()
+    all.map(|(k, (left, unit_n))| {
+        // Where nothing acts anywhere there is no size but that of the forces.
+        let acts_n = units.acts_n.get(k).copied().filter(|acts_n| acts_n.is_finite());
+        let least_n = IDLE * acts_n.unwrap_or_default();
+        units.at(&[k]).part(norm(left), worse(unit_n, least_n))
+    })
+    .collect()
 }
 
 /// A supported joint lies on its support, whose force is normal to the motion that it leaves free;

@@ -47,6 +47,34 @@ fn a_moment_is_a_part_of_the_force_times_the_length() {
     assert!(found.force < 1e-15, "{found:?}");
 }
 
+/// Three bars to a joint that bears nothing, beside 10 N on another one: 2 N for each joint on the
+/// average. What the rounding of the 10 N leaves at the idle joint is no part of its own forces; a
+/// force of 1e-10 N there is seen.
+#[test]
+fn an_idle_joint_is_measured_by_what_acts_elsewhere() {
+    let at = [[0.0; 3], [5.0, 0.0, 0.0], [7.0, 0.0, 0.0]];
+    let mut joints: Vec<Joint> = at.map(|at| Joint::anchor(format!("{at:?}"), at)).to_vec();
+    joints.extend([Joint::free("P").with_mass(1.0), Joint::free("idle")]);
+    let bar = |from, to| Member::bar(from, to, Bar::homogeneous(1.0, 0.0).unwrap());
+    let members = vec![bar(0, 3), bar(1, 4), bar(2, 4)];
+    let system = System::new("idle", 10.0, joints, members).unwrap();
+    let (_, like) = lamp();
+    let left = |force_n: f64| {
+        let answer = SystemEquilibrium {
+            energy_j: -10.0,
+            joints_m: [&at[..], &[[0.0, 0.0, -1.0], [6.0, 0.0, 0.0]]].concat(),
+            start_forces_n: vec![[0.0, 0.0, 10.0], [-force_n, 0.0, 0.0], [0.0; 3]],
+            end_forces_n: vec![[0.0, 0.0, -10.0], [force_n, 0.0, 0.0], [0.0; 3]],
+            axial_n: vec![10.0, force_n, 0.0],
+            reactions_n: vec![[0.0, 0.0, 10.0], [-force_n, 0.0, 0.0], [0.0; 3], [0.0; 3], [0.0; 3]],
+            ..like.clone()
+        };
+        joint_balances(&system, &answer, &Units::new(&system, &answer))[4]
+    };
+    assert!(left(4e-14) < 2e-12, "{}", left(4e-14));
+    assert!(left(1e-10) > 1e-9, "{}", left(1e-10));
+}
+
 /// A spring of 1 m and 6 N that is drawn to 1.4 m has 2.4 N, not 3.
 #[test]
 fn a_wrong_elongation_is_a_part_of_the_force() {
