@@ -296,7 +296,7 @@ impl Factor {
                 .solve_in_place_with_conj(Conj::No, right, Par::Seq, stack),
             Kept::Signed => LdltRef::<usize, f64>::new(&self.symbolic, &self.lower)
                 .solve_in_place_with_conj(Conj::No, right, Par::Seq, stack),
-            Kept::Nothing => debug_assert!(false, "no factorisation to solve with"),
+            Kept::Nothing => unreachable!("no factorisation to solve with"),
         }
     }
 }
