@@ -1,8 +1,7 @@
 //! A third solver of one's own, held against ours: two equal bars, level anchors, by trigonometry.
 
 use funicular::prelude::*;
-use model::system::SystemStability;
-use model::{Evidence, InSpace};
+use funicular::{Evidence, InSpace, SystemStability};
 
 /// Both bars hang at the same angle; the joint between them carries no vertical force.
 fn by_trigonometry(span_m: f64, bar: &Bar, gravity_m_s2: f64) -> SystemEquilibrium {

@@ -188,3 +188,17 @@ fn simulate() {
     let off = said.strip_prefix("at rest ").unwrap().split(' ').next().unwrap();
     assert!(number(off) < 1e-8, "{said}");
 }
+
+/// An example works in a crate that depends on `funicular` alone.
+#[test]
+fn examples_use_nothing_else_of_ours() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples");
+    for name in RUN {
+        let text = std::fs::read_to_string(folder.join(name).with_extension("rs")).unwrap();
+        let used = text.lines().filter_map(|line| line.strip_prefix("use "));
+        let first = used.map(|path| path.split(':').next().unwrap());
+        let others: Vec<&str> =
+            first.filter(|first| !["funicular", "std"].contains(first)).collect();
+        assert!(others.is_empty(), "{name}: {others:?}");
+    }
+}

@@ -239,6 +239,9 @@ const UNDECIDED: f64 = 0.01;
 /// nearly one plane, 13 kN under 50 N, which `energy` leaves with its reason).
 const UNDECIDED_DRAWN: f64 = 1e-3;
 
+/// Why an answer is wrong, if one is, and whether both solvers agree.
+type Outcome = (Option<String>, bool);
+
 #[test]
 fn loads_are_shared_as_by_equally_stiff_bars() {
     let (mut all, mut open, mut open_drawn, mut count, mut count_drawn) = (vec![], 0, 0, 0, 0);
@@ -248,7 +251,7 @@ fn loads_are_shared_as_by_equally_stiff_bars() {
             .filter_map(|seed| frame(draw, seed).map(|(system, places)| (seed, system, places)))
             .collect();
         assert!(2 * frames_of.len() as u64 > frames(), "{draw:?}: only {}", frames_of.len());
-        let judged: Vec<[Option<(Option<String>, bool)>; 2]> = frames_of
+        let judged: Vec<[Option<Outcome>; 2]> = frames_of
             .par_iter()
             .map(|(_, system, places)| {
                 let of = |system: &System| {
