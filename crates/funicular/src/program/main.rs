@@ -55,6 +55,7 @@ fn main() -> std::process::ExitCode {
         Err(exit) => return exit.into(),
     };
     memory::install(cli.max_memory);
+    cli.max_work.map(model::budget::limit_work);
     let exit = match cli.command {
         Command::Reproduce(arguments) => reproduce::run(&arguments),
         Command::Solve(arguments) => solve::run(&arguments),
