@@ -62,7 +62,7 @@ pub struct Cli {
     pub command: Command,
     /// Refuse what would need more memory: 80 bytes for each byte of a system file, 120 for each of
     /// an answer in JSON, 900 for each bar of a chain, 1400 for each in another row of rigid bars
-    /// between two anchors, 5000 for each member of another system (400 of them while it is read),
+    /// between two anchors, 5000 for each member of another system (420 of them while it is read),
     /// and four times its name for each joint. A line of a batch may need all of it. A sweep needs 50 MB
     /// for each thread, basins 50 bytes for each start, a trace what its --max-points says. If not
     /// given, 24 GB, files of 64 MiB and 20 million bars

@@ -1,10 +1,13 @@
-//! What is promised of memory is kept: measured in a process of its own.
+//! What is promised of memory and time is kept: memory measured in a process of its own.
 
 #![cfg(target_os = "linux")]
 
 use std::process::Command;
+use std::time::{Duration, Instant};
 
+use model::Bar;
 use model::budget::{BYTES_PER_MEMBER_IN_ROW, BYTES_PER_MEMBER_READ};
+use model::system::{Joint, Member, System};
 use model::system_file::{Described, parse};
 
 /// Members in the row.
@@ -67,4 +70,35 @@ fn a_row_is_refused_where_its_solve_has_no_room() {
     model::system_file::limit_memory(COUNT * (BYTES_PER_MEMBER_IN_ROW + 100));
     let refused = parse(&row().replace("count", "kind = \"cable\", count"), "row.toml");
     assert!(refused.unwrap_err().to_string().contains("bytes of memory are needed"));
+}
+
+/// The chord of a truss lies in one line between its anchors, and each joint of it is held by what
+/// stands on it: looked up, not searched for along the chord. Each joint by each took over half a
+/// minute here, and this takes half a second.
+#[test]
+fn a_long_chord_is_checked_in_proportion() {
+    const PANELS: usize = 100_000;
+    const PATIENCE: Duration = Duration::from_secs(20);
+    let anchor = |k: usize| Joint::anchor(format!("A{k}"), [k as f64, 0.0, 0.0]);
+    let mut joints: Vec<Joint> = (0..=PANELS).map(|k| Joint::free(format!("A{k}"))).collect();
+    (joints[0], joints[PANELS]) = (anchor(0), anchor(PANELS));
+    joints.push(Joint::anchor("T", [0.0, 0.0, 1.0]));
+    joints.extend((1..PANELS).map(|k| Joint::free(format!("T{k}"))));
+    let mut members = Vec::new();
+    let mut bar = |from, to, length_m| {
+        members.push(Member::bar(from, to, Bar::homogeneous(length_m, 1.0).unwrap()));
+    };
+    for k in 0..PANELS {
+        let top = PANELS + 1 + k;
+        bar(k, k + 1, 1.0);
+        bar(top, k + 1, f64::hypot(1.0, 1.0));
+        if k > 0 {
+            bar(top, k, 1.0);
+            bar(top - 1, top, 1.0);
+        }
+    }
+    let system = System::new("a truss", 9.81, joints, members).unwrap();
+    let began = Instant::now();
+    assert_eq!(system.refusal(), Ok(()));
+    assert!(began.elapsed() < PATIENCE, "{:?}", began.elapsed());
 }
