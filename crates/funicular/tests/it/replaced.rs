@@ -163,7 +163,7 @@ fn one_writer_begins_every_file() {
             files.insert(build.display().to_string(), bytes);
         }
     }
-    for (path, bytes) in files.iter().filter(|(path, _)| path.ends_with(".rs")) {
+    for (path, bytes) in &files {
         let name = path[crates.display().to_string().len() + 1..].replace('\\', "/");
         let is_test = name.contains("/tests/") || name.ends_with("tests.rs");
         let text = String::from_utf8_lossy(bytes);
