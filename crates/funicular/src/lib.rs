@@ -138,6 +138,7 @@ pub use extremes::Extremes;
 pub use formats::ForceTable;
 pub use judge::{Judge, Judged};
 pub use mode_pages::{animated_modes, drawn_modes};
+pub use model::budget::limit_work;
 pub use model::system::SystemStability;
 pub use model::{AxialForce, Evidence, InPlane, InSpace};
 pub use modes::{JointAt, Mode, Modes, ModesAnswer, Summary, WithModes};

@@ -45,6 +45,7 @@ mod verdicts;
 mod which;
 
 use clap::CommandFactory;
+use model::budget::limit_work;
 
 use crate::args::{Cli, Command};
 use crate::exit::Exit;
@@ -55,6 +56,9 @@ fn main() -> std::process::ExitCode {
         Err(exit) => return exit.into(),
     };
     memory::install(cli.max_memory);
+    if let Some(numbers) = cli.max_work {
+        limit_work(numbers);
+    }
     let exit = match cli.command {
         Command::Reproduce(arguments) => reproduce::run(&arguments),
         Command::Solve(arguments) => solve::run(&arguments),

@@ -5,7 +5,6 @@ mod lines;
 mod object;
 mod several;
 
-use std::num::NonZeroU64;
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
@@ -52,13 +51,6 @@ pub struct Solve {
     /// How many threads; 0 means one per processor. No answer depends on it
     #[arg(long, value_name = "T", default_value_t = 0, value_parser = threads::parse, allow_negative_numbers = true)]
     pub threads: usize,
-    /// Work that each solver may do for one system: numbers in all factors of its matrices, which
-    /// is iterations times size. What needs more ends without an answer (exit code 3)
-    ///
-    /// If not given, 10000000000: up to an hour or so. A row of bars between two anchors needs no matrix,
-    /// and has a bound of its own.
-    #[arg(long, value_name = "N")]
-    pub max_work: Option<NonZeroU64>,
     #[command(flatten)]
     pub shape: Shape,
     /// Which solver; one alone gets no comparison
@@ -126,14 +118,10 @@ pub enum Census {
 impl Solve {
     /// What is asked, with `census` where the arguments say nothing about it.
     fn question(&self, census: UseCensus) -> funicular::Solve {
-        let solve = funicular::Solve::new()
+        funicular::Solve::new()
             .solvers(self.solver.into())
             .equations(self.equations.into())
-            .census(self.census.map_or(census, UseCensus::from));
-        match self.max_work {
-            Some(max_work) => solve.max_work(max_work),
-            None => solve,
-        }
+            .census(self.census.map_or(census, UseCensus::from))
     }
 
     /// How JSON has joints and bars.

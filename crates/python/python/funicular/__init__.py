@@ -27,7 +27,7 @@ from ._interpreter import refuse_others
 refuse_others()
 
 # Whatever loads numpy or the native half comes behind that.
-from ._native import __version__, get_threads, set_threads
+from ._native import __version__, get_threads, limit_work, set_threads
 from .answer import Answer, Equilibrium, solve
 from .batch import Batch, solve_many
 from .census import Census
@@ -84,6 +84,7 @@ __all__ = [
     "get_threads",
     "gradient",
     "judge",
+    "limit_work",
     "reproduce",
     "set_threads",
     "simulate",

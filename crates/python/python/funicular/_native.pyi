@@ -21,6 +21,7 @@ __all__ = [
     "draw",
     "get_threads",
     "judge",
+    "limit_work",
     "modes",
     "reproduce",
     "set_threads",
@@ -92,6 +93,7 @@ class Problem:
 
 def set_threads(threads: int) -> None: ...
 def get_threads() -> int: ...
+def limit_work(numbers: int) -> None: ...
 def solve(
     problem: Problem, solver: str, equations: str, census: str, threads: int, progress: _Progress
 ) -> tuple[str, list[dict[str, Any]]]: ...
