@@ -38,8 +38,9 @@ pub(crate) fn structure(out: &mut String, system: &System) {
     }
     out.push_str("],\"names\":[");
     for (k, joint) in system.joints().iter().enumerate() {
-        // In a script nothing may look like its end.
-        let name = Value::from(joint.name.as_str()).to_string().replace('<', "\\u003c");
+        // Nothing turns the text around it, and in a script nothing may look like its end.
+        let name = joint.name.replace(model::steers, " ");
+        let name = Value::from(name).to_string().replace('<', "\\u003c");
         let _ = write!(out, "{}{name}", comma(k));
     }
     out.push_str("],");

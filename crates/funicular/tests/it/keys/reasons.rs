@@ -23,7 +23,7 @@ fn a_cross_of_struts() {
     let at = |key: &str| format!("equilibria[].evidence.ladder[].reason.{key}");
     output.each(&at("kind"), json!(["no_census", "no_certificate"]));
     output.each(&at("because"), json!(["slider", "not_definite"]));
-    output.each(&at("joint"), 2);
+    output.each(&at("joint"), 3);
     output.each(&at("compressed"), 2);
     output.done();
 }
