@@ -53,6 +53,7 @@ pub struct Extremes {
     pub compression_n: Option<(usize, f64)>,
 }
 
+#[expect(clippy::ref_option, reason = "as serde calls it")]
 fn from_one<S: serde::Serializer>(
     largest: &Option<(usize, f64)>,
     serializer: S,

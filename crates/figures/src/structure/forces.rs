@@ -56,8 +56,8 @@ pub(crate) fn drawn(structure: &Structure<'_>, scene: &Scene) -> ([bool; 2], Opt
     let arrows = arrows(structure, scene);
     let drawn = [LOAD, REACTION].map(|look| arrows.iter().any(|arrow| arrow.look == look));
     let forces = structure.joints.iter().flat_map(|joint| [joint.load_n, joint.reaction_n]);
-    let parts = forces.map(|force_n| length(scene.arrow(force_n)) / LONGEST_ARROW);
-    let is_hidden = parts.fold(false, |any, part| any || (part > NOTHING && part < LEAST));
+    let mut parts = forces.map(|force_n| length(scene.arrow(force_n)) / LONGEST_ARROW);
+    let is_hidden = parts.any(|part| part > NOTHING && part < LEAST);
     (drawn, is_hidden.then(|| LEAST * LONGEST_ARROW / scene.force_scale))
 }
 

@@ -107,7 +107,8 @@ pub(crate) fn draw(svg: &mut Svg, structure: &Structure<'_>, scene: &Scene) {
 fn triad(svg: &mut Svg, scene: &Scene) {
     /// Length of an axis that is seen at right angles, px.
     const LONG: f64 = 40.0;
-    let origin = [scene.size[0] - SIDE, scene.size[1] - LINES[0] - 10.0];
+    // Above the line of the key, whatever that has to say.
+    let origin = [scene.size[0] - SIDE, scene.size[1] - LINES[0] - 34.0];
     let look = Look::stroke(Colour::grey(0x55), 1.2).class("axis");
     for (k, name) in ["X", "Y", "Z"].into_iter().enumerate() {
         let mut axis = [0.0; 3];

@@ -83,9 +83,12 @@ pub enum From {
 
 fn from(text: &str) -> Result<From, String> {
     let path = Path::new(text);
+    let is = |extension: &str| path.extension().is_some_and(|e| e.eq_ignore_ascii_case(extension));
     match text.parse() {
         Ok(start) => Ok(From::Named(start)),
-        Err(_) if path.is_file() || text.ends_with(".csv") => Ok(From::File(path.to_owned())),
+        Err(_) if path.is_file() || ["csv", "json", "vtu"].into_iter().any(is) => {
+            Ok(From::File(path.to_owned()))
+        }
         Err(error) => Err(format!("{error}, or a file with the places of the joints")),
     }
 }

@@ -294,7 +294,7 @@ impl Serialize for StudyAnswer {
         #[derive(Serialize)]
         struct Point<'a> {
             #[serde(flatten)]
-            point: &'a StudyPoint,
+            at: &'a StudyPoint,
             #[serde(skip_serializing_if = "Option::is_none")]
             lowest_joint: Option<String>,
             #[serde(skip_serializing_if = "Option::is_none")]
@@ -322,7 +322,7 @@ impl Serialize for StudyAnswer {
         let points = points.iter().map(|point| {
             let shape = point.shape.as_ref().ok();
             Point {
-                point,
+                at: point,
                 lowest_joint: shape.map(|shape| self.joint(shape.extremes.lowest_joint)),
                 reactions_n: shape.map(reactions),
             }

@@ -178,7 +178,7 @@ impl Output {
 fn numbered(name: &str) -> String {
     let mut parts: Vec<String> = name.split('_').map(str::to_owned).collect();
     if parts[0] == "joint" && parts.len() > 2 {
-        parts[0] = "joint#".to_owned();
+        parts[0].push('#');
         parts.remove(1);
     }
     for part in &mut parts {
