@@ -173,7 +173,7 @@ fn of_system(
     let drawings =
         arguments.svg.as_deref().map_or_else(Vec::new, |path| output::numbered(path, shown.len()));
     for (path, shape) in drawings.iter().zip(shown) {
-        let drawn = funicular::picture::of_system(system, shape)
+        let drawn = funicular::picture::of_system(system, shape, funicular::picture::Seen::Best)
             .map_err(|error| Failure::undecided(format!("no picture: {error}")))?;
         output::write_whole(path, &drawn)?;
     }

@@ -9,7 +9,8 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 use formats::answer::Answer;
-use funicular::{Error, Lists, SolveAnswer, picture};
+use funicular::picture::{self, Seen};
+use funicular::{Error, Lists, SolveAnswer};
 use validate::{Equations, Solvers, UseCensus};
 
 use crate::answer;
@@ -89,6 +90,33 @@ pub struct Solve {
     /// Draw the system to scale with loads, reactions and axial forces into this SVG file
     #[arg(long, value_name = "FILE")]
     pub svg: Option<PathBuf>,
+    /// From where the picture is seen
+    #[arg(long, value_enum, value_name = "VIEW", default_value_t = View::Best, requires = "svg")]
+    pub view: View,
+}
+
+/// From where a picture is seen.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum View {
+    /// A planar system at right angles to its plane, others from above and from their wider side
+    Best,
+    /// X to the right, Z up
+    Front,
+    /// Y to the right, Z up
+    Side,
+    /// X to the right, Y up
+    Top,
+}
+
+impl From<View> for Seen {
+    fn from(view: View) -> Self {
+        match view {
+            View::Best => Self::Best,
+            View::Front => Self::Front,
+            View::Side => Self::Side,
+            View::Top => Self::Top,
+        }
+    }
 }
 
 /// Which of the systems of equations `lagrange` solves.
@@ -203,7 +231,7 @@ fn write_files(
         output::write_stream(path, |file| answer.write_bars_csv(file))?;
     }
     if let (Some(path), [first, ..]) = (&arguments.svg, answer.equilibria()) {
-        let drawn = picture::of_system(answer.system(), first);
+        let drawn = picture::of_system(answer.system(), first, arguments.view.into());
         output::write_whole(path, &drawn.map_err(Failure::undecided)?)?;
     }
     Ok(())

@@ -22,9 +22,9 @@ fn add(row: &mut Row, outcome: Result<Solution, Error>) {
         Err(error) => {
             row[10] += 1;
             row[11] += match error {
-                Error::NotConverged { iterations, member, .. } => iterations + member,
+                Error::NotConverged { iterations, member, .. } => iterations + member - 1,
                 Error::Falls { joints, .. } => joints,
-                Error::HeldMisfit { member, .. } => member,
+                Error::HeldMisfit { member, .. } => member - 1,
                 Error::Unstable { index } => index,
                 Error::Floor { rounds } => rounds,
                 _ => 0,

@@ -2,7 +2,7 @@
 
 use std::fmt::{self, Display, Formatter};
 
-use super::{counted, size};
+use super::{counted, ordinal, size};
 use crate::evidence::agreed::{
     Agreed, Choices, Disagreement, Excess, ForcesFound, LargeForce, Place, Proved, Quantity, Room,
 };
@@ -255,7 +255,7 @@ impl Display for Place {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         match self {
             Self::Member(number) => write!(f, "at member {number}"),
-            Self::Joint(number) => write!(f, "at joint number {number}"),
+            Self::Joint(number) => write!(f, "at the {} joint", ordinal(number + 1)),
             Self::Whole => f.write_str("of the whole system"),
         }
     }
