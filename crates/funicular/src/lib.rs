@@ -94,6 +94,8 @@ pub mod starts;
 mod study;
 #[cfg(feature = "sweep")]
 mod sweep;
+#[doc(hidden)]
+pub mod text;
 mod threads;
 #[cfg(feature = "branches")]
 mod trace;
@@ -109,10 +111,13 @@ struct Readme;
 pub use self::animation::Animation;
 #[cfg(feature = "sweep")]
 pub use self::basins::{Basins, BasinsAnswer};
-pub use self::census::{Census, CensusAnswer, LargeCensusAnswer, SystemCensusAnswer};
+pub use self::census::{
+    Census, CensusAnswer, ChainCensusAnswer, LargeCensusAnswer, SystemCensusAnswer,
+};
 #[cfg(feature = "branches")]
 pub use self::derivatives::{
-    AnchorStiffness, Derivative, Derivatives, DerivativesError, NumberGradient, ParameterChange,
+    AnchorStiffness, Derivative, Derivatives, DerivativesAnswer, DerivativesError, NumberGradient,
+    ParameterChange,
 };
 #[cfg(feature = "sweep")]
 pub use self::ensemble::{Ensemble, PreparedEnsemble};
@@ -137,6 +142,8 @@ pub use error::Error;
 pub use extremes::Extremes;
 pub use formats::ForceTable;
 pub use judge::{Judge, Judged};
+#[cfg(feature = "branches")]
+pub use lagrange::network::Gradient;
 pub use mode_pages::{animated_modes, drawn_modes};
 pub use model::system::SystemStability;
 pub use model::{AxialForce, Evidence, InPlane, InSpace};

@@ -38,7 +38,7 @@ pub fn judge<'py>(
         if let Some(reactions) = reactions_n {
             answer = answer.with_reactions(&system, reactions)?;
         }
-        let judged = judge.run_watched(&system, &answer, &|what| watch.tell(what, 0, 0))?;
+        let judged = judge.run_watched(&of, &answer, &|what| watch.tell(what, 0, 0))?;
         let judgement = judged.judgement();
         let verdict = (judgement.is_confirmed(), judgement.is_refuted());
         Ok((serde_json::to_string(&judged), verdict, judged.html(&[])))

@@ -61,7 +61,7 @@ pub fn derivatives<'py>(
     let of = Arc::clone(&problem.of);
     let found = work::run(py, threads, progress.as_ref(), move |watch| {
         watch.tell("derivatives", 0, 0);
-        let derivatives = Derivatives::of(&of)?;
+        let derivatives = Derivatives::new().run(&of)?;
         Ok::<_, Error>(match (number, by) {
             (Some(number), _) => serde_json::to_string(&derivatives.gradient(&number)?),
             (None, Some(by)) => serde_json::to_string(&derivatives.change(&by)?),

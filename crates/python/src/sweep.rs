@@ -36,7 +36,7 @@ pub fn sweep<'py>(
         })
     })?;
     let found: SweepAnswer = found.map_err(|error: Error| raise(&error))?;
-    let SweepAnswer { equilibria, complete, listed_below_j, summary } = &found;
+    let SweepAnswer { equilibria, complete, listed_below_j, summary, .. } = &found;
     let object = json!({
         "seeds": seeds,
         "equilibria": equilibria,

@@ -198,6 +198,7 @@ fn system(error: &SystemError) -> Parts {
         SystemError::Mass { name, joint, mass_kg } => fields!(name, joint, mass_kg),
         SystemError::Force { name, joint, component_n } => fields!(name, joint, component_n),
         SystemError::NoSuchJoint { member, joint, joints } => fields!(member, joint, joints),
+        SystemError::UnknownJoint { member, name } => fields!(member, name),
         SystemError::SelfLoop { member, joint } => fields!(member, joint),
         SystemError::MassRange { lightest_kg, heaviest_kg } => fields!(lightest_kg, heaviest_kg),
         _ => vec![],

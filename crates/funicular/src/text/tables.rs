@@ -4,10 +4,10 @@ use std::fmt;
 use std::ops::{Deref, DerefMut};
 
 use comfy_table::{CellAlignment, ColumnConstraint, ContentArrangement, LineStyle, presets};
-use model::{Evidence, SystemSummary, Vector, cases};
+use model::{Evidence, SystemSummary, Vector};
 
-use crate::printable::Printable;
-use crate::printed::{self, Format, head, quantity, scaled};
+use super::printable::Printable;
+use super::printed::{self, Format, head, quantity, scaled};
 
 /// Width of tables where no terminal says its own: what every terminal, mail and report has room
 /// for.
@@ -169,19 +169,6 @@ pub fn numbers_from(table: &mut Table, first: usize) {
         column.set_constraint(ColumnConstraint::ContentWidth);
         column.set_padding((0, 1));
     }
-}
-
-/// The registry: chains and systems.
-pub fn cases() -> String {
-    let mut chains = table(["case", "what it is"]);
-    for case in cases::all() {
-        chains.add_row([case.name, case.about]);
-    }
-    let mut systems = table(["system of bars", "what it is"]);
-    for exhibit in cases::exhibits() {
-        systems.add_row([exhibit.name, exhibit.about]);
-    }
-    format!("{chains}\n\n{systems}\n")
 }
 
 /// What is solved, in a line of its own.
