@@ -2,7 +2,7 @@
 
 use std::io::{self, Write};
 
-use branches::{BarField, Base, JointField, Number, Parameter, ParameterError, Which};
+use branches::{BarField, Base, JointField, Number, Which};
 use lagrange::network::{self, Gradient, Settings};
 use model::Vector;
 use model::system::{System, SystemEquilibrium};
@@ -11,6 +11,7 @@ use serde::{Serialize, Serializer};
 use crate::csv::quoted;
 use crate::equilibria::system_of;
 use crate::error::Error;
+use crate::parameters::{parsed, without_value};
 use crate::problem::Problem;
 
 /// Derivatives of the hanging equilibrium of a chain or a system: stiffness matrices of its
@@ -370,19 +371,6 @@ impl DerivativesAnswer {
         }
         Ok(Of::Place(joint, axis))
     }
-}
-
-/// A parameter has values; what they are does not matter here.
-fn parsed(path: &str) -> Result<Parameter, Error> {
-    let parameter = format!("{path}=0").parse();
-    parameter.map_err(|error| without_value(error, path).into())
-}
-
-/// The error about the path alone.
-fn without_value(error: ParameterError, path: &str) -> ParameterError {
-    let end = |at: usize| at.min(path.len());
-    let span = end(error.span.start)..end(error.span.end);
-    ParameterError { text: path.to_owned(), span, ..error }
 }
 
 /// A number of an equilibrium: by joint and axis, or by member.

@@ -134,7 +134,7 @@ pub use self::trace::{Trace, TraceAnswer};
 #[cfg(feature = "sweep")]
 pub use ::sweep::Field;
 #[cfg(feature = "branches")]
-pub use branches::Combine;
+pub use branches::{Combine, JointField, Number, PointError};
 pub use compare::compare;
 pub use enclosed::{Enclosed, Inertia};
 pub use equilibria::system_of;

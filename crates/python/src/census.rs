@@ -5,12 +5,13 @@ use std::sync::Arc;
 use funicular::prelude::Census;
 use pyo3::prelude::*;
 
+use crate::printable::printable;
 use crate::problem::Problem;
 use crate::raise::{raise, unwritten};
 use crate::solve::{Arrays, Told, told};
 use crate::work;
 
-/// What `funicular census --json` prints, and the arrays of the equilibria.
+/// What `funicular census --json` prints and the arrays of the equilibria; and the tables.
 #[pyfunction]
 pub fn census<'py>(
     py: Python<'py>,
@@ -18,7 +19,7 @@ pub fn census<'py>(
     max_bars: Option<usize>,
     threads: usize,
     progress: Option<Bound<'py, PyAny>>,
-) -> PyResult<Told<'py>> {
+) -> PyResult<(Told<'py>, String)> {
     let of = Arc::clone(&problem.of);
     let census = max_bars.map_or_else(Census::new, |bars| Census::new().max_bars(bars));
     let found = work::run(py, threads, progress.as_ref(), move |watch| {
@@ -27,8 +28,9 @@ pub fn census<'py>(
         let (system, is_chain) = (funicular::system_of(&of), found.as_chain().is_some());
         let all = found.equilibria().into_iter();
         let arrays: Vec<_> = all.map(|one| Arrays::new(&system, one, is_chain)).collect();
-        Ok((serde_json::to_string(&found), arrays))
+        Ok((serde_json::to_string(&found), arrays, found.to_string()))
     })?;
-    let (text, arrays) = found.map_err(|error: funicular::Error| raise(&error))?;
-    told(py, text.map_err(|error| unwritten(&error))?, arrays)
+    let (text, arrays, said) = found.map_err(|error: funicular::Error| raise(&error))?;
+    let told = told(py, text.map_err(|error| unwritten(&error))?, arrays)?;
+    Ok((told, printable(&said)))
 }

@@ -1,7 +1,7 @@
 //! Errors of the library as the exceptions of the package have them: a class, a sentence, and the
 //! numbers under the names that the library gives them.
 
-use funicular::{DerivativesError, Error, SimulateError};
+use funicular::{DerivativesError, Error, PointError, SimulateError};
 use model::system::{SystemError, SystemRefusal};
 use model::system_file::{SystemFileError, SystemFileErrorKind};
 use model::{BarError, ChainError, NoCensus, Refusal};
@@ -124,6 +124,9 @@ fn parts(error: &Error) -> Parts {
             let (text, help, column) = (&error.text, &error.help, error.column());
             ("ParameterError", fields!(text, help, column))
         }
+        Error::Point(PointError::Bar { error, .. }) => bar(error),
+        Error::Point(PointError::System(error)) => system(error),
+        Error::Point(PointError::SystemRefused(refusal)) => system_refused(refusal),
         Error::Derivatives(
             DerivativesError::NoNumber { text } | DerivativesError::NoParameter { text },
         ) => ("DerivativesError", fields!(text)),

@@ -8,9 +8,10 @@ from typing import Any
 from . import _native
 from ._numbers import whole
 from ._progress import Progress, shown
+from ._result import Result
 
 
-class Reproduction:
+class Reproduction(Result):
     """What the paper claims, what two solvers find, and the verdicts.
 
     ``data`` is the object that ``funicular reproduce --json`` prints: ``claims``, ``equations``, ``equilibria``,
