@@ -27,21 +27,24 @@ fn paths(system: &System, name: &str) -> Option<Vec<String>> {
     let bars = |field: &str| {
         (1..=system.members().len()).map(|bar| format!("bars.{bar}.{field}")).collect()
     };
-    let joint = |k: usize, field| Number::Joint(system.joints()[k].name.clone(), field).to_string();
+    // What acts at an anchor goes into the ground, and what is free has no place to hold it.
+    let joint = |k: usize, field| match (system.joints()[k].support.is_fixed(), field) {
+        (true, JointField::Place(_)) | (false, JointField::Mass | JointField::Force(_)) => {
+            Number::Joint(system.joints()[k].name.clone(), field).to_string()
+        }
+        _ => String::new(),
+    };
     let all = 0..system.joints().len();
-    let fixed = |k: &usize| system.joints()[*k].support.is_fixed();
-    let axes =
-        |k: usize, field: fn(usize) -> JointField| [0, 1, 2].map(|axis| joint(k, field(axis)));
+    let axes = |field: fn(usize) -> JointField| {
+        all.clone().flat_map(|k| [0, 1, 2].map(|axis| joint(k, field(axis)))).collect()
+    };
     Some(match name {
         "lengths" => bars("length_m"),
         "masses" => bars("mass_kg"),
         "stiffnesses" => bars("stiffness_n"),
-        "joint_masses" => all.map(|k| joint(k, JointField::Mass)).collect(),
-        "forces" => all.flat_map(|k| axes(k, JointField::Force)).collect(),
-        "anchors" => {
-            let of = |k| if fixed(&k) { axes(k, JointField::Place) } else { Default::default() };
-            all.flat_map(of).collect()
-        }
+        "joint_masses" => all.clone().map(|k| joint(k, JointField::Mass)).collect(),
+        "forces" => axes(JointField::Force),
+        "anchors" => axes(JointField::Place),
         _ => return None,
     })
 }

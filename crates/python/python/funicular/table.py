@@ -34,10 +34,10 @@ class Table(Mapping[str, Column], Result):
     >>> import funicular as fn
     >>> a = fn.solve(lengths=[1, 1], masses=[1, 1], end=(1, 0, 0))
     >>> a.joints
-    joint  x_m        y_m  z_m        reaction_x_n  reaction_y_n  reaction_z_n
-    0        0          0          0      -2.83094             0       9.80665
-    1      0.5          0  -0.866025             0             0             0
-    2        1          0          0       2.83094             0       9.80665
+    joint  x_m  y_m        z_m  reaction_x_n  reaction_y_n  reaction_z_n
+    0        0    0          0      -2.83094             0       9.80665
+    1      0.5    0  -0.866025             0             0             0
+    2        1    0          0       2.83094             0       9.80665
     >>> a.joints["z_m"].round(4).tolist()
     [0.0, -0.866, 0.0]
     """
@@ -96,7 +96,8 @@ class Table(Mapping[str, Column], Result):
 
 
 def _shown(value: Any) -> str:
-    return f"{value:.6g}" if isinstance(value, (float, np.floating)) else str(value)
+    # Without the sign of a zero.
+    return f"{value + 0.0:.6g}" if isinstance(value, (float, np.floating)) else str(value)
 
 
 def _column(values: Any) -> Column:
