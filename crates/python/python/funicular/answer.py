@@ -13,11 +13,11 @@ from . import _native
 from ._html import ladder, page
 from ._numbers import Array, Numbers, Vector, whole
 from ._progress import Progress, shown
-from ._result import Result
+from ._result import Result, printable
 from .errors import InputError
 from .evidence import Evidence, Proofs, Record
 from .plot import plot
-from .system import STANDARD_GRAVITY, System, printable
+from .system import STANDARD_GRAVITY, System
 from .table import Table, vectors
 
 

@@ -10,10 +10,10 @@ import numpy.typing as npt
 from . import _native
 from ._numbers import Array, number, whole
 from ._progress import Progress, shown
-from ._result import Result
+from ._result import Result, printable
 from .errors import InputError, SettingError
 from .plot import plot_basins
-from .system import System, printable
+from .system import System
 from .table import Table
 
 LARGEST = 4096
@@ -61,7 +61,7 @@ class Basins(Result):
     def angles_deg(self) -> Array:
         """(size,) The starting angles from the descending vertical, degrees."""
         size = len(self.outcome("lagrange"))
-        found: Array = (np.arange(size) + 0.5) * (360.0 / size)
+        found: Array = np.asarray((np.arange(size) + 0.5) * (360.0 / size), dtype=np.float64)
         return found
 
     @property

@@ -12,11 +12,11 @@ from . import _native
 from ._html import picture
 from ._numbers import Array, whole
 from ._progress import Progress, shown
-from ._result import Result
+from ._result import Result, printable
 from .answer import Equilibrium
 from .evidence import Record
 from .plot import plot_census
-from .system import System, printable
+from .system import System
 from .table import Table
 
 

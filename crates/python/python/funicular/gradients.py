@@ -139,10 +139,11 @@ def for_jax(system: System) -> Callable[[Mapping[str, Any]], tuple[Any, Any]]:
         found = pullback(system, plain(numbers), by_joints, by_axial)
         return {name: cast(values) for name, values in found.items()}
 
-    @jax.custom_vjp
-    def function(numbers: Mapping[str, Any]) -> Any:
+    def value(numbers: Mapping[str, Any]) -> Any:
         shapes = (like((joints, 3)), like((members,)))
         return jax.pure_callback(solved, shapes, numbers, vmap_method="sequential")
+
+    function = jax.custom_vjp(value)
 
     def forward(numbers: Mapping[str, Any]) -> Any:
         return function(numbers), numbers

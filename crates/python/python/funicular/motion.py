@@ -15,10 +15,10 @@ import numpy.typing as npt
 from . import _native
 from ._numbers import Array, Numbers, Vector, array, number, vector, whole
 from ._progress import Progress, shown
-from ._result import Result
+from ._result import Result, printable
 from .errors import SettingError
 from .plot import plot_mode
-from .system import System, printable
+from .system import System
 from .table import Table
 
 MOST_BYTES = 16e9

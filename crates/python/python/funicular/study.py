@@ -11,11 +11,11 @@ import numpy as np
 from . import _native
 from ._numbers import whole
 from ._progress import Progress, shown
-from ._result import Result
+from ._result import Result, printable
 from .errors import InputError
 from .evidence import Record
 from .plot import plot_study
-from .system import System, printable
+from .system import System
 from .table import Table, read_csv
 
 

@@ -448,7 +448,7 @@ class System:
         """
         from .batch import solve_nets
 
-        given = {"lengths": lengths, "masses": masses, "stiffnesses": stiffnesses, "joint_masses": joint_masses}
+        given: dict[str, Any] = {"lengths": lengths, "masses": masses, "stiffnesses": stiffnesses, "joint_masses": joint_masses}
         given |= {"forces": forces, "anchors": anchors}
         return solve_nets(self, given, solver=solver, threads=threads, progress=progress)
 

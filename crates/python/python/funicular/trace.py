@@ -8,10 +8,10 @@ from typing import Any
 from . import _native
 from ._numbers import whole
 from ._progress import Progress, shown
-from ._result import Result
+from ._result import Result, printable
 from .evidence import Record
 from .plot import plot_trace
-from .system import System, printable
+from .system import System
 from .table import Table, read_csv
 
 
