@@ -28,14 +28,24 @@
 //! | the hanging equilibrium of a chain, or of bars, cables and struts, elastic or not, by both solvers, judged and proved | [`Solve`] |
 //! | the same of many systems in parallel | [`Solve::run_all`] |
 //! | every equilibrium, stable or not, and the proof that there is no other | [`Census`] |
-//! | the hanging shape over a parameter: sag, forces, angles | [`Study`] |
-//! | all equilibria over a parameter: branches, folds, exchanges of stability | [`Trace`] |
-//! | which start leads where, by millions | [`Sweep`] |
-//! | the same as a picture | [`Basins`] |
+#![cfg_attr(
+    feature = "branches",
+    doc = "| the hanging shape over a parameter: sag, forces, angles | [`Study`] |"
+)]
+#![cfg_attr(
+    feature = "branches",
+    doc = "| how it changes with every number of its file | [`Derivatives`] |"
+)]
+#![cfg_attr(
+    feature = "branches",
+    doc = "| all equilibria over a parameter: branches, folds, exchanges of stability | [`Trace`] |"
+)]
+#![cfg_attr(feature = "sweep", doc = "| which start leads where, by millions | [`Sweep`] |")]
+#![cfg_attr(feature = "sweep", doc = "| the same as a picture | [`Basins`] |")]
 //! | small oscillations, and how fast unstable equilibria are left | [`Modes`] |
 //! | the system in motion | [`Simulate`] |
 //! | an answer from elsewhere, judged | [`Judge`] |
-//! | the paper, judged | [`Reproduce`] |
+#![cfg_attr(feature = "paper", doc = "| the paper, judged | [`Reproduce`] |")]
 //!
 //! Each is a builder: `new`, what differs from the defaults, `run`. The program `funicular` does
 //! nothing but read its arguments, call these, and print.
@@ -50,9 +60,9 @@
 //! | feature | what |
 //! |---|---|
 //! | `columns` | bars from Parquet |
-//! | `sweep` | [`Sweep`], [`Basins`], [`Ensemble`] |
-//! | `branches` | [`Study`], [`Derivatives`], [`Trace`] |
-//! | `paper` | [`Reproduce`] |
+//! | `sweep` | `Sweep`, `Basins`, `Ensemble` |
+//! | `branches` | `Study`, `Derivatives`, `Trace` |
+//! | `paper` | `Reproduce` |
 //! | `program` | the program `funicular` |
 //!
 //! # Conventions

@@ -132,6 +132,7 @@ pub fn numbers(all: &[f64], of: &str, digits: fn(f64) -> String) -> String {
 }
 
 /// The head of a column, `Fx / N`, in the unit for display, with the size of that.
+#[must_use]
 pub fn head(text: &str) -> (String, Option<f64>) {
     let found = text.rsplit_once("/ ").and_then(|(what, of)| Some((what, display(of)?)));
     match found {
@@ -141,6 +142,7 @@ pub fn head(text: &str) -> (String, Option<f64>) {
 }
 
 /// The numbers of a cell in a unit of this size, with as many digits as they have.
+#[must_use]
 pub fn scaled(cell: &str, size: f64) -> String {
     let word = |word: &str| match word.parse::<f64>() {
         Ok(x) => significant(x / size, digits(word).max(6)),
@@ -156,6 +158,7 @@ fn digits(number: &str) -> usize {
 }
 
 /// The same text in ASCII.
+#[must_use]
 pub fn in_ascii(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for c in text.chars() {

@@ -2,7 +2,7 @@
 
 #![expect(clippy::unwrap_used, reason = "helpers of tests")]
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// The examples that the tests below run.
@@ -200,13 +200,12 @@ fn examples_work_in_a_crate_of_others() {
     let messages = lines.lines().map(|line| serde_json::from_str(line).unwrap());
     let library = |message: serde_json::Value| {
         let target = &message["target"];
-        let files = message["filenames"]
-            .as_array()
-            .filter(|_| target["name"] == "funicular" && target["kind"][0] == "lib")?;
-        let mut names = files.iter().filter_map(|file| file.as_str());
-        names.find(|name| name.ends_with(".rlib")).map(str::to_owned)
+        let is_ours = target["name"] == "funicular" && target["kind"][0] == "lib";
+        let files = message["filenames"].as_array().filter(|_| is_ours)?;
+        let mut names = files.iter().filter_map(|file| file.as_str().map(PathBuf::from));
+        names.find(|name| name.extension().is_some_and(|ending| ending == "rlib"))
     };
-    let library = messages.filter_map(library).last().expect("a library");
+    let library = messages.filter_map(library).next_back().expect("a library");
     let folder = tempfile::tempdir().unwrap();
     let examples = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples");
     for name in RUN {
@@ -214,9 +213,9 @@ fn examples_work_in_a_crate_of_others() {
         std::fs::copy(examples.join(name).with_extension("rs"), &copy).unwrap();
         let compiled = Command::new(Path::new(env!("CARGO")).with_file_name("rustc"))
             .args(["--edition=2024", "--emit=metadata", "--cap-lints=allow", "--extern"])
-            .arg(format!("funicular={library}"))
+            .arg(format!("funicular={}", library.display()))
             .arg("-L")
-            .arg(format!("dependency={}", Path::new(&library).parent().unwrap().display()))
+            .arg(format!("dependency={}", library.parent().unwrap().display()))
             .args(["--out-dir".as_ref(), folder.path(), copy.as_path()])
             .output()
             .unwrap();
