@@ -16,7 +16,6 @@ use crate::work;
 /// By solver: outcomes and iterations of all starts, (size, size), and a picture of each as SVG; the
 /// equilibria in words, and what the program prints.
 #[pyfunction]
-#[expect(clippy::too_many_arguments, reason = "one for each setting")]
 pub fn basins<'py>(
     py: Python<'py>,
     problem: &Problem,

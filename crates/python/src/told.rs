@@ -103,9 +103,9 @@ type Parts = (&'static str, Vec<(&'static str, Field)>);
 fn parts(error: &Error) -> Parts {
     match error {
         Error::File(error) => file(error),
-        Error::Bar(error) => bar(error),
+        Error::Bar(error) | Error::Point(PointError::Bar { error, .. }) => bar(error),
         Error::Chain(error) => chain(error),
-        Error::System(error) => system(error),
+        Error::System(error) | Error::Point(PointError::System(error)) => system(error),
         Error::Refused(refusal) => refused(refusal),
         Error::SystemRefused(refusal) => system_refused(refusal),
         Error::UnknownCase { name, suggestion } => ("UnknownCase", fields!(name, suggestion)),
@@ -124,8 +124,6 @@ fn parts(error: &Error) -> Parts {
             let (text, help, column) = (&error.text, &error.help, error.column());
             ("ParameterError", fields!(text, help, column))
         }
-        Error::Point(PointError::Bar { error, .. }) => bar(error),
-        Error::Point(PointError::System(error)) => system(error),
         Error::Point(PointError::SystemRefused(refusal)) => system_refused(refusal),
         Error::Derivatives(
             DerivativesError::NoNumber { text } | DerivativesError::NoParameter { text },

@@ -8,7 +8,7 @@ use super::tables::{
     duration, long, numbers_from, rung, short, significant, system_line, table, vector, word,
     wrapped,
 };
-use crate::census::{CensusAnswer, ChainCensusAnswer, Found, Summary};
+use crate::census::{CensusAnswer, ChainCensusAnswer, Found, LargeCensusAnswer, Summary};
 
 /// So many equilibria are printed; `--json` and `--csv` have all.
 const PRINTED: usize = 40;
@@ -29,6 +29,13 @@ const LADDER_INDENT: usize = 14;
 impl fmt::Display for ChainCensusAnswer {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&text(self))
+    }
+}
+
+/// The same of its first equilibria.
+impl fmt::Display for LargeCensusAnswer {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.first.fmt(f)
     }
 }
 

@@ -108,7 +108,7 @@ pub fn of_many(
     if arguments.printed.is_json() {
         output::print_stream(|out| answer.write_json(list, out))?;
     } else {
-        output::print(&answer.first.to_string())?;
+        output::print(&answer.to_string())?;
     }
     let census = &answer.first.census;
     Ok(exit(census.check_failed(), census.is_decided()))
