@@ -155,7 +155,7 @@ pub use judge::{Judge, Judged};
 #[cfg(feature = "branches")]
 pub use lagrange::network::Gradient;
 pub use mode_pages::{animated_modes, drawn_modes};
-pub use model::system::SystemStability;
+pub use model::system::{SystemBuilder, SystemStability};
 pub use model::{AxialForce, Evidence, InPlane, InSpace};
 pub use modes::{JointAt, Mode, Modes, ModesAnswer, Summary, WithModes};
 pub use motion::Order;
