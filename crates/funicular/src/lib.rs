@@ -134,7 +134,7 @@ pub use self::ensemble::{Ensemble, PreparedEnsemble};
 #[cfg(feature = "branches")]
 pub use self::parameters::Parameters;
 #[cfg(feature = "paper")]
-pub use self::reproduce::Reproduce;
+pub use self::reproduce::{Reproduce, ReproduceAnswer};
 #[cfg(feature = "branches")]
 pub use self::study::{NoShape, Study, StudyAnswer, StudyPoint, StudyShape};
 #[cfg(feature = "sweep")]

@@ -40,7 +40,7 @@ def test_what_is_written_is_what_is_there():
     assert a.joints.to_dict()["z_m"] == a.joints_m[:, 2].tolist()
 
 
-@pytest.mark.parametrize("name", ["answer", "census", "study", "trace", "modes", "sweep", "basins", "judgement"])
+@pytest.mark.parametrize("name", ["answer", "census", "study", "trace", "modes", "sweep", "basins", "judgement", "reproduction"])
 def test_results_print_as_the_program_does(name):
     result = RESULTS[name]()
     text = str(result)

@@ -36,7 +36,6 @@ mod sweep;
 mod threads;
 mod trace;
 mod varied;
-mod verdicts;
 mod which;
 
 use clap::CommandFactory;

@@ -13,6 +13,8 @@ mod modes;
 pub mod motion;
 pub mod printable;
 pub mod printed;
+#[cfg(feature = "paper")]
+mod reproduction;
 mod shape;
 #[cfg(feature = "branches")]
 mod study;

@@ -82,3 +82,14 @@ fn starts_and_motions() {
     let arguments = ["--push", "1=0,0.5,0", "--time", "0.1"];
     assert_said(&[&["simulate"], &case[..], &arguments].concat(), &moved);
 }
+
+#[test]
+fn the_paper() {
+    // The last line says how long it took.
+    let answer = Reproduce::new().run().unwrap().to_string();
+    let but_last = |text: &str| text.trim_end().rsplit_once(" in ").unwrap().0.to_owned();
+    let output = Command::cargo_bin("funicular").unwrap().arg("reproduce").output().unwrap();
+    let printed = String::from_utf8(output.stdout).unwrap();
+    assert!(answer.lines().count() > 50, "{answer}");
+    assert_eq!(but_last(&printed), but_last(&answer));
+}

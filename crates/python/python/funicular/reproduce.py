@@ -18,9 +18,10 @@ class Reproduction(Result):
     ``figures``, ``seeds``, ``summary``, ...; ``html()`` is the report as a page.
     """
 
-    def __init__(self, text: str, page: str) -> None:
+    def __init__(self, text: str, page: str, said: str) -> None:
         self.data: dict[str, Any] = json.loads(text)
         self._page = page
+        self._said = said
 
     @property
     def all_as_expected(self) -> bool:
