@@ -32,7 +32,7 @@ from ._native import __version__, get_threads, set_threads
 from . import gradients
 from .answer import Answer, Equilibrium, solve
 from .basins import Basins, basins
-from .batch import Batch, SystemBatch, solve_many
+from .batch import Batch, solve_many
 from .census import Census
 from .errors import *  # noqa: F403
 from .errors import __all__ as _errors
@@ -40,6 +40,7 @@ from .evidence import Evidence, Proof, Proofs, Record
 from .judge import Judgement, judge
 from .motion import Modes, ModesOf, Motion, simulate
 from .reproduce import Reproduction, reproduce
+from .rows import SystemBatch
 from .study import Gradient, Study, anchor_stiffness, change, gradient, study
 from .sweep import Sweep, sweep
 from .system import STANDARD_GRAVITY, System

@@ -15,8 +15,8 @@ import numpy as np
 
 from . import _native
 from ._numbers import Array, array
-from .batch import numbers_of
 from .errors import Error, SettingError
+from .rows import numbers_of
 from .system import System
 
 Loss = Callable[[Array, Array], tuple[float, Any, Any]]

@@ -23,9 +23,9 @@ if TYPE_CHECKING:
     from ._progress import Progress
     from .answer import Answer
     from .basins import Basins
-    from .batch import SystemBatch
     from .census import Census
     from .motion import Modes, Motion
+    from .rows import SystemBatch
     from .study import Study
     from .sweep import Sweep
     from .trace import Trace
@@ -446,7 +446,7 @@ class System:
 
         Raises ShapeError, InputError where arrays do not fit.
         """
-        from .batch import solve_nets
+        from .rows import solve_nets
 
         given: dict[str, Any] = {"lengths": lengths, "masses": masses, "stiffnesses": stiffnesses, "joint_masses": joint_masses}
         given |= {"forces": forces, "anchors": anchors}
