@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING, Any, Union
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import numpy.typing as npt
@@ -18,8 +18,6 @@ from .table import Table
 
 if TYPE_CHECKING:
     import distributed
-
-Rows = Union[slice, "npt.NDArray[Any]", Sequence[int]]
 
 ARRAYS = ("joints_m", "forces_n", "axial_n", "energy_j", "residual", "statics", "rung")
 """What a batch has for each chain."""
