@@ -102,5 +102,6 @@ pub use parameter::apply::PointError;
 pub use parameter::base::Base;
 pub use parameter::error::ParameterError;
 pub use parameter::number::{AnchorEnd, BarField, JointField, Number, Which};
+pub use parameter::system::apply;
 pub use parameter::values::{MAX_POINTS, Parameter};
 pub use variation::{Combine, Variation};

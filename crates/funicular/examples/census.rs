@@ -5,13 +5,11 @@ use funicular::prelude::*;
 fn main() -> Result<(), Error> {
     let problem = Problem::case("three-equal-bars-oblique")?;
     let found = Census::new().max_bars(10).run(&problem)?;
-    println!("{} equilibria, complete: {}", found.census.count, found.census.complete);
-    for one in &found.equilibria {
-        let e = &one.equilibrium;
-        println!(
-            "{}: {:.6} J, {} directions in which the energy falls, bars {:?}",
-            one.label, e.energy_j, e.stability.index_in_space, one.signs
-        );
+    let all = found.equilibria();
+    println!("{} equilibria, complete: {}", all.len(), found.complete());
+    for e in &all {
+        let index = e.stability.index_in_space;
+        println!("{:.6} J, {index} directions in which the energy falls", e.energy_j);
     }
     Ok(())
 }

@@ -11,7 +11,7 @@ fn main() -> Result<(), Error> {
                  { from = \"P\", to = \"B\", length_m = 5, mass_kg = 0 }]",
         "two.toml",
     )?;
-    let derivatives = Derivatives::of(&problem)?;
+    let derivatives = Derivatives::new().run(&problem)?;
     for pair in derivatives.anchor_stiffness()? {
         let along = pair.stiffness_n_m[0][0];
         println!("force at {} by place of {}, along x: {along:.6} N/m", pair.of, pair.by);

@@ -173,6 +173,12 @@ impl BasinsAnswer {
         u64::from(self.of.size).pow(2)
     }
 
+    /// The equilibria that outcomes 0, 1, 2, ... stand for, in words.
+    #[must_use]
+    pub fn equilibria(&self) -> &[String] {
+        &self.names
+    }
+
     /// Where the starts of a solver led.
     #[must_use]
     pub fn outcomes(&self, solver: &SolverName) -> Option<&Outcomes> {

@@ -2,15 +2,16 @@
 
 use std::io::{self, Write};
 
-use branches::{BarField, Base, JointField, Number, Parameter, ParameterError, Which};
-use lagrange::network::{self, Settings};
+use branches::{BarField, Base, JointField, Number, Which};
+use lagrange::network::{self, Gradient, Settings};
 use model::Vector;
-use model::system::System;
+use model::system::{System, SystemEquilibrium};
 use serde::{Serialize, Serializer};
 
 use crate::csv::quoted;
 use crate::equilibria::system_of;
 use crate::error::Error;
+use crate::parameters::{parsed, without_value};
 use crate::problem::Problem;
 
 /// Derivatives of the hanging equilibrium of a chain or a system: stiffness matrices of its
@@ -30,7 +31,7 @@ use crate::problem::Problem;
 ///              { from = \"P\", to = \"B\", length_m = 5, mass_kg = 0 }]",
 ///     "v.toml",
 /// )?;
-/// let derivatives = Derivatives::of(&problem)?;
+/// let derivatives = Derivatives::new().run(&problem)?;
 /// // The pull 8/2 * a/sqrt(l² - a²) of half the span a grows by W l²/(4 h³) with the span.
 /// let own = &derivatives.anchor_stiffness()?[3];
 /// assert_eq!((own.of.as_str(), own.by.as_str()), ("B", "B"));
@@ -41,8 +42,12 @@ use crate::problem::Problem;
 /// assert!((by.value + 5.0 / 8.0).abs() < 1e-10);
 /// # Ok::<(), Error>(())
 /// ```
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Derivatives;
+
+/// An equilibrium, ready to be asked for its derivatives.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Derivatives {
+pub struct DerivativesAnswer {
     system: System,
     solution: network::Solution,
 }
@@ -128,12 +133,18 @@ pub enum DerivativesError {
 }
 
 impl Derivatives {
+    /// By `lagrange`, with its usual settings.
+    #[must_use]
+    pub fn new() -> Self {
+        Self
+    }
+
     /// Of the hanging equilibrium of a problem, or of the one next to it as it is drawn.
     ///
     /// # Errors
     ///
     /// [`Error::SystemRefused`] when there is none, [`Error::Network`] when it is not found.
-    pub fn of(problem: &Problem) -> Result<Self, Error> {
+    pub fn run(&self, problem: &Problem) -> Result<DerivativesAnswer, Error> {
         let system = system_of(problem);
         system.refusal()?;
         let settings = Settings::default();
@@ -143,7 +154,15 @@ impl Derivatives {
             }
             None => network::solve(&system, &settings)?,
         };
-        Ok(Self { system, solution })
+        Ok(DerivativesAnswer { system, solution })
+    }
+}
+
+impl DerivativesAnswer {
+    /// The equilibrium.
+    #[must_use]
+    pub fn equilibrium(&self) -> &SystemEquilibrium {
+        &self.solution.equilibrium
     }
 
     /// The system; a chain has joints named by their numbers, from `0`.
@@ -209,13 +228,27 @@ impl Derivatives {
                 (found.axial_n[member], "N")
             }
         };
-        let mut derivatives = network::Derivatives::new(&self.system, &self.solution)?;
-        let gradient = derivatives.gradient(&by_joints, &by_axial)?;
+        let gradient = self.pullback(&by_joints, &by_axial)?;
         Ok(NumberGradient { of: of.to_owned(), value, derivatives: self.listed(&gradient, unit) })
     }
 
+    /// The derivatives of any function of places and axial forces by all parameters, from those by
+    /// each joint and each member: the product with the transposed Jacobian, in one solve.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Network`] where the equilibrium has no derivatives.
+    ///
+    /// # Panics
+    ///
+    /// Where there are more or fewer derivatives than joints or members.
+    pub fn pullback(&self, by_joints: &[Vector], by_axial: &[f64]) -> Result<Gradient, Error> {
+        let mut derivatives = network::Derivatives::new(&self.system, &self.solution)?;
+        Ok(derivatives.gradient(by_joints, by_axial)?)
+    }
+
     /// A gradient with the names of the parameters.
-    fn listed(&self, gradient: &network::Gradient, unit: &str) -> Vec<Derivative> {
+    fn listed(&self, gradient: &Gradient, unit: &str) -> Vec<Derivative> {
         let mut list = Vec::new();
         let mut add = |number: Number, value: f64| {
             let unit = format!("{unit}/{}", number.unit());
@@ -338,19 +371,6 @@ impl Derivatives {
         }
         Ok(Of::Place(joint, axis))
     }
-}
-
-/// A parameter has values; what they are does not matter here.
-fn parsed(path: &str) -> Result<Parameter, Error> {
-    let parameter = format!("{path}=0").parse();
-    parameter.map_err(|error| without_value(error, path).into())
-}
-
-/// The error about the path alone.
-fn without_value(error: ParameterError, path: &str) -> ParameterError {
-    let end = |at: usize| at.min(path.len());
-    let span = end(error.span.start)..end(error.span.end);
-    ParameterError { text: path.to_owned(), span, ..error }
 }
 
 /// A number of an equilibrium: by joint and axis, or by member.

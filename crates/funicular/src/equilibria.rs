@@ -2,7 +2,7 @@
 
 use model::system::{System, SystemEquilibrium};
 
-use crate::census::Census;
+use crate::census::{Census, CensusAnswer};
 use crate::error::Error;
 use crate::problem::Problem;
 use crate::solve::Solve;
@@ -44,11 +44,11 @@ pub(crate) fn hanging(problem: &Problem) -> Result<Equilibria, Error> {
 /// All equilibria of a chain of at most `max_bars` bars by a census, if that is complete; the
 /// stable one otherwise.
 pub(crate) fn all(problem: &Problem, max_bars: usize) -> Result<Equilibria, Error> {
-    let short = problem.as_chain().filter(|chain| chain.chain().bars().len() <= max_bars);
-    let Some(row) = short.and_then(|chain| System::from(chain.chain()).as_row()) else {
+    let Some(chain) = problem.as_chain().filter(|chain| chain.chain().bars().len() <= max_bars)
+    else {
         return hanging(problem);
     };
-    let census = match Census::new().max_bars(max_bars).run(problem) {
+    let census = match Census::new().max_bars(max_bars).of_chain(chain, &|_| {}) {
         Ok(census) => census,
         Err(Error::Census(_)) => return hanging(problem),
         Err(error) => return Err(error),
@@ -57,9 +57,8 @@ pub(crate) fn all(problem: &Problem, max_bars: usize) -> Result<Equilibria, Erro
     if !census.census.complete || !census.census.slack_families.is_empty() {
         return hanging(problem);
     }
-    let located = |found: crate::census::Found| Located {
-        label: found.label,
-        found: row.equilibrium(found.equilibrium),
-    };
-    Ok(Equilibria { list: census.equilibria.into_iter().map(located).collect(), complete: true })
+    let labels: Vec<_> = census.equilibria.iter().map(|found| found.label.clone()).collect();
+    let all = CensusAnswer::Chain(census.into()).equilibria();
+    let located = |(label, found)| Located { label, found };
+    Ok(Equilibria { list: labels.into_iter().zip(all).map(located).collect(), complete: true })
 }

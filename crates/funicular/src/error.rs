@@ -124,6 +124,10 @@ pub enum Error {
     #[cfg(feature = "branches")]
     #[error(transparent)]
     Parameter(#[from] branches::ParameterError),
+    /// Occurs when numbers put in the place of those of a problem describe none.
+    #[cfg(feature = "branches")]
+    #[error(transparent)]
+    Point(#[from] branches::PointError),
     /// Occurs when derivatives are asked for of or by what has none.
     #[cfg(feature = "branches")]
     #[error(transparent)]

@@ -28,14 +28,24 @@
 //! | the hanging equilibrium of a chain, or of bars, cables and struts, elastic or not, by both solvers, judged and proved | [`Solve`] |
 //! | the same of many systems in parallel | [`Solve::run_all`] |
 //! | every equilibrium, stable or not, and the proof that there is no other | [`Census`] |
-//! | the hanging shape over a parameter: sag, forces, angles | [`Study`] |
-//! | all equilibria over a parameter: branches, folds, exchanges of stability | [`Trace`] |
-//! | which start leads where, by millions | [`Sweep`] |
-//! | the same as a picture | [`Basins`] |
+#![cfg_attr(
+    feature = "branches",
+    doc = "| the hanging shape over a parameter: sag, forces, angles | [`Study`] |"
+)]
+#![cfg_attr(
+    feature = "branches",
+    doc = "| how it changes with every number of its file | [`Derivatives`] |"
+)]
+#![cfg_attr(
+    feature = "branches",
+    doc = "| all equilibria over a parameter: branches, folds, exchanges of stability | [`Trace`] |"
+)]
+#![cfg_attr(feature = "sweep", doc = "| which start leads where, by millions | [`Sweep`] |")]
+#![cfg_attr(feature = "sweep", doc = "| the same as a picture | [`Basins`] |")]
 //! | small oscillations, and how fast unstable equilibria are left | [`Modes`] |
 //! | the system in motion | [`Simulate`] |
 //! | an answer from elsewhere, judged | [`Judge`] |
-//! | the paper, judged | [`Reproduce`] |
+#![cfg_attr(feature = "paper", doc = "| the paper, judged | [`Reproduce`] |")]
 //!
 //! Each is a builder: `new`, what differs from the defaults, `run`. The program `funicular` does
 //! nothing but read its arguments, call these, and print.
@@ -50,9 +60,9 @@
 //! | feature | what |
 //! |---|---|
 //! | `columns` | bars from Parquet |
-//! | `sweep` | [`Sweep`], [`Basins`], [`Ensemble`] |
-//! | `branches` | [`Study`], [`Derivatives`], [`Trace`] |
-//! | `paper` | [`Reproduce`] |
+//! | `sweep` | `Sweep`, `Basins`, `Ensemble` |
+//! | `branches` | `Study`, `Derivatives`, `Trace` |
+//! | `paper` | `Reproduce` |
 //! | `program` | the program `funicular` |
 //!
 //! # Conventions
@@ -94,6 +104,8 @@ pub mod starts;
 mod study;
 #[cfg(feature = "sweep")]
 mod sweep;
+#[doc(hidden)]
+pub mod text;
 mod threads;
 #[cfg(feature = "branches")]
 mod trace;
@@ -109,17 +121,20 @@ struct Readme;
 pub use self::animation::Animation;
 #[cfg(feature = "sweep")]
 pub use self::basins::{Basins, BasinsAnswer};
-pub use self::census::{Census, CensusAnswer, LargeCensusAnswer, SystemCensusAnswer};
+pub use self::census::{
+    Census, CensusAnswer, ChainCensusAnswer, LargeCensusAnswer, SystemCensusAnswer,
+};
 #[cfg(feature = "branches")]
 pub use self::derivatives::{
-    AnchorStiffness, Derivative, Derivatives, DerivativesError, NumberGradient, ParameterChange,
+    AnchorStiffness, Derivative, Derivatives, DerivativesAnswer, DerivativesError, NumberGradient,
+    ParameterChange,
 };
 #[cfg(feature = "sweep")]
 pub use self::ensemble::{Ensemble, PreparedEnsemble};
 #[cfg(feature = "branches")]
 pub use self::parameters::Parameters;
 #[cfg(feature = "paper")]
-pub use self::reproduce::Reproduce;
+pub use self::reproduce::{Reproduce, ReproduceAnswer};
 #[cfg(feature = "branches")]
 pub use self::study::{NoShape, Study, StudyAnswer, StudyPoint, StudyShape};
 #[cfg(feature = "sweep")]
@@ -129,7 +144,7 @@ pub use self::trace::{Trace, TraceAnswer};
 #[cfg(feature = "sweep")]
 pub use ::sweep::Field;
 #[cfg(feature = "branches")]
-pub use branches::Combine;
+pub use branches::{Combine, JointField, Number, PointError};
 pub use compare::compare;
 pub use enclosed::{Enclosed, Inertia};
 pub use equilibria::system_of;
@@ -137,9 +152,11 @@ pub use error::Error;
 pub use extremes::Extremes;
 pub use formats::ForceTable;
 pub use judge::{Judge, Judged};
+#[cfg(feature = "branches")]
+pub use lagrange::network::Gradient;
 pub use mode_pages::{animated_modes, drawn_modes};
 pub use model::budget::limit_work;
-pub use model::system::SystemStability;
+pub use model::system::{SystemBuilder, SystemStability};
 pub use model::{AxialForce, Evidence, InPlane, InSpace};
 pub use modes::{JointAt, Mode, Modes, ModesAnswer, Summary, WithModes};
 pub use motion::Order;

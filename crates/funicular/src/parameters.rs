@@ -1,7 +1,8 @@
 //! Numbers of a system file that vary.
 
-use branches::{Base, Combine, Parameter, Variation};
+use branches::{Base, Combine, Parameter, ParameterError, Variation};
 
+use crate::equilibria::system_of;
 use crate::error::Error;
 use crate::problem::Problem;
 
@@ -53,5 +54,50 @@ impl Parameters {
     /// A chain or a system with these parameters.
     pub(crate) fn over<B: Base>(&self, base: B) -> Result<Variation<B>, Error> {
         Ok(Variation::new(base, &self.all, self.combine)?)
+    }
+}
+
+/// A parameter has values; what they are does not matter here.
+pub(crate) fn parsed(path: &str) -> Result<Parameter, Error> {
+    let parameter = format!("{path}=0").parse();
+    parameter.map_err(|error| without_value(error, path).into())
+}
+
+/// The error about the path alone.
+pub(crate) fn without_value(error: ParameterError, path: &str) -> ParameterError {
+    let end = |at: usize| at.min(path.len());
+    let span = end(error.span.start)..end(error.span.end);
+    ParameterError { text: path.to_owned(), span, ..error }
+}
+
+impl Problem {
+    /// The same problem with other numbers of its file, by their paths; a chain becomes a system with
+    /// joints named by their numbers, from `0`.
+    ///
+    /// ```
+    /// use funicular::prelude::*;
+    /// let lamp = Problem::case("lamp")?;
+    /// let heavy = lamp.with(&[("joints.lamp.mass_kg", 4.0), ("gravity_m_s2", 10.0)])?;
+    /// let weight: f64 =
+    ///     Solve::new().run(&heavy)?.equilibria()[0].reactions_n.iter().map(|force| force[2]).sum();
+    /// assert!((weight - 40.0).abs() < 1e-9);
+    /// assert!(lamp.with(&[("joints.candle.mass_kg", 4.0)]).is_err());
+    /// # Ok::<(), Error>(())
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Parameter`] for what the problem has not, [`Error::Point`] where the numbers describe
+    /// no problem.
+    pub fn with(&self, numbers: &[(impl AsRef<str>, f64)]) -> Result<Self, Error> {
+        let system = system_of(self);
+        let number = |(path, value): &(_, f64)| {
+            let path: &str = AsRef::as_ref(path);
+            let parameter = parsed(path)?;
+            system.check(&parameter).map_err(|error| without_value(error, path))?;
+            Ok::<_, Error>((parameter.number, *value))
+        };
+        let numbers = numbers.iter().map(number).collect::<Result<Vec<_>, _>>()?;
+        Ok(branches::apply(&system, &numbers)?.into())
     }
 }

@@ -124,8 +124,8 @@ impl Problem {
 
     /// The same problem with another question: the equilibrium next to this shape, a place for every
     /// joint, m. A chain becomes a system with joints named by their numbers, from `0`. Every
-    /// builder then starts there: [`Solve`](crate::Solve), [`Study`](crate::Study),
-    /// [`Modes`](crate::Modes), [`Derivatives`](crate::Derivatives), [`Simulate`](crate::Simulate).
+    /// builder then starts there: [`Solve`](crate::Solve), `Study`,
+    /// [`Modes`](crate::Modes), `Derivatives`, [`Simulate`](crate::Simulate).
     ///
     /// ```
     /// use funicular::prelude::*;

@@ -1,5 +1,7 @@
 //! The paper, judged.
 
+use std::ops::Deref;
+
 use report::{Environment, Report};
 
 use crate::error::Error;
@@ -29,7 +31,7 @@ impl Reproduce {
     ///
     /// [`Error::Reproduction`] when a solver has no answer to the paper's example,
     /// [`Error::Report`] when it cannot be told.
-    pub fn run(&self) -> Result<Report, Error> {
+    pub fn run(&self) -> Result<ReproduceAnswer, Error> {
         self.run_watched(|_| {})
     }
 
@@ -38,8 +40,20 @@ impl Reproduce {
     /// # Errors
     ///
     /// As [`run`](Self::run).
-    pub fn run_watched(&self, watch: impl FnMut(&str)) -> Result<Report, Error> {
+    pub fn run_watched(&self, watch: impl FnMut(&str)) -> Result<ReproduceAnswer, Error> {
         let reproduction = paper::reproduce(watch)?;
-        Ok(Report::new(reproduction, Environment::here(std::env::args()))?)
+        Ok(ReproduceAnswer(Report::new(reproduction, Environment::here(std::env::args()))?))
+    }
+}
+
+/// The paper, judged: a report, which prints as a table.
+#[derive(Debug)]
+pub struct ReproduceAnswer(Report);
+
+impl Deref for ReproduceAnswer {
+    type Target = Report;
+
+    fn deref(&self) -> &Report {
+        &self.0
     }
 }

@@ -177,6 +177,7 @@ impl Sweep {
         let (summary, discovered) = swept.finish();
         let discovered = discovered.unwrap_or_default();
         Ok(SweepAnswer {
+            manifest: prepared.manifest.clone(),
             equilibria: members.list().iter().cloned().chain(discovered.equilibria).collect(),
             complete: members.complete(),
             listed_below_j: discovered.below_j,
@@ -332,4 +333,5 @@ pub struct SweepAnswer {
     pub listed_below_j: Option<f64>,
     /// The counts.
     pub summary: Summary,
+    pub(crate) manifest: Manifest,
 }

@@ -20,7 +20,7 @@ use crate::{words, work};
 const BLOCK: usize = 256;
 
 /// No rung was reached.
-const NO_RUNG: i8 = -1;
+pub const NO_RUNG: i8 = -1;
 
 /// What is asked.
 struct Batch {
@@ -83,7 +83,7 @@ impl Block {
 }
 
 /// The number of a rung, lowest first, from 0.
-fn number(rung: Rung) -> i8 {
+pub fn number(rung: Rung) -> i8 {
     Rung::ALL
         .iter()
         .position(|other| *other == rung)

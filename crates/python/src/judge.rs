@@ -9,12 +9,13 @@ use numpy::PyReadonlyArrayDyn;
 use pyo3::prelude::*;
 
 use crate::arrays::{numbers, vectors};
+use crate::printable::printable;
 use crate::problem::Problem;
 use crate::raise::{raise, unwritten};
 use crate::work;
 
 /// What `funicular judge --json` prints, whether the answer is confirmed and whether refuted, and
-/// the judgement as a page.
+/// the judgement as a page and as text.
 #[pyfunction]
 #[expect(clippy::too_many_arguments, reason = "arrays, one for each quantity")]
 pub fn judge<'py>(
@@ -27,7 +28,7 @@ pub fn judge<'py>(
     tolerance: Option<f64>,
     threads: usize,
     progress: Option<Bound<'py, PyAny>>,
-) -> PyResult<(String, bool, bool, String)> {
+) -> PyResult<(String, bool, bool, String, String)> {
     let joints = vectors(&joints_m)?;
     let axial = axial_n.as_ref().map(numbers).transpose()?;
     let of = Arc::clone(&problem.of);
@@ -38,12 +39,13 @@ pub fn judge<'py>(
         if let Some(reactions) = reactions_n {
             answer = answer.with_reactions(&system, reactions)?;
         }
-        let judged = judge.run_watched(&system, &answer, &|what| watch.tell(what, 0, 0))?;
+        let judged = judge.run_watched(&of, &answer, &|what| watch.tell(what, 0, 0))?;
         let judgement = judged.judgement();
         let verdict = (judgement.is_confirmed(), judgement.is_refuted());
-        Ok((serde_json::to_string(&judged), verdict, judged.html(&[])))
+        Ok((serde_json::to_string(&judged), verdict, judged.html(&[]), judged.to_string()))
     })?;
-    let (text, (confirmed, refuted), page) =
+    let (text, (confirmed, refuted), page, said) =
         found.map_err(|error: funicular::Error| raise(&error))?;
-    Ok((text.map_err(|error| unwritten(&error))?, confirmed, refuted, page))
+    let text = text.map_err(|error| unwritten(&error))?;
+    Ok((text, confirmed, refuted, page, printable(&said)))
 }

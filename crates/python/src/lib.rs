@@ -8,10 +8,12 @@
 
 mod arrays;
 mod arrow;
+mod basins;
 mod batch;
 mod census;
 mod judge;
 mod modes;
+mod nets;
 mod outcomes;
 mod printable;
 mod problem;
@@ -42,12 +44,16 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(work::get_threads, module)?)?;
     module.add_function(wrap_pyfunction!(work::limit_work, module)?)?;
     module.add_function(wrap_pyfunction!(solve::solve, module)?)?;
+    module.add_function(wrap_pyfunction!(solve::solve_text, module)?)?;
     module.add_function(wrap_pyfunction!(solve::draw, module)?)?;
     module.add_function(wrap_pyfunction!(batch::solve_many, module)?)?;
+    module.add_function(wrap_pyfunction!(nets::solve_nets, module)?)?;
+    module.add_function(wrap_pyfunction!(basins::basins, module)?)?;
     module.add_function(wrap_pyfunction!(census::census, module)?)?;
     module.add_function(wrap_pyfunction!(trace::trace, module)?)?;
     module.add_function(wrap_pyfunction!(study::study, module)?)?;
     module.add_function(wrap_pyfunction!(study::derivatives, module)?)?;
+    module.add_function(wrap_pyfunction!(study::pullback, module)?)?;
     module.add_function(wrap_pyfunction!(sweep::sweep, module)?)?;
     module.add_function(wrap_pyfunction!(store::sweep_write, module)?)?;
     module.add_function(wrap_pyfunction!(store::sweep_merge, module)?)?;

@@ -5,11 +5,12 @@ use std::sync::Arc;
 use funicular::prelude::Modes;
 use pyo3::prelude::*;
 
+use crate::printable::printable;
 use crate::problem::Problem;
 use crate::raise::{raise, unwritten};
 use crate::work;
 
-/// What `funicular modes --json` prints.
+/// What `funicular modes` prints, with `--json` and without.
 #[pyfunction]
 pub fn modes<'py>(
     py: Python<'py>,
@@ -18,7 +19,7 @@ pub fn modes<'py>(
     lowest: Option<usize>,
     threads: usize,
     progress: Option<Bound<'py, PyAny>>,
-) -> PyResult<String> {
+) -> PyResult<(String, String)> {
     let of = Arc::clone(&problem.of);
     let mut modes = max_bars.map_or_else(Modes::new, |bars| Modes::new().max_bars(bars));
     if let Some(count) = lowest {
@@ -26,5 +27,6 @@ pub fn modes<'py>(
     }
     let found = work::run(py, threads, progress.as_ref(), move |_| modes.run(&of))?;
     let found = found.map_err(|error| raise(&error))?;
-    serde_json::to_string(&found).map_err(|error| unwritten(&error))
+    let text = serde_json::to_string(&found).map_err(|error| unwritten(&error))?;
+    Ok((text, printable(&found.to_string())))
 }

@@ -10,7 +10,8 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use crate::arrays::{column, numbers, rows, vectors};
-use crate::raise::raise;
+use crate::nets;
+use crate::raise::{internal, raise};
 
 /// A chain between two anchors or a system of joints and members, which has an answer.
 #[pyclass(frozen, module = "funicular._native")]
@@ -191,6 +192,18 @@ impl Problem {
         let joints = vectors(&joints_m)?;
         let drawn = py.detach(|| self.of.near(&joints));
         drawn.map(Self::new).map_err(|error| raise(&error))
+    }
+
+    /// The numbers under the name of an array of [`with_numbers`](Self::with_numbers), NaN where there
+    /// are none.
+    fn numbers<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        let values = nets::values(&self.system(), name);
+        values.map(|values| column(py, values)).ok_or_else(|| internal(name))
+    }
+
+    /// The same with other numbers; NaN leaves one as it is.
+    fn with_numbers(&self, py: Python<'_>, arrays: Vec<(String, Doubles<'_>)>) -> PyResult<Self> {
+        nets::with_numbers(py, self, arrays).map(Self::new)
     }
 
     /// The name.

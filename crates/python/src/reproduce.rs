@@ -7,17 +7,18 @@ use pyo3::prelude::*;
 use crate::raise::{internal, raise};
 use crate::work;
 
-/// What `funicular reproduce --json` prints, and the report as a page.
+/// What `funicular reproduce --json` prints, the report as a page, and the tables.
 #[pyfunction]
 pub fn reproduce(
     py: Python<'_>,
     threads: usize,
     progress: Option<Bound<'_, PyAny>>,
-) -> PyResult<(String, String)> {
+) -> PyResult<(String, String, String)> {
     let found = work::run(py, threads, progress.as_ref(), |watch| {
         let report = Reproduce::new().run_watched(|what| watch.tell(what, 0, 0))?;
-        Ok::<_, Error>((report.json().map_err(|error| error.to_string()), report.html()))
+        let json = report.json().map_err(|error| error.to_string());
+        Ok::<_, Error>((json, report.html(), report.to_string()))
     })?;
-    let (json, html) = found.map_err(|error| raise(&error))?;
-    Ok((json.map_err(|error| internal(&error))?, html))
+    let (json, html, said) = found.map_err(|error| raise(&error))?;
+    Ok((json.map_err(|error| internal(&error))?, html, said))
 }

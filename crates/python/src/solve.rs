@@ -11,6 +11,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 
 use crate::arrays::{column, numbers, rows, vectors};
+use crate::printable::printable;
 use crate::problem::Problem;
 use crate::raise::{internal, raise, unwritten};
 use crate::{words, work};
@@ -93,10 +94,7 @@ pub fn solve<'py>(
     threads: usize,
     progress: Option<Bound<'py, PyAny>>,
 ) -> PyResult<Told<'py>> {
-    let solve = Solve::new()
-        .solvers(words::solvers(solver)?)
-        .equations(words::equations(equations)?)
-        .census(words::census(census)?);
+    let solve = solver_of(solver, equations, census)?;
     let of = Arc::clone(&problem.of);
     let found = work::run(py, threads, progress.as_ref(), move |watch| {
         let found = solve.run_watched(&of, &|what| watch.tell(what, 0, 0))?;
@@ -112,6 +110,30 @@ fn parts(answer: SolveAnswer, is_chain: bool) -> (serde_json::Result<String>, Ve
     let (system, equilibria) = answer.into_parts();
     let arrays = equilibria.into_iter().map(|found| Arrays::new(&system, found, is_chain));
     (text, arrays.collect())
+}
+
+/// What `funicular solve` prints. It is solved again: tables take longer than short chains, and most
+/// answers are not printed.
+#[pyfunction]
+pub fn solve_text(
+    py: Python<'_>,
+    problem: &Problem,
+    solver: &str,
+    equations: &str,
+    census: &str,
+) -> PyResult<String> {
+    let solve = solver_of(solver, equations, census)?;
+    let of = Arc::clone(&problem.of);
+    let found = work::run(py, 0, None, move |_| Ok(solve.run(&of)?.to_string()))?;
+    found.map(|text| printable(&text)).map_err(|error: Error| raise(&error))
+}
+
+/// What is asked, by its words.
+fn solver_of(solver: &str, equations: &str, census: &str) -> PyResult<Solve> {
+    Ok(Solve::new()
+        .solvers(words::solvers(solver)?)
+        .equations(words::equations(equations)?)
+        .census(words::census(census)?))
 }
 
 /// A drawing of joints, axial forces and forces of the ground to scale, as SVG.

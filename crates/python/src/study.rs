@@ -4,15 +4,20 @@ use std::sync::Arc;
 
 use funicular::prelude::{Derivatives, Study};
 use funicular::{Combine, Error, Parameters};
+use numpy::PyReadonlyArrayDyn;
 use pyo3::prelude::*;
+use pyo3::types::PyDict;
 
+use crate::arrays::{column, numbers, rows, vectors};
+use crate::printable::printable;
 use crate::problem::Problem;
 use crate::raise::{raise, unwritten};
 use crate::{words, work};
 
 /// What `funicular study --json` prints, the same as CSV, and a figure of each path as SVG; whether a
-/// check failed, and whether all is decided.
-type Told = (String, String, Vec<String>, bool, bool);
+/// check failed, whether all is decided, and the
+/// tables.
+type Told = (String, String, Vec<String>, bool, bool, String);
 
 /// The equilibrium over numbers of the file, with `numbers` shown besides.
 #[pyfunction]
@@ -41,11 +46,13 @@ pub fn study<'py>(
         let _ = found.write_csv(&mut csv);
         let figures = (1..=found.paths()).map(|path| found.figure(path)).collect();
         let verdict = (found.check_failed(), found.is_decided());
-        Ok((serde_json::to_string(&found), csv, figures, verdict))
+        Ok((serde_json::to_string(&found), csv, figures, verdict, found.to_string()))
     })?;
-    let (text, csv, figures, (failed, decided)) = found.map_err(|error: Error| raise(&error))?;
+    let (text, csv, figures, (failed, decided), said) =
+        found.map_err(|error: Error| raise(&error))?;
     let text = text.map_err(|error| unwritten(&error))?;
-    Ok((text, String::from_utf8_lossy(&csv).into_owned(), figures, failed, decided))
+    let csv = String::from_utf8_lossy(&csv).into_owned();
+    Ok((text, csv, figures, failed, decided, printable(&said)))
 }
 
 /// As JSON: the gradient of one number, the change by one parameter, or the stiffness of the anchors.
@@ -61,7 +68,7 @@ pub fn derivatives<'py>(
     let of = Arc::clone(&problem.of);
     let found = work::run(py, threads, progress.as_ref(), move |watch| {
         watch.tell("derivatives", 0, 0);
-        let derivatives = Derivatives::of(&of)?;
+        let derivatives = Derivatives::new().run(&of)?;
         Ok::<_, Error>(match (number, by) {
             (Some(number), _) => serde_json::to_string(&derivatives.gradient(&number)?),
             (None, Some(by)) => serde_json::to_string(&derivatives.change(&by)?),
@@ -70,4 +77,41 @@ pub fn derivatives<'py>(
     })?;
     let text = found.map_err(|error: Error| raise(&error))?;
     text.map_err(|error| unwritten(&error))
+}
+
+/// The equilibrium by `lagrange` in arrays; and of a function of joints and axial forces, whose
+/// derivatives by them are given, the derivatives by lengths, masses, stiffnesses, forces on joints
+/// and places of anchors.
+#[pyfunction]
+pub fn pullback<'py>(
+    py: Python<'py>,
+    problem: &Problem,
+    by_joints: Option<PyReadonlyArrayDyn<'py, f64>>,
+    by_axial: Option<PyReadonlyArrayDyn<'py, f64>>,
+    threads: usize,
+) -> PyResult<Bound<'py, PyDict>> {
+    let by = match (&by_joints, &by_axial) {
+        (Some(joints), Some(axial)) => Some((vectors(joints)?, numbers(axial)?)),
+        _ => None,
+    };
+    let of = Arc::clone(&problem.of);
+    let found = work::run(py, threads, None, move |_| {
+        let found = Derivatives::new().run(&of)?;
+        let gradient = by.map(|(joints, axial)| found.pullback(&joints, &axial)).transpose()?;
+        let at = found.equilibrium();
+        Ok((at.joints_m.clone(), at.axial_n.clone(), at.energy_j, gradient))
+    })?;
+    let (joints_m, axial_n, energy_j, gradient) = found.map_err(|error: Error| raise(&error))?;
+    let dict = PyDict::new(py);
+    dict.set_item("joints_m", rows(py, joints_m)?)?;
+    dict.set_item("axial_n", column(py, axial_n))?;
+    dict.set_item("energy_j", energy_j)?;
+    if let Some(gradient) = gradient {
+        dict.set_item("lengths", column(py, gradient.by_length))?;
+        dict.set_item("masses", column(py, gradient.by_mass))?;
+        dict.set_item("stiffnesses", column(py, gradient.by_stiffness))?;
+        dict.set_item("forces", rows(py, gradient.by_force)?)?;
+        dict.set_item("anchors", rows(py, gradient.by_anchor)?)?;
+    }
+    Ok(dict)
 }

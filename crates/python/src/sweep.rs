@@ -8,11 +8,12 @@ use pyo3::prelude::*;
 use serde_json::json;
 
 use crate::outcomes::outcomes;
+use crate::printable::printable;
 use crate::problem::Problem;
 use crate::raise::raise;
 use crate::{words, work};
 
-/// The equilibria and the counts of outcomes, in memory.
+/// The equilibria and the counts of outcomes, in memory, and the tables.
 #[pyfunction]
 #[expect(clippy::too_many_arguments, reason = "one for each setting")]
 pub fn sweep<'py>(
@@ -24,7 +25,7 @@ pub fn sweep<'py>(
     solver: &str,
     threads: usize,
     progress: Option<Bound<'py, PyAny>>,
-) -> PyResult<String> {
+) -> PyResult<(String, String)> {
     let sweep = Sweep::new(seeds)
         .number(number)
         .spread(words::spread(spread)?)
@@ -36,7 +37,7 @@ pub fn sweep<'py>(
         })
     })?;
     let found: SweepAnswer = found.map_err(|error: Error| raise(&error))?;
-    let SweepAnswer { equilibria, complete, listed_below_j, summary } = &found;
+    let SweepAnswer { equilibria, complete, listed_below_j, summary, .. } = &found;
     let object = json!({
         "seeds": seeds,
         "equilibria": equilibria,
@@ -44,5 +45,5 @@ pub fn sweep<'py>(
         "listed_below_j": listed_below_j,
         "outcomes": outcomes(summary),
     });
-    Ok(object.to_string())
+    Ok((object.to_string(), printable(&found.to_string())))
 }

@@ -1,7 +1,7 @@
 //! Errors of the library as the exceptions of the package have them: a class, a sentence, and the
 //! numbers under the names that the library gives them.
 
-use funicular::{DerivativesError, Error, SimulateError};
+use funicular::{DerivativesError, Error, PointError, SimulateError};
 use model::system::{SystemError, SystemRefusal};
 use model::system_file::{SystemFileError, SystemFileErrorKind};
 use model::{BarError, ChainError, NoCensus, Refusal};
@@ -103,9 +103,9 @@ type Parts = (&'static str, Vec<(&'static str, Field)>);
 fn parts(error: &Error) -> Parts {
     match error {
         Error::File(error) => file(error),
-        Error::Bar(error) => bar(error),
+        Error::Bar(error) | Error::Point(PointError::Bar { error, .. }) => bar(error),
         Error::Chain(error) => chain(error),
-        Error::System(error) => system(error),
+        Error::System(error) | Error::Point(PointError::System(error)) => system(error),
         Error::Refused(refusal) => refused(refusal),
         Error::SystemRefused(refusal) => system_refused(refusal),
         Error::UnknownCase { name, suggestion } => ("UnknownCase", fields!(name, suggestion)),
@@ -124,6 +124,7 @@ fn parts(error: &Error) -> Parts {
             let (text, help, column) = (&error.text, &error.help, error.column());
             ("ParameterError", fields!(text, help, column))
         }
+        Error::Point(PointError::SystemRefused(refusal)) => system_refused(refusal),
         Error::Derivatives(
             DerivativesError::NoNumber { text } | DerivativesError::NoParameter { text },
         ) => ("DerivativesError", fields!(text)),
@@ -198,6 +199,7 @@ fn system(error: &SystemError) -> Parts {
         SystemError::Mass { name, joint, mass_kg } => fields!(name, joint, mass_kg),
         SystemError::Force { name, joint, component_n } => fields!(name, joint, component_n),
         SystemError::NoSuchJoint { member, joint, joints } => fields!(member, joint, joints),
+        SystemError::UnknownJoint { member, name } => fields!(member, name),
         SystemError::SelfLoop { member, joint } => fields!(member, joint),
         SystemError::MassRange { lightest_kg, heaviest_kg } => fields!(lightest_kg, heaviest_kg),
         _ => vec![],

@@ -5,12 +5,13 @@ use std::sync::Arc;
 use funicular::prelude::Trace;
 use pyo3::prelude::*;
 
+use crate::printable::printable;
 use crate::problem::Problem;
 use crate::raise::{raise, unwritten};
 use crate::work;
 
-/// What `funicular trace --json` prints, the points of the branches as CSV, and whether the checks
-/// agree and are decided.
+/// What `funicular trace --json` prints, the points of the branches as CSV, whether the checks
+/// agree and are decided, and the tables.
 #[pyfunction]
 pub fn trace<'py>(
     py: Python<'py>,
@@ -19,7 +20,7 @@ pub fn trace<'py>(
     max_points: Option<usize>,
     threads: usize,
     progress: Option<Bound<'py, PyAny>>,
-) -> PyResult<(String, String, bool, bool)> {
+) -> PyResult<(String, String, bool, bool, String)> {
     let of = Arc::clone(&problem.of);
     let found = work::run(py, threads, progress.as_ref(), move |watch| {
         let mut trace = Trace::new();
@@ -35,9 +36,11 @@ pub fn trace<'py>(
         // A vector takes all that is written.
         let _ = found.write_csv(&mut csv);
         let agree = (found.checks_agree(), found.checks_decided());
-        Ok((serde_json::to_string(&found), csv, agree))
+        Ok((serde_json::to_string(&found), csv, agree, found.to_string()))
     })?;
-    let (text, csv, (agree, decided)) = found.map_err(|error: funicular::Error| raise(&error))?;
+    let (text, csv, (agree, decided), said) =
+        found.map_err(|error: funicular::Error| raise(&error))?;
     let text = text.map_err(|error| unwritten(&error))?;
-    Ok((text, String::from_utf8_lossy(&csv).into_owned(), agree, decided))
+    let csv = String::from_utf8_lossy(&csv).into_owned();
+    Ok((text, csv, agree, decided, printable(&said)))
 }

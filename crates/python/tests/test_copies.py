@@ -18,6 +18,8 @@ def census():
 RESULTS = {
     "study": lambda: fn.System(lengths=[1, 1], masses=[1, 1], end=(1, 0, 0)).study("gravity_m_s2=9,10"),
     "gradient": lambda: fn.gradient(fn.System(lengths=[1, 1], masses=[1, 1], end=(1, 0, 0)), "joints.1.at_m.z"),
+    "basins": lambda: fn.System(**CHAIN).basins(size=4),
+    "rows": lambda: fn.System(**CHAIN).solve_many(lengths=[[1, 1], [1, 3]]),
     "system": lambda: fn.System(**CHAIN),
     "drawn system": lambda: fn.System(**CHAIN).near([[0, 0, 0], [0.5, 0, 0.9], [1, 0, 0]]),
     "answer": lambda: fn.solve(**CHAIN),

@@ -45,7 +45,7 @@ def usable(draw):
 
 
 def call(draw, system):
-    which = draw.randrange(13)
+    which = draw.randrange(16)
     if which < 3:
         return fn.solve(**usable(draw), census="never")
     if which == 3:
@@ -68,6 +68,13 @@ def call(draw, system):
         return system.sweep(10, **{draw.choice(["number", "spread", "solver", "threads"]): anything(draw)})
     if which == 11:
         return fn.Table({"a": anything(draw)}).__arrow_c_stream__()
+    if which == 12:
+        names = ("lengths", "masses", "stiffnesses", "joint_masses", "forces", "anchors", "solver")
+        return system.solve_many(**{"lengths": [[1, 1], [1, 1.1]], draw.choice(names): anything(draw)})
+    if which == 13:
+        return system.basins(**{"size": 2, draw.choice(["size", "bars", "others", "threads"]): anything(draw)})
+    if which == 14:
+        return fn.gradients.pullback(system, {"lengths": [1, 1]}, draw.choice([np.ones((3, 3)), anything(draw)]), np.ones(2))
     return system.solve(**{draw.choice(["solver", "census", "equations", "threads"]): anything(draw)})
 
 

@@ -5,7 +5,7 @@ use census::{
     CheckError, DegenerateEquilibrium, Interval, Position, ProvenEquilibrium, SlackFamily,
     Statistics, StraightPosition, Undecided,
 };
-use model::{Anchors, Equilibrium, Problem, Reason, SolverName, Status, SystemSummary};
+use model::{Equilibrium, Problem, Reason, SolverName, Status, SystemSummary};
 use serde::Serialize;
 use validate::statics::judge;
 
@@ -14,9 +14,9 @@ use crate::solve::SCHEMA_VERSION;
 /// Both ends of an enclosure.
 pub type Enclosure = [f64; 2];
 
-/// All equilibria with their proofs, and what is known of the list.
+/// All equilibria of a chain with their proofs, and what is known of the list.
 #[derive(Debug, Clone, Serialize)]
-pub struct CensusAnswer {
+pub struct ChainCensusAnswer {
     /// Version of this object as JSON.
     pub schema_version: u32,
     /// What was asked about.
@@ -28,9 +28,9 @@ pub struct CensusAnswer {
     /// The census itself, to draw and to ask further.
     #[serde(skip)]
     pub proven: census::Census,
-    /// The anchors of the chain.
+    /// The chain.
     #[serde(skip)]
-    pub anchors: Anchors,
+    pub problem: Problem,
 }
 
 /// One equilibrium: the same keys as those of `solve`, and what only a census knows.
@@ -210,6 +210,20 @@ pub struct Check {
 /// At most so many patterns of an undecided box are listed: there can be 2^n.
 const PATTERNS: usize = 64;
 
+impl Summary {
+    /// Whether the check shows that something is wrong.
+    #[must_use]
+    pub fn check_failed(&self) -> bool {
+        self.check.refuted
+    }
+
+    /// Whether every equilibrium is known, and passed the check.
+    #[must_use]
+    pub fn is_decided(&self) -> bool {
+        self.check.passed && self.decided
+    }
+}
+
 impl Check {
     /// From the verdict.
     #[must_use]
@@ -222,7 +236,7 @@ impl Check {
     }
 }
 
-impl CensusAnswer {
+impl ChainCensusAnswer {
     /// Put together from a census and the verdict of its check.
     #[must_use]
     pub fn new(problem: &Problem, census: census::Census, verdict: Result<(), CheckError>) -> Self {
@@ -270,7 +284,7 @@ impl CensusAnswer {
             },
             equilibria,
             proven: census,
-            anchors: *problem.chain().anchors(),
+            problem: problem.clone(),
         }
     }
 }

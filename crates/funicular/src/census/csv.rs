@@ -2,9 +2,9 @@
 
 use std::io::{self, Write};
 
-use super::answer::{CensusAnswer, Found};
+use super::answer::{ChainCensusAnswer, Found};
 
-impl CensusAnswer {
+impl ChainCensusAnswer {
     /// A line per equilibrium and joint as CSV: position, force of bar k+1 on bar k (at joint 0 of
     /// the ground on bar 1, at joint n of the ground on bar n), and angle and axial force of the
     /// bar that ends there.

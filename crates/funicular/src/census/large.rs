@@ -6,7 +6,7 @@ use census::{CheckError, CompactCensus};
 use model::{Problem, SystemSummary};
 use serde::{Serialize, Serializer};
 
-use super::answer::{CensusAnswer, Enclosure, Found, Summary};
+use super::answer::{ChainCensusAnswer, Enclosure, Found, Summary};
 use super::{csv, lines};
 use crate::solve::SCHEMA_VERSION;
 
@@ -24,10 +24,9 @@ pub enum List {
 #[derive(Debug, Clone)]
 pub struct LargeCensusAnswer {
     /// The census as a whole, its list of equilibria cut off.
-    pub first: CensusAnswer,
+    pub first: ChainCensusAnswer,
     /// All equilibria.
     pub proven: CompactCensus,
-    problem: Problem,
 }
 
 /// An equilibrium by its signs and its pull, from which everything else follows.
@@ -59,20 +58,20 @@ impl LargeCensusAnswer {
         made: usize,
     ) -> Self {
         let few = (0..proven.len().min(made)).flat_map(|k| found(problem, &proven, k)).collect();
-        let mut first = CensusAnswer::with(problem, proven.first(made), few, verdict);
+        let mut first = ChainCensusAnswer::with(problem, proven.first(made), few, verdict);
         let summary = &mut first.census;
         summary.decided = proven.decided();
         summary.count = proven.count_in_plane();
         summary.circle_count = summary.circles.then_some(proven.len());
         summary.count_by_index = proven.count_by_index().to_vec();
         summary.alternating_sum = proven.alternating_sum();
-        Self { first, proven, problem: problem.clone() }
+        Self { first, proven }
     }
 
     /// All equilibria with everything that is known of them, in the order of the census; of a
     /// circle both its mirror images. Each is made when it is asked for.
     pub fn found(&self) -> impl Iterator<Item = Found> + '_ {
-        (0..self.proven.len()).flat_map(|k| found(&self.problem, &self.proven, k))
+        (0..self.proven.len()).flat_map(|k| found(&self.first.problem, &self.proven, k))
     }
 
     /// All equilibria by their signs and pulls, circles once.
@@ -80,7 +79,7 @@ impl LargeCensusAnswer {
         (0..self.proven.len()).map(|k| Line::of(&self.proven, k))
     }
 
-    /// Write the census as JSON. With [`List::Full`] it is that of [`CensusAnswer`]; with
+    /// Write the census as JSON. With [`List::Full`] it is that of [`ChainCensusAnswer`]; with
     /// [`List::Signs`] the key `list` says so, each equilibrium is a [`Line`], and has one.
     ///
     /// # Errors
@@ -103,7 +102,7 @@ impl LargeCensusAnswer {
     }
 
     /// Write the equilibria as CSV: with [`List::Full`] as
-    /// [`write_csv`](CensusAnswer::write_csv), with [`List::Signs`] a line per equilibrium, the
+    /// [`write_csv`](ChainCensusAnswer::write_csv), with [`List::Signs`] a line per equilibrium, the
     /// pull by the middles of its enclosures.
     ///
     /// # Errors

@@ -6,26 +6,46 @@ mod large;
 mod lines;
 mod system;
 
-pub use answer::{CensusAnswer, Check, Enclosure, Enclosures, Found, Merged, Open, Slack, Summary};
+pub use answer::{
+    ChainCensusAnswer, Check, Enclosure, Enclosures, Found, Merged, Open, Slack, Summary,
+};
 pub use large::{LargeCensusAnswer, Line, List};
 pub use system::SystemCensusAnswer;
 
+use std::io;
+
 use census::network::SystemCensus;
 use census::{CompactCensus, Progress, Settings};
-use model::system::System;
+use model::system::{System, SystemEquilibrium};
+use serde::Serialize;
 
+use crate::equilibria::system_of;
 use crate::error::Error;
 use crate::problem::Problem;
 use crate::threads;
 
-/// Finds every equilibrium of a chain, stable or not, and proves that there is no other.
+/// Finds every equilibrium, stable or not, and proves that there is no other.
 ///
 /// ```
 /// use funicular::prelude::*;
 /// let found = Census::new().run(&Problem::case("three-equal-bars")?)?;
-/// assert!(found.census.complete && found.census.check.passed);
 /// // E1, E2 and their mirror images, on two circles.
-/// assert_eq!((found.equilibria.len(), found.census.circle_count), (4, Some(2)));
+/// assert!(found.complete() && found.is_decided());
+/// assert_eq!(found.equilibria().len(), 4);
+/// assert_eq!(found.as_chain().and_then(|chain| chain.census.circle_count), Some(2));
+/// // A pendulum of two bars hangs, stands, and folds up twice.
+/// let bar = Bar::homogeneous(1.0, 0.0)?;
+/// let pendulum = System::builder("double pendulum")
+///     .gravity_m_s2(10.0)
+///     .joint(Joint::anchor("A", [0.0; 3]))
+///     .joint(Joint::free("P").with_mass(1.0))
+///     .joint(Joint::free("Q").with_mass(1.0))
+///     .bar("A", "P", bar)
+///     .bar("P", "Q", bar)
+///     .build()?;
+/// let found = Census::new().run(&pendulum.into())?;
+/// let energies: Vec<f64> = found.equilibria().iter().map(|e| e.energy_j.round()).collect();
+/// assert_eq!((found.complete(), energies), (true, vec![-30.0, -10.0, 10.0, 30.0]));
 /// # Ok::<(), Error>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -63,17 +83,22 @@ impl Census {
         Self { threads, ..self }
     }
 
-    /// Take the census, and check it.
+    /// Take the census, and check it: of a chain, or of joints and members: trees, chains of bars
+    /// between anchors with trees and weights at their joints, frames, nets of several closures whose
+    /// joints move in few ways (one joint held by strands of one or two bars), three strands of any
+    /// number of bars under upright loads, and any number of such parts.
     ///
     /// # Errors
     ///
-    /// [`Error::Census`] when the chain is too long. What cannot be decided is no error: it is
-    /// listed, and the census is not complete.
+    /// [`Error::Census`] when a chain is too long, [`Error::SystemRefused`] when a system has no
+    /// equilibrium, [`Error::SystemCensus`] when it has no census: nets that move in too many ways,
+    /// level loads on a chain, elastic members. What cannot be decided is no error: it is listed, and
+    /// the census is not complete.
     pub fn run(&self, problem: &Problem) -> Result<CensusAnswer, Error> {
         self.run_watched(problem, &|_| {})
     }
 
-    /// The same, with `watch` told how far it is.
+    /// The same, with `watch` told how far the search is.
     ///
     /// # Errors
     ///
@@ -83,11 +108,28 @@ impl Census {
         problem: &Problem,
         watch: &(dyn Fn(Progress) + Sync),
     ) -> Result<CensusAnswer, Error> {
-        let problem = problem.as_chain().ok_or(Error::ChainsOnly { what: "a census" })?;
+        if let Some(chain) = problem.as_chain() {
+            return self.of_chain(chain, watch).map(|found| CensusAnswer::Chain(found.into()));
+        }
+        let system = system_of(problem);
+        system.refusal()?;
         threads::on(self.threads, || {
-            let census = census::Census::take_watched(problem, &self.settings, watch)?;
-            let verdict = census.check(problem);
-            Ok(CensusAnswer::new(problem, census, verdict))
+            let census = SystemCensus::take_watched(&system, &self.settings, watch)
+                .map_err(Error::SystemCensus)?;
+            Ok(CensusAnswer::System(SystemCensusAnswer::new(&system, census).into()))
+        })?
+    }
+
+    /// Of a chain.
+    pub(crate) fn of_chain(
+        &self,
+        chain: &model::Problem,
+        watch: &(dyn Fn(Progress) + Sync),
+    ) -> Result<ChainCensusAnswer, Error> {
+        threads::on(self.threads, || {
+            let census = census::Census::take_watched(chain, &self.settings, watch)?;
+            let verdict = census.check(chain);
+            Ok(ChainCensusAnswer::new(chain, census, verdict))
         })?
     }
 
@@ -123,54 +165,84 @@ impl Census {
             Ok(LargeCensusAnswer::new(problem, census, verdict, made))
         })?
     }
+}
 
-    /// Take the census of a system of joints and members: trees, chains of bars between anchors
-    /// with trees and weights at their joints, frames, nets of several closures whose joints move
-    /// in few ways (one joint held by strands of one or two bars), three strands of any number of
-    /// bars under upright loads, and any number of such parts.
-    ///
-    /// # Errors
-    ///
-    /// [`Error::SystemRefused`] when the system has no equilibrium, [`Error::SystemCensus`] when it
-    /// has no census: nets that move in too many ways, level loads on a chain, elastic members.
-    /// What cannot be decided is no error: it is listed, and the census is not complete.
-    ///
-    /// ```
-    /// use funicular::prelude::*;
-    /// // A pendulum of two bars hangs, stands, and folds up twice.
-    /// let joints = vec![
-    ///     Joint::anchor("A", [0.0, 0.0, 0.0]),
-    ///     Joint::free("P").with_mass(1.0),
-    ///     Joint::free("Q").with_mass(1.0),
-    /// ];
-    /// let body = Bar::homogeneous(1.0, 0.0)?;
-    /// let members = vec![Member::bar(0, 1, body), Member::bar(1, 2, body)];
-    /// let system = System::new("double pendulum", 10.0, joints, members)?;
-    /// let found = Census::new().run_system(&system)?;
-    /// assert!(found.proven().complete);
-    /// let energies: Vec<f64> = found.equilibria().iter().map(|e| e.energy_j.round()).collect();
-    /// assert_eq!(energies, [-30.0, -10.0, 10.0, 30.0]);
-    /// # Ok::<(), Error>(())
-    /// ```
-    pub fn run_system(&self, system: &System) -> Result<SystemCensusAnswer, Error> {
-        self.run_system_watched(system, &|_| {})
+/// What a census says of a chain, or of any other system.
+#[derive(Debug, Clone, Serialize)]
+#[serde(untagged)]
+pub enum CensusAnswer {
+    /// Of a chain, with its signs, angles and topology.
+    Chain(Box<ChainCensusAnswer>),
+    /// Of joints and members.
+    System(Box<SystemCensusAnswer>),
+}
+
+impl CensusAnswer {
+    /// Of a chain, if it is one.
+    #[must_use]
+    pub fn as_chain(&self) -> Option<&ChainCensusAnswer> {
+        match self {
+            Self::Chain(found) => Some(found),
+            Self::System(_) => None,
+        }
     }
 
-    /// The same, with `watch` told how far the search of each part is.
+    /// Of joints and members, if it is no chain.
+    #[must_use]
+    pub fn as_system(&self) -> Option<&SystemCensusAnswer> {
+        match self {
+            Self::Chain(_) => None,
+            Self::System(found) => Some(found),
+        }
+    }
+
+    /// The isolated equilibria by energy; of a circle both its mirror images.
+    #[must_use]
+    pub fn equilibria(&self) -> Vec<SystemEquilibrium> {
+        match self {
+            Self::Chain(found) => {
+                let system = System::from(found.problem.chain());
+                let Some(row) = system.as_row() else { unreachable!("a chain is a row") };
+                let of = |found: &Found| row.equilibrium(found.equilibrium.clone());
+                found.equilibria.iter().map(of).collect()
+            }
+            Self::System(found) => found.equilibria().to_vec(),
+        }
+    }
+
+    /// Whether it is proved that there is no other.
+    #[must_use]
+    pub fn complete(&self) -> bool {
+        match self {
+            Self::Chain(found) => found.census.complete,
+            Self::System(found) => found.proven().complete,
+        }
+    }
+
+    /// Whether the check shows that something is wrong.
+    #[must_use]
+    pub fn check_failed(&self) -> bool {
+        self.as_chain().is_some_and(|found| found.census.check_failed())
+    }
+
+    /// Whether every equilibrium is known, and passed the check.
+    #[must_use]
+    pub fn is_decided(&self) -> bool {
+        match self {
+            Self::Chain(found) => found.census.is_decided(),
+            Self::System(found) => found.check_passed() && found.proven().complete,
+        }
+    }
+
+    /// A line per equilibrium and joint as CSV.
     ///
     /// # Errors
     ///
-    /// As [`run_system`](Self::run_system).
-    pub fn run_system_watched(
-        &self,
-        system: &System,
-        watch: &(dyn Fn(Progress) + Sync),
-    ) -> Result<SystemCensusAnswer, Error> {
-        system.refusal()?;
-        threads::on(self.threads, || {
-            let census = SystemCensus::take_watched(system, &self.settings, watch)
-                .map_err(Error::SystemCensus)?;
-            Ok(SystemCensusAnswer::new(system, census))
-        })?
+    /// When `to` cannot be written.
+    pub fn write_csv(&self, to: impl io::Write) -> io::Result<()> {
+        match self {
+            Self::Chain(found) => found.write_csv(to),
+            Self::System(found) => found.write_csv(to),
+        }
     }
 }

@@ -9,10 +9,13 @@ use model::system::System;
 use validate::foreign::bounds::TOLERANCE;
 use validate::foreign::judge_foreign;
 
+pub use ::formats::answer::parse;
 pub use validate::foreign::{Finding, ForeignAnswer, GivenError, Judgement, Law, Violation};
 
 pub use self::subject::{Ruling, Subject};
+use crate::equilibria::system_of;
 use crate::error::Error;
+use crate::problem::Problem;
 use crate::threads;
 
 /// Judges joint positions, and member forces if there are some, from any program or publication:
@@ -23,22 +26,24 @@ use crate::threads;
 /// use funicular::judge::ForeignAnswer;
 /// // A lamp of 2 kg on two cables of 5 m between anchors 6 m apart, read off a drawing to a
 /// // millimetre.
-/// let joints = vec![
-///     Joint::anchor("A", [-3.0, 0.0, 0.0]),
-///     Joint::anchor("B", [3.0, 0.0, 0.0]),
-///     Joint::free("lamp").with_mass(2.0),
-/// ];
-/// let body = Bar::homogeneous(5.0, 0.0)?;
-/// let members = vec![Member::cable(0, 2, body), Member::cable(2, 1, body)];
-/// let system = System::new("a lamp", 10.0, joints, members)?;
+/// let cord = Bar::homogeneous(5.0, 0.0)?;
+/// let system = System::builder("a lamp")
+///     .gravity_m_s2(10.0)
+///     .joint(Joint::anchor("A", [-3.0, 0.0, 0.0]))
+///     .joint(Joint::anchor("B", [3.0, 0.0, 0.0]))
+///     .joint(Joint::free("lamp").with_mass(2.0))
+///     .cable("A", "lamp", cord)
+///     .cable("lamp", "B", cord)
+///     .build()?;
 /// let drawn = [("A", [-3.0, 0.0, 0.0]), ("B", [3.0, 0.0, 0.0]), ("lamp", [0.0, 0.0, -4.001])];
 /// let drawn = drawn.map(|(name, place)| (name.to_owned(), place));
 /// let answer = ForeignAnswer::by_name(&system, "a drawing", drawn)?;
 /// // Wrong to six digits: both cables are 0.8 mm too long; right to a millimetre in three metres.
-/// let judged = Judge::new().run(&system, &answer)?;
+/// let problem = Problem::from(system);
+/// let judged = Judge::new().run(&problem, &answer)?;
 /// assert!(judged.judgement().is_refuted());
 /// assert!((judged.judgement().violations[0].value - 0.0008).abs() < 1e-6);
-/// assert!(Judge::new().tolerance(1e-3).run(&system, &answer)?.judgement().is_confirmed());
+/// assert!(Judge::new().tolerance(1e-3).run(&problem, &answer)?.judgement().is_confirmed());
 /// # Ok::<(), Error>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -86,8 +91,8 @@ impl Judge {
     /// # Errors
     ///
     /// [`Error::Tolerance`] when the tolerance is out of range.
-    pub fn run(&self, system: &System, answer: &ForeignAnswer) -> Result<Judged, Error> {
-        self.run_watched(system, answer, &|_| {})
+    pub fn run(&self, problem: &Problem, answer: &ForeignAnswer) -> Result<Judged, Error> {
+        self.run_watched(problem, answer, &|_| {})
     }
 
     /// The same, with `watch` told what is being done.
@@ -97,13 +102,14 @@ impl Judge {
     /// As [`run`](Self::run).
     pub fn run_watched(
         &self,
-        system: &System,
+        problem: &Problem,
         answer: &ForeignAnswer,
         watch: &(dyn Fn(&str) + Sync),
     ) -> Result<Judged, Error> {
         threads::on(self.threads, || {
-            let judgement = judge_foreign(system, answer, self.tolerance, watch)?;
-            Ok(Judged { system: system.clone(), judgement })
+            let system = system_of(problem);
+            let judgement = judge_foreign(&system, answer, self.tolerance, watch)?;
+            Ok(Judged { system, judgement })
         })?
     }
 }
@@ -136,11 +142,12 @@ impl Judged {
 /// [`GivenError`]: names or counts that do not fit.
 ///
 /// ```
-/// let system = model::system::System::from(model::cases::paper().chain());
-/// let answer = formats::answer::parse("joint,x_m,y_m,z_m\n0,0,0,0\n1,0,0,-1\n", "table.csv")?;
+/// use funicular::{Problem, system_of};
+/// let system = system_of(&Problem::case("three-equal-bars")?);
+/// let answer = funicular::judge::parse("joint,x_m,y_m,z_m\n0,0,0,0\n1,0,0,-1\n", "table.csv")?;
 /// let error = funicular::judge::fit(&system, answer[0].clone()).unwrap_err();
 /// assert_eq!(error.to_string(), "the answer has no place for joint \"2\"");
-/// # Ok::<(), formats::FormatError>(())
+/// # Ok::<(), funicular::Error>(())
 /// ```
 pub fn fit(system: &System, answer: Answer) -> Result<ForeignAnswer, GivenError> {
     let Answer { source, joints, forces, reactions_n } = answer;

@@ -89,7 +89,7 @@ impl Subject {
         watch: &(dyn Fn(&str) + Sync),
     ) -> Result<Ruling, Error> {
         let (system, answer) = self.fitted(answer)?;
-        let judged = judge.run_watched(&system, &answer, watch)?;
+        let judged = judge.run_watched(&system.into(), &answer, watch)?;
         let mut notes = self.notes();
         let on_floor = self.floor_m().and_then(|floor_m| joint_on_floor(&judged, floor_m));
         if let Some(joint) = &on_floor {

@@ -1,6 +1,5 @@
 //! `funicular basins`: which start leads where, as pictures.
 
-use std::fmt::Write as _;
 use std::path::PathBuf;
 
 use clap::Args;
@@ -86,21 +85,8 @@ pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
             said += &path.display().to_string();
             said.push('\n');
         }
-        let starts = found.starts();
-        // Writing to a String cannot fail.
-        let _ = match found.failed(solver) {
-            0 => writeln!(said, "{solver}: each of {starts} starts reached an equilibrium"),
-            failed => writeln!(said, "{solver}: {failed} of {starts} starts reached none"),
-        };
-        let unlisted = found.unlisted(solver);
-        if unlisted > 0 {
-            let _ = writeln!(
-                said,
-                "{solver}: {unlisted} of {starts} starts reached one that is in no list"
-            );
-        }
     }
     drop(progress);
-    output::print(&said)?;
+    output::print(&(said + &found.to_string()))?;
     Ok(Exit::Done)
 }

@@ -1,11 +1,12 @@
 //! `funicular cases`: the registry of named cases.
 
 use clap::Args;
+use model::cases;
 
 use crate::case_name::CaseName;
 use crate::exit::{Exit, Failure};
 use crate::output;
-use crate::tables;
+use crate::tables::table;
 
 /// `funicular cases`.
 #[derive(Debug, Args)]
@@ -19,7 +20,20 @@ pub struct Cases {
 pub fn run(arguments: &Cases) -> Result<Exit, Failure> {
     match &arguments.name {
         Some(name) => output::print(funicular::case_text(name)?)?,
-        None => output::print(&tables::cases())?,
+        None => output::print(&registry())?,
     }
     Ok(Exit::Done)
+}
+
+/// The registry: chains and systems.
+fn registry() -> String {
+    let mut chains = table(["case", "what it is"]);
+    for case in cases::all() {
+        chains.add_row([case.name, case.about]);
+    }
+    let mut systems = table(["system of bars", "what it is"]);
+    for exhibit in cases::exhibits() {
+        systems.add_row([exhibit.name, exhibit.about]);
+    }
+    format!("{chains}\n\n{systems}\n")
 }

@@ -1,18 +1,14 @@
 //! `funicular census`: every equilibrium of a chain or a system, with proof.
 
 mod list;
-mod system;
-mod table;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use census::network::bridle_seconds;
 use census::{CensusError, Settings, rough_time};
 use clap::Args;
-use funicular::Error;
-use funicular::census::Summary;
+use funicular::{CensusAnswer, Error, Problem};
 use model::NoCensus;
-use model::system::System;
 
 use crate::cost::tell_time;
 use crate::diagnostics::Diagnostic;
@@ -81,11 +77,13 @@ pub fn run(arguments: &Census) -> Result<Exit, Failure> {
     let progress = Progress::start();
     progress.say("reading");
     let Input { problem, files } = arguments.input.read()?;
-    if let Some(system) = problem.as_system() {
-        return of_system(arguments, settings, system, (&files, progress));
-    }
-    let outputs = [&arguments.svg, &arguments.csv];
-    output::check(outputs.into_iter().flatten().map(PathBuf::as_path), &files)?;
+    let is_system = problem.as_system().is_some();
+    let most = match &arguments.svg {
+        Some(path) if is_system => output::numbered(path, SHAPES),
+        _ => vec![],
+    };
+    let outputs = arguments.csv.iter().chain(&arguments.svg).chain(&most);
+    output::check(outputs.map(PathBuf::as_path), &files)?;
     let long = long(&problem, settings);
     if let Some(chain) = long {
         let estimate = census::Census::estimate(chain);
@@ -93,7 +91,7 @@ pub fn run(arguments: &Census) -> Result<Exit, Failure> {
         tell_time("the census", estimate.seconds);
         progress.say(&cost(estimate));
     }
-    if long.is_some() || arguments.list == Some(list::What::Signs) {
+    if long.is_some() || (!is_system && arguments.list == Some(list::What::Signs)) {
         return list::of_many(arguments, settings, &problem, progress);
     }
     let answer = funicular::Census::new()
@@ -102,7 +100,7 @@ pub fn run(arguments: &Census) -> Result<Exit, Failure> {
         .map_err(refuse)?;
 
     if let Some(path) = &arguments.svg {
-        output::write_whole(path, &answer.proven.figure(problem.name(), SHAPES))?;
+        draw(path, &problem, &answer)?;
     }
     if let Some(path) = &arguments.csv {
         output::write_stream(path, |file| answer.write_csv(file))?;
@@ -111,23 +109,39 @@ pub fn run(arguments: &Census) -> Result<Exit, Failure> {
     if arguments.printed.is_json() {
         output::print_json(&answer)?;
     } else {
-        output::print(&table::text(&answer))?;
+        output::print(&answer.to_string())?;
     }
-    Ok(exit(&answer.census))
+    Ok(exit(answer.check_failed(), answer.is_decided()))
 }
 
-fn exit(census: &Summary) -> Exit {
-    if census.check.refuted {
-        Exit::CheckFailed
-    } else if census.check.passed && census.decided {
-        Exit::Done
-    } else {
-        Exit::Undecided
+/// The shapes of a chain side by side, of a system each into a file of its own.
+fn draw(path: &Path, problem: &Problem, answer: &CensusAnswer) -> Result<(), Failure> {
+    let found = match answer {
+        CensusAnswer::Chain(found) => {
+            return output::write_whole(path, &found.proven.figure(problem.name(), SHAPES));
+        }
+        CensusAnswer::System(found) => found,
+    };
+    let shown = &found.equilibria()[..found.equilibria().len().min(SHAPES)];
+    for (path, shape) in output::numbered(path, shown.len()).iter().zip(shown) {
+        let drawn =
+            funicular::picture::of_system(found.system(), shape, funicular::picture::Seen::Best)
+                .map_err(|error| Failure::undecided(format!("no picture: {error}")))?;
+        output::write_whole(path, &drawn)?;
+    }
+    Ok(())
+}
+
+fn exit(failed: bool, decided: bool) -> Exit {
+    match (failed, decided) {
+        (true, _) => Exit::CheckFailed,
+        (false, true) => Exit::Done,
+        (false, false) => Exit::Undecided,
     }
 }
 
 /// A chain whose census takes long enough to say so before.
-fn long(problem: &funicular::Problem, settings: Settings) -> Option<&model::Problem> {
+fn long(problem: &Problem, settings: Settings) -> Option<&model::Problem> {
     let bars = problem.as_chain()?.chain().bars().len();
     (Settings::SOUGHT_BARS + 1..=settings.max_bars).contains(&bars).then(|| problem.as_chain())?
 }
@@ -148,43 +162,6 @@ fn how_far(now: census::Progress) -> String {
         "{} cells done, {} waiting, {} undecided, {} zeros proved",
         now.done, now.waiting, now.undecided, now.proved
     )
-}
-
-/// The census of a system of joints and members.
-fn of_system(
-    arguments: &Census,
-    settings: Settings,
-    system: &System,
-    (files, progress): (&[PathBuf], Progress),
-) -> Result<Exit, Failure> {
-    let most =
-        arguments.svg.as_deref().map_or_else(Vec::new, |path| output::numbered(path, SHAPES));
-    let outputs = arguments.csv.iter().chain(&arguments.svg).chain(&most);
-    output::check(outputs.map(PathBuf::as_path), files)?;
-    progress.say("the chains, nets and trees of the system");
-    let answer = funicular::Census::new()
-        .settings(settings)
-        .run_system_watched(system, &|now| progress.say(&how_far(now)))
-        .map_err(refuse)?;
-    if let Some(path) = &arguments.csv {
-        output::write_stream(path, |file| answer.write_csv(file))?;
-    }
-    let shown = &answer.equilibria()[..answer.equilibria().len().min(SHAPES)];
-    let drawings =
-        arguments.svg.as_deref().map_or_else(Vec::new, |path| output::numbered(path, shown.len()));
-    for (path, shape) in drawings.iter().zip(shown) {
-        let drawn = funicular::picture::of_system(system, shape, funicular::picture::Seen::Best)
-            .map_err(|error| Failure::undecided(format!("no picture: {error}")))?;
-        output::write_whole(path, &drawn)?;
-    }
-    drop(progress);
-    if arguments.printed.is_json() {
-        output::print_json(&answer)?;
-    } else {
-        output::print(&system::text(&answer))?;
-    }
-    let passed = answer.check_passed() && answer.proven().complete;
-    Ok(if passed { Exit::Done } else { Exit::Undecided })
 }
 
 /// Why there is no census, and how to go on.

@@ -10,7 +10,6 @@ use crate::case_name::CaseName;
 use crate::exit::{Exit, Failure};
 use crate::foreign_input;
 use crate::interrupt::end_on_interrupt;
-use crate::judged;
 use crate::output;
 use crate::progress::Progress;
 use crate::threads;
@@ -113,7 +112,7 @@ pub fn run(arguments: &Judge) -> Result<Exit, Failure> {
             }
         }
     } else {
-        let texts: Vec<_> = all.iter().map(judged::text).collect();
+        let texts: Vec<_> = all.iter().map(Ruling::to_string).collect();
         output::print(&texts.join("\n"))?;
     }
     Ok(exit(&all))

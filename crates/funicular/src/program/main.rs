@@ -3,7 +3,6 @@
 //! The program is thin: it reads, asks the solvers, has `validate` judge, and prints. Results go to
 //! standard output, everything meant for people's patience (progress, errors) to standard error.
 
-mod answer;
 mod args;
 mod basins;
 mod case_name;
@@ -21,30 +20,26 @@ mod in_order;
 mod input;
 mod interrupt;
 mod judge;
-mod judged;
 mod man;
 mod memory;
 mod merge;
 mod modes;
 mod new;
 mod output;
-mod printable;
 mod printed;
 mod progress;
 mod reproduce;
-mod shape;
 mod simulate;
 mod solve;
 mod study;
 mod sweep;
-mod tables;
 mod threads;
 mod trace;
 mod varied;
-mod verdicts;
 mod which;
 
 use clap::CommandFactory;
+use funicular::text::{printable, tables};
 use model::budget::limit_work;
 
 use crate::args::{Cli, Command};

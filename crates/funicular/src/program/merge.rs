@@ -10,7 +10,7 @@ use crate::diagnostics::tell;
 use crate::exit::{Exit, Failure};
 use crate::interrupt::on_interrupt;
 use crate::output;
-use crate::sweep::{json_object, print_json, seeds_bar, summary_tables, verdict, written};
+use crate::sweep::{json_object, print_json, seeds_bar, verdict, written};
 use crate::threads;
 
 /// How it ends, for its help.
@@ -68,7 +68,7 @@ pub fn run(arguments: &Merge) -> Result<Exit, Failure> {
             summary.parts.len(),
             arguments.folders.len()
         );
-        let tables = summary_tables(&manifest, &summary);
+        let tables = funicular::text::sweep::summary(&manifest, &summary);
         output::print(&(tables + &proof + &written(&arguments.out)))?;
     }
     Ok(verdict(&manifest, &summary))

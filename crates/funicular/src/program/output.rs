@@ -6,11 +6,11 @@ use std::io::{self, BufWriter, ErrorKind, StdoutLock, Write};
 use std::path::{Path, PathBuf};
 
 use columns::AtomicFile;
+use funicular::text::printed::{self, in_ascii};
 use serde::Serialize;
 
 use crate::exit::Failure;
 use crate::printable::filtered;
-use crate::printed::{self, in_ascii};
 use crate::tables::finished;
 
 /// Print to standard output. A reader that has gone away (`| head`) is no error.

@@ -10,7 +10,6 @@ use crate::interrupt::end_on_interrupt;
 use crate::output;
 use crate::progress::Progress;
 use crate::threads;
-use crate::verdicts;
 
 const FILES: [&str; 4] = ["report.html", "report.md", "results.json", "comparison.csv"];
 
@@ -50,7 +49,7 @@ pub fn run(arguments: &Reproduce) -> Result<Exit, Failure> {
     if arguments.json {
         output::print(&json()?)?;
     } else {
-        output::print(&verdicts::reproduction(reproduction))?;
+        output::print(&report.to_string())?;
         if let Some(folder) = &arguments.out {
             output::print(&format!("Written to {}: {}\n", folder.display(), FILES.join(", ")))?;
         }

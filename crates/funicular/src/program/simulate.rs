@@ -9,6 +9,7 @@ use std::sync::atomic::Ordering;
 
 use ::columns::{ColumnsError, Format};
 use clap::Args;
+use funicular::text::motion::Summary;
 use funicular::{Animation, Error, ForceTable, Order, Problem, Start};
 use model::Vector;
 use model::system::System;
@@ -19,7 +20,6 @@ use crate::foreign_input;
 use crate::input::{Drawn, Input, places};
 use crate::interrupt::on_interrupt;
 use crate::output;
-use crate::printable::Printable;
 use crate::progress::Progress;
 use crate::tables::short;
 
@@ -137,15 +137,7 @@ struct Kept {
     rows: Option<Rows>,
     animation: Option<Animation>,
     failed: Option<ColumnsError>,
-    stored: usize,
-    first_j: f64,
-    /// Largest departure of the energy, J, and violations of lengths and laws.
-    energy_off_j: f64,
-    lengths_off: f64,
-    laws_off: f64,
-    last_s: f64,
-    /// Energy lost in impacts, J; none where there cannot be any.
-    lost_j: Option<f64>,
+    summary: Summary,
 }
 
 /// Run the command.
@@ -191,7 +183,7 @@ pub fn run(arguments: &Simulate) -> Result<Exit, Failure> {
     // What is there is replaced by a result alone: a motion up to a step that fails is none.
     let parts = moved?.parts_of_step;
     kept.finish(arguments)?;
-    output::print(&kept.text(&system, interrupted, parts))?;
+    output::print(&kept.summary.text(&system, interrupted, parts))?;
     Ok(if interrupted { Exit::Interrupted } else { Exit::Done })
 }
 
@@ -224,27 +216,12 @@ impl Kept {
             rows,
             animation: animated.then(|| Animation::new(system).with_equilibria(problem)),
             failed: None,
-            stored: 0,
-            first_j: 0.0,
-            energy_off_j: 0.0,
-            lengths_off: 0.0,
-            laws_off: 0.0,
-            last_s: 0.0,
-            lost_j: motion::has_impacts(system).then_some(0.0),
+            summary: Summary::new(system),
         })
     }
 
     fn add(&mut self, now: &motion::Snapshot) {
-        if self.stored == 0 {
-            self.first_j = now.energy_j();
-        }
-        self.stored += 1;
-        self.last_s = now.time_s;
-        let kept_j = now.energy_j() + now.lost_j;
-        self.energy_off_j = self.energy_off_j.max((kept_j - self.first_j).abs());
-        self.lost_j = self.lost_j.map(|_| now.lost_j);
-        self.lengths_off = self.lengths_off.max(now.lengths_off);
-        self.laws_off = self.laws_off.max(now.laws.largest());
+        self.summary.add(now);
         if let Some(rows) = &mut self.rows {
             self.failed = rows.add(now).err();
         }
@@ -264,29 +241,6 @@ impl Kept {
             output::write_whole(path, &animation.page())?;
         }
         Ok(())
-    }
-
-    fn text(&self, system: &System, interrupted: bool, parts: u32) -> String {
-        let parted = match parts {
-            1 => String::new(),
-            _ => format!(", each step in {parts} parts for the elastic members"),
-        };
-        let ended = if interrupted { ", interrupted" } else { "" };
-        let lost = self.lost_j.map_or_else(String::new, |lost_j| {
-            format!(", beside {} J lost in impacts", short(lost_j))
-        });
-        format!(
-            "{}: {} s{ended}, {} stored times{parted}\n\
-             energy at the beginning {} J, largest change {:.1e} J{lost}\n\
-             lengths kept to {:.1e}, Newton's and Euler's laws to {:.1e} of the largest force\n",
-            Printable(system.name()),
-            short(self.last_s),
-            self.stored,
-            short(self.first_j),
-            self.energy_off_j,
-            self.lengths_off,
-            self.laws_off,
-        )
     }
 }
 

@@ -10,10 +10,9 @@ use std::path::{Path, PathBuf};
 use clap::{Args, ValueEnum};
 use formats::answer::Answer;
 use funicular::picture::{self, Seen};
-use funicular::{Error, Lists, SolveAnswer};
+use funicular::{Error, Lists, SolveAnswer, text};
 use validate::{Equations, Solvers, UseCensus};
 
-use crate::answer;
 use crate::case_name::CaseName;
 use crate::exit::{Exit, Failure};
 use crate::input::{self, Input, Shape, next_to};
@@ -211,7 +210,7 @@ fn one(arguments: &Solve, file: Option<&Path>) -> Result<Exit, Failure> {
     if arguments.printed.is_json() {
         output::print_json(&answer.json(arguments.lists()))?;
     } else {
-        output::print(&answer::answer(&answer, arguments.summary, arguments.evidence))?;
+        output::print(&text::answer(&answer, arguments.summary, arguments.evidence))?;
     }
     Ok(verdict(&answer))
 }

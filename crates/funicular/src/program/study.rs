@@ -1,20 +1,17 @@
 //! `funicular study`: the hanging shape over a parameter.
 
-use std::fmt::Write as _;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use clap::Args;
-use funicular::{Study, StudyAnswer, StudyPoint, StudyShape};
+use funicular::Study;
 
 use crate::exit::{Exit, Failure};
 use crate::input::{Drawn, Input};
 use crate::interrupt::end_on_interrupt;
 use crate::output;
-use crate::printable::Printable;
 use crate::printed::Printed;
 use crate::progress::Progress;
-use crate::tables::{numbers_from, short, table, wrapped};
 use crate::threads;
 use crate::varied::Varied;
 
@@ -74,9 +71,6 @@ Exit codes: the worst that `solve` ends with at any point that can hang
   2  bad input or usage, or no point describes what can hang
   3  a solver has no answer somewhere, or one that is not decided
 130  interrupted; no file is half written";
-
-/// Points of a path printed one by one; of more, as many spread over the path.
-const PRINTED: usize = 24;
 
 /// `funicular study`.
 #[derive(Debug, Args)]
@@ -139,7 +133,7 @@ pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
     if arguments.printed.is_json() {
         output::print_json(&found)?;
     } else {
-        output::print(&text(&found))?;
+        output::print(&found.to_string())?;
     }
     Ok(if found.check_failed() {
         Exit::CheckFailed
@@ -148,169 +142,4 @@ pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
     } else {
         Exit::Undecided
     })
-}
-
-/// The tables of all paths, and what is said of all points.
-fn text(found: &StudyAnswer) -> String {
-    let mut text = format!(
-        "{}: {} points of {}\n",
-        Printable(found.name()),
-        found.points().len(),
-        Printable(&found.parameters().join(", "))
-    );
-    for path in 1..=found.paths() {
-        let points: Vec<_> = found.points().iter().filter(|point| point.path == path).collect();
-        text += &one_path(found, &points);
-    }
-    let shapes = found.shapes().count();
-    let refused = found.points().len() - shapes;
-    let agreed = found.shapes().filter(|shape| shape.agrees).count();
-    let most = found.shapes().filter_map(|shape| shape.joints_differ_m).fold(0.0, f64::max);
-    text += &wrapped(
-        &format!(
-            "\n{shapes} shapes, of which both solvers agree on {agreed} (joints to {most:.1e} m at worst); \
-             {refused} points without a shape"
-        ),
-        0,
-    );
-    text.push('\n');
-    if let Some((values, reason)) = found
-        .points()
-        .iter()
-        .find_map(|point| point.shape.as_ref().err().map(|none| (&point.values, &none.reason)))
-    {
-        let values = values.iter().map(|value| short(*value)).collect::<Vec<_>>().join(", ");
-        text += &wrapped(&format!("the first of these, at {values}: {}", Printable(reason)), 2);
-        text.push('\n');
-    }
-    text
-}
-
-/// A table over the last parameter.
-fn one_path(found: &StudyAnswer, points: &[&StudyPoint]) -> String {
-    let moves = found.moving(points);
-    let mut text = String::new();
-    let fixed: Vec<String> = (0..moves.len())
-        .filter(|k| !moves[*k])
-        .filter_map(|k| {
-            let name = Printable(&found.parameters()[k]);
-            Some(format!("{name} = {} {}", short(points.first()?.values[k]), found.units()[k]))
-        })
-        .collect();
-    if !fixed.is_empty() {
-        text += &wrapped(&format!("\n{}", fixed.join(", ")), 2);
-        text.push('\n');
-    }
-    let moving: Vec<usize> = (0..moves.len()).filter(|k| moves[*k]).collect();
-    let parameters = moving.iter().map(|k| match moving.len() {
-        1 => format!("value / {}", found.units()[*k]),
-        _ => broken(&found.parameters()[*k], found.units()[*k], true),
-    });
-    let (head, cells) = columns(found);
-    let head: Vec<String> = parameters.chain(head).chain(["evidence".to_owned()]).collect();
-    let mut table = table(head.iter().map(String::as_str));
-    for point in spread(points) {
-        let mut row: Vec<String> = moving.iter().map(|k| short(point.values[*k])).collect();
-        match &point.shape {
-            Ok(shape) => {
-                row.extend(cells(shape));
-                row.push(match (shape.agrees, shape.rung) {
-                    (true, Some(rung)) => rung.to_string(),
-                    _ => "no agreement".to_owned(),
-                });
-            }
-            Err(_) => row.push("no shape".to_owned()),
-        }
-        table.add_row(row);
-    }
-    numbers_from(&mut table, 0);
-    let _ = writeln!(text, "{table}");
-    if points.len() > PRINTED {
-        let _ = writeln!(text, "({PRINTED} of {} points; --csv and --json have all)", points.len());
-    }
-    text
-}
-
-/// The head of a column in lines, at every dot if it is to be narrow.
-fn broken(name: &str, unit: &str, narrow: bool) -> String {
-    let name = Printable(name).to_string();
-    let name = if narrow { name.replace('.', ".\n") } else { name };
-    format!("{name}\n/ {unit}")
-}
-
-/// What is shown of a shape.
-type Cells<'a> = Box<dyn Fn(&StudyShape) -> Vec<String> + 'a>;
-
-/// The columns between the value and the evidence: what is asked for, else what stands out.
-fn columns(found: &StudyAnswer) -> (Vec<String>, Cells<'_>) {
-    let number = |x: Option<f64>| x.map_or_else(String::new, short);
-    if !found.of().is_empty() {
-        /// Room for the names in a line each, of 80 columns.
-        const ROOM: usize = 52;
-        let wide =
-            found.of().iter().map(|(name, _)| name.chars().count() + 2).sum::<usize>() > ROOM;
-        let head = found.of().iter().map(|(name, unit)| broken(name, unit, wide));
-        let cells = move |shape: &StudyShape| shape.of.iter().map(|x| number(*x)).collect();
-        return (head.collect(), Box::new(cells));
-    }
-    let mut head: Vec<String> =
-        ["sag / m", "lowest", "tension / N", "bar"].map(String::from).into();
-    let supports = found.supports();
-    // Two supports have a column each, of more the largest force is shown.
-    let two = supports.len() == 2;
-    if two {
-        head.extend(supports.iter().map(|name| format!("{} / N", cut(name))));
-    } else {
-        head.push("ground / N".to_owned());
-    }
-    let cells = move |shape: &StudyShape| {
-        let tension = shape.extremes.tension_n;
-        let mut row = vec![
-            number(shape.extremes.sag_m),
-            cut(&found.joint(shape.extremes.lowest_joint)),
-            tension.map_or_else(|| "none".to_owned(), |(_, force)| short(force)),
-            tension.map_or_else(String::new, |(bar, _)| (bar + 1).to_string()),
-        ];
-        if two {
-            row.extend([0, 1].map(|support| number(shape.support_n(support))));
-        } else {
-            row.push(number(shape.largest_support_n()));
-        }
-        row
-    };
-    (head, Box::new(cells))
-}
-
-/// A name that fits into a column.
-fn cut(name: &str) -> String {
-    const WIDTH: usize = 8;
-    let name = Printable(name).to_string();
-    match name.char_indices().nth(WIDTH) {
-        Some((at, _)) => format!("{}\u{2026}", &name[..at]),
-        None => name,
-    }
-}
-
-/// At most [`PRINTED`] of the points, the first and the last among them.
-fn spread<'a>(points: &'a [&'a StudyPoint]) -> impl Iterator<Item = &'a StudyPoint> {
-    let shown = points.len().min(PRINTED);
-    (0..shown).map(move |k| points[k * (points.len() - 1) / (shown - 1).max(1)])
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_printed_points_are_spread_over_all() {
-        let point = StudyPoint {
-            path: 1,
-            values: vec![],
-            shape: Err(funicular::NoShape { refused: true, reason: String::new() }),
-        };
-        for (count, shown) in [(0, 0), (1, 1), (2, 2), (24, 24), (25, 24), (1000, 24)] {
-            let points = vec![&point; count];
-            assert_eq!(spread(&points).count(), shown);
-        }
-    }
 }

@@ -7,7 +7,7 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 
 use ::sweep::{Manifest, Run, RunSettings, SCHEMA_VERSION, StoreSummary};
-use funicular::Error;
+use funicular::{Error, text};
 use indicatif::{HumanCount, ProgressBar, ProgressState, ProgressStyle};
 use serde_json::{Value, json};
 
@@ -107,7 +107,7 @@ impl Folder<'_> {
             print_json(&object)?;
         } else {
             let rate = tables::rate(run.seeds - run.seeds_before, run.seeds, seconds);
-            output::print(&(tables::summary(manifest, summary) + &rate + &written(self.out)))?;
+            output::print(&(text::sweep::summary(manifest, summary) + &rate + &written(self.out)))?;
         }
         Ok(verdict(manifest, summary))
     }
@@ -169,11 +169,6 @@ pub(crate) fn print_json(object: &Value) -> Result<(), Failure> {
         Failure::undecided(format!("the summary cannot be written as JSON: {error}"))
     })?;
     output::print(&(text + "\n"))
-}
-
-/// The tables of a finished sweep.
-pub(crate) fn summary_tables(manifest: &Manifest, summary: &StoreSummary) -> String {
-    tables::summary(manifest, summary)
 }
 
 pub(crate) fn written(out: &Path) -> String {

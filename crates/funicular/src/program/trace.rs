@@ -1,7 +1,5 @@
 //! `funicular trace`: all equilibria over a parameter.
 
-mod text;
-
 use std::path::PathBuf;
 
 use branches::{Abscissa, ContinuationError};
@@ -137,14 +135,10 @@ pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
             output::write_whole(file, &drawn)?;
         }
     }
-    let traces = found.paths();
     if arguments.printed.is_json() {
         output::print_json(&found)?;
     } else {
-        let many = traces.len() > 1;
-        output::print(
-            &traces.iter().map(|one| text::text(one, many)).collect::<Vec<_>>().join("\n"),
-        )?;
+        output::print(&found.to_string())?;
     }
     Ok(exit)
 }

@@ -23,7 +23,7 @@ fn hanging(parameter: &str, value: f64) -> [Vec<f64>; 3] {
 
 #[test]
 fn changes_and_gradients_are_the_differences_of_the_other_solver() {
-    let derivatives = Derivatives::of(&bridle()).unwrap();
+    let derivatives = Derivatives::new().run(&bridle()).unwrap();
     let height = derivatives.gradient("joints.P.at_m.z").unwrap();
     let pull = derivatives.gradient("bars.4.axial_n").unwrap();
     for (parameter, at) in [
@@ -74,7 +74,7 @@ fn changes_and_gradients_are_the_differences_of_the_other_solver() {
 
 #[test]
 fn stiffness_of_anchors_is_symmetric_and_that_of_a_closed_form() {
-    let derivatives = Derivatives::of(&bridle()).unwrap();
+    let derivatives = Derivatives::new().run(&bridle()).unwrap();
     let pairs = derivatives.anchor_stiffness().unwrap();
     assert_eq!(pairs.len(), 9);
     let pair = |of: &str, by: &str| {
@@ -93,7 +93,7 @@ fn stiffness_of_anchors_is_symmetric_and_that_of_a_closed_form() {
                   bars = [{ from = \"A\", to = \"P\", length_m = 2, mass_kg = 0, stiffness_n = 400 },\n\
                   { from = \"P\", to = \"B\", length_m = 2, mass_kg = 0, stiffness_n = 400 }]";
     let problem = Problem::parse(thread, "thread.toml").unwrap();
-    let pairs = Derivatives::of(&problem).unwrap().anchor_stiffness().unwrap();
+    let pairs = Derivatives::new().run(&problem).unwrap().anchor_stiffness().unwrap();
     // Two springs of 200 N/m in a row.
     assert!((pairs[0].stiffness_n_m[2][2] - 100.0).abs() < 1e-8, "{pairs:?}");
     assert!((pairs[1].stiffness_n_m[2][2] + 100.0).abs() < 1e-8, "{pairs:?}");

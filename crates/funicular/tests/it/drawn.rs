@@ -192,7 +192,7 @@ fn modes_derivatives_and_motions_are_those_of_the_shape() {
     }
     let problem = Problem::parse(GABLE, "gable.json").unwrap();
     let shape = [[-3.0, 0.0, 0.0], [3.0, 0.0, 0.0], [0.1, 0.0, 3.9]];
-    let derivatives = Derivatives::of(&problem.near(&shape).unwrap()).unwrap();
+    let derivatives = Derivatives::new().run(&problem.near(&shape).unwrap()).unwrap();
     let change =
         derivatives.gradient("joints.P.at_m.z").unwrap().by("joints.P.force_n.z").unwrap().value;
     assert!((change - 1.0 / stiffness[1]).abs() < 1e-9, "{change}");

@@ -4,6 +4,7 @@ mod batch;
 mod census;
 mod census_systems;
 mod derivatives;
+mod displayed;
 mod drawn;
 mod edited;
 mod escapes;

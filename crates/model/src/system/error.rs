@@ -83,6 +83,14 @@ pub enum SystemError {
         /// Number of joints.
         joints: usize,
     },
+    /// Occurs when a member names a joint that is not there.
+    #[error("member {member} names a joint {name:?} that is not there")]
+    UnknownJoint {
+        /// Number of the member, from 1.
+        member: usize,
+        /// The name.
+        name: String,
+    },
     /// Occurs when a member begins and ends at the same joint.
     #[error("a member begins and ends at joint {joint:?}")]
     SelfLoop {

@@ -14,6 +14,7 @@
 //! world frame.
 
 mod answer;
+mod builder;
 mod convert;
 mod drawing;
 mod error;
@@ -26,6 +27,7 @@ mod row;
 mod symmetry;
 
 pub use answer::{SystemEquilibrium, SystemStability};
+pub use builder::SystemBuilder;
 pub use error::SystemError;
 pub(crate) use error::UNIT_TOLERANCE;
 pub use joint::{Joint, Support};

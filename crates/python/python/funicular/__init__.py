@@ -11,12 +11,13 @@ and every answer says how far it is proved. World frame, Z up, gravity along -Z,
 | to do | with |
 |---|---|
 | the hanging equilibrium | :func:`solve`, :meth:`System.solve` |
-| many chains at a time | :func:`solve_many` |
+| many chains at a time; one structure with many numbers | :func:`solve_many`; :meth:`System.solve_many` |
 | every equilibrium, with proof | :meth:`System.census` |
 | the equilibrium over a parameter | :meth:`System.study` |
 | its derivatives | :func:`gradient`, :func:`change`, :func:`anchor_stiffness` |
 | all equilibria over a parameter | :meth:`System.trace` |
-| which start leads where | :func:`sweep` |
+| the same for scipy, JAX, PyTorch | :mod:`funicular.gradients` |
+| which start leads where | :func:`sweep`, :func:`basins` |
 | motion, small oscillations | :func:`simulate`, :meth:`System.modes` |
 | somebody else's answer, judged | :func:`judge` |
 | the paper, judged | :func:`reproduce` |
@@ -28,7 +29,9 @@ refuse_others()
 
 # Whatever loads numpy or the native half comes behind that.
 from ._native import __version__, get_threads, limit_work, set_threads
+from . import gradients
 from .answer import Answer, Equilibrium, solve
+from .basins import Basins, basins
 from .batch import Batch, solve_many
 from .census import Census
 from .errors import *  # noqa: F403
@@ -37,6 +40,7 @@ from .evidence import Evidence, Proof, Proofs, Record
 from .judge import Judgement, judge
 from .motion import Modes, ModesOf, Motion, simulate
 from .reproduce import Reproduction, reproduce
+from .rows import SystemBatch
 from .study import Gradient, Study, anchor_stiffness, change, gradient, study
 from .sweep import Sweep, sweep
 from .system import STANDARD_GRAVITY, System
@@ -59,6 +63,7 @@ def cases() -> list[str]:
 __all__ = [
     "STANDARD_GRAVITY",
     "Answer",
+    "Basins",
     "Batch",
     "Census",
     "Equilibrium",
@@ -75,14 +80,17 @@ __all__ = [
     "Study",
     "Sweep",
     "System",
+    "SystemBatch",
     "Table",
     "Trace",
     "__version__",
     "anchor_stiffness",
+    "basins",
     "cases",
     "change",
     "get_threads",
     "gradient",
+    "gradients",
     "judge",
     "limit_work",
     "reproduce",

@@ -16,6 +16,7 @@ __all__ = [
     "Problem",
     "__version__",
     "arrow_stream",
+    "basins",
     "census",
     "derivatives",
     "draw",
@@ -23,11 +24,14 @@ __all__ = [
     "judge",
     "limit_work",
     "modes",
+    "pullback",
     "reproduce",
     "set_threads",
     "simulate",
     "solve",
     "solve_many",
+    "solve_nets",
+    "solve_text",
     "study",
     "sweep",
     "sweep_merge",
@@ -77,6 +81,8 @@ class Problem:
     @staticmethod
     def cases() -> list[str]: ...
     def near(self, joints_m: _Array) -> Problem: ...
+    def numbers(self, name: str) -> _Array: ...
+    def with_numbers(self, arrays: list[tuple[str, _Array]]) -> Problem: ...
     @property
     def name(self) -> str: ...
     @property
@@ -97,6 +103,7 @@ def limit_work(numbers: int) -> None: ...
 def solve(
     problem: Problem, solver: str, equations: str, census: str, threads: int, progress: _Progress
 ) -> tuple[str, list[dict[str, Any]]]: ...
+def solve_text(problem: Problem, solver: str, equations: str, census: str) -> str: ...
 def draw(problem: Problem, joints_m: _Array, axial_n: _Array, reactions_n: _Array) -> str: ...
 def solve_many(
     chains: int,
@@ -111,12 +118,24 @@ def solve_many(
     threads: int,
     progress: _Progress,
 ) -> dict[str, Any]: ...
+def solve_nets(
+    problem: Problem,
+    count: int,
+    arrays: list[tuple[str, _Array]],
+    solver: str,
+    threads: int,
+    progress: _Progress,
+) -> dict[str, Any]: ...
+def basins(
+    problem: Problem, size: int, bars: Sequence[int], others_deg: float, threads: int, progress: _Progress
+) -> tuple[dict[str, Any], list[str], str]: ...
+def pullback(problem: Problem, by_joints: _Array | None, by_axial: _Array | None, threads: int) -> dict[str, Any]: ...
 def census(
     problem: Problem, max_bars: int | None, threads: int, progress: _Progress
-) -> tuple[str, list[dict[str, Any]]]: ...
+) -> tuple[tuple[str, list[dict[str, Any]]], str]: ...
 def trace(
     problem: Problem, vary: list[str], max_points: int | None, threads: int, progress: _Progress
-) -> tuple[str, str, bool, bool]: ...
+) -> tuple[str, str, bool, bool, str]: ...
 def study(
     problem: Problem,
     vary: list[str],
@@ -125,13 +144,13 @@ def study(
     solver: str,
     threads: int,
     progress: _Progress,
-) -> tuple[str, str, list[str], bool, bool]: ...
+) -> tuple[str, str, list[str], bool, bool, str]: ...
 def derivatives(
     problem: Problem, number: str | None, by: str | None, threads: int, progress: _Progress
 ) -> str: ...
 def sweep(
     problem: Problem, seeds: int, number: int, spread: str, solver: str, threads: int, progress: _Progress
-) -> str: ...
+) -> tuple[str, str]: ...
 def sweep_write(
     problem: Problem,
     seeds: int,
@@ -164,7 +183,7 @@ def simulate(
 ) -> tuple[dict[str, Any], str]: ...
 def modes(
     problem: Problem, max_bars: int | None, lowest: int | None, threads: int, progress: _Progress
-) -> str: ...
+) -> tuple[str, str]: ...
 def judge(
     problem: Problem,
     joints_m: _Array,
@@ -174,6 +193,6 @@ def judge(
     tolerance: float | None,
     threads: int,
     progress: _Progress,
-) -> tuple[str, bool, bool, str]: ...
+) -> tuple[str, bool, bool, str, str]: ...
 def arrow_stream(names: list[str], columns: list[Any]) -> object: ...
-def reproduce(threads: int, progress: _Progress) -> tuple[str, str]: ...
+def reproduce(threads: int, progress: _Progress) -> tuple[str, str, str]: ...

@@ -13,10 +13,11 @@ from . import _native
 from ._html import ladder, page
 from ._numbers import Array, Numbers, Vector, whole
 from ._progress import Progress, shown
+from ._result import Result, printable
 from .errors import InputError
 from .evidence import Evidence, Proofs, Record
 from .plot import plot
-from .system import STANDARD_GRAVITY, System, printable
+from .system import STANDARD_GRAVITY, System
 from .table import Table, vectors
 
 
@@ -37,7 +38,7 @@ EXTREMES = ("sag_m", "largest_tension_n", "largest_compression_n")
 """What stands out in it."""
 
 
-class Equilibrium:
+class Equilibrium(Result):
     """One equilibrium: places of the joints, forces, and how far it is proved.
 
     All arrays are in the order of the joints or members of the system, world frame, Z up:
@@ -81,6 +82,9 @@ class Equilibrium:
         self.data = data
         for name in ARRAYS + EXTREMES:
             setattr(self, name, arrays[name])
+
+    def _content(self) -> dict[str, Any]:
+        return {**self.data, **{name: getattr(self, name) for name in ARRAYS + EXTREMES}}
 
     @property
     def solver(self) -> str:
@@ -203,7 +207,7 @@ class Equilibrium:
         return page(self)
 
 
-class Answer:
+class Answer(Result):
     """What the solvers found, compared, judged and proved as far as it goes.
 
     ``equilibria`` has one :class:`Equilibrium` for each solver that has an answer, ``lagrange`` first. All that an
@@ -211,10 +215,20 @@ class Answer:
     too: it is that of the first.
     """
 
-    def __init__(self, system: System, text: str, arrays: list[dict[str, Any]]) -> None:
+    def __init__(
+        self, system: System, asked: tuple[str, str, str], text: str, arrays: list[dict[str, Any]]
+    ) -> None:
         self.system = system
+        self._asked = asked
         self._text = text
         self._arrays = arrays
+
+    def _content(self) -> dict[str, Any]:
+        return {**self.data, "equilibria": self.equilibria}
+
+    def __str__(self) -> str:
+        # As `funicular solve` prints it; it is solved again for that.
+        return _native.solve_text(self.system._problem, *self._asked)
 
     @cached_property
     def data(self) -> dict[str, Any]:
@@ -456,8 +470,7 @@ def solve(
     elif lengths is not None or masses is not None or end is not None:
         raise InputError("give a system or the arrays of a chain, not both")
     system = system._asked(near)
+    asked = (str(solver), str(equations), str(census))
     with shown(progress) as callback:
-        found = _native.solve(
-            system._problem, str(solver), str(equations), str(census), whole("threads", threads), callback
-        )
-    return Answer(system, *found)
+        found = _native.solve(system._problem, *asked, whole("threads", threads), callback)
+    return Answer(system, asked, *found)

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING, Any, Union
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import numpy.typing as npt
@@ -11,21 +11,19 @@ import numpy.typing as npt
 from . import _native
 from ._numbers import Array, Numbers, array, number, whole
 from ._progress import Progress, shown
-from .errors import Error, InputError, ShapeError, _make
-from .evidence import RUNGS
+from .errors import InputError, ShapeError
+from .rows import Answers
 from .system import STANDARD_GRAVITY
 from .table import Table
 
 if TYPE_CHECKING:
     import distributed
 
-Rows = Union[slice, "npt.NDArray[Any]", Sequence[int]]
-
 ARRAYS = ("joints_m", "forces_n", "axial_n", "energy_j", "residual", "statics", "rung")
 """What a batch has for each chain."""
 
 
-class Batch:
+class Batch(Answers):
     """The hanging equilibria of k chains of n bars, as arrays; NaN where there is none.
 
     ``joints_m``
@@ -50,37 +48,11 @@ class Batch:
     joints_m: Array
     forces_n: Array
     axial_n: Array
-    energy_j: Array
     residual: Array
     statics: Array
-    rung: npt.NDArray[np.int8]
 
-    def __init__(self, found: dict[str, Any]) -> None:
-        for name in ARRAYS:
-            setattr(self, name, found[name])
-        self._failures: list[tuple[int, tuple[str, str, dict[str, Any]]]] = found["failures"]
-
-    @property
-    def failures(self) -> dict[int, Error]:
-        """Why chains have no answer, by their numbers from 0."""
-        return {chain: _make(*parts) for chain, parts in self._failures}
-
-    @property
-    def ok(self) -> npt.NDArray[np.bool_]:
-        """(k,) Which chains have an answer."""
-        return ~np.isnan(self.energy_j)
-
-    @property
-    def rungs(self) -> list[str | None]:
-        """The highest rungs by name."""
-        return [RUNGS[rung] if rung >= 0 else None for rung in self.rung.tolist()]
-
-    def raise_failures(self) -> Batch:
-        """Raise the first failure if there is one, with ``chain`` its number; else return the batch."""
-        if self._failures:
-            chain, (name, message, details) = self._failures[0]
-            raise _make(name, f"chain {chain}: {message}", {**details, "chain": chain})
-        return self
+    _arrays = ARRAYS
+    _what = "chain"
 
     @property
     def axial_ends_n(self) -> Array:
@@ -109,9 +81,6 @@ class Batch:
                 "rung": self.rung.astype(np.int64),
             }
         )
-
-    def __len__(self) -> int:
-        return len(self.energy_j)
 
     def __repr__(self) -> str:
         return f"<Batch of {len(self)} chains of {self.axial_n.shape[1]} bars, {len(self._failures)} without answer>"

@@ -12,13 +12,15 @@ from . import _native
 from ._html import picture
 from ._numbers import Array, whole
 from ._progress import Progress, shown
+from ._result import Result, printable
 from .answer import Equilibrium
 from .evidence import Record
-from .system import System, printable
+from .plot import plot_census
+from .system import System
 from .table import Table
 
 
-class Census:
+class Census(Result):
     """All equilibria, stable or not, by energy, and what is known of the list.
 
     ``complete``: whether it is proved that there is no other. ``summary``: the numbers of the list (``count``,
@@ -33,8 +35,10 @@ class Census:
     [-3.664531, -3.664531, -2.335469, -2.335469]
     """
 
-    def __init__(self, system: System, text: str, arrays: list[dict[str, Any]]) -> None:
+    def __init__(self, system: System, found: tuple[str, list[dict[str, Any]]], said: str) -> None:
+        text, arrays = found
         self.system = system
+        self._said = said
         self.data: dict[str, Any] = json.loads(text)
         pairs = zip(self.data["equilibria"], arrays)
         self.equilibria = [Equilibrium(system, data, found) for data, found in pairs]
@@ -66,6 +70,10 @@ class Census:
                 "rung": [str(e.rung) for e in self.equilibria],
             }
         )
+
+    def plot(self, most: int = 9) -> Any:
+        """Draw the first equilibria side by side, each into axes of matplotlib, which must be installed; a figure."""
+        return plot_census(self, most)
 
     def __len__(self) -> int:
         return len(self.equilibria)

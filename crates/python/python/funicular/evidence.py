@@ -16,11 +16,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
+from ._result import Result
+
 RUNGS = ("converged", "agreed", "verified", "complete", "optimal")
 """The rungs, lowest first."""
 
 
-class Record:
+class Record(Result):
     """The numbers of one object of JSON as attributes; ``data`` is the object itself."""
 
     def __init__(self, data: dict[str, Any]) -> None:
@@ -44,7 +46,7 @@ def _record(value: Any) -> Any:
     return Record(value) if isinstance(value, dict) else value
 
 
-class Proof:
+class Proof(Result):
     """One rung.
 
     ``reached``: whether it was reached; ``how``: how, or why not, in a sentence. The numbers of the proof, or of the
@@ -72,6 +74,10 @@ class Proof:
     def __dir__(self) -> list[str]:
         return [*super().__dir__(), *self.data]
 
+    def _content(self) -> dict[str, Any]:
+        head = {"rung": self.rung, "reached": self.reached, "how": self.how}
+        return {**head, "proof": self.data, "reason": self.reason}
+
     def __bool__(self) -> bool:
         return self.reached
 
@@ -79,7 +85,7 @@ class Proof:
         return f"{'+' if self.reached else '-'} {self.rung}: {self.how}"
 
 
-class Proofs:
+class Proofs(Result):
     """The five rungs by name, in their order."""
 
     converged: Proof
@@ -89,9 +95,13 @@ class Proofs:
     optimal: Proof
 
     def __init__(self, ladder: list[dict[str, Any]]) -> None:
+        self._ladder = ladder
         self._all = [Proof(entry) for entry in ladder]
         for proof in self._all:
             setattr(self, proof.rung, proof)
+
+    def _content(self) -> dict[str, Any]:
+        return {entry["rung"]: entry for entry in self._ladder}
 
     def __iter__(self) -> Iterator[Proof]:
         return iter(self._all)
@@ -109,7 +119,7 @@ class Proofs:
         return "\n".join(map(repr, self._all))
 
 
-class Evidence:
+class Evidence(Result):
     """What a solver says of its answer, and the ladder.
 
     ``residual`` of ``residual_of`` (dimensionless), ``iterations``, ``nullity`` and ``condition`` of the solver's own

@@ -12,13 +12,14 @@ import numpy as np
 from . import _native
 from ._numbers import Array, Numbers, Vector, array, number, vector, whole
 from ._progress import Progress, shown
+from ._result import Result, printable
 from .errors import InputError
 from .evidence import Proofs, Record
-from .system import System, printable
+from .system import System
 from .table import Table
 
 
-class Judgement:
+class Judgement(Result):
     """What Newton's laws, the laws of the members and both solvers say of an answer.
 
     ``confirmed``: an equilibrium is within the tolerance; ``refuted``: a law is broken by more than the tolerance
@@ -26,8 +27,9 @@ class Judgement:
     equilibrium is; ``proofs``: how far the equilibrium is proved that the answer stands for.
     """
 
-    def __init__(self, system: System, text: str, confirmed: bool, refuted: bool, page: str) -> None:
+    def __init__(self, system: System, text: str, confirmed: bool, refuted: bool, page: str, said: str) -> None:
         self.system = system
+        self._said = said
         self.data: dict[str, Any] = json.loads(text)
         self.confirmed = confirmed
         self.refuted = refuted

@@ -15,8 +15,10 @@ import numpy.typing as npt
 from . import _native
 from ._numbers import Array, Numbers, Vector, array, number, vector, whole
 from ._progress import Progress, shown
+from ._result import Result, printable
 from .errors import SettingError
-from .system import System, printable
+from .plot import plot_mode
+from .system import System
 from .table import Table
 
 MOST_BYTES = 16e9
@@ -27,7 +29,7 @@ Start = Union[str, "npt.NDArray[Any]", list[Any]]
 TIMES = ("time_s", "joints_m", "velocities_m_s", "reactions_n", "axial_n", "kinetic_j", "potential_j")
 
 
-class Motion:
+class Motion(Result):
     """A motion at its stored times.
 
     ``time_s`` (t,) s; ``joints_m``, ``velocities_m_s``, ``reactions_n`` (t, joints, 3); ``axial_n`` (t, members) N,
@@ -50,6 +52,9 @@ class Motion:
         self._page = page
         for name in (*TIMES, "laws_off", "lengths_off"):
             setattr(self, name, arrays[name])
+
+    def _content(self) -> dict[str, Any]:
+        return {name: getattr(self, name) for name in (*TIMES, "energy_j", "laws_off", "lengths_off")}
 
     @property
     def energy_j(self) -> Array:
@@ -177,7 +182,7 @@ def _affordable(system: System, time: float, step: float, store: float | None) -
         raise SettingError(message, setting="store", value=kept)
 
 
-class Modes:
+class Modes(Result):
     """Small oscillations about all equilibria of a chain where a census is complete, else about the stable one.
 
     ``equilibria``: for each its ``label``, ``energy_j``, ``joints_m`` and :class:`ModesOf`.
@@ -192,8 +197,9 @@ class Modes:
     (True, True)
     """
 
-    def __init__(self, system: System, text: str) -> None:
+    def __init__(self, system: System, text: str, said: str) -> None:
         self.system = system
+        self._said = said
         self.data: dict[str, Any] = json.loads(text)
         self.equilibria = [ModesOf(found) for found in self.data["equilibria"]]
 
@@ -201,6 +207,10 @@ class Modes:
     def complete(self) -> bool:
         """Whether a census proves that there are no other equilibria."""
         return bool(self.data["complete"])
+
+    def plot(self, mode: int = 0, equilibrium: int = 0, ax: Any = None) -> Any:
+        """Draw a mode of an equilibrium, both numbered from 0, into axes of matplotlib, which must be installed."""
+        return plot_mode(self, mode, equilibrium, ax)
 
     def __len__(self) -> int:
         return len(self.equilibria)
@@ -212,7 +222,7 @@ class Modes:
         return f"<Modes of {printable(self.system.name)!r}: {len(self)} equilibria>"
 
 
-class ModesOf:
+class ModesOf(Result):
     """The modes of one equilibrium, by ascending ω², zero and negative ones included.
 
     ``omega2_s2`` (modes,) 1/s²; ``frequencies_hz`` (modes,) Hz, NaN where it does not oscillate; ``shapes`` (modes,
@@ -271,4 +281,4 @@ def modes(
     bars = None if max_bars is None else whole("max_bars", max_bars)
     count = None if lowest is None else whole("lowest", lowest)
     with shown(progress) as callback:
-        return Modes(system, _native.modes(system._problem, bars, count, whole("threads", threads), callback))
+        return Modes(system, *_native.modes(system._problem, bars, count, whole("threads", threads), callback))

@@ -6,10 +6,17 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .errors import Error
+from .errors import Error, InputError
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from .answer import Equilibrium
+    from .basins import Basins
+    from .census import Census
+    from .motion import Modes
+    from .study import Study
+    from .trace import Trace
 
 FLAT = 1e-9
 """A system is drawn in its plane if it is flatter than this part of its size."""
@@ -18,16 +25,26 @@ FLAT = 1e-9
 PULLS, PUSHES, NOTHING = "#0072b2", "#d55e00", "#999999"
 
 
+def _pyplot() -> Any:
+    try:
+        from matplotlib import pyplot
+    except ImportError as error:
+        raise Error("plot() needs matplotlib: pip install matplotlib; svg() needs nothing") from error
+    return pyplot
+
+
+def _axes(ax: Any) -> Any:
+    """The axes given, or new ones."""
+    return _pyplot().figure().add_subplot() if ax is None else ax
+
+
 def plot(equilibrium: Equilibrium, ax: Any = None, *, space: bool | None = None, forces: bool = True) -> Any:
     """Draw an equilibrium into axes of matplotlib (new ones if none are given), and return them.
 
     ``space``: in three dimensions; if not said, where the joints lie in no vertical plane. ``forces``: members in the
     colour and width of their axial force (blue pulls, orange pushes), reactions as arrows.
     """
-    try:
-        from matplotlib import pyplot
-    except ImportError as error:
-        raise Error("plot() needs matplotlib: pip install matplotlib; svg() needs nothing") from error
+    pyplot = _pyplot()
     joints = equilibrium.joints_m
     level = _level(joints)
     across = joints[:, :2] - joints[0, :2]
@@ -81,3 +98,72 @@ def _reactions(ax: Any, equilibrium: Equilibrium, places: Any, level: Any, space
     flat = scale * np.column_stack([forces[held][:, :2] @ level, forces[held][:, 2]])
     units = {"angles": "xy", "scale_units": "xy", "scale": 1.0}
     ax.quiver(*places[held].T, *flat.T, color="black", width=0.004, **units)
+
+
+def plot_census(census: Census, most: int) -> Any:
+    """The first equilibria side by side, each with its number and how many directions lead down from it."""
+    shown = census.equilibria[:most]
+    across = max(1, int(np.ceil(np.sqrt(len(shown)))))
+    figure = _pyplot().figure(layout="constrained")
+    for k, equilibrium in enumerate(shown):
+        ax = plot(equilibrium, figure.add_subplot(-(-len(shown) // across), across, k + 1), space=False)
+        label = equilibrium.data.get("label", k + 1)
+        ax.set_title(f"{label}: {equilibrium.energy_j:.4g} J, index {equilibrium.stability.index_in_space}")
+    return figure
+
+
+def plot_study(study: Study, columns: Sequence[str], path: int) -> Any:
+    """Columns over the last parameter, one below the other."""
+    table, over = study.table, study.parameters[-1]
+    missing = [name for name in columns if name not in table]
+    if missing:
+        raise InputError(f"there is no column {missing[0]!r:.80}; there are {', '.join(table)}")
+    figure = _pyplot().figure(layout="constrained")
+    on = np.asarray(table["path"]) == path
+    for k, name in enumerate(columns):
+        ax = figure.add_subplot(len(columns), 1, k + 1)
+        ax.plot(np.asarray(table[over])[on], np.asarray(table[name])[on], color=PULLS)
+        ax.set(xlabel=over, ylabel=name)
+    return figure
+
+
+def plot_trace(trace: Trace, ax: Any, path: int) -> Any:
+    """Energies of all branches of a path; what is stable in space in full, all else broken."""
+    ax, table, over = _axes(ax), trace.table, trace.data["traces"][path - 1]["parameters"][-1]
+    columns = (np.asarray(table[name]) for name in ("path", "branch", "index_in_space", over, "energy_j"))
+    paths, branches, index, x, energy = columns
+    for branch in np.unique(branches[paths == path]):
+        on = (paths == path) & (branches == branch)
+        for stable, style in ((True, "-"), (False, "--")):
+            shown = np.where((index[on] == 0) == stable, energy[on], np.nan)
+            ax.plot(x[on], shown, style, color=PULLS if stable else PUSHES, linewidth=1.5)
+    ax.set(xlabel=over, ylabel="energy / J")
+    return ax
+
+
+def plot_basins(basins: Basins, solver: str, ax: Any, *, iterations: bool) -> Any:
+    """Which start leads where, or what it took."""
+    ax = _axes(ax)
+    values = basins.iterations(solver) if iterations else np.ma.masked_less(basins.outcome(solver), 0)
+    image = ax.imshow(values, origin="lower", extent=(0, 360, 0, 360), cmap="viridis", interpolation="nearest")
+    ax.figure.colorbar(image, ax=ax, label="iterations" if iterations else "equilibrium")
+    first, second = basins.bars
+    ax.set(xlabel=f"start of bar {first} / deg", ylabel=f"start of bar {second} / deg", title=solver)
+    return ax
+
+
+def plot_mode(modes: Modes, mode: int, equilibrium: int, ax: Any) -> Any:
+    """A system at rest, and both ends of a mode a tenth of its size away."""
+    ax, found = _axes(ax), modes[equilibrium]
+    if not 0 <= mode < len(found.what):
+        raise InputError(f"there is no mode {mode}: there are {len(found.what)}, from 0")
+    size = float(np.ptp(found.joints_m, axis=0).max())
+    level = _level(found.joints_m)
+    for scale, color in ((0.1, PULLS), (-0.1, PUSHES), (0.0, "black")):
+        joints = found.joints_m + scale * size * found.shapes[mode]
+        for a, b in modes.system.member_joints:
+            ends = joints[[a, b]]
+            ax.plot(ends[:, :2] @ level, ends[:, 2], color=color, linewidth=1.5)
+    ax.set(xlabel="level / m", ylabel="z / m", title=f"{found.what[mode]}, omega^2 = {found.omega2_s2[mode]:.4g} 1/s^2")
+    ax.set_aspect("equal")
+    return ax

@@ -8,18 +8,20 @@ from typing import Any
 from . import _native
 from ._numbers import whole
 from ._progress import Progress, shown
+from ._result import Result
 
 
-class Reproduction:
+class Reproduction(Result):
     """What the paper claims, what two solvers find, and the verdicts.
 
     ``data`` is the object that ``funicular reproduce --json`` prints: ``claims``, ``equations``, ``equilibria``,
     ``figures``, ``seeds``, ``summary``, ...; ``html()`` is the report as a page.
     """
 
-    def __init__(self, text: str, page: str) -> None:
+    def __init__(self, text: str, page: str, said: str) -> None:
         self.data: dict[str, Any] = json.loads(text)
         self._page = page
+        self._said = said
 
     @property
     def all_as_expected(self) -> bool:

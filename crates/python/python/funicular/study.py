@@ -11,13 +11,15 @@ import numpy as np
 from . import _native
 from ._numbers import whole
 from ._progress import Progress, shown
+from ._result import Result, printable
 from .errors import InputError
 from .evidence import Record
-from .system import System, printable
+from .plot import plot_study
+from .system import System
 from .table import Table, read_csv
 
 
-class Study:
+class Study(Result):
     """The equilibrium at each combination of the parameters, by both solvers, compared and judged.
 
     ``table``: a row for each point, with the parameters, sag, forces, angles and what was asked for besides, units in the
@@ -34,9 +36,10 @@ class Study:
     """
 
     def __init__(
-        self, system: System, text: str, points: str, figures: list[str], failed: bool, decided: bool
+        self, system: System, text: str, points: str, figures: list[str], failed: bool, decided: bool, said: str
     ) -> None:
         self.system = system
+        self._said = said
         self.data: dict[str, Any] = json.loads(text)
         self._points = points
         self._figures = figures
@@ -63,6 +66,11 @@ class Study:
         if not 1 <= whole("path", path, 1) <= len(self._figures):
             raise InputError(f"there is no path {path}: there are {len(self._figures)}")
         return self._figures[path - 1]
+
+    def plot(self, *columns: str, path: int = 1) -> Any:
+        """Draw columns of the table (sag and largest tension if none are given) over the last parameter, each into axes of
+        matplotlib, which must be installed; a figure."""
+        return plot_study(self, columns or ("sag_m", "tension_n"), path)
 
     def _repr_svg_(self) -> str:
         return self.svg()

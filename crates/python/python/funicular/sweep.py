@@ -12,16 +12,17 @@ import numpy as np
 from . import _native
 from ._numbers import whole
 from ._progress import Progress, shown
+from ._result import Result, printable
 from .errors import InputError
 from .evidence import Record
-from .system import System, printable
+from .system import System
 from .table import Table
 
 if TYPE_CHECKING:
     import distributed
 
 
-class Sweep:
+class Sweep(Result):
     """What became of all starts.
 
     ``equilibria``: what the outcomes 0, 1, 2, ... stand for; ``complete``: whether it is proved that there are no
@@ -36,8 +37,9 @@ class Sweep:
     2000
     """
 
-    def __init__(self, system: System, text: str, folder: Path | None = None) -> None:
+    def __init__(self, system: System, text: str, folder: Path | None = None, said: str = "") -> None:
         self.system = system
+        self._said = said
         self.folder = folder
         self.data: dict[str, Any] = json.loads(text)
 
@@ -134,7 +136,8 @@ def sweep(
         return Sweep(system, text, Path(out).resolve() / "merged")
     with shown(progress) as callback:
         if out is None:
-            return Sweep(system, _native.sweep(problem, *starts, pool, callback))
+            text, said = _native.sweep(problem, *starts, pool, callback)
+            return Sweep(system, text, said=said)
         folder = Path(out)
         rows_settings = (bool(angles), str(format), folder, bool(resume))
         found = _native.sweep_write(problem, *starts, (1, 1), *rows_settings, pool, callback)

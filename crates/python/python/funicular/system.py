@@ -13,6 +13,7 @@ import numpy as np
 
 from . import _native
 from ._numbers import Array, Numbers, Vector, array, number, same_length, vector, whole
+from ._result import plain, printable
 from .errors import FileError, InputError, SettingError, ShapeError
 from .table import Table, vectors
 
@@ -21,8 +22,10 @@ if TYPE_CHECKING:
 
     from ._progress import Progress
     from .answer import Answer
+    from .basins import Basins
     from .census import Census
     from .motion import Modes, Motion
+    from .rows import SystemBatch
     from .study import Study
     from .sweep import Sweep
     from .trace import Trace
@@ -146,7 +149,7 @@ class System:
         if not isinstance(data, Mapping):
             raise ShapeError(f"data: a dictionary wanted, got {type(data).__name__}", argument="data")
         try:
-            text = json.dumps(_plain(data), allow_nan=False)
+            text = json.dumps(plain(data), allow_nan=False)
         except (TypeError, ValueError, RecursionError) as error:
             message = f"the dictionary holds what a system file cannot: {error}"
             raise FileError(message, file="dict", help="numbers must be finite, and names texts") from error
@@ -402,6 +405,53 @@ class System:
 
         return sweep(self, seeds, **settings)
 
+    def basins(self, **settings: Any) -> Basins:
+        """Which start leads where, over the angles of two bars. See :func:`funicular.basins`."""
+        from .basins import basins
+
+        return basins(self, **settings)
+
+    def solve_many(
+        self,
+        *,
+        lengths: Numbers | None = None,
+        masses: Numbers | None = None,
+        stiffnesses: Numbers | None = None,
+        joint_masses: Numbers | None = None,
+        forces: Numbers | None = None,
+        anchors: Numbers | Mapping[Any, Numbers] | None = None,
+        solver: str = "lagrange",
+        threads: int = 0,
+        progress: Progress = None,
+    ) -> SystemBatch:
+        """The equilibria of this structure with other numbers, in parallel: one structure, k rows of numbers.
+
+        Parameters
+        ----------
+        lengths, masses, stiffnesses : (k, members), or (members,) for all; m, kg, N
+        joint_masses : (k, joints) or (joints,) kg
+        forces : (k, joints, 3) or (joints, 3) N
+        anchors : (k, joints, 3) or (joints, 3) m, or {joint: (k, 3) or (3,)}
+        solver : ``lagrange``, ``energy`` or ``both``
+
+        What is not given stays as it is, and so does what is NaN. A row that has no answer stops no other: its numbers are
+        NaN, and ``failures`` says why.
+
+        >>> import funicular as fn, numpy as np
+        >>> v = fn.System.from_arrays(joints=3, anchors={0: (-3, 0, 0), 1: (3, 0, 0)}, joint_masses={2: 2.0},
+        ...                           bars=[[0, 2], [2, 1]], lengths=[5, 5], gravity=10)
+        >>> b = v.solve_many(anchors={1: [[3, 0, 0], [5, 0, 0], [9, 0, 0]]})
+        >>> b.joints_m[:2, 2, 2].round(9).tolist(), b.ok.tolist()        # by the triangles 3, 4, 5 and 4, 3, 5
+        ([-4.0, -3.0], [True, True, False])
+
+        Raises ShapeError, InputError where arrays do not fit.
+        """
+        from .rows import solve_nets
+
+        given: dict[str, Any] = {"lengths": lengths, "masses": masses, "stiffnesses": stiffnesses, "joint_masses": joint_masses}
+        given |= {"forces": forces, "anchors": anchors}
+        return solve_nets(self, given, solver=solver, threads=threads, progress=progress)
+
     def study(self, *vary: str, **settings: Any) -> Study:
         """The equilibrium over numbers of its file. See :func:`funicular.study`."""
         from .study import study
@@ -448,11 +498,6 @@ class System:
         return System.from_toml, (self.to_toml(), "pickle")
 
 
-def printable(text: str) -> str:
-    """The text without what could steer a terminal or turn its direction round."""
-    return "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in text)
-
-
 def _short(value: float) -> str:
     return f"{value:.6g}"
 
@@ -492,16 +537,3 @@ def _by_joint(argument: str, value: Any, shape: tuple[int, ...], numbers: Mappin
     if np.ndim(value) == 0:
         return np.full((count, *shape), number(argument, value))
     return array(argument, value, (count, *shape))
-
-
-def _plain(value: Any) -> Any:
-    """What JSON has."""
-    if isinstance(value, Mapping):
-        return {str(key): _plain(entry) for key, entry in value.items()}
-    if isinstance(value, np.ndarray):
-        return _plain(value.tolist())
-    if isinstance(value, np.generic):
-        return value.item()
-    if isinstance(value, (list, tuple)):
-        return [_plain(entry) for entry in value]
-    return value

@@ -13,6 +13,7 @@ import numpy.typing as npt
 
 from . import _native
 from ._numbers import MOST_WIDTH
+from ._result import Result, printable
 from .errors import ShapeError
 
 if TYPE_CHECKING:
@@ -24,7 +25,7 @@ SHOWN = 20
 """Rows that a notebook shows."""
 
 
-class Table(Mapping[str, Column]):
+class Table(Mapping[str, Column], Result):
     """Columns of equal length by their names: one-dimensional arrays of doubles or integers, or lists of texts.
 
     Whatever reads the Arrow PyCapsule interface reads a table: ``pyarrow.table(t)``, ``polars.DataFrame(t)``,
@@ -33,7 +34,10 @@ class Table(Mapping[str, Column]):
     >>> import funicular as fn
     >>> a = fn.solve(lengths=[1, 1], masses=[1, 1], end=(1, 0, 0))
     >>> a.joints
-    Table of 3 rows: joint, x_m, y_m, z_m, reaction_x_n, reaction_y_n, reaction_z_n
+    joint  x_m  y_m        z_m  reaction_x_n  reaction_y_n  reaction_z_n
+    0        0    0          0      -2.83094             0       9.80665
+    1      0.5    0  -0.866025             0             0             0
+    2        1    0          0       2.83094             0       9.80665
     >>> a.joints["z_m"].round(4).tolist()
     [0.0, -0.866, 0.0]
     """
@@ -67,7 +71,19 @@ class Table(Mapping[str, Column]):
         return frame
 
     def __repr__(self) -> str:
-        return f"Table of {self.rows} rows: {', '.join(self)}"
+        count = min(self.rows, SHOWN)
+        columns = []
+        for name, column in self._columns.items():
+            cells = [printable(name), *(printable(_shown(column[k])) for k in range(count))]
+            width = max(map(len, cells))
+            text = isinstance(column, list)
+            columns.append([cell.ljust(width) if text else cell.rjust(width) for cell in cells])
+        lines = ["  ".join(cells).rstrip() for cells in zip(*columns)]
+        more = [f"({count} of {self.rows} rows)"] if self.rows > count else []
+        return "\n".join(lines + more)
+
+    def _content(self) -> dict[str, Any]:
+        return dict(self._columns)
 
     def _repr_html_(self) -> str:
         head = "".join(f"<th>{escape(name)}</th>" for name in self)
@@ -80,7 +96,8 @@ class Table(Mapping[str, Column]):
 
 
 def _shown(value: Any) -> str:
-    return f"{value:.6g}" if isinstance(value, (float, np.floating)) else str(value)
+    # Without the sign of a zero.
+    return f"{value + 0.0:.6g}" if isinstance(value, (float, np.floating)) else str(value)
 
 
 def _column(values: Any) -> Column:

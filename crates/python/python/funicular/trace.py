@@ -8,12 +8,14 @@ from typing import Any
 from . import _native
 from ._numbers import whole
 from ._progress import Progress, shown
+from ._result import Result, printable
 from .evidence import Record
-from .system import System, printable
+from .plot import plot_trace
+from .system import System
 from .table import Table, read_csv
 
 
-class Trace:
+class Trace(Result):
     """All equilibria along a path of parameters.
 
     ``paths``: for each path its ``points``, ``branches``, ``events`` (folds, branch points, exchanges of stability) and
@@ -27,8 +29,9 @@ class Trace:
     (2.0, True)
     """
 
-    def __init__(self, system: System, text: str, points: str, agree: bool, decided: bool) -> None:
+    def __init__(self, system: System, text: str, points: str, agree: bool, decided: bool, said: str) -> None:
         self.system = system
+        self._said = said
         self.data: dict[str, Any] = json.loads(text)
         self._points = points
         self.checks_agree = agree
@@ -48,6 +51,11 @@ class Trace:
     def table(self) -> Table:
         """A row for each point of each branch; empty cells are NaN, or -1 where numbers count."""
         return read_csv(self._points, COUNTS)
+
+    def plot(self, ax: Any = None, path: int = 1) -> Any:
+        """Draw energies over the last parameter into axes of matplotlib, which must be installed: stable branches in full,
+        others broken."""
+        return plot_trace(self, ax, path)
 
     def __repr__(self) -> str:
         branches = sum(len(path["branches"]) for path in self.data["traces"])

@@ -5,7 +5,7 @@ use clap::ValueEnum;
 use funicular::LargeCensusAnswer;
 use funicular::census::List;
 
-use crate::census::{Census, SHAPES, exit, how_far, refuse as refuse_census, table};
+use crate::census::{Census, SHAPES, exit, how_far, refuse as refuse_census};
 use crate::diagnostics::{Diagnostic, tell};
 use crate::exit::{Exit, Failure};
 use crate::output;
@@ -108,9 +108,10 @@ pub fn of_many(
     if arguments.printed.is_json() {
         output::print_stream(|out| answer.write_json(list, out))?;
     } else {
-        output::print(&table::text(&answer.first))?;
+        output::print(&answer.to_string())?;
     }
-    Ok(exit(&answer.first.census))
+    let census = &answer.first.census;
+    Ok(exit(census.check_failed(), census.is_decided()))
 }
 
 /// What is listed: what is asked for, else everything that is not too large.

@@ -4,11 +4,10 @@ use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
 use formats::answer::Answer;
-use funicular::SolveAnswer;
+use funicular::{SolveAnswer, text};
 use validate::UseCensus;
 
 use super::object::{self, Origin, Unanswered};
-use crate::answer;
 use crate::exit::{Exit, Failure};
 use crate::in_order::in_order;
 use crate::input::{self, next_to};
@@ -99,7 +98,7 @@ fn said(arguments: &super::Solve, origin: Origin<'_>, answer: &SolveAnswer) -> S
         };
     }
     let name = if let Origin::File(name) = origin { heading(name) } else { String::new() };
-    let text = answer::answer(answer, arguments.summary, arguments.evidence);
+    let text = text::answer(answer, arguments.summary, arguments.evidence);
     Said { text: name + &text + "\n", failure: None, exit }
 }
 

@@ -1,59 +1,10 @@
 //! What a sweep says in the end.
 
-use std::fmt::Write as _;
-
-use ::sweep::{Comparison, Failure, Manifest, SolverTally, StoreSummary, rate_interval};
+use ::sweep::{Manifest, OutcomeTally, SolverTally, StoreSummary, rate_interval};
+use funicular::text::sweep::outcome;
 use serde_json::{Value, json};
 
-use crate::printable::Printable;
-use crate::tables::{Table, numbers_from, short, significant, table, word};
-
-/// Seeds named one by one in the terminal; `summary.json` has more.
-const NAMED: usize = 20;
-
-/// Everything about the outcomes.
-pub fn summary(manifest: &Manifest, summary: &StoreSummary) -> String {
-    let all = summary.outcomes.seeds();
-    let shard = if manifest.shard.of > 1 {
-        format!(" (shard {} of {} seeds)", manifest.shard, manifest.seeds)
-    } else {
-        String::new()
-    };
-    let mut text = format!(
-        "{}: {all} {} seeds of number {}{shard}\n",
-        Printable(&manifest.system.name),
-        manifest.source,
-        manifest.seed_number
-    );
-    let proof = if manifest.equilibria_complete {
-        "the census proves that there are no others"
-    } else {
-        "there may be others: the census is not complete"
-    };
-    let lowest = summary.listed_below_j().map_or_else(String::new, |below_j| {
-        format!(", the lowest of those reached: none from {} J on", short(below_j))
-    });
-    let listed = summary.equilibria(manifest).count();
-    if let Some(release) = &manifest.release {
-        let _ = writeln!(
-            text,
-            "let go at rest, followed for at most {} s in steps of {} s; drag {} 1/s, friction {} N m s",
-            short(release.time_s),
-            short(release.step_s),
-            short(release.drag_1_s),
-            short(release.friction_n_m_s)
-        );
-    }
-    let _ = writeln!(text, "{listed} equilibria in the list{lowest}; {proof}\n");
-    let tally = summary.outcomes.tally();
-    for (name, solver) in &tally.solvers {
-        let _ = writeln!(text, "{name}:\n{}\n", outcomes(manifest, summary, solver));
-    }
-    if tally.both.is_some() {
-        text += &comparisons(manifest, summary);
-    }
-    text
-}
+use crate::tables::{short, word};
 
 /// How fast it was; nothing was computed if everything was there, or if there is nothing to
 /// compute.
@@ -68,136 +19,18 @@ pub fn rate(computed: u64, all: u64, seconds: f64) -> String {
     format!("{computed} seeds in {seconds:.1} s: {} a second, written\n", short(rate.round()))
 }
 
-fn outcomes(manifest: &Manifest, summary: &StoreSummary, solver: &SolverTally) -> Table {
-    let all = summary.outcomes.seeds();
-    let release = manifest.release.as_ref();
-    let [median, most] = if release.is_some() {
-        ["median\ntime / s", "longest\n/ s"]
-    } else {
-        ["median\nsteps", "most\nsteps"]
-    };
-    // What is released is looked at after spans of time.
-    let spans = |count: u16| match release {
-        Some(release) => short(f64::from(count) * release.span_s),
-        None => count.to_string(),
-    };
-    let mut table = table([
-        "outcome",
-        "energy / J",
-        "index",
-        "seeds",
-        "rate\n/ %",
-        "95 % interval",
-        median,
-        most,
-    ]);
-    // Equilibria first, then failures from the most harmless on.
-    let (failed, reached): (Vec<_>, Vec<_>) = solver.0.iter().partition(|(code, _)| **code < 0);
-    for (code, row) in reached.into_iter().chain(failed.into_iter().rev()) {
-        let member = summary.equilibrium(manifest, *code);
-        let (low, high) = rate_interval(row.count, all);
-        let index = member.and_then(|member| member.index_in_plane);
-        table.add_row([
-            outcome(manifest, *code),
-            member.map_or_else(String::new, |member| short(member.energy_j)),
-            index.map_or_else(String::new, |index| index.to_string()),
-            row.count.to_string(),
-            short(percent(row.count, all)),
-            // More digits than the interval is wide for would say nothing.
-            format!("{} to {}", significant(100.0 * low, 4), significant(100.0 * high, 4)),
-            spans(row.median_iterations()),
-            spans(row.max_iterations()),
-        ]);
-    }
-    numbers_from(&mut table, 1);
-    table
-}
-
-/// The words for an outcome.
-fn outcome(manifest: &Manifest, code: i16) -> String {
-    let failures = if manifest.release.is_some() {
-        [
-            (Failure::IterationLimit, "not at rest in time"),
-            (Failure::Stalled, "no step possible"),
-            (Failure::NonFinite, "a number overflowed"),
-            (Failure::Unlisted, "at rest elsewhere"),
-        ]
-    } else {
-        [
-            (Failure::IterationLimit, "iteration limit"),
-            (Failure::Stalled, "stalled"),
-            (Failure::NonFinite, "a number overflowed"),
-            (Failure::Unlisted, "in no list"),
-        ]
-    };
-    let failure = failures.iter().find(|(failure, _)| *failure as i16 == code);
-    failure.map_or_else(|| format!("equilibrium {code}"), |(_, words)| (*words).to_owned())
-}
-
-fn percent(count: u64, all: u64) -> f64 {
-    100.0 * count as f64 / all.max(1) as f64
-}
-
-fn comparisons(manifest: &Manifest, summary: &StoreSummary) -> String {
-    let all = summary.outcomes.seeds();
-    let mut table = table(["both solvers", "seeds", "rate / %", "as it should be"]);
-    for (comparison, count) in summary.outcomes.comparisons().filter(|(_, count)| *count > 0) {
-        table.add_row([
-            words(comparison).to_owned(),
-            count.to_string(),
-            short(percent(count, all)),
-            match comparison {
-                gap if manifest.explains(gap) => "unknown: the list ends below",
-                wrong if wrong.should_not_be() => "NO",
-                _ => "yes",
-            }
-            .to_owned(),
-        ]);
-    }
-    numbers_from(&mut table, 1);
-    let mut text = format!("{table}\n\n");
-    // A seed for which the list has no entry is no contradiction.
-    let listed = summary.outcomes.disagreements().iter();
-    let listed: Vec<_> = listed.filter(|seed| !manifest.explains(seed.comparison)).collect();
-    let solvers: Vec<&str> = summary.outcomes.tally().names().collect();
-    for disagreement in listed.iter().take(NAMED) {
-        let said = solvers.iter().zip(disagreement.outcomes);
-        let said: Vec<_> =
-            said.map(|(name, code)| format!("{name}: {}", outcome(manifest, code))).collect();
-        let (seed, what) = (disagreement.seed, words(disagreement.comparison));
-        let _ = writeln!(text, "seed {seed}: {what} ({})", said.join("; "));
-    }
-    if listed.len() > NAMED {
-        let _ = writeln!(text, "... summary.json lists {} of them", listed.len());
-    }
-    text
-}
-
-fn words(comparison: Comparison) -> &'static str {
-    match comparison {
-        Comparison::Same => "the same equilibrium",
-        Comparison::NoMinimum => "lagrange at a saddle or maximum, energy at a minimum",
-        Comparison::OtherBasin => "different minima",
-        Comparison::Unclassified => "different equilibria, one of unknown kind",
-        Comparison::Failed => "one or both did not converge",
-        Comparison::EnergyAtNoMinimum => "energy at no minimum",
-        Comparison::EnergiesDiffer => "the same equilibrium with different energies",
-        Comparison::NotListed => "one or both in no list",
-    }
-}
-
 /// Outcomes by solver, with rates and intervals.
 pub fn solvers_json(manifest: &Manifest, summary: &StoreSummary) -> Value {
     let all = summary.outcomes.seeds();
     let tally = summary.outcomes.tally();
     let rows = |solver: &SolverTally| {
-        let row = |(code, row): (&i16, &::sweep::OutcomeTally)| {
+        let row = |(code, row): (&i16, &OutcomeTally)| {
             let (low, high) = rate_interval(row.count, all);
             json!({
                 "outcome": code,
                 "meaning": outcome(manifest, *code),
                 "count": row.count,
-                "rate": percent(row.count, all) / 100.0,
+                "rate": row.count as f64 / all.max(1) as f64,
                 "rate_95": [low, high],
                 "iterations": { "median": row.median_iterations(), "max": row.max_iterations() },
             })

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use super::table;
 
 /// Types that no command prints as JSON, and why.
-const NOT_PRINTED: [(&str, &str); 19] = [
+const NOT_PRINTED: [(&str, &str); 20] = [
     ("census::Census", "`census --json` prints its own `Summary`"),
     ("census::DegenerateEquilibrium", "printed as `Merged` of the program"),
     ("census::Face", "asserted as `chart`: some faces, by one enum"),
@@ -21,6 +21,7 @@ const NOT_PRINTED: [(&str, &str); 19] = [
     ("census::TopologyError", "printed as the sentence `census.topology_unknown`"),
     ("census::Undecided", "printed as `Open` of the program"),
     ("census::UndecidedPlaces", "a net prints the number of its undecided boxes"),
+    ("funicular::CensusAnswer", "untagged: one object or the other"),
     ("paper::E1State", "a value of the report's own tests"),
     ("report::Kind", "data of the figure on the report's page, looked at in a browser"),
     ("report::State", "data of the figure on the report's page, looked at in a browser"),

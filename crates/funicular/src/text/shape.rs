@@ -2,11 +2,12 @@
 
 use std::fmt::Write as _;
 
-use funicular::{Extremes, Sag};
 use model::{AxialForce, ForceRange, Vector};
 
-use crate::printed::{numbers, quantity};
-use crate::tables::{Table, numbers_from, short, table, wrapped};
+use super::printed::{numbers, quantity};
+use super::tables::{Table, numbers_from, short, table, wrapped};
+use crate::extremes::Extremes;
+use crate::sag::Sag;
 
 /// Joints and bars up to this many are printed one by one; of more the extremes (`--csv`,
 /// `--bars-csv` and `--json` have all).

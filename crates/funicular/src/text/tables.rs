@@ -4,10 +4,10 @@ use std::fmt;
 use std::ops::{Deref, DerefMut};
 
 use comfy_table::{CellAlignment, ColumnConstraint, ContentArrangement, LineStyle, presets};
-use model::{Evidence, SystemSummary, Vector, cases};
+use model::{Evidence, SystemSummary, Vector};
 
-use crate::printable::Printable;
-use crate::printed::{self, Format, head, quantity, scaled};
+use super::printable::Printable;
+use super::printed::{self, Format, head, quantity, scaled};
 
 /// Width of tables where no terminal says its own: what every terminal, mail and report has room
 /// for.
@@ -147,6 +147,7 @@ fn quoted(text: &str) -> String {
 
 /// What is printed, ready for the format that is asked for: where tables are pasted as LaTeX or CSV the lines between
 /// them are comments.
+#[must_use]
 pub fn finished(text: &str) -> String {
     let comment = match printed::format() {
         Format::Text | Format::Json => return text.to_owned(),
@@ -180,20 +181,8 @@ pub fn numbers_from(table: &mut Table, first: usize) {
     }
 }
 
-/// The registry: chains and systems.
-pub fn cases() -> String {
-    let mut chains = table(["case", "what it is"]);
-    for case in cases::all() {
-        chains.add_row([case.name, case.about]);
-    }
-    let mut systems = table(["system of bars", "what it is"]);
-    for exhibit in cases::exhibits() {
-        systems.add_row([exhibit.name, exhibit.about]);
-    }
-    format!("{chains}\n\n{systems}\n")
-}
-
 /// What is solved, in a line of its own.
+#[must_use]
 pub fn system_line(system: &SystemSummary) -> String {
     format!(
         "{}: {} bars, {} long, {},\nanchors {} apart, g = {} m/s^2\n\n",
@@ -207,16 +196,19 @@ pub fn system_line(system: &SystemSummary) -> String {
 }
 
 /// A number for reading: six significant digits.
+#[must_use]
 pub fn short(x: f64) -> String {
     significant(x, 6)
 }
 
 /// A number for comparing: fifteen significant digits.
+#[must_use]
 pub fn long(x: f64) -> String {
     significant(x, 15)
 }
 
 /// `digits` significant digits, in plain notation where that is readable.
+#[must_use]
 pub fn significant(x: f64, digits: usize) -> String {
     if x.abs() < f64::MIN_POSITIVE {
         return "0".to_owned();
@@ -246,6 +238,7 @@ pub fn vector(v: Vector) -> String {
 
 /// A paragraph in lines that fit a terminal of 80 columns, all but the first indented. A longer
 /// word stays whole.
+#[must_use]
 pub fn wrapped(paragraph: &str, indent: usize) -> String {
     const COLUMNS: usize = 80;
     let mut lines = String::new();
@@ -267,6 +260,7 @@ pub fn wrapped(paragraph: &str, indent: usize) -> String {
 }
 
 /// The highest rung that an answer has reached.
+#[must_use]
 pub fn rung(evidence: &Evidence) -> String {
     evidence.rung().map_or_else(|| "none".to_owned(), |rung| rung.to_string())
 }
@@ -276,6 +270,7 @@ pub fn word(value: &impl serde::Serialize) -> String {
     serde_json::to_value(value).ok().and_then(|v| v.as_str().map(str::to_owned)).unwrap_or_default()
 }
 
+#[must_use]
 pub fn duration(seconds: f64) -> String {
     if seconds < 1e-3 {
         format!("{:.1} us", seconds * 1e6)

@@ -1,20 +1,27 @@
 //! The census of a system, for people.
 
-use std::fmt::Write as _;
+use std::fmt::{self, Write as _};
 
-use funicular::SystemCensusAnswer;
 use model::system::{System, SystemEquilibrium};
 
-use crate::answer::ladder;
-use crate::printable::Printable;
-use crate::tables::{duration, long, numbers_from, rung, short, table, vector, word, wrapped};
+use super::answer::ladder;
+use super::printable::Printable;
+use super::tables::{duration, long, numbers_from, rung, short, table, vector, word, wrapped};
+use crate::census::SystemCensusAnswer;
 
 /// So many equilibria are printed, and so many joints and members of them one by one; `--json` has
 /// all.
 const PRINTED: usize = 40;
 
+/// As `funicular census` prints it.
+impl fmt::Display for SystemCensusAnswer {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&text(self))
+    }
+}
+
 /// The whole answer.
-pub fn text(answer: &SystemCensusAnswer) -> String {
+fn text(answer: &SystemCensusAnswer) -> String {
     let system = answer.system();
     let mut text = format!(
         "{}: {} members, {} joints\n",

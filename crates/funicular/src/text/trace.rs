@@ -1,10 +1,11 @@
 //! A trace as text: what happens on its branches, and where.
 
-use std::fmt::Write as _;
+use std::fmt::{self, Write as _};
 
 use branches::{Continuation, Event, EventKind, PointStatus};
 
-use crate::tables;
+use super::tables;
+use crate::trace::TraceAnswer;
 
 /// Events printed in full as a table.
 const SHOWN: usize = 60;
@@ -21,8 +22,17 @@ fn fixed(trace: &Continuation) -> String {
     named.collect::<Vec<_>>().join(", ")
 }
 
+/// As `funicular trace` prints it.
+impl fmt::Display for TraceAnswer {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let many = self.paths().len() > 1;
+        let texts: Vec<_> = self.paths().iter().map(|one| text(one, many)).collect();
+        f.write_str(&texts.join("\n"))
+    }
+}
+
 /// One trace for people; with others, each says for which values it is.
-pub fn text(trace: &Continuation, many: bool) -> String {
+fn text(trace: &Continuation, many: bool) -> String {
     let complete = |p: &&branches::PathPoint| matches!(p.status, PointStatus::Complete { .. });
     let refused = |p: &&branches::PathPoint| matches!(p.status, PointStatus::Refused { .. });
     let count = trace.points.len();

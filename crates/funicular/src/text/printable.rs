@@ -25,6 +25,7 @@ impl fmt::Display for Printable<'_> {
 /// Everything that is printed passes here: what still steers becomes a question mark. Line ends
 /// stay, and so do the colours of the program's own errors (`ESC [ numbers m`) where `colours` are
 /// asked for.
+#[must_use]
 pub fn filtered(text: &str, colours: bool) -> String {
     let mut out = String::with_capacity(text.len());
     let mut rest = text;

@@ -1,20 +1,33 @@
 //! A judgement, for people.
 
-use std::fmt::Write as _;
+use std::fmt::{self, Write as _};
 
-use funicular::judge::Ruling;
-
-use crate::printable::Printable;
-use crate::tables::{table, wrapped};
+use super::printable::Printable;
+use super::tables::{table, wrapped};
+use crate::judge::{Judged, Ruling};
 
 /// Violations up to this many are printed.
 const PRINTED: usize = 40;
 /// Indent of what a paragraph needs beyond its first line.
 const INDENT: usize = 2;
 
+/// As `funicular judge` prints it.
+impl fmt::Display for Ruling {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&text(&self.judged, &self.finding(), &self.notes))
+    }
+}
+
+/// As `funicular judge` prints it, for a system of our own.
+impl fmt::Display for Judged {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&text(self, &self.judgement().finding.to_string(), &[]))
+    }
+}
+
 /// The whole judgement.
-pub fn text(one: &Ruling) -> String {
-    let (system, judgement) = (one.judged.system(), one.judged.judgement());
+fn text(judged: &Judged, finding: &str, notes: &[String]) -> String {
+    let (system, judgement) = (judged.system(), judged.judgement());
     let bounds = judgement.bounds;
     let mut text = format!(
         "{}: the answer of {}\n{} joints, {} members; tolerance {:.0e}: {:.1e} m, {:.1e} N\n\n",
@@ -26,13 +39,13 @@ pub fn text(one: &Ruling) -> String {
         bounds.position_m,
         bounds.force_n,
     );
-    text += &paragraph(&format!("Verdict: {}.", Printable(&one.finding())));
+    text += &paragraph(&format!("Verdict: {}.", Printable(finding)));
     if let Some(sentence) = judgement.tolerance_sentence(system) {
         text += &paragraph(&sentence);
     }
     text += &paragraph(&judgement.forces_sentence());
     text.push('\n');
-    text += &broken(one);
+    text += &broken(judged);
     for sentence in judgement.error_sentences(system) {
         text += &paragraph(&Printable(&sentence).to_string());
     }
@@ -43,7 +56,7 @@ pub fn text(one: &Ruling) -> String {
         text += &wrapped(&Printable(&line).to_string(), 15);
         text.push('\n');
     }
-    for note in &one.notes {
+    for note in notes {
         text += &paragraph(&format!("Note: {}.", Printable(note)));
     }
     text
@@ -54,8 +67,8 @@ fn paragraph(text: &str) -> String {
 }
 
 /// What is broken, a line each.
-fn broken(one: &Ruling) -> String {
-    let (system, violations) = (one.judged.system(), &one.judged.judgement().violations);
+fn broken(judged: &Judged) -> String {
+    let (system, violations) = (judged.system(), &judged.judgement().violations);
     if violations.is_empty() {
         return String::new();
     }

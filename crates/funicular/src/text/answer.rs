@@ -1,20 +1,29 @@
 //! The answer of `solve`, for people.
 
-use std::fmt::Write as _;
+use std::fmt::{self, Write as _};
 
-use funicular::{Extremes, SolveAnswer};
 use model::system::{Kind, Member, Support, System, SystemEquilibrium};
 use model::{Evidence, Rung, SolverName, Vector};
 
-use crate::printable::Printable;
-use crate::printed::{numbers, quantity};
-use crate::shape::Shape;
-use crate::tables::{duration, long, numbers_from, rung, short, table, word, wrapped};
+use super::printable::Printable;
+use super::printed::{numbers, quantity};
+use super::shape::Shape;
+use super::tables::{duration, long, numbers_from, rung, short, table, word, wrapped};
+use crate::extremes::Extremes;
+use crate::solve::SolveAnswer;
 
 /// Where the sentences of the ladder begin.
 const LADDER_INDENT: usize = 15;
 
+/// As `funicular solve` prints it.
+impl fmt::Display for SolveAnswer {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&answer(self, false, false))
+    }
+}
+
 /// The whole answer; how far it is proved in full, or in a line.
+#[must_use]
 pub fn answer(solution: &SolveAnswer, summary: bool, evidence: bool) -> String {
     let system = solution.system();
     let (members, joints) = (system.members().len(), system.joints().len());
@@ -150,7 +159,7 @@ fn line(mark: char, of: &str, what: &str) -> String {
 }
 
 /// How far each equilibrium is proved, rung by rung; once where the evidence for all is the same.
-pub fn ladder(answers: &[(&SolverName, &Evidence)]) -> String {
+pub(super) fn ladder(answers: &[(&SolverName, &Evidence)]) -> String {
     let names: Vec<String> = answers.iter().map(|(solver, _)| solver.to_string()).collect();
     let mut rungs: Vec<String> = answers.iter().map(|(_, evidence)| rung(evidence)).collect();
     rungs.dedup();

@@ -1,14 +1,24 @@
 //! The reproduction for people: what the paper claims, what two solvers find, where it is wrong.
 
+use std::fmt;
+
 use paper::Reproduction;
 use paper::claims::Claim;
 use paper::printed::{Assessment, Printed};
 use paper::seeds::Survey;
 
-use crate::tables::{numbers_from, short, significant, table, word};
+use super::tables::{numbers_from, short, significant, table, word};
+use crate::reproduce::ReproduceAnswer;
+
+/// As `funicular reproduce` prints it.
+impl fmt::Display for ReproduceAnswer {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&reproduction(self.reproduction()))
+    }
+}
 
 /// The whole text, section by section.
-pub fn reproduction(r: &Reproduction) -> String {
+fn reproduction(r: &Reproduction) -> String {
     [
         format!("{}\n\nThe claims of the paper:\n{}", r.paper, claims(r)),
         format!("Where the paper is wrong, and the number that shows it:\n{}", wrong(r)),

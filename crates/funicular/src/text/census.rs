@@ -1,15 +1,14 @@
 //! The census, for people.
 
-use std::fmt::Write as _;
+use std::fmt::{self, Write as _};
 
-use funicular::CensusAnswer;
-use funicular::census::{Found, Summary};
 use model::Rung;
 
-use crate::tables::{
+use super::tables::{
     duration, long, numbers_from, rung, short, significant, system_line, table, vector, word,
     wrapped,
 };
+use crate::census::{CensusAnswer, ChainCensusAnswer, Found, LargeCensusAnswer, Summary};
 
 /// So many equilibria are printed; `--json` and `--csv` have all.
 const PRINTED: usize = 40;
@@ -26,8 +25,32 @@ const PRINTED_OPEN: usize = 12;
 /// Where the sentences of the ladder begin.
 const LADDER_INDENT: usize = 14;
 
+/// As `funicular census` prints it.
+impl fmt::Display for ChainCensusAnswer {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&text(self))
+    }
+}
+
+/// The same of its first equilibria.
+impl fmt::Display for LargeCensusAnswer {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.first.fmt(f)
+    }
+}
+
+/// The same of any system.
+impl fmt::Display for CensusAnswer {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Chain(found) => found.fmt(f),
+            Self::System(found) => found.fmt(f),
+        }
+    }
+}
+
 /// The whole answer.
-pub fn text(answer: &CensusAnswer) -> String {
+fn text(answer: &ChainCensusAnswer) -> String {
     let mut text = system_line(&answer.system);
     text += &headline(&answer.census);
     if !answer.equilibria.is_empty() {
@@ -82,10 +105,11 @@ fn headline(census: &Summary) -> String {
     wrapped(&text, 0) + "\n\n"
 }
 
-fn overview(answer: &CensusAnswer) -> String {
+fn overview(answer: &ChainCensusAnswer) -> String {
     let mut head = vec!["#", "energy / J"];
     // The paper counts the energy of its example from the last anchor, 2 l below the first.
-    let [start, end] = [answer.anchors.start_m[2], answer.anchors.end_m[2]];
+    let anchors = answer.problem.chain().anchors();
+    let [start, end] = [anchors.start_m[2], anchors.end_m[2]];
     let shift_j = answer.system.total_mass_kg * answer.system.gravity_m_s2 * (start - end);
     let shift = shift_j / answer.census.energy_unit_j;
     let unit = answer.census.energy_symbol;
@@ -174,7 +198,7 @@ fn left_out(text: &mut String, all: usize, printed: usize, what: &str) {
 }
 
 /// The forces of the ground.
-fn reactions(answer: &CensusAnswer) -> String {
+fn reactions(answer: &ChainCensusAnswer) -> String {
     let mut rows = table(["#", "force at start / N", "force at end / N"]);
     for found in answer.equilibria.iter().take(PRINTED) {
         let reactions = &found.equilibrium.reactions_n;
@@ -187,7 +211,7 @@ fn reactions(answer: &CensusAnswer) -> String {
 }
 
 /// Angles and forces, bar by bar.
-fn bars(answer: &CensusAnswer) -> String {
+fn bars(answer: &ChainCensusAnswer) -> String {
     let printed = (PRINTED_BARS / answer.system.bars.max(1)).clamp(1, PRINTED);
     let mut rows = table(["#", "bar", "angle / deg", "signed / deg", "known to", "axial / N", ""]);
     for found in answer.equilibria.iter().take(printed) {
@@ -216,7 +240,7 @@ fn bars(answer: &CensusAnswer) -> String {
 
 /// How far the equilibria are proved, rung by rung: every reason once, with the equilibria it holds
 /// for.
-fn evidence(answer: &CensusAnswer) -> String {
+fn evidence(answer: &ChainCensusAnswer) -> String {
     let all = answer.equilibria.len();
     let mut text = match answer.census.count {
         count if count > all => format!("Evidence of the first {all} of {count}:\n"),
@@ -435,7 +459,7 @@ mod tests {
         let problem = model::cases::paper();
         let census = Census::take(&problem, &Settings::default()).unwrap();
         let line =
-            |verdict| check_line(&CensusAnswer::new(&problem, census.clone(), verdict).census);
+            |verdict| check_line(&ChainCensusAnswer::new(&problem, census.clone(), verdict).census);
         assert!(
             line(Ok(())).contains("is proved again")
                 && line(Ok(())).contains("rests on the search")

@@ -1,0 +1,27 @@
+//! Answers as text: what the program prints, by the same code. How tables look is set once for a
+//! whole program ([`printed::Style`]).
+
+mod answer;
+#[cfg(feature = "sweep")]
+mod basins;
+mod census;
+mod census_system;
+#[cfg(feature = "branches")]
+pub mod derivatives;
+mod judged;
+mod modes;
+pub mod motion;
+pub mod printable;
+pub mod printed;
+#[cfg(feature = "paper")]
+mod reproduction;
+mod shape;
+#[cfg(feature = "branches")]
+mod study;
+#[cfg(feature = "sweep")]
+pub mod sweep;
+pub mod tables;
+#[cfg(feature = "branches")]
+mod trace;
+
+pub use answer::answer;

@@ -1,0 +1,56 @@
+//! Which start leads where, over the angles of two bars.
+
+use std::sync::Arc;
+
+use funicular::prelude::{Basins, SolverName};
+use funicular::{Error, Field};
+use numpy::{PyArray1, PyArrayMethods as _};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+use crate::printable::printable;
+use crate::problem::Problem;
+use crate::raise::raise;
+use crate::work;
+
+/// By solver: outcomes and iterations of all starts, (size, size), and a picture of each as SVG; the
+/// equilibria in words, and what the program prints.
+#[pyfunction]
+pub fn basins<'py>(
+    py: Python<'py>,
+    problem: &Problem,
+    size: u32,
+    bars: [usize; 2],
+    others_deg: f64,
+    threads: usize,
+    progress: Option<Bound<'py, PyAny>>,
+) -> PyResult<(Bound<'py, PyDict>, Vec<String>, String)> {
+    let of = Arc::clone(&problem.of);
+    let found = work::run(py, threads, progress.as_ref(), move |watch| {
+        watch.tell("starts", 0, u64::from(size).pow(2));
+        let found = Basins::new().size(size).bars(bars).others_deg(others_deg).run(&of)?;
+        let draw = |solver: &SolverName| {
+            Ok::<_, Error>([
+                found.svg(solver, Field::Outcome)?,
+                found.svg(solver, Field::Iterations)?,
+            ])
+        };
+        let pictures = [draw(&SolverName::LAGRANGE)?, draw(&SolverName::ENERGY)?];
+        Ok((found, pictures))
+    })?;
+    let (found, pictures) = found.map_err(|error: Error| raise(&error))?;
+    let all = PyDict::new(py);
+    let square = [size as usize; 2];
+    for (solver, [outcome, iterations]) in
+        [SolverName::LAGRANGE, SolverName::ENERGY].iter().zip(pictures)
+    {
+        let Some(of) = found.outcomes(solver) else { continue };
+        let one = PyDict::new(py);
+        one.set_item("outcome", PyArray1::from_slice(py, &of.outcome).reshape(square)?)?;
+        one.set_item("iterations", PyArray1::from_slice(py, &of.iterations).reshape(square)?)?;
+        one.set_item("svg", (outcome, iterations))?;
+        all.set_item(solver.as_str(), one)?;
+    }
+    let names = found.equilibria().iter().map(|name| printable(name)).collect();
+    Ok((all, names, printable(&found.to_string())))
+}
