@@ -34,6 +34,7 @@ fn main() -> Outcome<()> {
     let mut site = Vec::new();
     for (at, page) in pages.iter().enumerate() {
         let content = report::formulas::typeset(&rendered(&top.join(&page.source), &out)?)?;
+        whole_formulas(&content).map_err(|e| format!("{}: {e}", page.source.display()))?;
         let content = linked(&content, page, &pages, &top, &out)?;
         site.push((page.name.clone(), whole(&content, at, &pages)));
     }
@@ -95,6 +96,21 @@ fn rendered(source: &Path, out: &Path) -> Outcome<String> {
     let content =
         page.split_once("<h1 class=\"title\">").and_then(|(_, rest)| rest.rsplit_once("</body>"));
     Ok(format!("<h1>{}", content.ok_or("rustdoc writes pages in another form")?.0.trim_end()))
+}
+
+/// That no formula was torn: Markdown takes `\,` and `*` for its own, and leaves a dollar sign or an entity behind.
+fn whole_formulas(content: &str) -> Outcome<()> {
+    let mut code = false;
+    for part in content.split('<') {
+        let (tag, text) = part.split_once('>').unwrap_or(("", part));
+        code = (code || tag.starts_with("pre") || tag.starts_with("code"))
+            && tag != "/pre"
+            && tag != "/code";
+        if !code && (text.contains('$') || text.contains("&amp;nbsp;")) {
+            return Err(format!("a formula is torn: {text}").into());
+        }
+    }
+    Ok(())
 }
 
 /// The page with links to pages of the site, and with its pictures copied; what the repository alone has keeps its words.
