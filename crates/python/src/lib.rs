@@ -2,9 +2,9 @@
 //!
 //! The other half, in Python, checks shapes and types, and makes objects of what comes from here.
 //! Each function takes arrays of doubles and words, works without the interpreter lock on the
-//! threads of the package ([`work`]), and gives back arrays and, for all that is no array, one text
+//! threads of the package (`work`), and gives back arrays and, for all that is no array, one text
 //! of JSON with the keys of `funicular --json`. Errors of the library become exceptions of the
-//! package with their numbers ([`raise`]).
+//! package with their numbers (`raise`).
 
 mod arrays;
 mod arrow;

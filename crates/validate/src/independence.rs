@@ -19,9 +19,12 @@ const DATA: &[&str] = &["model", SAMPLES];
 /// Random chains, for tests alone.
 const SAMPLES: &str = "samples";
 
+/// The one package that is made of the library of the program: its bindings.
+const PYTHON: &str = "funicular-python";
+
 /// Packages of the workspace that may reach both solvers: the judge, what shows its verdicts, and
 /// what measures or sweeps both side by side.
-const MEETING_PLACES: &[&str] = &["validate", "paper", "report", "benches", "funicular"];
+const MEETING_PLACES: &[&str] = &["validate", "paper", "report", "benches", "funicular", PYTHON];
 
 /// Packages that are handed the solvers they run, or need none.
 const WITHOUT_SOLVERS: &[&str] = &["sweep", "branches", "census", "columns", "figures", "motion"];
@@ -198,7 +201,9 @@ impl Graph {
             }
         }
         for package in &self.workspace {
-            forbid(package, "funicular", "nothing uses the program");
+            if package != PYTHON {
+                forbid(package, "funicular", "nothing uses the program");
+            }
             if !MEETING_PLACES.contains(&package.as_str())
                 && package != "lagrange"
                 && self.path(package, "lagrange").is_some()

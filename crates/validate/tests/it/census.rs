@@ -150,21 +150,21 @@ fn circles_by_lagrange(problem: &Problem, census: &Census, seeds: usize) -> Foun
     found
 }
 
-/// Every equilibrium that 100,000 seeds of either solver find is in the list.
+/// Every equilibrium that 20,000 seeds of either solver find is in the list; `STARTS=100000` tries more of them.
 #[test]
 fn no_seed_finds_what_is_not_listed() {
-    const SEEDS: usize = 100_000;
+    let count = std::env::var("STARTS").map_or(20_000, |n| n.parse().unwrap());
     let problem = model::cases::paper();
     let census = census(&problem);
     let clock = Instant::now();
-    let lagrange = circles_by_lagrange(&problem, &census, SEEDS);
+    let lagrange = circles_by_lagrange(&problem, &census, count);
     println!("lagrange {lagrange:?} {:.1} s", clock.elapsed().as_secs_f64());
     let clock = Instant::now();
-    let energy = seeds(&problem, &census, SEEDS, by_energy(&problem));
+    let energy = seeds(&problem, &census, count, by_energy(&problem));
     println!("energy {energy:?} {:.1} s", clock.elapsed().as_secs_f64());
     // The search is worth something: nearly all seeds end, and both circles are found.
-    assert!(lagrange.lost < SEEDS / 20 && lagrange.hits.iter().all(|hits| *hits > SEEDS / 10));
-    assert!(energy.lost < SEEDS / 20 && energy.hits[0] > SEEDS / 2);
+    assert!(lagrange.lost < count / 20 && lagrange.hits.iter().all(|hits| *hits > count / 10));
+    assert!(energy.lost < count / 20 && energy.hits[0] > count / 2);
 }
 
 #[test]
