@@ -4,6 +4,7 @@
 //! bits, and are `NaN`, `inf` or `-inf` where they are no numbers. Text with a comma, a quote or a
 //! line end stands in quotes, as RFC 4180 has it.
 
+use std::borrow::Cow;
 use std::fmt::Write as _;
 use std::fs::File;
 use std::io::{BufRead, BufReader, Write as _};
@@ -51,8 +52,17 @@ impl CsvWriter {
 }
 
 fn header(schema: &Schema) -> String {
-    let names: Vec<_> = schema.columns.iter().map(|column| column.name.as_str()).collect();
+    let names: Vec<_> = schema.columns.iter().map(|column| quoted(&column.name)).collect();
     names.join(",")
+}
+
+/// A text, in quotes where it has to be (RFC 4180).
+fn quoted(text: &str) -> Cow<'_, str> {
+    if text.contains([',', '"', '\n', '\r']) {
+        format!("\"{}\"", text.replace('"', "\"\"")).into()
+    } else {
+        text.into()
+    }
 }
 
 fn cell(text: &mut String, column: &Data, row: usize) {
@@ -62,10 +72,7 @@ fn cell(text: &mut String, column: &Data, row: usize) {
         Data::I16(cells) => write!(text, "{}", cells[row]),
         Data::U16(cells) => write!(text, "{}", cells[row]),
         Data::F64(cells) => write!(text, "{:?}", cells[row]),
-        Data::Utf8(cells) if cells[row].contains([',', '"', '\n', '\r']) => {
-            write!(text, "\"{}\"", cells[row].replace('"', "\"\""))
-        }
-        Data::Utf8(cells) => write!(text, "{}", cells[row]),
+        Data::Utf8(cells) => write!(text, "{}", quoted(&cells[row])),
     };
 }
 

@@ -1,6 +1,6 @@
 //! Draw a truss with its forces: `cargo run -p figures --example truss > truss.svg`
 
-use figures::{Joint, Member, Structure, StructureError, Support};
+use figures::{Joint, Member, Seen, Structure, StructureError, Support};
 
 fn main() -> Result<(), StructureError> {
     let load = [0.0, 0.0, -1000.0];
@@ -31,8 +31,14 @@ fn main() -> Result<(), StructureError> {
     ];
     let members = forces.map(|(joints, axial_n)| Member { joints, axial_n: Some(axial_n) });
     let note = "weights left out";
-    let truss =
-        Structure { title: "a truss", note, joints: &joints, members: &members, floor_m: None };
+    let truss = Structure {
+        title: "a truss",
+        note,
+        joints: &joints,
+        members: &members,
+        floor_m: None,
+        seen: Seen::Best,
+    };
     print!("{}", truss.svg()?);
     Ok(())
 }

@@ -83,6 +83,9 @@ const MARGIN: [f64; 4] = [58.0, 14.0, 30.0, 48.0];
 /// Length of a tick and what its number stands off, px.
 const TICK: f64 = 6.0;
 
+/// Width of a digit of the numbers, px.
+const DIGIT: f64 = 8.0;
+
 /// Two axes with what they are called.
 #[derive(Debug, Clone, Copy)]
 pub struct Axes<'a> {
@@ -127,19 +130,23 @@ impl<'a> Axes<'a> {
             svg.text(Look::PLAIN, [at, bottom + 22.0], Anchor::Middle, &number);
         }
         let (ticks, digits) = self.y.ticks(units[1]);
+        let mut longest = 0;
         for tick in ticks {
             let at = self.y.at(tick);
             svg.line(line, [left - TICK, at], [left, at]);
             let number = number(tick + 0.0, digits);
+            longest = longest.max(number.chars().count());
             svg.text(Look::PLAIN, [left - 10.0, at + 5.0], Anchor::End, &number);
         }
+        // Clear of the longest number.
+        let beside = (10.0 + DIGIT * longest as f64 + 12.0).max(64.0);
         let [x_name, y_name] = self.names;
         if !x_name.is_empty() {
             let below = [f64::midpoint(left, right), bottom + 46.0];
             svg.text(Look::PLAIN, below, Anchor::Middle, x_name);
         }
         if !y_name.is_empty() {
-            svg.text_upwards(Look::PLAIN, [left - 64.0, f64::midpoint(top, bottom)], y_name);
+            svg.text_upwards(Look::PLAIN, [left - beside, f64::midpoint(top, bottom)], y_name);
         }
     }
 
@@ -174,6 +181,21 @@ impl<'a> Axes<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_name_of_an_axis_is_clear_of_long_numbers() {
+        let y = Axis { values: [-4.3e5, -1.2e5], pixels: [220.0, 20.0] };
+        let x = Axis { values: [0.0, 1.0], pixels: [100.0, 380.0] };
+        let mut svg = Svg::new([400.0, 280.0], "");
+        Axes { x, y, names: ["", "energy / J"] }.frame(&mut svg, [Unit::Decimal; 2]);
+        let text = svg.finish();
+        assert!(text.contains(">\u{2212}400000</text>"));
+        let name = text.lines().find(|line| line.contains("energy / J")).unwrap();
+        let at: f64 =
+            name.split(" x=\"").nth(1).unwrap().split('"').next().unwrap().parse().unwrap();
+        // The numbers end 10 px beside the axis, and have 7 letters of 8 px; half of a name's height is 7.
+        assert!(at + 7.0 <= 100.0 - 10.0 - 7.0 * 7.8 && at > 7.0, "{at}");
+    }
 
     #[test]
     fn ticks_are_round_and_within() {

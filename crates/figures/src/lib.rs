@@ -39,6 +39,6 @@ pub use palette::{
 };
 pub use png::Raster;
 pub use structure::{
-    Joint, Member, ModeShape, ModeShapes, Structure, StructureError, Support, SystemShape,
+    Joint, Member, ModeShape, ModeShapes, Seen, Structure, StructureError, Support, SystemShape,
 };
 pub use svg::{Anchor, Svg};

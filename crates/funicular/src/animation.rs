@@ -1,5 +1,5 @@
-//! A motion as one HTML file: play, pause, scrub; the energies and the distances from the
-//! equilibria as curves.
+//! A motion as one HTML file: play, pause, scrub, turn; members by their forces, trails of the joints,
+//! the energies and the distances from the equilibria as curves.
 
 use std::fmt::Write as _;
 
@@ -8,12 +8,16 @@ use model::system::System;
 use motion::Snapshot;
 
 use crate::equilibria;
-use crate::moving_page::{self, comma, list, places, structure};
+use crate::moving_page::{self, comma, eye, list, places, structure};
 use crate::problem::Problem;
 use crate::resting::Resting;
 use crate::simulate::CENSUS_BARS;
 
 const PAGE: &str = include_str!("animation.html");
+
+/// At rest, for the eye, is what is slower than this part of its largest speed, in an equilibrium
+/// what is nearer to it than this part of the total length.
+const AT_REST: f64 = 1e-3;
 
 /// Collects what an animation shows, time by time.
 ///
@@ -34,6 +38,9 @@ pub struct Animation {
     frames: Vec<Vec<Vector>>,
     kinetic_j: Vec<f64>,
     potential_j: Vec<f64>,
+    /// Axial forces of the members, N, and the speed of the fastest joint, m/s.
+    axial_n: Vec<Vec<f64>>,
+    speed_m_s: Vec<f64>,
     /// Names of the equilibria, and what tells their distance.
     labels: Vec<String>,
     equilibria: Resting,
@@ -51,6 +58,8 @@ impl Animation {
             frames: Vec::new(),
             kinetic_j: Vec::new(),
             potential_j: Vec::new(),
+            axial_n: Vec::new(),
+            speed_m_s: Vec::new(),
             labels: Vec::new(),
             equilibria: Resting::new(system, std::iter::empty()),
             distances_m: Vec::new(),
@@ -82,6 +91,9 @@ impl Animation {
         self.frames.push(at.joints_m.clone());
         self.kinetic_j.push(at.kinetic_j);
         self.potential_j.push(at.potential_j);
+        self.axial_n.push(at.axial_n.clone());
+        let speeds = at.velocities_m_s.iter().map(|[x, y, z]| x.hypot(*y).hypot(*z));
+        self.speed_m_s.push(speeds.fold(0.0, f64::max));
         let length_m = self.system.total_length_m();
         for (place, distances) in self.distances_m.iter_mut().enumerate() {
             distances.push(length_m * self.equilibria.distance(place, &at.joints_m));
@@ -113,10 +125,41 @@ impl Animation {
             out.push_str(comma(k));
             places(&mut out, &self.system, frame.iter().copied());
         }
-        out.push_str("],");
+        out.push_str("],\"axial\":[");
+        for (k, axial_n) in self.axial_n.iter().enumerate() {
+            out.push_str(comma(k));
+            list(&mut out, axial_n.iter().copied());
+        }
+        out.push_str("],\"speed\":");
+        list(&mut out, self.speed_m_s.iter().copied());
+        out.push(',');
         structure(&mut out, &self.system);
-        let _ = write!(out, "\"view\":{:.4}}}", self.view_rad());
+        let _ = write!(out, "\"ends\":\"{}\",\"view\":{:.4}}}", self.ends(), self.view_rad());
         out
+    }
+
+    /// Where it comes to rest, or is at the end.
+    fn ends(&self) -> String {
+        let Some((time_s, speed)) = self.times_s.last().zip(self.speed_m_s.last()) else {
+            return String::new();
+        };
+        let fastest = self.speed_m_s.iter().copied().fold(0.0, f64::max);
+        let far = |distances: &Vec<f64>| distances.last().copied().unwrap_or(f64::NAN);
+        let near = self.labels.iter().zip(self.distances_m.iter().map(far));
+        let near = near.min_by(|a, b| a.1.total_cmp(&b.1));
+        let is_near = |distance: f64| distance <= AT_REST * self.system.total_length_m();
+        match near {
+            _ if fastest > 0.0 && *speed > AT_REST * fastest => {
+                let near = near.map_or_else(String::new, |(label, distance)| {
+                    format!(", {} m from equilibrium {label}", eye(distance))
+                });
+                format!("At the end, after {} s, it still moves{near}.", eye(*time_s))
+            }
+            Some((label, distance)) if is_near(distance) => {
+                format!("It comes to rest in equilibrium {label}.")
+            }
+            _ => "It comes to rest where no equilibrium is known.".to_owned(),
+        }
     }
 
     /// The turn of the view that shows the widest spread of all joints at all times.

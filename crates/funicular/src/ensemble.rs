@@ -99,7 +99,8 @@ impl Ensemble {
         let found = equilibria::all(problem, CENSUS_BARS)?;
         // What cannot be moved is refused here, and is not the fate of every position.
         if let Some(first) = found.list.first() {
-            Simulation::new(&system, &first.found.joints_m, settings)?;
+            Simulation::new(&system, &first.found.joints_m, settings)?
+                .parts_of(self.simulate.time_s / steps as f64)?;
         }
         let text = match problem.as_chain() {
             Some(chain) => SystemText::of(chain.chain()),

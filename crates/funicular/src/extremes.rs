@@ -32,7 +32,8 @@ const ROUNDING: f64 = 1e-12;
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Extremes {
-    /// The lowest joint, from 0; of several the first.
+    /// The lowest joint, from 0; of several the first. In JSON it has its name.
+    #[serde(skip)]
     pub lowest_joint: usize,
     /// Where it is, m.
     pub lowest_m: Vector,
@@ -43,11 +44,21 @@ pub struct Extremes {
     #[serde(skip)]
     pub sag: Option<Sag>,
     /// The bar, from 0, with the largest tension anywhere along it, and that, N; without value where
-    /// no bar pulls.
+    /// no bar pulls. In JSON bars are counted from 1.
+    #[serde(serialize_with = "from_one")]
     pub tension_n: Option<(usize, f64)>,
     /// The bar, from 0, with the largest compression anywhere along it, and its size, N; without
-    /// value where no bar pushes.
+    /// value where no bar pushes. In JSON bars are counted from 1.
+    #[serde(serialize_with = "from_one")]
     pub compression_n: Option<(usize, f64)>,
+}
+
+#[expect(clippy::ref_option, reason = "as serde calls it")]
+fn from_one<S: serde::Serializer>(
+    largest: &Option<(usize, f64)>,
+    serializer: S,
+) -> Result<S::Ok, S::Error> {
+    largest.map(|(bar, force_n)| (bar + 1, force_n)).serialize(serializer)
 }
 
 impl Extremes {

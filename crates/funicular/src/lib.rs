@@ -155,6 +155,7 @@ pub use judge::{Judge, Judged};
 #[cfg(feature = "branches")]
 pub use lagrange::network::Gradient;
 pub use mode_pages::{animated_modes, drawn_modes};
+pub use model::budget::limit_work;
 pub use model::system::{SystemBuilder, SystemStability};
 pub use model::{AxialForce, Evidence, InPlane, InSpace};
 pub use modes::{JointAt, Mode, Modes, ModesAnswer, Summary, WithModes};

@@ -6,7 +6,7 @@ use figures::{ModeShape, ModeShapes, StructureError};
 use model::system::System;
 
 use crate::modes::{Mode, ModesAnswer, WithModes};
-use crate::moving_page::{self, comma, list, places, structure};
+use crate::moving_page::{self, comma, eye, list, places, structure};
 
 /// Most modes in one drawing: those on a large sheet.
 const MOST_DRAWN: usize = 24;
@@ -55,11 +55,6 @@ fn heading(k: usize, mode: &Mode) -> String {
         (_, Some(rate)) => format!("{number}: leaves at {} per s", eye(rate)),
         _ => format!("{number}: 0 Hz"),
     }
-}
-
-/// Four digits.
-fn eye(x: f64) -> f64 {
-    format!("{x:.3e}").parse().unwrap_or(x)
 }
 
 /// All equilibria with their modes as one HTML file in which they move. Displacements are to first

@@ -1,15 +1,17 @@
 //! Drawings of answers: joints, supports, loads, reactions and axial forces, to scale.
 
+pub use figures::Seen;
 use figures::{StructureError, SystemShape};
 use model::system::{System, SystemEquilibrium};
 use model::{AxialForce, Vector};
 
-/// An equilibrium of a system as an SVG file.
+/// An equilibrium of a system as an SVG file, looked at from where it is asked for.
 ///
 /// ```
-/// use funicular::prelude::*;
+/// use funicular::{picture, prelude::*};
 /// let answer = Solve::new().run(&Problem::case("two-bars")?)?;
-/// let svg = funicular::picture::of_system(answer.system(), &answer.equilibria()[0]).unwrap();
+/// let (system, found) = (answer.system(), &answer.equilibria()[0]);
+/// let svg = picture::of_system(system, found, picture::Seen::Best).unwrap();
 /// assert!(svg.starts_with("<svg") || svg.starts_with("<?xml"));
 /// # Ok::<(), Error>(())
 /// ```
@@ -17,10 +19,14 @@ use model::{AxialForce, Vector};
 /// # Errors
 ///
 /// [`StructureError`] when a place is not finite.
-pub fn of_system(system: &System, answer: &SystemEquilibrium) -> Result<String, StructureError> {
+pub fn of_system(
+    system: &System,
+    answer: &SystemEquilibrium,
+    seen: Seen,
+) -> Result<String, StructureError> {
     let SystemEquilibrium { joints_m, reactions_n, .. } = answer;
     let axial_n = &largest_n(&answer.axial_forces(system));
-    SystemShape { system, joints_m, axial_n, reactions_n }.svg()
+    SystemShape { system, joints_m, axial_n, reactions_n, seen }.svg()
 }
 
 /// What a picture shows of a member: its axial force where it is largest.
@@ -40,5 +46,5 @@ pub fn of_answer(
     axial_n: &[f64],
     reactions_n: &[Vector],
 ) -> Result<String, StructureError> {
-    SystemShape { system, joints_m, axial_n, reactions_n }.svg()
+    SystemShape { system, joints_m, axial_n, reactions_n, seen: Seen::Best }.svg()
 }

@@ -50,7 +50,7 @@ function lines(g, place) {
 }
 
 // Many joints would hide the bars: then only those that are held.
-function joints(g, place, ink, held) {
+function joints(g, place, ink, held, edge) {
   data.held.forEach((fixed, joint) => {
     if (data.bars.length > 200 && !fixed) return;
     const [x, y] = place(joint);
@@ -58,7 +58,24 @@ function joints(g, place, ink, held) {
     g.beginPath();
     if (fixed) g.rect(x - 5, y - 5, 10, 10); else g.arc(x, y, 4, 0, 7);
     g.fill();
+    if (!edge) return;
+    g.strokeStyle = edge;
+    g.lineWidth = 1.4;
+    g.stroke();
   });
+}
+
+// A line of a round length in the lower left corner, as long as it is in the scene.
+function scale(g, share, w, h, ink) {
+  const metre = share * Math.min(w, h) / reach, ten = 10 ** Math.floor(Math.log10(80 / metre));
+  const length = [1, 2, 5, 10].map(k => k * ten).find(length => length * metre >= 80), x = 10 + length * metre;
+  g.strokeStyle = g.fillStyle = ink;
+  g.lineWidth = 1.5;
+  g.beginPath();
+  for (const [a, b] of [[10, h - 14], [10, h - 6], [10, h - 10], [x, h - 10], [x, h - 14], [x, h - 6]]) g.lineTo(a, b);
+  g.stroke();
+  g.font = "12px system-ui, sans-serif";
+  g.fillText(Number(length.toPrecision(1)) + " m", x + 8, h - 6);
 }
 
 function tick(stamp) {
@@ -90,6 +107,11 @@ function begin() {
     tilt = Math.max(-1.5, Math.min(1.5, tilt + event.movementY * 0.01));
     draw();
   };
+  // Quarters of a turn about the vertical, and of a tilt.
+  document.querySelectorAll("[data-view]").forEach(button => button.onclick = () => {
+    [turn, tilt] = button.dataset.view.split(",").map(quarters => quarters * Math.PI / 2);
+    draw();
+  });
   window.onresize = draw;
   setPlaying(playing);
   draw();

@@ -6,7 +6,7 @@ use std::str::FromStr;
 
 use formats::ForceTable;
 use model::Vector;
-use model::system::System;
+use model::system::{Kind, System};
 use motion::{Order, Settings, Simulation, Snapshot};
 
 use crate::equilibria::{self, system_of};
@@ -22,12 +22,14 @@ pub enum Start {
     /// In an equilibrium, named as [`Modes`](crate::Modes) and the census number them: `2`, or
     /// `2'` for a mirror image.
     Equilibrium(String),
-    /// Angles of the bars of a chain from the descending vertical, degrees, in a vertical plane
-    /// through its anchors; what they lack to close the chain is corrected if it is little.
+    /// Angles of the members from the descending vertical, degrees, each from its first joint to its
+    /// second, in the vertical plane through the supports (through Y where these are on one
+    /// vertical); what they lack to close the loops is corrected if it is little.
     Angles(Vec<f64>),
     /// A position at random, the same for the same number.
     Seed(u64),
-    /// Places of all joints, world frame, m.
+    /// Places of all joints, world frame, m; what they lack to meet the lengths is corrected if it is
+    /// little.
     Joints(Vec<Vector>),
 }
 
@@ -66,31 +68,48 @@ pub enum SimulateError {
         /// Those that are found.
         labels: Vec<String>,
     },
-    /// Occurs when there are not as many angles as bars.
+    /// Occurs when there are not as many angles as members.
     #[error("{given} angles are given for {bars} bars")]
     AngleCount {
         /// Number of angles.
         given: usize,
-        /// Number of bars.
+        /// Number of members.
         bars: usize,
     },
-    /// Occurs when bars at the given angles end far off the anchor.
+    /// Occurs when a rigid bar at its angle ends far off the joint that the others lead to.
     #[error(
-        "with these angles the chain ends {off:.3} of its length off its anchor (at most \
-         {ROUGH_ANGLES} is corrected)"
+        "with these angles bar {bar} ends {off:.3} of the total length off joint {joint:?} (at most \
+         {ROUGH} is corrected)"
     )]
     Angles {
-        /// Distance of the end from its anchor, in units of the total length.
+        /// Number of the bar, from 1.
+        bar: usize,
+        /// Name of the joint where it should end.
+        joint: String,
+        /// Distance of its end from there, in units of the total length.
+        off: f64,
+    },
+    /// Occurs when the given places are far from all that the lengths allow.
+    #[error(
+        "at these places the lengths are not met: joint {joint:?} would have to move by {off:.3} of the \
+         total length (at most {ROUGH} is corrected)"
+    )]
+    Apart {
+        /// Name of the joint that would have to move most.
+        joint: String,
+        /// By how much, in units of the total length.
         off: f64,
     },
 }
 
+/// Supports nearer to one vertical than this, in total lengths, are on it.
+const ON_ONE_VERTICAL: f64 = 1e-9;
+
 /// Chains of at most so many bars have their equilibria numbered by a census.
 pub(crate) const CENSUS_BARS: usize = census::Settings::SOUGHT_BARS;
 
-/// How far from its anchor a chain of given angles may end, relative to its length: angles in whole
-/// degrees.
-const ROUGH_ANGLES: f64 = 0.02;
+/// How far from where it has to be a joint may be given, in total lengths: angles in whole degrees.
+const ROUGH: f64 = 0.02;
 
 impl FromStr for Start {
     type Err = String;
@@ -184,7 +203,7 @@ impl Simulate {
         Self { time_s, ..self }
     }
 
-    /// Length of a step, s.
+    /// Length of a step, s. Where the elastic members need shorter ones it is taken in parts.
     #[must_use]
     pub fn step_s(self, step_s: f64) -> Self {
         Self { step_s, ..self }
@@ -194,12 +213,6 @@ impl Simulate {
     #[must_use]
     pub fn store_s(self, store_s: f64) -> Self {
         Self { store_s: Some(store_s), ..self }
-    }
-
-    /// Fourth order in the step instead of second: five times the work.
-    #[must_use]
-    pub fn fourth_order(self) -> Self {
-        self.order(Order::Fourth)
     }
 
     /// Order in the length of the step.
@@ -263,14 +276,15 @@ impl Simulate {
     /// [`Solve`](crate::Solve).
     pub fn run(&self, problem: &Problem) -> Result<Motion, Error> {
         let mut stored = Vec::new();
-        let system = self.run_watched(problem, &mut |snapshot| {
+        let motion = self.run_watched(problem, &mut |snapshot| {
             stored.push(snapshot.clone());
             ControlFlow::Continue(())
         })?;
-        Ok(Motion { system, stored })
+        Ok(Motion { stored, ..motion })
     }
 
-    /// Follow the motion, and hand each stored time to `each`, which may end it.
+    /// Follow the motion, and hand each stored time to `each`, which may end it; in what is returned
+    /// no time is stored.
     ///
     /// # Errors
     ///
@@ -279,7 +293,7 @@ impl Simulate {
         &self,
         problem: &Problem,
         each: &mut dyn FnMut(&Snapshot) -> ControlFlow<()>,
-    ) -> Result<System, Error> {
+    ) -> Result<Motion, Error> {
         let (steps, every) = self.steps()?;
         let system = system_of(problem);
         let at = self.position(problem, &system)?;
@@ -295,6 +309,7 @@ impl Simulate {
             simulation.add_force(number, of_time)?;
         }
         let step_s = self.time_s / steps as f64;
+        let parts_of_step = simulation.parts_of(step_s)?;
         for step in 0..=steps {
             if step > 0 {
                 simulation.step(step_s)?;
@@ -308,7 +323,7 @@ impl Simulate {
                 }
             }
         }
-        Ok(system)
+        Ok(Motion { system, parts_of_step, stored: Vec::new() })
     }
 
     /// Number of steps, and every how many the state is stored.
@@ -352,9 +367,9 @@ impl Simulate {
         match &self.start {
             Start::Rest => named(equilibria::hanging(problem)?, "1"),
             Start::Equilibrium(label) => named(equilibria::all(problem, CENSUS_BARS)?, label),
-            Start::Angles(angles) => from_angles(problem, system, angles),
+            Start::Angles(angles) => pulled_shut(system, &at_angles(system, angles)?),
             Start::Seed(seed) => Ok(motion::random_position(system, *seed)?),
-            Start::Joints(joints_m) => Ok(joints_m.clone()),
+            Start::Joints(joints_m) => pulled_shut(system, joints_m),
         }
     }
 }
@@ -370,35 +385,89 @@ fn named(found: equilibria::Equilibria, label: &str) -> Result<Vec<Vector>, Erro
     at.ok_or_else(|| SimulateError::NoSuchEquilibrium { label: label.to_owned(), labels }.into())
 }
 
-fn from_angles(
-    problem: &Problem,
-    system: &System,
-    angles_deg: &[f64],
-) -> Result<Vec<Vector>, Error> {
-    let chain = problem.chain_for("a start from angles")?.chain();
-    if angles_deg.len() != chain.bars().len() {
-        let (given, bars) = (angles_deg.len(), chain.bars().len());
-        return Err(SimulateError::AngleCount { given, bars }.into());
+/// The position next to places that do not quite meet the lengths.
+fn pulled_shut(system: &System, given_m: &[Vector]) -> Result<Vec<Vector>, Error> {
+    let at = motion::assemble(system, given_m)?;
+    let moved = at.iter().zip(given_m).zip(system.joints());
+    // Places of supports are those of the file, whatever is given.
+    let moved = moved.filter(|(_, joint)| !joint.support.is_fixed());
+    let moved = moved.map(|((a, b), joint)| (distance(*a, *b) / system.total_length_m(), joint));
+    match moved.max_by(|a, b| a.0.total_cmp(&b.0)) {
+        Some((off, joint)) if off.is_nan() || off > ROUGH => {
+            Err(SimulateError::Apart { joint: joint.name.clone(), off }.into())
+        }
+        _ => Ok(at),
     }
-    // The plane of the anchors; on one vertical the paper's OYZ.
-    let [x, y, _] = chain.anchors().difference_m();
-    let width = x.hypot(y);
-    let level = if chain.anchors_on_one_vertical() { [0.0, 1.0] } else { [x / width, y / width] };
-    let mut at = vec![chain.anchors().start_m];
-    for (bar, angle_deg) in chain.bars().iter().zip(angles_deg) {
-        let [x, y, z] = at[at.len() - 1];
-        let angle = angle_deg.to_radians();
-        let (out, down) = (bar.length_m() * angle.sin(), bar.length_m() * angle.cos());
-        at.push([x + out * level[0], y + out * level[1], z - down]);
+}
+
+fn distance(a: Vector, b: Vector) -> f64 {
+    (0..3).map(|k| (a[k] - b[k]).powi(2)).sum::<f64>().sqrt()
+}
+
+/// Places of the joints with the members at these angles from the descending vertical, one member
+/// after the other from what is placed already.
+fn at_angles(system: &System, angles_deg: &[f64]) -> Result<Vec<Vector>, SimulateError> {
+    let (members, joints) = (system.members(), system.joints());
+    if angles_deg.len() != members.len() {
+        return Err(SimulateError::AngleCount { given: angles_deg.len(), bars: members.len() });
     }
-    let ends = at.last().copied().unwrap_or_default();
-    let gap_m: f64 =
-        (0..3).map(|k| (ends[k] - chain.anchors().end_m[k]).powi(2)).sum::<f64>().sqrt();
-    let off = gap_m / chain.total_length_m();
-    if off > ROUGH_ANGLES {
-        return Err(SimulateError::Angles { off }.into());
+    let [east, north] = level(system);
+    let along: Vec<Vector> = members
+        .iter()
+        .zip(angles_deg)
+        .map(|(member, angle_deg)| {
+            let (sin, cos) = angle_deg.to_radians().sin_cos();
+            [east * sin, north * sin, -cos].map(|x| member.body.length_m() * x)
+        })
+        .collect();
+    let held = |joint: &model::system::Joint| joint.support.at_m();
+    let fixed = joints.iter().map(|joint| held(joint).filter(|_| joint.support.is_fixed()));
+    let mut at: Vec<Option<Vector>> = fixed.collect();
+    let plus = |a: Vector, sign: f64, d: Vector| [0, 1, 2].map(|k| a[k] + sign * d[k]);
+    loop {
+        let before = at.iter().flatten().count();
+        for (member, along) in members.iter().zip(&along) {
+            match [member.from, member.to].map(|joint| at[joint]) {
+                [Some(here), None] => at[member.to] = Some(plus(here, 1.0, *along)),
+                [None, Some(here)] => at[member.from] = Some(plus(here, -1.0, *along)),
+                _ => {}
+            }
+        }
+        if at.iter().flatten().count() == before {
+            // What hangs on nothing that is fixed begins at a point of its support.
+            let Some(open) = at.iter().position(Option::is_none) else { break };
+            let slides = (0..joints.len()).find(|&k| at[k].is_none() && held(&joints[k]).is_some());
+            let first = slides.unwrap_or(open);
+            at[first] = Some(held(&joints[first]).unwrap_or_else(|| system.reference_m()));
+        }
     }
-    Ok(motion::assemble(system, &at)?)
+    let at: Vec<Vector> = at.into_iter().flatten().collect();
+    for (k, (member, along)) in members.iter().zip(&along).enumerate() {
+        let ends = plus(at[member.from], 1.0, *along);
+        let off = distance(ends, at[member.to]) / system.total_length_m();
+        let is_rigid = member.kind == Kind::Bar && member.stiffness_n.is_none();
+        if is_rigid && off > ROUGH {
+            let joint = joints[member.to].name.clone();
+            return Err(SimulateError::Angles { bar: k + 1, joint, off });
+        }
+    }
+    Ok(at)
+}
+
+/// The level direction of the plane through the supports; where they are on one vertical the paper's
+/// `Y`.
+fn level(system: &System) -> [f64; 2] {
+    let fixed = system.joints().iter().filter(|joint| joint.support.is_fixed());
+    let mut held = fixed.filter_map(|joint| joint.support.at_m());
+    let Some(first) = held.next() else { return [0.0, 1.0] };
+    let across = held.map(|at| [at[0] - first[0], at[1] - first[1]]);
+    let width = |d: &[f64; 2]| d[0].hypot(d[1]);
+    match across.max_by(|a, b| width(a).total_cmp(&width(b))) {
+        Some(d) if width(&d) > ON_ONE_VERTICAL * system.total_length_m() => {
+            d.map(|x| x / width(&d))
+        }
+        _ => [0.0, 1.0],
+    }
 }
 
 /// A motion at its stored times.
@@ -406,6 +475,8 @@ fn from_angles(
 pub struct Motion {
     /// What moves.
     pub system: System,
+    /// In how many parts each step was taken for the sake of elastic members.
+    pub parts_of_step: u32,
     /// Everything at the stored times.
     pub stored: Vec<Snapshot>,
 }

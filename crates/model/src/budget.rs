@@ -1,11 +1,12 @@
-//! How much memory what is read from outside may come to need.
+//! How much memory what is read from outside may come to need, and how much work a solve may do.
 //!
 //! Every reader asks its budget before what it holds grows by the word of a file: a count, a number
 //! of segments, the size of a page. Nothing is made that was not granted.
 
+use std::num::NonZeroU64;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use crate::system::Joint;
+use crate::system::System;
 
 /// Memory of a process where no limit is set, bytes: that of a machine that answers 20 million bars.
 pub const MAX_MEMORY: u64 = 24_000_000_000;
@@ -23,6 +24,28 @@ pub(crate) fn set_memory(bytes: u64) {
 /// Memory that readers of this process may ask for, bytes.
 pub(crate) fn memory() -> u64 {
     MEMORY.load(Ordering::Relaxed)
+}
+
+/// Work of one solve where no limit is set: numbers in all factors of its matrices, up to an hour or so.
+static WORK: AtomicU64 = AtomicU64::new(10_000_000_000);
+
+/// Hold every solve of this process, whoever asks for it, to so much work, numbers in all factors of
+/// its matrices: what the settings of both solvers have where they are not told otherwise.
+///
+/// ```standalone_crate
+/// # use std::num::NonZeroU64;
+/// assert_eq!(model::budget::max_work(), 10_000_000_000);
+/// model::budget::limit_work(NonZeroU64::MIN);
+/// assert_eq!(model::budget::max_work(), 1);
+/// ```
+pub fn limit_work(numbers: NonZeroU64) {
+    WORK.store(numbers.get(), Ordering::Relaxed);
+}
+
+/// Work that a solve of this process may do, as [`limit_work`] has it.
+#[must_use]
+pub fn max_work() -> u64 {
+    WORK.load(Ordering::Relaxed)
 }
 
 /// The memory that one system, answer or table of columns may come to need.
@@ -103,31 +126,48 @@ impl Budget {
         self.held.fetch_sub(bytes, Ordering::Relaxed);
     }
 
-    /// Hold so many members more, and what solvers need for them.
+    /// Hold so many members more, each with its joint, as they are read.
     ///
     /// # Errors
     ///
     /// [`OutOfMemory`] if there is no room for them.
     pub fn take_members(&self, count: usize) -> Result<(), OutOfMemory> {
-        self.take((count as u64).saturating_mul(BYTES_PER_MEMBER))
+        self.take((count as u64).saturating_mul(BYTES_PER_MEMBER_READ))
     }
 
-    /// Hold so many joints more, with names of so many bytes each.
+    /// Hold names of so many joints more, of so many bytes each.
     ///
     /// # Errors
     ///
     /// [`OutOfMemory`] if there is no room for them.
-    pub fn take_joints(&self, count: usize, name_bytes: usize) -> Result<(), OutOfMemory> {
-        let joint = (size_of::<Joint>() as u64).saturating_add(name_bytes as u64);
-        self.take((count as u64).saturating_mul(joint).saturating_mul(COPIES))
+    pub fn take_names(&self, count: usize, name_bytes: usize) -> Result<(), OutOfMemory> {
+        let copies = (name_bytes as u64).saturating_mul(COPIES);
+        self.take((count as u64).saturating_mul(copies))
+    }
+
+    /// Whether there is room for what both solvers need beside the system that was read.
+    ///
+    /// # Errors
+    ///
+    /// [`OutOfMemory`] if there is not.
+    pub fn fits_solve(&self, system: &System) -> Result<(), OutOfMemory> {
+        let each = if system.is_row() { BYTES_PER_MEMBER_IN_ROW } else { BYTES_PER_MEMBER };
+        self.fits((system.members().len() as u64).saturating_mul(each - BYTES_PER_MEMBER_READ))
     }
 }
 
-/// Memory that a member of a system needs with its joint, from its file to the answers of both
-/// solvers, bytes: 1,400 in a row, 3,150 in trees and bridles, and 4,700 in a net of 40,000 cables are
-/// measured.
+/// Memory that a member of a system and its joint need while they are read, bytes: 395 are measured, of
+/// a million in a row.
+pub const BYTES_PER_MEMBER_READ: u64 = 420;
+
+/// The same from the file to the answers of both solvers, of a row of rigid bars between two anchors:
+/// 1,130 are measured of a million.
+pub const BYTES_PER_MEMBER_IN_ROW: u64 = 1_400;
+
+/// The same in other systems: 2,950 in a row of elastic cables, 3,450 in trees and bridles, and 4,700
+/// in a net of 40,000 cables are measured.
 pub const BYTES_PER_MEMBER: u64 = 5_000;
 
-/// Copies of a joint with its name, from its file to the answer: that which is read, the system that
-/// is solved, that of the answer, and one while they are made.
+/// Copies of a name, from its file to the answer: that which is read, the system that is solved, that
+/// of the answer, and one while they are made.
 const COPIES: u64 = 4;

@@ -61,10 +61,9 @@ pub use ends::{Ends, Finish};
 pub use equilibrium::{Equilibrium, Reactions};
 pub use evidence::{
     Agreed, Choices, Complete, CompleteSystem, Convergence, Disagreement, Evidence, Excess,
-    ForceChoice, ForceFamily, ForceRange, ForceUncertainty, ForcesFound, FreeJoints, Ladder,
-    LargeForce, NoAnswer, NoBox, NoCensus, NoCertificate, Optimal, Place, Proved, Quantity, Reason,
-    Rigidity, Room, Rung, SelfStresses, StabilityDifference, Statement, Status, UncertaintyCause,
-    Verified, VerifiedSystem,
+    ForceChoice, ForceRange, ForceUncertainty, ForcesFound, Ladder, LargeForce, NoAnswer, NoBox,
+    NoCensus, NoCertificate, Optimal, Place, Proved, Quantity, Reason, Rigidity, Room, Rung,
+    SelfStresses, Statement, Status, UncertaintyCause, Verified, VerifiedSystem,
 };
 pub use input::open_input;
 pub use problem::{Problem, Refusal, STRAIGHT_TOLERANCE};

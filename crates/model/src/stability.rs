@@ -21,34 +21,6 @@ pub struct Stability {
     pub index_in_space: usize,
 }
 
-impl Stability {
-    /// Whether both can be said of one equilibrium: they are the same, or count the same directions
-    /// of falling energy, and one of them does not tell the least curvature in the plane from zero
-    /// ([`InPlane::Degenerate`]) where the other does.
-    ///
-    /// ```
-    /// use model::{InPlane, InSpace, Stability};
-    /// let minimum = Stability {
-    ///     in_plane: InPlane::Minimum,
-    ///     index_in_plane: 0,
-    ///     in_space: InSpace::Stable,
-    ///     index_in_space: 0,
-    /// };
-    /// let flat = Stability { in_plane: InPlane::Degenerate, ..minimum };
-    /// assert!(minimum.is_compatible_with(&flat) && flat.is_compatible_with(&minimum));
-    /// let falling = Stability { in_space: InSpace::Unstable, index_in_space: 1, ..flat };
-    /// assert!(!minimum.is_compatible_with(&falling));
-    /// // Two names for the same count contradict each other.
-    /// let saddle = Stability { in_plane: InPlane::Saddle, ..minimum };
-    /// assert!(!minimum.is_compatible_with(&saddle));
-    /// ```
-    #[must_use]
-    pub fn is_compatible_with(&self, other: &Self) -> bool {
-        let flat = [self, other].map(|one| one.in_plane == InPlane::Degenerate);
-        self == other || flat[0] != flat[1] && Self { in_plane: other.in_plane, ..*self } == *other
-    }
-}
-
 /// Character of an equilibrium among the motions in its own vertical plane.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]

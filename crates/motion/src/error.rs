@@ -78,7 +78,8 @@ pub enum MotionError {
     /// Occurs when a joint can be moved without moving any mass.
     #[error(
         "joint {joint:?} can move without moving any mass (inertia {inertia_kg} kg left there): its \
-         acceleration is indeterminate"
+         acceleration is indeterminate; give it a mass_kg, or a mass to a member that ends there (in such \
+         systems each joint that moves needs one)"
     )]
     Massless {
         /// Name of the joint.
@@ -124,11 +125,23 @@ pub enum MotionError {
         /// Largest relative violation left.
         off: f64,
     },
-    /// Occurs when speeds overflow: the step is too long for an elastic member, whose oscillations
-    /// grow in steps longer than about twice the inverse of their angular frequency.
+    /// Occurs when a step is far too long for the oscillations of the elastic members: it would be
+    /// taken in more than ten thousand parts.
     #[error(
-        "at t = {time_s} s the motion in steps of {step_s} s grows beyond all numbers: take steps shorter \
-         than the oscillations of the elastic members"
+        "a step of {step_s} s is too long for the oscillations of the elastic members, which allow \
+         {longest_s:.1e} s: take steps of at most {most_s:.1e} s, or less stiff members"
+    )]
+    Stiff {
+        /// The step.
+        step_s: f64,
+        /// The longest step without parts.
+        longest_s: f64,
+        /// The longest step that is taken in parts.
+        most_s: f64,
+    },
+    /// Occurs when speeds overflow: a force is too large for what it moves.
+    #[error(
+        "at t = {time_s} s a step of {step_s} s leads to speeds beyond all numbers: are forces and masses right?"
     )]
     Overflow {
         /// Time at the beginning of the step.

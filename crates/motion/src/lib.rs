@@ -46,7 +46,8 @@
 //! of the order `h²` for any number of steps, and constraints hold for places and velocities at
 //! every step to [`CONSTRAINT_TOLERANCE`]. An energy-momentum scheme would keep the energy itself
 //! at the price of phase errors of the same order and of a nonlinear system with the springs in it.
-//! [`Order::Fourth`] composes five steps, [`Order::Eighth`] seventeen.
+//! [`Order::Fourth`] composes five steps, [`Order::Eighth`] seventeen. A step that is too long for the
+//! oscillations of elastic members is taken in parts ([`Simulation::longest_step_s`]).
 //!
 //! The linear system of a step is eliminated from the leaves of the system to its root, in O(n)
 //! where every loop runs through an anchor (chains, trees, spiders), by a sparse factorisation
@@ -115,6 +116,7 @@ mod saddle;
 mod settings;
 mod simulation;
 mod snapshot;
+mod stable;
 mod state;
 mod unequal;
 mod unilateral;

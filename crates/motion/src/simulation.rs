@@ -12,12 +12,17 @@ use crate::mechanism::Mechanism;
 use crate::rattle::{Failure, Stepper};
 use crate::settings::Settings;
 use crate::snapshot::Snapshot;
+use crate::stable::longest_step_s;
 use crate::state::State;
 use crate::vector::{add_times, cross, dot, minus, plus, times};
 
 /// Largest relative violation of a length in places that a motion may begin with; what is less is
 /// taken for the rounding of printed digits, and corrected.
 pub const CLOSED_TOLERANCE: f64 = 1e-5;
+
+/// Most parts that a step is taken in for the sake of elastic members: more take longer than one
+/// would wait without being told.
+const MOST_PARTS: f64 = 1e4;
 
 /// Corrections of the places at the beginning: the convergence is quadratic.
 const MOST_CORRECTIONS: usize = 20;
@@ -51,6 +56,7 @@ pub struct Simulation {
     pub(crate) settings: Settings,
     /// Lengths of the steps of RATTLE in a step, in units of it.
     parts: Vec<f64>,
+    longest_s: f64,
     pub(crate) forces: Forces,
     pub(crate) state: State,
     pub(crate) stepper: Stepper,
@@ -95,11 +101,13 @@ impl Simulation {
         let forces = Forces::default();
         stepper.arrive(&mechanism, &state, &forces, 0.0).map_err(begin)?;
         let parts = parts(settings.order);
+        let longest_s = longest_step_s(&mechanism)?;
         let impacts = Vec::new();
         let mut found = Self {
             mechanism,
             settings,
             parts,
+            longest_s,
             forces,
             state,
             stepper,
@@ -195,14 +203,62 @@ impl Simulation {
         pushed.map_err(|failure| self.told(failure, 0.0))
     }
 
-    /// Take a step of the length `step_s`, s; negative steps go back in time.
+    /// The longest step that is taken as one, s: half of what is stable for the fastest oscillation
+    /// that the elastic members can have in any position. Infinite without such.
+    ///
+    /// ```
+    /// use model::Bar;
+    /// use model::system::{Joint, Member, System};
+    /// use motion::{Settings, Simulation};
+    ///
+    /// // 2 kg on a spring of 800 N/m: 20 1/s.
+    /// let joints = vec![Joint::anchor("O", [0.0; 3]), Joint::free("P").with_mass(2.0)];
+    /// let spring = Member::bar(0, 1, Bar::homogeneous(1.0, 0.0)?).with_stiffness(800.0);
+    /// let system = System::new("spring", 9.81, joints, vec![spring])?;
+    /// let places = [[0.0; 3], [0.0, 0.0, -1.0]];
+    /// let simulation = Simulation::new(&system, &places, Settings::default())?;
+    /// assert!((simulation.longest_step_s() - 1.0 / 20.0).abs() < 1e-12);
+    /// assert_eq!(simulation.parts_of(0.12)?, 3);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn longest_step_s(&self) -> f64 {
+        self.longest_s
+    }
+
+    /// In how many parts a step is taken, so that none is longer than [`Self::longest_step_s`].
+    ///
+    /// # Errors
+    ///
+    /// [`MotionError::Stiff`] when they are more than ten thousand.
+    pub fn parts_of(&self, step_s: f64) -> Result<u32, MotionError> {
+        let parts = (step_s.abs() / self.longest_s).ceil().max(1.0);
+        if parts > MOST_PARTS {
+            let (longest_s, most_s) = (self.longest_s, MOST_PARTS * self.longest_s);
+            return Err(MotionError::Stiff { step_s, longest_s, most_s });
+        }
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "1 to 10,000")]
+        Ok(parts as u32)
+    }
+
+    /// Take a step of the length `step_s`, s, in [as many parts](Self::parts_of) as elastic members
+    /// need; negative steps go back in time.
     ///
     /// # Errors
     ///
     /// [`MotionError`] when the constraints cannot be met: the step is too long, or the bars lie on
     /// a taut line.
     pub fn step(&mut self, step_s: f64) -> Result<(), MotionError> {
-        if self.contacts.is_some() { self.step_with_impacts(step_s) } else { self.whole(step_s) }
+        let parts = self.parts_of(step_s)?;
+        let part_s = step_s / f64::from(parts);
+        for _ in 0..parts {
+            if self.contacts.is_some() {
+                self.step_with_impacts(part_s)?;
+            } else {
+                self.whole(part_s)?;
+            }
+        }
+        Ok(())
     }
 
     /// A step with what holds at its beginning.
@@ -220,8 +276,6 @@ impl Simulation {
             self.stepper.step(&self.mechanism, &mut self.state, &self.forces, self.time_s, h);
         stepped.map_err(|failure| self.told(failure, h))?;
         self.damp(0.5 * h)?;
-        // Members that stretch have no lengths to be met: beyond about 2/omega their oscillations
-        // grow until they overflow.
         if !self.state.largest_speed().is_finite() {
             return Err(MotionError::Overflow { time_s: self.time_s, step_s: h });
         }

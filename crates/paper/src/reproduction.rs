@@ -2,11 +2,13 @@
 
 use std::time::Instant;
 
+use model::system::System;
 use model::{Equilibrium, Ladder, NoAnswer, Rung, SolverName, Stability, cases};
 use serde::Serialize;
-use validate::answer::judge;
+use validate::completeness::certify_by_census;
 use validate::field::entry::Entry;
 use validate::field::record::field;
+use validate::systems::{compare, judge_without};
 use validate::table::{CaseResult, Row, table};
 use validate::tolerances::Tolerances;
 
@@ -20,7 +22,7 @@ use crate::printed::Paper;
 use crate::seeds::{SEEDS, Survey, surveys};
 
 /// Version of the JSON object; raised when a key that others rely on changes its meaning.
-pub const SCHEMA_VERSION: u32 = 2;
+pub const SCHEMA_VERSION: u32 = 3;
 
 /// What the paper claims, what two solvers find, and where it is wrong.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -160,7 +162,7 @@ pub fn reproduce_with(
     progress("the equations as printed and as corrected");
     let equations = audit(&e1_state(&example));
     progress("both solvers on every case");
-    let cases = table(cases::all(), &Tolerances::project());
+    let cases = table(cases::all());
     progress("what others have published of cables and nets");
     let field = field();
     let summary = Summary::new(&paper, &claims, &equations, &cases);
@@ -228,11 +230,25 @@ fn positions(example: &Example) -> Vec<Position> {
 /// How far an equilibrium is proved by both solvers, the statics judge, the census and the
 /// certificate; without `energy` where that, looking for minima, has no answer.
 fn ladder(example: &Example, found: &Equilibrium, answer: Option<&energy::Solution>) -> Ladder {
-    let mut answers = vec![found.clone()];
-    answers.extend(answer.map(|answer| answer.equilibrium.clone()));
-    let missing = Some((SolverName::ENERGY, NoAnswer::MinimaOnly)).filter(|_| answer.is_none());
-    judge(&example.problem, &mut answers, missing, &example.census);
-    answers.swap_remove(0).evidence.ladder
+    let problem = &example.problem;
+    let system = System::from(problem.chain());
+    let row = system.as_row().expect("the paper's bars are in a row");
+    let mut found = found.clone();
+    let mut first = row.equilibrium(found.clone());
+    match answer {
+        Some(answer) => {
+            let mut both = [first, row.equilibrium(answer.equilibrium.clone())];
+            // What the comparison finds is written into the evidence of both.
+            let _ = compare(&system, &mut both, &Tolerances::project());
+            [first, _] = both;
+        }
+        None => {
+            judge_without(&system, &mut first, SolverName::ENERGY, NoAnswer::MinimaOnly);
+        }
+    }
+    found.evidence = first.evidence;
+    certify_by_census(problem, &example.census, &mut found);
+    found.evidence.ladder
 }
 
 impl Summary {

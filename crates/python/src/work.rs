@@ -4,6 +4,7 @@
 //! [`LOOK`] it looks for signals, and hands on what the work tells. Once it is cancelled, the work
 //! ends at the next time that it tells something, by unwinding; the caller does not wait for that.
 
+use std::num::NonZeroU64;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::process;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -53,6 +54,13 @@ pub fn get_threads() -> usize {
         0 => processors(),
         threads => threads,
     }
+}
+
+/// Hold every solve of this process to so much work, numbers in all factors of its matrices, which is
+/// iterations times size. What needs more ends without an answer; 10**10 where nothing is said.
+#[pyfunction]
+pub fn limit_work(numbers: NonZeroU64) {
+    funicular::limit_work(numbers);
 }
 
 fn processors() -> usize {

@@ -8,10 +8,10 @@
 //! lengths need folded, and narrower than they reach. Bars that just bridge their gap, or fall
 //! short of it, carry force, however little, and their joints are held.
 
-use std::ops::Range;
+use std::ops::{Range, RangeInclusive};
 
 use intervals::DoubleDouble;
-use model::{Bar, Chain, FreeJoints, Vector};
+use model::{Bar, Chain, Vector};
 
 use crate::lever::carried_kg;
 use crate::statics::stored_rounding_m;
@@ -28,7 +28,7 @@ const ROUNDINGS: f64 = 16.0;
 pub(crate) fn free_joints(
     chain: &Chain,
     joints_m: &[Vector],
-) -> Option<(Range<usize>, FreeJoints)> {
+) -> Option<(Range<usize>, RangeInclusive<usize>)> {
     if joints_m.len() != chain.bars().len() + 1 {
         return None;
     }
@@ -39,7 +39,7 @@ pub(crate) fn free_joints(
     let bars_of = near.into_iter().find(|run| {
         hangs_plumb(chain, joints_m, run, enough_m) && has_room(chain, joints_m, run)
     })?;
-    let free = FreeJoints { first: bars_of.start + 1, last: bars_of.end - 1 };
+    let free = bars_of.start + 1..=bars_of.end - 1;
     Some((bars_of, free))
 }
 

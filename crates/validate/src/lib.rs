@@ -14,21 +14,16 @@
 //! ```
 //!
 //! `lagrange` and `energy` answer the same question and know nothing of each other. Here their
-//! answers are held against each other ([`compare`](mod@compare)), against a third judge written
-//! from Newton's laws ([`statics`]), against a proof of global minimality ([`certificate`]), and
-//! against a list of all equilibria ([`completeness`]). [`independence`] proves from the dependency
+//! answers are held against each other ([`systems::compare`]), against a third judge written
+//! from Newton's laws ([`systems::judge`]), against a proof of global minimality
+//! ([`systems::certify`]), and against a list of all equilibria ([`systems::look_up`]). [`independence`] proves from the dependency
 //! graph that the agreement of the two is worth something. Answers from elsewhere are judged by the
 //! same laws ([`foreign`]).
 
-pub mod answer;
 pub mod census_checks;
 pub mod certificate;
-pub mod compare;
 pub mod completeness;
-pub mod consistency;
-mod differences;
 pub mod field;
-pub mod force_family;
 pub mod foreign;
 mod free;
 pub mod gallery;
@@ -39,9 +34,9 @@ pub mod statics;
 pub mod systems;
 pub mod table;
 pub mod tolerances;
-pub mod units;
 mod vector;
+mod verdict;
 
-pub use compare::{Agreement, Verdict, compare};
 pub use question::{Equations, Question, Solvers, UseCensus};
 pub use tolerances::Tolerances;
+pub use verdict::Verdict;

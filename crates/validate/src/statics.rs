@@ -9,7 +9,6 @@
 //!    (x_{i-1} - x_{C_i}) \times F_{i-1} + (x_i - x_{C_i}) \times F_i = 0 . $$
 
 use model::{Chain, Vector, sum};
-use serde::Serialize;
 
 use crate::free::free_joints;
 use crate::lever::centre_part;
@@ -24,7 +23,7 @@ use crate::vector::{beyond, cross, minus, norm, worse};
 /// unexplained, for they are differences of it; of lengths and moments what that and the rounding
 /// of the stored coordinates ([`stored_rounding_m`]) leave unexplained: it turns a short bar, far
 /// from the origin, by more than any solver could help.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Statics {
     /// Largest distance of an end joint from its anchor, in units of the total length.
     pub closure: f64,

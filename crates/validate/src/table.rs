@@ -4,13 +4,16 @@
 use std::fmt::Write as _;
 
 use model::cases::Case;
-use model::{Equilibrium, Problem, Rung};
+use model::system::{Row as Bars, System, SystemEquilibrium};
+use model::{Chain, Rung};
 use rayon::prelude::*;
 use serde::Serialize;
 
-use crate::compare::{Agreement, compare};
-use crate::tolerances::Tolerances;
-use crate::units::Units;
+use crate::question::{Equations, Question, UseCensus};
+use crate::statics::stored_rounding_m;
+use crate::systems::turn::turned_onto;
+use crate::systems::{SystemAgreement, SystemStatics, ask_with};
+use crate::vector::{beyond, norm, worse};
 
 /// Joints and joint forces are listed one by one up to this many bars; of longer chains the ends,
 /// the energy and the largest differences.
@@ -41,7 +44,7 @@ pub struct CaseResult {
     /// Number of bars.
     pub bars: usize,
     /// Differences and verdict; nothing if a solver gave no answer.
-    pub agreement: Option<Agreement>,
+    pub agreement: Option<SystemAgreement>,
     /// The largest differences in the units of their budgets: joints (beyond the rounding of their
     /// coordinates), forces, energy, statics.
     pub scaled: Option<[f64; 4]>,
@@ -57,90 +60,110 @@ impl CaseResult {
     /// Whether both solvers answered and agree.
     #[must_use]
     pub fn agrees(&self) -> bool {
-        self.agreement.as_ref().is_some_and(Agreement::agrees)
+        self.agreement.as_ref().is_some_and(SystemAgreement::agrees)
     }
-}
-
-/// Both answers to one problem, judged; of `lagrange` by the paper's equations.
-///
-/// # Errors
-///
-/// The message of the solver that gave no answer.
-pub fn both(
-    problem: &Problem,
-    tolerances: &Tolerances,
-) -> Result<([Equilibrium; 2], Agreement), String> {
-    let lagrange = lagrange::solve(problem, &lagrange::Settings::default());
-    let energy = energy::minimise(problem, &energy::Settings::default());
-    let mut answers = [
-        lagrange.map_err(|error| format!("lagrange: {error}"))?.equilibrium,
-        energy.map_err(|error| format!("energy: {error}"))?.equilibrium,
-    ];
-    let agreement = compare(problem, &mut answers, tolerances);
-    Ok((answers, agreement))
 }
 
 /// Both solvers on the given cases, in parallel; the order of the results is that of the cases.
 #[must_use]
-pub fn table(cases: &[Case], tolerances: &Tolerances) -> Vec<CaseResult> {
-    cases.par_iter().map(|case| run(case, tolerances)).collect()
+pub fn table(cases: &[Case]) -> Vec<CaseResult> {
+    cases.par_iter().map(run).collect()
 }
 
-fn run(case: &Case, tolerances: &Tolerances) -> CaseResult {
+fn run(case: &Case) -> CaseResult {
     let problem = case.problem();
+    let chain = problem.chain();
     let mut result = CaseResult {
         case: case.name.to_owned(),
         about: case.about.to_owned(),
-        bars: problem.chain().bars().len(),
+        bars: chain.bars().len(),
         agreement: None,
         scaled: None,
         rung: None,
         failure: None,
         rows: Vec::new(),
     };
-    match both(&problem, tolerances) {
-        Err(message) => result.failure = Some(message),
-        Ok((answers, agreement)) => {
-            let units = Units::new(problem.chain(), &answers[0].multipliers_n);
-            let statics = agreement.statics.iter().map(crate::statics::Statics::largest);
-            result.scaled = Some([
-                // What the rounding of the coordinates does not explain; NaN stays NaN.
-                (agreement.joints_m - units.rounding_m.min(agreement.joints_m)) / units.length_m,
-                agreement.forces_n / units.force_n,
-                agreement.energy_j / units.energy_j,
-                statics.fold(0.0, f64::max),
-            ]);
-            result.rung = answers[0].evidence.rung();
-            result.rows = rows(case.name, &answers, &agreement, &units);
-            result.agreement = Some(agreement);
-        }
-    }
+    let system = System::from(chain);
+    let answer = ask_with(&system, &question(), &|_| {});
+    let rows = system.as_row().and_then(|row| rows(case.name, &system, &row, &answer.equilibria));
+    let Some((agreement, rows)) = answer.agreement.zip(rows) else {
+        let why: Vec<_> = answer.failures.iter().map(ToString::to_string).collect();
+        result.failure = Some(why.join("; "));
+        return result;
+    };
+    let units = Units::new(chain, &answer.equilibria[0]);
+    result.scaled = Some([
+        // What the rounding of the coordinates does not explain; NaN stays NaN.
+        beyond(agreement.joints_m, stored_rounding_m(chain)) / units.length_m,
+        agreement.forces_n / units.force_n,
+        agreement.energy_j / units.energy_j,
+        agreement.statics.iter().map(SystemStatics::largest).fold(0.0, worse),
+    ]);
+    result.rung = answer.equilibria[0].evidence.rung();
+    result.rows = rows;
+    result.agreement = Some(agreement);
     result
 }
 
-/// The observables of one case, one by one.
-fn rows(case: &str, answers: &[Equilibrium; 2], agreement: &Agreement, units: &Units) -> Vec<Row> {
-    let [first, second] = answers;
+/// Both solvers, `lagrange` by the paper's equations, and no census.
+fn question() -> Question {
+    Question { equations: Equations::Full, census: UseCensus::Never, ..Question::default() }
+}
+
+/// Units in which differences are told.
+struct Units {
+    /// Total length, m.
+    length_m: f64,
+    /// The larger of the total weight and the largest joint force, N.
+    force_n: f64,
+    /// Total weight times total length, J.
+    energy_j: f64,
+}
+
+impl Units {
+    /// The units of a chain, with the forces of an answer.
+    fn new(chain: &Chain, answer: &SystemEquilibrium) -> Self {
+        let length_m = chain.total_length_m();
+        let weight_n = chain.total_mass_kg() * chain.gravity_m_s2();
+        let forces_n = answer.start_forces_n.iter().chain(&answer.end_forces_n);
+        Self {
+            length_m,
+            force_n: forces_n.map(|force| norm(*force)).fold(weight_n, worse),
+            energy_j: weight_n * length_m,
+        }
+    }
+}
+
+/// The observables of one case, one by one; without value unless there are two complete answers.
+fn rows(
+    case: &str,
+    system: &System,
+    row_of_bars: &Bars,
+    answers: &[SystemEquilibrium],
+) -> Option<Vec<Row>> {
+    let [first, second] = answers else { return None };
+    let units = Units::new(row_of_bars.problem().chain(), first);
+    let (turned, _) = turned_onto(system, first, second, &vec![false; system.joints().len()]);
+    let first = row_of_bars.chain_equilibrium(first)?;
+    let second = row_of_bars.chain_equilibrium(&turned)?;
     let mut rows = Vec::new();
     let mut row = |observable: String, lagrange: f64, energy: f64, unit: f64| {
         let difference = (lagrange - energy).abs() / unit;
         rows.push(Row { case: case.to_owned(), observable, lagrange, energy, difference });
     };
     row("energy_j".to_owned(), first.energy_j, second.energy_j, units.energy_j);
-    let (sin, cos) = agreement.turned_rad.unwrap_or(0.0).sin_cos();
     let last = first.joints_m.len() - 1;
-    let origin = second.joints_m[0];
     for k in (0..=last).filter(|k| last <= LISTED_BARS || *k == 0 || *k == last) {
-        let [x, y, z] = std::array::from_fn(|c| second.joints_m[k][c] - origin[c]);
-        let joint = [origin[0] + cos * x - sin * y, origin[1] + sin * x + cos * y, origin[2] + z];
-        let [x, y, z] = second.multipliers_n[k];
-        let force = [cos * x - sin * y, sin * x + cos * y, z];
         for (c, axis) in ["x", "y", "z"].into_iter().enumerate() {
+            let [joints, forces] = [
+                [first.joints_m[k][c], second.joints_m[k][c]],
+                [first.multipliers_n[k][c], second.multipliers_n[k][c]],
+            ];
             // The end joints are the anchors, whoever computes.
             if k != 0 && k != last {
-                row(format!("joint[{k}].{axis}_m"), first.joints_m[k][c], joint[c], units.length_m);
+                row(format!("joint[{k}].{axis}_m"), joints[0], joints[1], units.length_m);
             }
-            row(format!("force[{k}].{axis}_n"), first.multipliers_n[k][c], force[c], units.force_n);
+            row(format!("force[{k}].{axis}_n"), forces[0], forces[1], units.force_n);
         }
     }
     for (k, (ours, theirs)) in
@@ -148,7 +171,7 @@ fn rows(case: &str, answers: &[Equilibrium; 2], agreement: &Agreement, units: &U
     {
         row(format!("axial[{}]_n", k + 1), *ours, *theirs, units.force_n);
     }
-    rows
+    Some(rows)
 }
 
 /// All rows as CSV.

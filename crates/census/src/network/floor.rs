@@ -54,7 +54,7 @@ pub(super) fn prove_above(
             joint.support.is_fixed() || height.lo() >= floor_m
         };
         if !right {
-            return Err(NoBox::Floor { joint: k });
+            return Err(NoBox::Floor { joint: k + 1 });
         }
     }
     Ok(found)

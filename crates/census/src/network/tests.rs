@@ -364,6 +364,6 @@ fn the_floor_pushes_what_lies_on_it() {
         };
         let proof = drawn(3.0).unwrap();
         assert!(proof.axial_n[0].contains(18.0_f64.sqrt()), "{proof:?}");
-        assert_eq!(drawn(6.0), Err(NoBox::Floor { joint: 1 }));
+        assert_eq!(drawn(6.0), Err(NoBox::Floor { joint: 2 }));
     }
 }

@@ -213,14 +213,19 @@ impl Factor {
         }
     }
 
-    fn counted(&mut self) {
-        self.count += 1;
-        self.meter.count(self.lower.len());
+    /// Whether there is work left for a factorisation; without it the last one stays.
+    fn may(&mut self) -> bool {
+        let may = self.meter.take(self.lower.len());
+        self.count += u64::from(may);
+        may
     }
 
-    /// Cholesky's factorisation of the matrix; whether the matrix is positive definite.
+    /// Cholesky's factorisation of the matrix; whether the matrix is positive definite, as far as the
+    /// work allows to tell.
     pub(super) fn cholesky(&mut self) -> bool {
-        self.counted();
+        if !self.may() {
+            return false;
+        }
         let matrix = SparseColMatRef::new(self.pattern.as_ref(), &self.values);
         let done = self.symbolic.factorize_numeric_llt(
             &mut self.lower,
@@ -239,9 +244,11 @@ impl Factor {
     }
 
     /// The factorisation `L D Lᵀ` and its number of negative pivots: by Sylvester's law that of
-    /// negative eigenvalues. Nothing where a pivot vanishes.
+    /// negative eigenvalues. Nothing where a pivot vanishes, or no work is left.
     pub(super) fn negative_pivots(&mut self) -> Option<usize> {
-        self.counted();
+        if !self.may() {
+            return None;
+        }
         let matrix = SparseColMatRef::new(self.pattern.as_ref(), &self.values);
         let done = self.symbolic.factorize_numeric_ldlt(
             &mut self.lower,

@@ -73,22 +73,23 @@ const GOLDEN: f64 = 0.618_033_988_75;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn minimise(system: &System, settings: &Settings) -> Result<Solution, Error> {
-    settings.validate()?;
-    let clock = Instant::now();
-    let frame = Arc::new(metered(system, settings)?);
-    check_held(&frame)?;
-    let start = hanging(&frame)?;
+    within(system, settings, unguided)
+}
+
+/// From no guess.
+fn unguided(frame: &Arc<Frame>, settings: &Settings) -> Result<Minimum, Error> {
+    let start = hanging(frame)?;
     let factor = Factor::new(&frame.spots, &frame.rods, &frame.meter)?;
     let mut work = Effort::default();
-    let (relaxed, factor) = if relaxable(&frame) {
-        relax(&frame, factor, start.clone(), &mut work)?
+    let (relaxed, factor) = if relaxable(frame) {
+        relax(frame, factor, start.clone(), &mut work)?
     } else {
         (start.clone(), factor)
     };
     // A relaxation that went astray is no start.
     let astray = frame.slope(&relaxed).residual() > frame.slope(&start).residual().max(1.0);
     let (first, way) = if astray { (start.clone(), Way::Free) } else { (relaxed, Way::Relaxed) };
-    let mut found = descend(&frame, factor, first, way, settings, work);
+    let mut found = descend(frame, factor, first, way, settings, work);
     let most = (COORDINATES / frame.freedom.max(1)).min(MOST_RESTARTS);
     for attempt in 1..=most.max(RESTARTS) {
         let again = match &found {
@@ -99,16 +100,26 @@ pub fn minimise(system: &System, settings: &Settings) -> Result<Solution, Error>
             break;
         }
         let factor = Factor::new(&frame.spots, &frame.rods, &frame.meter)?;
-        let elsewhere = displaced(&frame, &start, attempt);
-        let other = descend(&frame, factor, elsewhere, Way::Stiff, settings, work);
-        found = better(&frame, other, found);
+        let elsewhere = displaced(frame, &start, attempt);
+        let other = descend(frame, factor, elsewhere, Way::Stiff, settings, work);
+        found = better(frame, other, found);
     }
-    Solution::new(system, &frame, found?, settings, clock)
+    found
 }
 
-/// The system in the solver's units, with the work that it may take.
-fn metered(system: &System, settings: &Settings) -> Result<Frame, Error> {
-    Ok(Frame { meter: Meter::until(settings.max_work), ..Frame::new(system)? })
+/// A minimisation with the work that it may take.
+fn within(
+    system: &System,
+    settings: &Settings,
+    minimum: impl FnOnce(&Arc<Frame>, &Settings) -> Result<Minimum, Error>,
+) -> Result<Solution, Error> {
+    settings.validate()?;
+    let clock = Instant::now();
+    let meter = Meter::until(settings.max_work);
+    let frame = Arc::new(Frame { meter: meter.clone(), ..Frame::new(system)? });
+    check_held(&frame)?;
+    let found = minimum(&frame, settings);
+    meter.judged(found.and_then(|found| Solution::new(system, &frame, found, settings, clock)))
 }
 
 /// Whether the lengths may be kept elsewhere, or with more weight on them.
@@ -159,20 +170,19 @@ pub fn minimise_from(
     seed_m: &[Vector],
     settings: &Settings,
 ) -> Result<Solution, Error> {
-    settings.validate()?;
-    let clock = Instant::now();
-    let frame = Arc::new(metered(system, settings)?);
-    check_held(&frame)?;
-    let start = seeded(&frame, seed_m)?;
-    let factor = Factor::new(&frame.spots, &frame.rods, &frame.meter)?;
-    let mut found = descend(&frame, factor, start.clone(), Way::Free, settings, Effort::default());
-    if found.as_ref().is_err_and(hard_to_close) && frame.slope(&start).misfit < NEAR_SEED {
-        // The loads have crushed it, which its lengths would not allow.
+    within(system, settings, |frame, settings| {
+        let start = seeded(frame, seed_m)?;
         let factor = Factor::new(&frame.spots, &frame.rods, &frame.meter)?;
-        let near = descend(&frame, factor, start, Way::Relaxed, settings, Effort::default());
-        found = better(&frame, near, found);
-    }
-    Solution::new(system, &frame, found?, settings, clock)
+        let mut found =
+            descend(frame, factor, start.clone(), Way::Free, settings, Effort::default());
+        if found.as_ref().is_err_and(hard_to_close) && frame.slope(&start).misfit < NEAR_SEED {
+            // The loads have crushed it, which its lengths would not allow.
+            let factor = Factor::new(&frame.spots, &frame.rods, &frame.meter)?;
+            let near = descend(frame, factor, start, Way::Relaxed, settings, Effort::default());
+            found = better(frame, near, found);
+        }
+        found
+    })
 }
 
 /// Find the local minimum next to a structure as it is drawn, m.
@@ -208,15 +218,12 @@ pub fn minimise_near(
     drawing_m: &[Vector],
     settings: &Settings,
 ) -> Result<Solution, Error> {
-    settings.validate()?;
-    let clock = Instant::now();
-    let frame = Arc::new(metered(system, settings)?);
-    check_held(&frame)?;
-    let drawn = seeded(&frame, drawing_m)?;
-    let mut factor = Factor::new(&frame.spots, &frame.rods, &frame.meter)?;
-    let start = loaded(&frame, &mut factor, &drawn);
-    let minimum = descend(&frame, factor, start, Way::Near, settings, Effort::default())?;
-    Solution::new(system, &frame, minimum, settings, clock)
+    within(system, settings, |frame, settings| {
+        let drawn = seeded(frame, drawing_m)?;
+        let mut factor = Factor::new(&frame.spots, &frame.rods, &frame.meter)?;
+        let start = loaded(frame, &mut factor, &drawn);
+        descend(frame, factor, start, Way::Near, settings, Effort::default())
+    })
 }
 
 /// The seed in the solver's units, on the supports. Elastic members bear what their lengths say

@@ -20,13 +20,13 @@ pub struct Settings {
     pub max_iterations: u64,
     /// Numbers in all sparse factors that a minimisation computes, restarts included: iterations
     /// times size. Default 1e10, a hundred times what a net of 38,000 cables
-    /// takes; at least 1.
+    /// takes, or what [`limit_work`](model::budget::limit_work) says; at least 1.
     pub max_work: u64,
 }
 
 impl Default for Settings {
     fn default() -> Self {
-        Self { tolerance: 1e-12, max_iterations: 1000, max_work: 10_000_000_000 }
+        Self { tolerance: 1e-12, max_iterations: 1000, max_work: model::budget::max_work() }
     }
 }
 

@@ -4,7 +4,7 @@
 //! factorisations, so the numbers in all factors together are the measure, whatever the machine.
 
 use std::sync::Arc;
-use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering::Relaxed};
 
 use crate::network::error::Error;
 
@@ -12,6 +12,8 @@ use crate::network::error::Error;
 #[derive(Debug, Clone, Default)]
 pub(super) struct Meter {
     read: Arc<AtomicU64>,
+    /// Whether a factor was not computed for want of work: nothing that follows is a finding.
+    refused: Arc<AtomicBool>,
     /// The end of it; nothing without a limit.
     end: Option<u64>,
 }
@@ -21,12 +23,19 @@ impl Meter {
         Self { end: Some(end), ..Self::default() }
     }
 
-    /// A factor of this size is computed.
-    pub(super) fn count(&self, numbers: usize) {
-        self.read.fetch_add(numbers as u64, Relaxed);
+    /// Whether a factor of this size may be computed: asked before each, wherever it is needed, so
+    /// that no loop goes on without work.
+    pub(super) fn take(&self, numbers: usize) -> bool {
+        let left = self.check().is_ok();
+        if left {
+            self.read.fetch_add(numbers as u64, Relaxed);
+        } else {
+            self.refused.store(true, Relaxed);
+        }
+        left
     }
 
-    /// Asked before each iteration.
+    /// Asked before each iteration: those without a factor would not end by their work.
     ///
     /// # Errors
     ///
@@ -37,5 +46,14 @@ impl Meter {
             Some(max_work) if spent >= max_work => Err(Error::Work { spent, max_work }),
             _ => Ok(()),
         }
+    }
+
+    /// What a minimisation ends with: neither an answer for which a factor was refused nor an error
+    /// once the work is spent is a finding.
+    pub(super) fn judged<T>(&self, result: Result<T, Error>) -> Result<T, Error> {
+        if result.is_err() || self.refused.load(Relaxed) {
+            self.check()?;
+        }
+        result
     }
 }

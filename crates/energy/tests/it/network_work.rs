@@ -265,8 +265,7 @@ fn work_on_exhibits() {
     assert_frozen(&found, &expected);
 }
 
-/// Three cables and a lamp: one factor of 3 coordinates has 6 numbers, and no step of the solve makes
-/// more than 60 of them between two looks at the work.
+/// Three cables and a lamp: one factor of 3 coordinates has 6 numbers, and the work is asked before each.
 #[test]
 fn a_minimisation_ends_with_its_work() {
     let joints = vec![
@@ -283,11 +282,7 @@ fn a_minimisation_ends_with_its_work() {
         match minimise(&system, &Settings { max_work, ..Settings::default() }) {
             Err(Error::Work { spent, max_work: most }) => {
                 refused += 1;
-                assert!(
-                    most == max_work && spent >= most && spent <= most + 360,
-                    "{spent} of {most}"
-                );
-                assert_eq!(spent % 6, 0);
+                assert!(most == max_work && spent >= most && spent < most + 6, "{spent} of {most}");
             }
             other => {
                 assert!(max_work >= 50, "{max_work}");

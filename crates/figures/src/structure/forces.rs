@@ -5,6 +5,7 @@ use crate::look::{Colour, Look};
 use crate::palette::GREEN;
 use crate::structure::Structure;
 use crate::structure::labels::{Crossing, Labels, half_extent, short};
+use crate::structure::members::NOTHING;
 use crate::structure::scene::{LONGEST_ARROW, Scene, length};
 use crate::svg::{Anchor, Svg};
 
@@ -14,8 +15,11 @@ pub(crate) const LOAD: Look<'static> = Look::stroke(Colour::BLACK, 1.8).class("l
 /// Reactions: dashed.
 pub(crate) const REACTION: Look<'static> = Look::stroke(GREEN, 1.8).dashed("5 3").class("reaction");
 
-/// Arrows shorter than this part of the longest are left out; their labels would say nothing.
-const LEAST: f64 = 0.02;
+/// Arrows shorter than this part of the longest are left out: they would be hidden by their joints.
+const LEAST: f64 = 0.1;
+
+/// Around the tip of an arrow nothing is written, px.
+const HEAD: f64 = 5.0;
 
 /// An arrow that leaves its joint is drawn towards it instead where it is nearer to a member than
 /// this (the cosine of 15 degrees) and its tail would not be.
@@ -39,11 +43,22 @@ pub(crate) fn draw(svg: &mut Svg, structure: &Structure<'_>, scene: &Scene, labe
         let ends = if arrow.inwards() { [far, at] } else { [at, far] };
         svg.arrow(arrow.look, ends[0], ends[1]);
         labels.line(ends);
+        labels.take(ends[1], HEAD);
     }
     for arrow in &arrows {
         let places = places(arrow.far(scene), scene.joints[arrow.joint]);
         labels.write(svg, &arrow.label(), &places, Crossing::Allowed);
     }
+}
+
+/// Which of loads and reactions are drawn, and the size below which some are left out, N.
+pub(crate) fn drawn(structure: &Structure<'_>, scene: &Scene) -> ([bool; 2], Option<f64>) {
+    let arrows = arrows(structure, scene);
+    let drawn = [LOAD, REACTION].map(|look| arrows.iter().any(|arrow| arrow.look == look));
+    let forces = structure.joints.iter().flat_map(|joint| [joint.load_n, joint.reaction_n]);
+    let mut parts = forces.map(|force_n| length(scene.arrow(force_n)) / LONGEST_ARROW);
+    let is_hidden = parts.any(|part| part > NOTHING && part < LEAST);
+    (drawn, is_hidden.then(|| LEAST * LONGEST_ARROW / scene.force_scale))
 }
 
 /// How far arrows and their labels reach beyond the picture, px, to the left and to the right.
@@ -116,7 +131,7 @@ fn arrows(structure: &Structure<'_>, scene: &Scene) -> Vec<Arrow> {
 /// Where the size of a force may stand: beyond the far end of its arrow, then beside it.
 fn places(far: [f64; 2], joint: [f64; 2]) -> [([f64; 2], Anchor); 3] {
     /// From the end of the arrow to the label, px.
-    const BEYOND: f64 = 9.0;
+    const BEYOND: f64 = 12.0;
     let away = [far[0] - joint[0], far[1] - joint[1]];
     let size = length(away);
     let [u, v] = away.map(|x| BEYOND * x / size);

@@ -1,11 +1,12 @@
 //! What the marks mean, and the scales of lengths and forces.
 
 use crate::look::{Colour, Look};
-use crate::structure::forces::{LOAD, REACTION};
-use crate::structure::members::{Load, largest, load, stroke};
-use crate::structure::scene::{LONGEST_ARROW, SIDE, Scene};
+use crate::structure::forces::{LOAD, REACTION, drawn};
+use crate::structure::labels::short;
+use crate::structure::members::{GRAIN, Load, largest, load, stroke};
+use crate::structure::scene::{LONGEST_ARROW, SIDE, Scene, length};
 use crate::structure::supports::support_at;
-use crate::structure::{Structure, Support};
+use crate::structure::{Member, Structure, Support};
 use crate::svg::{Anchor, Svg};
 
 /// From the lower edge to the two lines of the key, px.
@@ -56,8 +57,13 @@ pub(crate) fn draw(svg: &mut Svg, structure: &Structure<'_>, scene: &Scene) {
     let [first, second] = LINES.map(|below| scene.size[1] - below);
     let mut row = Row { x: SIDE, y: first };
     let largest = largest(structure);
+    // A member that is seen end on is not drawn.
+    let long = |[a, b]: [[f64; 2]; 2]| length([a[0] - b[0], a[1] - b[1]]) >= GRAIN;
+    // Those of a chain of millions are all short, and make a line.
+    let any_long = structure.members.iter().any(|member| long(scene.ends(member.joints)));
     let is = |wanted: fn(&Load) -> bool| {
-        structure.members.iter().any(|member| wanted(&load(member, largest)))
+        let seen = |member: &&Member| !any_long || long(scene.ends(member.joints));
+        structure.members.iter().filter(seen).any(|member| wanted(&load(member, largest)))
     };
     for (there, load, name) in [
         (is(|load| matches!(load, Load::Tension(_))), Load::Tension(2), "tension"),
@@ -74,11 +80,11 @@ pub(crate) fn draw(svg: &mut Svg, structure: &Structure<'_>, scene: &Scene) {
         support_at(svg, Support::Fixed, middle, scene);
         row.name(svg, SWATCH, "support");
     }
-    let some = |force: [f64; 3]| force.iter().any(|x| x.abs() > 0.0);
-    if structure.joints.iter().any(|joint| some(joint.load_n)) {
+    let ([loads, reactions], least_n) = drawn(structure, scene);
+    if loads {
         row.entry(svg, "load", |svg, [from, to]| svg.arrow(LOAD, from, to));
     }
-    if structure.joints.iter().any(|joint| some(joint.reaction_n)) {
+    if reactions {
         row.entry(svg, "reaction", |svg, [from, to]| svg.arrow(REACTION, from, to));
     }
     let mut row = Row { x: SIDE, y: second };
@@ -86,7 +92,11 @@ pub(crate) fn draw(svg: &mut Svg, structure: &Structure<'_>, scene: &Scene) {
         row.scale(svg, scene.scale, SCALE, "m");
     }
     if scene.force_scale > 0.0 {
-        row.scale(svg, scene.force_scale, 0.5 * LONGEST_ARROW, "N (arrows)");
+        let unit = match least_n {
+            Some(least_n) => format!("N (arrows; none below {} N)", short(least_n)),
+            None => "N (arrows)".to_owned(),
+        };
+        row.scale(svg, scene.force_scale, 0.5 * LONGEST_ARROW, &unit);
     }
     if scene.view.spatial {
         triad(svg, scene);
@@ -97,12 +107,17 @@ pub(crate) fn draw(svg: &mut Svg, structure: &Structure<'_>, scene: &Scene) {
 fn triad(svg: &mut Svg, scene: &Scene) {
     /// Length of an axis that is seen at right angles, px.
     const LONG: f64 = 40.0;
-    let origin = [scene.size[0] - SIDE, scene.size[1] - LINES[0] - 10.0];
+    // Above the line of the key, whatever that has to say.
+    let origin = [scene.size[0] - SIDE, scene.size[1] - LINES[0] - 34.0];
     let look = Look::stroke(Colour::grey(0x55), 1.2).class("axis");
     for (k, name) in ["X", "Y", "Z"].into_iter().enumerate() {
         let mut axis = [0.0; 3];
         axis[k] = LONG;
         let [x, y] = scene.view.seen(axis);
+        // Seen end on.
+        if length([x, y]) < 1.0 {
+            continue;
+        }
         svg.arrow(look, origin, [origin[0] + x, origin[1] - y]);
         let at = [origin[0] + 1.3 * x, origin[1] - 1.3 * y + 4.0];
         svg.text(Look::PLAIN.size(12.0), at, Anchor::Middle, name);

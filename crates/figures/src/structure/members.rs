@@ -22,7 +22,7 @@ const HOLLOW: f64 = 0.5;
 const MANY: usize = 5_000;
 
 /// What the eye does not tell apart on a screen, px.
-const GRAIN: f64 = 0.5;
+pub(crate) const GRAIN: f64 = 0.5;
 
 /// How a member is drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]

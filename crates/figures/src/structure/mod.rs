@@ -17,6 +17,7 @@ mod view;
 
 pub use shapes::{ModeShape, ModeShapes};
 pub use system::SystemShape;
+pub use view::Seen;
 
 use crate::look::{Colour, Look};
 use crate::structure::labels::Labels;
@@ -77,7 +78,8 @@ pub struct Member {
 ///     Joint { support: held, reaction_n: [3.0, 0.0, 4.0], ..Joint::free("B", [6.0, 0.0, 0.0]) },
 /// ];
 /// let members = [[0, 1], [1, 2]].map(|joints| Member { joints, axial_n: Some(5.0) });
-/// let structure = Structure { title: "two bars", note: "", joints: &joints, members: &members, floor_m: None };
+/// let (title, seen) = ("two bars", figures::Seen::Best);
+/// let structure = Structure { title, note: "", joints: &joints, members: &members, floor_m: None, seen };
 /// assert!(structure.svg()?.contains("5 N"));
 /// # Ok::<(), figures::StructureError>(())
 /// ```
@@ -93,6 +95,8 @@ pub struct Structure<'a> {
     pub members: &'a [Member],
     /// Height of a floor, m; none where there is none.
     pub floor_m: Option<f64>,
+    /// From where it is looked at.
+    pub seen: Seen,
 }
 
 /// Why a structure cannot be drawn.

@@ -43,7 +43,7 @@ impl Scene {
         let points: Vec<[f64; 3]> = structure.joints.iter().map(|joint| joint.at_m).collect();
         let forces: Vec<[f64; 3]> =
             structure.joints.iter().flat_map(|joint| [joint.load_n, joint.reaction_n]).collect();
-        let view = View::of(&points, &forces);
+        let view = View::from(structure.seen, &points, &forces);
         let floor = structure.floor_m.map_or_else(Vec::new, |height| corners(&points, height));
         let seen: Vec<[f64; 2]> =
             points.iter().chain(&floor).map(|point| view.seen(*point)).collect();

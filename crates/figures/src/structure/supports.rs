@@ -29,11 +29,13 @@ pub(crate) fn draw(svg: &mut Svg, structure: &Structure<'_>, scene: &Scene, labe
     for (joint, at) in structure.joints.iter().zip(&scene.joints) {
         if let Some(support) = joint.support {
             support_at(svg, support, *at, scene);
-            if support == Support::Fixed {
-                let [height, half] = FOOT;
-                for y in [at[1] + 0.5 * height, at[1] + height] {
-                    labels.line([[at[0] - half, y], [at[0] + half, y]]);
-                }
+            // Nothing is written on it.
+            match support {
+                Support::Fixed => labels.take([at[0], at[1] + 0.75 * FOOT[0]], 0.7 * FOOT[0]),
+                Support::Line(_) | Support::Plane(_) => labels.take(*at, RAIL[1] + 2.0),
+            }
+            for ends in rails(support, *at, scene) {
+                labels.line(ends);
             }
         }
     }
@@ -42,16 +44,27 @@ pub(crate) fn draw(svg: &mut Svg, structure: &Structure<'_>, scene: &Scene, labe
 pub(crate) fn support_at(svg: &mut Svg, support: Support, at: [f64; 2], scene: &Scene) {
     match support {
         Support::Fixed => foot(svg, at),
-        Support::Line(direction) => match scene.direction(direction) {
-            Some(along) => [1.0, -1.0].into_iter().for_each(|side| rail(svg, at, along, side)),
-            None => square(svg, at),
-        },
-        // All that moves in a drawing seen flat moves in it.
-        Support::Plane(normal) => {
-            if let Some([x, y]) = scene.direction(normal) {
-                // The rail on the other side than the normal points to.
-                rail(svg, at, [-y, x], 1.0);
+        Support::Line(direction) if scene.direction(direction).is_none() => square(svg, at),
+        Support::Line(_) | Support::Plane(_) => {
+            for [a, b] in rails(support, at, scene) {
+                svg.line(Look::stroke(DARK, 1.6).class("support"), a, b);
             }
+        }
+    }
+}
+
+/// The rails of a joint that slides, px: on both sides of a line, and on the side of a plane that its
+/// normal does not point to. All that moves in a drawing seen flat moves in it.
+fn rails(support: Support, at: [f64; 2], scene: &Scene) -> Vec<[[f64; 2]; 2]> {
+    match support {
+        Support::Fixed => vec![],
+        Support::Line(direction) => {
+            let along = scene.direction(direction).into_iter();
+            along.flat_map(|along| [1.0, -1.0].map(|side| rail(at, along, side))).collect()
+        }
+        Support::Plane(normal) => {
+            let across = scene.direction(normal).into_iter();
+            across.map(|[x, y]| rail(at, [-y, x], 1.0)).collect()
         }
     }
 }
@@ -72,11 +85,10 @@ fn foot(svg: &mut Svg, [x, y]: [f64; 2]) {
 }
 
 /// A line beside the joint, along a direction, on one side of it.
-fn rail(svg: &mut Svg, [x, y]: [f64; 2], [u, v]: [f64; 2], side: f64) {
+fn rail([x, y]: [f64; 2], [u, v]: [f64; 2], side: f64) -> [[f64; 2]; 2] {
     let [half, beside] = RAIL;
     let [p, q] = [x - side * beside * v, y + side * beside * u];
-    let ends = [[p - half * u, q - half * v], [p + half * u, q + half * v]];
-    svg.line(Look::stroke(DARK, 1.6).class("support"), ends[0], ends[1]);
+    [[p - half * u, q - half * v], [p + half * u, q + half * v]]
 }
 
 /// A rail that is seen end on.
@@ -133,8 +145,10 @@ fn crowded(structure: &Structure<'_>, scene: &Scene) -> Vec<[f64; 2]> {
     sums
 }
 
-/// Where a name may stand beside a joint: first where its members do not go.
-fn places([x, y]: [f64; 2], crowded: [f64; 2]) -> [([f64; 2], Anchor); 8] {
+/// Where a name may stand beside a joint: first where its members do not go, then farther out.
+fn places([x, y]: [f64; 2], crowded: [f64; 2]) -> Vec<([f64; 2], Anchor)> {
+    /// How much farther.
+    const FARTHER: f64 = 2.0;
     /// From the joint to its name, px: at the corners, to the sides, above and below.
     const BESIDE: [f64; 3] = [8.0, 9.0, 13.0];
     let [corner, side, above] = BESIDE;
@@ -151,5 +165,6 @@ fn places([x, y]: [f64; 2], crowded: [f64; 2]) -> [([f64; 2], Anchor); 8] {
     let toward = |[u, v]: [f64; 2]| (u * crowded[0] + v * crowded[1]) / length([u, v]);
     // Stable: a joint without members has its name above, to the right.
     places.sort_by(|(a, _), (b, _)| toward(*a).total_cmp(&toward(*b)));
-    places.map(|([u, v], anchor)| ([x + u, y + v], anchor))
+    let at = |by: f64| places.map(|([u, v], anchor)| ([x + by * u, y + by * v], anchor));
+    [at(1.0), at(FARTHER)].concat()
 }

@@ -3,7 +3,7 @@
 use model::Vector;
 use model::system::{Support as Held, System};
 
-use crate::structure::{Joint, Member, Structure, StructureError, Support};
+use crate::structure::{Joint, Member, Seen, Structure, StructureError, Support};
 
 /// Under the title of every drawing.
 const NOTE: &str =
@@ -25,6 +25,7 @@ const NOTE: &str =
 ///         joints_m: &joints_m,
 ///         axial_n: &[20.0],
 ///         reactions_n: &reactions_n,
+///         seen: figures::Seen::Best,
 ///     };
 /// assert!(shape.svg()?.contains("20 N"));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -39,6 +40,8 @@ pub struct SystemShape<'a> {
     pub axial_n: &'a [f64],
     /// Forces of the ground on its joints, N.
     pub reactions_n: &'a [Vector],
+    /// From where it is looked at.
+    pub seen: Seen,
 }
 
 impl SystemShape<'_> {
@@ -92,9 +95,9 @@ impl SystemShape<'_> {
             })
             .collect();
         let title = self.system.name();
-        let floor_m = self.system.floor_m();
+        let (floor_m, seen) = (self.system.floor_m(), self.seen);
         let structure =
-            Structure { title, note: NOTE, joints: &joints, members: &members, floor_m };
+            Structure { title, note: NOTE, joints: &joints, members: &members, floor_m, seen };
         match id {
             None => structure.svg(),
             Some(id) => structure.in_page(id),

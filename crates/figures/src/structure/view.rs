@@ -10,15 +10,44 @@ pub(crate) struct View {
     pub(crate) spatial: bool,
 }
 
+/// From where a structure is looked at.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Seen {
+    /// A planar one at right angles to its plane, a spatial one from above and from that side on
+    /// which it spreads most.
+    #[default]
+    Best,
+    /// Along +Y: X to the right, Z up.
+    Front,
+    /// Along −X: Y to the right, Z up.
+    Side,
+    /// Along −Z: X to the right, Y up.
+    Top,
+}
+
 /// What leaves a plane by less than this part of the whole lies in it: the residual of a solver is
 /// a thousandth of that.
 const FLAT: f64 = 1e-6;
 
-/// From where a spatial structure is seen: to the right of −Y and above, deg.
-const AZIMUTH: f64 = 30.0;
+/// From where a spatial structure is seen: to the right of −Y, or from another of these sides if it
+/// is wider there by [`WIDER`]; and from above, deg.
+const AZIMUTHS: [f64; 4] = [30.0, -30.0, -60.0, 60.0];
 const ELEVATION: f64 = 24.0;
+const WIDER: f64 = 1.1;
 
 impl View {
+    /// The view that is asked for of points and forces.
+    pub(crate) fn from(seen: Seen, points: &[[f64; 3]], forces: &[[f64; 3]]) -> Self {
+        let [x, y, z] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+        let [right, up] = match seen {
+            Seen::Best => return Self::of(points, forces),
+            Seen::Front => [x, z],
+            Seen::Side => [y, z],
+            Seen::Top => [x, y],
+        };
+        Self { right, up, spatial: true }
+    }
+
     /// The view of points and forces: at right angles to the plane of both, if there is one.
     pub(crate) fn of(points: &[[f64; 3]], forces: &[[f64; 3]]) -> Self {
         let origin = points.first().copied().unwrap_or_default();
@@ -29,7 +58,7 @@ impl View {
         offsets.extend(forces);
         match normal(&offsets) {
             Some(normal) => Self::along(normal),
-            None => Self::from_above(),
+            None => Self::from_above(points),
         }
     }
 
@@ -46,8 +75,18 @@ impl View {
         Self { right, up, spatial: false }
     }
 
-    fn from_above() -> Self {
-        let (azimuth_sin, azimuth_cos) = AZIMUTH.to_radians().sin_cos();
+    fn from_above(points: &[[f64; 3]]) -> Self {
+        let width = |azimuth: f64| {
+            let (sin, cos) = azimuth.to_radians().sin_cos();
+            let across = || points.iter().map(|[x, y, _]| x * cos + y * sin);
+            across().fold(f64::NEG_INFINITY, f64::max) - across().fold(f64::INFINITY, f64::min)
+        };
+        let [first, others @ ..] = AZIMUTHS;
+        let wider = |best: f64, other: f64| {
+            if width(other) > WIDER * width(best) { other } else { best }
+        };
+        let azimuth = others.into_iter().fold(first, wider);
+        let (azimuth_sin, azimuth_cos) = azimuth.to_radians().sin_cos();
         let (elevation_sin, elevation_cos) = ELEVATION.to_radians().sin_cos();
         let right = [azimuth_cos, azimuth_sin, 0.0];
         let eye = [azimuth_sin * elevation_cos, -azimuth_cos * elevation_cos, elevation_sin];
@@ -134,6 +173,24 @@ mod tests {
         let line = View::of(&[[0.0; 3], [0.0, 0.0, -2.0]], &weight);
         assert!(close(line.right, [0.0, 1.0, 0.0]) && !line.spatial);
         assert!(!upright.spatial && !level.spatial);
+    }
+
+    #[test]
+    fn a_long_structure_is_seen_from_its_long_side() {
+        let long = |axis: usize| {
+            let mut points = vec![[0.0; 3], [0.0, 0.0, -1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+            points.push([0.0; 3]);
+            points[4][axis] = 10.0;
+            View::of(&points, &[])
+        };
+        for axis in 0..2 {
+            let mut along = [0.0; 3];
+            along[axis] = 1.0;
+            assert!(long(axis).seen(along)[0].abs() > 0.8, "{axis}");
+        }
+        // Its up and right stay what they are called.
+        assert!(long(1).seen([0.0, 0.0, 1.0])[1] > 0.8);
+        assert!(close(View::from(Seen::Top, &[], &[]).up, [0.0, 1.0, 0.0]));
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! Structures to scale, of two members and of a million.
 
-use figures::{Joint, Member, Structure, StructureError, Support};
+use figures::{Joint, Member, Seen, Structure, StructureError, Support};
 
 /// A tripod: three legs pushed down by a load on top.
 fn tripod() -> (Vec<Joint<'static>>, Vec<Member>) {
@@ -33,7 +33,9 @@ fn chain(bars: usize, sign: f64) -> (Vec<Joint<'static>>, Vec<Member>) {
 }
 
 fn draw(joints: &[Joint<'_>], members: &[Member]) -> String {
-    Structure { title: "a & b", note: "note", joints, members, floor_m: None }.svg().unwrap()
+    Structure { title: "a & b", note: "note", joints, members, floor_m: None, seen: Seen::Best }
+        .svg()
+        .unwrap()
 }
 
 /// The lines of a path in a drawing, by its class.
@@ -127,7 +129,9 @@ fn a_million_members_make_a_small_picture() {
 fn what_cannot_be_drawn_is_refused() {
     let (mut joints, members) = tripod();
     let refused = |joints: &[Joint<'_>], members: &[Member]| {
-        Structure { title: "", note: "", joints, members, floor_m: None }.svg().unwrap_err()
+        Structure { title: "", note: "", joints, members, floor_m: None, seen: Seen::Best }
+            .svg()
+            .unwrap_err()
     };
     assert_eq!(refused(&joints, &[]), StructureError::Empty);
     let error = StructureError::NoJoint { member: 0, joint: 3, joints: 2 };
@@ -161,4 +165,123 @@ fn the_picture_has_room_for_the_sizes_of_forces() {
     // Those of the members stand at these, those of the reactions beyond the arrows.
     let at: Vec<f64> = labels.iter().map(|label| number(label, " x")).collect();
     assert!(at.iter().any(|x| *x < tips[0]) && at.iter().any(|x| *x > tips[1]), "{at:?} {tips:?}");
+}
+
+/// Seen from the front nothing is lower or higher than it is; from the top X runs to the right and Y
+/// up. An axis that is seen end on is not drawn.
+#[test]
+fn a_structure_is_seen_from_where_one_asks() {
+    let (joints, members) = tripod();
+    let draw = |seen| {
+        let (joints, members) = (&joints[..], &members[..]);
+        Structure { title: "", note: "", joints, members, floor_m: None, seen }.svg().unwrap()
+    };
+    let legs = |svg: &str| lines(svg, "compression")[..3].to_vec();
+    let front = draw(Seen::Front);
+    assert_eq!(front.matches("class=\"axis\"").count(), 2);
+    // A member without force that is seen end on has no entry of the key.
+    let idle = Member { joints: [1, 2], axial_n: Some(0.0) };
+    let members = [&members[..], &[idle]].concat();
+    let key = |seen| {
+        let (joints, members) = (&joints[..], &members[..]);
+        Structure { title: "", note: "", joints, members, floor_m: None, seen }.svg().unwrap()
+    };
+    assert!(key(Seen::Side).contains(">no force<") && !key(Seen::Front).contains(">no force<"));
+    let [a, b, c] = legs(&front)[..] else { panic!("three legs") };
+    // The feet B and C stand one behind the other, as high as A.
+    assert!((b[0][0] - c[0][0]).abs() < 0.02 && (a[0][1] - b[0][1]).abs() < 0.02);
+    let [a, b, c] = legs(&draw(Seen::Side))[..] else { panic!("three legs") };
+    // C has the least Y, and A is in the middle.
+    assert!(c[0][0] < a[0][0] && a[0][0] < b[0][0] && (a[0][1] - b[0][1]).abs() < 0.02);
+    let [a, b, c] = legs(&draw(Seen::Top))[..] else { panic!("three legs") };
+    assert!(b[0][1] < a[0][1] && a[0][1] < c[0][1] && a[0][0] > b[0][0]);
+}
+
+/// A load that is a thirtieth of the reactions would be an arrow inside its joint: it has no entry of
+/// the key, which says from which size on there are arrows.
+#[test]
+fn the_key_names_what_is_drawn() {
+    let end = |name, x: f64| Joint {
+        support: Some(Support::Fixed),
+        reaction_n: [30.0 * x.signum(), 0.0, 0.5],
+        ..Joint::free(name, [x, 0.0, 0.0])
+    };
+    let load = Joint { load_n: [0.0, 0.0, -1.0], ..Joint::free("P", [0.0, 0.0, -0.1]) };
+    let joints = [end("A", -5.0), load, end("B", 5.0)];
+    let members = [[0, 1], [1, 2]].map(|joints| Member { joints, axial_n: Some(30.0) });
+    let svg = draw(&joints, &members);
+    assert!(!svg.contains(">load<") && svg.contains(">reaction<"));
+    assert!(svg.contains("N (arrows; none below 3 N)"), "{svg}");
+}
+
+/// No label covers another, the tip of an arrow or a support.
+#[test]
+fn labels_are_apart_from_each_other_and_from_arrows() {
+    let ends = |k: usize| k == 0 || k == 8;
+    let joints = (0..=8).map(|k| {
+        let x = k as f64;
+        Joint {
+            support: ends(k).then_some(Support::Fixed),
+            reaction_n: if ends(k) { [10.0 * (x - 4.0), 0.0, 20.0] } else { [0.0; 3] },
+            load_n: if ends(k) { [0.0; 3] } else { [0.0, 0.0, -6.0] },
+            ..Joint::free(
+                ["l0", "l1", "l2", "l3", "l4", "l5", "l6", "l7", "l8"][k],
+                [x, 0.0, 0.1 * (x - 4.0).powi(2)],
+            )
+        }
+    });
+    let members = (0..8).map(|k| Member { joints: [k, k + 1], axial_n: Some(40.0) });
+    let svg = draw(&joints.collect::<Vec<_>>(), &members.collect::<Vec<_>>());
+    let number = |line: &str, key: &str| -> f64 {
+        line.split(&format!(" {key}=\""))
+            .nth(1)
+            .unwrap()
+            .split('"')
+            .next()
+            .unwrap()
+            .parse()
+            .unwrap()
+    };
+    let labels: Vec<[f64; 4]> = svg
+        .lines()
+        .filter(|line| line.starts_with("<text") && line.contains("paint-order"))
+        .map(|line| {
+            let text = line.split('>').nth(1).unwrap().split('<').next().unwrap();
+            let width = 6.7 * text.chars().count() as f64;
+            let left = number(line, "x")
+                - width
+                    * if line.contains("\"end\"") {
+                        1.0
+                    } else if line.contains("\"middle\"") {
+                        0.5
+                    } else {
+                        0.0
+                    };
+            [left, number(line, "y") - 10.2, left + width, number(line, "y") + 1.8]
+        })
+        .collect();
+    let tips: Vec<[f64; 2]> = svg
+        .lines()
+        .filter(|line| line.contains(" head\"") && !line.contains("\"axis"))
+        .map(|line| {
+            let first = line.split("points=\"").nth(1).unwrap().split(' ').next().unwrap();
+            let (x, y) = first.split_once(',').unwrap();
+            [x.parse().unwrap(), y.parse().unwrap()]
+        })
+        .collect();
+    assert!(labels.len() > 15 && tips.len() > 8, "{} {}", labels.len(), tips.len());
+    for (k, a) in labels.iter().enumerate() {
+        for b in &labels[..k] {
+            let apart = a[2] <= b[0] || b[2] <= a[0] || a[3] <= b[1] || b[3] <= a[1];
+            assert!(apart, "{a:?} {b:?}");
+        }
+        for [x, y] in &tips {
+            // Half the width of a head.
+            let [x, y, w] = [*x, *y, 3.6];
+            assert!(
+                x + w < a[0] || x - w > a[2] || y + w < a[1] || y - w > a[3],
+                "{a:?} [{x}, {y}]"
+            );
+        }
+    }
 }

@@ -124,8 +124,9 @@ fn draw(path: &Path, problem: &Problem, answer: &CensusAnswer) -> Result<(), Fai
     };
     let shown = &found.equilibria()[..found.equilibria().len().min(SHAPES)];
     for (path, shape) in output::numbered(path, shown.len()).iter().zip(shown) {
-        let drawn = funicular::picture::of_system(found.system(), shape)
-            .map_err(|error| Failure::undecided(format!("no picture: {error}")))?;
+        let drawn =
+            funicular::picture::of_system(found.system(), shape, funicular::picture::Seen::Best)
+                .map_err(|error| Failure::undecided(format!("no picture: {error}")))?;
         output::write_whole(path, &drawn)?;
     }
     Ok(())

@@ -76,19 +76,33 @@ impl Shape {
 
     /// The shape, if one was given.
     pub fn read(&self) -> Result<Option<Answer>, Failure> {
-        let Some(path) = &self.near else { return Ok(None) };
-        let (text, name) = foreign_input::text(path)?;
-        let shapes = formats::answer::parse(&text, &name).map_err(Error::from)?;
-        Ok(shapes.into_iter().next())
+        self.near.as_deref().map_or(Ok(None), shape)
     }
+}
+
+/// The first shape of a file.
+fn shape(path: &Path) -> Result<Option<Answer>, Failure> {
+    let (text, name) = foreign_input::text(path)?;
+    let shapes = formats::answer::parse(&text, &name).map_err(Error::from)?;
+    Ok(shapes.into_iter().next())
+}
+
+/// The places of the joints of a problem in a file, m.
+pub fn places(problem: &Problem, path: &Path) -> Result<Vec<model::Vector>, Failure> {
+    let none = || Failure::bad_input(format!("{} has no shape", path.display()));
+    Ok(fitted(problem, shape(path)?.ok_or_else(none)?)?)
 }
 
 /// The problem with the question of the equilibrium next to a shape.
 pub fn next_to(problem: &Problem, shape: &Answer) -> Result<Problem, Error> {
+    problem.near(&fitted(problem, shape.clone())?)
+}
+
+/// The places of the joints of a problem in a shape, m.
+fn fitted(problem: &Problem, shape: Answer) -> Result<Vec<model::Vector>, Error> {
     // The forces of an answer are no part of the question.
-    let shape = Answer { forces: Forces::None, reactions_n: None, ..shape.clone() };
-    let fitted = funicular::judge::fit(&funicular::system_of(problem), shape)?;
-    problem.near(&fitted.joints_m)
+    let shape = Answer { forces: Forces::None, reactions_n: None, ..shape };
+    Ok(funicular::judge::fit(&funicular::system_of(problem), shape)?.joints_m)
 }
 
 /// A system and where it comes from.

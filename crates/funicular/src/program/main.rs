@@ -40,6 +40,7 @@ mod which;
 
 use clap::CommandFactory;
 use funicular::text::{printable, tables};
+use model::budget::limit_work;
 
 use crate::args::{Cli, Command};
 use crate::exit::Exit;
@@ -50,6 +51,9 @@ fn main() -> std::process::ExitCode {
         Err(exit) => return exit.into(),
     };
     memory::install(cli.max_memory);
+    if let Some(numbers) = cli.max_work {
+        limit_work(numbers);
+    }
     let exit = match cli.command {
         Command::Reproduce(arguments) => reproduce::run(&arguments),
         Command::Solve(arguments) => solve::run(&arguments),

@@ -1,8 +1,6 @@
 //! `funicular new`: a system file to start from.
 
 use std::fmt::Write as _;
-use std::fs::OpenOptions;
-use std::io::{ErrorKind, Write as _};
 use std::path::{Path, PathBuf};
 
 use clap::Args;
@@ -62,17 +60,14 @@ pub fn run(arguments: &New) -> Result<Exit, Failure> {
 
 /// Write a file that is not there yet.
 fn write_new(path: &Path, text: &str) -> Result<(), Failure> {
-    let file = OpenOptions::new().write(true).create_new(true).open(path);
-    let name = path.display().to_string();
-    match file.and_then(|mut file| file.write_all(text.as_bytes())) {
-        Ok(()) => {
-            output::print(&format!("{name} is written; `funicular solve {name}` solves it\n"))
-        }
-        Err(error) if error.kind() == ErrorKind::AlreadyExists => {
-            Err(Failure::bad_input(format!("{name} is there already: it is not written over")))
-        }
-        Err(error) => Err(output::not_written(&name, &error)),
+    let name = path.display();
+    // A link that leads nowhere is there too.
+    if path.symlink_metadata().is_ok() {
+        let report = format!("{name} is there already: it is not written over");
+        return Err(Failure::bad_input(report));
     }
+    output::write_whole(path, text)?;
+    output::print(&format!("{name} is written; `funicular solve {name}` solves it\n"))
 }
 
 /// A net over a level rectangle: cables longer by a twentieth than the distance of their joints.

@@ -17,7 +17,7 @@ use model::system::System;
 use self::columns::Rows;
 use crate::exit::{Exit, Failure};
 use crate::foreign_input;
-use crate::input::{Drawn, Input};
+use crate::input::{Drawn, Input, places};
 use crate::interrupt::on_interrupt;
 use crate::output;
 use crate::progress::Progress;
@@ -30,14 +30,16 @@ pub struct Simulate {
     #[command(flatten)]
     pub input: Drawn,
     /// Where it begins, at rest: `rest` (the stable equilibrium), `equilibrium:2` (as `modes` and
-    /// `census` number them), `angles=0,60,-60` (bars of a chain from the descending vertical,
-    /// degrees), `seed:7` (at random)
-    #[arg(long, value_name = "START", default_value = "rest", allow_hyphen_values = true)]
-    pub from: Start,
+    /// `census` number them), `angles=0,60,-60` (of the members from the descending vertical,
+    /// degrees, in the plane of the supports), `seed:7` (at random), or a file with the places of
+    /// the joints, as for --near; what these lack to meet the lengths is corrected if it is little
+    #[arg(long, value_name = "START", default_value = "rest", allow_hyphen_values = true,
+          value_parser = from)]
+    pub from: From,
     /// How long, s; with --seeds the longest time until rest
     #[arg(long, value_name = "S", default_value_t = 10.0)]
     pub time: f64,
-    /// Length of a step, s
+    /// Length of a step, s; taken in parts where elastic members need shorter ones
     #[arg(long, value_name = "S", default_value_t = 1e-3)]
     pub step: f64,
     /// Time between stored times, s; a thousandth of the whole if not given
@@ -69,6 +71,26 @@ pub struct Simulate {
     pub html: Option<PathBuf>,
     #[command(flatten)]
     pub ensemble: ensemble::Arguments,
+}
+
+/// Where a motion begins.
+#[derive(Debug, Clone)]
+pub enum From {
+    Named(Start),
+    /// At the places in a file.
+    File(PathBuf),
+}
+
+fn from(text: &str) -> Result<From, String> {
+    let path = Path::new(text);
+    let is = |extension: &str| path.extension().is_some_and(|e| e.eq_ignore_ascii_case(extension));
+    match text.parse() {
+        Ok(start) => Ok(From::Named(start)),
+        Err(_) if path.is_file() || ["csv", "json", "vtu"].into_iter().any(is) => {
+            Ok(From::File(path.to_owned()))
+        }
+        Err(error) => Err(format!("{error}, or a file with the places of the joints")),
+    }
 }
 
 /// 2, 4 or 8.
@@ -128,6 +150,14 @@ pub fn run(arguments: &Simulate) -> Result<Exit, Failure> {
     progress.say("reading");
     let Input { problem, mut files } = arguments.input.read()?;
     let mut simulate = simulate(arguments);
+    match &arguments.from {
+        From::Named(start) => simulate = simulate.start(start.clone()),
+        From::File(path) => {
+            let joints_m = places(&problem, path)?;
+            simulate = simulate.start(Start::Joints(joints_m));
+            files.push(path.clone());
+        }
+    }
     if let Some(path) = &arguments.forces {
         let (text, name) = foreign_input::text(path)?;
         let forces = ForceTable::parse(&text, &name).map_err(Error::from)?;
@@ -151,15 +181,14 @@ pub fn run(arguments: &Simulate) -> Result<Exit, Failure> {
     drop(progress);
     let interrupted = stop.load(Ordering::SeqCst);
     // What is there is replaced by a result alone: a motion up to a step that fails is none.
-    moved?;
+    let parts = moved?.parts_of_step;
     kept.finish(arguments)?;
-    output::print(&kept.summary.text(&system, interrupted))?;
+    output::print(&kept.summary.text(&system, interrupted, parts))?;
     Ok(if interrupted { Exit::Interrupted } else { Exit::Done })
 }
 
 fn simulate(arguments: &Simulate) -> funicular::Simulate {
     let mut simulate = funicular::Simulate::new()
-        .start(arguments.from.clone())
         .time_s(arguments.time)
         .step_s(arguments.step)
         .drag_1_s(arguments.damping)

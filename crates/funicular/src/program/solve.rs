@@ -5,12 +5,12 @@ mod lines;
 mod object;
 mod several;
 
-use std::num::NonZeroU64;
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 use formats::answer::Answer;
-use funicular::{Error, Lists, SolveAnswer, picture, text};
+use funicular::picture::{self, Seen};
+use funicular::{Error, Lists, SolveAnswer, text};
 use validate::{Equations, Solvers, UseCensus};
 
 use crate::case_name::CaseName;
@@ -51,13 +51,6 @@ pub struct Solve {
     /// How many threads; 0 means one per processor. No answer depends on it
     #[arg(long, value_name = "T", default_value_t = 0, value_parser = threads::parse, allow_negative_numbers = true)]
     pub threads: usize,
-    /// Work that each solver may do for one system: numbers in all factors of its matrices, which
-    /// is iterations times size. What needs more ends without an answer (exit code 3)
-    ///
-    /// If not given, 10000000000: up to an hour or so. A row of bars between two anchors needs no matrix,
-    /// and has a bound of its own.
-    #[arg(long, value_name = "N")]
-    pub max_work: Option<NonZeroU64>,
     #[command(flatten)]
     pub shape: Shape,
     /// Which solver; one alone gets no comparison
@@ -96,6 +89,33 @@ pub struct Solve {
     /// Draw the system to scale with loads, reactions and axial forces into this SVG file
     #[arg(long, value_name = "FILE")]
     pub svg: Option<PathBuf>,
+    /// From where the picture is seen
+    #[arg(long, value_enum, value_name = "VIEW", default_value_t = View::Best, requires = "svg")]
+    pub view: View,
+}
+
+/// From where a picture is seen.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum View {
+    /// A planar system at right angles to its plane, others from above and from their wider side
+    Best,
+    /// X to the right, Z up
+    Front,
+    /// Y to the right, Z up
+    Side,
+    /// X to the right, Y up
+    Top,
+}
+
+impl From<View> for Seen {
+    fn from(view: View) -> Self {
+        match view {
+            View::Best => Self::Best,
+            View::Front => Self::Front,
+            View::Side => Self::Side,
+            View::Top => Self::Top,
+        }
+    }
 }
 
 /// Which of the systems of equations `lagrange` solves.
@@ -125,14 +145,10 @@ pub enum Census {
 impl Solve {
     /// What is asked, with `census` where the arguments say nothing about it.
     fn question(&self, census: UseCensus) -> funicular::Solve {
-        let solve = funicular::Solve::new()
+        funicular::Solve::new()
             .solvers(self.solver.into())
             .equations(self.equations.into())
-            .census(self.census.map_or(census, UseCensus::from));
-        match self.max_work {
-            Some(max_work) => solve.max_work(max_work),
-            None => solve,
-        }
+            .census(self.census.map_or(census, UseCensus::from))
     }
 
     /// How JSON has joints and bars.
@@ -214,7 +230,7 @@ fn write_files(
         output::write_stream(path, |file| answer.write_bars_csv(file))?;
     }
     if let (Some(path), [first, ..]) = (&arguments.svg, answer.equilibria()) {
-        let drawn = picture::of_system(answer.system(), first);
+        let drawn = picture::of_system(answer.system(), first, arguments.view.into());
         output::write_whole(path, &drawn.map_err(Failure::undecided)?)?;
     }
     Ok(())

@@ -49,7 +49,9 @@ A system with joints by name has besides
 Forces on bars and directions of supports do not vary.
 Bars are numbered from 1 as they are solved: a table with count = 3 is three bars, of which
   --vary bars.4-6.mass_kg=1,2               --vary 'bars.A-P.*.length_m=0.5..0.6:5'
-are a range and a row of a system, by the joints at its ends.
+are a range and a row of a system, by the joints at its ends. A rider moves along a rope of 10 m by
+  --zip --vary bars.A-rider.*.length_m=1..9:17 --vary bars.rider-B.*.length_m=9..1:17
+and the masses of both sides with it, where the rope has one. The count of a table does not vary.
 
 --of shows, in the place of sag and forces,
   --of joints.rider.z     where a joint is (or .x, .y)

@@ -294,7 +294,9 @@ impl Serialize for StudyAnswer {
         #[derive(Serialize)]
         struct Point<'a> {
             #[serde(flatten)]
-            point: &'a StudyPoint,
+            at: &'a StudyPoint,
+            #[serde(skip_serializing_if = "Option::is_none")]
+            lowest_joint: Option<String>,
             #[serde(skip_serializing_if = "Option::is_none")]
             reactions_n: Option<BTreeMap<&'a str, Vector>>,
         }
@@ -317,9 +319,14 @@ impl Serialize for StudyAnswer {
         let supports = self.supports();
         let reactions =
             |shape: &StudyShape| supports.iter().copied().zip(shape.reactions_n.clone()).collect();
-        let points = points
-            .iter()
-            .map(|point| Point { point, reactions_n: point.shape.as_ref().ok().map(reactions) });
+        let points = points.iter().map(|point| {
+            let shape = point.shape.as_ref().ok();
+            Point {
+                at: point,
+                lowest_joint: shape.map(|shape| self.joint(shape.extremes.lowest_joint)),
+                reactions_n: shape.map(reactions),
+            }
+        });
         let points = points.collect();
         Object { schema_version: SCHEMA_VERSION, system, parameters, units, of, points }
             .serialize(serializer)

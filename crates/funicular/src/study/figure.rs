@@ -12,9 +12,10 @@ const PANELS: [[f64; 2]; 3] = [[70.0, 270.0], [330.0, 530.0], [590.0, 790.0]];
 const HEIGHT: f64 = 860.0;
 
 /// How wide the curves are, px.
-const STROKE: f64 = 2.0;
-/// How much wider each is than the next one on top of it, px.
-const WIDER: f64 = 1.6;
+const STROKE: f64 = 2.4;
+/// Dashes of the curves, one on top of the other: where they are equal the ones below are seen in the
+/// gaps.
+const DASHES: [&str; 4] = ["", "18 9", "9 9", "3 9"];
 
 /// The value of a curve at a shape, where there is one.
 type Value = fn(&StudyShape) -> Option<f64>;
@@ -78,13 +79,11 @@ pub(super) fn figure(found: &StudyAnswer, path: usize) -> String {
         let values = shapes().flat_map(|shape| curves.iter().filter_map(|curve| curve.2(shape)));
         let y = Axis::around(values, 0.05, [bottom, top]);
         let axes = Axes { x, y, names: [x_name, y_name] };
-        for (k, (_, colour, value)) in curves.iter().enumerate() {
-            // Those below are wider: of equal curves all are seen.
-            let width = STROKE + WIDER * (curves.len() - 1 - k) as f64;
+        for ((_, colour, value), dashes) in curves.iter().zip(DASHES) {
             draw(
                 &mut svg,
                 &axes,
-                (*colour, width),
+                (*colour, dashes),
                 points.iter().map(|point| {
                     let value = point.shape.as_ref().ok().and_then(value)?;
                     Some([over(point), value])
@@ -103,15 +102,15 @@ pub(super) fn figure(found: &StudyAnswer, path: usize) -> String {
 fn draw(
     svg: &mut Svg,
     axes: &Axes<'_>,
-    (colour, width): (Colour, f64),
+    (colour, dashes): (Colour, &'static str),
     points: impl Iterator<Item = Option<[f64; 2]>>,
 ) {
     let mut run: Vec<[f64; 2]> = vec![];
     let mut end = |run: &mut Vec<[f64; 2]>| {
         match run[..] {
             [] => {}
-            [alone] => svg.circle(Look::fill(colour), alone, width),
-            _ => svg.polyline(Look::stroke(colour, width), run.iter().copied()),
+            [alone] => svg.circle(Look::fill(colour), alone, STROKE),
+            _ => svg.polyline(Look::stroke(colour, STROKE).dashed(dashes), run.iter().copied()),
         }
         run.clear();
     };
@@ -129,9 +128,10 @@ fn legend(svg: &mut Svg, curves: &[Curve], y: f64) {
     /// Room for one entry, px.
     const ENTRY: f64 = 180.0;
     let left = RIGHT - ENTRY * curves.len() as f64;
-    for (k, (name, colour, _)) in curves.iter().enumerate() {
+    for (k, ((name, colour, _), dashes)) in curves.iter().zip(DASHES).enumerate() {
         let x = left + ENTRY * k as f64;
-        svg.line(Look::stroke(*colour, STROKE), [x, y - 5.0], [x + 22.0, y - 5.0]);
+        let look = Look::stroke(*colour, STROKE).dashed(dashes);
+        svg.line(look, [x - 8.0, y - 5.0], [x + 22.0, y - 5.0]);
         svg.text(Look::PLAIN, [x + 28.0, y], Anchor::Start, name);
     }
 }

@@ -128,10 +128,9 @@ fn question(solution: &SolveAnswer) -> String {
 
 /// What is said of the forces besides the rungs, with a mark and of what.
 fn notes(evidence: &Evidence) -> Vec<(char, &'static str, String)> {
-    let family = evidence.force_family.as_ref().map(|family| ('!', "forces", family.to_string()));
     let stresses = evidence.self_stresses.as_ref().map(|some| ('!', "forces", some.to_string()));
     let rigidity = evidence.rigidity.as_ref().map(|some| (' ', "rigidity", some.to_string()));
-    family.into_iter().chain(stresses).chain(rigidity).collect()
+    stresses.into_iter().chain(rigidity).collect()
 }
 
 /// The rungs in a line; and, where a check was not passed or forces are not unique, how that is.

@@ -101,7 +101,8 @@ fn headline(census: &Summary) -> String {
             plural(upright, "position", "positions")
         );
     }
-    text + if census.decided { ": proved to be all.\n\n" } else { ": NOT proved to be all.\n\n" }
+    text += if census.decided { ": proved to be all." } else { ": NOT proved to be all." };
+    wrapped(&text, 0) + "\n\n"
 }
 
 fn overview(answer: &ChainCensusAnswer) -> String {

@@ -6,7 +6,7 @@ use model::system::{System, SystemEquilibrium};
 
 use super::answer::ladder;
 use super::printable::Printable;
-use super::tables::{duration, long, numbers_from, rung, short, table, vector, word};
+use super::tables::{duration, long, numbers_from, rung, short, table, vector, word, wrapped};
 use crate::census::SystemCensusAnswer;
 
 /// So many equilibria are printed, and so many joints and members of them one by one; `--json` has
@@ -67,7 +67,8 @@ fn headline(answer: &SystemCensusAnswer) -> String {
             let _ = write!(text, ", besides {families} families of slack bars");
         }
     }
-    text + if census.complete { ": proved to be all.\n\n" } else { ": NOT proved to be all.\n\n" }
+    text += if census.complete { ": proved to be all." } else { ": NOT proved to be all." };
+    wrapped(&text, 0) + "\n\n"
 }
 
 fn overview(equilibria: &[SystemEquilibrium]) -> String {

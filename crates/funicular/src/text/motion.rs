@@ -46,13 +46,17 @@ impl Summary {
 
     /// The text.
     #[must_use]
-    pub fn text(&self, system: &System, interrupted: bool) -> String {
+    pub fn text(&self, system: &System, interrupted: bool, parts: u32) -> String {
+        let parted = match parts {
+            1 => String::new(),
+            _ => format!(", each step in {parts} parts for the elastic members"),
+        };
         let ended = if interrupted { ", interrupted" } else { "" };
         let lost = self.lost_j.map_or_else(String::new, |lost_j| {
             format!(", beside {} J lost in impacts", short(lost_j))
         });
         format!(
-            "{}: {} s{ended}, {} stored times\n\
+            "{}: {} s{ended}, {} stored times{parted}\n\
              energy at the beginning {} J, largest change {:.1e} J{lost}\n\
              lengths kept to {:.1e}, Newton's and Euler's laws to {:.1e} of the largest force\n",
             Printable(system.name()),
@@ -71,6 +75,6 @@ impl fmt::Display for Motion {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let mut summary = Summary::new(&self.system);
         self.stored.iter().for_each(|now| summary.add(now));
-        f.write_str(&summary.text(&self.system, false))
+        f.write_str(&summary.text(&self.system, false, self.parts_of_step))
     }
 }

@@ -163,8 +163,17 @@ pub fn finished(text: &str) -> String {
     text.split('\n').map(line).collect::<Vec<_>>().join("\n")
 }
 
+/// Longest text of a first column that is a number, as `12'`, and is not broken either.
+const LABEL: usize = 3;
+
 /// Right-align the columns from `first` on, close to each other, and break none of their numbers.
 pub fn numbers_from(table: &mut Table, first: usize) {
+    let label = |row: &Vec<String>| row.first().is_none_or(|cell| cell.chars().count() <= LABEL);
+    if table.rows().iter().all(label)
+        && let Some(column) = table.column_mut(0)
+    {
+        column.set_constraint(ColumnConstraint::ContentWidth);
+    }
     for column in table.column_iter_mut().skip(first) {
         column.set_cell_alignment(CellAlignment::Right);
         column.set_constraint(ColumnConstraint::ContentWidth);

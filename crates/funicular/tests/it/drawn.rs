@@ -209,7 +209,7 @@ fn modes_derivatives_and_motions_are_those_of_the_shape() {
     let rest = std::fs::read_to_string(at.join("rest.csv")).unwrap();
     let mut lines = rest.lines().map(|line| line.split(',').collect::<Vec<_>>());
     let head = lines.next().unwrap();
-    let column = head.iter().position(|name| *name == "joint2_z_m").unwrap();
+    let column = head.iter().position(|name| *name == "joint_P_z_m").unwrap();
     let heights: Vec<f64> = lines.map(|line| line[column].parse().unwrap()).collect();
     assert!(heights.len() > 100 && heights.iter().all(|z| (z - height).abs() < 1e-9));
 }

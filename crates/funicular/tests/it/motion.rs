@@ -144,7 +144,7 @@ fn simulate_writes_columns_and_an_animation_and_the_same_bytes_again() {
 fn simulate_refuses_what_it_cannot_do_and_says_why() {
     for (arguments, told) in [
         (vec!["--from", "equilibrium:9"], "there is no equilibrium \"9\"; there are 1, 1', 2, 2'"),
-        (vec!["--from", "angles=0,0,0"], "off its anchor"),
+        (vec!["--from", "angles=0,0,0"], "bar 3 ends 0.333 of the total length off joint \"3\""),
         (vec!["--from", "angles=0,0"], "2 angles are given for 3 bars"),
         (vec!["--from", "nowhere"], "equilibrium:2"),
         (vec!["--push", "P=0,0,1"], "there is no joint \"P\""),
@@ -264,8 +264,8 @@ fn forces_of_a_table_drive_a_weight() {
     let column = |name: &str| rows[0].iter().position(|column| *column == name).unwrap();
     let number = |row: usize, name: &str| rows[row][column(name)].parse::<f64>().unwrap();
     for (row, place, speed) in [(2, 0.5, 1.5), (3, 4.0, 6.0), (4, 10.0, 6.0)] {
-        assert!((number(row, "joint0_x_m") - place).abs() < 1e-2, "{:?}", rows[row]);
-        assert!((number(row, "joint0_vx_m_s") - speed).abs() < 1e-2, "{:?}", rows[row]);
+        assert!((number(row, "joint_A_x_m") - place).abs() < 1e-2, "{:?}", rows[row]);
+        assert!((number(row, "joint_A_vx_m_s") - speed).abs() < 1e-2, "{:?}", rows[row]);
     }
     std::fs::write(path("f.csv"), "time_s,joint,x_n,y_n,z_n\n0,A,0,0,0\n0,A,6,0,0\n").unwrap();
     let output = run(&[]);
@@ -334,4 +334,115 @@ fn what_cannot_be_moved_is_refused_before_it_is_released() {
     let said = String::from_utf8(output.stderr).unwrap();
     assert_eq!(output.status.code(), Some(2), "{said}");
     assert!(!out.exists(), "{said}");
+    let said = said.replace("\n  ", " ");
+    assert!(said.contains("give it a mass_kg, or a mass to a member that ends there"), "{said}");
+}
+
+/// The numbers of a column of a CSV file without quotes.
+fn column(path: &Path, name: &str) -> Vec<f64> {
+    let csv = std::fs::read_to_string(path).unwrap();
+    let mut lines = csv.lines().map(|line| line.split(','));
+    let at = lines.next().unwrap().position(|column| column == name).expect(name);
+    lines.map(|mut line| line.nth(at).unwrap().parse().unwrap()).collect()
+}
+
+const PENDULUM: &str = "name = \"pendulum\"\njoints = { O = { at_m = [0, 0, 0] }, P = {} }\n\
+                        bars = [{ from = \"O\", to = \"P\", length_m = 1.5, mass_kg = 2 }]\n";
+
+/// A rod let go level falls with 3/2 g at its end, and comes to rest hanging.
+#[test]
+fn a_pendulum_is_let_go_at_an_angle_and_comes_to_rest() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    let path = file(folder.path(), "pendulum.toml", PENDULUM);
+    let from =
+        ["simulate", &path, "--from", "angles=90", "--out", &at("p.csv"), "--html", &at("p.html")];
+    let output = funicular(&[&from[..], &["--time", "40", "--damping", "1"]].concat());
+    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    let csv = folder.path().join("p.csv");
+    let (y, z) = (column(&csv, "joint_P_y_m"), column(&csv, "joint_P_z_m"));
+    assert!((y[0] - 1.5).abs() < 1e-12 && z[0].abs() < 1e-12, "{} {}", y[0], z[0]);
+    // The anchor carries a quarter of the weight at first, and all of it at the end.
+    let up = column(&csv, "joint_O_fz_n");
+    let weight = 2.0 * 9.80665;
+    assert!((up[0] - 0.25 * weight).abs() < 1e-9 && (up[up.len() - 1] - weight).abs() < 1e-4);
+    let page = std::fs::read_to_string(at("p.html")).unwrap();
+    assert!(page.contains("It comes to rest in equilibrium 1."), "{page}");
+    assert!(page.contains("\"names\":[\"O\",\"P\"]") && page.contains("\"axial\":[["));
+    // The colours of the pictures.
+    assert!(page.contains("#0072b2") && page.contains("#d55e00") && !page.contains("@BLUE@"));
+    let soon = funicular(&[&from[..], &["--time", "0.5"]].concat());
+    assert_eq!(soon.status.code(), Some(0));
+    let page = std::fs::read_to_string(at("p.html")).unwrap();
+    assert!(page.contains("At the end, after 0.5 s, it still moves, "), "{page}");
+}
+
+/// Places to three digits are pulled onto the lengths; places that are far off are refused.
+#[test]
+fn a_motion_begins_at_the_places_of_a_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    let path = file(folder.path(), "pendulum.toml", PENDULUM);
+    let out = at("p.csv");
+    let run = |z: &str| {
+        let shape = format!("joint,x_m,y_m,z_m\nO,0,0,0\nP,1.06,0,{z}\n");
+        let shape = file(folder.path(), "shape.csv", &shape);
+        funicular(&[
+            "simulate",
+            &path,
+            "--from",
+            &shape,
+            "--time",
+            "0.1",
+            "--out",
+            out.to_str().unwrap(),
+        ])
+    };
+    let output = run("-1.06");
+    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    let (x, z) = (column(&out, "joint_P_x_m")[0], column(&out, "joint_P_z_m")[0]);
+    let level = 1.5 / 2.0_f64.sqrt();
+    assert!((x - level).abs() < 1e-12 && (z + level).abs() < 1e-12, "{x} {z}");
+    let output = run("-0.5");
+    let said = String::from_utf8_lossy(&output.stderr).replace("\n  ", " ");
+    assert_eq!(output.status.code(), Some(2), "{said}");
+    assert!(said.contains("joint \"P\" would have to move by 0.2"), "{said}");
+    let output = funicular(&["simulate", &path, "--from", "shape"]);
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(said.contains("or a file with the places of the joints"), "{said}");
+}
+
+/// A weight of 10 g between two steel cables of 5 MN: steps of a millisecond are 15 times what is
+/// stable, and led to 4.5e305 J.
+#[test]
+fn steps_too_long_for_stiff_members_are_taken_in_parts_or_refused_with_one_that_works() {
+    let folder = tempfile::tempdir().unwrap();
+    let run = |stiffness: &str, step: &str| {
+        let bar = |from: &str, to: &str| {
+            format!(
+                "{{ from = \"{from}\", to = \"{to}\", length_m = 1.1, mass_kg = 0, stiffness_n = {stiffness} }}"
+            )
+        };
+        let text = format!(
+            "joints = {{ A = {{ at_m = [0, 0, 0] }}, P = {{ mass_kg = 0.01 }}, B = {{ at_m = [2, 0, 0] }} }}\n\
+             bars = [{}, {}]\n",
+            bar("A", "P"),
+            bar("P", "B")
+        );
+        let path = file(folder.path(), "steel.toml", &text);
+        let out = folder.path().join("steel.csv");
+        let run = ["simulate", &path, "--push", "P=0.01,0,0.01", "--step", step, "--time", "1"];
+        let output = funicular(&[&run[..], &["--out", out.to_str().unwrap()]].concat());
+        let said = String::from_utf8_lossy(&output.stderr).replace("\n  ", " ");
+        (output.status.code(), String::from_utf8(output.stdout).unwrap(), said, out)
+    };
+    let (code, text, said, out) = run("5e6", "1e-3");
+    assert_eq!(code, Some(0), "{said}");
+    assert!(text.contains("each step in 31 parts for the elastic members"), "{text}");
+    let energy = column(&out, "energy_j");
+    // The push gives p²/2m = 0.01 J.
+    assert!(energy.iter().all(|e| (e - energy[0]).abs() < 0.005), "{text}");
+    let (code, _, said, _) = run("5e16", "1e-3");
+    assert_eq!(code, Some(2), "{said}");
+    assert!(said.contains("allow 3.3e-10 s: take steps of at most 3.3e-6 s"), "{said}");
 }

@@ -147,3 +147,22 @@ fn both_solvers_count_lengths_alike_on_a_floor() {
     assert_eq!(text.matches("independent lengths").count(), 1, "{text}");
     assert!(text.contains("20 independent lengths, 35 mechanisms, 0 self-stresses"), "{text}");
 }
+
+/// `1'` is one word, also where a table is wider than the terminal; and what stands above it is not.
+#[test]
+fn names_of_mirror_images_are_not_broken_over_lines() {
+    let mut command = Command::cargo_bin("funicular").unwrap();
+    let command = command.env("LC_ALL", "C.UTF-8").args(["census", "--case", "three-equal-bars"]);
+    let text = String::from_utf8(command.output().unwrap().stdout).unwrap();
+    for label in ["1'", "2'"] {
+        let begins = |line: &&str| line.split_whitespace().next() == Some(label);
+        // Its energy stands in the same line.
+        assert!(
+            text.lines().filter(begins).any(|line| line.contains(" -2") || line.contains(" -3")),
+            "{text}"
+        );
+    }
+    assert!(!text.lines().any(|line| line.trim() == "'"), "{text}");
+    let found = text.lines().find(|line| line.starts_with("4 equilibria")).unwrap();
+    assert!(found.chars().count() <= 80, "{found}");
+}

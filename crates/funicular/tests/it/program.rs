@@ -59,7 +59,7 @@ fn reproduce_finds_what_is_expected_and_writes_it() {
     }
     let json: Value =
         serde_json::from_str(&std::fs::read_to_string(out.join("results.json")).unwrap()).unwrap();
-    assert_eq!(json["schema_version"], 2);
+    assert_eq!(json["schema_version"], 3);
     assert_eq!(json["all_as_expected"], true);
     assert!(json["figures"]["closure_curve"].as_array().unwrap().len() > 100);
     let report = std::fs::read_to_string(out.join("report.md")).unwrap();

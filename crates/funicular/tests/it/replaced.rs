@@ -125,3 +125,57 @@ fn what_is_refused_replaces_nothing() {
         }
     }
 }
+
+/// Files of results are begun by one writer, which names them when they are whole: no other source of
+/// the workspace opens a file to write into it.
+#[test]
+fn one_writer_begins_every_file() {
+    // The writer; those that write while the workspace is built, or for its own sources; the list of
+    // finished parts of a sweep, which grows by lines, and its lock.
+    const APART: [&str; 5] = [
+        "columns/src/atomic.rs",
+        "report/build.rs",
+        "report/examples/formulas.rs",
+        "sweep/src/store/digests.rs",
+        "sweep/src/store/lock.rs",
+    ];
+    const OPENINGS: [&str; 8] = [
+        "File::create",
+        "fs::write(",
+        "fs::rename(",
+        "fs::copy(",
+        "OpenOptions",
+        "File::options(",
+        "hard_link(",
+        "persist(",
+    ];
+    let crates = Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap();
+    let (mut files, mut writers) = (BTreeMap::new(), Vec::new());
+    for entry in std::fs::read_dir(crates).unwrap() {
+        let own = entry.unwrap().path();
+        for inner in ["src", "examples"].map(|inner| own.join(inner)) {
+            if inner.is_dir() {
+                all(&inner, &mut files);
+            }
+        }
+        let build = own.join("build.rs");
+        if let Ok(bytes) = std::fs::read(&build) {
+            files.insert(build.display().to_string(), bytes);
+        }
+    }
+    for (path, bytes) in &files {
+        let name = path[crates.display().to_string().len() + 1..].replace('\\', "/");
+        let is_test = name.contains("/tests/") || name.ends_with("tests.rs");
+        let text = String::from_utf8_lossy(bytes);
+        // Tests inside of a file stand at its end; what the documentation shows is no code of ours.
+        let code = text.split("#[cfg(test)]").next().unwrap_or_default().lines();
+        let code = code.filter(|line| !line.trim_start().starts_with("//"));
+        let opens = |line: &str| {
+            OPENINGS.iter().any(|opening| line.replace("AtomicFile::create", "").contains(opening))
+        };
+        if !is_test && code.clone().any(opens) {
+            writers.push(name);
+        }
+    }
+    assert_eq!(writers, APART);
+}

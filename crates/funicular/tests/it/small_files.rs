@@ -116,6 +116,27 @@ fn long_tables_of_names_take_time_in_proportion() {
     refused(&output, "answer.vtu:2: an element with 300001 attributes is not understood");
 }
 
+/// Whatever solves a system, alone or many times, ends with the work that it may do.
+#[test]
+fn every_command_that_solves_ends_with_its_work() {
+    let folder = folder("work");
+    let bound = "max_work is 1";
+    for arguments in [
+        &["solve", "--case", "bridle"][..],
+        &["modes", "--case", "bridle"],
+        &["derivatives", "--case", "bridle", "--of", "bars.1.axial_n"],
+        &["study", "--case", "bridle", "--vary", "gravity_m_s2=9,10"],
+        &["study", "--case", "bridle", "--vary", "gravity_m_s2=9,10", "--json"],
+    ] {
+        let output = run(&folder, &[arguments, &["--max-work", "1"]].concat());
+        let all = format!("{}{}", String::from_utf8_lossy(&output.stdout), stderr(&output));
+        assert_eq!(output.status.code(), Some(3), "{arguments:?}: {all}");
+        assert!(all.contains(bound) || all.contains("\"max_work\": 1"), "{arguments:?}: {all}");
+        let free = run(&folder, arguments);
+        assert_eq!(free.status.code(), Some(0), "{arguments:?}: {}", stderr(&free));
+    }
+}
+
 /// A pipe that nobody writes into is not waited for, whoever names it.
 #[test]
 fn pipes_without_a_writer_are_not_waited_for() {

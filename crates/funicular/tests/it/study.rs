@@ -111,7 +111,7 @@ fn every_column_and_key_of_two_bars_is_that_of_a_v() {
         close(list("tension_n")[1], tension, "tension_n");
         close(list("rises_deg")[1], sag.asin().to_degrees(), "rises_deg");
         close(point["reactions_n"]["end"][0].as_f64().unwrap(), level, "reactions_n");
-        assert_eq!((cell("lowest_joint"), point["lowest_joint"].as_u64()), ("1", Some(1)));
+        assert_eq!((cell("lowest_joint"), point["lowest_joint"].as_str()), ("1", Some("1")));
         // The first of two equal ones, up to rounding either.
         assert!(["1", "2"].contains(&cell("tension_bar")));
         assert_eq!((cell("compression_n"), cell("compression_bar")), ("", ""));
@@ -451,6 +451,55 @@ fn sag_is_measured_from_the_line_that_a_row_spans() {
         assert_eq!(output.status.code(), Some(2));
         assert!(text_of(&output).contains(wanted), "{}", text_of(&output));
     }
+}
+
+/// A rider on a rope of 10 m over 8 m: both sides are given in step. It runs along the ellipse with
+/// the anchors as foci; where it is still, in the middle, both sides pull alike.
+#[test]
+fn a_rider_moves_along_a_rope() {
+    let folder = folder("along");
+    let rope = r#"{"joints": {"A": {"at_m": [0,0,0]}, "B": {"at_m": [8,0,0]}, "rider": {"mass_kg": 3}},
+        "bars": [{"from":"A","to":"rider","length_m":5,"mass_kg":0},
+                 {"from":"rider","to":"B","length_m":5,"mass_kg":0}]}"#;
+    std::fs::write(folder.join("rope.json"), rope).unwrap();
+    let vary =
+        ["--vary", "bars.A-rider.*.length_m=2..8:7", "--vary", "bars.rider-B.*.length_m=8..2:7"];
+    let more = ["--zip", "--of", "joints.rider.x", "--of", "joints.rider.z", "--csv", "of.csv"];
+    let output = study(&folder, &[&["rope.json"], &vary[..], &more[..]].concat());
+    assert_eq!(output.status.code(), Some(0), "{}", text_of(&output));
+    let rows = columns(&folder.join("of.csv"));
+    assert_eq!(rows.len(), 7);
+    for (row, a) in rows.iter().zip([2.0_f64, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0]) {
+        let x = (a * a - (10.0 - a).powi(2) + 64.0) / 16.0;
+        let z = -(a * a - x * x).sqrt();
+        for (name, wanted) in [("joints.rider.x", x), ("joints.rider.z", z)] {
+            let value: f64 = row[name].parse().unwrap();
+            assert!((value - wanted).abs() < 1e-10, "{a}: {name} {value} {wanted}");
+        }
+    }
+    let pull: f64 = rows[3]["tension_n"].parse().unwrap();
+    assert!((pull - 3.0 * 9.80665 / 2.0 / 0.6).abs() < 1e-9, "{pull}");
+}
+
+/// The largest tension of the lamp is the force at A for any mass: both curves are seen, as the upper
+/// one is dashed, in the picture and in its legend.
+#[test]
+fn equal_curves_are_told_apart() {
+    let folder = folder("equal");
+    let vary = ["--case", "lamp", "--vary", "joints.lamp.mass_kg=1..5:5", "--svg", "lamp.svg"];
+    let output = study(&folder, &vary);
+    assert_eq!(output.status.code(), Some(0), "{}", text_of(&output));
+    let svg = std::fs::read_to_string(folder.join("lamp.svg")).unwrap();
+    let of = |colour: &str, tag: &str| -> Vec<bool> {
+        let lines = svg.lines().filter(|line| line.starts_with(tag) && line.contains(colour));
+        lines.map(|line| line.contains("stroke-dasharray")).collect()
+    };
+    // Blue also is the sag and the first bar.
+    assert_eq!(
+        (of("#0072b2", "<polyline"), of("#0072b2", "<line")),
+        (vec![false; 3], vec![false; 2])
+    );
+    assert_eq!((of("#009e73", "<polyline"), of("#009e73", "<line")), (vec![true], vec![true]));
 }
 
 /// A rope of four bars to a weight, and one bar on.

@@ -383,3 +383,19 @@ fn members_without_force_are_named() {
     let said = more("strut", 3.5);
     assert!(said.contains(" loose "), "{said}");
 }
+
+/// A spatial net from above and one side has all three axes of the world, from the top two.
+#[test]
+fn pictures_are_seen_from_where_one_asks() {
+    let folder = folder("seen");
+    let axes = |more: &[&str]| {
+        let arguments = ["solve", "--case", "bridle", "--svg", "net.svg"];
+        let output = run(&folder, &[&arguments[..], more].concat());
+        assert_eq!(output.status.code(), Some(0));
+        let svg = std::fs::read_to_string(folder.join("net.svg")).unwrap();
+        svg.matches("class=\"axis\"").count()
+    };
+    assert_eq!((axes(&[]), axes(&["--view", "top"]), axes(&["--view", "side"])), (3, 2, 2));
+    let output = run(&folder, &["solve", "--case", "bridle", "--view", "top"]);
+    assert_eq!(output.status.code(), Some(2), "a view without a picture");
+}

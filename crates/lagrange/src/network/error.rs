@@ -73,7 +73,7 @@ pub enum Error {
     /// or, as a cable, is shorter, or, as a strut, longer.
     #[error("member {member} of {length_m} m is held at both ends, {distance_m} m apart")]
     HeldMisfit {
-        /// Number of the member, from 0.
+        /// Number of the member, from 1.
         member: usize,
         /// Its length, m.
         length_m: f64,
@@ -98,7 +98,7 @@ pub enum Error {
         /// What is left there, in units of the loads of the joint (of the mean load, where that is
         /// more).
         unbalance: f64,
-        /// Number of the member whose length is furthest off, from 0.
+        /// Number of the member whose length is furthest off, from 1.
         member: usize,
         /// How far, m.
         misfit_m: f64,
@@ -117,7 +117,7 @@ pub enum Error {
          the forces are not decided by numbers of sixteen digits"
     )]
     Absurd {
-        /// Number of the member, from 0.
+        /// Number of the member, from 1.
         member: usize,
         /// Its axial force, N.
         force_n: f64,
@@ -172,13 +172,13 @@ pub enum Error {
         dimension: usize,
     },
     /// Occurs when derivatives are asked for where a cable or strut has just its length and bears
-    /// no force.
+    /// no force but that of its own weight.
     #[error(
-        "no derivative here: member {member} has just its length and bears no force; a change to one side \
+        "no derivative here: member {member} has just its length and bears no force but that of its own weight; a change to one side \
          loads it, to the other it is slack, and the derivatives of both sides differ"
     )]
     JustTaut {
-        /// Number of the member, from 0.
+        /// Number of the member, from 1.
         member: usize,
     },
     /// Occurs when derivatives are asked for where a joint just touches the floor.

@@ -70,7 +70,7 @@ fn check_held(framework: &Framework) -> Result<(), Error> {
         if misfit > link.within {
             let unit = framework.units.length_m;
             let (length_m, distance_m) = (link.length * unit, distance * unit);
-            return Err(Error::HeldMisfit { member, length_m, distance_m });
+            return Err(Error::HeldMisfit { member: member + 1, length_m, distance_m });
         }
     }
     Ok(())

@@ -95,7 +95,7 @@ impl Residual {
             iterations,
             joint: system.joints()[self.balance.1].name.clone(),
             unbalance: self.balance.0,
-            member,
+            member: member + 1,
             misfit_m: self.lengths.get(member).map_or(0.0, |r| r.abs()) * framework.units.length_m,
         }
     }

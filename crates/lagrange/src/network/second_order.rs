@@ -160,6 +160,8 @@ impl Dense {
         let links = links(framework, state);
         let first_unknown = first_unknowns(framework);
         let size = framework.freedoms();
+        // Its answer would count for nothing after that.
+        framework.work.spend(size * size);
         let rigid: Vec<usize> =
             (0..links.len()).filter(|&k| links[k].taut && links[k].along.is_none()).collect();
         let mut rows = Mat::<f64>::zeros(rigid.len(), size);

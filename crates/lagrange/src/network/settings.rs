@@ -32,7 +32,8 @@ pub struct Settings {
     /// Work of one solve: entries of all sparse factors that it computes, which is iterations times
     /// size. A net of 38,000 cables is answered with less than 10^8.
     ///
-    /// Default 10^10, up to an hour or so. At least 1.
+    /// Default 10^10, up to an hour or so, or what
+    /// [`limit_work`](model::budget::limit_work) says. At least 1.
     pub max_work: u64,
 }
 
@@ -42,7 +43,7 @@ impl Default for Settings {
             tolerance: 1e-12,
             max_iterations: 100,
             dense_freedoms: 300,
-            max_work: 10_000_000_000,
+            max_work: model::budget::max_work(),
         }
     }
 }

@@ -96,7 +96,7 @@ impl Solver<'_> {
         let worst = (0..axial.len()).max_by(|a, b| axial[*a].abs().total_cmp(&axial[*b].abs()));
         match worst {
             Some(member) if axial[member].abs() > ABSURD * scale => Err(Error::Absurd {
-                member,
+                member: member + 1,
                 force_n: axial[member] * framework.units.force_n,
                 ratio: axial[member].abs() / scale,
             }),

@@ -32,7 +32,7 @@ pub(super) fn check(
     }
     let largest = state.largest_force(framework);
     if let Some(member) = just_taut(framework, state, residual, largest) {
-        return Err(Error::JustTaut { member });
+        return Err(Error::JustTaut { member: member + 1 });
     }
     let just_touches = touching(framework, state, residual, largest)
         .or_else(|| above(system, framework, solution));

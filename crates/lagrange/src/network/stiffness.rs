@@ -188,7 +188,9 @@ impl Stiffness {
     }
 
     fn factorise(&mut self, signs: Option<&[i8]>, least: f64) -> bool {
-        self.work.spend(self.factor.len());
+        if !self.work.spend(self.factor.len()) {
+            return false;
+        }
         let (size, largest) = (self.size(), self.largest());
         let pattern =
             SymbolicSparseColMatRef::new_checked(size, size, &self.columns, None, &self.rows);
@@ -232,10 +234,12 @@ impl Stiffness {
         }
     }
 
-    /// Solve with the factor, in place; several right-hand sides one after another.
+    /// Solve with the factor, in place; several right-hand sides one after another. Without work there
+    /// is no step.
     pub fn solve(&mut self, right: &mut [f64]) {
         let size = self.size();
-        if size == 0 {
+        if size == 0 || self.work.is_refused() {
+            right.fill(0.0);
             return;
         }
         let sides = right.len() / size;

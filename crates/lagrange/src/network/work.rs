@@ -4,7 +4,7 @@
 //! steps. One count over all of them ends a solve after the same step on every machine.
 
 use std::sync::Arc;
-use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
 use super::error::Error;
 
@@ -12,6 +12,8 @@ use super::error::Error;
 #[derive(Debug, Clone)]
 pub(super) struct Work {
     spent: Arc<AtomicU64>,
+    /// Whether a factor was refused: nothing that follows is a finding.
+    refused: Arc<AtomicBool>,
     most: u64,
 }
 
@@ -24,12 +26,24 @@ impl Default for Work {
 
 impl Work {
     pub fn new(most: u64) -> Self {
-        Self { spent: Arc::default(), most }
+        Self { spent: Arc::default(), refused: Arc::default(), most }
     }
 
-    /// Count a factorisation with so many entries.
-    pub fn spend(&self, entries: usize) {
-        self.spent.fetch_add(entries as u64, Ordering::Relaxed);
+    /// Whether a factor with so many entries may be computed; it is counted then. Asked before each,
+    /// so that no loop goes on without work.
+    pub fn spend(&self, entries: usize) -> bool {
+        let left = !self.is_spent();
+        if left {
+            self.spent.fetch_add(entries as u64, Ordering::Relaxed);
+        } else {
+            self.refused.store(true, Ordering::Relaxed);
+        }
+        left
+    }
+
+    /// Whether a factor was refused.
+    pub fn is_refused(&self) -> bool {
+        self.refused.load(Ordering::Relaxed)
     }
 
     /// Whether no further factorisation ought to begin.
@@ -37,15 +51,13 @@ impl Work {
         self.spent.load(Ordering::Relaxed) >= self.most
     }
 
-    /// A solve that ended without an answer because its work was spent says so: what it was at is
-    /// no finding.
+    /// What a solve ends with: neither an answer for which a factor was refused nor an error once the
+    /// work is spent is a finding.
     pub fn judged<T>(&self, result: Result<T, Error>) -> Result<T, Error> {
-        match result {
-            Err(_) if self.is_spent() => {
-                let spent = self.spent.load(Ordering::Relaxed);
-                Err(Error::Work { spent, max_work: self.most })
-            }
-            result => result,
+        if self.is_refused() || (result.is_err() && self.is_spent()) {
+            let spent = self.spent.load(Ordering::Relaxed);
+            return Err(Error::Work { spent, max_work: self.most });
         }
+        result
     }
 }

@@ -3,9 +3,8 @@
 use serde::{Deserialize, Serialize};
 
 use super::finite;
-use super::force_family::ForceChoice;
+use super::force_choice::ForceChoice;
 use crate::solver_name::SolverName;
-use crate::stability::Stability;
 
 /// Answers of several solvers are one, and each is in balance.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -24,19 +23,12 @@ pub struct Agreed {
     /// Largest violation of geometry and of Newton's laws by any of the answers, dimensionless.
     #[serde(with = "finite")]
     pub statics: f64,
-    /// Joints that an equilibrium leaves free, which are not compared: see [`FreeJoints`].
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub free_joints: Option<FreeJoints>,
     /// What the equilibrium of a system leaves open, if anything.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub room: Option<Room>,
     /// Whether agreement is evidence for the shape alone: the forces are one of a family, chosen by
-    /// convention (see [`ForceFamily`](super::ForceFamily)).
+    /// convention (see [`ForceChoice`]).
     pub shape_only: bool,
-    /// Where a solver does not tell the least curvature in the plane from zero and another one does
-    /// ([`Stability::is_compatible_with`]): what each of them finds.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub curvature_undecided: Vec<StabilityDifference>,
     /// What else there is to say of the forces of a system.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub forces_found: Option<ForcesFound>,
@@ -137,30 +129,6 @@ impl Room {
     }
 }
 
-/// The joints between bars that are proved to carry no force: all else hangs plumb from the two
-/// anchors, and the lengths of these bars leave more than one way to bridge what is left.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-pub struct FreeJoints {
-    /// The first of them.
-    pub first: usize,
-    /// The last of them.
-    pub last: usize,
-}
-
-impl FreeJoints {
-    /// How many.
-    #[must_use]
-    pub fn count(&self) -> usize {
-        self.last + 1 - self.first
-    }
-
-    /// Whether a joint is one of them.
-    #[must_use]
-    pub fn contains(&self, joint: usize) -> bool {
-        (self.first..=self.last).contains(&joint)
-    }
-}
-
 /// A number that is over its budget.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Excess {
@@ -195,16 +163,8 @@ pub enum Quantity {
         /// The two solvers.
         between: [SolverName; 2],
     },
-    /// Violation of geometry and of Newton's laws by one answer, dimensionless.
+    /// Violation of geometry, of Newton's laws and of the members' laws by one answer, dimensionless.
     Statics {
-        /// The solver.
-        solver: SolverName,
-        /// The bar with the largest violation, from 1; 0 where the answer is incomplete.
-        bar: usize,
-    },
-    /// Violation of geometry, of Newton's laws and of the members' laws by one answer for a system,
-    /// dimensionless.
-    SystemStatics {
         /// The solver.
         solver: SolverName,
         /// Where it is.
@@ -239,17 +199,6 @@ pub enum Quantity {
         /// The member, from 1.
         member: usize,
     },
-    /// The energy that an answer names less that of its joints, in units of weight times length.
-    EnergyOfJoints {
-        /// The solver.
-        solver: SolverName,
-    },
-    /// Axial forces and reactions that an answer names less those of its joint forces, in units of
-    /// force.
-    AxialForcesAndReactions {
-        /// The solver.
-        solver: SolverName,
-    },
 }
 
 /// A place in a system.
@@ -264,35 +213,23 @@ pub enum Place {
     Whole,
 }
 
-/// Two solvers that find different second-order behaviour.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct StabilityDifference {
-    /// The two solvers.
-    pub between: [SolverName; 2],
-    /// What each of them finds.
-    pub found: [Stability; 2],
-}
-
 /// What speaks against answers being one.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Disagreement {
     /// What is over its budget.
     pub excesses: Vec<Excess>,
-    /// Different second-order behaviour.
-    pub stability: Vec<StabilityDifference>,
 }
 
 impl Disagreement {
     /// Whether nothing differs.
     #[must_use]
     pub fn is_empty(&self) -> bool {
-        self.excesses.is_empty() && self.stability.is_empty()
+        self.excesses.is_empty()
     }
 
     /// Each part in a sentence.
     #[must_use]
     pub fn sentences(&self) -> Vec<String> {
-        let excesses = self.excesses.iter().map(ToString::to_string);
-        excesses.chain(self.stability.iter().map(ToString::to_string)).collect()
+        self.excesses.iter().map(ToString::to_string).collect()
     }
 }

@@ -73,7 +73,7 @@ pub enum NoCensus {
     /// A net has a part that turns freely about the vertical through a joint: its equilibria are
     /// circles.
     Turns {
-        /// The joint, from 0.
+        /// The joint, from 1.
         joint: usize,
     },
     /// A net with several closures has more joints than are searched, or more members than its
@@ -84,7 +84,7 @@ pub enum NoCensus {
     },
     /// A chain between anchors bears a force that is not straight down.
     LoadsNotDown {
-        /// The joint that feels it, from 0.
+        /// The joint that feels it, from 1.
         joint: usize,
     },
     /// A member of a chain between anchors is elastic.
@@ -104,14 +104,14 @@ pub enum NoCensus {
     },
     /// The members that hold a joint may lie flat in a line or plane, or nothing may pull it aside.
     Flat {
-        /// The joint, from 0.
+        /// The joint, from 1.
         joint: usize,
     },
     /// There is a floor, which no census knows.
     Floor,
     /// A joint slides on a line or in a plane.
     Slider {
-        /// The joint, from 0.
+        /// The joint, from 1.
         joint: usize,
     },
     /// The system has more equilibria than are listed.

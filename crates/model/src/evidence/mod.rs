@@ -24,7 +24,7 @@ mod certificate;
 mod complete;
 mod convergence;
 mod finite;
-mod force_family;
+mod force_choice;
 mod ladder;
 mod reason;
 mod rigidity;
@@ -39,13 +39,12 @@ use std::borrow::Cow;
 use serde::{Deserialize, Serialize};
 
 pub use agreed::{
-    Agreed, Choices, Disagreement, Excess, ForcesFound, FreeJoints, LargeForce, Place, Proved,
-    Quantity, Room, StabilityDifference,
+    Agreed, Choices, Disagreement, Excess, ForcesFound, LargeForce, Place, Proved, Quantity, Room,
 };
 pub use certificate::{NoCertificate, Optimal};
 pub use complete::{Complete, CompleteSystem, NoCensus};
 pub use convergence::{Convergence, ForceUncertainty, UncertaintyCause};
-pub use force_family::{ForceChoice, ForceFamily};
+pub use force_choice::ForceChoice;
 pub use ladder::{Ladder, Statement};
 pub use reason::{NoAnswer, Reason};
 pub use rigidity::Rigidity;
@@ -73,9 +72,6 @@ pub struct Evidence {
     /// Time of the solver alone, s.
     #[serde(with = "finite")]
     pub solve_s: f64,
-    /// Where equilibrium does not determine the forces: the family that they belong to.
-    #[serde(default)]
-    pub force_family: Option<ForceFamily>,
     /// Where equilibrium does not determine the forces in a system: what may be added to them.
     #[serde(default)]
     pub self_stresses: Option<SelfStresses>,
@@ -126,7 +122,6 @@ impl Evidence {
             nullity: 0,
             condition: 1.0,
             solve_s: 0.0,
-            force_family: None,
             self_stresses: None,
             rigidity: None,
             ladder: Ladder { converged: convergence.judged(), ..Ladder::default() },
@@ -169,8 +164,6 @@ struct Keys<'a> {
     #[serde(with = "finite")]
     solve_s: f64,
     #[serde(skip_serializing_if = "Option::is_none")]
-    force_family: Option<ForceFamily>,
-    #[serde(skip_serializing_if = "Option::is_none")]
     self_stresses: Option<&'a SelfStresses>,
     #[serde(skip_serializing_if = "Option::is_none")]
     rigidity: Option<Rigidity>,
@@ -187,7 +180,6 @@ impl Serialize for Evidence {
             nullity: self.nullity,
             condition: self.condition,
             solve_s: self.solve_s,
-            force_family: self.force_family,
             self_stresses: self.self_stresses.as_ref(),
             rigidity: self.rigidity,
             ladder: &self.ladder,

@@ -66,7 +66,8 @@ pub enum NoBox {
         /// Number of independent ones.
         dimension: usize,
     },
-    /// Occurs when a cable or strut has just its length and bears no force.
+    /// Occurs when a cable or strut has just its length and bears no force but that of its own
+    /// weight.
     Degenerate {
         /// The member, from 1.
         member: usize,
@@ -90,7 +91,7 @@ pub enum NoBox {
     /// Occurs when the floor is not proved to push a joint that lies on it, or a joint not to be
     /// above it.
     Floor {
-        /// The joint, from 0.
+        /// The joint, from 1.
         joint: usize,
     },
     /// Occurs when no equilibrium in which the same members act is found next to the answer.

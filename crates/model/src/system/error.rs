@@ -259,6 +259,7 @@ pub(super) fn check(
         }
         check_joint(number, joint)?;
     }
+    drop(names);
     super::drawing::check(joints)?;
     let mut pairs = HashMap::with_capacity(members.len());
     for (k, member) in members.iter().enumerate() {

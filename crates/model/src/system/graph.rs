@@ -1,16 +1,17 @@
 //! Which joints are connected, and how far apart members let them be.
 
 use std::cmp::Ordering;
-use std::collections::{BinaryHeap, HashMap, HashSet};
+use std::collections::{BTreeMap, BinaryHeap, HashMap, HashSet};
 
 use super::System;
 
 /// Joints with the members that meet in each.
-pub(super) struct Graph {
-    /// Where the list of each joint begins in `ends`.
+pub(super) struct Graph<'a> {
+    system: &'a System,
+    /// Where the list of each joint begins in `meeting`.
     begins: Vec<usize>,
-    /// Number of the member, the joint at its other end, and its greatest length.
-    ends: Vec<(usize, usize, f64)>,
+    /// Numbers of members.
+    meeting: Vec<usize>,
     /// The anchors with their places; between two of them the distance is that of the places.
     anchors: Vec<usize>,
     places: HashMap<usize, [f64; 3]>,
@@ -19,8 +20,9 @@ pub(super) struct Graph {
 /// Ways from one joint over members, none longer than asked for.
 pub(super) struct Ways {
     start: usize,
-    /// Length of the shortest way, and the joint before, by joint.
-    found: HashMap<usize, (f64, usize)>,
+    /// Length of the shortest way, and the joint before, by joint. A table that doubles would hold
+    /// itself twice.
+    found: BTreeMap<usize, (f64, usize)>,
 }
 
 /// A joint to go on from, the nearest first.
@@ -30,8 +32,8 @@ struct Next {
     before: usize,
 }
 
-impl Graph {
-    pub(super) fn new(system: &System) -> Self {
+impl<'a> Graph<'a> {
+    pub(super) fn new(system: &'a System) -> Self {
         let joints = system.joints().len();
         let mut begins = vec![0; joints + 1];
         for member in system.members() {
@@ -42,11 +44,10 @@ impl Graph {
             begins[joint + 1] += begins[joint];
         }
         let mut next = begins.clone();
-        let mut ends = vec![(0, 0, 0.0); 2 * system.members().len()];
+        let mut meeting = vec![0; 2 * system.members().len()];
         for (k, member) in system.members().iter().enumerate() {
-            let length_m = member.greatest_length_m();
-            for (here, there) in [(member.from, member.to), (member.to, member.from)] {
-                ends[next[here]] = (k, there, length_m);
+            for here in [member.from, member.to] {
+                meeting[next[here]] = k;
                 next[here] += 1;
             }
         }
@@ -55,12 +56,20 @@ impl Graph {
             fixed.filter_map(|(k, joint)| Some((k, joint.support.at_m()?))).collect();
         let mut anchors: Vec<usize> = places.keys().copied().collect();
         anchors.sort_unstable();
-        Self { begins, ends, anchors, places }
+        Self { system, begins, meeting, anchors, places }
     }
 
     /// The members at a joint, with the joint at their other end and their greatest length.
-    pub(super) fn at(&self, joint: usize) -> &[(usize, usize, f64)] {
-        &self.ends[self.begins[joint]..self.begins[joint + 1]]
+    pub(super) fn at(
+        &self,
+        joint: usize,
+    ) -> impl ExactSizeIterator<Item = (usize, usize, f64)> + use<'_, 'a> {
+        let meeting = &self.meeting[self.begins[joint]..self.begins[joint + 1]];
+        meeting.iter().map(move |&k| {
+            let member = &self.system.members()[k];
+            let other = if member.from == joint { member.to } else { member.from };
+            (k, other, member.greatest_length_m())
+        })
     }
 
     /// The connected parts, each with its joints in ascending order.
@@ -77,7 +86,7 @@ impl Graph {
             let mut next = 0;
             while let Some(&joint) = part.get(next) {
                 next += 1;
-                for &(_, other, _) in self.at(joint) {
+                for (_, other, _) in self.at(joint) {
                     if !seen[other] {
                         seen[other] = true;
                         part.push(other);
@@ -94,12 +103,12 @@ impl Graph {
     pub(super) fn meets(
         &self,
         start: usize,
-        without: &[usize],
+        without: &HashSet<usize>,
         held: &impl Fn(usize) -> bool,
     ) -> bool {
         let (mut seen, mut open) = (HashSet::from([start]), vec![start]);
         while let Some(joint) = open.pop() {
-            for &(member, other, _) in self.at(joint) {
+            for (member, other, _) in self.at(joint) {
                 if !without.contains(&member) && seen.insert(other) {
                     if held(other) {
                         return true;
@@ -120,7 +129,7 @@ impl Graph {
         limit_m: f64,
         without: Option<(usize, usize)>,
     ) -> Ways {
-        let mut ways = Ways { start, found: HashMap::new() };
+        let mut ways = Ways { start, found: BTreeMap::new() };
         let mut open = BinaryHeap::from([Next { way_m: 0.0, joint: start, before: start }]);
         while let Some(Next { way_m, joint, before }) = open.pop() {
             if ways.found.contains_key(&joint) {
@@ -136,7 +145,7 @@ impl Graph {
                     open.push(Next { way_m, joint: other, before: joint });
                 }
             };
-            for &(member, other, length_m) in self.at(joint) {
+            for (member, other, length_m) in self.at(joint) {
                 if without.is_none_or(|(left_out, _)| left_out != member) {
                     push(other, length_m);
                 }

@@ -1,5 +1,7 @@
 //! Systems that are no equilibrium problem.
 
+use std::collections::HashSet;
+
 use super::graph::Graph;
 use super::{Support, System};
 use crate::mass_range::{DOUBLE, too_wide};
@@ -226,9 +228,9 @@ impl System {
             })
     }
 
-    fn connected(&self, graph: &Graph) -> Result<(), SystemRefusal> {
+    fn connected(&self, graph: &Graph<'_>) -> Result<(), SystemRefusal> {
         let joints = self.joints();
-        if let Some(joint) = (0..joints.len()).find(|joint| graph.at(*joint).is_empty()) {
+        if let Some(joint) = (0..joints.len()).find(|joint| graph.at(*joint).len() == 0) {
             return Err(SystemRefusal::Unconnected { name: joints[joint].name.clone(), joint });
         }
         for part in graph.components() {
@@ -244,7 +246,7 @@ impl System {
         Ok(())
     }
 
-    fn anchors_in_reach(&self, graph: &Graph) -> Result<(), SystemRefusal> {
+    fn anchors_in_reach(&self, graph: &Graph<'_>) -> Result<(), SystemRefusal> {
         let joints = self.joints();
         let anchors: Vec<usize> =
             (0..joints.len()).filter(|joint| joints[*joint].support.is_fixed()).collect();
@@ -256,15 +258,17 @@ impl System {
             for &joint in &anchors[k + 1..] {
                 let Some(reach_m) = ways.get(joint) else { continue };
                 let distance_m = self.distance_m(start, joint);
-                let (from, to) = (joints[start].name.clone(), joints[joint].name.clone());
+                let ends = || (joints[start].name.clone(), joints[joint].name.clone());
                 let near = distance_m.max(reach_m) * crate::STRAIGHT_TOLERANCE;
                 if (reach_m - distance_m).abs() <= near {
                     if self.holds_inner(graph, &ways.way(joint), None) {
                         continue;
                     }
+                    let (from, to) = ends();
                     return Err(SystemRefusal::Taut { from, to, joint, distance_m, reach_m });
                 }
                 if reach_m < distance_m {
+                    let (from, to) = ends();
                     return Err(SystemRefusal::OutOfReach { from, to, joint, distance_m, reach_m });
                 }
             }
@@ -275,20 +279,22 @@ impl System {
     /// Whether other members hold every joint that is inside a way over members in one line: joints
     /// of trusses lie straight between others and are held by their diagonals. Nothing else holds
     /// those of a taut rope, and a load there has no finite force.
-    fn holds_inner(&self, graph: &Graph, way: &[usize], also: Option<usize>) -> bool {
+    fn holds_inner(&self, graph: &Graph<'_>, way: &[usize], also: Option<usize>) -> bool {
         let inner = &way[1..way.len() - 1];
-        let mut along: Vec<usize> = also.into_iter().collect();
+        let mut along: HashSet<usize> = also.into_iter().collect();
         for pair in way.windows(2) {
-            along.extend(graph.at(pair[0]).iter().filter(|end| end.1 == pair[1]).map(|end| end.0));
+            along.extend(graph.at(pair[0]).filter(|end| end.1 == pair[1]).map(|end| end.0));
         }
+        let on_way: HashSet<usize> = way.iter().copied().collect();
         let held = |joint: usize| {
             let support = &self.joints()[joint].support;
-            matches!(support, Support::Fixed { .. } | Support::Line { .. }) || way.contains(&joint)
+            matches!(support, Support::Fixed { .. } | Support::Line { .. })
+                || on_way.contains(&joint)
         };
         !inner.is_empty() && inner.iter().all(|joint| graph.meets(*joint, &along, &held))
     }
 
-    fn loops_close(&self, graph: &Graph) -> Result<(), SystemRefusal> {
+    fn loops_close(&self, graph: &Graph<'_>) -> Result<(), SystemRefusal> {
         for (k, member) in self.members().iter().enumerate() {
             if !member.keeps_apart() {
                 continue;

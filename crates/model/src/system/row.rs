@@ -36,18 +36,7 @@ impl System {
     /// ```
     #[must_use]
     pub fn as_row(&self) -> Option<Row> {
-        let members = self.members();
-        let rigid = |k: usize| {
-            let member = &members[k];
-            member.kind == Kind::Bar
-                && member.stiffness_n.is_none()
-                && member.length_tolerance_m.is_none()
-                && member.loads.is_empty()
-        };
-        if self.floor_m().is_some()
-            || self.joints().len() != members.len() + 1
-            || !(0..members.len()).all(rigid)
-        {
+        if !self.may_be_row() {
             return None;
         }
         let (joints, members) = self.walk()?;
@@ -67,6 +56,27 @@ impl System {
         let anchors = Anchors { start_m: anchor(first)?, end_m: anchor(last)? };
         let chain = Chain::new(self.name(), self.gravity_m_s2(), anchors, bars?).ok()?;
         Some(Row { problem: Problem::new(chain).ok()?, joints, members, weights_n })
+    }
+
+    /// Whether it is one, without making it.
+    pub(crate) fn is_row(&self) -> bool {
+        let upright = || (0..self.joints().len()).all(|joint| self.upright_n(joint).is_some());
+        self.may_be_row() && upright() && self.walk().is_some()
+    }
+
+    /// Whether its members and their number are those of a row.
+    fn may_be_row(&self) -> bool {
+        let members = self.members();
+        let rigid = |k: usize| {
+            let member = &members[k];
+            member.kind == Kind::Bar
+                && member.stiffness_n.is_none()
+                && member.length_tolerance_m.is_none()
+                && member.loads.is_empty()
+        };
+        self.floor_m().is_none()
+            && self.joints().len() == members.len() + 1
+            && (0..members.len()).all(rigid)
     }
 
     /// Joints and members in their order from the anchor of the smaller number, if they are one row.

@@ -22,11 +22,13 @@ pub const BYTES_PER_FILE_BYTE: u64 = 80;
 
 /// Hold all readers of this process to what fits into so much memory, bytes: files longer than a
 /// [`BYTES_PER_FILE_BYTE`]-th of it, chains of more bars than a [`BYTES_PER_BAR`]-th, and other systems
-/// of more members than a [`BYTES_PER_MEMBER`]-th, are refused where the file says so, before they are
+/// of more members than a [`BYTES_PER_MEMBER`]-th, rows of rigid bars of more than a
+/// [`BYTES_PER_MEMBER_IN_ROW`]-th, are refused where the file says so, before they are
 /// made. Never more than [`MAX_FILE_BYTES`], [`MAX_BARS`] and
 /// [`MAX_MEMORY`](crate::budget::MAX_MEMORY), which hold until this is called.
 ///
 /// [`BYTES_PER_MEMBER`]: crate::budget::BYTES_PER_MEMBER
+/// [`BYTES_PER_MEMBER_IN_ROW`]: crate::budget::BYTES_PER_MEMBER_IN_ROW
 ///
 /// ```standalone_crate
 /// use model::system_file::{limit_memory, parse};

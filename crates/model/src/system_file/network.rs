@@ -131,7 +131,9 @@ impl Reading<'_> {
         let before = joints.len();
         let mut take = |row: &Row<'_>| {
             let joint = network_rows::joint(row)?;
-            let asked = root.source().budget.take_joints(1, joint.name.len());
+            // A joint of a file need have no member.
+            let bytes = size_of::<Joint>() + joint.name.len();
+            let asked = root.source().budget.take_names(1, bytes);
             asked.map_err(|error| (Some("name"), Kind::Memory(error)))?;
             numbers.insert(joint.name.clone(), joints.len());
             joints.push(joint);
@@ -201,8 +203,10 @@ impl Reading<'_> {
         let run = self.free_run(from_name, to_name, count);
         let budget = &table.source().budget;
         let asked = budget.take_members(count);
-        let asked = asked.and_then(|()| budget.take_joints(count, run.len() + DIGITS));
+        let asked = asked.and_then(|()| budget.take_names(count, run.len() + DIGITS));
         asked.map_err(|error| table.error(Kind::Memory(error), "count"))?;
+        self.joints.reserve(count - 1);
+        self.members.reserve(count);
         let mut here = from;
         for k in 1..=count {
             let there = if k == count {
@@ -327,6 +331,9 @@ impl Reading<'_> {
                 }
                 _ => root.error(Kind::System(error), "bars"),
             })?;
+        let key = if root.get("bars").is_some() { "bars" } else { "bars_file" };
+        let room = root.source().budget.fits_solve(&system);
+        room.map_err(|error| root.error(Kind::Memory(error), key))?;
         system.refusal().map_err(|refusal| match &refusal {
             SystemRefusal::Unconnected { joint, .. }
             | SystemRefusal::Falls { joint, .. }

@@ -13,8 +13,7 @@ fn excess(value: f64) -> Excess {
 
 #[test]
 fn every_part_of_a_disagreement_is_told() {
-    let disagreement =
-        Disagreement { excesses: vec![excess(0.5), excess(0.25)], stability: vec![] };
+    let disagreement = Disagreement { excesses: vec![excess(0.5), excess(0.25)] };
     assert!(!disagreement.is_empty());
     let sentences = disagreement.sentences();
     assert_eq!(sentences.len(), 2);

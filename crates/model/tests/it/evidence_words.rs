@@ -1,8 +1,6 @@
 //! What evidence says, and what it counts.
 
-use model::evidence::{
-    Disagreement, Evidence, FreeJoints, Reason, Room, Status, Verified, VerifiedSystem,
-};
+use model::evidence::{Disagreement, Evidence, Reason, Room, Status, Verified, VerifiedSystem};
 use model::{Rung, SolverName};
 
 #[test]
@@ -12,14 +10,6 @@ fn room_is_told_where_there_is_some() {
         let room = Room { turning_parts, free_joints };
         assert_eq!(Room::of(turning_parts, free_joints), Some(room));
     }
-}
-
-#[test]
-fn free_joints_are_from_the_first_to_the_last() {
-    let free = FreeJoints { first: 3, last: 6 };
-    assert_eq!(free.count(), 4);
-    let contained: Vec<_> = (0..9).filter(|joint| free.contains(*joint)).collect();
-    assert_eq!(contained, [3, 4, 5, 6]);
 }
 
 #[test]

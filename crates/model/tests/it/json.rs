@@ -1,10 +1,9 @@
 //! The JSON of an answer: the keys that other programs rely on, and no more than they are told of.
 
 use model::{
-    Agreed, Disagreement, Equilibrium, Evidence, Excess, ForceChoice, ForceFamily,
-    ForceUncertainty, FreeJoints, InPlane, InSpace, NoCensus, NoCertificate, Optimal, Quantity,
-    Reactions, Reason, Rung, SolverName, Stability, StabilityDifference, Status, UncertaintyCause,
-    Verified,
+    Agreed, Disagreement, Equilibrium, Evidence, Excess, ForceUncertainty, InPlane, InSpace,
+    NoCensus, NoCertificate, Optimal, Place, Quantity, Reactions, Reason, Room, Rung, SolverName,
+    Stability, Status, UncertaintyCause, Verified,
 };
 use serde_json::Value;
 
@@ -16,10 +15,8 @@ fn agreed() -> Agreed {
         forces_n: 2e-12,
         energy_j: 0.0,
         statics: 3e-16,
-        free_joints: Some(FreeJoints { first: 2, last: 3 }),
-        room: None,
+        room: Room::of(0, 2),
         shape_only: true,
-        curvature_undecided: Vec::new(),
         forces_found: None,
     }
 }
@@ -27,12 +24,6 @@ fn agreed() -> Agreed {
 fn equilibrium() -> Equilibrium {
     let mut evidence = Evidence::new("residual", 1e-15, 1e-13, 4);
     evidence.ladder.agreed = Status::Reached(agreed());
-    evidence.force_family = Some(ForceFamily {
-        dimension: 1,
-        direction: [0.0, 0.0, 1.0],
-        start_force_n: Some([1.5, 2.5]),
-        choice: ForceChoice::AnchorsMovedApart,
-    });
     evidence.ladder.optimal =
         Status::Open(Reason::NoCertificate(NoCertificate::Indefinite { bar: 2, excess: 0.25 }));
     Equilibrium {
@@ -84,7 +75,6 @@ fn the_keys_of_an_equilibrium_are_those_of_the_design() {
         keys(&json["evidence"]),
         [
             "condition",
-            "force_family",
             "iterations",
             "ladder",
             "nullity",
@@ -99,7 +89,7 @@ fn the_keys_of_an_equilibrium_are_those_of_the_design() {
     assert_eq!(keys(&ladder[0]["proof"]), ["iterations", "residual", "residual_of", "tolerance"]);
     assert_eq!(
         keys(&ladder[1]["proof"]),
-        ["energy_j", "forces_n", "free_joints", "joints_m", "shape_only", "solvers", "statics"]
+        ["energy_j", "forces_n", "joints_m", "room", "shape_only", "solvers", "statics"]
     );
     assert_eq!(keys(&ladder[2]), ["how", "reached", "reason", "rung"]);
     assert_eq!(ladder[2]["reason"]["kind"], "not_tried");
@@ -197,17 +187,12 @@ fn converged_is_not_reached_above_the_tolerance() {
 /// Every reason is written and read back with its numbers; what is not a number is null.
 #[test]
 fn reasons_read_back() {
-    let stability = equilibrium().stability;
-    let between = [SolverName::LAGRANGE, SolverName::ENERGY];
     let excess = Excess {
-        what: Quantity::Statics { solver: SolverName::new("a third"), bar: 3 },
+        what: Quantity::Statics { solver: SolverName::new("a third"), place: Place::Member(3) },
         value: 1e-3,
         budget: 1e-11,
     };
-    let disagreement = Disagreement {
-        excesses: vec![excess],
-        stability: vec![StabilityDifference { between, found: [stability; 2] }],
-    };
+    let disagreement = Disagreement { excesses: vec![excess] };
     let reasons = [
         Reason::NotTried,
         Reason::OneSolverOnly { solver: SolverName::ENERGY, statics: 1e-15 },
@@ -241,12 +226,12 @@ fn reasons_read_back() {
         assert!(!evidence.ladder.how(Rung::Agreed).is_empty());
     }
     let excess = Excess {
-        what: Quantity::EnergyOfJoints { solver: SolverName::ENERGY },
+        what: Quantity::SelfStresses { solver: SolverName::ENERGY },
         value: f64::NAN,
         budget: 1.0,
     };
     let json = serde_json::to_value(&excess).unwrap();
-    assert_eq!((&json["what"], &json["solver"]), (&"energy_of_joints".into(), &"energy".into()));
+    assert_eq!((&json["what"], &json["solver"]), (&"self_stresses".into(), &"energy".into()));
     assert!(json["value"].is_null());
     assert!(serde_json::from_value::<Excess>(json).unwrap().value.is_nan());
     // A rung without the proof or the reason is no evidence.

@@ -109,19 +109,29 @@ impl Saddle {
     ///
     /// [`MotionError::Massless`] where `M` itself is singular.
     pub(crate) fn new(mechanism: &Mechanism) -> Result<Self, MotionError> {
-        let layout = Layout::new(mechanism);
         // Without rows the same elimination tells whether every joint has inertia of its own.
-        let mut edges = layout.edges.clone();
+        Self::inertia(mechanism)?;
+        Ok(Self::of(&Layout::new(mechanism), mechanism.is_forest))
+    }
+
+    /// The matrix `M` alone, factorised.
+    ///
+    /// # Errors
+    ///
+    /// [`MotionError::Massless`] where it is singular.
+    pub(crate) fn inertia(mechanism: &Mechanism) -> Result<Self, MotionError> {
+        let Layout { mass, mut edges, .. } = Layout::new(mechanism);
         for edge in &mut edges {
             edge.row = None;
         }
-        let bare = Layout { mass: layout.mass.clone(), edges, own: Vec::new() };
-        Self::of(&bare, mechanism.is_forest).factor(&[]).map_err(|failed| {
+        let bare = Layout { mass, edges, own: Vec::new() };
+        let mut found = Self::of(&bare, mechanism.is_forest);
+        found.factor(&[]).map_err(|failed| {
             // A pivot that is no number is one of nothing, as one below zero is.
             let inertia_kg = failed.pivot.max(0.0);
             MotionError::Massless { joint: mechanism.name(failed.slot), inertia_kg }
         })?;
-        Ok(Self::of(&layout, mechanism.is_forest))
+        Ok(found)
     }
 
     fn of(layout: &Layout, is_forest: bool) -> Self {

@@ -28,7 +28,7 @@ from ._interpreter import refuse_others
 refuse_others()
 
 # Whatever loads numpy or the native half comes behind that.
-from ._native import __version__, get_threads, set_threads
+from ._native import __version__, get_threads, limit_work, set_threads
 from . import gradients
 from .answer import Answer, Equilibrium, solve
 from .basins import Basins, basins
@@ -92,6 +92,7 @@ __all__ = [
     "gradient",
     "gradients",
     "judge",
+    "limit_work",
     "reproduce",
     "set_threads",
     "simulate",

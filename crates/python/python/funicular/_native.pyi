@@ -22,6 +22,7 @@ __all__ = [
     "draw",
     "get_threads",
     "judge",
+    "limit_work",
     "modes",
     "pullback",
     "reproduce",
@@ -98,6 +99,7 @@ class Problem:
 
 def set_threads(threads: int) -> None: ...
 def get_threads() -> int: ...
+def limit_work(numbers: int) -> None: ...
 def solve(
     problem: Problem, solver: str, equations: str, census: str, threads: int, progress: _Progress
 ) -> tuple[str, list[dict[str, Any]]]: ...

@@ -103,7 +103,7 @@ def simulate(
     Parameters
     ----------
     near : (joints, 3) m, optional: a shape, next to whose equilibrium ``rest`` is: see :meth:`System.near`
-    start : ``rest`` (the stable equilibrium), ``equilibrium:2``, ``angles=0,60,-60`` (bars from the descending
+    start : ``rest`` (the stable equilibrium), ``equilibrium:2``, ``angles=0,60,-60`` (members from the descending
         vertical, degrees), ``seed:7`` (at random), or (joints, 3) places, m
     time, step, store : s; ``store`` is the time between stored times, a thousandth of the whole if not given
     order : 2, 4 or 8 in the step; 4 takes five times the work, 8 seventeen times

@@ -1,6 +1,6 @@
 //! Systems of bars beyond chains, each with its picture.
 
-use figures::{StructureError, SystemShape};
+use figures::{Seen, StructureError, SystemShape};
 use model::Rung;
 use model::number::Number;
 use validate::gallery::Piece;
@@ -96,6 +96,7 @@ fn sheet<'a>(piece: &Piece) -> Result<Block<'a>, StructureError> {
         joints_m: &e.joints_m,
         axial_n: &axial_n,
         reactions_n: &e.reactions_n,
+        seen: Seen::Best,
     };
     let panel = shape.in_page(&format!("gallery-{}", piece.exhibit.name))?;
     let lowest = e.joints_m.iter().map(|at| at[2]).fold(f64::INFINITY, f64::min);

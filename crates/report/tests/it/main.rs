@@ -194,7 +194,7 @@ fn only_the_last_part_knows_where_it_was_made() {
         "a rounding is told as a number"
     );
     let json: serde_json::Value = serde_json::from_str(&REPORT.json().unwrap()).unwrap();
-    assert_eq!(json["schema_version"], 2);
+    assert_eq!(json["schema_version"], 3);
     assert_eq!(json["environment"]["command"], "funicular reproduce --out report");
     assert!(json["figures"]["closure_curve"].as_array().unwrap().len() > 100);
 }

@@ -403,14 +403,12 @@ fn ladder(
         |found: &NearestEquilibrium, excess: fn([SolverName; 2]) -> Quantity, value, budget| {
             let what = excess([solver.clone(), found.equilibrium.solver.clone()]);
             let excesses = vec![Excess { what, value, budget }];
-            Reason::SolversDisagree(Disagreement { excesses, stability: vec![] })
+            Reason::SolversDisagree(Disagreement { excesses })
         };
     ladder.agreed = Status::Open(match (finding, nearest.equilibria.first()) {
-        _ if !measured.violations.is_empty() => refused(
-            Quantity::SystemStatics { solver: solver.clone(), place },
-            measured.largest,
-            1.0,
-        ),
+        _ if !measured.violations.is_empty() => {
+            refused(Quantity::Statics { solver: solver.clone(), place }, measured.largest, 1.0)
+        }
         (Finding::LoadsHidden { member, force_n, loads_n, allowed_n }, _) => {
             let most = ABSURD.min(force_n.abs() / allowed_n);
             let solver = solver.clone();

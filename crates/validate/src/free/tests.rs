@@ -18,7 +18,7 @@ fn what_hangs_loose_is_free_wherever_it_is() {
             let joint = [far + aside_m, 0.0, 2.25];
             let between = [far, 0.5, 0.0];
             let found = free_joints(&chain, &[start_m, between, between, joint, end_m]);
-            found.map(|(bars, joints)| (bars, joints.first, joints.last))
+            found.map(|(bars, joints)| (bars, *joints.start(), *joints.end()))
         };
         let three = Some((0..3, 1, 2));
         assert_eq!(free(0.0), three, "{far}");

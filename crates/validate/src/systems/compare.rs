@@ -2,8 +2,8 @@
 
 use model::system::{System, SystemEquilibrium};
 use model::{
-    Agreed, Disagreement, Excess, ForceChoice, ForcesFound, NoAnswer, Optimal, Quantity, Reason,
-    Room, SelfStresses, SolverName, Status,
+    Agreed, Disagreement, Excess, ForceChoice, ForcesFound, NoAnswer, NoCertificate, Optimal,
+    Quantity, Reason, Room, SelfStresses, SolverName, Status,
 };
 use serde::Serialize;
 
@@ -15,9 +15,9 @@ use super::proved::proved;
 use super::scale::Scale;
 use super::statics::{SystemStatics, judge};
 use super::turn::turned_onto;
-use crate::compare::{Verdict, other_has_none, with_sentences};
 use crate::tolerances::Tolerances;
 use crate::vector::{minus, norm, worse};
+use crate::verdict::{Verdict, with_sentences};
 
 /// How far answers agree: the object `agreement` of the JSON. Of more than two, the largest
 /// differences of any two.
@@ -101,10 +101,8 @@ pub fn compare(
             forces_n: agreement.forces_n,
             energy_j: agreement.energy_j,
             statics: agreement.statics.iter().map(SystemStatics::largest).fold(0.0, worse),
-            free_joints: None,
             room: Room::of(agreement.turned_parts, agreement.free_joints),
             shape_only,
-            curvature_undecided: Vec::new(),
             forces_found: forces_found.into_option(),
         })
     } else {
@@ -131,10 +129,21 @@ fn count_self_stresses(system: &System, answer: &mut SystemEquilibrium, shape_on
         evidence.self_stresses = Some(SelfStresses {
             dimension: basis.len(),
             basis: basis.to_vec(),
-            choice: ForceChoice::Unknown,
+            choice: convention(system, &answer.solver),
             misfit_m: None,
             ranges: None,
         });
+    }
+}
+
+/// The forces that an answer names without a word on them: those of a row between two anchors are a
+/// limit, by either solver's derivation.
+fn convention(system: &System, solver: &SolverName) -> ForceChoice {
+    let ours = [SolverName::LAGRANGE, SolverName::ENERGY].contains(solver);
+    if ours && system.as_row().is_some() {
+        ForceChoice::AnchorsMovedApart
+    } else {
+        ForceChoice::Unknown
     }
 }
 
@@ -161,13 +170,23 @@ pub fn judge_without(
     because: NoAnswer,
 ) -> SystemStatics {
     let judged = judge_alone(system, answer);
-    other_has_none(&mut answer.evidence.ladder, other, because);
+    // What the judge refuses stays refused.
+    if let Some(Reason::OneSolverOnly { statics, .. }) = answer.evidence.ladder.agreed.reason() {
+        let (solver, statics) = (other, *statics);
+        let reason = Reason::OtherSolverWithoutAnswer { solver, because, statics };
+        answer.evidence.ladder.agreed = Status::Open(reason);
+    }
     judged
 }
 
 /// The rungs above `agreed`.
 fn certify_rung(system: &System, answer: &mut SystemEquilibrium) {
-    let proof = certify_row(system, answer).map_or_else(|| certify(system, answer), Ok);
+    let proof = match certify_row(system, answer) {
+        Some(Ok(proof)) => Ok(proof),
+        // Of a row the reason is known bar by bar.
+        Some(Err(because)) => certify(system, answer).map_err(|_| because),
+        None => certify(system, answer),
+    };
     let optimal =
         proof.map_or_else(|because| Status::Open(Reason::NoCertificate(because)), Status::Reached);
     let ladder = &mut answer.evidence.ladder;
@@ -179,10 +198,13 @@ fn certify_rung(system: &System, answer: &mut SystemEquilibrium) {
 
 /// The certificate of a row between two anchors: without a factorisation, and it bounds what a bar in
 /// compression costs where the whole row turns about a vertical.
-fn certify_row(system: &System, answer: &SystemEquilibrium) -> Option<Optimal> {
+fn certify_row(
+    system: &System,
+    answer: &SystemEquilibrium,
+) -> Option<Result<Optimal, NoCertificate>> {
     let row = system.as_row()?;
     let found = row.chain_equilibrium(answer)?;
-    crate::certificate::certify(row.problem(), &found).ok().map(|proof| proof.proof())
+    Some(crate::certificate::certify(row.problem(), &found).map(|proof| proof.proof()))
 }
 
 impl<'a> Judgement<'a> {
@@ -238,7 +260,7 @@ impl<'a> Judgement<'a> {
             let statics = judge(self.system, answer);
             let (solver, place) = (answer.solver.clone(), statics.worst);
             let budget = self.tolerances.statics.value;
-            self.hold(Quantity::SystemStatics { solver, place }, statics.largest(), budget);
+            self.hold(Quantity::Statics { solver, place }, statics.largest(), budget);
             self.agreement.statics.push(statics);
         }
         if !self.agreement.disagreement.is_empty() {
@@ -340,7 +362,7 @@ impl<'a> Judgement<'a> {
         agreement.turned_parts = agreement.turned_parts.max(parts);
         let between = [&first.solver, &second.solver].map(SolverName::clone);
         let tolerances = self.tolerances;
-        let budget = tolerances.joints.value * self.scale.size_m;
+        let budget = tolerances.joints.value * self.scale.size_m + self.scale.stored_m;
         self.hold(Quantity::Joints { between: between.clone() }, joints_m, budget);
         let forces = Quantity::Forces { between: between.clone() };
         self.hold(forces, apart.value_n, apart.budget_n);

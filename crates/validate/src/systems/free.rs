@@ -63,12 +63,11 @@ fn in_row(system: &System, answers: &[SystemEquilibrium]) -> Vec<usize> {
     let Some(row) = system.as_row() else { return vec![] };
     let mut free = answers.iter().map(|answer| {
         let places: Vec<Vector> = row.joints().iter().map(|k| answer.joints_m[*k]).collect();
-        let (_, free) = crate::free::free_joints(row.problem().chain(), &places)?;
-        Some((free.first, free.last))
+        crate::free::free_joints(row.problem().chain(), &places).map(|(_, free)| free)
     });
     match free.next().flatten() {
-        Some(first) if free.all(|other| other == Some(first)) => {
-            row.joints()[first.0..=first.1].to_vec()
+        Some(first) if free.all(|other| other.as_ref() == Some(&first)) => {
+            row.joints()[first].to_vec()
         }
         _ => vec![],
     }

@@ -33,7 +33,7 @@ pub use ask::{SystemAnswer, SystemFailure, ask, ask_with};
 #[cfg(feature = "cones")]
 pub use cables::{Cables, ConeError, hang_as_cables};
 pub use certificate::certify;
-pub use compare::{SystemAgreement, compare, judge_alone};
+pub use compare::{SystemAgreement, compare, judge_alone, judge_without};
 pub use completeness::{certify_by_census, look_up};
 pub(crate) use forces::ABSURD;
 pub use near::Near;

@@ -19,6 +19,7 @@ use model::Vector;
 use model::system::{Kind, Member, System, SystemEquilibrium};
 
 use super::certificate::{joint_loads, size_m, total_load_n};
+use super::statics::STORED_ULPS;
 use crate::vector::{minus, norm, worse};
 
 /// Elastic members are not stretched by more than their length by any prestress: an answer with
@@ -35,6 +36,8 @@ pub(super) const MOST_FORCE: f64 = 1e6;
 pub(crate) struct Scale {
     /// Of lengths, m.
     pub size_m: f64,
+    /// Rounding of coordinates that far from the origin, m.
+    pub stored_m: f64,
     /// Of all forces that act together, N; zero where nothing acts.
     pub total_n: f64,
     /// Loads and prestress together, N.
@@ -69,7 +72,10 @@ impl Scale {
             *scale_n = scale_n.max(mean_n);
         }
         let size_m = size_m(system, answer).min(reach_m(system));
-        Self { size_m, total_n, held_n: load_n + prestress_n, joint_n }
+        let far_m =
+            system.reference_m().iter().fold(size_m, |most, x| worse(most, x.abs() + size_m));
+        let stored_m = STORED_ULPS * f64::EPSILON * far_m;
+        Self { size_m, stored_m, total_n, held_n: load_n + prestress_n, joint_n }
     }
 
     /// What differences of forces are relative to where forces of this size meet, N: all that acts, or

@@ -59,7 +59,7 @@ pub struct SystemStatics {
 
 /// Units in the last place that the rounding of stored numbers may come to: a coordinate is rounded
 /// when it is stored, and two of them are subtracted.
-const STORED_ULPS: f64 = 8.0;
+pub(super) const STORED_ULPS: f64 = 8.0;
 
 /// Forces left over are measured by the forces that they are left from, but by no more than this
 /// times what acts there. With the budget of 1e-11 the balance of every joint holds to 1e-9 of what
@@ -472,10 +472,11 @@ fn energy(system: &System, answer: &SystemEquilibrium, units: &Units) -> f64 {
     let gravity = system.gravity_m_s2();
     let place = |k: usize| minus(answer.joints_m[k], origin);
     let mut terms = Vec::new();
-    let mut unit_j = 0.0;
+    let (mut unit_j, mut rounding_j) = (0.0, 0.0);
     let mut work = |at: Vector, force: Vector| {
         terms.push(-dot(force, at));
         unit_j += norm(force) * units.size_m;
+        rounding_j += norm(force) * units.rounding_m;
     };
     for (k, joint) in system.joints().iter().enumerate() {
         let [x, y, z] = joint.force_n;
@@ -501,6 +502,7 @@ fn energy(system: &System, answer: &SystemEquilibrium, units: &Units) -> f64 {
         unit_j += elastic_j + stiffness_n * units.rounding_m;
     }
     let off = (answer.energy_j - sum(terms)).abs();
+    let off = beyond(off, rounding_j);
     if off <= 0.0 { 0.0 } else { off / unit_j }
 }
 

@@ -9,7 +9,10 @@ use lagrange::condensed;
 use model::{Anchors, Bar, Chain, Equilibrium, InPlane, Problem, Rung};
 use rayon::prelude::*;
 use samples::{Shape, folded_chain, random_chain};
-use validate::{Agreement, Tolerances, compare};
+use validate::Tolerances;
+use validate::systems::SystemAgreement;
+
+use crate::judged::compare;
 
 /// Chains of the test.
 const CHAINS: u64 = 1000;
@@ -34,7 +37,7 @@ struct Outcome {
     compressed: bool,
     optimal: bool,
     iterations: [usize; 2],
-    compared: Result<Agreement, String>,
+    compared: Result<SystemAgreement, String>,
 }
 
 fn outcome(seed: u64, tolerances: &Tolerances) -> Outcome {
@@ -115,9 +118,9 @@ fn both_solvers_agree_on_a_thousand_random_chains() {
     assert!(table.get(&Shape::OneCompressed).is_none_or(|row| 2 * row.compressed > row.chains));
 }
 
-/// Condition above which a residual of rounding leaves joints more uncertain than solvers are
-/// asked to agree.
-const NEARLY_FREE: f64 = 1e9;
+/// Condition with which one rounding leaves joints as uncertain as the 1e-10 of the size that
+/// solvers are asked to agree to.
+const NEARLY_FREE: f64 = 1e-10 / f64::EPSILON;
 
 /// Chains at the edge of what doubles resolve: the solvers agree, or one of them refuses, or says
 /// in its evidence that its forces are uncertain, that the position is degenerate, or by its
@@ -143,7 +146,12 @@ fn chains_all_but_folded_are_right_or_say_how_uncertain() {
             } else if answers.iter().any(uncertain) {
                 Ok(false)
             } else {
-                Err(format!("{seed}: {:?}\n{:?}", agreement.disagreement, problem.chain()))
+                Err(format!(
+                    "{seed}: {:?} {:?}\n{:?}",
+                    answers.each_ref().map(|a| a.evidence.condition),
+                    agreement.disagreement,
+                    problem.chain()
+                ))
             }
         })
         .collect();

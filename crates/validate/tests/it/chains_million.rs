@@ -4,8 +4,10 @@ use lagrange::condensed;
 use model::{Anchors, Bar, Chain, Equilibrium, Problem};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
+use validate::Tolerances;
 use validate::statics::judge;
-use validate::{Tolerances, compare};
+
+use crate::judged::compare;
 
 const MILLION: usize = 1_000_000;
 

@@ -19,6 +19,7 @@ mod free_turns;
 mod gallery;
 mod independence;
 mod integer_chains;
+mod judged;
 mod moving;
 mod near_slack;
 mod network_properties;

@@ -200,7 +200,7 @@ fn outcome(system: &System, answer: &SystemAnswer) -> Outcome {
         return Outcome::Agreed;
     }
     let excesses = &agreement.disagreement.excesses;
-    let told = |e: &Excess| matches!(e.what, Quantity::SystemStatics { .. }) && e.value < TOLD;
+    let told = |e: &Excess| matches!(e.what, Quantity::Statics { .. }) && e.value < TOLD;
     if excesses.iter().all(told) {
         return Outcome::Told;
     }

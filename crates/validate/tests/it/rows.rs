@@ -10,7 +10,9 @@ use model::{Equilibrium, Problem, Rung, Vector, cases};
 use rayon::prelude::*;
 use samples::random_chain;
 use validate::systems::ask_with;
-use validate::{Question, Tolerances, UseCensus, compare};
+use validate::{Question, Tolerances, UseCensus};
+
+use crate::judged::compare;
 
 /// Random chains; `CHAINS=10000` tries more of them.
 const CHAINS: u64 = 60;

@@ -147,7 +147,7 @@ impl SystemCensus {
         let moves_freely =
             |support: &Support| matches!(support, Support::Free | Support::Fixed { .. });
         if let Some(joint) = system.joints().iter().position(|j| !moves_freely(&j.support)) {
-            return Err(NoCensus::Slider { joint });
+            return Err(NoCensus::Slider { joint: joint + 1 });
         }
         let frame = Frame::new(system, &[]);
         let mut positions = vec![Choice::default()];

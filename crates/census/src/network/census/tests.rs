@@ -99,7 +99,7 @@ fn the_loaded_string_is_in_the_list() {
     let mut windy = joints.clone();
     windy[1].force_n[1] = 0.5;
     let refused = SystemCensus::take(&system(windy, members.clone()), &Settings::default());
-    assert_eq!(refused.unwrap_err(), NoCensus::LoadsNotDown { joint: 1 });
+    assert_eq!(refused.unwrap_err(), NoCensus::LoadsNotDown { joint: 2 });
     members[1] = members[1].clone().with_stiffness(1e5);
     let refused = SystemCensus::take(&system(joints, members), &Settings::default());
     assert_eq!(refused.unwrap_err(), NoCensus::Elastic { member: 2 });

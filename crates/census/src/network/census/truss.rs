@@ -109,7 +109,7 @@ fn placed_on(
     placed: &Placed,
     loads: &[Vector],
 ) -> Result<Vec<Choice>, NoCensus> {
-    let flat = NoCensus::Flat { joint: placed.joint };
+    let flat = NoCensus::Flat { joint: placed.joint + 1 };
     let mut spheres = vec![];
     for (member, other) in &placed.held_by {
         let radius = frame.length(Interval::point(system.members()[*member].body.length_m()));
@@ -197,7 +197,7 @@ fn off_plane(a: Sphere, b: Sphere, c: Sphere) -> Result<(Vector, Vector), Miss> 
 fn balance(choice: &mut Choice, order: &[Placed], loads: &[Vector]) -> Result<(), NoCensus> {
     let mut forces = loads.to_vec();
     for placed in order.iter().rev() {
-        let flat = NoCensus::Flat { joint: placed.joint };
+        let flat = NoCensus::Flat { joint: placed.joint + 1 };
         let here = choice.place(placed.joint).ok_or(flat)?;
         let mut spans = vec![];
         for (_, other) in &placed.held_by {

@@ -70,7 +70,7 @@ impl Weights<'_> {
         share: DoubleDouble,
     ) -> Result<(), NoCensus> {
         if x.abs() > 0.0 || y.abs() > 0.0 || z > 0.0 {
-            return Err(NoCensus::LoadsNotDown { joint });
+            return Err(NoCensus::LoadsNotDown { joint: joint + 1 });
         }
         if z < 0.0 {
             let g = DoubleDouble::point(self.system.gravity_m_s2());

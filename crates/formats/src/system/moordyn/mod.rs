@@ -129,6 +129,8 @@ pub fn parse_moordyn(text: &str, file: &str) -> Result<ForeignSystem, FormatErro
     let system = System::new(name, options.gravity_m_s2, joints, members).map_err(|error| {
         FormatError::new(file, None, Wrong::NoSystem { reason: error.to_string() })
     })?;
+    let room = budget.fits_solve(&system);
+    room.map_err(|error| FormatError::new(file, None, Wrong::Memory(error)))?;
     if let Some(floor_m) = options.floor_m {
         notes.push(format!("the floor at {floor_m} m is not part of the system"));
     }
@@ -249,7 +251,7 @@ fn line(
     }
     let count = as_count(segments);
     let asked =
-        budget.take_members(count).and_then(|()| budget.take_joints(count, id.len() + DIGITS));
+        budget.take_members(count).and_then(|()| budget.take_names(count, id.len() + DIGITS));
     asked.map_err(|error| row.error(Wrong::Memory(error)))?;
     let piece_m = length_m / segments;
     let weight_n = line_type.weight_n_m * piece_m;

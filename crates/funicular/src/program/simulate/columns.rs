@@ -65,7 +65,14 @@ impl Rows {
     }
 }
 
-/// The columns: joints by number, as names may hold anything.
+/// What the columns of a joint begin with: `joint_lamp`, and `joint0` where a name begins with a
+/// digit, as those of a chain do.
+fn joint_column(name: &str) -> String {
+    let between = if name.starts_with(|first: char| first.is_ascii_digit()) { "" } else { "_" };
+    format!("joint{between}{name}")
+}
+
+/// The columns.
 fn describe(system: &System, held: &[usize], has_impacts: bool) -> Vec<Column> {
     let column = |name: &str, spread, unit: &str, about: &str| {
         Column::new(name, Kind::F64, spread, unit, about)
@@ -81,20 +88,24 @@ fn describe(system: &System, held: &[usize], has_impacts: bool) -> Vec<Column> {
         columns.push(column("lost_j", Spread::Many, "J", about));
     }
     let joints = system.joints();
-    let mut vectors = |kind: &str, unit: &str, about: &str, of: &mut dyn Iterator<Item = usize>| {
+    let vectors = |columns: &mut Vec<Column>,
+                   kind: &str,
+                   unit: &str,
+                   about: &str,
+                   of: &mut dyn Iterator<Item = usize>| {
         for joint in of {
             for axis in ["x", "y", "z"] {
+                let unit_word = unit.replace('/', "_").to_lowercase();
                 let name =
-                    format!("joint{joint}_{kind}{axis}_{}", unit.replace('/', "_").to_lowercase());
-                let about =
-                    format!("{about} joint {joint} ({:?}) along {axis}", joints[joint].name);
+                    format!("{}_{kind}{axis}_{unit_word}", joint_column(&joints[joint].name));
+                let about = format!("{about} joint {:?} along {axis}", joints[joint].name);
                 columns.push(column(&name, Spread::Many, unit, &about));
             }
         }
     };
     let all = 0..joints.len();
-    vectors("", "m", "Place of", &mut all.clone());
-    vectors("v", "m/s", "Velocity of", &mut all.clone());
+    vectors(&mut columns, "", "m", "Place of", &mut all.clone());
+    vectors(&mut columns, "v", "m/s", "Velocity of", &mut all.clone());
     for (k, member) in system.members().iter().enumerate() {
         let about = format!(
             "Axial force of member {} from {:?} to {:?}, tension positive",
@@ -104,13 +115,7 @@ fn describe(system: &System, held: &[usize], has_impacts: bool) -> Vec<Column> {
         );
         columns.push(column(&format!("bar{}_axial_n", k + 1), Spread::Many, "N", &about));
     }
-    let mut reactions = Vec::new();
-    for &joint in held {
-        for axis in ["x", "y", "z"] {
-            let about = format!("Force of the ground or floor on joint {joint} along {axis}");
-            reactions.push(column(&format!("joint{joint}_f{axis}_n"), Spread::Many, "N", &about));
-        }
-    }
-    columns.extend(reactions);
+    let about = "Force of the ground or floor on";
+    vectors(&mut columns, "f", "N", about, &mut held.iter().copied());
     columns
 }

@@ -52,7 +52,7 @@ pub fn agreement(output: &mut Output, statics: &[&str]) {
     }
     output.is("agreement.free_joints", 0);
     output.is("agreement.verdict", "agreed");
-    for none in ["agreement.reasons[]", "agreement.excesses[]", "agreement.stability[]"] {
+    for none in ["agreement.reasons[]", "agreement.excesses[]"] {
         output.is(none, json!([]));
     }
     output.is("failures[]", json!([]));

@@ -136,7 +136,7 @@ fn ladder_of_too_low(output: &mut Output, largest: f64) {
     output.near(&at("reason.residual"), 1e-8, largest);
     output.is(&at("reason.tolerance"), 1.0);
     output.is(&at("reason.iterations"), 0);
-    output.is(&at("reason.excesses[].what"), "system_statics");
+    output.is(&at("reason.excesses[].what"), "statics");
     output.is(&at("reason.excesses[].solver"), "places.csv");
     output.is(&at("reason.excesses[].place.member"), 1);
     output.near(&at("reason.excesses[].value"), 1e-8, largest);

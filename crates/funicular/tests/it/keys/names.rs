@@ -55,6 +55,13 @@ fn ends_and_events_of_branches() {
 }
 
 #[test]
+fn characters_in_the_plane() {
+    use model::InPlane::{Degenerate, Maximum, Minimum, Saddle};
+    let names = [Minimum, Saddle, Maximum, Degenerate].map(|found| name(&found));
+    assert_eq!(names, ["minimum", "saddle", "maximum", "degenerate"].map(Value::from));
+}
+
+#[test]
 fn what_seeds_come_from_and_to() {
     use sweep::{Comparison, Origin, Source};
     assert_eq!(name(&Source::Uniform), "uniform");

@@ -173,9 +173,14 @@ impl Output {
     }
 }
 
-/// A column's name with `#` for the numbers of joints, bars and anchors in it.
+/// A column's name with `#` for the numbers of joints, bars and anchors in it, and for the name of a
+/// joint.
 fn numbered(name: &str) -> String {
     let mut parts: Vec<String> = name.split('_').map(str::to_owned).collect();
+    if parts[0] == "joint" && parts.len() > 2 {
+        parts[0].push('#');
+        parts.remove(1);
+    }
     for part in &mut parts {
         let word = part.trim_end_matches(|c: char| c.is_ascii_digit());
         let alone = word.is_empty() || ["joint", "bar"].contains(&word);

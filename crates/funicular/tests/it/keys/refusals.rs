@@ -364,7 +364,10 @@ fn refusals_of_lagrange_for_derivatives() {
     let refusals = [
         of(&Error::FreeMotion { motions: 16 }, &["16 independent motions meet no stiffness"]),
         of(&Error::OpenForces { dimension: 17 }, &["17 independent self-stresses"]),
-        of(&Error::JustTaut { member: 18 }, &["member 18 has just its length"]),
+        of(
+            &Error::JustTaut { member: 18 },
+            &["member 18 has just its length and bears no force but that of its own weight"],
+        ),
         of(&Error::JustTouches { joint: joint() }, &["joint P just touches the floor"]),
         of(&Error::NoDerivative { left: 0.375 }, &["leave 3.8e-1 of a change"]),
         of(&Error::NotAnAnchor { joint: joint() }, &["joint P is no anchor"]),

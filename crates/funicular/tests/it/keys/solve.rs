@@ -138,6 +138,7 @@ fn straight_forces_are_a_family() {
     );
     // All bars may be pulled more or less: down, down and up again.
     output.each("equilibria[].evidence.self_stresses.dimension", 1);
+    output.each("equilibria[].evidence.self_stresses.choice", "anchors_moved_apart");
     for basis in output.numbers("equilibria[].evidence.self_stresses.basis[][]").chunks(3) {
         let third = basis[2].signum() / 3.0_f64.sqrt();
         for (found, wanted) in basis.iter().zip([-third, -third, third]) {

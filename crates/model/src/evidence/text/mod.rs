@@ -15,6 +15,18 @@ fn size(f: &Formatter<'_>, value: f64) -> String {
     if f.alternate() { format!("{number:#}") } else { number.to_string() }
 }
 
+/// The place in a list, counted from 1.
+fn ordinal(number: usize) -> String {
+    let ending = match (number % 100, number % 10) {
+        (11..=13, _) => "th",
+        (_, 1) => "st",
+        (_, 2) => "nd",
+        (_, 3) => "rd",
+        _ => "th",
+    };
+    format!("{number}{ending}")
+}
+
 /// A number of things.
 fn counted(number: usize, thing: &str) -> String {
     format!("{number} {thing}{}", if number == 1 { "" } else { "s" })

@@ -2,7 +2,7 @@
 
 use std::fmt::{self, Display, Formatter};
 
-use super::{counted, size};
+use super::{counted, ordinal, size};
 use crate::evidence::certificate::NoCertificate;
 use crate::evidence::complete::NoCensus;
 use crate::evidence::reason::{NoAnswer, Reason};
@@ -136,11 +136,13 @@ impl Display for NoCensus {
             ),
             Self::Turns { joint } => write!(
                 f,
-                "no census: what hangs at joint number {joint} turns freely about the vertical"
+                "no census: what hangs at the {} joint turns freely about the vertical",
+                ordinal(*joint)
             ),
             Self::LoadsNotDown { joint } => write!(
                 f,
-                "no census: joint number {joint} of a chain between anchors bears a force that is not straight down"
+                "no census: the {} joint of a chain between anchors bears a force that is not straight down",
+                ordinal(*joint)
             ),
             Self::Elastic { member } => {
                 write!(f, "no census: member {member} of a chain between anchors is elastic")
@@ -154,11 +156,12 @@ impl Display for NoCensus {
             ),
             Self::Flat { joint } => write!(
                 f,
-                "no census: the members that hold joint number {joint} may lie flat, or nothing pulls it aside"
+                "no census: the members that hold the {} joint may lie flat, or nothing pulls it aside",
+                ordinal(*joint)
             ),
             Self::Floor => f.write_str("no census knows a floor"),
             Self::Slider { joint } => {
-                write!(f, "no census: joint number {joint} slides")
+                write!(f, "no census: the {} joint slides", ordinal(*joint))
             }
             Self::TooManyPositions { limit } => {
                 write!(f, "no census: more than {limit} equilibria")
@@ -219,7 +222,10 @@ impl Display for NoBox {
                 counted(*dimension, "independent motion")
             ),
             Self::Degenerate { member } => {
-                write!(f, "member {member} has just its length and bears no force")
+                write!(
+                    f,
+                    "member {member} has just its length and bears no force but that of its own weight"
+                )
             }
             Self::WrongSign { member } => {
                 write!(
@@ -233,7 +239,8 @@ impl Display for NoBox {
             }
             Self::Floor { joint } => write!(
                 f,
-                "joint {joint} is not proved to be above the floor, nor to be pushed by it"
+                "the {} joint is not proved to be above the floor, nor to be pushed by it",
+                ordinal(*joint)
             ),
             Self::NotConverged => f.write_str(
                 "no equilibrium with the same members in action is found next to the answer",

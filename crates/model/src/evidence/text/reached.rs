@@ -2,22 +2,20 @@
 
 use std::fmt::{self, Display, Formatter};
 
-use super::{counted, size};
+use super::{counted, ordinal, size};
 use crate::evidence::agreed::{
-    Agreed, Choices, Disagreement, Excess, ForcesFound, FreeJoints, LargeForce, Place, Proved,
-    Quantity, Room, StabilityDifference,
+    Agreed, Choices, Disagreement, Excess, ForcesFound, LargeForce, Place, Proved, Quantity, Room,
 };
 use crate::evidence::certificate::Optimal;
 use crate::evidence::complete::{Complete, CompleteSystem};
 use crate::evidence::convergence::{Convergence, ForceUncertainty, UncertaintyCause};
-use crate::evidence::force_family::{ForceChoice, ForceFamily};
+use crate::evidence::force_choice::ForceChoice;
 use crate::evidence::rigidity::Rigidity;
 use crate::evidence::rung::Rung;
 use crate::evidence::self_stresses::SelfStresses;
 use crate::evidence::status::Status;
 use crate::evidence::verified::{Verified, VerifiedSystem};
 use crate::number::Number;
-use crate::stability::InPlane;
 
 impl Display for Rung {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
@@ -88,24 +86,12 @@ impl Display for Agreed {
             f,
             " differ by {joints} m, {forces} N, {energy} J; the statics judge finds every bar in balance to {statics}"
         )?;
-        if let Some(free) = self.free_joints {
-            write!(f, "; {free}, and they are not compared")?;
-        }
         if let Some(room) = self.room {
             write!(f, "; {room}")?;
         }
         if self.shape_only {
             f.write_str(
                 "; of the shape alone: the forces are one of a family, chosen by convention",
-            )?;
-        }
-        for StabilityDifference { between: [a, b], found } in &self.curvature_undecided {
-            let [tells, does_not] =
-                if found[0].in_plane == InPlane::Degenerate { [b, a] } else { [a, b] };
-            write!(
-                f,
-                "; {tells} tells the least curvature in the plane from zero, {does_not} does not: {} or {}",
-                found[0].in_plane, found[1].in_plane
             )?;
         }
         self.forces_found.as_ref().map_or(Ok(()), |found| write!(f, "{found}"))
@@ -157,18 +143,6 @@ impl Display for Proved {
                 "proved: the lengths are independent, and the energy rises along every motion that keeps them"
             }
         })
-    }
-}
-
-impl Display for FreeJoints {
-    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        let Self { first, last } = self;
-        if first == last {
-            write!(f, "joint {first} is free")?;
-        } else {
-            write!(f, "joints {first} to {last} are free")?;
-        }
-        f.write_str(" (its bars carry no force, and their lengths leave room)")
     }
 }
 
@@ -229,26 +203,6 @@ impl Display for SelfStresses {
     }
 }
 
-impl Display for ForceFamily {
-    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        let [x, y, z] = self.direction;
-        write!(
-            f,
-            "indeterminate: all bars are parallel, and a force along ({x:.3}, {y:.3}, {z:.3}) may be added \
-             between all of them without a change of shape ({} self-stress)",
-            self.dimension
-        )?;
-        match self.start_force_n {
-            Some([least, most]) => write!(
-                f,
-                "; all bars are in tension for {least:.6e} to {most:.6e} N of the ground at joint 0 along it"
-            )?,
-            None => f.write_str("; some bar is pushed in any case")?,
-        }
-        write!(f, "; the forces told are {}", self.choice)
-    }
-}
-
 impl Display for ForceChoice {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
@@ -277,8 +231,7 @@ impl Display for Quantity {
             Self::Joints { between: [a, b] } => write!(f, "joints of {a} and {b} / m"),
             Self::Forces { between: [a, b] } => write!(f, "forces of {a} and {b} / N"),
             Self::Energy { between: [a, b] } => write!(f, "energy of {a} and {b} / J"),
-            Self::Statics { solver, bar } => write!(f, "statics of {solver}, at bar {bar}"),
-            Self::SystemStatics { solver, place } => write!(f, "statics of {solver}, {place}"),
+            Self::Statics { solver, place } => write!(f, "statics of {solver}, {place}"),
             Self::MorseIndex { between: [a, b] } => {
                 write!(f, "numbers of directions in which the energy falls, by {a} and {b}")
             }
@@ -294,12 +247,6 @@ impl Display for Quantity {
             Self::LargeForce { solver, member } => {
                 write!(f, "force of {solver} over all that acts on the system, at member {member}")
             }
-            Self::EnergyOfJoints { solver } => {
-                write!(f, "energy of {solver} less that of its joints")
-            }
-            Self::AxialForcesAndReactions { solver } => {
-                write!(f, "axial forces and reactions of {solver} less its joint forces")
-            }
         }
     }
 }
@@ -308,16 +255,9 @@ impl Display for Place {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         match self {
             Self::Member(number) => write!(f, "at member {number}"),
-            Self::Joint(number) => write!(f, "at joint number {number}"),
+            Self::Joint(number) => write!(f, "at the {} joint", ordinal(number + 1)),
             Self::Whole => f.write_str("of the whole system"),
         }
-    }
-}
-
-impl Display for StabilityDifference {
-    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        let ([a, b], [first, second]) = (&self.between, &self.found);
-        write!(f, "stability: {first} by {a}, {second} by {b}")
     }
 }
 

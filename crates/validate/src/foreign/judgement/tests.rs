@@ -99,10 +99,8 @@ fn who_stands_behind_an_answer_is_told() {
         forces_n: 2.0,
         energy_j: 3.0,
         statics: 4.0,
-        free_joints: None,
         room: None,
         shape_only: true,
-        curvature_undecided: vec![],
         forces_found: None,
     };
     found.equilibrium.evidence.ladder.agreed = Status::Reached(own.clone());
@@ -141,7 +139,7 @@ fn rungs_that_are_not_reached_say_why() {
     let between = [SolverName::new("a table"), SolverName::ENERGY];
     let apart = |what: Quantity, value: f64, budget: f64| {
         let excesses = vec![Excess { what, value, budget }];
-        Some(Reason::SolversDisagree(Disagreement { excesses, stability: vec![] }))
+        Some(Reason::SolversDisagree(Disagreement { excesses }))
     };
 
     let far = of(
@@ -167,7 +165,7 @@ fn rungs_that_are_not_reached_say_why() {
     let refuted = of(Finding::Refuted, &broken(), vec![one(0.75, 0.0, Some(true))]);
     let Some(Reason::JudgeRefuses { excesses }) = refuted.agreed.reason() else { panic!() };
     let place = Place::Joint(2);
-    let what = Quantity::SystemStatics { solver: SolverName::new("a table"), place };
+    let what = Quantity::Statics { solver: SolverName::new("a table"), place };
     assert_eq!(excesses[..], [Excess { what, value: 1.5, budget: 1.0 }]);
     let Some(Reason::AboveTolerance(convergence)) = refuted.converged.reason() else { panic!() };
     assert_eq!((convergence.residual, convergence.tolerance), (1.5, Some(1.0)));

@@ -139,7 +139,7 @@ pub(super) fn taken(
     watch: &dyn Fn(Progress),
 ) -> Result<(NetCensus, Vec<Choice>), NoCensus> {
     if let Some(joint) = core.turning() {
-        return Err(NoCensus::Turns { joint });
+        return Err(NoCensus::Turns { joint: joint + 1 });
     }
     let space = Layout::new(core, 3, [0, 1, 2])?;
     if let Some(taken) = bridle::taken(core, space.motions(), settings, watch)? {

@@ -32,7 +32,7 @@ fn what_hangs_at_a_joint_is_its_share_of_all_loads() {
     for force_n in [[1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, 1.0]] {
         let mut pushed = long.clone();
         pushed.loads[0].force_n = force_n;
-        assert_eq!(weights(&pushed), Err(NoCensus::LoadsNotDown { joint: 1 }), "{force_n:?}");
+        assert_eq!(weights(&pushed), Err(NoCensus::LoadsNotDown { joint: 2 }), "{force_n:?}");
     }
     // A force of nothing is no load.
     let mut light = Member::bar(1, 2, Bar::new(8.0, 0.0, 2.0, [0.0; 3]).unwrap());
