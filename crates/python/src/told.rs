@@ -288,7 +288,7 @@ fn simulate(error: &SimulateError) -> Parts {
         SimulateError::NoSuchJoint { name } => fields!(name),
         SimulateError::NoSuchEquilibrium { label, labels } => fields!(label, labels),
         SimulateError::AngleCount { given, bars } => fields!(given, bars),
-        SimulateError::Angles { off } => fields!(off),
+        SimulateError::Angles { off, bar, joint } => fields!(off, bar, joint),
         _ => vec![],
     };
     ("SettingError", fields)
