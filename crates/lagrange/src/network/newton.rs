@@ -378,3 +378,38 @@ fn rows(framework: &Framework, state: &State, directions: &[(Vector3<f64>, f64)]
         })
         .collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use model::Bar;
+    use model::system::{Joint, Member, System};
+
+    use super::*;
+
+    /// Two bars hold a lamp from anchors above each other. If one alone is to be longer, the lamp moves
+    /// by half of it, and half is left with either bar: of a misfit of any size a part of √2/2.
+    #[test]
+    fn what_a_step_leaves_is_a_part_of_what_was_there() {
+        let joints = vec![
+            Joint::anchor("A", [0.0, 0.0, 2.0]),
+            Joint::anchor("B", [0.0, 0.0, 1.0]),
+            Joint::free("P").with_mass(1.0),
+        ];
+        let bar = |from, length| Member::bar(from, 2, Bar::homogeneous(length, 0.0).unwrap());
+        let system = System::new("a lamp", 9.81, joints, vec![bar(0, 2.0), bar(1, 1.0)]).unwrap();
+        let framework = Framework::new(&system);
+        let units = framework.units;
+        let place = |z: f64| (Vector3::new(0.0, 0.0, z) - units.origin_m) / units.length_m;
+        let places = [2.0, 1.0, 0.0].map(place).to_vec();
+        let state = State::new(places, vec![0.5; 2], vec![true; 2]);
+        let mut stiffness = Stiffness::new(&framework, false).unwrap();
+        let residual = Residual::new(&framework, &state);
+        let derivative = Derivative::new(&framework, &mut stiffness, &state, &residual).unwrap();
+        for size in [1.0, 1e-3] {
+            let sides = (&[Vector3::zeros(); 3][..], &[size, 0.0][..]);
+            let (_, left) =
+                derivative.solve(&framework, &mut stiffness, sides, f64::EPSILON, None).unwrap();
+            assert!((left - f64::sqrt(0.5)).abs() < 1e-6, "{size}: {left}");
+        }
+    }
+}
