@@ -53,7 +53,9 @@ fn pages(top: &Path) -> Outcome<Vec<Page>> {
         let mut chapters = Vec::new();
         for entry in fs::read_dir(top.join(folder))? {
             let name = entry?.file_name().into_string().map_err(|_| "a name that is not text")?;
-            if let Some((number, _)) = name.split_once('-').filter(|_| name.ends_with(".md")) {
+            if let Some((number, _)) =
+                name.strip_suffix(".md").and_then(|stem| stem.split_once('-'))
+            {
                 chapters.push((number.parse::<u32>()?, Path::new(folder).join(&name)));
             }
         }
