@@ -296,7 +296,8 @@ fn cases(output: &mut Output) {
     for law in ["support", "length", "law", "force", "moment", "joint", "balance", "derived"] {
         output.within(&at(&format!("agreement.statics[].{law}")), 0.0..=1e-9);
     }
-    output.says(&at("agreement.statics[].worst"), &["member", "joint", "whole"]);
+    // The largest is the rounding of the energy.
+    output.each(&at("agreement.statics[].worst"), "whole");
     output.each(&at("agreement.verdict"), "agreed");
     for none in ["reasons[]", "excesses[]"] {
         output.is(&at(&format!("agreement.{none}")), json!([]));
