@@ -123,6 +123,10 @@ fn ladder(output: &mut Output) {
         output.within(&proof(difference), 0.0..=NOTHING);
     }
     output.each(&proof("shape_only"), false);
+    // The whole chain turns about OD; its lengths are independent in every shape but a straight one.
+    output.each(&proof("room.turning_parts"), 1);
+    output.each(&proof("room.free_joints"), 0);
+    output.each(&proof("forces_found.proved"), "rank");
     output.within(&proof("box_width"), f64::EPSILON / 2.0..=NOTHING);
     output.within(&proof("distance"), 0.0..=NOTHING);
     output.each(&proof("circle"), true);
