@@ -30,7 +30,7 @@ pub struct Row {
     pub lagrange: f64,
     /// Value by `energy`, turned onto the first where the chain turns freely.
     pub energy: f64,
-    /// Difference in the unit of its budget (total length, force, weight times length).
+    /// Difference in units of total length, largest joint force, weight times length.
     pub difference: f64,
 }
 
@@ -45,8 +45,8 @@ pub struct CaseResult {
     pub bars: usize,
     /// Differences and verdict; nothing if a solver gave no answer.
     pub agreement: Option<SystemAgreement>,
-    /// The largest differences in the units of their budgets: joints (beyond the rounding of their
-    /// coordinates), forces, energy, statics.
+    /// The largest differences in units of total length (beyond the rounding of coordinates), largest
+    /// joint force, weight times length; and of the violations of statics.
     pub scaled: Option<[f64; 4]>,
     /// Highest rung of the answer.
     pub rung: Option<Rung>,
@@ -138,14 +138,14 @@ impl Units {
 fn rows(
     case: &str,
     system: &System,
-    row_of_bars: &Bars,
+    bars: &Bars,
     answers: &[SystemEquilibrium],
 ) -> Option<Vec<Row>> {
     let [first, second] = answers else { return None };
-    let units = Units::new(row_of_bars.problem().chain(), first);
+    let units = Units::new(bars.problem().chain(), first);
     let (turned, _) = turned_onto(system, first, second, &vec![false; system.joints().len()]);
-    let first = row_of_bars.chain_equilibrium(first)?;
-    let second = row_of_bars.chain_equilibrium(&turned)?;
+    let first = bars.chain_equilibrium(first)?;
+    let second = bars.chain_equilibrium(&turned)?;
     let mut rows = Vec::new();
     let mut row = |observable: String, lagrange: f64, energy: f64, unit: f64| {
         let difference = (lagrange - energy).abs() / unit;

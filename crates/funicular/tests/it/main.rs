@@ -3,6 +3,7 @@
 mod batch;
 mod census;
 mod census_systems;
+mod command_line;
 mod derivatives;
 mod displayed;
 mod drawn;

@@ -26,8 +26,7 @@ pub(crate) fn blocks(r: &Reproduction) -> Vec<Block<'_>> {
         heading(2, "cases", "Both solvers on every case"),
         text(
             "The same comparison on all cases of the registry: large differences between the two would show here first. Differences \
-             are in the units of their budgets in `validation/tolerances.toml` (total length, largest force, weight times \
-             length); statics is the largest violation of Newton's laws.",
+             are in units of total length, largest force, weight times length (what each may be: `validation/tolerances.toml`); statics is the largest violation of Newton's laws.",
         ),
         Block::Table(Table {
             caption: "Largest differences, case by case.".to_owned(),

@@ -84,7 +84,7 @@ fn rows_are_written_as_columns() {
     );
 }
 
-/// The largest differences are told in the units of their budgets, and of long chains the ends.
+/// The largest differences in units of length, force and energy.
 #[test]
 fn a_case_is_told_in_the_units_of_its_budgets() {
     let case = model::cases::get("two-bars").unwrap();

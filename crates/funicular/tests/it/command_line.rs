@@ -1,0 +1,123 @@
+//! The command line itself: help, pages, guesses, what is capped.
+
+use std::path::PathBuf;
+
+use assert_cmd::Command;
+
+use crate::program::{funicular, stderr, stdout};
+
+#[test]
+fn help_version_and_completions() {
+    let output = funicular(&["--help"]);
+    assert_eq!(output.status.code(), Some(0));
+    let text = stdout(&output);
+    for wanted in ["reproduce", "solve", "cases", "completions", "Exit codes:", "Examples:"] {
+        assert!(text.contains(wanted), "{wanted} is not in\n{text}");
+    }
+    let version = format!("funicular {}\n", env!("CARGO_PKG_VERSION"));
+    assert_eq!(stdout(&funicular(&["--version"])), version);
+    for shell in ["bash", "zsh", "fish", "powershell", "elvish"] {
+        let script = stdout(&funicular(&["completions", shell]));
+        assert!(script.contains("reproduce"), "{shell}");
+        // Cases by name, chains and systems; the scripts for two shells complete no values.
+        let names =
+            ["three-equal-bars", "footbridge"].into_iter().all(|name| script.contains(name));
+        assert!(names || ["powershell", "elvish"].contains(&shell), "{shell}");
+    }
+    let cases = stdout(&funicular(&["cases"]));
+    assert!(model::cases::all().iter().all(|case| cases.contains(case.name)));
+}
+
+/// What newcomers type first leads on.
+#[test]
+fn first_guesses_find_their_way() {
+    let said = |arguments: &[&str]| {
+        let output = funicular(arguments);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+        String::from_utf8(output.stderr).unwrap()
+    };
+    let start = said(&[]);
+    assert!(
+        start.lines().count() <= 10 && start.contains("funicular solve --case lamp"),
+        "{start}"
+    );
+    for (word, wanted) in [("plot", "--svg"), ("animate", "--html"), ("chain", "funicular new")] {
+        assert!(said(&[word]).contains(wanted), "{word}");
+    }
+    for wanted in ["funicular new", "--case lamp"] {
+        assert!(said(&["solve"]).contains(wanted), "{wanted}");
+    }
+    assert!(said(&["solve", "footbridge"]).contains("--case footbridge"));
+}
+
+/// An error that nobody reads is the same error: no panic, the right exit code.
+#[test]
+fn a_closed_standard_error_changes_no_exit_code() {
+    let (reader, writer) = std::io::pipe().unwrap();
+    drop(reader);
+    let status = std::process::Command::new(assert_cmd::cargo::cargo_bin("funicular"))
+        .args(["solve", "there-is-no-such-file.toml"])
+        .stderr(writer)
+        .status()
+        .unwrap();
+    assert_eq!(status.code(), Some(2));
+}
+
+#[test]
+fn the_page_of_the_file_format_is_printed() {
+    assert_eq!(stdout(&funicular(&["format"])), model::system_file::FORMAT);
+    for page in ["file", "format"] {
+        assert_eq!(stdout(&funicular(&["help", page])), model::system_file::FORMAT);
+    }
+}
+
+#[test]
+fn the_nearest_case_is_named() {
+    let output = funicular(&["solve", "--case", "three-equal-bar"]);
+    assert_eq!(output.status.code(), Some(2));
+    let said = stderr(&output).replace('\u{2502}', " ");
+    let said = said.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(said.contains("did you mean `three-equal-bars`?"), "{said}");
+}
+
+#[test]
+fn threads_are_capped_wherever_they_are_asked_for() {
+    let mut many = Command::cargo_bin("funicular").unwrap();
+    let many = many.env("NO_COLOR", "1").env("RAYON_NUM_THREADS", "5000");
+    let output = many.args(["solve", "--case", "two-bars"]).output().unwrap();
+    assert_eq!(output.status.code(), Some(2));
+    let said = stderr(&output);
+    assert!(said.contains("RAYON_NUM_THREADS") && said.contains("1024"), "{said}");
+    for command in ["census", "sweep", "merge"] {
+        let output = funicular(&[command, "--threads", "1025"]);
+        assert_eq!(output.status.code(), Some(2), "{command}");
+        assert!(stderr(&output).contains("up to 1024 is wanted"), "{command}");
+    }
+    let none = funicular(&["census", "--case", "two-bars", "--threads", "0"]);
+    assert_eq!(none.status.code(), Some(0), "{}", stderr(&none));
+}
+
+#[test]
+fn every_command_has_a_manual_page() {
+    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("man");
+    let _ = std::fs::remove_dir_all(&folder);
+    let output = funicular(&["man", "--out", folder.to_str().unwrap()]);
+    assert_eq!(output.status.code(), Some(0));
+    let page = |name: &str| std::fs::read_to_string(folder.join(format!("{name}.1"))).unwrap();
+    let whole = page("funicular");
+    let help = stdout(&funicular(&["--help"]));
+    let commands = help.lines().skip_while(|line| !line.starts_with("Usage:")).skip(1);
+    let names = commands.take_while(|line| *line != "Options:").filter_map(|line| {
+        let name = line.strip_prefix("  ")?.split(' ').next()?;
+        (!name.is_empty()).then_some(name)
+    });
+    let mut pages = 0;
+    for name in names.filter(|name| *name != "help") {
+        assert!(page(&format!("funicular-{name}")).contains(".SH SYNOPSIS"), "{name}");
+        assert!(whole.contains(&format!("funicular\\-{name}(1)")), "{name}");
+        pages += 1;
+    }
+    assert!(pages >= 14, "{help}");
+    assert_eq!(std::fs::read_dir(&folder).unwrap().count(), pages + 1);
+    assert!(page("funicular-solve").contains("\\-\\-batch"));
+}
