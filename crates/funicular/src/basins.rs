@@ -1,16 +1,22 @@
 //! Which start leads where, as pictures.
 
-use model::SolverName;
+use figures::Unit;
+use model::system::{Support, System};
+use model::{SolverName, Vector};
 use rayon::prelude::*;
 use sweep::{Axis, Chunk, Discovered, Failure, Field, Member, Outcomes, Settings, Source};
 
+use crate::equilibria;
 use crate::error::Error;
+use crate::followed::Followed;
 use crate::problem::Problem;
-use crate::starts::solvers;
+use crate::simulate::CENSUS_BARS;
+use crate::starts::{FromPlaces, solvers};
 use crate::threads;
 
-/// Draws which equilibrium each start leads to, by both solvers, over the starting angles of two
-/// bars.
+/// Draws which equilibrium each start leads to, by both solvers: of a chain between two anchors over
+/// the starting angles of two bars; of any other system over the place of one joint, the others
+/// starting where they hang.
 ///
 /// ```
 /// use funicular::prelude::*;
@@ -20,17 +26,43 @@ use crate::threads;
 /// assert!(picture.starts_with("<svg") && found.failed(&SolverName::ENERGY) == 0);
 /// # Ok::<(), Error>(())
 /// ```
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Basins {
     size: u32,
     bars: [usize; 2],
     others_deg: f64,
+    joint: Option<String>,
+    plane: Plane,
     threads: usize,
+}
+
+/// The plane in which the start of a joint varies.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Plane {
+    /// X and Z.
+    #[default]
+    Xz,
+    /// Y and Z.
+    Yz,
+    /// X and Y.
+    Xy,
+}
+
+impl Plane {
+    /// Its axes, by their numbers and names.
+    fn axes(self) -> [(usize, char); 2] {
+        match self {
+            Self::Xz => [(0, 'x'), (2, 'z')],
+            Self::Yz => [(1, 'y'), (2, 'z')],
+            Self::Xy => [(0, 'x'), (1, 'y')],
+        }
+    }
 }
 
 impl Default for Basins {
     fn default() -> Self {
-        Self { size: 300, bars: [1, 2], others_deg: 0.0, threads: 0 }
+        let (joint, plane) = (None, Plane::default());
+        Self { size: 300, bars: [1, 2], others_deg: 0.0, joint, plane, threads: 0 }
     }
 }
 
@@ -60,6 +92,20 @@ impl Basins {
         Self { others_deg, ..self }
     }
 
+    /// The joint whose starting place the axes are, of a system that is no chain (its first free
+    /// joint).
+    #[must_use]
+    pub fn joint(self, name: &str) -> Self {
+        Self { joint: Some(name.to_owned()), ..self }
+    }
+
+    /// The plane in which it varies, through where the joint hangs: as far as its longest member to
+    /// all sides.
+    #[must_use]
+    pub fn plane(self, plane: Plane) -> Self {
+        Self { plane, ..self }
+    }
+
     /// How many threads share the work, 0 (the default) for those of the pool that it is called
     /// from.
     #[must_use]
@@ -67,24 +113,27 @@ impl Basins {
         Self { threads, ..self }
     }
 
-    /// Check the settings against a chain.
+    /// Check the settings against a system.
     ///
     /// # Errors
     ///
-    /// [`Error::BasinsBars`] and [`Error::BasinsAngle`].
+    /// [`Error::BasinsBars`], [`Error::BasinsAngle`], [`Error::BasinsJoint`].
     pub fn check(&self, problem: &Problem) -> Result<(), Error> {
-        let chain = problem.chain_for("a picture of basins")?;
-        self.axes(chain.chain().bars().len()).map(|_| ())
+        match problem.row() {
+            Some(chain) => self.axes(chain.chain().bars().len()).map(|_| ()),
+            None => self.moved(&equilibria::system_of(problem)).map(|_| ()),
+        }
     }
 
     /// Run all starts.
     ///
     /// # Errors
     ///
-    /// [`Error::BasinsBars`] and [`Error::BasinsAngle`] for settings out of range, [`Error::Sweep`]
-    /// for chains without a list of equilibria.
+    /// [`Error::BasinsBars`], [`Error::BasinsAngle`] and [`Error::BasinsJoint`] for settings out of
+    /// range, [`Error::Sweep`] for chains without a list of equilibria, the errors of
+    /// [`Solve`](crate::Solve) for other systems.
     pub fn run(&self, problem: &Problem) -> Result<BasinsAnswer, Error> {
-        let chain = problem.chain_for("a picture of basins")?;
+        let Some(chain) = problem.row() else { return self.over_places(problem) };
         let bars = chain.chain().bars().len();
         let [i, j] = self.axes(bars)?;
         let axis = |bar: usize| {
@@ -125,9 +174,76 @@ impl Basins {
                 }
             }
             let names = proven.chain(&discovered.equilibria).enumerate().map(name).collect();
+            let fixed = if bars > 2 {
+                format!("; all other bars start at {}\u{b0}", self.others_deg)
+            } else {
+                String::new()
+            };
+            let label = |bar: usize| format!("start of bar {bar} from the vertical / \u{b0}");
+            let over = Over {
+                labels: [label(i), label(j)],
+                ranges: [[0.0, 360.0]; 2],
+                unit: Unit::Degrees,
+                fixed,
+            };
             let title = chain.chain().name().to_owned();
-            Ok(BasinsAnswer { of: *self, axes: [i, j], bars, title, names, lagrange, energy })
+            Ok(BasinsAnswer { size: self.size, over, title, names, lagrange, energy })
         })?
+    }
+
+    /// Run all starts over the place of a joint.
+    fn over_places(&self, problem: &Problem) -> Result<BasinsAnswer, Error> {
+        threads::on(self.threads, || {
+            let known = equilibria::all(problem, CENSUS_BARS)?;
+            let both = FromPlaces(validate::Solvers::Both);
+            let starts = Followed::new(problem, &known, 1, both);
+            let system = &starts.system;
+            let joint = self.moved(system)?;
+            let hanging: Vec<Vector> =
+                known.list.first().map(|one| one.found.joints_m.clone()).unwrap_or_default();
+            let reach_m = longest_m(system, joint);
+            let axes = self.plane.axes();
+            let ranges = axes.map(|(k, _)| {
+                let middle = hanging[joint][k];
+                [middle - reach_m, middle + reach_m]
+            });
+            let side = u64::from(self.size);
+            let grid = ranges.map(|[from_rad, to_rad]| Axis { from_rad, to_rad, points: side });
+            let follow = |seed: u64| {
+                let mut places = hanging.clone();
+                for ((k, _), (axis, at)) in
+                    axes.iter().zip(grid.iter().zip([seed % side, seed / side]))
+                {
+                    places[joint][*k] = axis.at(at);
+                }
+                both.from(system, &places)
+            };
+            let ends: Vec<_> = (0..side * side).into_par_iter().map(follow).collect();
+            let [lagrange, energy] = <[Outcomes; 2]>::try_from(starts.outcomes(&ends))
+                .unwrap_or_else(|_| unreachable!("both solvers are asked"));
+            let name_of = system.joints()[joint].name.clone();
+            let over = Over {
+                labels: axes.map(|(_, axis)| format!("start of joint {name_of}: {axis} / m")),
+                ranges,
+                unit: Unit::Decimal,
+                fixed: "; all other joints start where they hang".to_owned(),
+            };
+            let names = starts.list().iter().enumerate().map(name).collect();
+            let title = system.name().to_owned();
+            Ok(BasinsAnswer { size: self.size, over, title, names, lagrange, energy })
+        })?
+    }
+
+    /// The joint that is moved.
+    fn moved(&self, system: &System) -> Result<usize, Error> {
+        let is_free =
+            |joint: &model::system::Joint| !matches!(joint.support, Support::Fixed { .. });
+        let wanted = |joint: &model::system::Joint| match &self.joint {
+            Some(name) => joint.name == *name,
+            None => true,
+        };
+        let found = system.joints().iter().position(|joint| is_free(joint) && wanted(joint));
+        found.ok_or_else(|| Error::BasinsJoint { joint: self.joint.clone().unwrap_or_default() })
     }
 
     /// Processor time that the starts take, s: from a few starts, good to a factor of three.
@@ -136,9 +252,13 @@ impl Basins {
     ///
     /// As [`run`](Self::run).
     pub fn expected_time_s(&self, problem: &Problem) -> Result<f64, Error> {
-        let chain = problem.chain_for("a picture of basins")?;
         let starts = u64::from(self.size).pow(2);
-        Ok(sweep::expected_time_s(chain, &Settings::default(), &solvers(chain)?, starts)?)
+        match problem.row() {
+            Some(chain) => {
+                Ok(sweep::expected_time_s(chain, &Settings::default(), &solvers(chain)?, starts)?)
+            }
+            None => crate::Sweep::new(starts).expected_time_s(problem),
+        }
     }
 
     /// The two bars of the axes, the lower first: the grid runs along it.
@@ -154,23 +274,50 @@ impl Basins {
     }
 }
 
+/// The longest member at a joint, m.
+fn longest_m(system: &System, joint: usize) -> f64 {
+    let members = system.members().iter();
+    let at = members.filter(|member| member.from == joint || member.to == joint);
+    at.map(|member| member.body.length_m()).fold(0.0, f64::max)
+}
+
 /// Where every start led.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BasinsAnswer {
-    of: Basins,
-    axes: [usize; 2],
-    bars: usize,
+    size: u32,
+    over: Over,
     title: String,
     names: Vec<String>,
     lagrange: Outcomes,
     energy: Outcomes,
 }
 
+/// What the axes of a picture are, and what does not vary.
+#[derive(Debug, Clone, PartialEq)]
+struct Over {
+    labels: [String; 2],
+    ranges: [[f64; 2]; 2],
+    unit: Unit,
+    fixed: String,
+}
+
 impl BasinsAnswer {
     /// Number of starts.
     #[must_use]
     pub fn starts(&self) -> u64 {
-        u64::from(self.of.size).pow(2)
+        u64::from(self.size).pow(2)
+    }
+
+    /// What the two axes are, with their unit.
+    #[must_use]
+    pub fn labels(&self) -> &[String; 2] {
+        &self.over.labels
+    }
+
+    /// Where each axis begins and ends, degrees or m; a start is the middle of its part.
+    #[must_use]
+    pub fn ranges(&self) -> [[f64; 2]; 2] {
+        self.over.ranges
     }
 
     /// The equilibria that outcomes 0, 1, 2, ... stand for, in words.
@@ -211,18 +358,12 @@ impl BasinsAnswer {
     pub fn svg(&self, solver: &SolverName, field: Field) -> Result<String, Error> {
         let none = Outcomes::default();
         let outcomes = self.outcomes(solver).unwrap_or(&none);
-        let fixed = if self.bars > 2 {
-            format!("; all other bars start at {}\u{b0}", self.of.others_deg)
-        } else {
-            String::new()
-        };
         let what = match field {
             Field::Outcome => "equilibrium reached",
             Field::Iterations => "iterations spent",
         };
-        let size = self.of.size;
+        let (size, Over { labels, ranges, unit, fixed }) = (self.size, &self.over);
         let note = format!("{what} by {solver} from {size} \u{d7} {size} starts{fixed}");
-        let labels = self.axes.map(|bar| format!("start of bar {bar} from the vertical / \u{b0}"));
         let picture = sweep::Basins {
             size,
             outcomes,
@@ -230,6 +371,8 @@ impl BasinsAnswer {
             title: &self.title,
             note: &note,
             labels: [&labels[0], &labels[1]],
+            ranges: *ranges,
+            unit: *unit,
         };
         Ok(picture.svg(field)?)
     }
@@ -237,7 +380,7 @@ impl BasinsAnswer {
 
 /// An equilibrium in the legend: its number, energy and kind.
 fn name((number, member): (usize, &Member)) -> String {
-    let kind = match member.index_in_plane {
+    let kind = match member.index() {
         Some(0) => ", minimum",
         Some(_) => ", no minimum",
         None => "",

@@ -2,7 +2,9 @@
 
 use model::system::{System, SystemEquilibrium};
 
-use crate::census::{Census, CensusAnswer};
+use validate::systems::quick_census;
+
+use crate::census::{Census, CensusAnswer, SystemCensusAnswer};
 use crate::error::Error;
 use crate::problem::Problem;
 use crate::solve::Solve;
@@ -41,24 +43,46 @@ pub(crate) fn hanging(problem: &Problem) -> Result<Equilibria, Error> {
     Ok(Equilibria { list, complete: false })
 }
 
-/// All equilibria of a chain of at most `max_bars` bars by a census, if that is complete; the
-/// stable one otherwise.
+/// All equilibria by a census, if that is complete: of a chain of at most `max_bars` bars, or of a
+/// system of which it is a matter of a second. The stable one otherwise, or the one next to a
+/// drawing.
 pub(crate) fn all(problem: &Problem, max_bars: usize) -> Result<Equilibria, Error> {
-    let Some(chain) = problem.as_chain().filter(|chain| chain.chain().bars().len() <= max_bars)
-    else {
-        return hanging(problem);
+    let known = match problem.as_chain() {
+        Some(chain) if chain.chain().bars().len() <= max_bars => of_chain(chain, max_bars)?,
+        Some(_) => None,
+        None => of_system(&system_of(problem)),
     };
+    known.map_or_else(|| hanging(problem), |list| Ok(Equilibria { list, complete: true }))
+}
+
+fn of_chain(chain: &model::Problem, max_bars: usize) -> Result<Option<Vec<Located>>, Error> {
     let census = match Census::new().max_bars(max_bars).of_chain(chain, &|_| {}) {
         Ok(census) => census,
-        Err(Error::Census(_)) => return hanging(problem),
+        Err(Error::Census(_)) => return Ok(None),
         Err(error) => return Err(error),
     };
     // Sets with slack bars have no modes: their forces vanish where bars are free to move.
     if !census.census.complete || !census.census.slack_families.is_empty() {
-        return hanging(problem);
+        return Ok(None);
     }
     let labels: Vec<_> = census.equilibria.iter().map(|found| found.label.clone()).collect();
     let all = CensusAnswer::Chain(census.into()).equilibria();
     let located = |(label, found)| Located { label, found };
-    Ok(Equilibria { list: labels.into_iter().zip(all).map(located).collect(), complete: true })
+    Ok(Some(labels.into_iter().zip(all).map(located).collect()))
+}
+
+fn of_system(system: &System) -> Option<Vec<Located>> {
+    if system.drawing().is_some() {
+        return None;
+    }
+    let census = quick_census(system).ok()?;
+    if !census.complete || census.families() > 0 {
+        return None;
+    }
+    let all = SystemCensusAnswer::new(system, census);
+    let located = |(k, found): (usize, &SystemEquilibrium)| Located {
+        label: (k + 1).to_string(),
+        found: found.clone(),
+    };
+    Some(all.equilibria().iter().enumerate().map(located).collect())
 }

@@ -109,6 +109,13 @@ pub enum Error {
         /// Number of bars.
         bars: usize,
     },
+    /// Occurs when the joint whose start is to vary is none that can move.
+    #[cfg(feature = "sweep")]
+    #[error("{joint:?} is no joint that can move")]
+    BasinsJoint {
+        /// The name as given.
+        joint: String,
+    },
     /// Occurs when the starting angle of the bars that are no axis is infinite or not a number.
     #[cfg(feature = "sweep")]
     #[error("the starting angle of the other bars must be finite, got {others_deg} degrees")]

@@ -84,6 +84,7 @@ mod ensemble;
 mod equilibria;
 mod error;
 mod extremes;
+mod followed;
 pub mod judge;
 mod mode_pages;
 mod modes;
@@ -120,7 +121,7 @@ struct Readme;
 
 pub use self::animation::Animation;
 #[cfg(feature = "sweep")]
-pub use self::basins::{Basins, BasinsAnswer};
+pub use self::basins::{Basins, BasinsAnswer, Plane};
 pub use self::census::{
     Census, CensusAnswer, ChainCensusAnswer, LargeCensusAnswer, SystemCensusAnswer,
 };

@@ -2,8 +2,11 @@
 
 use std::sync::Arc;
 
-use model::{Ends, Problem};
-use sweep::{BatchSolver, Finds, Solvers};
+use model::system::{System, SystemEquilibrium};
+use model::{Ends, Problem, Vector};
+use sweep::{BatchSolver, Failure, Finds, Solvers};
+
+use crate::followed::{End, Follow};
 
 /// Why a solver cannot be made ready for a sweep.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -71,5 +74,67 @@ impl BatchSolver for Energy {
 
     fn solve(&self, starts_rad: &[f64], ends: &mut Ends) {
         self.0.minimise(starts_rad, ends);
+    }
+}
+
+/// The two solvers from places of the joints of any system, at random in space.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct FromPlaces(pub(crate) validate::Solvers);
+
+impl FromPlaces {
+    /// Where these places of the joints lead, m.
+    pub(crate) fn from(self, system: &System, places_m: &[Vector]) -> Vec<End> {
+        let one = |name| match name {
+            "lagrange" => lagrange(system, places_m),
+            _ => energy(system, places_m),
+        };
+        self.names().into_iter().map(one).collect()
+    }
+}
+
+impl Follow for FromPlaces {
+    fn names(&self) -> Vec<&'static str> {
+        match self.0 {
+            validate::Solvers::Lagrange => vec!["lagrange"],
+            validate::Solvers::Energy => vec!["energy"],
+            validate::Solvers::Both => vec!["lagrange", "energy"],
+        }
+    }
+
+    fn follow(&self, system: &System, start: u64) -> Vec<End> {
+        self.from(system, &motion::random_places(system, start))
+    }
+}
+
+fn lagrange(system: &System, places_m: &[Vector]) -> End {
+    use lagrange::network::{Error, Seed, solve_from};
+    match solve_from(system, &Seed::at(places_m.to_vec()), &lagrange::network::Settings::default())
+    {
+        Ok(found) => end(found.equilibrium),
+        Err(Error::NotConverged { .. } | Error::Work { .. }) => {
+            End::failed(Failure::IterationLimit)
+        }
+        Err(_) => End::failed(Failure::Stalled),
+    }
+}
+
+fn energy(system: &System, places_m: &[Vector]) -> End {
+    use energy::network::{Error, minimise_from};
+    match minimise_from(system, places_m, &energy::network::Settings::default()) {
+        Ok(found) => end(found.equilibrium),
+        Err(Error::IterationLimit { .. } | Error::Work { .. }) => {
+            End::failed(Failure::IterationLimit)
+        }
+        Err(_) => End::failed(Failure::Stalled),
+    }
+}
+
+fn end(found: SystemEquilibrium) -> End {
+    End {
+        steps: u16::try_from(found.evidence.iterations).unwrap_or(u16::MAX),
+        residual: found.evidence.residual,
+        energy_j: found.energy_j,
+        index: Some(found.stability.index_in_space),
+        joints_m: Ok(found.joints_m),
     }
 }

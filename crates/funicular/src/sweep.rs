@@ -2,23 +2,30 @@
 
 use std::ops::Range;
 use std::path::Path;
+use std::time::Instant;
 
-use model::{Problem as ChainProblem, SystemSummary};
+use model::Problem as ChainProblem;
 use sweep::{
     Axis, Manifest, Member, Run, RunSettings, SCHEMA_VERSION, Settings, Shard, Source, Summary,
     SystemText,
 };
 use validate::Solvers;
 
+use crate::equilibria::{self, system_of};
 use crate::error::Error;
+use crate::followed::{Follow as _, Followed};
 use crate::problem::Problem;
-use crate::starts::solvers;
-use crate::threads::MOST_THREADS;
+use crate::starts::{FromPlaces, solvers};
+use crate::threads::{self, MOST_THREADS};
 
 /// Starts after which whoever watches is told: a fraction of a second.
 const TOLD: u64 = 1_000_000;
 
-/// Runs starts with random angles through the solvers and tells which equilibrium each reaches.
+/// Runs random starts through the solvers and says which equilibrium each reaches.
+///
+/// A start of a chain between two anchors is an angle for each bar, in the plane of the anchors; of
+/// any other system, a place for each joint in space: members point anywhere from the joints they
+/// hang on, and loops need not close.
 ///
 /// ```
 /// use funicular::prelude::*;
@@ -162,55 +169,95 @@ impl Sweep {
     pub fn run_watched(
         &self,
         problem: &Problem,
-        watch: &dyn Fn(u64),
+        watch: &(dyn Fn(u64) + Sync),
     ) -> Result<SweepAnswer, Error> {
         let prepared = self.prepare(problem)?;
-        let mut swept = prepared.sweep.begin();
-        let mut done = 0;
-        while done < self.seeds {
-            let next = self.seeds.min(done.saturating_add(TOLD));
-            prepared.sweep.go_on(&mut swept, done..next, self.threads)?;
-            done = next;
-            watch(done);
-        }
-        let members = prepared.sweep.members();
-        let (summary, discovered) = swept.finish();
+        let manifest = prepared.manifest;
+        let (summary, discovered) = match &prepared.compute {
+            Compute::Angles(sweep) => {
+                let mut swept = sweep.begin();
+                let mut done = 0;
+                while done < self.seeds {
+                    let next = self.seeds.min(done.saturating_add(TOLD));
+                    sweep.go_on(&mut swept, done..next, self.threads)?;
+                    done = next;
+                    watch(done);
+                }
+                swept.finish()
+            }
+            Compute::Places(starts) => {
+                let count = || starts.count(0..self.seeds, watch);
+                (threads::on(self.threads, count)?, None)
+            }
+        };
         let discovered = discovered.unwrap_or_default();
+        let proven = manifest.equilibria.iter().cloned();
         Ok(SweepAnswer {
-            manifest: prepared.manifest.clone(),
-            equilibria: members.list().iter().cloned().chain(discovered.equilibria).collect(),
-            complete: members.complete(),
+            equilibria: proven.chain(discovered.equilibria).collect(),
+            complete: manifest.equilibria_complete,
             listed_below_j: discovered.below_j,
             summary,
+            manifest,
         })
     }
 
-    /// List the equilibria that are proved: all, where the census is complete.
+    /// List the equilibria that are proved: all, where the census is complete; else, of starts in
+    /// space, those that 256 other starts lead to.
     ///
     /// # Errors
     ///
     /// [`Error::GridSeeds`] when a grid cannot have so many points, [`Error::Sweep`] for settings
     /// out of range and chains without a list, [`Error::TooManyThreads`].
     pub fn prepare(&self, problem: &Problem) -> Result<PreparedSweep, Error> {
-        let chain = problem.chain_for("a sweep")?;
         if self.threads > MOST_THREADS {
             return Err(Error::TooManyThreads { threads: self.threads });
         }
+        let Some(chain) = problem.row() else { return self.prepare_places(problem) };
         let source = match self.spread {
             Spread::Uniform => Source::Uniform,
             Spread::Sobol => Source::Sobol,
             Spread::Grid => self.grid(chain.chain().bars().len())?,
         };
-        let both = solvers(chain)?;
-        let asked = match self.solvers {
-            Solvers::Lagrange => both.only(&["lagrange"]),
-            Solvers::Energy => both.only(&["energy"]),
-            Solvers::Both => both,
-        };
         let settings = Settings { number: self.number, source, ..Settings::default() };
-        let sweep = sweep::Sweep::new(chain, settings, asked)?;
-        let manifest = self.manifest(chain, &sweep);
-        Ok(PreparedSweep { system: chain.chain().summary(), sweep, manifest })
+        let sweep = sweep::Sweep::new(chain, settings, self.asked(chain)?)?;
+        let of = SweptBy {
+            system: SystemText::of(chain.chain()),
+            source: self.spread.name(),
+            solvers: sweep.solvers().names().map(str::to_owned).collect(),
+            angles: if self.angles { chain.chain().bars().len() } else { 0 },
+            list: sweep.members().list(),
+            complete: sweep.members().complete(),
+        };
+        Ok(PreparedSweep { manifest: self.manifest(of), compute: Compute::Angles(Box::new(sweep)) })
+    }
+
+    /// The same of any system, from places of its joints in space.
+    fn prepare_places(&self, problem: &Problem) -> Result<PreparedSweep, Error> {
+        if self.spread != Spread::Uniform || self.angles {
+            return Err(Error::ChainsOnly { what: "a grid or a sequence of angles" });
+        }
+        let known = equilibria::all(problem, crate::simulate::CENSUS_BARS)?;
+        let starts = threads::on(self.threads, || {
+            Followed::new(problem, &known, self.number, FromPlaces(self.solvers))
+        })?;
+        let of = SweptBy {
+            system: starts.text(),
+            source: Manifest::PLACES,
+            solvers: starts.names(),
+            angles: 0,
+            list: starts.list(),
+            complete: known.complete,
+        };
+        Ok(PreparedSweep {
+            manifest: self.manifest(of),
+            compute: Compute::Places(Box::new(starts)),
+        })
+    }
+
+    /// The solvers that are asked of a chain.
+    fn asked(&self, chain: &ChainProblem) -> Result<sweep::Solvers, Error> {
+        let both = solvers(chain)?;
+        Ok(both.only(&FromPlaces(self.solvers).names()))
     }
 
     /// Processor time that the starts take, s: from a few starts, good to a factor of three.
@@ -219,16 +266,18 @@ impl Sweep {
     ///
     /// As [`prepare`](Self::prepare).
     pub fn expected_time_s(&self, problem: &Problem) -> Result<f64, Error> {
-        let chain = problem.chain_for("a sweep")?;
-        let both = solvers(chain)?;
-        let asked = match self.solvers {
-            Solvers::Lagrange => both.only(&["lagrange"]),
-            Solvers::Energy => both.only(&["energy"]),
-            Solvers::Both => both,
-        };
-        let settings = Settings { number: self.number, ..Settings::default() };
-        let shards = self.shard.of.max(1);
-        Ok(sweep::expected_time_s(chain, &settings, &asked, self.seeds.div_ceil(shards))?)
+        /// Starts in space that are timed.
+        const TIMED: u64 = 4;
+        let seeds = self.seeds.div_ceil(self.shard.of.max(1));
+        if let Some(chain) = problem.row() {
+            let settings = Settings { number: self.number, ..Settings::default() };
+            return Ok(sweep::expected_time_s(chain, &settings, &self.asked(chain)?, seeds)?);
+        }
+        let (system, start) = (system_of(problem), Instant::now());
+        for k in 0..TIMED {
+            FromPlaces(self.solvers).follow(&system, k);
+        }
+        Ok(start.elapsed().as_secs_f64() / TIMED as f64 * seeds as f64)
     }
 
     fn grid(&self, bars: usize) -> Result<Source, Error> {
@@ -242,20 +291,19 @@ impl Sweep {
         Ok(Source::Grid(vec![Axis::full(side); bars]))
     }
 
-    fn manifest(&self, problem: &ChainProblem, sweep: &sweep::Sweep) -> Manifest {
-        let angles = if self.angles { problem.chain().bars().len() } else { 0 };
+    fn manifest(&self, of: SweptBy<'_>) -> Manifest {
         Manifest {
             schema_version: SCHEMA_VERSION,
             program: concat!("funicular ", env!("CARGO_PKG_VERSION")).to_owned(),
-            system: SystemText::of(problem.chain()),
+            system: of.system,
             seeds: self.seeds,
             seed_number: self.number,
-            source: self.spread.name().to_owned(),
-            solvers: sweep.solvers().names().map(str::to_owned).collect(),
+            source: of.source.to_owned(),
+            solvers: of.solvers,
             release: None,
-            angles: (1..=angles).map(|bar| format!("theta_{bar}_rad")).collect(),
-            equilibria: sweep.members().list().to_vec(),
-            equilibria_complete: sweep.members().complete(),
+            angles: (1..=of.angles).map(|bar| format!("theta_{bar}_rad")).collect(),
+            equilibria: of.list.to_vec(),
+            equilibria_complete: of.complete,
             format: self.format.name().to_owned(),
             part_seeds: 0,
             shard: Shard::WHOLE,
@@ -263,6 +311,17 @@ impl Sweep {
         }
         .with_shard(self.shard)
     }
+}
+
+/// What differs between starts over angles and starts in space.
+struct SweptBy<'a> {
+    system: SystemText,
+    source: &'static str,
+    solvers: Vec<String>,
+    /// Columns of starting values.
+    angles: usize,
+    list: &'a [Member],
+    complete: bool,
 }
 
 /// Points of a regular grid with so many on each side.
@@ -287,18 +346,20 @@ fn side_of(seeds: u64, bars: usize) -> u64 {
 /// A sweep with its list of equilibria, ready to run.
 #[derive(Debug, Clone)]
 pub struct PreparedSweep {
-    system: SystemSummary,
-    sweep: sweep::Sweep,
+    compute: Compute,
     manifest: Manifest,
 }
 
-impl PreparedSweep {
-    /// What is swept.
-    #[must_use]
-    pub fn system(&self) -> &SystemSummary {
-        &self.system
-    }
+/// Where starts are.
+#[derive(Debug, Clone)]
+enum Compute {
+    /// Angles of the bars of a chain, in the plane of its anchors.
+    Angles(Box<sweep::Sweep>),
+    /// Places of the joints of any system.
+    Places(Box<Followed<FromPlaces>>),
+}
 
+impl PreparedSweep {
     /// Everything that the rows depend on, as the folder will say it.
     #[must_use]
     pub fn manifest(&self) -> &Manifest {
@@ -317,7 +378,10 @@ impl PreparedSweep {
     ///
     /// [`Error::Store`]; the folder is left as it was if it holds something else.
     pub fn write(&self, folder: &Path, settings: &RunSettings<'_>) -> Result<Run, Error> {
-        Ok(sweep::run(folder, &self.manifest, &self.sweep, settings)?)
+        Ok(match &self.compute {
+            Compute::Angles(sweep) => sweep::run(folder, &self.manifest, &**sweep, settings)?,
+            Compute::Places(starts) => sweep::run(folder, &self.manifest, &**starts, settings)?,
+        })
     }
 }
 

@@ -60,14 +60,27 @@ pub fn assemble(system: &System, guess_m: &[Vector]) -> Result<Vec<Vector>, Moti
 pub fn random_position(system: &System, seed: u64) -> Result<Vec<Vector>, MotionError> {
     let mut failed = MotionError::NotClosed { iterations: 0, off: f64::NAN };
     for stream in 0..GUESSES {
-        let mut random = ChaCha8Rng::seed_from_u64(seed);
-        random.set_stream(stream);
-        match assemble(system, &guess(system, &mut random)) {
+        match assemble(system, &guess(system, seed, stream)) {
             Ok(at) => return Ok(at),
             Err(error) => failed = error,
         }
     }
     Err(failed)
+}
+
+/// Places at random: the same for the same seed. Members point anywhere from the joints they hang
+/// on, inextensible cables and struts with some slack; loops are not closed.
+///
+/// ```
+/// let system = model::system::System::from(model::cases::paper().chain());
+/// let at = motion::random_places(&system, 7);
+/// // Joint 1 is a bar of 1 m away from the anchor, the last one is the other anchor.
+/// assert!((at[1].iter().map(|x| x * x).sum::<f64>() - 1.0).abs() < 1e-14);
+/// assert_eq!((at[3], at == motion::random_places(&system, 8)), ([0.0, 0.0, -2.0], false));
+/// ```
+#[must_use]
+pub fn random_places(system: &System, seed: u64) -> Vec<Vector> {
+    guess(system, seed, 0)
 }
 
 /// The same with what holds; inextensible cables and struts that are left are slack.
@@ -88,7 +101,10 @@ fn world(mechanism: &Mechanism, state: &State) -> Vec<Vector> {
 }
 
 /// Joints one after the other, each at the length of a member from one that is placed.
-fn guess(system: &System, random: &mut ChaCha8Rng) -> Vec<Vector> {
+fn guess(system: &System, seed: u64, stream: u64) -> Vec<Vector> {
+    let mut generator = ChaCha8Rng::seed_from_u64(seed);
+    generator.set_stream(stream);
+    let random = &mut generator;
     let joints = system.joints();
     let mut at: Vec<Option<Vector>> = joints.iter().map(|joint| joint.support.at_m()).collect();
     let mut members = vec![Vec::new(); joints.len()];

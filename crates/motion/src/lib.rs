@@ -122,7 +122,7 @@ mod unequal;
 mod unilateral;
 mod vector;
 
-pub use assemble::{assemble, random_position};
+pub use assemble::{assemble, random_places, random_position};
 pub use contacts::{Contact, Impact, has_impacts};
 pub use corners::Turning;
 pub use enclosed::{Enclosures, EquilibriumBox, MOST_ENCLOSED_JOINTS, NotEnclosed, enclose_modes};

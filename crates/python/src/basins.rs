@@ -1,4 +1,4 @@
-//! Which start leads where, over the angles of two bars.
+//! Which start leads where, over the angles of two bars or the place of a joint.
 
 use std::sync::Arc;
 
@@ -11,24 +11,36 @@ use pyo3::types::PyDict;
 use crate::printable::printable;
 use crate::problem::Problem;
 use crate::raise::raise;
-use crate::work;
+use crate::{words, work};
+
+/// What the axes are, and where each begins and ends.
+type Axes = ([String; 2], [[f64; 2]; 2]);
 
 /// By solver: outcomes and iterations of all starts, (size, size), and a picture of each as SVG; the
-/// equilibria in words, and what the program prints.
+/// equilibria in words, the axes, and what the program prints.
 #[pyfunction]
+#[expect(clippy::too_many_arguments, reason = "one for each setting")]
 pub fn basins<'py>(
     py: Python<'py>,
     problem: &Problem,
     size: u32,
     bars: [usize; 2],
     others_deg: f64,
+    joint: Option<String>,
+    plane: &str,
     threads: usize,
     progress: Option<Bound<'py, PyAny>>,
-) -> PyResult<(Bound<'py, PyDict>, Vec<String>, String)> {
+) -> PyResult<(Bound<'py, PyDict>, Vec<String>, Axes, String)> {
+    let basins =
+        Basins::new().size(size).bars(bars).others_deg(others_deg).plane(words::plane(plane)?);
+    let basins = match joint {
+        Some(name) => basins.joint(&name),
+        None => basins,
+    };
     let of = Arc::clone(&problem.of);
     let found = work::run(py, threads, progress.as_ref(), move |watch| {
         watch.tell("starts", 0, u64::from(size).pow(2));
-        let found = Basins::new().size(size).bars(bars).others_deg(others_deg).run(&of)?;
+        let found = basins.run(&of)?;
         let draw = |solver: &SolverName| {
             Ok::<_, Error>([
                 found.svg(solver, Field::Outcome)?,
@@ -52,5 +64,6 @@ pub fn basins<'py>(
         all.set_item(solver.as_str(), one)?;
     }
     let names = found.equilibria().iter().map(|name| printable(name)).collect();
-    Ok((all, names, printable(&found.to_string())))
+    let axes = (found.labels().clone().map(|label| printable(&label)), found.ranges());
+    Ok((all, names, axes, printable(&found.to_string())))
 }

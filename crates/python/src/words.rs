@@ -1,7 +1,7 @@
 //! Settings that Python says in words.
 
-use funicular::Spread;
 use funicular::prelude::{Equations, Solvers, UseCensus};
+use funicular::{Plane, Spread};
 use pyo3::PyErr;
 
 use crate::raise::bad_word;
@@ -42,5 +42,15 @@ pub fn spread(word: &str) -> Result<Spread, PyErr> {
         "sobol" => Ok(Spread::Sobol),
         "grid" => Ok(Spread::Grid),
         _ => Err(bad_word("spread", word, &["uniform", "sobol", "grid"])),
+    }
+}
+
+/// `xz`, `yz` or `xy`.
+pub fn plane(word: &str) -> Result<Plane, PyErr> {
+    match word {
+        "xz" => Ok(Plane::Xz),
+        "yz" => Ok(Plane::Yz),
+        "xy" => Ok(Plane::Xy),
+        _ => Err(bad_word("plane", word, &["xz", "yz", "xy"])),
     }
 }

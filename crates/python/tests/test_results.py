@@ -69,13 +69,28 @@ def test_basins_count_every_start():
         assert b.svg(solver).lstrip().startswith("<?xml") or "<svg" in b.svg(solver)
         assert b.svg(solver) != b.svg(solver, iterations=True)
     # The mirror image of a start leads to the same energy: two bars hang, or stand.
-    assert len(b.equilibria) == 2 and b.angles_deg.tolist() == [30, 90, 150, 210, 270, 330]
+    assert len(b.equilibria) == 2 and b.starts.tolist() == [[30, 90, 150, 210, 270, 330]] * 2
     with pytest.raises(fn.SettingError):
         fn.basins(fn.System(**CHAIN), size=1)
     with pytest.raises(fn.Error):
         fn.basins(fn.System(**CHAIN), bars=(1, 3))
     with pytest.raises(fn.InputError):
         b.outcome("newton")
+
+
+def test_starts_of_a_system_are_places_of_its_joints():
+    # Two cables of 3 m and 4 m, anchors 5 m apart: the lamp hangs at (1.8, 0, -2.4), the only equilibrium.
+    lamp = fn.System.case("lamp")
+    b = lamp.basins(size=4)
+    assert b.labels == ("start of joint lamp: x / m", "start of joint lamp: z / m")
+    np.testing.assert_allclose(b.ranges, [[1.8 - 4, 1.8 + 4], [-2.4 - 4, -2.4 + 4]], atol=1e-9)
+    assert (b.outcome("energy") == 0).all() and len(b.equilibria) == 1
+    assert lamp.basins(size=2, joint="lamp", plane="yz").labels[0] == "start of joint lamp: y / m"
+    assert sum(lamp.sweep(20).counts("energy").values()) == 20
+    with pytest.raises(fn.Error, match="no joint that can move"):
+        lamp.basins(size=2, joint="A")
+    with pytest.raises(fn.Error, match="chains between two anchors"):
+        lamp.sweep(20, spread="sobol")
 
 
 def test_plots_have_the_numbers():

@@ -1,4 +1,4 @@
-//! Basins of attraction on a grid of two angles.
+//! Basins of attraction on a grid of two angles, or of two coordinates.
 
 use figures::{
     Anchor, Axes, Axis, Colour, FAILURE, Look, MOST_REGIONS, OTHER, Raster, Svg, Unit, ramp,
@@ -7,8 +7,8 @@ use figures::{
 
 use crate::record::{Failure, Outcomes};
 
-/// What became of the seeds of a regular grid over two angles, from 0° to 360° each, the first
-/// varying fastest: each seed stands for the square around it.
+/// What became of the seeds of a regular grid over two numbers, the first varying fastest: each seed
+/// stands for the square around it.
 #[derive(Debug, Clone, Copy)]
 pub struct Basins<'a> {
     /// Seeds along each side.
@@ -23,6 +23,10 @@ pub struct Basins<'a> {
     pub note: &'a str,
     /// Labels of the two axes.
     pub labels: [&'a str; 2],
+    /// Where each axis begins and ends.
+    pub ranges: [[f64; 2]; 2],
+    /// What they count in.
+    pub unit: Unit,
 }
 
 /// Why there is no picture.
@@ -143,14 +147,14 @@ impl Basins<'_> {
             }
             Field::Iterations => self.shades(&mut svg),
         };
-        // The first row of a PNG is the top one, the largest second angle.
+        // The first row of a PNG is the top one, the largest second number.
         let rows: Vec<u8> = pixels.chunks(side).rev().flatten().copied().collect();
         let (width, height) = (self.size, self.size);
         let raster = Raster { width, height, pixels: &rows, palette: &palette };
         svg.raster([LEFT, TOP], [SIDE; 2], &raster);
-        let x = Axis { values: [0.0, 360.0], pixels: [LEFT, LEFT + SIDE] };
-        let y = Axis { values: [0.0, 360.0], pixels: [TOP + SIDE, TOP] };
-        Axes { x, y, names: self.labels }.frame(&mut svg, [Unit::Degrees; 2]);
+        let x = Axis { values: self.ranges[0], pixels: [LEFT, LEFT + SIDE] };
+        let y = Axis { values: self.ranges[1], pixels: [TOP + SIDE, TOP] };
+        Axes { x, y, names: self.labels }.frame(&mut svg, [self.unit; 2]);
         Ok(svg.finish())
     }
 
@@ -261,9 +265,16 @@ mod tests {
         let outcome: Vec<i16> =
             (0..400).map(|k| i16::try_from(k % (members + 1)).unwrap() - 1).collect();
         let outcomes = Outcomes { iterations: vec![3; 400], outcome, ..Outcomes::default() };
-        let labels = ["a", "b"];
-        let basins =
-            Basins { size: 20, outcomes: &outcomes, names: &names, title: "t", note: "n", labels };
+        let basins = Basins {
+            size: 20,
+            outcomes: &outcomes,
+            names: &names,
+            title: "t",
+            note: "n",
+            labels: ["a", "b"],
+            ranges: [[0.0, 360.0]; 2],
+            unit: Unit::Degrees,
+        };
         basins.svg(Field::Outcome).unwrap()
     }
 

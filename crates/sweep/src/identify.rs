@@ -46,12 +46,24 @@ pub struct Member {
     /// Negative directions of the second derivative of the energy in the plane; 0 is a minimum.
     /// None if it is not known.
     pub index_in_plane: Option<usize>,
+    /// The same in space, of systems that start from places in space.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub index_in_space: Option<usize>,
     /// With the anchors on one vertical: whether this is the mirror image of the entry that the
     /// census shows, half a turn away on the same circle of equilibria.
     pub mirrored: bool,
     /// Of what is released: the places of the joints, world frame, m.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub joints_m: Option<Vec<model::Vector>>,
+}
+
+impl Member {
+    /// Directions in which the energy falls: in space where starts are places in space, else in the
+    /// plane. None if it is not known.
+    #[must_use]
+    pub fn index(&self) -> Option<usize> {
+        self.index_in_space.or(self.index_in_plane)
+    }
 }
 
 /// What the census proves, by energy and then by angles, and what it takes to find an entry. Equal
@@ -282,6 +294,7 @@ fn isolated(equilibrium: &ProvenEquilibrium, mirrored: bool) -> Member {
         energy_j: equilibrium.energy_j.mid(),
         angles_rad: equilibrium.angles_rad.iter().map(|angle| Some(sign * angle.mid())).collect(),
         index_in_plane: Some(equilibrium.index_in_plane),
+        index_in_space: None,
         mirrored,
         joints_m: None,
     }
@@ -293,6 +306,7 @@ fn family(slack: &SlackFamily, problem: &Problem) -> Member {
         energy_j: slack.energy_j.mid(),
         angles_rad: slack.angles_rad(problem),
         index_in_plane: Some(slack.index_in_plane),
+        index_in_space: None,
         mirrored: false,
         joints_m: None,
     }
@@ -325,6 +339,7 @@ mod tests {
                 energy_j: (mgl - 6.0) * model::STANDARD_GRAVITY_M_S2,
                 angles_rad: angles.map(|angle| Some(angle.to_radians())).into(),
                 index_in_plane: Some(0),
+                index_in_space: None,
                 mirrored: false,
                 joints_m: None,
             })

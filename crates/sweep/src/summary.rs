@@ -119,7 +119,7 @@ impl Summary {
     #[must_use]
     pub fn new<'a>(list: impl IntoIterator<Item = &'a Member>, energy_unit_j: f64) -> Self {
         let index = |member: &Member| {
-            member.index_in_plane.map_or(-1, |index| i32::try_from(index).unwrap_or(i32::MAX))
+            member.index().map_or(-1, |index| i32::try_from(index).unwrap_or(i32::MAX))
         };
         Self {
             tally: Tally::default(),

@@ -15,12 +15,14 @@ use crate::progress::Progress;
 use crate::threads;
 
 const NOTES: &str = "\
-Each pixel is a start: the angles of two bars from the descending vertical, 0 to 360 degrees; all other bars start
-at --others. Both solvers start there, whether or not the chain closes. Files: lagrange.svg and energy.svg (the
-equilibrium reached), lagrange-iterations.svg and energy-iterations.svg.
+Each pixel is a start. Of a chain between two anchors: the angles of two bars from the descending vertical, 0 to 360
+degrees; all other bars start at --others. Of any other system: the place of --joint in --plane, through where it
+hangs; all other joints start where they hang. Both solvers start there, whether or not the lengths fit. Files:
+lagrange.svg and energy.svg (the equilibrium reached), lagrange-iterations.svg and energy-iterations.svg.
 
-Example:
+Examples:
   funicular basins --case three-equal-bars --size 400 --out pictures
+  funicular basins --case four-bar-linkage --size 100 --out pictures
 
 Exit codes:
   0  done
@@ -49,9 +51,33 @@ pub struct Arguments {
     /// Starting angle of all other bars, degrees from the descending vertical
     #[arg(long, value_name = "DEGREES", default_value_t = 0.0, allow_hyphen_values = true)]
     pub others: f64,
+    /// The joint whose place is the start, of a system that is no chain [default: its first free joint]
+    #[arg(long, value_name = "NAME")]
+    pub joint: Option<String>,
+    /// The plane in which its start varies
+    #[arg(long, value_enum, default_value_t = Plane::Xz)]
+    pub plane: Plane,
     /// Write the pictures into this folder (made if it is not there)
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,
+}
+
+/// The plane of a picture.
+#[derive(Debug, Clone, Copy, clap::ValueEnum)]
+pub enum Plane {
+    Xz,
+    Yz,
+    Xy,
+}
+
+impl From<Plane> for funicular::Plane {
+    fn from(plane: Plane) -> Self {
+        match plane {
+            Plane::Xz => Self::Xz,
+            Plane::Yz => Self::Yz,
+            Plane::Xy => Self::Xy,
+        }
+    }
 }
 
 /// Run the command.
@@ -63,6 +89,11 @@ pub fn run(arguments: &Arguments) -> Result<Exit, Failure> {
         return Err(Failure::bad_input("--bars wants two bars, as in --bars 1,2"));
     };
     let basins = Basins::new().size(arguments.size).bars([i, j]).others_deg(arguments.others);
+    let basins = basins.plane(arguments.plane.into());
+    let basins = match &arguments.joint {
+        Some(name) => basins.joint(name),
+        None => basins,
+    };
     basins.check(&problem)?;
     output::make_folder(&arguments.out)?;
     let solvers = [SolverName::LAGRANGE, SolverName::ENERGY];

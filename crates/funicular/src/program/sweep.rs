@@ -7,8 +7,9 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 
 use ::sweep::{Manifest, Run, RunSettings, SCHEMA_VERSION, StoreSummary};
-use funicular::{Error, text};
+use funicular::{Error, system_of, text};
 use indicatif::{HumanCount, ProgressBar, ProgressState, ProgressStyle};
+use model::system::System;
 use serde_json::{Value, json};
 
 pub use self::arguments::Sweep;
@@ -44,7 +45,7 @@ pub fn run(arguments: &Sweep) -> Result<Exit, Failure> {
     drop(progress);
     let folder = Folder {
         manifest: sweep.manifest(),
-        system: json!(sweep.system()),
+        system: system_of(&problem),
         out: &arguments.out,
         threads,
         resume: arguments.resume,
@@ -56,8 +57,7 @@ pub fn run(arguments: &Sweep) -> Result<Exit, Failure> {
 /// A folder of rows to be written.
 pub(crate) struct Folder<'a> {
     pub manifest: &'a Manifest,
-    /// The numbers of the system, for JSON.
-    pub system: Value,
+    pub system: System,
     pub out: &'a Path,
     pub threads: usize,
     pub resume: bool,
@@ -101,7 +101,15 @@ impl Folder<'_> {
         };
         if self.json {
             let mut object = json_object(manifest, summary, self.out);
-            object["system"] = self.system.clone();
+            let system = &self.system;
+            object["system"] = json!({
+                "name": system.name(),
+                "joints": system.joints().len(),
+                "bars": system.members().len(),
+                "total_length_m": system.total_length_m(),
+                "total_mass_kg": system.total_mass_kg(),
+                "gravity_m_s2": system.gravity_m_s2(),
+            });
             object["seeds_before"] = json!(run.seeds_before);
             object["seconds"] = json!(seconds);
             print_json(&object)?;

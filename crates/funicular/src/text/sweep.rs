@@ -3,7 +3,7 @@
 use std::fmt::{self, Write as _};
 
 use ::sweep::{
-    Comparison, Discovered, Failure, Manifest, SCHEMA_VERSION, SolverTally, StoreSummary,
+    Comparison, Discovered, Failure, Manifest, Member, SCHEMA_VERSION, SolverTally, StoreSummary,
     rate_interval,
 };
 
@@ -40,10 +40,10 @@ pub fn summary(manifest: &Manifest, summary: &StoreSummary) -> String {
     } else {
         String::new()
     };
+    let kind = if manifest.source == Manifest::PLACES { "spatial" } else { &manifest.source };
     let mut text = format!(
-        "{}: {all} {} seeds of number {}{shard}\n",
+        "{}: {all} {kind} seeds of number {}{shard}\n",
         Printable(&manifest.system.name),
-        manifest.source,
         manifest.seed_number
     );
     let proof = if manifest.equilibria_complete {
@@ -65,7 +65,11 @@ pub fn summary(manifest: &Manifest, summary: &StoreSummary) -> String {
             short(release.friction_n_m_s)
         );
     }
-    let _ = writeln!(text, "{listed} equilibria in the list{lowest}; {proof}\n");
+    let listed = match listed {
+        1 => "1 equilibrium".to_owned(),
+        several => format!("{several} equilibria"),
+    };
+    let _ = writeln!(text, "{listed} in the list{lowest}; {proof}\n");
     let tally = summary.outcomes.tally();
     for (name, solver) in &tally.solvers {
         let _ = writeln!(text, "{name}:\n{}\n", outcomes(manifest, summary, solver));
@@ -104,7 +108,7 @@ fn outcomes(manifest: &Manifest, summary: &StoreSummary, solver: &SolverTally) -
     for (code, row) in reached.into_iter().chain(failed.into_iter().rev()) {
         let member = summary.equilibrium(manifest, *code);
         let (low, high) = rate_interval(row.count, all);
-        let index = member.and_then(|member| member.index_in_plane);
+        let index = member.and_then(Member::index);
         table.add_row([
             outcome(manifest, *code),
             member.map_or_else(String::new, |member| short(member.energy_j)),

@@ -472,3 +472,94 @@ fn a_regular_grid_is_swept() {
     let object: Value = serde_json::from_slice(&output.stdout).unwrap();
     assert!(object["solvers"]["lagrange"].is_null() && object["solvers"]["energy"].is_array());
 }
+
+/// Sweeps of systems that are no chain: what is counted of the seeds, by solver and energy.
+fn counts(case: &str, seeds: &str) -> (Value, BTreeMap<String, Vec<(f64, u64)>>) {
+    let out = folder(&format!("system-{case}"));
+    let path = out.to_str().unwrap();
+    let output = funicular(&["sweep", "--case", case, "--seeds", seeds, "--out", path, "--json"]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let object: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let list = object["equilibria"].as_array().unwrap();
+    let of = |row: &Value| {
+        let place = usize::try_from(row["outcome"].as_i64().unwrap()).ok()?;
+        Some((list[place]["energy_j"].as_f64().unwrap(), row["count"].as_u64().unwrap()))
+    };
+    let solver = |name: &str| {
+        let rows = object["solvers"][name].as_array().unwrap().iter();
+        (name.to_owned(), rows.filter_map(of).collect())
+    };
+    let counts = ["lagrange", "energy"].map(solver).into();
+    (object, counts)
+}
+
+/// Legs of 3 m with feet 1.8 m from the axis: the 30 kg hang, or stand, 2.4 m from the feet. Every
+/// start in space leads to one or the other, and the census proves that there is no third.
+#[test]
+fn a_sweep_of_a_tripod_finds_it_hanging_and_standing() {
+    let (object, counts) = counts("tripod", "100");
+    let high_j = 30.0 * model::STANDARD_GRAVITY_M_S2 * 2.4;
+    assert_eq!(object["equilibria_complete"], json!(true));
+    for (solver, found) in counts {
+        let [(low, a), (high, b)] = found[..] else { panic!("{solver}: {found:?}") };
+        assert!((low + high_j).abs() < 1e-9 * high_j && (high - high_j).abs() < 1e-9 * high_j);
+        assert!(a + b == 100 && a > 20 && b > 20, "{solver}: {found:?}");
+    }
+    assert_eq!(object["system"]["joints"], json!(4));
+}
+
+/// A trapezium of 1 m, 1 m, 1 m below 2.2 m, with 8 kg in all at 0.8 m and 0.6 m below the coupler:
+/// it hangs, stands, or lies crossed. `energy` finds the hanging one alone, `lagrange` all.
+#[test]
+fn a_sweep_of_a_linkage_finds_what_is_no_minimum_by_forces_alone() {
+    let (object, counts) = counts("four-bar-linkage", "100");
+    let [lagrange, energy] = ["lagrange", "energy"].map(|name| &counts[name]);
+    // 2 kg at 0.8 m and 6 kg at 0.8 m + 0.6 m below the cranks' feet.
+    let depth_j = model::STANDARD_GRAVITY_M_S2 * (2.0 * 0.8 + 6.0 * 1.4);
+    assert!(energy.len() == 1 && energy[0].1 == 100 && (energy[0].0 + depth_j).abs() < 1e-9);
+    assert!(lagrange.len() >= 4, "{lagrange:?}");
+    let falls: Vec<_> = object["equilibria"].as_array().unwrap().iter().collect();
+    assert_eq!(falls[0]["index_in_space"], json!(0));
+    assert_eq!(falls[falls.len() - 1]["index_in_space"], json!(4));
+}
+
+/// Self-stressed and nearly weightless: energies are compared in the prestress, not in the weight.
+#[test]
+fn a_sweep_of_a_tensegrity_holds_its_energies_against_its_prestress() {
+    let (object, _) = counts("x-cross", "60");
+    assert!(object["comparisons"]["same"].as_u64().unwrap() > 5, "{}", object["comparisons"]);
+    assert_eq!(object["comparisons"]["energies_differ"], json!(0));
+}
+
+#[test]
+fn what_is_for_angles_is_refused_for_places() {
+    let out = folder("system-refused");
+    for more in [&["--source", "sobol"][..], &["--angles"]] {
+        let arguments = ["sweep", "--case", "lamp", "--seeds", "10", "--out"];
+        let output = funicular(&[&arguments[..], &[out.to_str().unwrap()], more].concat());
+        assert_eq!(output.status.code(), Some(2));
+        assert!(
+            stderr(&output).contains("is for chains between two anchors"),
+            "{}",
+            stderr(&output)
+        );
+    }
+    assert_eq!(fs::read_dir(&out).unwrap().count(), 0);
+}
+
+#[test]
+fn basins_of_a_system_are_over_the_place_of_a_joint() {
+    let out = folder("system-basins");
+    let path = out.to_str().unwrap();
+    let drawn = funicular(&["basins", "--case", "tripod", "--size", "12", "--out", path]);
+    assert_eq!(drawn.status.code(), Some(0), "{}", stderr(&drawn));
+    let svg = fs::read_to_string(out.join("energy.svg")).unwrap();
+    for words in
+        ["start of joint top: x / m", "start of joint top: z / m", "0: -706.0788 J, minimum"]
+    {
+        assert!(svg.contains(words), "{words}");
+    }
+    let refused = funicular(&["basins", "--case", "tripod", "--joint", "A", "--out", path]);
+    assert_eq!(refused.status.code(), Some(2));
+    assert!(stderr(&refused).contains("no joint that can move"), "{}", stderr(&refused));
+}

@@ -127,8 +127,15 @@ def solve_nets(
     progress: _Progress,
 ) -> dict[str, Any]: ...
 def basins(
-    problem: Problem, size: int, bars: Sequence[int], others_deg: float, threads: int, progress: _Progress
-) -> tuple[dict[str, Any], list[str], str]: ...
+    problem: Problem,
+    size: int,
+    bars: Sequence[int],
+    others_deg: float,
+    joint: str | None,
+    plane: str,
+    threads: int,
+    progress: _Progress,
+) -> tuple[dict[str, Any], list[str], tuple[Sequence[str], Sequence[Sequence[float]]], str]: ...
 def pullback(problem: Problem, by_joints: _Array | None, by_axial: _Array | None, threads: int) -> dict[str, Any]: ...
 def census(
     problem: Problem, max_bars: int | None, threads: int, progress: _Progress

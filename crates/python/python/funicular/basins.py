@@ -1,4 +1,4 @@
-"""Which start leads where, over the starting angles of two bars."""
+"""Which start leads where, over the starting angles of two bars or the starting place of a joint."""
 
 from __future__ import annotations
 
@@ -21,10 +21,10 @@ LARGEST = 4096
 
 
 class Basins(Result):
-    """Where the starts over the angles of two bars led, by both solvers.
+    """Where the starts led, by both solvers.
 
-    ``equilibria``: what the outcomes 0, 1, 2, ... stand for, in words; negative outcomes are failures. ``angles_deg``:
-    (size,) the starting angles; ``bars``: the two bars, the lower first.
+    ``equilibria``: what the outcomes 0, 1, 2, ... stand for, in words; negative outcomes are failures. ``labels``: what
+    the two axes are; ``starts``: (2, size) the starts along each, degrees or m.
 
     >>> import funicular as fn
     >>> b = fn.basins(fn.System.case("three-equal-bars"), size=8)
@@ -34,10 +34,11 @@ class Basins(Result):
     0
     """
 
-    def __init__(self, system: System, bars: tuple[int, int], found: dict[str, Any], names: list[str], said: str) -> None:
+    def __init__(self, system: System, found: dict[str, Any], names: list[str], axes: Any, said: str) -> None:
         self.system = system
-        self.bars = bars
         self.equilibria = names
+        self.labels, ranges = (str(axes[0][0]), str(axes[0][1])), np.asarray(axes[1], dtype=np.float64)
+        self.ranges: Array = ranges
         self._found = found
         self._said = said
 
@@ -48,7 +49,7 @@ class Basins(Result):
         return found
 
     def outcome(self, solver: str) -> npt.NDArray[np.int16]:
-        """(size, size) Where each start led: a row for each angle of the second bar, a column for each of the first."""
+        """(size, size) Where each start led: a row for each start along the second axis, a column for each along the first."""
         found: npt.NDArray[np.int16] = self._of(solver)["outcome"]
         return found
 
@@ -58,10 +59,11 @@ class Basins(Result):
         return found
 
     @property
-    def angles_deg(self) -> Array:
-        """(size,) The starting angles from the descending vertical, degrees."""
+    def starts(self) -> Array:
+        """(2, size) The starts along both axes, degrees or m."""
         size = len(self.outcome("lagrange"))
-        found: Array = np.asarray((np.arange(size) + 0.5) * (360.0 / size), dtype=np.float64)
+        low, high = self.ranges[:, :1], self.ranges[:, 1:]
+        found: Array = low + (np.arange(size) + 0.5) * ((high - low) / size)
         return found
 
     @property
@@ -87,10 +89,10 @@ class Basins(Result):
 
     def _content(self) -> dict[str, Any]:
         by = {s: {"outcome": self.outcome(s), "iterations": self.iterations(s)} for s in self._found}
-        return {"bars": self.bars, "equilibria": self.equilibria, "angles_deg": self.angles_deg, "solvers": by}
+        return {"labels": self.labels, "equilibria": self.equilibria, "starts": self.starts, "solvers": by}
 
     def __repr__(self) -> str:
-        size = len(self.angles_deg)
+        size = self.starts.shape[1]
         return f"<Basins of {printable(self.system.name)!r}: {size} x {size} starts, {len(self.equilibria)} equilibria>"
 
 
@@ -100,13 +102,18 @@ def basins(
     size: int = 300,
     bars: tuple[int, int] = (1, 2),
     others: float = 0.0,
+    joint: str | None = None,
+    plane: str = "xz",
     threads: int = 0,
     progress: Progress = None,
 ) -> Basins:
-    """Start both solvers from ``size`` times ``size`` pairs of angles of two ``bars``, from 1; all other bars start at the
-    angle ``others``, degrees from the descending vertical.
+    """Start both solvers from ``size`` times ``size`` starts.
 
-    Raises ChainsOnly, SettingError, SweepError.
+    Of a chain between two anchors: angles of two ``bars``, from 1; all other bars start at the angle ``others``, degrees
+    from the descending vertical. Of any other system: places of a ``joint`` (the first that can move) in a ``plane``
+    (``"xz"``, ``"yz"``, ``"xy"``) through where it hangs; all other joints start where they hang.
+
+    Raises SettingError, SweepError.
     """
     side = whole("size", size, 2)
     if side > LARGEST:
@@ -116,5 +123,7 @@ def basins(
     first, second = sorted(whole("bars", bar, 1) for bar in bars)
     angle = number("others", others)
     with shown(progress) as callback:
-        found = _native.basins(system._problem, side, [first, second], angle, whole("threads", threads), callback)
-    return Basins(system, (first, second), *found)
+        found = _native.basins(
+            system._problem, side, [first, second], angle, joint, plane, whole("threads", threads), callback
+        )
+    return Basins(system, *found)

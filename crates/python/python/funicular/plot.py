@@ -145,10 +145,10 @@ def plot_basins(basins: Basins, solver: str, ax: Any, *, iterations: bool) -> An
     """Which start leads where, or what it took."""
     ax = _axes(ax)
     values = basins.iterations(solver) if iterations else np.ma.masked_less(basins.outcome(solver), 0)
-    image = ax.imshow(values, origin="lower", extent=(0, 360, 0, 360), cmap="viridis", interpolation="nearest")
+    extent = tuple(float(x) for x in basins.ranges.ravel())
+    image = ax.imshow(values, origin="lower", extent=extent, cmap="viridis", interpolation="nearest")
     ax.figure.colorbar(image, ax=ax, label="iterations" if iterations else "equilibrium")
-    first, second = basins.bars
-    ax.set(xlabel=f"start of bar {first} / deg", ylabel=f"start of bar {second} / deg", title=solver)
+    ax.set(xlabel=basins.labels[0], ylabel=basins.labels[1], title=solver)
     return ax
 
 

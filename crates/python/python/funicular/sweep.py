@@ -102,7 +102,10 @@ def sweep(
     client: distributed.Client | None = None,
     shards: int | None = None,
 ) -> Sweep:
-    """Run starts with random angles through the solvers, and tell which equilibrium of the chain each reaches.
+    """Run random starts through the solvers, and say which equilibrium each reaches.
+
+    A start of a chain between two anchors is an angle for each bar; of any other system, a place for each joint in
+    space, where ``spread`` is ``uniform`` and ``angles`` are not written.
 
     Parameters
     ----------

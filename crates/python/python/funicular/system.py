@@ -406,7 +406,7 @@ class System:
         return sweep(self, seeds, **settings)
 
     def basins(self, **settings: Any) -> Basins:
-        """Which start leads where, over the angles of two bars. See :func:`funicular.basins`."""
+        """Which start leads where, as pictures. See :func:`funicular.basins`."""
         from .basins import basins
 
         return basins(self, **settings)

@@ -32,8 +32,8 @@ pub struct Manifest {
     pub seeds: u64,
     /// The number that all of them come from.
     pub seed_number: u64,
-    /// How they are spread: `uniform`, `sobol` or `grid`; `released` where a system is let go from
-    /// positions at random.
+    /// How they are spread: `uniform`, `sobol` or `grid`; `places` where the joints of a system start
+    /// at random in space, `released` where it is let go from positions at random.
     pub source: String,
     /// Who was asked: `lagrange`, `energy`, or both in this order; `motion` of what is released.
     pub solvers: Vec<String>,
@@ -133,6 +133,9 @@ pub(crate) fn hexadecimal(bytes: &[u8]) -> String {
 const ROW_BYTES: [u64; 2] = [6, 20];
 
 impl Manifest {
+    /// The [`source`](Self::source) of starts that are places of joints in space.
+    pub const PLACES: &'static str = "places";
+
     /// Whether a comparison says something of the list of equilibria rather than of the solvers: an
     /// equilibrium that a list lacks which is not complete.
     #[must_use]
@@ -196,7 +199,9 @@ impl Manifest {
 
     /// Nothing reached yet, of a sweep with a list that grows; none of others.
     pub(crate) fn nothing_reached(&self) -> Result<Option<Reached>, StoreError> {
-        if self.equilibria_complete || self.release.is_some() {
+        // Of starts in space the list is whole before the first is followed.
+        let in_space = self.release.is_some() || self.source == Self::PLACES;
+        if self.equilibria_complete || in_space {
             return Ok(None);
         }
         let problem = model::system_file::parse_problem(&self.system.text, "system.text");

@@ -22,6 +22,7 @@ fn member(energy_j: f64) -> Member {
         energy_j,
         angles_rad,
         index_in_plane: Some(0),
+        index_in_space: None,
         mirrored: false,
         joints_m: None,
     }

@@ -20,18 +20,30 @@ const TESTS: u64 = 2_000;
 /// The accuracy to which a solver may place a joint, in units of the total length.
 const PLACED: f64 = 1e-12;
 
-/// Look the answers up in a census, where one is quick or asked for, and say so on their ladders.
-pub fn look_up(system: &System, census: UseCensus, answers: &mut [SystemEquilibrium]) {
+/// The census of a system, if that is a matter of a second.
+///
+/// # Errors
+///
+/// [`NoCensus`]; of a large system, that it was not asked for.
+pub fn quick_census(system: &System) -> Result<SystemCensus, NoCensus> {
     let quick = Settings {
         max_bars: BARS,
         max_bridle_bars: BARS,
         max_tests_per_pattern: TESTS,
         ..Settings::default()
     };
+    if system.members().len() > MEMBERS {
+        return Err(NoCensus::NotAsked);
+    }
+    SystemCensus::take(system, &quick)
+}
+
+/// Look the answers up in a census, where one is quick or asked for, and say so on their ladders.
+pub fn look_up(system: &System, census: UseCensus, answers: &mut [SystemEquilibrium]) {
     let census = match census {
         UseCensus::Always => SystemCensus::take(system, &Settings::default()),
-        UseCensus::Auto if system.members().len() <= MEMBERS => SystemCensus::take(system, &quick),
-        UseCensus::Auto | UseCensus::Never => Err(NoCensus::NotAsked),
+        UseCensus::Auto => quick_census(system),
+        UseCensus::Never => Err(NoCensus::NotAsked),
     };
     for answer in answers {
         match &census {

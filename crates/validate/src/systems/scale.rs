@@ -101,6 +101,13 @@ impl Scale {
     }
 }
 
+/// The size of the energies of a system, J: its loads and its prestress at the places of this answer,
+/// times the lengths of all members.
+#[must_use]
+pub fn energy_size_j(system: &System, answer: &SystemEquilibrium) -> f64 {
+    Scale::new(system, answer).held_n * system.total_length_m()
+}
+
 /// No joint that members hold is further from the reference than the farthest support and all
 /// members in a row; elastic ones at twice their length.
 fn reach_m(system: &System) -> f64 {

@@ -3,7 +3,6 @@
 use ::sweep::Shard;
 use clap::Args;
 use funicular::Ensemble;
-use serde_json::json;
 
 use super::{Simulate, simulate};
 use crate::exit::{Exit, Failure};
@@ -76,17 +75,9 @@ pub fn run(arguments: &Simulate, seeds: u64) -> Result<Exit, Failure> {
         .format(own.format.into())
         .prepare(&problem)?;
     drop(progress);
-    let system = funicular::system_of(&problem);
     let folder = Folder {
         manifest: prepared.manifest(),
-        system: json!({
-            "name": system.name(),
-            "joints": system.joints().len(),
-            "bars": system.members().len(),
-            "total_length_m": system.total_length_m(),
-            "total_mass_kg": system.total_mass_kg(),
-            "gravity_m_s2": system.gravity_m_s2(),
-        }),
+        system: funicular::system_of(&problem),
         out,
         threads,
         resume: own.resume,

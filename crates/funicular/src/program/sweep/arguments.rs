@@ -50,7 +50,8 @@ pub struct Sweep {
     /// The number that all starts come from; another one gives others
     #[arg(long, value_name = "S", default_value_t = 1)]
     pub seed: u64,
-    /// How the starts are spread over the angles of the bars
+    /// How the starts are spread: over the angles of a chain's bars; of any other system its joints start
+    /// at random in space (uniform)
     #[arg(long, value_enum, default_value_t = Spread::Uniform)]
     pub source: Spread,
     /// Which solver

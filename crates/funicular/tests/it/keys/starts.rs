@@ -6,7 +6,7 @@ use std::path::Path;
 use serde_json::{Value, json};
 
 use super::output::{Output, good};
-use super::solve::{LEVEL_V, joints_of_level_v, system_of_level_v};
+use super::solve::{LEVEL_V, joints_of_level_v};
 
 /// Half the height of an equilateral triangle of side 1 m, m.
 const DEPTH: f64 = 0.866_025_403_784_438_6;
@@ -119,6 +119,8 @@ fn equilibria(output: &mut Output, angles: bool) {
         let joints = [-DEPTH, DEPTH].map(|z| [0.0, 0.0, 0.0, 0.5, 0.0, z, 1.0, 0.0, 0.0]);
         output.is("equilibria[].joints_m[][]", json!(joints));
         output.is("equilibria[].angles_rad[]", json!([]));
+        // It hangs, or stands on a line that it may fall off to both sides.
+        output.is("equilibria[].index_in_space", json!([0, 1]));
     }
 }
 
@@ -167,7 +169,7 @@ fn a_grid_of_starts() {
     let rows = std::fs::read_to_string(folder.path().join("out/part-000000.csv")).unwrap();
     let [lagrange, energy] = ["lagrange", "energy"].map(|solver| Rows::of(&rows, solver));
     let mut output = Output::json("sweep", "a_grid_of_starts", &text);
-    system_of_level_v(&mut output);
+    joints_of_level_v(&mut output);
     equilibria(&mut output, true);
     about(&mut output, "out", SEEDS, 1);
     output.is("seeds_before", 0);
@@ -390,7 +392,7 @@ fn releases() {
     }
     output.is("outcomes.comparisons[]", json!([0, 0, 0, 0, 0, 0, 0, 0]));
     output.is("outcomes.disagreements[]", json!([]));
-    output.is("outcomes.index[]", json!([0, 0]));
+    output.is("outcomes.index[]", json!([0, 1]));
     output.is("outcomes.scale", 40.0_f64.to_bits());
     output.is("parts[].file", "part-000000.csv");
     output.is("parts[].seeds.start", 0);
