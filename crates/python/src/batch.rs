@@ -8,8 +8,8 @@ use numpy::{PyArrayMethods as _, PyReadonlyArrayDyn};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use rayon::prelude::*;
-use validate::systems::{SystemFailure, ask_with};
-use validate::{Question, UseCensus, statics};
+use validate::systems::{SystemFailure, ask_with, judge_chain};
+use validate::{Question, UseCensus};
 
 use crate::arrays::{column, numbers, vectors};
 use crate::raise::{exception, parts};
@@ -146,7 +146,7 @@ impl Batch {
 
 /// The largest violation of Newton's laws.
 fn judged(problem: &Problem, found: &Equilibrium) -> f64 {
-    statics::judge(problem.chain(), &found.joints_m, &found.multipliers_n).largest()
+    judge_chain(problem.chain(), found).largest()
 }
 
 fn unsolved(failures: &[SystemFailure]) -> Told {

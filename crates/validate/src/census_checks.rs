@@ -11,7 +11,8 @@ use lagrange::{Seed, Settings, SolveError, Solver};
 use model::{Chain, Equilibrium, NoCertificate, Problem, Vector};
 
 use crate::certificate::{certify, certify_highest};
-use crate::statics::{judge, stored_rounding_m};
+use crate::free::stored_rounding_m;
+use crate::systems::judge_chain;
 
 /// Where a position stands in a census.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -175,9 +176,7 @@ pub fn visits(problem: &Problem, census: &Census) -> Result<Vec<Visit>, SolveErr
 #[must_use]
 pub fn statics(problem: &Problem, census: &Census) -> f64 {
     let answers = census.to_model();
-    let judged = answers
-        .iter()
-        .map(|answer| judge(problem.chain(), &answer.joints_m, &answer.multipliers_n).largest());
+    let judged = answers.iter().map(|answer| judge_chain(problem.chain(), answer).largest());
     judged.fold(0.0, worse)
 }
 

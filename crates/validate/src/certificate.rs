@@ -45,8 +45,8 @@ mod highest;
 
 pub use highest::certify_highest;
 
+use crate::free::stored_rounding_m;
 use crate::lever::{carried_kg, far_kg};
-use crate::statics::stored_rounding_m;
 use crate::vector::norm;
 use model::{Bar, Chain, Equilibrium, NoCertificate, Optimal, Problem, Vector, sum};
 

@@ -14,7 +14,7 @@ use intervals::DoubleDouble;
 use model::{Bar, Chain, Vector};
 
 use crate::lever::carried_kg;
-use crate::statics::stored_rounding_m;
+use crate::systems::STORED_ULPS;
 
 /// How far from plumb the joints at the ends of the bars without force may be, in units of the
 /// total length: the budget for joints.
@@ -22,6 +22,15 @@ const PLUMB: f64 = 1e-10;
 
 /// Roundings of a sum of lengths, in units of the last place of the total.
 const ROUNDINGS: f64 = 16.0;
+
+/// Rounding of the joints' coordinates, m: they are stored in the world frame, however far from its
+/// origin the anchors are.
+pub(crate) fn stored_rounding_m(chain: &Chain) -> f64 {
+    let anchors = chain.anchors();
+    let coordinates = anchors.start_m.iter().chain(&anchors.end_m);
+    let farthest = coordinates.fold(chain.total_length_m(), |most, x| most.max(x.abs()));
+    STORED_ULPS * f64::EPSILON * farthest
+}
 
 /// The bars without force (from 0), and the joints between them, if a position of the chain is one
 /// of a family of equilibria in which these joints are free.

@@ -30,7 +30,6 @@ pub mod gallery;
 pub mod independence;
 pub mod lever;
 pub mod question;
-pub mod statics;
 pub mod systems;
 pub mod table;
 pub mod tolerances;

@@ -9,8 +9,8 @@ use model::{Chain, Rung};
 use rayon::prelude::*;
 use serde::Serialize;
 
+use crate::free::stored_rounding_m;
 use crate::question::{Equations, Question, UseCensus};
-use crate::statics::stored_rounding_m;
 use crate::systems::turn::turned_onto;
 use crate::systems::{SystemAgreement, SystemStatics, ask_with};
 use crate::vector::{beyond, norm, worse};

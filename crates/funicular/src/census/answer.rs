@@ -7,7 +7,7 @@ use census::{
 };
 use model::{Equilibrium, Problem, Reason, SolverName, Status, SystemSummary};
 use serde::Serialize;
-use validate::statics::judge;
+use validate::systems::judge_chain;
 
 use crate::solve::SCHEMA_VERSION;
 
@@ -313,7 +313,7 @@ impl Found {
     /// A position and the same as the answer of a solver.
     pub(super) fn of(problem: &Problem, mut equilibrium: Equilibrium, position: &Position) -> Self {
         let proven = &position.equilibrium;
-        let statics = judge(problem.chain(), &equilibrium.joints_m, &equilibrium.multipliers_n);
+        let statics = judge_chain(problem.chain(), &equilibrium);
         equilibrium.evidence.ladder.agreed = Status::Open(Reason::OneSolverOnly {
             solver: SolverName::CENSUS,
             statics: statics.largest(),

@@ -1,10 +1,10 @@
 //! Section IX: initial conditions, turns about the vertical, infinities.
 
 use lagrange::{Seed, relative_residual};
-use model::{Chain, SolverName, Vector};
+use model::{Chain, Equilibrium, Reactions, SolverName, Vector};
 use nalgebra::DVector;
 use validate::lever::centre_part;
-use validate::statics;
+use validate::systems::judge_chain;
 
 use super::{ANGLE_RAD, Facts, Finding, largest};
 use crate::printed::{Assessment, Printed};
@@ -48,7 +48,14 @@ fn turned(facts: &Facts) -> Finding {
             .windows(2)
             .map(|ends| std::array::from_fn(|k| ends[1][k] - ends[0][k]))
             .collect();
-        newton = largest([newton, statics::judge(problem.chain(), &joints, &forces).largest()]);
+        let [start, end] = [e1.reactions_n.start, e1.reactions_n.end].map(|force| turned(&force));
+        let found = Equilibrium {
+            joints_m: joints.clone(),
+            multipliers_n: forces.clone(),
+            reactions_n: Reactions { start, end },
+            ..e1.clone()
+        };
+        newton = largest([newton, judge_chain(problem.chain(), &found).largest()]);
         let q = coordinates(problem.chain(), &joints, &bars);
         let lambda = DVector::from_vec(forces.concat());
         multipliers = largest([multipliers, relative_residual(problem.chain(), &q, &lambda)]);

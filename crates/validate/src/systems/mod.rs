@@ -40,5 +40,6 @@ pub use near::Near;
 pub use prestress::{Held, PrestressStability, Standing, Stress, prestress_stability};
 pub(crate) use scale::Scale;
 pub use scale::energy_size_j;
-pub use statics::{SystemStatics, judge};
+pub(crate) use statics::STORED_ULPS;
+pub use statics::{SystemStatics, judge, judge_chain};
 pub use verified::verify;

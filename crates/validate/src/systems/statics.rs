@@ -13,7 +13,7 @@
 //! slack.
 
 use model::system::{Kind, Member, Support, System, SystemEquilibrium};
-use model::{Place, Vector, sum};
+use model::{Chain, Equilibrium, Place, Vector, sum};
 use serde::Serialize;
 
 use super::certificate::total_load_n;
@@ -49,7 +49,9 @@ pub struct SystemStatics {
     /// Largest force left over at a joint; the part of a support's force along the motion that it
     /// leaves free.
     pub joint: f64,
-    /// Force left over on the whole system, in units of its loads.
+    /// Force left over on the whole system, in units of its loads, or moment about its reference, in
+    /// units of that times its size: errors too small to show on any one of a million members add up
+    /// here.
     pub balance: f64,
     /// The axial forces and the energy less those that follow from joints and end forces.
     pub derived: f64,
@@ -59,7 +61,7 @@ pub struct SystemStatics {
 
 /// Units in the last place that the rounding of stored numbers may come to: a coordinate is rounded
 /// when it is stored, and two of them are subtracted.
-pub(super) const STORED_ULPS: f64 = 8.0;
+pub(crate) const STORED_ULPS: f64 = 8.0;
 
 /// Forces left over are measured by the forces that they are left from, but by no more than this
 /// times what acts there. With the budget of 1e-11 the balance of every joint holds to 1e-9 of what
@@ -175,6 +177,20 @@ pub fn judge(system: &System, answer: &SystemEquilibrium) -> SystemStatics {
     found.note(|s| &mut s.balance, whole(system, answer, &units), Place::Whole);
     found.note(|s| &mut s.derived, energy(system, answer, &units), Place::Whole);
     found
+}
+
+/// The same of an answer for a chain, which is judged as the system that it is.
+#[must_use]
+pub fn judge_chain(chain: &Chain, found: &Equilibrium) -> SystemStatics {
+    let system = System::from(chain);
+    let joints = chain.bars().len() + 1;
+    let fits = found.joints_m.len() == joints
+        && found.multipliers_n.len() == joints
+        && found.axial_n.len() + 1 == joints;
+    match system.as_row().filter(|_| fits) {
+        Some(row) => judge(&system, &row.equilibrium(found.clone())),
+        None => SystemStatics { balance: f64::NAN, ..SystemStatics::NOTHING },
+    }
 }
 
 /// Rounding of the coordinates of an answer and of the lengths, m.
@@ -452,41 +468,52 @@ fn on_floor(above_m: f64, push_n: f64, k: usize, units: &Units, found: &mut Syst
     found.note(|s| &mut s.joint, force(push_n).min(height(above_m)), place);
 }
 
-/// Forces of all supports and all loads together, in units of their sizes.
+/// Forces of all supports and all loads together, in units of their sizes, or their moments about
+/// the reference, in units of that times the size of the system.
 fn whole(system: &System, answer: &SystemEquilibrium, units: &Units) -> f64 {
-    let gravity = system.gravity_m_s2();
-    let masses = system.joints().iter();
-    let at_joints = masses.flat_map(|j| [j.force_n, [0.0, 0.0, -j.mass_kg * gravity]]);
-    let on_members = system.members().iter().flat_map(|m| loads(system, m).map(|(_, p)| p));
-    let all: Vec<Vector> =
-        at_joints.chain(on_members).chain(answer.reactions_n.iter().copied()).collect();
-    let left = std::array::from_fn(|c| sum(all.iter().map(|force| force[c])));
-    let unit_n = sum(all.iter().map(|force| norm(*force)));
+    let origin = system.reference_m();
+    let place = |k: usize| minus(answer.joints_m[k], origin);
+    let mut all: Vec<(Vector, Vector)> = loads_at(system, &place).collect();
+    all.extend(answer.reactions_n.iter().enumerate().map(|(k, force)| (place(k), *force)));
+    let left = |of: &dyn Fn(&(Vector, Vector)) -> Vector| -> f64 {
+        norm(std::array::from_fn(|c| sum(all.iter().map(|one| of(one)[c]))))
+    };
+    let unit_n = sum(all.iter().map(|(_, force)| norm(*force)));
     let rounding_n = units.rounding_n.min(MOST_ROUNDING * units.total_n);
-    Local { rounding_n, most_n: BORNE * units.total_n, least_n: 0.0 }.part(norm(left), unit_n)
+    let local = Local { rounding_n, most_n: BORNE * units.total_n, least_n: 0.0 };
+    // A displaced joint turns the whole: force times displacement.
+    let turn_n = beyond(left(&|(at, force)| cross(*at, *force)), unit_n * units.rounding_m);
+    let turn_n = if turn_n > 0.0 { turn_n / units.size_m } else { turn_n };
+    worse(local.part(left(&|(_, force)| *force), unit_n), local.part(turn_n, unit_n))
+}
+
+/// Every load with where it acts.
+fn loads_at<'a>(
+    system: &'a System,
+    place: &'a dyn Fn(usize) -> Vector,
+) -> impl Iterator<Item = (Vector, Vector)> + 'a {
+    let gravity = system.gravity_m_s2();
+    let at_joints = system.joints().iter().enumerate().map(move |(k, joint)| {
+        let [x, y, z] = joint.force_n;
+        (place(k), [x, y, z - joint.mass_kg * gravity])
+    });
+    let on_members = system.members().iter().flat_map(move |member| {
+        let (a, b) = (place(member.from), place(member.to));
+        loads(system, member).map(move |(part, force)| (plus(a, times(part, minus(b, a))), force))
+    });
+    at_joints.chain(on_members)
 }
 
 /// The energy less that of the joints' places, in units of the sizes of its terms.
 fn energy(system: &System, answer: &SystemEquilibrium, units: &Units) -> f64 {
     let origin = system.reference_m();
-    let gravity = system.gravity_m_s2();
     let place = |k: usize| minus(answer.joints_m[k], origin);
     let mut terms = Vec::new();
     let (mut unit_j, mut rounding_j) = (0.0, 0.0);
-    let mut work = |at: Vector, force: Vector| {
+    for (at, force) in loads_at(system, &place) {
         terms.push(-dot(force, at));
         unit_j += norm(force) * units.size_m;
         rounding_j += norm(force) * units.rounding_m;
-    };
-    for (k, joint) in system.joints().iter().enumerate() {
-        let [x, y, z] = joint.force_n;
-        work(place(k), [x, y, z - joint.mass_kg * gravity]);
-    }
-    for member in system.members() {
-        let (a, b) = (place(member.from), place(member.to));
-        for (part, force) in loads(system, member) {
-            work(plus(a, times(part, minus(b, a))), force);
-        }
     }
     for member in system.members() {
         let Some(stiffness_n) = member.stiffness_n else { continue };

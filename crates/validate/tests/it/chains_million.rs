@@ -5,7 +5,7 @@ use model::{Anchors, Bar, Chain, Equilibrium, Problem};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use validate::Tolerances;
-use validate::statics::judge;
+use validate::systems::judge_chain;
 
 use crate::judged::compare;
 
@@ -44,7 +44,7 @@ fn accurate(problem: &Problem, found: &Equilibrium) {
     let chain = problem.chain();
     let weight_n = chain.total_mass_kg() * chain.gravity_m_s2();
     let unit_n = found.multipliers_n.iter().map(|f| norm(*f)).fold(weight_n, f64::max);
-    let statics = judge(chain, &found.joints_m, &found.multipliers_n);
+    let statics = judge_chain(chain, found);
     println!("{} bars, {}: {statics:?}", chain.bars().len(), found.solver);
     assert!(statics.passes(ACCURACY), "{}: {statics:?}", found.solver);
     // The judge measures forces in the largest force; here they are asked for in weights.

@@ -2,11 +2,11 @@
 //! masses over many orders of magnitude, forces that equilibrium does not determine.
 
 use census::{Census, Settings};
-use model::{Anchors, Bar, Chain, Equilibrium, ForceChoice, Problem, Reason, Vector, cases};
+use model::{Anchors, Bar, Chain, Equilibrium, ForceChoice, Place, Problem, Reason, Vector, cases};
 use nalgebra::DMatrix;
 use validate::Tolerances;
 use validate::completeness::certify_by_census;
-use validate::statics::judge;
+use validate::systems::judge_chain;
 
 use crate::judged::{compare, judge_alone};
 
@@ -120,12 +120,12 @@ fn a_light_bar_is_judged_by_its_own_forces() {
     let problem = Problem::new(chain).unwrap();
     let mut answer = by_lagrange(&problem);
     let chain = problem.chain();
-    assert!(judge(chain, &answer.joints_m, &answer.multipliers_n).passes(1e-11));
+    assert!(judge_chain(chain, &answer).passes(1e-11));
     // Only the joint between the two light bars moves, across the way and hardly changing lengths.
     answer.joints_m[2][1] += 1e-6;
-    let found = judge(chain, &answer.joints_m, &answer.multipliers_n);
+    let found = judge_chain(chain, &answer);
     assert!(found.length < 1e-11 && found.moment > 1e-7, "{found:?}");
-    assert!([2, 3].contains(&found.worst_bar), "{found:?}");
+    assert!([Place::Member(2), Place::Member(3)].contains(&found.worst), "{found:?}");
 }
 
 /// n equal bars between anchors on one vertical.
@@ -179,7 +179,7 @@ fn indeterminate_forces_are_told() {
         // Any other member of the family is in balance, and is no disagreement.
         let mut shifted = answers.clone();
         shift(&mut shifted[1], 0.3);
-        let statics = judge(problem.chain(), &shifted[1].joints_m, &shifted[1].multipliers_n);
+        let statics = judge_chain(problem.chain(), &shifted[1]);
         assert!(statics.passes(1e-11), "{what} {statics:?}");
         let again = compare(&problem, &mut shifted, &tolerances);
         assert!(again.agrees(), "{what}: {}", again.disagreement);

@@ -280,12 +280,20 @@ fn what_is_left_over_at_a_joint_is_a_part_of_its_largest_force() {
     close(b, ((25.0 + 144.0 + 81.0_f64).sqrt() - 0.5) / 339.0_f64.sqrt());
 }
 
-/// (2, -1, 4) N, the weights of 30 and 80 N, (5, -6, 4) N and (1, 2, 4) N of the ground.
+/// (2, -1, -26) N, the weight of 80 N, (5, -6, 4) N and (1, 2, 4) N of the ground. With (-12, -5, 64)
+/// N of the ground no force is left over, but the moment about A: at (2, 3, 6), (2, 3, 6)/4 and (2, 3, 6) 5/8
+/// it is (-72, 64, -8) + (-60, 40, 0) + (30, 55/4, -135/8) N m, and a quarter of a metre of all forces is
+/// rounding of places.
 #[test]
 fn what_is_left_over_on_the_whole_is_a_part_of_all_forces() {
-    let (system, answer) = crooked(|_, _| ());
-    let sizes = 2.0 * 21.0_f64.sqrt() + 77.0_f64.sqrt() + 110.0;
+    let (system, mut answer) = crooked(|_, _| ());
+    let loads = 681.0_f64.sqrt() + 77.0_f64.sqrt() + 80.0;
+    let sizes = loads + 21.0_f64.sqrt();
     close(whole(&system, &answer, &UNITS), (9693.0_f64.sqrt() - 0.5) / sizes);
+    answer.reactions_n[0] = [-12.0, -5.0, 64.0];
+    let sizes = loads + 4265.0_f64.sqrt();
+    let moment = (102.0_f64.powi(2) + 117.75_f64.powi(2) + 24.875_f64.powi(2)).sqrt();
+    close(whole(&system, &answer, &UNITS), ((moment - 0.25 * sizes) / 4.0 - 0.5) / sizes);
 }
 
 /// From A: (2, -1, -26) N along (2, 3, 6), 80 N down along 3/2 and (5, -6, 4) N along (5, 15/2, 15)/4:
