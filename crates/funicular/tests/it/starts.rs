@@ -376,3 +376,46 @@ fn a_degenerate_minimum_is_one_for_all_seeds() {
     // Behind the one that the census proves, with the first bar upright.
     assert_eq!(counts, [(1, 500)]);
 }
+
+/// From wherever it starts, what a solver calls an equilibrium is one: in balance by a judge that
+/// shares no formula with either, and of `energy` a minimum.
+#[test]
+fn what_solvers_reach_from_anywhere_is_in_balance() {
+    use validate::systems::judge;
+    /// Starts of each system, fewer of large ones.
+    const STARTS: u64 = 40;
+    /// The budget of the project. (Of 14,726 answers from 600 starts each all were within it.)
+    const BALANCE: f64 = 1e-11;
+    let mut reached = [0; 2];
+    for exhibit in model::cases::exhibits() {
+        let system = exhibit.system();
+        let members = system.members().len() as u64;
+        for start in 0..STARTS.min(2_000 / members) {
+            let places = motion::random_places(&system, start);
+            let seed = lagrange::network::Seed::at(places.clone());
+            let settings = lagrange::network::Settings::default();
+            let lagrange = lagrange::network::solve_from(&system, &seed, &settings);
+            let settings = energy::network::Settings::default();
+            let energy = energy::network::minimise_from(&system, &places, &settings);
+            let energy = energy.map(|found| found.equilibrium).ok();
+            let lagrange = lagrange.map(|found| found.equilibrium).ok();
+            if let Some(found) = &energy {
+                let (name, stability) = (exhibit.name, found.stability);
+                assert_eq!(stability.index_in_space, 0, "{name} from {start}: {stability:?}");
+            }
+            for (k, found) in [lagrange, energy].into_iter().enumerate() {
+                let Some(found) = found else { continue };
+                reached[k] += 1;
+                let statics = judge(&system, &found);
+                assert!(
+                    statics.passes(BALANCE),
+                    "{} from {start} by {}: {statics:?}",
+                    exhibit.name,
+                    found.solver
+                );
+            }
+        }
+    }
+    println!("reached by lagrange, energy: {reached:?}");
+    assert!(reached.iter().all(|count| *count > 100), "{reached:?}");
+}

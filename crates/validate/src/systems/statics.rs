@@ -480,7 +480,10 @@ fn whole(system: &System, answer: &SystemEquilibrium, units: &Units) -> f64 {
     };
     let unit_n = sum(all.iter().map(|(_, force)| norm(*force)));
     let rounding_n = units.rounding_n.min(MOST_ROUNDING * units.total_n);
-    let local = Local { rounding_n, most_n: BORNE * units.total_n, least_n: 0.0 };
+    // Without loads the prestress is what the ground's forces are measured by, not these themselves.
+    let least_n =
+        if total_load_n(system) > 0.0 || units.total_n.is_infinite() { 0.0 } else { units.total_n };
+    let local = Local { rounding_n, most_n: BORNE * units.total_n, least_n };
     // A displaced joint turns the whole: force times displacement.
     let turn_n = beyond(left(&|(at, force)| cross(*at, *force)), unit_n * units.rounding_m);
     let turn_n = if turn_n > 0.0 { turn_n / units.size_m } else { turn_n };

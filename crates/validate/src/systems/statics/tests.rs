@@ -280,7 +280,7 @@ fn what_is_left_over_at_a_joint_is_a_part_of_its_largest_force() {
     close(b, ((25.0 + 144.0 + 81.0_f64).sqrt() - 0.5) / 339.0_f64.sqrt());
 }
 
-/// (2, -1, -26) N, the weight of 80 N, (5, -6, 4) N and (1, 2, 4) N of the ground. With (-12, -5, 64)
+/// (2, -1, -26) N, the weight of 80 N, (5, -6, 4) N and (1, 2, 4) N of the ground. With (-7, 7, 102)
 /// N of the ground no force is left over, but the moment about A: at (2, 3, 6), (2, 3, 6)/4 and (2, 3, 6) 5/8
 /// it is (-72, 64, -8) + (-60, 40, 0) + (30, 55/4, -135/8) N m, and a quarter of a metre of all forces is
 /// rounding of places.
@@ -290,10 +290,22 @@ fn what_is_left_over_on_the_whole_is_a_part_of_all_forces() {
     let loads = 681.0_f64.sqrt() + 77.0_f64.sqrt() + 80.0;
     let sizes = loads + 21.0_f64.sqrt();
     close(whole(&system, &answer, &UNITS), (9693.0_f64.sqrt() - 0.5) / sizes);
-    answer.reactions_n[0] = [-12.0, -5.0, 64.0];
-    let sizes = loads + 4265.0_f64.sqrt();
+    answer.reactions_n[0] = [-7.0, 7.0, 102.0];
+    let sizes = loads + 10_502.0_f64.sqrt();
     let moment = (102.0_f64.powi(2) + 117.75_f64.powi(2) + 24.875_f64.powi(2)).sqrt();
     close(whole(&system, &answer, &UNITS), ((moment - 0.25 * sizes) / 4.0 - 0.5) / sizes);
+}
+
+/// (1, 2, 4) N of the ground where nothing acts but a prestress of 1 kN.
+#[test]
+fn without_loads_the_whole_is_measured_by_the_prestress() {
+    let (system, answer) = crooked(|joints, bar| {
+        joints[1] = Joint::free("B");
+        *bar = Member::bar(0, 1, Bar::homogeneous(8.0, 0.0).unwrap());
+    });
+    let units = Units { total_n: 1000.0, ..UNITS };
+    // A millionth of that at most is rounding.
+    close(whole(&system, &answer, &units), (21.0_f64.sqrt() - 1e-3) / 1000.0);
 }
 
 /// From A: (2, -1, -26) N along (2, 3, 6), 80 N down along 3/2 and (5, -6, 4) N along (5, 15/2, 15)/4:
